@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Broad phase between two sheets: which nodes of one may touch which triangles of the other.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "contact/geometry.hpp"
+
+namespace plyform {
+
+/// Node `node` of the slave sheet is within the asked distance of triangle `face` of the master.
+struct Candidate {
+  std::int32_t node, face;
+  bool operator==(const Candidate&) const = default;
+};
+
+/// One sheet's AABB tree (FCL), refitted to new positions without being rebuilt.
+class SheetTree {
+public:
+  /// x: positions (mm), one a node; triangles: constant for the life of the tree.
+  SheetTree(std::span<const Vec3> x, std::span<const Triangle> triangles);
+  ~SheetTree();
+  SheetTree(SheetTree&&) noexcept;
+  SheetTree& operator=(SheetTree&&) noexcept;
+
+  /// Replaces all positions and refits bottom-up. x.size() must be that of the constructor.
+  void refit(std::span<const Vec3> x);
+
+  /// The box around all of the sheet at the last refit.
+  Box3 bounds() const;
+
+  /// Appends every (node, face) with distance(nodes[i], face) <= reach (mm), sorted by node and
+  /// then by face, nothing else. `nodes` are positions of another sheet (or of this one: then the
+  /// node's own triangles come too; the caller leaves them out). Exact up to rounding: never
+  /// misses a pair.
+  void candidates(std::span<const Vec3> nodes, double reach, std::vector<Candidate>& out) const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace plyform

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The few types that everything in contact/ and core/ shares. Lengths in mm.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
+namespace plyform {
+
+using Vec2 = Eigen::Vector2d;
+using Vec3 = Eigen::Vector3d;
+using Box3 = Eigen::AlignedBox3d;
+
+/// Node numbers of a triangle, counter-clockwise seen from its outer (upper) side.
+using Triangle = std::array<std::int32_t, 3>;
+
+/// A triangulated surface: node positions (mm) and triangles.
+struct Surface {
+  std::vector<Vec3> x;
+  std::vector<Triangle> triangles;
+};
+
+} // namespace plyform

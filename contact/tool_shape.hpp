@@ -1,0 +1,105 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shapes of rigid tools in their own frame, and where a point stands to them.
+//
+// Every shape is a solid (or, for an open mesh and an open profile, the side of a surface). The
+// signed distance is positive outside. Lengths in mm, angles in rad. Tool frame: origin at the
+// tool's `position`, local z along its `axis`.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <variant>
+
+#include "contact/geometry.hpp"
+
+namespace plyform {
+
+/// Ball of `radius` about the origin.
+struct Sphere {
+  double radius;
+};
+/// Solid cylinder along z, from z = -length/2 to +length/2.
+struct Cylinder {
+  double radius, length;
+};
+/// Solid box centred on the origin, full edge lengths `size`.
+struct Box {
+  Vec3 size;
+};
+/// Half-space z <= 0.
+struct Plane {};
+/// Solid ring about z: r from inner_radius to outer_radius, z from 0 to thickness; the corners of
+/// the section are rounded with edge_radius. inner_radius = 0 is a disc. The local z = 0 plane is
+/// the lower face.
+struct Annulus {
+  double inner_radius, outer_radius, thickness, edge_radius;
+};
+
+/// One piece of a profile in the (r, z) half-plane: a line from a to b, or an arc about `centre`
+/// from a to b, anticlockwise (in r to the right, z up) when `turn` = +1, clockwise when -1.
+struct ProfileSegment {
+  enum class Kind { line, arc } kind;
+  Vec2 a, b;
+  Vec2 centre{0.0, 0.0};
+  int turn = 0;
+};
+/// Surface of revolution about z. Walking along the segments in order, the free side is on the
+/// left and the tool's material on the right. A hole with a fillet: up the wall, round, outwards.
+struct RevolvedProfile {
+  std::vector<ProfileSegment> segments;
+};
+
+/// Triangle mesh with its CGAL search tree, built by load_tool_mesh or make_mesh_shape. Immutable
+/// and safe to ask from several threads.
+class MeshShape;
+using MeshShapePtr = std::shared_ptr<const MeshShape>;
+
+using ToolShape =
+    std::variant<Sphere, Cylinder, Box, Plane, Annulus, RevolvedProfile, MeshShapePtr>;
+
+/// Signed distance (mm, positive outside) and its unit gradient at the asked point.
+struct SurfacePoint {
+  double distance;
+  Vec3 normal;
+};
+
+/// Where p (tool frame) stands to the shape. `hint` is the caller's memory for this point (start
+/// with -1); only meshes use it (the last closest triangle), to speed up the search: the answer
+/// does not depend on it. Never fails for finite p: on a medial axis any valid normal is returned.
+SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint);
+
+/// A lower bound (mm) of the distance from anything inside `box` (tool frame) to the shape; cheap.
+double distance_lower_bound(const ToolShape& shape, const Box3& box);
+
+/// Triangles of about `size` mm for pictures and the exact audit, in the tool frame. Unbounded
+/// shapes (plane) are cut to `extent` (mm from the origin).
+Surface tessellate(const ToolShape& shape, double size, double extent);
+
+/// Radius (mm) of the tightest curve of the shape that a sheet has to follow; 0 for a sharp edge,
+/// infinity for a plane. For meshes: infinity (unknown).
+double smallest_radius(const ToolShape& shape);
+
+/// The profile through points {r, z, fillet radius}: straight lines, each corner rounded by its
+/// fillet. Throws std::invalid_argument (saying which corner and why) if a fillet does not fit, a
+/// point repeats, r < 0, or fewer than two points.
+RevolvedProfile make_profile(const std::vector<std::array<double, 3>>& points);
+
+/// What reading a mesh did to it.
+struct MeshReport {
+  std::size_t vertices = 0, faces = 0;
+  bool closed = false;
+  bool flipped = false;              ///< a closed mesh came inward and was turned round
+  std::size_t removed_degenerate = 0; ///< zero-area faces dropped
+};
+
+/// Reads STL (ASCII or binary), OBJ, PLY or OFF through CGAL, merges duplicated points, orients it
+/// consistently, turns closed meshes outward, scales coordinates by `scale` and builds the search
+/// tree. Throws std::runtime_error with what is wrong and what to do: file missing or unreadable,
+/// no faces, not orientable, non-finite coordinates, self-intersecting closed mesh.
+MeshShapePtr load_tool_mesh(const std::filesystem::path& file, double scale, MeshReport* report);
+
+/// The same from triangles in memory (tests, generated tools).
+MeshShapePtr make_mesh_shape(const Surface& surface, MeshReport* report);
+
+} // namespace plyform

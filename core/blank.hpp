@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The flat, unformed ply: outline and triangle mesh, in its own plane.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "contact/geometry.hpp"
+
+namespace plyform {
+
+/// Simple polygon (anticlockwise or clockwise, mm) with simple, disjoint holes inside it.
+struct Outline {
+  std::vector<Vec2> boundary;
+  std::vector<std::vector<Vec2>> holes;
+};
+
+enum class MeshKind {
+  diagonal, ///< squares with one diagonal
+  crossed,  ///< squares with both diagonals (a node in the middle)
+  fibres,   ///< cells with sides along both fibre directions, one diagonal
+  free,     ///< Delaunay refinement (CGAL Mesh_2)
+  file,     ///< read from `file`
+};
+
+struct BlankSpec {
+  Outline outline;
+  MeshKind mesh = MeshKind::diagonal;
+  double element_size = 0.0;   ///< mm: side of a square or cell; mean edge of a free mesh
+  std::filesystem::path file;  ///< STL, OBJ, PLY or OFF whose z is constant; for MeshKind::file
+};
+
+/// Nodes (mm) and anticlockwise triangles; every node belongs to a triangle.
+struct BlankMesh {
+  std::vector<Vec2> x;
+  std::vector<Triangle> triangles;
+};
+
+/// Meshes a blank. `warp` and `weft` are the fibre directions (rad from x), used by
+/// MeshKind::fibres only. Rectangles whose sides run along the cells give exact structured grids:
+/// round(side/element_size) cells a side, at least one, nodes row by row. Other outlines are cut:
+/// the cells wholly inside stay as they are and a band of triangles joins them to the outline.
+/// Throws std::runtime_error (what is wrong, what to do): outline not simple or not closed
+/// properly, hole outside or touching, element larger than the blank, file unreadable, empty,
+/// not flat or not manifold.
+BlankMesh mesh_blank(const BlankSpec& spec, double warp, double weft);
+
+} // namespace plyform

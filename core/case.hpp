@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A case as plain data: what is formed, by which tools, how it is computed. Units inside: mm, N,
+// s, t, rad. Filled by read_case (core/case_file.hpp), turned into a Scene by make_scene.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "contact/tool_shape.hpp"
+#include "core/blank.hpp"
+#include "core/fabric.hpp"
+
+namespace plyform {
+
+/// One ply of the stack. Plies are listed from the bottom up.
+struct Ply {
+  std::string name;
+  int fabric = 0;     ///< index into Case::fabrics
+  int blank = 0;      ///< index into Case::blanks
+  double angle = 0.0; ///< rad, from x to warp, about +z
+  double z = 0.0;     ///< mm, height of the mid-surface at the start
+};
+
+enum class Motion {
+  fixed,  ///< stays
+  driven, ///< moves `stroke` along `direction`, smoothly, over the duration
+  force,  ///< pushed by `force` along `direction`, free to move along it only
+};
+
+struct Tool {
+  std::string name;
+  ToolShape shape;
+  Vec3 position = Vec3::Zero();                                 ///< mm, of the tool frame's origin
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< tool frame to space
+  Motion motion = Motion::fixed;
+  Vec3 direction = -Vec3::UnitZ(); ///< unit vector
+  double stroke = 0.0;             ///< mm, for Motion::driven
+  double force = 0.0;              ///< N, for Motion::force
+  double mass = 0.0;               ///< t, for Motion::force
+};
+
+struct SolverOptions {
+  double duration = 0.1;           ///< s simulated
+  double step_factor = 0.9;        ///< fraction of the stable step
+  double fibre_softening = 1.0;    ///< fibre stiffness is divided by this
+  double fibre_damping = 0.05;     ///< fraction of critical of the stiffest element mode
+  double mass_damping = 0.0;       ///< 1/s, acceleration -mass_damping * velocity
+  double max_balance_error = 0.1;  ///< stop above this relative energy balance error
+  int outputs = 20;                ///< states written, evenly over the stroke
+};
+
+struct ContactOptions {
+  double stiffness = 0.1; ///< fraction of the stable limit
+  double damping = 0.2;   ///< fraction of critical
+  double skin = 0.5;      ///< mm, search distance beyond contact
+};
+
+/// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.
+struct FrictionTable {
+  int bodies = 0;
+  std::vector<double> mu; ///< bodies x bodies, symmetric
+  double operator()(int a, int b) const { return mu[static_cast<std::size_t>(a * bodies + b)]; }
+};
+
+struct Case {
+  std::string title;
+  std::vector<Fabric> fabrics;
+  std::vector<BlankSpec> blanks;
+  std::vector<Ply> plies;
+  std::vector<Tool> tools;
+  FrictionTable friction;
+  SolverOptions solver;
+  ContactOptions contact;
+};
+
+} // namespace plyform

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A woven or biaxial non-crimp fabric: what its yarns and cells answer to stretch and shear.
+//
+// Units inside the program: mm, N, s, t (1 t = 1 N s^2/mm). Source of the law's form: Hamila and
+// Boisse 2008, section 3.5 and table 1.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+/// Value and slope of a law at one point, and its integral from 0 (the stored energy).
+struct LawPoint {
+  double value, slope, energy;
+};
+
+/// Tension of one yarn against its strain: N = stiffness * strain, or a table. Tension only: zero,
+/// with zero slope and energy, for strain <= 0.
+struct TensionLaw {
+  double stiffness = 0.0;               ///< N per yarn; used when the table is empty
+  std::vector<double> strain, tension;  ///< ascending from (0, 0), linear between, last slope beyond
+  /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
+  LawPoint at(double eps) const;
+  double largest_slope() const; ///< N
+};
+
+/// Torque that warp and weft exert on each other in one unit cell against the shear angle: odd
+/// polynomial k[0] g + k[1] g^3 + k[2] g^5 ..., or an odd table (given for g >= 0).
+struct ShearLaw {
+  std::vector<double> k;              ///< N mm, coefficients of g, g^3, g^5 ...
+  std::vector<double> angle, torque;  ///< rad and N mm, ascending from (0, 0); last slope beyond
+  /// Cs (N mm), dCs/dg (N mm/rad), Ws (N mm); g in rad, of either sign.
+  LawPoint at(double g) const;
+};
+
+struct Fabric {
+  std::string name;
+  TensionLaw warp, weft;
+  double warp_density = 0.0, weft_density = 0.0; ///< d1, d2: yarns per mm across the yarns
+  ShearLaw shear;
+  double surface_density = 0.0; ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
+  double thickness = 0.0;       ///< mm
+  double fibre_angle = 1.5707963267948966; ///< rad from warp to weft before forming, in (0, pi)
+};
+
+} // namespace plyform

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run leaves behind: summary.json, history.csv, plies/NAME.csv, results.h5 and results.xdmf.
+//
+// The simulation fills Frame and Summary; the writers here know nothing of how they came about.
+// HDF5 types stay inside results_hdf5.cpp. Units at this border: mm, N, s, degrees, N per yarn.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "contact/geometry.hpp"
+
+namespace plyform {
+
+/// Energies and work done since the start, N mm (mJ).
+struct Energies {
+  double kinetic = 0, fibre = 0, shear = 0, contact = 0, friction = 0, damping = 0, external = 0;
+  /// (kinetic + fibre + shear + contact + friction + damping - external) over the largest of them;
+  /// 0 when all are 0.
+  double balance_error() const;
+};
+
+/// One ply at one time. Sizes: n nodes, m triangles.
+struct PlyFrame {
+  std::string name;
+  double angle_deg = 0;
+  std::vector<Vec3> x0, x;                       ///< n, mm: before and now
+  std::vector<Triangle> triangles;               ///< m
+  std::vector<Vec3> warp, weft;                  ///< m, unit vectors of the fibres now
+  std::vector<double> shear_deg;                 ///< m, signed
+  std::vector<double> warp_strain, weft_strain;  ///< m
+  std::vector<double> warp_tension, weft_tension; ///< m, N per yarn
+  std::vector<double> thickness;                 ///< m, mm, from constant volume
+  std::vector<double> contact_pressure;          ///< n, N/mm^2, normal contact force over node area
+};
+
+struct ToolFrame {
+  std::string name;
+  Surface surface;                 ///< in space at time 0
+  Vec3 displacement = Vec3::Zero(); ///< mm, since time 0
+  Vec3 force = Vec3::Zero();        ///< N, that the plies exert on the tool
+  double stroke_mm = 0;             ///< displacement along the tool's direction
+  double force_N = 0;               ///< reaction of the plies against that direction, + when pushed back
+};
+
+struct Frame {
+  double time = 0;      ///< s
+  double stroke_mm = 0; ///< of the first driven tool
+  long step = 0;
+  std::vector<PlyFrame> plies; ///< topology and names the same in every frame of a run
+  std::vector<ToolFrame> tools;
+  Energies energy;
+};
+
+struct ContactReport {
+  double max_tool_penetration_mm = 0, max_ply_penetration_mm = 0;
+  long intersections_between_plies = 0, intersections_within_plies = 0;
+};
+
+struct Summary {
+  std::string title, version;
+  std::string status = "done"; ///< done, interrupted, stopped
+  std::string message;         ///< why it was stopped, else empty
+  double wall_time_s = 0;
+  long steps = 0;
+  double min_step_s = 0, max_step_s = 0;
+  int threads = 1;
+  ContactReport contact;
+};
+
+/// Writes a run's folder as it goes. Everything it writes goes to a temporary name first and is
+/// renamed when whole, so that a crash never leaves a half file under a final name; results.h5 is
+/// flushed after each frame, so that it opens even if the run is killed.
+class ResultWriter {
+public:
+  /// Creates `directory` (and parents). Throws std::runtime_error naming the path and the reason.
+  explicit ResultWriter(const std::filesystem::path& directory);
+  ~ResultWriter();
+
+  /// One row of history.csv and one time of results.h5/.xdmf.
+  void write_frame(const Frame& frame);
+
+  /// plies/NAME.csv of the last frame, and summary.json with the keys of docs/results.md.
+  void write_final(const Frame& last, const Summary& summary);
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+/// Reads the last state of DIR/results.h5 back and writes DIR/export/NAME.vtu, .stl and .csv for
+/// each ply and .stl for each tool. Returns the files written. Throws std::runtime_error.
+std::vector<std::filesystem::path> export_results(const std::filesystem::path& directory);
+
+} // namespace plyform
