@@ -2,10 +2,10 @@
 // Exact check of a finished state (CGAL, exact predicates): what crosses what.
 #pragma once
 
+#include "contact/geometry.hpp"
+
 #include <span>
 #include <vector>
-
-#include "contact/geometry.hpp"
 
 namespace plyform {
 
@@ -16,8 +16,8 @@ struct Intersection {
 
 struct AuditResult {
   std::vector<Intersection> between; ///< pairs of triangles of different sheets
-  std::vector<Intersection> within;  ///< pairs of one sheet, neighbours that only share a node or an
-                                     ///< edge left out
+  std::vector<Intersection> within; ///< pairs of one sheet, neighbours that only share a node or an
+                                    ///< edge left out
 };
 
 struct SheetView {

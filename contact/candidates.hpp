@@ -2,11 +2,11 @@
 // Broad phase between two sheets: which nodes of one may touch which triangles of the other.
 #pragma once
 
+#include "contact/geometry.hpp"
+
 #include <memory>
 #include <span>
 #include <vector>
-
-#include "contact/geometry.hpp"
 
 namespace plyform {
 

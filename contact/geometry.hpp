@@ -2,12 +2,11 @@
 // The few types that everything in contact/ and core/ shares. Lengths in mm.
 #pragma once
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
 #include <vector>
-
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 
 namespace plyform {
 

@@ -6,12 +6,12 @@
 // tool's `position`, local z along its `axis`.
 #pragma once
 
+#include "contact/geometry.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <variant>
-
-#include "contact/geometry.hpp"
 
 namespace plyform {
 
@@ -89,7 +89,7 @@ RevolvedProfile make_profile(const std::vector<std::array<double, 3>>& points);
 struct MeshReport {
   std::size_t vertices = 0, faces = 0;
   bool closed = false;
-  bool flipped = false;              ///< a closed mesh came inward and was turned round
+  bool flipped = false;               ///< a closed mesh came inward and was turned round
   std::size_t removed_degenerate = 0; ///< zero-area faces dropped
 };
 

@@ -2,11 +2,11 @@
 // The flat, unformed ply: outline and triangle mesh, in its own plane.
 #pragma once
 
+#include "contact/geometry.hpp"
+
 #include <filesystem>
 #include <string>
 #include <vector>
-
-#include "contact/geometry.hpp"
 
 namespace plyform {
 
@@ -27,8 +27,8 @@ enum class MeshKind {
 struct BlankSpec {
   Outline outline;
   MeshKind mesh = MeshKind::diagonal;
-  double element_size = 0.0;   ///< mm: side of a square or cell; mean edge of a free mesh
-  std::filesystem::path file;  ///< STL, OBJ, PLY or OFF whose z is constant; for MeshKind::file
+  double element_size = 0.0;  ///< mm: side of a square or cell; mean edge of a free mesh
+  std::filesystem::path file; ///< STL, OBJ, PLY or OFF whose z is constant; for MeshKind::file
 };
 
 /// Nodes (mm) and anticlockwise triangles; every node belongs to a triangle.

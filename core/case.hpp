@@ -3,12 +3,12 @@
 // s, t, rad. Filled by read_case (core/case_file.hpp), turned into a Scene by make_scene.
 #pragma once
 
-#include <string>
-#include <vector>
-
 #include "contact/tool_shape.hpp"
 #include "core/blank.hpp"
 #include "core/fabric.hpp"
+
+#include <string>
+#include <vector>
 
 namespace plyform {
 
@@ -30,7 +30,7 @@ enum class Motion {
 struct Tool {
   std::string name;
   ToolShape shape;
-  Vec3 position = Vec3::Zero();                                 ///< mm, of the tool frame's origin
+  Vec3 position = Vec3::Zero();                           ///< mm, of the tool frame's origin
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< tool frame to space
   Motion motion = Motion::fixed;
   Vec3 direction = -Vec3::UnitZ(); ///< unit vector
@@ -40,13 +40,13 @@ struct Tool {
 };
 
 struct SolverOptions {
-  double duration = 0.1;           ///< s simulated
-  double step_factor = 0.9;        ///< fraction of the stable step
-  double fibre_softening = 1.0;    ///< fibre stiffness is divided by this
-  double fibre_damping = 0.05;     ///< fraction of critical of the stiffest element mode
-  double mass_damping = 0.0;       ///< 1/s, acceleration -mass_damping * velocity
-  double max_balance_error = 0.1;  ///< stop above this relative energy balance error
-  int outputs = 20;                ///< states written, evenly over the stroke
+  double duration = 0.1;          ///< s simulated
+  double step_factor = 0.9;       ///< fraction of the stable step
+  double fibre_softening = 1.0;   ///< fibre stiffness is divided by this
+  double fibre_damping = 0.05;    ///< fraction of critical of the stiffest element mode
+  double mass_damping = 0.0;      ///< 1/s, acceleration -mass_damping * velocity
+  double max_balance_error = 0.1; ///< stop above this relative energy balance error
+  int outputs = 20;               ///< states written, evenly over the stroke
 };
 
 struct ContactOptions {

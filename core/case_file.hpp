@@ -2,13 +2,13 @@
 // From case.toml (and the fabric files it names) to a Case, with every mistake found at once.
 #pragma once
 
+#include "core/case.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
-
-#include "core/case.hpp"
 
 namespace plyform {
 

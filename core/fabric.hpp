@@ -18,8 +18,8 @@ struct LawPoint {
 /// Tension of one yarn against its strain: N = stiffness * strain, or a table. Tension only: zero,
 /// with zero slope and energy, for strain <= 0.
 struct TensionLaw {
-  double stiffness = 0.0;               ///< N per yarn; used when the table is empty
-  std::vector<double> strain, tension;  ///< ascending from (0, 0), linear between, last slope beyond
+  double stiffness = 0.0;              ///< N per yarn; used when the table is empty
+  std::vector<double> strain, tension; ///< ascending from (0, 0), linear between, last slope beyond
   /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
   LawPoint at(double eps) const;
   double largest_slope() const; ///< N
@@ -28,8 +28,8 @@ struct TensionLaw {
 /// Torque that warp and weft exert on each other in one unit cell against the shear angle: odd
 /// polynomial k[0] g + k[1] g^3 + k[2] g^5 ..., or an odd table (given for g >= 0).
 struct ShearLaw {
-  std::vector<double> k;              ///< N mm, coefficients of g, g^3, g^5 ...
-  std::vector<double> angle, torque;  ///< rad and N mm, ascending from (0, 0); last slope beyond
+  std::vector<double> k;             ///< N mm, coefficients of g, g^3, g^5 ...
+  std::vector<double> angle, torque; ///< rad and N mm, ascending from (0, 0); last slope beyond
   /// Cs (N mm), dCs/dg (N mm/rad), Ws (N mm); g in rad, of either sign.
   LawPoint at(double g) const;
 };
@@ -39,8 +39,8 @@ struct Fabric {
   TensionLaw warp, weft;
   double warp_density = 0.0, weft_density = 0.0; ///< d1, d2: yarns per mm across the yarns
   ShearLaw shear;
-  double surface_density = 0.0; ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
-  double thickness = 0.0;       ///< mm
+  double surface_density = 0.0;            ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
+  double thickness = 0.0;                  ///< mm
   double fibre_angle = 1.5707963267948966; ///< rad from warp to weft before forming, in (0, pi)
 };
 

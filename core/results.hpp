@@ -5,12 +5,12 @@
 // HDF5 types stay inside results_hdf5.cpp. Units at this border: mm, N, s, degrees, N per yarn.
 #pragma once
 
+#include "contact/geometry.hpp"
+
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
-
-#include "contact/geometry.hpp"
 
 namespace plyform {
 
@@ -26,23 +26,23 @@ struct Energies {
 struct PlyFrame {
   std::string name;
   double angle_deg = 0;
-  std::vector<Vec3> x0, x;                       ///< n, mm: before and now
-  std::vector<Triangle> triangles;               ///< m
-  std::vector<Vec3> warp, weft;                  ///< m, unit vectors of the fibres now
-  std::vector<double> shear_deg;                 ///< m, signed
-  std::vector<double> warp_strain, weft_strain;  ///< m
+  std::vector<Vec3> x0, x;                        ///< n, mm: before and now
+  std::vector<Triangle> triangles;                ///< m
+  std::vector<Vec3> warp, weft;                   ///< m, unit vectors of the fibres now
+  std::vector<double> shear_deg;                  ///< m, signed
+  std::vector<double> warp_strain, weft_strain;   ///< m
   std::vector<double> warp_tension, weft_tension; ///< m, N per yarn
-  std::vector<double> thickness;                 ///< m, mm, from constant volume
-  std::vector<double> contact_pressure;          ///< n, N/mm^2, normal contact force over node area
+  std::vector<double> thickness;                  ///< m, mm, from constant volume
+  std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
 };
 
 struct ToolFrame {
   std::string name;
-  Surface surface;                 ///< in space at time 0
+  Surface surface;                  ///< in space at time 0
   Vec3 displacement = Vec3::Zero(); ///< mm, since time 0
   Vec3 force = Vec3::Zero();        ///< N, that the plies exert on the tool
   double stroke_mm = 0;             ///< displacement along the tool's direction
-  double force_N = 0;               ///< reaction of the plies against that direction, + when pushed back
+  double force_N = 0; ///< reaction of the plies against that direction, + when pushed back
 };
 
 struct Frame {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contact of two plies: nodes of the slave sheet against the faces of the master sheet. Run both
+// ways, each with half the stiffness, so that neither sheet is preferred.
+//
+//   x_s  mm  slave node;  x_c = sum_j w_j x_j  mm  closest point of the master's faces
+//   d = |x_s - x_c|,  n = (x_s - x_c)/d,  h = half the sum of both thicknesses,  p = h - d
+//   E = 1/2 A k p^2;  F_s = A k p n,  F_j = -w_j F_s                                         (S)
+//
+// (S) is the exact gradient of E: x_c minimises the distance, so the w_j do not count (envelope
+// theorem). The distance to a polyhedral surface is continuous across edges, around the rim and
+// while the node slides off it, and so is the force. The mid-surfaces stay about h apart, so the
+// direction n is always well defined; which side the node is on is remembered, and a node found on
+// the other side is a fault that stops the run.
+#pragma once
+
+#include "contact/candidates.hpp"
+#include "contact/contact_law.hpp"
+#include "contact/tool_contact.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plyform {
+
+/// One slave node and one connected patch of master faces near it (two patches: a fold).
+struct SheetContactPoint {
+  std::int32_t node;
+  std::int32_t first_face, end_face; ///< range in SheetContact::faces
+  std::int32_t face = -1;            ///< closest one in the last step
+  std::array<double, 3> w{};         ///< weights of the closest point
+  int side = 0;               ///< +1: on the side of the face normal, -1: other, 0: not known
+  double area = 0.0;          ///< mm^2 that the contact stands for
+  double gap = 0.0;           ///< mm, d - h
+  Vec3 normal = Vec3::Zero(); ///< n
+  ContactMemory memory;
+};
+
+/// A node that got to the wrong side or deeper than half of h: the contact cannot be resolved.
+struct ContactFault {
+  int node = -1, face = -1;
+  double distance = 0.0; ///< mm
+};
+
+struct SheetContact {
+  ContactLaw law;                        ///< with half of the pair's stiffness
+  double distance = 0.0;                 ///< h, mm
+  std::vector<SheetContactPoint> points; ///< ascending by node
+  std::vector<std::int32_t> faces;
+  std::vector<Vec3> slave_force, master_force; ///< N, one a node of each sheet
+  ContactSums sums;
+  ContactFault fault;
+};
+
+/// Renews the points from the broad phase's candidates (sorted by node and face). Contacts keep
+/// their memory.
+void find_sheet_points(SheetContact& contact, std::span<const Candidate> candidates,
+                       const SheetState& slave, const SheetState& master,
+                       std::span<const Triangle> master_triangles);
+
+/// Forces of one step (S), (N), (T). dt: the step that led to these positions, s.
+void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
+                  std::span<const Triangle> master_triangles, double dt);
+
+/// Row sums of the contact stiffness matrix, N/mm, added to each sheet's nodes.
+void add_sheet_stiffness(const SheetContact& contact, std::span<const Triangle> master_triangles,
+                         std::span<double> slave_rows, std::span<double> master_rows);
+
+} // namespace plyform

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/tool_contact.hpp"
+
+namespace plyform {
+namespace {
+
+double area_of(const SheetState& ply, const ToolContactPoint& c) {
+  return ply.area[static_cast<std::size_t>(c.node)];
+}
+
+/// Gap and normal of every point where tool and ply stand now.
+void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply) {
+  for (ToolContactPoint& c : contact.points) {
+    const SurfacePoint s = distance_to_tool(tool, ply.x[static_cast<std::size_t>(c.node)], c.hint);
+    c.last_gap = c.gap;
+    c.gap = s.distance - contact.half_thickness;
+    c.normal = s.normal;
+  }
+}
+
+/// (N) if the tool moves by `along` this step; slope: its derivative, N/mm.
+double pushed_force(const ContactLaw& law, double area, const ToolContactPoint& c, double facing,
+                    double along, double dt, double& slope) {
+  const double p = -c.gap + facing * along;
+  if (!(p > 0.0)) return 0.0;
+  const double dp = p + c.last_gap;
+  const double rate = dt > 0.0 ? law.damping / dt : 0.0;
+  const double n = area * (law.stiffness * p + rate * dp);
+  if (!(n > 0.0)) return 0.0;
+  slope += facing * facing * area * (law.stiffness + rate);
+  return facing * n;
+}
+
+/// Solves (B) for delta by Newton's method; R is monotone, so it cannot run away.
+double equilibrium_motion(const ToolBody& tool, std::span<ToolContact> contacts,
+                          std::span<const SheetState> plies, double dt) {
+  const double limit = tool.speed_limit * dt;
+  double delta = std::clamp(tool.speed * dt, -limit, limit);
+  const double inertia = tool.mass > 0.0 ? tool.mass / (dt * dt) : 0.0;
+  constexpr int most_rounds = 50; // each round fixes the set of touching nodes; 3 to 6 are usual
+  for (int round = 0; round < most_rounds; ++round) {
+    double reaction = 0.0, slope = inertia;
+    for (std::size_t i = 0; i < contacts.size(); ++i)
+      for (const ToolContactPoint& c : contacts[i].points)
+        reaction += pushed_force(contacts[i].law, area_of(plies[i], c), c,
+                                 c.normal.dot(tool.direction), delta, dt, slope);
+    const double residual = tool.force - reaction - inertia * (delta - tool.speed * dt);
+    if (slope <= 0.0) return limit; // nothing in the way
+    const double change = residual / slope;
+    const double next = std::clamp(delta + change, -limit, limit);
+    const bool settled = std::abs(residual) <= 1e-9 * std::abs(tool.force) || next == delta;
+    delta = next;
+    if (settled) break;
+  }
+  return delta;
+}
+
+Vec3 contact_forces(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
+                    double dt) {
+  Vec3 on_tool = Vec3::Zero();
+  contact.sums.elastic = 0.0;
+  contact.sums.penetration = 0.0;
+  contact.sums.touching = 0;
+  for (ToolContactPoint& c : contact.points) {
+    const auto n = static_cast<std::size_t>(c.node);
+    Vec3& f = contact.force[n];
+    f.setZero();
+    const double p = -c.gap, dp = c.last_gap - c.gap, area = ply.area[n];
+    if (!(p > 0.0)) {
+      release(contact.law, area, c.memory, contact.sums);
+      continue;
+    }
+    const NormalForce normal = normal_force(contact.law, area, p, dp, dt);
+    contact.sums.damping += 0.5 * (normal.damping + c.memory.damping_force) * dp;
+    c.memory.damping_force = normal.damping;
+    c.memory.normal_force = normal.total;
+    f = normal.total * c.normal + friction_force(contact.law, area, normal.total, c.normal,
+                                                 ply.motion[n] - tool_motion, c.memory,
+                                                 contact.sums);
+    on_tool -= f;
+    contact.sums.elastic += 0.5 * area * contact.law.stiffness * (p * p + c.memory.s.squaredNorm());
+    contact.sums.penetration = std::max(contact.sums.penetration, p);
+    ++contact.sums.touching;
+  }
+  contact.sums.deepest = std::max(contact.sums.deepest, contact.sums.penetration);
+  return on_tool;
+}
+
+} // namespace
+
+SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint) {
+  const Vec3 local = tool.rotation.transpose() * (x - tool.position - tool.displacement);
+  SurfacePoint s = signed_distance(tool.shape, local, hint);
+  s.normal = tool.rotation * s.normal;
+  return s;
+}
+
+void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
+                      double reach) {
+  const std::vector<ToolContactPoint> old = std::move(contact.points);
+  contact.points.clear();
+  contact.force.assign(ply.x.size(), Vec3::Zero());
+  std::size_t next_old = 0;
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    while (next_old < old.size() && old[next_old].node < static_cast<int>(n))
+      ++next_old;
+    ToolContactPoint point{};
+    point.node = static_cast<int>(n);
+    const bool known = next_old < old.size() && old[next_old].node == point.node;
+    if (known) point = old[next_old];
+    const SurfacePoint s = distance_to_tool(tool, ply.x[n], point.hint);
+    const double gap = s.distance - contact.half_thickness;
+    if (gap > reach) {
+      if (known) release(contact.law, ply.area[n], point.memory, contact.sums);
+      continue;
+    }
+    if (!known) point.gap = gap;
+    contact.points.push_back(point);
+  }
+}
+
+Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
+                 double dt) {
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    measure(contacts[i], tool, plies[i]);
+  if (tool.pushed && dt > 0.0) {
+    const double delta = equilibrium_motion(tool, contacts, plies, dt);
+    tool.speed = delta / dt;
+    tool.motion = delta * tool.direction;
+    tool.displacement += tool.motion;
+    for (ToolContact& contact : contacts)
+      for (ToolContactPoint& c : contact.points)
+        c.gap -= c.normal.dot(tool.direction) * delta;
+  }
+  Vec3 on_tool = Vec3::Zero();
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    on_tool += contact_forces(contacts[i], plies[i], tool.motion, dt);
+  return on_tool;
+}
+
+void add_tool_stiffness(const ToolContact& contact, std::span<const double> area,
+                        std::span<double> rows) {
+  for (const ToolContactPoint& c : contact.points) {
+    const auto n = static_cast<std::size_t>(c.node);
+    rows[n] += area[n] * contact.law.stiffness;
+  }
+}
+
+} // namespace plyform

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contact of one rigid tool with the plies: nodes against the tool's signed distance.
+//
+// A tool pushed by a force has one freedom, its displacement along `direction`. It is not stepped
+// explicitly but brought into equilibrium every step,
+//
+//   M (delta/dt - v) / dt = F - R(delta)                                                    (B)
+//
+// R: reaction of the contacts, a monotone, piecewise linear function of the motion delta of this
+// step. With M = 0 the plies feel exactly F at every moment and the tool cannot bounce. Removing a
+// freedom by its own equilibrium never raises the largest frequency, so the stable step stays.
+#pragma once
+
+#include "contact/contact_law.hpp"
+#include "contact/tool_shape.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plyform {
+
+/// Where a rigid tool is and how it moves.
+struct ToolBody {
+  ToolShape shape;
+  Vec3 position = Vec3::Zero();                           ///< mm, of the tool frame at the start
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< tool frame to space
+  Vec3 displacement = Vec3::Zero();                       ///< mm, since the start
+  Vec3 motion = Vec3::Zero();                             ///< mm, of the last step
+  // for a tool pushed by a force:
+  bool pushed = false;
+  Vec3 direction = Vec3::Zero();
+  double force = 0.0;       ///< N
+  double mass = 0.0;        ///< t; 0: in equilibrium at every step
+  double speed = 0.0;       ///< mm/s along direction
+  double speed_limit = 0.0; ///< mm/s, closing speed while it meets no resistance
+};
+
+/// One node of a ply near the tool.
+struct ToolContactPoint {
+  int node;
+  int hint = -1;                    ///< memory of signed_distance
+  Vec3 normal;                      ///< of this step, in space
+  double gap = 0.0, last_gap = 0.0; ///< mm, distance minus half thickness
+  ContactMemory memory;
+};
+
+/// A tool against one ply. `points` hold the nodes within reach, ascending.
+struct ToolContact {
+  ContactLaw law;
+  double half_thickness = 0.0; ///< mm, of the ply
+  std::vector<ToolContactPoint> points;
+  std::vector<Vec3> force; ///< one a node of the ply, N; zero where there is no point
+  ContactSums sums;
+};
+
+/// A ply as contact sees it: spans of n nodes.
+struct SheetState {
+  std::span<const Vec3> x;      ///< mm
+  std::span<const Vec3> motion; ///< mm, displacement in the last step
+  std::span<const double> area; ///< mm^2
+};
+
+/// Signed distance (mm) and normal, in space, of a tool where it stands now.
+SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint);
+
+/// Renews the points: every node with gap <= reach. Contacts keep their memory.
+void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
+                      double reach);
+
+/// Forces of one step of one tool on all its plies; contacts[i] is with plies[i]. dt: the step
+/// that led to these positions, s. For a pushed tool also moves it by (B), limited to next_dt *
+/// speed_limit. Returns the force (N) of the plies on the tool.
+Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
+                 double dt);
+
+/// Adds each contact's stiffness to rows[node], N/mm: row sums of the contact stiffness matrix.
+void add_tool_stiffness(const ToolContact& contact, std::span<const double> area,
+                        std::span<double> rows);
+
+} // namespace plyform

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/membrane.hpp"
+
+#include <cmath>
+#include <stdexcept>
+
+namespace plyform {
+namespace {
+
+/// Below this sine the two fibre families coincide and the shear angle has no meaning.
+constexpr double least_sine = 1e-9;
+
+void build_gather(Membrane& m, std::size_t nodes) {
+  m.gather_begin.assign(nodes + 1, 0);
+  for (const Triangle& t : m.triangles)
+    for (int n : t)
+      ++m.gather_begin[static_cast<std::size_t>(n) + 1];
+  for (std::size_t n = 0; n < nodes; ++n)
+    m.gather_begin[n + 1] += m.gather_begin[n];
+  m.gather.resize(3 * m.triangles.size());
+  std::vector<std::int32_t> next(m.gather_begin.begin(), m.gather_begin.end() - 1);
+  for (std::size_t e = 0; e < m.triangles.size(); ++e)
+    for (std::size_t k = 0; k < 3; ++k)
+      m.gather[static_cast<std::size_t>(next[static_cast<std::size_t>(m.triangles[e][k])]++)] =
+          static_cast<std::int32_t>(3 * e + k);
+}
+
+} // namespace
+
+Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle) {
+  Membrane m;
+  m.fabric = fabric;
+  m.omega0 = fabric.fibre_angle;
+  m.cells_per_area = fabric.warp_density * fabric.weft_density * std::sin(m.omega0);
+  m.triangles = mesh.triangles;
+  m.node_area.assign(mesh.x.size(), 0.0);
+  const Vec2 e1(std::cos(warp_angle), std::sin(warp_angle));
+  const Vec2 e2(std::cos(warp_angle + m.omega0), std::sin(warp_angle + m.omega0));
+  for (const Triangle& t : m.triangles) {
+    const Vec2 g1 = mesh.x[static_cast<std::size_t>(t[1])] - mesh.x[static_cast<std::size_t>(t[0])];
+    const Vec2 g2 = mesh.x[static_cast<std::size_t>(t[2])] - mesh.x[static_cast<std::size_t>(t[0])];
+    const double det = g1.x() * g2.y() - g1.y() * g2.x();
+    if (!(det > 0.0)) throw std::invalid_argument("triangle of zero or negative area in a blank");
+    // grad N_1 = (g2.y, -g2.x) / det, grad N_2 = (-g1.y, g1.x) / det
+    m.c.push_back(
+        {(g2.y() * e1.x() - g2.x() * e1.y()) / det, (g1.x() * e1.y() - g1.y() * e1.x()) / det,
+         (g2.y() * e2.x() - g2.x() * e2.y()) / det, (g1.x() * e2.y() - g1.y() * e2.x()) / det});
+    m.area.push_back(0.5 * det);
+    for (int n : t)
+      m.node_area[static_cast<std::size_t>(n)] += det / 6.0;
+  }
+  for (double a : m.node_area)
+    m.node_mass.push_back(fabric.surface_density * a);
+  build_gather(m, mesh.x.size());
+  m.last_lambda.assign(m.triangles.size(), {1.0, 1.0});
+  m.last_viscous.assign(m.triangles.size(), {0.0, 0.0});
+  return m;
+}
+
+FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle) {
+  const auto e = static_cast<std::size_t>(triangle);
+  const Triangle& t = m.triangles[e];
+  const FibreGradients& c = m.c[e];
+  const Vec3& x0 = x[static_cast<std::size_t>(t[0])];
+  const Vec3 g1 = x[static_cast<std::size_t>(t[1])] - x0;
+  const Vec3 g2 = x[static_cast<std::size_t>(t[2])] - x0;
+  FibreState s;
+  s.f1 = c.c11 * g1 + c.c12 * g2; // k_1 (11), made a unit vector below
+  s.f2 = c.c21 * g1 + c.c22 * g2;
+  s.lambda1 = s.f1.norm();
+  s.lambda2 = s.f2.norm();
+  s.f1 /= s.lambda1;
+  s.f2 /= s.lambda2;
+  s.cos_omega = s.f1.dot(s.f2);
+  s.sin_omega = std::max(least_sine, std::sqrt(std::max(0.0, 1.0 - s.cos_omega * s.cos_omega)));
+  s.gamma = m.omega0 - std::atan2(s.sin_omega, s.cos_omega);
+  return s;
+}
+
+double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+                      std::span<ElementForce> q) {
+  const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
+  const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
+  double dissipated = 0.0;
+  for (int i = begin; i < end; ++i) {
+    const auto e = static_cast<std::size_t>(i);
+    const FibreState s = fibre_state(m, x, i);
+    double n1 = m.fabric.warp.at(s.lambda1 - 1.0).value;
+    double n2 = m.fabric.weft.at(s.lambda2 - 1.0).value;
+    // viscosity of taut fibres; its work by the trapezoidal rule over the step that led here
+    auto& last = m.last_lambda[e];
+    auto& visc = m.last_viscous[e];
+    const double dl1 = s.lambda1 - last[0], dl2 = s.lambda2 - last[1];
+    const double v1 = n1 > 0.0 ? m.viscosity.warp * dl1 * per_dt : 0.0;
+    const double v2 = n2 > 0.0 ? m.viscosity.weft * dl2 * per_dt : 0.0;
+    dissipated += 0.5 * m.area[e] * (d1 * (v1 + visc[0]) * dl1 + d2 * (v2 + visc[1]) * dl2);
+    last = {s.lambda1, s.lambda2};
+    visc = {v1, v2};
+    n1 += v1;
+    n2 += v2;
+    // (Q)
+    const double torque = m.cells_per_area * m.fabric.shear.at(s.gamma).value / s.sin_omega;
+    const double a = m.area[e];
+    const double t1 = a * torque / s.lambda1, t2 = a * torque / s.lambda2;
+    q[e].q1 = (a * d1 * n1 - t1 * s.cos_omega) * s.f1 + t1 * s.f2;
+    q[e].q2 = (a * d2 * n2 - t2 * s.cos_omega) * s.f2 + t2 * s.f1;
+  }
+  return dissipated;
+}
+
+Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node) {
+  Vec3 f = Vec3::Zero();
+  const auto n = static_cast<std::size_t>(node);
+  for (auto i = static_cast<std::size_t>(m.gather_begin[n]);
+       i < static_cast<std::size_t>(m.gather_begin[n + 1]); ++i) {
+    const auto e = static_cast<std::size_t>(m.gather[i] / 3);
+    const FibreGradients& c = m.c[e];
+    double c1 = -c.c11 - c.c12, c2 = -c.c21 - c.c22;
+    switch (m.gather[i] % 3) {
+    case 1:
+      c1 = c.c11, c2 = c.c21;
+      break;
+    case 2:
+      c1 = c.c12, c2 = c.c22;
+      break;
+    default:
+      break;
+    }
+    f -= c1 * q[e].q1 + c2 * q[e].q2; // (F)
+  }
+  return f;
+}
+
+MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
+  MembraneEnergy sum;
+  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+    const FibreState s = fibre_state(m, x, static_cast<int>(e));
+    const double w1 = m.fabric.warp.at(s.lambda1 - 1.0).energy;
+    const double w2 = m.fabric.weft.at(s.lambda2 - 1.0).energy;
+    sum.fibre += m.area[e] * (m.fabric.warp_density * w1 + m.fabric.weft_density * w2);
+    sum.shear += m.area[e] * m.cells_per_area * m.fabric.shear.at(s.gamma).energy;
+  }
+  return sum;
+}
+
+FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
+  // K_e = A0 B^T H B with B = [c_1; c_2] x I. Its non-zero eigenvalues are those of H (G x I),
+  // G_ab = c_a . c_b, and every node carries at least rho A0 / 3: so omega^2 <= 3/rho * them.
+  // Fibre part of H: exact, a 2 x 2 problem. Shear and geometric part: bounded by norms; the
+  // second derivative of the angle is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2).
+  FrequencyBound bound;
+  const double s1 = m.fabric.warp_density * m.fabric.warp.largest_slope();
+  const double s2 = m.fabric.weft_density * m.fabric.weft.largest_slope();
+  const double per_mass = 3.0 / m.fabric.surface_density;
+  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+    const FibreGradients& c = m.c[e];
+    const double c10 = -c.c11 - c.c12, c20 = -c.c21 - c.c22;
+    const double g11 = c10 * c10 + c.c11 * c.c11 + c.c12 * c.c12;
+    const double g22 = c20 * c20 + c.c21 * c.c21 + c.c22 * c.c22;
+    const double g12 = c10 * c20 + c.c11 * c.c21 + c.c12 * c.c22;
+    const FibreState s = fibre_state(m, x, static_cast<int>(e));
+    const auto largest = [](double a, double b, double off) {
+      return 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + off * off);
+    };
+    const double fibre = largest(s1 * g11, s2 * g22, std::sqrt(s1 * s2) * g12 * s.cos_omega);
+    const double v1 = m.fabric.warp_density * m.viscosity.warp;
+    const double v2 = m.fabric.weft_density * m.viscosity.weft;
+    const double viscous = largest(v1 * g11, v2 * g22, std::sqrt(v1 * v2) * g12 * s.cos_omega);
+    const LawPoint shear = m.fabric.shear.at(s.gamma);
+    const double inv2 = 1.0 / (s.lambda1 * s.lambda1) + 1.0 / (s.lambda2 * s.lambda2);
+    const double n1 = m.fabric.warp_density * m.fabric.warp.at(s.lambda1 - 1.0).value / s.lambda1;
+    const double n2 = m.fabric.weft_density * m.fabric.weft.at(s.lambda2 - 1.0).value / s.lambda2;
+    const double rest =
+        std::max(n1, n2) + m.cells_per_area * inv2 *
+                               (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
+    const double omega2 = per_mass * (fibre + rest * largest(g11, g22, g12));
+    if (!(omega2 <= bound.omega2)) {
+      bound.omega2 = omega2;
+      bound.triangle = static_cast<int>(e);
+    }
+    bound.damping = std::max(bound.damping, per_mass * viscous);
+  }
+  return bound;
+}
+
+} // namespace plyform

@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The semi-discrete three-node membrane of Hamila and Boisse (2008), in energy form.
+//
+//   x_n      mm      positions of the triangle's nodes, n = 0 1 2
+//   c_a,n    1/mm    gradient of N_n along fibre family a (1 warp, 2 weft), sums to 0 over n
+//   k_a      -       k_a = sum_n c_a,n x_n                                              (1)(11)
+//   lambda_a -       |k_a|;  eps_a = lambda_a - 1;  f_a = k_a / lambda_a
+//   omega    rad     angle from f_1 to f_2, omega0 before forming; gamma = omega0 - omega
+//   N_a      N       tension of one yarn;  Cs  N mm  torque of one unit cell
+//   d_a      1/mm    yarns per mm;  n_c = d_1 d_2 sin(omega0)  1/mm^2  unit cells per area
+//   A0       mm^2    initial area
+//
+//   E   = A0 [ d_1 W_1(eps_1) + d_2 W_2(eps_2) + n_c Ws(gamma) ]                            (E)
+//   q_a = A0 dw/dk_a = A0 [ d_a N_a f_a + n_c Cs (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]
+//                                                                                           (Q)
+//   F_n = -( c_1,n q_1 + c_2,n q_2 )                                            (31)(32)(39)(F)
+//
+// Numbers in brackets: the paper's equations, cleaned. For omega0 = 90 degrees (Q) is the sum of
+// (31), (32) and (39). The element only needs k_1 and k_2, so the fibres may lie at any angle to
+// the sides and to each other.
+#pragma once
+
+#include "contact/geometry.hpp"
+#include "core/blank.hpp"
+#include "core/fabric.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plyform {
+
+/// Fibre family constants of one triangle: c_a,1 and c_a,2 (c_a,0 = -c_a,1 - c_a,2).
+struct FibreGradients {
+  double c11, c12, c21, c22;
+};
+
+/// What a triangle answers: q_1, q_2 of (Q), N mm.
+struct ElementForce {
+  Vec3 q1, q2;
+};
+
+/// Fibre viscosity, in tension only: N += eta d(eps)/dt, eta in N s per yarn.
+struct FibreViscosity {
+  double warp = 0.0, weft = 0.0;
+};
+
+/// One ply's membrane; nodes and triangles are numbered within the ply. Constant topology, and the
+/// little state that viscosity needs. Sizes: n nodes, m triangles.
+struct Membrane {
+  Fabric fabric;               ///< stiffness already softened if the case asks for it
+  double omega0 = 0.0;         ///< rad
+  double cells_per_area = 0.0; ///< n_c, 1/mm^2
+  FibreViscosity viscosity;
+  std::vector<Triangle> triangles;        ///< m
+  std::vector<FibreGradients> c;          ///< m
+  std::vector<double> area;               ///< m, A0
+  std::vector<double> node_area;          ///< n, a third of the triangles around it
+  std::vector<double> node_mass;          ///< n, t
+  std::vector<std::int32_t> gather_begin; ///< n + 1, into gather
+  std::vector<std::int32_t> gather;       ///< 3 * triangle + corner, ascending
+  // state of the viscosity: strains and viscous tensions of the last step
+  std::vector<std::array<double, 2>> last_lambda, last_viscous; ///< m
+};
+
+/// Strains and directions of one triangle.
+struct FibreState {
+  Vec3 f1, f2;             ///< unit vectors
+  double lambda1, lambda2; ///< stretches
+  double cos_omega, sin_omega, gamma;
+};
+
+/// A triangle of zero or inverted reference area throws std::invalid_argument. `warp_angle` in rad
+/// from x.
+Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle);
+
+FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle);
+
+/// (Q) for triangles [begin, end) at positions x, viscous forces included (dt: the step that led
+/// to x, s; 0 leaves the viscosity out). Returns the work done against viscosity in that step,
+/// N mm.
+double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+                      std::span<ElementForce> q);
+
+/// (F): internal force on a node, N, from all its triangles in fixed order.
+Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);
+
+struct MembraneEnergy {
+  double fibre = 0.0, shear = 0.0; ///< N mm
+};
+/// (E) over all triangles.
+MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x);
+
+/// Bounds of one ply at its present shape, from the largest element eigenvalue of M^-1 K with
+/// lumped mass (the elements' bound is a bound of the mesh, Irons). Fibres count as taut.
+struct FrequencyBound {
+  double omega2 = 0.0;  ///< 1/s^2
+  double damping = 0.0; ///< 1/s, of M^-1 C
+  int triangle = -1;    ///< where
+};
+FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x);
+
+} // namespace plyform

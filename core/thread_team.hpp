@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A few threads that share out numbered tasks. What a task computes may not depend on which thread
+// runs it or when: then the results are the same bits for any number of threads.
+#pragma once
+
+#include <functional>
+#include <memory>
+
+namespace plyform {
+
+class ThreadTeam {
+public:
+  /// `threads` >= 1, the calling thread included.
+  explicit ThreadTeam(int threads);
+  ~ThreadTeam();
+  ThreadTeam(const ThreadTeam&) = delete;
+  ThreadTeam& operator=(const ThreadTeam&) = delete;
+
+  /// Calls task(0) .. task(count - 1), each once, and returns when all are done. Tasks must not
+  /// throw.
+  void run(int count, const std::function<void(int)>& task);
+
+  int size() const;
+
+private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+} // namespace plyform
