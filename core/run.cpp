@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/run.hpp"
+
+#include "contact/audit.hpp"
+#include "core/frame.hpp"
+#include "core/step.hpp"
+#include "core/version.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace plyform {
+namespace {
+
+constexpr int check_every = 100; // steps between looks at energies, balance and the clock
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
+
+/// What is needed to go back to the last good state.
+struct Snapshot {
+  std::vector<std::vector<Vec3>> x;
+  std::vector<Vec3> tool_displacement, tool_force;
+  Energies energy;
+  double time = 0.0;
+  long step = 0;
+};
+
+void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
+  snapshot.x.resize(s.plies.size());
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    snapshot.x[p] = s.plies[p].x;
+  snapshot.tool_displacement.clear();
+  snapshot.tool_force.clear();
+  for (const ToolAndContacts& t : s.tools) {
+    snapshot.tool_displacement.push_back(t.body.displacement);
+    snapshot.tool_force.push_back(t.force);
+  }
+  snapshot.energy = energy;
+  snapshot.time = s.time;
+  snapshot.step = s.step;
+}
+
+void go_back(Scene& s, const Snapshot& snapshot) {
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    s.plies[p].x = snapshot.x[p];
+  for (std::size_t t = 0; t < s.tools.size(); ++t) {
+    s.tools[t].body.displacement = snapshot.tool_displacement[t];
+    s.tools[t].force = snapshot.tool_force[t];
+  }
+  s.time = snapshot.time;
+  s.step = snapshot.step;
+}
+
+/// Energy below which the balance is not judged: a hundredth of the kinetic energy of the whole
+/// stack at the fastest tool's speed.
+double balance_floor(const Scene& s) {
+  double mass = 0.0, stroke = 0.0;
+  for (const PlyBody& ply : s.plies)
+    for (double m : ply.membrane.node_mass)
+      mass += m;
+  for (const ToolAndContacts& t : s.tools)
+    stroke = std::max(stroke, std::abs(t.stroke));
+  const double peak_speed = 1.875 * stroke / s.data.solver.duration; // of the fifth-order path
+  return 0.01 * 0.5 * mass * peak_speed * peak_speed;
+}
+
+std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floor) {
+  const double error = e.balance_error();
+  const double limit = s.data.solver.max_balance_error;
+  if (e.external < floor || std::abs(error) <= limit) return std::nullopt;
+  return Stop{
+      fmt::format("stopped at step {}, time {:.6g} s: energy balance error {:.3g} passes "
+                  "solver.max_balance_error = {:.3g}; a smaller solver.step_factor may help",
+                  s.step, s.time, error, limit)};
+}
+
+/// The state number that is due next: outputs are spread evenly over the stroke, or over the time
+/// where nothing is driven.
+int outputs_due(const Scene& s) {
+  double done = s.time / s.data.solver.duration;
+  for (const ToolAndContacts& t : s.tools)
+    if (t.stroke != 0.0) {
+      done = t.body.displacement.dot(t.body.direction) / t.stroke;
+      break;
+    }
+  return static_cast<int>(std::floor(done * s.data.solver.outputs + 1e-9));
+}
+
+ContactReport report_contact(const Scene& s) {
+  ContactReport r;
+  for (const ToolAndContacts& t : s.tools)
+    for (const ToolContact& c : t.contacts)
+      r.max_tool_penetration_mm = std::max(r.max_tool_penetration_mm, c.sums.penetration);
+  for (const PlyContact& pair : s.ply_contacts)
+    r.max_ply_penetration_mm = std::max(r.max_ply_penetration_mm, pair.contact.sums.penetration);
+  std::vector<SheetView> sheets;
+  for (const PlyBody& ply : s.plies)
+    sheets.push_back({ply.x, ply.membrane.triangles});
+  const AuditResult audit = audit_intersections(sheets);
+  r.intersections_between_plies = static_cast<long>(audit.between.size());
+  r.intersections_within_plies = static_cast<long>(audit.within.size());
+  return r;
+}
+
+Progress progress_of(const Scene& s, const Energies& e, double elapsed) {
+  Progress p;
+  p.fraction = std::min(1.0, s.time / s.data.solver.duration);
+  p.stroke_mm = current_stroke(s);
+  p.step = s.step;
+  p.elapsed_s = elapsed;
+  p.remaining_s = p.fraction > 0.0 ? elapsed * (1.0 - p.fraction) / p.fraction : 0.0;
+  p.kinetic_over_shear = e.shear > 0.0 ? e.kinetic / e.shear : 0.0;
+  p.balance_error = e.balance_error();
+  return p;
+}
+
+void finish(const Scene& s, RunResult& result, int threads, double elapsed) {
+  Summary& sum = result.summary;
+  sum.title = s.data.title;
+  sum.version = version();
+  sum.wall_time_s = elapsed;
+  sum.steps = s.step;
+  sum.min_step_s = s.min_dt;
+  sum.max_step_s = s.max_dt;
+  sum.threads = threads;
+  sum.contact = report_contact(s);
+}
+
+} // namespace
+
+RunResult run_case(const Case& data, int threads, const RunHooks& hooks) {
+  const auto begin = Clock::now();
+  ThreadTeam team(threads);
+  Scene s = make_scene(data);
+  start(s, team);
+  const double floor = balance_floor(s);
+  RunResult result;
+  Energies energy;
+  Snapshot good;
+  keep(s, energy, good);
+  int written = -1;
+  std::optional<Stop> stop;
+  const auto write = [&] {
+    result.last = make_frame(s, energy);
+    written = outputs_due(s);
+    for (ToolAndContacts& t : s.tools)
+      t.impulse = 0.0;
+    if (hooks.frame) hooks.frame(result.last);
+  };
+  bool last = false;
+  while (!last) {
+    last = s.time >= data.solver.duration * (1.0 - 1e-12);
+    const bool interrupted = hooks.interrupt && hooks.interrupt->load();
+    const bool output = last || interrupted || outputs_due(s) > written;
+    const bool look = output || s.step % check_every == 0;
+    stop = step(s, team, look ? &energy : nullptr);
+    if (!stop && look) stop = check_balance(s, energy, floor);
+    if (stop) break;
+    if (look) keep(s, energy, good);
+    if (look && hooks.progress) hooks.progress(progress_of(s, energy, seconds_since(begin)));
+    if (output) write();
+    if (interrupted && !last) {
+      result.summary.status = "interrupted";
+      break;
+    }
+  }
+  if (stop) {
+    result.summary.status = "stopped";
+    result.summary.message = stop->message;
+    go_back(s, good);
+    write();
+  }
+  finish(s, result, threads, seconds_since(begin));
+  return result;
+}
+
+} // namespace plyform

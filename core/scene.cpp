@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plyform {
+namespace {
+
+constexpr int block_size = 512; // long enough to hide the hand-over, short enough to share out
+
+void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count) {
+  const int n = static_cast<int>(count);
+  for (int begin = 0; begin < n; begin += block_size)
+    blocks.push_back({ply, begin, std::min(n, begin + block_size)});
+}
+
+void soften(TensionLaw& law, double by) {
+  law.stiffness /= by;
+  for (double& n : law.tension)
+    n /= by;
+}
+
+PlyBody make_ply(const Case& data, const Ply& ply) {
+  PlyBody body;
+  Fabric fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
+  soften(fabric.warp, data.solver.fibre_softening);
+  soften(fabric.weft, data.solver.fibre_softening);
+  const BlankMesh mesh = mesh_blank(data.blanks[static_cast<std::size_t>(ply.blank)], ply.angle,
+                                    ply.angle + fabric.fibre_angle);
+  body.name = ply.name;
+  body.angle = ply.angle;
+  body.thickness = fabric.thickness;
+  body.membrane = make_membrane(mesh, fabric, ply.angle);
+  for (const Vec2& p : mesh.x)
+    body.x0.emplace_back(p.x(), p.y(), ply.z);
+  body.x = body.x_search = body.x0;
+  body.velocity.assign(body.x.size(), Vec3::Zero());
+  body.motion = body.velocity;
+  body.q.resize(mesh.triangles.size());
+  body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
+  const double omega = std::sqrt(frequency_bound(body.membrane, body.x).omega2);
+  // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
+  body.membrane.viscosity = {2.0 * data.solver.fibre_damping * fabric.warp.largest_slope() / omega,
+                             2.0 * data.solver.fibre_damping * fabric.weft.largest_slope() / omega};
+  return body;
+}
+
+/// Contact stiffness per area that moves a free node at `fraction` of the elements' omega^2.
+double penalty_per_area(const PlyBody& ply, double fraction) {
+  return fraction * ply.membrane.fabric.surface_density *
+         frequency_bound(ply.membrane, ply.x).omega2;
+}
+
+ContactLaw make_law(const ContactOptions& options, double penalty, double density, double mu) {
+  // c = 2 zeta sqrt(k rho): fraction zeta of critical for a node against a wall
+  return {penalty, 2.0 * options.damping * std::sqrt(penalty * density), mu};
+}
+
+ToolAndContacts make_tool(const Case& data, std::size_t index, const std::vector<PlyBody>& plies) {
+  const Tool& tool = data.tools[index];
+  ToolAndContacts t;
+  t.name = tool.name;
+  t.body.shape = tool.shape;
+  t.body.position = tool.position;
+  t.body.rotation = tool.rotation;
+  t.body.direction = tool.direction;
+  t.body.pushed = tool.motion == Motion::force;
+  t.body.force = tool.force;
+  t.body.mass = tool.mass;
+  constexpr double closing_speed = 1000.0; // mm/s: that of a fast press
+  t.body.speed_limit = closing_speed;
+  t.stroke = tool.motion == Motion::driven ? tool.stroke : 0.0;
+  for (std::size_t p = 0; p < plies.size(); ++p) {
+    ToolContact c;
+    const int body = static_cast<int>(plies.size() + index);
+    c.law = make_law(data.contact, penalty_per_area(plies[p], data.contact.stiffness),
+                     plies[p].membrane.fabric.surface_density,
+                     data.friction(static_cast<int>(p), body));
+    c.half_thickness = 0.5 * plies[p].thickness;
+    t.contacts.push_back(std::move(c));
+  }
+  return t;
+}
+
+PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a, int b) {
+  const PlyBody& slave = plies[static_cast<std::size_t>(a)];
+  const PlyBody& master = plies[static_cast<std::size_t>(b)];
+  PlyContact pair;
+  pair.slave = a;
+  pair.master = b;
+  const double penalty = 0.5 * std::min(penalty_per_area(slave, data.contact.stiffness),
+                                        penalty_per_area(master, data.contact.stiffness));
+  const double density =
+      0.5 * std::min(slave.membrane.fabric.surface_density, master.membrane.fabric.surface_density);
+  pair.contact.law = make_law(data.contact, penalty, density, data.friction(a, b));
+  pair.contact.distance = 0.5 * (slave.thickness + master.thickness);
+  return pair;
+}
+
+} // namespace
+
+Scene make_scene(const Case& data) {
+  Scene s;
+  s.data = data;
+  for (const Ply& ply : data.plies)
+    s.plies.push_back(make_ply(data, ply));
+  for (std::size_t t = 0; t < data.tools.size(); ++t)
+    s.tools.push_back(make_tool(data, t, s.plies));
+  const int n = static_cast<int>(s.plies.size());
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b)
+      if (a != b) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
+  for (int p = 0; p < n; ++p) {
+    add_blocks(s.triangle_blocks, p,
+               s.plies[static_cast<std::size_t>(p)].membrane.triangles.size());
+    add_blocks(s.node_blocks, p, s.plies[static_cast<std::size_t>(p)].x.size());
+  }
+  s.triangle_sums.assign(s.triangle_blocks.size(), 0.0);
+  s.node_sums.assign(s.node_blocks.size(), {});
+  return s;
+}
+
+StepBound stable_step(const Scene& s) {
+  StepBound bound;
+  std::vector<std::vector<double>> rows; // contact stiffness, one a node, N/mm
+  for (const PlyBody& ply : s.plies)
+    rows.emplace_back(ply.x.size(), 0.0);
+  double damping_ratio = 0.0; // largest c/k of any contact
+  for (const ToolAndContacts& tool : s.tools)
+    for (std::size_t p = 0; p < s.plies.size(); ++p) {
+      add_tool_stiffness(tool.contacts[p], s.plies[p].membrane.node_area, rows[p]);
+      const ContactLaw& law = tool.contacts[p].law;
+      if (!tool.contacts[p].points.empty())
+        damping_ratio = std::max(damping_ratio, law.damping / law.stiffness);
+    }
+  for (const PlyContact& pair : s.ply_contacts) {
+    if (pair.contact.points.empty()) continue;
+    const auto a = static_cast<std::size_t>(pair.slave), b = static_cast<std::size_t>(pair.master);
+    add_sheet_stiffness(pair.contact, s.plies[b].membrane.triangles, rows[a], rows[b]);
+    damping_ratio = std::max(damping_ratio, pair.contact.law.damping / pair.contact.law.stiffness);
+  }
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const PlyBody& ply = s.plies[p];
+    const FrequencyBound element = frequency_bound(ply.membrane, ply.x);
+    double contact = 0.0;
+    for (std::size_t n = 0; n < rows[p].size(); ++n)
+      contact = std::max(contact, rows[p][n] / ply.membrane.node_mass[n]);
+    const double omega2 = element.omega2 + contact;
+    const double c = element.damping + contact * damping_ratio + s.data.solver.mass_damping;
+    const double dt = (std::sqrt(c * c + 4.0 * omega2) - c) / omega2;
+    if (bound.ply < 0 || !(dt >= bound.dt))
+      bound = {dt, omega2, c, static_cast<int>(p), element.triangle};
+  }
+  return bound;
+}
+
+double driven_displacement(double stroke, double t, double duration) {
+  const double u = std::clamp(t / duration, 0.0, 1.0);
+  return stroke * u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+}
+
+} // namespace plyform

@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Everything a running simulation holds: plies, tools, contacts between them, sums. Topology is
+// constant; the arrays change step by step (core/step.hpp).
+#pragma once
+
+#include "contact/sheet_contact.hpp"
+#include "contact/tool_contact.hpp"
+#include "core/case.hpp"
+#include "core/membrane.hpp"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+/// A ply in motion. Arrays of n nodes.
+struct PlyBody {
+  std::string name;
+  double angle = 0.0;     ///< rad, warp from x, before forming
+  double thickness = 0.0; ///< mm
+  Membrane membrane;
+  std::vector<Vec3> x0, x;     ///< mm
+  std::vector<Vec3> velocity;  ///< mm/s, half a step behind x
+  std::vector<Vec3> motion;    ///< mm, of the last step
+  std::vector<Vec3> x_search;  ///< mm, where the contact search was last done
+  std::vector<ElementForce> q; ///< one a triangle
+  std::unique_ptr<SheetTree> tree;
+  std::vector<const std::vector<Vec3>*> contact_forces; ///< those in use, in fixed order
+
+  SheetState state() const { return {x, motion, membrane.node_area}; }
+};
+
+/// One tool with its contacts: contacts[i] is with ply i.
+struct ToolAndContacts {
+  std::string name;
+  ToolBody body;
+  double stroke = 0.0; ///< mm, 0 unless driven
+  std::vector<ToolContact> contacts;
+  Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
+  Vec3 displacement_search = Vec3::Zero();
+  double work = 0.0;    ///< N mm, done by the tool on the plies since the start
+  double impulse = 0.0; ///< N s along -direction since the last output
+};
+
+/// One directed contact between two plies.
+struct PlyContact {
+  int slave = 0, master = 0;
+  SheetContact contact;
+};
+
+/// A run of nodes or triangles of one ply: the unit of work of a thread. Fixed size, so that sums
+/// come out the same whatever the number of threads.
+struct Block {
+  int ply, begin, end;
+};
+
+/// What a block of nodes reports of one step.
+struct NodeSums {
+  double kinetic = 0.0; ///< N mm, at the time of the forces
+  double damping = 0.0; ///< N mm, work of mass damping in this step
+  double moved2 = 0.0;  ///< mm^2, largest squared way since the last contact search
+};
+
+struct Scene {
+  Case data;
+  std::vector<PlyBody> plies;
+  std::vector<ToolAndContacts> tools;
+  std::vector<PlyContact> ply_contacts;
+  std::vector<Block> triangle_blocks, node_blocks;
+  std::vector<double> triangle_sums; ///< viscous work, one a triangle block
+  std::vector<NodeSums> node_sums;   ///< one a node block
+  double mass_damping_work = 0.0;    ///< N mm, since the start
+  double time = 0.0;                 ///< s, of x
+  double dt = 0.0, next_dt = 0.0;    ///< s, the step that led to x and the one that leaves it
+  double kinetic = 0.0;              ///< N mm, at the last forces
+  double min_dt = 0.0, max_dt = 0.0; ///< s, used so far
+  long step = 0;
+  long searches = 0; ///< broad phases done
+};
+
+/// Meshes the blanks, places plies and tools, sets contact stiffness from the stable step.
+/// Throws std::runtime_error if a blank cannot be meshed.
+Scene make_scene(const Case& data);
+
+/// What limits the step now, from the elements and the contacts.
+struct StepBound {
+  double dt = 0.0;      ///< s, stable step without the case's factor
+  double omega2 = 0.0;  ///< 1/s^2
+  double damping = 0.0; ///< 1/s
+  int ply = -1, triangle = -1;
+};
+/// Rigorous: largest eigenvalue of M^-1 K is at most the elements' plus the contacts' bound, and a
+/// central difference with lagged damping is stable for omega^2 dt^2 + 2 c dt <= 4.
+StepBound stable_step(const Scene& scene);
+
+/// Displacement (mm) of a driven tool at time t: smooth, at rest with zero acceleration at both
+/// ends (fifth-order polynomial).
+double driven_displacement(double stroke, double t, double duration);
+
+} // namespace plyform

@@ -1,0 +1,256 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/step.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace plyform {
+namespace {
+
+constexpr int bound_every = 200; // steps between renewals of the step bound: geometry changes by
+                                 // far less than the case's step factor leaves room for
+
+std::string when(const Scene& s) {
+  return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
+}
+
+/// Driven tools go to where they are at scene.time; pushed ones find their place with the forces.
+void move_driven_tools(Scene& s) {
+  for (ToolAndContacts& t : s.tools) {
+    if (t.body.pushed) continue;
+    const Vec3 to =
+        driven_displacement(t.stroke, s.time, s.data.solver.duration) * t.body.direction;
+    t.body.motion = to - t.body.displacement;
+    t.body.displacement = to;
+  }
+}
+
+double way_since_search(const Scene& s) {
+  double moved2 = 0.0;
+  for (const NodeSums& n : s.node_sums)
+    moved2 = n.moved2 <= moved2 ? moved2 : n.moved2;
+  for (const ToolAndContacts& t : s.tools)
+    moved2 = std::max(moved2, (t.body.displacement - t.displacement_search).squaredNorm());
+  return std::sqrt(moved2);
+}
+
+std::optional<Stop> find_not_finite(const Scene& s) {
+  for (const PlyBody& ply : s.plies)
+    for (std::size_t n = 0; n < ply.x.size(); ++n)
+      if (!ply.x[n].allFinite())
+        return Stop{fmt::format("{}: ply {}, node {}: position is not finite; a smaller "
+                                "solver.step_factor or more damping may help",
+                                when(s), ply.name, n)};
+  return std::nullopt;
+}
+
+/// Contact search: who may touch whom until something has moved by half the skin.
+void search(Scene& s, ThreadTeam& team) {
+  const double skin = s.data.contact.skin;
+  team.run(static_cast<int>(s.plies.size()), [&](int p) {
+    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+    ply.tree->refit(ply.x);
+    ply.x_search = ply.x;
+  });
+  const int tools = static_cast<int>(s.tools.size());
+  team.run(tools + static_cast<int>(s.ply_contacts.size()), [&](int i) {
+    if (i < tools) {
+      ToolAndContacts& t = s.tools[static_cast<std::size_t>(i)];
+      for (std::size_t p = 0; p < s.plies.size(); ++p)
+        find_tool_points(t.contacts[p], t.body, s.plies[p].state(), skin);
+      t.displacement_search = t.body.displacement;
+      return;
+    }
+    PlyContact& pair = s.ply_contacts[static_cast<std::size_t>(i - tools)];
+    const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
+    const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
+    std::vector<Candidate> candidates;
+    master.tree->candidates(slave.x, pair.contact.distance + skin, candidates);
+    find_sheet_points(pair.contact, candidates, slave.state(), master.state(),
+                      master.membrane.triangles);
+  });
+  for (PlyBody& ply : s.plies)
+    ply.contact_forces.clear();
+  for (ToolAndContacts& t : s.tools)
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      if (!t.contacts[p].points.empty()) s.plies[p].contact_forces.push_back(&t.contacts[p].force);
+  for (PlyContact& pair : s.ply_contacts) {
+    if (pair.contact.points.empty()) continue;
+    s.plies[static_cast<std::size_t>(pair.slave)].contact_forces.push_back(
+        &pair.contact.slave_force);
+    s.plies[static_cast<std::size_t>(pair.master)].contact_forces.push_back(
+        &pair.contact.master_force);
+  }
+  for (NodeSums& n : s.node_sums)
+    n.moved2 = 0.0;
+  ++s.searches;
+}
+
+/// Element and contact forces, each task into arrays of its own.
+void compute_forces(Scene& s, ThreadTeam& team) {
+  const int pairs = static_cast<int>(s.ply_contacts.size());
+  const int tools = static_cast<int>(s.tools.size());
+  const int blocks = static_cast<int>(s.triangle_blocks.size());
+  team.run(pairs + tools + blocks, [&](int i) {
+    if (i < pairs) { // the longest tasks first
+      PlyContact& c = s.ply_contacts[static_cast<std::size_t>(i)];
+      const PlyBody& master = s.plies[static_cast<std::size_t>(c.master)];
+      sheet_forces(c.contact, s.plies[static_cast<std::size_t>(c.slave)].state(), master.state(),
+                   master.membrane.triangles, s.dt);
+    } else if (i < pairs + tools) {
+      ToolAndContacts& t = s.tools[static_cast<std::size_t>(i - pairs)];
+      std::vector<SheetState> states;
+      for (const PlyBody& ply : s.plies)
+        states.push_back(ply.state());
+      const Vec3 before = t.force;
+      t.force = tool_forces(t.body, t.contacts, states, s.dt);
+      t.work += t.body.pushed ? t.body.force * t.body.motion.dot(t.body.direction)
+                              : -0.5 * (before + t.force).dot(t.body.motion);
+      t.impulse -= t.force.dot(t.body.direction) * s.dt;
+    } else {
+      const auto b = static_cast<std::size_t>(i - pairs - tools);
+      const Block& block = s.triangle_blocks[b];
+      PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
+      s.triangle_sums[b] +=
+          element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
+    }
+  });
+}
+
+/// (15)-(17) for one block of nodes.
+NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt, double alpha) {
+  NodeSums sums;
+  for (int i = block.begin; i < block.end; ++i) {
+    const auto n = static_cast<std::size_t>(i);
+    const double m = ply.membrane.node_mass[n];
+    Vec3 f = node_force(ply.membrane, ply.q, i);
+    for (const std::vector<Vec3>* contact : ply.contact_forces)
+      f += (*contact)[n];
+    const Vec3 old = ply.velocity[n];
+    const Vec3 a = f / m - alpha * old;              // (17)
+    const Vec3 now = old + 0.5 * (dt + next_dt) * a; // (16)
+    ply.velocity[n] = now;
+    ply.motion[n] = now * next_dt;
+    ply.x[n] += ply.motion[n]; // (15)
+    sums.kinetic += 0.5 * m * old.dot(now);
+    sums.damping += 0.5 * alpha * m * old.dot(old + now) * dt;
+    const double moved2 = (ply.x[n] - ply.x_search[n]).squaredNorm();
+    sums.moved2 = moved2 <= sums.moved2 ? sums.moved2 : moved2; // lets NaN through
+  }
+  return sums;
+}
+
+void move_plies(Scene& s, ThreadTeam& team, double next_dt) {
+  const double alpha = s.data.solver.mass_damping;
+  team.run(static_cast<int>(s.node_blocks.size()), [&](int i) {
+    const auto b = static_cast<std::size_t>(i);
+    const Block& block = s.node_blocks[b];
+    s.node_sums[b] =
+        move_nodes(s.plies[static_cast<std::size_t>(block.ply)], block, s.dt, next_dt, alpha);
+  });
+  s.kinetic = 0.0;
+  for (const NodeSums& n : s.node_sums) {
+    s.kinetic += n.kinetic;
+    s.mass_damping_work += n.damping;
+  }
+}
+
+std::optional<Stop> find_fault(const Scene& s) {
+  for (const PlyContact& pair : s.ply_contacts) {
+    const ContactFault& fault = pair.contact.fault;
+    if (fault.node < 0) continue;
+    return Stop{fmt::format("{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm "
+                            "apart, thickness {:.3g} "
+                            "mm; a larger contact.stiffness or a slower stroke may help",
+                            when(s), s.plies[static_cast<std::size_t>(pair.slave)].name, fault.node,
+                            s.plies[static_cast<std::size_t>(pair.master)].name, fault.face,
+                            fault.distance, pair.contact.distance)};
+  }
+  return std::nullopt;
+}
+
+/// A triangle whose fibres nearly coincide or have shrunk to a tenth has no meaning any more.
+std::optional<Stop> find_collapsed(const Scene& s) {
+  constexpr double least_stretch = 0.1, least_sine = 0.02;
+  for (const PlyBody& ply : s.plies)
+    for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e) {
+      const FibreState f = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
+      if (f.lambda1 > least_stretch && f.lambda2 > least_stretch && f.sin_omega > least_sine)
+        continue;
+      return Stop{fmt::format("{}: ply {}, triangle {} has collapsed: stretch {:.3g} along warp, "
+                              "{:.3g} along weft, {:.3g} degrees between them",
+                              when(s), ply.name, e, f.lambda1, f.lambda2,
+                              std::atan2(f.sin_omega, f.cos_omega) * 180.0 / M_PI)};
+    }
+  return std::nullopt;
+}
+
+Energies current_energies(const Scene& s, ThreadTeam& team) {
+  std::vector<MembraneEnergy> membrane(s.plies.size());
+  team.run(static_cast<int>(s.plies.size()), [&](int p) {
+    const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+    membrane[static_cast<std::size_t>(p)] = membrane_energy(ply.membrane, ply.x);
+  });
+  Energies e;
+  for (const MembraneEnergy& m : membrane) {
+    e.fibre += m.fibre;
+    e.shear += m.shear;
+  }
+  const auto add = [&e](const ContactSums& c) {
+    e.contact += c.elastic;
+    e.friction += c.friction;
+    e.damping += c.damping;
+  };
+  for (const ToolAndContacts& t : s.tools) {
+    for (const ToolContact& c : t.contacts)
+      add(c.sums);
+    e.external += t.work;
+    e.kinetic += 0.5 * t.body.mass * t.body.speed * t.body.speed;
+  }
+  for (const PlyContact& pair : s.ply_contacts)
+    add(pair.contact.sums);
+  for (double viscous : s.triangle_sums)
+    e.damping += viscous;
+  return e;
+}
+
+void set_step(Scene& s, double& next_dt) {
+  next_dt = s.data.solver.step_factor * stable_step(s).dt;
+  s.min_dt = s.min_dt > 0.0 ? std::min(s.min_dt, next_dt) : next_dt;
+  s.max_dt = std::max(s.max_dt, next_dt);
+}
+
+} // namespace
+
+void start(Scene& s, ThreadTeam& team) {
+  search(s, team);
+  set_step(s, s.next_dt);
+}
+
+std::optional<Stop> step(Scene& s, ThreadTeam& team, Energies* energies) {
+  move_driven_tools(s);
+  const bool used_up = !(way_since_search(s) <= 0.5 * s.data.contact.skin);
+  if (used_up) {
+    if (auto stop = find_not_finite(s)) return stop;
+    search(s, team);
+  }
+  if (used_up || s.step % bound_every == 0) {
+    if (auto stop = find_collapsed(s)) return stop;
+    set_step(s, s.next_dt);
+  }
+  compute_forces(s, team);
+  if (auto stop = find_fault(s)) return stop;
+  if (energies) *energies = current_energies(s, team);
+  move_plies(s, team, s.next_dt);
+  if (energies) {
+    energies->kinetic += s.kinetic;
+    energies->damping += s.mass_damping_work;
+  }
+  s.dt = s.next_dt;
+  s.time += s.dt;
+  ++s.step;
+  return std::nullopt;
+}
+
+} // namespace plyform
