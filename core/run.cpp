@@ -153,22 +153,23 @@ RunResult run_case(const Case& data, int threads, const RunHooks& hooks) {
       t.impulse = 0.0;
     if (hooks.frame) hooks.frame(result.last);
   };
-  bool last = false;
-  while (!last) {
-    last = s.time >= data.solver.duration * (1.0 - 1e-12);
-    const bool interrupted = hooks.interrupt && hooks.interrupt->load();
-    const bool output = last || interrupted || outputs_due(s) > written;
-    const bool look = output || s.step % check_every == 0;
-    stop = step(s, team, look ? &energy : nullptr);
-    if (!stop && look) stop = check_balance(s, energy, floor);
+  for (;;) {
+    stop = compute_forces(s, team);
     if (stop) break;
-    if (look) keep(s, energy, good);
-    if (look && hooks.progress) hooks.progress(progress_of(s, energy, seconds_since(begin)));
-    if (output) write();
-    if (interrupted && !last) {
-      result.summary.status = "interrupted";
-      break;
+    const bool interrupted = hooks.interrupt && hooks.interrupt->load();
+    const bool last = interrupted || s.time >= data.solver.duration;
+    const bool output = last || outputs_due(s) > written;
+    if (output || s.step % check_every == 0) {
+      energy = current_energies(s, team);
+      stop = check_balance(s, energy, floor);
+      if (stop) break;
+      keep(s, energy, good);
+      if (hooks.progress) hooks.progress(progress_of(s, energy, seconds_since(begin)));
     }
+    if (output) write();
+    if (interrupted && s.time < data.solver.duration) result.summary.status = "interrupted";
+    if (last) break;
+    move_plies(s, team);
   }
   if (stop) {
     result.summary.status = "stopped";

@@ -73,7 +73,6 @@ struct Scene {
   double mass_damping_work = 0.0;    ///< N mm, since the start
   double time = 0.0;                 ///< s, of x
   double dt = 0.0, next_dt = 0.0;    ///< s, the step that led to x and the one that leaves it
-  double kinetic = 0.0;              ///< N mm, at the last forces
   double min_dt = 0.0, max_dt = 0.0; ///< s, used so far
   long step = 0;
   long searches = 0; ///< broad phases done

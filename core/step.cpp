@@ -88,7 +88,7 @@ void search(Scene& s, ThreadTeam& team) {
 }
 
 /// Element and contact forces, each task into arrays of its own.
-void compute_forces(Scene& s, ThreadTeam& team) {
+void add_up_forces(Scene& s, ThreadTeam& team) {
   const int pairs = static_cast<int>(s.ply_contacts.size());
   const int tools = static_cast<int>(s.tools.size());
   const int blocks = static_cast<int>(s.triangle_blocks.size());
@@ -118,42 +118,40 @@ void compute_forces(Scene& s, ThreadTeam& team) {
   });
 }
 
+/// (17), with the forces of compute_forces. alpha: mass damping, 1/s.
+Vec3 acceleration(const PlyBody& ply, int node, double alpha) {
+  const auto n = static_cast<std::size_t>(node);
+  Vec3 f = node_force(ply.membrane, ply.q, node);
+  for (const std::vector<Vec3>* contact : ply.contact_forces)
+    f += (*contact)[n];
+  return f / ply.membrane.node_mass[n] - alpha * ply.velocity[n];
+}
+
 /// (15)-(17) for one block of nodes.
 NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt, double alpha) {
   NodeSums sums;
   for (int i = block.begin; i < block.end; ++i) {
     const auto n = static_cast<std::size_t>(i);
-    const double m = ply.membrane.node_mass[n];
-    Vec3 f = node_force(ply.membrane, ply.q, i);
-    for (const std::vector<Vec3>* contact : ply.contact_forces)
-      f += (*contact)[n];
     const Vec3 old = ply.velocity[n];
-    const Vec3 a = f / m - alpha * old;              // (17)
-    const Vec3 now = old + 0.5 * (dt + next_dt) * a; // (16)
+    const Vec3 now = old + 0.5 * (dt + next_dt) * acceleration(ply, i, alpha); // (16)
     ply.velocity[n] = now;
     ply.motion[n] = now * next_dt;
     ply.x[n] += ply.motion[n]; // (15)
-    sums.kinetic += 0.5 * m * old.dot(now);
-    sums.damping += 0.5 * alpha * m * old.dot(old + now) * dt;
+    sums.damping += 0.5 * alpha * ply.membrane.node_mass[n] * old.dot(old + now) * dt;
     const double moved2 = (ply.x[n] - ply.x_search[n]).squaredNorm();
     sums.moved2 = moved2 <= sums.moved2 ? sums.moved2 : moved2; // lets NaN through
   }
   return sums;
 }
 
-void move_plies(Scene& s, ThreadTeam& team, double next_dt) {
-  const double alpha = s.data.solver.mass_damping;
-  team.run(static_cast<int>(s.node_blocks.size()), [&](int i) {
-    const auto b = static_cast<std::size_t>(i);
-    const Block& block = s.node_blocks[b];
-    s.node_sums[b] =
-        move_nodes(s.plies[static_cast<std::size_t>(block.ply)], block, s.dt, next_dt, alpha);
-  });
-  s.kinetic = 0.0;
-  for (const NodeSums& n : s.node_sums) {
-    s.kinetic += n.kinetic;
-    s.mass_damping_work += n.damping;
+double kinetic_energy(const PlyBody& ply, double dt, double next_dt, double alpha) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    const Vec3& v = ply.velocity[n];
+    const Vec3 next = v + 0.5 * (dt + next_dt) * acceleration(ply, static_cast<int>(n), alpha);
+    sum += 0.5 * ply.membrane.node_mass[n] * v.dot(next);
   }
+  return sum;
 }
 
 std::optional<Stop> find_fault(const Scene& s) {
@@ -186,16 +184,49 @@ std::optional<Stop> find_collapsed(const Scene& s) {
   return std::nullopt;
 }
 
+void set_step(Scene& s) {
+  s.next_dt = s.data.solver.step_factor * stable_step(s).dt;
+  s.min_dt = s.min_dt > 0.0 ? std::min(s.min_dt, s.next_dt) : s.next_dt;
+  s.max_dt = std::max(s.max_dt, s.next_dt);
+}
+
+} // namespace
+
+void start(Scene& s, ThreadTeam& team) {
+  search(s, team);
+  set_step(s);
+}
+
+std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
+  move_driven_tools(s);
+  const bool used_up = !(way_since_search(s) <= 0.5 * s.data.contact.skin);
+  if (used_up) {
+    if (auto stop = find_not_finite(s)) return stop;
+    search(s, team);
+  }
+  if (used_up || s.step % bound_every == 0) {
+    if (auto stop = find_collapsed(s)) return stop;
+    set_step(s);
+  }
+  add_up_forces(s, team);
+  return find_fault(s);
+}
+
 Energies current_energies(const Scene& s, ThreadTeam& team) {
-  std::vector<MembraneEnergy> membrane(s.plies.size());
+  std::vector<Energies> of_ply(s.plies.size());
   team.run(static_cast<int>(s.plies.size()), [&](int p) {
     const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
-    membrane[static_cast<std::size_t>(p)] = membrane_energy(ply.membrane, ply.x);
+    const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
+    Energies& e = of_ply[static_cast<std::size_t>(p)];
+    e.fibre = m.fibre;
+    e.shear = m.shear;
+    e.kinetic = kinetic_energy(ply, s.dt, s.next_dt, s.data.solver.mass_damping);
   });
   Energies e;
-  for (const MembraneEnergy& m : membrane) {
-    e.fibre += m.fibre;
-    e.shear += m.shear;
+  for (const Energies& ply : of_ply) {
+    e.kinetic += ply.kinetic;
+    e.fibre += ply.fibre;
+    e.shear += ply.shear;
   }
   const auto add = [&e](const ContactSums& c) {
     e.contact += c.elastic;
@@ -212,45 +243,23 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
     add(pair.contact.sums);
   for (double viscous : s.triangle_sums)
     e.damping += viscous;
+  e.damping += s.mass_damping_work;
   return e;
 }
 
-void set_step(Scene& s, double& next_dt) {
-  next_dt = s.data.solver.step_factor * stable_step(s).dt;
-  s.min_dt = s.min_dt > 0.0 ? std::min(s.min_dt, next_dt) : next_dt;
-  s.max_dt = std::max(s.max_dt, next_dt);
-}
-
-} // namespace
-
-void start(Scene& s, ThreadTeam& team) {
-  search(s, team);
-  set_step(s, s.next_dt);
-}
-
-std::optional<Stop> step(Scene& s, ThreadTeam& team, Energies* energies) {
-  move_driven_tools(s);
-  const bool used_up = !(way_since_search(s) <= 0.5 * s.data.contact.skin);
-  if (used_up) {
-    if (auto stop = find_not_finite(s)) return stop;
-    search(s, team);
-  }
-  if (used_up || s.step % bound_every == 0) {
-    if (auto stop = find_collapsed(s)) return stop;
-    set_step(s, s.next_dt);
-  }
-  compute_forces(s, team);
-  if (auto stop = find_fault(s)) return stop;
-  if (energies) *energies = current_energies(s, team);
-  move_plies(s, team, s.next_dt);
-  if (energies) {
-    energies->kinetic += s.kinetic;
-    energies->damping += s.mass_damping_work;
-  }
+void move_plies(Scene& s, ThreadTeam& team) {
+  const double alpha = s.data.solver.mass_damping;
+  team.run(static_cast<int>(s.node_blocks.size()), [&](int i) {
+    const auto b = static_cast<std::size_t>(i);
+    const Block& block = s.node_blocks[b];
+    s.node_sums[b] =
+        move_nodes(s.plies[static_cast<std::size_t>(block.ply)], block, s.dt, s.next_dt, alpha);
+  });
+  for (const NodeSums& n : s.node_sums)
+    s.mass_damping_work += n.damping;
   s.dt = s.next_dt;
   s.time += s.dt;
   ++s.step;
-  return std::nullopt;
 }
 
 } // namespace plyform

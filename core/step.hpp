@@ -23,8 +23,15 @@ struct Stop {
 /// Prepares the first step: contact search, step size.
 void start(Scene& scene, ThreadTeam& team);
 
-/// Forces at the present positions, then motion to the next ones. `energies`: if not null, filled
-/// with the energies at the positions before the motion.
-std::optional<Stop> step(Scene& scene, ThreadTeam& team, Energies* energies);
+/// Driven tools to scene.time, contact search if motion has used up the skin, step size if due, and
+/// all forces at the present positions.
+std::optional<Stop> compute_forces(Scene& scene, ThreadTeam& team);
+
+/// Energies and work at the present positions; after compute_forces. The kinetic energy is that of
+/// the velocities half a step before and after, 1/2 m v- . v+, which central differences conserve.
+Energies current_energies(const Scene& scene, ThreadTeam& team);
+
+/// (15)-(17): on to the next positions.
+void move_plies(Scene& scene, ThreadTeam& team);
 
 } // namespace plyform
