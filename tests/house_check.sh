@@ -1,0 +1,81 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Rules of the house that no compiler checks:
+#   tests/house_check.sh SOURCE_FOLDER
+# Prints every breach as file:line and answers 1 if there is any.
+set -euo pipefail
+cd "$1"
+breaches=0
+
+# breach RULE LINES: counts and prints the lines, if any.
+breach() {
+  [ -n "$2" ] || return 0
+  printf '%s:\n%s\n' "$1" "$2"
+  breaches=$((breaches + 1))
+}
+
+mapfile -t files < <(
+  find . -maxdepth 1 -type f ! -name .git
+  find .ci cases cmake contact core docs tests tools -type f ! -path '*/__pycache__/*' 2>/dev/null
+)
+# of REGEX: those of the files whose path matches.
+of() { printf '%s\n' "${files[@]}" | grep -E "$1" || true; }
+mapfile -t sources < <(of '\.([ch]pp|cmake|cmake\.in|sh|py)$|/CMakeLists\.txt$|^\./\.ci/run$')
+mapfile -t cpp < <(of '\.[ch]pp$')
+mapfile -t build < <(of '\.(cmake|sh)$|/CMakeLists\.txt$|/CMakePresets\.json$|^\./\.ci/run$')
+mapfile -t scripts < <(of '\.sh$|^\./\.ci/run$')
+mapfile -t texts < <(of '(^\./README|^\./docs/.*)\.md$')
+[ ${#cpp[@]} -gt 0 ] || { echo "no C++ files under $1"; exit 1; }
+
+breach "no SPDX line within the first three lines" "$(
+  for file in "${sources[@]}"; do
+    head -n 3 "$file" | grep -q 'SPDX-License-Identifier: GPL-3.0-or-later' || echo "$file"
+  done
+)"
+
+# A folder that exists on one machine only. -I leaves binary files out.
+breach "path of somebody's machine" "$(
+  grep -InE '(^|[^[:alnum:]_.}/-])/(home|root|work|tmp|Users|mnt|opt|media|srv)/' "${files[@]}" || true
+)"
+
+flags='[-](march|mtune|mcpu|mavx|msse|mfma|ffast-math|Ofast|funsafe-math|fassociative-math)'
+# One binary runs everywhere and computes the same bits (comments may speak of the flags).
+breach "flag that ties the program to one processor or changes its sums" "$(
+  for file in "${build[@]}"; do
+    sed 's/#.*//' "$file" | grep -nE "$flags" | sed "s|^|$file:|" || true
+  done
+  grep -nE 'optimize *\(|#pragma +(GCC|clang) +(optimize|target)' "${cpp[@]}" || true
+)"
+
+breach "more than 500 lines" "$(
+  for file in "${cpp[@]}"; do
+    lines=$(wc -l <"$file")
+    [ "$lines" -le 500 ] || echo "$file: $lines lines"
+  done
+)"
+
+breach "script that cannot be executed" "$(
+  for file in "${scripts[@]}"; do
+    [ -x "$file" ] || echo "$file"
+  done
+)"
+
+# Commands and links in the texts. A name in capitals (tools/NAME.sh) stands for something else.
+folders='(\.ci|cases|cmake|contact|core|docs|tests|tools)'
+path='(^|[[:space:]`(])(\./)?'$folders'/[[:alnum:]_./-]*[[:alnum:]_/]'
+breach "names a file that does not exist" "$(
+  for file in "${texts[@]}"; do
+    grep -noE "$path" "$file" |
+      while IFS=: read -r line name; do
+        name=$(tr -d '[:space:]`(' <<<"$name")
+        [[ $name =~ [A-Z]{2} || -e $name ]] || echo "$file:$line: $name"
+      done
+    grep -noE '\]\([^)#:]+' "$file" |
+      while IFS=: read -r line name; do
+        [[ $name =~ ^..https?$ || -e $(dirname "$file")/${name#](} ]] || echo "$file:$line: ${name#](}"
+      done
+  done
+)"
+
+[ "$breaches" -eq 0 ] || exit 1
+echo "${#files[@]} files follow the rules of the house"
