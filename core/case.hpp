@@ -39,7 +39,14 @@ struct Tool {
   double mass = 0.0;               ///< t, for Motion::force
 };
 
+enum class ElementKind {
+  automatic, ///< plain where sides run along both fibre families, averaged elsewhere
+  plain,     ///< the paper's element
+  averaged,  ///< fibre strains averaged over small patches of triangles: does not lock
+};
+
 struct SolverOptions {
+  ElementKind element = ElementKind::automatic;
   double duration = 0.1;          ///< s simulated
   double step_factor = 0.9;       ///< fraction of the stable step
   double fibre_softening = 1.0;   ///< fibre stiffness is divided by this

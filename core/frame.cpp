@@ -40,15 +40,17 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   f.x0 = ply.x0;
   f.x = ply.x;
   f.triangles = ply.membrane.triangles;
+  const auto strains = yarn_strains(ply.membrane, ply.x);
   for (std::size_t e = 0; e < f.triangles.size(); ++e) {
     const FibreState s = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
+    const auto [warp_strain, weft_strain] = strains[e];
     f.warp.push_back(s.f1);
     f.weft.push_back(s.f2);
     f.shear_deg.push_back(s.gamma * degrees);
-    f.warp_strain.push_back(s.lambda1 - 1.0);
-    f.weft_strain.push_back(s.lambda2 - 1.0);
-    f.warp_tension.push_back(ply.membrane.fabric.warp.at(s.lambda1 - 1.0).value);
-    f.weft_tension.push_back(ply.membrane.fabric.weft.at(s.lambda2 - 1.0).value);
+    f.warp_strain.push_back(warp_strain);
+    f.weft_strain.push_back(weft_strain);
+    f.warp_tension.push_back(ply.membrane.fabric.warp.at(warp_strain).value);
+    f.weft_tension.push_back(ply.membrane.fabric.weft.at(weft_strain).value);
     const double area_ratio = s.lambda1 * s.lambda2 * s.sin_omega / std::sin(ply.membrane.omega0);
     f.thickness.push_back(ply.thickness / area_ratio);
   }

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/membrane.hpp"
 
+#include "core/patches.hpp"
+
 #include <cmath>
 #include <stdexcept>
 
 namespace plyform {
 namespace {
+
+constexpr double stabilisation = 1e-5; // s_a over yarn stiffness, see (E)
+constexpr double guard = 1e-3;         // g_a over yarn stiffness: a hundred times the shear's scale
+constexpr double guard_stretch = 0.5;
 
 /// Below this sine the two fibre families coincide and the shear angle has no meaning.
 constexpr double least_sine = 1e-9;
@@ -27,12 +33,37 @@ void build_gather(Membrane& m, std::size_t nodes) {
 
 } // namespace
 
-Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle) {
+bool sides_along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle) {
+  constexpr double parallel = 1e-3; // rad
+  const auto along = [&](const Triangle& t, double angle) {
+    const Vec2 f(std::cos(angle), std::sin(angle));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 side =
+          mesh.x[static_cast<std::size_t>(t[(k + 1) % 3])] - mesh.x[static_cast<std::size_t>(t[k])];
+      if (std::abs(side.x() * f.y() - side.y() * f.x()) <= parallel * side.norm()) return true;
+    }
+    return false;
+  };
+  for (const Triangle& t : mesh.triangles)
+    if (!along(t, warp_angle) || !along(t, weft_angle)) return false;
+  return true;
+}
+
+Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
+                       ElementKind kind) {
   Membrane m;
   m.fabric = fabric;
   m.omega0 = fabric.fibre_angle;
+  m.yarn_stiffness = {fabric.warp.largest_slope(), fabric.weft.largest_slope()};
   m.cells_per_area = fabric.warp_density * fabric.weft_density * std::sin(m.omega0);
-  m.triangles = mesh.triangles;
+  if (kind == ElementKind::automatic)
+    kind = sides_along_fibres(mesh, warp_angle, warp_angle + m.omega0) ? ElementKind::plain
+                                                                       : ElementKind::averaged;
+  const Patches patches =
+      kind == ElementKind::plain ? single_patches(mesh.triangles.size()) : pair_patches(mesh);
+  m.patch_begin = patches.begin;
+  for (std::int32_t e : patches.triangles)
+    m.triangles.push_back(mesh.triangles[static_cast<std::size_t>(e)]);
   m.node_area.assign(mesh.x.size(), 0.0);
   const Vec2 e1(std::cos(warp_angle), std::sin(warp_angle));
   const Vec2 e2(std::cos(warp_angle + m.omega0), std::sin(warp_angle + m.omega0));
@@ -52,8 +83,8 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   for (double a : m.node_area)
     m.node_mass.push_back(fabric.surface_density * a);
   build_gather(m, mesh.x.size());
-  m.last_lambda.assign(m.triangles.size(), {1.0, 1.0});
-  m.last_viscous.assign(m.triangles.size(), {0.0, 0.0});
+  m.last_lambda.assign(static_cast<std::size_t>(m.patches()), {1.0, 1.0});
+  m.last_viscous.assign(static_cast<std::size_t>(m.patches()), {0.0, 0.0});
   return m;
 }
 
@@ -77,33 +108,97 @@ FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle)
   return s;
 }
 
+namespace {
+
+/// The triangles of one patch and their mean stretches.
+struct PatchState {
+  int begin, size;
+  std::array<FibreState, most_in_patch> triangle;
+  double area = 0.0, mean1 = 0.0, mean2 = 0.0;
+};
+
+PatchState patch_state(const Membrane& m, std::span<const Vec3> x, int patch) {
+  const auto p = static_cast<std::size_t>(patch);
+  PatchState s;
+  s.begin = m.patch_begin[p];
+  s.size = m.patch_begin[p + 1] - s.begin;
+  for (int i = 0; i < s.size; ++i) {
+    const double area = m.area[static_cast<std::size_t>(s.begin + i)];
+    FibreState& t = s.triangle[static_cast<std::size_t>(i)];
+    t = fibre_state(m, x, s.begin + i);
+    s.area += area;
+    s.mean1 += area * t.lambda1;
+    s.mean2 += area * t.lambda2;
+  }
+  s.mean1 /= s.area;
+  s.mean2 /= s.area;
+  return s;
+}
+
+/// Stabilisation and guard of (N) for one family; slope: the yarn's stiffness, N.
+double side_tension(double slope, double lambda, double mean) {
+  return slope * (stabilisation * (lambda - mean) - guard * std::max(0.0, guard_stretch - lambda));
+}
+
+/// Their energy per yarn length, N.
+double side_energy(double slope, double lambda, double mean) {
+  const double deviation = lambda - mean, folded = std::max(0.0, guard_stretch - lambda);
+  return 0.5 * slope * (stabilisation * deviation * deviation + guard * folded * folded);
+}
+
+/// Their largest slope.
+double side_stiffness(double slope, double lambda) {
+  return slope * (stabilisation + (lambda < guard_stretch ? guard : 0.0));
+}
+
+/// (Q) of one triangle; n1, n2: tensions (N) of its yarns.
+ElementForce triangle_force(const Membrane& m, const FibreState& s, double area, double n1,
+                            double n2) {
+  const double torque = m.cells_per_area * m.fabric.shear.at(s.gamma).value / s.sin_omega;
+  const double t1 = area * torque / s.lambda1, t2 = area * torque / s.lambda2;
+  return {(area * m.fabric.warp_density * n1 - t1 * s.cos_omega) * s.f1 + t1 * s.f2,
+          (area * m.fabric.weft_density * n2 - t2 * s.cos_omega) * s.f2 + t2 * s.f1};
+}
+
+} // namespace
+
+std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x) {
+  std::vector<std::array<double, 2>> strains(m.triangles.size());
+  for (int p = 0; p < m.patches(); ++p) {
+    const PatchState s = patch_state(m, x, p);
+    for (int i = 0; i < s.size; ++i)
+      strains[static_cast<std::size_t>(s.begin + i)] = {s.mean1 - 1.0, s.mean2 - 1.0};
+  }
+  return strains;
+}
+
 double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                       std::span<ElementForce> q) {
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
+  const double slope1 = m.yarn_stiffness[0], slope2 = m.yarn_stiffness[1];
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   double dissipated = 0.0;
-  for (int i = begin; i < end; ++i) {
-    const auto e = static_cast<std::size_t>(i);
-    const FibreState s = fibre_state(m, x, i);
-    double n1 = m.fabric.warp.at(s.lambda1 - 1.0).value;
-    double n2 = m.fabric.weft.at(s.lambda2 - 1.0).value;
+  for (int p = begin; p < end; ++p) {
+    const PatchState s = patch_state(m, x, p);
+    double n1 = m.fabric.warp.at(s.mean1 - 1.0).value;
+    double n2 = m.fabric.weft.at(s.mean2 - 1.0).value;
     // viscosity of taut fibres; its work by the trapezoidal rule over the step that led here
-    auto& last = m.last_lambda[e];
-    auto& visc = m.last_viscous[e];
-    const double dl1 = s.lambda1 - last[0], dl2 = s.lambda2 - last[1];
+    auto& last = m.last_lambda[static_cast<std::size_t>(p)];
+    auto& viscous = m.last_viscous[static_cast<std::size_t>(p)];
+    const double dl1 = s.mean1 - last[0], dl2 = s.mean2 - last[1];
     const double v1 = n1 > 0.0 ? m.viscosity.warp * dl1 * per_dt : 0.0;
     const double v2 = n2 > 0.0 ? m.viscosity.weft * dl2 * per_dt : 0.0;
-    dissipated += 0.5 * m.area[e] * (d1 * (v1 + visc[0]) * dl1 + d2 * (v2 + visc[1]) * dl2);
-    last = {s.lambda1, s.lambda2};
-    visc = {v1, v2};
+    dissipated += 0.5 * s.area * (d1 * (v1 + viscous[0]) * dl1 + d2 * (v2 + viscous[1]) * dl2);
+    last = {s.mean1, s.mean2};
+    viscous = {v1, v2};
     n1 += v1;
     n2 += v2;
-    // (Q)
-    const double torque = m.cells_per_area * m.fabric.shear.at(s.gamma).value / s.sin_omega;
-    const double a = m.area[e];
-    const double t1 = a * torque / s.lambda1, t2 = a * torque / s.lambda2;
-    q[e].q1 = (a * d1 * n1 - t1 * s.cos_omega) * s.f1 + t1 * s.f2;
-    q[e].q2 = (a * d2 * n2 - t2 * s.cos_omega) * s.f2 + t2 * s.f1;
+    for (int i = 0; i < s.size; ++i) {
+      const auto e = static_cast<std::size_t>(s.begin + i);
+      const FibreState& t = s.triangle[static_cast<std::size_t>(i)];
+      q[e] = triangle_force(m, t, m.area[e], n1 + side_tension(slope1, t.lambda1, s.mean1),
+                            n2 + side_tension(slope2, t.lambda2, s.mean2));
+    }
   }
   return dissipated;
 }
@@ -133,12 +228,19 @@ Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node) {
 
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
   MembraneEnergy sum;
-  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
-    const FibreState s = fibre_state(m, x, static_cast<int>(e));
-    const double w1 = m.fabric.warp.at(s.lambda1 - 1.0).energy;
-    const double w2 = m.fabric.weft.at(s.lambda2 - 1.0).energy;
-    sum.fibre += m.area[e] * (m.fabric.warp_density * w1 + m.fabric.weft_density * w2);
-    sum.shear += m.area[e] * m.cells_per_area * m.fabric.shear.at(s.gamma).energy;
+  const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
+  const double slope1 = m.yarn_stiffness[0], slope2 = m.yarn_stiffness[1];
+  for (int p = 0; p < m.patches(); ++p) {
+    const PatchState s = patch_state(m, x, p);
+    sum.fibre += s.area * (d1 * m.fabric.warp.at(s.mean1 - 1.0).energy +
+                           d2 * m.fabric.weft.at(s.mean2 - 1.0).energy);
+    for (int i = 0; i < s.size; ++i) {
+      const FibreState& t = s.triangle[static_cast<std::size_t>(i)];
+      const double area = m.area[static_cast<std::size_t>(s.begin + i)];
+      sum.fibre += area * (d1 * side_energy(slope1, t.lambda1, s.mean1) +
+                           d2 * side_energy(slope2, t.lambda2, s.mean2));
+      sum.shear += area * m.cells_per_area * m.fabric.shear.at(t.gamma).energy;
+    }
   }
   return sum;
 }
@@ -162,7 +264,9 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
     const auto largest = [](double a, double b, double off) {
       return 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + off * off);
     };
-    const double fibre = largest(s1 * g11, s2 * g22, std::sqrt(s1 * s2) * g12 * s.cos_omega);
+    const double k1 = s1 + side_stiffness(m.fabric.warp_density * m.yarn_stiffness[0], s.lambda1);
+    const double k2 = s2 + side_stiffness(m.fabric.weft_density * m.yarn_stiffness[1], s.lambda2);
+    const double fibre = largest(k1 * g11, k2 * g22, std::sqrt(k1 * k2) * g12 * s.cos_omega);
     const double v1 = m.fabric.warp_density * m.viscosity.warp;
     const double v2 = m.fabric.weft_density * m.viscosity.weft;
     const double viscous = largest(v1 * g11, v2 * g22, std::sqrt(v1 * v2) * g12 * s.cos_omega);

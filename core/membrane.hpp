@@ -10,19 +10,31 @@
 //   d_a      1/mm    yarns per mm;  n_c = d_1 d_2 sin(omega0)  1/mm^2  unit cells per area
 //   A0       mm^2    initial area
 //
-//   E   = A0 [ d_1 W_1(eps_1) + d_2 W_2(eps_2) + n_c Ws(gamma) ]                            (E)
-//   q_a = A0 dw/dk_a = A0 [ d_a N_a f_a + n_c Cs (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]
-//                                                                                           (Q)
-//   F_n = -( c_1,n q_1 + c_2,n q_2 )                                            (31)(32)(39)(F)
+//   P        -       patch of one to three triangles that share a mean strain; A = sum of A0 over P
+//   mean     -       eps_a averaged over the patch by area
+//   s_a      N       stabilisation, 1e-5 of the yarn stiffness: the scale of the shear stiffness
+//   g_a      N       guard against folding a triangle flat, acts below a stretch of one half
 //
-// Numbers in brackets: the paper's equations, cleaned. For omega0 = 90 degrees (Q) is the sum of
-// (31), (32) and (39). The element only needs k_1 and k_2, so the fibres may lie at any angle to
-// the sides and to each other.
+//   E_P = A [ d_1 W_1(mean eps_1) + d_2 W_2(mean eps_2) ]
+//         + sum over P of A0 [ n_c Ws(gamma) + sum_a d_a ( s_a/2 (eps_a - mean eps_a)^2
+//                                                        + g_a/2 max(0, 1/2 - lambda_a)^2 ) ]   (E)
+//   N_a = W_a'(mean eps_a) + s_a (eps_a - mean eps_a) - g_a max(0, 1/2 - lambda_a)              (N)
+//   q_a = A0 [ d_a N_a f_a + n_c Cs (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]            (Q)
+//   F_n = -( c_1,n q_1 + c_2,n q_2 )                                                (31)(32)(39)(F)
+//
+// Numbers in brackets: the paper's equations, cleaned. With patches of one triangle this is the
+// paper's element exactly (the guard apart, which no sound result reaches); for omega0 = 90 degrees
+// (Q) is then the sum of (31), (32) and (39). The element only needs k_1 and k_2, so the fibres may
+// lie at any angle to the sides and to each other.
+//
+// Why patches: two stiff fibre strains a triangle are about four constraints a node, twice as many
+// as the node has freedoms in the plane; the mesh locks unless sides run along both families. One
+// mean strain a pair of triangles leaves about two a node. The mean is convex, so a patch is never
+// stiffer than its triangles and the stable step never smaller.
 #pragma once
 
 #include "contact/geometry.hpp"
-#include "core/blank.hpp"
-#include "core/fabric.hpp"
+#include "core/case.hpp"
 
 #include <span>
 #include <vector>
@@ -51,15 +63,19 @@ struct Membrane {
   double omega0 = 0.0;         ///< rad
   double cells_per_area = 0.0; ///< n_c, 1/mm^2
   FibreViscosity viscosity;
-  std::vector<Triangle> triangles;        ///< m
+  std::array<double, 2> yarn_stiffness{}; ///< warp, weft, N: before softening; scales s_a and g_a
+  std::vector<Triangle> triangles;        ///< m, those of a patch next to each other
+  std::vector<std::int32_t> patch_begin;  ///< patches + 1, into triangles
   std::vector<FibreGradients> c;          ///< m
   std::vector<double> area;               ///< m, A0
   std::vector<double> node_area;          ///< n, a third of the triangles around it
   std::vector<double> node_mass;          ///< n, t
   std::vector<std::int32_t> gather_begin; ///< n + 1, into gather
   std::vector<std::int32_t> gather;       ///< 3 * triangle + corner, ascending
-  // state of the viscosity: strains and viscous tensions of the last step
-  std::vector<std::array<double, 2>> last_lambda, last_viscous; ///< m
+  // state of the viscosity: mean stretches and viscous tensions of the last step, one a patch
+  std::vector<std::array<double, 2>> last_lambda, last_viscous;
+
+  int patches() const { return static_cast<int>(patch_begin.size()) - 1; }
 };
 
 /// Strains and directions of one triangle.
@@ -69,15 +85,24 @@ struct FibreState {
   double cos_omega, sin_omega, gamma;
 };
 
-/// A triangle of zero or inverted reference area throws std::invalid_argument. `warp_angle` in rad
-/// from x.
-Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle);
+/// `warp_angle` in rad from x. `kind` automatic is decided by sides_along_fibres. Triangles are put
+/// in the order of their patches. Throws std::invalid_argument for a triangle of zero or inverted
+/// area.
+Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
+                       ElementKind kind);
+
+/// Whether every triangle has one side along warp and one along weft, to a thousandth of a radian.
+bool sides_along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle);
 
 FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle);
 
-/// (Q) for triangles [begin, end) at positions x, viscous forces included (dt: the step that led
-/// to x, s; 0 leaves the viscosity out). Returns the work done against viscosity in that step,
-/// N mm.
+/// Mean strains {warp, weft} of the patch that a triangle belongs to, for all m triangles: those
+/// that its yarns are stretched by.
+std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x);
+
+/// (Q) for patches [begin, end) at positions x, viscous forces included (dt: the step that led to
+/// x, s; 0 leaves the viscosity out). q: one a triangle. Returns the work done against viscosity in
+/// that step, N mm.
 double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                       std::span<ElementForce> q);
 

@@ -31,7 +31,9 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.name = ply.name;
   body.angle = ply.angle;
   body.thickness = fabric.thickness;
-  body.membrane = make_membrane(mesh, fabric, ply.angle);
+  body.membrane = make_membrane(mesh, fabric, ply.angle, data.solver.element);
+  for (double& c : body.membrane.yarn_stiffness)
+    c *= data.solver.fibre_softening;
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
   body.x = body.x_search = body.x0;
@@ -112,11 +114,11 @@ Scene make_scene(const Case& data) {
     for (int b = 0; b < n; ++b)
       if (a != b) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
   for (int p = 0; p < n; ++p) {
-    add_blocks(s.triangle_blocks, p,
-               s.plies[static_cast<std::size_t>(p)].membrane.triangles.size());
-    add_blocks(s.node_blocks, p, s.plies[static_cast<std::size_t>(p)].x.size());
+    const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+    add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
+    add_blocks(s.node_blocks, p, ply.x.size());
   }
-  s.triangle_sums.assign(s.triangle_blocks.size(), 0.0);
+  s.patch_sums.assign(s.patch_blocks.size(), 0.0);
   s.node_sums.assign(s.node_blocks.size(), {});
   return s;
 }

@@ -49,7 +49,7 @@ struct PlyContact {
   SheetContact contact;
 };
 
-/// A run of nodes or triangles of one ply: the unit of work of a thread. Fixed size, so that sums
+/// A run of nodes or patches of one ply: the unit of work of a thread. Fixed size, so that sums
 /// come out the same whatever the number of threads.
 struct Block {
   int ply, begin, end;
@@ -67,8 +67,8 @@ struct Scene {
   std::vector<PlyBody> plies;
   std::vector<ToolAndContacts> tools;
   std::vector<PlyContact> ply_contacts;
-  std::vector<Block> triangle_blocks, node_blocks;
-  std::vector<double> triangle_sums; ///< viscous work, one a triangle block
+  std::vector<Block> patch_blocks, node_blocks;
+  std::vector<double> patch_sums;    ///< viscous work, one a patch block
   std::vector<NodeSums> node_sums;   ///< one a node block
   double mass_damping_work = 0.0;    ///< N mm, since the start
   double time = 0.0;                 ///< s, of x

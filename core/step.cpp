@@ -91,7 +91,7 @@ void search(Scene& s, ThreadTeam& team) {
 void add_up_forces(Scene& s, ThreadTeam& team) {
   const int pairs = static_cast<int>(s.ply_contacts.size());
   const int tools = static_cast<int>(s.tools.size());
-  const int blocks = static_cast<int>(s.triangle_blocks.size());
+  const int blocks = static_cast<int>(s.patch_blocks.size());
   team.run(pairs + tools + blocks, [&](int i) {
     if (i < pairs) { // the longest tasks first
       PlyContact& c = s.ply_contacts[static_cast<std::size_t>(i)];
@@ -110,10 +110,9 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
       t.impulse -= t.force.dot(t.body.direction) * s.dt;
     } else {
       const auto b = static_cast<std::size_t>(i - pairs - tools);
-      const Block& block = s.triangle_blocks[b];
+      const Block& block = s.patch_blocks[b];
       PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
-      s.triangle_sums[b] +=
-          element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
+      s.patch_sums[b] += element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
     }
   });
 }
@@ -241,7 +240,7 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
   }
   for (const PlyContact& pair : s.ply_contacts)
     add(pair.contact.sums);
-  for (double viscous : s.triangle_sums)
+  for (double viscous : s.patch_sums)
     e.damping += viscous;
   e.damping += s.mass_damping_work;
   return e;

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Small groups of triangles that share one mean strain for each fibre family (core/membrane.hpp).
+#pragma once
+
+#include "core/blank.hpp"
+
+#include <cstdint>
+#include <vector>
+
+namespace plyform {
+
+constexpr int most_in_patch = 3; ///< larger ones are too soft
+
+/// Patch p holds triangles[begin[p]] .. triangles[begin[p + 1] - 1] of the mesh.
+struct Patches {
+  std::vector<std::int32_t> triangles;
+  std::vector<std::int32_t> begin; ///< patches + 1
+};
+
+/// Every triangle alone, in the order of the mesh.
+Patches single_patches(std::size_t triangles);
+
+/// Pairs across shared sides, longest sides first (the two halves of a square find each other); a
+/// triangle left over joins the neighbouring pair across its longest side if that has room, and
+/// stays alone if none has.
+Patches pair_patches(const BlankMesh& mesh);
+
+} // namespace plyform
