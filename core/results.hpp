@@ -75,14 +75,19 @@ struct Summary {
 /// flushed after each frame, so that it opens even if the run is killed.
 class ResultWriter {
 public:
-  /// Creates `directory` (and parents). Throws std::runtime_error naming the path and the reason.
+  /// Creates `directory` (and parents). What a former run left there stays until the first frame.
+  /// Throws std::runtime_error naming the path and the reason.
   explicit ResultWriter(const std::filesystem::path& directory);
   ~ResultWriter();
 
-  /// One row of history.csv and one time of results.h5/.xdmf.
+  /// One row of history.csv and one time of results.h5/.xdmf. The first one removes the results of
+  /// a former run. Throws std::runtime_error naming the path and the reason (a full disk, names
+  /// that stand twice or cannot be file names), std::logic_error when sizes do not fit each other
+  /// or the first frame.
   void write_frame(const Frame& frame);
 
-  /// plies/NAME.csv of the last frame, and summary.json with the keys of docs/results.md.
+  /// plies/NAME.csv of the last frame, and summary.json with the keys of docs/results.md. Writes
+  /// `last` as a frame too if the last one written has another time or step. No frame may follow.
   void write_final(const Frame& last, const Summary& summary);
 
 private:
@@ -91,7 +96,8 @@ private:
 };
 
 /// Reads the last state of DIR/results.h5 back and writes DIR/export/NAME.vtu, .stl and .csv for
-/// each ply and .stl for each tool. Returns the files written. Throws std::runtime_error.
+/// each ply and .stl for each tool. Returns the files written. Throws std::runtime_error naming
+/// results.h5 and what is wrong with it, before anything is written.
 std::vector<std::filesystem::path> export_results(const std::filesystem::path& directory);
 
 } // namespace plyform

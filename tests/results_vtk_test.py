@@ -1,0 +1,225 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Opens a result folder as users do and compares every number with plies/NAME.csv.
+
+    results_vtk_test.py hdf5|export|xdmf DIR
+
+hdf5    results.h5 with h5py, and every dataset that results.xdmf points to
+export  export/*.vtu and *.stl with VTK
+xdmf    results.xdmf with the XDMF 2 and XDMF 3 readers of VTK or ParaView
+
+DIR holds the run written by make_results. Leaves with 77 when the module for a part is missing.
+"""
+
+import csv
+import importlib
+import json
+import sys
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+import numpy as np
+
+SCALARS = ["shear_angle_deg", "warp_strain", "weft_strain", "warp_tension_N", "weft_tension_N",
+           "thickness_mm"]
+VECTORS = ["warp", "weft"]
+PRESSURE = "contact_pressure"
+PARTS = ["lower", "90° ply & co", "punch", "die"]
+TOOLS = {"punch": -50.0, "die": 0.0}  # mm that each moves along z in the example
+# The tables hold nine digits: half a unit of the ninth is at most 5e-9 of the value.
+DIGITS = 6e-9
+
+
+def skip(reason):
+    print("SKIPPED:", reason)
+    sys.exit(77)
+
+
+def load(module, package):
+    try:
+        return importlib.import_module(module)
+    except ImportError as error:
+        skip(f"{module} is missing ({error}): install {package}")
+
+
+def table(path):
+    with open(path, newline="", encoding="utf-8") as file:
+        rows = list(csv.DictReader(file))
+    return {name: np.array([float(row[name]) for row in rows]) for name in rows[0]}
+
+
+def tables(folder):
+    found = {path.stem: table(path) for path in sorted((folder / "plies").glob("*.csv"))}
+    assert len(found) == 2, f"the example has two plies, plies/ holds {list(found)}"
+    return found
+
+
+def equal(found, wanted, what):
+    """Fails on NaN too: the example has none."""
+    found, wanted = np.asarray(found, float), np.asarray(wanted, float)
+    assert found.shape == wanted.shape, f"{what}: shape {found.shape}, not {wanted.shape}"
+    # atol for numbers that are 0 but for rounding, like a centroid's third coordinate
+    close = np.isclose(found, wanted, rtol=DIGITS, atol=1e-12)
+    assert close.all(), f"{what}: {found[~close][:3]} in place of {wanted[~close][:3]}"
+
+
+def check_ply(name, ply, points, triangles, cell, node):
+    """`ply` is the CSV's columns; `cell` and `node` give a field by its name."""
+    centres = points[triangles].mean(axis=1)
+    equal(centres, np.column_stack([ply["x"], ply["y"], ply["z"]]), f"{name}: positions")
+    for field in SCALARS:
+        equal(cell(field), ply[field], f"{name}: {field}")
+    for field in VECTORS:
+        columns = [ply[f"{field}_{axis}"] for axis in "xyz"]
+        equal(cell(field), np.column_stack(columns), f"{name}: {field}")
+    index = 0 if name == "lower" else 1  # the example's formula at time 1 s
+    equal(node(PRESSURE), 0.001 * np.arange(len(points)) + index, f"{name}: {PRESSURE}")
+
+
+# h5py, and results.xdmf read with nothing but an XML parser.
+
+def check_hdf5(folder):
+    h5py = load("h5py", "python3-h5py")
+    with h5py.File(folder / "results.h5", "r") as file:
+        assert list(file["time_s"]) == [0.0, 0.5, 1.0]
+        assert list(file["stroke_mm"]) == [0.0, 25.0, 50.0]
+        assert list(file["step"]) == [0, 500, 1000]
+        assert set(file.attrs["plies"]) == set(tables(folder)), file.attrs["plies"]
+        assert list(file.attrs["tools"]) == list(TOOLS)
+        last = file["frames/000002"]
+        assert last.attrs["time_s"] == 1.0
+        assert last["tools/punch"].attrs["force_N"] == 400.0
+        assert list(last["tools/punch"].attrs["displacement_mm"]) == [0, 0, -50]
+        for name, ply in tables(folder).items():
+            fixed, now = file["plies"][name], last["plies"][name]
+            check_ply(name, ply, now["x"][:], fixed["triangles"][:], lambda f: now[f][:],
+                      lambda f: now[f][:])
+            before = fixed["x0"][:][fixed["triangles"][:]].mean(axis=1)
+            equal(before, np.column_stack([ply["x0"], ply["y0"], ply["z0"]]), f"{name}: x0")
+        check_xdmf_references(folder, file)
+    check_summary(folder)
+
+
+def check_xdmf_references(folder, file):
+    items = list(xml.parse(folder / "results.xdmf").getroot().iter("DataItem"))
+    # 3 times x (2 plies x 11 arrays + 2 tools x 2 arrays)
+    assert len(items) == 78, len(items)
+    for item in items:
+        name, where = item.text.split(":", 1)
+        assert name == "results.h5"
+        data = file[where]
+        assert data.shape == tuple(map(int, item.get("Dimensions").split())), where
+        assert data.dtype.itemsize == int(item.get("Precision")), where
+        assert data.dtype.kind == {"Float": "f", "Int": "i"}[item.get("NumberType")], where
+
+
+def check_summary(folder):
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    assert {ply["name"] for ply in summary["plies"]} == set(tables(folder))
+    for entry in summary["plies"]:
+        ply = tables(folder)[entry["name"]]
+        equal(entry["max_shear_deg"], np.abs(ply["shear_angle_deg"]).max(), "max_shear_deg")
+        # all triangles of the example are of one size
+        equal(entry["rms_shear_deg"], np.sqrt((ply["shear_angle_deg"]**2).mean()), "rms_shear_deg")
+
+
+# VTK.
+
+def arrays(data):
+    return lambda name: as_numpy(data.GetArray(name), name)
+
+
+def as_numpy(array, name):
+    assert array is not None, f"no field {name}"
+    return importlib.import_module("vtkmodules.util.numpy_support").vtk_to_numpy(array)
+
+
+def triangles_of(grid):
+    numbers = [[grid.GetCell(i).GetPointId(k) for k in range(3)]
+               for i in range(grid.GetNumberOfCells())]
+    return np.array(numbers, dtype=int)
+
+
+def check_grid(name, ply, grid):
+    check_ply(name, ply, as_numpy(grid.GetPoints().GetData(), "points"), triangles_of(grid),
+              arrays(grid.GetCellData()), arrays(grid.GetPointData()))
+
+
+def check_export(folder):
+    vtu = load("vtkmodules.vtkIOXML", "python3-vtk9 or python3-paraview")
+    geometry = load("vtkmodules.vtkIOGeometry", "python3-vtk9 or python3-paraview")
+    for name, ply in tables(folder).items():
+        reader = vtu.vtkXMLUnstructuredGridReader()
+        reader.SetFileName(str(folder / "export" / f"{name}.vtu"))
+        reader.Update()
+        check_grid(name, ply, reader.GetOutput())
+        exported = folder / "export" / f"{name}.csv"
+        assert exported.read_bytes() == (folder / "plies" / f"{name}.csv").read_bytes()
+    for name, triangles in {**{n: len(t["x"]) for n, t in tables(folder).items()},
+                            "punch": 8, "die": 2}.items():
+        reader = geometry.vtkSTLReader()
+        reader.SetFileName(str(folder / "export" / f"{name}.stl"))
+        reader.Update()
+        assert reader.GetOutput().GetNumberOfCells() == triangles, name
+
+
+def check_xdmf(folder):
+    """Each reader there is; both must be right. That for XDMF 3 loses the names of the blocks: there
+    they are known by their order, plies before tools."""
+    tried = 0
+    for version, module in (("vtkXdmfReader", "vtkIOXdmf2"), ("vtkXdmf3Reader", "vtkIOXdmf3")):
+        try:
+            make = getattr(importlib.import_module("vtkmodules." + module), version)
+        except ImportError as error:
+            print(f"{version} is not there: {error}")
+            continue
+        named = version == "vtkXdmfReader"
+        check_time_series(folder, make(), named)
+        check_single_block(folder, make(), named)
+        print(f"{version}: all blocks, times and fields are right")
+        tried += 1
+    if not tried:
+        skip("this VTK has no XDMF reader: install python3-paraview in place of python3-vtk9")
+
+
+def check_time_series(folder, reader, named):
+    pipeline = importlib.import_module("vtkmodules.vtkCommonExecutionModel")
+    reader.SetFileName(str(folder / "results.xdmf"))
+    reader.UpdateInformation()
+    key = pipeline.vtkStreamingDemandDrivenPipeline.TIME_STEPS()
+    times = reader.GetOutputInformation(0).Get(key)
+    assert times == (0.0, 0.5, 1.0), times
+    for time in (1.0, 0.0, 0.5, 1.0):  # also backwards
+        reader.UpdateTimeStep(time)
+        blocks = blocks_by_name(reader.GetOutputDataObject(0), named, PARTS)
+        for name, speed in TOOLS.items():
+            z = as_numpy(blocks[name].GetPoints().GetData(), "points")[:, 2]
+            start = 30 if name == "punch" else -5
+            equal(z, np.full(len(z), start + speed * time), f"{name} at {time} s")
+        for name, ply in tables(folder).items():
+            shear = arrays(blocks[name].GetCellData())("shear_angle_deg")
+            equal(shear, time * ply["shear_angle_deg"], f"{name}: shear at {time} s")
+    for name, ply in tables(folder).items():
+        check_grid(name, ply, blocks[name])
+
+
+def blocks_by_name(data, named, wanted):
+    assert data.IsA("vtkMultiBlockDataSet"), data.GetClassName()
+    count = data.GetNumberOfBlocks()
+    assert count == len(wanted), count
+    if named:
+        name = importlib.import_module("vtkmodules.vtkCommonDataModel").vtkCompositeDataSet.NAME()
+        names = [data.GetMetaData(i).Get(name) for i in range(count)]
+        assert names == wanted, names
+    return dict(zip(wanted, (data.GetBlock(i) for i in range(count))))
+
+
+def check_single_block(folder, reader, named):
+    """One ply and no tool is a named block like any other."""
+    reader.SetFileName(str(folder / "single" / "results.xdmf"))
+    reader.Update()
+    block = blocks_by_name(reader.GetOutputDataObject(0), named, ["lower"])["lower"]
+    assert block.GetNumberOfCells() == 18, block.GetNumberOfCells()
+
+
+if __name__ == "__main__":
+    {"hdf5": check_hdf5, "export": check_export, "xdmf": check_xdmf}[sys.argv[1]](Path(sys.argv[2]))
