@@ -149,8 +149,6 @@ RunResult run_case(const Case& data, int threads, const RunHooks& hooks) {
   const auto write = [&] {
     result.last = make_frame(s, energy);
     written = outputs_due(s);
-    for (ToolAndContacts& t : s.tools)
-      t.impulse = 0.0;
     if (hooks.frame) hooks.frame(result.last);
   };
   for (;;) {

@@ -40,6 +40,7 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.velocity.assign(body.x.size(), Vec3::Zero());
   body.motion = body.velocity;
   body.q.resize(mesh.triangles.size());
+  body.edges = sheet_edges(body.membrane.triangles);
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   const double omega = std::sqrt(frequency_bound(body.membrane, body.x).omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
@@ -113,6 +114,13 @@ Scene make_scene(const Case& data) {
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b)
       if (a != b) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
+  for (const PlyContact& pair : s.ply_contacts)
+    if (pair.slave < pair.master) {
+      PlyEdgeContact edges{pair.slave, pair.master, {}};
+      edges.contact.law = pair.contact.law;
+      edges.contact.distance = 0.5 * pair.contact.distance;
+      s.edge_contacts.push_back(std::move(edges));
+    }
   for (int p = 0; p < n; ++p) {
     const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
     add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
@@ -142,6 +150,10 @@ StepBound stable_step(const Scene& s) {
     add_sheet_stiffness(pair.contact, s.plies[b].membrane.triangles, rows[a], rows[b]);
     damping_ratio = std::max(damping_ratio, pair.contact.law.damping / pair.contact.law.stiffness);
   }
+  for (const PlyEdgeContact& pair : s.edge_contacts)
+    add_edge_stiffness(pair.contact, 0.25 * s.data.contact.skin,
+                       rows[static_cast<std::size_t>(pair.a)],
+                       rows[static_cast<std::size_t>(pair.b)]);
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBody& ply = s.plies[p];
     const FrequencyBound element = frequency_bound(ply.membrane, ply.x);

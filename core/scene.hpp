@@ -3,6 +3,7 @@
 // constant; the arrays change step by step (core/step.hpp).
 #pragma once
 
+#include "contact/edge_contact.hpp"
 #include "contact/sheet_contact.hpp"
 #include "contact/tool_contact.hpp"
 #include "core/case.hpp"
@@ -26,6 +27,8 @@ struct PlyBody {
   std::vector<Vec3> x_search;  ///< mm, where the contact search was last done
   std::vector<ElementForce> q; ///< one a triangle
   std::unique_ptr<SheetTree> tree;
+  std::vector<SheetEdge> edges;
+  std::vector<std::int32_t> folded;                     ///< edges folded at the last contact search
   std::vector<const std::vector<Vec3>*> contact_forces; ///< those in use, in fixed order
 
   SheetState state() const { return {x, motion, membrane.node_area}; }
@@ -39,14 +42,19 @@ struct ToolAndContacts {
   std::vector<ToolContact> contacts;
   Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
   Vec3 displacement_search = Vec3::Zero();
-  double work = 0.0;    ///< N mm, done by the tool on the plies since the start
-  double impulse = 0.0; ///< N s along -direction since the last output
+  double work = 0.0; ///< N mm, done by the tool on the plies since the start
 };
 
 /// One directed contact between two plies.
 struct PlyContact {
   int slave = 0, master = 0;
   SheetContact contact;
+};
+
+/// Folded edges of two plies, a < b.
+struct PlyEdgeContact {
+  int a = 0, b = 0;
+  EdgeContact contact;
 };
 
 /// A run of nodes or patches of one ply: the unit of work of a thread. Fixed size, so that sums
@@ -67,13 +75,15 @@ struct Scene {
   std::vector<PlyBody> plies;
   std::vector<ToolAndContacts> tools;
   std::vector<PlyContact> ply_contacts;
+  std::vector<PlyEdgeContact> edge_contacts;
   std::vector<Block> patch_blocks, node_blocks;
-  std::vector<double> patch_sums;    ///< viscous work, one a patch block
-  std::vector<NodeSums> node_sums;   ///< one a node block
-  double mass_damping_work = 0.0;    ///< N mm, since the start
-  double time = 0.0;                 ///< s, of x
-  double dt = 0.0, next_dt = 0.0;    ///< s, the step that led to x and the one that leaves it
-  double min_dt = 0.0, max_dt = 0.0; ///< s, used so far
+  std::vector<SheetState> ply_states; ///< views of the plies, renewed every step
+  std::vector<double> patch_sums;     ///< viscous work, one a patch block
+  std::vector<NodeSums> node_sums;    ///< one a node block
+  double mass_damping_work = 0.0;     ///< N mm, since the start
+  double time = 0.0;                  ///< s, of x
+  double dt = 0.0, next_dt = 0.0;     ///< s, the step that led to x and the one that leaves it
+  double min_dt = 0.0, max_dt = 0.0;  ///< s, used so far
   long step = 0;
   long searches = 0; ///< broad phases done
 };

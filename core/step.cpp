@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/step.hpp"
 
+#include "core/contact_search.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -26,15 +28,6 @@ void move_driven_tools(Scene& s) {
   }
 }
 
-double way_since_search(const Scene& s) {
-  double moved2 = 0.0;
-  for (const NodeSums& n : s.node_sums)
-    moved2 = n.moved2 <= moved2 ? moved2 : n.moved2;
-  for (const ToolAndContacts& t : s.tools)
-    moved2 = std::max(moved2, (t.body.displacement - t.displacement_search).squaredNorm());
-  return std::sqrt(moved2);
-}
-
 std::optional<Stop> find_not_finite(const Scene& s) {
   for (const PlyBody& ply : s.plies)
     for (std::size_t n = 0; n < ply.x.size(); ++n)
@@ -45,75 +38,48 @@ std::optional<Stop> find_not_finite(const Scene& s) {
   return std::nullopt;
 }
 
-/// Contact search: who may touch whom until something has moved by half the skin.
-void search(Scene& s, ThreadTeam& team) {
-  const double skin = s.data.contact.skin;
-  team.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
-    ply.tree->refit(ply.x);
-    ply.x_search = ply.x;
-  });
-  const int tools = static_cast<int>(s.tools.size());
-  team.run(tools + static_cast<int>(s.ply_contacts.size()), [&](int i) {
-    if (i < tools) {
-      ToolAndContacts& t = s.tools[static_cast<std::size_t>(i)];
-      for (std::size_t p = 0; p < s.plies.size(); ++p)
-        find_tool_points(t.contacts[p], t.body, s.plies[p].state(), skin);
-      t.displacement_search = t.body.displacement;
-      return;
-    }
-    PlyContact& pair = s.ply_contacts[static_cast<std::size_t>(i - tools)];
-    const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
-    const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
-    std::vector<Candidate> candidates;
-    master.tree->candidates(slave.x, pair.contact.distance + skin, candidates);
-    find_sheet_points(pair.contact, candidates, slave.state(), master.state(),
-                      master.membrane.triangles);
-  });
-  for (PlyBody& ply : s.plies)
-    ply.contact_forces.clear();
-  for (ToolAndContacts& t : s.tools)
-    for (std::size_t p = 0; p < s.plies.size(); ++p)
-      if (!t.contacts[p].points.empty()) s.plies[p].contact_forces.push_back(&t.contacts[p].force);
-  for (PlyContact& pair : s.ply_contacts) {
-    if (pair.contact.points.empty()) continue;
-    s.plies[static_cast<std::size_t>(pair.slave)].contact_forces.push_back(
-        &pair.contact.slave_force);
-    s.plies[static_cast<std::size_t>(pair.master)].contact_forces.push_back(
-        &pair.contact.master_force);
-  }
-  for (NodeSums& n : s.node_sums)
-    n.moved2 = 0.0;
-  ++s.searches;
-}
-
-/// Element and contact forces, each task into arrays of its own.
+/// Element and contact forces, each task into arrays of its own: the order in which they are done
+/// does not matter.
 void add_up_forces(Scene& s, ThreadTeam& team) {
-  const int pairs = static_cast<int>(s.ply_contacts.size());
-  const int tools = static_cast<int>(s.tools.size());
-  const int blocks = static_cast<int>(s.patch_blocks.size());
-  team.run(pairs + tools + blocks, [&](int i) {
-    if (i < pairs) { // the longest tasks first
-      PlyContact& c = s.ply_contacts[static_cast<std::size_t>(i)];
-      const PlyBody& master = s.plies[static_cast<std::size_t>(c.master)];
-      sheet_forces(c.contact, s.plies[static_cast<std::size_t>(c.slave)].state(), master.state(),
-                   master.membrane.triangles, s.dt);
-    } else if (i < pairs + tools) {
-      ToolAndContacts& t = s.tools[static_cast<std::size_t>(i - pairs)];
-      std::vector<SheetState> states;
-      for (const PlyBody& ply : s.plies)
-        states.push_back(ply.state());
-      const Vec3 before = t.force;
-      t.force = tool_forces(t.body, t.contacts, states, s.dt);
-      t.work += t.body.pushed ? t.body.force * t.body.motion.dot(t.body.direction)
-                              : -0.5 * (before + t.force).dot(t.body.motion);
-      t.impulse -= t.force.dot(t.body.direction) * s.dt;
-    } else {
-      const auto b = static_cast<std::size_t>(i - pairs - tools);
-      const Block& block = s.patch_blocks[b];
-      PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
-      s.patch_sums[b] += element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
-    }
+  const auto sheet_task = [&](int i) {
+    PlyContact& c = s.ply_contacts[static_cast<std::size_t>(i)];
+    const PlyBody& master = s.plies[static_cast<std::size_t>(c.master)];
+    sheet_forces(c.contact, s.plies[static_cast<std::size_t>(c.slave)].state(), master.state(),
+                 master.membrane.triangles, s.dt);
+  };
+  const auto edge_task = [&](int i) {
+    PlyEdgeContact& c = s.edge_contacts[static_cast<std::size_t>(i)];
+    edge_forces(c.contact, s.plies[static_cast<std::size_t>(c.a)].state(),
+                s.plies[static_cast<std::size_t>(c.b)].state(), s.dt);
+  };
+  const auto tool_task = [&](int i) {
+    ToolAndContacts& t = s.tools[static_cast<std::size_t>(i)];
+    const Vec3 before = t.force;
+    t.force = tool_forces(t.body, t.contacts, s.ply_states, s.dt);
+    t.work += t.body.pushed ? t.body.force * t.body.motion.dot(t.body.direction)
+                            : -0.5 * (before + t.force).dot(t.body.motion);
+  };
+  const auto patch_task = [&](int i) {
+    const Block& block = s.patch_blocks[static_cast<std::size_t>(i)];
+    PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
+    s.patch_sums[static_cast<std::size_t>(i)] +=
+        element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
+  };
+  const int sheets = static_cast<int>(s.ply_contacts.size());
+  const int edges = sheets + static_cast<int>(s.edge_contacts.size());
+  const int tools = edges + static_cast<int>(s.tools.size());
+  s.ply_states.clear();
+  for (const PlyBody& ply : s.plies)
+    s.ply_states.push_back(ply.state());
+  team.run(tools + static_cast<int>(s.patch_blocks.size()), [&](int i) { // longest tasks first
+    if (i < sheets)
+      sheet_task(i);
+    else if (i < edges)
+      edge_task(i - sheets);
+    else if (i < tools)
+      tool_task(i - edges);
+    else
+      patch_task(i - tools);
   });
 }
 
@@ -192,7 +158,7 @@ void set_step(Scene& s) {
 } // namespace
 
 void start(Scene& s, ThreadTeam& team) {
-  search(s, team);
+  search_contacts(s, team);
   set_step(s);
 }
 
@@ -201,7 +167,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
   const bool used_up = !(way_since_search(s) <= 0.5 * s.data.contact.skin);
   if (used_up) {
     if (auto stop = find_not_finite(s)) return stop;
-    search(s, team);
+    search_contacts(s, team);
   }
   if (used_up || s.step % bound_every == 0) {
     if (auto stop = find_collapsed(s)) return stop;
@@ -239,6 +205,8 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
     e.kinetic += 0.5 * t.body.mass * t.body.speed * t.body.speed;
   }
   for (const PlyContact& pair : s.ply_contacts)
+    add(pair.contact.sums);
+  for (const PlyEdgeContact& pair : s.edge_contacts)
     add(pair.contact.sums);
   for (double viscous : s.patch_sums)
     e.damping += viscous;

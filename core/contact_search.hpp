@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Who may touch whom: the contact search that the step loop calls when motion has used up the skin.
+#pragma once
+
+#include "core/scene.hpp"
+#include "core/thread_team.hpp"
+
+namespace plyform {
+
+/// Largest way (mm) of any node or tool since the last search; NaN if a position is not finite.
+double way_since_search(const Scene& scene);
+
+/// Lists every pair within contact distance + skin. Until something has moved by half the skin no
+/// other pair can touch.
+void search_contacts(Scene& scene, ThreadTeam& team);
+
+} // namespace plyform
