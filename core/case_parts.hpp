@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From checked entries to the parts of a Case. Each function reports what the table of keys cannot
+// know (names, files, numbers that do not fit together) and fills in what it can: the case is only
+// used when no mistake was found.
+#pragma once
+
+#include "core/case.hpp"
+#include "core/key_check.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace plyform {
+
+/// Where a part of the case stands in the file, for mistakes found in the scene as a whole.
+struct Located {
+  Place at;
+  std::string item;
+};
+
+struct CaseParts {
+  std::vector<Located> blanks, plies, tools;
+};
+
+/// core/fabric_file.cpp: fabric files and tables.
+std::vector<Fabric> read_fabrics(const Section& root, Findings& findings);
+
+/// core/tool_file.cpp: tools, their shapes, places and motions. `folder` is the case file's.
+std::vector<Tool> read_tools(const Section& root, const std::filesystem::path& folder,
+                             Findings& findings);
+
+/// core/case_checks.cpp: mistakes that only the whole scene shows: blanks that cannot be meshed,
+/// plies overlapping at the start, tools inside plies, tools closer together than the stack.
+void check_scene(const Case& scene, const CaseParts& parts, Findings& findings);
+
+} // namespace plyform
