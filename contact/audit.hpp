@@ -2,31 +2,37 @@
 // Exact check of a finished state (CGAL, exact predicates): what crosses what.
 #pragma once
 
+#include "contact/geometry.hpp"
+
+#include <compare>
 #include <span>
 #include <vector>
 
-#include "contact/geometry.hpp"
-
 namespace plyform {
 
-/// Triangle `a` of sheet `sheet_a` crosses triangle `b` of sheet `sheet_b` (sheet_a <= sheet_b).
+/// Triangle `a` of sheet `sheet_a` crosses triangle `b` of sheet `sheet_b` (sheet_a <= sheet_b, and
+/// a < b within one sheet).
 struct Intersection {
   int sheet_a, a, sheet_b, b;
+  auto operator<=>(const Intersection&) const = default;
 };
 
 struct AuditResult {
   std::vector<Intersection> between; ///< pairs of triangles of different sheets
-  std::vector<Intersection> within;  ///< pairs of one sheet, neighbours that only share a node or an
-                                     ///< edge left out
+  std::vector<Intersection> within;  ///< pairs of one sheet
 };
 
 struct SheetView {
-  std::span<const Vec3> x;
+  std::span<const Vec3> x; ///< mm
   std::span<const Triangle> triangles;
 };
 
-/// All intersecting triangle pairs of the given sheets, in ascending order. Exact: coordinates are
-/// taken as the doubles that they are. Cost about n log n.
+/// All intersecting triangle pairs of the given sheets, in ascending order, each once. Exact:
+/// coordinates are taken as the doubles that they are. Triangles are closed: touching in a point
+/// and overlapping in a plane both count. Neighbours of one sheet (by node number) count only when
+/// they meet beyond the node or edge that they share. A degenerate triangle is the segment or point
+/// that it is. Cost about n log n. Throws std::runtime_error naming sheet and node if a position
+/// is not finite or a triangle names a node that does not exist.
 AuditResult audit_intersections(std::span<const SheetView> sheets);
 
 } // namespace plyform
