@@ -19,13 +19,16 @@ struct Candidate {
 /// One sheet's AABB tree (FCL), refitted to new positions without being rebuilt.
 class SheetTree {
 public:
-  /// x: positions (mm), one a node; triangles: constant for the life of the tree.
+  /// x: positions (mm), one a node; triangles: constant for the life of the tree. Throws
+  /// std::invalid_argument if there is no triangle, one names a node that does not exist, or a
+  /// position is not finite.
   SheetTree(std::span<const Vec3> x, std::span<const Triangle> triangles);
   ~SheetTree();
   SheetTree(SheetTree&&) noexcept;
   SheetTree& operator=(SheetTree&&) noexcept;
 
-  /// Replaces all positions and refits bottom-up. x.size() must be that of the constructor.
+  /// Replaces all positions and refits bottom-up. Throws std::invalid_argument, and keeps the old
+  /// positions, if x.size() is not that of the constructor or a position is not finite.
   void refit(std::span<const Vec3> x);
 
   /// The box around all of the sheet at the last refit.
@@ -33,8 +36,10 @@ public:
 
   /// Appends every (node, face) with distance(nodes[i], face) <= reach (mm), sorted by node and
   /// then by face, nothing else. `nodes` are positions of another sheet (or of this one: then the
-  /// node's own triangles come too; the caller leaves them out). Exact up to rounding: never
-  /// misses a pair.
+  /// node's own triangles come too; the caller leaves them out). The distance is that of
+  /// closest_point_on_triangle, compared as distance2 <= reach * reach: the list is, bit for bit,
+  /// what asking all pairs gives. Several threads may ask one tree at once, while none refits it.
+  /// Throws std::invalid_argument if reach is negative or it or a node is not finite.
   void candidates(std::span<const Vec3> nodes, double reach, std::vector<Candidate>& out) const;
 
 private:

@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The point of a triangle closest to a given point: the innermost routine of contact, so inline.
 //
-// Symbols: p the point; a b c the corners; q the closest point (mm). Per edge e from s, length
-// vector d:
-//   t = clamp((p - s).d / d.d, 0, 1)                                                          (1)
-// and for the plane, n = (b - a) x (c - a):
-//   u_b = n.((p - a) x (c - a)),  u_c = n.((b - a) x (p - a)),  u_a = n.n - u_b - u_c         (2)
-//   w_i = u_i / (u_a + u_b + u_c)                                                             (3)
-// q lies inside when all u_i > 0, else on the closest of the three edges; n = 0 leaves the edges,
-// so a degenerate triangle is the segment or point that it is. Ericson (Real-Time Collision
-// Detection, 5.1.5) finds the region from six dot products instead; their differences lose all
-// digits on slivers. Here a sliver costs the edges as well and the shortest of the four wins.
+// Symbols: p the point; a b c the corners; q the closest point (mm); all vectors from a:
+// B = b - a, C = c - a, P = p - a. With q = a + w_b B + w_c C, the foot of p on the plane has
+//   u_b = C.C P.B - B.C P.C,  u_c = B.B P.C - B.C P.B,  u_a = det - u_b - u_c                 (1)
+//   det = B.B C.C - (B.C)^2,  w_i = u_i / (u_a + u_b + u_c)                                   (2)
+// and is q if all u_i > 0. Else the signs of u and of p's projections on the sides tell the vertex
+// or edge (Ericson, Real-Time Collision Detection, 5.1.5: the Voronoi regions), on an edge e from s
+//   t = (p - s).e / e.e                                                                       (3)
+//
+// The squares in (1) cost a sliver all its digits. There the plane comes from a cross product,
+//   n = B x C,  m = n x P,  u_b = m.C,  u_c = -m.B,  u_a = n.n - u_b - u_c                    (4)
+// and q is the closest of the foot (if inside) and of the points on the three edges, with t of (3)
+// clamped to 0..1: right for degenerate triangles too, which have edges only.
 #pragma once
 
 #include "contact/geometry.hpp"
+
+#include <limits>
 
 namespace plyform {
 
@@ -28,48 +32,75 @@ struct ClosestPoint {
 
 namespace detail {
 
-/// Sine of the angle at a, squared, from which on n is good enough to trust (2) alone: the weights
-/// are then right to about 1e-13.
-constexpr double sliver_sine2 = 1e-6;
+/// Square of the sine of the angle at a below which a triangle is treated as a sliver. At 6 degrees
+/// (1) still has 1e-14; a fabric locks at 50 to 60 degrees of shear, its triangles stay above 15.
+constexpr double sliver_sine2 = 0.01;
+/// Smallest det (mm^4), so that 1 / det stays finite: triangles of 1e-77 mm are slivers as well.
+constexpr double smallest_det = std::numeric_limits<double>::min();
 
 /// Moves `best` to the edge s + t d of corners i, j (feature `edge`) if that is closer. ps = p - s.
 inline void closer_on_edge(const Vec3& ps, const Vec3& d, int i, int j, int edge,
                            ClosestPoint& best) {
-  const double d2 = d.squaredNorm();
-  double t = d2 > 0.0 ? ps.dot(d) / d2 : 0.0; // (1)
-  t = t > 0.0 ? (t < 1.0 ? t : 1.0) : 0.0;
+  double t = ps.dot(d) / d.squaredNorm();  // (3)
+  t = t > 0.0 ? (t < 1.0 ? t : 1.0) : 0.0; // the NaN of an edge without length becomes 0
   const double distance2 = (ps - t * d).squaredNorm();
   if (!(distance2 < best.distance2)) return;
-  best.distance2 = distance2;
-  best.w = {0.0, 0.0, 0.0};
+  best = {{0.0, 0.0, 0.0}, distance2, t == 0.0 ? 1 + i : t == 1.0 ? 1 + j : edge};
   best.w[i] = 1.0 - t;
   best.w[j] = t;
-  best.feature = t == 0.0 ? 1 + i : t == 1.0 ? 1 + j : edge;
+}
+
+/// closest_point_on_triangle for any shape of triangle, at twice the cost.
+inline ClosestPoint closest_point_on_sliver(const Vec3& p, const Vec3& a, const Vec3& b,
+                                            const Vec3& c) {
+  const Vec3 ab = b - a, ac = c - a, ap = p - a;
+  const Vec3 n = ab.cross(ac), m = n.cross(ap);
+  const double ub = m.dot(ac), uc = -m.dot(ab), ua = n.squaredNorm() - ub - uc; // (4)
+  ClosestPoint best{{1.0, 0.0, 0.0}, ap.squaredNorm(), 1};
+  if (ua > 0.0 && ub > 0.0 && uc > 0.0) {
+    const double sum = ua + ub + uc; // not 1 / sum, which overflows for the tiniest triangles
+    const double wb = ub / sum, wc = uc / sum;
+    best = {{ua / sum, wb, wc}, (ap - wb * ab - wc * ac).squaredNorm(), 0};
+  }
+  closer_on_edge(ap, ab, 0, 1, 4, best);
+  closer_on_edge(p - b, c - b, 1, 2, 5, best);
+  closer_on_edge(p - c, a - c, 2, 0, 6, best);
+  return best;
 }
 
 } // namespace detail
 
 /// p and the triangle's corners in mm. Degenerate triangles are answered as the segment or point
 /// that they are; never NaN for coordinates below 1e75 mm (the squares of areas overflow beyond).
-/// The distance is right to 1e-15 of the distance to the furthest corner; for slivers, that over
-/// height / length, and never worse than the height.
+/// The distance is right to 2e-15 of the distance to the furthest corner; for slivers, to 2e-16
+/// length / height of it besides, and never worse than the height.
 inline ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
                                               const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
-  const Vec3 n = ab.cross(ac);
-  const double n2 = n.squaredNorm();
-  const double ub = n.dot(ap.cross(ac)), uc = n.dot(ab.cross(ap)), ua = n2 - ub - uc; // (2)
-  ClosestPoint best{{1.0, 0.0, 0.0}, ap.squaredNorm(), 1};
+  const double bb = ab.dot(ab), cc = ac.dot(ac), bc = ab.dot(ac);
+  const double det = bb * cc - bc * bc; // (2)
+  if (!(det > detail::sliver_sine2 * (bb * cc) + detail::smallest_det))
+    return detail::closest_point_on_sliver(p, a, b, c);
+  const auto at = [&](double wa, double wb, double wc, int feature) -> ClosestPoint {
+    return {{wa, wb, wc}, (ap - wb * ab - wc * ac).squaredNorm(), feature};
+  };
+  const double pb = ap.dot(ab), pc = ap.dot(ac);
+  const double ub = cc * pb - bc * pc, uc = bb * pc - bc * pb, ua = det - ub - uc; // (1)
   if (ua > 0.0 && ub > 0.0 && uc > 0.0) {
-    const double sum = ua + ub + uc; // not 1 / sum, which overflows for the tiniest triangles
-    const double wb = ub / sum, wc = uc / sum; // (3)
-    best = {{ua / sum, wb, wc}, (ap - wb * ab - wc * ac).squaredNorm(), 0};
-    if (n2 > detail::sliver_sine2 * (ab.squaredNorm() * ac.squaredNorm())) return best;
+    const double scale = 1.0 / (ua + ub + uc); // (2)
+    return at(ua * scale, ub * scale, uc * scale, 0);
   }
-  detail::closer_on_edge(ap, ab, 0, 1, 4, best);
-  detail::closer_on_edge(p - b, c - b, 1, 2, 5, best);
-  detail::closer_on_edge(p - c, a - c, 2, 0, 6, best);
-  return best;
+  if (pb <= 0.0 && pc <= 0.0) return at(1.0, 0.0, 0.0, 1);
+  const double from_b = (pc - bc) - (pb - bb), from_c = (pb - bc) - (pc - cc); // along bc, cb
+  if (pb >= bb && from_b <= 0.0) return at(0.0, 1.0, 0.0, 2);
+  if (pc >= cc && from_c <= 0.0) return at(0.0, 0.0, 1.0, 3);
+  if (uc <= 0.0 && pb > 0.0 && pb < bb) return at(1.0 - pb / bb, pb / bb, 0.0, 4); // (3)
+  if (ub <= 0.0 && pc > 0.0 && pc < cc) return at(1.0 - pc / cc, 0.0, pc / cc, 6); // (3)
+  if (ua <= 0.0 && from_b > 0.0 && from_c > 0.0) {
+    const double t = from_b / (from_b + from_c); // (3)
+    return at(0.0, 1.0 - t, t, 5);
+  }
+  return detail::closest_point_on_sliver(p, a, b, c); // rounding left p between two regions
 }
 
 } // namespace plyform
