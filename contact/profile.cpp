@@ -7,8 +7,8 @@
 //   inside an arc:   s = turn (R - |q - c|)                                       (2)
 //   at a vertex v:   s = sign(m . (q - v)) |q - v|,  m = n_before + n_after       (3)
 // (3) is the pseudo-normal of Baerentzen and Aanaes (IEEE TVCG 11, 2005) in two dimensions: both
-// segments that share v give the same answer. At an open end m is the only normal there is; on the
-// axis the profile goes on as its own mirror image.
+// segments that share v give the same answer. At an end m is the only normal there is; that is also
+// right at a tip on the axis, as no point with r < 0 is ever asked.
 #include "contact/profile.hpp"
 
 #include <cmath>
@@ -90,8 +90,6 @@ Vec2 pseudo_normal(const RevolvedProfile& profile, std::size_t i, Feature featur
     (at_start ? before : after) = at_start ? tangent(s[i - 1], 1) : tangent(s[i + 1], 0);
   else if (is_ring(profile))
     (at_start ? before : after) = at_start ? tangent(s.back(), 1) : tangent(s.front(), 0);
-  else if ((at_start ? s[i].a : s[i].b).x() <= 0.0) // mirrored in the axis, walked backwards
-    (at_start ? before : after) = Vec2(own.x(), -own.y());
   const Vec2 m = left(before) + left(after);
   // A blade: the profile turns straight back. All that is nearest to its edge lies before it.
   return m.squaredNorm() > 1e-12 ? m : Vec2(before - after);

@@ -106,10 +106,11 @@ bool has_non_finite_word(const std::string& text) {
 
 bool read_as(const std::string& extension, const std::string& name, std::vector<Point>& points,
              std::vector<std::vector<std::size_t>>& polygons) {
-  if (extension == ".stl") return CGAL::IO::read_STL(name, points, polygons);
-  if (extension == ".obj") return CGAL::IO::read_OBJ(name, points, polygons);
-  if (extension == ".ply") return CGAL::IO::read_PLY(name, points, polygons);
-  return CGAL::IO::read_OFF(name, points, polygons);
+  const auto quiet = CGAL::parameters::verbose(false); // what goes wrong is said once, by us
+  if (extension == ".stl") return CGAL::IO::read_STL(name, points, polygons, quiet);
+  if (extension == ".obj") return CGAL::IO::read_OBJ(name, points, polygons, quiet);
+  if (extension == ".ply") return CGAL::IO::read_PLY(name, points, polygons, quiet);
+  return CGAL::IO::read_OFF(name, points, polygons, quiet);
 }
 
 } // namespace
