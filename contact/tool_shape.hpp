@@ -46,6 +46,9 @@ struct ProfileSegment {
 };
 /// Surface of revolution about z. Walking along the segments in order, the free side is on the
 /// left and the tool's material on the right. A hole with a fillet: up the wall, round, outwards.
+/// Each segment starts exactly where the one before ended. It bounds a solid when it ends where it
+/// began (a ring) or begins and ends on the axis; else it is open, and past its ends the side is
+/// that of the end's tangent. An arc with a = b is a full circle. At least one segment.
 struct RevolvedProfile {
   std::vector<ProfileSegment> segments;
 };
@@ -69,20 +72,26 @@ struct SurfacePoint {
 /// does not depend on it. Never fails for finite p: on a medial axis any valid normal is returned.
 SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint);
 
-/// A lower bound (mm) of the distance from anything inside `box` (tool frame) to the shape; cheap.
+/// A lower bound (mm) of the signed distance of anything inside `box` (tool frame); cheap: one
+/// signed distance and a box. Past the ends of an open profile or the rim of an open mesh the sign
+/// changes without the surface being met: there a positive bound only says that the surface itself
+/// is no nearer.
 double distance_lower_bound(const ToolShape& shape, const Box3& box);
 
 /// Triangles of about `size` mm for pictures and the exact audit, in the tool frame. Unbounded
-/// shapes (plane) are cut to `extent` (mm from the origin).
+/// shapes (plane) are cut to `extent` (mm from the origin). Nodes lie on the surface; arcs get pieces
+/// of at most 22.5 degrees. Solids give closed meshes, outward; normals of open ones point to the
+/// free side. A mesh is returned as it is. Throws std::invalid_argument unless size > 0.
 Surface tessellate(const ToolShape& shape, double size, double extent);
 
 /// Radius (mm) of the tightest curve of the shape that a sheet has to follow; 0 for a sharp edge,
-/// infinity for a plane. For meshes: infinity (unknown).
+/// infinity for a plane. For meshes: infinity (unknown). Inner corners of a profile do not count.
 double smallest_radius(const ToolShape& shape);
 
 /// The profile through points {r, z, fillet radius}: straight lines, each corner rounded by its
-/// fillet. Throws std::invalid_argument (saying which corner and why) if a fillet does not fit, a
-/// point repeats, r < 0, or fewer than two points.
+/// fillet. The last point may be the first again: a closed ring, that corner sharp. Throws
+/// std::invalid_argument (saying which corner and why) if a fillet does not fit or stands at an end,
+/// a point repeats the one before, r < 0, a number is not finite, or fewer than two points.
 RevolvedProfile make_profile(const std::vector<std::array<double, 3>>& points);
 
 /// What reading a mesh did to it.
@@ -94,9 +103,10 @@ struct MeshReport {
 };
 
 /// Reads STL (ASCII or binary), OBJ, PLY or OFF through CGAL, merges duplicated points, orients it
-/// consistently, turns closed meshes outward, scales coordinates by `scale` and builds the search
-/// tree. Throws std::runtime_error with what is wrong and what to do: file missing or unreadable,
-/// no faces, not orientable, non-finite coordinates, self-intersecting closed mesh.
+/// consistently, turns closed meshes outward (inner shells inward), scales coordinates by `scale` > 0
+/// and builds the search tree. Throws std::runtime_error with what is wrong and what to do: file
+/// missing, of another kind, truncated or unreadable, no faces, not orientable, non-finite
+/// coordinates, self-intersecting closed mesh.
 MeshShapePtr load_tool_mesh(const std::filesystem::path& file, double scale, MeshReport* report);
 
 /// The same from triangles in memory (tests, generated tools).
