@@ -79,9 +79,9 @@ SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint);
 double distance_lower_bound(const ToolShape& shape, const Box3& box);
 
 /// Triangles of about `size` mm for pictures and the exact audit, in the tool frame. Unbounded
-/// shapes (plane) are cut to `extent` (mm from the origin). Nodes lie on the surface; arcs get pieces
-/// of at most 22.5 degrees. Solids give closed meshes, outward; normals of open ones point to the
-/// free side. A mesh is returned as it is. Throws std::invalid_argument unless size > 0.
+/// shapes (plane) are cut to `extent` (mm from the origin). Nodes lie on the surface; arcs get
+/// pieces of at most 22.5 degrees. Solids give closed meshes, outward; normals of open ones point
+/// to the free side. A mesh is returned as it is. Throws std::invalid_argument unless size > 0.
 Surface tessellate(const ToolShape& shape, double size, double extent);
 
 /// Radius (mm) of the tightest curve of the shape that a sheet has to follow; 0 for a sharp edge,
@@ -90,8 +90,8 @@ double smallest_radius(const ToolShape& shape);
 
 /// The profile through points {r, z, fillet radius}: straight lines, each corner rounded by its
 /// fillet. The last point may be the first again: a closed ring, that corner sharp. Throws
-/// std::invalid_argument (saying which corner and why) if a fillet does not fit or stands at an end,
-/// a point repeats the one before, r < 0, a number is not finite, or fewer than two points.
+/// std::invalid_argument (saying which corner and why) if a fillet does not fit or stands at an
+/// end, a point repeats the one before, r < 0, a number is not finite, or fewer than two points.
 RevolvedProfile make_profile(const std::vector<std::array<double, 3>>& points);
 
 /// What reading a mesh did to it.
@@ -103,8 +103,8 @@ struct MeshReport {
 };
 
 /// Reads STL (ASCII or binary), OBJ, PLY or OFF through CGAL, merges duplicated points, orients it
-/// consistently, turns closed meshes outward (inner shells inward), scales coordinates by `scale` > 0
-/// and builds the search tree. Throws std::runtime_error with what is wrong and what to do: file
+/// consistently, turns closed meshes outward (inner shells inward), scales coordinates by `scale` >
+/// 0 and builds the search tree. Throws std::runtime_error with what is wrong and what to do: file
 /// missing, of another kind, truncated or unreadable, no faces, not orientable, non-finite
 /// coordinates, self-intersecting closed mesh.
 MeshShapePtr load_tool_mesh(const std::filesystem::path& file, double scale, MeshReport* report);

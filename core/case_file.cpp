@@ -175,9 +175,15 @@ ContactOptions read_contact(const Section& contact) {
           .skin = number(contact, "skin")};
 }
 
+ElementKind element_kind(const std::string& word) {
+  if (word == "plain") return ElementKind::plain;
+  return word == "averaged" ? ElementKind::averaged : ElementKind::automatic;
+}
+
 SolverOptions read_solver(const Section& solver) {
   const double outputs = number(solver, "outputs");
-  return {.duration = number(solver, "duration"),
+  return {.element = element_kind(text(solver, "element")),
+          .duration = number(solver, "duration"),
           .step_factor = number(solver, "step_factor"),
           .fibre_softening = number(solver, "fibre_softening"),
           .fibre_damping = number(solver, "fibre_damping"),

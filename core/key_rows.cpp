@@ -288,11 +288,11 @@ Rows motion_rows() {
            .meaning = "force on the tool along the direction"},
           {.key = "tool[].mass",
            .unit = "kg",
-           .fallback = "0.1",
-           .ranges = {positive},
+           .fallback = "0.0",
+           .ranges = {not_negative},
            .of = "motion",
            .with = {"force"},
-           .meaning = "mass of the tool that the force moves"}};
+           .meaning = "mass of the tool; 0 keeps it in equilibrium with its force at every step"}};
 }
 
 Rows contact_rows() {
@@ -343,6 +343,13 @@ Rows solver_rows() {
            .fallback = toml(solver.duration),
            .ranges = {positive},
            .meaning = "simulated time of the stroke"},
+          {.key = "solver.element",
+           .kind = K::choice,
+           .fallback = "\"auto\"",
+           .choices = {"auto", "plain", "averaged"},
+           .meaning =
+               "plain: the paper's; averaged: does not lock; auto: plain where sides run along "
+               "both fibre families"},
           {.key = "solver.step_factor",
            .fallback = toml(solver.step_factor),
            .ranges = {positive_share},

@@ -1,2 +1,69 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-int main() { return 0; }
+// The command line: plyform run | check | export | keys | version.
+#include "core/results.hpp"
+#include "core/version.hpp"
+#include "tools/commands.hpp"
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <exception>
+#include <fmt/format.h>
+
+using namespace plyform;
+
+namespace {
+
+void add_case_options(CLI::App& command, CaseArguments& to) {
+  command.add_option("case", to.file, "case file, or the folder of a case.toml")->required();
+  command.add_option("--set", to.settings, "KEY=VALUE: overrides any key of the case")
+      ->allow_extra_args(false)
+      ->take_all();
+}
+
+int export_command(const std::string& directory) {
+  for (const auto& file : export_results(directory))
+    fmt::print("{}\n", file.string());
+  return 0;
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"Forms stacks of woven and non-crimp fabric plies between rigid tools."};
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 done, 2 the case is wrong, 3 the simulation stopped itself, 1 else.");
+
+  RunArguments run;
+  CLI::App* run_app = app.add_subcommand("run", "form the plies of a case and write the results");
+  add_case_options(*run_app, run.input);
+  run_app->add_option("-o,--output", run.output, "folder for the results [results/NAME]");
+  run_app->add_option("--threads", run.threads, "threads; the results do not depend on it")
+      ->check(CLI::Range(1, 256));
+  run_app->add_option("--accuracy", run.input.accuracy, "draft, standard or reference")
+      ->check(CLI::IsMember({"draft", "standard", "reference"}));
+
+  CaseArguments check;
+  CLI::App* check_app =
+      app.add_subcommand("check", "say what will be modelled, or every mistake in the case");
+  add_case_options(*check_app, check);
+
+  std::string results;
+  CLI::App* export_app = app.add_subcommand("export", "write the last state in other formats");
+  export_app->add_option("results", results, "folder of a run")->required();
+
+  CLI::App* keys_app = app.add_subcommand("keys", "list every key of case and fabric files");
+  CLI::App* version_app = app.add_subcommand("version", "print the version");
+
+  CLI11_PARSE(app, argc, argv);
+  try {
+    if (run_app->parsed()) return run_command(run);
+    if (check_app->parsed()) return check_command(check);
+    if (export_app->parsed()) return export_command(results);
+    if (keys_app->parsed()) return keys_command();
+    if (version_app->parsed()) fmt::print("plyform {}\n", version());
+    return 0;
+  } catch (const std::exception& e) {
+    fmt::print(stderr, "plyform: error: {}\n", e.what());
+    return 1;
+  }
+}

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/step.hpp"
+#include "tools/commands.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <thread>
+
+namespace plyform {
+namespace {
+
+void print_plies(const Scene& s) {
+  for (const PlyBody& ply : s.plies) {
+    const Membrane& m = ply.membrane;
+    const bool plain = m.patches() == static_cast<int>(m.triangles.size());
+    const bool chosen = s.data.solver.element == ElementKind::automatic;
+    fmt::print(
+        "ply {}: {} nodes, {} triangles, warp at {:g} degrees; {} element: {}\n", ply.name,
+        ply.x.size(), m.triangles.size(), ply.angle * 180.0 / M_PI, plain ? "plain" : "averaged",
+        !chosen ? "as solver.element says"
+        : plain ? "every triangle has sides along both fibre families"
+                : "sides do not run along both fibre families, the plain element would lock");
+  }
+}
+
+void print_tools(const Scene& s) {
+  for (std::size_t i = 0; i < s.tools.size(); ++i) {
+    const ToolAndContacts& t = s.tools[i];
+    const Motion motion = s.data.tools[i].motion;
+    fmt::print("tool {}: {}", t.name,
+               motion == Motion::fixed    ? std::string("fixed")
+               : motion == Motion::driven ? fmt::format("driven {:g} mm", t.stroke)
+                                          : fmt::format("pushed by {:g} N", t.body.force));
+    const double radius = smallest_radius(t.body.shape);
+    if (std::isfinite(radius) && radius > 0.0) fmt::print(", smallest radius {:g} mm", radius);
+    fmt::print("\n");
+  }
+}
+
+/// Wall time of a step, s, from a few real ones.
+double time_a_step(Scene& s, ThreadTeam& team) {
+  constexpr int steps = 40;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < steps; ++i) {
+    if (compute_forces(s, team)) break;
+    move_plies(s, team);
+  }
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / steps;
+}
+
+} // namespace
+
+int check_command(const CaseArguments& arguments) {
+  const std::optional<Case> data = load_case(arguments);
+  if (!data) return exit_case_wrong;
+  ThreadTeam team(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  Scene s = make_scene(*data);
+  start(s, team);
+  fmt::print("{}\n", data->title);
+  print_plies(s);
+  print_tools(s);
+  const StepBound bound = stable_step(s);
+  const double steps = data->solver.duration / s.next_dt;
+  fmt::print("contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm\n",
+             s.ply_contacts.size(), data->contact.skin);
+  fmt::print("stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s\n", bound.dt,
+             s.plies[static_cast<std::size_t>(bound.ply)].name, bound.triangle, s.next_dt);
+  fmt::print("fibre stiffness divided by {:g}, {:g} s simulated: about {:.0f} steps\n",
+             data->solver.fibre_softening, data->solver.duration, steps);
+  fmt::print("estimated time {:.0f} s\n", steps * time_a_step(s, team));
+  fmt::print("the case is sound\n");
+  return exit_done;
+}
+
+} // namespace plyform

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/run.hpp"
+#include "tools/commands.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <thread>
+#include <unistd.h>
+
+namespace plyform {
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+void on_interrupt(int) {
+  interrupted = true;
+}
+
+/// One line that is drawn over itself on a terminal; a new line every few seconds elsewhere.
+class ProgressLine {
+public:
+  void show(const Progress& p) {
+    const auto now = std::chrono::steady_clock::now();
+    const double since = std::chrono::duration<double>(now - last_).count();
+    if (since < (terminal_ ? 0.2 : 5.0)) return;
+    last_ = now;
+    fmt::print(stderr,
+               "{}{:3.0f} %  stroke {:7.2f} mm  step {:8}  {:4.0f} s left  kinetic/shear {:.3f}  "
+               "balance {:+.2e}{}",
+               terminal_ ? "\r" : "", 100.0 * p.fraction, p.stroke_mm, p.step, p.remaining_s,
+               p.kinetic_over_shear, p.balance_error, terminal_ ? "\033[K" : "\n");
+    std::fflush(stderr);
+    drawn_ = terminal_;
+  }
+  void end() {
+    if (drawn_) fmt::print(stderr, "\n");
+  }
+
+private:
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+std::filesystem::path output_folder(const RunArguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  const std::filesystem::path file = std::filesystem::absolute(arguments.input.file);
+  const bool folder = std::filesystem::is_directory(file) || file.filename() == "case.toml";
+  const std::filesystem::path named =
+      std::filesystem::is_directory(file) ? file : (folder ? file.parent_path() : file);
+  return std::filesystem::path("results") / named.lexically_normal().stem();
+}
+
+void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
+  const Energies& e = r.last.energy;
+  fmt::print("{} at {:.2f} mm of stroke after {} steps in {:.1f} s\n", r.summary.status,
+             r.last.stroke_mm, r.summary.steps, r.summary.wall_time_s);
+  for (const PlyFrame& ply : r.last.plies) {
+    double shear = 0.0, tension = 0.0;
+    for (std::size_t i = 0; i < ply.triangles.size(); ++i) {
+      shear = std::max(shear, std::abs(ply.shear_deg[i]));
+      tension = std::max({tension, ply.warp_tension[i], ply.weft_tension[i]});
+    }
+    fmt::print("  {:16} largest shear {:5.1f} deg, largest tension {:6.2f} N per yarn\n", ply.name,
+               shear, tension);
+  }
+  for (const ToolFrame& tool : r.last.tools)
+    fmt::print("  {:16} force {:8.1f} N, displacement {:7.2f} mm\n", tool.name, tool.force_N,
+               tool.stroke_mm);
+  fmt::print("  energy balance error {:.2e}, kinetic over shear energy {:.2e}\n", e.balance_error(),
+             e.shear > 0.0 ? e.kinetic / e.shear : 0.0);
+  const ContactReport& c = r.summary.contact;
+  fmt::print("  penetration {:.3f} mm into tools, {:.3f} mm between plies; triangles crossing: {} "
+             "between plies, {} within\n",
+             c.max_tool_penetration_mm, c.max_ply_penetration_mm, c.intersections_between_plies,
+             c.intersections_within_plies);
+  fmt::print("results are in {}\n", folder.string());
+}
+
+} // namespace
+
+int run_command(const RunArguments& arguments) {
+  const std::optional<Case> data = load_case(arguments.input);
+  if (!data) return exit_case_wrong;
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int threads = arguments.threads > 0 ? arguments.threads : cores;
+  const std::filesystem::path folder = output_folder(arguments);
+  ResultWriter writer(folder);
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  ProgressLine line;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& frame) { writer.write_frame(frame); };
+  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.interrupt = &interrupted;
+  const RunResult result = run_case(*data, threads, hooks);
+  line.end();
+  writer.write_final(result.last, result.summary);
+  print_outcome(result, folder);
+  if (result.summary.status == "stopped") {
+    fmt::print(stderr, "plyform: {}\n         the last good state is in {}\n",
+               result.summary.message, folder.string());
+    return exit_stopped;
+  }
+  if (result.summary.status == "interrupted")
+    fmt::print(stderr, "plyform: interrupted; the state reached is in {}\n", folder.string());
+  return result.summary.status == "done" ? exit_done : exit_other;
+}
+
+} // namespace plyform
