@@ -48,7 +48,7 @@ struct BlankMesh {
 /// anticlockwise.
 /// Throws std::runtime_error (what is wrong, what to do): outline not simple or not closed
 /// properly, hole outside or touching, element larger than the blank or far too small, fibre
-/// directions less than 10 degrees apart, file unreadable, empty, not flat, not of triangles, not
+/// directions less than 25 degrees apart, file unreadable, empty, not flat, not of triangles, not
 /// manifold or not in one piece.
 BlankMesh mesh_blank(const BlankSpec& spec, double warp, double weft);
 

@@ -220,9 +220,22 @@ TEST(Blank, IsTheSameToTheBitEveryTime) {
     }
 }
 
+// Cells far from square must neither be split nor have the band crowd them out.
+TEST(Blank, SkewCellsKeepTheirCount) {
+  const double h = 10;
+  for (const double angle : {25.5, 40.0, 150.0}) {
+    const BlankMesh mesh = mesh_of(pierced_pentagon(), MeshKind::fibres, h, 17, 17 + angle);
+    expect_sound(mesh, pierced_pentagon(), fmt::format("fibres {} degrees apart", angle));
+    const double cell = h * h * std::sin(angle * degree);
+    EXPECT_NEAR(static_cast<double>(mesh.triangles.size()), 2 * area(pierced_pentagon()) / cell,
+                0.1 * static_cast<double>(mesh.triangles.size()));
+    EXPECT_GT(aligned_fraction(mesh, h, 17, 17 + angle), 0.75);
+  }
+}
+
 TEST(Blank, FibresNearlyParallelAreRefused) {
   EXPECT_EQ(message_of([] { mesh_of(square_340(), MeshKind::fibres, 10, 20, 25); }),
-            "blank mesh \"fibres\": warp and weft are only 5 degrees apart, at least 10 are needed "
+            "blank mesh \"fibres\": warp and weft are only 5 degrees apart, at least 25 are needed "
             "for cells with sides along both; choose mesh = \"free\"");
 }
 
