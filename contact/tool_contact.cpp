@@ -18,39 +18,48 @@ void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply) 
   }
 }
 
-/// (N) if the tool moves by `along` this step; slope: its derivative, N/mm.
-double pushed_force(const ContactLaw& law, double area, const ToolContactPoint& c, double facing,
-                    double along, double dt, double& slope) {
-  const double p = -c.gap + facing * along;
-  if (!(p > 0.0)) return 0.0;
-  const double dp = p + c.last_gap;
-  const double rate = dt > 0.0 ? law.damping / dt : 0.0;
-  const double n = area * (law.stiffness * p + rate * dp);
-  if (!(n > 0.0)) return 0.0;
-  slope += facing * facing * area * (law.stiffness + rate);
-  return facing * n;
+/// Left side minus right side of (B) for a motion `delta`, N, and its slope, N/mm (both fall with
+/// delta).
+struct Residual {
+  double value, slope;
+};
+
+Residual residual_of(const ToolBody& tool, std::span<ToolContact> contacts,
+                     std::span<const SheetState> plies, double delta, double dt) {
+  const double inertia = tool.mass / (dt * dt);
+  Residual r{tool.force - inertia * (delta - tool.speed * dt), -inertia};
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactLaw& law = contacts[i].law;
+    const double rate = law.damping / dt;
+    for (const ToolContactPoint& c : contacts[i].points) {
+      const double facing = c.normal.dot(tool.direction);
+      const double p = -c.gap + facing * delta;
+      if (!(p > 0.0)) continue;
+      const double area = area_of(plies[i], c);
+      const double n = area * (law.stiffness * p + rate * (p + c.last_gap)); // (N)
+      if (!(n > 0.0)) continue;
+      r.value -= facing * n;
+      r.slope -= facing * facing * area * (law.stiffness + rate);
+    }
+  }
+  return r;
 }
 
-/// Solves (B) for delta by Newton's method; R is monotone, so it cannot run away.
+/// Solves (B) for delta within what the closing speed allows: Newton's method inside a bracket,
+/// halved where a step would leave it (contacts that begin make the residual jump).
 double equilibrium_motion(const ToolBody& tool, std::span<ToolContact> contacts,
                           std::span<const SheetState> plies, double dt) {
-  const double limit = tool.speed_limit * dt;
-  double delta = std::clamp(tool.speed * dt, -limit, limit);
-  const double inertia = tool.mass > 0.0 ? tool.mass / (dt * dt) : 0.0;
-  constexpr int most_rounds = 50; // each round fixes the set of touching nodes; 3 to 6 are usual
+  double high = tool.speed_limit * dt, low = -high;
+  if (residual_of(tool, contacts, plies, high, dt).value >= 0.0) return high;
+  if (residual_of(tool, contacts, plies, low, dt).value <= 0.0) return low;
+  double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
+  constexpr int most_rounds = 60; // the bracket is then at rounding; 3 to 6 rounds are usual
   for (int round = 0; round < most_rounds; ++round) {
-    double reaction = 0.0, slope = inertia;
-    for (std::size_t i = 0; i < contacts.size(); ++i)
-      for (const ToolContactPoint& c : contacts[i].points)
-        reaction += pushed_force(contacts[i].law, area_of(plies[i], c), c,
-                                 c.normal.dot(tool.direction), delta, dt, slope);
-    const double residual = tool.force - reaction - inertia * (delta - tool.speed * dt);
-    if (slope <= 0.0) return limit; // nothing in the way
-    const double change = residual / slope;
-    const double next = std::clamp(delta + change, -limit, limit);
-    const bool settled = std::abs(residual) <= 1e-9 * std::abs(tool.force) || next == delta;
-    delta = next;
-    if (settled) break;
+    const Residual r = residual_of(tool, contacts, plies, delta, dt);
+    if (std::abs(r.value) <= 1e-9 * std::abs(tool.force)) break;
+    (r.value > 0.0 ? low : high) = delta;
+    const double newton = r.slope < 0.0 ? delta - r.value / r.slope : high;
+    delta = newton > low && newton < high ? newton : 0.5 * (low + high);
   }
   return delta;
 }

@@ -14,7 +14,7 @@
 
 namespace plyform {
 
-/// Energies and work done since the start, N mm (mJ).
+/// Energies and work done since the start, N mm (mJ). external: work of all tools on the plies.
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, contact = 0, friction = 0, damping = 0, external = 0;
   /// (kinetic + fibre + shear + contact + friction + damping - external) over the largest of them;

@@ -69,7 +69,7 @@ ToolAndContacts make_tool(const Case& data, std::size_t index, const std::vector
   t.body.rotation = tool.rotation;
   t.body.direction = tool.direction;
   t.body.pushed = tool.motion == Motion::force;
-  t.body.force = tool.force;
+  t.force_on = tool.force;
   t.body.mass = tool.mass;
   constexpr double closing_speed = 1000.0; // mm/s: that of a fast press
   t.body.speed_limit = closing_speed;
@@ -169,9 +169,9 @@ StepBound stable_step(const Scene& s) {
   return bound;
 }
 
-double driven_displacement(double stroke, double t, double duration) {
+double smooth_path(double end, double t, double duration) {
   const double u = std::clamp(t / duration, 0.0, 1.0);
-  return stroke * u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+  return end * u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
 }
 
 } // namespace plyform

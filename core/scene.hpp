@@ -38,7 +38,8 @@ struct PlyBody {
 struct ToolAndContacts {
   std::string name;
   ToolBody body;
-  double stroke = 0.0; ///< mm, 0 unless driven
+  double stroke = 0.0;   ///< mm, 0 unless driven
+  double force_on = 0.0; ///< N, 0 unless pushed
   std::vector<ToolContact> contacts;
   Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
   Vec3 displacement_search = Vec3::Zero();
@@ -103,8 +104,8 @@ struct StepBound {
 /// central difference with lagged damping is stable for omega^2 dt^2 + 2 c dt <= 4.
 StepBound stable_step(const Scene& scene);
 
-/// Displacement (mm) of a driven tool at time t: smooth, at rest with zero acceleration at both
-/// ends (fifth-order polynomial).
-double driven_displacement(double stroke, double t, double duration);
+/// Smooth way from 0 to `end` over `duration`: fifth-order polynomial, slope and curvature zero at
+/// both ends. Displacement of a driven tool (mm), force of a pushed one (N).
+double smooth_path(double end, double t, double duration);
 
 } // namespace plyform

@@ -17,12 +17,16 @@ std::string when(const Scene& s) {
   return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
 }
 
-/// Driven tools go to where they are at scene.time; pushed ones find their place with the forces.
-void move_driven_tools(Scene& s) {
+/// Driven tools go to where they are at scene.time; pushed ones find their place with the forces,
+/// and get their force over the first twentieth of the time, so as not to strike the stack.
+void drive_tools(Scene& s) {
+  constexpr double ramp = 0.05; // of the duration
   for (ToolAndContacts& t : s.tools) {
-    if (t.body.pushed) continue;
-    const Vec3 to =
-        driven_displacement(t.stroke, s.time, s.data.solver.duration) * t.body.direction;
+    if (t.body.pushed) {
+      t.body.force = smooth_path(t.force_on, s.time, ramp * s.data.solver.duration);
+      continue;
+    }
+    const Vec3 to = smooth_path(t.stroke, s.time, s.data.solver.duration) * t.body.direction;
     t.body.motion = to - t.body.displacement;
     t.body.displacement = to;
   }
@@ -56,8 +60,7 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
     ToolAndContacts& t = s.tools[static_cast<std::size_t>(i)];
     const Vec3 before = t.force;
     t.force = tool_forces(t.body, t.contacts, s.ply_states, s.dt);
-    t.work += t.body.pushed ? t.body.force * t.body.motion.dot(t.body.direction)
-                            : -0.5 * (before + t.force).dot(t.body.motion);
+    t.work -= 0.5 * (before + t.force).dot(t.body.motion);
   };
   const auto patch_task = [&](int i) {
     const Block& block = s.patch_blocks[static_cast<std::size_t>(i)];
@@ -163,7 +166,7 @@ void start(Scene& s, ThreadTeam& team) {
 }
 
 std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
-  move_driven_tools(s);
+  drive_tools(s);
   const bool used_up = !(way_since_search(s) <= 0.5 * s.data.contact.skin);
   if (used_up) {
     if (auto stop = find_not_finite(s)) return stop;
@@ -202,7 +205,6 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
     for (const ToolContact& c : t.contacts)
       add(c.sums);
     e.external += t.work;
-    e.kinetic += 0.5 * t.body.mass * t.body.speed * t.body.speed;
   }
   for (const PlyContact& pair : s.ply_contacts)
     add(pair.contact.sums);

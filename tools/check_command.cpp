@@ -31,7 +31,7 @@ void print_tools(const Scene& s) {
     fmt::print("tool {}: {}", t.name,
                motion == Motion::fixed    ? std::string("fixed")
                : motion == Motion::driven ? fmt::format("driven {:g} mm", t.stroke)
-                                          : fmt::format("pushed by {:g} N", t.body.force));
+                                          : fmt::format("pushed by {:g} N", t.force_on));
     const double radius = smallest_radius(t.body.shape);
     if (std::isfinite(radius) && radius > 0.0) fmt::print(", smallest radius {:g} mm", radius);
     fmt::print("\n");

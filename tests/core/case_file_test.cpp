@@ -201,8 +201,8 @@ TEST(CaseFile, ReadsPlacesAndMotionsOfTools) {
   EXPECT_EQ(c.tools[3].motion, Motion::fixed);
   EXPECT_EQ(coin.motion, Motion::force);
   EXPECT_DOUBLE_EQ(coin.force, 300.0);
-  EXPECT_DOUBLE_EQ(coin.mass, 2.5e-3);       // t
-  EXPECT_DOUBLE_EQ(c.tools[5].mass, 0.1e-3); // the default, 0.1 kg
+  EXPECT_DOUBLE_EQ(coin.mass, 2.5e-3); // t
+  EXPECT_EQ(c.tools[5].mass, 0.0);     // the default
   // Rotations are products of sines and cosines: some rounding.
   EXPECT_TRUE((roll.rotation * Vec3::UnitZ()).isApprox(Vec3::UnitY(), 1e-14));
   EXPECT_TRUE((roll.rotation * Vec3::UnitX()).isApprox(Vec3::UnitX(), 1e-14)); // shortest way
@@ -258,6 +258,7 @@ TEST(CaseFile, ReadsSolverAndContactOptions) {
   EXPECT_EQ(c.solver.fibre_softening, 10.0);
   EXPECT_EQ(c.solver.fibre_damping, 0.06);
   EXPECT_EQ(c.solver.mass_damping, 3.0);
+  EXPECT_EQ(c.solver.element, ElementKind::averaged);
   EXPECT_EQ(c.solver.max_balance_error, 0.2);
   EXPECT_EQ(c.solver.outputs, 7);
   EXPECT_EQ(c.contact.stiffness, 0.2);

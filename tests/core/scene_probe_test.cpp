@@ -21,8 +21,8 @@ TEST(SceneProbe, FindsWhereALineRunsInATool) {
     const double half = std::sqrt(25.0 - (x - 1.0) * (x - 1.0));
     const auto parts = occupied(tool, {x, 0.0}, -20.0, 20.0);
     ASSERT_EQ(parts.size(), 1u) << x;
-    EXPECT_NEAR(parts[0].first, 2.0 - half, 1e-9); // bisection of a step to 2^-30
-    EXPECT_NEAR(parts[0].second, 2.0 + half, 1e-9);
+    EXPECT_NEAR(parts[0].first, 2.0 - half, 3e-8); // 2^-30 of a step, at most 22 mm
+    EXPECT_NEAR(parts[0].second, 2.0 + half, 3e-8);
   }
   EXPECT_TRUE(occupied(tool, {6.1, 0.0}, -20.0, 20.0).empty());
   const auto cut = occupied(tool, {1.0, 0.0}, 0.0, 1.0); // wholly inside
