@@ -168,7 +168,10 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 }
 
 std::string joined(const std::vector<std::string>& words) {
-  return fmt::format("{}", fmt::join(words, ", "));
+  std::string text; // not fmt::join: GCC 12 warns of an overflow inside fmt 9 there
+  for (const std::string& word : words)
+    text += (text.empty() ? "" : ", ") + word;
+  return text;
 }
 
 std::vector<KeyInfo> case_keys() {
