@@ -10,7 +10,8 @@ int keys_command() {
   for (const KeyInfo& k : case_keys()) {
     fmt::print("{}\n    {}", k.key, k.type);
     if (!k.unit.empty() && k.unit != "-") fmt::print(", {}", k.unit);
-    if (!k.fallback.empty()) fmt::print("; default {}", k.fallback);
+    const bool required = k.fallback.rfind("required", 0) == 0;
+    if (!k.fallback.empty()) fmt::print("; {}{}", required ? "" : "default ", k.fallback);
     if (!k.range.empty()) fmt::print("; {}", k.range);
     fmt::print("\n    {}\n", k.meaning);
   }
