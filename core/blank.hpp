@@ -17,11 +17,12 @@ struct Outline {
 };
 
 enum class MeshKind {
-  diagonal, ///< squares with one diagonal
-  crossed,  ///< squares with both diagonals (a node in the middle)
-  fibres,   ///< cells with sides along both fibre directions, one diagonal
-  free,     ///< Delaunay refinement (CGAL Mesh_2)
-  file,     ///< read from `file`
+  diagonal,    ///< squares with one diagonal, all the same way
+  alternating, ///< squares with one diagonal, turned from square to square: favours no direction
+  crossed,     ///< squares with both diagonals (a node in the middle)
+  fibres,      ///< cells with sides along both fibre directions, one diagonal
+  free,        ///< Delaunay refinement (CGAL Mesh_2)
+  file,        ///< read from `file`
 };
 
 struct BlankSpec {

@@ -236,8 +236,14 @@ BlankMesh cut_blank(const BlankSpec& spec, const CellDirections& directions) {
 
   BlankMesh mesh{band.x, {}};
   const auto x = [&](std::int32_t n) { return mesh.x[static_cast<std::size_t>(n)]; };
+  const Vec2 first = cells.corners.empty() ? Vec2(0, 0) : x(cells.corners.front()[0]);
+  const auto odd = [&](const Vec2& corner) { // of the cell in the lattice, counted from the first
+    const Vec2 d = (corner - first) / spec.element_size;
+    return (std::lround(d.dot(directions.a)) + std::lround(d.dot(directions.b))) % 2 != 0;
+  };
   for (const auto& c : cells.corners) {
-    append_cell(c, static_cast<std::int32_t>(mesh.x.size()), spec.mesh, is_skew(directions),
+    append_cell(c, static_cast<std::int32_t>(mesh.x.size()), spec.mesh,
+                is_skew(directions) != (spec.mesh == MeshKind::alternating && odd(x(c[0]))),
                 mesh.triangles);
     if (spec.mesh == MeshKind::crossed) mesh.x.emplace_back((x(c[0]) + x(c[2])) / 2);
   }

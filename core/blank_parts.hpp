@@ -45,10 +45,10 @@ void check_outline(const Outline& outline, double element_size);
 Region sample_outline(const Outline& outline, double spacing);
 
 /// The one or two diagonals of the cell p00 p10 p11 p01 (node numbers); `centre` is the node in
-/// the middle, for MeshKind::crossed. A skew cell (angle at p00 below 90 degrees) gets the shorter
-/// diagonal p10-p01, a square one p00-p11.
+/// the middle, for MeshKind::crossed. The diagonal is p00-p11, or the other one, p10-p01: the
+/// shorter one of a skew cell (angle at p00 below 90 degrees).
 void append_cell(const std::array<std::int32_t, 4>& cell, std::int32_t centre, MeshKind mesh,
-                 bool skew, std::vector<Triangle>& triangles);
+                 bool other_diagonal, std::vector<Triangle>& triangles);
 
 /// Exact grid if the outline is a parallelogram without holes with sides along the cells.
 std::optional<BlankMesh> structured_blank(const BlankSpec& spec, const CellDirections& directions);

@@ -51,12 +51,12 @@ int cells_along(double side, double element_size) {
 } // namespace
 
 void append_cell(const std::array<std::int32_t, 4>& cell, std::int32_t centre, MeshKind mesh,
-                 bool skew, std::vector<Triangle>& triangles) {
+                 bool other_diagonal, std::vector<Triangle>& triangles) {
   const auto [p00, p10, p11, p01] = cell;
   if (mesh == MeshKind::crossed)
     for (std::size_t k = 0; k < 4; ++k)
       triangles.push_back({cell[k], cell[(k + 1) % 4], centre});
-  else if (skew) {
+  else if (other_diagonal) {
     triangles.push_back({p00, p10, p01});
     triangles.push_back({p10, p11, p01});
   } else {
@@ -83,7 +83,7 @@ std::optional<BlankMesh> structured_blank(const BlankSpec& spec, const CellDirec
     for (int i = 0; i < nu; ++i) {
       const int p00 = j * (nu + 1) + i, p01 = p00 + nu + 1;
       append_cell({p00, p00 + 1, p01 + 1, p01}, static_cast<std::int32_t>(mesh.x.size()), spec.mesh,
-                  skew, mesh.triangles);
+                  skew != (spec.mesh == MeshKind::alternating && (i + j) % 2 == 1), mesh.triangles);
       if (spec.mesh == MeshKind::crossed) mesh.x.push_back(place(i + 0.5, j + 0.5));
     }
   return mesh;

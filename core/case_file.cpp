@@ -25,11 +25,10 @@ using Numbers = std::map<std::string, int>; ///< index by name
 
 BlankSpec read_blank(const Section& section, const std::filesystem::path& folder,
                      Findings& findings) {
-  static const std::map<std::string, MeshKind> kinds{{"diagonal", MeshKind::diagonal},
-                                                     {"crossed", MeshKind::crossed},
-                                                     {"fibres", MeshKind::fibres},
-                                                     {"free", MeshKind::free},
-                                                     {"file", MeshKind::file}};
+  static const std::map<std::string, MeshKind> kinds{
+      {"diagonal", MeshKind::diagonal}, {"alternating", MeshKind::alternating},
+      {"crossed", MeshKind::crossed},   {"fibres", MeshKind::fibres},
+      {"free", MeshKind::free},         {"file", MeshKind::file}};
   BlankSpec blank;
   const auto kind = kinds.find(text(section, "mesh"));
   if (kind == kinds.end()) return blank;

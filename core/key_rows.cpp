@@ -89,15 +89,16 @@ Rows fabric_rows() {
 }
 
 Rows blank_rows() {
-  const std::vector<std::string> meshed{"diagonal", "crossed", "fibres", "free"};
+  const std::vector<std::string> meshed{"diagonal", "alternating", "crossed", "fibres", "free"};
   return {
       {.key = "blanks", .kind = K::map, .meaning = "blanks, each under a name of your choice"},
       {.key = "blanks.NAME", .kind = K::table, .meaning = "outline and mesh of an unformed ply"},
       {.key = "blanks.NAME.mesh",
        .kind = K::choice,
        .fallback = "\"diagonal\"",
-       .choices = {"diagonal", "crossed", "fibres", "free", "file"},
-       .meaning = "kind of mesh: squares with one diagonal or with both, cells along both fibre "
+       .choices = {"diagonal", "alternating", "crossed", "fibres", "free", "file"},
+       .meaning = "kind of mesh: squares with one diagonal (all the same way, or alternating) or "
+                  "with both, cells along both fibre "
                   "directions, free triangles, or triangles from a file"},
       {.key = "blanks.NAME.size",
        .kind = K::numbers,

@@ -132,16 +132,25 @@ double larger(double a, double b) {
   return std::isnan(a) || std::isnan(b) ? nan_value : std::max(a, b);
 }
 
+std::vector<double> negative(std::vector<double> values) {
+  for (double& v : values)
+    v = -v;
+  return values;
+}
+
 std::string ply_json(const PlyFrame& ply) {
   const std::vector<double> areas = areas_before(ply);
   return fmt::format(
       "{{\"name\": {}, \"angle_deg\": {}, \"max_shear_deg\": {}, \"p99_shear_deg\": {}, "
-      "\"rms_shear_deg\": {}, \"max_fibre_strain\": {}, \"max_tension_N_per_yarn\": {}}}",
+      "\"rms_shear_deg\": {}, \"max_fibre_strain\": {}, \"min_fibre_strain\": {}, "
+      "\"max_tension_N_per_yarn\": {}}}",
       json_string(ply.name), json_number(ply.angle_deg),
       json_number(largest_magnitude(ply.shear_deg)),
       json_number(percentile(ply.shear_deg, areas, 0.99)),
       json_number(root_mean_square(ply.shear_deg, areas)),
-      json_number(larger(largest_magnitude(ply.warp_strain), largest_magnitude(ply.weft_strain))),
+      json_number(larger(largest_value(ply.warp_strain), largest_value(ply.weft_strain))),
+      json_number(-larger(largest_value(negative(ply.warp_strain)),
+                          largest_value(negative(ply.weft_strain)))),
       json_number(larger(largest_value(ply.warp_tension), largest_value(ply.weft_tension))));
 }
 

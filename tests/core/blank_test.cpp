@@ -2,10 +2,13 @@
 #include "blank_checks.hpp"
 #include "core/blank.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cstring>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <memory>
+#include <set>
 
 namespace plyform {
 namespace {
@@ -55,6 +58,25 @@ TEST(Blank, DiagonalSquareHasExactCounts) {
       const Vec2 expected(-170 + 6.8 * i, -170 + 6.8 * j);
       EXPECT_LE((mesh.x[static_cast<std::size_t>(51 * j + i)] - expected).norm(), 1e-12 * 340);
     }
+}
+
+TEST(Blank, AlternatingSquareIsTheSameAfterAQuarterTurn) {
+  const BlankMesh mesh = mesh_of(square_340(), MeshKind::alternating, 34);
+  expect_sound(mesh, square_340(), "alternating square");
+  const auto turned = [](int node) { // x, y -> -y, x on the grid of 11 by 11 nodes
+    const int i = node % 11, j = node / 11;
+    return 11 * i + (10 - j);
+  };
+  std::set<std::array<int, 3>> plain, rotated;
+  for (const Triangle& t : mesh.triangles) {
+    std::array<int, 3> a{t[0], t[1], t[2]}, b{turned(t[0]), turned(t[1]), turned(t[2])};
+    std::sort(a.begin(), a.end());
+    std::sort(b.begin(), b.end());
+    plain.insert(a);
+    rotated.insert(b);
+  }
+  EXPECT_EQ(plain.size(), 2u * 10u * 10u);
+  EXPECT_EQ(plain, rotated);
 }
 
 TEST(Blank, CrossedSquareHasExactCountsAndRightAngles) {
@@ -138,6 +160,7 @@ TEST(Blank, EveryMeshOfEveryOutlineIsSoundAndWithoutSlivers) {
         meshes.emplace_back(fmt::format("fibres {} {}", warp, weft),
                             mesh_of(outline, MeshKind::fibres, h, warp, weft));
       meshes.emplace_back("diagonal", mesh_of(outline, MeshKind::diagonal, h));
+      meshes.emplace_back("alternating", mesh_of(outline, MeshKind::alternating, h));
       meshes.emplace_back("crossed", mesh_of(outline, MeshKind::crossed, h));
       meshes.emplace_back("free", mesh_of(outline, MeshKind::free, h));
       for (const auto& [kind, mesh] : meshes) {

@@ -48,7 +48,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "elements": 2,
   "nodes": 4,
   "plies": [
-    {"name": "p", "angle_deg": 0, "max_shear_deg": 20, "p99_shear_deg": 10, "rms_shear_deg": 10.1488916, "max_fibre_strain": 0.004, "max_tension_N_per_yarn": 7}
+    {"name": "p", "angle_deg": 0, "max_shear_deg": 20, "p99_shear_deg": 10, "rms_shear_deg": 10.1488916, "max_fibre_strain": 0.003, "min_fibre_strain": -0.004, "max_tension_N_per_yarn": 7}
   ],
   "tools": [],
   "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "balance_error": 0},
@@ -71,7 +71,7 @@ TEST(SummaryJson, NumbersThatAreNotFiniteBecomeNull) {
   frame.energy.shear = nan_value;
   const std::string json = summary_json(frame, {});
   for (const char* key : {"max_shear_deg", "p99_shear_deg", "rms_shear_deg", "max_fibre_strain",
-                          "max_tension_N_per_yarn", "shear", "balance_error"})
+                          "min_fibre_strain", "max_tension_N_per_yarn", "shear", "balance_error"})
     EXPECT_TRUE(contains(json, std::string("\"") + key + "\": null")) << key << '\n' << json;
   EXPECT_FALSE(contains(json, "nan"));
   EXPECT_FALSE(contains(json, "inf,"));
