@@ -4,6 +4,7 @@
 
 #include "contact/tool_contact.hpp"
 
+#include <cmath>
 #include <random>
 
 namespace plyform {
@@ -62,7 +63,7 @@ inline OwnedSheet square_sheet(int cells, double size, double z) {
 inline double largest_norm(const std::vector<Vec3>& vectors) {
   double largest = 0.0;
   for (const Vec3& v : vectors)
-    largest = v.norm() <= largest ? largest : v.norm(); // lets NaN through
+    if (!(v.norm() <= largest) && !std::isnan(largest)) largest = v.norm(); // NaN stays
   return largest;
 }
 

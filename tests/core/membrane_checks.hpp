@@ -87,7 +87,7 @@ inline std::vector<Vec3> nodal_forces(Membrane& m, const std::vector<Vec3>& x, d
 inline double largest_norm(const std::vector<Vec3>& vectors) {
   double largest = 0.0;
   for (const Vec3& v : vectors)
-    largest = v.norm() <= largest ? largest : v.norm(); // lets NaN through
+    if (!(v.norm() <= largest) && !std::isnan(largest)) largest = v.norm(); // NaN stays
   return largest;
 }
 
