@@ -216,23 +216,28 @@ TEST(SheetContact, NoPairIsMissedBetweenSearches) {
   for (Vec3& x : master.x)
     x.z() = wave(x.x(), x.y());
   SheetContact contact = contact_of({1.0, 0.0, 0.0});
-  std::vector<Vec3> at_search = slave.x;
+  std::vector<Vec3> slave_at_search = slave.x, master_at_search = master.x;
   int touching = 0, searches = 0;
   for (int step = 0; step < 150; ++step) {
-    // drawn sideways over the waves and off the rim, just above them, bobbing
+    // drawn against each other over the waves and off the rim, just apart, bobbing
+    constexpr double way = 0.08;
     std::vector<Vec3> motion;
     for (std::size_t n = 0; n < slave.x.size(); ++n) {
-      const double x = slave.x[n].x() + 0.12, y = slave.x[n].y() + 0.05;
-      const double z = wave(x, y) + thickness + 0.1 + 0.15 * std::sin(0.4 * step + x);
-      motion.emplace_back(0.12, 0.05, z - slave.x[n].z());
+      const double x = slave.x[n].x() + way, y = slave.x[n].y() + 0.05;
+      const double z =
+          wave(x + way * (step + 1), y) + thickness + 0.1 + 0.15 * std::sin(0.4 * step + x);
+      motion.emplace_back(way, 0.05, z - slave.x[n].z());
     }
     slave.move(motion);
+    master.move(std::vector<Vec3>(master.x.size(), Vec3(-way, 0.0, 0.0)));
     double moved = 0.0;
     for (std::size_t n = 0; n < slave.x.size(); ++n)
-      moved = std::max(moved, (slave.x[n] - at_search[n]).norm());
+      moved = std::max(moved, (slave.x[n] - slave_at_search[n]).norm());
+    moved = std::max(moved, (master.x[0] - master_at_search[0]).norm());
     if (step == 0 || moved > 0.5 * skin) {
       search(contact, slave, master, skin);
-      at_search = slave.x;
+      slave_at_search = slave.x;
+      master_at_search = master.x;
       ++searches;
     }
     forces(contact, slave, master);
