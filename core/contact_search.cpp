@@ -56,10 +56,10 @@ void collect_forces(Scene& s) {
 double way_since_search(const Scene& s) {
   double moved2 = 0.0;
   for (const NodeSums& n : s.node_sums)
-    moved2 = n.moved2 <= moved2 ? moved2 : n.moved2; // lets NaN through
+    if (!(n.moved2 <= moved2) && !std::isnan(moved2)) moved2 = n.moved2; // NaN stays
   for (const ToolAndContacts& t : s.tools) {
     const double tool2 = (t.body.displacement - t.displacement_search).squaredNorm();
-    moved2 = tool2 <= moved2 ? moved2 : tool2;
+    if (!(tool2 <= moved2) && !std::isnan(moved2)) moved2 = tool2;
   }
   return std::sqrt(moved2);
 }

@@ -107,7 +107,7 @@ NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt,
     ply.x[n] += ply.motion[n]; // (15)
     sums.damping += 0.5 * alpha * ply.membrane.node_mass[n] * old.dot(old + now) * dt;
     const double moved2 = (ply.x[n] - ply.x_search[n]).squaredNorm();
-    sums.moved2 = moved2 <= sums.moved2 ? sums.moved2 : moved2; // lets NaN through
+    if (!(moved2 <= sums.moved2) && !std::isnan(sums.moved2)) sums.moved2 = moved2; // NaN stays
   }
   return sums;
 }

@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws of yarns and cells: slope, value and energy belong together.
+#include "core/fabric.hpp"
+#include "membrane_checks.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plyform {
+namespace {
+
+constexpr double h = 1e-6; // strain or rad: cut-off 1e-12 relative, rounding 1e-9
+
+template <class Law>
+void expect_consistent(const Law& law, double at, double scale) {
+  const LawPoint p = law.at(at), below = law.at(at - h), above = law.at(at + h);
+  EXPECT_NEAR(p.slope, (above.value - below.value) / (2.0 * h), 1e-7 * scale) << at;
+  EXPECT_NEAR(p.value, (above.energy - below.energy) / (2.0 * h), 1e-7 * scale) << at;
+}
+
+TensionLaw crimped() { // soft until the crimp is gone
+  TensionLaw law;
+  law.strain = {0.0, 0.002, 0.005, 0.01};
+  law.tension = {0.0, 10.0, 90.0, 320.0};
+  return law;
+}
+
+TEST(TensionLaw, SlopeAndEnergyBelongToTheTension) {
+  TensionLaw line;
+  line.stiffness = 46000.0;
+  for (const double strain : {-0.1, -1e-4, 1e-4, 0.003, 0.0049, 0.008, 0.011, 0.5}) {
+    expect_consistent(line, strain, 46000.0);
+    expect_consistent(crimped(), strain, 46000.0);
+  }
+}
+
+TEST(TensionLaw, CarriesTensionOnly) {
+  TensionLaw line;
+  line.stiffness = 46000.0;
+  for (const TensionLaw& law : {line, crimped()})
+    for (const double strain : {-1.0, -1e-9, 0.0}) {
+      const LawPoint p = law.at(strain);
+      EXPECT_EQ(p.value, 0.0);
+      EXPECT_EQ(p.slope, 0.0);
+      EXPECT_EQ(p.energy, 0.0);
+    }
+}
+
+TEST(TensionLaw, FollowsItsTableAndGoesOnWithTheLastSlope) {
+  const TensionLaw law = crimped();
+  for (std::size_t i = 0; i < law.strain.size(); ++i)
+    EXPECT_NEAR(law.at(law.strain[i]).value, law.tension[i], 1e-12);
+  EXPECT_NEAR(law.at(0.0035).value, 50.0, 1e-12);
+  EXPECT_NEAR(law.at(0.02).value, 320.0 + 46000.0 * 0.01, 1e-9);
+  EXPECT_NEAR(law.at(0.02).slope, 46000.0, 1e-6);
+  EXPECT_NEAR(law.largest_slope(), 46000.0, 1e-6);
+  // areas under the table: 0.01 + 0.15 + 1.025, and a trapezium beyond
+  EXPECT_NEAR(law.at(0.01).energy, 1.185, 1e-12);
+  EXPECT_NEAR(law.at(0.02).energy, 1.185 + 0.5 * (320.0 + 780.0) * 0.01, 1e-12);
+}
+
+TEST(ShearLaw, SlopeAndEnergyBelongToTheTorqueAndItIsOdd) {
+  ShearLaw table;
+  table.angle = {0.0, 0.3, 0.8};
+  table.torque = {0.0, 0.1, 0.9};
+  for (const ShearLaw& law : {glass_weave().shear, table})
+    for (const double angle : {-1.2, -0.5, -0.2, -0.01, 0.01, 0.25, 0.6, 0.9, 1.5}) {
+      expect_consistent(law, angle, 10.0);
+      const LawPoint p = law.at(angle), mirrored = law.at(-angle);
+      EXPECT_EQ(p.value, -mirrored.value);
+      EXPECT_EQ(p.slope, mirrored.slope);
+      EXPECT_EQ(p.energy, mirrored.energy);
+      EXPECT_GT(p.value * angle, 0.0);
+      EXPECT_GT(p.energy, 0.0);
+    }
+  EXPECT_NEAR(table.at(1.0).value, 0.9 + 1.6 * 0.2, 1e-12); // beyond the end
+  EXPECT_EQ(table.at(0.0).value, 0.0);
+  EXPECT_NEAR(table.at(0.0).slope, 0.1 / 0.3, 1e-15);
+}
+
+TEST(ShearLaw, IsThePapersPolynomial) {
+  // Hamila and Boisse 2008, table 1, at 0.5 rad, by hand
+  const LawPoint p = glass_weave().shear.at(0.5);
+  EXPECT_NEAR(p.value, 0.18522 + 0.10513125 + 0.0322228125, 1e-12);
+  EXPECT_NEAR(p.energy, 0.046305 + 0.01314140625 + 0.002685234375, 1e-12);
+}
+
+} // namespace
+} // namespace plyform

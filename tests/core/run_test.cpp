@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Whole runs of small cases: same bits on any number of threads, early ends, forces through a
+// stack.
+#include "core/run.hpp"
+#include "core/step.hpp"
+#include "scene_checks.hpp"
+
+#include <cstring>
+#include <gtest/gtest.h>
+
+namespace plyform {
+namespace {
+
+bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
+  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
+}
+
+bool all_finite(const Frame& f) {
+  for (const PlyFrame& ply : f.plies)
+    for (const Vec3& x : ply.x)
+      if (!x.allFinite()) return false;
+  return true;
+}
+
+TEST(Run, GivesTheSameBitsForAnyNumberOfThreads) {
+  Case data = coarse_hemisphere({0.0, 0.25 * std::numbers::pi});
+  data.tools[0].stroke = 30.0; // two plies of 20 mm cells do not come round the fillet much further
+  data.solver.duration = 0.03; // s: soon done
+  const RunResult one = run_case(data, 1, {});
+  ASSERT_EQ(one.summary.status, "done") << one.summary.message;
+  ASSERT_TRUE(all_finite(one.last));
+  EXPECT_GT(one.last.energy.shear, 0.0);
+  EXPECT_GT(one.last.energy.friction, 0.0);
+  for (const int threads : {2, 4}) {
+    const RunResult more = run_case(data, threads, {});
+    EXPECT_EQ(more.summary.steps, one.summary.steps);
+    EXPECT_EQ(more.summary.threads, threads);
+    for (std::size_t p = 0; p < 2; ++p)
+      EXPECT_TRUE(same_bits(more.last.plies[p].x, one.last.plies[p].x)) << threads;
+    EXPECT_EQ(std::memcmp(&more.last.energy, &one.last.energy, sizeof(Energies)), 0) << threads;
+    for (std::size_t t = 0; t < 3; ++t)
+      EXPECT_TRUE(same_bits({more.last.tools[t].force}, {one.last.tools[t].force})) << threads;
+  }
+}
+
+TEST(Run, EndsEarlyWhenInterrupted) {
+  std::atomic<bool> interrupt{false};
+  std::vector<Frame> frames;
+  RunHooks hooks;
+  hooks.interrupt = &interrupt;
+  hooks.frame = [&](const Frame& f) {
+    frames.push_back(f);
+    if (frames.size() == 5) interrupt = true;
+  };
+  const RunResult run = run_case(coarse_hemisphere({0.0}), 2, hooks);
+  EXPECT_EQ(run.summary.status, "interrupted");
+  ASSERT_EQ(frames.size(), 6u); // and the state where it ended
+  EXPECT_EQ(frames.back().step, frames[4].step + 1);
+  EXPECT_EQ(frames.back().step, run.summary.steps);
+  EXPECT_TRUE(same_bits(frames.back().plies[0].x, run.last.plies[0].x));
+  EXPECT_LT(run.last.time, 0.1);
+  EXPECT_NEAR(frames[4].stroke_mm, 4.0 / 20.0 * 75.0, 1.0); // even over the stroke
+  EXPECT_TRUE(all_finite(run.last));
+}
+
+TEST(Run, StopsAtTheBalanceLimitWithTheLastGoodState) {
+  Case data = coarse_hemisphere({0.0});
+  data.solver.max_balance_error = 1e-9;
+  std::vector<Frame> frames;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& f) { frames.push_back(f); };
+  const RunResult run = run_case(data, 1, hooks);
+  EXPECT_EQ(run.summary.status, "stopped");
+  for (const char* part :
+       {"stopped at step ", "time ", "energy balance error", "solver.max_balance_error"})
+    EXPECT_NE(run.summary.message.find(part), std::string::npos) << run.summary.message;
+  EXPECT_TRUE(all_finite(run.last));
+  EXPECT_LT(run.last.time, data.solver.duration);
+  ASSERT_FALSE(frames.empty());
+  EXPECT_TRUE(same_bits(frames.back().plies[0].x, run.last.plies[0].x));
+  EXPECT_EQ(frames.back().step, run.last.step);
+  // the state kept is the last one before, at most 100 steps earlier
+  const long stopped = std::stol(run.summary.message.substr(std::strlen("stopped at step ")));
+  EXPECT_GT(stopped, run.last.step);
+  EXPECT_LE(stopped - run.last.step, 100);
+}
+
+TEST(Run, StopsWhenTheStepIsTooLarge) {
+  Case data = coarse_hemisphere({0.0});
+  data.solver.step_factor = 1.5; // a grid's true limit is 1.22 of the bound
+  const RunResult run = run_case(data, 1, {});
+  EXPECT_EQ(run.summary.status, "stopped");
+  for (const char* part : {"step ", "time "})
+    EXPECT_NE(run.summary.message.find(part), std::string::npos) << run.summary.message;
+  EXPECT_TRUE(all_finite(run.last));
+}
+
+/// Force along z on ply `lower` from the ply above it, N.
+double force_from_above(const Scene& s, int lower) {
+  double sum = 0.0;
+  const auto add = [&](const std::vector<Vec3>& force) {
+    for (const Vec3& f : force)
+      sum += f.z();
+  };
+  for (const PlyContact& c : s.ply_contacts) {
+    if (c.contact.points.empty()) continue;
+    if (c.slave == lower && c.master == lower + 1) add(c.contact.slave_force);
+    if (c.master == lower && c.slave == lower + 1) add(c.contact.master_force);
+  }
+  for (const PlyEdgeContact& c : s.edge_contacts)
+    if (c.a == lower && c.b == lower + 1 && !c.contact.pairs.empty()) add(c.contact.force_a);
+  return sum;
+}
+
+TEST(Run, CarriesAPlatesForceThroughEveryPlyOfAStack) {
+  Case data = stack_of({0.0, 0.25 * std::numbers::pi, 0.0}, rectangle(100.0, 100.0, 12.5));
+  Tool floor;
+  floor.name = "floor";
+  floor.shape = Plane{};
+  Tool plate;
+  plate.name = "plate";
+  plate.shape = Box{{140.0, 140.0, 10.0}};
+  plate.position = {0.0, 0.0, 3 * 0.6 + 5.0};
+  plate.motion = Motion::force;
+  plate.force = 30.0;
+  data.tools = {floor, plate};
+  set_friction(data, 0.2);
+  data.solver.fibre_softening = 100.0;
+  data.solver.mass_damping = 2000.0; // 1/s: at rest long before the end
+  data.solver.duration = 0.02;
+  Scene s = make_scene(data);
+  ThreadTeam team(1);
+  start(s, team);
+  for (;;) {
+    const auto stop = compute_forces(s, team);
+    ASSERT_FALSE(stop) << stop->message;
+    if (s.time >= data.solver.duration) break;
+    move_plies(s, team);
+  }
+  const double kinetic = current_energies(s, team).kinetic;
+  EXPECT_LT(kinetic, 1e-6); // N mm: a ply of 0.6 t at 0.1 mm/s
+  EXPECT_NEAR(s.tools[0].force.z(), -30.0, 0.005 * 30.0);
+  EXPECT_NEAR(s.tools[1].force.z(), 30.0, 1e-8 * 30.0); // solved for
+  for (const int lower : {0, 1})
+    EXPECT_NEAR(force_from_above(s, lower), -30.0, 0.005 * 30.0) << lower;
+}
+
+} // namespace
+} // namespace plyform

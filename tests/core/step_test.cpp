@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The time step: what it must conserve, known vibrations, where it is stable, how it stops.
+#include "core/step.hpp"
+#include "scene_checks.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plyform {
+namespace {
+
+/// A ply without tools, 10 x 10 cells of 10 mm.
+Scene free_ply(double angle, double step_factor = 0.9) {
+  Case data = stack_of({angle}, rectangle(100.0, 100.0, 10.0));
+  set_friction(data, 0.0);
+  data.solver.step_factor = step_factor;
+  return make_scene(data);
+}
+
+struct Momenta {
+  Vec3 linear = Vec3::Zero(), angular = Vec3::Zero();
+  double scale = 0.0; ///< sum of the absolute momenta, t mm/s
+};
+
+/// At the half step that led to x: x can be taken before or after it, x_(i+1) - x_i runs along v.
+Momenta momenta_of(const PlyBody& ply) {
+  Momenta m;
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    const Vec3 p = ply.membrane.node_mass[n] * ply.velocity[n];
+    m.linear += p;
+    m.angular += ply.x[n].cross(p);
+    m.scale += p.norm();
+  }
+  return m;
+}
+
+/// Sets a free ply off at random and lets it fly 1000 steps. Returns the gain of energy over the
+/// energy.
+double fly(double angle, double step_factor) {
+  Scene s = free_ply(angle, step_factor);
+  PlyBody& ply = s.plies[0];
+  Random random(1);
+  double kinetic = 0.0;
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    ply.velocity[n] = 1000.0 * random_vector(random) + Vec3(300.0, 0.0, 500.0);
+    kinetic += 0.5 * ply.membrane.node_mass[n] * ply.velocity[n].squaredNorm();
+  }
+  const Momenta before = momenta_of(ply);
+  ThreadTeam team(1);
+  start(s, team);
+  for (int step = 0; step < 1000; ++step) {
+    if (compute_forces(s, team)) return std::nan("");
+    move_plies(s, team);
+  }
+  if (compute_forces(s, team)) return std::nan("");
+  const Momenta after = momenta_of(ply);
+  EXPECT_LE((after.linear - before.linear).norm(), 1e-10 * before.scale);
+  EXPECT_LE((after.angular - before.angular).norm(), 1e-10 * before.scale * 50.0);
+  const Energies e = current_energies(s, team);
+  EXPECT_GT(e.fibre, 0.0);
+  EXPECT_GT(e.damping, 0.0);
+  EXPECT_GT(e.shear, 0.0);
+  EXPECT_EQ(e.external, 0.0);
+  return (e.kinetic + e.fibre + e.shear + e.damping) / kinetic - 1.0;
+}
+
+TEST(Step, FreePlyKeepsItsMomentaAndEnergy) {
+  for (const double angle : {0.0, 0.4}) { // the plain and the averaged element
+    // fibres go taut and slack all the time, in all of the mesh's highest modes: no more can be
+    // asked of large steps, but the error has to vanish with them
+    EXPECT_LT(std::abs(fly(angle, 0.9)), 0.05) << angle;
+    EXPECT_LT(std::abs(fly(angle, 0.2)), 0.002) << angle;
+  }
+}
+
+/// A strip of warp, 100 x 10 mm, in 10 cells, stretched by `strain`; its ends cannot move.
+Scene taut_strip(double strain, ElementKind element) {
+  Case data = stack_of({0.0}, rectangle(100.0, 10.0, 10.0));
+  set_friction(data, 0.0);
+  data.solver.element = element;
+  data.solver.fibre_damping = 0.0;
+  data.solver.step_factor = 0.2;
+  Scene s = make_scene(data);
+  PlyBody& ply = s.plies[0];
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    ply.x[n].x() *= 1.0 + strain;
+    if (std::abs(ply.x0[n].x()) > 49.0) ply.membrane.node_mass[n] = 1e9; // t: a wall
+  }
+  return s;
+}
+
+/// Angular frequency (rad/s) of the first mode along `direction`, from the times at which its
+/// amplitude passes zero upwards.
+double measured_frequency(Scene& s, const Vec3& direction, double speed) {
+  PlyBody& ply = s.plies[0];
+  const std::vector<Vec3> rest = ply.x;
+  std::vector<double> mode;
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    mode.push_back(std::cos(std::numbers::pi * ply.x0[n].x() / 100.0));
+    ply.velocity[n] = speed * mode[n] * direction;
+  }
+  ThreadTeam team(1);
+  start(s, team);
+  const auto amplitude = [&] {
+    double sum = 0.0;
+    for (std::size_t n = 0; n < ply.x.size(); ++n)
+      sum += mode[n] * (ply.x[n] - rest[n]).dot(direction);
+    return sum;
+  };
+  std::vector<double> crossings;
+  double last = 0.0, last_time = 0.0;
+  while (crossings.size() < 6 && s.step < 100000) {
+    if (compute_forces(s, team)) return std::nan("");
+    move_plies(s, team);
+    const double now = amplitude();
+    if (last < 0.0 && now >= 0.0)
+      crossings.push_back(last_time + (s.time - last_time) * last / (last - now));
+    last = now;
+    last_time = s.time;
+  }
+  return 2.0 * std::numbers::pi * 5.0 / (crossings.back() - crossings.front());
+}
+
+TEST(Step, TautStripVibratesAtItsClosedFormFrequency) {
+  // A chain of N cells of length h between walls: omega = 2/h sqrt(K/rho) sin(pi / 2N), with K = C
+  // d along the strip and K = d N / lambda across it; central differences make of it sin(omega' dt
+  // / 2) = omega dt / 2.
+  const double strain = 0.01, rho = 6e-10, stiffness = 46000.0 * 0.25;
+  const double chain = 2.0 / 10.0 * std::sin(std::numbers::pi / 20.0);
+  const double along = chain * std::sqrt(stiffness / rho);
+  const double across = chain * std::sqrt(stiffness * strain / (1.0 + strain) / rho);
+  for (const ElementKind element : {ElementKind::plain, ElementKind::averaged}) {
+    Scene s = taut_strip(strain, element);
+    double measured = measured_frequency(s, Vec3::UnitX(), 100.0); // to 7e-4 mm
+    // 1e-4: crossings by straight lines, at 100 steps a period
+    EXPECT_NEAR(measured, 2.0 / s.dt * std::asin(0.5 * along * s.dt), 1e-4 * along);
+    s = taut_strip(strain, element);
+    measured = measured_frequency(s, Vec3::UnitZ(), 100.0); // to 7e-3 mm: no further stretch
+    EXPECT_NEAR(measured, 2.0 / s.dt * std::asin(0.5 * across * s.dt), 1e-4 * across);
+  }
+}
+
+TEST(Step, DrivenToolFollowsItsPath) {
+  Case data = stack_of({0.0}, rectangle(100.0, 100.0, 10.0));
+  Tool ball;
+  ball.name = "ball";
+  ball.shape = Sphere{10.0};
+  ball.position = {0.0, 0.0, 100.0};
+  ball.motion = Motion::driven;
+  ball.direction = Vec3(0.6, 0.0, -0.8);
+  ball.stroke = 40.0;
+  data.tools = {ball};
+  set_friction(data, 0.1);
+  data.solver.duration = 2e-3;
+  Scene s = make_scene(data);
+  ThreadTeam team(1);
+  start(s, team);
+  Vec3 last = Vec3::Zero();
+  for (;;) {
+    ASSERT_FALSE(compute_forces(s, team));
+    const ToolBody& body = s.tools[0].body;
+    const double u = std::min(1.0, s.time / 2e-3);
+    const double way = 40.0 * std::pow(u, 3) * (10.0 - 15.0 * u + 6.0 * u * u);
+    EXPECT_NEAR((body.displacement - way * ball.direction).norm(), 0.0, 1e-12);
+    EXPECT_NEAR((body.motion - (body.displacement - last)).norm(), 0.0, 1e-14);
+    last = body.displacement;
+    if (s.time >= 2e-3) break;
+    move_plies(s, team);
+  }
+  EXPECT_NEAR((last - 40.0 * ball.direction).norm(), 0.0, 1e-12);
+  EXPECT_TRUE(s.tools[0].force.isZero(0.0)); // it met nothing
+}
+
+TEST(Step, SmoothPathStartsAndEndsAtRest) {
+  const auto path = [](double t) { return smooth_path(7.0, t, 2.0); };
+  EXPECT_EQ(path(0.0), 0.0);
+  EXPECT_EQ(path(2.0), 7.0);
+  EXPECT_EQ(path(-1.0), 0.0);
+  EXPECT_EQ(path(3.0), 7.0);
+  EXPECT_DOUBLE_EQ(path(1.0), 3.5);
+  const double h = 1e-3; // third order at both ends: 10 end (h/T)^3
+  EXPECT_NEAR(path(h), 70.0 * std::pow(h / 2.0, 3), 1e-11);
+  EXPECT_NEAR(7.0 - path(2.0 - h), 70.0 * std::pow(h / 2.0, 3), 1e-11);
+}
+
+/// A ply held taut all round, without damping, its nodes set off at random. Returns why it stopped,
+/// or nothing if it did not; `growth`: largest energy over that at first.
+std::optional<Stop> let_a_taut_ply_vibrate(double step_factor, double& growth) {
+  Case data = stack_of({0.0}, rectangle(100.0, 100.0, 10.0));
+  set_friction(data, 0.0);
+  data.solver.fibre_damping = 0.0;
+  data.solver.step_factor = step_factor;
+  Scene s = make_scene(data);
+  PlyBody& ply = s.plies[0];
+  Random random(2);
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    ply.x[n].head<2>() *= 1.005;
+    if (ply.x0[n].head<2>().lpNorm<Eigen::Infinity>() > 49.0)
+      ply.membrane.node_mass[n] = 1e9; // t: a frame
+    else
+      ply.velocity[n] = 1000.0 * random_vector(random); // keeps all fibres taut
+  }
+  ThreadTeam team(1);
+  start(s, team);
+  const auto energy = [&] {
+    const Energies e = current_energies(s, team);
+    return e.kinetic + e.fibre + e.shear;
+  };
+  double first = 0.0;
+  growth = 0.0;
+  for (int step = 0; step < 4000; ++step) {
+    if (auto stop = compute_forces(s, team)) return stop;
+    if (step == 1) first = energy();
+    if (step > 0) growth = std::max(growth, energy() / first);
+    move_plies(s, team);
+  }
+  return std::nullopt;
+}
+
+TEST(Step, IsStableBelowTheBoundAndStopsAboveIt) {
+  double growth = 0.0;
+  EXPECT_FALSE(let_a_taut_ply_vibrate(0.9, growth));
+  EXPECT_LT(growth, 1.05); // the energy of central differences swings by some per cent
+  EXPECT_GT(growth, 0.0);
+  const auto stop = let_a_taut_ply_vibrate(1.5, growth); // a grid's true limit is 1.22
+  ASSERT_TRUE(stop);
+  for (const char* part : {"stopped at step ", "time ", "ply ply1"})
+    EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
+}
+
+TEST(Step, StopsAtACollapsedTriangle) {
+  for (const bool sheared : {false, true}) {
+    Scene s = free_ply(0.0);
+    for (Vec3& x : s.plies[0].x)
+      if (sheared)
+        x = Vec3(x.x() + 80.0 * x.y(), x.y(), x.z()); // yarns less than 2 % of a right angle apart
+      else
+        x.x() *= 0.05;
+    ThreadTeam team(1);
+    start(s, team);
+    const auto stop = compute_forces(s, team);
+    ASSERT_TRUE(stop);
+    for (const char* part : {"stopped at step 0", "time ", "ply ply1", "triangle", "collapsed"})
+      EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
+  }
+}
+
+TEST(Step, StopsAtAPositionThatIsNotFinite) {
+  Scene s = free_ply(0.0);
+  ThreadTeam team(1);
+  start(s, team);
+  ASSERT_FALSE(compute_forces(s, team));
+  s.plies[0].velocity[17].y() = std::nan("");
+  move_plies(s, team);
+  const auto stop = compute_forces(s, team); // in the very next step
+  ASSERT_TRUE(stop);
+  for (const char* part : {"stopped at step 1", "time ", "ply ply1, node 17", "not finite"})
+    EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
+}
+
+} // namespace
+} // namespace plyform
