@@ -146,7 +146,7 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
     const int side = feature == 0 ? side_of(p, t, master.x) : 0;
     if ((c.side * side < 0 && d < h) || d < 0.5 * h) contact.fault = {c.node, c.face, d};
-    if (side != 0) c.side = side;
+    c.side = side; // forgotten on edges: a node may slide round the rim to the other side
     if (!(depth > 0.0)) {
       release(contact.law, c.area, c.memory, sums);
       continue;
