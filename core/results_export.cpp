@@ -5,6 +5,7 @@
 #include <bit>
 #include <cstdint>
 #include <fmt/format.h>
+#include <iterator>
 #include <stdexcept>
 #include <system_error>
 
@@ -14,7 +15,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Both binary formats are written as numbers lie in memory.
+// Binary STL is written as numbers lie in memory.
 static_assert(std::endian::native == std::endian::little);
 
 template <class T>
@@ -43,20 +44,22 @@ std::string stl(const std::vector<Vec3>& x, const std::vector<Triangle>& triangl
   return out;
 }
 
-/// A .vtu file in the making: the XML text, and the arrays appended after it, each behind its
-/// number of bytes.
+/// A .vtu file in the making. Arrays stand in the text, numbers in the shortest form that gives the
+/// same bits back: raw bytes appended behind the XML are shorter, but VTK 9 cannot read them with
+/// the expat of Debian's security updates (2.5.0-1+deb12u5), which looks further ahead.
 struct VtuFile {
-  std::string xml, arrays;
+  std::string xml;
 
   template <class T>
   void array(const char* name, const char* type, std::size_t components, const T* values,
              std::size_t count) {
-    const std::uint64_t bytes = count * sizeof(T);
     xml += fmt::format("<DataArray Name=\"{}\" type=\"{}\" NumberOfComponents=\"{}\" "
-                       "format=\"appended\" offset=\"{}\"/>\n",
-                       name, type, components, arrays.size());
-    put_bytes(arrays, &bytes, 1);
-    put_bytes(arrays, values, count);
+                       "format=\"ascii\">\n",
+                       name, type, components);
+    for (std::size_t i = 0; i < count; ++i)
+      fmt::format_to(std::back_inserter(xml), "{}{}", values[i],
+                     (i + 1) % components == 0 ? '\n' : ' ');
+    xml += "</DataArray>\n";
   }
   void scalars(const char* name, const std::vector<double>& values) {
     array(name, "Float64", 1, values.data(), values.size());
@@ -82,7 +85,7 @@ void put_cells(VtuFile& file, const std::vector<Triangle>& triangles) {
 std::string vtu(const PlyFrame& ply) {
   VtuFile file;
   file.xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
-             "byte_order=\"LittleEndian\" header_type=\"UInt64\">\n<UnstructuredGrid>\n";
+             "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
   file.xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
                           ply.x.size(), ply.triangles.size());
   file.vectors("Points", ply.x);
@@ -96,8 +99,7 @@ std::string vtu(const PlyFrame& ply) {
     file.vectors(field.name, ply.*field.values);
   for (const CellScalar& field : cell_scalars)
     file.scalars(field.name, ply.*field.values);
-  file.xml += "</CellData>\n</Piece>\n</UnstructuredGrid>\n<AppendedData encoding=\"raw\">\n_";
-  return file.xml + file.arrays + "\n</AppendedData>\n</VTKFile>\n";
+  return file.xml + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
 } // namespace
