@@ -7,8 +7,7 @@
 namespace plyform {
 namespace {
 
-constexpr double least_fold_cosine = 0.99027; // cos 8 degrees: an edge of 7 mm that folds less
-                                              // comes closer by 7/2 tan 4 deg = 0.25 mm at most
+constexpr double least_sag = 0.4; // thicknesses: two sheets, each below it, cannot reach each other
 
 const Vec3& at(std::span<const Vec3> x, int n) {
   return x[static_cast<std::size_t>(n)];
@@ -101,15 +100,19 @@ std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles) {
 }
 
 std::vector<std::int32_t> folded_edges(std::span<const SheetEdge> edges,
-                                       std::span<const Triangle> triangles,
-                                       std::span<const Vec3> x) {
+                                       std::span<const Triangle> triangles, std::span<const Vec3> x,
+                                       double thickness) {
   std::vector<std::int32_t> folded;
   for (std::size_t i = 0; i < edges.size(); ++i) {
     const SheetEdge& e = edges[i];
     if (e.right >= 0) {
       const Vec3 n = face_normal(triangles[static_cast<std::size_t>(e.left)], x);
       const Vec3 m = face_normal(triangles[static_cast<std::size_t>(e.right)], x);
-      if (n.dot(m) > least_fold_cosine * n.norm() * m.norm()) continue;
+      const double cosine = n.dot(m), size = n.norm() * m.norm();
+      // sag = L/2 tan(fold/2), tan^2(fold/2) = (1 - cos) / (1 + cos)
+      const double length2 = (at(x, e.b) - at(x, e.a)).squaredNorm();
+      const double limit = least_sag * thickness;
+      if (0.25 * length2 * (size - cosine) < limit * limit * (size + cosine)) continue;
     }
     folded.push_back(static_cast<std::int32_t>(i));
   }
@@ -152,8 +155,14 @@ void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const 
         contact.pairs.push_back(pair);
       }
   }
+  for (const EdgePair& pair : old) // touching, but no longer folded
+    if (pair.distance < contact.distance) contact.pairs.push_back(pair);
   std::sort(contact.pairs.begin(), contact.pairs.end(),
             [&](const EdgePair& p, const EdgePair& q) { return key(p) < key(q); });
+  contact.pairs.erase(
+      std::unique(contact.pairs.begin(), contact.pairs.end(),
+                  [&](const EdgePair& p, const EdgePair& q) { return key(p) == key(q); }),
+      contact.pairs.end());
   std::size_t known = 0;
   for (EdgePair& pair : contact.pairs) {
     pair.area = std::min(edge_area(a, pair.a), edge_area(b, pair.b));

@@ -3,8 +3,9 @@
 //
 // Node-to-face contact keeps every node h away from the other sheet. Between its nodes a straight
 // edge can still come closer, but only where both sheets are folded there: over a flat part of one
-// sheet a segment whose ends stay h away stays h away. So only edges with a fold of more than
-// `least_fold`, and rims, are looked at, and only closer than h/2: on a smoothly curved stack edges
+// sheet a segment whose ends stay h away stays h away. So only edges whose fold has a sag
+// (half the edge times the tangent of half the fold) of 0.4 thicknesses, and rims, are looked at,
+// and only closer than h/2: on a smoothly curved stack edges
 // of the two polyhedra are a little closer than h by construction, which is no penetration.
 //
 //   y_a = (1-s) x_1 + s x_2,  y_b = (1-t) x_3 + t x_4   closest points of the two edges, inside
@@ -31,10 +32,11 @@ struct SheetEdge {
 /// each further triangle.
 std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles);
 
-/// Numbers of the edges that are rims or folded by more than least_fold now.
+/// Numbers of the edges that are rims or whose fold now has a sag of more than 0.4 thicknesses
+/// (mm).
 std::vector<std::int32_t> folded_edges(std::span<const SheetEdge> edges,
-                                       std::span<const Triangle> triangles,
-                                       std::span<const Vec3> x);
+                                       std::span<const Triangle> triangles, std::span<const Vec3> x,
+                                       double thickness);
 
 /// One pair of edges.
 struct EdgePair {
@@ -53,7 +55,8 @@ struct EdgeContact {
   ContactSums sums;
 };
 
-/// Renews the pairs: folded edges of both sheets within distance + skin. Pairs keep their side.
+/// Renews the pairs: folded edges of both sheets within distance + skin, and every pair
+/// that touches already, folded or not. Pairs keep their side.
 void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
                      std::span<const std::int32_t> folded_a, const SheetState& b,
                      std::span<const SheetEdge> edges_b, std::span<const std::int32_t> folded_b,

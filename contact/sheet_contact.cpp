@@ -98,6 +98,7 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
   contact.slave_force.assign(slave.x.size(), Vec3::Zero());
   contact.master_force.assign(master.x.size(), Vec3::Zero());
   std::vector<int> label;
+  std::vector<char> adopted(old.size(), 0);
   std::size_t next_old = 0;
   for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
     while (end < candidates.size() && candidates[end].node == candidates[begin].node)
@@ -118,6 +119,7 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
           project(contact, c, at(slave.x, c.node), master.x, triangles, feature) - contact.distance;
       c.area = contact_area(slave, master, c.node, triangles[static_cast<std::size_t>(c.face)]);
       if (before) {
+        adopted[static_cast<std::size_t>(before - old.data())] = 1;
         c.memory = before->memory;
         c.side = before->side;
         c.area = before->area;
@@ -125,6 +127,10 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
       }
       contact.points.push_back(c);
     }
+  }
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    ContactMemory memory = old[i].memory;
+    if (!adopted[i]) release(contact.law, old[i].area, memory, contact.sums);
   }
 }
 

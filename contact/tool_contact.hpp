@@ -68,7 +68,7 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
                       double reach);
 
 /// Forces of one step of one tool on all its plies; contacts[i] is with plies[i]. dt: the step
-/// that led to these positions, s. For a pushed tool also moves it by (B), limited to next_dt *
+/// that led to these positions, s. For a pushed tool also moves it by (B), limited to dt *
 /// speed_limit. Returns the force (N) of the plies on the tool.
 Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
                  double dt);

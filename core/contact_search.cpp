@@ -58,7 +58,10 @@ double way_since_search(const Scene& s) {
   for (const NodeSums& n : s.node_sums)
     if (!(n.moved2 <= moved2) && !std::isnan(moved2)) moved2 = n.moved2; // NaN stays
   for (const ToolAndContacts& t : s.tools) {
-    const double tool2 = (t.body.displacement - t.displacement_search).squaredNorm();
+    // A pushed tool still moves after this test, with the forces of the step.
+    const double ahead = t.body.pushed ? t.body.speed_limit * s.dt : 0.0;
+    const double tool = (t.body.displacement - t.displacement_search).norm() + ahead;
+    const double tool2 = tool * tool;
     if (!(tool2 <= moved2) && !std::isnan(moved2)) moved2 = tool2;
   }
   return std::sqrt(moved2);
@@ -69,7 +72,7 @@ void search_contacts(Scene& s, ThreadTeam& team) {
     PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
-    ply.folded = folded_edges(ply.edges, ply.membrane.triangles, ply.x);
+    ply.folded = folded_edges(ply.edges, ply.membrane.triangles, ply.x, ply.thickness);
   });
   const int tools = static_cast<int>(s.tools.size());
   const int sheets = tools + static_cast<int>(s.ply_contacts.size());

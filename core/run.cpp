@@ -27,9 +27,20 @@ struct Snapshot {
   std::vector<std::vector<Vec3>> x;
   std::vector<Vec3> tool_displacement, tool_force;
   Energies energy;
+  ContactReport contact; ///< penetrations only
   double time = 0.0;
   long step = 0;
 };
+
+ContactReport penetrations(const Scene& s) {
+  ContactReport r;
+  for (const ToolAndContacts& t : s.tools)
+    for (const ToolContact& c : t.contacts)
+      r.max_tool_penetration_mm = std::max(r.max_tool_penetration_mm, c.sums.penetration);
+  for (const PlyContact& pair : s.ply_contacts)
+    r.max_ply_penetration_mm = std::max(r.max_ply_penetration_mm, pair.contact.sums.penetration);
+  return r;
+}
 
 void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
   snapshot.x.resize(s.plies.size());
@@ -42,6 +53,7 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
     snapshot.tool_force.push_back(t.force);
   }
   snapshot.energy = energy;
+  snapshot.contact = penetrations(s);
   snapshot.time = s.time;
   snapshot.step = s.step;
 }
@@ -57,23 +69,29 @@ void go_back(Scene& s, const Snapshot& snapshot) {
   s.step = snapshot.step;
 }
 
-/// Energy below which the balance is not judged: a hundredth of the kinetic energy of the whole
-/// stack at the fastest tool's speed.
+/// Energy (N mm) below which the balance is not judged, since it is then a ratio of roundings: a
+/// hundredth of the stack's kinetic energy at the fastest driven tool's peak speed, and what each
+/// pushed tool's force does on a tenth of a millimetre.
 double balance_floor(const Scene& s) {
-  double mass = 0.0, stroke = 0.0;
+  double mass = 0.0, stroke = 0.0, pushed = 0.0;
   for (const PlyBody& ply : s.plies)
     for (double m : ply.membrane.node_mass)
       mass += m;
-  for (const ToolAndContacts& t : s.tools)
+  for (const ToolAndContacts& t : s.tools) {
     stroke = std::max(stroke, std::abs(t.stroke));
+    pushed += 0.1 * std::abs(t.force_on);
+  }
   const double peak_speed = 1.875 * stroke / s.data.solver.duration; // of the fifth-order path
-  return 0.01 * 0.5 * mass * peak_speed * peak_speed;
+  return 1e-6 + pushed + 0.01 * 0.5 * mass * peak_speed * peak_speed;
 }
 
 std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floor) {
   const double error = e.balance_error();
   const double limit = s.data.solver.max_balance_error;
-  if (e.external < floor || std::abs(error) <= limit) return std::nullopt;
+  const double largest =
+      std::max({std::abs(e.kinetic), e.fibre, e.shear, e.contact, std::abs(e.friction),
+                std::abs(e.damping), std::abs(e.external)});
+  if (std::isfinite(error) && (largest < floor || std::abs(error) <= limit)) return std::nullopt;
   return Stop{
       fmt::format("stopped at step {}, time {:.6g} s: energy balance error {:.3g} passes "
                   "solver.max_balance_error = {:.3g}; a smaller solver.step_factor may help",
@@ -89,22 +107,18 @@ int outputs_due(const Scene& s) {
       done = t.body.displacement.dot(t.body.direction) / t.stroke;
       break;
     }
-  return static_cast<int>(std::floor(done * s.data.solver.outputs + 1e-9));
+  const int due = static_cast<int>(std::floor(done * s.data.solver.outputs + 1e-9));
+  return std::min(due, s.data.solver.outputs - 1); // the last one comes when the time is up
 }
 
-ContactReport report_contact(const Scene& s) {
-  ContactReport r;
-  for (const ToolAndContacts& t : s.tools)
-    for (const ToolContact& c : t.contacts)
-      r.max_tool_penetration_mm = std::max(r.max_tool_penetration_mm, c.sums.penetration);
-  for (const PlyContact& pair : s.ply_contacts)
-    r.max_ply_penetration_mm = std::max(r.max_ply_penetration_mm, pair.contact.sums.penetration);
+/// The exact audit of the state in `s`, with the penetrations that belong to it.
+ContactReport audit(const Scene& s, ContactReport r) {
   std::vector<SheetView> sheets;
   for (const PlyBody& ply : s.plies)
     sheets.push_back({ply.x, ply.membrane.triangles});
-  const AuditResult audit = audit_intersections(sheets);
-  r.intersections_between_plies = static_cast<long>(audit.between.size());
-  r.intersections_within_plies = static_cast<long>(audit.within.size());
+  const AuditResult found = audit_intersections(sheets);
+  r.intersections_between_plies = static_cast<long>(found.between.size());
+  r.intersections_within_plies = static_cast<long>(found.within.size());
   return r;
 }
 
@@ -120,7 +134,8 @@ Progress progress_of(const Scene& s, const Energies& e, double elapsed) {
   return p;
 }
 
-void finish(const Scene& s, RunResult& result, int threads, double elapsed) {
+void finish(const Scene& s, const ContactReport& depths, RunResult& result, int threads,
+            double elapsed) {
   Summary& sum = result.summary;
   sum.title = s.data.title;
   sum.version = version();
@@ -129,7 +144,15 @@ void finish(const Scene& s, RunResult& result, int threads, double elapsed) {
   sum.min_step_s = s.min_dt;
   sum.max_step_s = s.max_dt;
   sum.threads = threads;
-  sum.contact = report_contact(s);
+  sum.contact = audit(s, depths);
+  if (sum.contact.intersections_between_plies > 0 && sum.status == "done") {
+    sum.status = "stopped";
+    sum.message =
+        fmt::format("the plies overlap: {} pairs of triangles of different plies cross in "
+                    "the final state; a finer mesh, a larger contact.stiffness or a slower "
+                    "stroke may help",
+                    sum.contact.intersections_between_plies);
+  }
 }
 
 } // namespace
@@ -173,9 +196,10 @@ RunResult run_case(const Case& data, int threads, const RunHooks& hooks) {
     result.summary.status = "stopped";
     result.summary.message = stop->message;
     go_back(s, good);
-    write();
+    energy = good.energy;
+    if (s.step != result.last.step || written < 0) write();
   }
-  finish(s, result, threads, seconds_since(begin));
+  finish(s, good.contact, result, threads, seconds_since(begin));
   return result;
 }
 

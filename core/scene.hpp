@@ -100,8 +100,10 @@ struct StepBound {
   double damping = 0.0; ///< 1/s
   int ply = -1, triangle = -1;
 };
-/// Rigorous: largest eigenvalue of M^-1 K is at most the elements' plus the contacts' bound, and a
-/// central difference with lagged damping is stable for omega^2 dt^2 + 2 c dt <= 4.
+/// The largest eigenvalue of M^-1 K is at most the elements' plus the contacts' bound, and a
+/// central difference with lagged damping is stable for omega^2 dt^2 + 2 c dt <= 4. Contacts count
+/// where they stand now; what slides or closes until the next renewal is what step_factor leaves
+/// room for.
 StepBound stable_step(const Scene& scene);
 
 /// Smooth way from 0 to `end` over `duration`: fifth-order polynomial, slope and curvature zero at

@@ -2,7 +2,10 @@
 #include "core/thread_team.hpp"
 
 #include <atomic>
+#include <exception>
+#include <mutex>
 #include <thread>
+#include <utility>
 #include <vector>
 
 namespace plyform {
@@ -18,10 +21,18 @@ struct ThreadTeam::Impl {
   std::atomic<int> busy{0};
   std::atomic<unsigned> round{0};
   std::atomic<bool> quit{false};
+  std::mutex failure_lock;
+  std::exception_ptr failure;
 
   void work() {
-    for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1))
-      (*task)(i);
+    for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1)) {
+      try {
+        (*task)(i);
+      } catch (...) {
+        const std::lock_guard lock(failure_lock);
+        if (!failure) failure = std::current_exception();
+      }
+    }
   }
 
   void help() {
@@ -68,6 +79,7 @@ void ThreadTeam::run(int count, const std::function<void(int)>& task) {
   s.work();
   for (int spin = 0; s.busy.load(std::memory_order_acquire) > 0; ++spin)
     if (spin > 1000) std::this_thread::yield();
+  if (s.failure) std::rethrow_exception(std::exchange(s.failure, nullptr));
 }
 
 int ThreadTeam::size() const {

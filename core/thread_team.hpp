@@ -16,8 +16,8 @@ public:
   ThreadTeam(const ThreadTeam&) = delete;
   ThreadTeam& operator=(const ThreadTeam&) = delete;
 
-  /// Calls task(0) .. task(count - 1), each once, and returns when all are done. Tasks must not
-  /// throw.
+  /// Calls task(0) .. task(count - 1), each once, and returns when all are done. If tasks throw,
+  /// the rest is still done and the first exception seen is thrown again here.
   void run(int count, const std::function<void(int)>& task);
 
   int size() const;

@@ -24,7 +24,18 @@ void print_plies(const Scene& s) {
   }
 }
 
+double longest_side(const Scene& s) {
+  double longest = 0.0;
+  for (const PlyBody& ply : s.plies)
+    for (const SheetEdge& e : ply.edges)
+      longest = std::max(
+          longest,
+          (ply.x[static_cast<std::size_t>(e.a)] - ply.x[static_cast<std::size_t>(e.b)]).norm());
+  return longest;
+}
+
 void print_tools(const Scene& s) {
+  const double longest = longest_side(s);
   for (std::size_t i = 0; i < s.tools.size(); ++i) {
     const ToolAndContacts& t = s.tools[i];
     const Motion motion = s.data.tools[i].motion;
@@ -33,20 +44,26 @@ void print_tools(const Scene& s) {
                : motion == Motion::driven ? fmt::format("driven {:g} mm", t.stroke)
                                           : fmt::format("pushed by {:g} N", t.force_on));
     const double radius = smallest_radius(t.body.shape);
-    if (std::isfinite(radius) && radius > 0.0) fmt::print(", smallest radius {:g} mm", radius);
+    if (std::isfinite(radius)) fmt::print(", smallest radius {:g} mm", radius);
     fmt::print("\n");
+    if (radius < longest)
+      fmt::print(
+          "    note: that is less than the longest side of a triangle, {:.3g} mm: contact is at "
+          "nodes, flat triangles cut into the tool between them\n",
+          longest);
   }
 }
 
-/// Wall time of a step, s, from a few real ones.
-double time_a_step(Scene& s, ThreadTeam& team) {
+/// Wall time of a step, s, from a few real ones; a Stop if they go wrong already.
+std::optional<Stop> time_a_step(Scene& s, ThreadTeam& team, double& seconds) {
   constexpr int steps = 40;
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < steps; ++i) {
-    if (compute_forces(s, team)) break;
+    if (auto stop = compute_forces(s, team)) return stop;
     move_plies(s, team);
   }
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / steps;
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / steps;
+  return std::nullopt;
 }
 
 } // namespace
@@ -68,7 +85,12 @@ int check_command(const CaseArguments& arguments) {
              s.plies[static_cast<std::size_t>(bound.ply)].name, bound.triangle, s.next_dt);
   fmt::print("fibre stiffness divided by {:g}, {:g} s simulated: about {:.0f} steps\n",
              data->solver.fibre_softening, data->solver.duration, steps);
-  fmt::print("estimated time {:.0f} s\n", steps * time_a_step(s, team));
+  double seconds = 0.0;
+  if (const auto stop = time_a_step(s, team, seconds)) {
+    fmt::print(stderr, "plyform: {}\n", stop->message);
+    return exit_stopped;
+  }
+  fmt::print("estimated time {:.0f} s\n", steps * seconds);
   fmt::print("the case is sound\n");
   return exit_done;
 }

@@ -54,7 +54,11 @@ int main(int argc, char** argv) {
   CLI::App* keys_app = app.add_subcommand("keys", "list every key of case and fabric files");
   CLI::App* version_app = app.add_subcommand("version", "print the version");
 
-  CLI11_PARSE(app, argc, argv);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& e) {
+    return app.exit(e) == 0 ? exit_done : exit_other;
+  }
   try {
     if (run_app->parsed()) return run_command(run);
     if (check_app->parsed()) return check_command(check);

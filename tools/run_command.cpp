@@ -46,13 +46,16 @@ private:
   std::chrono::steady_clock::time_point last_{};
 };
 
+/// results/NAME: NAME is the case's folder, or the file's name if it is not called case.toml.
 std::filesystem::path output_folder(const RunArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
-  const std::filesystem::path file = std::filesystem::absolute(arguments.input.file);
-  const bool folder = std::filesystem::is_directory(file) || file.filename() == "case.toml";
-  const std::filesystem::path named =
-      std::filesystem::is_directory(file) ? file : (folder ? file.parent_path() : file);
-  return std::filesystem::path("results") / named.lexically_normal().stem();
+  std::filesystem::path file = std::filesystem::absolute(arguments.input.file).lexically_normal();
+  if (!file.has_filename()) file = file.parent_path(); // "cases/NAME/"
+  if (std::filesystem::is_directory(file))
+    return std::filesystem::path("results") / file.filename();
+  if (file.filename() == "case.toml")
+    return std::filesystem::path("results") / file.parent_path().filename();
+  return std::filesystem::path("results") / file.stem();
 }
 
 void print_outcome(const RunResult& r, const std::filesystem::path& folder) {

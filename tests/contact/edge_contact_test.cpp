@@ -12,7 +12,8 @@
 namespace plyform {
 namespace {
 
-constexpr double distance = 0.3; // h/2, mm
+constexpr double thickness = 0.6; // h, mm
+constexpr double distance = 0.5 * thickness;
 
 /// A roof of two triangles over the edge from (-5,0,0) to (5,0,0), seen from `up` = +-1, turned by
 /// `angle` about z.
@@ -26,8 +27,8 @@ OwnedSheet roof(double up, double angle, double z) {
 
 void search(EdgeContact& contact, const OwnedSheet& a, const OwnedSheet& b, double skin) {
   const auto edges_a = sheet_edges(a.triangles), edges_b = sheet_edges(b.triangles);
-  find_edge_pairs(contact, a.state(), edges_a, folded_edges(edges_a, a.triangles, a.x), b.state(),
-                  edges_b, folded_edges(edges_b, b.triangles, b.x), skin);
+  find_edge_pairs(contact, a.state(), edges_a, folded_edges(edges_a, a.triangles, a.x, thickness),
+                  b.state(), edges_b, folded_edges(edges_b, b.triangles, b.x, thickness), skin);
 }
 
 EdgeContact contact_of(const ContactLaw& law) {
@@ -125,13 +126,16 @@ TEST(EdgeContact, OnlyFoldsAndRimsCount) {
   EXPECT_EQ(edges.size(), 4u * 5 * 2 + 16); // sides of cells and diagonals
   for (std::size_t i = 1; i < edges.size(); ++i)
     EXPECT_LT(std::pair(edges[i - 1].a, edges[i - 1].b), std::pair(edges[i].a, edges[i].b));
-  const auto count = [&] { return folded_edges(edges, sheet.triangles, sheet.x).size(); };
+  const auto count = [&] {
+    return folded_edges(edges, sheet.triangles, sheet.x, thickness).size();
+  };
   EXPECT_EQ(count(), 16u); // the rim
   const double degree = std::numbers::pi / 180.0;
-  for (const double fold : {7.0, 9.0}) { // along the line x = 0
+  // sag of a side of 5 mm: 2.5 tan(fold/2) = 0.4 * 0.6 at 10.97 degrees
+  for (const double fold : {10.5, 11.5}) { // along the line x = 0
     for (Vec3& x : sheet.x)
       x.z() = x.x() > 0.0 ? x.x() * std::tan(fold * degree) : 0.0;
-    EXPECT_EQ(count(), fold > 8.0 ? 20u : 16u);
+    EXPECT_EQ(count(), fold > 11.0 ? 20u : 16u);
   }
 }
 
@@ -150,8 +154,8 @@ TEST(EdgeContact, FindsEveryPairWithinReach) {
       EXPECT_TRUE(found.insert({p.a.a, p.a.b, p.b.a, p.b.b}).second);
     const auto edges_a = sheet_edges(a.triangles), edges_b = sheet_edges(b.triangles);
     int near = 0;
-    for (const std::int32_t i : folded_edges(edges_a, a.triangles, a.x))
-      for (const std::int32_t j : folded_edges(edges_b, b.triangles, b.x)) {
+    for (const std::int32_t i : folded_edges(edges_a, a.triangles, a.x, thickness))
+      for (const std::int32_t j : folded_edges(edges_b, b.triangles, b.x, thickness)) {
         const SheetEdge &e = edges_a[static_cast<std::size_t>(i)],
                         &g = edges_b[static_cast<std::size_t>(j)];
         double nearest = 1e300; // by points along both: never below the true distance
@@ -171,6 +175,20 @@ TEST(EdgeContact, FindsEveryPairWithinReach) {
       }
     EXPECT_GT(near, 20);
   }
+}
+
+TEST(EdgeContact, KeepsATouchingPairWhoseFoldOpens) {
+  OwnedSheet a = roof(-1.0, 0.0, 0.2), b = roof(1.0, 0.5 * std::numbers::pi, 0.0);
+  EdgeContact contact = contact_of({1.0, 0.0, 0.0});
+  search(contact, a, b, 0.1);
+  edge_forces(contact, a.state(), b.state(), 0.0);
+  ASSERT_EQ(contact.sums.touching, 1); // ridges 0.2 mm apart, contact from 0.3 mm on
+  for (OwnedSheet* sheet : {&a, &b})   // wings up or down to the ridge's height: flat sheets
+    for (std::size_t n = 2; n < 4; ++n)
+      sheet->x[n].z() = sheet->x[0].z();
+  search(contact, a, b, 0.1);
+  edge_forces(contact, a.state(), b.state(), 0.0);
+  EXPECT_GE(contact.sums.touching, 1);
 }
 
 } // namespace

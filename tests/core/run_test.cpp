@@ -24,6 +24,7 @@ bool all_finite(const Frame& f) {
 
 TEST(Run, GivesTheSameBitsForAnyNumberOfThreads) {
   Case data = coarse_hemisphere({0.0, 0.25 * std::numbers::pi});
+  data.blanks[0].element_size = 12.0; // several blocks of nodes and of triangles a ply
   data.tools[0].stroke = 30.0; // two plies of 20 mm cells do not come round the fillet much further
   data.solver.duration = 0.03; // s: soon done
   const RunResult one = run_case(data, 1, {});
@@ -41,6 +42,31 @@ TEST(Run, GivesTheSameBitsForAnyNumberOfThreads) {
     for (std::size_t t = 0; t < 3; ++t)
       EXPECT_TRUE(same_bits({more.last.tools[t].force}, {one.last.tools[t].force})) << threads;
   }
+}
+
+TEST(Run, NeedsNoDrivenTool) {
+  Case data = coarse_hemisphere({0.0});
+  data.tools[0].motion = Motion::fixed;
+  data.tools[0].stroke = 0.0;
+  data.solver.duration = 0.01;
+  const RunResult run = run_case(data, 1, {});
+  EXPECT_EQ(run.summary.status, "done") << run.summary.message;
+  EXPECT_NEAR(run.last.tools[2].force_N, data.tools[2].force, 1e-6 * data.tools[2].force);
+}
+
+TEST(Run, WritesEachStateOnceAndTheLastAtTheEnd) {
+  Case data = coarse_hemisphere({0.0});
+  data.solver.duration = 0.02;
+  data.solver.outputs = 4;
+  std::vector<double> times;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& f) { times.push_back(f.time); };
+  const RunResult run = run_case(data, 1, hooks);
+  ASSERT_EQ(run.summary.status, "done") << run.summary.message;
+  ASSERT_EQ(times.size(), 5u); // the start and four
+  for (std::size_t i = 1; i < times.size(); ++i)
+    EXPECT_GT(times[i], times[i - 1]);
+  EXPECT_GE(times.back(), data.solver.duration);
 }
 
 TEST(Run, EndsEarlyWhenInterrupted) {
