@@ -45,7 +45,10 @@ expect 3 'last good state' run cases/hemisphere_0 -o stopped --set solver.max_ba
 
 # Ctrl-C: the state reached is written.
 "$program" run cases/hemisphere_0 -o broken_off >log 2>&1 &
-sleep 2
+for _ in $(seq 600); do # until the first state is written: then the program listens
+  [ -e broken_off/results.h5 ] && break
+  sleep 0.1
+done
 kill -INT $!
 wait $! && code=0 || code=$?
 if [ "$code" != 1 ] || ! grep -q interrupted log || [ ! -s broken_off/summary.json ]; then
