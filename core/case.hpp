@@ -7,6 +7,7 @@
 #include "core/blank.hpp"
 #include "core/fabric.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -37,6 +38,29 @@ struct Tool {
   double stroke = 0.0;             ///< mm, for Motion::driven
   double force = 0.0;              ///< N, for Motion::force
   double mass = 0.0;               ///< t, for Motion::force
+};
+
+enum class BoundaryKind {
+  grip,     ///< rigid: all its nodes move by one displacement
+  frame,    ///< four bars hinged at their ends, pulled along a diagonal
+  symmetry, ///< a vertical plane that the plies do not leave
+};
+
+/// Nodes whose motion is given (core/boundary.hpp). Places are those of the unformed plies.
+struct Boundary {
+  std::string name;
+  BoundaryKind kind = BoundaryKind::grip;
+  int ply = -1; ///< index into Case::plies; -1: all
+  // grip
+  bool on_edge = false;                            ///< nodes on a line, else in a box
+  std::array<Vec2, 2> place{};                     ///< mm, ends of the line, corners of the box
+  std::array<bool, 3> held = {{true, true, true}}; ///< along x, y, z; the rest is free
+  Vec3 direction = Vec3::UnitX();                  ///< unit vector, of the stroke
+  // frame: hinges in order; the first stays, the third moves away from it
+  std::array<Vec2, 4> hinges{}; ///< mm
+  // symmetry
+  Vec2 point = Vec2::Zero(), normal = Vec2::UnitX(); ///< mm; unit vector
+  double stroke = 0.0; ///< mm, of a grip along its direction, of a frame along its diagonal
 };
 
 enum class ElementKind {
@@ -75,6 +99,8 @@ struct Case {
   std::vector<BlankSpec> blanks;
   std::vector<Ply> plies;
   std::vector<Tool> tools;
+  std::vector<Boundary> boundaries;
+  Vec3 gravity = Vec3::Zero(); ///< mm/s^2
   FrictionTable friction;
   SolverOptions solver;
   ContactOptions contact;

@@ -267,6 +267,7 @@ void check_scene(const Case& scene, const CaseParts& parts, Findings& findings) 
   if (!meshed) return;
   check_plies_apart(check);
   make_surfaces(check);
+  check_boundaries(scene, parts, check.plies, check.surfaces, findings);
   check_tools_outside(check);
   if (findings.errors.empty()) check_end_of_stroke(check);
 }

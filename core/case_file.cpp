@@ -108,20 +108,21 @@ std::vector<Ply> read_plies(const Section& root, const std::vector<Fabric>& fabr
   return plies;
 }
 
-/// Numbers of the bodies by name: plies, then tools. Names used twice are reported.
+/// Numbers of the bodies by name: plies, then tools, then boundaries (which touch nothing). Names
+/// used twice are reported.
 Numbers number_bodies(const Section& root, Findings& findings) {
   Numbers bodies;
   int count = 0;
-  for (const char* key : {"ply", "tool"})
+  for (const char* key : {"ply", "tool", "boundary"})
     for (const Section& section : subsections(root, key)) {
       const std::string name = text(section, "name");
       const int body = count++;
       if (name.empty()) continue;
-      if (name == "plies" || name == "tools")
+      if (name == "plies" || name == "tools" || name == "boundaries")
         value_error(section, "name", "stands for all " + name, "choose another name", findings);
       else if (!bodies.emplace(name, body).second)
-        value_error(section, "name", "is the name of another ply or tool too",
-                    "give every ply and tool a name of its own", findings);
+        value_error(section, "name", "is the name of another ply, tool or boundary too",
+                    "give each of them a name of its own", findings);
     }
   return bodies;
 }
@@ -199,11 +200,14 @@ Case build_case(const Section& root, const std::filesystem::path& folder, Findin
     built.blanks.push_back(read_blank(section, folder, findings));
   built.plies = read_plies(root, built.fabrics, findings);
   built.tools = read_tools(root, folder, findings);
-  const Numbers bodies = number_bodies(root, findings);
+  built.boundaries = read_boundaries(root, built.plies, findings);
+  built.gravity = vector3(root, "gravity");
+  Numbers bodies = number_bodies(root, findings);
   const Section contact = subsection(root, "contact");
   const int plies = static_cast<int>(built.plies.size());
-  built.friction =
-      read_friction(contact, bodies, plies, plies + static_cast<int>(built.tools.size()), findings);
+  const int count = plies + static_cast<int>(built.tools.size());
+  std::erase_if(bodies, [&](const auto& body) { return body.second >= count; }); // touch nothing
+  built.friction = read_friction(contact, bodies, plies, count, findings);
   built.contact = read_contact(contact);
   built.solver = read_solver(subsection(root, "solver"));
   return built;
@@ -216,7 +220,7 @@ CaseParts locate_parts(const Section& root) {
       places.push_back({section.entry ? section.entry->at : root.entry->at, section.item});
     return places;
   };
-  return {locate("blanks"), locate("ply"), locate("tool")};
+  return {locate("blanks"), locate("ply"), locate("tool"), locate("boundary")};
 }
 
 /// The case file's mistakes first, then those of the files it names, overrides last; by line and

@@ -6,6 +6,7 @@
 
 #include "core/case.hpp"
 #include "core/key_check.hpp"
+#include "core/scene_probe.hpp"
 
 #include <filesystem>
 #include <vector>
@@ -19,7 +20,7 @@ struct Located {
 };
 
 struct CaseParts {
-  std::vector<Located> blanks, plies, tools;
+  std::vector<Located> blanks, plies, tools, boundaries;
 };
 
 /// core/fabric_file.cpp: fabric files and tables.
@@ -28,6 +29,18 @@ std::vector<Fabric> read_fabrics(const Section& root, Findings& findings);
 /// core/tool_file.cpp: tools, their shapes, places and motions. `folder` is the case file's.
 std::vector<Tool> read_tools(const Section& root, const std::filesystem::path& folder,
                              Findings& findings);
+
+/// A direction of the section made a unit vector; the zero vector is reported.
+Vec3 read_direction(const Section& section, const std::string& key, Findings& findings);
+
+/// core/boundary_file.cpp: grips, frames, planes of symmetry.
+std::vector<Boundary> read_boundaries(const Section& root, const std::vector<Ply>& plies,
+                                      Findings& findings);
+
+/// core/boundary_checks.cpp: boundaries that hold nothing or contradict each other, and planes of
+/// symmetry that blank, fabric or tools do not have. `surfaces`: of the tools, in space.
+void check_boundaries(const Case& scene, const CaseParts& parts, const std::vector<FlatPly>& plies,
+                      const std::vector<Surface>& surfaces, Findings& findings);
 
 /// core/case_checks.cpp: mistakes that only the whole scene shows: blanks that cannot be meshed,
 /// plies overlapping at the start, tools inside plies, tools closer together than the stack.

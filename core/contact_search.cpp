@@ -29,13 +29,15 @@ void search_edges(Scene& s, PlyEdgeContact& pair) {
                   s.data.contact.skin);
 }
 
-/// Each ply's list of the force arrays that contacts now write into, in fixed order.
+/// Each ply's list of the force arrays that boundaries and contacts now write into, in fixed order.
 void collect_forces(Scene& s) {
   const auto list = [&](int ply) -> auto& {
-    return s.plies[static_cast<std::size_t>(ply)].contact_forces;
+    return s.plies[static_cast<std::size_t>(ply)].nodal_forces;
   };
-  for (PlyBody& ply : s.plies)
-    ply.contact_forces.clear();
+  for (PlyBody& ply : s.plies) {
+    ply.nodal_forces.clear();
+    if (!ply.reaction.empty()) ply.nodal_forces.push_back(&ply.reaction);
+  }
   for (ToolAndContacts& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
       if (!t.contacts[p].points.empty()) list(static_cast<int>(p)).push_back(&t.contacts[p].force);

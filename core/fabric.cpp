@@ -56,4 +56,11 @@ LawPoint ShearLaw::at(double g) const {
   return r;
 }
 
+bool balanced(const Fabric& fabric) {
+  const auto same = [](const TensionLaw& a, const TensionLaw& b) {
+    return a.stiffness == b.stiffness && a.strain == b.strain && a.tension == b.tension;
+  };
+  return same(fabric.warp, fabric.weft) && fabric.warp_density == fabric.weft_density;
+}
+
 } // namespace plyform

@@ -5,6 +5,9 @@
 // Boisse 2008, section 3.5 and table 1.
 #pragma once
 
+#include "core/isotropic.hpp"
+
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -42,6 +45,12 @@ struct Fabric {
   double surface_density = 0.0;            ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
   double thickness = 0.0;                  ///< mm
   double fibre_angle = 1.5707963267948966; ///< rad from warp to weft before forming, in (0, pi)
+  /// A sheet without yarns: then the laws and densities above are all zero, and the directions of
+  /// warp and weft, at right angles, only mark the material.
+  std::optional<IsotropicLaw> isotropic;
 };
+
+/// Whether warp and weft are the same yarn at the same distance.
+bool balanced(const Fabric& fabric);
 
 } // namespace plyform

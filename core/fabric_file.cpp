@@ -64,7 +64,13 @@ Fabric read_fabric(const Section& section, const std::string& key, Findings& fin
   fabric.name = given(section, "name") ? text(section, "name") : key;
   fabric.surface_density = number(section, "surface_density");
   fabric.thickness = number(section, "thickness");
-  fabric.fibre_angle = number(section, "fibre_angle");
+  if (given(section, "fibre_angle")) fabric.fibre_angle = number(section, "fibre_angle");
+  if (text(section, "law") == "isotropic") {
+    const Section law = subsection(section, "isotropic");
+    fabric.isotropic = {number(law, "youngs_modulus") * fabric.thickness,
+                        number(law, "poissons_ratio")};
+    return fabric;
+  }
   const Section warp = subsection(section, "warp"), weft = subsection(section, "weft");
   fabric.warp_density = number(warp, "density");
   fabric.weft_density = number(weft, "density");

@@ -55,6 +55,7 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
     f.thickness.push_back(ply.thickness / area_ratio);
   }
   f.contact_pressure = contact_pressure(scene, index);
+  f.reaction = ply.reaction;
   return f;
 }
 
@@ -101,10 +102,16 @@ std::vector<double> contact_pressure(const Scene& scene, int index) {
   return pressure;
 }
 
-double current_stroke(const Scene& scene) {
-  for (const ToolAndContacts& t : scene.tools)
-    if (t.stroke != 0.0) return t.body.displacement.dot(t.body.direction);
+double whole_stroke(const Case& data) {
+  for (const Tool& t : data.tools)
+    if (t.motion == Motion::driven && t.stroke != 0.0) return t.stroke;
+  for (const Boundary& b : data.boundaries)
+    if (b.stroke != 0.0) return b.stroke;
   return 0.0;
+}
+
+double current_stroke(const Scene& scene) {
+  return smooth_path(whole_stroke(scene.data), scene.time, scene.data.solver.duration);
 }
 
 Frame make_frame(const Scene& scene, const Energies& energy) {
@@ -117,6 +124,12 @@ Frame make_frame(const Scene& scene, const Energies& energy) {
     f.plies.push_back(make_ply_frame(scene, static_cast<int>(p)));
   for (const ToolAndContacts& t : scene.tools)
     f.tools.push_back(make_tool_frame(scene, t));
+  for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
+    const BoundaryState& state = scene.boundaries[b];
+    if (scene.data.boundaries[b].kind != BoundaryKind::symmetry)
+      f.boundaries.push_back(
+          {scene.data.boundaries[b].name, state.displacement, state.load, state.force});
+  }
   return f;
 }
 

@@ -14,7 +14,10 @@ Frame make_frame(const Scene& scene, const Energies& energy);
 /// the ply are added up apart; the larger sum over the node's area counts.
 std::vector<double> contact_pressure(const Scene& scene, int ply);
 
-/// Way of the first driven tool so far, mm; 0 if none is driven.
+/// Stroke of the first driven tool, or else of the first driven boundary, mm; 0 if there is none.
+double whole_stroke(const Case& data);
+
+/// How much of it is done, mm.
 double current_stroke(const Scene& scene);
 
 } // namespace plyform

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rows of the table of keys: what may stand in a case or fabric file.
-#include "core/case.hpp"
-#include "core/key_table.hpp"
+#include "core/key_rows.hpp"
 
 #include <fmt/format.h>
 
@@ -11,21 +10,12 @@ namespace {
 
 using K = KeyKind;
 
-const Range positive{.least = 0.0, .open_least = true};
-const Range not_negative{.least = 0.0};
 const Range share{.least = 0.0, .most = 1.0};
 const Range positive_share{.least = 0.0, .most = 1.0, .open_least = true};
 
 /// A default that the program's own options already have.
 std::string toml(double number) {
   return fmt::format("{}", number);
-}
-
-using Rows = std::vector<KeyRow>;
-
-void append(Rows& all, Rows part) {
-  for (KeyRow& row : part)
-    all.push_back(std::move(row));
 }
 
 Rows fabric_rows() {
@@ -48,10 +38,33 @@ Rows fabric_rows() {
        .unit = "deg",
        .fallback = "90.0",
        .ranges = {{.least = 0.0, .most = 180.0, .open_least = true, .open_most = true}},
-       .meaning = "angle from warp to weft before forming"}};
+       .of = "law",
+       .with = {"woven"},
+       .meaning = "angle from warp to weft before forming"},
+      {.key = "fabrics.NAME.law",
+       .kind = K::choice,
+       .fallback = "\"woven\"",
+       .choices = {"woven", "isotropic"},
+       .meaning = "kind of sheet: yarns in two directions (woven or non-crimp), or a foil without"},
+      {.key = "fabrics.NAME.isotropic",
+       .kind = K::table,
+       .of = "law",
+       .with = {"isotropic"},
+       .meaning = "law of a sheet without yarns, which resists compression too"},
+      {.key = "fabrics.NAME.isotropic.youngs_modulus",
+       .unit = "N/mm2",
+       .ranges = {positive},
+       .meaning = "Young's modulus, multiplied by the thickness"},
+      {.key = "fabrics.NAME.isotropic.poissons_ratio",
+       .ranges = {{.least = 0.0, .most = 0.5}},
+       .meaning = "Poisson's ratio"}};
   for (const std::string yarn : {"warp", "weft"}) {
     const std::string table = "fabrics.NAME." + yarn;
-    append(rows, {{.key = table, .kind = K::table, .meaning = yarn + " yarns"},
+    append(rows, {{.key = table,
+                   .kind = K::table,
+                   .of = "law",
+                   .with = {"woven"},
+                   .meaning = yarn + " yarns"},
                   {.key = table + ".density",
                    .unit = "yarns/mm",
                    .ranges = {positive},
@@ -69,7 +82,11 @@ Rows fabric_rows() {
                    .least_items = 2,
                    .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}});
   }
-  append(rows, {{.key = "fabrics.NAME.shear", .kind = K::table, .meaning = "law of in-plane shear"},
+  append(rows, {{.key = "fabrics.NAME.shear",
+                 .kind = K::table,
+                 .of = "law",
+                 .with = {"woven"},
+                 .meaning = "law of in-plane shear"},
                 {.key = "fabrics.NAME.shear.polynomial",
                  .kind = K::numbers,
                  .unit = "N mm",
@@ -383,12 +400,19 @@ Rows all_rows() {
   Rows rows{{.key = "title",
              .kind = K::text,
              .fallback = "\"\"",
-             .meaning = "title of the case in results"}};
+             .meaning = "title of the case in results"},
+            {.key = "gravity",
+             .kind = K::numbers,
+             .unit = "mm/s2",
+             .fallback = "[0.0, 0.0, 0.0]",
+             .count = 3,
+             .meaning = "acceleration by gravity, [0, 0, -9810] for plies that lie flat on earth"}};
   append(rows, fabric_rows());
   append(rows, blank_rows());
   append(rows, ply_rows());
   append(rows, tool_rows());
   append(rows, motion_rows());
+  append(rows, boundary_rows());
   append(rows, contact_rows());
   append(rows, solver_rows());
   return rows;

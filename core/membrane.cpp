@@ -56,6 +56,7 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   m.omega0 = fabric.fibre_angle;
   m.yarn_stiffness = {fabric.warp.largest_slope(), fabric.weft.largest_slope()};
   m.cells_per_area = fabric.warp_density * fabric.weft_density * std::sin(m.omega0);
+  if (fabric.isotropic) kind = ElementKind::plain; // there is no yarn to lock
   if (kind == ElementKind::automatic)
     kind = sides_along_fibres(mesh, warp_angle, warp_angle + m.omega0) ? ElementKind::plain
                                                                        : ElementKind::averaged;
@@ -109,6 +110,23 @@ FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle)
 }
 
 namespace {
+
+/// Stresses of a triangle without yarns.
+IsotropicState isotropic_state(const Membrane& m, const FibreState& s) {
+  return isotropic_state(*m.fabric.isotropic, s.lambda1 * s.f1, s.lambda2 * s.f2);
+}
+
+/// (q) of core/isotropic.hpp for triangles [begin, end).
+void isotropic_forces(const Membrane& m, std::span<const Vec3> x, int begin, int end,
+                      std::span<ElementForce> q) {
+  for (int i = begin; i < end; ++i) {
+    const auto e = static_cast<std::size_t>(i);
+    const FibreState s = fibre_state(m, x, i);
+    const Vec3 k1 = s.lambda1 * s.f1, k2 = s.lambda2 * s.f2;
+    const IsotropicState t = isotropic_state(*m.fabric.isotropic, k1, k2);
+    q[e] = {m.area[e] * (t.s11 * k1 + t.s12 * k2), m.area[e] * (t.s12 * k1 + t.s22 * k2)};
+  }
+}
 
 /// The triangles of one patch and their mean stretches.
 struct PatchState {
@@ -174,6 +192,7 @@ std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<con
 
 double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                       std::span<ElementForce> q) {
+  if (m.fabric.isotropic) return isotropic_forces(m, x, begin, end, q), 0.0;
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
   const double slope1 = m.yarn_stiffness[0], slope2 = m.yarn_stiffness[1];
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
@@ -239,6 +258,7 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
       const double area = m.area[static_cast<std::size_t>(s.begin + i)];
       sum.fibre += area * (d1 * side_energy(slope1, t.lambda1, s.mean1) +
                            d2 * side_energy(slope2, t.lambda2, s.mean2));
+      if (m.fabric.isotropic) sum.shear += area * isotropic_energy(isotropic_state(m, t));
       sum.shear += area * m.cells_per_area * m.fabric.shear.at(t.gamma).energy;
     }
   }
@@ -277,7 +297,9 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
     const double rest =
         std::max(n1, n2) + m.cells_per_area * inv2 *
                                (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
-    const double omega2 = per_mass * (fibre + rest * largest(g11, g22, g12));
+    const double sheet =
+        m.fabric.isotropic ? isotropic_stiffness(*m.fabric.isotropic, isotropic_state(m, s)) : 0.0;
+    const double omega2 = per_mass * (fibre + (rest + sheet) * largest(g11, g22, g12));
     if (!(omega2 <= bound.omega2)) {
       bound.omega2 = omega2;
       bound.triangle = static_cast<int>(e);

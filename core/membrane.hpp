@@ -109,6 +109,7 @@ double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin
 /// (F): internal force on a node, N, from all its triangles in fixed order.
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);
 
+/// All of an isotropic sheet's energy counts as shear: it has no fibres.
 struct MembraneEnergy {
   double fibre = 0.0, shear = 0.0; ///< N mm
 };

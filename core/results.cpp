@@ -70,7 +70,8 @@ void check_name(const std::string& name, const char* kind) {
 
 void check_sizes(const PlyFrame& ply) {
   const std::size_t n = ply.x0.size(), m = ply.triangles.size();
-  bool fits = ply.x.size() == n && ply.contact_pressure.size() == n;
+  bool fits = ply.x.size() == n && ply.contact_pressure.size() == n &&
+              (ply.reaction.empty() || ply.reaction.size() == n);
   for (const CellScalar& field : cell_scalars)
     fits = fits && (ply.*field.values).size() == m;
   for (const CellVector& field : cell_vectors)
@@ -99,6 +100,8 @@ void check_frame(const Frame& frame) {
   }
   for (const ToolFrame& tool : frame.tools)
     take(tool.name, "tool");
+  for (const BoundaryFrame& boundary : frame.boundaries)
+    take(boundary.name, "boundary");
 }
 
 // The tables.
@@ -136,6 +139,9 @@ std::string history_header(const Frame& frame) {
   for (const ToolFrame& tool : frame.tools)
     line += fmt::format(",{},{}", heading(tool.name + "_force_N"),
                         heading(tool.name + "_displacement_mm"));
+  for (const BoundaryFrame& b : frame.boundaries)
+    line +=
+        fmt::format(",{},{}", heading(b.name + "_force_N"), heading(b.name + "_displacement_mm"));
   return line + ",kinetic_mJ,fibre_mJ,shear_mJ,contact_mJ,friction_mJ,damping_mJ,external_mJ,"
                 "balance_error\n";
 }
@@ -147,6 +153,10 @@ std::string history_row(const Frame& frame) {
   for (const ToolFrame& tool : frame.tools) {
     put(out, tool.force_N);
     put(out, tool.stroke_mm);
+  }
+  for (const BoundaryFrame& b : frame.boundaries) {
+    put(out, b.force_N);
+    put(out, b.stroke_mm);
   }
   const Energies& e = frame.energy;
   for (const double value : {e.kinetic, e.fibre, e.shear, e.contact, e.friction, e.damping,

@@ -34,6 +34,7 @@ struct PlyFrame {
   std::vector<double> warp_tension, weft_tension; ///< m, N per yarn
   std::vector<double> thickness;                  ///< m, mm, from constant volume
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
+  std::vector<Vec3> reaction; ///< n, N, of grips, frames and symmetry; empty if none holds the ply
 };
 
 struct ToolFrame {
@@ -45,12 +46,21 @@ struct ToolFrame {
   double force_N = 0; ///< reaction of the plies against that direction, + when pushed back
 };
 
+/// A grip or a frame.
+struct BoundaryFrame {
+  std::string name;
+  double stroke_mm = 0;
+  double force_N = 0;        ///< conjugate to the stroke, + when it pulls along it
+  Vec3 force = Vec3::Zero(); ///< N, on the plies
+};
+
 struct Frame {
   double time = 0;      ///< s
   double stroke_mm = 0; ///< of the first driven tool
   long step = 0;
   std::vector<PlyFrame> plies; ///< topology and names the same in every frame of a run
   std::vector<ToolFrame> tools;
+  std::vector<BoundaryFrame> boundaries;
   Energies energy;
 };
 

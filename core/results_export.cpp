@@ -94,6 +94,7 @@ std::string vtu(const PlyFrame& ply) {
   file.xml += "<PointData>\n";
   file.vectors("x0", ply.x0);
   file.scalars(contact_pressure_name, ply.contact_pressure);
+  if (!ply.reaction.empty()) file.vectors(reaction_name, ply.reaction);
   file.xml += "</PointData>\n<CellData>\n";
   for (const CellVector& field : cell_vectors)
     file.vectors(field.name, ply.*field.values);

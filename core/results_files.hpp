@@ -40,6 +40,7 @@ inline constexpr std::array<CellVector, 2> cell_vectors = {{
     {"weft", &PlyFrame::weft},
 }};
 
+inline constexpr const char* reaction_name = "reaction_N"; ///< of each node, where any is held
 inline constexpr const char* contact_pressure_name = "contact_pressure"; ///< of each node, N/mm^2
 
 /// Writes `content` to `path` + ".tmp" and renames it to `path` when it is whole. Throws

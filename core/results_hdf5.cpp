@@ -132,6 +132,7 @@ void write_constants(const Writer& out, const Frame& frame) {
   out.text("/", "units", "mm, N, s, degrees, N per yarn, N/mm^2");
   out.texts("/", "plies", names_of(frame.plies));
   out.texts("/", "tools", names_of(frame.tools));
+  out.texts("/", "boundaries", names_of(frame.boundaries));
   out.history<double>("/time_s");
   out.history<double>("/stroke_mm");
   out.history<std::int64_t>("/step");
@@ -156,6 +157,7 @@ void write_ply(const Writer& out, const std::string& where, const PlyFrame& ply)
   out.group(where);
   out.dataset(where + "/x", ply.x);
   out.dataset(where + "/" + contact_pressure_name, ply.contact_pressure);
+  if (!ply.reaction.empty()) out.dataset(where + "/" + reaction_name, ply.reaction);
   for (const CellVector& field : cell_vectors)
     out.dataset(where + "/" + field.name, ply.*field.values);
   for (const CellScalar& field : cell_scalars)
@@ -175,6 +177,13 @@ void write_tool(const Writer& out, const std::string& where, const ToolFrame& to
   out.dataset(where + "/x", x);
 }
 
+void write_boundary(const Writer& out, const std::string& where, const BoundaryFrame& boundary) {
+  out.group(where);
+  out.vector(where, "force_vector_N", boundary.force);
+  out.number(where, "stroke_mm", boundary.stroke_mm);
+  out.number(where, "force_N", boundary.force_N);
+}
+
 /// At least the bytes that a frame adds to the file.
 std::size_t bytes_needed(const Frame& frame, bool with_constants) {
   // Headers, symbol tables and names: measured 0.6 kB a dataset or group, taken as 2 kB.
@@ -183,11 +192,12 @@ std::size_t bytes_needed(const Frame& frame, bool with_constants) {
   std::size_t bytes = slack;
   for (const PlyFrame& ply : frame.plies) {
     const std::size_t n = ply.x.size(), m = ply.triangles.size();
-    bytes += (3 + cell_vectors.size() + cell_scalars.size()) * object;
-    bytes += n * (point + number);
+    bytes += (4 + cell_vectors.size() + cell_scalars.size()) * object;
+    bytes += n * (point + number) + ply.reaction.size() * point;
     bytes += m * (cell_vectors.size() * point + cell_scalars.size() * number);
     if (with_constants) bytes += 3 * object + n * point + m * triangle;
   }
+  bytes += frame.boundaries.size() * object;
   for (const ToolFrame& tool : frame.tools) {
     bytes += 2 * object + tool.surface.x.size() * point;
     if (with_constants)
@@ -219,6 +229,9 @@ std::string shape_of(const Frame& frame) {
   for (const ToolFrame& tool : frame.tools)
     shape +=
         fmt::format("{}/{}/{}\n", tool.name, tool.surface.x.size(), tool.surface.triangles.size());
+  shape += "boundaries\n";
+  for (const BoundaryFrame& boundary : frame.boundaries)
+    shape += boundary.name + "\n";
   return shape;
 }
 
@@ -288,6 +301,8 @@ void StateFile::Impl::write(const Frame& frame) const {
     write_ply(out, where + "/plies/" + ply.name, ply);
   for (const ToolFrame& tool : frame.tools)
     write_tool(out, where + "/tools/" + tool.name, tool);
+  for (const BoundaryFrame& boundary : frame.boundaries)
+    write_boundary(out, where + "/boundaries/" + boundary.name, boundary);
   // Last, as their length is what says how many frames are whole.
   out.append_to("/step", frames, static_cast<std::int64_t>(frame.step));
   out.append_to("/stroke_mm", frames, frame.stroke_mm);

@@ -160,6 +160,12 @@ std::string tool_json(const ToolFrame& tool) {
                      json_number(tool.stroke_mm));
 }
 
+std::string boundary_json(const BoundaryFrame& boundary) {
+  return fmt::format("{{\"name\": {}, \"force_N\": {}, \"displacement_mm\": {}}}",
+                     json_string(boundary.name), json_number(boundary.force_N),
+                     json_number(boundary.stroke_mm));
+}
+
 template <class Item, class Text>
 std::string json_list(const std::vector<Item>& items, Text text) {
   std::string out = "[";
@@ -210,6 +216,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
   entry("nodes", fmt::to_string(nodes));
   entry("plies", json_list(last.plies, ply_json));
   entry("tools", json_list(last.tools, tool_json));
+  entry("boundaries", json_list(last.boundaries, boundary_json));
   entry("energy", energy_json(last.energy));
   entry("contact", contact_json(summary.contact));
   return out + "\n}\n";

@@ -25,7 +25,9 @@ double seconds_since(Clock::time_point t) {
 /// What is needed to go back to the last good state.
 struct Snapshot {
   std::vector<std::vector<Vec3>> x;
+  std::vector<std::vector<Vec3>> reaction;
   std::vector<Vec3> tool_displacement, tool_force;
+  std::vector<BoundaryState> boundaries;
   Energies energy;
   ContactReport contact; ///< penetrations only
   double time = 0.0;
@@ -46,6 +48,10 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
   snapshot.x.resize(s.plies.size());
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     snapshot.x[p] = s.plies[p].x;
+  snapshot.reaction.resize(s.plies.size());
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    snapshot.reaction[p] = s.plies[p].reaction;
+  snapshot.boundaries = s.boundaries;
   snapshot.tool_displacement.clear();
   snapshot.tool_force.clear();
   for (const ToolAndContacts& t : s.tools) {
@@ -60,7 +66,8 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
 
 void go_back(Scene& s, const Snapshot& snapshot) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
-    s.plies[p].x = snapshot.x[p];
+    s.plies[p].x = snapshot.x[p], s.plies[p].reaction = snapshot.reaction[p];
+  s.boundaries = snapshot.boundaries;
   for (std::size_t t = 0; t < s.tools.size(); ++t) {
     s.tools[t].body.displacement = snapshot.tool_displacement[t];
     s.tools[t].force = snapshot.tool_force[t];
@@ -70,8 +77,8 @@ void go_back(Scene& s, const Snapshot& snapshot) {
 }
 
 /// Energy (N mm) below which the balance is not judged, since it is then a ratio of roundings: a
-/// hundredth of the stack's kinetic energy at the fastest driven tool's peak speed, and what each
-/// pushed tool's force does on a tenth of a millimetre.
+/// hundredth of the stack's kinetic energy at the fastest driven tool's or grip's peak speed, and
+/// what each pushed tool's force and the weight do on a tenth of a millimetre.
 double balance_floor(const Scene& s) {
   double mass = 0.0, stroke = 0.0, pushed = 0.0;
   for (const PlyBody& ply : s.plies)
@@ -81,6 +88,9 @@ double balance_floor(const Scene& s) {
     stroke = std::max(stroke, std::abs(t.stroke));
     pushed += 0.1 * std::abs(t.force_on);
   }
+  for (const Boundary& b : s.data.boundaries)
+    stroke = std::max(stroke, b.stroke);
+  pushed += 0.1 * mass * s.data.gravity.norm();
   const double peak_speed = 1.875 * stroke / s.data.solver.duration; // of the fifth-order path
   return 1e-6 + pushed + 0.01 * 0.5 * mass * peak_speed * peak_speed;
 }
@@ -101,12 +111,8 @@ std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floo
 /// The state number that is due next: outputs are spread evenly over the stroke, or over the time
 /// where nothing is driven.
 int outputs_due(const Scene& s) {
-  double done = s.time / s.data.solver.duration;
-  for (const ToolAndContacts& t : s.tools)
-    if (t.stroke != 0.0) {
-      done = t.body.displacement.dot(t.body.direction) / t.stroke;
-      break;
-    }
+  const double stroke = whole_stroke(s.data);
+  const double done = stroke != 0.0 ? current_stroke(s) / stroke : s.time / s.data.solver.duration;
   const int due = static_cast<int>(std::floor(done * s.data.solver.outputs + 1e-9));
   return std::min(due, s.data.solver.outputs - 1); // the last one comes when the time is up
 }

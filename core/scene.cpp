@@ -126,6 +126,13 @@ Scene make_scene(const Case& data) {
     add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
     add_blocks(s.node_blocks, p, ply.x.size());
   }
+  for (int p = 0; p < n; ++p) {
+    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+    const std::vector<HeldNode> held = held_nodes(data.boundaries, p, ply.x0);
+    if (!held.empty()) ply.reaction.assign(ply.x0.size(), Vec3::Zero());
+    s.held.insert(s.held.end(), held.begin(), held.end());
+  }
+  s.boundaries.resize(data.boundaries.size());
   s.patch_sums.assign(s.patch_blocks.size(), 0.0);
   s.node_sums.assign(s.node_blocks.size(), {});
   return s;

@@ -6,7 +6,7 @@
 #include "contact/edge_contact.hpp"
 #include "contact/sheet_contact.hpp"
 #include "contact/tool_contact.hpp"
-#include "core/case.hpp"
+#include "core/boundary.hpp"
 #include "core/membrane.hpp"
 
 #include <memory>
@@ -28,8 +28,10 @@ struct PlyBody {
   std::vector<ElementForce> q; ///< one a triangle
   std::unique_ptr<SheetTree> tree;
   std::vector<SheetEdge> edges;
-  std::vector<std::int32_t> folded;                     ///< edges folded at the last contact search
-  std::vector<const std::vector<Vec3>*> contact_forces; ///< those in use, in fixed order
+  std::vector<std::int32_t> folded; ///< edges folded at the last contact search
+  std::vector<Vec3> reaction;       ///< N, that boundaries hold each node with; empty if none does
+  std::vector<const std::vector<Vec3>*>
+      nodal_forces; ///< reaction, contacts: those in use, in order
 
   SheetState state() const { return {x, motion, membrane.node_area}; }
 };
@@ -58,6 +60,14 @@ struct PlyEdgeContact {
   EdgeContact contact;
 };
 
+/// What a boundary (Case::boundaries) is doing.
+struct BoundaryState {
+  double displacement = 0.0; ///< mm, d
+  double load = 0.0;         ///< N, (L): + when it pulls along its stroke
+  Vec3 force = Vec3::Zero(); ///< N, sum of what it holds its nodes with
+  double work = 0.0;         ///< N mm, done on the plies since the start
+};
+
 /// A run of nodes or patches of one ply: the unit of work of a thread. Fixed size, so that sums
 /// come out the same whatever the number of threads.
 struct Block {
@@ -77,6 +87,8 @@ struct Scene {
   std::vector<ToolAndContacts> tools;
   std::vector<PlyContact> ply_contacts;
   std::vector<PlyEdgeContact> edge_contacts;
+  std::vector<HeldNode> held;            ///< by ply and node
+  std::vector<BoundaryState> boundaries; ///< one each of Case::boundaries
   std::vector<Block> patch_blocks, node_blocks;
   std::vector<SheetState> ply_states; ///< views of the plies, renewed every step
   std::vector<double> patch_sums;     ///< viscous work, one a patch block

@@ -86,39 +86,101 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
   });
 }
 
-/// (17), with the forces of compute_forces. alpha: mass damping, 1/s.
-Vec3 acceleration(const PlyBody& ply, int node, double alpha) {
+/// What acts on every mass: gravity (mm/s^2) and damping (1/s).
+struct MassLoads {
+  Vec3 gravity;
+  double damping;
+};
+
+MassLoads mass_loads(const Scene& s) {
+  return {s.data.gravity, s.data.solver.mass_damping};
+}
+
+/// (17), with the forces of compute_forces.
+Vec3 acceleration(const PlyBody& ply, int node, const MassLoads& loads) {
   const auto n = static_cast<std::size_t>(node);
   Vec3 f = node_force(ply.membrane, ply.q, node);
-  for (const std::vector<Vec3>* contact : ply.contact_forces)
-    f += (*contact)[n];
-  return f / ply.membrane.node_mass[n] - alpha * ply.velocity[n];
+  for (const std::vector<Vec3>* force : ply.nodal_forces)
+    f += (*force)[n];
+  return f / ply.membrane.node_mass[n] + loads.gravity - loads.damping * ply.velocity[n];
+}
+
+/// (R) of core/boundary.hpp for one node: the velocity that takes it where its boundaries will be.
+/// Adds to their loads and work.
+void hold_node(Scene& s, const HeldNode& held, const std::vector<double>& next) {
+  PlyBody& ply = s.plies[static_cast<std::size_t>(held.ply)];
+  const auto n = static_cast<std::size_t>(held.node);
+  const Vec3 before = ply.reaction[n];
+  ply.reaction[n].setZero();
+  const Vec3 free = acceleration(ply, held.node, mass_loads(s));
+  const double span = 0.5 * (s.dt + s.next_dt);
+  Vec3 reaction = Vec3::Zero();
+  for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
+    const Vec3& axis = held.axis[i];
+    const auto b = static_cast<std::size_t>(held.boundary[i]);
+    const Boundary& boundary = s.data.boundaries[b];
+    const Vec3 way = held_place(boundary, ply.x0[n], next[b]) - ply.x[n];
+    const double wanted = (axis.dot(way) / s.next_dt - axis.dot(ply.velocity[n])) / span;
+    const Vec3 r = ply.membrane.node_mass[n] * (wanted - axis.dot(free)) * axis;
+    reaction += r;
+    BoundaryState& state = s.boundaries[b];
+    state.force += r;
+    state.load += r.dot(held_slope(boundary, ply.x0[n], state.displacement));
+    state.work += 0.5 * axis.dot(before + r) * axis.dot(ply.motion[n]);
+  }
+  ply.reaction[n] = reaction;
+}
+
+/// Forces of all boundaries, after all others are known.
+void hold_nodes(Scene& s) {
+  if (s.held.empty()) return;
+  std::vector<double> next; // displacements at the end of the coming step
+  const double duration = s.data.solver.duration;
+  for (std::size_t b = 0; b < s.boundaries.size(); ++b) {
+    const double stroke = s.data.boundaries[b].stroke;
+    next.push_back(smooth_path(stroke, s.time + s.next_dt, duration));
+    BoundaryState& state = s.boundaries[b];
+    state.displacement = smooth_path(stroke, s.time, duration);
+    state.load = 0.0;
+    state.force.setZero();
+  }
+  for (const HeldNode& held : s.held)
+    hold_node(s, held, next);
 }
 
 /// (15)-(17) for one block of nodes.
-NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt, double alpha) {
+NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt,
+                    const MassLoads& loads) {
   NodeSums sums;
   for (int i = block.begin; i < block.end; ++i) {
     const auto n = static_cast<std::size_t>(i);
     const Vec3 old = ply.velocity[n];
-    const Vec3 now = old + 0.5 * (dt + next_dt) * acceleration(ply, i, alpha); // (16)
+    const Vec3 now = old + 0.5 * (dt + next_dt) * acceleration(ply, i, loads); // (16)
     ply.velocity[n] = now;
     ply.motion[n] = now * next_dt;
     ply.x[n] += ply.motion[n]; // (15)
-    sums.damping += 0.5 * alpha * ply.membrane.node_mass[n] * old.dot(old + now) * dt;
+    sums.damping += 0.5 * loads.damping * ply.membrane.node_mass[n] * old.dot(old + now) * dt;
     const double moved2 = (ply.x[n] - ply.x_search[n]).squaredNorm();
     if (!(moved2 <= sums.moved2) && !std::isnan(sums.moved2)) sums.moved2 = moved2; // NaN stays
   }
   return sums;
 }
 
-double kinetic_energy(const PlyBody& ply, double dt, double next_dt, double alpha) {
+double kinetic_energy(const PlyBody& ply, double dt, double next_dt, const MassLoads& loads) {
   double sum = 0.0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const Vec3& v = ply.velocity[n];
-    const Vec3 next = v + 0.5 * (dt + next_dt) * acceleration(ply, static_cast<int>(n), alpha);
+    const Vec3 next = v + 0.5 * (dt + next_dt) * acceleration(ply, static_cast<int>(n), loads);
     sum += 0.5 * ply.membrane.node_mass[n] * v.dot(next);
   }
+  return sum;
+}
+
+double work_of_gravity(const PlyBody& ply, const Vec3& gravity) {
+  double sum = 0.0;
+  if (gravity.isZero(0)) return sum;
+  for (std::size_t n = 0; n < ply.x.size(); ++n)
+    sum += ply.membrane.node_mass[n] * gravity.dot(ply.x[n] - ply.x0[n]);
   return sum;
 }
 
@@ -177,6 +239,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
     set_step(s);
   }
   add_up_forces(s, team);
+  hold_nodes(s);
   return find_fault(s);
 }
 
@@ -188,13 +251,15 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
     Energies& e = of_ply[static_cast<std::size_t>(p)];
     e.fibre = m.fibre;
     e.shear = m.shear;
-    e.kinetic = kinetic_energy(ply, s.dt, s.next_dt, s.data.solver.mass_damping);
+    e.kinetic = kinetic_energy(ply, s.dt, s.next_dt, mass_loads(s));
+    e.external = work_of_gravity(ply, s.data.gravity);
   });
   Energies e;
   for (const Energies& ply : of_ply) {
     e.kinetic += ply.kinetic;
     e.fibre += ply.fibre;
     e.shear += ply.shear;
+    e.external += ply.external;
   }
   const auto add = [&e](const ContactSums& c) {
     e.contact += c.elastic;
@@ -206,6 +271,8 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
       add(c.sums);
     e.external += t.work;
   }
+  for (const BoundaryState& b : s.boundaries)
+    e.external += b.work;
   for (const PlyContact& pair : s.ply_contacts)
     add(pair.contact.sums);
   for (const PlyEdgeContact& pair : s.edge_contacts)
@@ -217,12 +284,12 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
 }
 
 void move_plies(Scene& s, ThreadTeam& team) {
-  const double alpha = s.data.solver.mass_damping;
+  const MassLoads loads = mass_loads(s);
   team.run(static_cast<int>(s.node_blocks.size()), [&](int i) {
     const auto b = static_cast<std::size_t>(i);
     const Block& block = s.node_blocks[b];
     s.node_sums[b] =
-        move_nodes(s.plies[static_cast<std::size_t>(block.ply)], block, s.dt, s.next_dt, alpha);
+        move_nodes(s.plies[static_cast<std::size_t>(block.ply)], block, s.dt, s.next_dt, loads);
   });
   for (const NodeSums& n : s.node_sums)
     s.mass_damping_work += n.damping;

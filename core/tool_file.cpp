@@ -8,6 +8,15 @@
 
 namespace plyform {
 
+Vec3 read_direction(const Section& tool, const std::string& key, Findings& findings) {
+  const Vec3 v = vector3(tool, key);
+  const double length = v.norm();
+  if (length > 0.0 && std::isfinite(length)) return v / length;
+  value_error(tool, key, length > 0.0 ? "is too long" : "must not be the zero vector",
+              "give a vector that points the way", findings);
+  return Vec3::UnitZ();
+}
+
 namespace {
 
 /// Straight points with fillets and arcs, put together into one profile.
@@ -133,16 +142,6 @@ ToolShape read_shape(const Section& tool, const std::filesystem::path& folder, F
   if (shape == "profile") return read_profile(tool, findings);
   if (shape == "mesh") return read_mesh(tool, folder, findings);
   return Plane{};
-}
-
-/// A direction made a unit vector.
-Vec3 read_direction(const Section& tool, const std::string& key, Findings& findings) {
-  const Vec3 v = vector3(tool, key);
-  const double length = v.norm();
-  if (length > 0.0 && std::isfinite(length)) return v / length;
-  value_error(tool, key, length > 0.0 ? "is too long" : "must not be the zero vector",
-              "give a vector that points the way", findings);
-  return Vec3::UnitZ();
 }
 
 /// Turn about z first, then the shortest rotation that brings z to the axis.

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Parts of the table of keys (core/key_table.hpp), for core/key_rows*.cpp only.
+#pragma once
+
+#include "core/case.hpp"
+#include "core/key_table.hpp"
+
+#include <vector>
+
+namespace plyform {
+
+using Rows = std::vector<KeyRow>;
+
+inline const Range positive{.least = 0.0, .open_least = true};
+inline const Range not_negative{.least = 0.0};
+
+inline void append(Rows& all, Rows part) {
+  for (KeyRow& row : part)
+    all.push_back(std::move(row));
+}
+
+/// core/key_rows_boundary.cpp: [[boundary]].
+Rows boundary_rows();
+
+} // namespace plyform
