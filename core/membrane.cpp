@@ -3,6 +3,7 @@
 
 #include "core/patches.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -50,11 +51,15 @@ bool sides_along_fibres(const BlankMesh& mesh, double warp_angle, double weft_an
 }
 
 Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
-                       ElementKind kind) {
+                       ElementKind kind, double softening) {
   Membrane m;
   m.fabric = fabric;
   m.omega0 = fabric.fibre_angle;
-  m.yarn_stiffness = {fabric.warp.largest_slope(), fabric.weft.largest_slope()};
+  const auto side_of = [softening](const TensionLaw& yarn) {
+    const double soft = yarn.largest_slope(), stiff = softening * soft;
+    return SideStiffness{stabilisation * stiff, std::min(guard * stiff, soft)};
+  };
+  m.side = {side_of(fabric.warp), side_of(fabric.weft)};
   m.cells_per_area = fabric.warp_density * fabric.weft_density * std::sin(m.omega0);
   if (fabric.isotropic) kind = ElementKind::plain; // there is no yarn to lock
   if (kind == ElementKind::automatic)
@@ -153,20 +158,15 @@ PatchState patch_state(const Membrane& m, std::span<const Vec3> x, int patch) {
   return s;
 }
 
-/// Stabilisation and guard of (N) for one family; slope: the yarn's stiffness, N.
-double side_tension(double slope, double lambda, double mean) {
-  return slope * (stabilisation * (lambda - mean) - guard * std::max(0.0, guard_stretch - lambda));
+/// Stabilisation and guard of (N) for one family.
+double side_tension(const SideStiffness& side, double lambda, double mean) {
+  return side.stabilisation * (lambda - mean) - side.guard * std::max(0.0, guard_stretch - lambda);
 }
 
 /// Their energy per yarn length, N.
-double side_energy(double slope, double lambda, double mean) {
+double side_energy(const SideStiffness& side, double lambda, double mean) {
   const double deviation = lambda - mean, folded = std::max(0.0, guard_stretch - lambda);
-  return 0.5 * slope * (stabilisation * deviation * deviation + guard * folded * folded);
-}
-
-/// Their largest slope.
-double side_stiffness(double slope, double lambda) {
-  return slope * (stabilisation + (lambda < guard_stretch ? guard : 0.0));
+  return 0.5 * (side.stabilisation * deviation * deviation + side.guard * folded * folded);
 }
 
 /// (Q) of one triangle; n1, n2: tensions (N) of its yarns.
@@ -194,7 +194,6 @@ double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin
                       std::span<ElementForce> q) {
   if (m.fabric.isotropic) return isotropic_forces(m, x, begin, end, q), 0.0;
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
-  const double slope1 = m.yarn_stiffness[0], slope2 = m.yarn_stiffness[1];
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   double dissipated = 0.0;
   for (int p = begin; p < end; ++p) {
@@ -215,8 +214,8 @@ double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin
     for (int i = 0; i < s.size; ++i) {
       const auto e = static_cast<std::size_t>(s.begin + i);
       const FibreState& t = s.triangle[static_cast<std::size_t>(i)];
-      q[e] = triangle_force(m, t, m.area[e], n1 + side_tension(slope1, t.lambda1, s.mean1),
-                            n2 + side_tension(slope2, t.lambda2, s.mean2));
+      q[e] = triangle_force(m, t, m.area[e], n1 + side_tension(m.side[0], t.lambda1, s.mean1),
+                            n2 + side_tension(m.side[1], t.lambda2, s.mean2));
     }
   }
   return dissipated;
@@ -248,7 +247,6 @@ Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node) {
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
   MembraneEnergy sum;
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
-  const double slope1 = m.yarn_stiffness[0], slope2 = m.yarn_stiffness[1];
   for (int p = 0; p < m.patches(); ++p) {
     const PatchState s = patch_state(m, x, p);
     sum.fibre += s.area * (d1 * m.fabric.warp.at(s.mean1 - 1.0).energy +
@@ -256,8 +254,8 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
     for (int i = 0; i < s.size; ++i) {
       const FibreState& t = s.triangle[static_cast<std::size_t>(i)];
       const double area = m.area[static_cast<std::size_t>(s.begin + i)];
-      sum.fibre += area * (d1 * side_energy(slope1, t.lambda1, s.mean1) +
-                           d2 * side_energy(slope2, t.lambda2, s.mean2));
+      sum.fibre += area * (d1 * side_energy(m.side[0], t.lambda1, s.mean1) +
+                           d2 * side_energy(m.side[1], t.lambda2, s.mean2));
       if (m.fabric.isotropic) sum.shear += area * isotropic_energy(isotropic_state(m, t));
       sum.shear += area * m.cells_per_area * m.fabric.shear.at(t.gamma).energy;
     }
@@ -284,8 +282,8 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
     const auto largest = [](double a, double b, double off) {
       return 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + off * off);
     };
-    const double k1 = s1 + side_stiffness(m.fabric.warp_density * m.yarn_stiffness[0], s.lambda1);
-    const double k2 = s2 + side_stiffness(m.fabric.weft_density * m.yarn_stiffness[1], s.lambda2);
+    const double k1 = s1 + m.fabric.warp_density * m.side[0].stabilisation;
+    const double k2 = s2 + m.fabric.weft_density * m.side[1].stabilisation;
     const double fibre = largest(k1 * g11, k2 * g22, std::sqrt(k1 * k2) * g12 * s.cos_omega);
     const double v1 = m.fabric.warp_density * m.viscosity.warp;
     const double v2 = m.fabric.weft_density * m.viscosity.weft;

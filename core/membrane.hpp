@@ -13,7 +13,9 @@
 //   P        -       patch of one to three triangles that share a mean strain; A = sum of A0 over P
 //   mean     -       eps_a averaged over the patch by area
 //   s_a      N       stabilisation, 1e-5 of the yarn stiffness: the scale of the shear stiffness
-//   g_a      N       guard against folding a triangle flat, acts below a stretch of one half
+//   g_a      N       guard against folding a triangle flat, acts below a stretch of one half: 1e-3
+//                    of the yarn stiffness, and no more than the (softened) yarn's own, which is
+//                    slack there, so that the stable step need not know of it
 //
 //   E_P = A [ d_1 W_1(mean eps_1) + d_2 W_2(mean eps_2) ]
 //         + sum over P of A0 [ n_c Ws(gamma) + sum_a d_a ( s_a/2 (eps_a - mean eps_a)^2
@@ -56,6 +58,11 @@ struct FibreViscosity {
   double warp = 0.0, weft = 0.0;
 };
 
+/// s_a and g_a of one family, N.
+struct SideStiffness {
+  double stabilisation = 0.0, guard = 0.0;
+};
+
 /// One ply's membrane; nodes and triangles are numbered within the ply. Constant topology, and the
 /// little state that viscosity needs. Sizes: n nodes, m triangles.
 struct Membrane {
@@ -63,7 +70,7 @@ struct Membrane {
   double omega0 = 0.0;         ///< rad
   double cells_per_area = 0.0; ///< n_c, 1/mm^2
   FibreViscosity viscosity;
-  std::array<double, 2> yarn_stiffness{}; ///< warp, weft, N: before softening; scales s_a and g_a
+  std::array<SideStiffness, 2> side{};    ///< warp, weft
   std::vector<Triangle> triangles;        ///< m, those of a patch next to each other
   std::vector<std::int32_t> patch_begin;  ///< patches + 1, into triangles
   std::vector<FibreGradients> c;          ///< m
@@ -85,11 +92,12 @@ struct FibreState {
   double cos_omega, sin_omega, gamma;
 };
 
-/// `warp_angle` in rad from x. `kind` automatic is decided by sides_along_fibres. Triangles are put
-/// in the order of their patches. Throws std::invalid_argument for a triangle of zero or inverted
-/// area.
+/// `warp_angle` in rad from x. `softening`: what the yarns' laws in `fabric` have been divided by;
+/// s_a and g_a go by the true stiffness. `kind` automatic is decided by sides_along_fibres.
+/// Triangles are put in the order of their patches. Throws std::invalid_argument for a triangle of
+/// zero or inverted area.
 Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
-                       ElementKind kind);
+                       ElementKind kind, double softening = 1.0);
 
 /// Whether every triangle has one side along warp and one along weft, to a thousandth of a radian.
 bool sides_along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle);

@@ -31,9 +31,8 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.name = ply.name;
   body.angle = ply.angle;
   body.thickness = fabric.thickness;
-  body.membrane = make_membrane(mesh, fabric, ply.angle, data.solver.element);
-  for (double& c : body.membrane.yarn_stiffness)
-    c *= data.solver.fibre_softening;
+  body.membrane =
+      make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
   body.x = body.x_search = body.x0;

@@ -19,7 +19,7 @@ void keep_only(Term term, Membrane& m) {
   if (term == Term::all) return;
   if (term != Term::fibre) m.fabric.warp.stiffness = m.fabric.weft.stiffness = 0.0;
   if (term != Term::shear) m.fabric.shear.k = {0.0};
-  if (term == Term::fibre || term == Term::shear) m.yarn_stiffness = {0.0, 0.0};
+  if (term == Term::fibre || term == Term::shear) m.side = {};
 }
 
 double energy(const Membrane& m, const std::vector<Vec3>& x) {
