@@ -22,6 +22,19 @@ LawPoint on_table(const std::vector<double>& x, const std::vector<double>& y, do
   return r;
 }
 
+double steepest(const std::vector<double>& x, const std::vector<double>& y) {
+  double slope = 0.0;
+  for (std::size_t i = 1; i < x.size(); ++i)
+    slope = std::max(slope, (y[i] - y[i - 1]) / (x[i] - x[i - 1]));
+  return slope;
+}
+
+/// An odd law from its table for positive arguments.
+LawPoint odd(const std::vector<double>& x, const std::vector<double>& y, double at) {
+  const LawPoint r = on_table(x, y, std::abs(at));
+  return {std::copysign(r.value, at), r.slope, r.energy};
+}
+
 } // namespace
 
 LawPoint TensionLaw::at(double eps) const {
@@ -31,18 +44,11 @@ LawPoint TensionLaw::at(double eps) const {
 }
 
 double TensionLaw::largest_slope() const {
-  if (strain.empty()) return stiffness;
-  double slope = 0.0;
-  for (std::size_t i = 1; i < strain.size(); ++i)
-    slope = std::max(slope, (tension[i] - tension[i - 1]) / (strain[i] - strain[i - 1]));
-  return slope;
+  return strain.empty() ? stiffness : steepest(strain, tension);
 }
 
 LawPoint ShearLaw::at(double g) const {
-  if (!angle.empty()) {
-    const LawPoint r = on_table(angle, torque, std::abs(g));
-    return {std::copysign(r.value, g), r.slope, r.energy};
-  }
+  if (!angle.empty()) return odd(angle, torque, g);
   LawPoint r{0.0, 0.0, 0.0};
   const double g2 = g * g;
   double power = 1.0; // g^(2i)
@@ -56,11 +62,27 @@ LawPoint ShearLaw::at(double g) const {
   return r;
 }
 
+LawPoint MomentLaw::at(double kappa) const {
+  if (!curvature.empty()) return odd(curvature, moment, kappa);
+  return {stiffness * kappa, stiffness, 0.5 * stiffness * kappa * kappa};
+}
+
+double MomentLaw::largest_slope() const {
+  return curvature.empty() ? stiffness : steepest(curvature, moment);
+}
+
+bool BendingLaw::any() const {
+  return warp.largest_slope() > 0.0 || weft.largest_slope() > 0.0 || twist > 0.0;
+}
+
 bool balanced(const Fabric& fabric) {
   const auto same = [](const TensionLaw& a, const TensionLaw& b) {
     return a.stiffness == b.stiffness && a.strain == b.strain && a.tension == b.tension;
   };
-  return same(fabric.warp, fabric.weft) && fabric.warp_density == fabric.weft_density;
+  const MomentLaw &a = fabric.bending.warp, &b = fabric.bending.weft;
+  const bool bend =
+      a.stiffness == b.stiffness && a.curvature == b.curvature && a.moment == b.moment;
+  return bend && same(fabric.warp, fabric.weft) && fabric.warp_density == fabric.weft_density;
 }
 
 } // namespace plyform

@@ -37,11 +37,28 @@ struct ShearLaw {
   LawPoint at(double g) const;
 };
 
+/// Moment per width against curvature, odd: M = stiffness * kappa, or a table for kappa >= 0.
+struct MomentLaw {
+  double stiffness = 0.0;                ///< N mm (per mm of width: N mm^2/mm)
+  std::vector<double> curvature, moment; ///< 1/mm and N, ascending from (0, 0); last slope beyond
+  /// M (N), dM/dkappa (N mm), W (N/mm); kappa in 1/mm, of either sign.
+  LawPoint at(double kappa) const;
+  double largest_slope() const; ///< N mm
+};
+
+/// Bending of a sheet: core/bending.hpp (M). All zero: none.
+struct BendingLaw {
+  MomentLaw warp, weft;
+  double coupling = 0.0, twist = 0.0; ///< D_c, D_t, N mm
+  bool any() const;
+};
+
 struct Fabric {
   std::string name;
   TensionLaw warp, weft;
   double warp_density = 0.0, weft_density = 0.0; ///< d1, d2: yarns per mm across the yarns
   ShearLaw shear;
+  BendingLaw bending;
   double surface_density = 0.0;            ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
   double thickness = 0.0;                  ///< mm
   double fibre_angle = 1.5707963267948966; ///< rad from warp to weft before forming, in (0, pi)

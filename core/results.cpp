@@ -19,14 +19,14 @@ namespace plyform {
 namespace fs = std::filesystem;
 
 double Energies::balance_error() const {
-  const double terms[] = {kinetic, fibre, shear, contact, friction, damping, external};
+  const double terms[] = {kinetic, fibre, shear, bending, contact, friction, damping, external};
   double largest = 0;
   for (const double term : terms) {
     if (std::isnan(term)) return term; // std::max would lose it
     largest = std::max(largest, std::abs(term));
   }
   if (largest == 0) return 0;
-  return (kinetic + fibre + shear + contact + friction + damping - external) / largest;
+  return (kinetic + fibre + shear + bending + contact + friction + damping - external) / largest;
 }
 
 // Files that appear whole or not at all.
@@ -142,8 +142,9 @@ std::string history_header(const Frame& frame) {
   for (const BoundaryFrame& b : frame.boundaries)
     line +=
         fmt::format(",{},{}", heading(b.name + "_force_N"), heading(b.name + "_displacement_mm"));
-  return line + ",kinetic_mJ,fibre_mJ,shear_mJ,contact_mJ,friction_mJ,damping_mJ,external_mJ,"
-                "balance_error\n";
+  return line +
+         ",kinetic_mJ,fibre_mJ,shear_mJ,bending_mJ,contact_mJ,friction_mJ,damping_mJ,external_mJ,"
+         "balance_error\n";
 }
 
 std::string history_row(const Frame& frame) {
@@ -159,8 +160,8 @@ std::string history_row(const Frame& frame) {
     put(out, b.stroke_mm);
   }
   const Energies& e = frame.energy;
-  for (const double value : {e.kinetic, e.fibre, e.shear, e.contact, e.friction, e.damping,
-                             e.external, e.balance_error()})
+  for (const double value : {e.kinetic, e.fibre, e.shear, e.bending, e.contact, e.friction,
+                             e.damping, e.external, e.balance_error()})
     put(out, value);
   end_row(out);
   return fmt::to_string(out);

@@ -16,9 +16,10 @@ namespace plyform {
 
 /// Energies and work done since the start, N mm (mJ). external: work of all tools on the plies.
 struct Energies {
-  double kinetic = 0, fibre = 0, shear = 0, contact = 0, friction = 0, damping = 0, external = 0;
-  /// (kinetic + fibre + shear + contact + friction + damping - external) over the largest of them;
-  /// 0 when all are 0.
+  double kinetic = 0, fibre = 0, shear = 0, bending = 0, contact = 0, friction = 0, damping = 0,
+         external = 0;
+  /// (kinetic + fibre + shear + bending + contact + friction + damping - external) over the largest
+  /// of them; 0 when all are 0.
   double balance_error() const;
 };
 

@@ -175,11 +175,12 @@ std::string json_list(const std::vector<Item>& items, Text text) {
 }
 
 std::string energy_json(const Energies& e) {
-  return fmt::format("{{\"kinetic\": {}, \"fibre\": {}, \"shear\": {}, \"contact\": {}, "
-                     "\"friction\": {}, \"damping\": {}, \"external\": {}, \"balance_error\": {}}}",
-                     json_number(e.kinetic), json_number(e.fibre), json_number(e.shear),
-                     json_number(e.contact), json_number(e.friction), json_number(e.damping),
-                     json_number(e.external), json_number(e.balance_error()));
+  return fmt::format(
+      "{{\"kinetic\": {}, \"fibre\": {}, \"shear\": {}, \"bending\": {}, \"contact\": {}, "
+      "\"friction\": {}, \"damping\": {}, \"external\": {}, \"balance_error\": {}}}",
+      json_number(e.kinetic), json_number(e.fibre), json_number(e.shear), json_number(e.bending),
+      json_number(e.contact), json_number(e.friction), json_number(e.damping),
+      json_number(e.external), json_number(e.balance_error()));
 }
 
 std::string contact_json(const ContactReport& c) {

@@ -99,7 +99,7 @@ std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floo
   const double error = e.balance_error();
   const double limit = s.data.solver.max_balance_error;
   const double largest =
-      std::max({std::abs(e.kinetic), e.fibre, e.shear, e.contact, std::abs(e.friction),
+      std::max({std::abs(e.kinetic), e.fibre, e.shear, e.bending, e.contact, std::abs(e.friction),
                 std::abs(e.damping), std::abs(e.external)});
   if (std::isfinite(error) && (largest < floor || std::abs(error) <= limit)) return std::nullopt;
   return Stop{

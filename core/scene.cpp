@@ -33,6 +33,9 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.thickness = fabric.thickness;
   body.membrane =
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
+  if (fabric.bending.any())
+    body.bending = make_bending(mesh.x, body.membrane.triangles, fabric.bending, ply.angle,
+                                ply.angle + fabric.fibre_angle, body.membrane.node_mass);
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
   body.x = body.x_search = body.x0;
@@ -124,6 +127,7 @@ Scene make_scene(const Case& data) {
     const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
     add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
     add_blocks(s.node_blocks, p, ply.x.size());
+    if (ply.bending) add_blocks(s.bending_blocks, p, ply.membrane.triangles.size());
   }
   for (int p = 0; p < n; ++p) {
     PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
@@ -166,7 +170,7 @@ StepBound stable_step(const Scene& s) {
     double contact = 0.0;
     for (std::size_t n = 0; n < rows[p].size(); ++n)
       contact = std::max(contact, rows[p][n] / ply.membrane.node_mass[n]);
-    const double omega2 = element.omega2 + contact;
+    const double omega2 = element.omega2 + contact + (ply.bending ? ply.bending->omega2 : 0.0);
     const double c = element.damping + contact * damping_ratio + s.data.solver.mass_damping;
     const double dt = (std::sqrt(c * c + 4.0 * omega2) - c) / omega2;
     if (bound.ply < 0 || !(dt >= bound.dt))

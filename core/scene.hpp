@@ -6,10 +6,12 @@
 #include "contact/edge_contact.hpp"
 #include "contact/sheet_contact.hpp"
 #include "contact/tool_contact.hpp"
+#include "core/bending.hpp"
 #include "core/boundary.hpp"
 #include "core/membrane.hpp"
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -21,11 +23,12 @@ struct PlyBody {
   double angle = 0.0;     ///< rad, warp from x, before forming
   double thickness = 0.0; ///< mm
   Membrane membrane;
-  std::vector<Vec3> x0, x;     ///< mm
-  std::vector<Vec3> velocity;  ///< mm/s, half a step behind x
-  std::vector<Vec3> motion;    ///< mm, of the last step
-  std::vector<Vec3> x_search;  ///< mm, where the contact search was last done
-  std::vector<ElementForce> q; ///< one a triangle
+  std::vector<Vec3> x0, x;        ///< mm
+  std::vector<Vec3> velocity;     ///< mm/s, half a step behind x
+  std::vector<Vec3> motion;       ///< mm, of the last step
+  std::vector<Vec3> x_search;     ///< mm, where the contact search was last done
+  std::vector<ElementForce> q;    ///< one a triangle
+  std::optional<Bending> bending; ///< if the fabric has it
   std::unique_ptr<SheetTree> tree;
   std::vector<SheetEdge> edges;
   std::vector<std::int32_t> folded; ///< edges folded at the last contact search
@@ -89,7 +92,7 @@ struct Scene {
   std::vector<PlyEdgeContact> edge_contacts;
   std::vector<HeldNode> held;            ///< by ply and node
   std::vector<BoundaryState> boundaries; ///< one each of Case::boundaries
-  std::vector<Block> patch_blocks, node_blocks;
+  std::vector<Block> patch_blocks, node_blocks, bending_blocks;
   std::vector<SheetState> ply_states; ///< views of the plies, renewed every step
   std::vector<double> patch_sums;     ///< viscous work, one a patch block
   std::vector<NodeSums> node_sums;    ///< one a node block

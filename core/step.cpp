@@ -68,21 +68,30 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
     s.patch_sums[static_cast<std::size_t>(i)] +=
         element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
   };
+  const auto bending_task = [&](int i) {
+    const Block& block = s.bending_blocks[static_cast<std::size_t>(i)];
+    PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
+    bending_forces(*ply.bending, ply.x, block.begin, block.end);
+  };
   const int sheets = static_cast<int>(s.ply_contacts.size());
   const int edges = sheets + static_cast<int>(s.edge_contacts.size());
   const int tools = edges + static_cast<int>(s.tools.size());
   s.ply_states.clear();
   for (const PlyBody& ply : s.plies)
     s.ply_states.push_back(ply.state());
-  team.run(tools + static_cast<int>(s.patch_blocks.size()), [&](int i) { // longest tasks first
+  const int patches = tools + static_cast<int>(s.patch_blocks.size());
+  const int all = patches + static_cast<int>(s.bending_blocks.size());
+  team.run(all, [&](int i) { // longest tasks first
     if (i < sheets)
       sheet_task(i);
     else if (i < edges)
       edge_task(i - sheets);
     else if (i < tools)
       tool_task(i - edges);
-    else
+    else if (i < patches)
       patch_task(i - tools);
+    else
+      bending_task(i - patches);
   });
 }
 
@@ -100,6 +109,7 @@ MassLoads mass_loads(const Scene& s) {
 Vec3 acceleration(const PlyBody& ply, int node, const MassLoads& loads) {
   const auto n = static_cast<std::size_t>(node);
   Vec3 f = node_force(ply.membrane, ply.q, node);
+  if (ply.bending) f += bending_force(*ply.bending, node);
   for (const std::vector<Vec3>* force : ply.nodal_forces)
     f += (*force)[n];
   return f / ply.membrane.node_mass[n] + loads.gravity - loads.damping * ply.velocity[n];
@@ -250,6 +260,7 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
     const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
     Energies& e = of_ply[static_cast<std::size_t>(p)];
     e.fibre = m.fibre;
+    if (ply.bending) e.bending = bending_energy(*ply.bending, ply.x);
     e.shear = m.shear;
     e.kinetic = kinetic_energy(ply, s.dt, s.next_dt, mass_loads(s));
     e.external = work_of_gravity(ply, s.data.gravity);
@@ -259,6 +270,7 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
     e.kinetic += ply.kinetic;
     e.fibre += ply.fibre;
     e.shear += ply.shear;
+    e.bending += ply.bending;
     e.external += ply.external;
   }
   const auto add = [&e](const ContactSums& c) {
