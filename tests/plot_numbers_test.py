@@ -23,6 +23,7 @@ from plot_folders import disc, draped, grid  # noqa: E402
 from plotting import folds, numbers  # noqa: E402
 from plotting.draw_history import body_of  # noqa: E402
 from plotting.draw_plies import nice_range, turned  # noqa: E402
+from plotting.looks import folder_labels  # noqa: E402
 from plotting.reading import Ply, Trouble, read_table  # noqa: E402
 
 RANDOM = np.random.default_rng(7)
@@ -256,6 +257,13 @@ def scales_end_at_round_numbers_and_hold_everything():
     assert start < 0.6 < end and end - start < 0.1
 
 
+def folders_are_told_apart_by_no_more_than_it_takes():
+    assert folder_labels([Path("x/a"), Path("y/b/")]) == ["a", "b"]
+    assert folder_labels([Path("x/a"), Path("y/a")]) == ["x/a", "y/a"]
+    assert folder_labels([Path("x/a"), Path("x/a")]) == ["a", "a"]
+    assert folder_labels([Path("x/a/../b")]) == ["b"]
+
+
 def outlines_are_borders_and_turns():
     x0, triangles = grid(5, 50.0)
     edges = numbers.outline(x0, triangles)
@@ -288,7 +296,7 @@ def tables_are_read_or_said_to_be_wrong():
 CHECKS = [value for name, value in list(globals().items())
           if callable(value) and getattr(value, "__module__", "") == "__main__"
           and not value.__code__.co_argcount]
-assert len(CHECKS) >= 18, len(CHECKS)
+assert len(CHECKS) >= 19, len(CHECKS)
 for check in CHECKS:
     check()
     print("passed:", check.__name__)

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Colours, labels and styles that all pictures share."""
 
+import os
 from pathlib import Path
 
 import matplotlib
@@ -24,7 +25,7 @@ def colour(i: int) -> str:
 
 def folder_labels(folders: list[Path]) -> list[str]:
     """The last part of each path, or as many as it takes to tell them apart."""
-    parts = [folder.resolve().parts for folder in folders]
+    parts = [Path(os.path.abspath(folder)).parts for folder in folders]  # links keep their names
     for depth in range(1, max(map(len, parts)) + 1):
         labels = ["/".join(p[-depth:]) for p in parts]
         if len(set(labels)) == len(set(parts)):
