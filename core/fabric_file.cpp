@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fabrics: a yarn's tension and a cell's torque as constants or tables.
+#include "core/fabric_file.hpp"
+
 #include "core/case_parts.hpp"
 
 #include <fmt/format.h>
+#include <string_view>
 
 namespace plyform {
 
@@ -107,6 +110,27 @@ Fabric read_fabric(const Section& section, const std::string& key, Findings& fin
   return fabric;
 }
 
+/// Puts a law that is sound into a table that has none; true if it did.
+bool stand_in(Entry& root, const std::string& table, const std::string& key, const char* value) {
+  Entry* section = root.find(table);
+  if (section &&
+      (section->kind != Entry::Kind::table || section->find(key) || section->find("table")))
+    return false;
+  if (!section) {
+    Entry made;
+    made.key = table;
+    made.at = made.key_at = root.at;
+    root.children.push_back(std::move(made));
+    section = &root.children.back();
+  }
+  std::string reason;
+  Entry law = *parse_value(value, root.at.file, 1, reason);
+  law.key = key;
+  law.at = law.key_at = section->at;
+  section->children.push_back(std::move(law));
+  return true;
+}
+
 } // namespace
 
 std::vector<Fabric> read_fabrics(const Section& root, Findings& findings) {
@@ -115,6 +139,39 @@ std::vector<Fabric> read_fabrics(const Section& root, Findings& findings) {
     fabrics.push_back(
         read_fabric(section, section.item.substr(std::string("fabrics.").size()), findings));
   return fabrics;
+}
+
+FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_miss) {
+  FabricReading reading;
+  Findings findings;
+  const std::string name = file.string();
+  std::string reason;
+  const std::optional<std::string> content = read_text(file, reason);
+  if (!content)
+    findings.error({name, 1, 1}, "", "", "the fabric file " + reason,
+                   "give the path of a fabric file");
+  std::optional<Entry> root = content ? parse_entries(*content, name, findings) : std::nullopt;
+  if (root) {
+    reading.text = *content;
+    root->at.file = name;
+    for (const char* table : {"warp", "weft", "shear"}) {
+      const bool shear = std::string_view(table) == "shear";
+      if (laws_may_miss &&
+          stand_in(*root, table, shear ? "polynomial" : "stiffness", shear ? "[1.0]" : "1.0"))
+        reading.missing.push_back(table);
+    }
+    const Section section{&*root, "fabrics.NAME", ""};
+    check_section(section, findings);
+    Fabric fabric = read_fabric(section, file.stem().string(), findings);
+    for (const std::string& table : reading.missing) {
+      if (table == "warp") fabric.warp = {};
+      if (table == "weft") fabric.weft = {};
+      if (table == "shear") fabric.shear = {};
+    }
+    if (findings.errors.empty()) reading.value = std::move(fabric);
+  }
+  reading.errors = std::move(findings.errors);
+  return reading;
 }
 
 } // namespace plyform

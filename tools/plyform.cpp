@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line: plyform run | check | export | keys | version.
+// The command line: plyform run | check | export | identify | theory | keys | version.
 #include "core/results.hpp"
 #include "core/version.hpp"
 #include "tools/commands.hpp"
@@ -31,7 +31,8 @@ int export_command(const std::string& directory) {
 int main(int argc, char** argv) {
   CLI::App app{"Forms stacks of woven and non-crimp fabric plies between rigid tools."};
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 done, 2 the case is wrong, 3 the simulation stopped itself, 1 else.");
+  app.footer(
+      "Exit codes: 0 done, 2 the case or curve is wrong, 3 the simulation stopped itself, 1 else.");
 
   RunArguments run;
   CLI::App* run_app = app.add_subcommand("run", "form the plies of a case and write the results");
@@ -51,6 +52,16 @@ int main(int argc, char** argv) {
   CLI::App* export_app = app.add_subcommand("export", "write the last state in other formats");
   export_app->add_option("results", results, "folder of a run")->required();
 
+  IdentifyArguments identify;
+  CLI::App* identify_app =
+      app.add_subcommand("identify", "turn a measured curve into a law of the fabric");
+  add_identify_tests(*identify_app, identify);
+
+  TheoryArguments theory;
+  CLI::App* theory_app =
+      app.add_subcommand("theory", "write the curve that a shear test of a fabric should give");
+  add_theory_tests(*theory_app, theory);
+
   CLI::App* keys_app = app.add_subcommand("keys", "list every key of case and fabric files");
   CLI::App* version_app = app.add_subcommand("version", "print the version");
 
@@ -63,6 +74,8 @@ int main(int argc, char** argv) {
     if (run_app->parsed()) return run_command(run);
     if (check_app->parsed()) return check_command(check);
     if (export_app->parsed()) return export_command(results);
+    if (identify_app->parsed()) return identify_command(identify);
+    if (theory_app->parsed()) return theory_command(theory);
     if (keys_app->parsed()) return keys_command();
     if (version_app->parsed()) fmt::print("plyform {}\n", version());
     return 0;
