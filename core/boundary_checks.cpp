@@ -56,6 +56,10 @@ void check_no_conflict(BoundaryCheck& check, std::size_t a, std::size_t b) {
                           "let their boxes, edges or bars not meet, or hold different directions");
 }
 
+Vec3 normal_of(const Boundary& plane) {
+  return {plane.normal.x(), plane.normal.y(), 0.0};
+}
+
 /// Blank on one side of the plane, with nodes on it.
 void check_half_blank(BoundaryCheck& check, std::size_t index) {
   const Boundary& plane = check.scene.boundaries[index];
@@ -108,12 +112,11 @@ void check_fibres(BoundaryCheck& check, std::size_t index) {
   }
 }
 
-/// Tools and loads must be their own mirror images.
+/// Tools must be their own mirror images and stay so.
 void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
                           const std::vector<Surface>& surfaces) {
   const Boundary& plane = check.scene.boundaries[index];
-  const Vec3 normal(plane.normal.x(), plane.normal.y(), 0.0);
-  const Vec3 point(plane.point.x(), plane.point.y(), 0.0);
+  const Vec3 normal = normal_of(plane), point(plane.point.x(), plane.point.y(), 0.0);
   constexpr double same = 0.01; // mm: less than any contact depth
   for (std::size_t t = 0; t < check.scene.tools.size(); ++t) {
     const Tool& tool = check.scene.tools[t];
@@ -125,29 +128,44 @@ void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
           std::max(largest, std::abs(tool_distance(tool, Vec3::Zero(), x, hint) -
                                      tool_distance(tool, Vec3::Zero(), mirrored, mirror_hint)));
     }
-    if (!std::holds_alternative<Plane>(tool.shape) && largest > same)
+    if (largest > same)
       check.fail(index,
                  fmt::format("is no plane of symmetry of tool {}: its mirror image differs by "
                              "{:.3g} mm",
                              tool.name, largest),
                  "move the plane or the tool, or model the whole");
-    if (tool.motion != Motion::fixed && std::abs(tool.direction.dot(normal)) > 1e-6)
+    else if (tool.motion != Motion::fixed && std::abs(tool.direction.dot(normal)) > 1e-6)
       check.fail(index, fmt::format("is crossed by the motion of tool {}", tool.name),
                  "move the tool along the plane, or model the whole");
   }
 }
 
+/// Whether a boundary takes a node of the plane away from it. (Off the plane grips and frames may
+/// move as they like: the other half has their mirror images.)
+bool crosses(const BoundaryCheck& check, const Boundary& plane, const Boundary& other) {
+  const Vec3 normal = normal_of(plane);
+  for (std::size_t p = 0; p < check.plies.size(); ++p)
+    for (const Vec2& x : check.plies[p].mesh.x) {
+      const int ply = static_cast<int>(p);
+      if (!holds(plane, ply, x) || !holds(other, ply, x)) continue;
+      const Vec3 X(x.x(), x.y(), 0.0);
+      for (const double part : {0.5, 1.0}) // frames move on curves
+        if (std::abs((held_place(other, X, part * other.stroke) - X).dot(normal)) >
+            1e-6 * other.stroke)
+          return true;
+    }
+  return false;
+}
+
 void check_mirrored_loads(BoundaryCheck& check, std::size_t index) {
   const Boundary& plane = check.scene.boundaries[index];
-  const Vec3 normal(plane.normal.x(), plane.normal.y(), 0.0);
-  if (std::abs(check.scene.gravity.dot(normal)) > 1e-6 * check.scene.gravity.norm())
+  if (std::abs(check.scene.gravity.dot(normal_of(plane))) > 1e-6 * check.scene.gravity.norm())
     check.fail(index, "is crossed by gravity", "turn it along the plane, or model the whole");
-  for (const Boundary& other : check.scene.boundaries) {
-    if (other.kind == BoundaryKind::symmetry || other.stroke == 0.0) continue;
-    if (other.kind == BoundaryKind::frame || std::abs(other.direction.dot(normal)) > 1e-6)
+  for (const Boundary& other : check.scene.boundaries)
+    if (other.kind != BoundaryKind::symmetry && other.stroke > 0.0 && crosses(check, plane, other))
       check.fail(index, fmt::format("is crossed by the motion of {}", other.name),
-                 "model the whole blank");
-  }
+                 "move it along the plane or hold no node of the plane with it, or model the "
+                 "whole");
 }
 
 } // namespace

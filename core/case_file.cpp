@@ -118,7 +118,7 @@ Numbers number_bodies(const Section& root, Findings& findings) {
       const std::string name = text(section, "name");
       const int body = count++;
       if (name.empty()) continue;
-      if (name == "plies" || name == "tools" || name == "boundaries")
+      if (name == "plies" || name == "tools") // in contact.pair
         value_error(section, "name", "stands for all " + name, "choose another name", findings);
       else if (!bodies.emplace(name, body).second)
         value_error(section, "name", "is the name of another ply, tool or boundary too",

@@ -12,9 +12,6 @@
 
 #include "contact/geometry.hpp"
 
-#include <algorithm>
-#include <cmath>
-
 namespace plyform {
 
 struct IsotropicLaw {
@@ -44,13 +41,13 @@ inline double isotropic_energy(const IsotropicState& s) {
   return 0.5 * (s.s11 * s.e11 + s.s22 * s.e22) + s.s12 * s.e12;
 }
 
-/// Bound of the eigenvalues of dq/dk per area, N/mm: those of (S) are C/(1 - nu) and C/(1 + nu),
-/// times the square of the largest stretch, plus the stress itself.
-inline double isotropic_stiffness(const IsotropicLaw& law, const IsotropicState& s) {
-  const double nu = law.poissons_ratio;
-  const double material = law.modulus / (1.0 - std::abs(nu));
-  const double stretch2 = 1.0 + 2.0 * std::max(0.0, std::max(s.e11, s.e22) + std::abs(s.e12));
-  return material * stretch2 + std::max(std::abs(s.s11), std::abs(s.s22)) + std::abs(s.s12);
-}
+/// Bound of the largest eigenvalue of H (G x I), N/mm^3: H the second derivative of (W) by k_1,
+/// k_2, G_ab = c_a . c_b the 2 x 2 of the gradients (core/membrane.hpp). In the components (E_11,
+/// E_22, sqrt(2) E_12) the material part is C~ M, where C~ is the matrix of (S) and
+///   M_(ab)(cd) = 1/4 (m_ac G_bd + m_ad G_bc + m_bc G_ad + m_bd G_ac),  m_ab = k_a . k_b;
+/// its largest eigenvalue is exact, that of C~^1/2 M C~^1/2. The geometric part S x I adds at most
+/// the larger principal stress, if it is tensile, times the larger eigenvalue of G.
+double isotropic_stiffness(const IsotropicLaw& law, const IsotropicState& s, double g11, double g22,
+                           double g12);
 
 } // namespace plyform

@@ -39,11 +39,11 @@ Rows boundary_rows() {
              .otherwise = "all plies",
              .meaning = "name of the one ply that is held"},
             points("box", "grip", 2,
-                   "two corners [x, y] of a rectangle: it holds all nodes of the unformed ply "
+                   "two corners [x, y] of a rectangle; it holds all nodes of the unformed ply "
                    "inside and on its rim"),
-            points("edge", "grip", 2, "two ends [x, y] of a line: it holds all nodes on it"),
+            points("edge", "grip", 2, "two ends [x, y] of a line; it holds all nodes on it"),
             points("hinges", "frame", 4,
-                   "four hinges [x, y] in order, a parallelogram: the first stays, the third moves "
+                   "four hinges [x, y] in order, a parallelogram; the first stays, the third moves "
                    "away from it; the bars hold all nodes on them"),
             {.key = "boundary[].hold",
              .kind = K::choice,
@@ -65,7 +65,7 @@ Rows boundary_rows() {
              .ranges = {not_negative},
              .of = "kind",
              .with = {"grip", "frame"},
-             .meaning = "stroke over the duration, of a grip along its direction, of a frame along "
+             .meaning = "stroke over the duration; of a grip along its direction, of a frame along "
                         "the diagonal from the first hinge to the third"},
             {.key = "boundary[].point",
              .kind = K::numbers,

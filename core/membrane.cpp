@@ -267,7 +267,8 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
   // K_e = A0 B^T H B with B = [c_1; c_2] x I. Its non-zero eigenvalues are those of H (G x I),
   // G_ab = c_a . c_b, and every node carries at least rho A0 / 3: so omega^2 <= 3/rho * them.
   // Fibre part of H: exact, a 2 x 2 problem. Shear and geometric part: bounded by norms; the
-  // second derivative of the angle is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2).
+  // second derivative of the angle is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2). A sheet
+  // without yarns has none of these but its own (core/isotropic.hpp).
   FrequencyBound bound;
   const double s1 = m.fabric.warp_density * m.fabric.warp.largest_slope();
   const double s2 = m.fabric.weft_density * m.fabric.weft.largest_slope();
@@ -296,8 +297,10 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
         std::max(n1, n2) + m.cells_per_area * inv2 *
                                (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
     const double sheet =
-        m.fabric.isotropic ? isotropic_stiffness(*m.fabric.isotropic, isotropic_state(m, s)) : 0.0;
-    const double omega2 = per_mass * (fibre + (rest + sheet) * largest(g11, g22, g12));
+        m.fabric.isotropic
+            ? isotropic_stiffness(*m.fabric.isotropic, isotropic_state(m, s), g11, g22, g12)
+            : 0.0;
+    const double omega2 = per_mass * (fibre + sheet + rest * largest(g11, g22, g12));
     if (!(omega2 <= bound.omega2)) {
       bound.omega2 = omega2;
       bound.triangle = static_cast<int>(e);

@@ -139,6 +139,16 @@ ToolFrame read_tool(const Reader& in, const std::string& group, const std::strin
   return tool;
 }
 
+BoundaryFrame read_boundary(const Reader& in, const std::string& group, const std::string& name) {
+  BoundaryFrame boundary;
+  boundary.name = name;
+  const std::string now = group + "/boundaries/" + name;
+  in.vector(now, "force_vector_N", boundary.force);
+  in.number(now, "stroke_mm", boundary.stroke_mm);
+  in.number(now, "force_N", boundary.force_N);
+  return boundary;
+}
+
 } // namespace
 
 Frame read_last_frame(const fs::path& path) {
@@ -165,6 +175,9 @@ Frame read_last_frame(const fs::path& path) {
     frame.plies.push_back(read_ply(in, group, name));
   for (const std::string& name : in.texts("/", "tools"))
     frame.tools.push_back(read_tool(in, group, name));
+  if (H5Aexists(file.id(), "boundaries") > 0) // not in files of earlier versions
+    for (const std::string& name : in.texts("/", "boundaries"))
+      frame.boundaries.push_back(read_boundary(in, group, name));
   return frame;
 }
 

@@ -65,10 +65,11 @@ struct PlyEdgeContact {
 
 /// What a boundary (Case::boundaries) is doing.
 struct BoundaryState {
-  double displacement = 0.0; ///< mm, d
-  double load = 0.0;         ///< N, (L): + when it pulls along its stroke
-  Vec3 force = Vec3::Zero(); ///< N, sum of what it holds its nodes with
-  double work = 0.0;         ///< N mm, done on the plies since the start
+  double displacement = 0.0;      ///< mm, d, now
+  double next_displacement = 0.0; ///< mm, d at the end of the coming step
+  double load = 0.0;              ///< N, (L): + when it pulls along its stroke
+  Vec3 force = Vec3::Zero();      ///< N, sum of what it holds its nodes with
+  double work = 0.0;              ///< N mm, done on the plies since the start
 };
 
 /// A run of nodes or patches of one ply: the unit of work of a thread. Fixed size, so that sums

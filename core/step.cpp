@@ -117,25 +117,30 @@ Vec3 acceleration(const PlyBody& ply, int node, const MassLoads& loads) {
 
 /// (R) of core/boundary.hpp for one node: the velocity that takes it where its boundaries will be.
 /// Adds to their loads and work.
-void hold_node(Scene& s, const HeldNode& held, const std::vector<double>& next) {
+void hold_node(Scene& s, const HeldNode& held) {
   PlyBody& ply = s.plies[static_cast<std::size_t>(held.ply)];
   const auto n = static_cast<std::size_t>(held.node);
   const Vec3 before = ply.reaction[n];
   ply.reaction[n].setZero();
   const Vec3 free = acceleration(ply, held.node, mass_loads(s));
   const double span = 0.5 * (s.dt + s.next_dt);
-  Vec3 reaction = Vec3::Zero();
+  Vec3 reaction = Vec3::Zero(), way = reaction, slope = reaction;
+  int last = -1; // most nodes are held along all axes by one boundary: placed once
   for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
     const Vec3& axis = held.axis[i];
     const auto b = static_cast<std::size_t>(held.boundary[i]);
-    const Boundary& boundary = s.data.boundaries[b];
-    const Vec3 way = held_place(boundary, ply.x0[n], next[b]) - ply.x[n];
+    BoundaryState& state = s.boundaries[b];
+    if (held.boundary[i] != last) {
+      const Boundary& boundary = s.data.boundaries[b];
+      way = held_place(boundary, ply.x0[n], state.next_displacement) - ply.x[n];
+      slope = held_slope(boundary, ply.x0[n], state.displacement);
+      last = held.boundary[i];
+    }
     const double wanted = (axis.dot(way) / s.next_dt - axis.dot(ply.velocity[n])) / span;
     const Vec3 r = ply.membrane.node_mass[n] * (wanted - axis.dot(free)) * axis;
     reaction += r;
-    BoundaryState& state = s.boundaries[b];
     state.force += r;
-    state.load += r.dot(held_slope(boundary, ply.x0[n], state.displacement));
+    state.load += r.dot(slope);
     state.work += 0.5 * axis.dot(before + r) * axis.dot(ply.motion[n]);
   }
   ply.reaction[n] = reaction;
@@ -143,19 +148,17 @@ void hold_node(Scene& s, const HeldNode& held, const std::vector<double>& next) 
 
 /// Forces of all boundaries, after all others are known.
 void hold_nodes(Scene& s) {
-  if (s.held.empty()) return;
-  std::vector<double> next; // displacements at the end of the coming step
   const double duration = s.data.solver.duration;
   for (std::size_t b = 0; b < s.boundaries.size(); ++b) {
     const double stroke = s.data.boundaries[b].stroke;
-    next.push_back(smooth_path(stroke, s.time + s.next_dt, duration));
     BoundaryState& state = s.boundaries[b];
     state.displacement = smooth_path(stroke, s.time, duration);
+    state.next_displacement = smooth_path(stroke, s.time + s.next_dt, duration);
     state.load = 0.0;
     state.force.setZero();
   }
   for (const HeldNode& held : s.held)
-    hold_node(s, held, next);
+    hold_node(s, held);
 }
 
 /// (15)-(17) for one block of nodes.
@@ -169,7 +172,8 @@ NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt,
     ply.velocity[n] = now;
     ply.motion[n] = now * next_dt;
     ply.x[n] += ply.motion[n]; // (15)
-    sums.damping += 0.5 * loads.damping * ply.membrane.node_mass[n] * old.dot(old + now) * dt;
+    // trapezoidal rule over the step that begins; at its end the damping force goes by `now`
+    sums.damping += 0.5 * loads.damping * ply.membrane.node_mass[n] * now.dot(old + now) * next_dt;
     const double moved2 = (ply.x[n] - ply.x_search[n]).squaredNorm();
     if (!(moved2 <= sums.moved2) && !std::isnan(sums.moved2)) sums.moved2 = moved2; // NaN stays
   }

@@ -33,6 +33,27 @@ expect 2 'did you mean angle' run cases/hemisphere_0 --set ply.0.angel=3
 expect 2 'KEY=VALUE' run cases/hemisphere_0 --set angle
 [ ! -e results ] || { echo "a wrong case has written results"; failures=$((failures + 1)); }
 expect 0 'the case is sound' check cases/hemisphere_0 "${short[@]}"
+expect 0 'boundary frame: frame, holds 40 nodes of ply square, moves 46.5 mm' check cases/picture_frame
+expect 0 'boundary lower_grip: grip, holds 11 nodes of ply strip, stays' check cases/bias_extension
+cat >cases/half.toml <<'END'
+[fabrics]
+glass = "fabrics/glass_plain_weave.toml"
+[blanks.half]
+size = [50.0, 100.0]
+centre = [25.0, 0.0]
+element_size = 10.0
+[[ply]]
+name = "half"
+fabric = "glass"
+blank = "half"
+angle = 0.0
+[[boundary]]
+name = "middle"
+kind = "symmetry"
+normal = [1.0, 0.0]
+END
+expect 0 'boundary middle: plane of symmetry, holds 11 nodes of ply half' check cases/half.toml
+expect 0 'symmetry: forces and energies' check cases/half.toml
 expect 0 'results/hemisphere_0' run cases/hemisphere_0/ "${short[@]}"
 expect 0 'results/hemisphere_45' run cases/hemisphere_45/case.toml "${short[@]}"
 expect 0 'ply.vtu' export results/hemisphere_0

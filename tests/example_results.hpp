@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A small made-up run for the tests of the result files: two sheets of different size, a punch that
-// moves and a die that stays. Every value differs from every other, so that no mix-up goes unseen.
+// moves, a die that stays, and two grips that hold the second sheet. Every value differs from every
+// other, so that no mix-up goes unseen.
 #pragma once
 
 #include "core/results.hpp"
@@ -63,6 +64,10 @@ inline Frame frame(double time) {
                   50 * time, 400 * time};
   ToolFrame die{"die", sheet(1, -5), Vec3::Zero(), {0, 0, -30 * time}, 0, -30 * time};
   f.tools = {punch, die};
+  for (std::size_t i = 0; i < f.plies[1].x.size(); ++i) // the first ply is held by none
+    f.plies[1].reaction.push_back(time * Vec3(static_cast<double>(i), 0.25, -3.0));
+  f.boundaries = {{"grip", 8 * time, 70 * time, {70 * time, -7 * time, 0.5 * time}},
+                  {"clamp", 0, -9 * time, {-9 * time, 0, 11 * time}}};
   f.energy = {1 * time, 2 * time, 3 * time, 4 * time, 5 * time, 6 * time, 20 * time};
   return f;
 }

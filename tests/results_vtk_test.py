@@ -23,6 +23,7 @@ SCALARS = ["shear_angle_deg", "warp_strain", "weft_strain", "warp_tension_N", "w
            "thickness_mm"]
 VECTORS = ["warp", "weft"]
 PRESSURE = "contact_pressure"
+REACTION = "reaction_N"  # only of the second ply
 PARTS = ["lower", "90° ply & co", "punch", "die"]
 TOOLS = {"punch": -50.0, "die": 0.0}  # mm that each moves along z in the example
 # The tables hold nine digits: half a unit of the ninth is at most 5e-9 of the value.
@@ -62,8 +63,9 @@ def equal(found, wanted, what):
     assert close.all(), f"{what}: {found[~close][:3]} in place of {wanted[~close][:3]}"
 
 
-def check_ply(name, ply, points, triangles, cell, node):
-    """`ply` is the CSV's columns; `cell` and `node` give a field by its name."""
+def check_ply(name, ply, points, triangles, cell, node, fields):
+    """`ply` is the CSV's columns; `cell` and `node` give a field by its name; `fields`: all names
+    there are."""
     centres = points[triangles].mean(axis=1)
     equal(centres, np.column_stack([ply["x"], ply["y"], ply["z"]]), f"{name}: positions")
     for field in SCALARS:
@@ -73,6 +75,10 @@ def check_ply(name, ply, points, triangles, cell, node):
         equal(cell(field), np.column_stack(columns), f"{name}: {field}")
     index = 0 if name == "lower" else 1  # the example's formula at time 1 s
     equal(node(PRESSURE), 0.001 * np.arange(len(points)) + index, f"{name}: {PRESSURE}")
+    assert (REACTION in fields) == (name != "lower"), f"{name}: {list(fields)}"
+    if name != "lower":
+        wanted = [[i, 0.25, -3.0] for i in range(len(points))]
+        equal(node(REACTION), wanted, f"{name}: {REACTION}")
 
 
 # h5py, and results.xdmf read with nothing but an XML parser.
@@ -89,10 +95,14 @@ def check_hdf5(folder):
         assert last.attrs["time_s"] == 1.0
         assert last["tools/punch"].attrs["force_N"] == 400.0
         assert list(last["tools/punch"].attrs["displacement_mm"]) == [0, 0, -50]
+        assert list(file.attrs["boundaries"]) == ["grip", "clamp"]
+        grip = last["boundaries/grip"].attrs
+        assert (grip["force_N"], grip["stroke_mm"]) == (70.0, 8.0)
+        assert list(grip["force_vector_N"]) == [70.0, -7.0, 0.5]
         for name, ply in tables(folder).items():
             fixed, now = file["plies"][name], last["plies"][name]
             check_ply(name, ply, now["x"][:], fixed["triangles"][:], lambda f: now[f][:],
-                      lambda f: now[f][:])
+                      lambda f: now[f][:], now.keys())
             before = fixed["x0"][:][fixed["triangles"][:]].mean(axis=1)
             equal(before, np.column_stack([ply["x0"], ply["y0"], ply["z0"]]), f"{name}: x0")
         check_xdmf_references(folder, file)
@@ -101,8 +111,8 @@ def check_hdf5(folder):
 
 def check_xdmf_references(folder, file):
     items = list(xml.parse(folder / "results.xdmf").getroot().iter("DataItem"))
-    # 3 times x (2 plies x 11 arrays + 2 tools x 2 arrays)
-    assert len(items) == 78, len(items)
+    # 3 times x (2 plies x 11 arrays + the reactions of one + 2 tools x 2 arrays)
+    assert len(items) == 81, len(items)
     for item in items:
         name, where = item.text.split(":", 1)
         assert name == "results.h5"
@@ -114,6 +124,9 @@ def check_xdmf_references(folder, file):
 
 def check_summary(folder):
     summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    assert summary["boundaries"] == [
+        {"name": "grip", "force_N": 70, "displacement_mm": 8},
+        {"name": "clamp", "force_N": -9, "displacement_mm": 0}]
     assert {ply["name"] for ply in summary["plies"]} == set(tables(folder))
     for entry in summary["plies"]:
         ply = tables(folder)[entry["name"]]
@@ -141,7 +154,9 @@ def triangles_of(grid):
 
 def check_grid(name, ply, grid):
     check_ply(name, ply, as_numpy(grid.GetPoints().GetData(), "points"), triangles_of(grid),
-              arrays(grid.GetCellData()), arrays(grid.GetPointData()))
+              arrays(grid.GetCellData()), arrays(grid.GetPointData()),
+              [grid.GetPointData().GetArrayName(i)
+               for i in range(grid.GetPointData().GetNumberOfArrays())])
 
 
 def check_export(folder):

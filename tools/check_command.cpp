@@ -2,6 +2,7 @@
 #include "core/step.hpp"
 #include "tools/commands.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
@@ -13,6 +14,11 @@ namespace {
 void print_plies(const Scene& s) {
   for (const PlyBody& ply : s.plies) {
     const Membrane& m = ply.membrane;
+    if (m.fabric.isotropic) {
+      fmt::print("ply {}: {} nodes, {} triangles, isotropic sheet\n", ply.name, ply.x.size(),
+                 m.triangles.size());
+      continue;
+    }
     const bool plain = m.patches() == static_cast<int>(m.triangles.size());
     const bool chosen = s.data.solver.element == ElementKind::automatic;
     fmt::print(
@@ -54,6 +60,43 @@ void print_tools(const Scene& s) {
   }
 }
 
+/// "77 nodes of ply lower, 12 of ply upper": those that a boundary holds along some axis. (Nodes
+/// that another boundary holds along all of them count for that one only.)
+std::string nodes_held(const Scene& s, int boundary) {
+  std::vector<int> count(s.plies.size(), 0);
+  for (const HeldNode& held : s.held) {
+    const auto end = held.boundary.begin() + held.count;
+    if (std::find(held.boundary.begin(), end, boundary) != end)
+      ++count[static_cast<std::size_t>(held.ply)];
+  }
+  std::string text;
+  for (std::size_t p = 0; p < count.size(); ++p)
+    if (count[p] > 0)
+      text += fmt::format("{}{}{} of ply {}", text.empty() ? "" : ", ", count[p],
+                          text.empty() ? " nodes" : "", s.plies[p].name);
+  return text.empty() ? "no nodes that others do not hold" : text;
+}
+
+void print_boundaries(const Scene& s) {
+  bool part = false;
+  for (std::size_t b = 0; b < s.data.boundaries.size(); ++b) {
+    const Boundary& boundary = s.data.boundaries[b];
+    const bool plane = boundary.kind == BoundaryKind::symmetry;
+    part = part || plane;
+    fmt::print("boundary {}: {}, holds {}{}\n", boundary.name,
+               plane                                  ? "plane of symmetry"
+               : boundary.kind == BoundaryKind::frame ? "frame"
+                                                      : "grip",
+               nodes_held(s, static_cast<int>(b)),
+               plane                   ? std::string()
+               : boundary.stroke > 0.0 ? fmt::format(", moves {:g} mm", boundary.stroke)
+                                       : ", stays");
+  }
+  if (part)
+    fmt::print("symmetry: forces and energies, of tools too, are those of the part modelled; a "
+               "tool's given force acts on that part\n");
+}
+
 /// Wall time of a step, s, from a few real ones; a Stop if they go wrong already.
 std::optional<Stop> time_a_step(Scene& s, ThreadTeam& team, double& seconds) {
   constexpr int steps = 40;
@@ -77,6 +120,7 @@ int check_command(const CaseArguments& arguments) {
   fmt::print("{}\n", data->title);
   print_plies(s);
   print_tools(s);
+  print_boundaries(s);
   const StepBound bound = stable_step(s);
   const double steps = data->solver.duration / s.next_dt;
   fmt::print("contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm\n",

@@ -132,10 +132,14 @@ TEST(CaseError, IsOneLineWithPlaceItemValueRuleAndRemedy) {
 
 // ---- good cases ----
 
+bool is_fabric(const fs::path& shipped) {
+  return shipped.parent_path().filename() == "fabrics";
+}
+
 TEST(CaseFile, ReadsAllShippedCasesWithoutErrorOrWarning) {
   int cases = 0;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(PLYFORM_CASES)) {
-    if (entry.path().filename() != "case.toml") continue;
+    if (entry.path().extension() != ".toml" || is_fabric(entry.path())) continue;
     const CaseReading reading = read_case(entry.path(), {});
     EXPECT_TRUE(reading.value) << all_texts(reading);
     EXPECT_TRUE(reading.warnings.empty()) << reading.warnings.front();
@@ -266,6 +270,53 @@ TEST(CaseFile, ReadsSolverAndContactOptions) {
   EXPECT_EQ(c.contact.skin, 0.7);
 }
 
+TEST(CaseFile, ReadsGripsFramesAndPlanesOfSymmetry) {
+  const Case c = good_case(data / "good/boundaries.toml");
+  ASSERT_EQ(c.boundaries.size(), 5u);
+  const Boundary &middle = c.boundaries[0], &pulled = c.boundaries[1], &clamp = c.boundaries[2],
+                 &bars = c.boundaries[3], &far_side = c.boundaries[4];
+  EXPECT_EQ(middle.kind, BoundaryKind::symmetry);
+  EXPECT_EQ(middle.normal, Vec2(1, 0)); // given as (2, 0)
+  EXPECT_EQ(middle.point, Vec2(0, 0));
+  EXPECT_EQ(middle.ply, -1);
+  EXPECT_EQ(pulled.name, "pulled");
+  EXPECT_EQ(pulled.kind, BoundaryKind::grip);
+  EXPECT_TRUE(pulled.on_edge);
+  EXPECT_EQ(pulled.place[1], Vec2(20, 20));
+  EXPECT_EQ(pulled.held, (std::array<bool, 3>{true, false, true}));
+  EXPECT_TRUE(pulled.direction.isApprox(Vec3(0.6, 0, 0.8), 1e-15)); // given as (3, 0, 4)
+  EXPECT_EQ(pulled.stroke, 2.0);
+  EXPECT_FALSE(clamp.on_edge);
+  EXPECT_EQ(clamp.ply, 1);
+  EXPECT_EQ(clamp.place[0], Vec2(10, -5)); // corners in any order
+  EXPECT_EQ(clamp.held, (std::array<bool, 3>{true, true, true}));
+  EXPECT_EQ(clamp.direction, Vec3(1, 0, 0));
+  EXPECT_EQ(clamp.stroke, 0.0);
+  EXPECT_EQ(bars.kind, BoundaryKind::frame);
+  EXPECT_EQ(bars.ply, 0);
+  EXPECT_EQ(bars.hinges[2], Vec2(15, 10));
+  EXPECT_EQ(bars.stroke, 3.0);
+  EXPECT_EQ(far_side.normal, Vec2(0, 1));
+  EXPECT_EQ(far_side.point, Vec2(3, -20));
+}
+
+TEST(CaseFile, ReadsGravityAndIsotropicSheets) {
+  const Case c = good_case(data / "good/boundaries.toml");
+  EXPECT_EQ(c.gravity, Vec3(0, 0, -9810));
+  ASSERT_EQ(c.fabrics.size(), 2u);
+  const auto fabric_of = [&](std::size_t ply) {
+    return c.fabrics.at(static_cast<std::size_t>(c.plies.at(ply).fabric));
+  };
+  const Fabric cloth = fabric_of(0), foil = fabric_of(1);
+  EXPECT_FALSE(cloth.isotropic);
+  ASSERT_TRUE(foil.isotropic);
+  EXPECT_DOUBLE_EQ(foil.isotropic->modulus, 3000.0 * 0.2); // N/mm: times the thickness
+  EXPECT_DOUBLE_EQ(foil.isotropic->poissons_ratio, 0.3);
+  EXPECT_DOUBLE_EQ(foil.fibre_angle, pi / 2.0);
+  EXPECT_EQ(foil.warp.largest_slope(), 0.0);
+  EXPECT_TRUE(good_case(data / "good/inline.toml").gravity.isZero(0.0)); // the default
+}
+
 TEST(CaseFile, TakesTheProgramsOwnDefaults) {
   const Case c = good_case(data / "good/inline.toml");
   const SolverOptions solver;
@@ -317,7 +368,7 @@ struct Keys {
 
 TEST(CaseKeys, AreJustThoseThatGoodFilesUse) {
   Keys keys;
-  for (const char* name : {"every_shape", "inline", "base"}) {
+  for (const char* name : {"every_shape", "inline", "base", "boundaries"}) {
     good_case(data / "good" / (std::string(name) + ".toml")); // each of its keys is accepted
     keys.add(data / "good" / (std::string(name) + ".toml"), "");
   }
@@ -330,7 +381,7 @@ TEST(CaseKeys, CoverTheShippedCases) {
   Keys keys;
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(PLYFORM_CASES))
     if (entry.path().extension() == ".toml")
-      keys.add(entry.path(), entry.path().filename() == "case.toml" ? "" : "fabrics.NAME");
+      keys.add(entry.path(), is_fabric(entry.path()) ? "fabrics.NAME" : "");
   EXPECT_GT(keys.used.size(), 40u);
   for (const std::string& key : keys.used)
     EXPECT_TRUE(keys.listed.contains(key)) << key;

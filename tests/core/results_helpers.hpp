@@ -94,6 +94,7 @@ inline void expect_same(const PlyFrame& a, const PlyFrame& b) {
   EXPECT_EQ(a.x, b.x);
   EXPECT_EQ(a.triangles, b.triangles);
   EXPECT_EQ(a.contact_pressure, b.contact_pressure);
+  EXPECT_EQ(a.reaction, b.reaction);
   for (const CellVector& field : cell_vectors)
     EXPECT_EQ(a.*field.values, b.*field.values) << field.name;
   for (const CellScalar& field : cell_scalars)
@@ -110,6 +111,13 @@ inline void expect_same(const ToolFrame& a, const ToolFrame& b) {
   EXPECT_EQ(a.force_N, b.force_N);
 }
 
+inline void expect_same(const BoundaryFrame& a, const BoundaryFrame& b) {
+  EXPECT_EQ(a.name, b.name);
+  EXPECT_EQ(a.stroke_mm, b.stroke_mm);
+  EXPECT_EQ(a.force_N, b.force_N);
+  EXPECT_EQ(a.force, b.force);
+}
+
 /// Every bit: results.h5 holds doubles.
 inline void expect_same(const Frame& a, const Frame& b) {
   EXPECT_EQ(a.time, b.time);
@@ -121,6 +129,9 @@ inline void expect_same(const Frame& a, const Frame& b) {
   ASSERT_EQ(a.tools.size(), b.tools.size());
   for (std::size_t i = 0; i < a.tools.size(); ++i)
     expect_same(a.tools[i], b.tools[i]);
+  ASSERT_EQ(a.boundaries.size(), b.boundaries.size());
+  for (std::size_t i = 0; i < a.boundaries.size(); ++i)
+    expect_same(a.boundaries[i], b.boundaries[i]);
 }
 
 } // namespace plyform::results_test

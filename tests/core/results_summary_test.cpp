@@ -34,7 +34,9 @@ Frame unequal(double most, double rest) {
 
 TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   Summary summary{"a title", "1.2.3", "done", "", 12.5, 1000, 1e-6, 2e-6, 4, {0.01, 0.02, 3, 4}};
-  EXPECT_EQ(summary_json(unequal(10, -20), summary), R"({
+  Frame frame = unequal(10, -20);
+  frame.boundaries = {{"upper grip", 1.5, 20, {20, 3, 4}}};
+  EXPECT_EQ(summary_json(frame, summary), R"({
   "title": "a title",
   "version": "1.2.3",
   "status": "done",
@@ -51,6 +53,9 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
     {"name": "p", "angle_deg": 0, "max_shear_deg": 20, "p99_shear_deg": 10, "rms_shear_deg": 10.1488916, "max_fibre_strain": 0.003, "min_fibre_strain": -0.004, "max_tension_N_per_yarn": 7}
   ],
   "tools": [],
+  "boundaries": [
+    {"name": "upper grip", "force_N": 20, "displacement_mm": 1.5}
+  ],
   "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "balance_error": 0},
   "contact": {"max_tool_penetration_mm": 0.01, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4}
 }

@@ -55,13 +55,15 @@ TEST_F(Results, HistoryHasOneRowAnOutputTime) {
   write_run(directory, {0.0, 0.5, 1.0});
   const auto rows = rows_of(content(directory / "history.csv"));
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"time_s", "stroke_mm", "punch_force_N",
-                                               "punch_displacement_mm", "die_force_N",
-                                               "die_displacement_mm", "kinetic_mJ", "fibre_mJ",
-                                               "shear_mJ", "contact_mJ", "friction_mJ",
-                                               "damping_mJ", "external_mJ", "balance_error"}));
-  EXPECT_EQ(rows[2], (std::vector<std::string>{"0.5", "25", "200", "25", "-15", "0", "0.5", "1",
-                                               "1.5", "2", "2.5", "3", "10", "0.05"}));
+  EXPECT_EQ(rows[0],
+            (std::vector<std::string>{
+                "time_s", "stroke_mm", "punch_force_N", "punch_displacement_mm", "die_force_N",
+                "die_displacement_mm", "grip_force_N", "grip_displacement_mm", "clamp_force_N",
+                "clamp_displacement_mm", "kinetic_mJ", "fibre_mJ", "shear_mJ", "contact_mJ",
+                "friction_mJ", "damping_mJ", "external_mJ", "balance_error"}));
+  EXPECT_EQ(rows[2],
+            (std::vector<std::string>{"0.5", "25", "200", "25", "-15", "0", "35", "4", "-4.5", "0",
+                                      "0.5", "1", "1.5", "2", "2.5", "3", "10", "0.05"}));
 }
 
 TEST_F(Results, PlyTableHasOneRowATriangleInTheNamedColumns) {
@@ -161,12 +163,13 @@ TEST_F(Results, ASecondRunReplacesTheFilesOfTheFirst) {
   EXPECT_EQ(rows_of(content(directory / "history.csv")).size(), 2u);
 }
 
-TEST_F(Results, AnyNumberOfPliesAndToolsWillDo) {
-  for (const std::size_t plies : {0u, 1u})
-    for (const std::size_t tools : {0u, 1u}) {
+TEST_F(Results, AnyNumberOfPliesToolsAndBoundariesWillDo) {
+  for (const std::size_t plies : {0u, 1u, 2u})
+    for (const std::size_t others : {0u, 1u}) {
       Frame some = frame(0.5);
       some.plies.resize(plies);
-      some.tools.resize(tools);
+      some.tools.resize(others);
+      some.boundaries.resize(others);
       ResultWriter writer(directory);
       writer.write_final(some, Summary{});
       expect_same(read_last_frame(directory / "results.h5"), some);
@@ -252,6 +255,10 @@ TEST_F(Results, NamesThatCannotBeFilesOrStandTwiceAreRefused) {
   twice.tools[0].name = "lower";
   const std::string error = error_of([&] { ResultWriter(directory).write_frame(twice); });
   EXPECT_TRUE(contains(error, "\"lower\" is used twice")) << error;
+  Frame as_tool = frame(0.5); // both would head the same columns of history.csv
+  as_tool.boundaries[1].name = "punch";
+  const std::string error_too = error_of([&] { ResultWriter(directory).write_frame(as_tool); });
+  EXPECT_TRUE(contains(error_too, "\"punch\" is used twice")) << error_too;
   EXPECT_EQ(files_in(directory), std::vector<std::string>{});
 }
 
@@ -259,6 +266,16 @@ TEST_F(Results, ArraysOfAWrongSizeAreRefused) {
   Frame bad = frame(0.5);
   bad.plies[0].thickness.pop_back();
   EXPECT_THROW(ResultWriter(directory).write_frame(bad), std::logic_error);
+  Frame other = frame(0.5);
+  other.plies[1].reaction.pop_back();
+  EXPECT_THROW(ResultWriter(directory).write_frame(other), std::logic_error);
+}
+
+TEST_F(Results, ReactionsStandOnlyWhereAPlyIsHeld) {
+  write_run(directory, {0.5});
+  export_results(directory);
+  EXPECT_TRUE(contains(content(directory / "export/90\u00b0 ply & co.vtu"), "reaction_N"));
+  EXPECT_FALSE(contains(content(directory / "export/lower.vtu"), "reaction_N"));
 }
 
 } // namespace

@@ -72,6 +72,28 @@ TEST(Step, FreePlyKeepsItsMomentaAndEnergy) {
   }
 }
 
+TEST(Step, MassDampingTakesWhatTheKineticEnergyLoses) {
+  Case data = stack_of({0.4}, rectangle(100.0, 100.0, 10.0));
+  set_friction(data, 0.0);
+  data.solver.fibre_softening = 100.0;
+  data.solver.mass_damping = 2000.0; // 1/s: a few per cent a step
+  Scene s = make_scene(data);
+  for (Vec3& v : s.plies[0].velocity)
+    v = Vec3(300.0, -200.0, 500.0);
+  ThreadTeam team(1);
+  start(s, team);
+  Energies first; // not at once: no step has led to the first positions
+  for (int step = 0; step <= 60; ++step) {
+    ASSERT_FALSE(compute_forces(s, team));
+    if (step == 10) first = current_energies(s, team);
+    move_plies(s, team);
+  }
+  ASSERT_FALSE(compute_forces(s, team));
+  const Energies last = current_energies(s, team);
+  EXPECT_LT(last.kinetic, 0.2 * first.kinetic);
+  EXPECT_NEAR(last.damping - first.damping, first.kinetic - last.kinetic, 1e-10 * first.kinetic);
+}
+
 /// A strip of warp, 100 x 10 mm, in 10 cells, stretched by `strain`; its ends cannot move.
 Scene taut_strip(double strain, ElementKind element) {
   Case data = stack_of({0.0}, rectangle(100.0, 10.0, 10.0));
