@@ -2,6 +2,7 @@
 """Readers of result folders (their layout: docs/results.md) and of tables with named columns."""
 
 import csv
+import json
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -113,6 +114,39 @@ def state_of(file: h5py.File, folder: Path, field: Field, frame: int, tools: boo
         shift = np.asarray(now["tools"][name].attrs["displacement_mm"])
         bodies.append(Tool(name, tool["x0"][:] + shift, tool["triangles"][:]))
     return State(folder, float(now.attrs["stroke_mm"]), plies, bodies)
+
+
+def read_fibre_angles(folder: Path) -> dict[str, float]:
+    """Degrees from warp to weft in each unformed ply, about +z; mean over its triangles."""
+    path = file_in(folder, "results.h5")
+    try:
+        with h5py.File(path, "r") as file:
+            return {name: fibre_angle(file["frames/000000/plies"][name])
+                    for name in file.attrs["plies"]}
+    except (OSError, KeyError, ValueError) as problem:
+        raise Trouble(f"{path} cannot be read as results of plyform: {problem}") from problem
+
+
+def fibre_angle(ply: h5py.Group) -> float:
+    warp, weft = ply["warp"][:], ply["weft"][:]
+    across = warp[:, 0] * weft[:, 1] - warp[:, 1] * weft[:, 0]
+    return float(np.degrees(np.arctan2(across.sum(), np.einsum("mk,mk", warp, weft))))
+
+
+def read_summary(folder: Path) -> dict:
+    path = file_in(folder, "summary.json")
+    try:
+        summary = json.loads(path.read_text(encoding="utf-8"))
+        for key, kind in (("status", str), ("plies", list), ("tools", list), ("energy", dict),
+                          ("contact", dict)):
+            if not isinstance(summary[key], kind):
+                raise ValueError(f"{key} is not what it should be")
+        for body in [*summary["plies"], *summary["tools"], *summary.get("boundaries", [])]:
+            body["name"]  # missing: a KeyError
+    except (OSError, KeyError, TypeError, ValueError) as problem:
+        raise Trouble(f"{path} cannot be read as a summary of plyform: "
+                      f"{problem}") from problem
+    return summary
 
 
 def read_table(path: Path, needed: list[str] = ()) -> dict[str, np.ndarray]:

@@ -1,0 +1,188 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tables of result folders of plyform side by side, in Markdown (keys: docs/results.md).
+
+    compare.py DIR... [--json FILE]
+
+One row a ply and folder with shear angles, tension, strains and draw-in, then one row a folder with
+forces, and one with what a run is judged by.
+
+Draw-in: four straight walks from the middle of the unformed ply's bounding box to its border, both
+ways along the two yarns through the middle; and four along the lines that halve the angles between
+them. Draw-in is how much nearer, seen from above, the border came to where the middle was: the
+mean of the four, and in brackets the largest less the smallest. Of a ply with planes of symmetry
+only the modelled part is seen, its middle too.
+
+Exit codes: 0 done, 1 something is missing or cannot be read, 2 wrong arguments.
+"""
+
+import argparse
+import json
+import sys
+from pathlib import Path
+
+try:
+    import numpy as np
+    from plotting.numbers import border_loop
+    from plotting.reading import (FIELDS, Ply, Trouble, read_fibre_angles, read_state,
+                                  read_summary)
+except ImportError as error:
+    sys.exit(f"compare.py: error: {error}; install python3-h5py")
+
+NONE = "–"
+
+
+def draw_in(ply: Ply, loop: np.ndarray, directions_deg: list[float]) -> np.ndarray:
+    """Draw-in (mm) where walks from the middle of the unformed ply first meet its border; `loop`
+    holds the border's nodes in order. NaN where the middle is not inside the border."""
+    middle = 0.5 * (ply.x0.min(axis=0) + ply.x0.max(axis=0))[:2]
+    before, after = ply.x0[loop, :2] - middle, ply.x[loop, :2] - middle
+    found = []
+    for angle in np.radians(directions_deg):
+        along = before @ [np.cos(angle), np.sin(angle)]
+        across = before @ [-np.sin(angle), np.cos(angle)]
+        following = np.roll(across, -1)
+        edges = np.flatnonzero((across < 0.0) != (following < 0.0))  # a corner counts once
+        share = across[edges] / (across[edges] - following[edges])
+        met = (1.0 - share) * along[edges] + share * np.roll(along, -1)[edges]
+        ahead = np.flatnonzero(met > 0.0)
+        if len(ahead) % 2 == 0:
+            found.append(np.nan)
+            continue
+        first = ahead[met[ahead].argmin()]
+        a, w = edges[first], share[first]
+        formed = (1.0 - w) * after[a] + w * after[(a + 1) % len(loop)]
+        found.append(met[first] - np.hypot(*formed))
+    return np.array(found)
+
+
+def draw_ins(ply: Ply, fibre_angle_deg: float) -> dict:
+    """Both draw-ins of a ply, as they stand in the JSON; or why there is none."""
+    warp, weft = ply.angle_deg, ply.angle_deg + fibre_angle_deg
+    between = 0.5 * (warp + weft)
+    try:
+        loop = border_loop(ply.x0, ply.triangles)
+    except Trouble:
+        return {"no_draw_in": "its border meets itself"}
+    told = {}
+    for key, directions in (("yarns", [warp, weft, warp + 180.0, weft + 180.0]),
+                            ("bisectors", [between + 90.0 * k for k in range(4)])):
+        each = draw_in(ply, loop, directions)
+        if not np.isfinite(each).all():
+            return {"no_draw_in": "the middle of its bounding box is outside"}
+        told[f"draw_in_{key}_mm"] = {"mean": float(each.mean()), "spread": float(np.ptp(each)),
+                                     "directions_deg": [d % 360.0 for d in directions],
+                                     "each": each.tolist()}
+    return told
+
+
+def read_run(folder: Path) -> dict:
+    """The summary, with the draw-ins of each ply and the folder."""
+    run = {"folder": str(folder), **read_summary(folder)}
+    state, angles = read_state(folder, FIELDS["shear"]), read_fibre_angles(folder)
+    plies = {ply.name: ply for ply in state.plies}
+    if list(plies) != [ply.get("name") for ply in run["plies"]]:
+        raise Trouble(f"{folder}: summary.json and results.h5 have different plies: "
+                      "are they of one run?")
+    for ply in run["plies"]:
+        ply.update(draw_ins(plies[ply["name"]], angles[ply["name"]]))
+    return run
+
+
+def labels(folders: list[Path]) -> list[str]:
+    """Last part of each path, or the paths where two have the same."""
+    names = [folder.resolve().name for folder in folders]
+    return names if len(set(names)) == len(names) else [str(folder) for folder in folders]
+
+
+def number(value, form: str, factor: float = 1.0) -> str:
+    if value is None:
+        return NONE
+    if not isinstance(value, (int, float)):
+        raise Trouble(f"summary.json: {value!r} stands where a number should")
+    return format(factor * value, form)
+
+
+def with_spread(told: dict | None) -> str:
+    if told is None:
+        return NONE
+    return f"{round(told['mean'], 1) + 0.0:.1f} ({told['spread']:.1f})"  # + 0.0: no "-0.0"
+
+
+def table(head: list[str], rows: list[list[str]], texts: int) -> str:
+    """In Markdown; the first `texts` columns are text, the others numbers."""
+    lines = [head, ["---"] * texts + ["---:"] * (len(head) - texts), *rows]
+    return "\n".join("| " + " | ".join(cell.replace("|", "\\|") for cell in line) + " |"
+                     for line in lines)
+
+
+def ply_table(runs: list[dict], names: list[str]) -> str:
+    head = ["folder", "ply", "angle, °", "shear: largest, °", "99 %, °", "rms, °",
+            "largest tension, N per yarn", "fibre strain: largest, %", "smallest, %",
+            "draw-in along the yarns, mm", "along the bisectors, mm"]
+    rows = [[name, ply["name"], number(ply.get("angle_deg"), "g"),
+             *(number(ply.get(f"{key}_shear_deg"), ".1f") for key in ("max", "p99", "rms")),
+             number(ply.get("max_tension_N_per_yarn"), ".3g"),
+             number(ply.get("max_fibre_strain"), ".2f", 100.0),
+             number(ply.get("min_fibre_strain"), ".1f", 100.0),
+             *(with_spread(ply.get(f"draw_in_{key}_mm")) for key in ("yarns", "bisectors"))]
+            for run, name in zip(runs, names) for ply in run["plies"]]
+    return table(head, rows, 2)
+
+
+def force_table(runs: list[dict], names: list[str]) -> str:
+    of_run = [{body["name"]: body.get("force_N") for body in run["tools"] +
+               run.get("boundaries", [])} for run in runs]
+    bodies = list(dict.fromkeys(body for forces in of_run for body in forces))
+    rows = [[name, number(run.get("stroke_mm"), ".4g"),
+             *(number(forces.get(body), ".1f") for body in bodies)]
+            for run, name, forces in zip(runs, names, of_run)]
+    return table(["folder", "stroke, mm", *(f"{body}, N" for body in bodies)], rows, 1)
+
+
+def run_table(runs: list[dict], names: list[str]) -> str:
+    head = ["folder", "status", "energy balance error", "kinetic / shear energy",
+            "penetration into tools, mm", "between plies, mm", "crossings between plies",
+            "within plies", "steps", "threads", "wall time, s"]
+    rows = []
+    for run, name in zip(runs, names):
+        energy, contact = run["energy"], run["contact"]
+        kinetic, shear = energy.get("kinetic"), energy.get("shear")
+        ratio = kinetic / shear if kinetic is not None and shear else None
+        rows.append([
+            name, run["status"], number(energy.get("balance_error"), ".1e"), number(ratio, ".1e"),
+            *(number(contact.get(f"max_{of}_penetration_mm"), ".3f") for of in ("tool", "ply")),
+            *(number(contact.get(f"intersections_{of}_plies"), ".0f") for of in
+              ("between", "within")),
+            number(run.get("steps"), ".0f"), number(run.get("threads"), ".0f"),
+            number(run.get("wall_time_s"), ".1f")])
+    return table(head, rows, 2)
+
+
+def remarks(runs: list[dict], names: list[str]) -> str:
+    """What the tables cannot say: why runs ended early and why draw-ins are missing."""
+    lines = [f"- {name} is not done ({run['status']}): {run.get('message') or 'no reason given'}"
+             for run, name in zip(runs, names) if run["status"] != "done"]
+    lines += [f"- {name}, ply {ply['name']}: no draw-in, {ply['no_draw_in']}"
+              for run, name in zip(runs, names) for ply in run["plies"] if "no_draw_in" in ply]
+    return "\n".join(lines)
+
+
+def main() -> None:
+    parser = argparse.ArgumentParser(prog="compare.py", description=__doc__.split("\n", 1)[0])
+    parser.add_argument("folders", nargs="+", type=Path, metavar="DIR", help="result folder")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="the numbers, with all walks")
+    options = parser.parse_args()
+    try:
+        runs, names = [read_run(folder) for folder in options.folders], labels(options.folders)
+        if options.json:
+            options.json.write_text(json.dumps(runs, indent=2, ensure_ascii=False) + "\n",
+                                    encoding="utf-8")
+        parts = [part(runs, names) for part in (ply_table, force_table, run_table, remarks)]
+        print("\n\n".join(part for part in parts if part))
+    except (Trouble, OSError) as problem:
+        sys.exit(f"compare.py: error: {problem}")
+
+
+if __name__ == "__main__":
+    main()
