@@ -12,13 +12,13 @@ namespace plyform {
 namespace {
 
 /// Tables of laws start in the origin and go on to the right; `rising`: and never down.
-void check_law(const Section& law, const char* key, const std::vector<Vec2>& points, bool rising,
+void check_law(const Section& law, const std::vector<Vec2>& points, bool rising,
                Findings& findings) {
-  const Entry* table = given(law, key);
+  const Entry* table = given(law, "table");
   if (!table || points.empty()) return;
   const auto fail = [&](std::size_t row, const std::string& rule, const std::string& remedy) {
     const Entry& entry = table->children[row];
-    findings.error(entry.at, fmt::format("{}.{}", item_of(law, key), row), entry.written, rule,
+    findings.error(entry.at, fmt::format("{}.{}", item_of(law, "table"), row), entry.written, rule,
                    remedy);
   };
   if (points[0] != Vec2::Zero())
@@ -28,8 +28,8 @@ void check_law(const Section& law, const char* key, const std::vector<Vec2>& poi
       return fail(i, "must have a first number above that of the row before",
                   "put the rows in ascending order, each value once");
     if (rising && !(points[i].y() >= points[i - 1].y()))
-      return fail(i, "must not have less in its second number than the row before",
-                  "take out what falls: softening is not modelled");
+      return fail(i, "must not have less tension than the row before",
+                  "take out what falls: a yarn that softens is not modelled");
   }
 }
 
@@ -44,7 +44,7 @@ void split(const std::vector<Vec2>& points, std::vector<double>& first,
 TensionLaw read_tension(const Section& yarn, Findings& findings) {
   TensionLaw law;
   const std::vector<Vec2> points = pairs(yarn, "table");
-  check_law(yarn, "table", points, true, findings);
+  check_law(yarn, points, true, findings);
   split(points, law.strain, law.tension);
   if (points.empty()) law.stiffness = number(yarn, "stiffness");
   return law;
@@ -53,22 +53,12 @@ TensionLaw read_tension(const Section& yarn, Findings& findings) {
 ShearLaw read_shear(const Section& shear, Findings& findings) {
   ShearLaw law;
   const std::vector<Vec2> points = pairs(shear, "table");
-  check_law(shear, "table", points, false, findings);
+  check_law(shear, points, false, findings);
   split(points, law.angle, law.torque);
   law.k = numbers(shear, "polynomial");
   if (!law.k.empty() && law.k[0] < 0.0)
     value_error(shear, "polynomial", "must start with a k1 of at least 0",
                 "give k1, k3, k5 ...; a cell with k1 < 0 shears by itself", findings);
-  return law;
-}
-
-MomentLaw read_moments(const Section& bending, const std::string& yarn, Findings& findings) {
-  MomentLaw law;
-  const std::string key = yarn + "_table";
-  const std::vector<Vec2> points = pairs(bending, key);
-  check_law(bending, key.c_str(), points, true, findings);
-  split(points, law.curvature, law.moment);
-  if (points.empty() && given(bending, yarn)) law.stiffness = number(bending, yarn);
   return law;
 }
 
@@ -103,10 +93,6 @@ Fabric read_fabric(const Section& section, const std::string& key, Findings& fin
   fabric.warp = read_tension(warp, findings);
   fabric.weft = read_tension(weft, findings);
   fabric.shear = read_shear(subsection(section, "shear"), findings);
-  const Section bending = subsection(section, "bending");
-  fabric.bending = {read_moments(bending, "warp", findings),
-                    read_moments(bending, "weft", findings), 0.0,
-                    given(bending, "twist") ? number(bending, "twist") : 0.0};
   return fabric;
 }
 

@@ -18,41 +18,6 @@ std::string toml(double number) {
   return fmt::format("{}", number);
 }
 
-Rows bending_rows() {
-  Rows rows{{.key = "fabrics.NAME.bending",
-             .kind = K::table,
-             .otherwise = "no bending stiffness",
-             .of = "law",
-             .with = {"woven"},
-             .meaning =
-                 "bending stiffness per width, which makes the size of wrinkles the fabric's "
-                 "own"},
-            {.key = "fabrics.NAME.bending.twist",
-             .unit = "N mm",
-             .fallback = "0.0",
-             .ranges = {not_negative},
-             .meaning = "moment per twist of the surface between warp and weft"}};
-  for (const std::string yarn : {"warp", "weft"}) {
-    const std::string key = "fabrics.NAME.bending." + yarn;
-    append(rows, {{.key = key,
-                   .unit = "N mm",
-                   .instead = yarn + "_table",
-                   .ranges = {not_negative},
-                   .meaning = "bending stiffness along " + yarn +
-                              ": moment per width divided by curvature (N mm2/mm)"},
-                  {.key = key + "_table",
-                   .kind = K::pairs,
-                   .unit = "1/mm, N",
-                   .instead = yarn,
-                   .ranges = {not_negative, not_negative},
-                   .least_items = 2,
-                   .meaning = "[curvature along " + yarn +
-                              ", moment per width], ascending from [0, 0]; the same with minus "
-                              "sign for negative curvatures"}});
-  }
-  return rows;
-}
-
 Rows fabric_rows() {
   Rows rows{
       {.key = "fabrics", .kind = K::map, .meaning = "fabrics, each under a name of your choice"},
@@ -142,7 +107,6 @@ Rows fabric_rows() {
                  .least_items = 2,
                  .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
                             "same with minus sign for negative angles"}});
-  append(rows, bending_rows());
   return rows;
 }
 

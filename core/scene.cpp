@@ -127,7 +127,7 @@ Scene make_scene(const Case& data) {
     const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
     add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
     add_blocks(s.node_blocks, p, ply.x.size());
-    if (ply.bending) add_blocks(s.bending_blocks, p, ply.membrane.triangles.size());
+    if (ply.bending) add_blocks(s.bending_blocks, p, ply.x.size());
   }
   for (int p = 0; p < n; ++p) {
     PlyBody& ply = s.plies[static_cast<std::size_t>(p)];

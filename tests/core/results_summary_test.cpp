@@ -56,7 +56,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "boundaries": [
     {"name": "upper grip", "force_N": 20, "displacement_mm": 1.5}
   ],
-  "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "balance_error": 0},
+  "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "balance_error": 0},
   "contact": {"max_tool_penetration_mm": 0.01, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4}
 }
 )"); // rms: sqrt((99 * 10^2 + 1 * 20^2) / 100) = sqrt(103)
