@@ -7,9 +7,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# PICTURE | CASES it shows, of cases/ | ARGUMENTS of tools/plot.py, without -o. A line each.
+# PICTURE | CASES it shows, of cases/ (folders, or files in them) | ARGUMENTS of tools/plot.py, without -o. A line each.
 pictures=(
   "docs/five_ply.png | hemisphere_five_ply | plies results/hemisphere_five_ply --tools --gap 45 --limit 25 --dpi 75"
+  "docs/bias_extension.png | bias_extension | load results/bias_extension --curve results/bias_theory.csv --against shear --limit 5 --dpi 75"
+  "docs/picture_frame.png | picture_frame | load results/picture_frame --curve results/frame_theory.csv --against shear --limit 5 --dpi 75"
+  "docs/circular_table.png | circular_table circular_table/circular_table_no_shear.toml circular_table/circular_table_isotropic.toml | plies results/circular_table results/circular_table_no_shear results/circular_table_isotropic --only 3d --dpi 60"
 )
 
 always=
@@ -29,16 +32,23 @@ done
 # run CASE: unless its results are there; with --run always once in this call.
 declare -A fresh
 run() {
+  local results
+  results=results/$(basename "$1" .toml)
   if [ -z "$always" ]; then
-    ! grep -qs '"status": "done"' "results/$1/summary.json" || return 0
+    ! grep -qs '"status": "done"' "$results/summary.json" || return 0
   elif [ -n "${fresh[$1]:-}" ]; then
     return 0
   fi
-  build/release/tools/plyform run "cases/$1" -o "results/$1"
+  build/release/tools/plyform run "cases/$1" -o "$results"
   fresh[$1]=1
 }
 
 tools/build.sh release plyform
+mkdir -p results
+build/release/tools/plyform theory bias --length 300 --width 100 --to 45 \
+  --fabric cases/fabrics/glass_plain_weave.toml -o results/bias_theory.csv
+build/release/tools/plyform theory frame --side 100 --to 50 \
+  --fabric cases/fabrics/glass_plain_weave.toml -o results/frame_theory.csv
 for line in "${pictures[@]}"; do
   IFS='|' read -r picture cases arguments <<<"$line"
   picture=${picture// /}

@@ -128,15 +128,17 @@ TEST(PaperLong, BiasExtensionFollowsTheory) {
   const PlyFrame& ply = at30->plies[0];
   const double theory = shear_angle(test, at30->stroke_mm) * degrees;
   const double c =
-      mean_shear(ply, [](const Vec3& x) { return std::abs(x.x()) + std::abs(x.y()) < 40.0; });
+      mean_shear(ply, [](const Vec3& x) { return std::abs(x.x()) + std::abs(x.y()) < 95.0; });
   const double a =
       mean_shear(ply, [](const Vec3& x) { return std::abs(x.x()) - std::abs(x.y()) > 110.0; });
   const double b = mean_shear(ply, [](const Vec3& x) {
     return std::abs(std::abs(x.x()) - 100.0) < 15.0 && std::abs(x.y()) > 30.0 &&
            std::abs(x.y()) < 45.0;
   });
-  EXPECT_NEAR(c, theory, 0.05 * theory);
-  EXPECT_NEAR(b, 0.5 * theory, 0.1 * theory);
+  // Even zones are the assumption behind (40). The energy minimum of a net whose torque grows
+  // faster than its angle shears 26 degrees in the very middle and 32 at the ends of zone C.
+  EXPECT_NEAR(c, theory, 0.07 * theory);
+  EXPECT_NEAR(b, 0.5 * theory, 0.07 * theory);
   EXPECT_LT(a, 0.05 * theory);
   RecordProperty("load", fmt::format("{:.4f}", error));
   fmt::print(
@@ -227,17 +229,33 @@ TEST(PaperLong, LimpPlyOnASphereIsAChebyshevNet) {
              std::sqrt(sum / count));
 }
 
-/// The shear angle's magnitude where the unformed ply has the point p; NaN outside.
-double shear_at(const PlyFrame& ply, const Vec2& p) {
-  for (std::size_t e = 0; e < ply.triangles.size(); ++e) {
-    const Triangle& t = ply.triangles[e];
-    bool inside = true;
-    for (std::size_t k = 0; k < 3 && inside; ++k) {
-      const Vec3 &a = ply.x0[static_cast<std::size_t>(t[k])],
-                 &b = ply.x0[static_cast<std::size_t>(t[(k + 1) % 3])];
-      inside = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x()) >= -1e-9;
+/// Magnitude of the shear angle at the nodes: the mean of the triangles around.
+std::vector<double> nodal_shear(const PlyFrame& ply) {
+  std::vector<double> sum(ply.x0.size(), 0.0), count(ply.x0.size(), 0.0);
+  for (std::size_t e = 0; e < ply.triangles.size(); ++e)
+    for (const int n : ply.triangles[e]) {
+      sum[static_cast<std::size_t>(n)] += std::abs(ply.shear_deg[e]);
+      count[static_cast<std::size_t>(n)] += 1.0;
     }
-    if (inside) return std::abs(ply.shear_deg[e]);
+  for (std::size_t n = 0; n < sum.size(); ++n)
+    sum[n] /= count[n];
+  return sum;
+}
+
+/// Nodal values interpolated where the unformed ply has the point p; NaN outside.
+double value_at(const PlyFrame& ply, const std::vector<double>& values, const Vec2& p) {
+  for (const Triangle& t : ply.triangles) {
+    std::array<double, 3> w{}; // twice the areas of the triangles that p makes with the sides
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 &a = ply.x0[static_cast<std::size_t>(t[(k + 1) % 3])],
+                 &b = ply.x0[static_cast<std::size_t>(t[(k + 2) % 3])];
+      w[k] = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
+    }
+    if (*std::min_element(w.begin(), w.end()) < -1e-6) continue;
+    double value = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      value += w[k] * values[static_cast<std::size_t>(t[k])];
+    return value / (w[0] + w[1] + w[2]);
   }
   return std::numeric_limits<double>::quiet_NaN();
 }
@@ -252,17 +270,16 @@ TEST(PaperLong, HemisphereTurnedBy45DegreesIsTheSame) {
   const PlyFrame a = frames_of(straight, 2).back().plies[0];
   const PlyFrame b = frames_of(turned, 2).back().plies[0];
   const Eigen::Rotation2Dd turn(0.25 * std::numbers::pi);
+  const std::vector<double> of_a = nodal_shear(a), of_b = nodal_shear(b);
   double sum = 0.0;
-  int count = 0;
-  for (std::size_t e = 0; e < a.triangles.size(); ++e) {
-    Vec3 c = Vec3::Zero();
-    for (const int n : a.triangles[e])
-      c += a.x0[static_cast<std::size_t>(n)] / 3.0;
-    const double off = shear_at(b, turn * c.head<2>()) - std::abs(a.shear_deg[e]);
-    ASSERT_FALSE(std::isnan(off)) << c.transpose();
+  for (std::size_t n = 0; n < a.x0.size(); ++n) {
+    // a hair's breadth inwards: the outline's corners are rounded to some digits
+    const Vec2 p = (1.0 - 1e-6) * (turn * a.x0[n].head<2>());
+    const double off = value_at(b, of_b, p) - of_a[n];
+    ASSERT_FALSE(std::isnan(off)) << a.x0[n].transpose();
     sum += off * off;
-    ++count;
   }
+  const double count = static_cast<double>(a.x0.size());
   EXPECT_LT(std::sqrt(sum / count), 1.0);
   fmt::print("turned by 45 degrees the field changes by {:.3f} degrees rms\n",
              std::sqrt(sum / count));
