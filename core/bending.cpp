@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/bending.hpp"
 
+#include "core/gather.hpp"
+
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
@@ -132,19 +134,6 @@ void fit_patch(Bending& bending, std::span<const Vec2> x, int node,
   bending.begin.push_back(static_cast<std::int32_t>(bending.node.size()));
 }
 
-void build_gather(Bending& b, std::size_t nodes) {
-  b.gather_begin.assign(nodes + 1, 0);
-  for (const std::int32_t n : b.node)
-    ++b.gather_begin[static_cast<std::size_t>(n) + 1];
-  for (std::size_t n = 0; n < nodes; ++n)
-    b.gather_begin[n + 1] += b.gather_begin[n];
-  b.gather.resize(b.node.size());
-  std::vector<std::int32_t> next(b.gather_begin.begin(), b.gather_begin.end() - 1);
-  for (std::size_t i = 0; i < b.node.size(); ++i)
-    b.gather[static_cast<std::size_t>(next[static_cast<std::size_t>(b.node[i])]++)] =
-        static_cast<std::int32_t>(i);
-}
-
 /// Irons' bound with each node's mass shared out evenly among its patches: the mesh does
 /// not exceed the largest eigenvalue of any patch, at most the trace of M_e^-1 K_e.
 double bound(const Bending& b, std::span<const double> node_mass) {
@@ -229,7 +218,9 @@ Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& trian
   for (std::size_t n = 0; n < x.size(); ++n)
     fit_patch(b, x, static_cast<int>(n), triangles, around, e1, weft - warp);
   b.force.assign(b.node.size(), Vec3::Zero());
-  build_gather(b, x.size());
+  Gather gather = make_gather(b.node, x.size());
+  b.gather_begin = std::move(gather.begin);
+  b.gather = std::move(gather.gather);
   b.omega2 = bound(b, node_mass);
   return b;
 }

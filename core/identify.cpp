@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify.hpp"
 
-#include <Eigen/Dense>
+#include "core/weighted_fit.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -85,17 +86,7 @@ std::vector<double> fit(const std::vector<Sample>& samples, int coefficients) {
                 s.weights.half * std::pow(0.5 * s.weights.angle / scale, 2 * c + 1);
     load[r] = s.load;
   }
-  Eigen::VectorXd k, fitted = load;
-  constexpr int repeats = 20; // from weights of the measured load it settles in three or four
-  for (int i = 0; i < repeats; ++i) {
-    const Eigen::ArrayXd weight = fitted.array().max(load_floor * load.maxCoeff()).inverse();
-    k = (weight.matrix().asDiagonal() * a)
-            .colPivHouseholderQr()
-            .solve((weight * load.array()).matrix());
-    const Eigen::VectorXd before = fitted;
-    fitted = a * k;
-    if ((fitted - before).norm() <= 1e-12 * fitted.norm()) break;
-  }
+  const Eigen::VectorXd k = weighted_least_squares(a, load);
   std::vector<double> law;
   for (int c = 0; c < coefficients; ++c)
     law.push_back(k[c] / std::pow(scale, 2 * c + 1));

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A yarn's tension against its strain, from a strip or yarn test.
 #include "core/identify.hpp"
+#include "core/weighted_fit.hpp"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -60,27 +60,6 @@ bool enough(const Curve& curve, const Place& start, Findings& findings) {
   return true;
 }
 
-/// 1 / max(tension, floor): see the top of identify.hpp.
-Eigen::ArrayXd weights_of(const Eigen::VectorXd& fitted, const Eigen::VectorXd& measured) {
-  return fitted.array().max(load_floor * measured.maxCoeff()).inverse();
-}
-
-/// Coefficients of the columns of `a`, the weights following the fit.
-Eigen::VectorXd least_squares(const Eigen::MatrixXd& a, const Eigen::VectorXd& measured) {
-  Eigen::VectorXd k, fitted = measured;
-  constexpr int repeats = 20;
-  for (int i = 0; i < repeats; ++i) {
-    const Eigen::ArrayXd weight = weights_of(fitted, measured);
-    k = (weight.matrix().asDiagonal() * a)
-            .colPivHouseholderQr()
-            .solve((weight * measured.array()).matrix());
-    const Eigen::VectorXd before = fitted;
-    fitted = a * k;
-    if ((fitted - before).norm() <= 1e-12 * fitted.norm()) break;
-  }
-  return k;
-}
-
 Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
@@ -112,7 +91,7 @@ std::vector<double> tensions_at(const std::vector<double>& knots, const Curve& c
     a(static_cast<Eigen::Index>(r), above) = share;
     if (k > 0) a(static_cast<Eigen::Index>(r), above - 1) = 1.0 - share;
   }
-  const Eigen::VectorXd k = least_squares(a, vector_of(curve.y));
+  const Eigen::VectorXd k = weighted_least_squares(a, vector_of(curve.y));
   return {k.begin(), k.end()};
 }
 
@@ -191,7 +170,7 @@ std::optional<TensionFit> identify_tension(Curve curve, const Strip& strip,
   scale_curve(curve, strip, options);
   if (!enough(curve, start, findings)) return std::nullopt;
   TensionLaw line;
-  line.stiffness = least_squares(vector_of(curve.x), vector_of(curve.y))[0];
+  line.stiffness = weighted_least_squares(vector_of(curve.x), vector_of(curve.y))[0];
   TensionFit result = result_of(line, curve);
   if (result.quality.rms > noisy) {
     const std::optional<TensionLaw> table = table_of(curve, findings);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/membrane.hpp"
 
+#include "core/gather.hpp"
 #include "core/patches.hpp"
 
 #include <algorithm>
@@ -16,21 +17,6 @@ constexpr double guard_stretch = 0.5;
 
 /// Below this sine the two fibre families coincide and the shear angle has no meaning.
 constexpr double least_sine = 1e-9;
-
-void build_gather(Membrane& m, std::size_t nodes) {
-  m.gather_begin.assign(nodes + 1, 0);
-  for (const Triangle& t : m.triangles)
-    for (int n : t)
-      ++m.gather_begin[static_cast<std::size_t>(n) + 1];
-  for (std::size_t n = 0; n < nodes; ++n)
-    m.gather_begin[n + 1] += m.gather_begin[n];
-  m.gather.resize(3 * m.triangles.size());
-  std::vector<std::int32_t> next(m.gather_begin.begin(), m.gather_begin.end() - 1);
-  for (std::size_t e = 0; e < m.triangles.size(); ++e)
-    for (std::size_t k = 0; k < 3; ++k)
-      m.gather[static_cast<std::size_t>(next[static_cast<std::size_t>(m.triangles[e][k])]++)] =
-          static_cast<std::int32_t>(3 * e + k);
-}
 
 } // namespace
 
@@ -88,7 +74,12 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   }
   for (double a : m.node_area)
     m.node_mass.push_back(fabric.surface_density * a);
-  build_gather(m, mesh.x.size());
+  std::vector<std::int32_t> corners; // entry 3 e + k is corner k of triangle e
+  for (const Triangle& t : m.triangles)
+    corners.insert(corners.end(), t.begin(), t.end());
+  Gather gather = make_gather(corners, mesh.x.size());
+  m.gather_begin = std::move(gather.begin);
+  m.gather = std::move(gather.gather);
   m.last_lambda.assign(static_cast<std::size_t>(m.patches()), {1.0, 1.0});
   m.last_viscous.assign(static_cast<std::size_t>(m.patches()), {0.0, 0.0});
   return m;

@@ -7,14 +7,11 @@ closed forms.
 Leaves with 77 when h5py is missing.
 """
 
-import contextlib
-import io
 import json
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from types import SimpleNamespace
 
 try:
     import h5py
@@ -26,23 +23,13 @@ except ImportError as problem:
 import plot_folders
 sys.path.insert(0, sys.argv[1])
 import compare as program  # noqa: E402
+from program_call import call  # noqa: E402
 
 ROUND_OFF = 1e-9  # of lengths of some 100 mm in 64 bits, with room
 
 
 def compare(*arguments):
-    """As the command line would, but without the time that starting takes."""
-    out, err, code = io.StringIO(), io.StringIO(), 0
-    before, sys.argv = sys.argv, ["compare.py", *map(str, arguments)]
-    try:
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            program.main()
-    except SystemExit as leaving:
-        code = leaving.code if isinstance(leaving.code, int) else 1
-        err.write("" if isinstance(leaving.code, int) else str(leaving.code))
-    finally:
-        sys.argv = before
-    return SimpleNamespace(code=code, out=out.getvalue(), err=err.getvalue())
+    return call(program, *arguments)
 
 
 def numbers_of(*folders):

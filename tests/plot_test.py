@@ -7,14 +7,11 @@ pictures. The numbers in them: plot_numbers_test.py.
 Leaves with 77 when h5py or matplotlib is missing.
 """
 
-import contextlib
-import io
 import json
 import subprocess
 import sys
 import tempfile
 from pathlib import Path
-from types import SimpleNamespace
 
 try:
     import h5py  # noqa: F401, plot.py needs it
@@ -27,24 +24,15 @@ except ImportError as problem:
 import plot_folders
 sys.path.insert(0, str(Path(sys.argv[2]).parent))
 import plot as program  # noqa: E402
+from program_call import call  # noqa: E402
 
 BLUE, ORANGE, GREEN = (0, 114, 178), (213, 94, 0), (0, 158, 115)  # first, second, third line
 
 
 def plot(*arguments):
-    """As the command line would, but without the second that starting takes."""
-    out, err, code = io.StringIO(), io.StringIO(), 0
-    before, sys.argv = sys.argv, ["plot.py", *map(str, arguments)]
-    try:
-        with contextlib.redirect_stdout(out), contextlib.redirect_stderr(err):
-            program.main()
-    except SystemExit as leaving:
-        code = leaving.code if isinstance(leaving.code, int) else 1
-        err.write("" if isinstance(leaving.code, int) else str(leaving.code))
-    finally:
-        sys.argv = before
-        matplotlib.pyplot.close("all")
-    return SimpleNamespace(code=code, out=out.getvalue(), err=err.getvalue())
+    done = call(program, *arguments)
+    matplotlib.pyplot.close("all")
+    return done
 
 
 def picture(file, *arguments):
