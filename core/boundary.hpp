@@ -25,7 +25,7 @@ namespace plyform {
 /// A node that is held: `count` axes (unit vectors at right angles), each by a boundary.
 struct HeldNode {
   int ply = 0, node = 0, count = 0;
-  std::array<Vec3, 3> axis{};
+  std::array<Vec3, 3> axis = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   std::array<int, 3> boundary{}; ///< index into Case::boundaries
 };
 

@@ -52,12 +52,13 @@ struct Boundary {
   BoundaryKind kind = BoundaryKind::grip;
   int ply = -1; ///< index into Case::plies; -1: all
   // grip
-  bool on_edge = false;                            ///< nodes on a line, else in a box
-  std::array<Vec2, 2> place{};                     ///< mm, ends of the line, corners of the box
+  bool on_edge = false; ///< nodes on a line, else in a box
+  /// mm, ends of the line, corners of the box
+  std::array<Vec2, 2> place = {Vec2::Zero(), Vec2::Zero()};
   std::array<bool, 3> held = {{true, true, true}}; ///< along x, y, z; the rest is free
   Vec3 direction = Vec3::UnitX();                  ///< unit vector, of the stroke
   // frame: hinges in order; the first stays, the third moves away from it
-  std::array<Vec2, 4> hinges{}; ///< mm
+  std::array<Vec2, 4> hinges = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()}; ///< mm
   // symmetry
   Vec2 point = Vec2::Zero(), normal = Vec2::UnitX(); ///< mm; unit vector
   double stroke = 0.0; ///< mm, of a grip along its direction, of a frame along its diagonal
