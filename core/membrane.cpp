@@ -11,8 +11,9 @@
 namespace plyform {
 namespace {
 
-constexpr double stabilisation = 1e-5; // s_a over yarn stiffness, see (E)
-constexpr double guard = 1e-3;         // g_a over yarn stiffness: a hundred times the shear's scale
+constexpr double deviation_weight = 8.0; // beta of (E)
+constexpr double stabilisation = 1e-6;   // s_a over yarn stiffness, see (E)
+constexpr double guard = 1e-3;           // g_a over yarn stiffness: far above the shear's scale
 constexpr double guard_stretch = 0.5;
 
 /// Below this sine the two fibre families coincide and the shear angle has no meaning.
@@ -160,13 +161,50 @@ double side_energy(const SideStiffness& side, double lambda, double mean) {
   return 0.5 * (side.stabilisation * deviation * deviation + side.guard * folded * folded);
 }
 
-/// (Q) of one triangle; n1, n2: tensions (N) of its yarns.
+/// g of (E) for a triangle of a patch.
+double shear_measure(const FibreState& s, double mean1, double mean2) {
+  const double d1 = s.lambda1 - mean1, d2 = s.lambda2 - mean2;
+  return std::sqrt(s.gamma * s.gamma + deviation_weight * (d1 * d1 + d2 * d2));
+}
+
+/// n_c p of (N) and (Q), N/mm, for g = `measure`.
+double secant_stiffness(const Membrane& m, double measure) {
+  constexpr double small = 1e-9; // rad: Cs there is its slope times g to rounding
+  const LawPoint law = m.fabric.shear.at(measure);
+  return m.cells_per_area * (measure > small ? law.value / measure : law.slope);
+}
+
+/// (Q) of one triangle; n1, n2: tensions (N) of its yarns; secant: n_c p (N/mm).
 ElementForce triangle_force(const Membrane& m, const FibreState& s, double area, double n1,
-                            double n2) {
-  const double torque = m.cells_per_area * m.fabric.shear.at(s.gamma).value / s.sin_omega;
-  const double t1 = area * torque / s.lambda1, t2 = area * torque / s.lambda2;
+                            double n2, double secant) {
+  const double torque = area * secant * s.gamma / s.sin_omega;
+  const double t1 = torque / s.lambda1, t2 = torque / s.lambda2;
   return {(area * m.fabric.warp_density * n1 - t1 * s.cos_omega) * s.f1 + t1 * s.f2,
           (area * m.fabric.weft_density * n2 - t2 * s.cos_omega) * s.f2 + t2 * s.f1};
+}
+
+/// (Q) of all triangles of a patch whose yarns pull with n1 and n2 on the mean.
+void patch_forces(const Membrane& m, const PatchState& s, double n1, double n2,
+                  std::span<ElementForce> q) {
+  std::array<double, most_in_patch> secant{};
+  double mean1 = 0.0, mean2 = 0.0; // of n_c p delta_a
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
+    const FibreState& t = s.triangle[i];
+    secant[i] = secant_stiffness(m, shear_measure(t, s.mean1, s.mean2));
+    const double share = m.area[static_cast<std::size_t>(s.begin) + i] / s.area * secant[i];
+    mean1 += share * (t.lambda1 - s.mean1);
+    mean2 += share * (t.lambda2 - s.mean2);
+  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
+    const FibreState& t = s.triangle[i];
+    const auto e = static_cast<std::size_t>(s.begin) + i;
+    const double t1 = deviation_weight / m.fabric.warp_density *
+                      (secant[i] * (t.lambda1 - s.mean1) - mean1); // t_a - mean t_a of (N)
+    const double t2 =
+        deviation_weight / m.fabric.weft_density * (secant[i] * (t.lambda2 - s.mean2) - mean2);
+    q[e] = triangle_force(m, t, m.area[e], n1 + side_tension(m.side[0], t.lambda1, s.mean1) + t1,
+                          n2 + side_tension(m.side[1], t.lambda2, s.mean2) + t2, secant[i]);
+  }
 }
 
 } // namespace
@@ -202,12 +240,7 @@ double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin
     viscous = {v1, v2};
     n1 += v1;
     n2 += v2;
-    for (int i = 0; i < s.size; ++i) {
-      const auto e = static_cast<std::size_t>(s.begin + i);
-      const FibreState& t = s.triangle[static_cast<std::size_t>(i)];
-      q[e] = triangle_force(m, t, m.area[e], n1 + side_tension(m.side[0], t.lambda1, s.mean1),
-                            n2 + side_tension(m.side[1], t.lambda2, s.mean2));
-    }
+    patch_forces(m, s, n1, n2, q);
   }
   return dissipated;
 }
@@ -248,7 +281,8 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
       sum.fibre += area * (d1 * side_energy(m.side[0], t.lambda1, s.mean1) +
                            d2 * side_energy(m.side[1], t.lambda2, s.mean2));
       if (m.fabric.isotropic) sum.shear += area * isotropic_energy(isotropic_state(m, t));
-      sum.shear += area * m.cells_per_area * m.fabric.shear.at(t.gamma).energy;
+      sum.shear +=
+          area * m.cells_per_area * m.fabric.shear.at(shear_measure(t, s.mean1, s.mean2)).energy;
     }
   }
   return sum;
@@ -274,13 +308,15 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
     const auto largest = [](double a, double b, double off) {
       return 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + off * off);
     };
-    const double k1 = s1 + m.fabric.warp_density * m.side[0].stabilisation;
-    const double k2 = s2 + m.fabric.weft_density * m.side[1].stabilisation;
+    const LawPoint shear = m.fabric.shear.at(s.gamma);
+    const double deviation = deviation_weight * std::max(m.cells_per_area * shear.slope,
+                                                         secant_stiffness(m, std::abs(s.gamma)));
+    const double k1 = s1 + m.fabric.warp_density * m.side[0].stabilisation + deviation;
+    const double k2 = s2 + m.fabric.weft_density * m.side[1].stabilisation + deviation;
     const double fibre = largest(k1 * g11, k2 * g22, std::sqrt(k1 * k2) * g12 * s.cos_omega);
     const double v1 = m.fabric.warp_density * m.viscosity.warp;
     const double v2 = m.fabric.weft_density * m.viscosity.weft;
     const double viscous = largest(v1 * g11, v2 * g22, std::sqrt(v1 * v2) * g12 * s.cos_omega);
-    const LawPoint shear = m.fabric.shear.at(s.gamma);
     const double inv2 = 1.0 / (s.lambda1 * s.lambda1) + 1.0 / (s.lambda2 * s.lambda2);
     const double n1 = m.fabric.warp_density * m.fabric.warp.at(s.lambda1 - 1.0).value / s.lambda1;
     const double n2 = m.fabric.weft_density * m.fabric.weft.at(s.lambda2 - 1.0).value / s.lambda2;

@@ -10,29 +10,34 @@
 //   d_a      1/mm    yarns per mm;  n_c = d_1 d_2 sin(omega0)  1/mm^2  unit cells per area
 //   A0       mm^2    initial area
 //
-//   P        -       patch of one to three triangles that share a mean strain; A = sum of A0 over P
-//   mean     -       eps_a averaged over the patch by area
-//   s_a      N       stabilisation, 1e-5 of the yarn stiffness: the scale of the shear stiffness
+//   P        -       patch: a pair of triangles that share a mean strain, or one alone
+//   A        mm^2    sum of A0 over the patch; mean: average over the patch by area
+//   delta_a  -       eps_a - mean eps_a, zero for a triangle alone
+//   g        rad     sqrt(gamma^2 + beta (delta_1^2 + delta_2^2)): deviations count as shear
+//   beta     -       8
+//   s_a      N       holds deviations of a fabric without shear stiffness: 1e-6 of the yarn's own
 //   g_a      N       guard against folding a triangle flat, acts below a stretch of one half: 1e-3
 //                    of the yarn stiffness, and no more than the (softened) yarn's own, which is
 //                    slack there, so that the stable step need not know of it
 //
 //   E_P = A [ d_1 W_1(mean eps_1) + d_2 W_2(mean eps_2) ]
-//         + sum over P of A0 [ n_c Ws(gamma) + sum_a d_a ( s_a/2 (eps_a - mean eps_a)^2
-//                                                        + g_a/2 max(0, 1/2 - lambda_a)^2 ) ]   (E)
-//   N_a = W_a'(mean eps_a) + s_a (eps_a - mean eps_a) - g_a max(0, 1/2 - lambda_a)              (N)
-//   q_a = A0 [ d_a N_a f_a + n_c Cs (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]            (Q)
-//   F_n = -( c_1,n q_1 + c_2,n q_2 )                                                (31)(32)(39)(F)
+//         + sum over P of A0 [ n_c Ws(g) + sum_a d_a ( s_a/2 delta_a^2
+//                                                    + g_a/2 max(0, 1/2 - lambda_a)^2 ) ] (E)
+//   p   = Cs(g) / g, N mm: secant stiffness of the cell;  t_a = n_c beta p delta_a / d_a
+//   N_a = W_a'(mean eps_a) + s_a delta_a + t_a - mean t_a - g_a max(0, 1/2 - lambda_a) (N) q_a = A0
+//   [ d_a N_a f_a + n_c p gamma (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]        (Q) F_n =
+//   -( c_1,n q_1 + c_2,n q_2 )                                                (31)(32)(39)(F)
 //
 // Numbers in brackets: the paper's equations, cleaned. With patches of one triangle this is the
 // paper's element exactly (the guard apart, which no sound result reaches); for omega0 = 90 degrees
 // (Q) is then the sum of (31), (32) and (39). The element only needs k_1 and k_2, so the fibres may
 // lie at any angle to the sides and to each other.
 //
-// Why patches: two stiff fibre strains a triangle are about four constraints a node, twice as many
+// Why pairs: two stiff fibre strains a triangle are about four constraints a node, twice as many
 // as the node has freedoms in the plane; the mesh locks unless sides run along both families. One
-// mean strain a pair of triangles leaves about two a node. The mean is convex, so a patch is never
-// stiffer than its triangles and the stable step never smaller.
+// mean strain a pair of triangles leaves two a node. The mean is convex, so a pair is never stiffer
+// than its triangles. Why deviations count as shear: what a pair is free to do must cost as much as
+// the shear that it could replace, at any shear angle, and no more: measured in docs/method.md.
 #pragma once
 
 #include "contact/geometry.hpp"

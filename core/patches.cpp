@@ -42,6 +42,65 @@ std::vector<SharedSide> shared_sides(const BlankMesh& mesh) {
   return shared;
 }
 
+/// The up to three triangles beside each triangle, -1 where there is none.
+using Neighbours = std::vector<std::array<std::int32_t, 3>>;
+
+Neighbours neighbours_of(std::size_t triangles, const std::vector<SharedSide>& sides) {
+  Neighbours beside(triangles, {-1, -1, -1});
+  const auto add = [&beside](std::int32_t to, std::int32_t from) {
+    auto& list = beside[static_cast<std::size_t>(from)];
+    *std::find(list.begin(), list.end() - 1, -1) = to;
+  };
+  for (const SharedSide& s : sides)
+    add(s.a, s.b), add(s.b, s.a);
+  return beside;
+}
+
+/// Pairs two single triangles by shifting the pairs on a chain between them. Breadth first from
+/// `single`: a neighbour v of the chain's end gives up its mate w, which becomes the new end. (An
+/// augmenting path of matching theory; odd rings of triangles, through which a chain may fail to be
+/// found, are left out, and with them very few pairs.)
+class ChainSearch {
+public:
+  ChainSearch(const Neighbours& neighbours, std::vector<std::int32_t>& mates)
+      : beside(neighbours), mate(mates), seen(mates.size(), -1), from(mates.size(), -1) {}
+
+  void pair_up(std::int32_t single) {
+    constexpr std::size_t farthest = 2000; // triangles looked at: bounds the time of hopeless ones
+    std::vector<std::int32_t> ends{single};
+    seen[at(single)] = single;
+    for (std::size_t i = 0; i < ends.size() && i < farthest; ++i)
+      for (const std::int32_t v : beside[at(ends[i])]) {
+        if (v < 0 || seen[at(v)] == single) continue;
+        seen[at(v)] = single;
+        from[at(v)] = ends[i];
+        const std::int32_t w = mate[at(v)];
+        if (w < 0) return shift(v, single);
+        if (seen[at(w)] == single) continue;
+        seen[at(w)] = single;
+        ends.push_back(w);
+      }
+  }
+
+private:
+  static std::size_t at(std::int32_t e) { return static_cast<std::size_t>(e); }
+
+  /// Joins v to the end it was reached from, that end's mate to the one before, and so on.
+  void shift(std::int32_t v, std::int32_t single) {
+    for (;;) {
+      const std::int32_t end = from[at(v)], next = mate[at(end)];
+      mate[at(v)] = end;
+      mate[at(end)] = v;
+      if (end == single) return;
+      v = next;
+    }
+  }
+
+  const Neighbours& beside;
+  std::vector<std::int32_t>& mate;
+  std::vector<std::int32_t> seen, from; ///< by which search; the end that reached it
+};
+
 } // namespace
 
 Patches single_patches(std::size_t triangles) {
@@ -55,33 +114,22 @@ Patches single_patches(std::size_t triangles) {
 
 Patches pair_patches(const BlankMesh& mesh) {
   const std::vector<SharedSide> sides = shared_sides(mesh);
-  std::vector<std::vector<std::int32_t>> patches;
-  std::vector<std::int32_t> patch_of(mesh.triangles.size(), -1);
-  const auto patch = [&](std::int32_t e) -> std::int32_t& {
-    return patch_of[static_cast<std::size_t>(e)];
-  };
-  for (const SharedSide& s : sides)
-    if (patch(s.a) < 0 && patch(s.b) < 0) {
-      patch(s.a) = patch(s.b) = static_cast<std::int32_t>(patches.size());
-      patches.push_back({s.a, s.b});
-    }
+  std::vector<std::int32_t> mate(mesh.triangles.size(), -1);
   for (const SharedSide& s : sides) {
-    if ((patch(s.a) < 0) == (patch(s.b) < 0)) continue;
-    const std::int32_t alone = patch(s.a) < 0 ? s.a : s.b, host = patch(s.a) < 0 ? s.b : s.a;
-    auto& members = patches[static_cast<std::size_t>(patch(host))];
-    if (members.size() >= most_in_patch) continue;
-    members.push_back(alone);
-    patch(alone) = patch(host);
+    auto &a = mate[static_cast<std::size_t>(s.a)], &b = mate[static_cast<std::size_t>(s.b)];
+    if (a < 0 && b < 0) a = s.b, b = s.a;
   }
-  for (std::size_t e = 0; e < patch_of.size(); ++e)
-    if (patch_of[e] < 0) patches.push_back({static_cast<std::int32_t>(e)});
-  for (auto& members : patches)
-    std::sort(members.begin(), members.end());
-  std::sort(patches.begin(), patches.end());
+  const Neighbours beside = neighbours_of(mate.size(), sides);
+  ChainSearch search(beside, mate);
+  for (std::size_t e = 0; e < mate.size(); ++e)
+    if (mate[e] < 0) search.pair_up(static_cast<std::int32_t>(e));
   Patches result;
   result.begin.push_back(0);
-  for (const auto& members : patches) {
-    result.triangles.insert(result.triangles.end(), members.begin(), members.end());
+  for (std::size_t e = 0; e < mate.size(); ++e) {
+    const auto own = static_cast<std::int32_t>(e);
+    if (mate[e] >= 0 && mate[e] < own) continue;
+    result.triangles.push_back(own);
+    if (mate[e] >= 0) result.triangles.push_back(mate[e]);
     result.begin.push_back(static_cast<std::int32_t>(result.triangles.size()));
   }
   return result;

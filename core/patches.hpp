@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small groups of triangles that share one mean strain for each fibre family (core/membrane.hpp).
+// Pairs of triangles that share one mean strain for each fibre family (core/membrane.hpp).
 #pragma once
 
 #include "core/blank.hpp"
@@ -9,7 +9,7 @@
 
 namespace plyform {
 
-constexpr int most_in_patch = 3; ///< larger ones are too soft
+constexpr int most_in_patch = 2;
 
 /// Patch p holds triangles[begin[p]] .. triangles[begin[p + 1] - 1] of the mesh.
 struct Patches {
@@ -20,9 +20,9 @@ struct Patches {
 /// Every triangle alone, in the order of the mesh.
 Patches single_patches(std::size_t triangles);
 
-/// Pairs across shared sides, longest sides first (the two halves of a square find each other); a
-/// triangle left over joins the neighbouring pair across its longest side if that has room, and
-/// stays alone if none has.
+/// Pairs across shared sides: longest sides first (the two halves of a square find each other),
+/// then re-paired along chains of neighbours until hardly a triangle is alone. Triangles alone
+/// stiffen the mesh, patches of three soften it: see the table in docs/method.md.
 Patches pair_patches(const BlankMesh& mesh);
 
 } // namespace plyform
