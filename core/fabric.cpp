@@ -38,13 +38,24 @@ LawPoint odd(const std::vector<double>& x, const std::vector<double>& y, double 
 } // namespace
 
 LawPoint TensionLaw::at(double eps) const {
-  if (!(eps > 0.0)) return {0.0, 0.0, 0.0};
+  if (!(eps > 0.0)) {
+    if (compression == 0.0) return {0.0, 0.0, 0.0};
+    return {compression * eps, compression, 0.5 * compression * eps * eps};
+  }
   if (strain.empty()) return {stiffness * eps, stiffness, 0.5 * stiffness * eps * eps};
   return on_table(strain, tension, eps);
 }
 
 double TensionLaw::largest_slope() const {
   return strain.empty() ? stiffness : steepest(strain, tension);
+}
+
+TensionLaw softened(TensionLaw law, double by) {
+  law.stiffness /= by;
+  for (double& n : law.tension)
+    n /= by;
+  law.compression = std::min(law.compression, law.largest_slope());
+  return law;
 }
 
 LawPoint ShearLaw::at(double g) const {
@@ -77,7 +88,8 @@ bool BendingLaw::any() const {
 
 bool balanced(const Fabric& fabric) {
   const auto same = [](const TensionLaw& a, const TensionLaw& b) {
-    return a.stiffness == b.stiffness && a.strain == b.strain && a.tension == b.tension;
+    return a.stiffness == b.stiffness && a.strain == b.strain && a.tension == b.tension &&
+           a.compression == b.compression;
   };
   const MomentLaw &a = fabric.bending.warp, &b = fabric.bending.weft;
   const bool bend =

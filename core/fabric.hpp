@@ -18,15 +18,20 @@ struct LawPoint {
   double value, slope, energy;
 };
 
-/// Tension of one yarn against its strain: N = stiffness * strain, or a table. Tension only: zero,
-/// with zero slope and energy, for strain <= 0.
+/// Tension of one yarn against its strain: N = stiffness * strain, or a table. For strain <= 0
+/// N = compression * strain; with compression 0, the paper's law, exactly zero.
 struct TensionLaw {
   double stiffness = 0.0;              ///< N per yarn; used when the table is empty
   std::vector<double> strain, tension; ///< ascending from (0, 0), linear between, last slope beyond
+  double compression = 0.0; ///< N per yarn; no more than largest_slope(), or steps are not stable
   /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
   LawPoint at(double eps) const;
-  double largest_slope() const; ///< N
+  double largest_slope() const; ///< N, in tension
 };
+
+/// The law of a yarn `by` times as soft in tension. Compression stays as it is, but for what would
+/// be stiffer than the tension that is left.
+TensionLaw softened(TensionLaw law, double by);
 
 /// Torque that warp and weft exert on each other in one unit cell against the shear angle: odd
 /// polynomial k[0] g + k[1] g^3 + k[2] g^5 ..., or an odd table (given for g >= 0).

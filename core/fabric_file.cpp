@@ -4,6 +4,7 @@
 
 #include "core/case_parts.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -11,14 +12,15 @@ namespace plyform {
 
 namespace {
 
-/// Tables of laws start in the origin and go on to the right; `rising`: and never down.
-void check_law(const Section& law, const std::vector<Vec2>& points, bool rising,
-               Findings& findings) {
-  const Entry* table = given(law, "table");
+/// Tables of laws start in the origin and go on to the right; `rising`: and what is in the second
+/// column never goes down (empty: it may).
+void check_law(const Section& law, const std::string& key, const std::vector<Vec2>& points,
+               const std::string& rising, Findings& findings) {
+  const Entry* table = given(law, key);
   if (!table || points.empty()) return;
   const auto fail = [&](std::size_t row, const std::string& rule, const std::string& remedy) {
     const Entry& entry = table->children[row];
-    findings.error(entry.at, fmt::format("{}.{}", item_of(law, "table"), row), entry.written, rule,
+    findings.error(entry.at, fmt::format("{}.{}", item_of(law, key), row), entry.written, rule,
                    remedy);
   };
   if (points[0] != Vec2::Zero())
@@ -27,8 +29,8 @@ void check_law(const Section& law, const std::vector<Vec2>& points, bool rising,
     if (!(points[i].x() > points[i - 1].x()))
       return fail(i, "must have a first number above that of the row before",
                   "put the rows in ascending order, each value once");
-    if (rising && !(points[i].y() >= points[i - 1].y()))
-      return fail(i, "must not have less tension than the row before",
+    if (!rising.empty() && !(points[i].y() >= points[i - 1].y()))
+      return fail(i, fmt::format("must not have less {} than the row before", rising),
                   "take out what falls: a yarn that softens is not modelled");
   }
 }
@@ -44,16 +46,53 @@ void split(const std::vector<Vec2>& points, std::vector<double>& first,
 TensionLaw read_tension(const Section& yarn, Findings& findings) {
   TensionLaw law;
   const std::vector<Vec2> points = pairs(yarn, "table");
-  check_law(yarn, points, true, findings);
+  check_law(yarn, "table", points, "tension", findings);
   split(points, law.strain, law.tension);
   if (points.empty()) law.stiffness = number(yarn, "stiffness");
+  law.compression = number(yarn, "compression_stiffness");
+  if (const double most = law.largest_slope(); law.compression > most)
+    value_error(yarn, "compression_stiffness",
+                fmt::format("must be at most the largest stiffness in tension, {:g}", most),
+                fmt::format("give {:g}, a hundredth of that, or so", 0.01 * most), findings);
+  return law;
+}
+
+/// `tension`: of the same yarns. A bending moment shortens yarns that nothing holds against it.
+MomentLaw read_moments(const Section& yarn, const TensionLaw& tension, Findings& findings) {
+  MomentLaw law;
+  const std::vector<Vec2> points = pairs(yarn, "bending_table");
+  check_law(yarn, "bending_table", points, "moment", findings);
+  split(points, law.curvature, law.moment);
+  if (given(yarn, "bending_stiffness")) law.stiffness = number(yarn, "bending_stiffness");
+  if (law.largest_slope() > 0.0 && tension.compression == 0.0)
+    value_error(yarn, points.empty() ? "bending_stiffness" : "bending_table",
+                "needs a compression_stiffness of the same yarns, or they shorten instead of "
+                "bending",
+                fmt::format("give compression_stiffness = {:g}, 0.01 of the largest stiffness in "
+                            "tension, or so",
+                            0.01 * tension.largest_slope()),
+                findings);
+  return law;
+}
+
+BendingLaw read_bending(const Section& section, const Fabric& fabric, Findings& findings) {
+  BendingLaw law;
+  law.warp = read_moments(subsection(section, "warp"), fabric.warp, findings);
+  law.weft = read_moments(subsection(section, "weft"), fabric.weft, findings);
+  const double product = law.warp.at(0.0).slope * law.weft.at(0.0).slope;
+  law.twist = std::sqrt(product); // half of Huber's estimate for plates, see docs/method.md
+  if (!given(section, "twist_stiffness")) return law;
+  law.twist = number(section, "twist_stiffness");
+  if (law.twist > 0.0 && !(product > 0.0))
+    value_error(section, "twist_stiffness", "needs bending stiffness along warp and weft",
+                "give bending_stiffness to both, or take twist_stiffness out", findings);
   return law;
 }
 
 ShearLaw read_shear(const Section& shear, Findings& findings) {
   ShearLaw law;
   const std::vector<Vec2> points = pairs(shear, "table");
-  check_law(shear, points, false, findings);
+  check_law(shear, "table", points, "", findings);
   split(points, law.angle, law.torque);
   law.k = numbers(shear, "polynomial");
   if (!law.k.empty() && law.k[0] < 0.0)
@@ -93,6 +132,7 @@ Fabric read_fabric(const Section& section, const std::string& key, Findings& fin
   fabric.warp = read_tension(warp, findings);
   fabric.weft = read_tension(weft, findings);
   fabric.shear = read_shear(subsection(section, "shear"), findings);
+  fabric.bending = read_bending(section, fabric, findings);
   return fabric;
 }
 
@@ -142,8 +182,8 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
     root->at.file = name;
     for (const char* table : {"warp", "weft", "shear"}) {
       const bool shear = std::string_view(table) == "shear";
-      if (laws_may_miss &&
-          stand_in(*root, table, shear ? "polynomial" : "stiffness", shear ? "[1.0]" : "1.0"))
+      if (laws_may_miss && stand_in(*root, table, shear ? "polynomial" : "stiffness",
+                                    shear ? "[1.0]" : "1e9")) // more than any compression_stiffness
         reading.missing.push_back(table);
     }
     const Section section{&*root, "fabrics.NAME", ""};

@@ -231,7 +231,8 @@ void check_row(const Section& section, const KeyRow& row, Findings& findings) {
     if (!other || first || !table.find(row.instead)) return;
     findings.error(value->key_at, item, value->written,
                    fmt::format("cannot stand beside {}", row.instead), "take one of the two out");
-  } else if (applies && (row.required() || (first && !table.find(row.instead)))) {
+  } else if (applies &&
+             (row.required() || (first && row.otherwise.empty() && !table.find(row.instead)))) {
     findings.error(table.at, item, "", "is missing",
                    give(row) + (other ? ", or " + row.instead : ""));
     table.sound = false;

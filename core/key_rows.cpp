@@ -86,6 +86,7 @@ Rows fabric_rows() {
                    .ranges = {not_negative, not_negative},
                    .least_items = 2,
                    .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}});
+    append(rows, yarn_bending_rows(yarn));
   }
   append(rows, {{.key = "fabrics.NAME.shear",
                  .kind = K::table,
@@ -107,6 +108,7 @@ Rows fabric_rows() {
                  .least_items = 2,
                  .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
                             "same with minus sign for negative angles"}});
+  append(rows, twist_rows());
   return rows;
 }
 

@@ -130,8 +130,8 @@ std::string type_text(const KeyRow& row) {
 }
 
 std::string fallback_text(const KeyRow& row) {
-  if (!row.instead.empty()) return "required, or " + row.instead;
   if (!row.otherwise.empty()) return row.otherwise;
+  if (!row.instead.empty()) return "required, or " + row.instead;
   if (!row.fallback.empty()) return row.fallback;
   return row.of.empty() ? "required" : fmt::format("required for {} {}", row.of, joined(row.with));
 }

@@ -44,11 +44,12 @@ struct Range {
 struct KeyRow {
   std::string key; ///< pattern
   KeyKind kind = KeyKind::number;
-  std::string unit = "-";             ///< of each column: "deg, N mm"
-  std::string fallback{};             ///< TOML value taken when the key is not given
-  std::string otherwise{};            ///< in words, for what is not given and has no such value
-  std::string instead{};              ///< the key that may stand in its place, never beside it
-  std::vector<Range> ranges{};        ///< of each column; the last for all further ones
+  std::string unit = "-";      ///< of each column: "deg, N mm"
+  std::string fallback{};      ///< TOML value taken when the key is not given
+  std::string otherwise{};     ///< in words, for what is not given and has no such value
+  std::string instead{};       ///< the key that may stand in its place, never beside it; one of
+                               ///< the two is required unless they have an `otherwise`
+  std::vector<Range> ranges{}; ///< of each column; the last for all further ones
   std::vector<std::string> choices{}; ///< for KeyKind::choice
   std::size_t count = 0;              ///< items of numbers and names; 0 = any
   std::size_t least_items = 0;        ///< of lists of any length

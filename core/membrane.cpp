@@ -295,8 +295,11 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
   // second derivative of the angle is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2). A sheet
   // without yarns has none of these but its own (core/isotropic.hpp).
   FrequencyBound bound;
-  const double s1 = m.fabric.warp_density * m.fabric.warp.largest_slope();
-  const double s2 = m.fabric.weft_density * m.fabric.weft.largest_slope();
+  const auto slope = [](const TensionLaw& yarn, const SideStiffness& side) { // taut or folded
+    return std::max(yarn.largest_slope(), yarn.compression + side.guard);
+  };
+  const double s1 = m.fabric.warp_density * slope(m.fabric.warp, m.side[0]);
+  const double s2 = m.fabric.weft_density * slope(m.fabric.weft, m.side[1]);
   const double per_mass = 3.0 / m.fabric.surface_density;
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const FibreGradients& c = m.c[e];
@@ -320,9 +323,9 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
     const double inv2 = 1.0 / (s.lambda1 * s.lambda1) + 1.0 / (s.lambda2 * s.lambda2);
     const double n1 = m.fabric.warp_density * m.fabric.warp.at(s.lambda1 - 1.0).value / s.lambda1;
     const double n2 = m.fabric.weft_density * m.fabric.weft.at(s.lambda2 - 1.0).value / s.lambda2;
-    const double rest =
-        std::max(n1, n2) + m.cells_per_area * inv2 *
-                               (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
+    const double rest = std::max({0.0, n1, n2}) +
+                        m.cells_per_area * inv2 *
+                            (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
     const double sheet =
         m.fabric.isotropic
             ? isotropic_stiffness(*m.fabric.isotropic, isotropic_state(m, s), g11, g22, g12)

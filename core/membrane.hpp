@@ -17,8 +17,8 @@
 //   beta     -       8
 //   s_a      N       holds deviations of a fabric without shear stiffness: 1e-6 of the yarn's own
 //   g_a      N       guard against folding a triangle flat, acts below a stretch of one half: 1e-3
-//                    of the yarn stiffness, and no more than the (softened) yarn's own, which is
-//                    slack there, so that the stable step need not know of it
+//                    of the yarn stiffness, and no more than the (softened) yarn's own; without
+//                    compressive stiffness that is slack there, and the step need not know of it
 //
 //   E_P = A [ d_1 W_1(mean eps_1) + d_2 W_2(mean eps_2) ]
 //         + sum over P of A0 [ n_c Ws(g) + sum_a d_a ( s_a/2 delta_a^2
@@ -130,7 +130,8 @@ struct MembraneEnergy {
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x);
 
 /// Bounds of one ply at its present shape, from the largest element eigenvalue of M^-1 K with
-/// lumped mass (the elements' bound is a bound of the mesh, Irons). Fibres count as taut.
+/// lumped mass (the elements' bound is a bound of the mesh, Irons). Fibres count as
+/// taut, or as compressed flat where that is stiffer.
 struct FrequencyBound {
   double omega2 = 0.0;  ///< 1/s^2
   double damping = 0.0; ///< 1/s, of M^-1 C

@@ -15,17 +15,11 @@ void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count) {
     blocks.push_back({ply, begin, std::min(n, begin + block_size)});
 }
 
-void soften(TensionLaw& law, double by) {
-  law.stiffness /= by;
-  for (double& n : law.tension)
-    n /= by;
-}
-
 PlyBody make_ply(const Case& data, const Ply& ply) {
   PlyBody body;
   Fabric fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
-  soften(fabric.warp, data.solver.fibre_softening);
-  soften(fabric.weft, data.solver.fibre_softening);
+  fabric.warp = softened(fabric.warp, data.solver.fibre_softening);
+  fabric.weft = softened(fabric.weft, data.solver.fibre_softening);
   const BlankMesh mesh = mesh_blank(data.blanks[static_cast<std::size_t>(ply.blank)], ply.angle,
                                     ply.angle + fabric.fibre_angle);
   body.name = ply.name;

@@ -11,22 +11,39 @@
 namespace plyform {
 namespace {
 
+/// "no bending", or with which stiffness.
+std::string bending_text(const PlyBody& ply) {
+  if (!ply.bending) return "no bending";
+  const Fabric& fabric = ply.membrane.fabric;
+  const BendingLaw& law = ply.bending->law;
+  if (fabric.isotropic) return fmt::format("bends as a plate, {:.3g} N mm", law.warp.stiffness);
+  const auto along = [](const MomentLaw& moments) {
+    return moments.curvature.empty() ? fmt::format("{:.3g}", moments.stiffness)
+                                     : fmt::format("{:.3g} by table", moments.at(0.0).slope);
+  };
+  return fmt::format("bending {} N mm along warp, {} along weft, {:.3g} in twist, yarns compressed "
+                     "by {:.3g} and {:.3g} N per strain",
+                     along(law.warp), along(law.weft), law.twist, fabric.warp.compression,
+                     fabric.weft.compression);
+}
+
 void print_plies(const Scene& s) {
   for (const PlyBody& ply : s.plies) {
     const Membrane& m = ply.membrane;
     if (m.fabric.isotropic) {
-      fmt::print("ply {}: {} nodes, {} triangles, isotropic sheet\n", ply.name, ply.x.size(),
-                 m.triangles.size());
+      fmt::print("ply {}: {} nodes, {} triangles, isotropic sheet; {}\n", ply.name, ply.x.size(),
+                 m.triangles.size(), bending_text(ply));
       continue;
     }
     const bool plain = m.patches() == static_cast<int>(m.triangles.size());
     const bool chosen = s.data.solver.element == ElementKind::automatic;
-    fmt::print(
-        "ply {}: {} nodes, {} triangles, warp at {:g} degrees; {} element: {}\n", ply.name,
-        ply.x.size(), m.triangles.size(), ply.angle * 180.0 / M_PI, plain ? "plain" : "averaged",
-        !chosen ? "as solver.element says"
-        : plain ? "every triangle has sides along both fibre families"
-                : "sides do not run along both fibre families, the plain element would lock");
+    fmt::print("ply {}: {} nodes, {} triangles, warp at {:g} degrees; {} element: {}; {}\n",
+               ply.name, ply.x.size(), m.triangles.size(), ply.angle * 180.0 / M_PI,
+               plain ? "plain" : "averaged",
+               !chosen ? "as solver.element says"
+               : plain ? "every triangle has sides along both fibre families"
+                       : "sides do not run along both fibre families, the plain element would lock",
+               bending_text(ply));
   }
 }
 
@@ -77,12 +94,19 @@ std::string nodes_held(const Scene& s, int boundary) {
   return text.empty() ? "no nodes that others do not hold" : text;
 }
 
+bool holds_bending_ply(const Scene& s, const Boundary& boundary) {
+  if (boundary.ply >= 0) return s.plies[static_cast<std::size_t>(boundary.ply)].bending.has_value();
+  return std::any_of(s.plies.begin(), s.plies.end(),
+                     [](const PlyBody& ply) { return ply.bending.has_value(); });
+}
+
 void print_boundaries(const Scene& s) {
-  bool part = false;
+  bool part = false, hinge = false;
   for (std::size_t b = 0; b < s.data.boundaries.size(); ++b) {
     const Boundary& boundary = s.data.boundaries[b];
     const bool plane = boundary.kind == BoundaryKind::symmetry;
     part = part || plane;
+    hinge = hinge || (plane && holds_bending_ply(s, boundary));
     fmt::print("boundary {}: {}, holds {}{}\n", boundary.name,
                plane                                  ? "plane of symmetry"
                : boundary.kind == BoundaryKind::frame ? "frame"
@@ -95,6 +119,10 @@ void print_boundaries(const Scene& s) {
   if (part)
     fmt::print("symmetry: forces and energies, of tools too, are those of the part modelled; a "
                "tool's given force acts on that part\n");
+  if (hinge)
+    fmt::print(
+        "    note: bending takes a plane of symmetry for a free edge: the ply can fold along "
+        "it as on a hinge\n");
 }
 
 /// Wall time of a step, s, from a few real ones; a Stop if they go wrong already.

@@ -123,14 +123,8 @@ TEST(Bending, HasNeitherNetForceNorMomentAndDoesNotSeeRotations) {
   EXPECT_NEAR(bending_energy(b, turned), e, 1e-11 * e);
 }
 
-TEST(Bending, BoundHoldsAndLeavesNoModeOfTheFlatSheetFree) {
-  const BlankMesh mesh = mesh_blank(rectangle(40.0, 40.0, 10.0), 0.0, 0.0);
-  BendingLaw plate; // nu = 0.3
-  plate.warp.stiffness = plate.weft.stiffness = 2.0;
-  plate.coupling = 0.6;
-  plate.twist = 2.8;
-  const double mass = 1e-8; // t
-  Bending b = bend(mesh, plate, 0.0, mass);
+/// Eigenvalues (1/s^2, ascending) of deflections of the flat sheet, each node of the given mass.
+Eigen::VectorXd flat_modes(Bending& b, const BlankMesh& mesh, double mass) {
   std::vector<Vec3> x;
   for (const Vec2& p : mesh.x)
     x.emplace_back(p.x(), p.y(), 0.0);
@@ -144,12 +138,49 @@ TEST(Bending, BoundHoldsAndLeavesNoModeOfTheFlatSheetFree) {
     for (Eigen::Index i = 0; i < n; ++i)
       k(i, j) = -f[static_cast<std::size_t>(i)].z() / step;
   }
-  const Eigen::VectorXd omega2 =
-      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues() / mass;
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (k + k.transpose())).eigenvalues() /
+         mass;
+}
+
+TEST(Bending, BoundHoldsAndLeavesNoModeOfTheFlatSheetFree) {
+  const BlankMesh mesh = mesh_blank(rectangle(40.0, 40.0, 10.0), 0.0, 0.0);
+  BendingLaw plate; // nu = 0.3
+  plate.warp.stiffness = plate.weft.stiffness = 2.0;
+  plate.coupling = 0.6;
+  plate.twist = 2.8;
+  const double mass = 1e-8; // t
+  Bending b = bend(mesh, plate, 0.0, mass);
+  const Eigen::VectorXd omega2 = flat_modes(b, mesh, mass);
+  const Eigen::Index n = omega2.size();
   EXPECT_GE(b.omega2, omega2[n - 1]);
   EXPECT_LE(b.omega2, 8.0 * omega2[n - 1]); // it bounds the step only where bending is very stiff
   EXPECT_LE(std::abs(omega2[2]), 1e-9 * omega2[n - 1]); // one shift, two rotations
   EXPECT_GE(omega2[3], 1e-5 * omega2[n - 1]); // all else bends; a strip's first mode is (h/L)^4
+}
+
+TEST(Bending, BoundHoldsForAWeaveAndItsSoftestShapeIsTheSaddle) {
+  BlankSpec spec = rectangle(40.0, 40.0, 10.0);
+  const double mass = 1e-8; // t
+  for (const MeshKind kind : {MeshKind::diagonal, MeshKind::alternating, MeshKind::free})
+    for (const double warp : {0.0, 0.5}) {
+      spec.mesh = kind;
+      const BlankMesh mesh = mesh_blank(spec, warp, warp + 0.5 * std::numbers::pi);
+      BendingLaw law;
+      law.warp.stiffness = 2.0;
+      law.weft.stiffness = 0.5;
+      Bending limp = bend(mesh, law, warp, mass);
+      law.twist = 1.0;
+      Bending b = bend(mesh, law, warp, mass);
+      const Eigen::VectorXd omega2 = flat_modes(b, mesh, mass),
+                            without = flat_modes(limp, mesh, mass);
+      EXPECT_GE(b.omega2, omega2[omega2.size() - 1]);
+      EXPECT_GE(limp.omega2, without[without.size() - 1]);
+      // small rims at an angle to the yarns hold a saddle, too
+      if (warp == 0.0) {
+        EXPECT_LE(without[3], 0.1 * omega2[3]) << static_cast<int>(kind);
+      }
+      EXPECT_GE(omega2[3], 1e-4 * omega2[omega2.size() - 1]);
+    }
 }
 
 } // namespace

@@ -336,6 +336,26 @@ TEST(CaseFile, TakesTheProgramsOwnDefaults) {
   EXPECT_TRUE(c.tools.empty());
 }
 
+TEST(CaseFile, HasTheFabricsBending) {
+  const Case c = good_case(data / "good/bending.toml");
+  const Fabric &line = c.fabrics.at(0), &table = c.fabrics.at(1), &warp_only = c.fabrics.at(2);
+  EXPECT_EQ(line.warp.compression, 460.0);
+  EXPECT_EQ(line.weft.compression, 480.0);
+  EXPECT_EQ(line.bending.warp.stiffness, 4.0);
+  EXPECT_EQ(line.bending.weft.stiffness, 1.0);
+  EXPECT_EQ(line.bending.twist, 3.0);
+  EXPECT_EQ(line.bending.coupling, 0.0);
+  EXPECT_EQ(table.bending.warp.curvature, (std::vector<double>{0.0, 0.01, 0.05}));
+  EXPECT_EQ(table.bending.warp.moment, (std::vector<double>{0.0, 0.04, 0.08}));
+  EXPECT_DOUBLE_EQ(table.bending.twist, 2.0); // root of 4 times 1
+  EXPECT_EQ(warp_only.bending.warp.stiffness, 4.0);
+  EXPECT_FALSE(warp_only.bending.weft.largest_slope() > 0.0);
+  EXPECT_EQ(warp_only.bending.twist, 0.0);
+  const Fabric without = good_case(data / "good/base.toml").fabrics.at(0);
+  EXPECT_FALSE(without.bending.any());
+  EXPECT_EQ(without.warp.compression, 0.0);
+}
+
 // ---- keys ----
 
 /// All patterns of keys that stand in a file.
@@ -368,7 +388,7 @@ struct Keys {
 
 TEST(CaseKeys, AreJustThoseThatGoodFilesUse) {
   Keys keys;
-  for (const char* name : {"every_shape", "inline", "base", "boundaries"}) {
+  for (const char* name : {"every_shape", "inline", "base", "boundaries", "bending"}) {
     good_case(data / "good" / (std::string(name) + ".toml")); // each of its keys is accepted
     keys.add(data / "good" / (std::string(name) + ".toml"), "");
   }

@@ -45,6 +45,30 @@ TEST(TensionLaw, CarriesTensionOnly) {
     }
 }
 
+TEST(TensionLaw, TakesCompressionIfAskedTo) {
+  for (TensionLaw law : {TensionLaw{46000.0, {}, {}}, crimped()}) {
+    law.compression = 400.0;
+    for (const double strain : {-0.9, -1e-4, 1e-4, 0.003})
+      expect_consistent(law, strain, 46000.0);
+    EXPECT_EQ(law.at(-0.01).value, -4.0);
+    EXPECT_EQ(law.at(0.0).value, 0.0);
+    EXPECT_NEAR(law.largest_slope(), 46000.0, 1e-6); // of tension
+  }
+}
+
+TEST(TensionLaw, SoftensCompressionOnlyWhereItWouldBeStifferThanTension) {
+  for (TensionLaw law : {TensionLaw{46000.0, {}, {}}, crimped()}) {
+    law.compression = 460.0;
+    const TensionLaw some = softened(law, 10.0), much = softened(law, 1000.0);
+    EXPECT_NEAR(some.largest_slope(), 4600.0, 1e-6);
+    EXPECT_NEAR(some.at(0.003).value, 0.1 * law.at(0.003).value, 1e-12);
+    EXPECT_EQ(some.compression, 460.0);
+    EXPECT_NEAR(much.compression, 46.0, 1e-9);
+    law.compression = 0.0;
+    EXPECT_EQ(softened(law, 1000.0).compression, 0.0);
+  }
+}
+
 TEST(TensionLaw, FollowsItsTableAndGoesOnWithTheLastSlope) {
   const TensionLaw law = crimped();
   for (std::size_t i = 0; i < law.strain.size(); ++i)

@@ -9,11 +9,24 @@ namespace plyform {
 namespace {
 
 /// A ply without tools, 10 x 10 cells of 10 mm.
-Scene free_ply(double angle, double step_factor = 0.9) {
+Case free_ply(double angle, double step_factor = 0.9) {
   Case data = stack_of({angle}, rectangle(100.0, 100.0, 10.0));
   set_friction(data, 0.0);
   data.solver.step_factor = step_factor;
-  return make_scene(data);
+  return data;
+}
+
+/// The same with bending: linear along warp, by table along weft.
+Case bending_ply(double angle, double step_factor = 0.9) {
+  Case data = free_ply(angle, step_factor);
+  Fabric& fabric = data.fabrics[0];
+  fabric.bending.warp.stiffness = 20.0;
+  fabric.bending.weft.curvature = {0.0, 0.02, 0.1};
+  fabric.bending.weft.moment = {0.0, 0.2, 0.6};
+  fabric.bending.twist = 14.0;
+  fabric.warp.compression = 0.01 * fabric.warp.stiffness;
+  fabric.weft.compression = 0.01 * fabric.weft.stiffness;
+  return data;
 }
 
 struct Momenta {
@@ -35,8 +48,8 @@ Momenta momenta_of(const PlyBody& ply) {
 
 /// Sets a free ply off at random and lets it fly 1000 steps. Returns the gain of energy over the
 /// energy.
-double fly(double angle, double step_factor) {
-  Scene s = free_ply(angle, step_factor);
+double fly(const Case& data) {
+  Scene s = make_scene(data);
   PlyBody& ply = s.plies[0];
   Random random(1);
   double kinetic = 0.0;
@@ -60,16 +73,41 @@ double fly(double angle, double step_factor) {
   EXPECT_GT(e.damping, 0.0);
   EXPECT_GT(e.shear, 0.0);
   EXPECT_EQ(e.external, 0.0);
-  return (e.kinetic + e.fibre + e.shear + e.damping) / kinetic - 1.0;
+  EXPECT_EQ(e.bending > 0.0, data.fabrics[0].bending.any());
+  return (e.kinetic + e.fibre + e.shear + e.bending + e.damping) / kinetic - 1.0;
 }
 
 TEST(Step, FreePlyKeepsItsMomentaAndEnergy) {
   for (const double angle : {0.0, 0.4}) { // the plain and the averaged element
     // fibres go taut and slack all the time, in all of the mesh's highest modes: no more can be
     // asked of large steps, but the error has to vanish with them
-    EXPECT_LT(std::abs(fly(angle, 0.9)), 0.05) << angle;
-    EXPECT_LT(std::abs(fly(angle, 0.2)), 0.002) << angle;
+    EXPECT_LT(std::abs(fly(free_ply(angle, 0.9))), 0.05) << angle;
+    EXPECT_LT(std::abs(fly(free_ply(angle, 0.2))), 0.002) << angle;
+    EXPECT_LT(std::abs(fly(bending_ply(angle, 0.9))), 0.05) << angle;
+    EXPECT_LT(std::abs(fly(bending_ply(angle, 0.2))), 0.002) << angle;
   }
+}
+
+TEST(Step, KnowsOfBendingAndOnlyWhereAFabricHasIt) {
+  const Scene without = make_scene(free_ply(0.4)), with = make_scene(bending_ply(0.4));
+  EXPECT_FALSE(without.plies[0].bending);
+  EXPECT_TRUE(without.bending_blocks.empty());
+  ASSERT_TRUE(with.plies[0].bending);
+  const double bending = with.plies[0].bending->omega2;
+  EXPECT_GT(bending, 0.0);
+  // yarns that are no stiffer when pressed than when pulled leave the membrane's bound as it is
+  const double membrane = stable_step(without).omega2;
+  EXPECT_NEAR(stable_step(with).omega2, membrane + bending, 1e-12 * membrane);
+}
+
+TEST(Step, IsStableWhereBendingSetsIt) {
+  Case data = bending_ply(0.4);
+  data.solver.fibre_softening = 1000.0;
+  data.fabrics[0].bending.warp.stiffness = 5000.0; // N mm
+  const Scene s = make_scene(data);
+  ASSERT_GT(s.plies[0].bending->omega2,
+            2.0 * frequency_bound(s.plies[0].membrane, s.plies[0].x).omega2);
+  EXPECT_LT(std::abs(fly(data)), 0.05);
 }
 
 TEST(Step, MassDampingTakesWhatTheKineticEnergyLoses) {
@@ -251,7 +289,7 @@ TEST(Step, IsStableBelowTheBoundAndStopsAboveIt) {
 
 TEST(Step, StopsAtACollapsedTriangle) {
   for (const bool sheared : {false, true}) {
-    Scene s = free_ply(0.0);
+    Scene s = make_scene(free_ply(0.0));
     for (Vec3& x : s.plies[0].x)
       if (sheared)
         x = Vec3(x.x() + 80.0 * x.y(), x.y(), x.z()); // yarns less than 2 % of a right angle apart
@@ -267,7 +305,7 @@ TEST(Step, StopsAtACollapsedTriangle) {
 }
 
 TEST(Step, StopsAtAPositionThatIsNotFinite) {
-  Scene s = free_ply(0.0);
+  Scene s = make_scene(free_ply(0.0));
   ThreadTeam team(1);
   start(s, team);
   ASSERT_FALSE(compute_forces(s, team));
