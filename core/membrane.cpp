@@ -209,6 +209,11 @@ void patch_forces(const Membrane& m, const PatchState& s, double n1, double n2,
 
 } // namespace
 
+double deviation_stiffness(const Membrane& m, double gamma) {
+  const double slope = m.cells_per_area * m.fabric.shear.at(gamma).slope;
+  return deviation_weight * std::max(slope, secant_stiffness(m, std::abs(gamma)));
+}
+
 std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x) {
   std::vector<std::array<double, 2>> strains(m.triangles.size());
   for (int p = 0; p < m.patches(); ++p) {
@@ -286,58 +291,6 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
     }
   }
   return sum;
-}
-
-FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
-  // K_e = A0 B^T H B with B = [c_1; c_2] x I. Its non-zero eigenvalues are those of H (G x I),
-  // G_ab = c_a . c_b, and every node carries at least rho A0 / 3: so omega^2 <= 3/rho * them.
-  // Fibre part of H: exact, a 2 x 2 problem. Shear and geometric part: bounded by norms; the
-  // second derivative of the angle is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2). A sheet
-  // without yarns has none of these but its own (core/isotropic.hpp).
-  FrequencyBound bound;
-  const auto slope = [](const TensionLaw& yarn, const SideStiffness& side) { // taut or folded
-    return std::max(yarn.largest_slope(), yarn.compression + side.guard);
-  };
-  const double s1 = m.fabric.warp_density * slope(m.fabric.warp, m.side[0]);
-  const double s2 = m.fabric.weft_density * slope(m.fabric.weft, m.side[1]);
-  const double per_mass = 3.0 / m.fabric.surface_density;
-  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
-    const FibreGradients& c = m.c[e];
-    const double c10 = -c.c11 - c.c12, c20 = -c.c21 - c.c22;
-    const double g11 = c10 * c10 + c.c11 * c.c11 + c.c12 * c.c12;
-    const double g22 = c20 * c20 + c.c21 * c.c21 + c.c22 * c.c22;
-    const double g12 = c10 * c20 + c.c11 * c.c21 + c.c12 * c.c22;
-    const FibreState s = fibre_state(m, x, static_cast<int>(e));
-    const auto largest = [](double a, double b, double off) {
-      return 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + off * off);
-    };
-    const LawPoint shear = m.fabric.shear.at(s.gamma);
-    const double deviation = deviation_weight * std::max(m.cells_per_area * shear.slope,
-                                                         secant_stiffness(m, std::abs(s.gamma)));
-    const double k1 = s1 + m.fabric.warp_density * m.side[0].stabilisation + deviation;
-    const double k2 = s2 + m.fabric.weft_density * m.side[1].stabilisation + deviation;
-    const double fibre = largest(k1 * g11, k2 * g22, std::sqrt(k1 * k2) * g12 * s.cos_omega);
-    const double v1 = m.fabric.warp_density * m.viscosity.warp;
-    const double v2 = m.fabric.weft_density * m.viscosity.weft;
-    const double viscous = largest(v1 * g11, v2 * g22, std::sqrt(v1 * v2) * g12 * s.cos_omega);
-    const double inv2 = 1.0 / (s.lambda1 * s.lambda1) + 1.0 / (s.lambda2 * s.lambda2);
-    const double n1 = m.fabric.warp_density * m.fabric.warp.at(s.lambda1 - 1.0).value / s.lambda1;
-    const double n2 = m.fabric.weft_density * m.fabric.weft.at(s.lambda2 - 1.0).value / s.lambda2;
-    const double rest = std::max({0.0, n1, n2}) +
-                        m.cells_per_area * inv2 *
-                            (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
-    const double sheet =
-        m.fabric.isotropic
-            ? isotropic_stiffness(*m.fabric.isotropic, isotropic_state(m, s), g11, g22, g12)
-            : 0.0;
-    const double omega2 = per_mass * (fibre + sheet + rest * largest(g11, g22, g12));
-    if (!(omega2 <= bound.omega2)) {
-      bound.omega2 = omega2;
-      bound.triangle = static_cast<int>(e);
-    }
-    bound.damping = std::max(bound.damping, per_mass * viscous);
-  }
-  return bound;
 }
 
 } // namespace plyform

@@ -109,6 +109,10 @@ bool sides_along_fibres(const BlankMesh& mesh, double warp_angle, double weft_an
 
 FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle);
 
+/// beta n_c times the larger of Cs'(gamma) and Cs(gamma)/gamma, N/mm: what holds the deviations of
+/// (E) at shear angle gamma (rad).
+double deviation_stiffness(const Membrane& m, double gamma);
+
 /// Mean strains {warp, weft} of the patch that a triangle belongs to, for all m triangles: those
 /// that its yarns are stretched by.
 std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x);
@@ -128,15 +132,5 @@ struct MembraneEnergy {
 };
 /// (E) over all triangles.
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x);
-
-/// Bounds of one ply at its present shape, from the largest element eigenvalue of M^-1 K with
-/// lumped mass (the elements' bound is a bound of the mesh, Irons). Fibres count as
-/// taut, or as compressed flat where that is stiffer.
-struct FrequencyBound {
-  double omega2 = 0.0;  ///< 1/s^2
-  double damping = 0.0; ///< 1/s, of M^-1 C
-  int triangle = -1;    ///< where
-};
-FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x);
 
 } // namespace plyform

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/scene.hpp"
 
+#include "core/membrane_frequency.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -42,6 +44,7 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
   body.membrane.viscosity = {2.0 * data.solver.fibre_damping * fabric.warp.largest_slope() / omega,
                              2.0 * data.solver.fibre_damping * fabric.weft.largest_slope() / omega};
+  sharpen_bound(body);
   return body;
 }
 
@@ -135,6 +138,10 @@ Scene make_scene(const Case& data) {
   return s;
 }
 
+void sharpen_bound(PlyBody& ply) {
+  ply.sharpness = highest_omega2(ply.membrane, ply.x) / frequency_bound(ply.membrane, ply.x).omega2;
+}
+
 StepBound stable_step(const Scene& s) {
   StepBound bound;
   std::vector<std::vector<double>> rows; // contact stiffness, one a node, N/mm
@@ -164,7 +171,8 @@ StepBound stable_step(const Scene& s) {
     double contact = 0.0;
     for (std::size_t n = 0; n < rows[p].size(); ++n)
       contact = std::max(contact, rows[p][n] / ply.membrane.node_mass[n]);
-    const double omega2 = element.omega2 + contact + (ply.bending ? ply.bending->omega2 : 0.0);
+    const double omega2 =
+        ply.sharpness * element.omega2 + contact + (ply.bending ? ply.bending->omega2 : 0.0);
     const double c = element.damping + contact * damping_ratio + s.data.solver.mass_damping;
     const double dt = (std::sqrt(c * c + 4.0 * omega2) - c) / omega2;
     if (bound.ply < 0 || !(dt >= bound.dt))

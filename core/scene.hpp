@@ -23,7 +23,8 @@ struct PlyBody {
   double angle = 0.0;     ///< rad, warp from x, before forming
   double thickness = 0.0; ///< mm
   Membrane membrane;
-  std::vector<Vec3> x0, x;        ///< mm
+  double sharpness = 1.0;  ///< omega^2 of the mesh over that of its stiffest element, now and then
+  std::vector<Vec3> x0, x; ///< mm
   std::vector<Vec3> velocity;     ///< mm/s, half a step behind x
   std::vector<Vec3> motion;       ///< mm, of the last step
   std::vector<Vec3> x_search;     ///< mm, where the contact search was last done
@@ -94,15 +95,15 @@ struct Scene {
   std::vector<HeldNode> held;            ///< by ply and node
   std::vector<BoundaryState> boundaries; ///< one each of Case::boundaries
   std::vector<Block> patch_blocks, node_blocks, bending_blocks;
-  std::vector<SheetState> ply_states; ///< views of the plies, renewed every step
-  std::vector<double> patch_sums;     ///< viscous work, one a patch block
-  std::vector<NodeSums> node_sums;    ///< one a node block
-  double mass_damping_work = 0.0;     ///< N mm, since the start
-  double time = 0.0;                  ///< s, of x
-  double dt = 0.0, next_dt = 0.0;     ///< s, the step that led to x and the one that leaves it
-  double min_dt = 0.0, max_dt = 0.0;  ///< s, used so far
-  long step = 0;
-  long searches = 0; ///< broad phases done
+  std::vector<SheetState> ply_states;    ///< views of the plies, renewed every step
+  std::vector<double> patch_sums;        ///< viscous work, one a patch block
+  std::vector<NodeSums> node_sums;       ///< one a node block
+  double mass_damping_work = 0.0;        ///< N mm, since the start
+  double time = 0.0;                     ///< s, of x
+  double dt = 0.0, next_dt = 0.0;        ///< s, the step that led to x and the one that leaves it
+  double min_dt = 0.0, max_dt = 0.0;     ///< s, used so far
+  long step = 0, next_sharpening = 1000; ///< the next step that renews PlyBody::sharpness
+  long searches = 0;                     ///< broad phases done
 };
 
 /// Meshes the blanks, places plies and tools, sets contact stiffness from the stable step.
@@ -121,6 +122,9 @@ struct StepBound {
 /// where they stand now; what slides or closes until the next renewal is what step_factor leaves
 /// room for.
 StepBound stable_step(const Scene& scene);
+
+/// Finds PlyBody::sharpness at the present shape.
+void sharpen_bound(PlyBody& ply);
 
 /// Smooth way from 0 to `end` over `duration`: fifth-order polynomial, slope and curvature zero at
 /// both ends. Displacement of a driven tool (mm), force of a pushed one (N).

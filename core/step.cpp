@@ -10,8 +10,9 @@
 namespace plyform {
 namespace {
 
-constexpr int bound_every = 200; // steps between renewals of the step bound: geometry changes by
-                                 // far less than the case's step factor leaves room for
+constexpr int sharpen_every = 1000; // steps: a ratio changes slower than the bound
+constexpr int bound_every = 200;    // steps between renewals of the step bound: geometry changes by
+                                    // far less than the case's step factor leaves room for
 
 std::string when(const Scene& s) {
   return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
@@ -250,6 +251,11 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
   }
   if (used_up || s.step % bound_every == 0) {
     if (auto stop = find_collapsed(s)) return stop;
+    if (s.step >= s.next_sharpening) {
+      team.run(static_cast<int>(s.plies.size()),
+               [&](int p) { sharpen_bound(s.plies[static_cast<std::size_t>(p)]); });
+      s.next_sharpening = s.step + sharpen_every;
+    }
     set_step(s);
   }
   add_up_forces(s, team);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The isotropic sheet: forces from energy, rotations, small strains, the bound of its step.
+#include "core/membrane_frequency.hpp"
 #include "membrane_checks.hpp"
 
 #include <Eigen/Eigenvalues>

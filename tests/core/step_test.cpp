@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The time step: what it must conserve, known vibrations, where it is stable, how it stops.
+#include "core/membrane_frequency.hpp"
 #include "core/step.hpp"
 #include "scene_checks.hpp"
 
@@ -81,9 +82,9 @@ TEST(Step, FreePlyKeepsItsMomentaAndEnergy) {
   for (const double angle : {0.0, 0.4}) { // the plain and the averaged element
     // fibres go taut and slack all the time, in all of the mesh's highest modes: no more can be
     // asked of large steps, but the error has to vanish with them
-    EXPECT_LT(std::abs(fly(free_ply(angle, 0.9))), 0.05) << angle;
+    EXPECT_LT(std::abs(fly(free_ply(angle, 0.8))), 0.05) << angle;
     EXPECT_LT(std::abs(fly(free_ply(angle, 0.2))), 0.002) << angle;
-    EXPECT_LT(std::abs(fly(bending_ply(angle, 0.9))), 0.05) << angle;
+    EXPECT_LT(std::abs(fly(bending_ply(angle, 0.8))), 0.05) << angle;
     EXPECT_LT(std::abs(fly(bending_ply(angle, 0.2))), 0.002) << angle;
   }
 }
@@ -244,8 +245,10 @@ TEST(Step, SmoothPathStartsAndEndsAtRest) {
 
 /// A ply held taut all round, without damping, its nodes set off at random. Returns why it stopped,
 /// or nothing if it did not; `growth`: largest energy over that at first.
-std::optional<Stop> let_a_taut_ply_vibrate(double step_factor, double& growth) {
+std::optional<Stop> let_a_taut_ply_vibrate(ElementKind element, double step_factor,
+                                           double& growth) {
   Case data = stack_of({0.0}, rectangle(100.0, 100.0, 10.0));
+  data.solver.element = element;
   set_friction(data, 0.0);
   data.solver.fibre_damping = 0.0;
   data.solver.step_factor = step_factor;
@@ -277,14 +280,23 @@ std::optional<Stop> let_a_taut_ply_vibrate(double step_factor, double& growth) {
 }
 
 TEST(Step, IsStableBelowTheBoundAndStopsAboveIt) {
-  double growth = 0.0;
-  EXPECT_FALSE(let_a_taut_ply_vibrate(0.9, growth));
-  EXPECT_LT(growth, 1.05); // the energy of central differences swings by some per cent
-  EXPECT_GT(growth, 0.0);
-  const auto stop = let_a_taut_ply_vibrate(1.5, growth); // a grid's true limit is 1.22
-  ASSERT_TRUE(stop);
-  for (const char* part : {"stopped at step ", "time ", "ply ply1"})
-    EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
+  for (const ElementKind element : {ElementKind::plain, ElementKind::averaged}) {
+    for (const double step_factor : {0.5, 0.9, 0.99}) {
+      double growth = 0.0;
+      EXPECT_FALSE(let_a_taut_ply_vibrate(element, step_factor, growth)) << step_factor;
+      // near the bound the ledger's energy of the highest modes is 1/(1 - step_factor^2) of theirs
+      EXPECT_LT(growth, step_factor < 0.95 ? 1.1 : 1.6) << step_factor;
+      EXPECT_GT(growth, 0.0);
+    }
+    double growth = 0.0;
+    const auto stop = let_a_taut_ply_vibrate(element, 1.05, growth);
+    // yarns that go slack in turns hold the averaged element's energy at some hundred times the
+    // first: a whole run stops by its ledger then (Run.StopsWhenTheStepIsTooLarge)
+    EXPECT_TRUE(stop || growth > 100.0) << growth;
+    if (!stop) continue;
+    for (const char* part : {"stopped at step ", "time ", "ply ply1"})
+      EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
+  }
 }
 
 TEST(Step, StopsAtACollapsedTriangle) {
