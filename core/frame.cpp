@@ -41,6 +41,7 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   f.x = ply.x;
   f.triangles = ply.membrane.triangles;
   const auto strains = yarn_strains(ply.membrane, ply.x);
+  const auto tensions = yarn_tensions(ply.membrane, ply.x);
   for (std::size_t e = 0; e < f.triangles.size(); ++e) {
     const FibreState s = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
     const auto [warp_strain, weft_strain] = strains[e];
@@ -49,8 +50,8 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
     f.shear_deg.push_back(s.gamma * degrees);
     f.warp_strain.push_back(warp_strain);
     f.weft_strain.push_back(weft_strain);
-    f.warp_tension.push_back(ply.membrane.fabric.warp.at(warp_strain).value);
-    f.weft_tension.push_back(ply.membrane.fabric.weft.at(weft_strain).value);
+    f.warp_tension.push_back(tensions[e][0]);
+    f.weft_tension.push_back(tensions[e][1]);
     const double area_ratio = s.lambda1 * s.lambda2 * s.sin_omega / std::sin(ply.membrane.omega0);
     f.thickness.push_back(ply.thickness / area_ratio);
   }

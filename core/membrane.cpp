@@ -224,6 +224,32 @@ std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<con
   return strains;
 }
 
+std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<const Vec3> x) {
+  std::vector<std::array<double, 2>> tensions = yarn_strains(m, x);
+  for (auto& [warp, weft] : tensions) {
+    warp = m.fabric.warp.at(warp).value;
+    weft = m.fabric.weft.at(weft).value;
+  }
+  const int passes = static_cast<std::size_t>(m.patches()) < m.triangles.size() ? 2 : 0;
+  std::vector<std::array<double, 2>> at_node(x.size());
+  for (int pass = 0; pass < passes; ++pass) {
+    at_node.assign(x.size(), {0.0, 0.0});
+    for (std::size_t e = 0; e < tensions.size(); ++e)
+      for (const int n : m.triangles[e])
+        for (std::size_t a = 0; a < 2; ++a) {
+          const auto node = static_cast<std::size_t>(n);
+          at_node[node][a] += m.area[e] / (3.0 * m.node_area[node]) * tensions[e][a];
+        }
+    for (std::size_t e = 0; e < tensions.size(); ++e)
+      for (std::size_t a = 0; a < 2; ++a) {
+        tensions[e][a] = 0.0;
+        for (const int n : m.triangles[e])
+          tensions[e][a] += at_node[static_cast<std::size_t>(n)][a] / 3.0;
+      }
+  }
+  return tensions;
+}
+
 double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                       std::span<ElementForce> q) {
   if (m.fabric.isotropic) return isotropic_forces(m, x, begin, end, q), 0.0;

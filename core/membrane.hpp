@@ -117,6 +117,12 @@ double deviation_stiffness(const Membrane& m, double gamma);
 /// that its yarns are stretched by.
 std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x);
 
+/// Tensions {warp, weft} (N per yarn) of all m triangles. Of the paper's element W_a' at its
+/// strain. Those of pairs scatter about their mean from pair to pair, as do the multipliers of any
+/// element with as many constraints as freedoms: they are evened out by two passes of means at the
+/// nodes, as is done with the pressures of such elements (docs/method.md has what it changes).
+std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
+
 /// (Q) for patches [begin, end) at positions x, viscous forces included (dt: the step that led to
 /// x, s; 0 leaves the viscosity out). q: one a triangle. Returns the work done against viscosity in
 /// that step, N mm.

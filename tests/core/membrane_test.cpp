@@ -282,6 +282,41 @@ TEST(Membrane, YarnStrainsAreThePatchesMeans) {
   }
 }
 
+TEST(Membrane, YarnTensionsKeepTheirSumAndEvenOutThoseOfPairs) {
+  const BlankMesh mesh = mesh_blank(rectangle(60.0, 60.0, 5.0), 0.0, right_angle);
+  std::vector<Vec3> x;
+  for (const Vec2& p : mesh.x)
+    x.emplace_back(1.01 * p.x(), 1.002 * p.y(), 0.0);
+  for (const bool scattered : {false, true}) {
+    if (scattered) // by some per mille of strain
+      for (std::size_t n = 0; n < x.size(); ++n)
+        x[n].x() += n % 2 ? 0.01 : -0.01;
+    for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged}) {
+      const Membrane m = make_membrane(mesh, glass_weave(), 0.3, kind);
+      const auto strains = yarn_strains(m, x), tensions = yarn_tensions(m, x);
+      double sum = 0.0, expected = 0.0, lowest = 1e9, highest = 0.0, raw_lowest = 1e9,
+             raw_highest = 0.0;
+      for (std::size_t e = 0; e < tensions.size(); ++e) {
+        const double raw = m.fabric.warp.at(strains[e][0]).value;
+        EXPECT_TRUE(kind == ElementKind::averaged || tensions[e][0] == raw);
+        sum += m.area[e] * tensions[e][0];
+        expected += m.area[e] * raw;
+        lowest = std::min(lowest, tensions[e][0]);
+        highest = std::max(highest, tensions[e][0]);
+        raw_lowest = std::min(raw_lowest, raw);
+        raw_highest = std::max(raw_highest, raw);
+      }
+      EXPECT_NEAR(sum, expected, 1e-12 * expected); // a mean of means, by area
+      const double spread = highest - lowest, raw_spread = raw_highest - raw_lowest;
+      if (!scattered) {
+        EXPECT_LT(spread, 1e-9 * highest); // an even tension stays
+      } else if (kind == ElementKind::averaged) {
+        EXPECT_LT(spread, 0.5 * raw_spread);
+      }
+    }
+  }
+}
+
 TEST(Membrane, ViscosityDoesItsWorkByTheTrapezoidalRule) {
   const BlankMesh mesh = mesh_blank(rectangle(20.0, 20.0, 10.0), 0.0, right_angle);
   Membrane m = make_membrane(mesh, glass_weave(), 0.0, ElementKind::plain);
