@@ -13,6 +13,8 @@ namespace {
 
 constexpr double deviation_weight = 8.0; // beta of (E)
 constexpr double stabilisation = 1e-6;   // s_a over yarn stiffness, see (E)
+constexpr double most_of_shear = 0.1;    // s_a over what the shear holds deviations with, and
+constexpr double shear_scale_at = 0.5;   // rad: where that is taken; the law may start from zero
 constexpr double guard = 1e-3;           // g_a over yarn stiffness: far above the shear's scale
 constexpr double guard_stretch = 0.5;
 
@@ -37,17 +39,30 @@ bool sides_along_fibres(const BlankMesh& mesh, double warp_angle, double weft_an
   return true;
 }
 
+namespace {
+
+/// s_a and g_a of a family of yarns, see (E).
+SideStiffness side_stiffness(const Membrane& m, const TensionLaw& yarn, double density,
+                             double softening) {
+  const double soft = yarn.largest_slope(), stiff = softening * soft;
+  const double secant = m.fabric.shear.at(shear_scale_at).value / shear_scale_at;
+  const double by_shear = density > 0.0 ? m.cells_per_area * deviation_weight * secant / density
+                                        : 0.0; // a sheet without yarns has none
+  SideStiffness side{stabilisation * stiff, std::min(guard * stiff, soft)};
+  if (by_shear > 0.0) side.stabilisation = std::min(side.stabilisation, most_of_shear * by_shear);
+  return side;
+}
+
+} // namespace
+
 Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
                        ElementKind kind, double softening) {
   Membrane m;
   m.fabric = fabric;
   m.omega0 = fabric.fibre_angle;
-  const auto side_of = [softening](const TensionLaw& yarn) {
-    const double soft = yarn.largest_slope(), stiff = softening * soft;
-    return SideStiffness{stabilisation * stiff, std::min(guard * stiff, soft)};
-  };
-  m.side = {side_of(fabric.warp), side_of(fabric.weft)};
   m.cells_per_area = fabric.warp_density * fabric.weft_density * std::sin(m.omega0);
+  m.side = {side_stiffness(m, fabric.warp, fabric.warp_density, softening),
+            side_stiffness(m, fabric.weft, fabric.weft_density, softening)};
   if (fabric.isotropic) kind = ElementKind::plain; // there is no yarn to lock
   if (kind == ElementKind::automatic)
     kind = sides_along_fibres(mesh, warp_angle, warp_angle + m.omega0) ? ElementKind::plain
@@ -106,6 +121,12 @@ FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle)
   return s;
 }
 
+bool collapsed(const FibreState& s) {
+  constexpr double least_stretch = 0.1, least_sine_between = 0.02;
+  return !(s.lambda1 > least_stretch && s.lambda2 > least_stretch &&
+           s.sin_omega > least_sine_between);
+}
+
 namespace {
 
 /// Stresses of a triangle without yarns.
@@ -114,15 +135,18 @@ IsotropicState isotropic_state(const Membrane& m, const FibreState& s) {
 }
 
 /// (q) of core/isotropic.hpp for triangles [begin, end).
-void isotropic_forces(const Membrane& m, std::span<const Vec3> x, int begin, int end,
-                      std::span<ElementForce> q) {
+PatchReport isotropic_forces(const Membrane& m, std::span<const Vec3> x, int begin, int end,
+                             std::span<ElementForce> q) {
+  PatchReport report;
   for (int i = begin; i < end; ++i) {
     const auto e = static_cast<std::size_t>(i);
     const FibreState s = fibre_state(m, x, i);
     const Vec3 k1 = s.lambda1 * s.f1, k2 = s.lambda2 * s.f2;
     const IsotropicState t = isotropic_state(*m.fabric.isotropic, k1, k2);
     q[e] = {m.area[e] * (t.s11 * k1 + t.s12 * k2), m.area[e] * (t.s12 * k1 + t.s22 * k2)};
+    report.collapsed |= collapsed(s);
   }
+  return report;
 }
 
 /// The triangles of one patch and their mean stretches.
@@ -250,12 +274,12 @@ std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<co
   return tensions;
 }
 
-double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
-                      std::span<ElementForce> q) {
-  if (m.fabric.isotropic) return isotropic_forces(m, x, begin, end, q), 0.0;
+PatchReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+                           std::span<ElementForce> q) {
+  if (m.fabric.isotropic) return isotropic_forces(m, x, begin, end, q);
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
-  double dissipated = 0.0;
+  PatchReport report;
   for (int p = begin; p < end; ++p) {
     const PatchState s = patch_state(m, x, p);
     double n1 = m.fabric.warp.at(s.mean1 - 1.0).value;
@@ -266,14 +290,17 @@ double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin
     const double dl1 = s.mean1 - last[0], dl2 = s.mean2 - last[1];
     const double v1 = n1 > 0.0 ? m.viscosity.warp * dl1 * per_dt : 0.0;
     const double v2 = n2 > 0.0 ? m.viscosity.weft * dl2 * per_dt : 0.0;
-    dissipated += 0.5 * s.area * (d1 * (v1 + viscous[0]) * dl1 + d2 * (v2 + viscous[1]) * dl2);
+    report.viscous_work +=
+        0.5 * s.area * (d1 * (v1 + viscous[0]) * dl1 + d2 * (v2 + viscous[1]) * dl2);
     last = {s.mean1, s.mean2};
     viscous = {v1, v2};
     n1 += v1;
     n2 += v2;
     patch_forces(m, s, n1, n2, q);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i)
+      report.collapsed |= collapsed(s.triangle[i]);
   }
-  return dissipated;
+  return report;
 }
 
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node) {

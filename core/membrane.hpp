@@ -15,7 +15,9 @@
 //   delta_a  -       eps_a - mean eps_a, zero for a triangle alone
 //   g        rad     sqrt(gamma^2 + beta (delta_1^2 + delta_2^2)): deviations count as shear
 //   beta     -       8
-//   s_a      N       holds deviations of a fabric without shear stiffness: 1e-6 of the yarn's own
+//   s_a      N       holds deviations of a fabric without shear stiffness: 1e-6 of the yarn's own;
+//                    with it no more than a tenth of what the shear itself holds them with at half
+//                    a radian, n_c beta p / d_a, or very stiff yarns would lock
 //   g_a      N       guard against folding a triangle flat, acts below a stretch of one half: 1e-3
 //                    of the yarn stiffness, and no more than the (softened) yarn's own; without
 //                    compressive stiffness that is slack there, and the step need not know of it
@@ -123,11 +125,20 @@ std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<con
 /// nodes, as is done with the pressures of such elements (docs/method.md has what it changes).
 std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
 
+/// Whether a triangle has no meaning any more: shrunk to a tenth along a yarn, or its yarns within
+/// 1.1 degrees of lying on each other. One that turns over in its plane goes through this.
+bool collapsed(const FibreState& state);
+
+/// What came up with the forces of some patches.
+struct PatchReport {
+  double viscous_work = 0.0; ///< N mm, done against viscosity in the step that led here
+  bool collapsed = false;    ///< a triangle is
+};
+
 /// (Q) for patches [begin, end) at positions x, viscous forces included (dt: the step that led to
-/// x, s; 0 leaves the viscosity out). q: one a triangle. Returns the work done against viscosity in
-/// that step, N mm.
-double element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
-                      std::span<ElementForce> q);
+/// x, s; 0 leaves the viscosity out). q: one a triangle.
+PatchReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+                           std::span<ElementForce> q);
 
 /// (F): internal force on a node, N, from all its triangles in fixed order.
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);

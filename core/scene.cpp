@@ -134,6 +134,7 @@ Scene make_scene(const Case& data) {
   }
   s.boundaries.resize(data.boundaries.size());
   s.patch_sums.assign(s.patch_blocks.size(), 0.0);
+  s.patch_collapsed.assign(s.patch_blocks.size(), 0);
   s.node_sums.assign(s.node_blocks.size(), {});
   return s;
 }

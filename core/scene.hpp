@@ -97,6 +97,7 @@ struct Scene {
   std::vector<Block> patch_blocks, node_blocks, bending_blocks;
   std::vector<SheetState> ply_states;    ///< views of the plies, renewed every step
   std::vector<double> patch_sums;        ///< viscous work, one a patch block
+  std::vector<char> patch_collapsed;     ///< whether a triangle has collapsed, one a patch block
   std::vector<NodeSums> node_sums;       ///< one a node block
   double mass_damping_work = 0.0;        ///< N mm, since the start
   double time = 0.0;                     ///< s, of x

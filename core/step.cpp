@@ -66,8 +66,10 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
   const auto patch_task = [&](int i) {
     const Block& block = s.patch_blocks[static_cast<std::size_t>(i)];
     PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
-    s.patch_sums[static_cast<std::size_t>(i)] +=
+    const PatchReport report =
         element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
+    s.patch_sums[static_cast<std::size_t>(i)] += report.viscous_work;
+    s.patch_collapsed[static_cast<std::size_t>(i)] = report.collapsed;
   };
   const auto bending_task = [&](int i) {
     const Block& block = s.bending_blocks[static_cast<std::size_t>(i)];
@@ -213,14 +215,11 @@ std::optional<Stop> find_fault(const Scene& s) {
   return std::nullopt;
 }
 
-/// A triangle whose fibres nearly coincide or have shrunk to a tenth has no meaning any more.
 std::optional<Stop> find_collapsed(const Scene& s) {
-  constexpr double least_stretch = 0.1, least_sine = 0.02;
   for (const PlyBody& ply : s.plies)
     for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e) {
       const FibreState f = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
-      if (f.lambda1 > least_stretch && f.lambda2 > least_stretch && f.sin_omega > least_sine)
-        continue;
+      if (!collapsed(f)) continue;
       return Stop{fmt::format("{}: ply {}, triangle {} has collapsed: stretch {:.3g} along warp, "
                               "{:.3g} along weft, {:.3g} degrees between them",
                               when(s), ply.name, e, f.lambda1, f.lambda2,
@@ -259,6 +258,9 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
     set_step(s);
   }
   add_up_forces(s, team);
+  // at every step: small triangles turn over within a few
+  if (std::find(s.patch_collapsed.begin(), s.patch_collapsed.end(), 1) != s.patch_collapsed.end())
+    if (auto stop = find_collapsed(s)) return stop;
   hold_nodes(s);
   return find_fault(s);
 }
