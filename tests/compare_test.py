@@ -227,6 +227,31 @@ def check_messages(folder):
     assert compare().code == 2
 
 
+def check_against(folder):
+    """Shear angles that are linear in place differ by a constant and a slope, on any two meshes."""
+    folders = []
+    for name, cells, slope, shift in (("coarse", 8, 0.1, 0.0), ("fine", 23, 0.1, 2.0),
+                                      ("steeper", 31, 0.2, 0.0)):
+        x0, triangles = plot_folders.grid(cells, 200.0)
+        folders.append(write(folder / name, {"p": (x0, x0, triangles)}, plies=[
+            {"name": "p", "max_tension_N_per_yarn": 1.0 + shift}]))
+        with h5py.File(folders[-1] / "results.h5", "r+") as file:
+            middle = x0[triangles].mean(axis=1)
+            file["frames/000000/plies/p/shear_angle_deg"][:] = slope * middle[:, 0] + shift
+    coarse, fine, steeper = folders
+    done = compare(fine, "--against", coarse)
+    assert done.code == 0, done
+    triangles, rms, largest, ratio, _ = row(done.out.split("\n\n")[0], "fine", "p")
+    # nodal means are linear but along the rim, where they are those of half a cell further in
+    assert abs(float(rms) - 2.0) < 0.1 and abs(float(largest) - 2.0) < 1.0, done.out
+    assert ratio == "3.00", done.out
+    done = compare(steeper, "--against", coarse)
+    _, rms, largest, ratio, _ = row(done.out.split("\n\n")[0], "steeper", "p")
+    close(float(rms), 0.1 * 200.0 / np.sqrt(12.0), 0.2)  # 0.1 x, x even in +-100
+    assert compare(coarse, "--against", coarse).out.count("0.00") >= 2
+    complains("is missing", coarse, "--against", folder / "nothing")
+
+
 def check_as_a_program(run):
     done = subprocess.run([sys.executable, Path(sys.argv[1]) / "compare.py", run], text=True,
                           capture_output=True, check=False)
@@ -243,6 +268,7 @@ def main():
         check_holes(folder)
         check_summaries(folder)
         check_messages(folder)
+        check_against(folder)
     check_example(run)
     check_as_a_program(run)
 

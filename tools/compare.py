@@ -2,7 +2,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tables of result folders of plyform side by side, in Markdown (keys: docs/results.md).
 
-    compare.py DIR... [--json FILE]
+    compare.py DIR... [--against DIR] [--json FILE]
+
+With --against, first how far the shear angles and the largest tension of each ply are from those
+of another folder, whatever the meshes: at 60 x 60 points of the unformed ply, between nodal means.
 
 One row a ply and folder with shear angles, tension, strains and draw-in, then one row a folder with
 forces, and one with what a run is judged by.
@@ -23,7 +26,7 @@ from pathlib import Path
 
 try:
     import numpy as np
-    from plotting.numbers import border_loop
+    from plotting.numbers import border_loop, values_at
     from plotting.reading import (FIELDS, Ply, Trouble, read_fibre_angles, read_state,
                                   read_summary)
 except ImportError as error:
@@ -89,6 +92,40 @@ def read_run(folder: Path) -> dict:
     return run
 
 
+def differences(state, run: dict, reference, told: dict) -> dict:
+    """Of each ply that both have: rms and largest difference of the shear angle, degrees, and the
+    ratio of the largest tensions."""
+    of_reference = {ply.name: ply for ply in reference.plies}
+    tensions = [{ply["name"]: ply.get("max_tension_N_per_yarn") for ply in summary["plies"]}
+                for summary in (run, told)]
+    found = {}
+    for ply in state.plies:
+        other = of_reference.get(ply.name)
+        if other is None:
+            continue
+        low, high = other.x0.min(axis=0)[:2], other.x0.max(axis=0)[:2]
+        steps = (np.arange(60) + 0.5) / 60  # off the border, where meshes may differ by rounding
+        points = low + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2) * (high - low)
+        apart = (values_at(points, ply.x0, ply.triangles, ply.value) -
+                 values_at(points, other.x0, other.triangles, other.value))
+        apart = apart[np.isfinite(apart)]
+        if len(apart) == 0:
+            raise Trouble(f"ply {ply.name} covers no point of that of the other folder")
+        mine, theirs = (of_run[ply.name] for of_run in tensions)
+        found[ply.name] = {"rms_shear_difference_deg": float(np.sqrt(np.mean(apart ** 2))),
+                           "max_shear_difference_deg": float(abs(apart).max()),
+                           "tension_ratio": mine / theirs if mine and theirs else None}
+    return found
+
+
+def compare_with(folder: Path, runs: list[dict], folders: list[Path]) -> None:
+    reference, told = read_state(folder, FIELDS["shear"]), read_summary(folder)
+    for run, path in zip(runs, folders):
+        found = differences(read_state(path, FIELDS["shear"]), run, reference, told)
+        for ply in run["plies"]:
+            ply.update(found.get(ply["name"], {}))
+
+
 def labels(folders: list[Path]) -> list[str]:
     """Last part of each path, or the paths where two have the same."""
     names = [folder.resolve().name for folder in folders]
@@ -128,6 +165,17 @@ def ply_table(runs: list[dict], names: list[str]) -> str:
              *(with_spread(ply.get(f"draw_in_{key}_mm")) for key in ("yarns", "bisectors"))]
             for run, name in zip(runs, names) for ply in run["plies"]]
     return table(head, rows, 2)
+
+
+def difference_table(runs: list[dict], names: list[str]) -> str:
+    head = ["folder", "ply", "triangles", "shear angle: rms difference, °", "largest, °",
+            "largest tension over the other's", "steps"]
+    rows = [[name, ply["name"], number(run.get("elements"), ".0f"),
+             *(number(ply[f"{key}_shear_difference_deg"], ".2f") for key in ("rms", "max")),
+             number(ply["tension_ratio"], ".2f"), number(run.get("steps"), ".0f")]
+            for run, name in zip(runs, names) for ply in run["plies"]
+            if "rms_shear_difference_deg" in ply]
+    return table(head, rows, 2) if rows else ""
 
 
 def force_table(runs: list[dict], names: list[str]) -> str:
@@ -171,14 +219,18 @@ def remarks(runs: list[dict], names: list[str]) -> str:
 def main() -> None:
     parser = argparse.ArgumentParser(prog="compare.py", description=__doc__.split("\n", 1)[0])
     parser.add_argument("folders", nargs="+", type=Path, metavar="DIR", help="result folder")
+    parser.add_argument("--against", type=Path, metavar="DIR",
+                        help="result folder that the others are compared with")
     parser.add_argument("--json", type=Path, metavar="FILE", help="the numbers, with all walks")
     options = parser.parse_args()
     try:
         runs, names = [read_run(folder) for folder in options.folders], labels(options.folders)
+        if options.against:
+            compare_with(options.against, runs, options.folders)
         if options.json:
             options.json.write_text(json.dumps(runs, indent=2, ensure_ascii=False) + "\n",
                                     encoding="utf-8")
-        parts = [part(runs, names) for part in (ply_table, force_table, run_table, remarks)]
+        parts = [part(runs, names) for part in (difference_table, ply_table, force_table, run_table, remarks)]
         print("\n\n".join(part for part in parts if part))
     except (Trouble, OSError) as problem:
         sys.exit(f"compare.py: error: {problem}")

@@ -24,15 +24,16 @@ public:
     }
   }
 
-  /// Moves the free nodes of x (mm) to equilibrium. Throws std::runtime_error if that fails.
-  void relax(std::vector<Vec3>& x) {
+  /// Moves the free nodes of x (mm) until Newton's next step would change the energy by less than
+  /// `accuracy` of it. Throws std::runtime_error if that fails.
+  void relax(std::vector<Vec3>& x, double accuracy = 1e-10) {
     constexpr int most_iterations = 3000; // locked meshes of slack yarns need 1000
     double energy = total_energy(x), damping = 0.0;
     for (int iteration = 0; iteration < most_iterations; ++iteration) {
       const Eigen::VectorXd force = forces(x);
       const Eigen::VectorXd move = newton(x, force, damping);
       const double gain = force.dot(move); // first-order decrease of the energy
-      if (gain < 1e-10 * energy) return;
+      if (gain < accuracy * energy) return;
       double share = std::min(1.0, 5.0 / move.lpNorm<Eigen::Infinity>()); // 5 mm at most
       std::vector<Vec3> next;
       double lower = energy;
@@ -283,7 +284,7 @@ inline BlankMesh strip_mesh(const StripMesh& spec, double length, double width) 
 /// that the middle zone is sheared by `angles` (rad, ascending).
 inline std::vector<double> bias_loads(const BlankMesh& mesh, const Fabric& fabric, double length,
                                       double width, ElementKind element,
-                                      const std::vector<double>& angles) {
+                                      const std::vector<double>& angles, double accuracy = 1e-10) {
   std::vector<char> held, pulled;
   std::vector<Vec3> x, start;
   for (const Vec2& p : mesh.x) {
@@ -315,7 +316,7 @@ inline std::vector<double> bias_loads(const BlankMesh& mesh, const Fabric& fabri
       last = now;
       before_step = stroke - before;
       before = stroke;
-      strip.relax(x);
+      strip.relax(x, accuracy);
     }
     angle = wanted;
     const std::vector<Vec3> f = strip.nodal(x);

@@ -159,3 +159,21 @@ def deviation(value: np.ndarray, reference: np.ndarray) -> np.ndarray:
     small = 1e-3 * np.nanmax(abs(reference), initial=0.0)
     safe = np.where(abs(reference) > small, reference, np.nan)
     return 100.0 * (value / safe - 1.0)
+
+
+def nodal_means(x0: np.ndarray, triangles: np.ndarray, values: np.ndarray) -> np.ndarray:
+    """Means by area of a value a triangle at the nodes of the unformed ply."""
+    corners = x0[triangles][:, :, :2]
+    a, b = corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
+    area = abs(a[:, 0] * b[:, 1] - a[:, 1] * b[:, 0])
+    weight = np.bincount(triangles.ravel(), np.repeat(area, 3), len(x0))
+    return np.bincount(triangles.ravel(), np.repeat(area * values, 3), len(x0)) / weight
+
+
+def values_at(points: np.ndarray, x0: np.ndarray, triangles: np.ndarray,
+              values: np.ndarray) -> np.ndarray:
+    """A value a triangle at points (p x 2) of the unformed ply, linear between its nodal means;
+    NaN outside. Meshes of any kind can so be compared."""
+    at_node = nodal_means(x0, triangles, values)
+    found, weights = locate(points, x0, triangles)
+    return np.where(found >= 0, (at_node[triangles[found]] * weights).sum(axis=1), np.nan)
