@@ -23,22 +23,6 @@ constexpr double least_sine = 1e-9;
 
 } // namespace
 
-bool sides_along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle) {
-  constexpr double parallel = 1e-3; // rad
-  const auto along = [&](const Triangle& t, double angle) {
-    const Vec2 f(std::cos(angle), std::sin(angle));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 side =
-          mesh.x[static_cast<std::size_t>(t[(k + 1) % 3])] - mesh.x[static_cast<std::size_t>(t[k])];
-      if (std::abs(side.x() * f.y() - side.y() * f.x()) <= parallel * side.norm()) return true;
-    }
-    return false;
-  };
-  for (const Triangle& t : mesh.triangles)
-    if (!along(t, warp_angle) || !along(t, weft_angle)) return false;
-  return true;
-}
-
 namespace {
 
 /// s_a and g_a of a family of yarns, see (E).
@@ -64,11 +48,10 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   m.side = {side_stiffness(m, fabric.warp, fabric.warp_density, softening),
             side_stiffness(m, fabric.weft, fabric.weft_density, softening)};
   if (fabric.isotropic) kind = ElementKind::plain; // there is no yarn to lock
-  if (kind == ElementKind::automatic)
-    kind = sides_along_fibres(mesh, warp_angle, warp_angle + m.omega0) ? ElementKind::plain
-                                                                       : ElementKind::averaged;
-  const Patches patches =
-      kind == ElementKind::plain ? single_patches(mesh.triangles.size()) : pair_patches(mesh);
+  std::vector<char> alone;                         // the paper's element where it does not lock
+  if (kind == ElementKind::automatic) alone = along_fibres(mesh, warp_angle, warp_angle + m.omega0);
+  const Patches patches = kind == ElementKind::plain ? single_patches(mesh.triangles.size())
+                                                     : pair_patches(mesh, alone);
   m.patch_begin = patches.begin;
   for (std::int32_t e : patches.triangles)
     m.triangles.push_back(mesh.triangles[static_cast<std::size_t>(e)]);

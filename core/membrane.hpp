@@ -100,14 +100,12 @@ struct FibreState {
 };
 
 /// `warp_angle` in rad from x. `softening`: what the yarns' laws in `fabric` have been divided by;
-/// s_a and g_a go by the true stiffness. `kind` automatic is decided by sides_along_fibres.
+/// s_a and g_a go by the true stiffness. With `kind` automatic
+/// the triangles that along_fibres (core/patches.hpp) marks are plain, the others averaged.
 /// Triangles are put in the order of their patches. Throws std::invalid_argument for a triangle of
 /// zero or inverted area.
 Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
                        ElementKind kind, double softening = 1.0);
-
-/// Whether every triangle has one side along warp and one along weft, to a thousandth of a radian.
-bool sides_along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle);
 
 FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <numeric>
 
 namespace plyform {
@@ -112,8 +113,35 @@ Patches single_patches(std::size_t triangles) {
   return p;
 }
 
-Patches pair_patches(const BlankMesh& mesh) {
-  const std::vector<SharedSide> sides = shared_sides(mesh);
+std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle) {
+  constexpr double parallel = 1e-3; // rad
+  const auto along = [&](const Triangle& t, double angle) {
+    const Vec2 f(std::cos(angle), std::sin(angle));
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec2 side =
+          mesh.x[static_cast<std::size_t>(t[(k + 1) % 3])] - mesh.x[static_cast<std::size_t>(t[k])];
+      if (std::abs(side.x() * f.y() - side.y() * f.x()) <= parallel * side.norm()) return true;
+    }
+    return false;
+  };
+  std::vector<char> aligned;
+  for (const Triangle& t : mesh.triangles)
+    aligned.push_back(along(t, warp_angle) && along(t, weft_angle));
+  std::vector<char> inside = aligned;
+  for (const SharedSide& s : shared_sides(mesh)) {
+    const auto a = static_cast<std::size_t>(s.a), b = static_cast<std::size_t>(s.b);
+    if (!aligned[a]) inside[b] = 0;
+    if (!aligned[b]) inside[a] = 0;
+  }
+  return inside;
+}
+
+Patches pair_patches(const BlankMesh& mesh, const std::vector<char>& alone) {
+  std::vector<SharedSide> sides = shared_sides(mesh);
+  if (!alone.empty())
+    std::erase_if(sides, [&alone](const SharedSide& s) {
+      return alone[static_cast<std::size_t>(s.a)] || alone[static_cast<std::size_t>(s.b)];
+    });
   std::vector<std::int32_t> mate(mesh.triangles.size(), -1);
   for (const SharedSide& s : sides) {
     auto &a = mate[static_cast<std::size_t>(s.a)], &b = mate[static_cast<std::size_t>(s.b)];

@@ -22,7 +22,12 @@ Patches single_patches(std::size_t triangles);
 
 /// Pairs across shared sides: longest sides first (the two halves of a square find each other),
 /// then re-paired along chains of neighbours until hardly a triangle is alone. Triangles alone
-/// stiffen the mesh, patches of three soften it: see the table in docs/method.md.
-Patches pair_patches(const BlankMesh& mesh);
+/// stiffen the mesh, patches of three soften it: see the table in docs/method.md. Those marked in
+/// `alone` (one a triangle, or empty) stay so.
+Patches pair_patches(const BlankMesh& mesh, const std::vector<char>& alone = {});
+
+/// Triangles (1, else 0) with a side along warp and one along weft, to a thousandth of a radian,
+/// whose neighbours are such too: they share their constraints and do not lock.
+std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle);
 
 } // namespace plyform

@@ -27,6 +27,24 @@ std::string bending_text(const PlyBody& ply) {
                      fabric.weft.compression);
 }
 
+/// Which element, and why.
+std::string element_text(const Membrane& m, ElementKind asked) {
+  const int triangles = static_cast<int>(m.triangles.size()), pairs = triangles - m.patches();
+  const char* name = pairs == 0 ? "plain element" : "averaged element";
+  if (asked != ElementKind::automatic) return fmt::format("{}: as solver.element says", name);
+  if (pairs == 0)
+    return fmt::format("{}: every triangle has sides along both fibre families", name);
+  constexpr double worth_telling = 0.01; // stray triangles alone are less
+  const double plain = static_cast<double>(triangles - 2 * pairs) / triangles;
+  if (plain < worth_telling)
+    return fmt::format("{}: sides do not run along both fibre families, the plain element would "
+                       "lock",
+                       name);
+  return fmt::format("plain element where sides run along both fibre families ({:.0f} % of the "
+                     "triangles), averaged element elsewhere, where it would lock",
+                     100.0 * plain);
+}
+
 void print_plies(const Scene& s) {
   for (const PlyBody& ply : s.plies) {
     const Membrane& m = ply.membrane;
@@ -35,15 +53,9 @@ void print_plies(const Scene& s) {
                  m.triangles.size(), bending_text(ply));
       continue;
     }
-    const bool plain = m.patches() == static_cast<int>(m.triangles.size());
-    const bool chosen = s.data.solver.element == ElementKind::automatic;
-    fmt::print("ply {}: {} nodes, {} triangles, warp at {:g} degrees; {} element: {}; {}\n",
-               ply.name, ply.x.size(), m.triangles.size(), ply.angle * 180.0 / M_PI,
-               plain ? "plain" : "averaged",
-               !chosen ? "as solver.element says"
-               : plain ? "every triangle has sides along both fibre families"
-                       : "sides do not run along both fibre families, the plain element would lock",
-               bending_text(ply));
+    fmt::print("ply {}: {} nodes, {} triangles, warp at {:g} degrees; {}; {}\n", ply.name,
+               ply.x.size(), m.triangles.size(), ply.angle * 180.0 / M_PI,
+               element_text(m, s.data.solver.element), bending_text(ply));
   }
 }
 

@@ -344,6 +344,18 @@ TEST(Membrane, PicksTheElementThatSuitsTheMesh) {
   };
   EXPECT_EQ(patches(0.0), 18);            // sides along both families: the paper's element
   EXPECT_EQ(patches(right_angle / 2), 9); // pairs
+  // cells along the yarns inside, a band of others along the rim
+  const BlankMesh cut = mesh_blank(rectangle(100.0, 100.0, 10.0, MeshKind::fibres), 0.5, 2.0);
+  Fabric skew = glass_weave();
+  skew.fibre_angle = 1.5;
+  const Membrane m = make_membrane(cut, skew, 0.5, ElementKind::automatic);
+  int alone = 0;
+  for (int p = 0; p < m.patches(); ++p)
+    alone += m.patch_begin[static_cast<std::size_t>(p) + 1] -
+                 m.patch_begin[static_cast<std::size_t>(p)] ==
+             1;
+  EXPECT_GT(alone, 40);                                          // of about 140 in 70 whole cells
+  EXPECT_GT(static_cast<int>(cut.triangles.size()) - alone, 60); // the band and its neighbours
   BlankMesh turned = mesh;
   std::swap(turned.triangles[0][0], turned.triangles[0][1]);
   EXPECT_THROW(make_membrane(turned, glass_weave(), 0.0, ElementKind::plain),
