@@ -133,6 +133,13 @@ std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double 
     if (!aligned[a]) inside[b] = 0;
     if (!aligned[b]) inside[a] = 0;
   }
+  std::vector<char> near(mesh.x.size(), 0);
+  for (std::size_t e = 0; e < inside.size(); ++e)
+    for (const int n : mesh.triangles[e])
+      if (inside[e]) near[static_cast<std::size_t>(n)] = 1;
+  for (std::size_t e = 0; e < inside.size(); ++e)
+    for (const int n : mesh.triangles[e])
+      if (near[static_cast<std::size_t>(n)]) inside[e] = 1;
   return inside;
 }
 

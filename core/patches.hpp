@@ -26,8 +26,10 @@ Patches single_patches(std::size_t triangles);
 /// `alone` (one a triangle, or empty) stay so.
 Patches pair_patches(const BlankMesh& mesh, const std::vector<char>& alone = {});
 
-/// Triangles (1, else 0) with a side along warp and one along weft, to a thousandth of a radian,
-/// whose neighbours are such too: they share their constraints and do not lock.
+/// Triangles (1, else 0) that the plain element suits: with a side along warp and one along weft,
+/// to a thousandth of a radian, as have their neighbours, so that they share their constraints; and
+/// those that touch such a triangle, since the band between whole cells and a rim is too narrow to
+/// lock.
 std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle);
 
 } // namespace plyform

@@ -32,14 +32,12 @@ std::string element_text(const Membrane& m, ElementKind asked) {
   const int triangles = static_cast<int>(m.triangles.size()), pairs = triangles - m.patches();
   const char* name = pairs == 0 ? "plain element" : "averaged element";
   if (asked != ElementKind::automatic) return fmt::format("{}: as solver.element says", name);
-  if (pairs == 0)
-    return fmt::format("{}: every triangle has sides along both fibre families", name);
-  constexpr double worth_telling = 0.01; // stray triangles alone are less
+  constexpr double few = 0.01; // a band along the rim, or stray triangles alone
   const double plain = static_cast<double>(triangles - 2 * pairs) / triangles;
-  if (plain < worth_telling)
-    return fmt::format("{}: sides do not run along both fibre families, the plain element would "
-                       "lock",
-                       name);
+  if (plain > 1.0 - few) return "plain element: sides run along both fibre families";
+  if (plain < few)
+    return "averaged element: sides do not run along both fibre families, the plain element would "
+           "lock";
   return fmt::format("plain element where sides run along both fibre families ({:.0f} % of the "
                      "triangles), averaged element elsewhere, where it would lock",
                      100.0 * plain);
