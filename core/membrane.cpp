@@ -21,10 +21,6 @@ constexpr double guard_stretch = 0.5;
 /// Below this sine the two fibre families coincide and the shear angle has no meaning.
 constexpr double least_sine = 1e-9;
 
-} // namespace
-
-namespace {
-
 /// s_a and g_a of a family of yarns, see (E).
 SideStiffness side_stiffness(const Membrane& m, const TensionLaw& yarn, double density,
                              double softening) {
