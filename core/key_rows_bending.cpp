@@ -39,7 +39,8 @@ Rows twist_rows() {
            .ranges = {not_negative},
            .of = "law",
            .with = {"woven"},
-           .meaning = "moment per width divided by the twist of the surface between warp and weft; "
+           .meaning = "sum of the twisting moments per width on both cuts, over the twist of the "
+                      "surface between warp and weft (2 (1 - nu) D of an isotropic plate); "
                       "with 0 a ply bends freely to a saddle, and a strip cut at 45 degrees hangs "
                       "limp"}};
 }

@@ -233,7 +233,12 @@ std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<co
     warp = m.fabric.warp.at(warp).value;
     weft = m.fabric.weft.at(weft).value;
   }
-  const int passes = static_cast<std::size_t>(m.patches()) < m.triangles.size() ? 2 : 0;
+  std::vector<std::size_t> paired;
+  for (std::size_t p = 0; p + 1 < m.patch_begin.size(); ++p)
+    for (int e = m.patch_begin[p]; e < m.patch_begin[p + 1]; ++e)
+      if (m.patch_begin[p + 1] - m.patch_begin[p] > 1)
+        paired.push_back(static_cast<std::size_t>(e));
+  const int passes = paired.empty() ? 0 : 2;
   std::vector<std::array<double, 2>> at_node(x.size());
   for (int pass = 0; pass < passes; ++pass) {
     at_node.assign(x.size(), {0.0, 0.0});
@@ -243,7 +248,7 @@ std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<co
           const auto node = static_cast<std::size_t>(n);
           at_node[node][a] += m.area[e] / (3.0 * m.node_area[node]) * tensions[e][a];
         }
-    for (std::size_t e = 0; e < tensions.size(); ++e)
+    for (const auto e : paired)
       for (std::size_t a = 0; a < 2; ++a) {
         tensions[e][a] = 0.0;
         for (const int n : m.triangles[e])

@@ -19,16 +19,18 @@
 //                    with it no more than a tenth of what the shear itself holds them with at half
 //                    a radian, n_c beta p / d_a, or very stiff yarns would lock
 //   g_a      N       guard against folding a triangle flat, acts below a stretch of one half: 1e-3
-//                    of the yarn stiffness, and no more than the (softened) yarn's own; without
-//                    compressive stiffness that is slack there, and the step need not know of it
+//                    of the yarn stiffness, and no more than the (softened) yarn's own, which
+//                    is slack there unless the yarn bears compression or its pair is taut
 //
+// clang-format off
 //   E_P = A [ d_1 W_1(mean eps_1) + d_2 W_2(mean eps_2) ]
 //         + sum over P of A0 [ n_c Ws(g) + sum_a d_a ( s_a/2 delta_a^2
-//                                                    + g_a/2 max(0, 1/2 - lambda_a)^2 ) ] (E)
+//                                                    + g_a/2 max(0, 1/2 - lambda_a)^2 ) ]    (E)
 //   p   = Cs(g) / g, N mm: secant stiffness of the cell;  t_a = n_c beta p delta_a / d_a
-//   N_a = W_a'(mean eps_a) + s_a delta_a + t_a - mean t_a - g_a max(0, 1/2 - lambda_a) (N) q_a = A0
-//   [ d_a N_a f_a + n_c p gamma (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]        (Q) F_n =
-//   -( c_1,n q_1 + c_2,n q_2 )                                                (31)(32)(39)(F)
+//   N_a = W_a'(mean eps_a) + s_a delta_a + t_a - mean t_a - g_a max(0, 1/2 - lambda_a)       (N)
+//   q_a = A0 [ d_a N_a f_a + n_c p gamma (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]    (Q)
+//   F_n = -( c_1,n q_1 + c_2,n q_2 )                                            (31)(32)(39)(F)
+// clang-format on
 //
 // Numbers in brackets: the paper's equations, cleaned. With patches of one triangle this is the
 // paper's element exactly (the guard apart, which no sound result reaches); for omega0 = 90 degrees
@@ -39,7 +41,7 @@
 // as the node has freedoms in the plane; the mesh locks unless sides run along both families. One
 // mean strain a pair of triangles leaves two a node. The mean is convex, so a pair is never stiffer
 // than its triangles. Why deviations count as shear: what a pair is free to do must cost as much as
-// the shear that it could replace, at any shear angle, and no more: measured in docs/method.md.
+// the shear that it could replace, at any shear angle, and no more: measured in docs/locking.md.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -100,10 +102,9 @@ struct FibreState {
 };
 
 /// `warp_angle` in rad from x. `softening`: what the yarns' laws in `fabric` have been divided by;
-/// s_a and g_a go by the true stiffness. With `kind` automatic
-/// the triangles that along_fibres (core/patches.hpp) marks are plain, the others averaged.
-/// Triangles are put in the order of their patches. Throws std::invalid_argument for a triangle of
-/// zero or inverted area.
+/// s_a and g_a go by the true stiffness. With `kind` automatic the triangles that along_fibres
+/// (core/patches.hpp) marks are plain, the others averaged. Triangles are put in the order of their
+/// patches. Throws std::invalid_argument for a triangle of zero or inverted area.
 Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
                        ElementKind kind, double softening = 1.0);
 
@@ -117,10 +118,10 @@ double deviation_stiffness(const Membrane& m, double gamma);
 /// that its yarns are stretched by.
 std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x);
 
-/// Tensions {warp, weft} (N per yarn) of all m triangles. Of the paper's element W_a' at its
+/// Tensions {warp, weft} (N per yarn) of all m triangles. Of triangles alone W_a' at their
 /// strain. Those of pairs scatter about their mean from pair to pair, as do the multipliers of any
 /// element with as many constraints as freedoms: they are evened out by two passes of means at the
-/// nodes, as is done with the pressures of such elements (docs/method.md has what it changes).
+/// nodes, as is done with the pressures of such elements (docs/locking.md has what it changes).
 std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
 
 /// Whether a triangle has no meaning any more: shrunk to a tenth along a yarn, or its yarns within

@@ -65,11 +65,18 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
   const double v1 = m.fabric.warp_density * m.viscosity.warp;
   const double v2 = m.fabric.weft_density * m.viscosity.weft;
   const double per_mass = 3.0 / m.fabric.surface_density;
+  // a triangle's guard adds to the stiffness of its pair's taut yarns
+  const bool paired = static_cast<std::size_t>(m.patches()) < m.triangles.size();
+  const double g1 = m.fabric.warp_density * m.side[0].guard;
+  const double g2 = m.fabric.weft_density * m.side[1].guard;
+  constexpr double guard_reach = 0.55; // stretch: the guard acts below 0.5
+  constexpr double considerable = 0.2; // of the yarn's stiffness: less is covered by step factors
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const Gram g = gram(m.c[e]);
     const FibreState s = fibre_state(m, x, static_cast<int>(e));
     const auto [d1, d2] = deviation_stiffness(m, s);
-    const double k1 = s1 + d1, k2 = s2 + d2;
+    const double k1 = s1 + d1 + (paired && s.lambda1 < guard_reach ? g1 : 0.0);
+    const double k2 = s2 + d2 + (paired && s.lambda2 < guard_reach ? g2 : 0.0);
     const double fibre = largest(k1 * g.g11, k2 * g.g22, std::sqrt(k1 * k2) * g.g12 * s.cos_omega);
     const double viscous =
         largest(v1 * g.g11, v2 * g.g22, std::sqrt(v1 * v2) * g.g12 * s.cos_omega);
@@ -81,6 +88,14 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
                   g.g22, g.g12)
             : 0.0;
     const double soft = soft_stiffness(m, s) * largest(g.g11, g.g22, g.g12);
+    for (std::size_t a = 0; a < 2; ++a) {
+      const TensionLaw& yarn = a == 0 ? m.fabric.warp : m.fabric.weft;
+      const double lambda = a == 0 ? s.lambda1 : s.lambda2;
+      bound.guarded = bound.guarded || (lambda < guard_reach &&
+                                        m.side[a].guard > considerable * yarn.largest_slope());
+    }
+    bound.yarns = std::max(bound.yarns, per_mass * (fibre + sheet));
+    bound.soft = std::max(bound.soft, per_mass * soft);
     const double omega2 = per_mass * (fibre + sheet + soft);
     if (!(omega2 <= bound.omega2)) {
       bound.omega2 = omega2;
@@ -163,18 +178,13 @@ Eigen::VectorXd scattered(Eigen::Index size) {
 
 } // namespace
 
-double highest_omega2(const Membrane& m, std::span<const Vec3> x) {
-  const double irons = frequency_bound(m, x).omega2;
-  if (m.fabric.isotropic) return irons;
+double sharpness(const Membrane& m, std::span<const Vec3> x) {
+  if (m.fabric.isotropic) return 1.0;
   constexpr int steps = 30;       // leaves 1 % to find on meshes of 1e6 triangles
   constexpr double margin = 1.03; // for that, three times
   std::vector<FibreState> states;
-  double soft = 0.0;
-  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+  for (std::size_t e = 0; e < m.triangles.size(); ++e)
     states.push_back(fibre_state(m, x, static_cast<int>(e)));
-    const Gram g = gram(m.c[e]);
-    soft = std::max(soft, soft_stiffness(m, states[e]) * largest(g.g11, g.g22, g.g12));
-  }
   std::vector<Vec3> y(x.size());
   std::vector<ElementForce> q(m.triangles.size());
   const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
@@ -188,9 +198,13 @@ double highest_omega2(const Membrane& m, std::span<const Vec3> x) {
           -node_force(m, q, static_cast<int>(n)) / std::sqrt(m.node_mass[n]);
     return w;
   };
-  const auto size = static_cast<Eigen::Index>(3 * x.size());
-  const double found = ritz_value(apply, scattered(size), steps);
-  return std::min(irons, margin * found + 3.0 / m.fabric.surface_density * soft);
+  const double found = ritz_value(apply, scattered(static_cast<Eigen::Index>(3 * x.size())), steps);
+  return std::min(1.0, margin * found / frequency_bound(m, x).yarns);
+}
+
+double highest_omega2(const FrequencyBound& bound, double sharpness) {
+  if (bound.guarded) return bound.omega2;
+  return std::min(bound.omega2, sharpness * bound.yarns + bound.soft);
 }
 
 } // namespace plyform

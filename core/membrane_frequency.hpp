@@ -15,15 +15,21 @@ namespace plyform {
 
 /// Bounds of one ply at its present shape, by Irons.
 struct FrequencyBound {
-  double omega2 = 0.0;  ///< 1/s^2
+  double omega2 = 0.0;            ///< 1/s^2
+  double yarns = 0.0, soft = 0.0; ///< 1/s^2, largest of yarns alone; of shear and tension
+  bool guarded = false; ///< whether a guard about as stiff as its yarns acts on a triangle
   double damping = 0.0; ///< 1/s, of M^-1 C
   int triangle = -1;    ///< where
 };
 FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x);
 
-/// Largest omega^2 (1/s^2) at shape x (mm), two or three per cent on the safe side: Ritz value of
-/// the yarns' stiffness, with a margin for what the iteration has not found, and Irons' bound for
-/// shear and tension. Never above frequency_bound. For a sheet without yarns that bound.
-double highest_omega2(const Membrane& m, std::span<const Vec3> x);
+/// omega^2 of the yarns' stiffness alone at shape x (mm) over FrequencyBound::yarns, at most 1: the
+/// largest Ritz value with a margin of 3 % for what the iteration has not found. Guards that act
+/// are left out. 1 for a sheet without yarns.
+double sharpness(const Membrane& m, std::span<const Vec3> x);
+
+/// Largest omega^2 (1/s^2) of a bound whose part of the yarns is sharpened; Irons' where guards
+/// act.
+double highest_omega2(const FrequencyBound& bound, double sharpness);
 
 } // namespace plyform

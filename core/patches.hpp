@@ -22,7 +22,7 @@ Patches single_patches(std::size_t triangles);
 
 /// Pairs across shared sides: longest sides first (the two halves of a square find each other),
 /// then re-paired along chains of neighbours until hardly a triangle is alone. Triangles alone
-/// stiffen the mesh, patches of three soften it: see the table in docs/method.md. Those marked in
+/// stiffen the mesh, patches of three soften it: see the table in docs/locking.md. Those marked in
 /// `alone` (one a triangle, or empty) stay so.
 Patches pair_patches(const BlankMesh& mesh, const std::vector<char>& alone = {});
 

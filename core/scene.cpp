@@ -140,7 +140,7 @@ Scene make_scene(const Case& data) {
 }
 
 void sharpen_bound(PlyBody& ply) {
-  ply.sharpness = highest_omega2(ply.membrane, ply.x) / frequency_bound(ply.membrane, ply.x).omega2;
+  ply.sharpness = sharpness(ply.membrane, ply.x);
 }
 
 StepBound stable_step(const Scene& s) {
@@ -172,8 +172,8 @@ StepBound stable_step(const Scene& s) {
     double contact = 0.0;
     for (std::size_t n = 0; n < rows[p].size(); ++n)
       contact = std::max(contact, rows[p][n] / ply.membrane.node_mass[n]);
-    const double omega2 =
-        ply.sharpness * element.omega2 + contact + (ply.bending ? ply.bending->omega2 : 0.0);
+    const double omega2 = highest_omega2(element, ply.sharpness) + contact +
+                          (ply.bending ? ply.bending->omega2 : 0.0);
     const double c = element.damping + contact * damping_ratio + s.data.solver.mass_damping;
     const double dt = (std::sqrt(c * c + 4.0 * omega2) - c) / omega2;
     if (bound.ply < 0 || !(dt >= bound.dt))

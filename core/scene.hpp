@@ -23,8 +23,8 @@ struct PlyBody {
   double angle = 0.0;     ///< rad, warp from x, before forming
   double thickness = 0.0; ///< mm
   Membrane membrane;
-  double sharpness = 1.0;  ///< omega^2 of the mesh over that of its stiffest element, now and then
-  std::vector<Vec3> x0, x; ///< mm
+  double sharpness = 1.0;         ///< core/membrane_frequency.hpp, renewed now and then
+  std::vector<Vec3> x0, x;        ///< mm
   std::vector<Vec3> velocity;     ///< mm/s, half a step behind x
   std::vector<Vec3> motion;       ///< mm, of the last step
   std::vector<Vec3> x_search;     ///< mm, where the contact search was last done

@@ -2,7 +2,7 @@
 // How far a mesh whose sides do not follow the yarns falsifies the load of a bias-extension test,
 // at rest, strip of 300 x 100 mm of the glass weave: one row of CSV a mesh, element and size.
 //   locking_study angles     sizes w/10 and w/20, cells at 0 to 45 degrees to the yarns
-//   locking_study sizes      four sizes, three angles
+//   locking_study sizes      four sizes, four angles
 #include "core/static_bias.hpp"
 
 #include <cstdio>

@@ -230,7 +230,8 @@ def main() -> None:
         if options.json:
             options.json.write_text(json.dumps(runs, indent=2, ensure_ascii=False) + "\n",
                                     encoding="utf-8")
-        parts = [part(runs, names) for part in (difference_table, ply_table, force_table, run_table, remarks)]
+        parts = [part(runs, names) for part in
+                 (difference_table, ply_table, force_table, run_table, remarks)]
         print("\n\n".join(part for part in parts if part))
     except (Trouble, OSError) as problem:
         sys.exit(f"compare.py: error: {problem}")
