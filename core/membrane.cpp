@@ -11,11 +11,10 @@
 namespace plyform {
 namespace {
 
-constexpr double deviation_weight = 8.0; // beta of (E)
-constexpr double stabilisation = 1e-6;   // s_a over yarn stiffness, see (E)
-constexpr double most_of_shear = 0.1;    // s_a over what the shear holds deviations with, and
-constexpr double shear_scale_at = 0.5;   // rad: where that is taken; the law may start from zero
-constexpr double guard = 1e-3;           // g_a over yarn stiffness: far above the shear's scale
+constexpr double stabilisation = 1e-6; // s_a over yarn stiffness, see (E)
+constexpr double most_of_shear = 0.1;  // s_a over what the shear holds deviations with, and
+constexpr double shear_scale_at = 0.5; // rad: where that is taken; the law may start from zero
+constexpr double guard = 1e-3;         // g_a over yarn stiffness: far above the shear's scale
 constexpr double guard_stretch = 0.5;
 
 /// Below this sine the two fibre families coincide and the shear angle has no meaning.

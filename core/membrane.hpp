@@ -52,6 +52,8 @@
 
 namespace plyform {
 
+constexpr double deviation_weight = 8.0; ///< beta of (E)
+
 /// Fibre family constants of one triangle: c_a,1 and c_a,2 (c_a,0 = -c_a,1 - c_a,2).
 struct FibreGradients {
   double c11, c12, c21, c22;

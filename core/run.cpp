@@ -164,9 +164,13 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
 } // namespace
 
 RunResult run_case(const Case& data, int threads, const RunHooks& hooks) {
+  Scene s = make_scene(data);
+  return run_scene(s, threads, hooks);
+}
+
+RunResult run_scene(Scene& s, int threads, const RunHooks& hooks) {
   const auto begin = Clock::now();
   ThreadTeam team(threads);
-  Scene s = make_scene(data);
   start(s, team);
   const double floor = balance_floor(s);
   RunResult result;
@@ -184,7 +188,7 @@ RunResult run_case(const Case& data, int threads, const RunHooks& hooks) {
     stop = compute_forces(s, team);
     if (stop) break;
     const bool interrupted = hooks.interrupt && hooks.interrupt->load();
-    const bool last = interrupted || s.time >= data.solver.duration;
+    const bool last = interrupted || s.time >= s.data.solver.duration;
     const bool output = last || outputs_due(s) > written;
     if (output || s.step % check_every == 0) {
       energy = current_energies(s, team);
@@ -194,7 +198,7 @@ RunResult run_case(const Case& data, int threads, const RunHooks& hooks) {
       if (hooks.progress) hooks.progress(progress_of(s, energy, seconds_since(begin)));
     }
     if (output) write();
-    if (interrupted && s.time < data.solver.duration) result.summary.status = "interrupted";
+    if (interrupted && s.time < s.data.solver.duration) result.summary.status = "interrupted";
     if (last) break;
     move_plies(s, team);
   }

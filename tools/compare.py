@@ -79,8 +79,31 @@ def draw_ins(ply: Ply, fibre_angle_deg: float) -> dict:
     return told
 
 
-def read_run(folder: Path) -> dict:
-    """The summary, with the draw-ins of each ply and the folder."""
+def shear_difference(ply: Ply, other: Ply) -> dict:
+    """Rms and largest difference of the shear angle, degrees."""
+    low, high = other.x0.min(axis=0)[:2], other.x0.max(axis=0)[:2]
+    steps = (np.arange(60) + 0.5) / 60  # off the border, where meshes may differ by rounding
+    points = low + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2) * (high - low)
+    apart = (values_at(points, ply.x0, ply.triangles, ply.value) -
+             values_at(points, other.x0, other.triangles, other.value))
+    apart = apart[np.isfinite(apart)]
+    if len(apart) == 0:
+        raise Trouble(f"ply {ply.name} covers no point of that of the other folder")
+    return {"rms_shear_difference_deg": float(np.sqrt(np.mean(apart ** 2))),
+            "max_shear_difference_deg": float(abs(apart).max())}
+
+
+def read_reference(folder: Path) -> dict[str, tuple[Ply, float | None]]:
+    """What --against compares with: each ply with its largest tension."""
+    tensions = {ply["name"]: ply.get("max_tension_N_per_yarn")
+                for ply in read_summary(folder)["plies"]}
+    return {ply.name: (ply, tensions.get(ply.name))
+            for ply in read_state(folder, FIELDS["shear"]).plies}
+
+
+def read_run(folder: Path, reference: dict[str, tuple[Ply, float | None]]) -> dict:
+    """The summary and the folder, with the draw-ins of each ply and, where the reference has it,
+    how far it is from that."""
     run = {"folder": str(folder), **read_summary(folder)}
     state, angles = read_state(folder, FIELDS["shear"]), read_fibre_angles(folder)
     plies = {ply.name: ply for ply in state.plies}
@@ -89,41 +112,12 @@ def read_run(folder: Path) -> dict:
                       "are they of one run?")
     for ply in run["plies"]:
         ply.update(draw_ins(plies[ply["name"]], angles[ply["name"]]))
+        if ply["name"] in reference:
+            other, theirs = reference[ply["name"]]
+            mine = ply.get("max_tension_N_per_yarn")
+            ply.update(shear_difference(plies[ply["name"]], other),
+                       tension_ratio=mine / theirs if mine and theirs else None)
     return run
-
-
-def differences(state, run: dict, reference, told: dict) -> dict:
-    """Of each ply that both have: rms and largest difference of the shear angle, degrees, and the
-    ratio of the largest tensions."""
-    of_reference = {ply.name: ply for ply in reference.plies}
-    tensions = [{ply["name"]: ply.get("max_tension_N_per_yarn") for ply in summary["plies"]}
-                for summary in (run, told)]
-    found = {}
-    for ply in state.plies:
-        other = of_reference.get(ply.name)
-        if other is None:
-            continue
-        low, high = other.x0.min(axis=0)[:2], other.x0.max(axis=0)[:2]
-        steps = (np.arange(60) + 0.5) / 60  # off the border, where meshes may differ by rounding
-        points = low + np.stack(np.meshgrid(steps, steps), axis=-1).reshape(-1, 2) * (high - low)
-        apart = (values_at(points, ply.x0, ply.triangles, ply.value) -
-                 values_at(points, other.x0, other.triangles, other.value))
-        apart = apart[np.isfinite(apart)]
-        if len(apart) == 0:
-            raise Trouble(f"ply {ply.name} covers no point of that of the other folder")
-        mine, theirs = (of_run[ply.name] for of_run in tensions)
-        found[ply.name] = {"rms_shear_difference_deg": float(np.sqrt(np.mean(apart ** 2))),
-                           "max_shear_difference_deg": float(abs(apart).max()),
-                           "tension_ratio": mine / theirs if mine and theirs else None}
-    return found
-
-
-def compare_with(folder: Path, runs: list[dict], folders: list[Path]) -> None:
-    reference, told = read_state(folder, FIELDS["shear"]), read_summary(folder)
-    for run, path in zip(runs, folders):
-        found = differences(read_state(path, FIELDS["shear"]), run, reference, told)
-        for ply in run["plies"]:
-            ply.update(found.get(ply["name"], {}))
 
 
 def labels(folders: list[Path]) -> list[str]:
@@ -224,9 +218,9 @@ def main() -> None:
     parser.add_argument("--json", type=Path, metavar="FILE", help="the numbers, with all walks")
     options = parser.parse_args()
     try:
-        runs, names = [read_run(folder) for folder in options.folders], labels(options.folders)
-        if options.against:
-            compare_with(options.against, runs, options.folders)
+        reference = read_reference(options.against) if options.against else {}
+        runs = [read_run(folder, reference) for folder in options.folders]
+        names = labels(options.folders)
         if options.json:
             options.json.write_text(json.dumps(runs, indent=2, ensure_ascii=False) + "\n",
                                     encoding="utf-8")

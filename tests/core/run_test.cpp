@@ -140,20 +140,7 @@ double force_from_above(const Scene& s, int lower) {
 
 TEST(Run, CarriesAPlatesForceThroughEveryPlyOfAStack) {
   Case data = stack_of({0.0, 0.25 * std::numbers::pi, 0.0}, rectangle(100.0, 100.0, 12.5));
-  Tool floor;
-  floor.name = "floor";
-  floor.shape = Plane{};
-  Tool plate;
-  plate.name = "plate";
-  plate.shape = Box{{140.0, 140.0, 10.0}};
-  plate.position = {0.0, 0.0, 3 * 0.6 + 5.0};
-  plate.motion = Motion::force;
-  plate.force = 30.0;
-  data.tools = {floor, plate};
-  set_friction(data, 0.2);
-  data.solver.fibre_softening = 100.0;
-  data.solver.mass_damping = 2000.0; // 1/s: at rest long before the end
-  data.solver.duration = 0.02;
+  press_by_plate(data);
   Scene s = make_scene(data);
   ThreadTeam team(1);
   start(s, team);

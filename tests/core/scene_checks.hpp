@@ -25,6 +25,25 @@ inline void set_friction(Case& data, double mu) {
                           mu);
 }
 
+/// Puts the stack between a floor and a plate of 30 N with friction, to be at rest in 0.02 s.
+inline void press_by_plate(Case& data) {
+  Tool floor;
+  floor.name = "floor";
+  floor.shape = Plane{};
+  Tool plate;
+  plate.name = "plate";
+  plate.shape = Box{{140.0, 140.0, 10.0}};
+  const double top = glass_weave().thickness * static_cast<double>(data.plies.size());
+  plate.position = {0.0, 0.0, top + 5.0};
+  plate.motion = Motion::force;
+  plate.force = 30.0;
+  data.tools = {floor, plate};
+  set_friction(data, 0.2);
+  data.solver.fibre_softening = 100.0;
+  data.solver.mass_damping = 2000.0; // 1/s: at rest long before the end
+  data.solver.duration = 0.02;
+}
+
 /// The shipped hemisphere, coarse: 289 cells a ply, a second or so.
 inline Case coarse_hemisphere(const std::vector<double>& angles) {
   Case data = stack_of(angles, rectangle(340.0, 340.0, 20.0));

@@ -135,7 +135,7 @@ private:
                  const std::array<double, 2>& mean, Eigen::MatrixXd& k) const {
     const auto i = static_cast<std::size_t>(triangle);
     const PlaneState& s = t[i];
-    constexpr double beta = 8.0;
+    constexpr double beta = deviation_weight;
     std::array<double, 2> delta{s.lambda[0] - mean[0], s.lambda[1] - mean[1]};
     const double g2 = s.gamma * s.gamma + beta * (delta[0] * delta[0] + delta[1] * delta[1]);
     const double g = std::sqrt(g2), cells = m.cells_per_area * s.area;

@@ -92,20 +92,7 @@ Case fine_and_coarse(bool fine_above) {
   Case data = stack_of({0.0, 0.0}, rectangle(100.0, 100.0, 20.0));
   data.blanks.push_back(rectangle(100.0, 100.0, 5.0));
   data.plies[fine_above ? 1 : 0].blank = 1;
-  Tool floor;
-  floor.name = "floor";
-  floor.shape = Plane{};
-  Tool plate;
-  plate.name = "plate";
-  plate.shape = Box{{140.0, 140.0, 10.0}};
-  plate.position = {0.0, 0.0, 2 * 0.6 + 5.0};
-  plate.motion = Motion::force;
-  plate.force = 30.0;
-  data.tools = {floor, plate};
-  set_friction(data, 0.2);
-  data.solver.fibre_softening = 100.0;
-  data.solver.mass_damping = 2000.0; // 1/s: at rest long before the end
-  data.solver.duration = 0.02;
+  press_by_plate(data);
   return data;
 }
 
