@@ -3,6 +3,7 @@
 #include "core/run.hpp"
 #include "core/step.hpp"
 #include "scene_checks.hpp"
+#include "thread_checks.hpp"
 
 #include <cstring>
 #include <gtest/gtest.h>
@@ -354,10 +355,6 @@ TEST(BoundaryScene, GripsOffThePlaneMayCrossIt) {
 }
 
 // ---- runs ----
-
-bool same_bits(const std::vector<Vec3>& a, const std::vector<Vec3>& b) {
-  return a.size() == b.size() && std::memcmp(a.data(), b.data(), a.size() * sizeof(Vec3)) == 0;
-}
 
 TEST(BoundaryScene, GivesTheSameBitsForAnyNumberOfThreads) {
   Case data = pushed_square(0.0, MeshKind::alternating, true);
