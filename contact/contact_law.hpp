@@ -4,12 +4,15 @@
 //   h    mm      distance at which bodies touch;  d  mm  distance now;  p = h - d  penetration
 //   A    mm^2    area that the contact stands for
 //   k    N/mm^3  penalty stiffness per area, c  N s/mm^3  damping per area
+//   k_t  N/mm^3  tangential stiffness per area: k / 2, of the order of what bodies in contact show
+//                (2 (1 - nu) / (2 - nu) of the normal one: Mindlin, J. Appl. Mech. 16, 1949), and
+//                the couples of friction (sheet_contact.hpp) then hardly lower the stable step
 //   s    mm      elastic tangential displacement remembered by the contact (its history)
 //   mu   -       coefficient of friction
 //
 //   N = max(0, A (k p + c dp/dt))                                                           (N)
 //   s_trial = rotate(s) + tangential part of the relative motion of this step
-//   T = -A k s,  |T| <= mu N, s shortened to fit when it slides                             (T)
+//   T = -A k_t s,  |T| <= mu N, s shortened to fit when it slides                             (T)
 //
 // (T) is the elastic-predictor, return-mapping form of Coulomb's law (Wriggers, Computational
 // Contact Mechanics, 2nd ed., section 5.2.4): below the cone the contact sticks and gives its
@@ -24,9 +27,11 @@
 namespace plyform {
 
 struct ContactLaw {
-  double stiffness = 0.0; ///< k, N/mm^3; normal and tangential
+  double stiffness = 0.0; ///< k, N/mm^3
   double damping = 0.0;   ///< c, N s/mm^3; normal only
   double friction = 0.0;  ///< mu
+
+  double tangential() const { return 0.5 * stiffness; } ///< k_t, N/mm^3
 };
 
 /// Sums over contacts since the last reset or, for the energies, at present. N mm, N, mm.
@@ -36,6 +41,7 @@ struct ContactSums {
   double damping = 0.0;     ///< work of normal damping, since the start
   double penetration = 0.0; ///< deepest now, mm
   double deepest = 0.0;     ///< deepest since the start, mm
+  double slip = 0.0;        ///< longest way slid by one contact while it lasted, mm
   int touching = 0;         ///< contacts that carry force now
 };
 
@@ -44,6 +50,7 @@ struct ContactMemory {
   Vec3 s = Vec3::Zero();    ///< mm
   double damping_force = 0; ///< N, of the last step, for the trapezoidal work sum
   double normal_force = 0;  ///< N
+  double slip = 0;          ///< mm, way slid since it touched
 };
 
 /// Normal force (N) and its share that is damping; p > 0. dp: change of p in this step, mm.
@@ -63,7 +70,7 @@ inline NormalForce normal_force(const ContactLaw& law, double area, double p, do
 inline Vec3 friction_force(const ContactLaw& law, double area, double n_force, const Vec3& n,
                            const Vec3& motion, ContactMemory& memory, ContactSums& sums) {
   if (law.friction == 0.0) return Vec3::Zero();
-  const double k = area * law.stiffness;
+  const double k = area * law.tangential();
   Vec3 old = memory.s;
   const double length = old.norm();
   if (length > 0.0) { // turn the history into the present tangent plane, its length kept
@@ -75,14 +82,22 @@ inline Vec3 friction_force(const ContactLaw& law, double area, double n_force, c
   const double limit = law.friction * n_force / k;
   const double stretch = trial.norm();
   memory.s = stretch > limit ? Vec3(trial * (limit / stretch)) : trial;
+  memory.slip += std::max(stretch - limit, 0.0);
+  sums.slip = std::max(sums.slip, memory.slip);
   sums.friction += 0.5 * k * (old + memory.s).dot(trial - memory.s);
   return -k * memory.s;
+}
+
+/// Energy (N mm) that the springs of a contact hold, p mm deep.
+inline double spring_energy(const ContactLaw& law, double area, double p,
+                            const ContactMemory& memory) {
+  return 0.5 * area * (law.stiffness * p * p + law.tangential() * memory.s.squaredNorm());
 }
 
 /// The contact has opened: what its spring still holds is given up as heat.
 inline void release(const ContactLaw& law, double area, ContactMemory& memory, ContactSums& sums) {
   if (memory.normal_force == 0.0 && memory.s.isZero(0.0)) return;
-  sums.friction += 0.5 * area * law.stiffness * memory.s.squaredNorm();
+  sums.friction += 0.5 * area * law.tangential() * memory.s.squaredNorm();
   memory = {};
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/sheet_contact.hpp"
 
+#include "contact/face_turn.hpp"
 #include "contact/point_triangle.hpp"
 
 #include <limits>
@@ -50,28 +51,67 @@ double contact_area(const SheetState& slave, const SheetState& master, int node,
   return std::min(slave.area[static_cast<std::size_t>(node)], mean);
 }
 
-/// Closest point over the faces of one contact. Returns the distance, mm.
+/// Closest point over the faces of one contact, of those that can be closer than the best one.
+/// Returns the distance, mm.
 double project(const SheetContact& contact, SheetContactPoint& c, const Vec3& p,
-               std::span<const Vec3> x, std::span<const Triangle> triangles, int& feature) {
-  double best = std::numeric_limits<double>::infinity();
-  for (int i = c.first_face; i < c.end_face; ++i) {
-    const std::int32_t face = contact.faces[static_cast<std::size_t>(i)];
-    const Triangle& t = triangles[static_cast<std::size_t>(face)];
+               std::span<const Vec3> x, std::span<const Triangle> triangles, double way,
+               int& feature) {
+  double best2 = std::numeric_limits<double>::infinity(), limit = best2;
+  for (auto i = static_cast<std::size_t>(c.first_face); i < static_cast<std::size_t>(c.end_face);
+       ++i) {
+    if (contact.face_distance[i] > limit) break; // they are in ascending order
+    const Triangle& t = triangles[static_cast<std::size_t>(contact.faces[i])];
     const ClosestPoint q = closest_point_on_triangle(p, at(x, t[0]), at(x, t[1]), at(x, t[2]));
-    if (q.distance2 < best) {
-      best = q.distance2;
-      c.face = face;
+    if (q.distance2 < best2) {
+      best2 = q.distance2;
+      limit = std::sqrt(best2) + way;
+      c.face = contact.faces[i];
       c.w = q.w;
       feature = q.feature;
     }
   }
-  return std::sqrt(best);
+  return std::sqrt(best2);
 }
 
 /// Which side of its face the node is on. Known only above the inside of a face.
 int side_of(const Vec3& p, const Triangle& t, std::span<const Vec3> x) {
   const Vec3 normal = (at(x, t[1]) - at(x, t[0])).cross(at(x, t[2]) - at(x, t[0]));
   return normal.dot(p - at(x, t[0])) >= 0.0 ? 1 : -1;
+}
+
+/// A candidate face and the closest point on it when the search is done.
+struct NearFace {
+  std::int32_t face;
+  double distance; ///< mm
+  std::array<double, 3> w;
+};
+
+NearFace measure(const Candidate& c, std::span<const Vec3> slave_x, std::span<const Vec3> x,
+                 std::span<const Triangle> triangles) {
+  const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+  const ClosestPoint q =
+      closest_point_on_triangle(at(slave_x, c.node), at(x, t[0]), at(x, t[1]), at(x, t[2]));
+  return {c.face, std::sqrt(q.distance2), q.w};
+}
+
+/// A contact of `node` with these faces, not touched yet.
+SheetContactPoint add_faces(SheetContact& contact, std::int32_t node, std::vector<NearFace>& near) {
+  std::sort(near.begin(), near.end(), [](const NearFace& a, const NearFace& b) {
+    return std::pair(a.distance, a.face) < std::pair(b.distance, b.face);
+  });
+  SheetContactPoint c{};
+  c.node = node;
+  c.first_face = static_cast<std::int32_t>(contact.faces.size());
+  for (const NearFace& n : near) {
+    contact.faces.push_back(n.face);
+    contact.face_distance.push_back(n.distance);
+  }
+  c.end_face = static_cast<std::int32_t>(contact.faces.size());
+  c.face = near.front().face;
+  c.w = near.front().w;
+  c.slack = near.front().distance - contact.distance;
+  c.gap = std::numeric_limits<double>::infinity();
+  return c;
 }
 
 /// The old contact of this node whose last face is in the new patch, or null.
@@ -95,9 +135,11 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
   const std::vector<SheetContactPoint> old = std::move(contact.points);
   contact.points.clear();
   contact.faces.clear();
+  contact.face_distance.clear();
   contact.slave_force.assign(slave.x.size(), Vec3::Zero());
   contact.master_force.assign(master.x.size(), Vec3::Zero());
   std::vector<int> label;
+  std::vector<NearFace> near;
   std::vector<char> adopted(old.size(), 0);
   std::size_t next_old = 0;
   for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
@@ -107,23 +149,18 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
     label_patches(group, triangles, label);
     for (std::size_t first = 0; first < group.size(); ++first) {
       if (label[first] != static_cast<int>(first)) continue;
-      SheetContactPoint c{};
-      c.node = group[first].node;
-      c.first_face = static_cast<std::int32_t>(contact.faces.size());
+      near.clear();
       for (std::size_t i = first; i < group.size(); ++i)
-        if (label[i] == label[first]) contact.faces.push_back(group[i].face);
-      c.end_face = static_cast<std::int32_t>(contact.faces.size());
-      const SheetContactPoint* before = find_old(old, next_old, c, contact.faces);
-      int feature = 0;
-      c.gap =
-          project(contact, c, at(slave.x, c.node), master.x, triangles, feature) - contact.distance;
+        if (label[i] == label[first])
+          near.push_back(measure(group[i], slave.x, master.x, triangles));
+      SheetContactPoint c = add_faces(contact, group[first].node, near);
       c.area = contact_area(slave, master, c.node, triangles[static_cast<std::size_t>(c.face)]);
-      if (before) {
+      if (const SheetContactPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[static_cast<std::size_t>(before - old.data())] = 1;
         c.memory = before->memory;
         c.side = before->side;
         c.area = before->area;
-        c.gap = before->gap;
+        if (before->gap < 0.0) c.gap = before->gap, c.slack = std::min(c.slack, 0.0);
       }
       contact.points.push_back(c);
     }
@@ -134,60 +171,100 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
   }
 }
 
+namespace {
+
+/// Adds a touching contact's forces on its node and its face: (S), (N), (T), (M). last_gap: mm, of
+/// the step before; infinite if unknown.
+void add_forces(SheetContact& contact, SheetContactPoint& c, const SheetState& slave,
+                const SheetState& master, const Triangle& t, double last_gap, double dt) {
+  ContactSums& sums = contact.sums;
+  const std::array<Vec3, 3> x = {at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2])};
+  const std::array<Vec3, 3> u = {at(master.motion, t[0]), at(master.motion, t[1]),
+                                 at(master.motion, t[2])};
+  const auto relative = [&c](const Vec3& of_node, const std::array<Vec3, 3>& of_face) -> Vec3 {
+    return of_node - c.w[0] * of_face[0] - c.w[1] * of_face[1] - c.w[2] * of_face[2];
+  };
+  const Vec3 arm = relative(at(slave.x, c.node), x), motion = relative(at(slave.motion, c.node), u);
+  const double depth = -c.gap;
+  c.normal = arm / (contact.distance - depth);
+  const double dp = std::isinf(last_gap) ? -c.normal.dot(motion) : last_gap - c.gap;
+  const NormalForce normal = normal_force(contact.law, c.area, depth, dp, dt);
+  sums.damping += 0.5 * (normal.damping + c.memory.damping_force) * dp;
+  c.memory.damping_force = normal.damping;
+  c.memory.normal_force = normal.total;
+  Vec3 f = normal.total * c.normal;
+  if (contact.law.friction > 0.0) {
+    const FaceFrame frame = face_frame(x[0], x[1], x[2]);
+    const Vec3 turn = face_turn(frame, u);
+    const Vec3 slip = motion - turn.cross(arm); // (P)
+    c.memory.s += turn.cross(c.memory.s);
+    const Vec3 tangential =
+        friction_force(contact.law, c.area, normal.total, c.normal, slip, c.memory, sums);
+    f += tangential;
+    const std::array<Vec3, 3> couple = forces_of_couple(frame, -arm.cross(tangential)); // (M)
+    for (std::size_t j = 0; j < 3; ++j)
+      contact.master_force[static_cast<std::size_t>(t[j])] += couple[j];
+  }
+  contact.slave_force[static_cast<std::size_t>(c.node)] += f;
+  for (std::size_t j = 0; j < 3; ++j)
+    contact.master_force[static_cast<std::size_t>(t[j])] -= c.w[j] * f;
+  sums.elastic += spring_energy(contact.law, c.area, depth, c.memory);
+  sums.penetration = std::max(sums.penetration, depth);
+  ++sums.touching;
+}
+
+} // namespace
+
 void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
-                  std::span<const Triangle> triangles, double dt) {
+                  std::span<const Triangle> triangles, double dt, double way) {
   if (contact.points.empty()) return;
   ContactSums& sums = contact.sums;
-  const double k = contact.law.stiffness, h = contact.distance;
+  const double h = contact.distance;
   sums.elastic = sums.penetration = 0.0;
   sums.touching = 0;
   std::fill(contact.slave_force.begin(), contact.slave_force.end(), Vec3::Zero());
   std::fill(contact.master_force.begin(), contact.master_force.end(), Vec3::Zero());
   for (SheetContactPoint& c : contact.points) {
+    if (c.slack > way) continue;
     const Vec3& p = at(slave.x, c.node);
     int feature = 0;
-    const double d = project(contact, c, p, master.x, triangles, feature);
-    const double last_gap = c.gap, depth = h - d;
-    c.gap = -depth;
+    const double d = project(contact, c, p, master.x, triangles, way, feature);
+    const double last_gap = c.gap;
+    c.gap = d - h;
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
     const int side = feature == 0 ? side_of(p, t, master.x) : 0;
     if ((c.side * side < 0 && d < h) || d < 0.5 * h) contact.fault = {c.node, c.face, d};
     c.side = side; // forgotten on edges: a node may slide round the rim to the other side
-    if (!(depth > 0.0)) {
+    if (!(c.gap < 0.0)) {
       release(contact.law, c.area, c.memory, sums);
       continue;
     }
-    const double dp = last_gap - c.gap;
-    c.normal = (p - c.w[0] * at(master.x, t[0]) - c.w[1] * at(master.x, t[1]) -
-                c.w[2] * at(master.x, t[2])) /
-               d;
-    const NormalForce normal = normal_force(contact.law, c.area, depth, dp, dt);
-    sums.damping += 0.5 * (normal.damping + c.memory.damping_force) * dp;
-    c.memory.damping_force = normal.damping;
-    c.memory.normal_force = normal.total;
-    const Vec3 motion = at(slave.motion, c.node) - c.w[0] * at(master.motion, t[0]) -
-                        c.w[1] * at(master.motion, t[1]) - c.w[2] * at(master.motion, t[2]);
-    const Vec3 f = normal.total * c.normal + friction_force(contact.law, c.area, normal.total,
-                                                            c.normal, motion, c.memory, sums);
-    contact.slave_force[static_cast<std::size_t>(c.node)] += f;
-    for (std::size_t j = 0; j < 3; ++j)
-      contact.master_force[static_cast<std::size_t>(t[j])] -= c.w[j] * f;
-    sums.elastic += 0.5 * c.area * k * (depth * depth + c.memory.s.squaredNorm());
-    sums.penetration = std::max(sums.penetration, depth);
-    ++sums.touching;
+    add_forces(contact, c, slave, master, t, last_gap, dt);
   }
   sums.deepest = std::max(sums.deepest, sums.penetration);
 }
 
-void add_sheet_stiffness(const SheetContact& contact, std::span<const Triangle> triangles,
-                         std::span<double> slave_rows, std::span<double> master_rows) {
-  // The constraint's vector is G = (1, -w): row i has |G_i| sum_j |G_j| = 2 |G_i|.
+void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
+                         std::span<const Triangle> triangles, std::span<double> slave_rows,
+                         std::span<double> master_rows) {
+  // Normal: k G G^T with G = (1, -w), whose row i is |G_i| sum_j |G_j| = 2 |G_i|. Friction, with
+  // half of k, along the face the same, and across it the couple's g_j = d |gradient_j|: with
+  // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
   for (const SheetContactPoint& c : contact.points) {
-    const double row = 2.0 * c.area * contact.law.stiffness;
-    slave_rows[static_cast<std::size_t>(c.node)] += row;
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+    const double normal = 2.0 * c.area * contact.law.stiffness;
+    slave_rows[static_cast<std::size_t>(c.node)] += normal;
+    std::array<double, 3> couple{};
+    if (contact.law.friction > 0.0) {
+      const FaceFrame f = face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]));
+      double sum = 0.0;
+      for (std::size_t j = 0; j < 3; ++j)
+        sum += couple[j] = contact.distance * f.gradient[j].norm();
+      for (double& g : couple)
+        g *= 2.0 * c.area * contact.law.tangential() * sum;
+    }
     for (std::size_t j = 0; j < 3; ++j)
-      master_rows[static_cast<std::size_t>(t[j])] += c.w[j] * row;
+      master_rows[static_cast<std::size_t>(t[j])] += c.w[j] * normal + couple[j];
   }
 }
 

@@ -11,6 +11,13 @@
 // while the node slides off it, and so is the force. The mid-surfaces stay about h apart, so the
 // direction n is always well defined; which side the node is on is remembered, and a node found on
 // the other side is a fault that stops the run.
+//
+// Friction acts where the surfaces touch, the thicknesses apart from the two mid-surfaces. So slip
+// is measured, and a couple given, as if an arm r = x_s - x_c stood on the face and turned with it:
+//   slip of a step = tangential part of u_s - sum_j w_j u_j - turn x r                       (P)
+//   F_s = T,  F_j = -w_j T + those of the couple -r x T on the face                          (M)
+// turn and the couple's forces: face_turn.hpp. (M) does the work of T on (P); its moments cancel,
+// and two sheets that move as one rigid body do not slip.
 #pragma once
 
 #include "contact/candidates.hpp"
@@ -30,7 +37,8 @@ struct SheetContactPoint {
   std::array<double, 3> w{};         ///< weights of the closest point
   int side = 0;               ///< +1: on the side of the face normal, -1: other, 0: not known
   double area = 0.0;          ///< mm^2 that the contact stands for
-  double gap = 0.0;           ///< mm, d - h
+  double slack = 0.0;         ///< mm, gap when the search was done
+  double gap = 0.0;           ///< mm, d - h when last looked at; infinite: not since the search
   Vec3 normal = Vec3::Zero(); ///< n
   ContactMemory memory;
 };
@@ -42,10 +50,11 @@ struct ContactFault {
 };
 
 struct SheetContact {
-  ContactLaw law;                        ///< with half of the pair's stiffness
-  double distance = 0.0;                 ///< h, mm
-  std::vector<SheetContactPoint> points; ///< ascending by node
-  std::vector<std::int32_t> faces;
+  ContactLaw law;                              ///< with half of the pair's stiffness
+  double distance = 0.0;                       ///< h, mm
+  std::vector<SheetContactPoint> points;       ///< ascending by node
+  std::vector<std::int32_t> faces;             ///< of each point, nearest first
+  std::vector<double> face_distance;           ///< mm, when the search was done
   std::vector<Vec3> slave_force, master_force; ///< N, one a node of each sheet
   ContactSums sums;
   ContactFault fault;
@@ -57,12 +66,15 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
                        const SheetState& slave, const SheetState& master,
                        std::span<const Triangle> master_triangles);
 
-/// Forces of one step (S), (N), (T). dt: the step that led to these positions, s.
+/// Forces of one step (S), (N), (T), (M). dt: the step that led to these positions, s. way: mm,
+/// that no node of one sheet has moved further than, relative to any of the other, since the
+/// search; points and faces that were further off than that cannot touch and are not looked at.
 void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
-                  std::span<const Triangle> master_triangles, double dt);
+                  std::span<const Triangle> master_triangles, double dt, double way);
 
 /// Row sums of the contact stiffness matrix, N/mm, added to each sheet's nodes.
-void add_sheet_stiffness(const SheetContact& contact, std::span<const Triangle> master_triangles,
-                         std::span<double> slave_rows, std::span<double> master_rows);
+void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
+                         std::span<const Triangle> master_triangles, std::span<double> slave_rows,
+                         std::span<double> master_rows);
 
 } // namespace plyform

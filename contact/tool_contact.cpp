@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/tool_contact.hpp"
 
+#include <limits>
+
 namespace plyform {
 namespace {
 
@@ -8,13 +10,21 @@ double area_of(const SheetState& ply, const ToolContactPoint& c) {
   return ply.area[static_cast<std::size_t>(c.node)];
 }
 
-/// Gap and normal of every point where tool and ply stand now.
-void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply) {
-  for (ToolContactPoint& c : contact.points) {
-    const SurfacePoint s = distance_to_tool(tool, ply.x[static_cast<std::size_t>(c.node)], c.hint);
+/// Lists the points that may touch; their gaps and normals where tool and ply stand now.
+void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double way) {
+  contact.near.clear();
+  for (std::size_t i = 0; i < contact.points.size(); ++i) {
+    ToolContactPoint& c = contact.points[i];
+    if (c.slack > way) continue;
+    contact.near.push_back(static_cast<std::int32_t>(i));
+    const auto n = static_cast<std::size_t>(c.node);
+    const SurfacePoint s = distance_to_tool(tool, ply.x[n], c.hint);
     c.last_gap = c.gap;
     c.gap = s.distance - contact.half_thickness;
     c.normal = s.normal;
+    if (std::isinf(c.last_gap)) // a pushed tool has not moved yet in this step
+      c.last_gap =
+          c.gap - c.normal.dot(tool.pushed ? ply.motion[n] : Vec3(ply.motion[n] - tool.motion));
   }
 }
 
@@ -31,7 +41,8 @@ Residual residual_of(const ToolBody& tool, std::span<ToolContact> contacts,
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactLaw& law = contacts[i].law;
     const double rate = law.damping / dt;
-    for (const ToolContactPoint& c : contacts[i].points) {
+    for (const std::int32_t k : contacts[i].near) {
+      const ToolContactPoint& c = contacts[i].points[static_cast<std::size_t>(k)];
       const double facing = c.normal.dot(tool.direction);
       const double p = -c.gap + facing * delta;
       if (!(p > 0.0)) continue;
@@ -70,7 +81,8 @@ Vec3 contact_forces(ToolContact& contact, const SheetState& ply, const Vec3& too
   contact.sums.elastic = 0.0;
   contact.sums.penetration = 0.0;
   contact.sums.touching = 0;
-  for (ToolContactPoint& c : contact.points) {
+  for (const std::int32_t k : contact.near) {
+    ToolContactPoint& c = contact.points[static_cast<std::size_t>(k)];
     const auto n = static_cast<std::size_t>(c.node);
     Vec3& f = contact.force[n];
     f.setZero();
@@ -87,7 +99,7 @@ Vec3 contact_forces(ToolContact& contact, const SheetState& ply, const Vec3& too
                                                  ply.motion[n] - tool_motion, c.memory,
                                                  contact.sums);
     on_tool -= f;
-    contact.sums.elastic += 0.5 * area * contact.law.stiffness * (p * p + c.memory.s.squaredNorm());
+    contact.sums.elastic += spring_energy(contact.law, area, p, c.memory);
     contact.sums.penetration = std::max(contact.sums.penetration, p);
     ++contact.sums.touching;
   }
@@ -123,23 +135,29 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
       if (known) release(contact.law, ply.area[n], point.memory, contact.sums);
       continue;
     }
-    if (!known) point.gap = gap;
+    point.slack = gap;
+    if (known && point.gap < 0.0)
+      point.slack = std::min(gap, 0.0); // it may have a spring to give back
+    else
+      point.gap = std::numeric_limits<double>::infinity();
     contact.points.push_back(point);
   }
 }
 
 Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
-                 double dt) {
+                 std::span<const double> ways, double dt) {
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    measure(contacts[i], tool, plies[i]);
+    measure(contacts[i], tool, plies[i], ways[i]);
   if (tool.pushed && dt > 0.0) {
     const double delta = equilibrium_motion(tool, contacts, plies, dt);
     tool.speed = delta / dt;
     tool.motion = delta * tool.direction;
     tool.displacement += tool.motion;
     for (ToolContact& contact : contacts)
-      for (ToolContactPoint& c : contact.points)
+      for (const std::int32_t k : contact.near) {
+        ToolContactPoint& c = contact.points[static_cast<std::size_t>(k)];
         c.gap -= c.normal.dot(tool.direction) * delta;
+      }
   }
   Vec3 on_tool = Vec3::Zero();
   for (std::size_t i = 0; i < contacts.size(); ++i)

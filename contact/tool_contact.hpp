@@ -38,9 +38,11 @@ struct ToolBody {
 /// One node of a ply near the tool.
 struct ToolContactPoint {
   int node;
-  int hint = -1;                    ///< memory of signed_distance
-  Vec3 normal;                      ///< of this step, in space
-  double gap = 0.0, last_gap = 0.0; ///< mm, distance minus half thickness
+  int hint = -1;      ///< memory of signed_distance
+  Vec3 normal;        ///< of this step, in space
+  double slack = 0.0; ///< mm, gap when the search was done
+  double gap = 0.0;   ///< mm, distance minus half thickness; infinite: not known since the search
+  double last_gap = 0.0;
   ContactMemory memory;
 };
 
@@ -49,7 +51,8 @@ struct ToolContact {
   ContactLaw law;
   double half_thickness = 0.0; ///< mm, of the ply
   std::vector<ToolContactPoint> points;
-  std::vector<Vec3> force; ///< one a node of the ply, N; zero where there is no point
+  std::vector<std::int32_t> near; ///< points that may touch in this step
+  std::vector<Vec3> force;        ///< one a node of the ply, N; zero where there is no point
   ContactSums sums;
 };
 
@@ -68,10 +71,12 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
                       double reach);
 
 /// Forces of one step of one tool on all its plies; contacts[i] is with plies[i]. dt: the step
-/// that led to these positions, s. For a pushed tool also moves it by (B), limited to dt *
-/// speed_limit. Returns the force (N) of the plies on the tool.
+/// that led to these positions, s. ways[i]: mm, that no node of ply i has moved further than,
+/// relative to the tool, since the search, the tool's own motion in this call included; nodes that
+/// were further off cannot touch and are not looked at. For a pushed tool also moves it by (B),
+/// limited to dt * speed_limit. Returns the force (N) of the plies on the tool.
 Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
-                 double dt);
+                 std::span<const double> ways, double dt);
 
 /// Adds each contact's stiffness to rows[node], N/mm: row sums of the contact stiffness matrix.
 void add_tool_stiffness(const ToolContact& contact, std::span<const double> area,

@@ -85,6 +85,7 @@ struct ContactOptions {
   double stiffness = 0.1; ///< fraction of the stable limit
   double damping = 0.2;   ///< fraction of critical
   double skin = 0.5;      ///< mm, search distance beyond contact
+  bool self = false;      ///< plies may touch themselves
 };
 
 /// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.

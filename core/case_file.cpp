@@ -172,7 +172,8 @@ FrictionTable read_friction(const Section& contact, const Numbers& bodies, int p
 ContactOptions read_contact(const Section& contact) {
   return {.stiffness = number(contact, "stiffness"),
           .damping = number(contact, "damping"),
-          .skin = number(contact, "skin")};
+          .skin = number(contact, "skin"),
+          .self = text(contact, "self") == "on"};
 }
 
 ElementKind element_kind(const std::string& word) {

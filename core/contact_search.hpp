@@ -7,8 +7,9 @@
 
 namespace plyform {
 
-/// Largest way (mm) of any node or tool since the last search; NaN if a position is not finite.
-double way_since_search(const Scene& scene);
+/// Brings PlyBody::way and ToolAndContacts::way up to date. Returns whether the pairs of the last
+/// search still do: nothing has moved by half the skin. False too if a position is not finite.
+bool follow_ways(Scene& scene);
 
 /// Lists every pair within contact distance + skin. Until something has moved by half the skin no
 /// other pair can touch.

@@ -354,7 +354,12 @@ Rows contact_rows() {
            .unit = "mm",
            .fallback = toml(contact.skin),
            .ranges = {positive},
-           .meaning = "search distance beyond contact"}};
+           .meaning = "search distance beyond contact"},
+          {.key = "contact.self",
+           .kind = K::choice,
+           .fallback = "\"off\"",
+           .choices = {"off", "on"},
+           .meaning = "contact of each ply with itself, where it folds over"}};
 }
 
 Rows solver_rows() {

@@ -82,6 +82,7 @@ ToolAndContacts make_tool(const Case& data, std::size_t index, const std::vector
     c.half_thickness = 0.5 * plies[p].thickness;
     t.contacts.push_back(std::move(c));
   }
+  t.ply_ways.assign(plies.size(), 0.0);
   return t;
 }
 
@@ -112,7 +113,7 @@ Scene make_scene(const Case& data) {
   const int n = static_cast<int>(s.plies.size());
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b)
-      if (a != b) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
+      if (a != b || data.contact.self) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
   for (const PlyContact& pair : s.ply_contacts)
     if (pair.slave < pair.master) {
       PlyEdgeContact edges{pair.slave, pair.master, {}};
@@ -159,7 +160,8 @@ StepBound stable_step(const Scene& s) {
   for (const PlyContact& pair : s.ply_contacts) {
     if (pair.contact.points.empty()) continue;
     const auto a = static_cast<std::size_t>(pair.slave), b = static_cast<std::size_t>(pair.master);
-    add_sheet_stiffness(pair.contact, s.plies[b].membrane.triangles, rows[a], rows[b]);
+    add_sheet_stiffness(pair.contact, s.plies[b].state(), s.plies[b].membrane.triangles, rows[a],
+                        rows[b]);
     damping_ratio = std::max(damping_ratio, pair.contact.law.damping / pair.contact.law.stiffness);
   }
   for (const PlyEdgeContact& pair : s.edge_contacts)

@@ -28,6 +28,7 @@ struct PlyBody {
   std::vector<Vec3> velocity;     ///< mm/s, half a step behind x
   std::vector<Vec3> motion;       ///< mm, of the last step
   std::vector<Vec3> x_search;     ///< mm, where the contact search was last done
+  double way = 0.0;               ///< mm, furthest that any node has been from there
   std::vector<ElementForce> q;    ///< one a triangle
   std::optional<Bending> bending; ///< if the fabric has it
   std::unique_ptr<SheetTree> tree;
@@ -49,10 +50,12 @@ struct ToolAndContacts {
   std::vector<ToolContact> contacts;
   Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
   Vec3 displacement_search = Vec3::Zero();
-  double work = 0.0; ///< N mm, done by the tool on the plies since the start
+  double way = 0.0; ///< mm, furthest from there, what it may still do in this step included
+  std::vector<double> ply_ways; ///< mm, relative to each ply
+  double work = 0.0;            ///< N mm, done by the tool on the plies since the start
 };
 
-/// One directed contact between two plies.
+/// One directed contact between two plies, or of a ply with itself.
 struct PlyContact {
   int slave = 0, master = 0;
   SheetContact contact;

@@ -49,8 +49,9 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
   const auto sheet_task = [&](int i) {
     PlyContact& c = s.ply_contacts[static_cast<std::size_t>(i)];
     const PlyBody& master = s.plies[static_cast<std::size_t>(c.master)];
-    sheet_forces(c.contact, s.plies[static_cast<std::size_t>(c.slave)].state(), master.state(),
-                 master.membrane.triangles, s.dt);
+    const PlyBody& slave = s.plies[static_cast<std::size_t>(c.slave)];
+    sheet_forces(c.contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
+                 slave.way + master.way);
   };
   const auto edge_task = [&](int i) {
     PlyEdgeContact& c = s.edge_contacts[static_cast<std::size_t>(i)];
@@ -60,7 +61,9 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
   const auto tool_task = [&](int i) {
     ToolAndContacts& t = s.tools[static_cast<std::size_t>(i)];
     const Vec3 before = t.force;
-    t.force = tool_forces(t.body, t.contacts, s.ply_states, s.dt);
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      t.ply_ways[p] = t.way + s.plies[p].way;
+    t.force = tool_forces(t.body, t.contacts, s.ply_states, t.ply_ways, s.dt);
     t.work -= 0.5 * (before + t.force).dot(t.body.motion);
   };
   const auto patch_task = [&](int i) {
@@ -243,7 +246,7 @@ void start(Scene& s, ThreadTeam& team) {
 
 std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
   drive_tools(s);
-  const bool used_up = !(way_since_search(s) <= 0.5 * s.data.contact.skin);
+  const bool used_up = !follow_ways(s);
   if (used_up) {
     if (auto stop = find_not_finite(s)) return stop;
     search_contacts(s, team);

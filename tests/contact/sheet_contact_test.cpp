@@ -22,8 +22,8 @@ void search(SheetContact& contact, const OwnedSheet& slave, const OwnedSheet& ma
 }
 
 void forces(SheetContact& contact, const OwnedSheet& slave, const OwnedSheet& master,
-            double dt = 0.0) {
-  sheet_forces(contact, slave.state(), master.state(), master.triangles, dt);
+            double dt = 0.0, double way = std::numeric_limits<double>::infinity()) {
+  sheet_forces(contact, slave.state(), master.state(), master.triangles, dt, way);
 }
 
 SheetContact contact_of(const ContactLaw& law) {
@@ -102,11 +102,8 @@ TEST(SheetContact, ActionIsReaction) {
       add(contact.master_force, p.master.x);
       const double scale = largest_norm(contact.slave_force);
       ASSERT_GT(scale, 0.0);
-      EXPECT_LE(sum.norm(), 1e-13 * scale); // rounding
-      // friction acts h apart on the two mid-surfaces: only normal forces are free of moment
-      if (!friction) {
-        EXPECT_LE(moment.norm(), 1e-12 * scale * 15.0);
-      }
+      EXPECT_LE(sum.norm(), 1e-13 * scale);           // rounding
+      EXPECT_LE(moment.norm(), 1e-12 * scale * 15.0); // rounding, the sheets are 15 mm long
     }
   }
 }
@@ -129,13 +126,13 @@ struct OnePoint {
 
 TEST(SheetContact, SticksBelowTheConeAndGivesItsWayBack) {
   OnePoint c(0.04);
-  const double k = 2.0 * 5.0, normal = k * 0.04, limit = 0.25 * normal;
-  Vec3 f = c.step({0.005, 0.0, 0.0}); // 0.05 N of 0.1 N
-  EXPECT_NEAR(f.x(), -k * 0.005, 1e-12);
+  const double k = 2.0 * 5.0, k_t = 0.5 * k, normal = k * 0.04, limit = 0.25 * normal;
+  Vec3 f = c.step({0.005, 0.0, 0.0}); // 0.025 N of 0.1 N
+  EXPECT_NEAR(f.x(), -k_t * 0.005, 1e-12);
   ASSERT_LT(-f.x(), limit);
   for (int i = 0; i < 1000; ++i) // no creep under constant load
     f = c.step(Vec3::Zero());
-  EXPECT_NEAR(f.x(), -k * 0.005, 1e-12);
+  EXPECT_NEAR(f.x(), -k_t * 0.005, 1e-12);
   EXPECT_EQ(c.contact.sums.friction, 0.0);
   f = c.step({-0.005, 0.0, 0.0});
   EXPECT_NEAR(f.x(), 0.0, 1e-12);
@@ -158,7 +155,7 @@ TEST(SheetContact, SlidesAtExactlyTheConeAndPaysForIt) {
     }
   }
   // Ledger: trapezoidal work done against friction is heat and what the tangential spring holds.
-  const double stored = 0.5 * limit * limit / 10.0;
+  const double stored = 0.5 * limit * limit / 5.0;
   EXPECT_NEAR(work, c.contact.sums.friction + stored, 1e-11 * work); // rounding
   EXPECT_GT(c.contact.sums.friction, 0.95 * work);
   const double elastic = 0.5 * 10.0 * 0.04 * 0.04 + stored;
@@ -218,6 +215,7 @@ TEST(SheetContact, NoPairIsMissedBetweenSearches) {
   SheetContact contact = contact_of({1.0, 0.0, 0.0});
   std::vector<Vec3> slave_at_search = slave.x, master_at_search = master.x;
   int touching = 0, searches = 0;
+  double moved = 0.0; // furthest way since the search, which never falls
   for (int step = 0; step < 150; ++step) {
     // drawn against each other over the waves and off the rim, just apart, bobbing
     constexpr double way = 0.08;
@@ -230,17 +228,17 @@ TEST(SheetContact, NoPairIsMissedBetweenSearches) {
     }
     slave.move(motion);
     master.move(std::vector<Vec3>(master.x.size(), Vec3(-way, 0.0, 0.0)));
-    double moved = 0.0;
     for (std::size_t n = 0; n < slave.x.size(); ++n)
       moved = std::max(moved, (slave.x[n] - slave_at_search[n]).norm());
-    moved = std::max(moved, (master.x[0] - master_at_search[0]).norm());
-    if (step == 0 || moved > 0.5 * skin) {
+    const double drawn = (master.x[0] - master_at_search[0]).norm();
+    if (step == 0 || std::max(moved, drawn) > 0.5 * skin) {
       search(contact, slave, master, skin);
       slave_at_search = slave.x;
       master_at_search = master.x;
+      moved = 0.0;
       ++searches;
     }
-    forces(contact, slave, master);
+    forces(contact, slave, master, 0.0, moved > 0.0 ? moved + drawn : 0.0);
     // brute force: distance of every node to the whole sheet
     std::vector<double> nearest(slave.x.size(), 1e300);
     for (std::size_t n = 0; n < slave.x.size(); ++n)
