@@ -123,6 +123,7 @@ void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const 
                      std::span<const std::int32_t> folded_a, const SheetState& b,
                      std::span<const SheetEdge> edges_b, std::span<const std::int32_t> folded_b,
                      double skin) {
+  const Stopwatch watch(contact.time.search);
   const std::vector<EdgePair> old = std::move(contact.pairs);
   contact.pairs.clear();
   contact.force_a.assign(a.x.size(), Vec3::Zero());
@@ -177,6 +178,7 @@ void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const 
 
 void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b, double dt) {
   if (contact.pairs.empty()) return;
+  const Stopwatch watch(contact.time.forces);
   ContactSums& sums = contact.sums;
   sums.elastic = sums.penetration = 0.0;
   sums.touching = 0;

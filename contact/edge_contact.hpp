@@ -53,6 +53,7 @@ struct EdgeContact {
   std::vector<EdgePair> pairs;
   std::vector<Vec3> force_a, force_b; ///< N, one a node of each sheet
   ContactSums sums;
+  ContactTime time;
 };
 
 /// Renews the pairs: folded edges of both sheets within distance + skin, and every pair

@@ -218,6 +218,7 @@ void add_forces(SheetContact& contact, SheetContactPoint& c, const SheetState& s
 void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
                   std::span<const Triangle> triangles, double dt, double way) {
   if (contact.points.empty()) return;
+  const Stopwatch watch(contact.time.forces);
   ContactSums& sums = contact.sums;
   const double h = contact.distance;
   sums.elastic = sums.penetration = 0.0;
@@ -245,12 +246,13 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
 }
 
 void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
-                         std::span<const Triangle> triangles, std::span<double> slave_rows,
-                         std::span<double> master_rows) {
+                         std::span<const Triangle> triangles, double margin,
+                         std::span<double> slave_rows, std::span<double> master_rows) {
   // Normal: k G G^T with G = (1, -w), whose row i is |G_i| sum_j |G_j| = 2 |G_i|. Friction, with
   // half of k, along the face the same, and across it the couple's g_j = d |gradient_j|: with
   // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
   for (const SheetContactPoint& c : contact.points) {
+    if (std::min(c.gap, c.slack) > margin) continue;
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
     const double normal = 2.0 * c.area * contact.law.stiffness;
     slave_rows[static_cast<std::size_t>(c.node)] += normal;

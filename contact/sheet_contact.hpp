@@ -58,6 +58,7 @@ struct SheetContact {
   std::vector<Vec3> slave_force, master_force; ///< N, one a node of each sheet
   ContactSums sums;
   ContactFault fault;
+  ContactTime time;
 };
 
 /// Renews the points from the broad phase's candidates (sorted by node and face). Contacts keep
@@ -72,9 +73,10 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
 void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
                   std::span<const Triangle> master_triangles, double dt, double way);
 
-/// Row sums of the contact stiffness matrix, N/mm, added to each sheet's nodes.
+/// Row sums of the contact stiffness matrix, N/mm, added to each sheet's nodes: of contacts that
+/// touch or are, as far as is known, within `margin` (mm) of it.
 void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
-                         std::span<const Triangle> master_triangles, std::span<double> slave_rows,
-                         std::span<double> master_rows);
+                         std::span<const Triangle> master_triangles, double margin,
+                         std::span<double> slave_rows, std::span<double> master_rows);
 
 } // namespace plyform

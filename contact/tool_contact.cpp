@@ -12,6 +12,7 @@ double area_of(const SheetState& ply, const ToolContactPoint& c) {
 
 /// Lists the points that may touch; their gaps and normals where tool and ply stand now.
 void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double way) {
+  const Stopwatch watch(contact.time.forces);
   contact.near.clear();
   for (std::size_t i = 0; i < contact.points.size(); ++i) {
     ToolContactPoint& c = contact.points[i];
@@ -77,6 +78,7 @@ double equilibrium_motion(const ToolBody& tool, std::span<ToolContact> contacts,
 
 Vec3 contact_forces(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
                     double dt) {
+  const Stopwatch watch(contact.time.forces);
   Vec3 on_tool = Vec3::Zero();
   contact.sums.elastic = 0.0;
   contact.sums.penetration = 0.0;
@@ -118,6 +120,7 @@ SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint) {
 
 void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
                       double reach) {
+  const Stopwatch watch(contact.time.search);
   const std::vector<ToolContactPoint> old = std::move(contact.points);
   contact.points.clear();
   contact.force.assign(ply.x.size(), Vec3::Zero());
@@ -165,9 +168,10 @@ Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<cons
   return on_tool;
 }
 
-void add_tool_stiffness(const ToolContact& contact, std::span<const double> area,
+void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
                         std::span<double> rows) {
   for (const ToolContactPoint& c : contact.points) {
+    if (std::min(c.gap, c.slack) > margin) continue;
     const auto n = static_cast<std::size_t>(c.node);
     rows[n] += area[n] * contact.law.stiffness;
   }

@@ -12,6 +12,7 @@
 #pragma once
 
 #include "contact/contact_law.hpp"
+#include "contact/stopwatch.hpp"
 #include "contact/tool_shape.hpp"
 
 #include <span>
@@ -54,6 +55,7 @@ struct ToolContact {
   std::vector<std::int32_t> near; ///< points that may touch in this step
   std::vector<Vec3> force;        ///< one a node of the ply, N; zero where there is no point
   ContactSums sums;
+  ContactTime time; ///< without the balance of a pushed tool, which all its plies share
 };
 
 /// A ply as contact sees it: spans of n nodes.
@@ -78,8 +80,9 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
 Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
                  std::span<const double> ways, double dt);
 
-/// Adds each contact's stiffness to rows[node], N/mm: row sums of the contact stiffness matrix.
-void add_tool_stiffness(const ToolContact& contact, std::span<const double> area,
+/// Adds each contact's stiffness to rows[node], N/mm: row sums of the contact stiffness matrix. Of
+/// contacts that touch or are, as far as is known, within `margin` (mm) of it.
+void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
                         std::span<double> rows);
 
 } // namespace plyform

@@ -43,6 +43,7 @@ void search_tool(Scene& s, ToolAndContacts& t) {
 void search_plies(Scene& s, PlyContact& pair) {
   const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
   const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
+  const Stopwatch watch(pair.contact.time.search);
   const double reach = pair.contact.distance + s.data.contact.skin;
   std::vector<Candidate> candidates;
   if (may_meet(slave.tree->bounds(), master.tree->bounds(), reach))
@@ -89,10 +90,8 @@ void collect_forces(Scene& s) {
 
 bool follow_ways(Scene& s) {
   // Ways only grow between searches: what has once been looked at is looked at again.
-  double largest = 0.0;
-  const auto grow = [&largest](double& way, double now) {
+  const auto grow = [](double& way, double now) {
     if (!(now <= way) && !std::isnan(way)) way = now; // NaN stays
-    if (!(way <= largest) && !std::isnan(largest)) largest = way;
   };
   for (std::size_t i = 0; i < s.node_blocks.size(); ++i)
     grow(s.plies[static_cast<std::size_t>(s.node_blocks[i].ply)].way,
@@ -102,12 +101,25 @@ bool follow_ways(Scene& s) {
     const double ahead = t.body.pushed ? t.body.speed_limit * s.dt : 0.0;
     grow(t.way, (t.body.displacement - t.displacement_search).norm() + ahead);
   }
-  return largest <= 0.5 * s.data.contact.skin;
+  return furthest_way(s) <= 0.5 * s.data.contact.skin;
+}
+
+double furthest_way(const Scene& s) {
+  double furthest = 0.0;
+  const auto grow = [&furthest](double way) {
+    if (!(way <= furthest) && !std::isnan(furthest)) furthest = way; // NaN stays
+  };
+  for (const PlyBody& ply : s.plies)
+    grow(ply.way);
+  for (const ToolAndContacts& t : s.tools)
+    grow(t.way);
+  return furthest;
 }
 
 void search_contacts(Scene& s, ThreadTeam& team) {
   team.run(static_cast<int>(s.plies.size()), [&](int p) {
     PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+    const Stopwatch watch(ply.search_seconds);
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
     ply.folded = folded_edges(ply.edges, ply.membrane.triangles, ply.x, ply.thickness);

@@ -11,6 +11,9 @@ namespace plyform {
 /// search still do: nothing has moved by half the skin. False too if a position is not finite.
 bool follow_ways(Scene& scene);
 
+/// The largest of those ways, mm; NaN if a position is not finite.
+double furthest_way(const Scene& scene);
+
 /// Lists every pair within contact distance + skin. Until something has moved by half the skin no
 /// other pair can touch.
 void search_contacts(Scene& scene, ThreadTeam& team);

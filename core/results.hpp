@@ -14,10 +14,12 @@
 
 namespace plyform {
 
-/// Energies and work done since the start, N mm (mJ). external: work of all tools on the plies.
+/// Energies and work done since the start, N mm (mJ). external: work of tools, boundaries and
+/// gravity on the plies, and what those held when the run began.
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, bending = 0, contact = 0, friction = 0, damping = 0,
          external = 0;
+  double surplus() const; ///< all kept and lost, less what was put in
   /// (kinetic + fibre + shear + bending + contact + friction + damping - external) over the largest
   /// of them; 0 when all are 0.
   double balance_error() const;
@@ -70,6 +72,25 @@ struct ContactReport {
   long intersections_between_plies = 0, intersections_within_plies = 0;
 };
 
+/// What one pair of bodies did in a run, or a ply with itself.
+struct PairReport {
+  std::string a, b;
+  double time_share = 0; ///< of the computing time, search included
+  double deepest_mm = 0; ///< since the start; 0 if they never touched
+  double slip_mm = 0;    ///< longest way that a contact slid while it lasted
+  double friction_coefficient = 0, friction_mJ = 0;
+  bool touched() const { return deepest_mm > 0; }
+};
+
+/// What a run did with its time, and what it modelled too much or too little.
+struct WorkReport {
+  /// Of the computing time of all threads; the rest moves nodes.
+  double elements_share = 0, contact_share = 0, search_share = 0;
+  long searches = 0; ///< broad phases
+  std::vector<PairReport> pairs;
+  std::vector<std::string> could_be_left_out, missing; ///< a sentence each
+};
+
 struct Summary {
   std::string title, version;
   std::string status = "done"; ///< done, interrupted, stopped
@@ -79,6 +100,7 @@ struct Summary {
   double min_step_s = 0, max_step_s = 0;
   int threads = 1;
   ContactReport contact;
+  WorkReport work;
 };
 
 /// Writes a run's folder as it goes. Everything it writes goes to a temporary name first and is

@@ -183,6 +183,20 @@ std::string energy_json(const Energies& e) {
       json_number(e.external), json_number(e.balance_error()));
 }
 
+std::string pair_json(const PairReport& pair) {
+  return fmt::format(
+      "{{\"a\": {}, \"b\": {}, \"time_share\": {:.4f}, \"deepest_mm\": {}, \"slip_mm\": {}, "
+      "\"friction_coefficient\": {}, \"friction_mJ\": {}}}",
+      json_string(pair.a), json_string(pair.b), pair.time_share, json_number(pair.deepest_mm),
+      json_number(pair.slip_mm), json_number(pair.friction_coefficient),
+      json_number(pair.friction_mJ));
+}
+
+std::string time_json(const WorkReport& w) {
+  return fmt::format("{{\"elements\": {:.4f}, \"contact\": {:.4f}, \"search\": {:.4f}}}",
+                     w.elements_share, w.contact_share, w.search_share);
+}
+
 std::string contact_json(const ContactReport& c) {
   return fmt::format("{{\"max_tool_penetration_mm\": {}, \"max_ply_penetration_mm\": {}, "
                      "\"intersections_between_plies\": {}, \"intersections_within_plies\": {}}}",
@@ -220,6 +234,11 @@ std::string summary_json(const Frame& last, const Summary& summary) {
   entry("boundaries", json_list(last.boundaries, boundary_json));
   entry("energy", energy_json(last.energy));
   entry("contact", contact_json(summary.contact));
+  entry("searches", fmt::to_string(summary.work.searches));
+  entry("time_shares", time_json(summary.work));
+  entry("pairs", json_list(summary.work.pairs, pair_json));
+  entry("could_be_left_out", json_list(summary.work.could_be_left_out, json_string));
+  entry("missing", json_list(summary.work.missing, json_string));
   return out + "\n}\n";
 }
 

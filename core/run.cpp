@@ -5,6 +5,7 @@
 #include "core/frame.hpp"
 #include "core/step.hpp"
 #include "core/version.hpp"
+#include "core/work_report.hpp"
 
 #include <algorithm>
 #include <chrono>
@@ -151,6 +152,7 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.max_step_s = s.max_dt;
   sum.threads = threads;
   sum.contact = audit(s, depths);
+  sum.work = report_work(s, result.last, sum.contact);
   if (sum.contact.intersections_between_plies > 0 && sum.status == "done") {
     sum.status = "stopped";
     sum.message =
@@ -158,6 +160,14 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
                     "the final state; a finer mesh, a larger contact.stiffness or a slower "
                     "stroke may help",
                     sum.contact.intersections_between_plies);
+  }
+  if (s.data.contact.self && sum.contact.intersections_within_plies > 0 && sum.status == "done") {
+    sum.status = "stopped";
+    sum.message =
+        fmt::format("a ply goes through itself: {} pairs of triangles of one ply cross in the "
+                    "final state, though contact.self is on; a finer mesh or a larger "
+                    "contact.stiffness may help",
+                    sum.contact.intersections_within_plies);
   }
 }
 
@@ -190,6 +200,7 @@ RunResult run_scene(Scene& s, int threads, const RunHooks& hooks) {
     const bool interrupted = hooks.interrupt && hooks.interrupt->load();
     const bool last = interrupted || s.time >= s.data.solver.duration;
     const bool output = last || outputs_due(s) > written;
+    if (s.step == 0) s.start_energy = current_energies(s, team).surplus();
     if (output || s.step % check_every == 0) {
       energy = current_energies(s, team);
       stop = check_balance(s, energy, floor);

@@ -14,7 +14,7 @@ constexpr int block_size = 512; // long enough to hide the hand-over, short enou
 void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count) {
   const int n = static_cast<int>(count);
   for (int begin = 0; begin < n; begin += block_size)
-    blocks.push_back({ply, begin, std::min(n, begin + block_size)});
+    blocks.push_back({ply, begin, std::min(n, begin + block_size), 0.0});
 }
 
 PlyBody make_ply(const Case& data, const Ply& ply) {
@@ -149,10 +149,11 @@ StepBound stable_step(const Scene& s) {
   std::vector<std::vector<double>> rows; // contact stiffness, one a node, N/mm
   for (const PlyBody& ply : s.plies)
     rows.emplace_back(ply.x.size(), 0.0);
+  constexpr double margin = bound_margin;
   double damping_ratio = 0.0; // largest c/k of any contact
   for (const ToolAndContacts& tool : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p) {
-      add_tool_stiffness(tool.contacts[p], s.plies[p].membrane.node_area, rows[p]);
+      add_tool_stiffness(tool.contacts[p], s.plies[p].membrane.node_area, margin, rows[p]);
       const ContactLaw& law = tool.contacts[p].law;
       if (!tool.contacts[p].points.empty())
         damping_ratio = std::max(damping_ratio, law.damping / law.stiffness);
@@ -160,13 +161,12 @@ StepBound stable_step(const Scene& s) {
   for (const PlyContact& pair : s.ply_contacts) {
     if (pair.contact.points.empty()) continue;
     const auto a = static_cast<std::size_t>(pair.slave), b = static_cast<std::size_t>(pair.master);
-    add_sheet_stiffness(pair.contact, s.plies[b].state(), s.plies[b].membrane.triangles, rows[a],
-                        rows[b]);
+    add_sheet_stiffness(pair.contact, s.plies[b].state(), s.plies[b].membrane.triangles, margin,
+                        rows[a], rows[b]);
     damping_ratio = std::max(damping_ratio, pair.contact.law.damping / pair.contact.law.stiffness);
   }
   for (const PlyEdgeContact& pair : s.edge_contacts)
-    add_edge_stiffness(pair.contact, 0.25 * s.data.contact.skin,
-                       rows[static_cast<std::size_t>(pair.a)],
+    add_edge_stiffness(pair.contact, margin, rows[static_cast<std::size_t>(pair.a)],
                        rows[static_cast<std::size_t>(pair.b)]);
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBody& ply = s.plies[p];

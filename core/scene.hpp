@@ -32,6 +32,7 @@ struct PlyBody {
   std::vector<ElementForce> q;    ///< one a triangle
   std::optional<Bending> bending; ///< if the fabric has it
   std::unique_ptr<SheetTree> tree;
+  double search_seconds = 0.0; ///< refitting the tree, finding folds
   std::vector<SheetEdge> edges;
   std::vector<std::int32_t> folded; ///< edges folded at the last contact search
   std::vector<Vec3> reaction;       ///< N, that boundaries hold each node with; empty if none does
@@ -53,6 +54,7 @@ struct ToolAndContacts {
   double way = 0.0; ///< mm, furthest from there, what it may still do in this step included
   std::vector<double> ply_ways; ///< mm, relative to each ply
   double work = 0.0;            ///< N mm, done by the tool on the plies since the start
+  double seconds = 0.0;         ///< all of its forces
 };
 
 /// One directed contact between two plies, or of a ply with itself.
@@ -80,6 +82,7 @@ struct BoundaryState {
 /// come out the same whatever the number of threads.
 struct Block {
   int ply, begin, end;
+  double seconds = 0.0; ///< computing time since the start
 };
 
 /// What a block of nodes reports of one step.
@@ -102,10 +105,12 @@ struct Scene {
   std::vector<double> patch_sums;        ///< viscous work, one a patch block
   std::vector<char> patch_collapsed;     ///< whether a triangle has collapsed, one a patch block
   std::vector<NodeSums> node_sums;       ///< one a node block
+  double start_energy = 0.0;             ///< N mm, that the plies were given to start with
   double mass_damping_work = 0.0;        ///< N mm, since the start
   double time = 0.0;                     ///< s, of x
   double dt = 0.0, next_dt = 0.0;        ///< s, the step that led to x and the one that leaves it
   double min_dt = 0.0, max_dt = 0.0;     ///< s, used so far
+  double bound_way = 0.0;                ///< mm, furthest way since the search at the last bound
   long step = 0, next_sharpening = 1000; ///< the next step that renews PlyBody::sharpness
   long searches = 0;                     ///< broad phases done
 };
@@ -123,9 +128,12 @@ struct StepBound {
 };
 /// The largest eigenvalue of M^-1 K is at most the elements' plus the contacts' bound, and a
 /// central difference with lagged damping is stable for omega^2 dt^2 + 2 c dt <= 4. Contacts count
-/// where they stand now; what slides or closes until the next renewal is what step_factor leaves
-/// room for.
+/// where they stand now, those too that are within bound_margin of closing; what slides until the
+/// next renewal is what step_factor leaves room for.
 StepBound stable_step(const Scene& scene);
+
+/// mm; by when anything has moved by half of it the bound is due again.
+constexpr double bound_margin = 0.5;
 
 /// Finds PlyBody::sharpness at the present shape.
 void sharpen_bound(PlyBody& ply);

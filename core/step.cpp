@@ -11,8 +11,9 @@ namespace plyform {
 namespace {
 
 constexpr int sharpen_every = 1000; // steps: a ratio changes slower than the bound
-constexpr int bound_every = 200;    // steps between renewals of the step bound: geometry changes by
-                                    // far less than the case's step factor leaves room for
+constexpr int bound_every = 200;    // steps between renewals of the step bound at most: geometry
+                                    // changes by far less than the case's step factor leaves room
+                                    // for
 
 std::string when(const Scene& s) {
   return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
@@ -60,6 +61,7 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
   };
   const auto tool_task = [&](int i) {
     ToolAndContacts& t = s.tools[static_cast<std::size_t>(i)];
+    const Stopwatch watch(t.seconds);
     const Vec3 before = t.force;
     for (std::size_t p = 0; p < s.plies.size(); ++p)
       t.ply_ways[p] = t.way + s.plies[p].way;
@@ -67,7 +69,8 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
     t.work -= 0.5 * (before + t.force).dot(t.body.motion);
   };
   const auto patch_task = [&](int i) {
-    const Block& block = s.patch_blocks[static_cast<std::size_t>(i)];
+    Block& block = s.patch_blocks[static_cast<std::size_t>(i)];
+    const Stopwatch watch(block.seconds);
     PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
     const PatchReport report =
         element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
@@ -75,7 +78,8 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
     s.patch_collapsed[static_cast<std::size_t>(i)] = report.collapsed;
   };
   const auto bending_task = [&](int i) {
-    const Block& block = s.bending_blocks[static_cast<std::size_t>(i)];
+    Block& block = s.bending_blocks[static_cast<std::size_t>(i)];
+    const Stopwatch watch(block.seconds);
     PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
     bending_forces(*ply.bending, ply.x, block.begin, block.end);
   };
@@ -233,6 +237,7 @@ std::optional<Stop> find_collapsed(const Scene& s) {
 
 void set_step(Scene& s) {
   s.next_dt = s.data.solver.step_factor * stable_step(s).dt;
+  s.bound_way = furthest_way(s);
   s.min_dt = s.min_dt > 0.0 ? std::min(s.min_dt, s.next_dt) : s.next_dt;
   s.max_dt = std::max(s.max_dt, s.next_dt);
 }
@@ -251,7 +256,8 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
     if (auto stop = find_not_finite(s)) return stop;
     search_contacts(s, team);
   }
-  if (used_up || s.step % bound_every == 0) {
+  const bool closer = furthest_way(s) - s.bound_way > 0.5 * bound_margin;
+  if (used_up || closer || s.step % bound_every == 0) {
     if (auto stop = find_collapsed(s)) return stop;
     if (s.step >= s.next_sharpening) {
       team.run(static_cast<int>(s.plies.size()),
@@ -307,6 +313,7 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
   for (double viscous : s.patch_sums)
     e.damping += viscous;
   e.damping += s.mass_damping_work;
+  e.external += s.start_energy;
   return e;
 }
 
@@ -314,7 +321,8 @@ void move_plies(Scene& s, ThreadTeam& team) {
   const MassLoads loads = mass_loads(s);
   team.run(static_cast<int>(s.node_blocks.size()), [&](int i) {
     const auto b = static_cast<std::size_t>(i);
-    const Block& block = s.node_blocks[b];
+    Block& block = s.node_blocks[b];
+    const Stopwatch watch(block.seconds);
     s.node_sums[b] =
         move_nodes(s.plies[static_cast<std::size_t>(block.ply)], block, s.dt, s.next_dt, loads);
   });

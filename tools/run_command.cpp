@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/key_table.hpp"
 #include "core/run.hpp"
 #include "tools/commands.hpp"
 
@@ -58,6 +59,28 @@ std::filesystem::path output_folder(const RunArguments& arguments) {
   return std::filesystem::path("results") / file.stem();
 }
 
+/// What was modelled, what it did, and what that says.
+void print_work(const WorkReport& w, long steps) {
+  fmt::print("  computing time: elements {:.0f} %, contact {:.0f} %, search {:.0f} % ({} times, "
+             "every {} steps)\n",
+             100.0 * w.elements_share, 100.0 * w.contact_share, 100.0 * w.search_share, w.searches,
+             steps / std::max(w.searches, 1L));
+  std::vector<std::string> apart;
+  for (const PairReport& pair : w.pairs) {
+    if (!pair.touched()) {
+      apart.push_back(pair.a + " - " + pair.b);
+      continue;
+    }
+    fmt::print("  {:28} {:4.1f} % of the time, {:.3f} mm deep, slid {:.2f} mm at most\n",
+               pair.a + " - " + pair.b, 100.0 * pair.time_share, pair.deepest_mm, pair.slip_mm);
+  }
+  if (!apart.empty()) fmt::print("  never touched: {}\n", joined(apart));
+  for (const std::string& what : w.could_be_left_out)
+    fmt::print("  could be left out: {}\n", what);
+  for (const std::string& what : w.missing)
+    fmt::print("  missing: {}\n", what);
+}
+
 void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   const Energies& e = r.last.energy;
   fmt::print("{} at {:.2f} mm of stroke after {} steps in {:.1f} s\n", r.summary.status,
@@ -81,6 +104,7 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
              "between plies, {} within\n",
              c.max_tool_penetration_mm, c.max_ply_penetration_mm, c.intersections_between_plies,
              c.intersections_within_plies);
+  print_work(r.summary.work, r.summary.steps);
   fmt::print("results are in {}\n", folder.string());
 }
 
