@@ -19,9 +19,10 @@ constexpr double cell = 5.0; // mm
 constexpr int straight = 4;  // cells on either side of the arc
 
 struct Wrap {
-  int pieces;                                                                   ///< on the arc
-  double angle;                                                                 ///< rad
-  double radius() const { return 0.5 * cell / std::sin(0.5 * angle / pieces); } ///< mm, of nodes
+  int pieces;   ///< on the arc
+  double angle; ///< rad
+  /// mm, of the nodes
+  double radius() const { return 0.5 * cell / std::sin(0.5 * angle / pieces); }
   double length() const { return cell * (pieces + 2 * straight); }
 };
 
@@ -62,7 +63,6 @@ Scene capstan(const Wrap& w, double mu) {
 
 /// Slides a strip round the drum and looks at the pulls from 10 % of the way on.
 void expect_exponential(const Wrap& w, double mu) {
-
   const double wanted = std::exp(mu * w.angle);
   double least = 1e9, most = 0.0;
   RunHooks hooks;
