@@ -113,23 +113,6 @@ TEST(Run, StopsWhenTheStepIsTooLarge) {
   EXPECT_TRUE(all_finite(run.last));
 }
 
-/// Force along z on ply `lower` from the ply above it, N.
-double force_from_above(const Scene& s, int lower) {
-  double sum = 0.0;
-  const auto add = [&](const std::vector<Vec3>& force) {
-    for (const Vec3& f : force)
-      sum += f.z();
-  };
-  for (const PlyContact& c : s.ply_contacts) {
-    if (c.contact.points.empty()) continue;
-    if (c.slave == lower && c.master == lower + 1) add(c.contact.slave_force);
-    if (c.master == lower && c.slave == lower + 1) add(c.contact.master_force);
-  }
-  for (const PlyEdgeContact& c : s.edge_contacts)
-    if (c.a == lower && c.b == lower + 1 && !c.contact.pairs.empty()) add(c.contact.force_a);
-  return sum;
-}
-
 TEST(Run, CarriesAPlatesForceThroughEveryPlyOfAStack) {
   Case data = stack_of({0.0, 0.25 * std::numbers::pi, 0.0}, rectangle(100.0, 100.0, 12.5));
   press_by_plate(data);

@@ -2,7 +2,7 @@
 // Small cases in code, for tests of whole scenes.
 #pragma once
 
-#include "core/case.hpp"
+#include "core/scene.hpp"
 #include "membrane_checks.hpp"
 
 namespace plyform {
@@ -67,6 +67,23 @@ inline Case coarse_hemisphere(const std::vector<double>& angles) {
   set_friction(data, 0.2);
   data.solver.fibre_softening = 100.0;
   return data;
+}
+
+/// Force along z on ply `lower` from the ply above it, N.
+inline double force_from_above(const Scene& s, int lower) {
+  double sum = 0.0;
+  const auto add = [&](const std::vector<Vec3>& force) {
+    for (const Vec3& f : force)
+      sum += f.z();
+  };
+  for (const PlyContact& c : s.ply_contacts) {
+    if (c.contact.points.empty()) continue;
+    if (c.slave == lower && c.master == lower + 1) add(c.contact.slave_force);
+    if (c.master == lower && c.slave == lower + 1) add(c.contact.master_force);
+  }
+  for (const PlyEdgeContact& c : s.edge_contacts)
+    if (c.a == lower && c.b == lower + 1 && !c.contact.pairs.empty()) add(c.contact.force_a);
+  return sum;
 }
 
 } // namespace plyform
