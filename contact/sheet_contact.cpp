@@ -154,6 +154,9 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
     if ((c.side * side < 0 && d < h) || d < 0.5 * h) contact.fault = {c.node, c.face, d};
     c.side = side; // forgotten on edges: a node may slide round the rim to the other side
     if (!(depth > 0.0)) {
+      sums.damping +=
+          0.5 * c.memory.damping_force * (last_gap - c.gap); // the trapezoid's last half
+      c.memory.damping_force = 0.0;
       release(contact.law, c.area, c.memory, sums);
       continue;
     }

@@ -76,6 +76,8 @@ Vec3 contact_forces(ToolContact& contact, const SheetState& ply, const Vec3& too
     f.setZero();
     const double p = -c.gap, dp = c.last_gap - c.gap, area = ply.area[n];
     if (!(p > 0.0)) {
+      contact.sums.damping += 0.5 * c.memory.damping_force * dp; // the trapezoid's last half
+      c.memory.damping_force = 0.0;
       release(contact.law, area, c.memory, contact.sums);
       continue;
     }
