@@ -18,6 +18,10 @@ namespace plyform {
 
 namespace fs = std::filesystem;
 
+double Energies::missing() const {
+  return kinetic + fibre + shear + bending + contact + friction + damping - external;
+}
+
 double Energies::balance_error() const {
   const double terms[] = {kinetic, fibre, shear, bending, contact, friction, damping, external};
   double largest = 0;
@@ -26,7 +30,7 @@ double Energies::balance_error() const {
     largest = std::max(largest, std::abs(term));
   }
   if (largest == 0) return 0;
-  return (kinetic + fibre + shear + bending + contact + friction + damping - external) / largest;
+  return missing() / largest;
 }
 
 // Files that appear whole or not at all.

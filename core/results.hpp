@@ -14,12 +14,14 @@
 
 namespace plyform {
 
-/// Energies and work done since the start, N mm (mJ). external: work of all tools on the plies.
+/// Energies and work done since the start, N mm (mJ). external: work of all tools, boundaries and
+/// gravity on the plies, and the energy of a start that is not at rest and free of strain.
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, bending = 0, contact = 0, friction = 0, damping = 0,
          external = 0;
-  /// (kinetic + fibre + shear + bending + contact + friction + damping - external) over the largest
-  /// of them; 0 when all are 0.
+  /// kinetic + fibre + shear + bending + contact + friction + damping - external
+  double missing() const;
+  /// missing() over the largest of them; 0 when all are 0.
   double balance_error() const;
 };
 
@@ -66,7 +68,7 @@ struct Frame {
 };
 
 struct ContactReport {
-  double max_tool_penetration_mm = 0, max_ply_penetration_mm = 0;
+  double max_tool_penetration_mm = 0, max_ply_penetration_mm = 0; ///< of nodes
   long intersections_between_plies = 0, intersections_within_plies = 0;
 };
 

@@ -187,6 +187,7 @@ RunResult run_scene(Scene& s, int threads, const RunHooks& hooks) {
   for (;;) {
     stop = compute_forces(s, team);
     if (stop) break;
+    if (s.step == 0) s.start_energy = current_energies(s, team).missing();
     const bool interrupted = hooks.interrupt && hooks.interrupt->load();
     const bool last = interrupted || s.time >= s.data.solver.duration;
     const bool output = last || outputs_due(s) > written;

@@ -100,6 +100,7 @@ struct Scene {
   std::vector<char> patch_collapsed;     ///< whether a triangle has collapsed, one a patch block
   std::vector<NodeSums> node_sums;       ///< one a node block
   double mass_damping_work = 0.0;        ///< N mm, since the start
+  double start_energy = 0.0;             ///< N mm, what plies given another start bring with them
   double time = 0.0;                     ///< s, of x
   double dt = 0.0, next_dt = 0.0;        ///< s, the step that led to x and the one that leaves it
   double min_dt = 0.0, max_dt = 0.0;     ///< s, used so far

@@ -304,6 +304,7 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
   for (double viscous : s.patch_sums)
     e.damping += viscous;
   e.damping += s.mass_damping_work;
+  e.external += s.start_energy;
   return e;
 }
 
