@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/contact_search.hpp"
 
+#include "core/passing.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +11,8 @@ namespace {
 
 void search_tool(Scene& s, ToolAndContacts& t) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
-    find_tool_points(t.contacts[p], t.body, s.plies[p].state(), s.data.contact.skin);
+    find_tool_points(t.contacts[p], t.body, s.plies[p].state(),
+                     std::max(s.data.contact.skin, step_way(s, static_cast<int>(p), t)));
   t.displacement_search = t.body.displacement;
 }
 
@@ -17,7 +20,9 @@ void search_plies(Scene& s, PlyContact& pair) {
   const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
   const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
   std::vector<Candidate> candidates;
-  master.tree->candidates(slave.x, pair.contact.distance + s.data.contact.skin, candidates);
+  // also what has come through within the step: find_passed looks at it
+  const double reach = std::max(pair.contact.distance + s.data.contact.skin, step_way(s, pair));
+  master.tree->candidates(slave.x, reach, candidates);
   find_sheet_points(pair.contact, candidates, slave.state(), master.state(),
                     master.membrane.triangles);
 }
