@@ -41,13 +41,14 @@ void label_patches(std::span<const Candidate> group, std::span<const Triangle> t
 }
 
 /// Area that one contact stands for: no more than the smaller of both sheets' node areas, so that
-/// a coarse node does not overload the small nodes of a fine sheet.
-double contact_area(const SheetState& slave, const SheetState& master, int node,
+/// a coarse node does not overload the small nodes of a fine sheet. The master's is that at the
+/// closest point: where faces meet, rounding says which of them is closest, and must not count.
+double contact_area(const SheetState& slave, const SheetState& master, const SheetContactPoint& c,
                     const Triangle& face) {
-  double mean = 0.0;
-  for (int n : face)
-    mean += master.area[static_cast<std::size_t>(n)] / 3.0;
-  return std::min(slave.area[static_cast<std::size_t>(node)], mean);
+  double there = 0.0;
+  for (std::size_t j = 0; j < 3; ++j)
+    there += c.w[j] * master.area[static_cast<std::size_t>(face[j])];
+  return std::min(slave.area[static_cast<std::size_t>(c.node)], there);
 }
 
 /// Closest point over the faces of one contact. Returns the distance, mm.
@@ -117,7 +118,7 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
       int feature = 0;
       c.gap =
           project(contact, c, at(slave.x, c.node), master.x, triangles, feature) - contact.distance;
-      c.area = contact_area(slave, master, c.node, triangles[static_cast<std::size_t>(c.face)]);
+      c.area = contact_area(slave, master, c, triangles[static_cast<std::size_t>(c.face)]);
       if (before) {
         adopted[static_cast<std::size_t>(before - old.data())] = 1;
         c.memory = before->memory;
