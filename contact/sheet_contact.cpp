@@ -165,7 +165,8 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
     c.normal = (p - c.w[0] * at(master.x, t[0]) - c.w[1] * at(master.x, t[1]) -
                 c.w[2] * at(master.x, t[2])) /
                d;
-    const NormalForce normal = normal_force(contact.law, c.area, depth, dp, dt);
+    const NormalForce normal =
+        normal_force(contact.law, c.area, depth, depth + std::min(last_gap, 0.0), dt);
     sums.damping += 0.5 * (normal.damping + c.memory.damping_force) * dp;
     c.memory.damping_force = normal.damping;
     c.memory.normal_force = normal.total;

@@ -63,14 +63,13 @@ bool meets_tool(const ToolBody& tool, const Vec3& from, const Vec3& way) {
 
 /// Whether a node left or is about to leave the tool on another side than it came from: its normal
 /// has turned round. Over the edge of a solid it turns by less.
-bool passed(const ToolBody& tool, const ToolContactPoint& c, double distance, const Vec3& x,
-            const Vec3& way) {
-  const double length = way.norm();
-  if (distance >= length) return false; // no room for a tool
-  int hint = c.hint;
+bool passed(const ToolBody& tool, const Vec3& x, const Vec3& way, int hint) {
+  const SurfacePoint now = distance_to_tool(tool, x, hint);
+  if (now.distance >= way.norm()) return false; // no room for a tool
   const SurfacePoint before = distance_to_tool(tool, x - way, hint);
-  const double turn = before.normal.dot(c.normal);
-  if (before.distance > 0.0 && distance > 0.0) return turn < 0.0 && meets_tool(tool, x - way, way);
+  const double turn = before.normal.dot(now.normal);
+  if (before.distance > 0.0 && now.distance > 0.0)
+    return turn < 0.0 && meets_tool(tool, x - way, way);
   return turn < -0.5;
 }
 
@@ -88,8 +87,7 @@ std::optional<Stop> find_passed(const Scene& s, const ToolAndContacts& tool, std
   if (!(std::max(contact.sums.penetration, way) > contact.half_thickness)) return std::nullopt;
   for (const ToolContactPoint& c : contact.points) {
     const Vec3 moved = at(s.plies[p].motion, c.node) - tool.body.motion;
-    const double distance = c.gap + contact.half_thickness;
-    if (passed(tool.body, c, distance, at(s.plies[p].x, c.node), moved))
+    if (passed(tool.body, at(s.plies[p].x, c.node), moved, c.hint))
       return Stop{fmt::format("{} went through tool {} by a step of {:.3g} mm; a slower stroke or "
                               "a smaller solver.step_factor may help",
                               when_and_who(s, p, c.node), tool.name, moved.norm())};
