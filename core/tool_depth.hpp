@@ -9,8 +9,8 @@
 //   c = L/2 tan a - R (1/cos a - 1)       beyond: the arc's middle lies that far above it     (2)
 // and a sharp edge is r = 0, so R = t/2. (2) is worst where the chord is symmetric to the edge, and
 // is measured down from the edge; the nearest surface, a flank, is nearer by cos a. On a surface
-// curved both ways the middle of a triangle can lie L/sqrt(3) from all its nodes (Jung's circle), so
-// that 2 L/sqrt(3) takes the place of L. c > t/2: the mid-surface itself goes inside.
+// curved both ways the middle of a triangle can lie L/sqrt(3) from all its nodes (Jung's circle),
+// so that 2 L/sqrt(3) takes the place of L. c > t/2: the mid-surface itself goes inside.
 #pragma once
 
 #include "core/scene.hpp"

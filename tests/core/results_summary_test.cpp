@@ -33,7 +33,8 @@ Frame unequal(double most, double rest) {
 }
 
 TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
-  Summary summary{"a title", "1.2.3", "done", "", 12.5, 1000, 1e-6, 2e-6, 4, {0.01, 0.02, 0.05, 3, 4}};
+  Summary summary{"a title", "1.2.3", "done", "", 12.5,
+                  1000,      1e-6,    2e-6,   4,  {0.01, 0.02, 0.05, 3, 4}};
   Frame frame = unequal(10, -20);
   frame.boundaries = {{"upper grip", 1.5, 20, {20, 3, 4}}};
   EXPECT_EQ(summary_json(frame, summary), R"({

@@ -10,8 +10,8 @@ namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
 
-/// A strip 20 mm wide lies from x = -60 to 60 over a table that ends, or curves away, near x = 0. Its
-/// right end is drawn down by 48 mm, its left end kept level and free to follow. No friction.
+/// A strip 20 mm wide lies from x = -60 to 60 over a table that ends, or curves away, near x = 0.
+/// Its right end is drawn down by 48 mm, its left end kept level and free to follow. No friction.
 Scene drawn_over(const ToolShape& shape, const Vec3& position, const Eigen::Matrix3d& rotation,
                  double size) {
   Case data = stack_of({0.0}, rectangle(120.0, 20.0, size));
