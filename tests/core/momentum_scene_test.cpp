@@ -112,11 +112,13 @@ Worst follow(const Case& data) {
   return worst;
 }
 
-/// At every step the forces of each pair sum to zero, whichever way the contact looks.
+/// At every step the forces of each pair and their moments sum to zero, whichever way the contact
+/// looks.
 TEST(MomentumScene, PlyForcesCancelAndFrictionOnlyTakes) {
   const Worst worst = follow(sliding_case());
   EXPECT_GT(worst.with_forces, 2 * worst.steps); // several pairs at nearly every step
   EXPECT_LE(worst.force, 1e-10);
+  EXPECT_LE(worst.moment, 1e-10);
   EXPECT_LE(worst.friction_fell, 1e-12 * worst.friction); // rounding of the sum
   EXPECT_GT(worst.friction, 10.0);                        // N mm
   EXPECT_LE(worst.balance, 0.01);
