@@ -10,7 +10,8 @@
 //   s    mm      elastic tangential displacement remembered by the contact (its history)
 //   mu   -       coefficient of friction
 //
-//   N = max(0, A (k p + c dp/dt))                                                           (N)
+//   N = max(0, A (k p + c dp/dt)), p >= 0: in the step that closes a gap dp is what is
+//       penetrated, not the way, so that N has no jump where p = 0                          (N)
 //   s_trial = rotate(s) + tangential part of the relative motion of this step
 //   T = -A k_t s,  |T| <= mu N, s shortened to fit when it slides                             (T)
 //

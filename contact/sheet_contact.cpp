@@ -42,13 +42,14 @@ void label_patches(std::span<const Candidate> group, std::span<const Triangle> t
 }
 
 /// Area that one contact stands for: no more than the smaller of both sheets' node areas, so that
-/// a coarse node does not overload the small nodes of a fine sheet.
-double contact_area(const SheetState& slave, const SheetState& master, int node,
+/// a coarse node does not overload the small nodes of a fine sheet. The master's is that at the
+/// closest point: where faces meet, rounding says which of them is closest, and must not count.
+double contact_area(const SheetState& slave, const SheetState& master, const SheetContactPoint& c,
                     const Triangle& face) {
-  double mean = 0.0;
-  for (int n : face)
-    mean += master.area[static_cast<std::size_t>(n)] / 3.0;
-  return std::min(slave.area[static_cast<std::size_t>(node)], mean);
+  double there = 0.0;
+  for (std::size_t j = 0; j < 3; ++j)
+    there += c.w[j] * master.area[static_cast<std::size_t>(face[j])];
+  return std::min(slave.area[static_cast<std::size_t>(c.node)], there);
 }
 
 /// Closest point over the faces of one contact, of those that can be closer than the best one.
@@ -154,7 +155,7 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
         if (label[i] == label[first])
           near.push_back(measure(group[i], slave.x, master.x, triangles));
       SheetContactPoint c = add_faces(contact, group[first].node, near);
-      c.area = contact_area(slave, master, c.node, triangles[static_cast<std::size_t>(c.face)]);
+      c.area = contact_area(slave, master, c, triangles[static_cast<std::size_t>(c.face)]);
       if (const SheetContactPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[static_cast<std::size_t>(before - old.data())] = 1;
         c.memory = before->memory;
@@ -188,7 +189,8 @@ void add_forces(SheetContact& contact, SheetContactPoint& c, const SheetState& s
   const double depth = -c.gap;
   c.normal = arm / (contact.distance - depth);
   const double dp = std::isinf(last_gap) ? -c.normal.dot(motion) : last_gap - c.gap;
-  const NormalForce normal = normal_force(contact.law, c.area, depth, dp, dt);
+  const NormalForce normal =
+      normal_force(contact.law, c.area, depth, depth + std::min(last_gap, 0.0), dt);
   sums.damping += 0.5 * (normal.damping + c.memory.damping_force) * dp;
   c.memory.damping_force = normal.damping;
   c.memory.normal_force = normal.total;
@@ -237,6 +239,9 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
     if ((c.side * side < 0 && d < h) || d < 0.5 * h) contact.fault = {c.node, c.face, d};
     c.side = side; // forgotten on edges: a node may slide round the rim to the other side
     if (!(c.gap < 0.0)) {
+      if (c.memory.damping_force != 0.0) // the trapezoid's last half
+        sums.damping += 0.5 * c.memory.damping_force * (last_gap - c.gap);
+      c.memory.damping_force = 0.0;
       release(contact.law, c.area, c.memory, sums);
       continue;
     }

@@ -48,7 +48,7 @@ Residual residual_of(const ToolBody& tool, std::span<ToolContact> contacts,
       const double p = -c.gap + facing * delta;
       if (!(p > 0.0)) continue;
       const double area = area_of(plies[i], c);
-      const double n = area * (law.stiffness * p + rate * (p + c.last_gap)); // (N)
+      const double n = area * (law.stiffness * p + rate * (p + std::min(c.last_gap, 0.0))); // (N)
       if (!(n > 0.0)) continue;
       r.value -= facing * n;
       r.slope -= facing * facing * area * (law.stiffness + rate);
@@ -90,10 +90,13 @@ Vec3 contact_forces(ToolContact& contact, const SheetState& ply, const Vec3& too
     f.setZero();
     const double p = -c.gap, dp = c.last_gap - c.gap, area = ply.area[n];
     if (!(p > 0.0)) {
+      contact.sums.damping += 0.5 * c.memory.damping_force * dp; // the trapezoid's last half
+      c.memory.damping_force = 0.0;
       release(contact.law, area, c.memory, contact.sums);
       continue;
     }
-    const NormalForce normal = normal_force(contact.law, area, p, dp, dt);
+    const NormalForce normal =
+        normal_force(contact.law, area, p, p + std::min(c.last_gap, 0.0), dt);
     contact.sums.damping += 0.5 * (normal.damping + c.memory.damping_force) * dp;
     c.memory.damping_force = normal.damping;
     c.memory.normal_force = normal.total;

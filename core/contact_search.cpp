@@ -2,6 +2,7 @@
 #include "core/contact_search.hpp"
 
 #include "contact/point_triangle.hpp"
+#include "core/passing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -36,7 +37,8 @@ void leave_out_neighbours(std::vector<Candidate>& candidates, std::span<const Ve
 
 void search_tool(Scene& s, ToolAndContacts& t) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
-    find_tool_points(t.contacts[p], t.body, s.plies[p].state(), s.data.contact.skin);
+    find_tool_points(t.contacts[p], t.body, s.plies[p].state(),
+                     std::max(s.data.contact.skin, step_way(s, static_cast<int>(p), t)));
   t.displacement_search = t.body.displacement;
 }
 
@@ -44,7 +46,8 @@ void search_plies(Scene& s, PlyContact& pair) {
   const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
   const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
   const Stopwatch watch(pair.contact.time.search);
-  const double reach = pair.contact.distance + s.data.contact.skin;
+  // also what has come through within the step: find_passed looks at it
+  const double reach = std::max(pair.contact.distance + s.data.contact.skin, step_way(s, pair));
   std::vector<Candidate> candidates;
   if (may_meet(slave.tree->bounds(), master.tree->bounds(), reach))
     master.tree->candidates(slave.x, reach, candidates);

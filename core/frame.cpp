@@ -63,11 +63,11 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
 ToolFrame make_tool_frame(const Scene& scene, const ToolAndContacts& tool) {
   ToolFrame f;
   f.name = tool.name;
-  double extent = 0.0;
+  const ToolBody& body = tool.body;
+  double extent = 0.0; // from the tool, wherever the case has its origin
   for (const PlyBody& ply : scene.plies)
     for (const Vec3& x : ply.x0)
-      extent = std::max(extent, x.norm());
-  const ToolBody& body = tool.body;
+      extent = std::max(extent, (x - body.position).norm());
   constexpr double facet = 5.0; // mm, for pictures
   f.surface = tessellate(body.shape, facet, 1.2 * extent);
   for (Vec3& x : f.surface.x)

@@ -68,7 +68,8 @@ struct Frame {
 };
 
 struct ContactReport {
-  double max_tool_penetration_mm = 0, max_ply_penetration_mm = 0;
+  double max_tool_penetration_mm = 0, max_ply_penetration_mm = 0; ///< of nodes
+  double max_tool_penetration_between_nodes_mm = 0;               ///< core/tool_depth.hpp
   long intersections_between_plies = 0, intersections_within_plies = 0;
 };
 

@@ -198,10 +198,14 @@ std::string time_json(const WorkReport& w) {
 }
 
 std::string contact_json(const ContactReport& c) {
-  return fmt::format("{{\"max_tool_penetration_mm\": {}, \"max_ply_penetration_mm\": {}, "
+  return fmt::format("{{\"max_tool_penetration_mm\": {}, "
+                     "\"max_tool_penetration_between_nodes_mm\": {}, "
+                     "\"max_ply_penetration_mm\": {}, "
                      "\"intersections_between_plies\": {}, \"intersections_within_plies\": {}}}",
-                     json_number(c.max_tool_penetration_mm), json_number(c.max_ply_penetration_mm),
-                     c.intersections_between_plies, c.intersections_within_plies);
+                     json_number(c.max_tool_penetration_mm),
+                     json_number(c.max_tool_penetration_between_nodes_mm),
+                     json_number(c.max_ply_penetration_mm), c.intersections_between_plies,
+                     c.intersections_within_plies);
 }
 
 } // namespace

@@ -4,6 +4,7 @@
 #include "contact/audit.hpp"
 #include "core/frame.hpp"
 #include "core/step.hpp"
+#include "core/tool_depth.hpp"
 #include "core/version.hpp"
 #include "core/work_report.hpp"
 
@@ -152,6 +153,7 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.max_step_s = s.max_dt;
   sum.threads = threads;
   sum.contact = audit(s, depths);
+  sum.contact.max_tool_penetration_between_nodes_mm = depth_between_nodes(s);
   sum.work = report_work(s, result.last, sum.contact);
   if (sum.contact.intersections_between_plies > 0 && sum.status == "done") {
     sum.status = "stopped";

@@ -90,6 +90,7 @@ struct NodeSums {
   double kinetic = 0.0; ///< N mm, at the time of the forces
   double damping = 0.0; ///< N mm, work of mass damping in this step
   double moved2 = 0.0;  ///< mm^2, largest squared way since the last contact search
+  double step2 = 0.0;   ///< mm^2, largest squared way of this step
 };
 
 struct Scene {

@@ -2,6 +2,7 @@
 #include "core/step.hpp"
 
 #include "core/contact_search.hpp"
+#include "core/passing.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -184,6 +185,7 @@ NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt,
     ply.x[n] += ply.motion[n]; // (15)
     // trapezoidal rule over the step that begins; at its end the damping force goes by `now`
     sums.damping += 0.5 * loads.damping * ply.membrane.node_mass[n] * now.dot(old + now) * next_dt;
+    sums.step2 = std::max(sums.step2, ply.motion[n].squaredNorm());
     const double moved2 = (ply.x[n] - ply.x_search[n]).squaredNorm();
     if (!(moved2 <= sums.moved2) && !std::isnan(sums.moved2)) sums.moved2 = moved2; // NaN stays
   }
@@ -271,7 +273,8 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
   if (std::find(s.patch_collapsed.begin(), s.patch_collapsed.end(), 1) != s.patch_collapsed.end())
     if (auto stop = find_collapsed(s)) return stop;
   hold_nodes(s);
-  return find_fault(s);
+  if (auto stop = find_fault(s)) return stop;
+  return find_passed(s);
 }
 
 Energies current_energies(const Scene& s, ThreadTeam& team) {

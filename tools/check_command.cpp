@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/step.hpp"
+#include "core/tool_depth.hpp"
 #include "tools/commands.hpp"
 
 #include <algorithm>
@@ -57,18 +58,39 @@ void print_plies(const Scene& s) {
   }
 }
 
-double longest_side(const Scene& s) {
+double longest_side(const PlyBody& ply) {
   double longest = 0.0;
-  for (const PlyBody& ply : s.plies)
-    for (const SheetEdge& e : ply.edges)
-      longest = std::max(
-          longest,
-          (ply.x[static_cast<std::size_t>(e.a)] - ply.x[static_cast<std::size_t>(e.b)]).norm());
+  for (const SheetEdge& e : ply.edges)
+    longest = std::max(
+        longest,
+        (ply.x[static_cast<std::size_t>(e.a)] - ply.x[static_cast<std::size_t>(e.b)]).norm());
   return longest;
 }
 
+/// Says if a ply may be cut by more than half its thickness, for the one that is cut most.
+void print_cut(const Scene& s, const ToolAndContacts& tool) {
+  constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
+  const double radius = smallest_radius(tool.body.shape);
+  if (!std::isfinite(radius)) return;
+  const bool ball = std::holds_alternative<Sphere>(tool.body.shape);
+  const double spread = ball ? 2.0 / std::sqrt(3.0) : 1.0; // curved both ways
+  const PlyBody* worst = nullptr;
+  double most = 0.5;
+  for (const PlyBody& ply : s.plies) {
+    const double side = spread * longest_side(ply);
+    const double cut = cut_between_nodes(side, radius, ply.thickness, half_turn) / ply.thickness;
+    if (cut > most) most = cut, worst = &ply;
+  }
+  if (!worst) return;
+  fmt::print("    warning: tool {}, {}: triangles have sides up to {:.3g} mm and touch at nodes "
+             "only, so that ply {} drawn over it by 90 degrees may be cut {:.2g} mm deep between "
+             "them; sides up to {:.2g} mm keep that below half its thickness\n",
+             tool.name, radius > 0.0 ? fmt::format("radius {:g} mm", radius) : "sharp edge",
+             longest_side(*worst), worst->name, most * worst->thickness,
+             side_of_half_cut(radius, worst->thickness, half_turn) / spread);
+}
+
 void print_tools(const Scene& s) {
-  const double longest = longest_side(s);
   for (std::size_t i = 0; i < s.tools.size(); ++i) {
     const ToolAndContacts& t = s.tools[i];
     const Motion motion = s.data.tools[i].motion;
@@ -79,11 +101,7 @@ void print_tools(const Scene& s) {
     const double radius = smallest_radius(t.body.shape);
     if (std::isfinite(radius)) fmt::print(", smallest radius {:g} mm", radius);
     fmt::print("\n");
-    if (radius < longest)
-      fmt::print(
-          "    note: that is less than the longest side of a triangle, {:.3g} mm: contact is at "
-          "nodes, flat triangles cut into the tool between them\n",
-          longest);
+    print_cut(s, t);
   }
 }
 

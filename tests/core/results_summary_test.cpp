@@ -33,7 +33,8 @@ Frame unequal(double most, double rest) {
 }
 
 TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
-  Summary summary{"a title", "1.2.3", "done", "", 12.5, 1000, 1e-6, 2e-6, 4, {0.01, 0.02, 3, 4}};
+  Summary summary{"a title", "1.2.3", "done", "", 12.5,
+                  1000,      1e-6,    2e-6,   4,  {0.01, 0.02, 0.05, 3, 4}};
   Frame frame = unequal(10, -20);
   frame.boundaries = {{"upper grip", 1.5, 20, {20, 3, 4}}};
   EXPECT_EQ(summary_json(frame, summary), R"({
@@ -57,7 +58,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
     {"name": "upper grip", "force_N": 20, "displacement_mm": 1.5}
   ],
   "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "balance_error": 0},
-  "contact": {"max_tool_penetration_mm": 0.01, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4}
+  "contact": {"max_tool_penetration_mm": 0.01, "max_tool_penetration_between_nodes_mm": 0.05, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4}
 }
 )"); // rms: sqrt((99 * 10^2 + 1 * 20^2) / 100) = sqrt(103)
 }
