@@ -97,7 +97,7 @@ Touching follow(Scene& s, int every) {
     if (s.step % every == 0) {
       ++looks;
       for (const PlyContact& pair : s.ply_contacts)
-        expect_all_faces(s, pair, touching);
+        if (pair.slave != pair.master) expect_all_faces(s, pair, touching);
       for (const ToolAndContacts& tool : s.tools)
         expect_all_nodes(s, tool, touching);
       if (::testing::Test::HasFailure()) {
@@ -108,7 +108,7 @@ Touching follow(Scene& s, int every) {
     searches = s.searches;
     move_plies(s, team);
   }
-  EXPECT_GT(looks, 20);
+  EXPECT_GT(looks, 15);
   EXPECT_GT(searches, 10);         // it moves
   EXPECT_LT(searches, s.step / 3); // the skin is of use
   return touching;
@@ -119,11 +119,11 @@ TEST(ContactSearch, NoPairIsAbsentWhileAStackIsDrawn) {
   for (const std::vector<double>& angles : {std::vector{0.0, 0.785}, std::vector{0.3, 0.0, 1.1}}) {
     Case data = coarse_hemisphere(angles);
     data.blanks = {rectangle(240.0, 240.0, 20.0)};
-    data.solver.duration = 0.03;
-    data.tools[0].stroke = 50.0;
+    data.solver.duration = 0.02;
+    data.tools[0].stroke = 35.0;
     data.contact.stiffness = 0.5; // fast, so that it moves far; the depth is not what is asked
     Scene s = make_scene(data);
-    const Touching touching = follow(s, 83);
+    const Touching touching = follow(s, 61);
     EXPECT_GT(touching.plies, 1000) << angles.size();
     EXPECT_GT(touching.tools, 500) << angles.size();
   }
