@@ -35,7 +35,7 @@ std::vector<double> distances(const PlyBody& master, const Vec3& p) {
 void expect_all_faces(const Scene& s, const PlyContact& pair, Touching& touching) {
   const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
   const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
-  const double h = pair.contact.distance;
+  const double h = 0.5 * (slave.thickness + master.thickness);
   auto point = pair.contact.points.begin();
   for (std::size_t n = 0; n < slave.x.size(); ++n) {
     std::vector<char> listed(master.membrane.triangles.size(), 0);
@@ -64,18 +64,16 @@ void expect_all_faces(const Scene& s, const PlyContact& pair, Touching& touching
 void expect_all_nodes(const Scene& s, const ToolAndContacts& tool, Touching& touching) {
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const ToolContact& contact = tool.contacts[p];
+    const double half = 0.5 * s.plies[p].thickness;
     // The gaps of a pushed tool, which moved last, are those of a straight line over its motion:
     // off by its square over twice the distance where an edge is met.
-    const double bend =
-        rounding +
-        (tool.body.pushed ? tool.body.motion.squaredNorm() / contact.half_thickness : 0.0);
+    const double bend = rounding + (tool.body.pushed ? tool.body.motion.squaredNorm() / half : 0.0);
     std::vector<double> gap(s.plies[p].x.size(), 1e300);
     for (const ToolContactPoint& c : contact.points)
       gap[static_cast<std::size_t>(c.node)] = c.gap;
     for (std::size_t n = 0; n < gap.size(); ++n) {
       int hint = -1;
-      const double expected =
-          distance_to_tool(tool.body, s.plies[p].x[n], hint).distance - contact.half_thickness;
+      const double expected = distance_to_tool(tool.body, s.plies[p].x[n], hint).distance - half;
       if (expected > -rounding) continue;
       ++touching.tools;
       ASSERT_NEAR(gap[n], expected, bend)
