@@ -1,0 +1,100 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Do the tests see a fault of contact? Copies the sources, plants one fault after the other, builds
+# the short tests and runs those of contact:
+#   tests/planted_faults.sh [SCRATCH_FOLDER [REGEX]]
+# A folder that is given is kept, and the next call builds only what has changed; with REGEX only
+# faults whose names match. Prints a table of faults and the tests that fail; answers 1 if a fault
+# makes no test fail, or if one fails without.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+# NAME | FILE | what sed does to it. Each must change its file.
+faults=(
+  "normals of tools point inward | contact/tool_contact.cpp | s/s.normal = tool.rotation \* s.normal;/s.normal = -(tool.rotation * s.normal);/"
+  "normals beside edges of profiles point to the edge, inside as outside | contact/profile.cpp | s/d \* (sign \/ length)}/d \/ length}/"
+  "normals beside edges of mesh tools point to the edge, inside as outside | contact/mesh_shape.cpp | s/d \* (sign \/ length)}/d \/ length}/"
+  "normal force between plies pulls | contact/sheet_contact.cpp | s/Vec3 f = normal.total \* c.normal/Vec3 f = -normal.total * c.normal/"
+  "boxes of the search: one triangle in 64 is never a candidate | contact/candidates.cpp | s/if (q.distance2 <= reach \* reach) out/if (q.distance2 <= reach * reach \&\& box.primitiveId() % 64 != 7) out/"
+  "boxes of the search are not brought up to date | core/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
+  "contacts of plies are listed without the skin | core/contact_search.cpp | s/pair.contact.distance + s.data.contact.skin/pair.contact.distance/"
+  "the first node near a tool is not listed | contact/tool_contact.cpp | s/if (gap > reach) {/if (gap > reach || contact.points.empty()) {/"
+  "friction between plies is forgotten at a search | contact/sheet_contact.cpp | s/c.memory = before->memory;//"
+  "friction with tools is forgotten at a search | contact/tool_contact.cpp | s/if (known) point = old\[next_old\];/if (known) point = old[next_old], point.memory = {};/"
+  "plies touch each other at half their thickness | core/scene.cpp | s/0.5 \* (slave.thickness + master.thickness)/0.25 * (slave.thickness + master.thickness)/"
+  "plies touch tools at half their half thickness | core/scene.cpp | s/half_thickness = 0.5 \* plies\[p\].thickness/half_thickness = 0.25 * plies[p].thickness/"
+  "friction takes tools for standing still | contact/tool_contact.cpp | s/ply.motion\[n\] - tool_motion/ply.motion[n]/"
+  "friction takes tools to move the other way | contact/tool_contact.cpp | s/ply.motion\[n\] - tool_motion/ply.motion[n] + tool_motion/"
+)
+filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*'
+
+if [ $# -gt 0 ]; then
+  mkdir -p "$1"
+  scratch=$(cd "$1" && pwd)
+else
+  scratch=$(mktemp -d)
+  trap 'rm -rf "$scratch"' EXIT
+fi
+# Only what differs is copied, so that only that is compiled anew.
+find . \( -path ./build -o -path ./results -o -path ./.git -o -name __pycache__ \) -prune -o -type f -print |
+  while read -r file; do
+    cmp -s "$file" "$scratch/$file" || install -D -p -m 755 "$file" "$scratch/$file"
+  done
+cd "$scratch"
+mkdir -p build
+log=build/log planted=build/planted original=build/original
+launcher=()
+if command -v ccache >/dev/null; then
+  launcher=(-DCMAKE_CXX_COMPILER_LAUNCHER=ccache)
+  export CCACHE_BASEDIR=/ CCACHE_NOHASHDIR=1 # the same sources in another folder are known
+fi
+cmake --preset release "${launcher[@]}" >"$log" || { cat "$log"; exit 1; }
+
+build() {
+  cmake --build build/release --target contact_tests core_tests >"$log" 2>&1 || {
+    tail -n 40 "$log"
+    echo "planted_faults.sh: error: does not build: $1" >&2
+    exit 1
+  }
+}
+
+# failing: names of the tests that fail, a line each; a program that crashes or hangs is one more.
+failing() {
+  local program code
+  for program in contact_tests core_tests; do
+    code=0
+    timeout 300 "build/release/tests/$program" --gtest_filter="$filter" >"$log" 2>&1 || code=$?
+    grep -oE '^\[  FAILED  \] [A-Za-z]+\.[A-Za-z0-9]+' "$log" | sed 's/.*\] //' | sort -u || true
+    [ "$code" -le 1 ] || echo "$program ended with code $code"
+  done
+}
+
+build "the sources as they are"
+found=$(failing)
+[ -z "$found" ] || { printf 'planted_faults.sh: error: tests fail without a fault:\n%s\n' "$found" >&2; exit 1; }
+
+unseen=0
+printf '| fault | tests that fail |\n|---|---|\n'
+for line in "${faults[@]}"; do
+  name=${line%% | *} rest=${line#* | }
+  file=${rest%% | *} change=${rest#* | }
+  [[ $name =~ ${2:-.} ]] || continue
+  sed "$change" "$file" >"$planted"
+  if cmp -s "$planted" "$file"; then
+    echo "planted_faults.sh: error: $file has no place for the fault: $name" >&2
+    exit 1
+  fi
+  cp "$file" "$original"
+  cat "$planted" >"$file"
+  build "$name"
+  mapfile -t tests < <(failing)
+  cat "$original" >"$file"
+  if [ ${#tests[@]} -eq 0 ]; then
+    unseen=$((unseen + 1))
+    tests=("**none**")
+  fi
+  shown=$(printf '`%s`, ' "${tests[@]:0:4}")
+  [ ${#tests[@]} -le 4 ] || shown+="and $((${#tests[@]} - 4)) more, "
+  printf '| %s | %s |\n' "$name" "${shown%, }"
+done
+[ "$unseen" -eq 0 ] || { echo "planted_faults.sh: $unseen faults make no test fail" >&2; exit 1; }
