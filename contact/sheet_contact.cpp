@@ -10,6 +10,10 @@
 namespace plyform {
 namespace {
 
+/// Where faces meet they are as close as each other; the friction's couple goes to one of them, and
+/// it must not be rounding that says which.
+constexpr double tie = 1e-10; // of the square of the distance
+
 const Vec3& at(std::span<const Vec3> x, int n) {
   return x[static_cast<std::size_t>(n)];
 }
@@ -52,26 +56,35 @@ double contact_area(const SheetState& slave, const SheetState& master, const She
   return std::min(slave.area[static_cast<std::size_t>(c.node)], there);
 }
 
+/// What is closest to a node.
+struct Closest {
+  double distance; ///< mm
+  int feature;     ///< of the face, see ClosestPoint
+};
+
 /// Closest point over the faces of one contact, of those that can be closer than the best one.
-/// Returns the distance, mm.
-double project(const SheetContact& contact, SheetContactPoint& c, const Vec3& p,
-               std::span<const Vec3> x, std::span<const Triangle> triangles, double way,
-               int& feature) {
-  double best2 = std::numeric_limits<double>::infinity(), limit = best2;
+Closest project(const SheetContact& contact, SheetContactPoint& c, const Vec3& p,
+                std::span<const Vec3> x, std::span<const Triangle> triangles, double way) {
+  double best2 = std::numeric_limits<double>::max(), limit = best2;
+  Closest found{0.0, 0};
   for (auto i = static_cast<std::size_t>(c.first_face); i < static_cast<std::size_t>(c.end_face);
        ++i) {
     if (contact.face_distance[i] > limit) break; // they are in ascending order
-    const Triangle& t = triangles[static_cast<std::size_t>(contact.faces[i])];
+    const std::int32_t face = contact.faces[i];
+    const Triangle& t = triangles[static_cast<std::size_t>(face)];
     const ClosestPoint q = closest_point_on_triangle(p, at(x, t[0]), at(x, t[1]), at(x, t[2]));
+    const bool tied = std::abs(q.distance2 - best2) <= tie * best2;
+    if (tied ? face < c.stand : q.distance2 < best2) c.stand = face;
     if (q.distance2 < best2) {
       best2 = q.distance2;
       limit = std::sqrt(best2) + way;
-      c.face = contact.faces[i];
+      c.face = face;
       c.w = q.w;
-      feature = q.feature;
+      found.feature = q.feature;
     }
   }
-  return std::sqrt(best2);
+  found.distance = std::sqrt(best2);
+  return found;
 }
 
 /// Which side of its face the node is on. Known only above the inside of a face.
@@ -108,7 +121,9 @@ SheetContactPoint add_faces(SheetContact& contact, std::int32_t node, std::vecto
     contact.face_distance.push_back(n.distance);
   }
   c.end_face = static_cast<std::int32_t>(contact.faces.size());
-  c.face = near.front().face;
+  c.face = c.stand = near.front().face;
+  for (const NearFace& n : near)
+    if (n.distance <= (1.0 + tie) * near.front().distance) c.stand = std::min(c.stand, n.face);
   c.w = near.front().w;
   c.slack = near.front().distance - contact.distance;
   c.gap = std::numeric_limits<double>::infinity();
@@ -174,10 +189,12 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
 
 namespace {
 
-/// Adds a touching contact's forces on its node and its face: (S), (N), (T), (M). last_gap: mm, of
+/// Adds a touching contact's forces on its node, its face t and the face that the arm stands on,
+/// which is t or meets it at the closest point: (S), (N), (T), (M). last_gap: mm, of
 /// the step before; infinite if unknown.
 void add_forces(SheetContact& contact, SheetContactPoint& c, const SheetState& slave,
-                const SheetState& master, const Triangle& t, double last_gap, double dt) {
+                const SheetState& master, const Triangle& t, const Triangle& stand, double last_gap,
+                double dt) {
   ContactSums& sums = contact.sums;
   const std::array<Vec3, 3> x = {at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2])};
   const std::array<Vec3, 3> u = {at(master.motion, t[0]), at(master.motion, t[1]),
@@ -196,8 +213,10 @@ void add_forces(SheetContact& contact, SheetContactPoint& c, const SheetState& s
   c.memory.normal_force = normal.total;
   Vec3 f = normal.total * c.normal;
   if (contact.law.friction > 0.0) {
-    const FaceFrame frame = face_frame(x[0], x[1], x[2]);
-    const Vec3 turn = face_turn(frame, u);
+    const FaceFrame frame =
+        face_frame(at(master.x, stand[0]), at(master.x, stand[1]), at(master.x, stand[2]));
+    const Vec3 turn = face_turn(frame, {at(master.motion, stand[0]), at(master.motion, stand[1]),
+                                        at(master.motion, stand[2])});
     const Vec3 slip = motion - turn.cross(arm); // (P)
     c.memory.s += turn.cross(c.memory.s);
     const Vec3 tangential =
@@ -205,7 +224,7 @@ void add_forces(SheetContact& contact, SheetContactPoint& c, const SheetState& s
     f += tangential;
     const std::array<Vec3, 3> couple = forces_of_couple(frame, -arm.cross(tangential)); // (M)
     for (std::size_t j = 0; j < 3; ++j)
-      contact.master_force[static_cast<std::size_t>(t[j])] += couple[j];
+      contact.master_force[static_cast<std::size_t>(stand[j])] += couple[j];
   }
   contact.slave_force[static_cast<std::size_t>(c.node)] += f;
   for (std::size_t j = 0; j < 3; ++j)
@@ -230,12 +249,12 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
   for (SheetContactPoint& c : contact.points) {
     if (c.slack > way) continue;
     const Vec3& p = at(slave.x, c.node);
-    int feature = 0;
-    const double d = project(contact, c, p, master.x, triangles, way, feature);
+    const Closest closest = project(contact, c, p, master.x, triangles, way);
+    const double d = closest.distance;
     const double last_gap = c.gap;
     c.gap = d - h;
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
-    const int side = feature == 0 ? side_of(p, t, master.x) : 0;
+    const int side = closest.feature == 0 ? side_of(p, t, master.x) : 0;
     if ((c.side * side < 0 && d < h) || d < 0.5 * h) contact.fault = {c.node, c.face, d};
     c.side = side; // forgotten on edges: a node may slide round the rim to the other side
     if (!(c.gap < 0.0)) {
@@ -245,7 +264,8 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
       release(contact.law, c.area, c.memory, sums);
       continue;
     }
-    add_forces(contact, c, slave, master, t, last_gap, dt);
+    add_forces(contact, c, slave, master, t, triangles[static_cast<std::size_t>(c.stand)], last_gap,
+               dt);
   }
   sums.deepest = std::max(sums.deepest, sums.penetration);
 }
@@ -261,17 +281,20 @@ void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
     const double normal = 2.0 * c.area * contact.law.stiffness;
     slave_rows[static_cast<std::size_t>(c.node)] += normal;
-    std::array<double, 3> couple{};
     if (contact.law.friction > 0.0) {
-      const FaceFrame f = face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]));
+      std::array<double, 3> couple{};
+      const Triangle& stand = triangles[static_cast<std::size_t>(c.stand)];
+      const FaceFrame f =
+          face_frame(at(master.x, stand[0]), at(master.x, stand[1]), at(master.x, stand[2]));
       double sum = 0.0;
       for (std::size_t j = 0; j < 3; ++j)
         sum += couple[j] = contact.distance * f.gradient[j].norm();
-      for (double& g : couple)
-        g *= 2.0 * c.area * contact.law.tangential() * sum;
+      for (std::size_t j = 0; j < 3; ++j)
+        master_rows[static_cast<std::size_t>(stand[j])] +=
+            2.0 * c.area * contact.law.tangential() * sum * couple[j];
     }
     for (std::size_t j = 0; j < 3; ++j)
-      master_rows[static_cast<std::size_t>(t[j])] += c.w[j] * normal + couple[j];
+      master_rows[static_cast<std::size_t>(t[j])] += c.w[j] * normal;
   }
 }
 

@@ -34,7 +34,8 @@ struct SheetContactPoint {
   std::int32_t node;
   std::int32_t first_face, end_face; ///< range in SheetContact::faces
   std::int32_t face = -1;            ///< closest one in the last step
-  std::array<double, 3> w{};         ///< weights of the closest point
+  std::int32_t stand = -1;    ///< the arm of friction stands on it: the first of those that tie
+  std::array<double, 3> w{};  ///< weights of the closest point
   int side = 0;               ///< +1: on the side of the face normal, -1: other, 0: not known
   double area = 0.0;          ///< mm^2 that the contact stands for
   double slack = 0.0;         ///< mm, gap when the search was done

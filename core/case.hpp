@@ -73,7 +73,7 @@ enum class ElementKind {
 struct SolverOptions {
   ElementKind element = ElementKind::automatic;
   double duration = 0.1;          ///< s simulated
-  double step_factor = 0.9;       ///< fraction of the stable step
+  double step_factor = 0.6;       ///< fraction of the stable step
   double fibre_softening = 1.0;   ///< fibre stiffness is divided by this
   double fibre_damping = 0.05;    ///< fraction of critical of the stiffest element mode
   double mass_damping = 0.0;      ///< 1/s, acceleration -mass_damping * velocity

@@ -48,9 +48,18 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   return body;
 }
 
-/// Contact stiffness per area that moves a free node at `fraction` of the elements' omega^2.
+/// Contact stiffness per area that moves a free node at `fraction` of the elements' omega^2. That
+/// falls with the square of the element size, while a ply may not sink in deeper for being meshed
+/// coarsely: so no less than what elements of 12.5 thicknesses would have, within a factor of five,
+/// beyond which contact alone would set the step.
 double penalty_per_area(const PlyBody& ply, double fraction) {
-  return fraction * ply.membrane.fabric.surface_density *
+  constexpr double fine = 12.5, most = 5.0;
+  double area = 0.0;
+  for (const double a : ply.membrane.node_area)
+    area += a;
+  const double cell = 2.0 * area / static_cast<double>(ply.membrane.triangles.size()); // mm^2
+  const double coarse = cell / (fine * fine * ply.thickness * ply.thickness);
+  return std::clamp(coarse, 1.0, most) * fraction * ply.membrane.fabric.surface_density *
          frequency_bound(ply.membrane, ply.x).omega2;
 }
 
@@ -166,7 +175,7 @@ StepBound stable_step(const Scene& s) {
     damping_ratio = std::max(damping_ratio, pair.contact.law.damping / pair.contact.law.stiffness);
   }
   for (const PlyEdgeContact& pair : s.edge_contacts)
-    add_edge_stiffness(pair.contact, margin, rows[static_cast<std::size_t>(pair.a)],
+    add_edge_stiffness(pair.contact, 0.25 * margin, rows[static_cast<std::size_t>(pair.a)],
                        rows[static_cast<std::size_t>(pair.b)]);
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBody& ply = s.plies[p];

@@ -33,8 +33,10 @@ Frame unequal(double most, double rest) {
 }
 
 TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
-  Summary summary{"a title", "1.2.3", "done", "", 12.5,
-                  1000,      1e-6,    2e-6,   4,  {0.01, 0.02, 0.05, 3, 4}};
+  Summary summary{
+      "a title", "1.2.3", "done", "", 12.5, 1000, 1e-6, 2e-6, 4, {0.01, 0.02, 0.05, 3, 4}, {}};
+  summary.work = {0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7}}, {"bending: small"},
+                  {}};
   Frame frame = unequal(10, -20);
   frame.boundaries = {{"upper grip", 1.5, 20, {20, 3, 4}}};
   EXPECT_EQ(summary_json(frame, summary), R"({
@@ -58,7 +60,16 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
     {"name": "upper grip", "force_N": 20, "displacement_mm": 1.5}
   ],
   "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "balance_error": 0},
-  "contact": {"max_tool_penetration_mm": 0.01, "max_tool_penetration_between_nodes_mm": 0.05, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4}
+  "contact": {"max_tool_penetration_mm": 0.01, "max_tool_penetration_between_nodes_mm": 0.05, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4},
+  "searches": 12,
+  "time_shares": {"elements": 0.5000, "contact": 0.2500, "search": 0.1250},
+  "pairs": [
+    {"a": "die", "b": "p", "time_share": 0.2500, "deepest_mm": 0.03, "slip_mm": 1.5, "friction_coefficient": 0.2, "friction_mJ": 7}
+  ],
+  "could_be_left_out": [
+    "bending: small"
+  ],
+  "missing": []
 }
 )"); // rms: sqrt((99 * 10^2 + 1 * 20^2) / 100) = sqrt(103)
 }
