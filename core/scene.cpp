@@ -50,10 +50,10 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
 
 /// Contact stiffness per area that moves a free node at `fraction` of the elements' omega^2. That
 /// falls with the square of the element size, while a ply may not sink in deeper for being meshed
-/// coarsely: so no less than what elements of 12.5 thicknesses would have, within a factor of five,
-/// beyond which contact alone would set the step.
+/// coarsely: so no less than what elements of 12.5 thicknesses would have, within a factor of 2.5,
+/// beyond which crossed plies chatter over a fillet (docs/contact.md).
 double penalty_per_area(const PlyBody& ply, double fraction) {
-  constexpr double fine = 12.5, most = 5.0;
+  constexpr double fine = 12.5, most = 2.5;
   double area = 0.0;
   for (const double a : ply.membrane.node_area)
     area += a;

@@ -53,6 +53,7 @@ force = 300.0
 [contact]
 friction = 0.2
 [solver]
+step_factor = 0.9
 duration = 0.1
 fibre_softening = 100.0
 """
