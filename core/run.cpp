@@ -155,22 +155,19 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.contact = audit(s, depths);
   sum.contact.max_tool_penetration_between_nodes_mm = depth_between_nodes(s);
   sum.work = report_work(s, result.last, sum.contact);
-  if (sum.contact.intersections_between_plies > 0 && sum.status == "done") {
-    sum.status = "stopped";
-    sum.message =
-        fmt::format("the plies overlap: {} pairs of triangles of different plies cross in "
-                    "the final state; a finer mesh, a larger contact.stiffness or a slower "
-                    "stroke may help",
-                    sum.contact.intersections_between_plies);
-  }
-  if (s.data.contact.self && sum.contact.intersections_within_plies > 0 && sum.status == "done") {
-    sum.status = "stopped";
-    sum.message =
-        fmt::format("a ply goes through itself: {} pairs of triangles of one ply cross in the "
-                    "final state, though contact.self is on; a finer mesh or a larger "
-                    "contact.stiffness may help",
-                    sum.contact.intersections_within_plies);
-  }
+  const auto stop_if = [&sum](bool wrong, const std::string& message) {
+    if (wrong && sum.status == "done") sum.status = "stopped", sum.message = message;
+  };
+  stop_if(sum.contact.intersections_between_plies > 0,
+          fmt::format("the plies overlap: {} pairs of triangles of different plies cross in "
+                      "the final state; a finer mesh, a larger contact.stiffness or a slower "
+                      "stroke may help",
+                      sum.contact.intersections_between_plies));
+  stop_if(s.data.contact.self && sum.contact.intersections_within_plies > 0,
+          fmt::format("a ply goes through itself: {} pairs of triangles of one ply cross in the "
+                      "final state, though contact.self is on; a finer mesh or a larger "
+                      "contact.stiffness may help",
+                      sum.contact.intersections_within_plies));
 }
 
 } // namespace

@@ -158,11 +158,10 @@ StepBound stable_step(const Scene& s) {
   std::vector<std::vector<double>> rows; // contact stiffness, one a node, N/mm
   for (const PlyBody& ply : s.plies)
     rows.emplace_back(ply.x.size(), 0.0);
-  constexpr double margin = bound_margin;
   double damping_ratio = 0.0; // largest c/k of any contact
   for (const ToolAndContacts& tool : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p) {
-      add_tool_stiffness(tool.contacts[p], s.plies[p].membrane.node_area, margin, rows[p]);
+      add_tool_stiffness(tool.contacts[p], s.plies[p].membrane.node_area, bound_margin, rows[p]);
       const ContactLaw& law = tool.contacts[p].law;
       if (!tool.contacts[p].points.empty())
         damping_ratio = std::max(damping_ratio, law.damping / law.stiffness);
@@ -170,12 +169,12 @@ StepBound stable_step(const Scene& s) {
   for (const PlyContact& pair : s.ply_contacts) {
     if (pair.contact.points.empty()) continue;
     const auto a = static_cast<std::size_t>(pair.slave), b = static_cast<std::size_t>(pair.master);
-    add_sheet_stiffness(pair.contact, s.plies[b].state(), s.plies[b].membrane.triangles, margin,
-                        rows[a], rows[b]);
+    add_sheet_stiffness(pair.contact, s.plies[b].state(), s.plies[b].membrane.triangles,
+                        bound_margin, rows[a], rows[b]);
     damping_ratio = std::max(damping_ratio, pair.contact.law.damping / pair.contact.law.stiffness);
   }
   for (const PlyEdgeContact& pair : s.edge_contacts)
-    add_edge_stiffness(pair.contact, 0.25 * margin, rows[static_cast<std::size_t>(pair.a)],
+    add_edge_stiffness(pair.contact, 0.25 * bound_margin, rows[static_cast<std::size_t>(pair.a)],
                        rows[static_cast<std::size_t>(pair.b)]);
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBody& ply = s.plies[p];

@@ -58,15 +58,6 @@ void print_plies(const Scene& s) {
   }
 }
 
-double longest_side(const PlyBody& ply) {
-  double longest = 0.0;
-  for (const SheetEdge& e : ply.edges)
-    longest = std::max(
-        longest,
-        (ply.x[static_cast<std::size_t>(e.a)] - ply.x[static_cast<std::size_t>(e.b)]).norm());
-  return longest;
-}
-
 /// Says if a ply may be cut by more than half its thickness, for the one that is cut most.
 void print_cut(const Scene& s, const ToolAndContacts& tool) {
   constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees

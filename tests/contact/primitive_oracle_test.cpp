@@ -3,20 +3,11 @@
 // (collide with contacts: depth and normal), at random points, near the surface, and on centres,
 // axes, corners, edges, rims and faces, where a normal has to be one of several.
 #include "contact/tool_shape.hpp"
+#include "fcl_all.hpp"
+#include "shape_checks.hpp"
 
 #include <functional>
 #include <gtest/gtest.h>
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
-#include <fcl/fcl.h>
-#pragma GCC diagnostic pop
-
-#include "shape_checks.hpp"
 
 namespace plyform {
 namespace {

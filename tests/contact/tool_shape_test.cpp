@@ -1,21 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Closed-form shapes against FCL (collide with a ball) and against each other.
 #include "contact/tool_shape.hpp"
+#include "fcl_all.hpp"
+#include "shape_checks.hpp"
 
 #include <gtest/gtest.h>
 #include <limits>
 #include <memory>
-
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wall"
-#pragma GCC diagnostic ignored "-Wextra"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wdeprecated-declarations"
-#include <fcl/fcl.h>
-#pragma GCC diagnostic pop
-
-#include "shape_checks.hpp"
 
 namespace plyform {
 namespace {

@@ -49,24 +49,19 @@ struct Sums {
 
 /// Of one pair of plies: what a does to b and b to a, on the nodes of both.
 std::vector<Sums> ply_forces(const Scene& s) {
-  const auto x = [&](int ply) -> const auto& {
-    return s.plies[static_cast<std::size_t>(ply)].x;
-  };
   std::vector<Sums> all;
-  for (const PlyContact& pair : s.ply_contacts) {
-    if (pair.contact.points.empty()) continue;
+  const auto add = [&](int a, const std::vector<Vec3>& on_a, int b, const std::vector<Vec3>& on_b) {
     Sums sums;
-    sums.add(pair.contact.slave_force, x(pair.slave));
-    sums.add(pair.contact.master_force, x(pair.master));
+    sums.add(on_a, s.plies[static_cast<std::size_t>(a)].x);
+    sums.add(on_b, s.plies[static_cast<std::size_t>(b)].x);
     all.push_back(sums);
-  }
-  for (const PlyEdgeContact& pair : s.edge_contacts) {
-    if (pair.contact.pairs.empty()) continue;
-    Sums sums;
-    sums.add(pair.contact.force_a, x(pair.a));
-    sums.add(pair.contact.force_b, x(pair.b));
-    all.push_back(sums);
-  }
+  };
+  for (const PlyContact& pair : s.ply_contacts)
+    if (!pair.contact.points.empty())
+      add(pair.slave, pair.contact.slave_force, pair.master, pair.contact.master_force);
+  for (const PlyEdgeContact& pair : s.edge_contacts)
+    if (!pair.contact.pairs.empty())
+      add(pair.a, pair.contact.force_a, pair.b, pair.contact.force_b);
   return all;
 }
 

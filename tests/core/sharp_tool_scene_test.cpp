@@ -49,15 +49,6 @@ double sampled_depth(const Scene& s) {
   return depth;
 }
 
-double longest_side(const PlyBody& ply) {
-  double longest = 0.0;
-  for (const SheetEdge& e : ply.edges)
-    longest = std::max(
-        longest,
-        (ply.x[static_cast<std::size_t>(e.a)] - ply.x[static_cast<std::size_t>(e.b)]).norm());
-  return longest;
-}
-
 /// What is measured is below the bound (for a turn of 90 degrees, the most that it can be here),
 /// and not by far; the summary says it to the resolution that it states.
 void expect_within_bound(const std::function<Scene()>& make, double radius,
