@@ -3,7 +3,10 @@
 
 #include "contact/face_turn.hpp"
 #include "contact/point_triangle.hpp"
+#include "contact/processor.hpp"
+#include "contact/sheet_kernel.hpp"
 
+#include <cstddef>
 #include <limits>
 #include <numeric>
 
@@ -56,35 +59,42 @@ double contact_area(const SheetState& slave, const SheetState& master, const She
   return std::min(slave.area[static_cast<std::size_t>(c.node)], there);
 }
 
-/// What is closest to a node.
+/// Closest point over the faces of one contact, of those that can be closer than the best one:
+/// face, w, other, drift. Returns the distance and the feature (see ClosestPoint).
 struct Closest {
   double distance; ///< mm
-  int feature;     ///< of the face, see ClosestPoint
+  int feature;
 };
 
-/// Closest point over the faces of one contact, of those that can be closer than the best one.
 Closest project(const SheetContact& contact, SheetContactPoint& c, const Vec3& p,
                 std::span<const Vec3> x, std::span<const Triangle> triangles, double way) {
-  double best2 = std::numeric_limits<double>::max(), limit = best2;
-  Closest found{0.0, 0};
+  constexpr double far = std::numeric_limits<double>::max();
+  double best2 = far, second2 = far, limit = far, unseen = far;
+  int feature = 0;
   for (auto i = static_cast<std::size_t>(c.first_face); i < static_cast<std::size_t>(c.end_face);
        ++i) {
-    if (contact.face_distance[i] > limit) break; // they are in ascending order
+    if (contact.face_distance[i] > limit) { // they are in ascending order
+      unseen = contact.face_distance[i] - way;
+      break;
+    }
     const std::int32_t face = contact.faces[i];
     const Triangle& t = triangles[static_cast<std::size_t>(face)];
     const ClosestPoint q = closest_point_on_triangle(p, at(x, t[0]), at(x, t[1]), at(x, t[2]));
     const bool tied = std::abs(q.distance2 - best2) <= tie * best2;
-    if (tied ? face < c.stand : q.distance2 < best2) c.stand = face;
-    if (q.distance2 < best2) {
-      best2 = q.distance2;
-      limit = std::sqrt(best2) + way;
-      c.face = face;
-      c.w = q.w;
-      found.feature = q.feature;
+    if (!(tied ? face < c.face : q.distance2 < best2)) {
+      second2 = std::min(second2, q.distance2);
+      continue;
     }
+    second2 = std::min(second2, best2);
+    best2 = q.distance2;
+    limit = std::sqrt(best2) + way;
+    c.face = face;
+    c.w = q.w;
+    feature = q.feature;
   }
-  found.distance = std::sqrt(best2);
-  return found;
+  c.other = std::min(std::sqrt(second2), unseen);
+  c.drift = 0.0;
+  return {std::sqrt(best2), feature};
 }
 
 /// Which side of its face the node is on. Known only above the inside of a face.
@@ -121,9 +131,7 @@ SheetContactPoint add_faces(SheetContact& contact, std::int32_t node, std::vecto
     contact.face_distance.push_back(n.distance);
   }
   c.end_face = static_cast<std::int32_t>(contact.faces.size());
-  c.face = c.stand = near.front().face;
-  for (const NearFace& n : near)
-    if (n.distance <= (1.0 + tie) * near.front().distance) c.stand = std::min(c.stand, n.face);
+  c.face = near.front().face;
   c.w = near.front().w;
   c.slack = near.front().distance - contact.distance;
   c.gap = std::numeric_limits<double>::infinity();
@@ -152,6 +160,8 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
   contact.points.clear();
   contact.faces.clear();
   contact.face_distance.clear();
+  contact.near.clear();
+  contact.near_way = -1.0;
   contact.slave_force.assign(slave.x.size(), Vec3::Zero());
   contact.master_force.assign(master.x.size(), Vec3::Zero());
   std::vector<int> label;
@@ -189,49 +199,97 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
 
 namespace {
 
-/// Adds a touching contact's forces on its node, its face t and the face that the arm stands on,
-/// which is t or meets it at the closest point: (S), (N), (T), (M). last_gap: mm, of
-/// the step before; infinite if unknown.
-void add_forces(SheetContact& contact, SheetContactPoint& c, const SheetState& slave,
-                const SheetState& master, const Triangle& t, const Triangle& stand, double last_gap,
-                double dt) {
-  ContactSums& sums = contact.sums;
-  const std::array<Vec3, 3> x = {at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2])};
-  const std::array<Vec3, 3> u = {at(master.motion, t[0]), at(master.motion, t[1]),
-                                 at(master.motion, t[2])};
-  const auto relative = [&c](const Vec3& of_node, const std::array<Vec3, 3>& of_face) -> Vec3 {
-    return of_node - c.w[0] * of_face[0] - c.w[1] * of_face[1] - c.w[2] * of_face[2];
-  };
-  const Vec3 arm = relative(at(slave.x, c.node), x), motion = relative(at(slave.motion, c.node), u);
-  const double depth = -c.gap;
-  c.normal = arm / (contact.distance - depth);
-  const double dp = std::isinf(last_gap) ? -c.normal.dot(motion) : last_gap - c.gap;
-  const NormalForce normal =
-      normal_force(contact.law, c.area, depth, depth + std::min(last_gap, 0.0), dt);
-  sums.damping += 0.5 * (normal.damping + c.memory.damping_force) * dp;
-  c.memory.damping_force = normal.damping;
-  c.memory.normal_force = normal.total;
-  Vec3 f = normal.total * c.normal;
-  if (contact.law.friction > 0.0) {
-    const FaceFrame frame =
-        face_frame(at(master.x, stand[0]), at(master.x, stand[1]), at(master.x, stand[2]));
-    const Vec3 turn = face_turn(frame, {at(master.motion, stand[0]), at(master.motion, stand[1]),
-                                        at(master.motion, stand[2])});
-    const Vec3 slip = motion - turn.cross(arm); // (P)
-    c.memory.s += turn.cross(c.memory.s);
-    const Vec3 tangential =
-        friction_force(contact.law, c.area, normal.total, c.normal, slip, c.memory, sums);
-    f += tangential;
-    const std::array<Vec3, 3> couple = forces_of_couple(frame, -arm.cross(tangential)); // (M)
-    for (std::size_t j = 0; j < 3; ++j)
-      contact.master_force[static_cast<std::size_t>(stand[j])] += couple[j];
-  }
-  contact.slave_force[static_cast<std::size_t>(c.node)] += f;
-  for (std::size_t j = 0; j < 3; ++j)
-    contact.master_force[static_cast<std::size_t>(t[j])] -= c.w[j] * f;
-  sums.elastic += spring_energy(contact.law, c.area, depth, c.memory);
-  sums.penetration = std::max(sums.penetration, depth);
-  ++sums.touching;
+/// What the kernel asks back, of one contact in one step.
+struct KernelSide {
+  SheetContact& contact;
+  const SheetState &slave, &master;
+  std::span<const Triangle> triangles;
+  double way;
+};
+
+KernelSide& of(void* self) {
+  return *static_cast<KernelSide*>(self);
+}
+
+SheetContactPoint& point_of(KernelSide& k, std::int32_t point) {
+  return k.contact.points[static_cast<std::size_t>(point)];
+}
+
+void project_point(void* self, std::int32_t point) {
+  KernelSide& k = of(self);
+  SheetContactPoint& c = point_of(k, point);
+  const Vec3& p = at(k.slave.x, c.node);
+  const Closest closest = project(k.contact, c, p, k.master.x, k.triangles, k.way);
+  const double d = closest.distance;
+  c.gap = d - k.contact.distance;
+  const Triangle& t = k.triangles[static_cast<std::size_t>(c.face)];
+  const int side = closest.feature == 0 ? side_of(p, t, k.master.x) : 0;
+  if (c.side * side < 0 && c.gap < 0.0) k.contact.fault = {c.node, c.face, d};
+  c.side = side; // forgotten on edges: a node may slide round the rim to the other side
+}
+
+void open_point(void* self, std::int32_t point, double last_gap) {
+  KernelSide& k = of(self);
+  SheetContactPoint& c = point_of(k, point);
+  if (c.memory.damping_force != 0.0) // the trapezoid's last half
+    k.contact.sums.damping += 0.5 * c.memory.damping_force * (last_gap - c.gap);
+  c.memory.damping_force = 0.0;
+  release(k.contact.law, c.area, c.memory, k.contact.sums);
+}
+
+void fault_at(void* self, std::int32_t point, double distance) {
+  KernelSide& k = of(self);
+  const SheetContactPoint& c = point_of(k, point);
+  k.contact.fault = {c.node, c.face, distance};
+}
+
+/// Lists the points that may touch before anything has moved further than `way`. Ways only grow
+/// between searches; the list runs ahead a little, so that it is not made anew at every step.
+void list_near(SheetContact& contact, double way) {
+  constexpr double ahead = 0.05; // mm
+  if (way <= contact.near_way) return;
+  contact.near_way = way + ahead;
+  contact.near.clear();
+  for (std::size_t i = 0; i < contact.points.size(); ++i)
+    if (contact.points[i].slack <= contact.near_way)
+      contact.near.push_back(static_cast<std::int32_t>(i));
+}
+
+SheetKernelContact kernel_view(KernelSide& k, double dt) {
+  SheetContact& c = k.contact;
+  using P = SheetContactPoint;
+  using Q = SheetKernelPoint;
+  static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
+                offsetof(ContactMemory, damping_force) == offsetof(Q, damping_force) &&
+                offsetof(ContactMemory, normal_force) == offsetof(Q, normal_force) &&
+                offsetof(ContactMemory, slip) == offsetof(Q, slip) &&
+                offsetof(P, area) == offsetof(Q, area) && offsetof(P, gap) == offsetof(Q, gap) &&
+                offsetof(P, w) == offsetof(Q, w) && offsetof(P, normal) == offsetof(Q, normal) &&
+                offsetof(P, other) == offsetof(Q, other) &&
+                offsetof(P, drift) == offsetof(Q, drift) &&
+                offsetof(P, node) == offsetof(Q, node) && offsetof(P, side) == offsetof(Q, side));
+  static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::int32_t));
+  SheetKernelContact view{};
+  view.points = reinterpret_cast<Q*>(c.points.data());
+  view.near = c.near.data();
+  view.near_count = static_cast<int>(c.near.size());
+  view.slave_x = k.slave.x.data()->data();
+  view.slave_motion = k.slave.motion.data()->data();
+  view.master_x = k.master.x.data()->data();
+  view.master_motion = k.master.motion.data()->data();
+  view.triangles = k.triangles.data()->data();
+  view.slave_force = c.slave_force.data()->data();
+  view.master_force = c.master_force.data()->data();
+  view.distance = c.distance;
+  view.stiffness = c.law.stiffness;
+  view.tangential = c.law.tangential();
+  view.friction = c.law.friction;
+  view.damping_per_dt = dt > 0.0 ? c.law.damping / dt : 0.0;
+  view.self = &k;
+  view.project = project_point;
+  view.open = open_point;
+  view.fault = fault_at;
+  return view;
 }
 
 } // namespace
@@ -240,33 +298,19 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
                   std::span<const Triangle> triangles, double dt, double way) {
   if (contact.points.empty()) return;
   const Stopwatch watch(contact.time.forces);
-  ContactSums& sums = contact.sums;
-  const double h = contact.distance;
-  sums.elastic = sums.penetration = 0.0;
-  sums.touching = 0;
   std::fill(contact.slave_force.begin(), contact.slave_force.end(), Vec3::Zero());
   std::fill(contact.master_force.begin(), contact.master_force.end(), Vec3::Zero());
-  for (SheetContactPoint& c : contact.points) {
-    if (c.slack > way) continue;
-    const Vec3& p = at(slave.x, c.node);
-    const Closest closest = project(contact, c, p, master.x, triangles, way);
-    const double d = closest.distance;
-    const double last_gap = c.gap;
-    c.gap = d - h;
-    const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
-    const int side = closest.feature == 0 ? side_of(p, t, master.x) : 0;
-    if ((c.side * side < 0 && d < h) || d < 0.5 * h) contact.fault = {c.node, c.face, d};
-    c.side = side; // forgotten on edges: a node may slide round the rim to the other side
-    if (!(c.gap < 0.0)) {
-      if (c.memory.damping_force != 0.0) // the trapezoid's last half
-        sums.damping += 0.5 * c.memory.damping_force * (last_gap - c.gap);
-      c.memory.damping_force = 0.0;
-      release(contact.law, c.area, c.memory, sums);
-      continue;
-    }
-    add_forces(contact, c, slave, master, t, triangles[static_cast<std::size_t>(c.stand)], last_gap,
-               dt);
-  }
+  list_near(contact, way);
+  KernelSide side{contact, slave, master, triangles, way};
+  const auto run = has_avx2() ? sheet_kernel_avx2 : sheet_kernel_any;
+  const SheetKernelSums added = run(kernel_view(side, dt));
+  ContactSums& sums = contact.sums;
+  sums.elastic = added.elastic;
+  sums.friction += added.friction;
+  sums.damping += added.damping;
+  sums.penetration = added.penetration;
+  sums.slip = std::max(sums.slip, added.slip);
+  sums.touching = added.touching;
   sums.deepest = std::max(sums.deepest, sums.penetration);
 }
 
@@ -283,14 +327,12 @@ void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
     slave_rows[static_cast<std::size_t>(c.node)] += normal;
     if (contact.law.friction > 0.0) {
       std::array<double, 3> couple{};
-      const Triangle& stand = triangles[static_cast<std::size_t>(c.stand)];
-      const FaceFrame f =
-          face_frame(at(master.x, stand[0]), at(master.x, stand[1]), at(master.x, stand[2]));
+      const FaceFrame f = face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]));
       double sum = 0.0;
       for (std::size_t j = 0; j < 3; ++j)
         sum += couple[j] = contact.distance * f.gradient[j].norm();
       for (std::size_t j = 0; j < 3; ++j)
-        master_rows[static_cast<std::size_t>(stand[j])] +=
+        master_rows[static_cast<std::size_t>(t[j])] +=
             2.0 * c.area * contact.law.tangential() * sum * couple[j];
     }
     for (std::size_t j = 0; j < 3; ++j)

@@ -29,19 +29,21 @@
 
 namespace plyform {
 
-/// One slave node and one connected patch of master faces near it (two patches: a fold).
-struct SheetContactPoint {
-  std::int32_t node;
-  std::int32_t first_face, end_face; ///< range in SheetContact::faces
-  std::int32_t face = -1;            ///< closest one in the last step
-  std::int32_t stand = -1;    ///< the arm of friction stands on it: the first of those that tie
-  std::array<double, 3> w{};  ///< weights of the closest point
-  int side = 0;               ///< +1: on the side of the face normal, -1: other, 0: not known
-  double area = 0.0;          ///< mm^2 that the contact stands for
-  double slack = 0.0;         ///< mm, gap when the search was done
-  double gap = 0.0;           ///< mm, d - h when last looked at; infinite: not since the search
-  Vec3 normal = Vec3::Zero(); ///< n
+/// One slave node and one connected patch of master faces near it (two patches: a fold). Laid out
+/// in rows of 32 bytes, SheetKernelPoint (contact/sheet_kernel.hpp).
+struct alignas(32) SheetContactPoint {
   ContactMemory memory;
+  double area = 0.0;           ///< mm^2 that the contact stands for
+  double gap = 0.0;            ///< mm, d - h when last looked at; infinite: not since the search
+  std::array<double, 3> w{};   ///< weights of the closest point
+  double slack = 0.0;          ///< mm, gap when the search was done
+  Vec3 normal = Vec3::Zero();  ///< n
+  double other = 0.0;          ///< mm, no other face was closer when all were last looked at,
+  double drift = 0.0;          ///< mm, way of the node relative to its face since then
+  std::int32_t node, face = 0; ///< closest face; of those that tie the first
+  int side = 0;                ///< +1: on the side of the face normal, -1: other, 0: not known
+  std::int32_t first_face, end_face; ///< range in SheetContact::faces
+  std::int32_t unused = 0;
 };
 
 /// A node that got to the wrong side or deeper than half of h: the contact cannot be resolved.
@@ -56,6 +58,8 @@ struct SheetContact {
   std::vector<SheetContactPoint> points;       ///< ascending by node
   std::vector<std::int32_t> faces;             ///< of each point, nearest first
   std::vector<double> face_distance;           ///< mm, when the search was done
+  std::vector<std::int32_t> near;              ///< points to look at: slack <= near_way
+  double near_way = -1.0;                      ///< mm
   std::vector<Vec3> slave_force, master_force; ///< N, one a node of each sheet
   ContactSums sums;
   ContactFault fault;

@@ -73,6 +73,12 @@ LawPoint ShearLaw::at(double g) const {
   return r;
 }
 
+double ShearLaw::secant(double g) const {
+  constexpr double small = 1e-9; // rad: Cs there is its slope times g to rounding
+  const LawPoint law = at(g);
+  return std::abs(g) > small ? law.value / g : law.slope;
+}
+
 LawPoint MomentLaw::at(double kappa) const {
   if (!curvature.empty()) return odd(curvature, moment, kappa);
   return {stiffness * kappa, stiffness, 0.5 * stiffness * kappa * kappa};

@@ -40,6 +40,7 @@ struct ShearLaw {
   std::vector<double> angle, torque; ///< rad and N mm, ascending from (0, 0); last slope beyond
   /// Cs (N mm), dCs/dg (N mm/rad), Ws (N mm); g in rad, of either sign.
   LawPoint at(double g) const;
+  double secant(double g) const; ///< Cs(g) / g, N mm; its limit at 0
 };
 
 /// Moment per width against curvature, odd: M = stiffness * kappa, or a table for kappa >= 0.

@@ -171,9 +171,7 @@ double shear_measure(const FibreState& s, double mean1, double mean2) {
 
 /// n_c p of (N) and (Q), N/mm, for g = `measure`.
 double secant_stiffness(const Membrane& m, double measure) {
-  constexpr double small = 1e-9; // rad: Cs there is its slope times g to rounding
-  const LawPoint law = m.fabric.shear.at(measure);
-  return m.cells_per_area * (measure > small ? law.value / measure : law.slope);
+  return m.cells_per_area * m.fabric.shear.secant(measure);
 }
 
 /// (Q) of one triangle; n1, n2: tensions (N) of its yarns; secant: n_c p (N/mm).

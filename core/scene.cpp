@@ -11,10 +11,10 @@ namespace {
 
 constexpr int block_size = 512; // long enough to hide the hand-over, short enough to share out
 
-void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count) {
+void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count, int size = block_size) {
   const int n = static_cast<int>(count);
-  for (int begin = 0; begin < n; begin += block_size)
-    blocks.push_back({ply, begin, std::min(n, begin + block_size), 0.0});
+  for (int begin = 0; begin < n; begin += size)
+    blocks.push_back({ply, begin, std::min(n, begin + size), 0.0});
 }
 
 PlyBody make_ply(const Case& data, const Ply& ply) {
@@ -37,7 +37,10 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.x = body.x_search = body.x0;
   body.velocity.assign(body.x.size(), Vec3::Zero());
   body.motion = body.velocity;
-  body.q.resize(mesh.triangles.size());
+  if (fits_lanes(body.membrane))
+    body.lanes = make_lanes(body.membrane, body.x);
+  else
+    body.q.resize(mesh.triangles.size());
   body.edges = sheet_edges(body.membrane.triangles);
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   const double omega = std::sqrt(frequency_bound(body.membrane, body.x).omega2);
@@ -132,7 +135,10 @@ Scene make_scene(const Case& data) {
     }
   for (int p = 0; p < n; ++p) {
     const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
-    add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
+    if (ply.lanes)
+      add_blocks(s.patch_blocks, p, ply.lanes->blocks.size(), 1);
+    else
+      add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
     add_blocks(s.node_blocks, p, ply.x.size());
     if (ply.bending) add_blocks(s.bending_blocks, p, ply.x.size());
   }

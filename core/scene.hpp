@@ -8,7 +8,7 @@
 #include "contact/tool_contact.hpp"
 #include "core/bending.hpp"
 #include "core/boundary.hpp"
-#include "core/membrane.hpp"
+#include "core/membrane_lanes.hpp"
 
 #include <memory>
 #include <optional>
@@ -23,14 +23,15 @@ struct PlyBody {
   double angle = 0.0;     ///< rad, warp from x, before forming
   double thickness = 0.0; ///< mm
   Membrane membrane;
-  double sharpness = 1.0;         ///< core/membrane_frequency.hpp, renewed now and then
-  std::vector<Vec3> x0, x;        ///< mm
-  std::vector<Vec3> velocity;     ///< mm/s, half a step behind x
-  std::vector<Vec3> motion;       ///< mm, of the last step
-  std::vector<Vec3> x_search;     ///< mm, where the contact search was last done
-  double way = 0.0;               ///< mm, furthest that any node has been from there
-  std::vector<ElementForce> q;    ///< one a triangle
-  std::optional<Bending> bending; ///< if the fabric has it
+  double sharpness = 1.0;             ///< core/membrane_frequency.hpp, renewed now and then
+  std::vector<Vec3> x0, x;            ///< mm
+  std::vector<Vec3> velocity;         ///< mm/s, half a step behind x
+  std::vector<Vec3> motion;           ///< mm, of the last step
+  std::vector<Vec3> x_search;         ///< mm, where the contact search was last done
+  double way = 0.0;                   ///< mm, furthest that any node has been from there
+  std::optional<MembraneLanes> lanes; ///< forces, unless it has no yarns
+  std::vector<ElementForce> q;        ///< forces then, one a triangle
+  std::optional<Bending> bending;     ///< if the fabric has it
   std::unique_ptr<SheetTree> tree;
   double search_seconds = 0.0; ///< refitting the tree, finding folds
   std::vector<SheetEdge> edges;
@@ -78,8 +79,8 @@ struct BoundaryState {
   double work = 0.0;              ///< N mm, done on the plies since the start
 };
 
-/// A run of nodes or patches of one ply: the unit of work of a thread. Fixed size, so that sums
-/// come out the same whatever the number of threads.
+/// A run of nodes or patches (or one of the ply's LaneBlocks): the unit of work of a thread. Fixed
+/// size, so that sums come out the same whatever the number of threads.
 struct Block {
   int ply, begin, end;
   double seconds = 0.0; ///< computing time since the start

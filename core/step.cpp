@@ -74,7 +74,8 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
     const Stopwatch watch(block.seconds);
     PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
     const PatchReport report =
-        element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
+        ply.lanes ? lane_forces(*ply.lanes, ply.membrane, ply.x, s.dt, block.begin)
+                  : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
     s.patch_sums[static_cast<std::size_t>(i)] += report.viscous_work;
     s.patch_collapsed[static_cast<std::size_t>(i)] = report.collapsed;
   };
@@ -119,7 +120,7 @@ MassLoads mass_loads(const Scene& s) {
 /// (17), with the forces of compute_forces.
 Vec3 acceleration(const PlyBody& ply, int node, const MassLoads& loads) {
   const auto n = static_cast<std::size_t>(node);
-  Vec3 f = node_force(ply.membrane, ply.q, node);
+  Vec3 f = ply.lanes ? lane_force(*ply.lanes, n) : node_force(ply.membrane, ply.q, node);
   if (ply.bending) f += bending_force(*ply.bending, node);
   for (const std::vector<Vec3>* force : ply.nodal_forces)
     f += (*force)[n];

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The kernel of contact/sheet_contact.hpp as its two compiled copies see it: plain numbers and
+// pointers, nothing inline (contact/lanes.hpp says why).
+#pragma once
+
+#include <cstdint>
+
+namespace plyform {
+
+/// A SheetContactPoint, member for member, in rows of 32 bytes.
+struct alignas(32) SheetKernelPoint {
+  double s[3], damping_force;
+  double normal_force, slip, area, gap;
+  double w[3], slack;
+  double normal[3], other;
+  double drift;
+  std::int32_t node, face, side, first_face, end_face, unused;
+};
+
+/// What the kernel reads and writes of a contact. Positions, motions and forces: 3 a node.
+struct SheetKernelContact {
+  SheetKernelPoint* points;
+  const std::int32_t* near; ///< points to look at
+  int near_count;
+  const double *slave_x, *slave_motion, *master_x, *master_motion;
+  const std::int32_t* triangles; ///< 3 a face of the master
+  double *slave_force, *master_force;
+  double distance, stiffness, tangential, friction; ///< h, k, k_t, mu of contact/contact_law.hpp
+  double damping_per_dt;                            ///< c / dt, or 0
+  void* self;
+  /// Finds the closest point of all of a point's faces: face, w, gap, side, other; drift = 0.
+  void (*project)(void* self, std::int32_t point);
+  /// A point that held something has opened; last_gap: mm, of the step before.
+  void (*open)(void* self, std::int32_t point, double last_gap);
+  /// A point may be on the wrong side or too deep; `distance`: mm.
+  void (*fault)(void* self, std::int32_t point, double distance);
+};
+
+/// Added up over the points that touch.
+struct SheetKernelSums {
+  double elastic, friction, damping, penetration, slip;
+  int touching;
+};
+
+SheetKernelSums sheet_kernel_any(const SheetKernelContact& contact);
+SheetKernelSums sheet_kernel_avx2(const SheetKernelContact& contact);
+
+} // namespace plyform

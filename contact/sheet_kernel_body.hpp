@@ -1,0 +1,285 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// (S), (P) and (M) of contact/sheet_contact.hpp for four points at a time, with the law of
+// contact/contact_law.hpp. A point stays with the face it remembers while its foot is inside that
+// face and no other can have come closer; else the scalar routine looks at all of them.
+//
+// With B = b - a, C = c - a, N = B x C of the face, n = N / |N|, v_1 = u_b - u_a, v_2 = u_c - u_a,
+// and the edges opposite to the corners E_1 = -C, E_2 = B, (W) and (C) of contact/face_turn.hpp are
+//   turn = [ (n.v_2) B - (n.v_1) C - 1/2 (B.v_2 - C.v_1) n ] / |N|                          (W')
+//   F_j  = [ (E_j.K) n - 1/2 (K.n) E_j ] / |N|   from a couple K, j = 1, 2;  F_0 = -F_1 - F_2 (C')
+#include "contact/lanes.hpp"
+#include "contact/sheet_kernel.hpp"
+
+namespace plyform {
+namespace {
+
+constexpr int four = 4;
+constexpr double sliver_sine2 = 0.01; // as in contact/point_triangle.hpp
+constexpr double nearly = 1e-6;       // mm, far above rounding: so close another face is looked at
+
+using Pair2 = double __attribute__((vector_size(16), may_alias, aligned(8)));
+
+/// (x, y, z) of an array of 3 a node.
+PLYFORM_INLINE Double4 load3(const double* at) {
+  return Double4{at[0], at[1], at[2], 0.0};
+}
+
+PLYFORM_INLINE void add3(double* at, Double4 row) {
+  Pair2& low = *reinterpret_cast<Pair2*>(at);
+  low += Pair2{row[0], row[1]};
+  at[2] += row[2];
+}
+
+/// Rows of a SheetKernelPoint: s and damping_force; normal_force, slip, area, gap; w and slack.
+enum PointRow { held_row, force_row, weight_row };
+
+PLYFORM_INLINE double* row_of(SheetKernelPoint* p, PointRow row) {
+  return reinterpret_cast<double*>(p) + 4 * row;
+}
+
+/// A 4 x 4 matrix and its transpose: four rows to four columns and back.
+PLYFORM_INLINE Rows turned(const Rows& r) {
+  const Double4 a = __builtin_shufflevector(r.row[0], r.row[1], 0, 4, 2, 6);
+  const Double4 b = __builtin_shufflevector(r.row[0], r.row[1], 1, 5, 3, 7);
+  const Double4 c = __builtin_shufflevector(r.row[2], r.row[3], 0, 4, 2, 6);
+  const Double4 d = __builtin_shufflevector(r.row[2], r.row[3], 1, 5, 3, 7);
+  return {{__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(b, d, 0, 1, 4, 5),
+           __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
+}
+
+/// One row of four points, by columns.
+PLYFORM_INLINE Rows load_rows(SheetKernelPoint* const* p, PointRow row) {
+  return turned({{load(row_of(p[0], row)), load(row_of(p[1], row)), load(row_of(p[2], row)),
+                  load(row_of(p[3], row))}});
+}
+
+/// Places or motions of four nodes and of the corners of their faces, relative to a.
+struct LaneFaces {
+  Vector4 p, b, c;
+};
+
+PLYFORM_INLINE LaneFaces load_faces(const SheetKernelContact& k, SheetKernelPoint* const* point,
+                                    const double* slave, const double* master) {
+  Double4 p[four], b[four], c[four];
+  for (int i = 0; i < four; ++i) {
+    const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(point[i]->face);
+    const Double4 a = load3(master + 3 * static_cast<std::int64_t>(t[0]));
+    p[i] = load3(slave + 3 * static_cast<std::int64_t>(point[i]->node)) - a;
+    b[i] = load3(master + 3 * static_cast<std::int64_t>(t[1])) - a;
+    c[i] = load3(master + 3 * static_cast<std::int64_t>(t[2])) - a;
+  }
+  return {components(p[0], p[1], p[2], p[3]), components(b[0], b[1], b[2], b[3]),
+          components(c[0], c[1], c[2], c[3])};
+}
+
+PLYFORM_INLINE Double4 square(const Vector4& a) {
+  return dot(a, a);
+}
+
+/// The foot of four nodes on the planes of their faces: (1), (2) of contact/point_triangle.hpp.
+struct LaneFoot {
+  Double4 wa, wb, wc, distance;
+  Long4 inside;
+};
+
+PLYFORM_INLINE LaneFoot foot_of(const LaneFaces& x) {
+  const Double4 bb = dot(x.b, x.b), cc = dot(x.c, x.c), bc = dot(x.b, x.c);
+  const Double4 pb = dot(x.p, x.b), pc = dot(x.p, x.c);
+  const Double4 det = bb * cc - bc * bc;
+  const Double4 ub = cc * pb - bc * pc, uc = bb * pc - bc * pb, ua = det - ub - uc;
+  const Double4 scale = 1.0 / (ua + ub + uc);
+  LaneFoot f;
+  f.wa = ua * scale, f.wb = ub * scale, f.wc = uc * scale;
+  f.distance = root(square(x.p - f.wb * x.b - f.wc * x.c));
+  f.inside = (det > sliver_sine2 * (bb * cc)) & (ua > 0.0) & (ub > 0.0) & (uc > 0.0);
+  return f;
+}
+
+/// Sums of four points each.
+struct LaneSums {
+  Double4 elastic = all(0.0), friction = all(0.0), damping = all(0.0);
+  Double4 penetration = all(0.0), slip = all(0.0);
+  int touching = 0;
+};
+
+/// The state of four points that changes with their forces.
+struct LanePoints {
+  Double4 area, gap, last_gap, damping_force, normal_force, slip;
+  Vector4 s, normal;
+};
+
+/// s turned into the plane across n, its length kept.
+PLYFORM_INLINE Vector4 into_plane(const Vector4& s, const Vector4& n) {
+  const Vector4 flat = s - dot(n, s) * n;
+  const Double4 length2 = square(s), flat2 = square(flat);
+  const Double4 by = flat2 > 0.0 ? root(length2) / root(flat2) : all(0.0);
+  return by * flat;
+}
+
+struct LaneForces {
+  Vector4 on_node, couple1, couple2; ///< of (C') on corners b and c
+};
+
+/// Normal force and friction of four points whose feet are known; `touch`: those that touch.
+PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces& x,
+                                    const LaneFaces& u, const LaneFoot& foot, Long4 touch,
+                                    LanePoints& p, LaneSums& sums) {
+  const Double4 zero = all(0.0);
+  const Vector4 arm = x.p - foot.wb * x.b - foot.wc * x.c;
+  const Vector4 motion = u.p - foot.wb * u.b - foot.wc * u.c;
+  const Double4 depth = k.distance - foot.distance;
+  p.normal = (1.0 / foot.distance) * arm;
+  const Double4 area = touch ? p.area : zero;
+  const Long4 known = p.last_gap < 1e300;
+  const Double4 opened = known ? smaller(p.last_gap, zero) : zero;
+  const Double4 dp = known ? p.last_gap - p.gap : -dot(p.normal, motion);
+  const Double4 elastic = area * k.stiffness * depth;
+  const Double4 viscous = larger(area * k.damping_per_dt * (depth + opened), -elastic);
+  const Double4 n_force = elastic + viscous;
+  sums.damping += touch ? 0.5 * (viscous + p.damping_force) * dp : zero;
+  p.damping_force = viscous;
+  p.normal_force = n_force;
+  LaneForces f{n_force * p.normal, {zero, zero, zero}, {zero, zero, zero}};
+  Double4 stored2 = zero;
+  if (k.friction > 0.0) {
+    const Vector4 across = cross(x.b, x.c);
+    const Double4 per_size = 1.0 / root(square(across));
+    const Vector4 n = per_size * across;
+    const Double4 v1 = dot(n, u.b), v2 = dot(n, u.c);
+    const Double4 spin = 0.5 * (dot(x.b, u.c) - dot(x.c, u.b));
+    const Vector4 turn = per_size * (v2 * x.b - v1 * x.c - spin * n); // (W')
+    const Vector4 slip = motion - cross(turn, arm);                   // (P)
+    const Vector4 old = into_plane(p.s + cross(turn, p.s), p.normal);
+    const Vector4 trial = old + slip - dot(p.normal, slip) * p.normal;
+    const Double4 stiffness = area * k.tangential;
+    const Double4 limit = touch ? k.friction * n_force / stiffness : zero;
+    const Double4 stretch = root(square(trial));
+    p.s = (stretch > limit ? limit / stretch : all(1.0)) * trial;
+    p.slip += touch ? larger(stretch - limit, zero) : zero;
+    sums.slip = larger(sums.slip, touch ? p.slip : zero);
+    sums.friction += 0.5 * stiffness * dot(old + p.s, trial - p.s);
+    const Vector4 tangential = -stiffness * p.s;
+    f.on_node = f.on_node + tangential;
+    const Vector4 couple = cross(tangential, arm); // -r x T of (M)
+    const Double4 half = 0.5 * dot(couple, n);
+    f.couple1 = per_size * (half * x.c - dot(x.c, couple) * n); // (C'), E_1 = -C
+    f.couple2 = per_size * (dot(x.b, couple) * n - half * x.b);
+    stored2 = square(p.s);
+  }
+  sums.elastic += 0.5 * area * (k.stiffness * depth * depth + k.tangential * stored2);
+  sums.penetration = larger(sums.penetration, touch ? depth : zero);
+  return f;
+}
+
+/// Forces on the nodes and corners of the points in `touch`.
+PLYFORM_INLINE void add_forces(const SheetKernelContact& k, SheetKernelPoint* const* point,
+                               const LaneFoot& foot, const LaneForces& f, Long4 touch) {
+  const Rows on_node = rows(f.on_node);
+  const Rows on_b = rows(f.couple1 - foot.wb * f.on_node);
+  const Rows on_c = rows(f.couple2 - foot.wc * f.on_node);
+  for (int i = 0; i < four; ++i) {
+    if (!touch[i]) continue;
+    const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(point[i]->face);
+    add3(k.slave_force + 3 * static_cast<std::int64_t>(point[i]->node), on_node.row[i]);
+    add3(k.master_force + 3 * static_cast<std::int64_t>(t[1]), on_b.row[i]);
+    add3(k.master_force + 3 * static_cast<std::int64_t>(t[2]), on_c.row[i]);
+    add3(k.master_force + 3 * static_cast<std::int64_t>(t[0]),
+         -(on_node.row[i] + on_b.row[i] + on_c.row[i]));
+  }
+}
+
+/// The largest way of the node relative to a corner in this step.
+PLYFORM_INLINE Double4 relative_way(const LaneFaces& u) {
+  return root(larger(square(u.p), larger(square(u.p - u.b), square(u.p - u.c))));
+}
+
+/// One group; points `count` and on are fillers, the same as the first.
+PLYFORM_INLINE void do_group(const SheetKernelContact& k, const std::int32_t* index, int count,
+                             LaneSums& sums) {
+  SheetKernelPoint* point[four];
+  for (int i = 0; i < four; ++i)
+    point[i] = k.points + index[i < count ? i : 0];
+  const auto numbers = Long4{0, 1, 2, 3};
+  const Long4 real = numbers < static_cast<std::int64_t>(count);
+  LaneFaces x = load_faces(k, point, k.slave_x, k.master_x);
+  LaneFaces u = load_faces(k, point, k.slave_motion, k.master_motion);
+  LaneFoot foot = foot_of(x);
+  const Rows forces = load_rows(point, force_row);
+  const Double4 last_gap = forces.row[3];
+  const Double4 drift =
+      Double4{point[0]->drift, point[1]->drift, point[2]->drift, point[3]->drift} + relative_way(u);
+  const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
+  // twice: a corner of a neighbouring face may move relative to the node by more than its own's
+  const Long4 sure =
+      foot.inside & (other - 2.0 * drift > foot.distance + nearly) & (last_gap < 1e300);
+  const Long4 look = ~sure & real;
+  if (any(look)) {
+    for (int i = 0; i < count; ++i)
+      if (look[i]) k.project(k.self, index[i]);
+    x = load_faces(k, point, k.slave_x, k.master_x);
+    u = load_faces(k, point, k.slave_motion, k.master_motion);
+    const Rows w = load_rows(point, weight_row);
+    const Double4 gap{point[0]->gap, point[1]->gap, point[2]->gap, point[3]->gap};
+    foot.wa = look ? w.row[0] : foot.wa, foot.wb = look ? w.row[1] : foot.wb;
+    foot.wc = look ? w.row[2] : foot.wc;
+    foot.distance = look ? gap + k.distance : foot.distance;
+  }
+  LanePoints p;
+  p.gap = foot.distance - k.distance;
+  p.last_gap = last_gap;
+  const Long4 touch = (p.gap < 0.0) & real;
+  const Rows held = load_rows(point, held_row);
+  p.s = {held.row[0], held.row[1], held.row[2]};
+  p.damping_force = held.row[3];
+  p.normal_force = forces.row[0], p.slip = forces.row[1], p.area = forces.row[2];
+  const Double4 height = dot(cross(x.b, x.c), x.p);
+  const Vector4 nothing{all(0.0), all(0.0), all(0.0)};
+  LaneForces f{nothing, nothing, nothing};
+  p.normal = nothing;
+  if (any(touch)) {
+    f = forces_of(k, x, u, foot, touch, p, sums);
+    add_forces(k, point, foot, f, touch);
+  }
+  const Rows s = turned({{p.s.x, p.s.y, p.s.z, p.damping_force}});
+  const Rows b = turned({{p.normal_force, p.slip, p.area, p.gap}});
+  const Rows w = turned({{foot.wa, foot.wb, foot.wc, all(0.0)}});
+  const Rows n = turned({{p.normal.x, p.normal.y, p.normal.z, all(0.0)}});
+  for (int i = 0; i < count; ++i) {
+    SheetKernelPoint& at = *point[i];
+    if (!look[i]) {
+      const int side = height[i] >= 0.0 ? 1 : -1;
+      if (at.side * side < 0 && touch[i]) k.fault(k.self, index[i], foot.distance[i]);
+      at.side = side;
+      at.drift = drift[i];
+      for (int j = 0; j < 3; ++j)
+        at.w[j] = w.row[i][j];
+    }
+    if (foot.distance[i] < 0.5 * k.distance) k.fault(k.self, index[i], foot.distance[i]);
+    at.gap = p.gap[i];
+    if (touch[i]) {
+      ++sums.touching;
+      store(row_of(&at, held_row), s.row[i]);
+      store(row_of(&at, force_row), b.row[i]);
+      for (int j = 0; j < 3; ++j)
+        at.normal[j] = n.row[i][j];
+    } else if (at.normal_force != 0.0 || at.damping_force != 0.0) {
+      k.open(k.self, index[i], last_gap[i]);
+    }
+  }
+}
+
+PLYFORM_INLINE double largest(Double4 a) {
+  const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
+  return low > high ? low : high;
+}
+
+PLYFORM_INLINE SheetKernelSums sheet_kernel(const SheetKernelContact& k) {
+  LaneSums sums;
+  for (int i = 0; i < k.near_count; i += four)
+    do_group(k, k.near + i, k.near_count - i < four ? k.near_count - i : four, sums);
+  return {sum(sums.elastic),         sum(sums.friction), sum(sums.damping),
+          largest(sums.penetration), largest(sums.slip), sums.touching};
+}
+
+} // namespace
+} // namespace plyform

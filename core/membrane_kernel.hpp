@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The kernel of core/membrane_lanes.hpp as its two compiled copies see it: plain numbers and
+// pointers, nothing inline (contact/lanes.hpp says why).
+#pragma once
+
+#include <cstdint>
+
+namespace plyform {
+
+struct Fabric;
+
+constexpr int lanes = 4;              ///< triangles side by side
+constexpr int most_block_nodes = 768; ///< their places and forces fill half of a 64 kB cache
+
+/// One triangle of each of four patches.
+struct alignas(32) LaneTriangles {
+  double c11[lanes], c12[lanes], c21[lanes], c22[lanes]; ///< 1/mm, FibreGradients
+  double area[lanes];           ///< mm^2, A0; 0 where a lane only fills up the group
+  double share[lanes];          ///< A0 / A of the patch
+  std::uint16_t node[3][lanes]; ///< in the block's list
+};
+
+/// Viscosity of four patches: mean stretches and viscous tensions of the last step.
+struct alignas(32) LaneViscosity {
+  double lambda[2][lanes], tension[2][lanes];
+};
+
+/// N, on a node of a block.
+struct alignas(32) LaneForce {
+  double x, y, z, unused;
+};
+
+/// Constants of (N) and (Q) for one family of yarns.
+struct KernelYarns {
+  double density, stiffness, compression, viscosity, stabilisation, guard;
+  double deviation; ///< beta / d_a
+  bool table;       ///< ask KernelLaw::tension
+};
+
+struct KernelLaw {
+  KernelYarns yarns[2];
+  double angle; ///< rad, omega0 - pi/2
+  double cells; ///< n_c, 1/mm^2
+  double beta;
+  const double* shear; ///< N mm, coefficients of g, g^3 ...
+  int shear_terms;     ///< 0: a table, ask `secant`
+  const Fabric* fabric;
+  /// N of four strains of a family; p (N mm) of four squared shear measures g^2.
+  void (*tension)(const Fabric*, int family, const double* strain, double* n);
+  void (*secant)(const Fabric*, const double* measure2, double* p);
+};
+
+/// Patches that share a list of nodes; pairs first. All arrays are the block's own.
+struct KernelBlock {
+  const std::int32_t* nodes; ///< in the ply
+  int node_count;            ///< at most most_block_nodes
+  const LaneTriangles* triangles;
+  LaneViscosity* viscosity; ///< one a group
+  int pair_groups, single_groups;
+  LaneForce* force; ///< one a node
+};
+
+struct KernelReport {
+  double viscous_work;
+  bool collapsed;
+};
+
+/// Forces (F) of a block's patches on its nodes. x: 3 a node of the ply, mm; per_dt: 1/s, of the
+/// step that led to x, or 0.
+KernelReport membrane_kernel_any(const KernelBlock& block, const KernelLaw& law, const double* x,
+                                 double per_dt);
+KernelReport membrane_kernel_avx2(const KernelBlock& block, const KernelLaw& law, const double* x,
+                                  double per_dt);
+
+} // namespace plyform

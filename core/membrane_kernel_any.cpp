@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/membrane_kernel_body.hpp"
+
+namespace plyform {
+
+KernelReport membrane_kernel_any(const KernelBlock& block, const KernelLaw& law, const double* x,
+                                 double per_dt) {
+  return membrane_kernel(block, law, x, per_dt);
+}
+
+} // namespace plyform

@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/membrane_lanes.hpp"
+
+#include "contact/processor.hpp"
+#include "core/gather.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace plyform {
+namespace {
+
+constexpr int block_patches = 512; // long enough to hide the hand-over, short enough to share out
+
+/// Bits of a and b in turn: near in the plane is near along this number (Morton's order).
+std::uint64_t interleaved(std::uint32_t a, std::uint32_t b) {
+  const auto spread = [](std::uint64_t v) {
+    v = (v | (v << 16)) & 0x0000FFFF0000FFFF;
+    v = (v | (v << 8)) & 0x00FF00FF00FF00FF;
+    v = (v | (v << 4)) & 0x0F0F0F0F0F0F0F0F;
+    v = (v | (v << 2)) & 0x3333333333333333;
+    return (v | (v << 1)) & 0x5555555555555555;
+  };
+  return spread(a) | (spread(b) << 1);
+}
+
+/// Patches in an order in which neighbours are near each other.
+std::vector<int> ordered_patches(const Membrane& m, std::span<const Vec3> x) {
+  Box3 box;
+  for (const Vec3& p : x)
+    box.extend(p);
+  const double scale = 65535.0 / std::max(1e-300, box.sizes().head<2>().maxCoeff());
+  std::vector<std::pair<std::uint64_t, int>> keys;
+  for (int p = 0; p < m.patches(); ++p) {
+    const Triangle& t =
+        m.triangles[static_cast<std::size_t>(m.patch_begin[static_cast<std::size_t>(p)])];
+    Vec3 centre = Vec3::Zero();
+    for (const int n : t)
+      centre += x[static_cast<std::size_t>(n)] / 3.0;
+    const Vec3 cell = scale * (centre - box.min());
+    keys.emplace_back(
+        interleaved(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y())), p);
+  }
+  std::sort(keys.begin(), keys.end());
+  std::vector<int> order;
+  for (const auto& key : keys)
+    order.push_back(key.second);
+  return order;
+}
+
+/// Builds one block after the other.
+class BlockMaker {
+public:
+  BlockMaker(const Membrane& membrane, std::size_t nodes, MembraneLanes& lanes_)
+      : m(membrane), out(lanes_), local(nodes, -1) {}
+
+  void add(int patch) {
+    if (static_cast<int>(pairs.size() + singles.size()) == block_patches ||
+        static_cast<int>(list.size()) + 4 > most_block_nodes)
+      close();
+    (size(patch) == 2 ? pairs : singles).push_back(patch);
+    for (int e = first(patch); e < first(patch) + size(patch); ++e)
+      for (const int n : m.triangles[static_cast<std::size_t>(e)]) {
+        std::int32_t& number = local[static_cast<std::size_t>(n)];
+        if (number < 0) number = static_cast<std::int32_t>(list.size()), list.push_back(n);
+      }
+  }
+
+  void close() {
+    if (list.empty()) return;
+    LaneBlock block;
+    block.first_node = static_cast<int>(out.nodes.size());
+    block.nodes = static_cast<int>(list.size());
+    block.first_triangles = static_cast<int>(out.triangles.size());
+    block.first_group = static_cast<int>(out.viscosity.size());
+    block.pair_groups = add_groups(pairs, 2);
+    block.single_groups = add_groups(singles, 1);
+    out.blocks.push_back(block);
+    out.nodes.insert(out.nodes.end(), list.begin(), list.end());
+    for (const int n : list)
+      local[static_cast<std::size_t>(n)] = -1;
+    list.clear(), pairs.clear(), singles.clear();
+  }
+
+private:
+  int first(int patch) const { return m.patch_begin[static_cast<std::size_t>(patch)]; }
+  int size(int patch) const {
+    return m.patch_begin[static_cast<std::size_t>(patch) + 1] - first(patch);
+  }
+
+  int add_groups(const std::vector<int>& patches, int of) {
+    int groups = 0;
+    for (std::size_t begin = 0; begin < patches.size(); begin += lanes, ++groups) {
+      for (int i = 0; i < of; ++i) {
+        LaneTriangles& t = out.triangles.emplace_back();
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+          const bool filler = begin + lane >= patches.size();
+          const int patch = patches[filler ? patches.size() - 1 : begin + lane];
+          set(t, lane, patch, first(patch) + i, filler);
+        }
+      }
+      LaneViscosity& v = out.viscosity.emplace_back();
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        v.lambda[0][lane] = v.lambda[1][lane] = 1.0;
+        v.tension[0][lane] = v.tension[1][lane] = 0.0;
+      }
+    }
+    return groups;
+  }
+
+  void set(LaneTriangles& t, std::size_t lane, int patch, int triangle, bool filler) const {
+    const auto e = static_cast<std::size_t>(triangle);
+    const FibreGradients& c = m.c[e];
+    t.c11[lane] = c.c11, t.c12[lane] = c.c12, t.c21[lane] = c.c21, t.c22[lane] = c.c22;
+    double patch_area = 0.0;
+    for (int i = first(patch); i < first(patch) + size(patch); ++i)
+      patch_area += m.area[static_cast<std::size_t>(i)];
+    t.area[lane] = filler ? 0.0 : m.area[e];
+    t.share[lane] = m.area[e] / patch_area;
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      t.node[corner][lane] =
+          static_cast<std::uint16_t>(local[static_cast<std::size_t>(m.triangles[e][corner])]);
+  }
+
+  const Membrane& m;
+  MembraneLanes& out;
+  std::vector<std::int32_t> local; ///< number of a node of the ply in the open block, or -1
+  std::vector<std::int32_t> list;  ///< nodes of the open block
+  std::vector<int> pairs, singles;
+};
+
+void tension_of_table(const Fabric* fabric, int family, const double* strain, double* n) {
+  const TensionLaw& yarn = family == 0 ? fabric->warp : fabric->weft;
+  for (int i = 0; i < lanes; ++i)
+    n[i] = yarn.at(strain[i]).value;
+}
+
+void secant_of_table(const Fabric* fabric, const double* measure2, double* p) {
+  for (int i = 0; i < lanes; ++i)
+    p[i] = fabric->shear.secant(std::sqrt(measure2[i]));
+}
+
+KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosity,
+                         const SideStiffness& side) {
+  return {density,
+          yarn.stiffness,
+          yarn.compression,
+          viscosity,
+          side.stabilisation,
+          side.guard,
+          deviation_weight / density,
+          !yarn.strain.empty()};
+}
+
+KernelLaw kernel_law(const Membrane& m) {
+  const Fabric& f = m.fabric;
+  KernelLaw law{};
+  law.yarns[0] = kernel_yarns(f.warp, f.warp_density, m.viscosity.warp, m.side[0]);
+  law.yarns[1] = kernel_yarns(f.weft, f.weft_density, m.viscosity.weft, m.side[1]);
+  law.angle = m.omega0 - 0.5 * M_PI;
+  law.cells = m.cells_per_area;
+  law.beta = deviation_weight;
+  law.shear = f.shear.k.data();
+  law.shear_terms = f.shear.angle.empty() ? static_cast<int>(f.shear.k.size()) : 0;
+  law.fabric = &f;
+  law.tension = tension_of_table;
+  law.secant = secant_of_table;
+  return law;
+}
+
+} // namespace
+
+bool fits_lanes(const Membrane& m) {
+  return !m.fabric.isotropic;
+}
+
+MembraneLanes make_lanes(const Membrane& m, std::span<const Vec3> x) {
+  MembraneLanes out;
+  BlockMaker maker(m, x.size(), out);
+  for (const int patch : ordered_patches(m, x))
+    maker.add(patch);
+  maker.close();
+  out.force.assign(out.nodes.size(), LaneForce{});
+  Gather gather = make_gather(out.nodes, x.size());
+  out.force_begin = std::move(gather.begin);
+  out.force_of = std::move(gather.gather);
+  return out;
+}
+
+PatchReport lane_forces(MembraneLanes& l, const Membrane& m, std::span<const Vec3> x, double dt,
+                        int block) {
+  const LaneBlock& b = l.blocks[static_cast<std::size_t>(block)];
+  const auto node = static_cast<std::size_t>(b.first_node);
+  const KernelBlock kernel{l.nodes.data() + node,
+                           b.nodes,
+                           l.triangles.data() + b.first_triangles,
+                           l.viscosity.data() + b.first_group,
+                           b.pair_groups,
+                           b.single_groups,
+                           &l.force[node]};
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
+  const auto run = has_avx2() ? membrane_kernel_avx2 : membrane_kernel_any;
+  const KernelReport report = run(kernel, kernel_law(m), x.data()->data(), per_dt);
+  return {report.viscous_work, report.collapsed};
+}
+
+} // namespace plyform
