@@ -10,14 +10,14 @@ namespace plyform {
 namespace {
 
 /// Pixels^2 that two boxes share.
-double overlap(const Box& a, const Box& b) {
+double overlap(const PixelBox& a, const PixelBox& b) {
   const double x = std::min(a.right, b.right) - std::max(a.left, b.left);
   const double y = std::min(a.bottom, b.bottom) - std::max(a.top, b.top);
   return x > 0.0 && y > 0.0 ? x * y : 0.0;
 }
 
 /// Length of the part of a line inside a box, pixels (Liang and Barsky).
-double inside(const Box& box, const Vec2& a, const Vec2& b) {
+double inside(const PixelBox& box, const Vec2& a, const Vec2& b) {
   double from = 0.0, to = 1.0;
   const Vec2 d = b - a;
   const auto clip = [&](double slope, double gap) {
@@ -36,22 +36,22 @@ double inside(const Box& box, const Vec2& a, const Vec2& b) {
   return to > from ? (to - from) * d.norm() : 0.0;
 }
 
-double outside(const Box& box, const Box& frame) {
+double outside(const PixelBox& box, const PixelBox& frame) {
   return std::max({0.0, frame.left - box.left, box.right - frame.right, frame.top - box.top,
                    box.bottom - frame.bottom});
 }
 
 /// How bad a place is: a word over a word cannot be read, one over a thin line can.
-double cost(const Box& box, const Obstacles& obstacles) {
+double cost(const PixelBox& box, const Obstacles& obstacles) {
   double sum = 100.0 * outside(box, obstacles.frame);
-  for (const Box& other : obstacles.boxes)
+  for (const PixelBox& other : obstacles.boxes)
     sum += overlap(box, other);
   for (const auto& [a, b] : obstacles.lines)
     sum += 0.5 * inside(box, a, b);
   return sum;
 }
 
-Box box_of(const Vec2& base, double width, double size) {
+PixelBox box_of(const Vec2& base, double width, double size) {
   return {base.x(), base.y() - 0.8 * size, base.x() + width, base.y() + 0.2 * size};
 }
 
@@ -60,7 +60,7 @@ std::vector<Vec2> places(const LabelRequest& request, double width, double size)
   const double x = request.at.x(), y = request.at.y();
   std::vector<Vec2> all;
   for (const double gap : {3.0, 12.0}) {
-    const double r = request.radius + gap, s = 0.7 * r;
+    const double r = request.radius + gap, s = r - 1.0;
     const double left = -width - r, middle = -0.5 * width, low = 0.35 * size;
     for (const auto& [dx, dy] : {std::pair{s, -s},
                                  {s, s + 0.7 * size},

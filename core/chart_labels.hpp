@@ -10,7 +10,7 @@
 namespace plyform {
 
 /// Pixels, y downwards.
-struct Box {
+struct PixelBox {
   double left = 0, top = 0, right = 0, bottom = 0;
 };
 
@@ -22,15 +22,15 @@ struct LabelRequest {
 
 /// What labels keep clear of.
 struct Obstacles {
-  Box frame;              ///< labels stay inside
-  std::vector<Box> boxes; ///< markers
+  PixelBox frame;              ///< labels stay inside
+  std::vector<PixelBox> boxes; ///< markers
   std::vector<std::pair<Vec2, Vec2>> lines;
 };
 
 /// Width of a text in a sans-serif face of the given size, pixels, on the generous side.
 double text_width(const std::string& text, double size);
 
-/// The left end of each text's base line, one after the other: of twelve places around its point
+/// The left end of each text's base line, one after the other: of sixteen places around its point
 /// the first that touches nothing, or that which touches least.
 std::vector<Vec2> place_labels(const std::vector<LabelRequest>& requests, double size,
                                Obstacles obstacles);

@@ -14,12 +14,15 @@ namespace plyform {
 namespace {
 
 constexpr double width = 800, height = 520, label_size = 12;
-constexpr Box plot{72, 112, 780, 462};
+constexpr PixelBox plot{72, 112, 780, 462};
 
 /// Okabe and Ito's colours, which the colour-blind tell apart; every dial has a marker of its own
 /// too.
 constexpr const char* colours[] = {"#0072b2", "#d55e00", "#009e73",
                                    "#cc79a7", "#e69f00", "#56b4e9"};
+/// The same for small letters, darker where the line's colour is too light to be read.
+constexpr const char* letters[] = {"#0072b2", "#b84f00", "#007d5b",
+                                   "#a8437c", "#8f6200", "#1b6fa3"};
 constexpr std::size_t colour_count = std::size(colours);
 constexpr const char* ink = "#222222";
 constexpr const char* grey = "#8a8a8a";
@@ -92,9 +95,11 @@ struct Drawing {
     if (std::isnan(p.error_deg)) return {x(p.time_s), plot.top + 14};
     return {x(p.time_s), p.error_deg > 0.0 ? y(p.error_deg) : plot.bottom};
   }
+  /// Those in ink (the case, presets) take their places before those of the dials.
   void label(const Vec2& where, double radius, const std::string& text, const char* colour) {
-    labels.push_back({where, radius, text});
-    label_colours.push_back(colour);
+    const bool first = colour == ink;
+    labels.insert(first ? labels.begin() : labels.end(), {where, radius, text});
+    label_colours.insert(first ? label_colours.begin() : label_colours.end(), colour);
   }
   /// Keeps labels off a marker.
   void occupy(const Vec2& c, double r) {
@@ -123,7 +128,7 @@ void add_text(std::string& out, const Vec2& at, const std::string& text, double 
                      at.x(), at.y(), size, colour, more, xml(text));
 }
 
-/// The marker of dial `kind`: circle, square, triangles, pentagon-like shapes are left to colour.
+/// The marker of dial `kind`: circle, square, triangle up or down.
 void add_marker(std::string& out, const Vec2& c, std::size_t kind, const char* colour) {
   const auto polygon = [&](std::initializer_list<Vec2> corners) {
     out += "<polygon points=\"";
@@ -184,7 +189,7 @@ void draw_grid(Drawing& d) {
   add_text(d.out, {0.5 * (plot.left + plot.right), plot.bottom + 42}, "wall time, s", 14, ink,
            " text-anchor=\"middle\"");
   const double middle = 0.5 * (plot.top + plot.bottom);
-  add_text(d.out, {22, middle}, "shear angle against the reference, rms, degrees", 14, ink,
+  add_text(d.out, {22, middle}, "error of the shear angle, rms, degrees", 14, ink,
            fmt::format(" text-anchor=\"middle\" transform=\"rotate(-90 22 {})\"", middle).c_str());
 }
 
@@ -200,6 +205,8 @@ void draw_front(Drawing& d) {
   if (steps.empty()) return;
   steps.emplace_back(plot.right, steps.back().y());
   add_polyline(d.out, steps, "#cfcfcf", 5);
+  for (std::size_t i = 1; i < steps.size(); ++i)
+    d.obstacles.lines.emplace_back(steps[i - 1], steps[i]);
 }
 
 void draw_dial(Drawing& d, std::size_t index) {
@@ -220,7 +227,8 @@ void draw_dial(Drawing& d, std::size_t index) {
     else
       add_marker(d.out, p, index, colour);
     d.occupy(p, 5);
-    d.label(p, 4, point.label, colour);
+    d.label(p, 4, point.label + (std::isnan(point.error_deg) ? " stopped" : ""),
+            letters[index % colour_count]);
   }
   d.out += "</g>\n";
 }
@@ -261,14 +269,14 @@ void draw_reference(Drawing& d) {
   const Vec2 p(d.x(d.chart.reference_time_s), plot.bottom);
   add_line(d.out, p, p - Vec2(0, 12), ink, 2.5);
   d.obstacles.boxes.push_back({p.x() - 2, p.y() - 12, p.x() + 2, p.y()});
-  d.label(p - Vec2(0, 9), 4, "reference", ink);
+  d.label(p - Vec2(0, 9), 4, "reference run", ink);
 }
 
 void draw_labels(Drawing& d) {
   const std::vector<Vec2> places = place_labels(d.labels, label_size, d.obstacles);
   for (std::size_t i = 0; i < places.size(); ++i)
     add_text(d.out, places[i], d.labels[i].text, label_size, d.label_colours[i],
-             " class=\"label\"");
+             " stroke=\"white\" stroke-width=\"3\" paint-order=\"stroke\"");
 }
 
 /// What each colour and mark is: a row below the title, more rows if it is long.

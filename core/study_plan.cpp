@@ -135,7 +135,9 @@ void add_dial(const Study& study, int index, const Entry& root, StudyPlan& plan)
   plan.own.push_back(own);
   for (const std::string& value : dial.values) {
     StudyPoint point{PointKind::dial, dial.name, dial.key + "=" + value, value, index, 1};
-    if (value.front() == '\'') point.label = value.substr(1, value.size() - 2);
+    const bool word = value.front() == '\'';
+    if (word) point.label = value.substr(1, value.size() - 2);
+    if (sizes) point.label = "\u00d7" + value;
     point.value = as_number(value);
     if (point.value == own) { // the case's own run, which comes second
       plan.points.push_back(std::move(point));
@@ -144,7 +146,7 @@ void add_dial(const Study& study, int index, const Entry& root, StudyPlan& plan)
     const Settings change =
         sizes ? element_size_settings(root, point.value) : Settings{point.setting};
     add_run(study, plan, point,
-            {file_name_of(dial.name) + "=" + file_name_of(point.label),
+            {file_name_of(dial.name) + "=" + file_name_of(word ? point.label : value),
              together(study.settings, change), "", ""});
   }
 }

@@ -189,7 +189,7 @@ struct StudyRuns {
       }
       const Running one = running[i];
       running.erase(running.begin() + static_cast<long>(i));
-      finished(one.run, WIFEXITED(status) ? WEXITSTATUS(status) : -1,
+      finished(one.run, ended > 0 && WIFEXITED(status) ? WEXITSTATUS(status) : -1,
                seconds(usage.ru_utime) + seconds(usage.ru_stime));
     }
   }
@@ -214,6 +214,7 @@ RunsEnd run_all(const StudyPlan& plan, const fs::path& case_file, const RunOptio
     if (!begin.done.back()) waiting.push_back(i);
   }
   StudyRuns runs{plan, options, begin, {plan.runs.size() - waiting.size(), plan.runs.size()}};
+  std::signal(SIGCHLD, SIG_DFL); // a parent may have it ignored: exit codes would be lost
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   try {
