@@ -30,6 +30,11 @@ struct RunArguments {
   int threads = 0; ///< 0: as many as there are cores
 };
 
+struct ChartArguments {
+  std::string study, output;
+  int jobs = 0, threads = 0; ///< 0: not given
+};
+
 /// A shear test: bias or frame; NaN where not given.
 struct SpecimenArguments {
   double length = std::numeric_limits<double>::quiet_NaN(); ///< mm, bias
@@ -60,6 +65,7 @@ std::optional<Case> load_case(const CaseArguments& arguments);
 
 int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);
+int chart_command(const ChartArguments& arguments);
 int keys_command();
 int identify_command(const IdentifyArguments& arguments);
 int theory_command(const TheoryArguments& arguments);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line: plyform run | check | export | identify | theory | keys | version.
+// The command line: plyform run | check | chart | export | identify | theory | keys | version.
 #include "core/results.hpp"
 #include "core/version.hpp"
 #include "tools/commands.hpp"
@@ -48,6 +48,16 @@ int main(int argc, char** argv) {
       app.add_subcommand("check", "say what will be modelled, or every mistake in the case");
   add_case_options(*check_app, check);
 
+  ChartArguments chart;
+  CLI::App* chart_app =
+      app.add_subcommand("chart", "run a case over its dials, draw wall time against error");
+  chart_app->add_option("study", chart.study, "study file")->required();
+  chart_app->add_option("-o,--output", chart.output, "folder for chart and runs [results/STUDY]");
+  chart_app->add_option("--jobs", chart.jobs, "runs at a time [cores / threads]")
+      ->check(CLI::Range(1, 256));
+  chart_app->add_option("--threads", chart.threads, "threads of each run [1]")
+      ->check(CLI::Range(1, 256));
+
   std::string results;
   CLI::App* export_app = app.add_subcommand("export", "write the last state in other formats");
   export_app->add_option("results", results, "folder of a run")->required();
@@ -73,6 +83,7 @@ int main(int argc, char** argv) {
   try {
     if (run_app->parsed()) return run_command(run);
     if (check_app->parsed()) return check_command(check);
+    if (chart_app->parsed()) return chart_command(chart);
     if (export_app->parsed()) return export_command(results);
     if (identify_app->parsed()) return identify_command(identify);
     if (theory_app->parsed()) return theory_command(theory);
