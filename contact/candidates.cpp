@@ -34,34 +34,75 @@ void require_ok(int fcl_code, const char* step) {
     throw std::runtime_error(fmt::format("SheetTree: FCL refused to {} (code {})", step, fcl_code));
 }
 
-double squared_distance(const Vec3& p, const fcl::AABB<double>& box) {
+using Box = fcl::AABB<double>;
+
+double squared_distance(const Vec3& p, const Box& box) {
   return (box.min_ - p).cwiseMax(p - box.max_).cwiseMax(0.0).squaredNorm();
 }
 
-/// Appends the triangles within `reach` of p, in no particular order. `stack` is scratch.
-void faces_near(const Tree& tree, const Vec3& p, double reach, double box_reach2,
-                std::vector<int>& stack, std::int32_t node, std::vector<Candidate>& out) {
-  if (squared_distance(p, tree.getBV(0).bv) > box_reach2) return;
-  stack.assign(1, 0);
+bool overlap(const Box& a, const Box& b) {
+  return (a.min_.array() <= b.max_.array()).all() && (b.min_.array() <= a.max_.array()).all();
+}
+
+/// Leaves whose box meets `asked`.
+void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
+               std::vector<const fcl::BVNode<Box>*>& leaves) {
+  leaves.clear();
+  stack.clear();
+  if (overlap(asked, tree.getBV(0).bv)) stack.push_back(0);
   while (!stack.empty()) {
-    const fcl::BVNode<fcl::AABB<double>>& box = tree.getBV(stack.back());
+    const fcl::BVNode<Box>& box = tree.getBV(stack.back());
     stack.pop_back();
-    if (!box.isLeaf()) {
-      for (const int child : {box.leftChild(), box.rightChild()})
-        if (squared_distance(p, tree.getBV(child).bv) <= box_reach2) stack.push_back(child);
+    if (box.isLeaf()) {
+      leaves.push_back(&box);
       continue;
     }
-    const fcl::Triangle& t = tree.tri_indices[box.primitiveId()];
+    const int child = box.first_child;
+    for (const int i : {child, child + 1})
+      if (overlap(asked, tree.getBV(i).bv)) stack.push_back(i);
+  }
+}
+
+/// Asked distances, and what asking needs.
+struct Reach {
+  double distance, box2; ///< mm; mm^2 to boxes, with the margin
+};
+
+/// Appends the triangles of `leaves` within reach of p, in no particular order.
+void faces_near(const Tree& tree, const Vec3& p, const Reach& reach,
+                std::span<const fcl::BVNode<Box>* const> leaves, std::int32_t node,
+                std::vector<Candidate>& out) {
+  for (const fcl::BVNode<Box>* leaf : leaves) {
+    if (squared_distance(p, leaf->bv) > reach.box2) continue;
+    const int face = leaf->primitiveId();
+    const fcl::Triangle& t = tree.tri_indices[face];
     const ClosestPoint q =
         closest_point_on_triangle(p, tree.vertices[t[0]], tree.vertices[t[1]], tree.vertices[t[2]]);
-    if (q.distance2 <= reach * reach) out.push_back({node, box.primitiveId()});
+    if (q.distance2 <= reach.distance * reach.distance)
+      out.push_back({node, face, q.distance2, q.w});
   }
+}
+
+/// The nodes from `first` that are asked together: few, and close to each other, as nodes of
+/// neighbouring numbers are on most meshes. `box`: around them.
+std::size_t group_end(std::span<const Vec3> nodes, std::size_t first, double size, Box& box) {
+  constexpr std::size_t most = 16;
+  box = Box(nodes[first]);
+  std::size_t end = first + 1;
+  for (; end < std::min(nodes.size(), first + most); ++end) {
+    Box larger = box;
+    larger += nodes[end];
+    if ((larger.max_ - larger.min_).maxCoeff() > size) break;
+    box = larger;
+  }
+  return end;
 }
 
 } // namespace
 
 struct SheetTree::Impl {
   Tree tree;
+  double area = 0.0; ///< mm^2, as built
 };
 
 SheetTree::SheetTree(std::span<const Vec3> x, std::span<const Triangle> triangles)
@@ -81,6 +122,10 @@ SheetTree::SheetTree(std::span<const Vec3> x, std::span<const Triangle> triangle
   require_ok(tree.beginModel(int(faces.size()), int(x.size())), "begin the tree");
   require_ok(tree.addSubModel({x.begin(), x.end()}, faces), "take the triangles");
   require_ok(tree.endModel(), "build the tree");
+  for (const Triangle& t : triangles) {
+    const auto at = [&](std::size_t k) -> const Vec3& { return x[static_cast<std::size_t>(t[k])]; };
+    impl_->area += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
+  }
 }
 
 SheetTree::~SheetTree() = default;
@@ -106,18 +151,35 @@ Box3 SheetTree::bounds() const {
   return {root.min_, root.max_};
 }
 
-void SheetTree::candidates(std::span<const Vec3> nodes, double reach,
-                           std::vector<Candidate>& out) const {
+void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vector<Candidate>& out,
+                           std::span<const char> skip) const {
   if (!(reach >= 0.0 && std::isfinite(reach)))
     throw std::invalid_argument(fmt::format("SheetTree: reach {} mm is no distance", reach));
   require_finite(nodes, "asked node");
+  const Tree& tree = impl_->tree;
   const double box_reach = reach + rounding_margin * (bounds().diagonal().norm() + reach);
+  // a side of a group: some eight triangles of this sheet
+  const double size = 4.0 * std::sqrt(impl_->area / static_cast<double>(tree.num_tris));
   std::vector<int> stack;
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const auto first = std::ptrdiff_t(out.size());
-    faces_near(impl_->tree, nodes[i], reach, box_reach * box_reach, stack, std::int32_t(i), out);
-    std::sort(out.begin() + first, out.end(),
-              [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
+  std::vector<const fcl::BVNode<Box>*> leaves;
+  Box box;
+  for (std::size_t i = 0, end = 0; i < nodes.size(); i = end) {
+    end = group_end(nodes, i, size, box);
+    if (!skip.empty() &&
+        std::all_of(skip.begin() + static_cast<std::ptrdiff_t>(i),
+                    skip.begin() + static_cast<std::ptrdiff_t>(end), [](char s) { return s != 0; }))
+      continue;
+    box.min_.array() -= box_reach;
+    box.max_.array() += box_reach;
+    leaves_in(tree, box, stack, leaves);
+    if (leaves.empty()) continue;
+    for (std::size_t n = i; n < end; ++n) {
+      if (!skip.empty() && skip[n]) continue;
+      const auto first = std::ptrdiff_t(out.size());
+      faces_near(tree, nodes[n], {reach, box_reach * box_reach}, leaves, std::int32_t(n), out);
+      std::sort(out.begin() + first, out.end(),
+                [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
+    }
   }
 }
 

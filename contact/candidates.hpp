@@ -13,7 +13,9 @@ namespace plyform {
 /// Node `node` of the slave sheet is within the asked distance of triangle `face` of the master.
 struct Candidate {
   std::int32_t node, face;
-  bool operator==(const Candidate&) const = default;
+  double distance2 = 0.0;    ///< mm^2
+  std::array<double, 3> w{}; ///< weights of the closest point
+  bool operator==(const Candidate& other) const { return node == other.node && face == other.face; }
 };
 
 /// One sheet's AABB tree (FCL), refitted to new positions without being rebuilt.
@@ -39,8 +41,10 @@ public:
   /// node's own triangles come too; the caller leaves them out). The distance is that of
   /// closest_point_on_triangle, compared as distance2 <= reach * reach: the list is, bit for bit,
   /// what asking all pairs gives. Several threads may ask one tree at once, while none refits it.
-  /// Throws std::invalid_argument if reach is negative or it or a node is not finite.
-  void candidates(std::span<const Vec3> nodes, double reach, std::vector<Candidate>& out) const;
+  /// Nodes with `skip` not 0 are left out (none if it is empty). Throws std::invalid_argument if
+  /// reach is negative or it or a node is not finite.
+  void candidates(std::span<const Vec3> nodes, double reach, std::vector<Candidate>& out,
+                  std::span<const char> skip = {}) const;
 
 private:
   struct Impl;

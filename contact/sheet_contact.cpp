@@ -21,30 +21,30 @@ const Vec3& at(std::span<const Vec3> x, int n) {
   return x[static_cast<std::size_t>(n)];
 }
 
-bool share_a_node(const Triangle& a, const Triangle& b) {
-  for (int i : a)
-    for (int j : b)
-      if (i == j) return true;
-  return false;
-}
-
 /// Numbers the connected patches among a node's candidate faces: label[i] = smallest index of its
 /// patch.
 void label_patches(std::span<const Candidate> group, std::span<const Triangle> triangles,
                    std::vector<int>& label) {
-  label.resize(group.size());
-  std::iota(label.begin(), label.end(), 0);
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (std::size_t i = 0; i < group.size(); ++i)
-      for (std::size_t j = 0; j < i; ++j) {
-        if (label[i] == label[j]) continue;
-        if (!share_a_node(triangles[static_cast<std::size_t>(group[i].face)],
-                          triangles[static_cast<std::size_t>(group[j].face)]))
-          continue;
-        label[i] = label[j] = std::min(label[i], label[j]);
-        changed = true;
+  label.assign(group.size(), -1);
+  std::vector<std::pair<std::int32_t, int>> met; // nodes of the faces so far, and their patch
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    label[i] = static_cast<int>(i);
+    const Triangle& t = triangles[static_cast<std::size_t>(group[i].face)];
+    for (const std::int32_t n : t)
+      for (const auto& [node, patch] : met)
+        if (node == n) label[i] = std::min(label[i], patch);
+    for (const std::int32_t n : t) {
+      const auto known =
+          std::find_if(met.begin(), met.end(), [n](const auto& m) { return m.first == n; });
+      if (known == met.end()) {
+        met.emplace_back(n, label[i]);
+      } else if (const int joined = known->second; joined != label[i]) { // two patches meet here
+        for (auto& m : met)
+          if (m.second == joined) m.second = label[i];
+        for (std::size_t j = 0; j < i; ++j)
+          if (label[j] == joined) label[j] = label[i];
       }
+    }
   }
 }
 
@@ -68,6 +68,8 @@ struct Closest {
 
 Closest project(const SheetContact& contact, SheetContactPoint& c, const Vec3& p,
                 std::span<const Vec3> x, std::span<const Triangle> triangles, double way) {
+  // a corner of another face may have moved by more than those of the one that it was close to
+  way = std::min(way, 2.0 * c.drift);
   constexpr double far = std::numeric_limits<double>::max();
   double best2 = far, second2 = far, limit = far, unseen = far;
   int feature = 0;
@@ -81,19 +83,18 @@ Closest project(const SheetContact& contact, SheetContactPoint& c, const Vec3& p
     const Triangle& t = triangles[static_cast<std::size_t>(face)];
     const ClosestPoint q = closest_point_on_triangle(p, at(x, t[0]), at(x, t[1]), at(x, t[2]));
     const bool tied = std::abs(q.distance2 - best2) <= tie * best2;
-    if (!(tied ? face < c.face : q.distance2 < best2)) {
-      second2 = std::min(second2, q.distance2);
-      continue;
+    const bool chosen = tied ? face < c.face : q.distance2 < best2;
+    second2 = std::min(second2, std::max(q.distance2, best2));
+    if (q.distance2 < best2) {
+      best2 = q.distance2;
+      limit = std::sqrt(best2) + way;
     }
-    second2 = std::min(second2, best2);
-    best2 = q.distance2;
-    limit = std::sqrt(best2) + way;
+    if (!chosen) continue;
     c.face = face;
     c.w = q.w;
     feature = q.feature;
   }
-  c.other = std::min(std::sqrt(second2), unseen);
-  c.drift = 0.0;
+  c.other = std::min(std::sqrt(second2), unseen) + 2.0 * c.drift;
   return {std::sqrt(best2), feature};
 }
 
@@ -103,37 +104,27 @@ int side_of(const Vec3& p, const Triangle& t, std::span<const Vec3> x) {
   return normal.dot(p - at(x, t[0])) >= 0.0 ? 1 : -1;
 }
 
-/// A candidate face and the closest point on it when the search is done.
-struct NearFace {
-  std::int32_t face;
-  double distance; ///< mm
-  std::array<double, 3> w;
-};
-
-NearFace measure(const Candidate& c, std::span<const Vec3> slave_x, std::span<const Vec3> x,
-                 std::span<const Triangle> triangles) {
-  const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
-  const ClosestPoint q =
-      closest_point_on_triangle(at(slave_x, c.node), at(x, t[0]), at(x, t[1]), at(x, t[2]));
-  return {c.face, std::sqrt(q.distance2), q.w};
-}
-
-/// A contact of `node` with these faces, not touched yet.
-SheetContactPoint add_faces(SheetContact& contact, std::int32_t node, std::vector<NearFace>& near) {
-  std::sort(near.begin(), near.end(), [](const NearFace& a, const NearFace& b) {
-    return std::pair(a.distance, a.face) < std::pair(b.distance, b.face);
+/// A contact of these candidates' node, not touched yet.
+SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near) {
+  std::sort(near.begin(), near.end(), [](const Candidate& a, const Candidate& b) {
+    return std::pair(a.distance2, a.face) < std::pair(b.distance2, b.face);
   });
   SheetContactPoint c{};
-  c.node = node;
+  c.node = near.front().node;
   c.first_face = static_cast<std::int32_t>(contact.faces.size());
-  for (const NearFace& n : near) {
+  for (const Candidate& n : near) {
     contact.faces.push_back(n.face);
-    contact.face_distance.push_back(n.distance);
+    contact.face_distance.push_back(std::sqrt(n.distance2));
   }
   c.end_face = static_cast<std::int32_t>(contact.faces.size());
-  c.face = near.front().face;
-  c.w = near.front().w;
-  c.slack = near.front().distance - contact.distance;
+  const double tied = (1.0 + tie) * near.front().distance2;
+  const Candidate* first = &near.front();
+  for (const Candidate& n : near)
+    if (n.distance2 <= tied && n.face < first->face) first = &n;
+  c.face = first->face;
+  c.w = first->w;
+  c.other = near.size() > 1 ? std::sqrt(near[1].distance2) : std::numeric_limits<double>::max();
+  c.slack = std::sqrt(near.front().distance2) - contact.distance;
   c.gap = std::numeric_limits<double>::infinity();
   return c;
 }
@@ -165,7 +156,7 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
   contact.slave_force.assign(slave.x.size(), Vec3::Zero());
   contact.master_force.assign(master.x.size(), Vec3::Zero());
   std::vector<int> label;
-  std::vector<NearFace> near;
+  std::vector<Candidate> near;
   std::vector<char> adopted(old.size(), 0);
   std::size_t next_old = 0;
   for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
@@ -177,9 +168,8 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
       if (label[first] != static_cast<int>(first)) continue;
       near.clear();
       for (std::size_t i = first; i < group.size(); ++i)
-        if (label[i] == label[first])
-          near.push_back(measure(group[i], slave.x, master.x, triangles));
-      SheetContactPoint c = add_faces(contact, group[first].node, near);
+        if (label[i] == label[first]) near.push_back(group[i]);
+      SheetContactPoint c = add_faces(contact, near);
       c.area = contact_area(slave, master, c, triangles[static_cast<std::size_t>(c.face)]);
       if (const SheetContactPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[static_cast<std::size_t>(before - old.data())] = 1;
@@ -248,11 +238,15 @@ void fault_at(void* self, std::int32_t point, double distance) {
 void list_near(SheetContact& contact, double way) {
   constexpr double ahead = 0.05; // mm
   if (way <= contact.near_way) return;
+  const double before = contact.near_way;
   contact.near_way = way + ahead;
   contact.near.clear();
-  for (std::size_t i = 0; i < contact.points.size(); ++i)
-    if (contact.points[i].slack <= contact.near_way)
-      contact.near.push_back(static_cast<std::int32_t>(i));
+  for (std::size_t i = 0; i < contact.points.size(); ++i) {
+    SheetContactPoint& c = contact.points[i];
+    if (c.slack > contact.near_way) continue;
+    if (c.slack > before) c.drift = 0.5 * way; // nobody has followed it so far
+    contact.near.push_back(static_cast<std::int32_t>(i));
+  }
 }
 
 SheetKernelContact kernel_view(KernelSide& k, double dt) {

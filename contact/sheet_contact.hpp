@@ -38,8 +38,8 @@ struct alignas(32) SheetContactPoint {
   std::array<double, 3> w{};   ///< weights of the closest point
   double slack = 0.0;          ///< mm, gap when the search was done
   Vec3 normal = Vec3::Zero();  ///< n
-  double other = 0.0;          ///< mm, no other face was closer when all were last looked at,
-  double drift = 0.0;          ///< mm, way of the node relative to its face since then
+  double other = 0.0;          ///< mm, no other face is closer than that less 2 drift
+  double drift = 0.0;          ///< mm, way of the node relative to its face since the search
   std::int32_t node, face = 0; ///< closest face; of those that tie the first
   int side = 0;                ///< +1: on the side of the face normal, -1: other, 0: not known
   std::int32_t first_face, end_face; ///< range in SheetContact::faces

@@ -28,7 +28,7 @@ struct SheetKernelContact {
   double distance, stiffness, tangential, friction; ///< h, k, k_t, mu of contact/contact_law.hpp
   double damping_per_dt;                            ///< c / dt, or 0
   void* self;
-  /// Finds the closest point of all of a point's faces: face, w, gap, side, other; drift = 0.
+  /// Finds the closest point of all of a point's faces: face, w, gap, side, other.
   void (*project)(void* self, std::int32_t point);
   /// A point that held something has opened; last_gap: mm, of the step before.
   void (*open)(void* self, std::int32_t point, double last_gap);

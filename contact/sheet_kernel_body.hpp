@@ -210,12 +210,14 @@ PLYFORM_INLINE void do_group(const SheetKernelContact& k, const std::int32_t* in
       Double4{point[0]->drift, point[1]->drift, point[2]->drift, point[3]->drift} + relative_way(u);
   const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
   // twice: a corner of a neighbouring face may move relative to the node by more than its own's
-  const Long4 sure =
-      foot.inside & (other - 2.0 * drift > foot.distance + nearly) & (last_gap < 1e300);
+  const Long4 sure = foot.inside & (other - 2.0 * drift > foot.distance + nearly);
   const Long4 look = ~sure & real;
   if (any(look)) {
     for (int i = 0; i < count; ++i)
-      if (look[i]) k.project(k.self, index[i]);
+      if (look[i]) {
+        point[i]->drift = drift[i];
+        k.project(k.self, index[i]);
+      }
     x = load_faces(k, point, k.slave_x, k.master_x);
     u = load_faces(k, point, k.slave_motion, k.master_motion);
     const Rows w = load_rows(point, weight_row);

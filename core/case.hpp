@@ -84,7 +84,7 @@ struct SolverOptions {
 struct ContactOptions {
   double stiffness = 0.1; ///< fraction of the stable limit
   double damping = 0.2;   ///< fraction of critical
-  double skin = 0.5;      ///< mm, search distance beyond contact
+  double skin = 0.0;      ///< mm, search distance beyond contact; 0: by the element size
   bool self = false;      ///< plies may touch themselves
 };
 

@@ -172,7 +172,7 @@ FrictionTable read_friction(const Section& contact, const Numbers& bodies, int p
 ContactOptions read_contact(const Section& contact) {
   return {.stiffness = number(contact, "stiffness"),
           .damping = number(contact, "damping"),
-          .skin = number(contact, "skin"),
+          .skin = given(contact, "skin") ? number(contact, "skin") : 0.0,
           .self = text(contact, "self") == "on"};
 }
 

@@ -38,8 +38,41 @@ void leave_out_neighbours(std::vector<Candidate>& candidates, std::span<const Ve
 void search_tool(Scene& s, ToolAndContacts& t) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     find_tool_points(t.contacts[p], t.body, s.plies[p].state(),
-                     std::max(s.data.contact.skin, step_way(s, static_cast<int>(p), t)));
+                     std::max(s.skin, step_way(s, static_cast<int>(p), t)));
   t.displacement_search = t.body.displacement;
+}
+
+/// The ply next to the slave on the way to the master lies between them, or is the master.
+int next_ply(const PlyContact& pair) {
+  return pair.slave + (pair.master > pair.slave) - (pair.master < pair.slave);
+}
+
+bool neighbours(const PlyContact& pair) {
+  return pair.master == next_ply(pair);
+}
+
+/// Marks the slave's nodes that are so close to the master, away from its rim, that no ply beyond
+/// it can be near them: a third ply does not fit in between.
+void mark_covered(PlyBody& slave, const PlyContact& pair, const PlyBody& master) {
+  std::vector<char>& covered = slave.covered[pair.master > pair.slave];
+  covered.assign(slave.x.size(), 0);
+  for (const SheetContactPoint& c : pair.contact.points) {
+    char inside = c.slack < 0.5 * pair.contact.distance;
+    for (int i = c.first_face; i < c.end_face; ++i)
+      inside &=
+          !master.on_rim[static_cast<std::size_t>(pair.contact.faces[static_cast<std::size_t>(i)])];
+    covered[static_cast<std::size_t>(c.node)] |= inside;
+  }
+}
+
+/// The slave's nodes that another ply keeps from the master; empty: none.
+std::span<const char> covered_nodes(const Scene& s, const PlyContact& pair, double reach) {
+  if (pair.slave == pair.master || neighbours(pair)) return {};
+  const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
+  const PlyBody& between = s.plies[static_cast<std::size_t>(next_ply(pair))];
+  // what covers was looked for within that distance only
+  if (reach > 0.5 * (slave.thickness + between.thickness) + s.skin) return {};
+  return slave.covered[pair.master > pair.slave];
 }
 
 void search_plies(Scene& s, PlyContact& pair) {
@@ -47,22 +80,22 @@ void search_plies(Scene& s, PlyContact& pair) {
   const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
   const Stopwatch watch(pair.contact.time.search);
   // also what has come through within the step: find_passed looks at it
-  const double reach = std::max(pair.contact.distance + s.data.contact.skin, step_way(s, pair));
+  const double reach = std::max(pair.contact.distance + s.skin, step_way(s, pair));
   std::vector<Candidate> candidates;
   if (may_meet(slave.tree->bounds(), master.tree->bounds(), reach))
-    master.tree->candidates(slave.x, reach, candidates);
+    master.tree->candidates(slave.x, reach, candidates, covered_nodes(s, pair, reach));
   if (pair.slave == pair.master)
     leave_out_neighbours(candidates, slave.x0, slave.membrane.triangles,
                          neighbourhood * pair.contact.distance);
   find_sheet_points(pair.contact, candidates, slave.state(), master.state(),
                     master.membrane.triangles);
+  if (neighbours(pair)) mark_covered(s.plies[static_cast<std::size_t>(pair.slave)], pair, master);
 }
 
 void search_edges(Scene& s, PlyEdgeContact& pair) {
   const PlyBody& a = s.plies[static_cast<std::size_t>(pair.a)];
   const PlyBody& b = s.plies[static_cast<std::size_t>(pair.b)];
-  find_edge_pairs(pair.contact, a.state(), a.edges, a.folded, b.state(), b.edges, b.folded,
-                  s.data.contact.skin);
+  find_edge_pairs(pair.contact, a.state(), a.edges, a.folded, b.state(), b.edges, b.folded, s.skin);
 }
 
 /// Each ply's list of the force arrays that boundaries and contacts now write into, in fixed order.
@@ -104,7 +137,7 @@ bool follow_ways(Scene& s) {
     const double ahead = t.body.pushed ? t.body.speed_limit * s.dt : 0.0;
     grow(t.way, (t.body.displacement - t.displacement_search).norm() + ahead);
   }
-  return furthest_way(s) <= 0.5 * s.data.contact.skin;
+  return furthest_way(s) <= 0.5 * s.skin;
 }
 
 double furthest_way(const Scene& s) {
@@ -127,16 +160,23 @@ void search_contacts(Scene& s, ThreadTeam& team) {
     ply.x_search = ply.x;
     ply.folded = folded_edges(ply.edges, ply.membrane.triangles, ply.x, ply.thickness);
   });
-  const int tools = static_cast<int>(s.tools.size());
-  const int sheets = tools + static_cast<int>(s.ply_contacts.size());
-  const int edges = sheets + static_cast<int>(s.edge_contacts.size());
-  team.run(edges, [&](int i) {
-    if (i < tools)
-      search_tool(s, s.tools[static_cast<std::size_t>(i)]);
-    else if (i < sheets)
-      search_plies(s, s.ply_contacts[static_cast<std::size_t>(i - tools)]);
+  // plies next to each other first: what they cover need not be asked for those beyond
+  std::array<std::vector<PlyContact*>, 2> pairs;
+  for (PlyContact& pair : s.ply_contacts)
+    pairs[neighbours(pair) ? 0 : 1].push_back(&pair);
+  const int near = static_cast<int>(pairs[0].size());
+  team.run(near + static_cast<int>(s.tools.size()), [&](int i) {
+    if (i < near)
+      search_plies(s, *pairs[0][static_cast<std::size_t>(i)]);
     else
-      search_edges(s, s.edge_contacts[static_cast<std::size_t>(i - sheets)]);
+      search_tool(s, s.tools[static_cast<std::size_t>(i - near)]);
+  });
+  const int far = static_cast<int>(pairs[1].size());
+  team.run(far + static_cast<int>(s.edge_contacts.size()), [&](int i) {
+    if (i < far)
+      search_plies(s, *pairs[1][static_cast<std::size_t>(i)]);
+    else
+      search_edges(s, s.edge_contacts[static_cast<std::size_t>(i - far)]);
   });
   collect_forces(s);
   for (NodeSums& n : s.node_sums)

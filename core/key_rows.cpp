@@ -352,7 +352,7 @@ Rows contact_rows() {
            .meaning = "damping of contacts as a fraction of critical"},
           {.key = "contact.skin",
            .unit = "mm",
-           .fallback = toml(contact.skin),
+           .otherwise = "0.3 of the smallest mean element size",
            .ranges = {positive},
            .meaning = "search distance beyond contact"},
           {.key = "contact.self",

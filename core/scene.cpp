@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plyform {
 namespace {
@@ -15,6 +16,20 @@ void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count, int size
   const int n = static_cast<int>(count);
   for (int begin = 0; begin < n; begin += size)
     blocks.push_back({ply, begin, std::min(n, begin + size), 0.0});
+}
+
+/// Which triangles have a node on the ply's rim.
+std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
+                               std::span<const Triangle> triangles) {
+  std::vector<char> node, face;
+  for (const SheetEdge& e : edges) {
+    node.resize(std::max(node.size(), static_cast<std::size_t>(std::max(e.a, e.b)) + 1), 0);
+    if (e.right < 0) node[static_cast<std::size_t>(e.a)] = node[static_cast<std::size_t>(e.b)] = 1;
+  }
+  for (const Triangle& t : triangles)
+    face.push_back(static_cast<char>(std::any_of(
+        t.begin(), t.end(), [&](int n) { return node[static_cast<std::size_t>(n)] != 0; })));
+  return face;
 }
 
 PlyBody make_ply(const Case& data, const Ply& ply) {
@@ -42,6 +57,7 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   else
     body.q.resize(mesh.triangles.size());
   body.edges = sheet_edges(body.membrane.triangles);
+  body.on_rim = faces_on_rim(body.edges, body.membrane.triangles);
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   const double omega = std::sqrt(frequency_bound(body.membrane, body.x).omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
@@ -51,17 +67,21 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   return body;
 }
 
+/// mm^2, of two triangles on average: the square of the element size.
+double cell_area(const PlyBody& ply) {
+  double area = 0.0;
+  for (const double a : ply.membrane.node_area)
+    area += a;
+  return 2.0 * area / static_cast<double>(ply.membrane.triangles.size());
+}
+
 /// Contact stiffness per area that moves a free node at `fraction` of the elements' omega^2. That
 /// falls with the square of the element size, while a ply may not sink in deeper for being meshed
 /// coarsely: so no less than what elements of 12.5 thicknesses would have, within a factor of 2.5,
 /// beyond which crossed plies chatter over a fillet (docs/contact.md).
 double penalty_per_area(const PlyBody& ply, double fraction) {
   constexpr double fine = 12.5, most = 2.5;
-  double area = 0.0;
-  for (const double a : ply.membrane.node_area)
-    area += a;
-  const double cell = 2.0 * area / static_cast<double>(ply.membrane.triangles.size()); // mm^2
-  const double coarse = cell / (fine * fine * ply.thickness * ply.thickness);
+  const double coarse = cell_area(ply) / (fine * fine * ply.thickness * ply.thickness);
   return std::clamp(coarse, 1.0, most) * fraction * ply.membrane.fabric.surface_density *
          frequency_bound(ply.membrane, ply.x).omega2;
 }
@@ -113,6 +133,17 @@ PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a,
   return pair;
 }
 
+/// Motion takes a skin to be used up, points and faces in reach grow with its square: a third of an
+/// element is where neither counts for much.
+double contact_skin(const ContactOptions& options, const std::vector<PlyBody>& plies) {
+  constexpr double of_element = 0.3;
+  if (options.skin > 0.0) return options.skin;
+  double smallest = std::numeric_limits<double>::max();
+  for (const PlyBody& ply : plies)
+    smallest = std::min(smallest, std::sqrt(cell_area(ply)));
+  return of_element * smallest;
+}
+
 } // namespace
 
 Scene make_scene(const Case& data) {
@@ -122,6 +153,7 @@ Scene make_scene(const Case& data) {
     s.plies.push_back(make_ply(data, ply));
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
+  s.skin = contact_skin(data.contact, s.plies);
   const int n = static_cast<int>(s.plies.size());
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b)

@@ -35,8 +35,10 @@ struct PlyBody {
   std::unique_ptr<SheetTree> tree;
   double search_seconds = 0.0; ///< refitting the tree, finding folds
   std::vector<SheetEdge> edges;
-  std::vector<std::int32_t> folded; ///< edges folded at the last contact search
-  std::vector<Vec3> reaction;       ///< N, that boundaries hold each node with; empty if none does
+  std::vector<char> on_rim;                 ///< triangles with a node on the rim
+  std::array<std::vector<char>, 2> covered; ///< nodes that the next ply below, above covers
+  std::vector<std::int32_t> folded;         ///< edges folded at the last contact search
+  std::vector<Vec3> reaction; ///< N, that boundaries hold each node with; empty if none does
   std::vector<const std::vector<Vec3>*>
       nodal_forces; ///< reaction, contacts: those in use, in order
 
@@ -109,6 +111,7 @@ struct Scene {
   std::vector<NodeSums> node_sums;       ///< one a node block
   double start_energy = 0.0;             ///< N mm, that the plies were given to start with
   double mass_damping_work = 0.0;        ///< N mm, since the start
+  double skin = 0.0;                     ///< mm, Case's or by the element size
   double time = 0.0;                     ///< s, of x
   double dt = 0.0, next_dt = 0.0;        ///< s, the step that led to x and the one that leaves it
   double min_dt = 0.0, max_dt = 0.0;     ///< s, used so far

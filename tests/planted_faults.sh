@@ -17,7 +17,7 @@ faults=(
   "normal force between plies pulls | contact/sheet_contact.cpp | s/Vec3 f = normal.total \* c.normal/Vec3 f = -normal.total * c.normal/"
   "boxes of the search: one triangle in 64 is never a candidate | contact/candidates.cpp | s/if (q.distance2 <= reach \* reach) out/if (q.distance2 <= reach * reach \&\& box.primitiveId() % 64 != 7) out/"
   "boxes of the search are not brought up to date | core/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
-  "contacts of plies are listed without the skin | core/contact_search.cpp | s/pair.contact.distance + s.data.contact.skin/pair.contact.distance/"
+  "contacts of plies are listed without the skin | core/contact_search.cpp | s/pair.contact.distance + s.skin/pair.contact.distance/"
   "what may have closed its gap is looked at too late, plies | contact/sheet_contact.cpp | s/if (c.slack > way) continue;/if (c.slack > 0.1 * way) continue;/"
   "the first node near a tool is not listed | contact/tool_contact.cpp | s/if (gap > reach) {/if (gap > reach || contact.points.empty()) {/"
   "friction between plies is forgotten at a search | contact/sheet_contact.cpp | s/c.memory = before->memory;//"

@@ -171,7 +171,7 @@ int check_command(const CaseArguments& arguments) {
   const StepBound bound = stable_step(s);
   const double steps = data->solver.duration / s.next_dt;
   fmt::print("contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm\n",
-             s.ply_contacts.size(), data->contact.skin);
+             s.ply_contacts.size(), s.skin);
   fmt::print("stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s\n", bound.dt,
              s.plies[static_cast<std::size_t>(bound.ply)].name, bound.triangle, s.next_dt);
   fmt::print("fibre stiffness divided by {:g}, {:g} s simulated: about {:.0f} steps\n",
