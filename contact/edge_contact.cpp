@@ -48,6 +48,22 @@ SegmentDistance segment_distance(const Vec3& x1, const Vec3& x2, const Vec3& x3,
   return d;
 }
 
+double distance_to_segment(const Vec3& p, const Vec3& from, const Vec3& to) {
+  const Vec3 along = to - from;
+  const double t = std::clamp((p - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (p - from - t * along).norm();
+}
+
+/// mm, of two edges wherever their closest points are.
+double distance_of(const EdgePair& pair, const SheetState& a, const SheetState& b) {
+  const Vec3 &x1 = at(a.x, pair.a.a), &x2 = at(a.x, pair.a.b);
+  const Vec3 &x3 = at(b.x, pair.b.a), &x4 = at(b.x, pair.b.b);
+  const SegmentDistance d = segment_distance(x1, x2, x3, x4);
+  if (!d.parallel && d.inside) return d.across.norm();
+  return std::min({distance_to_segment(x1, x3, x4), distance_to_segment(x2, x3, x4),
+                   distance_to_segment(x3, x1, x2), distance_to_segment(x4, x1, x2)});
+}
+
 double edge_area(const SheetState& sheet, const SheetEdge& e) {
   return 0.5 *
          (sheet.area[static_cast<std::size_t>(e.a)] + sheet.area[static_cast<std::size_t>(e.b)]);
@@ -173,10 +189,13 @@ void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const 
       pair = old[known];
     else
       measure(pair, a, b, contact.distance + skin);
+    pair.slack =
+        pair.distance < contact.distance ? 0.0 : distance_of(pair, a, b) - contact.distance;
   }
 }
 
-void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b, double dt) {
+void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b, double dt,
+                 double way) {
   if (contact.pairs.empty()) return;
   const Stopwatch watch(contact.time.forces);
   ContactSums& sums = contact.sums;
@@ -185,6 +204,10 @@ void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b,
   std::fill(contact.force_a.begin(), contact.force_a.end(), Vec3::Zero());
   std::fill(contact.force_b.begin(), contact.force_b.end(), Vec3::Zero());
   for (EdgePair& pair : contact.pairs) {
+    if (pair.slack > way) { // too far to touch, and to cross: its side does not matter
+      pair.side = 0;
+      continue;
+    }
     const double last = pair.distance;
     const Vec3 n = measure(pair, a, b, 2.0 * contact.distance);
     const double p = contact.distance - pair.distance;

@@ -45,6 +45,7 @@ struct EdgePair {
   double area = 0.0;     ///< mm^2
   double distance = 0.0; ///< mm, signed
   double s = 0.0, t = 0.0;
+  double slack = 0.0; ///< mm, how much closer they must come since the search to touch
 };
 
 struct EdgeContact {
@@ -63,8 +64,10 @@ void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const 
                      std::span<const SheetEdge> edges_b, std::span<const std::int32_t> folded_b,
                      double skin);
 
-/// Forces of one step. dt: the step that led to these positions, s.
-void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b, double dt);
+/// Forces of one step. dt: the step that led to these positions, s. way: as of sheet_forces
+/// (contact/sheet_contact.hpp).
+void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b, double dt,
+                 double way);
 
 /// Row sums of the contact stiffness matrix, N/mm, of pairs that touch or are within `margin` (mm)
 /// of it.

@@ -2,7 +2,6 @@
 #include "contact/sheet_contact.hpp"
 
 #include "contact/face_turn.hpp"
-#include "contact/point_triangle.hpp"
 #include "contact/processor.hpp"
 #include "contact/sheet_kernel.hpp"
 
@@ -59,53 +58,22 @@ double contact_area(const SheetState& slave, const SheetState& master, const She
   return std::min(slave.area[static_cast<std::size_t>(c.node)], there);
 }
 
-/// Closest point over the faces of one contact, of those that can be closer than the best one:
-/// face, w, other, drift. Returns the distance and the feature (see ClosestPoint).
-struct Closest {
-  double distance; ///< mm
-  int feature;
-};
-
-Closest project(const SheetContact& contact, SheetContactPoint& c, const Vec3& p,
-                std::span<const Vec3> x, std::span<const Triangle> triangles, double way) {
-  // a corner of another face may have moved by more than those of the one that it was close to
-  way = std::min(way, 2.0 * c.drift);
-  constexpr double far = std::numeric_limits<double>::max();
-  double best2 = far, second2 = far, limit = far, unseen = far;
-  int feature = 0;
+/// Distance at the search of the nearest of a point's faces that shares no node with its closest.
+double distance_of_others(const SheetContact& contact, const SheetContactPoint& c,
+                          std::span<const Triangle> triangles) {
+  const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
   for (auto i = static_cast<std::size_t>(c.first_face); i < static_cast<std::size_t>(c.end_face);
        ++i) {
-    if (contact.face_distance[i] > limit) { // they are in ascending order
-      unseen = contact.face_distance[i] - way;
-      break;
-    }
-    const std::int32_t face = contact.faces[i];
-    const Triangle& t = triangles[static_cast<std::size_t>(face)];
-    const ClosestPoint q = closest_point_on_triangle(p, at(x, t[0]), at(x, t[1]), at(x, t[2]));
-    const bool tied = std::abs(q.distance2 - best2) <= tie * best2;
-    const bool chosen = tied ? face < c.face : q.distance2 < best2;
-    second2 = std::min(second2, std::max(q.distance2, best2));
-    if (q.distance2 < best2) {
-      best2 = q.distance2;
-      limit = std::sqrt(best2) + way;
-    }
-    if (!chosen) continue;
-    c.face = face;
-    c.w = q.w;
-    feature = q.feature;
+    const Triangle& u = triangles[static_cast<std::size_t>(contact.faces[i])];
+    if (std::find_first_of(t.begin(), t.end(), u.begin(), u.end()) == t.end())
+      return contact.face_distance[i];
   }
-  c.other = std::min(std::sqrt(second2), unseen) + 2.0 * c.drift;
-  return {std::sqrt(best2), feature};
-}
-
-/// Which side of its face the node is on. Known only above the inside of a face.
-int side_of(const Vec3& p, const Triangle& t, std::span<const Vec3> x) {
-  const Vec3 normal = (at(x, t[1]) - at(x, t[0])).cross(at(x, t[2]) - at(x, t[0]));
-  return normal.dot(p - at(x, t[0])) >= 0.0 ? 1 : -1;
+  return std::numeric_limits<double>::max(); // what is not listed cannot touch
 }
 
 /// A contact of these candidates' node, not touched yet.
-SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near) {
+SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near,
+                            std::span<const Triangle> triangles) {
   std::sort(near.begin(), near.end(), [](const Candidate& a, const Candidate& b) {
     return std::pair(a.distance2, a.face) < std::pair(b.distance2, b.face);
   });
@@ -123,7 +91,7 @@ SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near)
     if (n.distance2 <= tied && n.face < first->face) first = &n;
   c.face = first->face;
   c.w = first->w;
-  c.other = near.size() > 1 ? std::sqrt(near[1].distance2) : std::numeric_limits<double>::max();
+  c.other = distance_of_others(contact, c, triangles);
   c.slack = std::sqrt(near.front().distance2) - contact.distance;
   c.gap = std::numeric_limits<double>::infinity();
   return c;
@@ -169,7 +137,7 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
       near.clear();
       for (std::size_t i = first; i < group.size(); ++i)
         if (label[i] == label[first]) near.push_back(group[i]);
-      SheetContactPoint c = add_faces(contact, near);
+      SheetContactPoint c = add_faces(contact, near, triangles);
       c.area = contact_area(slave, master, c, triangles[static_cast<std::size_t>(c.face)]);
       if (const SheetContactPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[static_cast<std::size_t>(before - old.data())] = 1;
@@ -205,19 +173,6 @@ SheetContactPoint& point_of(KernelSide& k, std::int32_t point) {
   return k.contact.points[static_cast<std::size_t>(point)];
 }
 
-void project_point(void* self, std::int32_t point) {
-  KernelSide& k = of(self);
-  SheetContactPoint& c = point_of(k, point);
-  const Vec3& p = at(k.slave.x, c.node);
-  const Closest closest = project(k.contact, c, p, k.master.x, k.triangles, k.way);
-  const double d = closest.distance;
-  c.gap = d - k.contact.distance;
-  const Triangle& t = k.triangles[static_cast<std::size_t>(c.face)];
-  const int side = closest.feature == 0 ? side_of(p, t, k.master.x) : 0;
-  if (c.side * side < 0 && c.gap < 0.0) k.contact.fault = {c.node, c.face, d};
-  c.side = side; // forgotten on edges: a node may slide round the rim to the other side
-}
-
 void open_point(void* self, std::int32_t point, double last_gap) {
   KernelSide& k = of(self);
   SheetContactPoint& c = point_of(k, point);
@@ -238,14 +193,11 @@ void fault_at(void* self, std::int32_t point, double distance) {
 void list_near(SheetContact& contact, double way) {
   constexpr double ahead = 0.05; // mm
   if (way <= contact.near_way) return;
-  const double before = contact.near_way;
   contact.near_way = way + ahead;
   contact.near.clear();
   for (std::size_t i = 0; i < contact.points.size(); ++i) {
-    SheetContactPoint& c = contact.points[i];
-    if (c.slack > contact.near_way) continue;
-    if (c.slack > before) c.drift = 0.5 * way; // nobody has followed it so far
-    contact.near.push_back(static_cast<std::int32_t>(i));
+    if (contact.points[i].slack <= contact.near_way)
+      contact.near.push_back(static_cast<std::int32_t>(i));
   }
 }
 
@@ -260,7 +212,6 @@ SheetKernelContact kernel_view(KernelSide& k, double dt) {
                 offsetof(P, area) == offsetof(Q, area) && offsetof(P, gap) == offsetof(Q, gap) &&
                 offsetof(P, w) == offsetof(Q, w) && offsetof(P, normal) == offsetof(Q, normal) &&
                 offsetof(P, other) == offsetof(Q, other) &&
-                offsetof(P, drift) == offsetof(Q, drift) &&
                 offsetof(P, node) == offsetof(Q, node) && offsetof(P, side) == offsetof(Q, side));
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::int32_t));
   SheetKernelContact view{};
@@ -271,6 +222,10 @@ SheetKernelContact kernel_view(KernelSide& k, double dt) {
   view.slave_motion = k.slave.motion.data()->data();
   view.master_x = k.master.x.data()->data();
   view.master_motion = k.master.motion.data()->data();
+  view.faces = c.faces.data();
+  view.face_distance = c.face_distance.data();
+  view.spread = k.master.spread.empty() ? nullptr : k.master.spread.data();
+  view.way = k.way;
   view.triangles = k.triangles.data()->data();
   view.slave_force = c.slave_force.data()->data();
   view.master_force = c.master_force.data()->data();
@@ -280,7 +235,6 @@ SheetKernelContact kernel_view(KernelSide& k, double dt) {
   view.friction = c.law.friction;
   view.damping_per_dt = dt > 0.0 ? c.law.damping / dt : 0.0;
   view.self = &k;
-  view.project = project_point;
   view.open = open_point;
   view.fault = fault_at;
   return view;

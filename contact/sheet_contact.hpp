@@ -38,12 +38,11 @@ struct alignas(32) SheetContactPoint {
   std::array<double, 3> w{};   ///< weights of the closest point
   double slack = 0.0;          ///< mm, gap when the search was done
   Vec3 normal = Vec3::Zero();  ///< n
-  double other = 0.0;          ///< mm, no other face is closer than that less 2 drift
-  double drift = 0.0;          ///< mm, way of the node relative to its face since the search
+  double other = 0.0;          ///< mm, at the search, to the next face that shares no node with it
   std::int32_t node, face = 0; ///< closest face; of those that tie the first
   int side = 0;                ///< +1: on the side of the face normal, -1: other, 0: not known
   std::int32_t first_face, end_face; ///< range in SheetContact::faces
-  std::int32_t unused = 0;
+  std::array<std::int32_t, 3> unused{};
 };
 
 /// A node that got to the wrong side or deeper than half of h: the contact cannot be resolved.

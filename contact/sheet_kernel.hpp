@@ -13,8 +13,7 @@ struct alignas(32) SheetKernelPoint {
   double normal_force, slip, area, gap;
   double w[3], slack;
   double normal[3], other;
-  double drift;
-  std::int32_t node, face, side, first_face, end_face, unused;
+  std::int32_t node, face, side, first_face, end_face, unused[3];
 };
 
 /// What the kernel reads and writes of a contact. Positions, motions and forces: 3 a node.
@@ -23,13 +22,15 @@ struct SheetKernelContact {
   const std::int32_t* near; ///< points to look at
   int near_count;
   const double *slave_x, *slave_motion, *master_x, *master_motion;
+  const double* spread;          ///< of the master's faces (contact/sheet_spread.hpp), or null
   const std::int32_t* triangles; ///< 3 a face of the master
+  const std::int32_t* faces;     ///< of the points, nearest first
+  const double* face_distance;   ///< mm, when the search was done
   double *slave_force, *master_force;
+  double way; ///< mm, of anything relative to anything since the search
   double distance, stiffness, tangential, friction; ///< h, k, k_t, mu of contact/contact_law.hpp
   double damping_per_dt;                            ///< c / dt, or 0
   void* self;
-  /// Finds the closest point of all of a point's faces: face, w, gap, side, other.
-  void (*project)(void* self, std::int32_t point);
   /// A point that held something has opened; last_gap: mm, of the step before.
   void (*open)(void* self, std::int32_t point, double last_gap);
   /// A point may be on the wrong side or too deep; `distance`: mm.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // (S), (P) and (M) of contact/sheet_contact.hpp for four points at a time, with the law of
 // contact/contact_law.hpp. A point stays with the face it remembers while its foot is inside that
-// face and no other can have come closer; else the scalar routine looks at all of them.
+// face and no other can have come closer; else all its faces are looked at that may be closest.
 //
 // With B = b - a, C = c - a, N = B x C of the face, n = N / |N|, v_1 = u_b - u_a, v_2 = u_c - u_a,
 // and the edges opposite to the corners E_1 = -C, E_2 = B, (W) and (C) of contact/face_turn.hpp are
@@ -15,7 +15,11 @@ namespace {
 
 constexpr int four = 4;
 constexpr double sliver_sine2 = 0.01; // as in contact/point_triangle.hpp
-constexpr double nearly = 1e-6;       // mm, far above rounding: so close another face is looked at
+constexpr double far2 = 1e300;        // mm^2
+
+/// Where faces meet they are as close as each other; the friction's couple goes to one of them, and
+/// it must not be rounding that says which.
+constexpr double tie = 1e-10; // of the square of the distance
 
 using Pair2 = double __attribute__((vector_size(16), may_alias, aligned(8)));
 
@@ -59,10 +63,10 @@ struct LaneFaces {
 };
 
 PLYFORM_INLINE LaneFaces load_faces(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                                    const double* slave, const double* master) {
+                                    Long4 face, const double* slave, const double* master) {
   Double4 p[four], b[four], c[four];
   for (int i = 0; i < four; ++i) {
-    const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(point[i]->face);
+    const std::int32_t* t = k.triangles + 3 * face[i];
     const Double4 a = load3(master + 3 * static_cast<std::int64_t>(t[0]));
     p[i] = load3(slave + 3 * static_cast<std::int64_t>(point[i]->node)) - a;
     b[i] = load3(master + 3 * static_cast<std::int64_t>(t[1])) - a;
@@ -79,6 +83,7 @@ PLYFORM_INLINE Double4 square(const Vector4& a) {
 /// The foot of four nodes on the planes of their faces: (1), (2) of contact/point_triangle.hpp.
 struct LaneFoot {
   Double4 wa, wb, wc, distance;
+  Double4 to_edges; ///< mm, from the foot, if it is inside
   Long4 inside;
 };
 
@@ -91,8 +96,95 @@ PLYFORM_INLINE LaneFoot foot_of(const LaneFaces& x) {
   LaneFoot f;
   f.wa = ua * scale, f.wb = ub * scale, f.wc = uc * scale;
   f.distance = root(square(x.p - f.wb * x.b - f.wc * x.c));
+  // w_i times the height over side i, which is sqrt(det) / |side|
+  const Double4 a2 = f.wa * f.wa / (bb + cc - 2.0 * bc);
+  f.to_edges = root(det * smaller(a2, smaller(f.wb * f.wb / cc, f.wc * f.wc / bb)));
   f.inside = (det > sliver_sine2 * (bb * cc)) & (ua > 0.0) & (ub > 0.0) & (uc > 0.0);
   return f;
+}
+
+PLYFORM_INLINE Double4 share_of_side(Double4 t) {
+  t = t > 0.0 ? t : all(0.0); // the NaN of a side without length becomes 0
+  return smaller(t, all(1.0));
+}
+
+/// The closest points of four faces, wherever they are: the foot if it is inside, else the closest
+/// of the points on the sides, as closest_point_on_sliver of contact/point_triangle.hpp.
+struct LaneClosest {
+  Double4 wb, wc, distance2;
+  Long4 inside;
+};
+
+PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x) {
+  const Double4 bb = dot(x.b, x.b), cc = dot(x.c, x.c), bc = dot(x.b, x.c);
+  const Double4 pb = dot(x.p, x.b), pc = dot(x.p, x.c);
+  const Double4 det = bb * cc - bc * bc;
+  const Double4 ub = cc * pb - bc * pc, uc = bb * pc - bc * pb, ua = det - ub - uc;
+  const Double4 scale = 1.0 / (ua + ub + uc);
+  LaneClosest q;
+  q.inside = (det > sliver_sine2 * (bb * cc)) & (ua > 0.0) & (ub > 0.0) & (uc > 0.0);
+  q.wb = ub * scale, q.wc = uc * scale;
+  q.distance2 = q.inside ? square(x.p - q.wb * x.b - q.wc * x.c) : all(far2);
+  if (!any(~q.inside)) return q;
+  const Double4 t[3] = {share_of_side(pb / bb), share_of_side(pc / cc),
+                        share_of_side((pc - pb + bb - bc) / (bb + cc - 2.0 * bc))};
+  const Double4 wb[3] = {t[0], all(0.0), 1.0 - t[2]}, wc[3] = {all(0.0), t[1], t[2]};
+  for (int side = 0; side < 3; ++side) {
+    const Double4 d2 = square(x.p - wb[side] * x.b - wc[side] * x.c);
+    const Long4 closer = d2 < q.distance2;
+    q.wb = closer ? wb[side] : q.wb, q.wc = closer ? wc[side] : q.wc;
+    q.distance2 = closer ? d2 : q.distance2;
+  }
+  return q;
+}
+
+/// Distance at the search of the nearest of a point's faces that shares no node with its closest.
+PLYFORM_INLINE double distance_of_others(const SheetKernelContact& k, const SheetKernelPoint& p) {
+  const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(p.face);
+  for (std::int32_t i = p.first_face; i < p.end_face; ++i) {
+    const std::int32_t* u = k.triangles + 3 * static_cast<std::int64_t>(k.faces[i]);
+    bool shares = false;
+    for (int j = 0; j < 9; ++j)
+      shares |= t[j / 3] == u[j % 3];
+    if (!shares) return k.face_distance[i];
+  }
+  return far2; // what is not listed cannot touch
+}
+
+/// Closest points of the `count` first of four points over all of their faces that can be closest:
+/// face and other of each; returns where. Those not in `wanted` stay as they are.
+PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoint* const* point,
+                                    int count, Long4 wanted) {
+  Double4 best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
+  Long4 face{-1, -1, -1, -1};
+  Long4 inside{0, 0, 0, 0};
+  for (int i = 0;; ++i) {
+    Long4 at{point[0]->face, point[1]->face, point[2]->face, point[3]->face};
+    Long4 more{0, 0, 0, 0};
+    for (int lane = 0; lane < count; ++lane) {
+      const std::int32_t f = point[lane]->first_face + i;
+      if (!wanted[lane] || f >= point[lane]->end_face) continue;
+      if (k.face_distance[f] > limit[lane]) continue; // in ascending order
+      at[lane] = k.faces[f];
+      more[lane] = -1;
+    }
+    if (!any(more)) break;
+    const LaneClosest q = closest_of(load_faces(k, point, at, k.slave_x, k.master_x));
+    const Long4 tied = magnitude(q.distance2 - best2) <= tie * best2;
+    const Long4 chosen = more & (tied ? at < face : q.distance2 < best2);
+    const Long4 closer = more & (q.distance2 < best2);
+    best2 = closer ? q.distance2 : best2;
+    limit = root(best2) + k.way;
+    wb = chosen ? q.wb : wb, wc = chosen ? q.wc : wc;
+    face = chosen ? at : face;
+    inside = chosen ? q.inside : inside;
+  }
+  for (int lane = 0; lane < count; ++lane)
+    if (wanted[lane] && face[lane] >= 0 && point[lane]->face != face[lane]) {
+      point[lane]->face = static_cast<std::int32_t>(face[lane]);
+      point[lane]->other = distance_of_others(k, *point[lane]);
+    }
+  return {1.0 - wb - wc, wb, wc, root(best2), all(0.0), inside};
 }
 
 /// Sums of four points each.
@@ -188,9 +280,15 @@ PLYFORM_INLINE void add_forces(const SheetKernelContact& k, SheetKernelPoint* co
   }
 }
 
-/// The largest way of the node relative to a corner in this step.
-PLYFORM_INLINE Double4 relative_way(const LaneFaces& u) {
-  return root(larger(square(u.p), larger(square(u.p - u.b), square(u.p - u.c))));
+/// Which feet are inside their face while no other face can be closer: none of those that share a
+/// node with it by contact/sheet_spread.hpp, none of the rest since the search.
+PLYFORM_INLINE Long4 sure_of(const SheetKernelContact& k, SheetKernelPoint* const* point,
+                             const LaneFoot& foot) {
+  if (!k.spread) return Long4{0, 0, 0, 0};
+  const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
+  const Double4 keep = k.distance * Double4{k.spread[point[0]->face], k.spread[point[1]->face],
+                                            k.spread[point[2]->face], k.spread[point[3]->face]};
+  return foot.inside & (foot.to_edges > keep) & (other - k.way > foot.distance);
 }
 
 /// One group; points `count` and on are fillers, the same as the first.
@@ -201,30 +299,22 @@ PLYFORM_INLINE void do_group(const SheetKernelContact& k, const std::int32_t* in
     point[i] = k.points + index[i < count ? i : 0];
   const auto numbers = Long4{0, 1, 2, 3};
   const Long4 real = numbers < static_cast<std::int64_t>(count);
-  LaneFaces x = load_faces(k, point, k.slave_x, k.master_x);
-  LaneFaces u = load_faces(k, point, k.slave_motion, k.master_motion);
+  const auto remembered = [&] {
+    return Long4{point[0]->face, point[1]->face, point[2]->face, point[3]->face};
+  };
+  LaneFaces x = load_faces(k, point, remembered(), k.slave_x, k.master_x);
   LaneFoot foot = foot_of(x);
-  const Rows forces = load_rows(point, force_row);
+  const Rows forces = load_rows(point, force_row); // .., area, gap
   const Double4 last_gap = forces.row[3];
-  const Double4 drift =
-      Double4{point[0]->drift, point[1]->drift, point[2]->drift, point[3]->drift} + relative_way(u);
-  const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
-  // twice: a corner of a neighbouring face may move relative to the node by more than its own's
-  const Long4 sure = foot.inside & (other - 2.0 * drift > foot.distance + nearly);
-  const Long4 look = ~sure & real;
+  const Long4 look = ~sure_of(k, point, foot) & real;
+  Long4 inside = ~look;
   if (any(look)) {
-    for (int i = 0; i < count; ++i)
-      if (look[i]) {
-        point[i]->drift = drift[i];
-        k.project(k.self, index[i]);
-      }
-    x = load_faces(k, point, k.slave_x, k.master_x);
-    u = load_faces(k, point, k.slave_motion, k.master_motion);
-    const Rows w = load_rows(point, weight_row);
-    const Double4 gap{point[0]->gap, point[1]->gap, point[2]->gap, point[3]->gap};
-    foot.wa = look ? w.row[0] : foot.wa, foot.wb = look ? w.row[1] : foot.wb;
-    foot.wc = look ? w.row[2] : foot.wc;
-    foot.distance = look ? gap + k.distance : foot.distance;
+    const LaneFoot of_all = look_at_all(k, point, count, look);
+    x = load_faces(k, point, remembered(), k.slave_x, k.master_x);
+    foot.wa = look ? of_all.wa : foot.wa, foot.wb = look ? of_all.wb : foot.wb;
+    foot.wc = look ? of_all.wc : foot.wc;
+    foot.distance = look ? of_all.distance : foot.distance;
+    inside |= of_all.inside;
   }
   LanePoints p;
   p.gap = foot.distance - k.distance;
@@ -239,6 +329,7 @@ PLYFORM_INLINE void do_group(const SheetKernelContact& k, const std::int32_t* in
   LaneForces f{nothing, nothing, nothing};
   p.normal = nothing;
   if (any(touch)) {
+    const LaneFaces u = load_faces(k, point, remembered(), k.slave_motion, k.master_motion);
     f = forces_of(k, x, u, foot, touch, p, sums);
     add_forces(k, point, foot, f, touch);
   }
@@ -248,14 +339,12 @@ PLYFORM_INLINE void do_group(const SheetKernelContact& k, const std::int32_t* in
   const Rows n = turned({{p.normal.x, p.normal.y, p.normal.z, all(0.0)}});
   for (int i = 0; i < count; ++i) {
     SheetKernelPoint& at = *point[i];
-    if (!look[i]) {
-      const int side = height[i] >= 0.0 ? 1 : -1;
-      if (at.side * side < 0 && touch[i]) k.fault(k.self, index[i], foot.distance[i]);
-      at.side = side;
-      at.drift = drift[i];
-      for (int j = 0; j < 3; ++j)
-        at.w[j] = w.row[i][j];
-    }
+    // forgotten on edges: a node may slide round the rim to the other side
+    const int side = !inside[i] ? 0 : height[i] >= 0.0 ? 1 : -1;
+    if (at.side * side < 0 && touch[i]) k.fault(k.self, index[i], foot.distance[i]);
+    at.side = side;
+    for (int j = 0; j < 3; ++j)
+      at.w[j] = w.row[i][j];
     if (foot.distance[i] < 0.5 * k.distance) k.fault(k.self, index[i], foot.distance[i]);
     at.gap = p.gap[i];
     if (touch[i]) {

@@ -60,9 +60,10 @@ struct ToolContact {
 
 /// A ply as contact sees it: spans of n nodes.
 struct SheetState {
-  std::span<const Vec3> x;      ///< mm
-  std::span<const Vec3> motion; ///< mm, displacement in the last step
-  std::span<const double> area; ///< mm^2
+  std::span<const Vec3> x;        ///< mm
+  std::span<const Vec3> motion;   ///< mm, displacement in the last step
+  std::span<const double> area;   ///< mm^2
+  std::span<const double> spread; ///< of faces (contact/sheet_spread.hpp); empty: not known
 };
 
 /// Signed distance (mm) and normal, in space, of a tool where it stands now.

@@ -124,6 +124,22 @@ void collect_forces(Scene& s) {
 
 } // namespace
 
+void renew_spread(PlyBody& ply) {
+  sheet_spread(ply.x, ply.membrane.triangles, ply.spread_scratch, ply.spread);
+  ply.spread_way = ply.way;
+}
+
+void follow_spread(Scene& s, ThreadTeam& team) {
+  // two nodes a side apart that move by `most` against each other turn it by half the margin
+  const double most = 0.25 * spread_margin * s.element_size;
+  team.run(static_cast<int>(s.plies.size()), [&](int p) {
+    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+    if (ply.way - ply.spread_way <= most) return; 
+    const Stopwatch watch(ply.search_seconds);
+    renew_spread(ply);
+  });
+}
+
 bool follow_ways(Scene& s) {
   // Ways only grow between searches: what has once been looked at is looked at again.
   const auto grow = [](double& way, double now) {
@@ -158,6 +174,7 @@ void search_contacts(Scene& s, ThreadTeam& team) {
     const Stopwatch watch(ply.search_seconds);
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
+    renew_spread(ply);
     ply.folded = folded_edges(ply.edges, ply.membrane.triangles, ply.x, ply.thickness);
   });
   // plies next to each other first: what they cover need not be asked for those beyond
@@ -182,7 +199,7 @@ void search_contacts(Scene& s, ThreadTeam& team) {
   for (NodeSums& n : s.node_sums)
     n.moved2 = 0.0;
   for (PlyBody& ply : s.plies)
-    ply.way = 0.0;
+    ply.way = ply.spread_way = 0.0;
   for (ToolAndContacts& t : s.tools) // the way it may still go in this step
     t.way = t.body.pushed ? t.body.speed_limit * s.dt : 0.0;
   ++s.searches;

@@ -14,6 +14,9 @@ bool follow_ways(Scene& scene);
 /// The largest of those ways, mm; NaN if a position is not finite.
 double furthest_way(const Scene& scene);
 
+/// Renews what has been used up of PlyBody::spread.
+void follow_spread(Scene& scene, ThreadTeam& team);
+
 /// Lists every pair within contact distance + skin. Until something has moved by half the skin no
 /// other pair can touch.
 void search_contacts(Scene& scene, ThreadTeam& team);

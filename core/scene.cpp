@@ -133,15 +133,11 @@ PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a,
   return pair;
 }
 
-/// Motion takes a skin to be used up, points and faces in reach grow with its square: a third of an
-/// element is where neither counts for much.
-double contact_skin(const ContactOptions& options, const std::vector<PlyBody>& plies) {
-  constexpr double of_element = 0.3;
-  if (options.skin > 0.0) return options.skin;
+double smallest_element(const std::vector<PlyBody>& plies) {
   double smallest = std::numeric_limits<double>::max();
   for (const PlyBody& ply : plies)
     smallest = std::min(smallest, std::sqrt(cell_area(ply)));
-  return of_element * smallest;
+  return smallest;
 }
 
 } // namespace
@@ -153,7 +149,10 @@ Scene make_scene(const Case& data) {
     s.plies.push_back(make_ply(data, ply));
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
-  s.skin = contact_skin(data.contact, s.plies);
+  s.element_size = smallest_element(s.plies);
+  // Motion uses a skin up, points and faces in reach grow with its square: at a third of an element
+  // neither counts for much.
+  s.skin = data.contact.skin > 0.0 ? data.contact.skin : 0.3 * s.element_size;
   const int n = static_cast<int>(s.plies.size());
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b)

@@ -5,6 +5,7 @@
 
 #include "contact/edge_contact.hpp"
 #include "contact/sheet_contact.hpp"
+#include "contact/sheet_spread.hpp"
 #include "contact/tool_contact.hpp"
 #include "core/bending.hpp"
 #include "core/boundary.hpp"
@@ -35,6 +36,9 @@ struct PlyBody {
   std::unique_ptr<SheetTree> tree;
   double search_seconds = 0.0; ///< refitting the tree, finding folds
   std::vector<SheetEdge> edges;
+  std::vector<double> spread; ///< contact/sheet_spread.hpp, one a triangle
+  SpreadScratch spread_scratch;
+  double spread_way = 0.0;                  ///< mm, way when it was last renewed
   std::vector<char> on_rim;                 ///< triangles with a node on the rim
   std::array<std::vector<char>, 2> covered; ///< nodes that the next ply below, above covers
   std::vector<std::int32_t> folded;         ///< edges folded at the last contact search
@@ -42,7 +46,7 @@ struct PlyBody {
   std::vector<const std::vector<Vec3>*>
       nodal_forces; ///< reaction, contacts: those in use, in order
 
-  SheetState state() const { return {x, motion, membrane.node_area}; }
+  SheetState state() const { return {x, motion, membrane.node_area, spread}; }
 };
 
 /// One tool with its contacts: contacts[i] is with ply i.
@@ -111,6 +115,7 @@ struct Scene {
   std::vector<NodeSums> node_sums;       ///< one a node block
   double start_energy = 0.0;             ///< N mm, that the plies were given to start with
   double mass_damping_work = 0.0;        ///< N mm, since the start
+  double element_size = 0.0;             ///< mm, smallest mean of a ply
   double skin = 0.0;                     ///< mm, Case's or by the element size
   double time = 0.0;                     ///< s, of x
   double dt = 0.0, next_dt = 0.0;        ///< s, the step that led to x and the one that leaves it

@@ -57,8 +57,9 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
   };
   const auto edge_task = [&](int i) {
     PlyEdgeContact& c = s.edge_contacts[static_cast<std::size_t>(i)];
-    edge_forces(c.contact, s.plies[static_cast<std::size_t>(c.a)].state(),
-                s.plies[static_cast<std::size_t>(c.b)].state(), s.dt);
+    const PlyBody &a = s.plies[static_cast<std::size_t>(c.a)],
+                  &b = s.plies[static_cast<std::size_t>(c.b)];
+    edge_forces(c.contact, a.state(), b.state(), s.dt, a.way + b.way);
   };
   const auto tool_task = [&](int i) {
     ToolAndContacts& t = s.tools[static_cast<std::size_t>(i)];
@@ -269,6 +270,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
     }
     set_step(s);
   }
+  if (!used_up) follow_spread(s, team);
   add_up_forces(s, team);
   // at every step: small triangles turn over within a few
   if (std::find(s.patch_collapsed.begin(), s.patch_collapsed.end(), 1) != s.patch_collapsed.end())

@@ -26,7 +26,7 @@ struct OwnedSheet {
   std::vector<double> area;
   std::vector<Triangle> triangles;
 
-  SheetState state() const { return {x, motion, area}; }
+  SheetState state() const { return {x, motion, area, {}}; } // no spread: every face is looked at
 
   /// To x + step.
   void move(const std::vector<Vec3>& step) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <limits>
 #include <numbers>
 #include <set>
 
@@ -24,6 +25,8 @@ OwnedSheet roof(double up, double angle, double z) {
   sheet.triangles = {{0, 1, 3}, {1, 0, 2}};
   return sheet;
 }
+
+constexpr double always = std::numeric_limits<double>::infinity(); // mm, no pair is left out
 
 void search(EdgeContact& contact, const OwnedSheet& a, const OwnedSheet& b, double skin) {
   const auto edges_a = sheet_edges(a.triangles), edges_b = sheet_edges(b.triangles);
@@ -60,11 +63,11 @@ TEST(EdgeContact, ForceIsMinusEnergyGradient) {
     const double further = state % 4 == 3 ? 0.3 : 0.05;
     for (Vec3& x : r.b.x)
       x.z() -= further;
-    edge_forces(contact, r.a.state(), r.b.state(), 0.0);
+    edge_forces(contact, r.a.state(), r.b.state(), 0.0, always);
     ASSERT_EQ(contact.sums.touching, 1) << state;
     const auto energy = [&] {
       EdgeContact copy = contact;
-      edge_forces(copy, r.a.state(), r.b.state(), 0.0);
+      edge_forces(copy, r.a.state(), r.b.state(), 0.0, always);
       return copy.sums.elastic;
     };
     const std::vector<Vec3> on_a = contact.force_a, on_b = contact.force_b;
@@ -94,11 +97,11 @@ TEST(EdgeContact, RemembersItsSideAcrossASearch) {
   search(contact, r.a, r.b, 0.5);
   for (Vec3& x : r.b.x)
     x.z() -= 0.4;
-  edge_forces(contact, r.a.state(), r.b.state(), 0.0);
+  edge_forces(contact, r.a.state(), r.b.state(), 0.0, always);
   const std::vector<Vec3> before = contact.force_b;
   EXPECT_GT(contact.sums.penetration, distance);
   search(contact, r.a, r.b, 0.5);
-  edge_forces(contact, r.a.state(), r.b.state(), 0.0);
+  edge_forces(contact, r.a.state(), r.b.state(), 0.0, always);
   for (std::size_t n = 0; n < 4; ++n)
     EXPECT_EQ((before[n] - contact.force_b[n]).norm(), 0.0);
 }
@@ -112,7 +115,7 @@ TEST(EdgeContact, DampingTakesEnergyOnly) {
   for (int i = 0; i < 40; ++i) { // in and out again
     for (Vec3& x : r.b.x)
       x.z() += 0.02 * std::cos(0.2 * i + std::numbers::pi);
-    edge_forces(contact, r.a.state(), r.b.state(), 1e-6);
+    edge_forces(contact, r.a.state(), r.b.state(), 1e-6, always);
     EXPECT_GE(contact.sums.damping, last);
     EXPECT_GE(contact.force_b[0].z(), 0.0); // no adhesion
     last = contact.sums.damping;
@@ -181,13 +184,13 @@ TEST(EdgeContact, KeepsATouchingPairWhoseFoldOpens) {
   OwnedSheet a = roof(-1.0, 0.0, 0.2), b = roof(1.0, 0.5 * std::numbers::pi, 0.0);
   EdgeContact contact = contact_of({1.0, 0.0, 0.0});
   search(contact, a, b, 0.1);
-  edge_forces(contact, a.state(), b.state(), 0.0);
+  edge_forces(contact, a.state(), b.state(), 0.0, always);
   ASSERT_EQ(contact.sums.touching, 1); // ridges 0.2 mm apart, contact from 0.3 mm on
   for (OwnedSheet* sheet : {&a, &b})   // wings up or down to the ridge's height: flat sheets
     for (std::size_t n = 2; n < 4; ++n)
       sheet->x[n].z() = sheet->x[0].z();
   search(contact, a, b, 0.1);
-  edge_forces(contact, a.state(), b.state(), 0.0);
+  edge_forces(contact, a.state(), b.state(), 0.0, always);
   EXPECT_GE(contact.sums.touching, 1);
 }
 

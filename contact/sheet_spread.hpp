@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How much a sheet is bent from each triangle to those around it: what tells a contact that the
+// face which it remembers is still the closest.
+//
+//   phi  rad  largest angle between a face's normal and those of the faces that share a node
+// A point at distance d over the inside of a face is closer to that face than to one turned by phi
+// against it if its foot is further than d tan(phi/2) from the edge that they share. Twice that,
+// and `margin` added to phi for what the sheet turns until the next renewal, is what `spread` asks
+// for: it holds for faces that share just a node as well.
+#pragma once
+
+#include "contact/geometry.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plyform {
+
+constexpr double spread_margin = 0.1; ///< rad
+
+/// Kept by the caller from one renewal to the next, so that nothing is allocated.
+struct SpreadScratch {
+  std::vector<Vec3> normal, mean; ///< of triangles, of nodes
+  std::vector<double> off;
+};
+
+/// tan(phi + margin) of each triangle, infinite where phi + margin is more than 0.8; phi is taken
+/// for larger than it is by up to twice. x: mm.
+void sheet_spread(std::span<const Vec3> x, std::span<const Triangle> triangles,
+                  SpreadScratch& scratch, std::vector<double>& spread);
+
+} // namespace plyform
