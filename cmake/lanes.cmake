@@ -3,7 +3,8 @@
 # of a kernel that contact/lanes.hpp speaks of. Only they get flags of their own. On other
 # processors than x86 both are compiled alike and the first is used.
 function(plyform_lane_kernel name)
-  set(options -fno-math-errno -Wno-psabi) # nothing reads errno; the vectors stay inside the file
+  # nothing reads errno or changes the rounding (which CGAL asks for); the vectors stay inside
+  set(options -fno-math-errno -fno-rounding-math -Wno-psabi)
   set_source_files_properties(${name}_any.cpp PROPERTIES COMPILE_OPTIONS "${options}")
   if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
     list(APPEND options -mavx2)

@@ -152,9 +152,9 @@ PLYFORM_INLINE double distance_of_others(const SheetKernelContact& k, const Shee
 }
 
 /// Closest points of the `count` first of four points over all of their faces that can be closest:
-/// face and other of each; returns where. Those not in `wanted` stay as they are.
+/// face and other of each; returns where.
 PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                                    int count, Long4 wanted) {
+                                    int count) {
   Double4 best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
   Long4 face{-1, -1, -1, -1};
   Long4 inside{0, 0, 0, 0};
@@ -163,7 +163,7 @@ PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoin
     Long4 more{0, 0, 0, 0};
     for (int lane = 0; lane < count; ++lane) {
       const std::int32_t f = point[lane]->first_face + i;
-      if (!wanted[lane] || f >= point[lane]->end_face) continue;
+      if (f >= point[lane]->end_face) continue;
       if (k.face_distance[f] > limit[lane]) continue; // in ascending order
       at[lane] = k.faces[f];
       more[lane] = -1;
@@ -180,7 +180,7 @@ PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoin
     inside = chosen ? q.inside : inside;
   }
   for (int lane = 0; lane < count; ++lane)
-    if (wanted[lane] && face[lane] >= 0 && point[lane]->face != face[lane]) {
+    if (face[lane] >= 0 && point[lane]->face != face[lane]) {
       point[lane]->face = static_cast<std::int32_t>(face[lane]);
       point[lane]->other = distance_of_others(k, *point[lane]);
     }
@@ -291,72 +291,159 @@ PLYFORM_INLINE Long4 sure_of(const SheetKernelContact& k, SheetKernelPoint* cons
   return foot.inside & (foot.to_edges > keep) & (other - k.way > foot.distance);
 }
 
-/// One group; points `count` and on are fillers, the same as the first.
-PLYFORM_INLINE void do_group(const SheetKernelContact& k, const std::int32_t* index, int count,
-                             LaneSums& sums) {
+/// Up to four points; those from `count` on are fillers, the same as the first.
+struct Group {
   SheetKernelPoint* point[four];
-  for (int i = 0; i < four; ++i)
-    point[i] = k.points + index[i < count ? i : 0];
-  const auto numbers = Long4{0, 1, 2, 3};
-  const Long4 real = numbers < static_cast<std::int64_t>(count);
-  const auto remembered = [&] {
-    return Long4{point[0]->face, point[1]->face, point[2]->face, point[3]->face};
-  };
-  LaneFaces x = load_faces(k, point, remembered(), k.slave_x, k.master_x);
-  LaneFoot foot = foot_of(x);
-  const Rows forces = load_rows(point, force_row); // .., area, gap
-  const Double4 last_gap = forces.row[3];
-  const Long4 look = ~sure_of(k, point, foot) & real;
-  Long4 inside = ~look;
-  if (any(look)) {
-    const LaneFoot of_all = look_at_all(k, point, count, look);
-    x = load_faces(k, point, remembered(), k.slave_x, k.master_x);
-    foot.wa = look ? of_all.wa : foot.wa, foot.wb = look ? of_all.wb : foot.wb;
-    foot.wc = look ? of_all.wc : foot.wc;
-    foot.distance = look ? of_all.distance : foot.distance;
-    inside |= of_all.inside;
+  std::int32_t index[four];
+  int count;
+  Long4 real;
+};
+
+PLYFORM_INLINE Group group_of(const SheetKernelContact& k, const std::int32_t* index, int left) {
+  Group g;
+  g.count = left < four ? left : four;
+  for (int i = 0; i < four; ++i) {
+    g.index[i] = index[i < g.count ? i : 0];
+    g.point[i] = k.points + g.index[i];
   }
+  g.real = Long4{0, 1, 2, 3} < static_cast<std::int64_t>(g.count);
+  return g;
+}
+
+PLYFORM_INLINE Long4 remembered(const Group& g) {
+  return Long4{g.point[0]->face, g.point[1]->face, g.point[2]->face, g.point[3]->face};
+}
+
+/// What the passes over some points hand on; `gap` of the points is still that of the last step.
+struct Pass {
+  static constexpr int most = 64;
+  alignas(32) double distance[most]; ///< mm
+  bool inside[most];                 ///< the foot is inside the face
+  std::int32_t look[most];           ///< those that must look at all their faces
+  int looks = 0;
+};
+
+PLYFORM_INLINE void keep_foot(const Group& g, const LaneFoot& foot, Pass& pass,
+                              const std::int32_t* number) {
+  const Rows w = turned({{foot.wa, foot.wb, foot.wc, all(0.0)}});
+  for (int i = 0; i < g.count; ++i) {
+    for (int j = 0; j < 3; ++j)
+      g.point[i]->w[j] = w.row[i][j];
+    pass.distance[number[i]] = foot.distance[i];
+    pass.inside[number[i]] = foot.inside[i] != 0;
+  }
+}
+
+/// First pass: feet on the faces remembered.
+PLYFORM_INLINE void follow_feet(const SheetKernelContact& k, const std::int32_t* near, int count,
+                                Pass& pass) {
+  for (int first = 0; first < count; first += four) {
+    const Group g = group_of(k, near + first, count - first);
+    const LaneFoot foot = foot_of(load_faces(k, g.point, remembered(g), k.slave_x, k.master_x));
+    const Long4 sure = sure_of(k, g.point, foot);
+    const std::int32_t number[four] = {first, first + 1, first + 2, first + 3};
+    keep_foot(g, foot, pass, number);
+    for (int i = 0; i < g.count; ++i)
+      if (!sure[i]) pass.look[pass.looks++] = first + i;
+  }
+}
+
+/// Second pass: closest points of those that had to look.
+PLYFORM_INLINE void look_around(const SheetKernelContact& k, const std::int32_t* near, Pass& pass) {
+  for (int first = 0; first < pass.looks; first += four) {
+    const int left = pass.looks - first;
+    std::int32_t number[four], index[four];
+    for (int i = 0; i < four; ++i) {
+      number[i] = pass.look[first + (i < left ? i : 0)];
+      index[i] = near[number[i]];
+    }
+    const Group g = group_of(k, index, left);
+    keep_foot(g, look_at_all(k, g.point, g.count), pass, number);
+  }
+}
+
+/// Third pass: forces of up to four points that touch.
+PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Pass& pass,
+                          const std::int32_t* number, LaneSums& sums) {
+  const LaneFaces x = load_faces(k, g.point, remembered(g), k.slave_x, k.master_x);
+  const LaneFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
+  const Rows w = load_rows(g.point, weight_row);
+  const Double4 distance{pass.distance[number[0]], pass.distance[number[1]],
+                         pass.distance[number[2]], pass.distance[number[3]]};
+  const LaneFoot foot{w.row[0], w.row[1], w.row[2], distance, all(0.0), {}};
+  const Rows held = load_rows(g.point, held_row), force = load_rows(g.point, force_row);
   LanePoints p;
-  p.gap = foot.distance - k.distance;
-  p.last_gap = last_gap;
-  const Long4 touch = (p.gap < 0.0) & real;
-  const Rows held = load_rows(point, held_row);
   p.s = {held.row[0], held.row[1], held.row[2]};
   p.damping_force = held.row[3];
-  p.normal_force = forces.row[0], p.slip = forces.row[1], p.area = forces.row[2];
+  p.normal_force = force.row[0], p.slip = force.row[1], p.area = force.row[2];
+  p.last_gap = force.row[3];
+  p.gap = distance - k.distance;
+  const LaneForces f = forces_of(k, x, u, foot, g.real, p, sums);
+  add_forces(k, g.point, foot, f, g.real);
   const Double4 height = dot(cross(x.b, x.c), x.p);
-  const Vector4 nothing{all(0.0), all(0.0), all(0.0)};
-  LaneForces f{nothing, nothing, nothing};
-  p.normal = nothing;
-  if (any(touch)) {
-    const LaneFaces u = load_faces(k, point, remembered(), k.slave_motion, k.master_motion);
-    f = forces_of(k, x, u, foot, touch, p, sums);
-    add_forces(k, point, foot, f, touch);
-  }
   const Rows s = turned({{p.s.x, p.s.y, p.s.z, p.damping_force}});
   const Rows b = turned({{p.normal_force, p.slip, p.area, p.gap}});
-  const Rows w = turned({{foot.wa, foot.wb, foot.wc, all(0.0)}});
   const Rows n = turned({{p.normal.x, p.normal.y, p.normal.z, all(0.0)}});
-  for (int i = 0; i < count; ++i) {
-    SheetKernelPoint& at = *point[i];
+  for (int i = 0; i < g.count; ++i) {
+    SheetKernelPoint& at = *g.point[i];
     // forgotten on edges: a node may slide round the rim to the other side
-    const int side = !inside[i] ? 0 : height[i] >= 0.0 ? 1 : -1;
-    if (at.side * side < 0 && touch[i]) k.fault(k.self, index[i], foot.distance[i]);
+    const int side = !pass.inside[number[i]] ? 0 : height[i] >= 0.0 ? 1 : -1;
+    if (at.side * side < 0 || distance[i] < 0.5 * k.distance)
+      k.fault(k.self, g.index[i], distance[i]);
     at.side = side;
+    store(row_of(&at, held_row), s.row[i]);
+    store(row_of(&at, force_row), b.row[i]);
     for (int j = 0; j < 3; ++j)
-      at.w[j] = w.row[i][j];
-    if (foot.distance[i] < 0.5 * k.distance) k.fault(k.self, index[i], foot.distance[i]);
-    at.gap = p.gap[i];
-    if (touch[i]) {
-      ++sums.touching;
-      store(row_of(&at, held_row), s.row[i]);
-      store(row_of(&at, force_row), b.row[i]);
-      for (int j = 0; j < 3; ++j)
-        at.normal[j] = n.row[i][j];
-    } else if (at.normal_force != 0.0 || at.damping_force != 0.0) {
-      k.open(k.self, index[i], last_gap[i]);
-    }
+      at.normal[j] = n.row[i][j];
   }
+  sums.touching += g.count;
+}
+
+/// A point that does not touch.
+PLYFORM_INLINE void pass_by(const SheetKernelContact& k, std::int32_t index, double distance,
+                            bool inside) {
+  SheetKernelPoint& at = k.points[index];
+  const double last_gap = at.gap;
+  at.gap = distance - k.distance;
+  at.side = 0;
+  if (inside) { // it may come down on this side later
+    const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(at.face);
+    const double* a = k.master_x + 3 * static_cast<std::int64_t>(t[0]);
+    const double* b = k.master_x + 3 * static_cast<std::int64_t>(t[1]);
+    const double* c = k.master_x + 3 * static_cast<std::int64_t>(t[2]);
+    const double* p = k.slave_x + 3 * static_cast<std::int64_t>(at.node);
+    double height = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, l = (i + 2) % 3;
+      height += ((b[j] - a[j]) * (c[l] - a[l]) - (b[l] - a[l]) * (c[j] - a[j])) * (p[i] - a[i]);
+    }
+    at.side = height >= 0.0 ? 1 : -1;
+  }
+  if (at.normal_force != 0.0 || at.damping_force != 0.0) k.open(k.self, index, last_gap);
+}
+
+PLYFORM_INLINE void do_some(const SheetKernelContact& k, const std::int32_t* near, int count,
+                            LaneSums& sums) {
+  Pass pass;
+  follow_feet(k, near, count, pass);
+  look_around(k, near, pass);
+  std::int32_t number[four], index[four];
+  int waiting = 0;
+  for (int i = 0; i < count; ++i) {
+    if (!(pass.distance[i] < k.distance)) {
+      pass_by(k, near[i], pass.distance[i], pass.inside[i]);
+      continue;
+    }
+    number[waiting] = i;
+    index[waiting] = near[i];
+    if (++waiting < four) continue;
+    press(k, group_of(k, index, four), pass, number, sums);
+    waiting = 0;
+  }
+  if (waiting == 0) return;
+  for (int i = waiting; i < four; ++i)
+    number[i] = number[0];
+  press(k, group_of(k, index, waiting), pass, number, sums);
 }
 
 PLYFORM_INLINE double largest(Double4 a) {
@@ -366,8 +453,8 @@ PLYFORM_INLINE double largest(Double4 a) {
 
 PLYFORM_INLINE SheetKernelSums sheet_kernel(const SheetKernelContact& k) {
   LaneSums sums;
-  for (int i = 0; i < k.near_count; i += four)
-    do_group(k, k.near + i, k.near_count - i < four ? k.near_count - i : four, sums);
+  for (int i = 0; i < k.near_count; i += Pass::most)
+    do_some(k, k.near + i, k.near_count - i < Pass::most ? k.near_count - i : Pass::most, sums);
   return {sum(sums.elastic),         sum(sums.friction), sum(sums.damping),
           largest(sums.penetration), largest(sums.slip), sums.touching};
 }
