@@ -60,75 +60,70 @@ def number(value: float) -> str:
 
 
 def judged(value: float, limit: float) -> str:
-    return f"{'at most' if value <= limit else '**over**'} {limit:g}"
+    return f"{number(value)} ({'at most' if value <= limit else '**over**'} {limit:g})"
 
 
-def machine_rows(best: dict) -> list[tuple]:
-    rows = []
+def machine_lines(best: dict) -> list[str]:
+    lines = []
     for name, b in best.items():
         if name.startswith("Bandwidth/"):
             size = CACHES.get(name.split("/")[1], name.split("/")[1] + " kB")
-            rows.append(("one core streams", size, "GB/s", b["GB_s"], ""))
+            lines.append(f"- one core streams {size}: {number(b['GB_s'])} GB/s")
         if name.startswith("Arithmetic"):
-            rows.append(("one core computes", b.get("label", ""), "Gflop/s", b["Gflop_s"], ""))
-    return rows
+            lines.append(f"- one core computes ({b.get('label', '')}): {number(b['Gflop_s'])} Gflop/s")
+    return lines
 
 
-def element_rows(best: dict) -> list[tuple]:
+Row = tuple[str, str, str, str, str]  # part, triangles, ns a triangle, times its stream, more
+
+
+def element_rows(best: dict) -> list[Row]:
     rows = []
     for name, b in best.items():
-        what = (b.get("label", ""), count(b.get("triangles", 0)))
+        kind, size = b.get("label", ""), count(b.get("triangles", 0))
         if name.startswith("ElementLanes/"):
-            title = f"element, {what[0]}"
-            rows += [(title, what[1], "ns an element", b["ns_an_element"],
-                      judged(b["ns_an_element"], LIMITS["element_ns"])),
-                     (title, what[1], "times its stream", b["of_stream"],
-                      judged(b["of_stream"], LIMITS["element_stream"])),
-                     (title, what[1], "of the arithmetic", b["of_peak"], "")]
+            rows.append((f"element, {kind}", size, judged(b["ns_an_element"], LIMITS["element_ns"]),
+                         judged(b["of_stream"], LIMITS["element_stream"]),
+                         f"{100 * b['of_peak']:.0f} % of the arithmetic"))
         if name.startswith("ElementForces/"):
-            rows.append((f"element one by one, {what[0]}", what[1], "ns an element",
-                         b["ns_an_element"], ""))
+            rows.append((f"element one by one, {kind}", size, number(b["ns_an_element"]), "", ""))
     return rows
 
 
-def contact_rows(best: dict) -> list[tuple]:
+def contact_rows(best: dict) -> list[Row]:
     rows = []
     for name, b in best.items():
-        size = count(b.get("triangles", 0))
+        size = count(b["triangles"]) if "triangles" in b else ""
         if name.startswith("ContactStep/"):
-            title = f"contact, {b.get('label', '')}"
-            rows += [(title, size, "ns an element", b["ns_an_element"], ""),
-                     (title, size, "ns a point", b["ns_a_point"], ""),
-                     (title, size, "times its stream", b["of_stream"], "")]
+            rows.append((f"contact, {b.get('label', '')}", size, number(b["ns_an_element"]),
+                         number(b["of_stream"]), f"{number(b['ns_a_point'])} ns a point"))
         if name.startswith("Search"):
-            title = "search, larger sheet" if name.startswith("SearchLarger") else "search, finer mesh"
-            rows += [(title, size, "ns a triangle", b["ns_a_triangle"], ""),
-                     (title, size, "ns a triangle and log2 n", b["ns_a_triangle_log_n"], ""),
-                     (title, size, "faces a node", b["faces_a_node"], "")]
+            part = "larger sheet" if name.startswith("SearchLarger") else "finer mesh"
+            rows.append((f"search, {part}", size, number(b["ns_a_triangle"]), "",
+                         f"{number(b['ns_a_triangle_log_n'])} ns by log2 n, "
+                         f"{b['faces_a_node']:.1f} faces a node"))
         if name.startswith("TreeBuild"):
-            rows.append(("tree, once a run", size, "ns a triangle", b["ns_a_triangle"], ""))
-        if name.startswith("PointTriangle"):
-            rows.append(("closest point, one pair", "", "ns", b["ns_a_pair"], ""))
+            rows.append(("tree, once a run", size, number(b["ns_a_triangle"]), "", ""))
         if name.startswith("Audit"):
-            rows.append(("exact audit, once a run", size, "ns a triangle", b["ns_a_triangle"], ""))
+            rows.append(("exact audit, once a run", size, number(b["ns_a_triangle"]), "", ""))
     return rows
 
 
-def step_rows(best: dict) -> list[tuple]:
+def step_rows(best: dict) -> list[Row]:
     rows, alone = [], {}
     for name, b in best.items():
         if not name.startswith("WholeStep/"):
             continue
         size, threads = count(b["triangles"]), int(b["threads"])
-        title = f"whole step, {threads} thread{'s' if threads > 1 else ''}"
-        rows += [(title, size, "ns of CPU an element", b["cpu_ns_an_element"], ""),
-                 (title, size, "times its stream", b["of_stream"], "")]
+        more = ""
         if threads == 1:
             alone[size] = b
-            rows.append((title, size, "bytes of memory a triangle", b["memory_a_triangle"], ""))
+            more = f"{number(b['memory_a_triangle'])} bytes of memory a triangle"
         elif size in alone:
             ratio = alone[size]["wall_ns_an_element"] / b["wall_ns_an_element"]
-            rows.append((title, size, "times as fast as one", ratio, f"of {threads}"))
+            more = f"{ratio:.2f} times as fast as one"
+        rows.append((f"whole step, {threads} thread{'s' if threads > 1 else ''}", size,
+                     number(b["cpu_ns_an_element"]), number(b["of_stream"]), more))
     return rows
 
 
@@ -154,10 +149,10 @@ def main() -> int:
     context = data["context"]
     print(f"{context['processor']}, {context['num_cpus']} processors, "
           f"{context['date'][:10]}, load {', '.join(f'{l:.1f}' for l in context['load_avg'])}\n")
-    print("| what | size | figure | value | limit |\n|---|---|---|---|---|")
-    for what, size, figure, value, limit in (machine_rows(best) + element_rows(best)
-                                             + contact_rows(best) + step_rows(best)):
-        print(f"| {what} | {size} | {figure} | {number(value)} | {limit} |")
+    print("\n".join(machine_lines(best)))
+    print("\n| part | triangles | ns of CPU a triangle | times its stream | more |\n|---|---|---|---|---|")
+    for row in element_rows(best) + contact_rows(best) + step_rows(best):
+        print(f"| {' | '.join(row)} |")
     return 0
 
 
