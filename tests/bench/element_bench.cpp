@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Time of the element: forces of all triangles and their sums at the nodes, plain and averaged, on
-// the same mesh, squares of one diagonal with the yarns at 22.5 degrees to them.
-#include "core/membrane.hpp"
+// The element: forces of all triangles and their sums at the nodes, plain and averaged, on the same
+// mesh, squares of one diagonal with the yarns at 22.5 degrees to them.
+#include "tests/bench/element_traffic.hpp"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -20,38 +20,90 @@ Fabric glass() {
   return f;
 }
 
-/// Sheared by some degrees, wavy, taut in waves.
-std::vector<Vec3> shape(const BlankMesh& mesh) {
-  std::vector<Vec3> x;
-  for (const Vec2& p : mesh.x)
-    x.emplace_back(p.x() + 0.2 * p.y() + 0.01 * std::sin(0.3 * p.y()), p.y() + 0.1 * p.x(),
-                   std::sin(0.05 * p.x() + 0.07 * p.y()));
-  return x;
-}
+struct Sheet {
+  std::int64_t cells = 0;
+  bool averaged = false;
+  Membrane m;
+  std::vector<Vec3> x0, x; ///< x: sheared by some degrees, wavy, taut in waves
+  std::vector<Vec3> force;
+};
 
-void ElementForces(benchmark::State& state) {
-  const double cells = static_cast<double>(state.range(0));
+/// 2 cells^2 triangles; the last one asked for is kept, since benchmarks run several times.
+Sheet& sheet(std::int64_t cells, bool averaged) {
+  static Sheet s;
+  if (s.cells == cells && s.averaged == averaged) return s;
+  s = {};
+  s.cells = cells, s.averaged = averaged;
   BlankSpec blank;
   blank.outline.boundary = {{0, 0}, {300, 0}, {300, 300}, {0, 300}};
-  blank.element_size = 300.0 / cells;
+  blank.element_size = 300.0 / static_cast<double>(cells);
   const BlankMesh mesh = mesh_blank(blank, 0.0, 0.5 * std::numbers::pi);
-  Membrane m = make_membrane(mesh, glass(), std::numbers::pi / 8.0,
-                             state.range(1) ? ElementKind::averaged : ElementKind::plain);
-  const std::vector<Vec3> x = shape(mesh);
-  std::vector<ElementForce> q(m.triangles.size());
-  std::vector<Vec3> force(x.size());
-  for (auto _ : state) {
-    element_forces(m, x, 1e-6, 0, m.patches(), q);
-    for (std::size_t n = 0; n < x.size(); ++n)
-      force[n] = node_force(m, q, static_cast<int>(n));
-    benchmark::DoNotOptimize(force.data());
+  s.m = make_membrane(mesh, glass(), std::numbers::pi / 8.0,
+                      averaged ? ElementKind::averaged : ElementKind::plain);
+  s.m.viscosity = {1e-3, 1e-3};
+  for (const Vec2& p : mesh.x) {
+    s.x0.emplace_back(p.x(), p.y(), 0.0);
+    s.x.emplace_back(p.x() + 0.2 * p.y() + 0.01 * std::sin(0.3 * p.y()), p.y() + 0.1 * p.x(),
+                     std::sin(0.05 * p.x() + 0.07 * p.y()));
   }
-  state.SetLabel(state.range(1) ? "averaged" : "plain");
-  state.counters["ns_an_element"] = benchmark::Counter(
-      1e-9 * static_cast<double>(m.triangles.size()),
-      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert);
+  s.force.assign(s.x.size(), Vec3::Zero());
+  return s;
 }
-BENCHMARK(ElementForces)->ArgsProduct({{50, 158}, {0, 1}});
+
+void count_elements(benchmark::State& state, const Sheet& s) {
+  const auto inverse_rate =
+      benchmark::Counter::kIsIterationInvariantRate | benchmark::Counter::kInvert;
+  const double triangles = static_cast<double>(s.m.triangles.size());
+  state.SetLabel(s.averaged ? "averaged" : "plain");
+  state.counters["triangles"] = triangles;
+  state.counters["ns_an_element"] = benchmark::Counter(1e-9 * triangles, inverse_rate);
+}
+
+/// As the step does it: four patches side by side, block by block, then the sums at the nodes.
+void ElementLanes(benchmark::State& state) {
+  Sheet& s = sheet(state.range(0), state.range(1) != 0);
+  MembraneLanes lanes = make_lanes(s.m, s.x0);
+  Traffic t = lane_traffic(lanes, s.x.size());
+  t += traffic(s.force.size(), sizeof(Vec3));
+  const double seconds = stream_seconds(t), peak = peak_arithmetic();
+  for (auto _ : state) {
+    for (int b = 0; b < static_cast<int>(lanes.blocks.size()); ++b)
+      lane_forces(lanes, s.m, s.x, 1e-6, b);
+    for (std::size_t n = 0; n < s.x.size(); ++n)
+      s.force[n] = lane_force(lanes, n);
+    benchmark::DoNotOptimize(s.force.data());
+  }
+  count_elements(state, s);
+  using benchmark::Counter;
+  const auto rate = Counter::kIsIterationInvariantRate;
+  const double triangles = static_cast<double>(s.m.triangles.size());
+  state.counters["bytes_an_element"] = t.streamed / triangles;
+  state.counters["GB_s"] = Counter(1e-9 * t.streamed, rate);
+  state.counters["stream_GB_s"] = 1e-9 * t.streamed / seconds;
+  state.counters["of_stream"] = Counter(seconds, rate | Counter::kInvert);
+  state.counters["of_peak"] = Counter(element_operations(s.averaged) * triangles / peak, rate);
+}
+BENCHMARK(ElementLanes)
+    ->ArgNames({"cells", "averaged"})
+    ->ArgsProduct({{50, 158, 500, 1581}, {0, 1}})
+    ->Unit(benchmark::kMicrosecond);
+
+/// One triangle after the other, the oracle of the above.
+void ElementForces(benchmark::State& state) {
+  Sheet& s = sheet(state.range(0), state.range(1) != 0);
+  std::vector<ElementForce> q(s.m.triangles.size());
+  for (auto _ : state) {
+    element_forces(s.m, s.x, 1e-6, 0, s.m.patches(), q);
+    for (std::size_t n = 0; n < s.x.size(); ++n)
+      s.force[n] = node_force(s.m, q, static_cast<int>(n));
+    benchmark::DoNotOptimize(s.force.data());
+  }
+  count_elements(state, s);
+}
+BENCHMARK(ElementForces)
+    ->ArgNames({"cells", "averaged"})
+    ->ArgsProduct({{50, 158}, {0, 1}})
+    ->Unit(benchmark::kMicrosecond);
 
 } // namespace
 } // namespace plyform

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the element kernel must at least move and compute.
+#pragma once
+
+#include "core/membrane_lanes.hpp"
+#include "tests/bench/machine.hpp"
+
+namespace plyform {
+
+/// One pass of lane_forces over all blocks and of lane_force over all nodes, each array once: nodes
+/// that several blocks share are read again only out of a cache.
+inline Traffic lane_traffic(const MembraneLanes& l, std::size_t nodes) {
+  Traffic t = traffic(l.triangles.size(), sizeof(LaneTriangles));
+  t += traffic(l.viscosity.size(), sizeof(LaneViscosity), 2.0); // read and written
+  t += traffic(l.nodes.size(), sizeof(std::int32_t));
+  t += traffic(nodes, sizeof(Vec3));                    // places
+  t += traffic(l.force.size(), sizeof(LaneForce), 2.0); // written, then read and added up
+  t += traffic(nodes + 1, sizeof(std::int32_t));        // force_begin
+  t += traffic(l.force_of.size(), sizeof(std::int32_t));
+  return t;
+}
+
+/// Operations on doubles a triangle, counted by hand in core/membrane_kernel_body.hpp for a shear
+/// law of three terms and yarns of one stiffness; a division or a root counts as one.
+inline double element_operations(bool averaged) {
+  return averaged ? 226.0 : 208.0;
+}
+
+} // namespace plyform
