@@ -211,7 +211,11 @@ void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b,
     const double last = pair.distance;
     const Vec3 n = measure(pair, a, b, 2.0 * contact.distance);
     const double p = contact.distance - pair.distance;
-    if (!(p > 0.0)) continue;
+    if (!(p > 0.0)) {
+      if (last < contact.distance) continue;
+      pair.slack = way + distance_of(pair, a, b) - contact.distance; // until then it may rest
+      continue;
+    }
     const double dp = last - pair.distance;
     const NormalForce force =
         normal_force(contact.law, pair.area, p, last < contact.distance ? dp : 0.0, dt);

@@ -25,7 +25,12 @@ using Pair2 = double __attribute__((vector_size(16), may_alias, aligned(8)));
 
 /// (x, y, z) of an array of 3 a node.
 PLYFORM_INLINE Double4 load3(const double* at) {
+#if defined(__AVX__)
+  const Long4 three{-1, -1, -1, 0};
+  return reinterpret_cast<Double4>(_mm256_maskload_pd(at, reinterpret_cast<__m256i>(three)));
+#else
   return Double4{at[0], at[1], at[2], 0.0};
+#endif
 }
 
 PLYFORM_INLINE void add3(double* at, Double4 row) {
@@ -83,7 +88,7 @@ PLYFORM_INLINE Double4 square(const Vector4& a) {
 /// The foot of four nodes on the planes of their faces: (1), (2) of contact/point_triangle.hpp.
 struct LaneFoot {
   Double4 wa, wb, wc, distance;
-  Double4 to_edges; ///< mm, from the foot, if it is inside
+  Double4 to_edge, to_corner; ///< mm, of the foot inside: from the closest edge, the second
   Long4 inside;
 };
 
@@ -97,8 +102,11 @@ PLYFORM_INLINE LaneFoot foot_of(const LaneFaces& x) {
   f.wa = ua * scale, f.wb = ub * scale, f.wc = uc * scale;
   f.distance = root(square(x.p - f.wb * x.b - f.wc * x.c));
   // w_i times the height over side i, which is sqrt(det) / |side|
-  const Double4 a2 = f.wa * f.wa / (bb + cc - 2.0 * bc);
-  f.to_edges = root(det * smaller(a2, smaller(f.wb * f.wb / cc, f.wc * f.wc / bb)));
+  const Double4 a2 = f.wa * f.wa / (bb + cc - 2.0 * bc), b2 = f.wb * f.wb / cc;
+  const Double4 c2 = f.wc * f.wc / bb;
+  const Double4 low = smaller(a2, b2), high = larger(a2, b2);
+  f.to_edge = root(det * smaller(low, c2));
+  f.to_corner = root(det * larger(low, smaller(high, c2)));
   f.inside = (det > sliver_sine2 * (bb * cc)) & (ua > 0.0) & (ub > 0.0) & (uc > 0.0);
   return f;
 }
@@ -108,14 +116,14 @@ PLYFORM_INLINE Double4 share_of_side(Double4 t) {
   return smaller(t, all(1.0));
 }
 
-/// The closest points of four faces, wherever they are: the foot if it is inside, else the closest
-/// of the points on the sides, as closest_point_on_sliver of contact/point_triangle.hpp.
+/// The closest points of four faces: the foot if it is inside, else, if `sides` are asked for, the
+/// closest of the points on them, as closest_point_on_sliver of contact/point_triangle.hpp.
 struct LaneClosest {
   Double4 wb, wc, distance2;
   Long4 inside;
 };
 
-PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x) {
+PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x, bool sides) {
   const Double4 bb = dot(x.b, x.b), cc = dot(x.c, x.c), bc = dot(x.b, x.c);
   const Double4 pb = dot(x.p, x.b), pc = dot(x.p, x.c);
   const Double4 det = bb * cc - bc * bc;
@@ -125,7 +133,7 @@ PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x) {
   q.inside = (det > sliver_sine2 * (bb * cc)) & (ua > 0.0) & (ub > 0.0) & (uc > 0.0);
   q.wb = ub * scale, q.wc = uc * scale;
   q.distance2 = q.inside ? square(x.p - q.wb * x.b - q.wc * x.c) : all(far2);
-  if (!any(~q.inside)) return q;
+  if (!sides || !any(~q.inside)) return q;
   const Double4 t[3] = {share_of_side(pb / bb), share_of_side(pc / cc),
                         share_of_side((pc - pb + bb - bc) / (bb + cc - 2.0 * bc))};
   const Double4 wb[3] = {t[0], all(0.0), 1.0 - t[2]}, wc[3] = {all(0.0), t[1], t[2]};
@@ -152,9 +160,10 @@ PLYFORM_INLINE double distance_of_others(const SheetKernelContact& k, const Shee
 }
 
 /// Closest points of the `count` first of four points over all of their faces that can be closest:
-/// face and other of each; returns where.
+/// face and other of each; returns where. Points near one edge
+/// only, inside their face, need no `sides`: the edge that both share is further than the foot.
 PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                                    int count) {
+                                    int count, bool sides) {
   Double4 best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
   Long4 face{-1, -1, -1, -1};
   Long4 inside{0, 0, 0, 0};
@@ -169,7 +178,7 @@ PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoin
       more[lane] = -1;
     }
     if (!any(more)) break;
-    const LaneClosest q = closest_of(load_faces(k, point, at, k.slave_x, k.master_x));
+    const LaneClosest q = closest_of(load_faces(k, point, at, k.slave_x, k.master_x), sides);
     const Long4 tied = magnitude(q.distance2 - best2) <= tie * best2;
     const Long4 chosen = more & (tied ? at < face : q.distance2 < best2);
     const Long4 closer = more & (q.distance2 < best2);
@@ -184,7 +193,7 @@ PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoin
       point[lane]->face = static_cast<std::int32_t>(face[lane]);
       point[lane]->other = distance_of_others(k, *point[lane]);
     }
-  return {1.0 - wb - wc, wb, wc, root(best2), all(0.0), inside};
+  return {1.0 - wb - wc, wb, wc, root(best2), all(0.0), all(0.0), inside};
 }
 
 /// Sums of four points each.
@@ -281,14 +290,17 @@ PLYFORM_INLINE void add_forces(const SheetKernelContact& k, SheetKernelPoint* co
 }
 
 /// Which feet are inside their face while no other face can be closer: none of those that share a
-/// node with it by contact/sheet_spread.hpp, none of the rest since the search.
+/// node with it by contact/sheet_spread.hpp, none of the rest since the search. mild: only one
+/// of the former may be, across an edge, with its inside.
 PLYFORM_INLINE Long4 sure_of(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                             const LaneFoot& foot) {
-  if (!k.spread) return Long4{0, 0, 0, 0};
+                             const LaneFoot& foot, Long4& mild) {
+  mild = Long4{0, 0, 0, 0};
+  if (!k.spread) return mild;
   const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
   const Double4 keep = k.distance * Double4{k.spread[point[0]->face], k.spread[point[1]->face],
                                             k.spread[point[2]->face], k.spread[point[3]->face]};
-  return foot.inside & (foot.to_edges > keep) & (other - k.way > foot.distance);
+  mild = foot.inside & (foot.to_corner > keep) & (other - k.way > foot.distance);
+  return mild & (foot.to_edge > keep);
 }
 
 /// Up to four points; those from `count` on are fillers, the same as the first.
@@ -319,8 +331,8 @@ struct Pass {
   static constexpr int most = 64;
   alignas(32) double distance[most]; ///< mm
   bool inside[most];                 ///< the foot is inside the face
-  std::int32_t look[most];           ///< those that must look at all their faces
-  int looks = 0;
+  std::int32_t look[2][most];        ///< those that must look at all faces; [1]: at their sides too
+  int looks[2] = {0, 0};
 };
 
 PLYFORM_INLINE void keep_foot(const Group& g, const LaneFoot& foot, Pass& pass,
@@ -340,25 +352,30 @@ PLYFORM_INLINE void follow_feet(const SheetKernelContact& k, const std::int32_t*
   for (int first = 0; first < count; first += four) {
     const Group g = group_of(k, near + first, count - first);
     const LaneFoot foot = foot_of(load_faces(k, g.point, remembered(g), k.slave_x, k.master_x));
-    const Long4 sure = sure_of(k, g.point, foot);
+    Long4 mild;
+    const Long4 sure = sure_of(k, g.point, foot, mild);
     const std::int32_t number[four] = {first, first + 1, first + 2, first + 3};
     keep_foot(g, foot, pass, number);
     for (int i = 0; i < g.count; ++i)
-      if (!sure[i]) pass.look[pass.looks++] = first + i;
+      if (!sure[i]) {
+        const int sides = mild[i] ? 0 : 1;
+        pass.look[sides][pass.looks[sides]++] = first + i;
+      }
   }
 }
 
 /// Second pass: closest points of those that had to look.
-PLYFORM_INLINE void look_around(const SheetKernelContact& k, const std::int32_t* near, Pass& pass) {
-  for (int first = 0; first < pass.looks; first += four) {
-    const int left = pass.looks - first;
+PLYFORM_INLINE void look_around(const SheetKernelContact& k, const std::int32_t* near, bool sides,
+                                Pass& pass) {
+  for (int first = 0; first < pass.looks[sides]; first += four) {
+    const int left = pass.looks[sides] - first;
     std::int32_t number[four], index[four];
     for (int i = 0; i < four; ++i) {
-      number[i] = pass.look[first + (i < left ? i : 0)];
+      number[i] = pass.look[sides][first + (i < left ? i : 0)];
       index[i] = near[number[i]];
     }
     const Group g = group_of(k, index, left);
-    keep_foot(g, look_at_all(k, g.point, g.count), pass, number);
+    keep_foot(g, look_at_all(k, g.point, g.count, sides), pass, number);
   }
 }
 
@@ -370,7 +387,7 @@ PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Pas
   const Rows w = load_rows(g.point, weight_row);
   const Double4 distance{pass.distance[number[0]], pass.distance[number[1]],
                          pass.distance[number[2]], pass.distance[number[3]]};
-  const LaneFoot foot{w.row[0], w.row[1], w.row[2], distance, all(0.0), {}};
+  const LaneFoot foot{w.row[0], w.row[1], w.row[2], distance, all(0.0), all(0.0), {}};
   const Rows held = load_rows(g.point, held_row), force = load_rows(g.point, force_row);
   LanePoints p;
   p.s = {held.row[0], held.row[1], held.row[2]};
@@ -426,7 +443,8 @@ PLYFORM_INLINE void do_some(const SheetKernelContact& k, const std::int32_t* nea
                             LaneSums& sums) {
   Pass pass;
   follow_feet(k, near, count, pass);
-  look_around(k, near, pass);
+  look_around(k, near, false, pass);
+  look_around(k, near, true, pass);
   std::int32_t number[four], index[four];
   int waiting = 0;
   for (int i = 0; i < count; ++i) {

@@ -31,14 +31,15 @@ void sheet_spread(std::span<const Vec3> x, std::span<const Triangle> triangles,
       if (!(here <= off[at(n)])) off[at(n)] = here; // NaN too
     }
   spread.resize(triangles.size());
-  constexpr double most = 0.8;
+  constexpr double most = 0.4;
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     double chord = 0.0;
     for (const int n : triangles[f])
       chord = std::max(chord,
                        std::sqrt((normal[f] - mean[at(n)]).squaredNorm()) + std::sqrt(off[at(n)]));
-    const double angle = 1.1 * chord + spread_margin; // an arc is 1.05 chords at a right angle
-    spread[f] = angle < most ? std::tan(angle) : std::numeric_limits<double>::infinity();
+    // An arc is less than 1.1 chords up to a right angle, and tan(a) < a / (1 - a^2 / 2) below 1.2.
+    const double a = 0.5 * (1.1 * chord + spread_margin);
+    spread[f] = a < most ? 1.2 * a / (1.0 - 0.5 * a * a) : std::numeric_limits<double>::infinity();
   }
 }
 

@@ -4,9 +4,9 @@
 //
 //   phi  rad  largest angle between a face's normal and those of the faces that share a node
 // A point at distance d over the inside of a face is closer to that face than to one turned by phi
-// against it if its foot is further than d tan(phi/2) from the edge that they share. Twice that,
-// and `margin` added to phi for what the sheet turns until the next renewal, is what `spread` asks
-// for: it holds for faces that share just a node as well.
+// against it if its foot is further than d tan(phi/2) from the edge that they share. `margin` is
+// added to phi for what the sheet turns until the next renewal, and a fifth to the tangent for
+// faces that share just a node.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -24,8 +24,8 @@ struct SpreadScratch {
   std::vector<double> off;
 };
 
-/// tan(phi + margin) of each triangle, infinite where phi + margin is more than 0.8; phi is taken
-/// for larger than it is by up to twice. x: mm.
+/// At least 1.2 tan((phi + margin) / 2) of each triangle, infinite where phi + margin is more than
+/// 0.8; phi is taken for up to twice as large as it is. x: mm.
 void sheet_spread(std::span<const Vec3> x, std::span<const Triangle> triangles,
                   SpreadScratch& scratch, std::vector<double>& spread);
 

@@ -262,7 +262,6 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
   }
   const bool closer = furthest_way(s) - s.bound_way > 0.5 * bound_margin;
   if (used_up || closer || s.step % bound_every == 0) {
-    if (auto stop = find_collapsed(s)) return stop;
     if (s.step >= s.next_sharpening) {
       team.run(static_cast<int>(s.plies.size()),
                [&](int p) { sharpen_bound(s.plies[static_cast<std::size_t>(p)]); });
