@@ -148,5 +148,28 @@ TEST(ContactSearch, NoPairIsAbsentWhileAPlyStrikesAndSlidesOff) {
   EXPECT_GT(touching.tools, 500);
 }
 
+/// A small ply between two larger ones, of which the upper falls: past the small one's rim the
+/// outer two meet, which it covers elsewhere.
+TEST(ContactSearch, NoPairIsAbsentAroundTheRimOfAPlyBetween) {
+  Case data = stack_of({0.0, 0.4, 0.8}, rectangle(120.0, 120.0, 8.0));
+  data.blanks.push_back(rectangle(50.0, 50.0, 8.0));
+  data.plies[1].blank = 1;
+  Tool floor;
+  floor.name = "floor";
+  floor.shape = Plane{};
+  data.tools = {floor};
+  set_friction(data, 0.1);
+  data.solver.fibre_softening = 100.0;
+  data.solver.duration = 0.01;
+  Scene s = make_scene(data);
+  for (Vec3& v : s.plies[2].velocity)
+    v = Vec3(3000.0, 500.0, -1000.0);
+  const Touching touching = follow(s, 9);
+  EXPECT_GT(touching.plies, 300);
+  EXPECT_GT(s.ply_contacts[1].contact.sums.deepest, 0.0); // of the lowest and the uppermost
+  ASSERT_EQ(s.ply_contacts[1].slave, 0);
+  ASSERT_EQ(s.ply_contacts[1].master, 2);
+}
+
 } // namespace
 } // namespace plyform
