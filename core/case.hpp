@@ -88,6 +88,11 @@ struct ContactOptions {
   bool self = false;      ///< plies may touch themselves
 };
 
+/// How near a run is to come to a converged one (core/accuracy.hpp).
+struct AccuracyOptions {
+  double shear_error = 0.0; ///< rad, rms; 0: not asked for, the solver's dials hold
+};
+
 /// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.
 struct FrictionTable {
   int bodies = 0;
@@ -106,6 +111,7 @@ struct Case {
   FrictionTable friction;
   SolverOptions solver;
   ContactOptions contact;
+  AccuracyOptions accuracy;
 };
 
 } // namespace plyform

@@ -2,6 +2,7 @@
 // case.toml -> entries -> overrides -> check against the table of keys -> Case -> whole scene.
 #include "core/case_file.hpp"
 
+#include "core/accuracy.hpp"
 #include "core/case_override.hpp"
 #include "core/case_parts.hpp"
 
@@ -211,6 +212,8 @@ Case build_case(const Section& root, const std::filesystem::path& folder, Findin
   built.friction = read_friction(contact, bodies, plies, count, findings);
   built.contact = read_contact(contact);
   built.solver = read_solver(subsection(root, "solver"));
+  const Section accuracy = subsection(root, "accuracy");
+  if (given(accuracy, "shear_deg")) built.accuracy.shear_error = number(accuracy, "shear_deg");
   return built;
 }
 
@@ -257,7 +260,10 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
     check_section(root, findings);
     Case built = build_case(root, folder, findings);
     if (findings.errors.empty()) check_scene(built, locate_parts(root), findings);
-    if (findings.errors.empty()) reading.value = std::move(built);
+    if (findings.errors.empty()) {
+      pick_dials(built);
+      reading.value = std::move(built);
+    }
   }
   put_in_order(findings.errors, name);
   reading.errors = std::move(findings.errors);

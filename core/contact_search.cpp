@@ -134,7 +134,7 @@ void follow_spread(Scene& s, ThreadTeam& team) {
   const double most = 0.25 * spread_margin * s.element_size;
   team.run(static_cast<int>(s.plies.size()), [&](int p) {
     PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
-    if (ply.way - ply.spread_way <= most) return; 
+    if (ply.way - ply.spread_way <= most) return;
     const Stopwatch watch(ply.search_seconds);
     renew_spread(ply);
   });

@@ -408,6 +408,20 @@ Rows solver_rows() {
            .meaning = "number of states written, evenly over the stroke"}};
 }
 
+Rows accuracy_rows() {
+  return {{.key = "accuracy",
+           .kind = K::table,
+           .fallback = "{}",
+           .meaning = "how near to a converged run; picks solver.duration and "
+                      "solver.fibre_softening"},
+          {.key = "accuracy.shear_deg",
+           .unit = "deg",
+           .otherwise = "as the solver's dials have it",
+           .ranges = {{.least = 0.05, .most = 20.0}},
+           .meaning = "root mean square error of the shear angle that is allowed; `plyform run "
+                      "--accuracy draft` is 3, standard 1, reference 0.3"}};
+}
+
 Rows all_rows() {
   Rows rows{{.key = "title",
              .kind = K::text,
@@ -427,6 +441,7 @@ Rows all_rows() {
   append(rows, boundary_rows());
   append(rows, contact_rows());
   append(rows, solver_rows());
+  append(rows, accuracy_rows());
   return rows;
 }
 

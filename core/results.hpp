@@ -92,6 +92,12 @@ struct WorkReport {
   std::vector<std::string> could_be_left_out, missing; ///< a sentence each
 };
 
+/// Predicted root mean square error of the shear angle (core/accuracy.hpp), degrees.
+struct AccuracyReport {
+  double inertia_deg = 0, softening_deg = 0, mesh_deg = 0;
+  double promised_deg = 0; ///< all three together; what was asked for, if that is kept
+};
+
 struct Summary {
   std::string title, version;
   std::string status = "done"; ///< done, interrupted, stopped
@@ -100,6 +106,7 @@ struct Summary {
   long steps = 0;
   double min_step_s = 0, max_step_s = 0;
   int threads = 1;
+  AccuracyReport accuracy;
   ContactReport contact;
   WorkReport work;
 };

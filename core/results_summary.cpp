@@ -210,6 +210,13 @@ std::string contact_json(const ContactReport& c) {
 
 } // namespace
 
+std::string accuracy_json(const AccuracyReport& a) {
+  return fmt::format("{{\"promised_shear_error_deg\": {}, \"inertia_deg\": {}, "
+                     "\"softening_deg\": {}, \"mesh_deg\": {}}}",
+                     json_number(a.promised_deg), json_number(a.inertia_deg),
+                     json_number(a.softening_deg), json_number(a.mesh_deg));
+}
+
 std::string summary_json(const Frame& last, const Summary& summary) {
   std::size_t elements = 0, nodes = 0;
   for (const PlyFrame& ply : last.plies) {
@@ -237,6 +244,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
   entry("tools", json_list(last.tools, tool_json));
   entry("boundaries", json_list(last.boundaries, boundary_json));
   entry("energy", energy_json(last.energy));
+  entry("accuracy", accuracy_json(summary.accuracy));
   entry("contact", contact_json(summary.contact));
   entry("searches", fmt::to_string(summary.work.searches));
   entry("time_shares", time_json(summary.work));

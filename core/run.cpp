@@ -2,6 +2,7 @@
 #include "core/run.hpp"
 
 #include "contact/audit.hpp"
+#include "core/accuracy.hpp"
 #include "core/frame.hpp"
 #include "core/step.hpp"
 #include "core/tool_depth.hpp"
@@ -152,6 +153,8 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.min_step_s = s.min_dt;
   sum.max_step_s = s.max_dt;
   sum.threads = threads;
+  const PredictedError error = predicted_error(s.data);
+  sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data)};
   sum.contact = audit(s, depths);
   sum.contact.max_tool_penetration_between_nodes_mm = depth_between_nodes(s);
   sum.work = report_work(s, result.last, sum.contact);

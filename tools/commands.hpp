@@ -21,7 +21,7 @@ enum ExitCode { exit_done = 0, exit_other = 1, exit_case_wrong = 2, exit_stopped
 struct CaseArguments {
   std::string file;                  ///< case.toml, or its folder
   std::vector<std::string> settings; ///< KEY=VALUE
-  std::string accuracy = "standard";
+  std::string accuracy;              ///< draft, standard, reference or empty: as the case says
 };
 
 struct RunArguments {

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/accuracy.hpp"
 #include "core/case_file.hpp"
 #include "tools/commands.hpp"
 
@@ -6,21 +7,6 @@
 #include <fmt/format.h>
 
 namespace plyform {
-namespace {
-
-/// The dials that trade accuracy for time, as factors on what the case says.
-void apply_accuracy(const std::string& accuracy, SolverOptions& solver) {
-  if (accuracy == "draft") {
-    solver.duration /= 2.0;
-    solver.fibre_softening *= 2.0;
-  } else if (accuracy == "reference") {
-    solver.duration *= 2.0;
-    solver.fibre_softening = std::max(1.0, solver.fibre_softening / 4.0);
-  }
-}
-
-} // namespace
-
 std::optional<Case> load_case(const CaseArguments& arguments) {
   std::filesystem::path file = arguments.file;
   if (std::filesystem::is_directory(file)) file /= "case.toml";
@@ -35,13 +21,14 @@ std::optional<Case> load_case(const CaseArguments& arguments) {
     }
     overrides.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
   }
+  if (const double error = preset_error(arguments.accuracy); error > 0.0)
+    overrides.emplace_back("accuracy.shear_deg", fmt::format("{}", error));
   CaseReading reading = read_case(file, overrides);
   for (const std::string& warning : reading.warnings)
     fmt::print(stderr, "{}\n", warning);
   for (const CaseError& error : reading.errors)
     fmt::print(stderr, "{}\n", error.text());
   if (!reading.value) return std::nullopt;
-  apply_accuracy(arguments.accuracy, reading.value->solver);
   return std::move(reading.value);
 }
 

@@ -104,6 +104,11 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
              "between plies, {} within\n",
              c.max_tool_penetration_mm, c.max_ply_penetration_mm, c.intersections_between_plies,
              c.intersections_within_plies);
+  const AccuracyReport& a = r.summary.accuracy;
+  fmt::print(
+      "  shear angles to {:.2g} deg rms, as predicted: inertia {:.2g}, softened fibres {:.2g}, "
+      "mesh {:.2g}\n",
+      a.promised_deg, a.inertia_deg, a.softening_deg, a.mesh_deg);
   print_work(r.summary.work, r.summary.steps);
   fmt::print("results are in {}\n", folder.string());
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What a run's dials cost in accuracy, and which dials to take for a wanted accuracy.
+//
+// Error: root mean square, over all plies, of the difference in shear angle to a run that has
+// converged (docs/accuracy.md: how it was measured, on which cases the rule was set and on which it
+// was checked). Three causes, each a power of a number without unit:
+//   inertia    I = 1/2 rho v^2 / w       rho t/mm^2, v = stroke / duration, w N/mm
+//   softening  S = s w / (d k)           s softening, k N a yarn, d yarns per mm
+//   mesh       M = h / L                 element size over stroke, mm
+// w = n_c Ws(1/2 rad): energy of shear by half a radian per area, the work that forms the plies.
+//   e = sqrt( (c_I I^p)^2 + (c_S S^q)^2 + (c_M M^r)^2 )                                     (E)
+// Steps are as many as duration / sqrt(softening).
+#pragma once
+
+#include "core/case.hpp"
+
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+/// Degrees, rms; of (E), by cause. A mesh from a file has no element size and counts as 0.
+struct PredictedError {
+  double inertia = 0.0, softening = 0.0, mesh = 0.0;
+  double total() const;
+  /// What the user may count on: total(), or what was asked for if that is more.
+  double promised(const Case& data) const;
+};
+
+/// For a case whose stroke is given (driven tools, boundaries); zero without one. Of several
+/// fabrics and blanks the worst counts.
+PredictedError predicted_error(const Case& data);
+
+/// Presets of --accuracy, and their promise in degrees. 0 for a word that is none.
+double preset_error(const std::string& word);
+
+/// Sets solver.duration and solver.fibre_softening for the fewest steps whose error (E) is at most
+/// accuracy.shear_deg, softening between 1 and 1000. Where the mesh leaves less than half of it,
+/// inertia and softening get half. Nothing is done without accuracy.shear_deg or a stroke.
+void pick_dials(Case& data);
+
+} // namespace plyform
