@@ -394,7 +394,7 @@ struct Keys {
 
 TEST(CaseKeys, AreJustThoseThatGoodFilesUse) {
   Keys keys;
-  for (const char* name : {"every_shape", "inline", "base", "boundaries", "bending"}) {
+  for (const char* name : {"every_shape", "inline", "base", "boundaries", "bending", "accuracy"}) {
     good_case(data / "good" / (std::string(name) + ".toml")); // each of its keys is accepted
     keys.add(data / "good" / (std::string(name) + ".toml"), "");
   }

@@ -33,8 +33,18 @@ Frame unequal(double most, double rest) {
 }
 
 TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
-  Summary summary{
-      "a title", "1.2.3", "done", "", 12.5, 1000, 1e-6, 2e-6, 4, {0.01, 0.02, 0.05, 3, 4}, {}};
+  Summary summary{"a title",
+                  "1.2.3",
+                  "done",
+                  "",
+                  12.5,
+                  1000,
+                  1e-6,
+                  2e-6,
+                  4,
+                  {0.25, 0.5, 0.75, 1.5},
+                  {0.01, 0.02, 0.05, 3, 4},
+                  {}};
   summary.work = {0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7}}, {"bending: small"},
                   {}};
   Frame frame = unequal(10, -20);
@@ -60,6 +70,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
     {"name": "upper grip", "force_N": 20, "displacement_mm": 1.5}
   ],
   "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "balance_error": 0},
+  "accuracy": {"promised_shear_error_deg": 1.5, "inertia_deg": 0.25, "softening_deg": 0.5, "mesh_deg": 0.75},
   "contact": {"max_tool_penetration_mm": 0.01, "max_tool_penetration_between_nodes_mm": 0.05, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4},
   "searches": 12,
   "time_shares": {"elements": 0.5000, "contact": 0.2500, "search": 0.1250},

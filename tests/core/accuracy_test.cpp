@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rule that picks dials: against a search by hand, on real cases. Whether what it promises
+// holds is measured by `plyform chart` (docs/accuracy.md).
+#include "core/accuracy.hpp"
+#include "core/case_file.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace plyform {
+namespace {
+
+Case case_at(const std::string& file, const std::vector<Override>& overrides = {}) {
+  const CaseReading reading = read_case(file, overrides);
+  EXPECT_TRUE(reading.errors.empty()) << file;
+  return reading.value.value_or(Case{});
+}
+
+const std::string five = PLYFORM_CASES "/hemisphere_five_ply/case.toml";
+
+TEST(Accuracy, EveryDialHasItsError) {
+  const PredictedError as_is = predicted_error(case_at(five));
+  EXPECT_GT(as_is.inertia, 0.0);
+  EXPECT_GT(as_is.softening, 0.0);
+  EXPECT_GT(as_is.mesh, 0.0);
+  EXPECT_NEAR(as_is.total(), std::hypot(as_is.inertia, as_is.softening, as_is.mesh), 1e-12);
+  const PredictedError slow = predicted_error(case_at(five, {{"solver.duration", "0.2"}}));
+  EXPECT_LT(slow.inertia, as_is.inertia);
+  EXPECT_EQ(slow.softening, as_is.softening);
+  const PredictedError stiff = predicted_error(case_at(five, {{"solver.fibre_softening", "10"}}));
+  EXPECT_LT(stiff.softening, as_is.softening);
+  EXPECT_EQ(stiff.mesh, as_is.mesh);
+  const PredictedError fine =
+      predicted_error(case_at(five, {{"blanks.square.element_size", "3.4"}}));
+  EXPECT_LT(fine.mesh, as_is.mesh);
+  EXPECT_EQ(fine.inertia, as_is.inertia);
+}
+
+TEST(Accuracy, PicksTheFewestStepsOfAllDialsThatKeepThePromise) {
+  for (const double wanted : {1.5, 3.0}) {
+    Case data = case_at(five);
+    data.accuracy.shear_error = wanted * std::numbers::pi / 180.0;
+    pick_dials(data);
+    const PredictedError error = predicted_error(data);
+    EXPECT_LE(error.total(), 1.0001 * wanted);
+    EXPECT_NEAR(error.promised(data), wanted, 1e-9);
+    const auto steps = [](const SolverOptions& s) {
+      return s.duration / std::sqrt(s.fibre_softening);
+    };
+    Case other = data;
+    for (double duration = 0.005; duration < 2.0; duration *= 1.05)
+      for (double softening = 1.0; softening <= 1000.0; softening *= 1.1) {
+        other.solver.duration = duration;
+        other.solver.fibre_softening = softening;
+        if (predicted_error(other).total() > wanted) continue;
+        EXPECT_GE(steps(other.solver), 0.97 * steps(data.solver)) // shares go by two hundredths
+            << duration << " s, " << softening;
+      }
+  }
+}
+
+TEST(Accuracy, AMeshTooCoarseLeavesHalfToTheOtherDials) {
+  Case data = case_at(five, {{"blanks.square.element_size", "40"}});
+  data.accuracy.shear_error = 1.0 * std::numbers::pi / 180.0;
+  pick_dials(data);
+  const PredictedError error = predicted_error(data);
+  ASSERT_GT(error.mesh, 1.0);
+  EXPECT_NEAR(std::hypot(error.inertia, error.softening), 0.5, 0.001);
+  EXPECT_EQ(error.promised(data), error.total());
+}
+
+TEST(Accuracy, CasesMayAskForIt) {
+  const Case asked = case_at(PLYFORM_TEST_DATA "/good/accuracy.toml");
+  const Case base = case_at(PLYFORM_TEST_DATA "/good/base.toml");
+  EXPECT_NEAR(asked.accuracy.shear_error, 1.5 * std::numbers::pi / 180.0, 1e-15);
+  EXPECT_NE(asked.solver.duration, base.solver.duration);
+  EXPECT_EQ(base.accuracy.shear_error, 0.0);
+  EXPECT_EQ(preset_error("draft"), 3.0);
+  EXPECT_EQ(preset_error("standard"), 1.0);
+  EXPECT_EQ(preset_error("reference"), 0.3);
+  EXPECT_EQ(preset_error("perfect"), 0.0);
+}
+
+} // namespace
+} // namespace plyform
