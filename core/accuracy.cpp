@@ -3,18 +3,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 #include <limits>
 
 namespace plyform {
 namespace {
 
 // (E): degrees, and exponents. Set on hemisphere_0 and hemisphere_five_ply (docs/accuracy.md).
-constexpr double c_inertia = 4.0, p_inertia = 0.5;
-constexpr double c_softening = 400.0, p_softening = 0.75;
-constexpr double c_mesh = 6.0, p_mesh = 1.0;
+constexpr double c_inertia = 0.165, p_inertia = 0.75, p_plies = 2.5;
+constexpr double c_softening = 1580.0, p_softening = 0.84;
+constexpr double c_mesh = 36.0, p_mesh = 1.6;
 
 constexpr double half_radian = 0.5;
-constexpr double most_softening = 1000.0;
+// The rule was not measured beyond:
+constexpr double most_softening = 1000.0, most_inertia = 0.7;
 
 double degrees(double radians) {
   return radians * 180.0 / M_PI;
@@ -23,21 +25,32 @@ double degrees(double radians) {
 /// Numbers of (E) for duration 1 s, softening 1.
 struct Numbers {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
+  double plies = 0.0; ///< n^p_plies
 };
 
-double whole_stroke_of(const Case& data) {
-  double stroke = 0.0;
+/// mm, of the fastest tool and of the fastest boundary.
+struct Strokes {
+  double tool = 0.0, boundary = 0.0;
+};
+
+Strokes strokes_of(const Case& data) {
+  Strokes s;
   for (const Tool& t : data.tools)
-    if (t.motion == Motion::driven) stroke = std::max(stroke, std::abs(t.stroke));
+    if (t.motion == Motion::driven) s.tool = std::max(s.tool, std::abs(t.stroke));
   for (const Boundary& b : data.boundaries)
-    stroke = std::max(stroke, b.stroke);
-  return stroke;
+    s.boundary = std::max(s.boundary, b.stroke);
+  return s;
 }
 
 Numbers numbers_of(const Case& data) {
   Numbers n;
-  const double stroke = whole_stroke_of(data);
+  const Strokes strokes = strokes_of(data);
+  const double stroke = std::max(strokes.tool, strokes.boundary);
   if (stroke == 0.0) return n;
+  constexpr double held_by_nothing = 5.0; // a ply that is pulled swings like the outer ones of five
+  const auto plies = static_cast<double>(data.plies.size());
+  n.plies =
+      std::pow(strokes.boundary > strokes.tool ? std::max(plies, held_by_nothing) : plies, p_plies);
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
     const double size = data.blanks[static_cast<std::size_t>(ply.blank)].element_size;
@@ -54,7 +67,7 @@ Numbers numbers_of(const Case& data) {
 }
 
 double inertia_error(const Numbers& n, double duration) {
-  return c_inertia * std::pow(n.inertia / (duration * duration), p_inertia);
+  return c_inertia * n.plies * std::pow(n.inertia / (duration * duration), p_inertia);
 }
 
 double softening_error(const Numbers& n, double softening) {
@@ -72,13 +85,27 @@ double PredictedError::total() const {
 }
 
 double PredictedError::promised(const Case& data) const {
-  return std::max(total(), degrees(data.accuracy.shear_error));
+  const double predicted = total(); // NaN stays
+  return predicted < degrees(data.accuracy.shear_error) ? degrees(data.accuracy.shear_error)
+                                                        : predicted;
 }
 
 PredictedError predicted_error(const Case& data) {
   const Numbers n = numbers_of(data);
+  if (n.plies == 0.0) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {unknown, unknown, unknown};
+  }
   return {inertia_error(n, data.solver.duration), softening_error(n, data.solver.fibre_softening),
           mesh_error(n)};
+}
+
+std::string describe_accuracy(const PredictedError& error, double promised) {
+  if (std::isnan(promised)) return "accuracy is not predicted: nothing has a stroke";
+  return fmt::format(
+      "shear angles to {:.2g} deg rms, as predicted: inertia {:.2g}, softened fibres "
+      "{:.2g}, mesh {:.2g}",
+      promised, error.inertia, error.softening, error.mesh);
 }
 
 double preset_error(const std::string& word) {
@@ -104,8 +131,9 @@ void pick_dials(Case& data) {
     const double of_softening = softening_error(n, softening);
     const double rest2 = left2 - of_softening * of_softening;
     if (!(rest2 > 0.0)) continue;
-    const double duration =
-        std::sqrt(n.inertia / std::pow(std::sqrt(rest2) / c_inertia, 1.0 / p_inertia));
+    const double inertia =
+        std::min(most_inertia, std::pow(std::sqrt(rest2) / (c_inertia * n.plies), 1.0 / p_inertia));
+    const double duration = std::sqrt(n.inertia / inertia);
     const double steps = duration / std::sqrt(softening);
     if (steps >= fewest) continue;
     fewest = steps;

@@ -7,8 +7,9 @@
 //   inertia    I = 1/2 rho v^2 / w       rho t/mm^2, v = stroke / duration, w N/mm
 //   softening  S = s w / (d k)           s softening, k N a yarn, d yarns per mm
 //   mesh       M = h / L                 element size over stroke, mm
+//   plies      n                         in a stack: the outer ones are held on one side only
 // w = n_c Ws(1/2 rad): energy of shear by half a radian per area, the work that forms the plies.
-//   e = sqrt( (c_I I^p)^2 + (c_S S^q)^2 + (c_M M^r)^2 )                                     (E)
+//   e = sqrt( (c_I n^t I^p)^2 + (c_S S^q)^2 + (c_M M^r)^2 )                                 (E)
 // Steps are as many as duration / sqrt(softening).
 #pragma once
 
@@ -27,16 +28,20 @@ struct PredictedError {
   double promised(const Case& data) const;
 };
 
-/// For a case whose stroke is given (driven tools, boundaries); zero without one. Of several
-/// fabrics and blanks the worst counts.
+/// For a case whose stroke is given (driven tools, boundaries); NaN without one. Of several fabrics
+/// and blanks the worst counts.
 PredictedError predicted_error(const Case& data);
+
+/// One line for the user; promised: degrees.
+std::string describe_accuracy(const PredictedError& error, double promised);
 
 /// Presets of --accuracy, and their promise in degrees. 0 for a word that is none.
 double preset_error(const std::string& word);
 
 /// Sets solver.duration and solver.fibre_softening for the fewest steps whose error (E) is at most
-/// accuracy.shear_deg, softening between 1 and 1000. Where the mesh leaves less than half of it,
-/// inertia and softening get half. Nothing is done without accuracy.shear_deg or a stroke.
+/// accuracy.shear_deg, softening between 1 and 1000, I at most 0.7. Where the mesh leaves less than
+/// half of it, inertia and softening get half. Nothing is done without accuracy.shear_deg or a
+/// stroke.
 void pick_dials(Case& data);
 
 } // namespace plyform

@@ -176,10 +176,7 @@ int check_command(const CaseArguments& arguments) {
   fmt::print("stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s\n", bound.dt,
              s.plies[static_cast<std::size_t>(bound.ply)].name, bound.triangle, s.next_dt);
   const PredictedError error = predicted_error(*data);
-  fmt::print(
-      "shear angles to {:.2g} deg rms, as predicted: inertia {:.2g}, softened fibres {:.2g}, "
-      "mesh {:.2g}\n",
-      error.promised(*data), error.inertia, error.softening, error.mesh);
+  fmt::print("{}\n", describe_accuracy(error, error.promised(*data)));
   fmt::print("fibre stiffness divided by {:g}, {:g} s simulated: about {:.0f} steps\n",
              data->solver.fibre_softening, data->solver.duration, steps);
   double seconds = 0.0;

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/accuracy.hpp"
 #include "core/key_table.hpp"
 #include "core/run.hpp"
 #include "tools/commands.hpp"
@@ -105,10 +106,8 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
              c.max_tool_penetration_mm, c.max_ply_penetration_mm, c.intersections_between_plies,
              c.intersections_within_plies);
   const AccuracyReport& a = r.summary.accuracy;
-  fmt::print(
-      "  shear angles to {:.2g} deg rms, as predicted: inertia {:.2g}, softened fibres {:.2g}, "
-      "mesh {:.2g}\n",
-      a.promised_deg, a.inertia_deg, a.softening_deg, a.mesh_deg);
+  fmt::print("  {}\n",
+             describe_accuracy({a.inertia_deg, a.softening_deg, a.mesh_deg}, a.promised_deg));
   print_work(r.summary.work, r.summary.steps);
   fmt::print("results are in {}\n", folder.string());
 }
