@@ -85,7 +85,25 @@ PLYFORM_INLINE Double4 square(const Vector4& a) {
   return dot(a, a);
 }
 
-/// The foot of four nodes on the planes of their faces: (1), (2) of contact/point_triangle.hpp.
+/// Where four nodes stand over the planes of their faces: (1), (2) of contact/point_triangle.hpp.
+struct LanePlanes {
+  Double4 bb, cc, bc, pb, pc, det, wa, wb, wc;
+  Long4 inside;
+};
+
+PLYFORM_INLINE LanePlanes planes_of(const LaneFaces& x) {
+  LanePlanes q;
+  q.bb = dot(x.b, x.b), q.cc = dot(x.c, x.c), q.bc = dot(x.b, x.c);
+  q.pb = dot(x.p, x.b), q.pc = dot(x.p, x.c);
+  q.det = q.bb * q.cc - q.bc * q.bc;
+  const Double4 ub = q.cc * q.pb - q.bc * q.pc, uc = q.bb * q.pc - q.bc * q.pb;
+  const Double4 ua = q.det - ub - uc, scale = 1.0 / (ua + ub + uc);
+  q.wa = ua * scale, q.wb = ub * scale, q.wc = uc * scale;
+  q.inside = (q.det > sliver_sine2 * (q.bb * q.cc)) & (ua > 0.0) & (ub > 0.0) & (uc > 0.0);
+  return q;
+}
+
+/// The foot of four nodes on those planes.
 struct LaneFoot {
   Double4 wa, wb, wc, distance;
   Double4 to_edge, to_corner; ///< mm, of the foot inside: from the closest edge, the second
@@ -93,21 +111,17 @@ struct LaneFoot {
 };
 
 PLYFORM_INLINE LaneFoot foot_of(const LaneFaces& x) {
-  const Double4 bb = dot(x.b, x.b), cc = dot(x.c, x.c), bc = dot(x.b, x.c);
-  const Double4 pb = dot(x.p, x.b), pc = dot(x.p, x.c);
-  const Double4 det = bb * cc - bc * bc;
-  const Double4 ub = cc * pb - bc * pc, uc = bb * pc - bc * pb, ua = det - ub - uc;
-  const Double4 scale = 1.0 / (ua + ub + uc);
+  const LanePlanes q = planes_of(x);
   LaneFoot f;
-  f.wa = ua * scale, f.wb = ub * scale, f.wc = uc * scale;
+  f.wa = q.wa, f.wb = q.wb, f.wc = q.wc;
   f.distance = root(square(x.p - f.wb * x.b - f.wc * x.c));
   // w_i times the height over side i, which is sqrt(det) / |side|
-  const Double4 a2 = f.wa * f.wa / (bb + cc - 2.0 * bc), b2 = f.wb * f.wb / cc;
-  const Double4 c2 = f.wc * f.wc / bb;
+  const Double4 a2 = f.wa * f.wa / (q.bb + q.cc - 2.0 * q.bc), b2 = f.wb * f.wb / q.cc;
+  const Double4 c2 = f.wc * f.wc / q.bb;
   const Double4 low = smaller(a2, b2), high = larger(a2, b2);
-  f.to_edge = root(det * smaller(low, c2));
-  f.to_corner = root(det * larger(low, smaller(high, c2)));
-  f.inside = (det > sliver_sine2 * (bb * cc)) & (ua > 0.0) & (ub > 0.0) & (uc > 0.0);
+  f.to_edge = root(q.det * smaller(low, c2));
+  f.to_corner = root(q.det * larger(low, smaller(high, c2)));
+  f.inside = q.inside;
   return f;
 }
 
@@ -124,16 +138,11 @@ struct LaneClosest {
 };
 
 PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x, bool sides) {
-  const Double4 bb = dot(x.b, x.b), cc = dot(x.c, x.c), bc = dot(x.b, x.c);
-  const Double4 pb = dot(x.p, x.b), pc = dot(x.p, x.c);
-  const Double4 det = bb * cc - bc * bc;
-  const Double4 ub = cc * pb - bc * pc, uc = bb * pc - bc * pb, ua = det - ub - uc;
-  const Double4 scale = 1.0 / (ua + ub + uc);
-  LaneClosest q;
-  q.inside = (det > sliver_sine2 * (bb * cc)) & (ua > 0.0) & (ub > 0.0) & (uc > 0.0);
-  q.wb = ub * scale, q.wc = uc * scale;
-  q.distance2 = q.inside ? square(x.p - q.wb * x.b - q.wc * x.c) : all(far2);
+  const LanePlanes plane = planes_of(x);
+  LaneClosest q{plane.wb, plane.wc, all(far2), plane.inside};
+  q.distance2 = q.inside ? square(x.p - q.wb * x.b - q.wc * x.c) : q.distance2;
   if (!sides || !any(~q.inside)) return q;
+  const Double4 bb = plane.bb, cc = plane.cc, bc = plane.bc, pb = plane.pb, pc = plane.pc;
   const Double4 t[3] = {share_of_side(pb / bb), share_of_side(pc / cc),
                         share_of_side((pc - pb + bb - bc) / (bb + cc - 2.0 * bc))};
   const Double4 wb[3] = {t[0], all(0.0), 1.0 - t[2]}, wc[3] = {all(0.0), t[1], t[2]};

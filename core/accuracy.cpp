@@ -9,7 +9,8 @@
 namespace plyform {
 namespace {
 
-// (E): degrees, and exponents. Set on hemisphere_0 and hemisphere_five_ply (docs/accuracy.md).
+// (E): degrees, and exponents. Set on hemisphere_0, hemisphere_five_ply and bias_extension
+// (docs/accuracy.md).
 constexpr double c_inertia = 0.165, p_inertia = 0.75, p_plies = 2.5;
 constexpr double c_softening = 1580.0, p_softening = 0.84;
 constexpr double c_mesh = 36.0, p_mesh = 1.6;
@@ -26,6 +27,7 @@ double degrees(double radians) {
 struct Numbers {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
   double plies = 0.0; ///< n^p_plies
+  double load = 1.0;  ///< on softened yarns, times that under tools
 };
 
 /// mm, of the fastest tool and of the fastest boundary.
@@ -47,10 +49,13 @@ Numbers numbers_of(const Case& data) {
   const Strokes strokes = strokes_of(data);
   const double stroke = std::max(strokes.tool, strokes.boundary);
   if (stroke == 0.0) return n;
-  constexpr double held_by_nothing = 5.0; // a ply that is pulled swings like the outer ones of five
+  // A ply that is pulled by its edge swings like the outer ones of five, and the yarns in the grips
+  // bear the whole load: bias_extension.
+  const bool pulled = strokes.boundary > strokes.tool;
+  constexpr double held_by_nothing = 5.0, in_grips = 5.5;
   const auto plies = static_cast<double>(data.plies.size());
-  n.plies =
-      std::pow(strokes.boundary > strokes.tool ? std::max(plies, held_by_nothing) : plies, p_plies);
+  n.plies = std::pow(pulled ? std::max(plies, held_by_nothing) : plies, p_plies);
+  n.load = pulled ? in_grips : 1.0;
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
     const double size = data.blanks[static_cast<std::size_t>(ply.blank)].element_size;
@@ -71,7 +76,7 @@ double inertia_error(const Numbers& n, double duration) {
 }
 
 double softening_error(const Numbers& n, double softening) {
-  return c_softening * std::pow(n.softening * softening, p_softening);
+  return c_softening * n.load * std::pow(n.softening * softening, p_softening);
 }
 
 double mesh_error(const Numbers& n) {
@@ -125,9 +130,10 @@ void pick_dials(Case& data) {
     const double share = static_cast<double>(i) / shares;
     double softening = most_softening;
     if (n.softening > 0.0)
-      softening = std::clamp(std::pow(std::sqrt(share * left2) / c_softening, 1.0 / p_softening) /
-                                 n.softening,
-                             1.0, most_softening);
+      softening = std::clamp(
+          std::pow(std::sqrt(share * left2) / (c_softening * n.load), 1.0 / p_softening) /
+              n.softening,
+          1.0, most_softening);
     const double of_softening = softening_error(n, softening);
     const double rest2 = left2 - of_softening * of_softening;
     if (!(rest2 > 0.0)) continue;

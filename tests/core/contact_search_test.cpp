@@ -127,18 +127,23 @@ TEST(ContactSearch, NoPairIsAbsentWhileAStackIsDrawn) {
   }
 }
 
-/// A small ply dropped flat on a larger one at 2 m/s, with a slide of 5 m/s: fast, over the rim.
-TEST(ContactSearch, NoPairIsAbsentWhileAPlyStrikesAndSlidesOff) {
-  Case data = stack_of({0.0, 0.4}, rectangle(120.0, 120.0, 12.0));
-  data.blanks.push_back(rectangle(60.0, 60.0, 8.0));
+/// The second ply is of the second blank; all lie on a floor, of little friction.
+void lay_on_floor(Case& data) {
   data.plies[1].blank = 1;
-  data.plies[1].z += 2.0;
   Tool floor;
   floor.name = "floor";
   floor.shape = Plane{};
   data.tools = {floor};
   set_friction(data, 0.1);
   data.solver.fibre_softening = 100.0;
+}
+
+/// A small ply dropped flat on a larger one at 2 m/s, with a slide of 5 m/s: fast, over the rim.
+TEST(ContactSearch, NoPairIsAbsentWhileAPlyStrikesAndSlidesOff) {
+  Case data = stack_of({0.0, 0.4}, rectangle(120.0, 120.0, 12.0));
+  data.blanks.push_back(rectangle(60.0, 60.0, 8.0));
+  data.plies[1].z += 2.0;
+  lay_on_floor(data);
   data.solver.duration = 0.02;
   Scene s = make_scene(data);
   for (Vec3& v : s.plies[1].velocity)
@@ -153,13 +158,7 @@ TEST(ContactSearch, NoPairIsAbsentWhileAPlyStrikesAndSlidesOff) {
 TEST(ContactSearch, NoPairIsAbsentAroundTheRimOfAPlyBetween) {
   Case data = stack_of({0.0, 0.4, 0.8}, rectangle(60.0, 60.0, 3.0));
   data.blanks.push_back(rectangle(30.0, 30.0, 3.0));
-  data.plies[1].blank = 1;
-  Tool floor;
-  floor.name = "floor";
-  floor.shape = Plane{};
-  data.tools = {floor};
-  set_friction(data, 0.1);
-  data.solver.fibre_softening = 100.0;
+  lay_on_floor(data);
   data.contact.skin = 4.0; // further than the slope from the rim down to the lowest ply
   data.solver.duration = 0.008;
   Scene s = make_scene(data);
