@@ -7,202 +7,17 @@
 // and the edges opposite to the corners E_1 = -C, E_2 = B, (W) and (C) of contact/face_turn.hpp are
 //   turn = [ (n.v_2) B - (n.v_1) C - 1/2 (B.v_2 - C.v_1) n ] / |N|                          (W')
 //   F_j  = [ (E_j.K) n - 1/2 (K.n) E_j ] / |N|   from a couple K, j = 1, 2;  F_0 = -F_1 - F_2 (C')
-#include "contact/lanes.hpp"
-#include "contact/sheet_kernel.hpp"
+#include "contact/sheet_closest_body.hpp"
 
 namespace plyform {
 namespace {
 
-constexpr int four = 4;
-constexpr double sliver_sine2 = 0.01; // as in contact/point_triangle.hpp
-constexpr double far2 = 1e300;        // mm^2
-
-/// Where faces meet they are as close as each other; the friction's couple goes to one of them, and
-/// it must not be rounding that says which.
-constexpr double tie = 1e-10; // of the square of the distance
-
 using Pair2 = double __attribute__((vector_size(16), may_alias, aligned(8)));
-
-/// (x, y, z) of an array of 3 a node.
-PLYFORM_INLINE Double4 load3(const double* at) {
-#if defined(__AVX__)
-  const Long4 three{-1, -1, -1, 0};
-  return reinterpret_cast<Double4>(_mm256_maskload_pd(at, reinterpret_cast<__m256i>(three)));
-#else
-  return Double4{at[0], at[1], at[2], 0.0};
-#endif
-}
 
 PLYFORM_INLINE void add3(double* at, Double4 row) {
   Pair2& low = *reinterpret_cast<Pair2*>(at);
   low += Pair2{row[0], row[1]};
   at[2] += row[2];
-}
-
-/// Rows of a SheetKernelPoint: s and damping_force; normal_force, slip, area, gap; w and slack.
-enum PointRow { held_row, force_row, weight_row };
-
-PLYFORM_INLINE double* row_of(SheetKernelPoint* p, PointRow row) {
-  return reinterpret_cast<double*>(p) + 4 * row;
-}
-
-/// A 4 x 4 matrix and its transpose: four rows to four columns and back.
-PLYFORM_INLINE Rows turned(const Rows& r) {
-  const Double4 a = __builtin_shufflevector(r.row[0], r.row[1], 0, 4, 2, 6);
-  const Double4 b = __builtin_shufflevector(r.row[0], r.row[1], 1, 5, 3, 7);
-  const Double4 c = __builtin_shufflevector(r.row[2], r.row[3], 0, 4, 2, 6);
-  const Double4 d = __builtin_shufflevector(r.row[2], r.row[3], 1, 5, 3, 7);
-  return {{__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(b, d, 0, 1, 4, 5),
-           __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
-}
-
-/// One row of four points, by columns.
-PLYFORM_INLINE Rows load_rows(SheetKernelPoint* const* p, PointRow row) {
-  return turned({{load(row_of(p[0], row)), load(row_of(p[1], row)), load(row_of(p[2], row)),
-                  load(row_of(p[3], row))}});
-}
-
-/// Places or motions of four nodes and of the corners of their faces, relative to a.
-struct LaneFaces {
-  Vector4 p, b, c;
-};
-
-PLYFORM_INLINE LaneFaces load_faces(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                                    Long4 face, const double* slave, const double* master) {
-  Double4 p[four], b[four], c[four];
-  for (int i = 0; i < four; ++i) {
-    const std::int32_t* t = k.triangles + 3 * face[i];
-    const Double4 a = load3(master + 3 * static_cast<std::int64_t>(t[0]));
-    p[i] = load3(slave + 3 * static_cast<std::int64_t>(point[i]->node)) - a;
-    b[i] = load3(master + 3 * static_cast<std::int64_t>(t[1])) - a;
-    c[i] = load3(master + 3 * static_cast<std::int64_t>(t[2])) - a;
-  }
-  return {components(p[0], p[1], p[2], p[3]), components(b[0], b[1], b[2], b[3]),
-          components(c[0], c[1], c[2], c[3])};
-}
-
-PLYFORM_INLINE Double4 square(const Vector4& a) {
-  return dot(a, a);
-}
-
-/// Where four nodes stand over the planes of their faces: (1), (2) of contact/point_triangle.hpp.
-struct LanePlanes {
-  Double4 bb, cc, bc, pb, pc, det, wa, wb, wc;
-  Long4 inside;
-};
-
-PLYFORM_INLINE LanePlanes planes_of(const LaneFaces& x) {
-  LanePlanes q;
-  q.bb = dot(x.b, x.b), q.cc = dot(x.c, x.c), q.bc = dot(x.b, x.c);
-  q.pb = dot(x.p, x.b), q.pc = dot(x.p, x.c);
-  q.det = q.bb * q.cc - q.bc * q.bc;
-  const Double4 ub = q.cc * q.pb - q.bc * q.pc, uc = q.bb * q.pc - q.bc * q.pb;
-  const Double4 ua = q.det - ub - uc, scale = 1.0 / (ua + ub + uc);
-  q.wa = ua * scale, q.wb = ub * scale, q.wc = uc * scale;
-  q.inside = (q.det > sliver_sine2 * (q.bb * q.cc)) & (ua > 0.0) & (ub > 0.0) & (uc > 0.0);
-  return q;
-}
-
-/// The foot of four nodes on those planes.
-struct LaneFoot {
-  Double4 wa, wb, wc, distance;
-  Double4 to_edge, to_corner; ///< mm, of the foot inside: from the closest edge, the second
-  Long4 inside;
-};
-
-PLYFORM_INLINE LaneFoot foot_of(const LaneFaces& x) {
-  const LanePlanes q = planes_of(x);
-  LaneFoot f;
-  f.wa = q.wa, f.wb = q.wb, f.wc = q.wc;
-  f.distance = root(square(x.p - f.wb * x.b - f.wc * x.c));
-  // w_i times the height over side i, which is sqrt(det) / |side|
-  const Double4 a2 = f.wa * f.wa / (q.bb + q.cc - 2.0 * q.bc), b2 = f.wb * f.wb / q.cc;
-  const Double4 c2 = f.wc * f.wc / q.bb;
-  const Double4 low = smaller(a2, b2), high = larger(a2, b2);
-  f.to_edge = root(q.det * smaller(low, c2));
-  f.to_corner = root(q.det * larger(low, smaller(high, c2)));
-  f.inside = q.inside;
-  return f;
-}
-
-PLYFORM_INLINE Double4 share_of_side(Double4 t) {
-  t = t > 0.0 ? t : all(0.0); // the NaN of a side without length becomes 0
-  return smaller(t, all(1.0));
-}
-
-/// The closest points of four faces: the foot if it is inside, else, if `sides` are asked for, the
-/// closest of the points on them, as closest_point_on_sliver of contact/point_triangle.hpp.
-struct LaneClosest {
-  Double4 wb, wc, distance2;
-  Long4 inside;
-};
-
-PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x, bool sides) {
-  const LanePlanes plane = planes_of(x);
-  LaneClosest q{plane.wb, plane.wc, all(far2), plane.inside};
-  q.distance2 = q.inside ? square(x.p - q.wb * x.b - q.wc * x.c) : q.distance2;
-  if (!sides || !any(~q.inside)) return q;
-  const Double4 bb = plane.bb, cc = plane.cc, bc = plane.bc, pb = plane.pb, pc = plane.pc;
-  const Double4 t[3] = {share_of_side(pb / bb), share_of_side(pc / cc),
-                        share_of_side((pc - pb + bb - bc) / (bb + cc - 2.0 * bc))};
-  const Double4 wb[3] = {t[0], all(0.0), 1.0 - t[2]}, wc[3] = {all(0.0), t[1], t[2]};
-  for (int side = 0; side < 3; ++side) {
-    const Double4 d2 = square(x.p - wb[side] * x.b - wc[side] * x.c);
-    const Long4 closer = d2 < q.distance2;
-    q.wb = closer ? wb[side] : q.wb, q.wc = closer ? wc[side] : q.wc;
-    q.distance2 = closer ? d2 : q.distance2;
-  }
-  return q;
-}
-
-/// Distance at the search of the nearest of a point's faces that shares no node with its closest.
-PLYFORM_INLINE double distance_of_others(const SheetKernelContact& k, const SheetKernelPoint& p) {
-  const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(p.face);
-  for (std::int32_t i = p.first_face; i < p.end_face; ++i) {
-    const std::int32_t* u = k.triangles + 3 * static_cast<std::int64_t>(k.faces[i]);
-    bool shares = false;
-    for (int j = 0; j < 9; ++j)
-      shares |= t[j / 3] == u[j % 3];
-    if (!shares) return k.face_distance[i];
-  }
-  return far2; // what is not listed cannot touch
-}
-
-/// Closest points of the `count` first of four points over all of their faces that can be closest:
-/// face and other of each; returns where. Points near one edge
-/// only, inside their face, need no `sides`: the edge that both share is further than the foot.
-PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                                    int count, bool sides) {
-  Double4 best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
-  Long4 face{-1, -1, -1, -1};
-  Long4 inside{0, 0, 0, 0};
-  for (int i = 0;; ++i) {
-    Long4 at{point[0]->face, point[1]->face, point[2]->face, point[3]->face};
-    Long4 more{0, 0, 0, 0};
-    for (int lane = 0; lane < count; ++lane) {
-      const std::int32_t f = point[lane]->first_face + i;
-      if (f >= point[lane]->end_face) continue;
-      if (k.face_distance[f] > limit[lane]) continue; // in ascending order
-      at[lane] = k.faces[f];
-      more[lane] = -1;
-    }
-    if (!any(more)) break;
-    const LaneClosest q = closest_of(load_faces(k, point, at, k.slave_x, k.master_x), sides);
-    const Long4 tied = magnitude(q.distance2 - best2) <= tie * best2;
-    const Long4 chosen = more & (tied ? at < face : q.distance2 < best2);
-    const Long4 closer = more & (q.distance2 < best2);
-    best2 = closer ? q.distance2 : best2;
-    limit = root(best2) + k.way;
-    wb = chosen ? q.wb : wb, wc = chosen ? q.wc : wc;
-    face = chosen ? at : face;
-    inside = chosen ? q.inside : inside;
-  }
-  for (int lane = 0; lane < count; ++lane)
-    if (face[lane] >= 0 && point[lane]->face != face[lane]) {
-      point[lane]->face = static_cast<std::int32_t>(face[lane]);
-      point[lane]->other = distance_of_others(k, *point[lane]);
-    }
-  return {1.0 - wb - wc, wb, wc, root(best2), all(0.0), all(0.0), inside};
 }
 
 /// Sums of four points each.
@@ -296,20 +111,6 @@ PLYFORM_INLINE void add_forces(const SheetKernelContact& k, SheetKernelPoint* co
     add3(k.master_force + 3 * static_cast<std::int64_t>(t[0]),
          -(on_node.row[i] + on_b.row[i] + on_c.row[i]));
   }
-}
-
-/// Which feet are inside their face while no other face can be closer: none of those that share a
-/// node with it by contact/sheet_spread.hpp, none of the rest since the search. mild: only one
-/// of the former may be, across an edge, with its inside.
-PLYFORM_INLINE Long4 sure_of(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                             const LaneFoot& foot, Long4& mild) {
-  mild = Long4{0, 0, 0, 0};
-  if (!k.spread) return mild;
-  const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
-  const Double4 keep = k.distance * Double4{k.spread[point[0]->face], k.spread[point[1]->face],
-                                            k.spread[point[2]->face], k.spread[point[3]->face]};
-  mild = foot.inside & (foot.to_corner > keep) & (other - k.way > foot.distance);
-  return mild & (foot.to_edge > keep);
 }
 
 /// Up to four points; those from `count` on are fillers, the same as the first.

@@ -19,7 +19,7 @@ faults=(
   "boxes of the search are not brought up to date | core/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
   "contacts of plies are listed without the skin | core/contact_search.cpp | s/pair.contact.distance + s.skin/pair.contact.distance/"
   "what may have closed its gap is looked at too late, plies | contact/sheet_contact.cpp | s/slack <= contact.near_way/slack <= 0.1 * contact.near_way/"
-  "a fold round a face is taken for a tenth of what it is | contact/sheet_kernel_body.hpp | s/const Double4 keep = k.distance/const Double4 keep = 0.1 * k.distance/"
+  "a fold round a face is taken for a tenth of what it is | contact/sheet_closest_body.hpp | s/const Double4 keep = k.distance/const Double4 keep = 0.1 * k.distance/"
   "a ply keeps those on its sides apart past its rim | core/contact_search.cpp | s/^ *char inside = .*/covered[static_cast<std::size_t>(c.node)] = 1; char inside = 1;/"
   "the first node near a tool is not listed | contact/tool_contact.cpp | s/if (gap > reach) {/if (gap > reach || contact.points.empty()) {/"
   "friction between plies is forgotten at a search | contact/sheet_contact.cpp | s/c.memory = before->memory;//"
