@@ -89,8 +89,9 @@ TEST(HolderSceneLong, ForceIsThatGivenAndMassDoesNotShowOnTwoPlies) {
   const Formed without = form({0.0, 0.25 * pi}, 10.0, 0.0);
   expect_steady(without);
   // Two crossed plies are rougher by micrometres as they go round the fillet. The holder's mass on
-  // its stiff contacts answers with up to 13 % of its force, around the same mean.
+  // its stiff contacts answers with nearly 10 % of its force, around the same mean.
   const Formed with = form({0.0, 0.25 * pi}, 10.0, 1e-3);
+  expect_steady(with);
   EXPECT_NEAR(with.mean, 300.0, 6.0);
   expect_alike(without, with, 0.5);
 }
