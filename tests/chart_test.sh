@@ -4,28 +4,12 @@
 # changes is run anew; mistakes, stopped runs and Ctrl-C.
 #   tests/chart_test.sh PROGRAM CASES_FOLDER
 set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 program=$1 cases=$2
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp -r "$cases" "$folder/cases"
 cd "$folder"
-failures=0
-
-fail() {
-  printf '%s\n' "$*"
-  failures=$((failures + 1))
-}
-
-# expect CODE TEXT ARGUMENT...: the exit code, and a text in what is printed.
-expect() {
-  local code=$1 text=$2 found=0 output
-  shift 2
-  output=$("$program" "$@" 2>&1) || found=$?
-  if [ "$found" != "$code" ] || ! grep -qF -- "$text" <<<"$output"; then
-    fail "plyform $*: exit code $found, expected $code and \"$text\"; printed:"$'\n'"$output"
-  fi
-}
-
 # logs: names and times of all runs' results; a run writes a new file.
 logs() { stat -c '%n %y' out/runs/*/results.h5; }
 

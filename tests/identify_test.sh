@@ -3,29 +3,13 @@
 # plyform identify and theory as a user meets them: laws found again, exit codes, messages.
 #   tests/identify_test.sh PROGRAM CASES_FOLDER
 set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
 program=$1 fabric=$2/fabrics/glass_plain_weave.toml
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cp "$fabric" "$folder/glass.toml"
 cp -r "$2/hemisphere_0" "$folder/case"
 cd "$folder"
-failures=0
-
-fail() {
-  printf '%s\n' "$*"
-  failures=$((failures + 1))
-}
-
-# expect CODE TEXT ARGUMENT...: the exit code, and a text in what is printed.
-expect() {
-  local code=$1 text=$2 found=0 output
-  shift 2
-  output=$("$program" "$@" 2>&1) || found=$?
-  if [ "$found" != "$code" ] || ! grep -qF -- "$text" <<<"$output"; then
-    fail "plyform $*: exit code $found, expected $code and \"$text\"; printed:"$'\n'"$output"
-  fi
-}
-
 # expect_law FILE KEY VALUE TOLERANCE: the first number of a key, within a relative tolerance.
 expect_law() {
   local found
