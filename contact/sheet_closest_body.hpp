@@ -13,10 +13,6 @@ constexpr int four = 4;
 constexpr double sliver_sine2 = 0.01; // as in contact/point_triangle.hpp
 constexpr double far2 = 1e300;        // mm^2
 
-/// Where faces meet they are as close as each other; the friction's couple goes to one of them, and
-/// it must not be rounding that says which.
-constexpr double tie = 1e-10; // of the square of the distance
-
 /// (x, y, z) of an array of 3 a node.
 PLYFORM_INLINE Double4 load3(const double* at) {
 #if defined(__AVX__)
@@ -143,19 +139,6 @@ PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x, bool sides) {
   return q;
 }
 
-/// Distance at the search of the nearest of a point's faces that shares no node with its closest.
-PLYFORM_INLINE double distance_of_others(const SheetKernelContact& k, const SheetKernelPoint& p) {
-  const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(p.face);
-  for (std::int32_t i = p.first_face; i < p.end_face; ++i) {
-    const std::int32_t* u = k.triangles + 3 * static_cast<std::int64_t>(k.faces[i]);
-    bool shares = false;
-    for (int j = 0; j < 9; ++j)
-      shares |= t[j / 3] == u[j % 3];
-    if (!shares) return k.face_distance[i];
-  }
-  return far2; // what is not listed cannot touch
-}
-
 /// Closest points of the `count` first of four points over all of their faces that can be closest:
 /// face and other of each; returns where. Points near one edge
 /// only, inside their face, need no `sides`: the edge that both share is further than the foot.
@@ -176,7 +159,7 @@ PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoin
     }
     if (!any(more)) break;
     const LaneClosest q = closest_of(load_faces(k, point, at, k.slave_x, k.master_x), sides);
-    const Long4 tied = magnitude(q.distance2 - best2) <= tie * best2;
+    const Long4 tied = magnitude(q.distance2 - best2) <= same_distance * best2;
     const Long4 chosen = more & (tied ? at < face : q.distance2 < best2);
     const Long4 closer = more & (q.distance2 < best2);
     best2 = closer ? q.distance2 : best2;
@@ -188,7 +171,7 @@ PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoin
   for (int lane = 0; lane < count; ++lane)
     if (face[lane] >= 0 && point[lane]->face != face[lane]) {
       point[lane]->face = static_cast<std::int32_t>(face[lane]);
-      point[lane]->other = distance_of_others(k, *point[lane]);
+      point[lane]->other = distance_of_others(*point[lane], k.triangles, k.faces, k.face_distance);
     }
   return {1.0 - wb - wc, wb, wc, root(best2), all(0.0), all(0.0), inside};
 }

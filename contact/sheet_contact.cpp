@@ -12,10 +12,6 @@
 namespace plyform {
 namespace {
 
-/// Where faces meet they are as close as each other; the friction's couple goes to one of them, and
-/// it must not be rounding that says which.
-constexpr double tie = 1e-10; // of the square of the distance
-
 const Vec3& at(std::span<const Vec3> x, int n) {
   return x[static_cast<std::size_t>(n)];
 }
@@ -58,17 +54,19 @@ double contact_area(const SheetState& slave, const SheetState& master, const She
   return std::min(slave.area[static_cast<std::size_t>(c.node)], there);
 }
 
-/// Distance at the search of the nearest of a point's faces that shares no node with its closest.
-double distance_of_others(const SheetContact& contact, const SheetContactPoint& c,
-                          std::span<const Triangle> triangles) {
-  const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
-  for (auto i = static_cast<std::size_t>(c.first_face); i < static_cast<std::size_t>(c.end_face);
-       ++i) {
-    const Triangle& u = triangles[static_cast<std::size_t>(contact.faces[i])];
-    if (std::find_first_of(t.begin(), t.end(), u.begin(), u.end()) == t.end())
-      return contact.face_distance[i];
-  }
-  return std::numeric_limits<double>::max(); // what is not listed cannot touch
+/// Points as the kernel sees them.
+SheetKernelPoint* kernel_points(SheetContactPoint* points) {
+  using P = SheetContactPoint;
+  using Q = SheetKernelPoint;
+  static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
+                offsetof(ContactMemory, damping_force) == offsetof(Q, damping_force) &&
+                offsetof(ContactMemory, normal_force) == offsetof(Q, normal_force) &&
+                offsetof(ContactMemory, slip) == offsetof(Q, slip) &&
+                offsetof(P, area) == offsetof(Q, area) && offsetof(P, gap) == offsetof(Q, gap) &&
+                offsetof(P, w) == offsetof(Q, w) && offsetof(P, normal) == offsetof(Q, normal) &&
+                offsetof(P, other) == offsetof(Q, other) &&
+                offsetof(P, node) == offsetof(Q, node) && offsetof(P, side) == offsetof(Q, side));
+  return reinterpret_cast<Q*>(points);
 }
 
 /// A contact of these candidates' node, not touched yet.
@@ -85,13 +83,14 @@ SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near,
     contact.face_distance.push_back(std::sqrt(n.distance2));
   }
   c.end_face = static_cast<std::int32_t>(contact.faces.size());
-  const double tied = (1.0 + tie) * near.front().distance2;
+  const double tied = (1.0 + same_distance) * near.front().distance2;
   const Candidate* first = &near.front();
   for (const Candidate& n : near)
     if (n.distance2 <= tied && n.face < first->face) first = &n;
   c.face = first->face;
   c.w = first->w;
-  c.other = distance_of_others(contact, c, triangles);
+  c.other = distance_of_others(*kernel_points(&c), triangles.data()->data(), contact.faces.data(),
+                               contact.face_distance.data());
   c.slack = std::sqrt(near.front().distance2) - contact.distance;
   c.gap = std::numeric_limits<double>::infinity();
   return c;
@@ -111,6 +110,19 @@ const SheetContactPoint* find_old(std::span<const SheetContactPoint> old, std::s
 }
 
 } // namespace
+
+double distance_of_others(const SheetKernelPoint& point, const std::int32_t* triangles,
+                          const std::int32_t* faces, const double* face_distance) {
+  const auto corners = [triangles](std::int32_t face) {
+    return triangles + 3 * std::ptrdiff_t(face);
+  };
+  const std::int32_t* t = corners(point.face);
+  for (std::int32_t i = point.first_face; i < point.end_face; ++i) {
+    const std::int32_t* u = corners(faces[i]);
+    if (std::find_first_of(t, t + 3, u, u + 3) == t + 3) return face_distance[i];
+  }
+  return std::numeric_limits<double>::max(); // what is not listed cannot touch
+}
 
 void find_sheet_points(SheetContact& contact, std::span<const Candidate> candidates,
                        const SheetState& slave, const SheetState& master,
@@ -203,19 +215,9 @@ void list_near(SheetContact& contact, double way) {
 
 SheetKernelContact kernel_view(KernelSide& k, double dt) {
   SheetContact& c = k.contact;
-  using P = SheetContactPoint;
-  using Q = SheetKernelPoint;
-  static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
-                offsetof(ContactMemory, damping_force) == offsetof(Q, damping_force) &&
-                offsetof(ContactMemory, normal_force) == offsetof(Q, normal_force) &&
-                offsetof(ContactMemory, slip) == offsetof(Q, slip) &&
-                offsetof(P, area) == offsetof(Q, area) && offsetof(P, gap) == offsetof(Q, gap) &&
-                offsetof(P, w) == offsetof(Q, w) && offsetof(P, normal) == offsetof(Q, normal) &&
-                offsetof(P, other) == offsetof(Q, other) &&
-                offsetof(P, node) == offsetof(Q, node) && offsetof(P, side) == offsetof(Q, side));
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::int32_t));
   SheetKernelContact view{};
-  view.points = reinterpret_cast<Q*>(c.points.data());
+  view.points = kernel_points(c.points.data());
   view.near = c.near.data();
   view.near_count = static_cast<int>(c.near.size());
   view.slave_x = k.slave.x.data()->data();

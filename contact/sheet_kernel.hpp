@@ -37,6 +37,15 @@ struct SheetKernelContact {
   void (*fault)(void* self, std::int32_t point, double distance);
 };
 
+/// Where faces meet they are as close as each other; the friction's couple goes to one of them, and
+/// it must not be rounding that says which. Of the square of the distance.
+constexpr double same_distance = 1e-10;
+
+/// `other` of a point whose closest face is point.face: the distance at the search of the nearest
+/// of its faces that shares no node with that one. triangles, faces, face_distance: as above.
+double distance_of_others(const SheetKernelPoint& point, const std::int32_t* triangles,
+                          const std::int32_t* faces, const double* face_distance);
+
 /// Added up over the points that touch.
 struct SheetKernelSums {
   double elastic, friction, damping, penetration, slip;

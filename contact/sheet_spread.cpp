@@ -35,8 +35,7 @@ void sheet_spread(std::span<const Vec3> x, std::span<const Triangle> triangles,
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     double chord = 0.0;
     for (const int n : triangles[f])
-      chord = std::max(chord,
-                       std::sqrt((normal[f] - mean[at(n)]).squaredNorm()) + std::sqrt(off[at(n)]));
+      chord = std::max(chord, (normal[f] - mean[at(n)]).norm() + std::sqrt(off[at(n)]));
     // An arc is less than 1.1 chords up to a right angle, and tan(a) < a / (1 - a^2 / 2) below 1.2.
     const double a = 0.5 * (1.1 * chord + spread_margin);
     spread[f] = a < most ? 1.2 * a / (1.0 - 0.5 * a * a) : std::numeric_limits<double>::infinity();

@@ -124,19 +124,26 @@ void collect_forces(Scene& s) {
 
 } // namespace
 
-void renew_spread(PlyBody& ply) {
+namespace {
+
+void renew_spread(const Scene& s, PlyBody& ply) {
+  if (s.ply_contacts.empty()) return; // nobody asks for it
   sheet_spread(ply.x, ply.membrane.triangles, ply.spread_scratch, ply.spread);
   ply.spread_way = ply.way;
 }
 
+} // namespace
+
 void follow_spread(Scene& s, ThreadTeam& team) {
   // two nodes a side apart that move by `most` against each other turn it by half the margin
   const double most = 0.25 * spread_margin * s.element_size;
+  const auto due = [most](const PlyBody& ply) { return ply.way - ply.spread_way > most; };
+  if (s.ply_contacts.empty() || std::none_of(s.plies.begin(), s.plies.end(), due)) return;
   team.run(static_cast<int>(s.plies.size()), [&](int p) {
     PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
-    if (ply.way - ply.spread_way <= most) return;
+    if (!due(ply)) return;
     const Stopwatch watch(ply.search_seconds);
-    renew_spread(ply);
+    renew_spread(s, ply);
   });
 }
 
@@ -174,7 +181,7 @@ void search_contacts(Scene& s, ThreadTeam& team) {
     const Stopwatch watch(ply.search_seconds);
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
-    renew_spread(ply);
+    renew_spread(s, ply);
     ply.folded = folded_edges(ply.edges, ply.membrane.triangles, ply.x, ply.thickness);
   });
   // plies next to each other first: what they cover need not be asked for those beyond

@@ -20,12 +20,10 @@ void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count, int size
 
 /// Which triangles have a node on the ply's rim.
 std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
-                               std::span<const Triangle> triangles) {
-  std::vector<char> node, face;
-  for (const SheetEdge& e : edges) {
-    node.resize(std::max(node.size(), static_cast<std::size_t>(std::max(e.a, e.b)) + 1), 0);
+                               std::span<const Triangle> triangles, std::size_t nodes) {
+  std::vector<char> node(nodes, 0), face;
+  for (const SheetEdge& e : edges)
     if (e.right < 0) node[static_cast<std::size_t>(e.a)] = node[static_cast<std::size_t>(e.b)] = 1;
-  }
   for (const Triangle& t : triangles)
     face.push_back(static_cast<char>(std::any_of(
         t.begin(), t.end(), [&](int n) { return node[static_cast<std::size_t>(n)] != 0; })));
@@ -57,7 +55,7 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   else
     body.q.resize(mesh.triangles.size());
   body.edges = sheet_edges(body.membrane.triangles);
-  body.on_rim = faces_on_rim(body.edges, body.membrane.triangles);
+  body.on_rim = faces_on_rim(body.edges, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   const double omega = std::sqrt(frequency_bound(body.membrane, body.x).omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
