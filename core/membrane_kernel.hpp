@@ -9,15 +9,17 @@ namespace plyform {
 
 struct Fabric;
 
-constexpr int lanes = 4;              ///< triangles side by side
-constexpr int most_block_nodes = 768; ///< their places and forces fill half of a 64 kB cache
+constexpr int lanes = 4;            ///< triangles side by side
+constexpr int most_shear_terms = 8; ///< longer polynomials are asked for like tables
+constexpr int most_block_nodes =
+    384; ///< their places and forces, 24 kB, leave a 32 kB cache some room
 
 /// One triangle of each of four patches.
 struct alignas(32) LaneTriangles {
   double c11[lanes], c12[lanes], c21[lanes], c22[lanes]; ///< 1/mm, FibreGradients
   double area[lanes];           ///< mm^2, A0; 0 where a lane only fills up the group
   double share[lanes];          ///< A0 / A of the patch
-  std::uint16_t node[3][lanes]; ///< in the block's list
+  std::uint16_t node[3][lanes]; ///< bytes: 32 times the number in the block's list
 };
 
 /// Viscosity of four patches: mean stretches and viscous tensions of the last step.
@@ -30,24 +32,26 @@ struct alignas(32) LaneForce {
   double x, y, z, unused;
 };
 
-/// Constants of (N) and (Q) for one family of yarns.
+/// Constants of (N) for one family of yarns, each times their density d_a: per mm, not per yarn.
 struct KernelYarns {
-  double density, stiffness, compression, viscosity, stabilisation, guard;
-  double deviation; ///< beta / d_a
-  bool table;       ///< ask KernelLaw::tension
+  double stiffness, compression, viscosity, stabilisation, guard;
+  bool table; ///< ask KernelLaw::tension
 };
 
 struct KernelLaw {
   KernelYarns yarns[2];
   double angle; ///< rad, omega0 - pi/2
-  double cells; ///< n_c, 1/mm^2
   double beta;
-  const double* shear; ///< N mm, coefficients of g, g^3 ...
-  int shear_terms;     ///< 0: a table, ask `secant`
+  double shear[most_shear_terms]; ///< N/mm, n_c times the coefficients of g, g^3 ..., 0 beyond
+  int shear_terms;                ///< 0: a table, ask `secant`
   const Fabric* fabric;
-  /// N of four strains of a family; p (N mm) of four squared shear measures g^2.
-  void (*tension)(const Fabric*, int family, const double* strain, double* n);
-  void (*secant)(const Fabric*, const double* measure2, double* p);
+  double cells; ///< n_c
+  /// d_a N (N/mm) of four strains of a family; n_c p (N/mm) of four squared shear measures g^2.
+  void (*tension)(const KernelLaw&, int family, const double* strain, double* n);
+  void (*secant)(const KernelLaw&, const double* measure2, double* p);
+  /// Likewise d_a W_a (N/mm), n_c Ws (N/mm).
+  void (*tension_energy)(const KernelLaw&, int family, const double* strain, double* energy);
+  void (*shear_energy)(const KernelLaw&, const double* measure2, double* energy);
 };
 
 /// Patches that share a list of nodes; pairs first. All arrays are the block's own.
@@ -65,11 +69,20 @@ struct KernelReport {
   bool collapsed;
 };
 
+/// N mm, sums of (E).
+struct KernelEnergy {
+  double fibre, shear;
+};
+
 /// Forces (F) of a block's patches on its nodes. x: 3 a node of the ply, mm; per_dt: 1/s, of the
 /// step that led to x, or 0.
 KernelReport membrane_kernel_any(const KernelBlock& block, const KernelLaw& law, const double* x,
                                  double per_dt);
 KernelReport membrane_kernel_avx2(const KernelBlock& block, const KernelLaw& law, const double* x,
                                   double per_dt);
+
+/// Their energy; viscosity and forces are left alone.
+KernelEnergy membrane_energy_any(const KernelBlock& block, const KernelLaw& law, const double* x);
+KernelEnergy membrane_energy_avx2(const KernelBlock& block, const KernelLaw& law, const double* x);
 
 } // namespace plyform

@@ -8,4 +8,8 @@ KernelReport membrane_kernel_any(const KernelBlock& block, const KernelLaw& law,
   return membrane_kernel(block, law, x, per_dt);
 }
 
+KernelEnergy membrane_energy_any(const KernelBlock& block, const KernelLaw& law, const double* x) {
+  return membrane_energy_kernel(block, law, x);
+}
+
 } // namespace plyform

@@ -8,4 +8,8 @@ KernelReport membrane_kernel_avx2(const KernelBlock& block, const KernelLaw& law
   return membrane_kernel(block, law, x, per_dt);
 }
 
+KernelEnergy membrane_energy_avx2(const KernelBlock& block, const KernelLaw& law, const double* x) {
+  return membrane_energy_kernel(block, law, x);
+}
+
 } // namespace plyform

@@ -89,13 +89,16 @@ private:
   }
 
   int add_groups(const std::vector<int>& patches, int of) {
-    int groups = 0;
-    for (std::size_t begin = 0; begin < patches.size(); begin += lanes, ++groups) {
+    // each lane goes through a quarter of its own: neighbours follow each other in a lane, where
+    // the one's force is added to their nodes long before the other's
+    const std::size_t groups = (patches.size() + lanes - 1) / lanes;
+    for (std::size_t group = 0; group < groups; ++group) {
       for (int i = 0; i < of; ++i) {
         LaneTriangles& t = out.triangles.emplace_back();
         for (std::size_t lane = 0; lane < lanes; ++lane) {
-          const bool filler = begin + lane >= patches.size();
-          const int patch = patches[filler ? patches.size() - 1 : begin + lane];
+          const std::size_t i_patch = lane * groups + group;
+          const bool filler = i_patch >= patches.size();
+          const int patch = patches[filler ? patches.size() - 1 : i_patch];
           set(t, lane, patch, first(patch) + i, filler);
         }
       }
@@ -105,7 +108,7 @@ private:
         v.tension[0][lane] = v.tension[1][lane] = 0.0;
       }
     }
-    return groups;
+    return static_cast<int>(groups);
   }
 
   void set(LaneTriangles& t, std::size_t lane, int patch, int triangle, bool filler) const {
@@ -119,7 +122,7 @@ private:
     t.share[lane] = m.area[e] / patch_area;
     for (std::size_t corner = 0; corner < 3; ++corner)
       t.node[corner][lane] =
-          static_cast<std::uint16_t>(local[static_cast<std::size_t>(m.triangles[e][corner])]);
+          static_cast<std::uint16_t>(local[static_cast<std::size_t>(m.triangles[e][corner])] * 32);
   }
 
   const Membrane& m;
@@ -129,27 +132,38 @@ private:
   std::vector<int> pairs, singles;
 };
 
-void tension_of_table(const Fabric* fabric, int family, const double* strain, double* n) {
-  const TensionLaw& yarn = family == 0 ? fabric->warp : fabric->weft;
-  for (int i = 0; i < lanes; ++i)
-    n[i] = yarn.at(strain[i]).value;
+LawPoint on_yarn(const KernelLaw& law, int family, double strain) {
+  return (family == 0 ? law.fabric->warp : law.fabric->weft).at(strain);
 }
 
-void secant_of_table(const Fabric* fabric, const double* measure2, double* p) {
+double density(const KernelLaw& law, int family) {
+  return family == 0 ? law.fabric->warp_density : law.fabric->weft_density;
+}
+
+void tension_of_table(const KernelLaw& law, int family, const double* strain, double* n) {
   for (int i = 0; i < lanes; ++i)
-    p[i] = fabric->shear.secant(std::sqrt(measure2[i]));
+    n[i] = density(law, family) * on_yarn(law, family, strain[i]).value;
+}
+
+void tension_energy_of_table(const KernelLaw& law, int family, const double* strain, double* e) {
+  for (int i = 0; i < lanes; ++i)
+    e[i] = density(law, family) * on_yarn(law, family, strain[i]).energy;
+}
+
+void secant_of_table(const KernelLaw& law, const double* measure2, double* p) {
+  for (int i = 0; i < lanes; ++i)
+    p[i] = law.cells * law.fabric->shear.secant(std::sqrt(measure2[i]));
+}
+
+void shear_energy_of_table(const KernelLaw& law, const double* measure2, double* e) {
+  for (int i = 0; i < lanes; ++i)
+    e[i] = law.cells * law.fabric->shear.at(std::sqrt(measure2[i])).energy;
 }
 
 KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosity,
                          const SideStiffness& side) {
-  return {density,
-          yarn.stiffness,
-          yarn.compression,
-          viscosity,
-          side.stabilisation,
-          side.guard,
-          deviation_weight / density,
-          !yarn.strain.empty()};
+  return {density * yarn.stiffness,     density * yarn.compression, density * viscosity,
+          density * side.stabilisation, density * side.guard,       !yarn.strain.empty()};
 }
 
 KernelLaw kernel_law(const Membrane& m) {
@@ -160,12 +174,47 @@ KernelLaw kernel_law(const Membrane& m) {
   law.angle = m.omega0 - 0.5 * M_PI;
   law.cells = m.cells_per_area;
   law.beta = deviation_weight;
-  law.shear = f.shear.k.data();
-  law.shear_terms = f.shear.angle.empty() ? static_cast<int>(f.shear.k.size()) : 0;
+  if (f.shear.angle.empty() && f.shear.k.size() <= most_shear_terms) {
+    law.shear_terms = static_cast<int>(f.shear.k.size());
+    for (std::size_t i = 0; i < f.shear.k.size(); ++i)
+      law.shear[i] = law.cells * f.shear.k[i];
+  }
   law.fabric = &f;
   law.tension = tension_of_table;
   law.secant = secant_of_table;
+  law.tension_energy = tension_energy_of_table;
+  law.shear_energy = shear_energy_of_table;
   return law;
+}
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double)); // as the kernel takes it
+
+/// viscosity, force: of all blocks, or null where they are not asked for.
+KernelBlock kernel_block(const MembraneLanes& l, const LaneBlock& b, LaneViscosity* viscosity,
+                         LaneForce* force) {
+  return {l.nodes.data() + b.first_node,
+          b.nodes,
+          l.triangles.data() + b.first_triangles,
+          viscosity ? viscosity + b.first_group : nullptr,
+          b.pair_groups,
+          b.single_groups,
+          force ? force + b.first_node : nullptr};
+}
+
+void find_node_forces(MembraneLanes& l, std::size_t nodes) {
+  const Gather gather = make_gather(l.nodes, nodes);
+  const auto zero = static_cast<std::int32_t>(l.nodes.size());
+  for (std::size_t n = 0; n < nodes; ++n) {
+    const std::int32_t* begin = gather.gather.data() + gather.begin[n];
+    const std::int32_t count = gather.begin[n + 1] - gather.begin[n];
+    NodeForces of{count > 0 ? begin[0] : zero, count > 1 ? begin[1] : zero};
+    if (count > 2) {
+      of.second = ~static_cast<std::int32_t>(l.more.size());
+      l.more.push_back(count - 1);
+      l.more.insert(l.more.end(), begin + 1, begin + count);
+    }
+    l.force_of.push_back(of);
+  }
 }
 
 } // namespace
@@ -180,29 +229,28 @@ MembraneLanes make_lanes(const Membrane& m, std::span<const Vec3> x) {
   for (const int patch : ordered_patches(m, x))
     maker.add(patch);
   maker.close();
-  out.force.assign(out.nodes.size(), LaneForce{});
-  Gather gather = make_gather(out.nodes, x.size());
-  out.force_begin = std::move(gather.begin);
-  out.force_of = std::move(gather.gather);
+  out.force.assign(out.nodes.size() + 1, LaneForce{});
+  find_node_forces(out, x.size());
   return out;
 }
 
 PatchReport lane_forces(MembraneLanes& l, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block) {
   const LaneBlock& b = l.blocks[static_cast<std::size_t>(block)];
-  const auto node = static_cast<std::size_t>(b.first_node);
-  const KernelBlock kernel{l.nodes.data() + node,
-                           b.nodes,
-                           l.triangles.data() + b.first_triangles,
-                           l.viscosity.data() + b.first_group,
-                           b.pair_groups,
-                           b.single_groups,
-                           &l.force[node]};
-  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  const KernelBlock kernel = kernel_block(l, b, l.viscosity.data(), l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = has_avx2() ? membrane_kernel_avx2 : membrane_kernel_any;
   const KernelReport report = run(kernel, kernel_law(m), x.data()->data(), per_dt);
   return {report.viscous_work, report.collapsed};
+}
+
+MembraneEnergy lane_energy(const MembraneLanes& l, const Membrane& m, std::span<const Vec3> x,
+                           int block) {
+  const LaneBlock& b = l.blocks[static_cast<std::size_t>(block)];
+  const KernelBlock kernel = kernel_block(l, b, nullptr, nullptr);
+  const auto run = has_avx2() ? membrane_energy_avx2 : membrane_energy_any;
+  const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data());
+  return {energy.fibre, energy.shear};
 }
 
 } // namespace plyform

@@ -20,14 +20,21 @@ struct LaneBlock {
   int pair_groups = 0, single_groups = 0;
 };
 
+/// Where a node's forces are in MembraneLanes::force. Most nodes belong to one block; then the
+/// second is the zero at its end, so that reading it is a matter of no branch.
+struct NodeForces {
+  std::int32_t first = 0;
+  std::int32_t second = 0; ///< below 0: there are more, from ~second in MembraneLanes::more
+};
+
 struct MembraneLanes {
   std::vector<LaneBlock> blocks;
-  std::vector<std::int32_t> nodes;       ///< of the blocks, in the ply
-  std::vector<LaneTriangles> triangles;  ///< of the blocks, pairs first
-  std::vector<LaneViscosity> viscosity;  ///< one a group of four patches
-  std::vector<LaneForce> force;          ///< one each of `nodes`
-  std::vector<std::int32_t> force_begin; ///< nodes of the ply + 1, into force_of
-  std::vector<std::int32_t> force_of;    ///< entries of `force`, ascending
+  std::vector<std::int32_t> nodes;      ///< of the blocks, in the ply
+  std::vector<LaneTriangles> triangles; ///< of the blocks, pairs first
+  std::vector<LaneViscosity> viscosity; ///< one a group of four patches
+  std::vector<LaneForce> force;         ///< one each of `nodes`, and a zero
+  std::vector<NodeForces> force_of;     ///< one a node of the ply, ascending
+  std::vector<std::int32_t> more;       ///< how many, then these, of nodes with more than two
 };
 
 /// Whether the kernel knows this membrane: it has yarns.
@@ -41,15 +48,23 @@ MembraneLanes make_lanes(const Membrane& m, std::span<const Vec3> x);
 PatchReport lane_forces(MembraneLanes& lanes, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block);
 
+/// Energies of a block's patches; membrane_energy is their sum.
+MembraneEnergy lane_energy(const MembraneLanes& lanes, const Membrane& m, std::span<const Vec3> x,
+                           int block);
+
 /// N, internal force on a node of the ply, after lane_forces of all blocks.
 inline Vec3 lane_force(const MembraneLanes& l, std::size_t node) {
-  const auto begin = static_cast<std::size_t>(l.force_begin[node]);
-  const auto end = static_cast<std::size_t>(l.force_begin[node + 1]);
-  Vec3 sum = Vec3::Zero();
-  for (std::size_t i = begin; i < end; ++i) {
-    const LaneForce& f = l.force[static_cast<std::size_t>(l.force_of[i])];
-    sum += Vec3(f.x, f.y, f.z);
-  }
+  const auto force = [&l](std::int32_t i) {
+    const LaneForce& f = l.force[static_cast<std::size_t>(i)];
+    return Vec3(f.x, f.y, f.z);
+  };
+  const NodeForces of = l.force_of[node];
+  if (of.second >= 0) [[likely]]
+    return force(of.first) + force(of.second);
+  Vec3 sum = force(of.first);
+  const std::int32_t* more = &l.more[static_cast<std::size_t>(~of.second)];
+  for (std::int32_t i = 1; i <= more[0]; ++i)
+    sum += force(more[i]);
   return sum;
 }
 

@@ -281,17 +281,30 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
 
 Energies current_energies(const Scene& s, ThreadTeam& team) {
   std::vector<Energies> of_ply(s.plies.size());
-  team.run(static_cast<int>(s.plies.size()), [&](int p) {
-    const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
-    const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
-    Energies& e = of_ply[static_cast<std::size_t>(p)];
-    e.fibre = m.fibre;
+  std::vector<MembraneEnergy> of_block(s.patch_blocks.size());
+  const int plies = static_cast<int>(s.plies.size());
+  team.run(plies + static_cast<int>(of_block.size()), [&](int i) {
+    if (i >= plies) {
+      const Block& block = s.patch_blocks[static_cast<std::size_t>(i - plies)];
+      const PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
+      if (ply.lanes)
+        of_block[static_cast<std::size_t>(i - plies)] =
+            lane_energy(*ply.lanes, ply.membrane, ply.x, block.begin);
+      return;
+    }
+    const PlyBody& ply = s.plies[static_cast<std::size_t>(i)];
+    Energies& e = of_ply[static_cast<std::size_t>(i)];
+    if (!ply.lanes) {
+      const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
+      e.fibre = m.fibre, e.shear = m.shear;
+    }
     if (ply.bending) e.bending = bending_energy(*ply.bending, ply.x);
-    e.shear = m.shear;
     e.kinetic = kinetic_energy(ply, s.dt, s.next_dt, mass_loads(s));
     e.external = work_of_gravity(ply, s.data.gravity);
   });
   Energies e;
+  for (const MembraneEnergy& block : of_block)
+    e.fibre += block.fibre, e.shear += block.shear;
   for (const Energies& ply : of_ply) {
     e.kinetic += ply.kinetic;
     e.fibre += ply.fibre;

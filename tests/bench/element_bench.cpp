@@ -105,5 +105,24 @@ BENCHMARK(ElementForces)
     ->ArgsProduct({{50, 158}, {0, 1}})
     ->Unit(benchmark::kMicrosecond);
 
+/// Energies, as asked for now and then.
+void ElementEnergy(benchmark::State& state) {
+  Sheet& s = sheet(state.range(0), state.range(1) != 0);
+  const MembraneLanes lanes = make_lanes(s.m, s.x0);
+  for (auto _ : state) {
+    MembraneEnergy sum;
+    for (int b = 0; b < static_cast<int>(lanes.blocks.size()); ++b) {
+      const MembraneEnergy e = lane_energy(lanes, s.m, s.x, b);
+      sum.fibre += e.fibre, sum.shear += e.shear;
+    }
+    benchmark::DoNotOptimize(sum);
+  }
+  count_elements(state, s);
+}
+BENCHMARK(ElementEnergy)
+    ->ArgNames({"cells", "averaged"})
+    ->ArgsProduct({{50}, {0, 1}})
+    ->Unit(benchmark::kMicrosecond);
+
 } // namespace
 } // namespace plyform
