@@ -138,12 +138,11 @@ std::vector<std::int32_t> folded_edges(std::span<const SheetEdge> edges,
 void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
                      std::span<const std::int32_t> folded_a, const SheetState& b,
                      std::span<const SheetEdge> edges_b, std::span<const std::int32_t> folded_b,
-                     double skin) {
+                     double skin, double path) {
   const Stopwatch watch(contact.time.search);
   const std::vector<EdgePair> old = std::move(contact.pairs);
   contact.pairs.clear();
-  contact.force_a.assign(a.x.size(), Vec3::Zero());
-  contact.force_b.assign(b.x.size(), Vec3::Zero());
+  clear(contact.list);
   struct Entry {
     Box3 box;
     std::int32_t edge;
@@ -180,40 +179,44 @@ void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const 
       std::unique(contact.pairs.begin(), contact.pairs.end(),
                   [&](const EdgePair& p, const EdgePair& q) { return key(p) == key(q); }),
       contact.pairs.end());
-  std::size_t known = 0;
-  for (EdgePair& pair : contact.pairs) {
-    pair.area = std::min(edge_area(a, pair.a), edge_area(b, pair.b));
+  std::size_t known = 0, kept = 0;
+  for (EdgePair pair : contact.pairs) {
     while (known < old.size() && key(old[known]) < key(pair))
       ++known;
     if (known < old.size() && key(old[known]) == key(pair))
       pair = old[known];
     else
       measure(pair, a, b, contact.distance + skin);
-    pair.slack =
-        pair.distance < contact.distance ? 0.0 : distance_of(pair, a, b) - contact.distance;
+    const bool touches = pair.distance < contact.distance;
+    const double gap = touches ? 0.0 : distance_of(pair, a, b) - contact.distance;
+    if (gap > skin) continue;    // its box was in reach
+    if (!touches) pair.side = 0; // taken anew when they come near
+    pair.area = std::min(edge_area(a, pair.a), edge_area(b, pair.b));
+    contact.list.wake.push_back(path + gap);
+    contact.pairs[kept++] = pair;
   }
+  contact.pairs.resize(kept);
 }
 
 void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b, double dt,
-                 double way) {
-  if (contact.pairs.empty()) return;
+                 double path, std::span<Vec3> force_a, std::span<Vec3> force_b) {
   const Stopwatch watch(contact.time.forces);
   ContactSums& sums = contact.sums;
+  renew(contact.list, path, [&contact](std::int32_t i) { // cannot cross: its side does not matter
+    contact.pairs[static_cast<std::size_t>(i)].side = 0;
+  });
   sums.elastic = sums.penetration = 0.0;
   sums.touching = 0;
-  std::fill(contact.force_a.begin(), contact.force_a.end(), Vec3::Zero());
-  std::fill(contact.force_b.begin(), contact.force_b.end(), Vec3::Zero());
-  for (EdgePair& pair : contact.pairs) {
-    if (pair.slack > way) { // too far to touch, and to cross: its side does not matter
-      pair.side = 0;
-      continue;
-    }
+  for (const std::int32_t i : contact.list.near) {
+    EdgePair& pair = contact.pairs[static_cast<std::size_t>(i)];
+    double& wake = contact.list.wake[static_cast<std::size_t>(i)];
+    if (wake > path) continue;
     const double last = pair.distance;
     const Vec3 n = measure(pair, a, b, 2.0 * contact.distance);
     const double p = contact.distance - pair.distance;
     if (!(p > 0.0)) {
       if (last < contact.distance) continue;
-      pair.slack = way + distance_of(pair, a, b) - contact.distance; // until then it may rest
+      wake = path + distance_of(pair, a, b) - contact.distance; // until then it may rest
       continue;
     }
     const double dp = last - pair.distance;
@@ -221,13 +224,13 @@ void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b,
         normal_force(contact.law, pair.area, p, last < contact.distance ? dp : 0.0, dt);
     sums.damping += force.damping * dp;
     const Vec3 f = force.total * n;
-    const auto add = [](std::vector<Vec3>& to, int node, const Vec3& share) {
+    const auto add = [](std::span<Vec3> to, int node, const Vec3& share) {
       to[static_cast<std::size_t>(node)] += share;
     };
-    add(contact.force_a, pair.a.a, (1.0 - pair.s) * f);
-    add(contact.force_a, pair.a.b, pair.s * f);
-    add(contact.force_b, pair.b.a, (pair.t - 1.0) * f);
-    add(contact.force_b, pair.b.b, -pair.t * f);
+    add(force_a, pair.a.a, (1.0 - pair.s) * f);
+    add(force_a, pair.a.b, pair.s * f);
+    add(force_b, pair.b.a, (pair.t - 1.0) * f);
+    add(force_b, pair.b.b, -pair.t * f);
     sums.elastic += 0.5 * pair.area * contact.law.stiffness * p * p;
     sums.penetration = std::max(sums.penetration, p);
     ++sums.touching;

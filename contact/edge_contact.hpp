@@ -16,6 +16,7 @@
 #pragma once
 
 #include "contact/contact_law.hpp"
+#include "contact/near_list.hpp"
 #include "contact/tool_contact.hpp"
 
 #include <span>
@@ -45,29 +46,29 @@ struct EdgePair {
   double area = 0.0;     ///< mm^2
   double distance = 0.0; ///< mm, signed
   double s = 0.0, t = 0.0;
-  double slack = 0.0; ///< mm, how much closer they must come since the search to touch
 };
 
 struct EdgeContact {
   ContactLaw law;        ///< stiffness and damping per area; friction is not used
   double distance = 0.0; ///< h/2, mm
   std::vector<EdgePair> pairs;
-  std::vector<Vec3> force_a, force_b; ///< N, one a node of each sheet
+  NearList list; ///< of the pairs
   ContactSums sums;
   ContactTime time;
 };
 
 /// Renews the pairs: folded edges of both sheets within distance + skin, and every pair
-/// that touches already, folded or not. Pairs keep their side.
+/// that touches already, folded or not. Pairs keep their side. path: mm, as of
+/// contact/near_list.hpp.
 void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
                      std::span<const std::int32_t> folded_a, const SheetState& b,
                      std::span<const SheetEdge> edges_b, std::span<const std::int32_t> folded_b,
-                     double skin);
+                     double skin, double path);
 
-/// Forces of one step. dt: the step that led to these positions, s. way: as of sheet_forces
-/// (contact/sheet_contact.hpp).
+/// Adds the forces of one step to those of each sheet's nodes, N. dt: the step that led to these
+/// positions, s. path: mm, as of contact/near_list.hpp.
 void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b, double dt,
-                 double way);
+                 double path, std::span<Vec3> force_a, std::span<Vec3> force_b);
 
 /// Row sums of the contact stiffness matrix, N/mm, of pairs that touch or are within `margin` (mm)
 /// of it.

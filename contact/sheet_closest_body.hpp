@@ -23,7 +23,7 @@ PLYFORM_INLINE Double4 load3(const double* at) {
 #endif
 }
 
-/// Rows of a SheetKernelPoint: s and damping_force; normal_force, slip, area, gap; w and slack.
+/// Rows of a SheetKernelPoint: s and damping_force; normal_force, slip, area, gap; w and looked.
 enum PointRow { held_row, force_row, weight_row };
 
 PLYFORM_INLINE double* row_of(SheetKernelPoint* p, PointRow row) {
@@ -87,28 +87,6 @@ PLYFORM_INLINE LanePlanes planes_of(const LaneFaces& x) {
   return q;
 }
 
-/// The foot of four nodes on those planes.
-struct LaneFoot {
-  Double4 wa, wb, wc, distance;
-  Double4 to_edge, to_corner; ///< mm, of the foot inside: from the closest edge, the second
-  Long4 inside;
-};
-
-PLYFORM_INLINE LaneFoot foot_of(const LaneFaces& x) {
-  const LanePlanes q = planes_of(x);
-  LaneFoot f;
-  f.wa = q.wa, f.wb = q.wb, f.wc = q.wc;
-  f.distance = root(square(x.p - f.wb * x.b - f.wc * x.c));
-  // w_i times the height over side i, which is sqrt(det) / |side|
-  const Double4 a2 = f.wa * f.wa / (q.bb + q.cc - 2.0 * q.bc), b2 = f.wb * f.wb / q.cc;
-  const Double4 c2 = f.wc * f.wc / q.bb;
-  const Double4 low = smaller(a2, b2), high = larger(a2, b2);
-  f.to_edge = root(q.det * smaller(low, c2));
-  f.to_corner = root(q.det * larger(low, smaller(high, c2)));
-  f.inside = q.inside;
-  return f;
-}
-
 PLYFORM_INLINE Double4 share_of_side(Double4 t) {
   t = t > 0.0 ? t : all(0.0); // the NaN of a side without length becomes 0
   return smaller(t, all(1.0));
@@ -121,8 +99,7 @@ struct LaneClosest {
   Long4 inside;
 };
 
-PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x, bool sides) {
-  const LanePlanes plane = planes_of(x);
+PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x, const LanePlanes& plane, bool sides) {
   LaneClosest q{plane.wb, plane.wc, all(far2), plane.inside};
   q.distance2 = q.inside ? square(x.p - q.wb * x.b - q.wc * x.c) : q.distance2;
   if (!sides || !any(~q.inside)) return q;
@@ -139,12 +116,57 @@ PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x, bool sides) {
   return q;
 }
 
+/// What is closest of four nodes, on the faces that they remember.
+struct LaneFoot {
+  Double4 wb, wc, distance;
+  Long4 inside; ///< the foot on the plane is
+};
+
+/// Whether a foot inside is clear of where other faces begin, and what the point remembers.
+struct LaneRoom {
+  Long4 of_sides, of_corners; ///< clear of all sides; of all but one
+  Double4 slid2;              ///< mm^2, along the face, since the point looked around
+  Double4 looked_b, looked_c;
+};
+
+/// mm, by contact/sheet_spread.hpp: how far from a side a foot must be.
+PLYFORM_INLINE Double4 clearance(const SheetKernelContact& k, SheetKernelPoint* const* point) {
+  if (!k.spread) return all(far2);
+  return k.distance * Double4{k.spread[point[0]->face], k.spread[point[1]->face],
+                              k.spread[point[2]->face], k.spread[point[3]->face]};
+}
+
+PLYFORM_INLINE LaneFoot foot_of(const SheetKernelContact& k, SheetKernelPoint* const* point,
+                                const LaneFaces& x, LaneRoom& room) {
+  const LanePlanes q = planes_of(x);
+  // w_i times the height over side i, which is sqrt(det) / |side|, against the clearance
+  const Double4 keep = clearance(k, point), keep2 = keep * keep;
+  const Long4 a = q.wa * q.wa * q.det > keep2 * (q.bb + q.cc - 2.0 * q.bc);
+  const Long4 b = q.wb * q.wb * q.det > keep2 * q.cc, c = q.wc * q.wc * q.det > keep2 * q.bb;
+  room.of_sides = a & b & c;
+  room.of_corners = (a & b) | (b & c) | (c & a);
+  const Rows last = load_rows(point, weight_row);
+  room.looked_b = last.row[2], room.looked_c = last.row[3];
+  const Double4 db = q.wb - room.looked_b, dc = q.wc - room.looked_c;
+  room.slid2 = db * db * q.bb + 2.0 * (db * dc) * q.bc + dc * dc * q.cc;
+  const LaneClosest closest = closest_of(x, q, k.rest > 0.0);
+  return {closest.wb, closest.wc, root(closest.distance2), closest.inside};
+}
+
+PLYFORM_INLINE void keep_weights(SheetKernelPoint* const* point, int count, const LaneFoot& foot,
+                                 Double4 looked_b, Double4 looked_c) {
+  const Rows w = turned({{foot.wb, foot.wc, looked_b, looked_c}});
+  for (int i = 0; i < count; ++i)
+    store(row_of(point[i], weight_row), w.row[i]);
+}
+
 /// Closest points of the `count` first of four points over all of their faces that can be closest:
 /// face and other of each; returns where. Points near one edge
 /// only, inside their face, need no `sides`: the edge that both share is further than the foot.
 PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoint* const* point,
                                     int count, bool sides) {
   Double4 best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
+  Double4 plane_b = all(0.0), plane_c = all(0.0);
   Long4 face{-1, -1, -1, -1};
   Long4 inside{0, 0, 0, 0};
   for (int i = 0;; ++i) {
@@ -158,36 +180,41 @@ PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoin
       more[lane] = -1;
     }
     if (!any(more)) break;
-    const LaneClosest q = closest_of(load_faces(k, point, at, k.slave_x, k.master_x), sides);
+    const LaneFaces x = load_faces(k, point, at, k.slave_x, k.master_x);
+    const LanePlanes plane = planes_of(x);
+    const LaneClosest q = closest_of(x, plane, sides);
     const Long4 tied = magnitude(q.distance2 - best2) <= same_distance * best2;
     const Long4 chosen = more & (tied ? at < face : q.distance2 < best2);
     const Long4 closer = more & (q.distance2 < best2);
     best2 = closer ? q.distance2 : best2;
-    limit = root(best2) + k.way;
+    limit = (1.0 + same_distance) * root(best2) + k.way; // with those that tie
     wb = chosen ? q.wb : wb, wc = chosen ? q.wc : wc;
+    plane_b = chosen ? plane.wb : plane_b, plane_c = chosen ? plane.wc : plane_c;
     face = chosen ? at : face;
     inside = chosen ? q.inside : inside;
   }
-  for (int lane = 0; lane < count; ++lane)
+  const LaneFoot foot{wb, wc, root(best2), inside};
+  keep_weights(point, count, foot, plane_b, plane_c);
+  for (int lane = 0; lane < count; ++lane) {
     if (face[lane] >= 0 && point[lane]->face != face[lane]) {
       point[lane]->face = static_cast<std::int32_t>(face[lane]);
       point[lane]->other = distance_of_others(*point[lane], k.triangles, k.faces, k.face_distance);
     }
-  return {1.0 - wb - wc, wb, wc, root(best2), all(0.0), all(0.0), inside};
+  }
+  return foot;
 }
 
-/// Which feet are inside their face while no other face can be closer: none of those that share a
-/// node with it by contact/sheet_spread.hpp, none of the rest since the search. mild: only one
-/// of the former may be, across an edge, with its inside.
+/// Which feet need no look around. No other face can be closer: none of those that share a node
+/// with it by contact/sheet_spread.hpp, none of the rest since the search. Or hardly: the point
+/// has not slid by `rest` since it looked, and one across an edge can be closer by no more than
+/// that times their fold (contact/sheet_contact.hpp). mild: only one across an edge may be closer,
+/// with its inside.
 PLYFORM_INLINE Long4 sure_of(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                             const LaneFoot& foot, Long4& mild) {
-  mild = Long4{0, 0, 0, 0};
-  if (!k.spread) return mild;
+                             const LaneFoot& foot, const LaneRoom& room, Long4& mild) {
   const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
-  const Double4 keep = k.distance * Double4{k.spread[point[0]->face], k.spread[point[1]->face],
-                                            k.spread[point[2]->face], k.spread[point[3]->face]};
-  mild = foot.inside & (foot.to_corner > keep) & (other - k.way > foot.distance);
-  return mild & (foot.to_edge > keep);
+  const Long4 near = other - k.way > foot.distance;
+  mild = near & foot.inside & room.of_corners;
+  return (mild & room.of_sides) | (near & (room.slid2 < k.rest * k.rest));
 }
 
 } // namespace

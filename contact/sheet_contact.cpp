@@ -48,9 +48,10 @@ void label_patches(std::span<const Candidate> group, std::span<const Triangle> t
 /// closest point: where faces meet, rounding says which of them is closest, and must not count.
 double contact_area(const SheetState& slave, const SheetState& master, const SheetContactPoint& c,
                     const Triangle& face) {
+  const std::array<double, 3> w = c.weights();
   double there = 0.0;
   for (std::size_t j = 0; j < 3; ++j)
-    there += c.w[j] * master.area[static_cast<std::size_t>(face[j])];
+    there += w[j] * master.area[static_cast<std::size_t>(face[j])];
   return std::min(slave.area[static_cast<std::size_t>(c.node)], there);
 }
 
@@ -63,15 +64,23 @@ SheetKernelPoint* kernel_points(SheetContactPoint* points) {
                 offsetof(ContactMemory, normal_force) == offsetof(Q, normal_force) &&
                 offsetof(ContactMemory, slip) == offsetof(Q, slip) &&
                 offsetof(P, area) == offsetof(Q, area) && offsetof(P, gap) == offsetof(Q, gap) &&
-                offsetof(P, w) == offsetof(Q, w) && offsetof(P, normal) == offsetof(Q, normal) &&
+                offsetof(P, w) == offsetof(Q, w) && offsetof(P, looked) == offsetof(Q, looked) &&
                 offsetof(P, other) == offsetof(Q, other) &&
+                offsetof(P, rested) == offsetof(Q, rested) &&
                 offsetof(P, node) == offsetof(Q, node) && offsetof(P, side) == offsetof(Q, side));
   return reinterpret_cast<Q*>(points);
 }
 
+/// Lays a point that has opened to rest: where it is on either side does not matter meanwhile.
+void lay_to_rest(SheetContactPoint& c) {
+  c.rested = static_cast<float>(c.gap);
+  c.gap = std::numeric_limits<double>::infinity();
+  c.side = 0;
+}
+
 /// A contact of these candidates' node, not touched yet.
 SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near,
-                            std::span<const Triangle> triangles) {
+                            std::span<const Triangle> triangles, double path) {
   std::sort(near.begin(), near.end(), [](const Candidate& a, const Candidate& b) {
     return std::pair(a.distance2, a.face) < std::pair(b.distance2, b.face);
   });
@@ -88,11 +97,13 @@ SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near,
   for (const Candidate& n : near)
     if (n.distance2 <= tied && n.face < first->face) first = &n;
   c.face = first->face;
-  c.w = first->w;
+  c.w = {first->w[1], first->w[2]};
   c.other = distance_of_others(*kernel_points(&c), triangles.data()->data(), contact.faces.data(),
                                contact.face_distance.data());
-  c.slack = std::sqrt(near.front().distance2) - contact.distance;
-  c.gap = std::numeric_limits<double>::infinity();
+  c.gap = std::sqrt(near.front().distance2) - contact.distance;
+  contact.list.wake.push_back(path + c.gap);
+  lay_to_rest(c);
+  c.looked.fill(std::numeric_limits<double>::quiet_NaN());
   return c;
 }
 
@@ -126,15 +137,13 @@ double distance_of_others(const SheetKernelPoint& point, const std::int32_t* tri
 
 void find_sheet_points(SheetContact& contact, std::span<const Candidate> candidates,
                        const SheetState& slave, const SheetState& master,
-                       std::span<const Triangle> triangles) {
+                       std::span<const Triangle> triangles, double path) {
   const std::vector<SheetContactPoint> old = std::move(contact.points);
   contact.points.clear();
   contact.faces.clear();
   contact.face_distance.clear();
-  contact.near.clear();
-  contact.near_way = -1.0;
-  contact.slave_force.assign(slave.x.size(), Vec3::Zero());
-  contact.master_force.assign(master.x.size(), Vec3::Zero());
+  clear(contact.list);
+  contact.looked_path = path;
   std::vector<int> label;
   std::vector<Candidate> near;
   std::vector<char> adopted(old.size(), 0);
@@ -149,14 +158,15 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
       near.clear();
       for (std::size_t i = first; i < group.size(); ++i)
         if (label[i] == label[first]) near.push_back(group[i]);
-      SheetContactPoint c = add_faces(contact, near, triangles);
+      SheetContactPoint c = add_faces(contact, near, triangles, path);
       c.area = contact_area(slave, master, c, triangles[static_cast<std::size_t>(c.face)]);
       if (const SheetContactPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[static_cast<std::size_t>(before - old.data())] = 1;
         c.memory = before->memory;
         c.side = before->side;
         c.area = before->area;
-        if (before->gap < 0.0) c.gap = before->gap, c.slack = std::min(c.slack, 0.0);
+        double& wake = contact.list.wake.back();
+        if (before->gap < 0.0) c.gap = before->gap, wake = std::min(wake, path);
       }
       contact.points.push_back(c);
     }
@@ -174,7 +184,9 @@ struct KernelSide {
   SheetContact& contact;
   const SheetState &slave, &master;
   std::span<const Triangle> triangles;
-  double way;
+  SheetWay gone;
+  bool look_all;
+  std::span<Vec3> slave_force, master_force;
 };
 
 KernelSide& of(void* self) {
@@ -200,26 +212,14 @@ void fault_at(void* self, std::int32_t point, double distance) {
   k.contact.fault = {c.node, c.face, distance};
 }
 
-/// Lists the points that may touch before anything has moved further than `way`. Ways only grow
-/// between searches; the list runs ahead a little, so that it is not made anew at every step.
-void list_near(SheetContact& contact, double way) {
-  constexpr double ahead = 0.05; // mm
-  if (way <= contact.near_way) return;
-  contact.near_way = way + ahead;
-  contact.near.clear();
-  for (std::size_t i = 0; i < contact.points.size(); ++i) {
-    if (contact.points[i].slack <= contact.near_way)
-      contact.near.push_back(static_cast<std::int32_t>(i));
-  }
-}
-
 SheetKernelContact kernel_view(KernelSide& k, double dt) {
   SheetContact& c = k.contact;
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::int32_t));
   SheetKernelContact view{};
   view.points = kernel_points(c.points.data());
-  view.near = c.near.data();
-  view.near_count = static_cast<int>(c.near.size());
+  view.near = c.list.near.data();
+  view.near_count = static_cast<int>(c.list.near.size());
+  view.wake = c.list.wake.data();
   view.slave_x = k.slave.x.data()->data();
   view.slave_motion = k.slave.motion.data()->data();
   view.master_x = k.master.x.data()->data();
@@ -227,10 +227,12 @@ SheetKernelContact kernel_view(KernelSide& k, double dt) {
   view.faces = c.faces.data();
   view.face_distance = c.face_distance.data();
   view.spread = k.master.spread.empty() ? nullptr : k.master.spread.data();
-  view.way = k.way;
+  view.way = k.gone.way;
+  view.path = k.gone.path;
+  view.rest = k.look_all ? 0.0 : c.rest;
   view.triangles = k.triangles.data()->data();
-  view.slave_force = c.slave_force.data()->data();
-  view.master_force = c.master_force.data()->data();
+  view.slave_force = k.slave_force.data()->data();
+  view.master_force = k.master_force.data()->data();
   view.distance = c.distance;
   view.stiffness = c.law.stiffness;
   view.tangential = c.law.tangential();
@@ -245,13 +247,17 @@ SheetKernelContact kernel_view(KernelSide& k, double dt) {
 } // namespace
 
 void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
-                  std::span<const Triangle> triangles, double dt, double way) {
-  if (contact.points.empty()) return;
+                  std::span<const Triangle> triangles, double dt, const SheetWay& gone,
+                  std::span<Vec3> slave_force, std::span<Vec3> master_force) {
   const Stopwatch watch(contact.time.forces);
-  std::fill(contact.slave_force.begin(), contact.slave_force.end(), Vec3::Zero());
-  std::fill(contact.master_force.begin(), contact.master_force.end(), Vec3::Zero());
-  list_near(contact, way);
-  KernelSide side{contact, slave, master, triangles, way};
+  renew(contact.list, gone.path,
+        [&contact](std::int32_t i) { lay_to_rest(contact.points[static_cast<std::size_t>(i)]); });
+  contact.sums.elastic = contact.sums.penetration = 0.0;
+  contact.sums.touching = 0;
+  if (contact.list.near.empty()) return;
+  const bool look_all = gone.path - contact.looked_path > contact.look_every;
+  if (look_all) contact.looked_path = gone.path;
+  KernelSide side{contact, slave, master, triangles, gone, look_all, slave_force, master_force};
   const auto run = has_avx2() ? sheet_kernel_avx2 : sheet_kernel_any;
   const SheetKernelSums added = run(kernel_view(side, dt));
   ContactSums& sums = contact.sums;
@@ -264,6 +270,15 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
   sums.deepest = std::max(sums.deepest, sums.penetration);
 }
 
+Vec3 contact_normal(const SheetContactPoint& point, std::span<const Vec3> slave,
+                    std::span<const Vec3> master, std::span<const Triangle> triangles) {
+  const Triangle& t = triangles[static_cast<std::size_t>(point.face)];
+  const std::array<double, 3> w = point.weights();
+  return (at(slave, point.node) -
+          (w[0] * at(master, t[0]) + w[1] * at(master, t[1]) + w[2] * at(master, t[2])))
+      .normalized();
+}
+
 void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
                          std::span<const Triangle> triangles, double margin,
                          std::span<double> slave_rows, std::span<double> master_rows) {
@@ -271,7 +286,7 @@ void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
   // half of k, along the face the same, and across it the couple's g_j = d |gradient_j|: with
   // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
   for (const SheetContactPoint& c : contact.points) {
-    if (std::min(c.gap, c.slack) > margin) continue;
+    if ((std::isinf(c.gap) ? c.rested : c.gap) > margin) continue;
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
     const double normal = 2.0 * c.area * contact.law.stiffness;
     slave_rows[static_cast<std::size_t>(c.node)] += normal;
@@ -285,8 +300,9 @@ void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
         master_rows[static_cast<std::size_t>(t[j])] +=
             2.0 * c.area * contact.law.tangential() * sum * couple[j];
     }
+    const std::array<double, 3> w = c.weights();
     for (std::size_t j = 0; j < 3; ++j)
-      master_rows[static_cast<std::size_t>(t[j])] += c.w[j] * normal;
+      master_rows[static_cast<std::size_t>(t[j])] += w[j] * normal;
   }
 }
 

@@ -22,6 +22,7 @@
 
 #include "contact/candidates.hpp"
 #include "contact/contact_law.hpp"
+#include "contact/near_list.hpp"
 #include "contact/tool_contact.hpp"
 
 #include <span>
@@ -33,16 +34,18 @@ namespace plyform {
 /// in rows of 32 bytes, SheetKernelPoint (contact/sheet_kernel.hpp).
 struct alignas(32) SheetContactPoint {
   ContactMemory memory;
-  double area = 0.0;           ///< mm^2 that the contact stands for
-  double gap = 0.0;            ///< mm, d - h when last looked at; infinite: not since the search
-  std::array<double, 3> w{};   ///< weights of the closest point
-  double slack = 0.0;          ///< mm, gap when the search was done
-  Vec3 normal = Vec3::Zero();  ///< n
+  double area = 0.0;              ///< mm^2 that the contact stands for
+  double gap = 0.0;               ///< mm, d - h of the last step; infinite: it rested
+  std::array<double, 2> w{};      ///< weights of corners b and c at the closest point
+  std::array<double, 2> looked{}; ///< of its foot on the face's plane when it last looked around
   double other = 0.0;          ///< mm, at the search, to the next face that shares no node with it
+  float rested = 0.0F;         ///< mm, gap when it went to rest
   std::int32_t node, face = 0; ///< closest face; of those that tie the first
-  int side = 0;                ///< +1: on the side of the face normal, -1: other, 0: not known
   std::int32_t first_face, end_face; ///< range in SheetContact::faces
-  std::array<std::int32_t, 3> unused{};
+  int side = 0; ///< +1: on the side of the face normal, -1: other, 0: not known
+
+  /// Of the closest point.
+  std::array<double, 3> weights() const { return {1.0 - w[0] - w[1], w[0], w[1]}; }
 };
 
 /// A node that got to the wrong side or deeper than half of h: the contact cannot be resolved.
@@ -52,33 +55,45 @@ struct ContactFault {
 };
 
 struct SheetContact {
-  ContactLaw law;                              ///< with half of the pair's stiffness
-  double distance = 0.0;                       ///< h, mm
-  std::vector<SheetContactPoint> points;       ///< ascending by node
-  std::vector<std::int32_t> faces;             ///< of each point, nearest first
-  std::vector<double> face_distance;           ///< mm, when the search was done
-  std::vector<std::int32_t> near;              ///< points to look at: slack <= near_way
-  double near_way = -1.0;                      ///< mm
-  std::vector<Vec3> slave_force, master_force; ///< N, one a node of each sheet
+  ContactLaw law;                        ///< with half of the pair's stiffness
+  double distance = 0.0;                 ///< h, mm
+  std::vector<SheetContactPoint> points; ///< ascending by node
+  std::vector<std::int32_t> faces;       ///< of each point, nearest first
+  std::vector<double> face_distance;     ///< mm, when the search was done
+  NearList list;                         ///< of the points
+  double rest = 0.0;        ///< mm, sliding by which a point keeps its face unseen; 0: none
+  double look_every = 0.0;  ///< mm of path, at which all points look around
+  double looked_path = 0.0; ///< mm, when they last did
   ContactSums sums;
   ContactFault fault;
   ContactTime time;
 };
 
+/// How far two sheets have gone relative to each other, mm: no node of one further than `way`
+/// relative to any of the other since the search; `path` as of contact/near_list.hpp.
+struct SheetWay {
+  double way = 0.0, path = 0.0;
+};
+
 /// Renews the points from the broad phase's candidates (sorted by node and face). Contacts keep
-/// their memory.
+/// their memory. path: mm, as of SheetWay.
 void find_sheet_points(SheetContact& contact, std::span<const Candidate> candidates,
                        const SheetState& slave, const SheetState& master,
-                       std::span<const Triangle> master_triangles);
+                       std::span<const Triangle> master_triangles, double path);
 
-/// Forces of one step (S), (N), (T), (M). dt: the step that led to these positions, s. way: mm,
-/// that no node of one sheet has moved further than, relative to any of the other, since the
-/// search; points and faces that were further off than that cannot touch and are not looked at.
+/// Adds the forces of one step (S), (N), (T), (M) to those of each sheet's nodes, N. dt: the step
+/// that led to these positions, s. Points and faces that the sheets have not gone far enough to
+/// bring together are not looked at.
 void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
-                  std::span<const Triangle> master_triangles, double dt, double way);
+                  std::span<const Triangle> master_triangles, double dt, const SheetWay& gone,
+                  std::span<Vec3> slave_force, std::span<Vec3> master_force);
+
+/// n of a point, from the positions that its last forces belong to.
+Vec3 contact_normal(const SheetContactPoint& point, std::span<const Vec3> slave,
+                    std::span<const Vec3> master, std::span<const Triangle> master_triangles);
 
 /// Row sums of the contact stiffness matrix, N/mm, added to each sheet's nodes: of contacts that
-/// touch or are, as far as is known, within `margin` (mm) of it.
+/// touch or were within `margin` (mm) of it when last looked at.
 void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
                          std::span<const Triangle> master_triangles, double margin,
                          std::span<double> slave_rows, std::span<double> master_rows);

@@ -11,9 +11,10 @@ namespace plyform {
 struct alignas(32) SheetKernelPoint {
   double s[3], damping_force;
   double normal_force, slip, area, gap;
-  double w[3], slack;
-  double normal[3], other;
-  std::int32_t node, face, side, first_face, end_face, unused[3];
+  double w[2], looked[2];
+  double other;
+  float rested;
+  std::int32_t node, face, first_face, end_face, side;
 };
 
 /// What the kernel reads and writes of a contact. Positions, motions and forces: 3 a node.
@@ -21,13 +22,16 @@ struct SheetKernelContact {
   SheetKernelPoint* points;
   const std::int32_t* near; ///< points to look at
   int near_count;
+  double* wake; ///< mm, of the points (contact/near_list.hpp)
   const double *slave_x, *slave_motion, *master_x, *master_motion;
   const double* spread;          ///< of the master's faces (contact/sheet_spread.hpp), or null
   const std::int32_t* triangles; ///< 3 a face of the master
   const std::int32_t* faces;     ///< of the points, nearest first
   const double* face_distance;   ///< mm, when the search was done
   double *slave_force, *master_force;
-  double way; ///< mm, of anything relative to anything since the search
+  double way;  ///< mm, of anything relative to anything since the search
+  double path; ///< mm (contact/near_list.hpp)
+  double rest; ///< mm, sliding since it looked around by which a point need not again
   double distance, stiffness, tangential, friction; ///< h, k, k_t, mu of contact/contact_law.hpp
   double damping_per_dt;                            ///< c / dt, or 0
   void* self;

@@ -30,14 +30,14 @@ struct LaneSums {
 /// The state of four points that changes with their forces.
 struct LanePoints {
   Double4 area, gap, last_gap, damping_force, normal_force, slip;
-  Vector4 s, normal;
+  Vector4 s;
 };
 
 /// s turned into the plane across n, its length kept.
 PLYFORM_INLINE Vector4 into_plane(const Vector4& s, const Vector4& n) {
   const Vector4 flat = s - dot(n, s) * n;
   const Double4 length2 = square(s), flat2 = square(flat);
-  const Double4 by = flat2 > 0.0 ? root(length2) / root(flat2) : all(0.0);
+  const Double4 by = flat2 > 0.0 ? root(length2 / flat2) : all(0.0);
   return by * flat;
 }
 
@@ -53,18 +53,18 @@ PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces
   const Vector4 arm = x.p - foot.wb * x.b - foot.wc * x.c;
   const Vector4 motion = u.p - foot.wb * u.b - foot.wc * u.c;
   const Double4 depth = k.distance - foot.distance;
-  p.normal = (1.0 / foot.distance) * arm;
+  const Vector4 normal = (1.0 / foot.distance) * arm;
   const Double4 area = touch ? p.area : zero;
   const Long4 known = p.last_gap < 1e300;
   const Double4 opened = known ? smaller(p.last_gap, zero) : zero;
-  const Double4 dp = known ? p.last_gap - p.gap : -dot(p.normal, motion);
-  const Double4 elastic = area * k.stiffness * depth;
-  const Double4 viscous = larger(area * k.damping_per_dt * (depth + opened), -elastic);
-  const Double4 n_force = elastic + viscous;
+  const Double4 dp = known ? p.last_gap - p.gap : -dot(normal, motion);
+  const Double4 pressure = k.stiffness * depth; // N/mm^2, elastic and viscous
+  const Double4 resistance = larger(k.damping_per_dt * (depth + opened), -pressure);
+  const Double4 viscous = area * resistance, n_force = area * (pressure + resistance);
   sums.damping += touch ? 0.5 * (viscous + p.damping_force) * dp : zero;
   p.damping_force = viscous;
   p.normal_force = n_force;
-  LaneForces f{n_force * p.normal, {zero, zero, zero}, {zero, zero, zero}};
+  LaneForces f{n_force * normal, {zero, zero, zero}, {zero, zero, zero}};
   Double4 stored2 = zero;
   if (k.friction > 0.0) {
     const Vector4 across = cross(x.b, x.c);
@@ -74,10 +74,10 @@ PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces
     const Double4 spin = 0.5 * (dot(x.b, u.c) - dot(x.c, u.b));
     const Vector4 turn = per_size * (v2 * x.b - v1 * x.c - spin * n); // (W')
     const Vector4 slip = motion - cross(turn, arm);                   // (P)
-    const Vector4 old = into_plane(p.s + cross(turn, p.s), p.normal);
-    const Vector4 trial = old + slip - dot(p.normal, slip) * p.normal;
+    const Vector4 old = into_plane(p.s + cross(turn, p.s), normal);
+    const Vector4 trial = old + slip - dot(normal, slip) * normal;
     const Double4 stiffness = area * k.tangential;
-    const Double4 limit = touch ? k.friction * n_force / stiffness : zero;
+    const Double4 limit = touch ? (k.friction / k.tangential) * (pressure + resistance) : zero;
     const Double4 stretch = root(square(trial));
     p.s = (stretch > limit ? limit / stretch : all(1.0)) * trial;
     p.slip += touch ? larger(stretch - limit, zero) : zero;
@@ -136,92 +136,31 @@ PLYFORM_INLINE Long4 remembered(const Group& g) {
   return Long4{g.point[0]->face, g.point[1]->face, g.point[2]->face, g.point[3]->face};
 }
 
-/// What the passes over some points hand on; `gap` of the points is still that of the last step.
-struct Pass {
-  static constexpr int most = 64;
-  alignas(32) double distance[most]; ///< mm
-  bool inside[most];                 ///< the foot is inside the face
-  std::int32_t look[2][most];        ///< those that must look at all faces; [1]: at their sides too
-  int looks[2] = {0, 0};
-};
-
-PLYFORM_INLINE void keep_foot(const Group& g, const LaneFoot& foot, Pass& pass,
-                              const std::int32_t* number) {
-  const Rows w = turned({{foot.wa, foot.wb, foot.wc, all(0.0)}});
-  for (int i = 0; i < g.count; ++i) {
-    for (int j = 0; j < 3; ++j)
-      g.point[i]->w[j] = w.row[i][j];
-    pass.distance[number[i]] = foot.distance[i];
-    pass.inside[number[i]] = foot.inside[i] != 0;
-  }
-}
-
-/// First pass: feet on the faces remembered.
-PLYFORM_INLINE void follow_feet(const SheetKernelContact& k, const std::int32_t* near, int count,
-                                Pass& pass) {
-  for (int first = 0; first < count; first += four) {
-    const Group g = group_of(k, near + first, count - first);
-    const LaneFoot foot = foot_of(load_faces(k, g.point, remembered(g), k.slave_x, k.master_x));
-    Long4 mild;
-    const Long4 sure = sure_of(k, g.point, foot, mild);
-    const std::int32_t number[four] = {first, first + 1, first + 2, first + 3};
-    keep_foot(g, foot, pass, number);
-    for (int i = 0; i < g.count; ++i)
-      if (!sure[i]) {
-        const int sides = mild[i] ? 0 : 1;
-        pass.look[sides][pass.looks[sides]++] = first + i;
-      }
-  }
-}
-
-/// Second pass: closest points of those that had to look.
-PLYFORM_INLINE void look_around(const SheetKernelContact& k, const std::int32_t* near, bool sides,
-                                Pass& pass) {
-  for (int first = 0; first < pass.looks[sides]; first += four) {
-    const int left = pass.looks[sides] - first;
-    std::int32_t number[four], index[four];
-    for (int i = 0; i < four; ++i) {
-      number[i] = pass.look[sides][first + (i < left ? i : 0)];
-      index[i] = near[number[i]];
-    }
-    const Group g = group_of(k, index, left);
-    keep_foot(g, look_at_all(k, g.point, g.count, sides), pass, number);
-  }
-}
-
-/// Third pass: forces of up to four points that touch.
-PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Pass& pass,
-                          const std::int32_t* number, LaneSums& sums) {
-  const LaneFaces x = load_faces(k, g.point, remembered(g), k.slave_x, k.master_x);
+/// Forces of up to four points that touch, x their places and foot their closest points.
+PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const LaneFaces& x,
+                          const LaneFoot& foot, LaneSums& sums) {
   const LaneFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
-  const Rows w = load_rows(g.point, weight_row);
-  const Double4 distance{pass.distance[number[0]], pass.distance[number[1]],
-                         pass.distance[number[2]], pass.distance[number[3]]};
-  const LaneFoot foot{w.row[0], w.row[1], w.row[2], distance, all(0.0), all(0.0), {}};
   const Rows held = load_rows(g.point, held_row), force = load_rows(g.point, force_row);
   LanePoints p;
   p.s = {held.row[0], held.row[1], held.row[2]};
   p.damping_force = held.row[3];
   p.normal_force = force.row[0], p.slip = force.row[1], p.area = force.row[2];
   p.last_gap = force.row[3];
-  p.gap = distance - k.distance;
+  p.gap = foot.distance - k.distance;
   const LaneForces f = forces_of(k, x, u, foot, g.real, p, sums);
   add_forces(k, g.point, foot, f, g.real);
   const Double4 height = dot(cross(x.b, x.c), x.p);
+  // forgotten on edges: a node may slide round the rim to the other side
+  const Long4 side = foot.inside & (height >= 0.0 ? Long4{1, 1, 1, 1} : Long4{-1, -1, -1, -1});
+  const Long4 deep = foot.distance < 0.5 * k.distance;
   const Rows s = turned({{p.s.x, p.s.y, p.s.z, p.damping_force}});
   const Rows b = turned({{p.normal_force, p.slip, p.area, p.gap}});
-  const Rows n = turned({{p.normal.x, p.normal.y, p.normal.z, all(0.0)}});
   for (int i = 0; i < g.count; ++i) {
     SheetKernelPoint& at = *g.point[i];
-    // forgotten on edges: a node may slide round the rim to the other side
-    const int side = !pass.inside[number[i]] ? 0 : height[i] >= 0.0 ? 1 : -1;
-    if (at.side * side < 0 || distance[i] < 0.5 * k.distance)
-      k.fault(k.self, g.index[i], distance[i]);
-    at.side = side;
+    if (at.side * side[i] < 0 || deep[i]) k.fault(k.self, g.index[i], foot.distance[i]);
+    at.side = static_cast<std::int32_t>(side[i]);
     store(row_of(&at, held_row), s.row[i]);
     store(row_of(&at, force_row), b.row[i]);
-    for (int j = 0; j < 3; ++j)
-      at.normal[j] = n.row[i][j];
   }
   sums.touching += g.count;
 }
@@ -247,31 +186,105 @@ PLYFORM_INLINE void pass_by(const SheetKernelContact& k, std::int32_t index, dou
     at.side = height >= 0.0 ? 1 : -1;
   }
   if (at.normal_force != 0.0 || at.damping_force != 0.0) k.open(k.self, index, last_gap);
+  k.wake[index] = k.path + at.gap;
+}
+
+/// Points of a chunk that were not done in one go: they look around, or their fours are mixed.
+struct Chunk {
+  static constexpr int most = 64;
+  alignas(32) double distance[most]; ///< mm
+  bool inside[most];                 ///< the foot is inside the face
+  std::int32_t look[2][most];        ///< those that must look at all faces; [1]: at their sides too
+  int looks[2] = {0, 0};
+  std::int32_t later[most]; ///< those whose forces are still to come, in the order of the points
+  int laters = 0;
+};
+
+PLYFORM_INLINE void keep_foot(Chunk& chunk, const std::int32_t* number, int count,
+                              const LaneFoot& foot) {
+  for (int i = 0; i < count; ++i) {
+    chunk.distance[number[i]] = foot.distance[i];
+    chunk.inside[number[i]] = foot.inside[i] != 0;
+  }
+}
+
+/// First pass: closest points on the faces remembered; forces where four that touch are settled.
+PLYFORM_INLINE void follow(const SheetKernelContact& k, const std::int32_t* near, int count,
+                           Chunk& chunk, LaneSums& sums) {
+  for (int first = 0; first < count; first += four) {
+    const Group g = group_of(k, near + first, count - first);
+    const LaneFaces x = load_faces(k, g.point, remembered(g), k.slave_x, k.master_x);
+    LaneRoom room;
+    const LaneFoot foot = foot_of(k, g.point, x, room);
+    Long4 mild;
+    const Long4 sure = sure_of(k, g.point, foot, room, mild);
+    keep_weights(g.point, g.count, foot, room.looked_b, room.looked_c);
+    if (!any(~(sure & (foot.distance < k.distance)))) {
+      press(k, g, x, foot, sums);
+      continue;
+    }
+    const std::int32_t number[four] = {first, first + 1, first + 2, first + 3};
+    keep_foot(chunk, number, g.count, foot);
+    for (int i = 0; i < g.count; ++i) {
+      chunk.later[chunk.laters++] = first + i;
+      if (sure[i]) continue;
+      const int sides = mild[i] ? 0 : 1;
+      chunk.look[sides][chunk.looks[sides]++] = first + i;
+    }
+  }
+}
+
+/// Second pass: closest points of those that had to look.
+PLYFORM_INLINE void look_around(const SheetKernelContact& k, const std::int32_t* near, bool sides,
+                                Chunk& chunk) {
+  for (int first = 0; first < chunk.looks[sides]; first += four) {
+    const int left = chunk.looks[sides] - first;
+    std::int32_t number[four], index[four];
+    for (int i = 0; i < four; ++i) {
+      number[i] = chunk.look[sides][first + (i < left ? i : 0)];
+      index[i] = near[number[i]];
+    }
+    const Group g = group_of(k, index, left);
+    keep_foot(chunk, number, g.count, look_at_all(k, g.point, g.count, sides));
+  }
+}
+
+/// Third pass: forces of up to four points whose closest points are known.
+PLYFORM_INLINE void press_later(const SheetKernelContact& k, const std::int32_t* near,
+                                const std::int32_t* number, int count, const Chunk& chunk,
+                                LaneSums& sums) {
+  std::int32_t index[four];
+  Double4 distance;
+  Long4 inside;
+  for (int i = 0; i < four; ++i) {
+    const std::int32_t from = number[i < count ? i : 0];
+    index[i] = near[from];
+    distance[i] = chunk.distance[from];
+    inside[i] = chunk.inside[from] ? -1 : 0;
+  }
+  const Group g = group_of(k, index, count);
+  const Rows w = load_rows(g.point, weight_row);
+  press(k, g, load_faces(k, g.point, remembered(g), k.slave_x, k.master_x),
+        {w.row[0], w.row[1], distance, inside}, sums);
 }
 
 PLYFORM_INLINE void do_some(const SheetKernelContact& k, const std::int32_t* near, int count,
                             LaneSums& sums) {
-  Pass pass;
-  follow_feet(k, near, count, pass);
-  look_around(k, near, false, pass);
-  look_around(k, near, true, pass);
-  std::int32_t number[four], index[four];
-  int waiting = 0;
-  for (int i = 0; i < count; ++i) {
-    if (!(pass.distance[i] < k.distance)) {
-      pass_by(k, near[i], pass.distance[i], pass.inside[i]);
-      continue;
-    }
-    number[waiting] = i;
-    index[waiting] = near[i];
-    if (++waiting < four) continue;
-    press(k, group_of(k, index, four), pass, number, sums);
-    waiting = 0;
+  Chunk chunk;
+  follow(k, near, count, chunk, sums);
+  look_around(k, near, false, chunk);
+  look_around(k, near, true, chunk);
+  std::int32_t touching[Chunk::most];
+  int touches = 0;
+  for (int i = 0; i < chunk.laters; ++i) {
+    const std::int32_t n = chunk.later[i];
+    if (chunk.distance[n] < k.distance)
+      touching[touches++] = n;
+    else
+      pass_by(k, near[n], chunk.distance[n], chunk.inside[n]);
   }
-  if (waiting == 0) return;
-  for (int i = waiting; i < four; ++i)
-    number[i] = number[0];
-  press(k, group_of(k, index, waiting), pass, number, sums);
+  for (int i = 0; i < touches; i += four)
+    press_later(k, near, touching + i, touches - i, chunk, sums);
 }
 
 PLYFORM_INLINE double largest(Double4 a) {
@@ -281,8 +294,8 @@ PLYFORM_INLINE double largest(Double4 a) {
 
 PLYFORM_INLINE SheetKernelSums sheet_kernel(const SheetKernelContact& k) {
   LaneSums sums;
-  for (int i = 0; i < k.near_count; i += Pass::most)
-    do_some(k, k.near + i, k.near_count - i < Pass::most ? k.near_count - i : Pass::most, sums);
+  for (int i = 0; i < k.near_count; i += Chunk::most)
+    do_some(k, k.near + i, k.near_count - i < Chunk::most ? k.near_count - i : Chunk::most, sums);
   return {sum(sums.elastic),         sum(sums.friction), sum(sums.damping),
           largest(sums.penetration), largest(sums.slip), sums.touching};
 }

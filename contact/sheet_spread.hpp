@@ -16,7 +16,7 @@
 
 namespace plyform {
 
-constexpr double spread_margin = 0.1; ///< rad
+constexpr double spread_margin = 0.2; ///< rad
 
 /// Kept by the caller from one renewal to the next, so that nothing is allocated.
 struct SpreadScratch {

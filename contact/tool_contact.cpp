@@ -10,14 +10,18 @@ double area_of(const SheetState& ply, const ToolContactPoint& c) {
   return ply.area[static_cast<std::size_t>(c.node)];
 }
 
+void lay_to_rest(ToolContactPoint& c) {
+  if (!std::isinf(c.gap)) c.rested = c.gap;
+  c.gap = std::numeric_limits<double>::infinity();
+}
+
 /// Lists the points that may touch; their gaps and normals where tool and ply stand now.
-void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double way) {
+void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double path) {
   const Stopwatch watch(contact.time.forces);
-  contact.near.clear();
-  for (std::size_t i = 0; i < contact.points.size(); ++i) {
-    ToolContactPoint& c = contact.points[i];
-    if (c.slack > way) continue;
-    contact.near.push_back(static_cast<std::int32_t>(i));
+  renew(contact.list, path,
+        [&contact](std::int32_t i) { lay_to_rest(contact.points[static_cast<std::size_t>(i)]); });
+  for (const std::int32_t i : contact.list.near) {
+    ToolContactPoint& c = contact.points[static_cast<std::size_t>(i)];
     const auto n = static_cast<std::size_t>(c.node);
     const SurfacePoint s = distance_to_tool(tool, ply.x[n], c.hint);
     c.last_gap = c.gap;
@@ -26,6 +30,7 @@ void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply, 
     if (std::isinf(c.last_gap)) // a pushed tool has not moved yet in this step
       c.last_gap =
           c.gap - c.normal.dot(tool.pushed ? ply.motion[n] : Vec3(ply.motion[n] - tool.motion));
+    if (c.gap > 0.0) contact.list.wake[static_cast<std::size_t>(i)] = path + c.gap;
   }
 }
 
@@ -42,7 +47,7 @@ Residual residual_of(const ToolBody& tool, std::span<ToolContact> contacts,
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactLaw& law = contacts[i].law;
     const double rate = law.damping / dt;
-    for (const std::int32_t k : contacts[i].near) {
+    for (const std::int32_t k : contacts[i].list.near) {
       const ToolContactPoint& c = contacts[i].points[static_cast<std::size_t>(k)];
       const double facing = c.normal.dot(tool.direction);
       const double p = -c.gap + facing * delta;
@@ -83,7 +88,7 @@ Vec3 contact_forces(ToolContact& contact, const SheetState& ply, const Vec3& too
   contact.sums.elastic = 0.0;
   contact.sums.penetration = 0.0;
   contact.sums.touching = 0;
-  for (const std::int32_t k : contact.near) {
+  for (const std::int32_t k : contact.list.near) {
     ToolContactPoint& c = contact.points[static_cast<std::size_t>(k)];
     const auto n = static_cast<std::size_t>(c.node);
     Vec3& f = contact.force[n];
@@ -122,45 +127,50 @@ SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint) {
 }
 
 void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
-                      double reach) {
+                      double reach, double path) {
   const Stopwatch watch(contact.time.search);
-  const std::vector<ToolContactPoint> old = std::move(contact.points);
+  std::vector<ToolContactPoint> old = std::move(contact.points);
+  const std::vector<double> old_wake = std::move(contact.list.wake);
   contact.points.clear();
+  clear(contact.list);
   contact.force.assign(ply.x.size(), Vec3::Zero());
+  contact.free.resize(ply.x.size(), -std::numeric_limits<float>::infinity());
   std::size_t next_old = 0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
-    while (next_old < old.size() && old[next_old].node < static_cast<int>(n))
-      ++next_old;
+    const bool known = next_old < old.size() && old[next_old].node == static_cast<int>(n);
+    double gap = (known ? old_wake[next_old] : static_cast<double>(contact.free[n])) - path;
     ToolContactPoint point{};
     point.node = static_cast<int>(n);
-    const bool known = next_old < old.size() && old[next_old].node == point.node;
-    if (known) point = old[next_old];
-    const SurfacePoint s = distance_to_tool(tool, ply.x[n], point.hint);
-    const double gap = s.distance - contact.half_thickness;
+    if (known) point = old[next_old++];
+    const bool touched = known && point.gap < 0.0; // it may have a spring to give back
+    if (touched || (!known && gap <= reach))
+      gap = distance_to_tool(tool, ply.x[n], point.hint).distance - contact.half_thickness;
+    constexpr double below = 1.0 - 1e-6; // that rounding does not raise it
+    contact.free[n] = static_cast<float>(below * (path + gap));
     if (gap > reach) {
-      if (known) release(contact.law, ply.area[n], point.memory, contact.sums);
+      if (touched) release(contact.law, ply.area[n], point.memory, contact.sums);
       continue;
     }
-    point.slack = gap;
-    if (known && point.gap < 0.0)
-      point.slack = std::min(gap, 0.0); // it may have a spring to give back
-    else
-      point.gap = std::numeric_limits<double>::infinity();
+    if (!touched) {
+      if (!known || !std::isinf(point.gap)) point.gap = gap;
+      lay_to_rest(point);
+    }
     contact.points.push_back(point);
+    contact.list.wake.push_back(touched ? std::min(path, path + gap) : path + gap);
   }
 }
 
 Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
-                 std::span<const double> ways, double dt) {
+                 std::span<const double> paths, double dt) {
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    measure(contacts[i], tool, plies[i], ways[i]);
+    measure(contacts[i], tool, plies[i], paths[i]);
   if (tool.pushed && dt > 0.0) {
     const double delta = equilibrium_motion(tool, contacts, plies, dt);
     tool.speed = delta / dt;
     tool.motion = delta * tool.direction;
     tool.displacement += tool.motion;
     for (ToolContact& contact : contacts)
-      for (const std::int32_t k : contact.near) {
+      for (const std::int32_t k : contact.list.near) {
         ToolContactPoint& c = contact.points[static_cast<std::size_t>(k)];
         c.gap -= c.normal.dot(tool.direction) * delta;
       }
@@ -174,7 +184,7 @@ Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<cons
 void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
                         std::span<double> rows) {
   for (const ToolContactPoint& c : contact.points) {
-    if (std::min(c.gap, c.slack) > margin) continue;
+    if ((std::isinf(c.gap) ? c.rested : c.gap) > margin) continue;
     const auto n = static_cast<std::size_t>(c.node);
     rows[n] += area[n] * contact.law.stiffness;
   }

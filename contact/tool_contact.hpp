@@ -12,6 +12,7 @@
 #pragma once
 
 #include "contact/contact_law.hpp"
+#include "contact/near_list.hpp"
 #include "contact/stopwatch.hpp"
 #include "contact/tool_shape.hpp"
 
@@ -39,10 +40,10 @@ struct ToolBody {
 /// One node of a ply near the tool.
 struct ToolContactPoint {
   int node;
-  int hint = -1;      ///< memory of signed_distance
-  Vec3 normal;        ///< of this step, in space
-  double slack = 0.0; ///< mm, gap when the search was done
-  double gap = 0.0;   ///< mm, distance minus half thickness; infinite: not known since the search
+  int hint = -1;       ///< memory of signed_distance
+  Vec3 normal;         ///< of this step, in space
+  double gap = 0.0;    ///< mm, distance minus half thickness; infinite: it rested
+  double rested = 0.0; ///< mm, gap when it went to rest
   double last_gap = 0.0;
   ContactMemory memory;
 };
@@ -52,8 +53,9 @@ struct ToolContact {
   ContactLaw law;
   double half_thickness = 0.0; ///< mm, of the ply
   std::vector<ToolContactPoint> points;
-  std::vector<std::int32_t> near; ///< points that may touch in this step
-  std::vector<Vec3> force;        ///< one a node of the ply, N; zero where there is no point
+  NearList list;           ///< of the points
+  std::vector<float> free; ///< mm, one a node of the ply: path before which it cannot touch
+  std::vector<Vec3> force; ///< one a node of the ply, N; zero where there is no point
   ContactSums sums;
   ContactTime time; ///< without the balance of a pushed tool, which all its plies share
 };
@@ -69,20 +71,21 @@ struct SheetState {
 /// Signed distance (mm) and normal, in space, of a tool where it stands now.
 SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint);
 
-/// Renews the points: every node with gap <= reach. Contacts keep their memory.
+/// Renews the points: every node that may have a gap <= reach (mm). Contacts keep their memory.
+/// path: as paths[i] of tool_forces; nodes that were too far off, when last measured, to be near by
+/// now are not measured again.
 void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
-                      double reach);
+                      double reach, double path);
 
 /// Forces of one step of one tool on all its plies; contacts[i] is with plies[i]. dt: the step
-/// that led to these positions, s. ways[i]: mm, that no node of ply i has moved further than,
-/// relative to the tool, since the search, the tool's own motion in this call included; nodes that
-/// were further off cannot touch and are not looked at. For a pushed tool also moves it by (B),
+/// that led to these positions, s. paths[i]: mm, of ply i and the tool (contact/near_list.hpp), the
+/// tool's own motion in this call included. For a pushed tool also moves it by (B),
 /// limited to dt * speed_limit. Returns the force (N) of the plies on the tool.
 Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
-                 std::span<const double> ways, double dt);
+                 std::span<const double> paths, double dt);
 
 /// Adds each contact's stiffness to rows[node], N/mm: row sums of the contact stiffness matrix. Of
-/// contacts that touch or are, as far as is known, within `margin` (mm) of it.
+/// contacts that touch or were within `margin` (mm) of it when last looked at.
 void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
                         std::span<double> rows);
 

@@ -38,7 +38,8 @@ void leave_out_neighbours(std::vector<Candidate>& candidates, std::span<const Ve
 void search_tool(Scene& s, ToolAndContacts& t) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     find_tool_points(t.contacts[p], t.body, s.plies[p].state(),
-                     std::max(s.skin, step_way(s, static_cast<int>(p), t)));
+                     std::max(s.skin, step_way(s, static_cast<int>(p), t)),
+                     path_ahead(s, t) + s.plies[p].path);
   t.displacement_search = t.body.displacement;
 }
 
@@ -54,10 +55,12 @@ bool neighbours(const PlyContact& pair) {
 /// Marks the slave's nodes that are so close to the master, away from its rim, that no ply beyond
 /// it can be near them: a third ply does not fit in between.
 void mark_covered(PlyBody& slave, const PlyContact& pair, const PlyBody& master) {
+  const double path = slave.path + master.path;
   std::vector<char>& covered = slave.covered[pair.master > pair.slave];
   covered.assign(slave.x.size(), 0);
-  for (const SheetContactPoint& c : pair.contact.points) {
-    char inside = c.slack < 0.5 * pair.contact.distance;
+  for (std::size_t p = 0; p < pair.contact.points.size(); ++p) {
+    const SheetContactPoint& c = pair.contact.points[p];
+    char inside = pair.contact.list.wake[p] - path < 0.5 * pair.contact.distance;
     for (int i = c.first_face; i < c.end_face; ++i)
       inside &=
           !master.on_rim[static_cast<std::size_t>(pair.contact.faces[static_cast<std::size_t>(i)])];
@@ -88,43 +91,16 @@ void search_plies(Scene& s, PlyContact& pair) {
     leave_out_neighbours(candidates, slave.x0, slave.membrane.triangles,
                          neighbourhood * pair.contact.distance);
   find_sheet_points(pair.contact, candidates, slave.state(), master.state(),
-                    master.membrane.triangles);
+                    master.membrane.triangles, slave.path + master.path);
   if (neighbours(pair)) mark_covered(s.plies[static_cast<std::size_t>(pair.slave)], pair, master);
 }
 
 void search_edges(Scene& s, PlyEdgeContact& pair) {
   const PlyBody& a = s.plies[static_cast<std::size_t>(pair.a)];
   const PlyBody& b = s.plies[static_cast<std::size_t>(pair.b)];
-  find_edge_pairs(pair.contact, a.state(), a.edges, a.folded, b.state(), b.edges, b.folded, s.skin);
+  find_edge_pairs(pair.contact, a.state(), a.edges, a.folded, b.state(), b.edges, b.folded, s.skin,
+                  a.path + b.path);
 }
-
-/// Each ply's list of the force arrays that boundaries and contacts now write into, in fixed order.
-void collect_forces(Scene& s) {
-  const auto list = [&](int ply) -> auto& {
-    return s.plies[static_cast<std::size_t>(ply)].nodal_forces;
-  };
-  for (PlyBody& ply : s.plies) {
-    ply.nodal_forces.clear();
-    if (!ply.reaction.empty()) ply.nodal_forces.push_back(&ply.reaction);
-  }
-  for (ToolAndContacts& t : s.tools)
-    for (std::size_t p = 0; p < s.plies.size(); ++p)
-      if (!t.contacts[p].points.empty()) list(static_cast<int>(p)).push_back(&t.contacts[p].force);
-  for (PlyContact& pair : s.ply_contacts) {
-    if (pair.contact.points.empty()) continue;
-    list(pair.slave).push_back(&pair.contact.slave_force);
-    list(pair.master).push_back(&pair.contact.master_force);
-  }
-  for (PlyEdgeContact& pair : s.edge_contacts) {
-    if (pair.contact.pairs.empty()) continue;
-    list(pair.a).push_back(&pair.contact.force_a);
-    list(pair.b).push_back(&pair.contact.force_b);
-  }
-}
-
-} // namespace
-
-namespace {
 
 void renew_spread(const Scene& s, PlyBody& ply) {
   if (s.ply_contacts.empty()) return; // nobody asks for it
@@ -155,12 +131,19 @@ bool follow_ways(Scene& s) {
   for (std::size_t i = 0; i < s.node_blocks.size(); ++i)
     grow(s.plies[static_cast<std::size_t>(s.node_blocks[i].ply)].way,
          std::sqrt(s.node_sums[i].moved2));
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    s.plies[p].path += step_way(s, static_cast<int>(p));
   for (ToolAndContacts& t : s.tools) {
     // A pushed tool still moves after this, with the forces of the step.
     const double ahead = t.body.pushed ? t.body.speed_limit * s.dt : 0.0;
+    t.path += t.body.motion.norm();
     grow(t.way, (t.body.displacement - t.displacement_search).norm() + ahead);
   }
   return furthest_way(s) <= 0.5 * s.skin;
+}
+
+double path_ahead(const Scene& s, const ToolAndContacts& t) {
+  return t.path + (t.body.pushed ? t.body.speed_limit * s.dt : 0.0);
 }
 
 double furthest_way(const Scene& s) {
@@ -202,7 +185,6 @@ void search_contacts(Scene& s, ThreadTeam& team) {
     else
       search_edges(s, s.edge_contacts[static_cast<std::size_t>(i - far)]);
   });
-  collect_forces(s);
   for (NodeSums& n : s.node_sums)
     n.moved2 = 0.0;
   for (PlyBody& ply : s.plies)

@@ -7,9 +7,13 @@
 
 namespace plyform {
 
-/// Brings PlyBody::way and ToolAndContacts::way up to date. Returns whether the pairs of the last
-/// search still do: nothing has moved by half the skin. False too if a position is not finite.
+/// Brings ways and paths of plies and tools up to date, once a step. Returns whether the pairs of
+/// the last search still do: nothing has moved by half the skin. False too if a position is not
+/// finite.
 bool follow_ways(Scene& scene);
+
+/// mm, ToolAndContacts::path with what a pushed tool may still go in this step.
+double path_ahead(const Scene& scene, const ToolAndContacts& tool);
 
 /// The largest of those ways, mm; NaN if a position is not finite.
 double furthest_way(const Scene& scene);

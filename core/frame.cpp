@@ -91,11 +91,17 @@ std::vector<double> contact_pressure(const Scene& scene, int index) {
       sides.add(c.node, c.normal, c.memory.normal_force);
   for (const PlyContact& pair : scene.ply_contacts)
     for (const SheetContactPoint& c : pair.contact.points) {
-      if (pair.slave == index) sides.add(c.node, c.normal, c.memory.normal_force);
+      if (c.memory.normal_force == 0.0 || (pair.slave != index && pair.master != index)) continue;
+      const PlyBody& master = scene.plies[static_cast<std::size_t>(pair.master)];
+      const std::vector<Triangle>& triangles = master.membrane.triangles;
+      const Vec3 normal = contact_normal(c, scene.plies[static_cast<std::size_t>(pair.slave)].x,
+                                         master.x, triangles);
+      if (pair.slave == index) sides.add(c.node, normal, c.memory.normal_force);
       if (pair.master != index) continue;
-      const Triangle& t = ply.membrane.triangles[static_cast<std::size_t>(c.face)];
+      const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+      const std::array<double, 3> w = c.weights();
       for (std::size_t j = 0; j < 3; ++j)
-        sides.add(t[j], -c.normal, c.w[j] * c.memory.normal_force);
+        sides.add(t[j], -normal, w[j] * c.memory.normal_force);
     }
   std::vector<double> pressure(ply.x.size());
   for (std::size_t n = 0; n < pressure.size(); ++n)

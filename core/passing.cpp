@@ -12,12 +12,16 @@ const Vec3& at(const std::vector<Vec3>& v, int n) {
   return v[static_cast<std::size_t>(n)];
 }
 
+} // namespace
+
 double step_way(const Scene& s, int ply) {
   double step2 = 0.0;
   for (std::size_t b = 0; b < s.node_blocks.size(); ++b)
     if (s.node_blocks[b].ply == ply) step2 = std::max(step2, s.node_sums[b].step2);
   return std::sqrt(step2);
 }
+
+namespace {
 
 std::string when_and_who(const Scene& s, std::size_t ply, int node) {
   return fmt::format("stopped at step {}, time {:.6g} s: ply {}, node {}", s.step, s.time,
@@ -32,9 +36,10 @@ std::optional<Stop> find_passed(const Scene& s, const PlyContact& pair) {
   for (const SheetContactPoint& c : pair.contact.points) {
     const Triangle& t = master.membrane.triangles[static_cast<std::size_t>(c.face)];
     Vec3 u = at(slave.x, c.node), r = at(slave.motion, c.node);
+    const std::array<double, 3> w = c.weights();
     for (std::size_t j = 0; j < 3; ++j) {
-      u -= c.w[j] * at(master.x, t[j]);
-      r -= c.w[j] * at(master.motion, t[j]);
+      u -= w[j] * at(master.x, t[j]);
+      r -= w[j] * at(master.motion, t[j]);
     }
     if (!(r.dot(u) > u.squaredNorm())) continue; // (P)
     return Stop{fmt::format("{} went through ply {}, triangle {}, by a step of {:.3g} mm; "

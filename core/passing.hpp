@@ -16,7 +16,8 @@ namespace plyform {
 /// Longest way (mm) that a node of the slave and one of the master went together in this step.
 double step_way(const Scene& scene, const PlyContact& pair);
 
-/// The same of a ply and a tool.
+/// Longest way (mm) of a node of a ply in this step; the same of a ply and a tool.
+double step_way(const Scene& scene, int ply);
 double step_way(const Scene& scene, int ply, const ToolAndContacts& tool);
 
 /// A node that went through another ply or a tool within the last step, or lies deeper than half a

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/scene.hpp"
 
-#include "core/membrane_frequency.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -10,9 +8,7 @@
 namespace plyform {
 namespace {
 
-constexpr int block_size = 512; // long enough to hide the hand-over, short enough to share out
-
-void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count, int size = block_size) {
+void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count, int size = node_block) {
   const int n = static_cast<int>(count);
   for (int begin = 0; begin < n; begin += size)
     blocks.push_back({ply, begin, std::min(n, begin + size), 0.0});
@@ -57,10 +53,12 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.edges = sheet_edges(body.membrane.triangles);
   body.on_rim = faces_on_rim(body.edges, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
-  const double omega = std::sqrt(frequency_bound(body.membrane, body.x).omega2);
+  bound_membrane(body);
+  const double omega = std::sqrt(body.bound.omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
   body.membrane.viscosity = {2.0 * data.solver.fibre_damping * fabric.warp.largest_slope() / omega,
                              2.0 * data.solver.fibre_damping * fabric.weft.largest_slope() / omega};
+  bound_membrane(body); // with viscosity
   sharpen_bound(body);
   return body;
 }
@@ -81,7 +79,7 @@ double penalty_per_area(const PlyBody& ply, double fraction) {
   constexpr double fine = 12.5, most = 2.5;
   const double coarse = cell_area(ply) / (fine * fine * ply.thickness * ply.thickness);
   return std::clamp(coarse, 1.0, most) * fraction * ply.membrane.fabric.surface_density *
-         frequency_bound(ply.membrane, ply.x).omega2;
+         ply.bound.omega2;
 }
 
 ContactLaw make_law(const ContactOptions& options, double penalty, double density, double mu) {
@@ -112,7 +110,7 @@ ToolAndContacts make_tool(const Case& data, std::size_t index, const std::vector
     c.half_thickness = 0.5 * plies[p].thickness;
     t.contacts.push_back(std::move(c));
   }
-  t.ply_ways.assign(plies.size(), 0.0);
+  t.ply_paths.assign(plies.size(), 0.0);
   return t;
 }
 
@@ -128,7 +126,35 @@ PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a,
       0.5 * std::min(slave.membrane.fabric.surface_density, master.membrane.fabric.surface_density);
   pair.contact.law = make_law(data.contact, penalty, density, data.friction(a, b));
   pair.contact.distance = 0.5 * (slave.thickness + master.thickness);
+  // What a point sees late is then below h/50 times the fold between its faces: a tenth of what
+  // contacts give way by.
+  pair.contact.rest = 0.02 * pair.contact.distance;
+  pair.contact.look_every = 0.05 * std::sqrt(cell_area(master));
   return pair;
+}
+
+/// Pairs of plies next to each other first: they have the most to do.
+std::vector<PlyPair> make_pairs(const Scene& s) {
+  std::vector<PlyPair> pairs;
+  const int n = static_cast<int>(s.plies.size());
+  for (int apart = 1; apart <= n; ++apart)
+    for (int a = 0; a < n; ++a) {
+      const int b = a + apart % n; // with itself last
+      if (b >= n) continue;
+      PlyPair pair;
+      pair.a = a, pair.b = b;
+      for (std::size_t i = 0; i < s.ply_contacts.size(); ++i)
+        if (std::minmax(s.ply_contacts[i].slave, s.ply_contacts[i].master) == std::minmax(a, b))
+          pair.contacts.push_back(static_cast<int>(i));
+      for (std::size_t i = 0; i < s.edge_contacts.size(); ++i)
+        if (s.edge_contacts[i].a == a && s.edge_contacts[i].b == b)
+          pair.edges.push_back(static_cast<int>(i));
+      if (pair.contacts.empty()) continue;
+      pair.force_a.assign(s.plies[static_cast<std::size_t>(a)].x.size(), Vec3::Zero());
+      pair.force_b.assign(s.plies[static_cast<std::size_t>(b)].x.size(), Vec3::Zero());
+      pairs.push_back(std::move(pair));
+    }
+  return pairs;
 }
 
 double smallest_element(const std::vector<PlyBody>& plies) {
@@ -162,6 +188,7 @@ Scene make_scene(const Case& data) {
       edges.contact.distance = 0.5 * pair.contact.distance;
       s.edge_contacts.push_back(std::move(edges));
     }
+  s.ply_pairs = make_pairs(s);
   for (int p = 0; p < n; ++p) {
     const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
     if (ply.lanes)
@@ -182,6 +209,10 @@ Scene make_scene(const Case& data) {
   s.patch_collapsed.assign(s.patch_blocks.size(), 0);
   s.node_sums.assign(s.node_blocks.size(), {});
   return s;
+}
+
+void bound_membrane(PlyBody& ply) {
+  ply.bound = frequency_bound(ply.membrane, ply.x);
 }
 
 void sharpen_bound(PlyBody& ply) {
@@ -213,7 +244,7 @@ StepBound stable_step(const Scene& s) {
                        rows[static_cast<std::size_t>(pair.b)]);
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBody& ply = s.plies[p];
-    const FrequencyBound element = frequency_bound(ply.membrane, ply.x);
+    const FrequencyBound& element = ply.bound;
     double contact = 0.0;
     for (std::size_t n = 0; n < rows[p].size(); ++n)
       contact = std::max(contact, rows[p][n] / ply.membrane.node_mass[n]);

@@ -9,6 +9,7 @@
 #include "contact/tool_contact.hpp"
 #include "core/bending.hpp"
 #include "core/boundary.hpp"
+#include "core/membrane_frequency.hpp"
 #include "core/membrane_lanes.hpp"
 
 #include <memory>
@@ -24,12 +25,14 @@ struct PlyBody {
   double angle = 0.0;     ///< rad, warp from x, before forming
   double thickness = 0.0; ///< mm
   Membrane membrane;
-  double sharpness = 1.0;             ///< core/membrane_frequency.hpp, renewed now and then
+  FrequencyBound bound;               ///< of the membrane, renewed now and then
+  double sharpness = 1.0;             ///< core/membrane_frequency.hpp, renewed more rarely
   std::vector<Vec3> x0, x;            ///< mm
   std::vector<Vec3> velocity;         ///< mm/s, half a step behind x
   std::vector<Vec3> motion;           ///< mm, of the last step
   std::vector<Vec3> x_search;         ///< mm, where the contact search was last done
   double way = 0.0;                   ///< mm, furthest that any node has been from there
+  double path = 0.0;                  ///< mm, contact/near_list.hpp
   std::optional<MembraneLanes> lanes; ///< forces, unless it has no yarns
   std::vector<ElementForce> q;        ///< forces then, one a triangle
   std::optional<Bending> bending;     ///< if the fabric has it
@@ -44,7 +47,7 @@ struct PlyBody {
   std::vector<std::int32_t> folded;         ///< edges folded at the last contact search
   std::vector<Vec3> reaction; ///< N, that boundaries hold each node with; empty if none does
   std::vector<const std::vector<Vec3>*>
-      nodal_forces; ///< reaction, contacts: those in use, in order
+      nodal_forces; ///< reaction, contacts: those in use now, in order
 
   SheetState state() const { return {x, motion, membrane.node_area, spread}; }
 };
@@ -58,10 +61,11 @@ struct ToolAndContacts {
   std::vector<ToolContact> contacts;
   Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
   Vec3 displacement_search = Vec3::Zero();
-  double way = 0.0; ///< mm, furthest from there, what it may still do in this step included
-  std::vector<double> ply_ways; ///< mm, relative to each ply
-  double work = 0.0;            ///< N mm, done by the tool on the plies since the start
-  double seconds = 0.0;         ///< all of its forces
+  double way = 0.0;  ///< mm, furthest from there, what it may still do in this step included
+  double path = 0.0; ///< mm, contact/near_list.hpp
+  std::vector<double> ply_paths; ///< mm, with each ply, what it may still do in this step included
+  double work = 0.0;             ///< N mm, done by the tool on the plies since the start
+  double seconds = 0.0;          ///< all of its forces
 };
 
 /// One directed contact between two plies, or of a ply with itself.
@@ -76,6 +80,15 @@ struct PlyEdgeContact {
   EdgeContact contact;
 };
 
+/// Two plies, a < b, or one with itself, and what their contacts do to their nodes.
+struct PlyPair {
+  int a = 0, b = 0;
+  std::vector<int> contacts;          ///< in Scene::ply_contacts
+  std::vector<int> edges;             ///< in Scene::edge_contacts
+  std::vector<Vec3> force_a, force_b; ///< N, of all of them
+  bool loaded = false;                ///< something touches now; else the forces are zero
+};
+
 /// What a boundary (Case::boundaries) is doing.
 struct BoundaryState {
   double displacement = 0.0;      ///< mm, d, now
@@ -84,6 +97,9 @@ struct BoundaryState {
   Vec3 force = Vec3::Zero();      ///< N, sum of what it holds its nodes with
   double work = 0.0;              ///< N mm, done on the plies since the start
 };
+
+/// Nodes in a block: long enough to hide the hand-over, short enough to share out.
+constexpr int node_block = 512;
 
 /// A run of nodes or patches (or one of the ply's LaneBlocks): the unit of work of a thread. Fixed
 /// size, so that sums come out the same whatever the number of threads.
@@ -106,6 +122,7 @@ struct Scene {
   std::vector<ToolAndContacts> tools;
   std::vector<PlyContact> ply_contacts;
   std::vector<PlyEdgeContact> edge_contacts;
+  std::vector<PlyPair> ply_pairs;
   std::vector<HeldNode> held;            ///< by ply and node
   std::vector<BoundaryState> boundaries; ///< one each of Case::boundaries
   std::vector<Block> patch_blocks, node_blocks, bending_blocks;
@@ -139,11 +156,14 @@ struct StepBound {
 /// The largest eigenvalue of M^-1 K is at most the elements' plus the contacts' bound, and a
 /// central difference with lagged damping is stable for omega^2 dt^2 + 2 c dt <= 4. Contacts count
 /// where they stand now, those too that are within bound_margin of closing; what slides until the
-/// next renewal is what step_factor leaves room for.
+/// next renewal is what step_factor leaves room for. The elements' part is PlyBody::bound.
 StepBound stable_step(const Scene& scene);
 
 /// mm; by when anything has moved by half of it the bound is due again.
 constexpr double bound_margin = 0.5;
+
+/// Finds PlyBody::bound at the present shape.
+void bound_membrane(PlyBody& ply);
 
 /// Finds PlyBody::sharpness at the present shape.
 void sharpen_bound(PlyBody& ply);

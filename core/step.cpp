@@ -14,7 +14,7 @@ namespace {
 constexpr int sharpen_every = 1000; // steps: a ratio changes slower than the bound
 constexpr int bound_every = 200;    // steps between renewals of the step bound at most: geometry
                                     // changes by far less than the case's step factor leaves room
-                                    // for
+                                    // for; contacts are looked at more often
 
 std::string when(const Scene& s) {
   return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
@@ -45,29 +45,61 @@ std::optional<Stop> find_not_finite(const Scene& s) {
   return std::nullopt;
 }
 
+/// Each ply's list of the force arrays that hold something in this step, in fixed order.
+void collect_forces(Scene& s) {
+  const auto list = [&](int ply) -> auto& {
+    return s.plies[static_cast<std::size_t>(ply)].nodal_forces;
+  };
+  for (PlyBody& ply : s.plies) {
+    ply.nodal_forces.clear();
+    if (!ply.reaction.empty()) ply.nodal_forces.push_back(&ply.reaction);
+  }
+  for (const ToolAndContacts& t : s.tools)
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      if (!t.contacts[p].list.near.empty())
+        list(static_cast<int>(p)).push_back(&t.contacts[p].force);
+  for (const PlyPair& pair : s.ply_pairs) {
+    if (!pair.loaded) continue;
+    list(pair.a).push_back(&pair.force_a);
+    list(pair.b).push_back(&pair.force_b);
+  }
+}
+
+/// All that happens between two plies.
+void pair_forces(Scene& s, PlyPair& pair) {
+  if (pair.loaded) {
+    std::fill(pair.force_a.begin(), pair.force_a.end(), Vec3::Zero());
+    std::fill(pair.force_b.begin(), pair.force_b.end(), Vec3::Zero());
+  }
+  pair.loaded = false;
+  const PlyBody &a = s.plies[static_cast<std::size_t>(pair.a)],
+                &b = s.plies[static_cast<std::size_t>(pair.b)];
+  for (const int i : pair.contacts) {
+    const bool up = s.ply_contacts[static_cast<std::size_t>(i)].slave == pair.a;
+    SheetContact& contact = s.ply_contacts[static_cast<std::size_t>(i)].contact;
+    const PlyBody &slave = up ? a : b, &master = up ? b : a;
+    sheet_forces(contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
+                 {a.way + b.way, a.path + b.path}, up ? pair.force_a : pair.force_b,
+                 up ? pair.force_b : pair.force_a);
+    pair.loaded = pair.loaded || contact.sums.touching > 0;
+  }
+  for (const int i : pair.edges) {
+    EdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
+    edge_forces(contact, a.state(), b.state(), s.dt, a.path + b.path, pair.force_a, pair.force_b);
+    pair.loaded = pair.loaded || contact.sums.touching > 0;
+  }
+}
+
 /// Element and contact forces, each task into arrays of its own: the order in which they are done
 /// does not matter.
 void add_up_forces(Scene& s, ThreadTeam& team) {
-  const auto sheet_task = [&](int i) {
-    PlyContact& c = s.ply_contacts[static_cast<std::size_t>(i)];
-    const PlyBody& master = s.plies[static_cast<std::size_t>(c.master)];
-    const PlyBody& slave = s.plies[static_cast<std::size_t>(c.slave)];
-    sheet_forces(c.contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
-                 slave.way + master.way);
-  };
-  const auto edge_task = [&](int i) {
-    PlyEdgeContact& c = s.edge_contacts[static_cast<std::size_t>(i)];
-    const PlyBody &a = s.plies[static_cast<std::size_t>(c.a)],
-                  &b = s.plies[static_cast<std::size_t>(c.b)];
-    edge_forces(c.contact, a.state(), b.state(), s.dt, a.way + b.way);
-  };
   const auto tool_task = [&](int i) {
     ToolAndContacts& t = s.tools[static_cast<std::size_t>(i)];
     const Stopwatch watch(t.seconds);
     const Vec3 before = t.force;
     for (std::size_t p = 0; p < s.plies.size(); ++p)
-      t.ply_ways[p] = t.way + s.plies[p].way;
-    t.force = tool_forces(t.body, t.contacts, s.ply_states, t.ply_ways, s.dt);
+      t.ply_paths[p] = path_ahead(s, t) + s.plies[p].path;
+    t.force = tool_forces(t.body, t.contacts, s.ply_states, t.ply_paths, s.dt);
     t.work -= 0.5 * (before + t.force).dot(t.body.motion);
   };
   const auto patch_task = [&](int i) {
@@ -86,26 +118,24 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
     PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
     bending_forces(*ply.bending, ply.x, block.begin, block.end);
   };
-  const int sheets = static_cast<int>(s.ply_contacts.size());
-  const int edges = sheets + static_cast<int>(s.edge_contacts.size());
-  const int tools = edges + static_cast<int>(s.tools.size());
+  const int pairs = static_cast<int>(s.ply_pairs.size());
+  const int tools = pairs + static_cast<int>(s.tools.size());
   s.ply_states.clear();
   for (const PlyBody& ply : s.plies)
     s.ply_states.push_back(ply.state());
   const int patches = tools + static_cast<int>(s.patch_blocks.size());
   const int all = patches + static_cast<int>(s.bending_blocks.size());
   team.run(all, [&](int i) { // longest tasks first
-    if (i < sheets)
-      sheet_task(i);
-    else if (i < edges)
-      edge_task(i - sheets);
+    if (i < pairs)
+      pair_forces(s, s.ply_pairs[static_cast<std::size_t>(i)]);
     else if (i < tools)
-      tool_task(i - edges);
+      tool_task(i - pairs);
     else if (i < patches)
       patch_task(i - tools);
     else
       bending_task(i - patches);
   });
+  collect_forces(s);
 }
 
 /// What acts on every mass: gravity (mm/s^2) and damping (1/s).
@@ -118,14 +148,31 @@ MassLoads mass_loads(const Scene& s) {
   return {s.data.gravity, s.data.solver.mass_damping};
 }
 
-/// (17), with the forces of compute_forces.
+/// N, of nodes begin .. end - 1 into f[0 ..): all forces of compute_forces. Array after array,
+/// which streams; a node's terms are added in the same order however its ply is cut up.
+void add_up(const PlyBody& ply, int begin, int end, Vec3* f) {
+  for (int n = begin; n < end; ++n) {
+    Vec3& sum = f[n - begin];
+    sum = ply.lanes ? lane_force(*ply.lanes, static_cast<std::size_t>(n))
+                    : node_force(ply.membrane, ply.q, n);
+    if (ply.bending) sum += bending_force(*ply.bending, n);
+  }
+  for (const std::vector<Vec3>* force : ply.nodal_forces) {
+    const Vec3* from = force->data() + begin;
+    for (int i = 0; i < end - begin; ++i)
+      f[i] += from[i];
+  }
+}
+
+/// (17), of the sum of a node's forces.
+Vec3 acceleration(const PlyBody& ply, std::size_t n, const Vec3& force, const MassLoads& loads) {
+  return force / ply.membrane.node_mass[n] + loads.gravity - loads.damping * ply.velocity[n];
+}
+
 Vec3 acceleration(const PlyBody& ply, int node, const MassLoads& loads) {
-  const auto n = static_cast<std::size_t>(node);
-  Vec3 f = ply.lanes ? lane_force(*ply.lanes, n) : node_force(ply.membrane, ply.q, node);
-  if (ply.bending) f += bending_force(*ply.bending, node);
-  for (const std::vector<Vec3>* force : ply.nodal_forces)
-    f += (*force)[n];
-  return f / ply.membrane.node_mass[n] + loads.gravity - loads.damping * ply.velocity[n];
+  Vec3 force;
+  add_up(ply, node, node + 1, &force);
+  return acceleration(ply, static_cast<std::size_t>(node), force, loads);
 }
 
 /// (R) of core/boundary.hpp for one node: the velocity that takes it where its boundaries will be.
@@ -178,10 +225,13 @@ void hold_nodes(Scene& s) {
 NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt,
                     const MassLoads& loads) {
   NodeSums sums;
+  std::array<Vec3, node_block> force;
+  add_up(ply, block.begin, block.end, force.data());
   for (int i = block.begin; i < block.end; ++i) {
     const auto n = static_cast<std::size_t>(i);
     const Vec3 old = ply.velocity[n];
-    const Vec3 now = old + 0.5 * (dt + next_dt) * acceleration(ply, i, loads); // (16)
+    const Vec3& f = force[static_cast<std::size_t>(i - block.begin)];
+    const Vec3 now = old + 0.5 * (dt + next_dt) * acceleration(ply, n, f, loads); // (16)
     ply.velocity[n] = now;
     ply.motion[n] = now * next_dt;
     ply.x[n] += ply.motion[n]; // (15)
@@ -239,6 +289,17 @@ std::optional<Stop> find_collapsed(const Scene& s) {
   return std::nullopt;
 }
 
+void bound_elements(Scene& s, ThreadTeam& team) {
+  const bool sharpen = s.step >= s.next_sharpening;
+  if (sharpen) s.next_sharpening = s.step + sharpen_every;
+  team.run(static_cast<int>(s.plies.size()), [&](int p) {
+    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+    const Stopwatch watch(ply.search_seconds);
+    bound_membrane(ply);
+    if (sharpen) sharpen_bound(ply);
+  });
+}
+
 void set_step(Scene& s) {
   s.next_dt = s.data.solver.step_factor * stable_step(s).dt;
   s.bound_way = furthest_way(s);
@@ -260,15 +321,9 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
     if (auto stop = find_not_finite(s)) return stop;
     search_contacts(s, team);
   }
-  const bool closer = furthest_way(s) - s.bound_way > 0.5 * bound_margin;
-  if (used_up || closer || s.step % bound_every == 0) {
-    if (s.step >= s.next_sharpening) {
-      team.run(static_cast<int>(s.plies.size()),
-               [&](int p) { sharpen_bound(s.plies[static_cast<std::size_t>(p)]); });
-      s.next_sharpening = s.step + sharpen_every;
-    }
-    set_step(s);
-  }
+  const bool due = used_up || s.step % bound_every == 0;
+  if (due) bound_elements(s, team);
+  if (due || furthest_way(s) - s.bound_way > 0.5 * bound_margin) set_step(s);
   if (!used_up) follow_spread(s, team);
   add_up_forces(s, team);
   // at every step: small triangles turn over within a few

@@ -54,8 +54,8 @@ void search(Pair& p, SearchTimes& times) {
   p.lower_tree.candidates(p.upper.x, bench_thickness + skin, up);
   p.upper_tree.candidates(p.lower.x, bench_thickness + skin, down);
   const double listed = cpu_seconds();
-  find_sheet_points(p.up, up, p.upper.state(), p.lower.state(), p.lower.triangles);
-  find_sheet_points(p.down, down, p.lower.state(), p.upper.state(), p.upper.triangles);
+  find_sheet_points(p.up, up, p.upper.state(), p.lower.state(), p.lower.triangles, 0.0);
+  find_sheet_points(p.down, down, p.lower.state(), p.upper.state(), p.upper.triangles, 0.0);
   times.refit += refitted - begin;
   times.candidates += listed - refitted;
   times.points += cpu_seconds() - listed;
@@ -79,10 +79,15 @@ void ContactStep(benchmark::State& state) {
   const std::vector<Vec3> forth(moved.size(), way), back(moved.size(), -way);
   const SheetState there{moved, forth, p.upper.area}, here{p.upper.x, back, p.upper.area};
   const double dt = finer * 7e-6; // s
+  std::vector<Vec3> on_upper(p.upper.x.size()), on_lower(p.lower.x.size());
   const auto step = [&](bool odd) {
     const SheetState& upper = odd ? there : here;
-    sheet_forces(p.up, upper, p.lower.state(), p.lower.triangles, dt, way.norm());
-    sheet_forces(p.down, p.lower.state(), upper, p.upper.triangles, dt, way.norm());
+    std::fill(on_upper.begin(), on_upper.end(), Vec3::Zero());
+    std::fill(on_lower.begin(), on_lower.end(), Vec3::Zero());
+    sheet_forces(p.up, upper, p.lower.state(), p.lower.triangles, dt, {way.norm(), way.norm()},
+                 on_upper, on_lower);
+    sheet_forces(p.down, p.lower.state(), upper, p.upper.triangles, dt, {way.norm(), way.norm()},
+                 on_lower, on_upper);
   };
   bool odd = false;
   for (int i = 0; i < 4; ++i)
@@ -92,7 +97,7 @@ void ContactStep(benchmark::State& state) {
   if (p.up.fault.node >= 0 || p.down.fault.node >= 0) state.SkipWithError("sheets too deep");
   const auto rate = Counter::kIsIterationInvariantRate;
   const double triangles = 2.0 * static_cast<double>(p.lower.triangles.size());
-  const double points = static_cast<double>(p.up.near.size() + p.down.near.size());
+  const double points = static_cast<double>(p.up.list.near.size() + p.down.list.near.size());
   Traffic t = sheet_traffic(p.up, p.upper.x.size(), p.lower.x.size());
   t += sheet_traffic(p.down, p.lower.x.size(), p.upper.x.size());
   state.SetLabel(state.range(1) != 0 ? "nodes on nodes" : "nodes over faces");

@@ -48,8 +48,8 @@ inline BenchSheet wavy_sheet(int cells, double cell, double turn, double height)
 /// One pass of sheet_forces, each array once; faces of points whose foot is lost are not counted.
 inline Traffic sheet_traffic(const SheetContact& c, std::size_t slave_nodes,
                              std::size_t master_nodes) {
-  Traffic t = traffic(c.near.size(), sizeof(SheetContactPoint), 2.0); // read and written
-  t += traffic(c.near.size(), sizeof(std::int32_t) + sizeof(Triangle));
+  Traffic t = traffic(c.list.near.size(), sizeof(SheetContactPoint), 2.0); // read and written
+  t += traffic(c.list.near.size(), sizeof(std::int32_t) + sizeof(Triangle));
   const std::size_t nodes = slave_nodes + master_nodes;
   t += traffic(nodes, 2 * sizeof(Vec3));  // place, motion
   t += traffic(nodes, sizeof(Vec3), 3.0); // force: set to zero, then read and written

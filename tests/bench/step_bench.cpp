@@ -88,7 +88,7 @@ Traffic step_traffic(const Scene& s) {
   for (const ToolAndContacts& tool : s.tools)
     for (const ToolContact& c : tool.contacts) {
       if (c.points.empty()) continue;
-      t += traffic(c.near.size(), sizeof(ToolContactPoint), 2.0);
+      t += traffic(c.list.near.size(), sizeof(ToolContactPoint), 2.0);
       t += traffic(c.force.size(), sizeof(Vec3), 3.0);
     }
   return t;

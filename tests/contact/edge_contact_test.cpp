@@ -31,11 +31,23 @@ constexpr double always = std::numeric_limits<double>::infinity(); // mm, no pai
 void search(EdgeContact& contact, const OwnedSheet& a, const OwnedSheet& b, double skin) {
   const auto edges_a = sheet_edges(a.triangles), edges_b = sheet_edges(b.triangles);
   find_edge_pairs(contact, a.state(), edges_a, folded_edges(edges_a, a.triangles, a.x, thickness),
-                  b.state(), edges_b, folded_edges(edges_b, b.triangles, b.x, thickness), skin);
+                  b.state(), edges_b, folded_edges(edges_b, b.triangles, b.x, thickness), skin,
+                  0.0);
 }
 
-EdgeContact contact_of(const ContactLaw& law) {
-  EdgeContact contact;
+/// A contact with what it does to both sheets' nodes.
+struct Loaded : EdgeContact {
+  std::vector<Vec3> force_a, force_b; ///< N
+};
+
+void press(Loaded& contact, const SheetState& a, const SheetState& b, double dt) {
+  contact.force_a.assign(a.x.size(), Vec3::Zero());
+  contact.force_b.assign(b.x.size(), Vec3::Zero());
+  edge_forces(contact, a, b, dt, always, contact.force_a, contact.force_b);
+}
+
+Loaded contact_of(const ContactLaw& law) {
+  Loaded contact;
   contact.law = law;
   contact.distance = distance;
   return contact;
@@ -58,16 +70,16 @@ TEST(EdgeContact, ForceIsMinusEnergyGradient) {
   for (int state = 0; state < 40; ++state) {
     // some already crossed: the last argument of Ridges is where they go after the search
     Ridges r(random, 0.3 + 0.06 * state, 0.2);
-    EdgeContact contact = contact_of({3.0, 0.0, 0.0});
+    Loaded contact = contact_of({3.0, 0.0, 0.0});
     search(contact, r.a, r.b, 0.5);
     const double further = state % 4 == 3 ? 0.3 : 0.05;
     for (Vec3& x : r.b.x)
       x.z() -= further;
-    edge_forces(contact, r.a.state(), r.b.state(), 0.0, always);
+    press(contact, r.a.state(), r.b.state(), 0.0);
     ASSERT_EQ(contact.sums.touching, 1) << state;
     const auto energy = [&] {
-      EdgeContact copy = contact;
-      edge_forces(copy, r.a.state(), r.b.state(), 0.0, always);
+      Loaded copy = contact;
+      press(copy, r.a.state(), r.b.state(), 0.0);
       return copy.sums.elastic;
     };
     const std::vector<Vec3> on_a = contact.force_a, on_b = contact.force_b;
@@ -93,15 +105,15 @@ TEST(EdgeContact, ForceIsMinusEnergyGradient) {
 TEST(EdgeContact, RemembersItsSideAcrossASearch) {
   Random random(2);
   Ridges r(random, 1.2, 0.2);
-  EdgeContact contact = contact_of({3.0, 0.0, 0.0});
+  Loaded contact = contact_of({3.0, 0.0, 0.0});
   search(contact, r.a, r.b, 0.5);
   for (Vec3& x : r.b.x)
     x.z() -= 0.4;
-  edge_forces(contact, r.a.state(), r.b.state(), 0.0, always);
+  press(contact, r.a.state(), r.b.state(), 0.0);
   const std::vector<Vec3> before = contact.force_b;
   EXPECT_GT(contact.sums.penetration, distance);
   search(contact, r.a, r.b, 0.5);
-  edge_forces(contact, r.a.state(), r.b.state(), 0.0, always);
+  press(contact, r.a.state(), r.b.state(), 0.0);
   for (std::size_t n = 0; n < 4; ++n)
     EXPECT_EQ((before[n] - contact.force_b[n]).norm(), 0.0);
 }
@@ -109,13 +121,13 @@ TEST(EdgeContact, RemembersItsSideAcrossASearch) {
 TEST(EdgeContact, DampingTakesEnergyOnly) {
   Random random(3);
   Ridges r(random, 1.2, 0.25);
-  EdgeContact contact = contact_of({3.0, 1e-6, 0.0});
+  Loaded contact = contact_of({3.0, 1e-6, 0.0});
   search(contact, r.a, r.b, 0.5);
   double last = 0.0;
   for (int i = 0; i < 40; ++i) { // in and out again
     for (Vec3& x : r.b.x)
       x.z() += 0.02 * std::cos(0.2 * i + std::numbers::pi);
-    edge_forces(contact, r.a.state(), r.b.state(), 1e-6, always);
+    press(contact, r.a.state(), r.b.state(), 1e-6);
     EXPECT_GE(contact.sums.damping, last);
     EXPECT_GE(contact.force_b[0].z(), 0.0); // no adhesion
     last = contact.sums.damping;
@@ -149,7 +161,7 @@ TEST(EdgeContact, FindsEveryPairWithinReach) {
     for (OwnedSheet* sheet : {&a, &b})
       for (Vec3& x : sheet->x)
         x += Vec3(0.5, 0.5, 0.7).cwiseProduct(random_vector(random));
-    EdgeContact contact = contact_of({1.0, 0.0, 0.0});
+    Loaded contact = contact_of({1.0, 0.0, 0.0});
     constexpr double skin = 0.5;
     search(contact, a, b, skin);
     std::set<std::array<int, 4>> found;
@@ -182,15 +194,15 @@ TEST(EdgeContact, FindsEveryPairWithinReach) {
 
 TEST(EdgeContact, KeepsATouchingPairWhoseFoldOpens) {
   OwnedSheet a = roof(-1.0, 0.0, 0.2), b = roof(1.0, 0.5 * std::numbers::pi, 0.0);
-  EdgeContact contact = contact_of({1.0, 0.0, 0.0});
+  Loaded contact = contact_of({1.0, 0.0, 0.0});
   search(contact, a, b, 0.1);
-  edge_forces(contact, a.state(), b.state(), 0.0, always);
+  press(contact, a.state(), b.state(), 0.0);
   ASSERT_EQ(contact.sums.touching, 1); // ridges 0.2 mm apart, contact from 0.3 mm on
   for (OwnedSheet* sheet : {&a, &b})   // wings up or down to the ridge's height: flat sheets
     for (std::size_t n = 2; n < 4; ++n)
       sheet->x[n].z() = sheet->x[0].z();
   search(contact, a, b, 0.1);
-  edge_forces(contact, a.state(), b.state(), 0.0, always);
+  press(contact, a.state(), b.state(), 0.0);
   EXPECT_GE(contact.sums.touching, 1);
 }
 

@@ -13,21 +13,29 @@ namespace {
 
 constexpr double thickness = 0.6; // h, mm
 
+/// A contact with what it does to both sheets' nodes.
+struct Loaded : SheetContact {
+  std::vector<Vec3> slave_force, master_force; ///< N
+};
+
 /// Both sheets as the search sees them.
 void search(SheetContact& contact, const OwnedSheet& slave, const OwnedSheet& master, double skin) {
   const SheetTree tree(master.x, master.triangles);
   std::vector<Candidate> candidates;
   tree.candidates(slave.x, contact.distance + skin, candidates);
-  find_sheet_points(contact, candidates, slave.state(), master.state(), master.triangles);
+  find_sheet_points(contact, candidates, slave.state(), master.state(), master.triangles, 0.0);
 }
 
-void forces(SheetContact& contact, const OwnedSheet& slave, const OwnedSheet& master,
-            double dt = 0.0, double way = std::numeric_limits<double>::infinity()) {
-  sheet_forces(contact, slave.state(), master.state(), master.triangles, dt, way);
+void forces(Loaded& contact, const OwnedSheet& slave, const OwnedSheet& master, double dt = 0.0,
+            double way = std::numeric_limits<double>::infinity()) {
+  contact.slave_force.assign(slave.x.size(), Vec3::Zero());
+  contact.master_force.assign(master.x.size(), Vec3::Zero());
+  sheet_forces(contact, slave.state(), master.state(), master.triangles, dt, {way, way},
+               contact.slave_force, contact.master_force);
 }
 
-SheetContact contact_of(const ContactLaw& law) {
-  SheetContact contact;
+Loaded contact_of(const ContactLaw& law) {
+  Loaded contact;
   contact.law = law;
   contact.distance = thickness;
   return contact;
@@ -53,13 +61,13 @@ TEST(SheetContact, ForceIsMinusEnergyGradient) {
   double worst = 0.0;
   for (int state = 0; state < 20; ++state) {
     BumpyPair p = bumpy_pair(random);
-    SheetContact contact = contact_of({3.0, 0.0, 0.0});
+    Loaded contact = contact_of({3.0, 0.0, 0.0});
     search(contact, p.slave, p.master, 0.5);
     forces(contact, p.slave, p.master);
     EXPECT_LT(contact.fault.node, 0);
     touching += contact.sums.touching;
     const auto energy = [&] {
-      SheetContact copy = contact;
+      Loaded copy = contact;
       forces(copy, p.slave, p.master);
       return copy.sums.elastic;
     };
@@ -79,7 +87,7 @@ TEST(SheetContact, ActionIsReaction) {
   Random random(2);
   for (int state = 0; state < 10; ++state) {
     BumpyPair p = bumpy_pair(random);
-    SheetContact contact = contact_of({3.0, 1e-5, 0.0});
+    Loaded contact = contact_of({3.0, 1e-5, 0.0});
     search(contact, p.slave, p.master, 0.5);
     forces(contact, p.slave, p.master);
     for (const bool friction : {false, true}) {
@@ -112,7 +120,7 @@ TEST(SheetContact, ActionIsReaction) {
 struct OnePoint {
   OwnedSheet node = points_only({Vec3(0.3, 0.2, thickness)}, 2.0),
              floor = square_sheet(1, 40.0, 0.0);
-  SheetContact contact = contact_of({5.0, 0.0, 0.25});
+  Loaded contact = contact_of({5.0, 0.0, 0.25});
   explicit OnePoint(double p) {
     search(contact, node, floor, 0.5);
     step({0, 0, -p});
@@ -212,7 +220,7 @@ TEST(SheetContact, NoPairIsMissedBetweenSearches) {
   OwnedSheet master = square_sheet(16, 2.5, 0.0), slave = square_sheet(12, 2.9, 0.0);
   for (Vec3& x : master.x)
     x.z() = wave(x.x(), x.y());
-  SheetContact contact = contact_of({1.0, 0.0, 0.0});
+  Loaded contact = contact_of({1.0, 0.0, 0.0});
   std::vector<Vec3> slave_at_search = slave.x, master_at_search = master.x;
   int touching = 0, searches = 0;
   double moved = 0.0; // furthest way since the search, which never falls

@@ -11,6 +11,7 @@ namespace plyform {
 namespace {
 
 constexpr double half_thickness = 0.3; // mm
+constexpr double all_ways = std::numeric_limits<double>::infinity();
 
 ToolContact contact_of(const ContactLaw& law) {
   ToolContact contact;
@@ -22,8 +23,7 @@ ToolContact contact_of(const ContactLaw& law) {
 /// Forces on the nodes in contact.force; returns that on the tool.
 Vec3 forces(ToolBody& tool, ToolContact& contact, const OwnedSheet& nodes, double dt) {
   const SheetState state = nodes.state();
-  const double all = std::numeric_limits<double>::infinity();
-  return tool_forces(tool, {&contact, 1}, {&state, 1}, {&all, 1}, dt);
+  return tool_forces(tool, {&contact, 1}, {&state, 1}, {&all_ways, 1}, dt);
 }
 
 /// Die hole of radius 20 with a fillet of 5 and a flat top.
@@ -63,7 +63,7 @@ TEST(ToolContact, ForceIsMinusEnergyGradient) {
         x.push_back(near_tool(tool, half_thickness - 0.2, half_thickness + 0.1, random));
       OwnedSheet nodes = points_only(x, 4.0);
       ToolContact contact = contact_of({3.0, 0.0, 0.0});
-      find_tool_points(contact, tool, nodes.state(), 0.5);
+      find_tool_points(contact, tool, nodes.state(), 0.5, all_ways);
       const Vec3 on_tool = forces(tool, contact, nodes, 0.0);
       EXPECT_GT(contact.sums.touching, 10);
       EXPECT_LT(contact.sums.touching, 30);
@@ -92,7 +92,7 @@ struct OnFloor {
   ToolContact contact = contact_of({5.0, 0.0, 0.25});
   OnFloor() {
     floor.shape = Plane{};
-    find_tool_points(contact, floor, node.state(), 0.5);
+    find_tool_points(contact, floor, node.state(), 0.5, all_ways);
     step({0, 0, -0.04});
   }
   Vec3 step(const Vec3& by) {
@@ -135,12 +135,13 @@ TEST(ToolContact, KeepsItsMemoryAcrossASearch) {
   OnFloor c;
   c.step({0.005, 0.0, 0.0});
   const Vec3 before = c.contact.force[0];
-  find_tool_points(c.contact, c.floor, c.node.state(), 0.5);
+  find_tool_points(c.contact, c.floor, c.node.state(), 0.5, all_ways);
   EXPECT_NEAR((c.step(Vec3::Zero()) - before).norm(), 0.0, 1e-14);
   const double stored = c.contact.sums.elastic, spring = 0.5 * 5.0 * 0.005 * 0.005;
   EXPECT_NEAR(stored, 0.5 * 10.0 * 0.04 * 0.04 + spring, 1e-14);
   c.node.move({{0, 0, 5.0}});
-  find_tool_points(c.contact, c.floor, c.node.state(), 0.5); // out of reach: forgotten, paid
+  find_tool_points(c.contact, c.floor, c.node.state(), 0.5,
+                   all_ways); // out of reach: forgotten, paid
   EXPECT_TRUE(c.contact.points.empty());
   EXPECT_TRUE(c.contact.force[0].isZero(0.0));
   EXPECT_NEAR(c.contact.sums.friction, spring, 1e-15);
@@ -155,7 +156,7 @@ TEST(ToolContact, ListsEveryNodeWithinReach) {
       x.push_back(near_tool(tool, -2.0, 4.0, random));
     const OwnedSheet nodes = points_only(x, 1.0);
     ToolContact contact = contact_of({1.0, 0.0, 0.0});
-    find_tool_points(contact, tool, nodes.state(), 0.5);
+    find_tool_points(contact, tool, nodes.state(), 0.5, all_ways);
     std::size_t next = 0;
     for (std::size_t n = 0; n < x.size(); ++n) {
       int hint = -1;
@@ -196,7 +197,7 @@ TEST(ToolContact, PushedToolFeelsItsForce) {
         for (Vec3& x : nodes.x)
           x.z() += 2e-4 * signed_unit(random); // gaps of some tenths of a step's way
         ToolContact contact = contact_of({50.0, 5e-5, ball ? 0.0 : 0.2});
-        find_tool_points(contact, tool, nodes.state(), 1.0);
+        find_tool_points(contact, tool, nodes.state(), 1.0, all_ways);
         int free_steps = 0;
         for (int step = 0; step < 50; ++step) {
           const double speed = tool.speed;
@@ -226,7 +227,7 @@ TEST(ToolContact, PushedToolClosesAtItsSpeedLimit) {
   OwnedSheet nodes = square_sheet(2, 1.0, 0.0);
   ToolContact contact = contact_of({50.0, 0.0, 0.0});
   for (int step = 1; step <= 20; ++step) {
-    find_tool_points(contact, tool, nodes.state(), 1.0);
+    find_tool_points(contact, tool, nodes.state(), 1.0, all_ways);
     EXPECT_TRUE(forces(tool, contact, nodes, 1e-6).isZero(0.0));
     EXPECT_NEAR(tool.displacement.z(), -1e-3 * step, 1e-15);
     EXPECT_NEAR(tool.motion.z(), -1e-3, 1e-15);

@@ -39,12 +39,11 @@ struct Way {
 std::vector<Vec3> contact_forces(const Scene& s) {
   std::vector<Vec3> f[2] = {std::vector<Vec3>(s.plies[0].x.size(), Vec3::Zero()),
                             std::vector<Vec3>(s.plies[1].x.size(), Vec3::Zero())};
-  for (const PlyContact& pair : s.ply_contacts) {
-    if (pair.contact.points.empty()) continue;
-    for (std::size_t n = 0; n < f[pair.slave].size(); ++n)
-      f[pair.slave][n] += pair.contact.slave_force[n];
-    for (std::size_t n = 0; n < f[pair.master].size(); ++n)
-      f[pair.master][n] += pair.contact.master_force[n];
+  for (const PlyPair& pair : s.ply_pairs) {
+    for (std::size_t n = 0; n < f[pair.a].size(); ++n)
+      f[pair.a][n] += pair.force_a[n];
+    for (std::size_t n = 0; n < f[pair.b].size(); ++n)
+      f[pair.b][n] += pair.force_b[n];
   }
   f[0].insert(f[0].end(), f[1].begin(), f[1].end());
   return f[0];

@@ -72,17 +72,10 @@ inline Case coarse_hemisphere(const std::vector<double>& angles) {
 /// Force along z on ply `lower` from the ply above it, N.
 inline double force_from_above(const Scene& s, int lower) {
   double sum = 0.0;
-  const auto add = [&](const std::vector<Vec3>& force) {
-    for (const Vec3& f : force)
-      sum += f.z();
-  };
-  for (const PlyContact& c : s.ply_contacts) {
-    if (c.contact.points.empty()) continue;
-    if (c.slave == lower && c.master == lower + 1) add(c.contact.slave_force);
-    if (c.master == lower && c.slave == lower + 1) add(c.contact.master_force);
-  }
-  for (const PlyEdgeContact& c : s.edge_contacts)
-    if (c.a == lower && c.b == lower + 1 && !c.contact.pairs.empty()) add(c.contact.force_a);
+  for (const PlyPair& pair : s.ply_pairs)
+    if (pair.a == lower && pair.b == lower + 1)
+      for (const Vec3& f : pair.force_a)
+        sum += f.z();
   return sum;
 }
 

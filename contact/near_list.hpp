@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which of the pairs that a contact search has listed may touch by now. A pair rests, and costs
+// nothing, until the bodies have gone far enough to close its gap.
+//
+// The path of a body is the sum over the steps of the furthest that any of its nodes went in one;
+// that of a pair of bodies the sum of both. A pair with a gap g when the path was s cannot touch
+// before it is s + g, wherever they went meanwhile.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <vector>
+
+namespace plyform {
+
+struct NearList {
+  std::vector<double> wake;       ///< mm, one a pair: the path before which it cannot touch
+  std::vector<std::int32_t> near; ///< pairs that may touch
+  double until = -1.0;            ///< mm, path at which the list is due again
+};
+
+/// Forgets all pairs: a search begins.
+inline void clear(NearList& list) {
+  list.wake.clear();
+  list.near.clear();
+  list.until = -1.0;
+}
+
+/// Lists the pairs that may touch now that the path is `path` (mm). rest(i) is
+/// called for each that was listed and no longer is. The list runs ahead a little, so that it is
+/// not made anew at every step, and not for long, so that those that have opened come to rest.
+template <class Rest>
+void renew(NearList& list, double path, const Rest& rest) {
+  constexpr double ahead = 0.05, longest = 0.2; // mm
+  if (path < list.until) return;
+  const double now = path + ahead;
+  for (const std::int32_t i : list.near)
+    if (list.wake[static_cast<std::size_t>(i)] > now) rest(i);
+  list.near.clear();
+  double next = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < list.wake.size(); ++i)
+    if (list.wake[i] > now)
+      next = std::min(next, list.wake[i]);
+    else
+      list.near.push_back(static_cast<std::int32_t>(i));
+  list.until = list.near.empty() ? next : std::min(next, path + longest);
+}
+
+} // namespace plyform
