@@ -94,7 +94,7 @@ double balance_floor(const Scene& s) {
   for (const Boundary& b : s.data.boundaries)
     stroke = std::max(stroke, b.stroke);
   pushed += 0.1 * mass * s.data.gravity.norm();
-  const double peak_speed = 1.875 * stroke / s.data.solver.duration; // of the fifth-order path
+  const double peak_speed = path_peak * stroke / s.data.solver.duration;
   return 1e-6 + pushed + 0.01 * 0.5 * mass * peak_speed * peak_speed;
 }
 

@@ -259,8 +259,15 @@ StepBound stable_step(const Scene& s) {
 }
 
 double smooth_path(double end, double t, double duration) {
+  constexpr double r = path_ramp;
   const double u = std::clamp(t / duration, 0.0, 1.0);
-  return end * u * u * u * (10.0 + u * (-15.0 + 6.0 * u));
+  const auto ramp = [](double from_end) {
+    const double w = from_end / r;
+    return path_peak * r * w * w * w * (1.0 - 0.5 * w);
+  };
+  if (u < r) return end * ramp(u);
+  if (u > 1.0 - r) return end * (1.0 - ramp(1.0 - u));
+  return end * path_peak * (u - 0.5 * r);
 }
 
 } // namespace plyform

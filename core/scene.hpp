@@ -168,8 +168,13 @@ void bound_membrane(PlyBody& ply);
 /// Finds PlyBody::sharpness at the present shape.
 void sharpen_bound(PlyBody& ply);
 
-/// Smooth way from 0 to `end` over `duration`: fifth-order polynomial, slope and curvature zero at
-/// both ends. Displacement of a driven tool (mm), force of a pushed one (N).
+/// Smooth way from 0 to `end` over `duration`: the speed rises over the first quarter of the time
+/// by w^2 (3 - 2 w), stays, and falls in the same way over the last, so that the acceleration has
+/// no jump. Against a polynomial over all of the time, with its higher peak of speed, stacks come
+/// out as near to a slow run in a tenth less time (docs/accuracy.md). Displacement of a driven tool
+/// (mm), force of a pushed one (N).
 double smooth_path(double end, double t, double duration);
+constexpr double path_ramp = 0.25;                    ///< of the duration, each
+constexpr double path_peak = 1.0 / (1.0 - path_ramp); ///< largest speed over the mean
 
 } // namespace plyform

@@ -56,7 +56,7 @@ TEST(PullOutScene, PullUnderConstantForceDoesNotFallWithTheArea) {
       data.friction.mu[5 * tool + body] = data.friction.mu[5 * body + tool] = 0.0;
   data.boundaries = {grip(1, true, 12.0), grip(0, false, 0.0), grip(2, false, 0.0)};
   data.solver.mass_damping = 200.0; // 1/s
-  data.solver.duration = 0.04;
+  data.solver.duration = 0.06;
   Braking braking;
   const double wanted = 2.0 * mu * data.tools[1].force;
   double least = 1e9, most = 0.0;

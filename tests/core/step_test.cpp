@@ -226,7 +226,10 @@ TEST(Step, DrivenToolFollowsItsPath) {
     ASSERT_FALSE(compute_forces(s, team));
     const ToolBody& body = s.tools[0].body;
     const double u = std::min(1.0, s.time / 2e-3);
-    const double way = 40.0 * std::pow(u, 3) * (10.0 - 15.0 * u + 6.0 * u * u);
+    const auto ramp = [](double w) { return 40.0 / 3.0 * std::pow(w, 3) * (1.0 - 0.5 * w); };
+    const double way = u < 0.25   ? ramp(4.0 * u)
+                       : u > 0.75 ? 40.0 - ramp(4.0 - 4.0 * u)
+                                  : 40.0 * 4.0 / 3.0 * (u - 0.125);
     EXPECT_NEAR((body.displacement - way * ball.direction).norm(), 0.0, 1e-12);
     EXPECT_NEAR((body.motion - (body.displacement - last)).norm(), 0.0, 1e-14);
     last = body.displacement;
@@ -244,9 +247,21 @@ TEST(Step, SmoothPathStartsAndEndsAtRest) {
   EXPECT_EQ(path(-1.0), 0.0);
   EXPECT_EQ(path(3.0), 7.0);
   EXPECT_DOUBLE_EQ(path(1.0), 3.5);
-  const double h = 1e-3; // third order at both ends: 10 end (h/T)^3
-  EXPECT_NEAR(path(h), 70.0 * std::pow(h / 2.0, 3), 1e-11);
-  EXPECT_NEAR(7.0 - path(2.0 - h), 70.0 * std::pow(h / 2.0, 3), 1e-11);
+  const double h = 1e-3; // third order at both ends; the next order is a thousandth of it
+  EXPECT_NEAR(path(h), 7.0 * 64.0 / 3.0 * std::pow(h / 2.0, 3), 2e-11);
+  EXPECT_NEAR(7.0 - path(2.0 - h), 7.0 * 64.0 / 3.0 * std::pow(h / 2.0, 3), 2e-11);
+  // between the ramps the speed is path_peak of the mean, and nowhere more; no jump of acceleration
+  const auto speed = [&](double t) { return (path(t + h) - path(t - h)) / (2.0 * h); };
+  const auto pull = [&](double t) { return (path(t + h) - 2.0 * path(t) + path(t - h)) / (h * h); };
+  double last = 0.0;
+  for (double t = h; t < 2.0 - h; t += h) {
+    EXPECT_LE(speed(t), path_peak * 3.5 * (1.0 + 1e-9)) << t;
+    // slope of the acceleration: at most 6 path_peak 7 / r^2 / T^3
+    EXPECT_NEAR(pull(t), last, 1.05 * h * 6.0 * path_peak * 7.0 / (0.0625 * 8.0)) << t;
+    last = pull(t);
+  }
+  for (const double t : {0.51, 1.0, 1.49})
+    EXPECT_NEAR(speed(t), path_peak * 3.5, 1e-9) << t;
 }
 
 /// A ply held taut all round, without damping, its nodes set off at random. Returns why it stopped,
