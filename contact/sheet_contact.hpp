@@ -18,6 +18,11 @@
 //   F_s = T,  F_j = -w_j T + those of the couple -r x T on the face                          (M)
 // turn and the couple's forces: face_turn.hpp. (M) does the work of T on (P); its moments cancel,
 // and two sheets that move as one rigid body do not slip.
+//
+// A point rests on its face until it has slid by `rest` since it looked around, and meanwhile takes
+// the closest point of that face alone, so that (S) and (M) stay exact for it. A face across an
+// edge that has become closer is seen late, by no more than `rest` times the fold between the two.
+// All look around again when the sheets have gone `look_every`, for folds change too.
 #pragma once
 
 #include "contact/candidates.hpp"
