@@ -11,13 +11,15 @@ namespace {
 
 // (E): degrees, and exponents. Set on hemisphere_0, hemisphere_five_ply and bias_extension
 // (docs/accuracy.md).
-constexpr double c_inertia = 0.165, p_inertia = 0.75, p_plies = 2.5;
-constexpr double c_softening = 1580.0, p_softening = 0.84;
-constexpr double c_mesh = 36.0, p_mesh = 1.6;
+constexpr double c_inertia = 0.492, p_inertia = 1.5, p_plies = 2.5;
+constexpr double c_softening = 1580.0, p_softening = 0.84, p_shared = -0.25;
+constexpr double c_mesh = 40.0, p_mesh = 1.6;
 
 constexpr double half_radian = 0.5;
 // The rule was not measured beyond:
-constexpr double most_softening = 1000.0, most_inertia = 0.7;
+constexpr double most_softening = 1000.0, most_inertia = 2.8;
+// Contacts are as soft as the elements: in a stack they sink in by half a thickness not far beyond.
+constexpr double most_softening_of_stack = 300.0;
 
 double degrees(double radians) {
   return radians * 180.0 / M_PI;
@@ -26,8 +28,10 @@ double degrees(double radians) {
 /// Numbers of (E) for duration 1 s, softening 1.
 struct Numbers {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
-  double plies = 0.0; ///< n^p_plies
-  double load = 1.0;  ///< on softened yarns, times that under tools
+  double plies = 0.0;              ///< n^p_plies; 0: nothing has a stroke
+  double shared = 1.0;             ///< n^p_shared: plies hold each other's softened yarns
+  double softest = most_softening; ///< softening at most
+  double load = 1.0;               ///< on softened yarns, times that under tools
 };
 
 /// mm, of the fastest tool and of the fastest boundary.
@@ -56,6 +60,8 @@ Numbers numbers_of(const Case& data) {
   const auto plies = static_cast<double>(data.plies.size());
   n.plies = std::pow(pulled ? std::max(plies, held_by_nothing) : plies, p_plies);
   n.load = pulled ? in_grips : 1.0;
+  n.shared = std::pow(plies, p_shared);
+  if (data.plies.size() > 1) n.softest = most_softening_of_stack;
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
     const double size = data.blanks[static_cast<std::size_t>(ply.blank)].element_size;
@@ -76,7 +82,7 @@ double inertia_error(const Numbers& n, double duration) {
 }
 
 double softening_error(const Numbers& n, double softening) {
-  return c_softening * n.load * std::pow(n.softening * softening, p_softening);
+  return c_softening * n.load * n.shared * std::pow(n.softening * softening, p_softening);
 }
 
 double mesh_error(const Numbers& n) {
@@ -128,12 +134,12 @@ void pick_dials(Case& data) {
   constexpr int shares = 200;
   for (int i = 1; i < shares; ++i) {
     const double share = static_cast<double>(i) / shares;
-    double softening = most_softening;
+    double softening = n.softest;
     if (n.softening > 0.0)
-      softening = std::clamp(
-          std::pow(std::sqrt(share * left2) / (c_softening * n.load), 1.0 / p_softening) /
-              n.softening,
-          1.0, most_softening);
+      softening = std::clamp(std::pow(std::sqrt(share * left2) / (c_softening * n.load * n.shared),
+                                      1.0 / p_softening) /
+                                 n.softening,
+                             1.0, n.softest);
     const double of_softening = softening_error(n, softening);
     const double rest2 = left2 - of_softening * of_softening;
     if (!(rest2 > 0.0)) continue;

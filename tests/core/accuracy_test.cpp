@@ -50,7 +50,7 @@ TEST(Accuracy, PicksTheFewestStepsOfAllDialsThatKeepThePromise) {
     };
     Case other = data;
     for (double duration = 0.026; duration < 2.0; duration *= 1.05)
-      for (double softening = 1.0; softening <= 1000.0; softening *= 1.1) {
+      for (double softening = 1.0; softening <= 300.0; softening *= 1.1) {
         other.solver.duration = duration;
         other.solver.fibre_softening = softening;
         if (predicted_error(other).total() > wanted) continue;
@@ -66,7 +66,7 @@ TEST(Accuracy, StaysWhereTheRuleWasMeasured) {
   data.accuracy.shear_error = 15.0 * std::numbers::pi / 180.0;
   pick_dials(data);
   EXPECT_LE(data.solver.fibre_softening, 1000.0);
-  EXPECT_GT(data.solver.duration, 0.02); // I = 0.7 is at 0.025 s
+  EXPECT_GT(data.solver.duration, 0.012); // I = 2.8 is at 0.0125 s
   EXPECT_GT(predicted_error(data).inertia, at_tenth);
   Case lying = case_at(PLYFORM_CASES "/circular_table/case.toml"); // gravity only
   const double duration = lying.solver.duration;
