@@ -53,11 +53,11 @@ void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
   while (!stack.empty()) {
     const fcl::BVNode<Box>& box = tree.getBV(stack.back());
     stack.pop_back();
-    if (box.isLeaf()) {
+    const int child = box.first_child; // negative: a leaf; isLeaf() says the same in a call
+    if (child < 0) {
       leaves.push_back(&box);
       continue;
     }
-    const int child = box.first_child;
     for (const int i : {child, child + 1})
       if (overlap(asked, tree.getBV(i).bv)) stack.push_back(i);
   }
@@ -68,16 +68,15 @@ struct Reach {
   double distance, box2; ///< mm; mm^2 to boxes, with the margin
 };
 
-/// Appends the triangles of `leaves` within reach of p, in no particular order.
-void faces_near(const Tree& tree, const Vec3& p, const Reach& reach,
-                std::span<const fcl::BVNode<Box>* const> leaves, std::int32_t node,
-                std::vector<Candidate>& out) {
+/// Appends the triangles of `leaves` (nodes at x, mm) within reach of p, in no particular order.
+void faces_near(const Vec3* x, std::span<const Triangle> triangles, const Vec3& p,
+                const Reach& reach, std::span<const fcl::BVNode<Box>* const> leaves,
+                std::int32_t node, std::vector<Candidate>& out) {
   for (const fcl::BVNode<Box>* leaf : leaves) {
     if (squared_distance(p, leaf->bv) > reach.box2) continue;
-    const int face = leaf->primitiveId();
-    const fcl::Triangle& t = tree.tri_indices[face];
-    const ClosestPoint q =
-        closest_point_on_triangle(p, tree.vertices[t[0]], tree.vertices[t[1]], tree.vertices[t[2]]);
+    const int face = -1 - leaf->first_child; // primitiveId(), without a call
+    const Triangle& t = triangles[static_cast<std::size_t>(face)];
+    const ClosestPoint q = closest_point_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]);
     if (q.distance2 <= reach.distance * reach.distance)
       out.push_back({node, face, q.distance2, q.w});
   }
@@ -102,7 +101,8 @@ std::size_t group_end(std::span<const Vec3> nodes, std::size_t first, double siz
 
 struct SheetTree::Impl {
   Tree tree;
-  double area = 0.0; ///< mm^2, as built
+  std::vector<Triangle> triangles; ///< a second time: what FCL keeps of them is behind a call
+  double area = 0.0;               ///< mm^2, as built
 };
 
 SheetTree::SheetTree(std::span<const Vec3> x, std::span<const Triangle> triangles)
@@ -122,6 +122,7 @@ SheetTree::SheetTree(std::span<const Vec3> x, std::span<const Triangle> triangle
   require_ok(tree.beginModel(int(faces.size()), int(x.size())), "begin the tree");
   require_ok(tree.addSubModel({x.begin(), x.end()}, faces), "take the triangles");
   require_ok(tree.endModel(), "build the tree");
+  impl_->triangles.assign(triangles.begin(), triangles.end());
   for (const Triangle& t : triangles) {
     const auto at = [&](std::size_t k) -> const Vec3& { return x[static_cast<std::size_t>(t[k])]; };
     impl_->area += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
@@ -176,7 +177,8 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
     for (std::size_t n = i; n < end; ++n) {
       if (!skip.empty() && skip[n]) continue;
       const auto first = std::ptrdiff_t(out.size());
-      faces_near(tree, nodes[n], {reach, box_reach * box_reach}, leaves, std::int32_t(n), out);
+      faces_near(tree.vertices, impl_->triangles, nodes[n], {reach, box_reach * box_reach}, leaves,
+                 std::int32_t(n), out);
       std::sort(out.begin() + first, out.end(),
                 [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
     }

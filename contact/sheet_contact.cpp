@@ -16,11 +16,53 @@ const Vec3& at(std::span<const Vec3> x, int n) {
   return x[static_cast<std::size_t>(n)];
 }
 
+/// Whether one node is a corner of all these faces: they are then one patch.
+bool share_node(std::span<const Candidate> group, std::span<const Triangle> triangles) {
+  const Triangle& t = triangles[static_cast<std::size_t>(group.front().face)];
+  int a = 1, b = 1, c = 1;
+  for (const Candidate& n : group) {
+    const auto [u, v, w] = triangles[static_cast<std::size_t>(n.face)];
+    a &= int(t[0] == u) | int(t[0] == v) | int(t[0] == w);
+    b &= int(t[1] == u) | int(t[1] == v) | int(t[1] == w);
+    c &= int(t[2] == u) | int(t[2] == v) | int(t[2] == w);
+  }
+  return (a | b | c) != 0;
+}
+
+/// Whether all these faces hang together, found by growing the patch of the first. No more than
+/// 64 faces; of more: false, label_patches will tell.
+bool one_patch(std::span<const Candidate> group, std::span<const Triangle> triangles) {
+  if (share_node(group, triangles)) return true;
+  constexpr std::size_t most = 64;
+  if (group.size() > most) return false;
+  std::array<std::int32_t, 3 * most> corners; // of the patch
+  std::array<const Triangle*, most> outside;
+  std::size_t met = 0, left = group.size();
+  for (std::size_t i = 0; i < left; ++i)
+    outside[i] = &triangles[static_cast<std::size_t>(group[i].face)];
+  const auto add = [&](const Triangle& t) {
+    for (const std::int32_t n : t)
+      corners[met++] = n;
+  };
+  add(*outside[--left]);
+  for (std::size_t known = 0; known < met && left > 0; ++known)
+    for (std::size_t i = left; i-- > 0;) {
+      const Triangle& t = *outside[i];
+      if (!(int(t[0] == corners[known]) | int(t[1] == corners[known]) |
+            int(t[2] == corners[known])))
+        continue;
+      add(t);
+      outside[i] = outside[--left];
+    }
+  return left == 0;
+}
+
 /// Numbers the connected patches among a node's candidate faces: label[i] = smallest index of its
 /// patch.
 void label_patches(std::span<const Candidate> group, std::span<const Triangle> triangles,
                    std::vector<int>& label) {
-  label.assign(group.size(), -1);
+  label.assign(group.size(), 0);
+  if (one_patch(group, triangles)) return;
   std::vector<std::pair<std::int32_t, int>> met; // nodes of the faces so far, and their patch
   for (std::size_t i = 0; i < group.size(); ++i) {
     label[i] = static_cast<int>(i);
