@@ -11,7 +11,7 @@ namespace {
 
 // (E): degrees, and exponents. Set on hemisphere_0, hemisphere_five_ply and bias_extension
 // (docs/accuracy.md).
-constexpr double c_inertia = 0.492, p_inertia = 1.5, p_plies = 2.5;
+constexpr double c_inertia = 0.6, p_inertia = 1.5, p_plies = 2.5;
 constexpr double c_softening = 1580.0, p_softening = 0.84, p_shared = -0.25;
 constexpr double c_mesh = 40.0, p_mesh = 1.6;
 

@@ -7,9 +7,10 @@
 //   inertia    I = 1/2 rho v^2 / w       rho t/mm^2, v = stroke / duration, w N/mm
 //   softening  S = s w / (d k)           s softening, k N a yarn, d yarns per mm
 //   mesh       M = h / L                 element size over stroke, mm
-//   plies      n                         in a stack: the outer ones are held on one side only
+//   plies      n                         in a stack: the outer ones are held on one side only, and
+//                                        plies hold each other's yarns
 // w = n_c Ws(1/2 rad): energy of shear by half a radian per area, the work that forms the plies.
-//   e = sqrt( (c_I n^t I^p)^2 + (c_S S^q)^2 + (c_M M^r)^2 )                                 (E)
+//   e = sqrt( (c_I n^t I^p)^2 + (c_S n^u S^q)^2 + (c_M M^r)^2 )                             (E)
 // Steps are as many as duration / sqrt(softening).
 #pragma once
 
