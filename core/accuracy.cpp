@@ -11,9 +11,9 @@ namespace {
 
 // (E): degrees, and exponents. Set on hemisphere_0, hemisphere_five_ply and bias_extension
 // (docs/accuracy.md).
-constexpr double c_inertia = 0.6, p_inertia = 1.5, p_plies = 2.5;
+constexpr double c_inertia = 0.52, c_further = 8.3, p_inertia = 1.5;
 constexpr double c_softening = 1580.0, p_softening = 0.84, p_shared = -0.25;
-constexpr double c_mesh = 40.0, p_mesh = 1.6;
+constexpr double c_mesh = 40.0, p_mesh = 1.6, of_stack = 1.85;
 
 constexpr double half_radian = 0.5;
 // The rule was not measured beyond:
@@ -28,10 +28,11 @@ double degrees(double radians) {
 /// Numbers of (E) for duration 1 s, softening 1.
 struct Numbers {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
-  double plies = 0.0;              ///< n^p_plies; 0: nothing has a stroke
-  double shared = 1.0;             ///< n^p_shared: plies hold each other's softened yarns
+  double swinging = 0.0; ///< c_inertia and c_further of this many plies; 0: nothing has a stroke
+  double shared = 1.0;   ///< n^p_shared: plies hold each other's softened yarns
   double softest = most_softening; ///< softening at most
-  double load = 1.0;               ///< on softened yarns, times that under tools
+  double sliding = 1.0; ///< of_stack: which plies slide and which stick depends on the mesh
+  double load = 1.0;    ///< on softened yarns, times that under tools
 };
 
 /// mm, of the fastest tool and of the fastest boundary.
@@ -58,10 +59,11 @@ Numbers numbers_of(const Case& data) {
   const bool pulled = strokes.boundary > strokes.tool;
   constexpr double held_by_nothing = 5.0, in_grips = 5.5;
   const auto plies = static_cast<double>(data.plies.size());
-  n.plies = std::pow(pulled ? std::max(plies, held_by_nothing) : plies, p_plies);
+  const double further = (pulled ? std::max(plies, held_by_nothing) : plies) - 1.0;
+  n.swinging = c_inertia + c_further * further;
   n.load = pulled ? in_grips : 1.0;
   n.shared = std::pow(plies, p_shared);
-  if (data.plies.size() > 1) n.softest = most_softening_of_stack;
+  if (data.plies.size() > 1) n.softest = most_softening_of_stack, n.sliding = of_stack;
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
     const double size = data.blanks[static_cast<std::size_t>(ply.blank)].element_size;
@@ -78,7 +80,7 @@ Numbers numbers_of(const Case& data) {
 }
 
 double inertia_error(const Numbers& n, double duration) {
-  return c_inertia * n.plies * std::pow(n.inertia / (duration * duration), p_inertia);
+  return n.swinging * std::pow(n.inertia / (duration * duration), p_inertia);
 }
 
 double softening_error(const Numbers& n, double softening) {
@@ -86,7 +88,7 @@ double softening_error(const Numbers& n, double softening) {
 }
 
 double mesh_error(const Numbers& n) {
-  return c_mesh * std::pow(n.mesh, p_mesh);
+  return c_mesh * n.sliding * std::pow(n.mesh, p_mesh);
 }
 
 } // namespace
@@ -103,7 +105,7 @@ double PredictedError::promised(const Case& data) const {
 
 PredictedError predicted_error(const Case& data) {
   const Numbers n = numbers_of(data);
-  if (n.plies == 0.0) {
+  if (n.swinging == 0.0) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     return {unknown, unknown, unknown};
   }
@@ -144,7 +146,7 @@ void pick_dials(Case& data) {
     const double rest2 = left2 - of_softening * of_softening;
     if (!(rest2 > 0.0)) continue;
     const double inertia =
-        std::min(most_inertia, std::pow(std::sqrt(rest2) / (c_inertia * n.plies), 1.0 / p_inertia));
+        std::min(most_inertia, std::pow(std::sqrt(rest2) / n.swinging, 1.0 / p_inertia));
     const double duration = std::sqrt(n.inertia / inertia);
     const double steps = duration / std::sqrt(softening);
     if (steps >= fewest) continue;

@@ -38,7 +38,7 @@ TEST(Accuracy, EveryDialHasItsError) {
 }
 
 TEST(Accuracy, PicksTheFewestStepsOfAllDialsThatKeepThePromise) {
-  for (const double wanted : {1.5, 3.0}) {
+  for (const double wanted : {2.0, 3.0}) {
     Case data = case_at(five);
     data.accuracy.shear_error = wanted * std::numbers::pi / 180.0;
     pick_dials(data);
