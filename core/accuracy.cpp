@@ -11,9 +11,9 @@ namespace {
 
 // (E): degrees, and exponents. Set on hemisphere_0, hemisphere_five_ply and bias_extension
 // (docs/accuracy.md).
-constexpr double c_inertia = 0.52, c_further = 8.3, p_inertia = 1.5;
+constexpr double c_inertia = 0.52, c_stack = 33.7, p_inertia = 1.5;
 constexpr double c_softening = 1580.0, p_softening = 0.84, p_shared = -0.25;
-constexpr double c_mesh = 40.0, p_mesh = 1.6, of_stack = 1.85;
+constexpr double c_mesh = 40.0, p_mesh = 1.6, c_fewer = 0.6, settled = 5.0;
 
 constexpr double half_radian = 0.5;
 // The rule was not measured beyond:
@@ -28,10 +28,10 @@ double degrees(double radians) {
 /// Numbers of (E) for duration 1 s, softening 1.
 struct Numbers {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
-  double swinging = 0.0; ///< c_inertia and c_further of this many plies; 0: nothing has a stroke
-  double shared = 1.0;   ///< n^p_shared: plies hold each other's softened yarns
+  double swinging = 0.0;           ///< c_inertia or c_stack; 0: nothing has a stroke
+  double shared = 1.0;             ///< n^p_shared: plies hold each other's softened yarns
   double softest = most_softening; ///< softening at most
-  double sliding = 1.0; ///< of_stack: which plies slide and which stick depends on the mesh
+  double sliding = 1.0; ///< of few plies: which slide and which stick depends on the mesh
   double load = 1.0;    ///< on softened yarns, times that under tools
 };
 
@@ -54,16 +54,16 @@ Numbers numbers_of(const Case& data) {
   const Strokes strokes = strokes_of(data);
   const double stroke = std::max(strokes.tool, strokes.boundary);
   if (stroke == 0.0) return n;
-  // A ply that is pulled by its edge swings like the outer ones of five, and the yarns in the grips
-  // bear the whole load: bias_extension.
+  // A ply that is pulled by its edge swings like the outer ones of a stack, and the yarns in the
+  // grips bear the whole load: bias_extension.
   const bool pulled = strokes.boundary > strokes.tool;
-  constexpr double held_by_nothing = 5.0, in_grips = 5.5;
+  constexpr double in_grips = 5.5;
   const auto plies = static_cast<double>(data.plies.size());
-  const double further = (pulled ? std::max(plies, held_by_nothing) : plies) - 1.0;
-  n.swinging = c_inertia + c_further * further;
+  n.swinging = pulled || plies > 1.0 ? c_stack : c_inertia;
   n.load = pulled ? in_grips : 1.0;
   n.shared = std::pow(plies, p_shared);
-  if (data.plies.size() > 1) n.softest = most_softening_of_stack, n.sliding = of_stack;
+  if (data.plies.size() > 1) n.softest = most_softening_of_stack;
+  if (plies > 1.0) n.sliding += c_fewer * std::max(settled - plies, 0.0);
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
     const double size = data.blanks[static_cast<std::size_t>(ply.blank)].element_size;

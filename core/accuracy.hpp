@@ -10,8 +10,9 @@
 //   plies      n                         in a stack: the outer ones are held on one side only, and
 //                                        plies hold each other's yarns
 // w = n_c Ws(1/2 rad): energy of shear by half a radian per area, the work that forms the plies.
-//   e = sqrt( ((c_I + c_n (n - 1)) I^p)^2 + (c_S n^u S^q)^2 + (c_M M^r)^2 )                 (E)
-// c_M is larger in a stack, where the mesh has a part in which plies slide and which stick.
+//   e = sqrt( (c_I I^p)^2 + (c_S n^u S^q)^2 + (c_M M^r)^2 )                                (E)
+// c_I is larger in a stack; so is c_M in one of fewer than five plies, where the mesh has a part in
+// which of them slide and which stick.
 // Steps are as many as duration / sqrt(softening).
 #pragma once
 
