@@ -328,7 +328,7 @@ void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
   // half of k, along the face the same, and across it the couple's g_j = d |gradient_j|: with
   // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
   for (const SheetContactPoint& c : contact.points) {
-    if ((std::isinf(c.gap) ? c.rested : c.gap) > margin) continue;
+    if (c.latest_gap() > margin) continue;
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
     const double normal = 2.0 * c.area * contact.law.stiffness;
     slave_rows[static_cast<std::size_t>(c.node)] += normal;

@@ -51,6 +51,7 @@ struct alignas(32) SheetContactPoint {
 
   /// Of the closest point.
   std::array<double, 3> weights() const { return {1.0 - w[0] - w[1], w[0], w[1]}; }
+  double latest_gap() const { return std::isinf(gap) ? double{rested} : gap; } ///< mm, last seen
 };
 
 /// A node that got to the wrong side or deeper than half of h: the contact cannot be resolved.

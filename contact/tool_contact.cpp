@@ -143,8 +143,11 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
     point.node = static_cast<int>(n);
     if (known) point = old[next_old++];
     const bool touched = known && point.gap < 0.0; // it may have a spring to give back
-    if (touched || (!known && gap <= reach))
-      gap = distance_to_tool(tool, ply.x[n], point.hint).distance - contact.half_thickness;
+    if (touched || (!known && gap <= reach)) {
+      const SurfacePoint at = distance_to_tool(tool, ply.x[n], point.hint);
+      gap = at.distance - contact.half_thickness;
+      point.normal = at.normal;
+    }
     constexpr double below = 1.0 - 1e-6; // that rounding does not raise it
     contact.free[n] = static_cast<float>(below * (path + gap));
     if (gap > reach) {
@@ -184,7 +187,7 @@ Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<cons
 void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
                         std::span<double> rows) {
   for (const ToolContactPoint& c : contact.points) {
-    if ((std::isinf(c.gap) ? c.rested : c.gap) > margin) continue;
+    if (c.latest_gap() > margin) continue;
     const auto n = static_cast<std::size_t>(c.node);
     rows[n] += area[n] * contact.law.stiffness;
   }

@@ -41,11 +41,13 @@ struct ToolBody {
 struct ToolContactPoint {
   int node;
   int hint = -1;       ///< memory of signed_distance
-  Vec3 normal;         ///< of this step, in space
+  Vec3 normal;         ///< in space, of this step or when it was last measured
   double gap = 0.0;    ///< mm, distance minus half thickness; infinite: it rested
   double rested = 0.0; ///< mm, gap when it went to rest
   double last_gap = 0.0;
   ContactMemory memory;
+
+  double latest_gap() const { return std::isinf(gap) ? rested : gap; } ///< mm, last seen
 };
 
 /// A tool against one ply. `points` hold the nodes within reach, ascending.

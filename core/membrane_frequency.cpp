@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/membrane_frequency.hpp"
 
-#include "core/patches.hpp"
+#include "core/lanczos.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 namespace plyform {
 namespace {
+
+constexpr double guard_reach = 0.55; // stretch: the guard acts below 0.5
+
+/// Whether some triangles share their yarns' strains.
+bool is_paired(const Membrane& m) {
+  return static_cast<std::size_t>(m.patches()) < m.triangles.size();
+}
 
 /// Larger eigenvalue of {{a, off}, {off, b}}.
 double largest(double a, double b, double off) {
@@ -64,12 +70,12 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
   const auto [s1, s2] = yarn_stiffness(m);
   const double v1 = m.fabric.warp_density * m.viscosity.warp;
   const double v2 = m.fabric.weft_density * m.viscosity.weft;
+  bound.viscous = std::max(s1 > 0.0 ? v1 / s1 : 0.0, s2 > 0.0 ? v2 / s2 : 0.0);
   const double per_mass = 3.0 / m.fabric.surface_density;
   // a triangle's guard adds to the stiffness of its pair's taut yarns
-  const bool paired = static_cast<std::size_t>(m.patches()) < m.triangles.size();
+  const bool paired = is_paired(m);
   const double g1 = m.fabric.warp_density * m.side[0].guard;
   const double g2 = m.fabric.weft_density * m.side[1].guard;
-  constexpr double guard_reach = 0.55; // stretch: the guard acts below 0.5
   constexpr double considerable = 0.2; // of the yarn's stiffness: less is covered by step factors
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const Gram g = gram(m.c[e]);
@@ -106,100 +112,94 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
   return bound;
 }
 
-namespace {
-
-/// (K) for the yarns of one patch, into q.
-void strain_patch(const Membrane& m, const std::vector<FibreState>& states, std::span<const Vec3> y,
-                  std::size_t patch, std::vector<ElementForce>& q) {
+YarnProduct::YarnProduct(const Membrane& m, std::span<const Vec3> x, double stiffness,
+                         double damping)
+    : m_(m), q_(m.triangles.size()) {
   const auto yarn = yarn_stiffness(m);
-  const auto begin = static_cast<std::size_t>(m.patch_begin[patch]),
-             end = static_cast<std::size_t>(m.patch_begin[patch + 1]);
+  taut_ = {stiffness * yarn[0] + damping * m.fabric.warp_density * m.viscosity.warp,
+           stiffness * yarn[1] + damping * m.fabric.weft_density * m.viscosity.weft};
+  const std::array<double, 2> guard{stiffness * m.fabric.warp_density * m.side[0].guard,
+                                    stiffness * m.fabric.weft_density * m.side[1].guard};
+  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+    const FibreState s = fibre_state(m, x, static_cast<int>(e));
+    const auto [d1, d2] = deviation_stiffness(m, s);
+    const bool paired = is_paired(m);
+    rows_.push_back({s.f1,
+                     s.f2,
+                     {stiffness * d1, stiffness * d2},
+                     {paired && s.lambda1 < guard_reach ? guard[0] : 0.0,
+                      paired && s.lambda2 < guard_reach ? guard[1] : 0.0}});
+  }
+}
+
+void YarnProduct::strain_patch(std::span<const Vec3> y, std::size_t patch) {
+  const auto begin = static_cast<std::size_t>(m_.patch_begin[patch]),
+             end = static_cast<std::size_t>(m_.patch_begin[patch + 1]);
   double area = 0.0;
   std::array<double, 2> mean{};
   std::array<std::array<double, 2>, most_in_patch> strain{};
   for (std::size_t e = begin; e < end; ++e) {
-    const FibreGradients& c = m.c[e];
-    const Triangle& t = m.triangles[e];
+    const FibreGradients& c = m_.c[e];
+    const Triangle& t = m_.triangles[e];
     const Vec3& y0 = y[static_cast<std::size_t>(t[0])];
     const Vec3 g1 = y[static_cast<std::size_t>(t[1])] - y0,
                g2 = y[static_cast<std::size_t>(t[2])] - y0;
-    strain[e - begin] = {states[e].f1.dot(c.c11 * g1 + c.c12 * g2),
-                         states[e].f2.dot(c.c21 * g1 + c.c22 * g2)};
-    area += m.area[e];
+    strain[e - begin] = {rows_[e].f1.dot(c.c11 * g1 + c.c12 * g2),
+                         rows_[e].f2.dot(c.c21 * g1 + c.c22 * g2)};
+    area += m_.area[e];
     for (std::size_t a = 0; a < 2; ++a)
-      mean[a] += m.area[e] * strain[e - begin][a];
+      mean[a] += m_.area[e] * strain[e - begin][a];
   }
   for (double& value : mean)
     value /= area;
   for (std::size_t e = begin; e < end; ++e) {
-    const auto stiff = deviation_stiffness(m, states[e]);
+    const Row& row = rows_[e];
     std::array<double, 2> pull;
-    for (std::size_t a = 0; a < 2; ++a)
-      pull[a] = m.area[e] * (yarn[a] * mean[a] + stiff[a] * (strain[e - begin][a] - mean[a]));
-    q[e] = {pull[0] * states[e].f1, pull[1] * states[e].f2};
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double own = strain[e - begin][a];
+      pull[a] = m_.area[e] *
+                (taut_[a] * mean[a] + row.deviation[a] * (own - mean[a]) + row.guard[a] * own);
+    }
+    q_[e] = {pull[0] * row.f1, pull[1] * row.f2};
   }
 }
 
-/// Largest Ritz value of a symmetric operator after `steps` of Lanczos' iteration from `v`.
-template <typename Operator>
-double ritz_value(const Operator& apply, Eigen::VectorXd v, int steps) {
-  Eigen::VectorXd diagonal(steps), beside(std::max(0, steps - 1)), before;
-  before.setZero(v.size());
-  v.normalize();
-  double last = 0.0;
-  int found = 0;
-  while (found < steps) {
-    Eigen::VectorXd w = apply(v) - last * before;
-    diagonal[found] = w.dot(v);
-    w -= diagonal[found] * v;
-    last = w.norm();
-    ++found;
-    if (found == steps || !(last > 1e-12 * std::abs(diagonal[0]))) break; // all there is
-    beside[found - 1] = last;
-    before = v;
-    v = w / last;
-  }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(diagonal.head(found), beside.head(std::max(0, found - 1)),
-                                Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().maxCoeff();
+void YarnProduct::add_to(std::span<const Vec3> y, std::span<Vec3> f) {
+  for (std::size_t p = 0; p < static_cast<std::size_t>(m_.patches()); ++p)
+    strain_patch(y, p);
+  for (std::size_t n = 0; n < f.size(); ++n)
+    f[n] -= node_force(m_, q_, static_cast<int>(n));
 }
 
-/// The same start every time, with a share of every mode.
-Eigen::VectorXd scattered(Eigen::Index size) {
-  Eigen::VectorXd v(size);
-  std::uint64_t state = 1;
-  for (double& value : v) {
-    state = state * 6364136223846793005u + 1442695040888963407u; // Knuth's MMIX generator
-    value = static_cast<double>(state >> 11) * 0x1p-53 - 0.5;
+Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x) {
+  Eigen::VectorXd v(static_cast<Eigen::Index>(3 * x.size()));
+  Scatter scatter;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    const int triangle = m.gather[static_cast<std::size_t>(m.gather_begin[n])] / 3;
+    const FibreState s = fibre_state(m, x, triangle);
+    const double along1 = scatter.next(), along2 = scatter.next(), across = scatter.next();
+    v.segment<3>(static_cast<Eigen::Index>(3 * n)) =
+        along1 * s.f1 + along2 * s.f2 + across * s.f1.cross(s.f2);
   }
   return v;
 }
 
-} // namespace
-
 double sharpness(const Membrane& m, std::span<const Vec3> x) {
   if (m.fabric.isotropic) return 1.0;
-  constexpr int steps = 30;       // leaves 1 % to find on meshes of 1e6 triangles
-  constexpr double margin = 1.03; // for that, three times
-  std::vector<FibreState> states;
-  for (std::size_t e = 0; e < m.triangles.size(); ++e)
-    states.push_back(fibre_state(m, x, static_cast<int>(e)));
-  std::vector<Vec3> y(x.size());
-  std::vector<ElementForce> q(m.triangles.size());
+  YarnProduct stiffness(m, x, 1.0, 0.0);
+  std::vector<Vec3> y(x.size()), f(x.size());
   const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
     for (std::size_t n = 0; n < y.size(); ++n)
       y[n] = v.segment<3>(static_cast<Eigen::Index>(3 * n)) / std::sqrt(m.node_mass[n]);
-    for (std::size_t p = 0; p < static_cast<std::size_t>(m.patches()); ++p)
-      strain_patch(m, states, y, p, q);
+    std::fill(f.begin(), f.end(), Vec3::Zero());
+    stiffness.add_to(y, f);
     Eigen::VectorXd w(v.size());
-    for (std::size_t n = 0; n < y.size(); ++n)
-      w.segment<3>(static_cast<Eigen::Index>(3 * n)) =
-          -node_force(m, q, static_cast<int>(n)) / std::sqrt(m.node_mass[n]);
+    for (std::size_t n = 0; n < f.size(); ++n)
+      w.segment<3>(static_cast<Eigen::Index>(3 * n)) = f[n] / std::sqrt(m.node_mass[n]);
     return w;
   };
-  const double found = ritz_value(apply, scattered(static_cast<Eigen::Index>(3 * x.size())), steps);
-  return std::min(1.0, margin * found / frequency_bound(m, x).yarns);
+  const double found = largest_ritz_value(apply, scattered_motion(m, x), ritz_steps);
+  return std::min(1.0, ritz_margin * found / frequency_bound(m, x).yarns);
 }
 
 double highest_omega2(const FrequencyBound& bound, double sharpness) {

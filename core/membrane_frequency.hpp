@@ -10,6 +10,7 @@
 #pragma once
 
 #include "core/membrane.hpp"
+#include "core/patches.hpp"
 
 namespace plyform {
 
@@ -19,13 +20,43 @@ struct FrequencyBound {
   double yarns = 0.0, soft = 0.0; ///< 1/s^2, largest of yarns alone; of shear and tension
   bool guarded = false; ///< whether a guard about as stiff as its yarns acts on a triangle
   double damping = 0.0; ///< 1/s, of M^-1 C
+  double viscous = 0.0; ///< s, C is at most so many times the yarns' K
   int triangle = -1;    ///< where
 };
 FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x);
 
+/// Products with (stiffness K + damping C) of taut yarns, guards that act included, at one shape;
+/// not for a sheet without yarns. The membrane must outlive it.
+class YarnProduct {
+public:
+  YarnProduct(const Membrane& m, std::span<const Vec3> x, double stiffness, double damping);
+
+  /// Adds the product with y (mm), (K), to f, both n nodes.
+  void add_to(std::span<const Vec3> y, std::span<Vec3> f);
+
+private:
+  struct Row {
+    Vec3 f1, f2;
+    std::array<double, 2> deviation, guard; ///< N/mm
+  };
+  void strain_patch(std::span<const Vec3> y, std::size_t patch);
+
+  const Membrane& m_;
+  std::array<double, 2> taut_; ///< N/mm
+  std::vector<Row> rows_;      ///< one a triangle
+  std::vector<ElementForce> q_;
+};
+
+/// A motion (3 n) with a share of every mode, always the same: numbers without pattern along the
+/// yarns and across the sheet, so that it turns with it.
+Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x);
+
+constexpr int ritz_steps = 30;       ///< leaves 1 % to find on meshes of 1e6 triangles
+constexpr double ritz_margin = 1.03; ///< for that, three times
+
 /// omega^2 of the yarns' stiffness alone at shape x (mm) over FrequencyBound::yarns, at most 1: the
-/// largest Ritz value with a margin of 3 % for what the iteration has not found. Guards that act
-/// are left out. 1 for a sheet without yarns.
+/// largest Ritz value with a margin of 3 % for what the iteration has not found. 1 for a sheet
+/// without yarns.
 double sharpness(const Membrane& m, std::span<const Vec3> x);
 
 /// Largest omega^2 (1/s^2) of a bound whose part of the yarns is sharpened; Irons' where guards

@@ -53,13 +53,13 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.edges = sheet_edges(body.membrane.triangles);
   body.on_rim = faces_on_rim(body.edges, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
-  bound_membrane(body);
+  body.bound = frequency_bound(body.membrane, body.x);
   const double omega = std::sqrt(body.bound.omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
   body.membrane.viscosity = {2.0 * data.solver.fibre_damping * fabric.warp.largest_slope() / omega,
                              2.0 * data.solver.fibre_damping * fabric.weft.largest_slope() / omega};
-  bound_membrane(body); // with viscosity
-  sharpen_bound(body);
+  body.bound = frequency_bound(body.membrane, body.x); // with viscosity
+  body.sharpness = sharpness(body.membrane, body.x);
   return body;
 }
 
@@ -209,53 +209,6 @@ Scene make_scene(const Case& data) {
   s.patch_collapsed.assign(s.patch_blocks.size(), 0);
   s.node_sums.assign(s.node_blocks.size(), {});
   return s;
-}
-
-void bound_membrane(PlyBody& ply) {
-  ply.bound = frequency_bound(ply.membrane, ply.x);
-}
-
-void sharpen_bound(PlyBody& ply) {
-  ply.sharpness = sharpness(ply.membrane, ply.x);
-}
-
-StepBound stable_step(const Scene& s) {
-  StepBound bound;
-  std::vector<std::vector<double>> rows; // contact stiffness, one a node, N/mm
-  for (const PlyBody& ply : s.plies)
-    rows.emplace_back(ply.x.size(), 0.0);
-  double damping_ratio = 0.0; // largest c/k of any contact
-  for (const ToolAndContacts& tool : s.tools)
-    for (std::size_t p = 0; p < s.plies.size(); ++p) {
-      add_tool_stiffness(tool.contacts[p], s.plies[p].membrane.node_area, bound_margin, rows[p]);
-      const ContactLaw& law = tool.contacts[p].law;
-      if (!tool.contacts[p].points.empty())
-        damping_ratio = std::max(damping_ratio, law.damping / law.stiffness);
-    }
-  for (const PlyContact& pair : s.ply_contacts) {
-    if (pair.contact.points.empty()) continue;
-    const auto a = static_cast<std::size_t>(pair.slave), b = static_cast<std::size_t>(pair.master);
-    add_sheet_stiffness(pair.contact, s.plies[b].state(), s.plies[b].membrane.triangles,
-                        bound_margin, rows[a], rows[b]);
-    damping_ratio = std::max(damping_ratio, pair.contact.law.damping / pair.contact.law.stiffness);
-  }
-  for (const PlyEdgeContact& pair : s.edge_contacts)
-    add_edge_stiffness(pair.contact, 0.25 * bound_margin, rows[static_cast<std::size_t>(pair.a)],
-                       rows[static_cast<std::size_t>(pair.b)]);
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    const PlyBody& ply = s.plies[p];
-    const FrequencyBound& element = ply.bound;
-    double contact = 0.0;
-    for (std::size_t n = 0; n < rows[p].size(); ++n)
-      contact = std::max(contact, rows[p][n] / ply.membrane.node_mass[n]);
-    const double omega2 = highest_omega2(element, ply.sharpness) + contact +
-                          (ply.bending ? ply.bending->omega2 : 0.0);
-    const double c = element.damping + contact * damping_ratio + s.data.solver.mass_damping;
-    const double dt = (std::sqrt(c * c + 4.0 * omega2) - c) / omega2;
-    if (bound.ply < 0 || !(dt >= bound.dt))
-      bound = {dt, omega2, c, static_cast<int>(p), element.triangle};
-  }
-  return bound;
 }
 
 double smooth_path(double end, double t, double duration) {

@@ -126,47 +126,26 @@ struct Scene {
   std::vector<HeldNode> held;            ///< by ply and node
   std::vector<BoundaryState> boundaries; ///< one each of Case::boundaries
   std::vector<Block> patch_blocks, node_blocks, bending_blocks;
-  std::vector<SheetState> ply_states;    ///< views of the plies, renewed every step
-  std::vector<double> patch_sums;        ///< viscous work, one a patch block
-  std::vector<char> patch_collapsed;     ///< whether a triangle has collapsed, one a patch block
-  std::vector<NodeSums> node_sums;       ///< one a node block
-  double start_energy = 0.0;             ///< N mm, that the plies were given to start with
-  double mass_damping_work = 0.0;        ///< N mm, since the start
-  double element_size = 0.0;             ///< mm, smallest mean of a ply
-  double skin = 0.0;                     ///< mm, Case's or by the element size
-  double time = 0.0;                     ///< s, of x
-  double dt = 0.0, next_dt = 0.0;        ///< s, the step that led to x and the one that leaves it
-  double min_dt = 0.0, max_dt = 0.0;     ///< s, used so far
-  double bound_way = 0.0;                ///< mm, furthest way since the search at the last bound
-  long step = 0, next_sharpening = 1000; ///< the next step that renews PlyBody::sharpness
-  long searches = 0;                     ///< broad phases done
+  std::vector<SheetState> ply_states; ///< views of the plies, renewed every step
+  std::vector<double> patch_sums;     ///< viscous work, one a patch block
+  std::vector<char> patch_collapsed;  ///< whether a triangle has collapsed, one a patch block
+  std::vector<NodeSums> node_sums;    ///< one a node block
+  double start_energy = 0.0;          ///< N mm, that the plies were given to start with
+  double mass_damping_work = 0.0;     ///< N mm, since the start
+  double element_size = 0.0;          ///< mm, smallest mean of a ply
+  double skin = 0.0;                  ///< mm, Case's or by the element size
+  double time = 0.0;                  ///< s, of x
+  double dt = 0.0, next_dt = 0.0;     ///< s, the step that led to x and the one that leaves it
+  double min_dt = 0.0, max_dt = 0.0;  ///< s, used so far
+  double bound_way = 0.0;             ///< mm, furthest way since the search at the last bound
+  double stretch = 1.0;               ///< stable step over its bound, core/step_bound.hpp
+  long step = 0, next_sharpening = 0; ///< the next step that renews stretch and sharpness
+  long searches = 0;                  ///< broad phases done
 };
 
 /// Meshes the blanks, places plies and tools, sets contact stiffness from the stable step.
 /// Throws std::runtime_error if a blank cannot be meshed.
 Scene make_scene(const Case& data);
-
-/// What limits the step now, from the elements and the contacts.
-struct StepBound {
-  double dt = 0.0;      ///< s, stable step without the case's factor
-  double omega2 = 0.0;  ///< 1/s^2
-  double damping = 0.0; ///< 1/s
-  int ply = -1, triangle = -1;
-};
-/// The largest eigenvalue of M^-1 K is at most the elements' plus the contacts' bound, and a
-/// central difference with lagged damping is stable for omega^2 dt^2 + 2 c dt <= 4. Contacts count
-/// where they stand now, those too that are within bound_margin of closing; what slides until the
-/// next renewal is what step_factor leaves room for. The elements' part is PlyBody::bound.
-StepBound stable_step(const Scene& scene);
-
-/// mm; by when anything has moved by half of it the bound is due again.
-constexpr double bound_margin = 0.5;
-
-/// Finds PlyBody::bound at the present shape.
-void bound_membrane(PlyBody& ply);
-
-/// Finds PlyBody::sharpness at the present shape.
-void sharpen_bound(PlyBody& ply);
 
 /// Smooth way from 0 to `end` over `duration`: the speed rises over the first quarter of the time
 /// by w^2 (3 - 2 w), stays, and falls in the same way over the last, so that the acceleration has

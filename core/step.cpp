@@ -3,6 +3,7 @@
 
 #include "core/contact_search.hpp"
 #include "core/passing.hpp"
+#include "core/step_bound.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,10 +12,9 @@
 namespace plyform {
 namespace {
 
-constexpr int sharpen_every = 1000; // steps: a ratio changes slower than the bound
-constexpr int bound_every = 200;    // steps between renewals of the step bound at most: geometry
-                                    // changes by far less than the case's step factor leaves room
-                                    // for; contacts are looked at more often
+constexpr int bound_every = 200; // steps between renewals of the step bound at most: geometry
+                                 // changes by far less than the case's step factor leaves room
+                                 // for; contacts are looked at more often
 
 std::string when(const Scene& s) {
   return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
@@ -289,17 +289,6 @@ std::optional<Stop> find_collapsed(const Scene& s) {
   return std::nullopt;
 }
 
-void bound_elements(Scene& s, ThreadTeam& team) {
-  const bool sharpen = s.step >= s.next_sharpening;
-  if (sharpen) s.next_sharpening = s.step + sharpen_every;
-  team.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
-    const Stopwatch watch(ply.search_seconds);
-    bound_membrane(ply);
-    if (sharpen) sharpen_bound(ply);
-  });
-}
-
 void set_step(Scene& s) {
   s.next_dt = s.data.solver.step_factor * stable_step(s).dt;
   s.bound_way = furthest_way(s);
@@ -311,6 +300,7 @@ void set_step(Scene& s) {
 
 void start(Scene& s, ThreadTeam& team) {
   search_contacts(s, team);
+  renew_bounds(s, team);
   set_step(s);
 }
 
@@ -322,7 +312,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
     search_contacts(s, team);
   }
   const bool due = used_up || s.step % bound_every == 0;
-  if (due) bound_elements(s, team);
+  if (due) renew_bounds(s, team);
   if (due || furthest_way(s) - s.bound_way > 0.5 * bound_margin) set_step(s);
   if (!used_up) follow_spread(s, team);
   add_up_forces(s, team);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/accuracy.hpp"
 #include "core/step.hpp"
+#include "core/step_bound.hpp"
 #include "core/tool_depth.hpp"
 #include "tools/commands.hpp"
 

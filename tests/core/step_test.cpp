@@ -2,6 +2,7 @@
 // The time step: what it must conserve, known vibrations, where it is stable, how it stops.
 #include "core/membrane_frequency.hpp"
 #include "core/step.hpp"
+#include "core/step_bound.hpp"
 #include "scene_checks.hpp"
 
 #include <gtest/gtest.h>
@@ -317,6 +318,55 @@ TEST(Step, IsStableBelowTheBoundAndStopsAboveIt) {
     if (!stop) continue;
     for (const char* part : {"stopped at step ", "time ", "ply ply1"})
       EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
+  }
+}
+
+/// Three plies held taut all round and pressed between two plates, nodes set off at random,
+/// friction stuck. Returns the largest energy over that at first; infinite if it stopped.
+double let_a_pressed_stack_vibrate(double damping, double step_factor, double& stretch) {
+  Case data = stack_of({0.0, 0.8, 0.0}, rectangle(50.0, 50.0, 5.0));
+  press_by_plate(data);
+  const double top = 3.0 * data.fabrics[0].thickness;
+  data.tools[1].motion = Motion::fixed;
+  data.tools[1].position.z() = 0.97 * top + 5.0;
+  set_friction(data, 1e6);
+  data.solver.mass_damping = 0.0;
+  data.solver.fibre_damping = data.contact.damping = damping;
+  data.solver.step_factor = step_factor;
+  Scene s = make_scene(data);
+  Random random(2);
+  for (PlyBody& ply : s.plies)
+    for (std::size_t n = 0; n < ply.x.size(); ++n) {
+      ply.x[n].head<2>() *= 1.005;
+      ply.x[n].z() *= 0.97;
+      if (ply.x0[n].head<2>().lpNorm<Eigen::Infinity>() > 24.0)
+        ply.membrane.node_mass[n] = 1e9; // t: a frame
+      else
+        ply.velocity[n] = 20.0 * random_vector(random);
+    }
+  ThreadTeam team(1);
+  start(s, team);
+  stretch = s.stretch;
+  const auto energy = [&] {
+    const Energies e = current_energies(s, team);
+    return e.kinetic + e.fibre + e.shear + e.contact;
+  };
+  double first = 0.0, largest = 0.0;
+  for (int step = 0; step < 3000; ++step) {
+    if (compute_forces(s, team)) return std::numeric_limits<double>::infinity();
+    if (step == 1) first = energy();
+    if (step > 0) largest = std::max(largest, energy() / first);
+    move_plies(s, team);
+  }
+  return largest;
+}
+
+TEST(Step, OfAPressedStackIsLongerThanItsPartsSayAndStable) {
+  for (const double damping : {0.0, 0.05}) {
+    double stretch = 0.0;
+    EXPECT_LT(let_a_pressed_stack_vibrate(damping, 0.98, stretch), 1.01) << damping;
+    EXPECT_GT(stretch, 1.1) << damping; // elements and contacts add up to less than their bounds
+    EXPECT_GT(let_a_pressed_stack_vibrate(damping, 1.1, stretch), 5.0) << damping;
   }
 }
 
