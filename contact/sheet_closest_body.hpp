@@ -3,41 +3,20 @@
 // whether they are sure to be closest, and the closest of all faces where they are not.
 #pragma once
 
-#include "contact/lanes.hpp"
+#include "contact/contact_law_lanes.hpp"
 #include "contact/sheet_kernel.hpp"
 
 namespace plyform {
 namespace {
 
-constexpr int four = 4;
 constexpr double sliver_sine2 = 0.01; // as in contact/point_triangle.hpp
 constexpr double far2 = 1e300;        // mm^2
-
-/// (x, y, z) of an array of 3 a node.
-PLYFORM_INLINE Double4 load3(const double* at) {
-#if defined(__AVX__)
-  const Long4 three{-1, -1, -1, 0};
-  return reinterpret_cast<Double4>(_mm256_maskload_pd(at, reinterpret_cast<__m256i>(three)));
-#else
-  return Double4{at[0], at[1], at[2], 0.0};
-#endif
-}
 
 /// Rows of a SheetKernelPoint: s and damping_force; normal_force, slip, area, gap; w and looked.
 enum PointRow { held_row, force_row, weight_row };
 
 PLYFORM_INLINE double* row_of(SheetKernelPoint* p, PointRow row) {
   return reinterpret_cast<double*>(p) + 4 * row;
-}
-
-/// A 4 x 4 matrix and its transpose: four rows to four columns and back.
-PLYFORM_INLINE Rows turned(const Rows& r) {
-  const Double4 a = __builtin_shufflevector(r.row[0], r.row[1], 0, 4, 2, 6);
-  const Double4 b = __builtin_shufflevector(r.row[0], r.row[1], 1, 5, 3, 7);
-  const Double4 c = __builtin_shufflevector(r.row[2], r.row[3], 0, 4, 2, 6);
-  const Double4 d = __builtin_shufflevector(r.row[2], r.row[3], 1, 5, 3, 7);
-  return {{__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(b, d, 0, 1, 4, 5),
-           __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
 }
 
 /// One row of four points, by columns.
@@ -63,10 +42,6 @@ PLYFORM_INLINE LaneFaces load_faces(const SheetKernelContact& k, SheetKernelPoin
   }
   return {components(p[0], p[1], p[2], p[3]), components(b[0], b[1], b[2], b[3]),
           components(c[0], c[1], c[2], c[3])};
-}
-
-PLYFORM_INLINE Double4 square(const Vector4& a) {
-  return dot(a, a);
 }
 
 /// Where four nodes stand over the planes of their faces: (1), (2) of contact/point_triangle.hpp.

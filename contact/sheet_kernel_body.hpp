@@ -20,26 +20,11 @@ PLYFORM_INLINE void add3(double* at, Double4 row) {
   at[2] += row[2];
 }
 
-/// Sums of four points each.
-struct LaneSums {
-  Double4 elastic = all(0.0), friction = all(0.0), damping = all(0.0);
-  Double4 penetration = all(0.0), slip = all(0.0);
-  int touching = 0;
-};
-
 /// The state of four points that changes with their forces.
 struct LanePoints {
-  Double4 area, gap, last_gap, damping_force, normal_force, slip;
-  Vector4 s;
+  Double4 area, gap, last_gap;
+  LaneMemory memory;
 };
-
-/// s turned into the plane across n, its length kept.
-PLYFORM_INLINE Vector4 into_plane(const Vector4& s, const Vector4& n) {
-  const Vector4 flat = s - dot(n, s) * n;
-  const Double4 length2 = square(s), flat2 = square(flat);
-  const Double4 by = flat2 > 0.0 ? root(length2 / flat2) : all(0.0);
-  return by * flat;
-}
 
 struct LaneForces {
   Vector4 on_node, couple1, couple2; ///< of (C') on corners b and c
@@ -58,13 +43,8 @@ PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces
   const Long4 known = p.last_gap < 1e300;
   const Double4 opened = known ? smaller(p.last_gap, zero) : zero;
   const Double4 dp = known ? p.last_gap - p.gap : -dot(normal, motion);
-  const Double4 pressure = k.stiffness * depth; // N/mm^2, elastic and viscous
-  const Double4 resistance = larger(k.damping_per_dt * (depth + opened), -pressure);
-  const Double4 viscous = area * resistance, n_force = area * (pressure + resistance);
-  sums.damping += touch ? 0.5 * (viscous + p.damping_force) * dp : zero;
-  p.damping_force = viscous;
-  p.normal_force = n_force;
-  LaneForces f{n_force * normal, {zero, zero, zero}, {zero, zero, zero}};
+  const Double4 pressure = normal_pressure(k, area, depth, opened, dp, touch, p.memory, sums);
+  LaneForces f{p.memory.normal_force * normal, {zero, zero, zero}, {zero, zero, zero}};
   Double4 stored2 = zero;
   if (k.friction > 0.0) {
     const Vector4 across = cross(x.b, x.c);
@@ -74,22 +54,15 @@ PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces
     const Double4 spin = 0.5 * (dot(x.b, u.c) - dot(x.c, u.b));
     const Vector4 turn = per_size * (v2 * x.b - v1 * x.c - spin * n); // (W')
     const Vector4 slip = motion - cross(turn, arm);                   // (P)
-    const Vector4 old = into_plane(p.s + cross(turn, p.s), normal);
-    const Vector4 trial = old + slip - dot(normal, slip) * normal;
-    const Double4 stiffness = area * k.tangential;
-    const Double4 limit = touch ? (k.friction / k.tangential) * (pressure + resistance) : zero;
-    const Double4 stretch = root(square(trial));
-    p.s = (stretch > limit ? limit / stretch : all(1.0)) * trial;
-    p.slip += touch ? larger(stretch - limit, zero) : zero;
-    sums.slip = larger(sums.slip, touch ? p.slip : zero);
-    sums.friction += 0.5 * stiffness * dot(old + p.s, trial - p.s);
-    const Vector4 tangential = -stiffness * p.s;
+    const Vector4& s = p.memory.s;
+    const Vector4 tangential =
+        friction_of(k, area, pressure, normal, s + cross(turn, s), slip, touch, p.memory, sums);
     f.on_node = f.on_node + tangential;
     const Vector4 couple = cross(tangential, arm); // -r x T of (M)
     const Double4 half = 0.5 * dot(couple, n);
     f.couple1 = per_size * (half * x.c - dot(x.c, couple) * n); // (C'), E_1 = -C
     f.couple2 = per_size * (dot(x.b, couple) * n - half * x.b);
-    stored2 = square(p.s);
+    stored2 = square(p.memory.s);
   }
   sums.elastic += 0.5 * area * (k.stiffness * depth * depth + k.tangential * stored2);
   sums.penetration = larger(sums.penetration, touch ? depth : zero);
@@ -142,9 +115,10 @@ PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Lan
   const LaneFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
   const Rows held = load_rows(g.point, held_row), force = load_rows(g.point, force_row);
   LanePoints p;
-  p.s = {held.row[0], held.row[1], held.row[2]};
-  p.damping_force = held.row[3];
-  p.normal_force = force.row[0], p.slip = force.row[1], p.area = force.row[2];
+  LaneMemory& m = p.memory;
+  m.s = {held.row[0], held.row[1], held.row[2]};
+  m.damping_force = held.row[3];
+  m.normal_force = force.row[0], m.slip = force.row[1], p.area = force.row[2];
   p.last_gap = force.row[3];
   p.gap = foot.distance - k.distance;
   const LaneForces f = forces_of(k, x, u, foot, g.real, p, sums);
@@ -153,8 +127,8 @@ PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Lan
   // forgotten on edges: a node may slide round the rim to the other side
   const Long4 side = foot.inside & (height >= 0.0 ? Long4{1, 1, 1, 1} : Long4{-1, -1, -1, -1});
   const Long4 deep = foot.distance < 0.5 * k.distance;
-  const Rows s = turned({{p.s.x, p.s.y, p.s.z, p.damping_force}});
-  const Rows b = turned({{p.normal_force, p.slip, p.area, p.gap}});
+  const Rows s = turned({{m.s.x, m.s.y, m.s.z, m.damping_force}});
+  const Rows b = turned({{m.normal_force, m.slip, p.area, p.gap}});
   for (int i = 0; i < g.count; ++i) {
     SheetKernelPoint& at = *g.point[i];
     if (at.side * side[i] < 0 || deep[i]) k.fault(k.self, g.index[i], foot.distance[i]);
@@ -285,11 +259,6 @@ PLYFORM_INLINE void do_some(const SheetKernelContact& k, const std::int32_t* nea
   }
   for (int i = 0; i < touches; i += four)
     press_later(k, near, touching + i, touches - i, chunk, sums);
-}
-
-PLYFORM_INLINE double largest(Double4 a) {
-  const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
-  return low > high ? low : high;
 }
 
 PLYFORM_INLINE SheetKernelSums sheet_kernel(const SheetKernelContact& k) {

@@ -14,7 +14,7 @@ faults=(
   "normals of tools point inward | contact/tool_contact.cpp | s/s.normal = tool.rotation \* s.normal;/s.normal = -(tool.rotation * s.normal);/"
   "normals beside edges of profiles point to the edge, inside as outside | contact/profile.cpp | s/d \* (sign \/ length)}/d \/ length}/"
   "normals beside edges of mesh tools point to the edge, inside as outside | contact/mesh_shape.cpp | s/d \* (sign \/ length)}/d \/ length}/"
-  "normal force between plies pulls | contact/sheet_kernel_body.hpp | s/LaneForces f{n_force \* normal/LaneForces f{-n_force * normal/"
+  "normal force between plies pulls | contact/sheet_kernel_body.hpp | s/LaneForces f{p.memory.normal_force \* normal/LaneForces f{-p.memory.normal_force * normal/"
   "boxes of the search: one triangle in 64 is never a candidate | contact/candidates.cpp | s/if (q.distance2 <= reach.distance \* reach.distance)/if (q.distance2 <= reach.distance * reach.distance \&\& face % 64 != 7)/"
   "boxes of the search are not brought up to date | core/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
   "contacts of plies are listed without the skin | core/contact_search.cpp | s/pair.contact.distance + s.skin/pair.contact.distance/"
