@@ -37,46 +37,42 @@ Vec2 left(const Vec2& t) {
   return {-t.y(), t.x()};
 }
 
-Nearest nearest_end(const ProfileSegment& s, const Vec2& q) {
+Nearest nearest_end(const SegmentForm& s, const Vec2& q) {
   const double da = (q - s.a).squaredNorm(), db = (q - s.b).squaredNorm();
   return da <= db ? Nearest{da, Feature::start} : Nearest{db, Feature::end};
 }
 
 /// Whether the ray from the arc's centre along u meets the arc.
-bool spans(const ProfileSegment& s, const Vec2& u) {
-  if (s.a == s.b) return true; // a full circle
-  const Vec2 ca = s.a - s.centre, cb = s.b - s.centre;
-  const double turn = s.turn;
-  if (turn * cross(ca, cb) >= 0.0) // up to half a turn
-    return turn * cross(ca, u) >= 0.0 && turn * cross(u, cb) >= 0.0;
-  return !(turn * cross(cb, u) > 0.0 && turn * cross(u, ca) > 0.0);
+bool spans(const SegmentForm& s, const Vec2& u) {
+  const double after_a = cross(s.to_a, u), before_b = cross(u, s.to_b);
+  if (!s.past_half_turn) return after_a >= 0.0 && before_b >= 0.0;
+  return s.full_circle || !(before_b < 0.0 && after_a < 0.0);
 }
 
-Nearest nearest_on(const ProfileSegment& s, const Vec2& q) {
+Nearest nearest_on(const SegmentForm& s, const Vec2& q) {
+  const Vec2 u = q - s.from;
   if (s.kind == ProfileSegment::Kind::line) {
-    const Vec2 e = s.b - s.a, u = q - s.a;
-    const double along = u.dot(e), length2 = e.squaredNorm();
-    if (along <= 0.0 || length2 == 0.0) return {u.squaredNorm(), Feature::start};
-    if (along >= length2) return {(q - s.b).squaredNorm(), Feature::end};
-    const double across = cross(e, u);
-    return {across * across / length2, Feature::interior};
+    const double along = u.dot(s.tangent);
+    if (along <= 0.0) return {u.squaredNorm(), Feature::start};
+    if (along >= s.extent) return {(q - s.b).squaredNorm(), Feature::end};
+    const double across = cross(s.tangent, u);
+    return {across * across, Feature::interior};
   }
-  const Vec2 u = q - s.centre;
   if (!spans(s, u)) return nearest_end(s, q);
-  const double gap = u.norm() - (s.a - s.centre).norm();
+  const double gap = u.norm() - s.extent;
   return {gap * gap, Feature::interior};
 }
 
-SectionPoint inside_segment(const ProfileSegment& s, const Vec2& q) {
+SectionPoint inside_segment(const SegmentForm& s, const Vec2& q) {
+  const Vec2 u = q - s.from;
   if (s.kind == ProfileSegment::Kind::line) {
-    const Vec2 n = left((s.b - s.a).normalized());
-    return {n.dot(q - s.a), n}; // (1)
+    const Vec2 n = left(s.tangent);
+    return {n.dot(u), n}; // (1)
   }
-  const Vec2 u = q - s.centre;
-  const double rho = u.norm(), turn = s.turn;
+  const double rho = u.norm();
   // At the centre every point of the arc is the closest: take its start.
-  const Vec2 out = rho > vertex_radius ? Vec2(u / rho) : Vec2((s.a - s.centre).normalized());
-  return {turn * ((s.a - s.centre).norm() - rho), -turn * out}; // (2)
+  const Vec2 inward = rho > vertex_radius ? Vec2(u * (-s.turn / rho)) : Vec2(-s.to_a.normalized());
+  return {s.turn * (s.extent - rho), inward}; // (2)
 }
 
 /// m of (3), not normalised, for the vertex at the start or end of segment i.
@@ -105,20 +101,52 @@ SectionPoint at_vertex(const RevolvedProfile& profile, std::size_t i, Feature fe
   return {sign * length, d * (sign / length)};
 }
 
-} // namespace
-
-SectionPoint section_distance(const RevolvedProfile& profile, const Vec2& q) {
+/// form_of(i): of segment i.
+template <class FormOf>
+SectionPoint distance_to_section(const RevolvedProfile& profile, const FormOf& form_of,
+                                 const Vec2& q) {
   Nearest best{std::numeric_limits<double>::infinity(), Feature::start};
   std::size_t at = 0;
   for (std::size_t i = 0; i < profile.segments.size(); ++i) {
-    const Nearest here = nearest_on(profile.segments[i], q);
+    const Nearest here = nearest_on(form_of(i), q);
     if (here.distance2 < best.distance2) {
       best = here;
       at = i;
     }
   }
-  if (best.feature == Feature::interior) return inside_segment(profile.segments[at], q);
+  if (best.feature == Feature::interior) return inside_segment(form_of(at), q);
   return at_vertex(profile, at, best.feature, q);
+}
+
+} // namespace
+
+SegmentForm::SegmentForm(const ProfileSegment& s)
+    : kind(s.kind), full_circle(s.a == s.b), turn(s.turn), from(s.a), a(s.a), b(s.b) {
+  if (kind == ProfileSegment::Kind::line) {
+    past_half_turn = false;
+    tangent = s.b - s.a;
+    extent = tangent.norm();
+    if (extent > 0.0) tangent /= extent;
+    return;
+  }
+  from = s.centre;
+  extent = (s.a - s.centre).norm();
+  to_a = turn * (s.a - s.centre);
+  to_b = turn * (s.b - s.centre);
+  past_half_turn = full_circle || turn * cross(to_a, to_b) < 0.0;
+}
+
+SectionField::SectionField(const RevolvedProfile& profile)
+    : profile_(&profile), forms_(profile.segments.begin(), profile.segments.end()) {}
+
+SectionPoint SectionField::distance(const Vec2& q) const {
+  const auto form_of = [this](std::size_t i) -> const SegmentForm& { return forms_[i]; };
+  return distance_to_section(*profile_, form_of, q);
+}
+
+SectionPoint section_distance(const RevolvedProfile& profile, const Vec2& q) {
+  const auto form_of = [&](std::size_t i) { return SegmentForm(profile.segments[i]); };
+  return distance_to_section(profile, form_of, q);
 }
 
 bool is_ring(const RevolvedProfile& profile) {

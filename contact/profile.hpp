@@ -17,6 +17,32 @@ struct SectionPoint {
 /// The profile has at least one segment.
 SectionPoint section_distance(const RevolvedProfile& profile, const Vec2& q);
 
+/// A segment with what its distance to a point needs.
+struct SegmentForm {
+  explicit SegmentForm(const ProfileSegment& segment);
+
+  ProfileSegment::Kind kind;
+  bool full_circle;    ///< an arc with a = b
+  bool past_half_turn; ///< an arc that sweeps more than half a turn
+  double extent;       ///< mm, length of a line, radius of an arc
+  double turn;         ///< as of ProfileSegment
+  Vec2 from;           ///< a of a line, centre of an arc
+  Vec2 a, b;           ///< ends
+  Vec2 tangent;        ///< unit, of a line
+  Vec2 to_a, to_b;     ///< of an arc, mm: from its centre, times turn
+};
+
+/// section_distance for many points. The profile outlives it.
+class SectionField {
+public:
+  explicit SectionField(const RevolvedProfile& profile);
+  SectionPoint distance(const Vec2& q) const;
+
+private:
+  const RevolvedProfile* profile_;
+  std::vector<SegmentForm> forms_;
+};
+
 /// The last point of the profile is its first: a ring.
 bool is_ring(const RevolvedProfile& profile);
 
@@ -31,10 +57,5 @@ double sweep(const ProfileSegment& arc);
 
 /// A box around the surface of revolution, no larger than the full circles of its arcs.
 Box3 bounds(const RevolvedProfile& profile);
-
-/// r/|p| direction of p about z; +x on the axis.
-inline Vec2 radial_direction(const Vec3& p, double r) {
-  return r > 0.0 ? Vec2(p.x() / r, p.y() / r) : Vec2(1.0, 0.0);
-}
 
 } // namespace plyform
