@@ -1,37 +1,192 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/tool_contact.hpp"
 
+#include "contact/processor.hpp"
+#include "contact/shape_distance.hpp"
+#include "contact/tool_kernel.hpp"
+
+#include <cstddef>
 #include <limits>
 
 namespace plyform {
 namespace {
 
-double area_of(const SheetState& ply, const ToolContactPoint& c) {
-  return ply.area[static_cast<std::size_t>(c.node)];
-}
-
 void lay_to_rest(ToolContactPoint& c) {
-  if (!std::isinf(c.gap)) c.rested = c.gap;
+  if (std::isinf(c.gap)) return;
+  c.last_gap = c.gap;
   c.gap = std::numeric_limits<double>::infinity();
 }
 
-/// Lists the points that may touch; their gaps and normals where tool and ply stand now.
-void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double path) {
-  const Stopwatch watch(contact.time.forces);
+/// Distances of a tool where it stands now; to_shape: of its shape, in its own frame.
+template <class ToShape>
+class Placed {
+public:
+  Placed(const ToolBody& tool, ToShape to_shape)
+      : to_shape_(std::move(to_shape)), origin_(tool.position + tool.displacement),
+        rotation_(tool.rotation), turned_(!tool.rotation.isIdentity(0.0)) {}
+
+  SurfacePoint operator()(const Vec3& x, int& hint) const {
+    const Vec3 from_origin = x - origin_;
+    if (!turned_) return to_shape_(from_origin, hint);
+    SurfacePoint s = to_shape_(rotation_.transpose() * from_origin, hint);
+    s.normal = rotation_ * s.normal;
+    return s;
+  }
+
+private:
+  ToShape to_shape_;
+  Vec3 origin_; ///< mm, of the tool frame
+  Eigen::Matrix3d rotation_;
+  bool turned_;
+};
+
+/// Calls use(distance), distance(x, hint) as distance_to_tool: for many points of one tool.
+template <class Use>
+void with_distance(const ToolBody& tool, const Use& use) {
+  std::visit([&](const auto& shape) { use(Placed(tool, distance_of(shape))); }, tool.shape);
+}
+
+/// Points of a list, done one after another.
+using Part = std::span<const std::int32_t>;
+
+/// work(part) of all points in order. One part stays in the fastest cache.
+template <class Work>
+void in_parts(const NearList& list, const Work& work) {
+  constexpr std::size_t most = 128;
+  const Part all = list.near;
+  for (std::size_t first = 0; first < all.size(); first += most)
+    work(all.subspan(first, std::min(most, all.size() - first)));
+}
+
+/// Lists the points that may touch.
+void renew_near(ToolContact& contact, double path) {
   renew(contact.list, path,
         [&contact](std::int32_t i) { lay_to_rest(contact.points[static_cast<std::size_t>(i)]); });
-  for (const std::int32_t i : contact.list.near) {
+}
+
+/// Gaps and normals where tool and ply stand now.
+template <class Distance>
+void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double path,
+             Part part, const Distance& distance) {
+  const Vec3 tool_motion = tool.pushed ? Vec3(Vec3::Zero()) : tool.motion; // not yet moved
+  for (const std::int32_t i : part) {
     ToolContactPoint& c = contact.points[static_cast<std::size_t>(i)];
     const auto n = static_cast<std::size_t>(c.node);
-    const SurfacePoint s = distance_to_tool(tool, ply.x[n], c.hint);
+    const SurfacePoint s = distance(ply.x[n], c.hint);
+    const bool rested = std::isinf(c.gap);
     c.last_gap = c.gap;
     c.gap = s.distance - contact.half_thickness;
     c.normal = s.normal;
-    if (std::isinf(c.last_gap)) // a pushed tool has not moved yet in this step
-      c.last_gap =
-          c.gap - c.normal.dot(tool.pushed ? ply.motion[n] : Vec3(ply.motion[n] - tool.motion));
+    if (rested) c.last_gap = c.gap - c.normal.dot(ply.motion[n] - tool_motion);
     if (c.gap > 0.0) contact.list.wake[static_cast<std::size_t>(i)] = path + c.gap;
   }
+}
+
+/// All near points of a pushed tool, which (B) needs before it presses.
+void measure_all(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double path) {
+  const Stopwatch watch(contact.time.forces);
+  renew_near(contact, path);
+  if (contact.list.near.empty()) return;
+  with_distance(tool, [&](const auto& distance) {
+    measure(contact, tool, ply, path, contact.list.near, distance);
+  });
+}
+
+/// Points as the kernel sees them.
+ToolKernelPoint* kernel_points(ToolContactPoint* points) {
+  using P = ToolContactPoint;
+  using Q = ToolKernelPoint;
+  static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
+                offsetof(ContactMemory, damping_force) == offsetof(Q, damping_force) &&
+                offsetof(ContactMemory, normal_force) == offsetof(Q, normal_force) &&
+                offsetof(ContactMemory, slip) == offsetof(Q, slip) &&
+                offsetof(P, gap) == offsetof(Q, gap) &&
+                offsetof(P, last_gap) == offsetof(Q, last_gap) &&
+                offsetof(P, normal) == offsetof(Q, normal) &&
+                offsetof(P, node) == offsetof(Q, node) && offsetof(P, hint) == offsetof(Q, hint));
+  return reinterpret_cast<ToolKernelPoint*>(points);
+}
+
+void clear_present(ContactSums& sums) {
+  sums.elastic = sums.penetration = 0.0;
+  sums.touching = 0;
+}
+
+/// Forces of measured points; advance: mm, of the tool since. Returns the force on the tool, N.
+Vec3 press(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
+           const Vec3& advance, double dt, Part part) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  ToolKernelContact k{};
+  k.points = kernel_points(contact.points.data());
+  k.near = part.data();
+  k.near_count = static_cast<int>(part.size());
+  k.area = ply.area.data();
+  k.motion = ply.motion.data()->data();
+  k.force = contact.force.data()->data();
+  Eigen::Map<Vec3>(k.tool_motion) = tool_motion;
+  Eigen::Map<Vec3>(k.advance) = advance;
+  k.stiffness = contact.law.stiffness;
+  k.tangential = contact.law.tangential();
+  k.friction = contact.law.friction;
+  k.damping_per_dt = dt > 0.0 ? contact.law.damping / dt : 0.0;
+  const ToolKernelSums added = (has_avx2() ? tool_kernel_avx2 : tool_kernel_any)(k);
+  ContactSums& sums = contact.sums;
+  sums.elastic += added.elastic;
+  sums.friction += added.friction;
+  sums.damping += added.damping;
+  sums.penetration = std::max(sums.penetration, added.penetration);
+  sums.deepest = std::max(sums.deepest, added.penetration);
+  sums.slip = std::max(sums.slip, added.slip);
+  sums.touching += added.touching;
+  return -Vec3(added.on_nodes[0], added.on_nodes[1], added.on_nodes[2]);
+}
+
+/// Forces of a tool that does not move by (B), each part measured and pressed at once.
+Vec3 measure_and_press(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
+                       double path, double dt) {
+  const Stopwatch watch(contact.time.forces);
+  renew_near(contact, path);
+  clear_present(contact.sums);
+  Vec3 on_tool = Vec3::Zero();
+  if (contact.list.near.empty()) return on_tool;
+  with_distance(tool, [&](const auto& distance) {
+    in_parts(contact.list, [&](Part part) {
+      measure(contact, tool, ply, path, part, distance);
+      on_tool += press(contact, ply, tool.motion, Vec3::Zero(), dt, part);
+    });
+  });
+  return on_tool;
+}
+
+/// A point that the motion of (B) may press. With p = facing delta - gap its force is
+/// N = A (k p + c / dt (p + opened)) = rate delta - offset where that is positive; p is then, too.
+struct Pressed {
+  double facing; ///< of the normal along the motion
+  double rate;   ///< N/mm
+  double offset; ///< N
+};
+
+/// Those that a motion of no more than `most` (mm) may press.
+std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolContact> contacts,
+                               std::span<const SheetState> plies, double most, double dt) {
+  std::vector<Pressed> pressed;
+  std::size_t count = 0;
+  for (const ToolContact& contact : contacts)
+    count += contact.list.near.size();
+  pressed.reserve(count);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactLaw& law = contacts[i].law;
+    const double viscous = law.damping / dt, both = law.stiffness + viscous; // N/mm^3
+    for (const std::int32_t k : contacts[i].list.near) {
+      const ToolContactPoint& c = contacts[i].points[static_cast<std::size_t>(k)];
+      const double facing = c.normal.dot(tool.direction);
+      if (!(std::abs(facing) * most > c.gap)) continue;
+      const double area = plies[i].area[static_cast<std::size_t>(c.node)];
+      const double opened = std::min(c.last_gap, 0.0);
+      pressed.push_back({facing, area * both * facing, area * (both * c.gap - viscous * opened)});
+    }
+  }
+  return pressed;
 }
 
 /// Left side minus right side of (B) for a motion `delta`, N, and its slope, N/mm (both fall with
@@ -40,39 +195,30 @@ struct Residual {
   double value, slope;
 };
 
-Residual residual_of(const ToolBody& tool, std::span<ToolContact> contacts,
-                     std::span<const SheetState> plies, double delta, double dt) {
+Residual residual_of(const ToolBody& tool, std::span<const Pressed> pressed, double delta,
+                     double dt) {
   const double inertia = tool.mass / (dt * dt);
   Residual r{tool.force - inertia * (delta - tool.speed * dt), -inertia};
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const ContactLaw& law = contacts[i].law;
-    const double rate = law.damping / dt;
-    for (const std::int32_t k : contacts[i].list.near) {
-      const ToolContactPoint& c = contacts[i].points[static_cast<std::size_t>(k)];
-      const double facing = c.normal.dot(tool.direction);
-      const double p = -c.gap + facing * delta;
-      if (!(p > 0.0)) continue;
-      const double area = area_of(plies[i], c);
-      const double n = area * (law.stiffness * p + rate * (p + std::min(c.last_gap, 0.0))); // (N)
-      if (!(n > 0.0)) continue;
-      r.value -= facing * n;
-      r.slope -= facing * facing * area * (law.stiffness + rate);
-    }
+  for (const Pressed& c : pressed) {
+    const double n = c.rate * delta - c.offset; // (N)
+    r.value -= n > 0.0 ? c.facing * n : 0.0;
+    r.slope -= n > 0.0 ? c.facing * c.rate : 0.0;
   }
   return r;
 }
 
 /// Solves (B) for delta within what the closing speed allows: Newton's method inside a bracket,
 /// halved where a step would leave it (contacts that begin make the residual jump).
-double equilibrium_motion(const ToolBody& tool, std::span<ToolContact> contacts,
+double equilibrium_motion(const ToolBody& tool, std::span<const ToolContact> contacts,
                           std::span<const SheetState> plies, double dt) {
   double high = tool.speed_limit * dt, low = -high;
-  if (residual_of(tool, contacts, plies, high, dt).value >= 0.0) return high;
-  if (residual_of(tool, contacts, plies, low, dt).value <= 0.0) return low;
+  const std::vector<Pressed> pressed = may_press(tool, contacts, plies, high, dt);
+  if (residual_of(tool, pressed, high, dt).value >= 0.0) return high;
+  if (residual_of(tool, pressed, low, dt).value <= 0.0) return low;
   double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
   constexpr int most_rounds = 60; // the bracket is then at rounding; 3 to 6 rounds are usual
   for (int round = 0; round < most_rounds; ++round) {
-    const Residual r = residual_of(tool, contacts, plies, delta, dt);
+    const Residual r = residual_of(tool, pressed, delta, dt);
     if (std::abs(r.value) <= 1e-9 * std::abs(tool.force)) break;
     (r.value > 0.0 ? low : high) = delta;
     const double newton = r.slope < 0.0 ? delta - r.value / r.slope : high;
@@ -81,49 +227,31 @@ double equilibrium_motion(const ToolBody& tool, std::span<ToolContact> contacts,
   return delta;
 }
 
-Vec3 contact_forces(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
-                    double dt) {
-  const Stopwatch watch(contact.time.forces);
-  Vec3 on_tool = Vec3::Zero();
-  contact.sums.elastic = 0.0;
-  contact.sums.penetration = 0.0;
-  contact.sums.touching = 0;
-  for (const std::int32_t k : contact.list.near) {
-    ToolContactPoint& c = contact.points[static_cast<std::size_t>(k)];
-    const auto n = static_cast<std::size_t>(c.node);
-    Vec3& f = contact.force[n];
-    f.setZero();
-    const double p = -c.gap, dp = c.last_gap - c.gap, area = ply.area[n];
-    if (!(p > 0.0)) {
-      contact.sums.damping += 0.5 * c.memory.damping_force * dp; // the trapezoid's last half
-      c.memory.damping_force = 0.0;
-      release(contact.law, area, c.memory, contact.sums);
-      continue;
-    }
-    const NormalForce normal =
-        normal_force(contact.law, area, p, p + std::min(c.last_gap, 0.0), dt);
-    contact.sums.damping += 0.5 * (normal.damping + c.memory.damping_force) * dp;
-    c.memory.damping_force = normal.damping;
-    c.memory.normal_force = normal.total;
-    f = normal.total * c.normal + friction_force(contact.law, area, normal.total, c.normal,
-                                                 ply.motion[n] - tool_motion, c.memory,
-                                                 contact.sums);
-    on_tool -= f;
-    contact.sums.elastic += spring_energy(contact.law, area, p, c.memory);
-    contact.sums.penetration = std::max(contact.sums.penetration, p);
-    ++contact.sums.touching;
+/// Moves a pushed tool by (B), its contacts measured, and presses.
+Vec3 push_and_press(ToolBody& tool, std::span<ToolContact> contacts,
+                    std::span<const SheetState> plies, double dt) {
+  Vec3 advance = Vec3::Zero();
+  if (dt > 0.0) {
+    const double delta = equilibrium_motion(tool, contacts, plies, dt);
+    tool.speed = delta / dt;
+    advance = tool.motion = delta * tool.direction;
+    tool.displacement += tool.motion;
   }
-  contact.sums.deepest = std::max(contact.sums.deepest, contact.sums.penetration);
+  Vec3 on_tool = Vec3::Zero();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Stopwatch watch(contacts[i].time.forces);
+    clear_present(contacts[i].sums);
+    if (contacts[i].list.near.empty()) continue;
+    on_tool += press(contacts[i], plies[i], tool.motion, advance, dt, contacts[i].list.near);
+  }
   return on_tool;
 }
 
 } // namespace
 
 SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint) {
-  const Vec3 local = tool.rotation.transpose() * (x - tool.position - tool.displacement);
-  SurfacePoint s = signed_distance(tool.shape, local, hint);
-  s.normal = tool.rotation * s.normal;
-  return s;
+  const auto to_shape = [&](const Vec3& p, int& h) { return signed_distance(tool.shape, p, h); };
+  return Placed(tool, to_shape)(x, hint);
 }
 
 void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
@@ -165,23 +293,13 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
 
 Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
                  std::span<const double> paths, double dt) {
-  for (std::size_t i = 0; i < contacts.size(); ++i)
-    measure(contacts[i], tool, plies[i], paths[i]);
-  if (tool.pushed && dt > 0.0) {
-    const double delta = equilibrium_motion(tool, contacts, plies, dt);
-    tool.speed = delta / dt;
-    tool.motion = delta * tool.direction;
-    tool.displacement += tool.motion;
-    for (ToolContact& contact : contacts)
-      for (const std::int32_t k : contact.list.near) {
-        ToolContactPoint& c = contact.points[static_cast<std::size_t>(k)];
-        c.gap -= c.normal.dot(tool.direction) * delta;
-      }
-  }
   Vec3 on_tool = Vec3::Zero();
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    on_tool += contact_forces(contacts[i], plies[i], tool.motion, dt);
-  return on_tool;
+    if (tool.pushed)
+      measure_all(contacts[i], tool, plies[i], paths[i]);
+    else
+      on_tool += measure_and_press(contacts[i], tool, plies[i], paths[i], dt);
+  return tool.pushed ? push_and_press(tool, contacts, plies, dt) : on_tool;
 }
 
 void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,

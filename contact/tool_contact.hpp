@@ -37,17 +37,16 @@ struct ToolBody {
   double speed_limit = 0.0; ///< mm/s, closing speed while it meets no resistance
 };
 
-/// One node of a ply near the tool.
-struct ToolContactPoint {
-  int node;
-  int hint = -1;       ///< memory of signed_distance
-  Vec3 normal;         ///< in space, of this step or when it was last measured
-  double gap = 0.0;    ///< mm, distance minus half thickness; infinite: it rested
-  double rested = 0.0; ///< mm, gap when it went to rest
-  double last_gap = 0.0;
+/// One node of a ply near the tool. Laid out in rows of 32 bytes, ToolKernelPoint
+/// (contact/tool_kernel.hpp).
+struct alignas(32) ToolContactPoint {
   ContactMemory memory;
+  double gap = 0.0;             ///< mm, distance minus half thickness; infinite: it rests
+  double last_gap = 0.0;        ///< mm, of the step before; while it rests: when it went to rest
+  Vec3 normal = Vec3::Zero();   ///< in space, of this step or when it was last measured
+  std::int32_t node, hint = -1; ///< hint: memory of signed_distance
 
-  double latest_gap() const { return std::isinf(gap) ? rested : gap; } ///< mm, last seen
+  double latest_gap() const { return std::isinf(gap) ? last_gap : gap; } ///< mm, last seen
 };
 
 /// A tool against one ply. `points` hold the nodes within reach, ascending.
