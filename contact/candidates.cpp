@@ -40,8 +40,11 @@ double squared_distance(const Vec3& p, const Box& box) {
   return (box.min_ - p).cwiseMax(p - box.max_).cwiseMax(0.0).squaredNorm();
 }
 
+/// All six at once: the branches of a test that ends early are hard to foresee.
 bool overlap(const Box& a, const Box& b) {
-  return (a.min_.array() <= b.max_.array()).all() && (b.min_.array() <= a.max_.array()).all();
+  const Vec3 &p = a.min_, &q = a.max_, &r = b.min_, &s = b.max_;
+  return (int(p.x() <= s.x()) & int(p.y() <= s.y()) & int(p.z() <= s.z()) & int(r.x() <= q.x()) &
+          int(r.y() <= q.y()) & int(r.z() <= q.z())) != 0;
 }
 
 /// Leaves whose box meets `asked`.

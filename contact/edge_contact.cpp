@@ -2,6 +2,7 @@
 #include "contact/edge_contact.hpp"
 
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace plyform {
@@ -59,9 +60,18 @@ double distance_of(const EdgePair& pair, const SheetState& a, const SheetState& 
   const Vec3 &x1 = at(a.x, pair.a.a), &x2 = at(a.x, pair.a.b);
   const Vec3 &x3 = at(b.x, pair.b.a), &x4 = at(b.x, pair.b.b);
   const SegmentDistance d = segment_distance(x1, x2, x3, x4);
-  if (!d.parallel && d.inside) return d.across.norm();
-  return std::min({distance_to_segment(x1, x3, x4), distance_to_segment(x2, x3, x4),
-                   distance_to_segment(x3, x1, x2), distance_to_segment(x4, x1, x2)});
+  if (d.parallel)
+    return std::min({distance_to_segment(x1, x3, x4), distance_to_segment(x2, x3, x4),
+                     distance_to_segment(x3, x1, x2), distance_to_segment(x4, x1, x2)});
+  if (d.inside) return d.across.norm();
+  // Where the lines are closest is outside one segment or both. The closest points are then an end
+  // of a segment that is passed and what is closest to it on the other (Ericson, Real-Time
+  // Collision Detection, 5.1.9).
+  double distance = std::numeric_limits<double>::max();
+  if (d.s <= 0.0 || d.s >= 1.0) distance = distance_to_segment(d.s <= 0.0 ? x1 : x2, x3, x4);
+  if (d.t <= 0.0 || d.t >= 1.0)
+    distance = std::min(distance, distance_to_segment(d.t <= 0.0 ? x3 : x4, x1, x2));
+  return distance;
 }
 
 double edge_area(const SheetState& sheet, const SheetEdge& e) {
@@ -139,7 +149,6 @@ void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const 
                      std::span<const std::int32_t> folded_a, const SheetState& b,
                      std::span<const SheetEdge> edges_b, std::span<const std::int32_t> folded_b,
                      double skin, double path) {
-  const Stopwatch watch(contact.time.search);
   const std::vector<EdgePair> old = std::move(contact.pairs);
   contact.pairs.clear();
   clear(contact.list);

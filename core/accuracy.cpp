@@ -125,15 +125,18 @@ double preset_error(const std::string& word) {
   return word == "draft" ? 3.0 : word == "standard" ? 1.0 : word == "reference" ? 0.3 : 0.0;
 }
 
-void pick_dials(Case& data) {
-  const Numbers n = numbers_of(data);
-  const double wanted = degrees(data.accuracy.shear_error);
-  if (!(wanted > 0.0) || n.inertia == 0.0) return;
-  const double mesh = mesh_error(n);
-  const double left2 = std::max(wanted * wanted - mesh * mesh, 0.25 * wanted * wanted);
-  // the share of softening is walked through; inertia takes the rest
-  double fewest = std::numeric_limits<double>::max();
-  constexpr int shares = 200;
+namespace {
+
+/// Dials, and what they cost: CPU time over that of the case's own mesh for 1 s and softening 1.
+struct Dials {
+  double coarsening = 1.0, duration = 0.0, softening = 1.0;
+  double cost = std::numeric_limits<double>::max();
+};
+
+/// The cheapest duration and softening whose errors, squared, add up to `left2` at most.
+Dials cheapest(const Numbers& n, double left2) {
+  Dials best;
+  constexpr int shares = 200; // that of softening is walked through; inertia takes the rest
   for (int i = 1; i < shares; ++i) {
     const double share = static_cast<double>(i) / shares;
     double softening = n.softest;
@@ -149,11 +152,55 @@ void pick_dials(Case& data) {
         std::min(most_inertia, std::pow(std::sqrt(rest2) / n.swinging, 1.0 / p_inertia));
     const double duration = std::sqrt(n.inertia / inertia);
     const double steps = duration / std::sqrt(softening);
-    if (steps >= fewest) continue;
-    fewest = steps;
-    data.solver.duration = duration;
-    data.solver.fibre_softening = softening;
+    if (steps < best.cost) best = {1.0, duration, softening, steps};
   }
+  return best;
+}
+
+/// Whether every blank of a ply may have elements so many times as large: no longer than the
+/// tightest fillet, nor than contact was measured with, and the outline still takes them.
+bool may_coarsen(const Case& data, double by) {
+  constexpr double most_thicknesses = 16.0;
+  double longest = std::numeric_limits<double>::max();
+  for (const Tool& t : data.tools)
+    if (const double radius = smallest_radius(t.shape); radius > 0.0)
+      longest = std::min(longest, radius);
+  for (const Ply& ply : data.plies) {
+    const double thickness = data.fabrics[static_cast<std::size_t>(ply.fabric)].thickness;
+    BlankSpec blank = data.blanks[static_cast<std::size_t>(ply.blank)];
+    if (blank.mesh == MeshKind::file) return false;
+    blank.element_size *= by;
+    if (blank.element_size > std::min(longest, most_thicknesses * thickness)) return false;
+    if (!takes_elements(blank)) return false;
+  }
+  return data.boundaries.empty(); // which nodes they hold goes by the mesh
+}
+
+} // namespace
+
+void pick_dials(Case& data) {
+  const Numbers n = numbers_of(data);
+  const double wanted = degrees(data.accuracy.shear_error);
+  if (!(wanted > 0.0) || n.inertia == 0.0) return;
+  Dials best;
+  for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4}) { // the rule was not measured beyond
+    if (by > 1.0 && !may_coarsen(data, by)) break;
+    const double mesh = mesh_error(n) * std::pow(by, p_mesh);
+    double left2 = wanted * wanted - mesh * mesh;
+    const double least2 = 0.25 * wanted * wanted;
+    if (left2 < least2 && by > 1.0) break;
+    left2 = std::max(left2, least2);
+    Dials dials = cheapest(n, left2);
+    dials.coarsening = by;
+    // elements, and the step, which contacts that are as stiff as before hold below h
+    dials.cost /= by * by * std::pow(by, 0.7);
+    if (dials.cost < best.cost) best = dials;
+  }
+  data.solver.duration = best.duration;
+  data.solver.fibre_softening = best.softening;
+  if (best.coarsening > 1.0)
+    for (BlankSpec& blank : data.blanks)
+      blank.element_size *= best.coarsening;
 }
 
 } // namespace plyform

@@ -40,6 +40,15 @@ BlankMesh free_blank(const BlankSpec& spec) {
                 longest * spec.element_size);
 }
 
+bool takes_elements(const BlankSpec& spec) {
+  try {
+    check_outline(spec.outline, spec.element_size);
+    return true;
+  } catch (const std::runtime_error&) {
+    return false;
+  }
+}
+
 BlankMesh mesh_blank(const BlankSpec& spec, double warp, double weft) {
   if (spec.mesh == MeshKind::file) return blank_from_file(spec.file);
   check_outline(spec.outline, spec.element_size);

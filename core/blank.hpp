@@ -53,4 +53,7 @@ struct BlankMesh {
 /// manifold or not in one piece.
 BlankMesh mesh_blank(const BlankSpec& spec, double warp, double weft);
 
+/// Whether the outline takes elements of this size: false where mesh_blank would throw for it.
+bool takes_elements(const BlankSpec& spec);
+
 } // namespace plyform

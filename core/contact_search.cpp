@@ -43,13 +43,13 @@ void search_tool(Scene& s, ToolAndContacts& t) {
   t.displacement_search = t.body.displacement;
 }
 
-/// The ply next to the slave on the way to the master lies between them, or is the master.
-int next_ply(const PlyContact& pair) {
-  return pair.slave + (pair.master > pair.slave) - (pair.master < pair.slave);
+/// The ply next to one on the way to another lies between them, or is the other.
+int next_ply(int from, int to) {
+  return from + (to > from) - (to < from);
 }
 
 bool neighbours(const PlyContact& pair) {
-  return pair.master == next_ply(pair);
+  return pair.master == next_ply(pair.slave, pair.master);
 }
 
 /// Marks the slave's nodes that are so close to the master, away from its rim, that no ply beyond
@@ -69,13 +69,13 @@ void mark_covered(PlyBody& slave, const PlyContact& pair, const PlyBody& master)
 }
 
 /// The slave's nodes that another ply keeps from the master; empty: none.
-std::span<const char> covered_nodes(const Scene& s, const PlyContact& pair, double reach) {
-  if (pair.slave == pair.master || neighbours(pair)) return {};
-  const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
-  const PlyBody& between = s.plies[static_cast<std::size_t>(next_ply(pair))];
+std::span<const char> covered_nodes(const Scene& s, int slave_ply, int master_ply, double reach) {
+  if (slave_ply == master_ply || next_ply(slave_ply, master_ply) == master_ply) return {};
+  const PlyBody& slave = s.plies[static_cast<std::size_t>(slave_ply)];
+  const PlyBody& between = s.plies[static_cast<std::size_t>(next_ply(slave_ply, master_ply))];
   // what covers was looked for within that distance only
   if (reach > 0.5 * (slave.thickness + between.thickness) + s.skin) return {};
-  return slave.covered[pair.master > pair.slave];
+  return slave.covered[master_ply > slave_ply];
 }
 
 void search_plies(Scene& s, PlyContact& pair) {
@@ -86,7 +86,8 @@ void search_plies(Scene& s, PlyContact& pair) {
   const double reach = std::max(pair.contact.distance + s.skin, step_way(s, pair));
   std::vector<Candidate> candidates;
   if (may_meet(slave.tree->bounds(), master.tree->bounds(), reach))
-    master.tree->candidates(slave.x, reach, candidates, covered_nodes(s, pair, reach));
+    master.tree->candidates(slave.x, reach, candidates,
+                            covered_nodes(s, pair.slave, pair.master, reach));
   if (pair.slave == pair.master)
     leave_out_neighbours(candidates, slave.x0, slave.membrane.triangles,
                          neighbourhood * pair.contact.distance);
@@ -95,11 +96,27 @@ void search_plies(Scene& s, PlyContact& pair) {
   if (neighbours(pair)) mark_covered(s.plies[static_cast<std::size_t>(pair.slave)], pair, master);
 }
 
+/// Folded edges of a ply that may meet another: without those both of whose nodes a ply in between
+/// covers.
+std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double reach) {
+  const PlyBody& body = s.plies[static_cast<std::size_t>(ply)];
+  const std::span<const char> covered = covered_nodes(s, ply, other, reach);
+  std::vector<std::int32_t> open = body.folded;
+  if (!covered.empty())
+    std::erase_if(open, [&](std::int32_t e) {
+      const SheetEdge& edge = body.edges[static_cast<std::size_t>(e)];
+      return covered[static_cast<std::size_t>(edge.a)] && covered[static_cast<std::size_t>(edge.b)];
+    });
+  return open;
+}
+
 void search_edges(Scene& s, PlyEdgeContact& pair) {
   const PlyBody& a = s.plies[static_cast<std::size_t>(pair.a)];
   const PlyBody& b = s.plies[static_cast<std::size_t>(pair.b)];
-  find_edge_pairs(pair.contact, a.state(), a.edges, a.folded, b.state(), b.edges, b.folded, s.skin,
-                  a.path + b.path);
+  const Stopwatch watch(pair.contact.time.search);
+  const double reach = pair.contact.distance + s.skin;
+  find_edge_pairs(pair.contact, a.state(), a.edges, open_edges(s, pair.a, pair.b, reach), b.state(),
+                  b.edges, open_edges(s, pair.b, pair.a, reach), s.skin, a.path + b.path);
 }
 
 void renew_spread(const Scene& s, PlyBody& ply) {
