@@ -158,7 +158,7 @@ Dials cheapest(const Numbers& n, double left2) {
 }
 
 /// Whether every blank of a ply may have elements so many times as large: no longer than the
-/// tightest fillet, nor than contact was measured with, and the outline still takes them.
+/// tightest fillet, nor than contact was measured with, and its outline still takes them.
 bool may_coarsen(const Case& data, double by) {
   constexpr double most_thicknesses = 16.0;
   double longest = std::numeric_limits<double>::max();
@@ -184,7 +184,7 @@ void pick_dials(Case& data) {
   if (!(wanted > 0.0) || n.inertia == 0.0) return;
   Dials best;
   for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4}) { // the rule was not measured beyond
-    if (by > 1.0 && !may_coarsen(data, by)) break;
+    if (by > 1.0 && (n.sliding > 1.0 || !may_coarsen(data, by))) break;
     const double mesh = mesh_error(n) * std::pow(by, p_mesh);
     double left2 = wanted * wanted - mesh * mesh;
     const double least2 = 0.25 * wanted * wanted;

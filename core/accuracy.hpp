@@ -44,8 +44,9 @@ double preset_error(const std::string& word);
 /// Sets solver.duration, solver.fibre_softening and the element size of the blanks for the least
 /// work whose error (E) is at most accuracy.shear_deg: softening between 1 and 1000 (stacks: 300),
 /// I at most 2.8, elements up to 1.4 times as large as the case's where tools and outlines allow
-/// it, never smaller. Where the mesh leaves less than half of the error, inertia and softening get
-/// half. Nothing is done without accuracy.shear_deg or a stroke.
+/// it (not in stacks of two to four plies, where that was not measured), never smaller. Where the
+/// mesh leaves less than half of the error, inertia and softening get half. Nothing is done without
+/// accuracy.shear_deg or a stroke.
 void pick_dials(Case& data);
 
 } // namespace plyform

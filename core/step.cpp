@@ -289,8 +289,8 @@ std::optional<Stop> find_collapsed(const Scene& s) {
   return std::nullopt;
 }
 
-void set_step(Scene& s) {
-  s.next_dt = s.data.solver.step_factor * stable_step(s).dt;
+void set_step(Scene& s, ThreadTeam& team) {
+  s.next_dt = s.data.solver.step_factor * stable_step(s, team).dt;
   s.bound_way = furthest_way(s);
   s.min_dt = s.min_dt > 0.0 ? std::min(s.min_dt, s.next_dt) : s.next_dt;
   s.max_dt = std::max(s.max_dt, s.next_dt);
@@ -301,7 +301,7 @@ void set_step(Scene& s) {
 void start(Scene& s, ThreadTeam& team) {
   search_contacts(s, team);
   renew_bounds(s, team);
-  set_step(s);
+  set_step(s, team);
 }
 
 std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
@@ -313,7 +313,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
   }
   const bool due = used_up || s.step % bound_every == 0;
   if (due) renew_bounds(s, team);
-  if (due || furthest_way(s) - s.bound_way > 0.5 * bound_margin) set_step(s);
+  if (due || furthest_way(s) - s.bound_way > 0.5 * bound_margin) set_step(s, team);
   if (!used_up) follow_spread(s, team);
   add_up_forces(s, team);
   // at every step: small triangles turn over within a few

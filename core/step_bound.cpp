@@ -29,29 +29,72 @@ struct ContactRows {
   double damping_ratio = 0.0;
 };
 
-ContactRows contact_rows(const Scene& s) {
-  ContactRows c;
-  for (const PlyBody& ply : s.plies)
-    c.rows.emplace_back(ply.x.size(), 0.0);
-  const auto damped = [&c](const ContactLaw& law) {
-    c.damping_ratio = std::max(c.damping_ratio, law.damping / law.stiffness);
+/// What the contacts between two plies add to the rows of both.
+struct PairRows {
+  std::vector<double> a, b;
+};
+
+PairRows rows_of(const Scene& s, const PlyPair& pair) {
+  const PlyBody &a = s.plies[static_cast<std::size_t>(pair.a)],
+                &b = s.plies[static_cast<std::size_t>(pair.b)];
+  PairRows rows;
+  const auto begin = [&] {
+    rows.a.resize(a.x.size());
+    rows.b.resize(b.x.size());
+  };
+  for (const int i : pair.contacts) {
+    const PlyContact& c = s.ply_contacts[static_cast<std::size_t>(i)];
+    if (c.contact.points.empty()) continue;
+    begin();
+    const bool up = c.slave == pair.a;
+    const PlyBody& master = up ? b : a;
+    add_sheet_stiffness(c.contact, master.state(), master.membrane.triangles, bound_margin,
+                        up ? rows.a : rows.b, up ? rows.b : rows.a);
+  }
+  for (const int i : pair.edges) {
+    const EdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
+    if (contact.pairs.empty()) continue;
+    begin();
+    add_edge_stiffness(contact, edge_margin, rows.a, rows.b);
+  }
+  return rows;
+}
+
+double largest_damping_ratio(const Scene& s) {
+  double largest = 0.0;
+  const auto grow = [&largest](const ContactLaw& law) {
+    largest = std::max(largest, law.damping / law.stiffness);
   };
   for (const ToolAndContacts& tool : s.tools)
-    for (std::size_t p = 0; p < s.plies.size(); ++p) {
-      if (tool.contacts[p].points.empty()) continue;
-      add_tool_stiffness(tool.contacts[p], s.plies[p].membrane.node_area, bound_margin, c.rows[p]);
-      damped(tool.contacts[p].law);
-    }
-  for (const PlyContact& pair : s.ply_contacts) {
-    if (pair.contact.points.empty()) continue;
-    const auto a = static_cast<std::size_t>(pair.slave), b = static_cast<std::size_t>(pair.master);
-    add_sheet_stiffness(pair.contact, s.plies[b].state(), s.plies[b].membrane.triangles,
-                        bound_margin, c.rows[a], c.rows[b]);
-    damped(pair.contact.law);
+    for (const ToolContact& c : tool.contacts)
+      if (!c.points.empty()) grow(c.law);
+  for (const PlyContact& pair : s.ply_contacts)
+    if (!pair.contact.points.empty()) grow(pair.contact.law);
+  return largest;
+}
+
+ContactRows contact_rows(const Scene& s, ThreadTeam& team) {
+  std::vector<PairRows> of_pair(s.ply_pairs.size());
+  team.run(static_cast<int>(of_pair.size()), [&](int i) {
+    const auto pair = static_cast<std::size_t>(i);
+    of_pair[pair] = rows_of(s, s.ply_pairs[pair]);
+  });
+  ContactRows c{{}, largest_damping_ratio(s)};
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const PlyBody& ply = s.plies[p];
+    std::vector<double>& rows = c.rows.emplace_back(ply.x.size(), 0.0);
+    for (const ToolAndContacts& tool : s.tools)
+      add_tool_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
   }
-  for (const PlyEdgeContact& pair : s.edge_contacts)
-    add_edge_stiffness(pair.contact, edge_margin, c.rows[static_cast<std::size_t>(pair.a)],
-                       c.rows[static_cast<std::size_t>(pair.b)]);
+  const auto add = [&c](int ply, const std::vector<double>& rows) {
+    std::vector<double>& to = c.rows[static_cast<std::size_t>(ply)];
+    for (std::size_t n = 0; n < rows.size(); ++n)
+      to[n] += rows[n];
+  };
+  for (std::size_t i = 0; i < of_pair.size(); ++i) {
+    add(s.ply_pairs[i].a, of_pair[i].a);
+    add(s.ply_pairs[i].b, of_pair[i].b);
+  }
   return c;
 }
 
@@ -216,8 +259,8 @@ double stretch_of(const Scene& s, double dt, ThreadTeam& team) {
 
 } // namespace
 
-StepBound stable_step(const Scene& s) {
-  const ContactRows touching = contact_rows(s);
+StepBound stable_step(const Scene& s, ThreadTeam& team) {
+  const ContactRows touching = contact_rows(s, team);
   StepBound bound;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBound of = bound_of(s, touching, p);
@@ -240,7 +283,7 @@ void renew_bounds(Scene& s, ThreadTeam& team) {
   });
   if (!sharpen) return;
   s.next_sharpening = s.step + sharpen_every;
-  const ContactRows touching = contact_rows(s);
+  const ContactRows touching = contact_rows(s, team);
   double dt = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     dt = std::min(dt, bound_of(s, touching, p).sum_step());

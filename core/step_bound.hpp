@@ -33,7 +33,7 @@ struct StepBound {
 /// Contacts count where they stand now, those too that are within bound_margin of closing; what
 /// slides until the next renewal is what step_factor leaves room for. The elements' part is
 /// PlyBody::bound.
-StepBound stable_step(const Scene& scene);
+StepBound stable_step(const Scene& scene, ThreadTeam& team);
 
 /// mm; by when anything has moved by half of it the bound is due again.
 constexpr double bound_margin = 0.5;

@@ -170,7 +170,7 @@ int check_command(const CaseArguments& arguments) {
   print_plies(s);
   print_tools(s);
   print_boundaries(s);
-  const StepBound bound = stable_step(s);
+  const StepBound bound = stable_step(s, team);
   const double steps = data->solver.duration / s.next_dt;
   fmt::print("contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm\n",
              s.ply_contacts.size(), s.skin);

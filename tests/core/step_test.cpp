@@ -104,8 +104,9 @@ TEST(Step, KnowsOfBendingAndOnlyWhereAFabricHasIt) {
   const double bending = with.plies[0].bending->omega2;
   EXPECT_GT(bending, 0.0);
   // yarns that are no stiffer when pressed than when pulled leave the membrane's bound as it is
-  const double membrane = stable_step(without).omega2;
-  EXPECT_NEAR(stable_step(with).omega2, membrane + bending, 1e-12 * membrane);
+  ThreadTeam team(1);
+  const double membrane = stable_step(without, team).omega2;
+  EXPECT_NEAR(stable_step(with, team).omega2, membrane + bending, 1e-12 * membrane);
 }
 
 TEST(Step, IsStableWhereBendingSetsIt) {
