@@ -113,12 +113,15 @@ PredictedError predicted_error(const Case& data) {
           mesh_error(n)};
 }
 
-std::string describe_accuracy(const PredictedError& error, double promised) {
+std::string describe_accuracy(const PredictedError& error, double promised, double coarsening) {
   if (std::isnan(promised)) return "accuracy is not predicted: nothing has a stroke";
+  std::string mesh = fmt::format("mesh {:.2g}", error.mesh);
+  if (coarsening > 1.0)
+    mesh += fmt::format(", of elements {:g} times as large as the case's", coarsening);
   return fmt::format(
       "shear angles to {:.2g} deg rms, as predicted: inertia {:.2g}, softened fibres "
-      "{:.2g}, mesh {:.2g}",
-      promised, error.inertia, error.softening, error.mesh);
+      "{:.2g}, {}",
+      promised, error.inertia, error.softening, mesh);
 }
 
 double preset_error(const std::string& word) {
@@ -198,6 +201,7 @@ void pick_dials(Case& data) {
   }
   data.solver.duration = best.duration;
   data.solver.fibre_softening = best.softening;
+  data.accuracy.coarsening = best.coarsening;
   if (best.coarsening > 1.0)
     for (BlankSpec& blank : data.blanks)
       blank.element_size *= best.coarsening;

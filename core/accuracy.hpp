@@ -35,8 +35,8 @@ struct PredictedError {
 /// and blanks the worst counts.
 PredictedError predicted_error(const Case& data);
 
-/// One line for the user; promised: degrees.
-std::string describe_accuracy(const PredictedError& error, double promised);
+/// One line for the user; promised: degrees; coarsening: AccuracyOptions'.
+std::string describe_accuracy(const PredictedError& error, double promised, double coarsening);
 
 /// Presets of --accuracy, and their promise in degrees. 0 for a word that is none.
 double preset_error(const std::string& word);

@@ -73,7 +73,7 @@ enum class ElementKind {
 struct SolverOptions {
   ElementKind element = ElementKind::automatic;
   double duration = 0.1;          ///< s simulated
-  double step_factor = 0.6;       ///< fraction of the stable step
+  double step_factor = 0.5;       ///< fraction of the stable step
   double fibre_softening = 1.0;   ///< fibre stiffness is divided by this
   double fibre_damping = 0.05;    ///< fraction of critical of the stiffest element mode
   double mass_damping = 0.0;      ///< 1/s, acceleration -mass_damping * velocity
@@ -91,6 +91,7 @@ struct ContactOptions {
 /// How near a run is to come to a converged one (core/accuracy.hpp).
 struct AccuracyOptions {
   double shear_error = 0.0; ///< rad, rms; 0: not asked for, the solver's dials hold
+  double coarsening = 1.0;  ///< element sizes over those given, as pick_dials set them
 };
 
 /// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.

@@ -412,8 +412,8 @@ Rows accuracy_rows() {
   return {{.key = "accuracy",
            .kind = K::table,
            .fallback = "{}",
-           .meaning = "how near to a converged run; picks solver.duration and "
-                      "solver.fibre_softening"},
+           .meaning = "how near to a converged run; picks solver.duration, solver.fibre_softening "
+                      "and up to 1.4 times larger elements"},
           {.key = "accuracy.shear_deg",
            .unit = "deg",
            .otherwise = "as the solver's dials have it",

@@ -96,6 +96,7 @@ struct WorkReport {
 struct AccuracyReport {
   double inertia_deg = 0, softening_deg = 0, mesh_deg = 0;
   double promised_deg = 0; ///< all three together; what was asked for, if that is kept
+  double coarsening = 1.0; ///< element sizes over those of the case file
 };
 
 struct Summary {

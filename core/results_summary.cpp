@@ -212,9 +212,10 @@ std::string contact_json(const ContactReport& c) {
 
 std::string accuracy_json(const AccuracyReport& a) {
   return fmt::format("{{\"promised_shear_error_deg\": {}, \"inertia_deg\": {}, "
-                     "\"softening_deg\": {}, \"mesh_deg\": {}}}",
+                     "\"softening_deg\": {}, \"mesh_deg\": {}, \"element_size_factor\": {}}}",
                      json_number(a.promised_deg), json_number(a.inertia_deg),
-                     json_number(a.softening_deg), json_number(a.mesh_deg));
+                     json_number(a.softening_deg), json_number(a.mesh_deg),
+                     json_number(a.coarsening));
 }
 
 std::string summary_json(const Frame& last, const Summary& summary) {

@@ -154,7 +154,8 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.max_step_s = s.max_dt;
   sum.threads = threads;
   const PredictedError error = predicted_error(s.data);
-  sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data)};
+  sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data),
+                  s.data.accuracy.coarsening};
   sum.contact = audit(s, depths);
   sum.contact.max_tool_penetration_between_nodes_mm = depth_between_nodes(s);
   sum.work = report_work(s, result.last, sum.contact);

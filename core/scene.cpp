@@ -59,7 +59,6 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.membrane.viscosity = {2.0 * data.solver.fibre_damping * fabric.warp.largest_slope() / omega,
                              2.0 * data.solver.fibre_damping * fabric.weft.largest_slope() / omega};
   body.bound = frequency_bound(body.membrane, body.x); // with viscosity
-  body.sharpness = sharpness(body.membrane, body.x);
   return body;
 }
 

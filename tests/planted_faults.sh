@@ -11,7 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # NAME | FILE | what sed does to it. Each must change its file.
 faults=(
-  "normals of tools point inward | contact/tool_contact.cpp | s/s.normal = rotation_ \* s.normal;/s.normal = -(rotation_ * s.normal);/"
+  "normals of tools point inward | contact/tool_contact.cpp | s/c.normal = s.normal;/c.normal = -s.normal;/"
   "normals beside edges of profiles point to the edge, inside as outside | contact/profile.cpp | s/d \* (sign \/ length)}/d \/ length}/"
   "normals beside edges of mesh tools point to the edge, inside as outside | contact/mesh_shape.cpp | s/d \* (sign \/ length)}/d \/ length}/"
   "normal force between plies pulls | contact/sheet_kernel_body.hpp | s/LaneForces f{p.memory.normal_force \* normal/LaneForces f{-p.memory.normal_force * normal/"
@@ -26,6 +26,7 @@ faults=(
   "friction with tools is forgotten at a search | contact/tool_contact.cpp | s/if (known) point = old\[next_old++\];/if (known) point = old[next_old++], point.memory = {};/"
   "plies touch each other at half their thickness | core/scene.cpp | s/0.5 \* (slave.thickness + master.thickness)/0.25 * (slave.thickness + master.thickness)/"
   "plies touch tools at half their half thickness | core/scene.cpp | s/half_thickness = 0.5 \* plies\[p\].thickness/half_thickness = 0.25 * plies[p].thickness/"
+  "the stable step knows no couples of friction | contact/contact_springs.cpp | s/if (spring.across > 0.0)/if (spring.across < 0.0)/"
   "friction takes tools for standing still | contact/tool_kernel_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g)/"
   "friction takes tools to move the other way | contact/tool_kernel_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
 )

@@ -36,12 +36,12 @@ def check_runs(folder):
                              "--table", table, "-o", picture)
     assert told.code == 0, told.err
     found = states(table)
-    assert found[0.6]["state"] == "stable", found[0.6]
-    assert float(found[0.6]["jump"]) < 0.1 and float(found[0.6]["stroke_mm"]) == 45.0
+    assert found[0.5]["state"] == "stable", found[0.5]
+    assert float(found[0.5]["jump"]) < 0.1 and float(found[0.5]["stroke_mm"]) == 45.0
     assert found[1.8]["state"] == "stopped" and found[1.8]["why"] in "BCN", found[1.8]
     assert "stopped at step" in found[1.8]["message"]
     limits = [line for line in told.out.splitlines() if "`solver.step_factor`" in line]
-    assert len(limits) == 2 and limits[1].split(" | ")[3].startswith("0.6 (×1), stopped")
+    assert len(limits) == 2 and limits[1].split(" | ")[3].startswith("0.5 (×1), stopped")
     assert picture.stat().st_size > 10000
     again = program_call.call(stability_map, *ONE_PLY, "--redraw", table, "-o", folder / "2.png")
     assert again.code == 0 and again.out == told.out, again.err

@@ -177,7 +177,7 @@ int check_command(const CaseArguments& arguments) {
   fmt::print("stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s\n", bound.dt,
              s.plies[static_cast<std::size_t>(bound.ply)].name, bound.triangle, s.next_dt);
   const PredictedError error = predicted_error(*data);
-  fmt::print("{}\n", describe_accuracy(error, error.promised(*data)));
+  fmt::print("{}\n", describe_accuracy(error, error.promised(*data), data->accuracy.coarsening));
   fmt::print("fibre stiffness divided by {:g}, {:g} s simulated: about {:.0f} steps\n",
              data->solver.fibre_softening, data->solver.duration, steps);
   double seconds = 0.0;

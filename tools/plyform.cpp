@@ -16,7 +16,7 @@ namespace {
 void add_accuracy(CLI::App& app, CaseArguments& to) {
   app.add_option("--accuracy", to.accuracy,
                  "draft, standard or reference: shear angles to 3, 1 or 0.3 degrees, rms; picks "
-                 "duration and fibre softening")
+                 "duration, fibre softening and up to 1.4 times larger elements")
       ->check(CLI::IsMember({"draft", "standard", "reference"}));
 }
 

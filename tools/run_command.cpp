@@ -106,8 +106,8 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
              c.max_tool_penetration_mm, c.max_ply_penetration_mm, c.intersections_between_plies,
              c.intersections_within_plies);
   const AccuracyReport& a = r.summary.accuracy;
-  fmt::print("  {}\n",
-             describe_accuracy({a.inertia_deg, a.softening_deg, a.mesh_deg}, a.promised_deg));
+  fmt::print("  {}\n", describe_accuracy({a.inertia_deg, a.softening_deg, a.mesh_deg},
+                                         a.promised_deg, a.coarsening));
   print_work(r.summary.work, r.summary.steps);
   fmt::print("results are in {}\n", folder.string());
 }

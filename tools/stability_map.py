@@ -48,7 +48,7 @@ except ImportError as error:
 
 STEP, STIFFNESS, DAMPING = "solver.step_factor", "contact.stiffness", "contact.damping"
 FRICTION, SKIN = "contact.friction", "contact.skin"
-DEFAULTS = {STEP: 0.6, STIFFNESS: 0.1, DAMPING: 0.2, FRICTION: 0.2, SKIN: 0.5}
+DEFAULTS = {STEP: 0.5, STIFFNESS: 0.1, DAMPING: 0.2, FRICTION: 0.2, SKIN: 0.5}
 CASES = {"one_ply.toml": "1 ply", "case.toml": "2 plies", "five_plies.toml": "5 plies"}
 LARGEST_JUMP = 0.1  # of the blank-holder's force
 REASONS = {"gone through": "P", "went through": "P", "below the surface": "P", "balance": "B",
@@ -72,10 +72,10 @@ class Panel:
 STIFFNESSES = [0.0125, 0.025, 0.05, 0.1, 0.2, 0.4]
 DAMPINGS = [0.05, 0.1, 0.2, 0.4, 0.8]
 PANELS = [
-    Panel(STEP, [0.3, 0.6, 1.2, 1.5, 1.8], STIFFNESS, STIFFNESSES),
+    Panel(STEP, [0.25, 0.5, 1.0, 1.2, 1.5], STIFFNESS, STIFFNESSES),
     Panel(DAMPING, DAMPINGS, FRICTION, [0.05, 0.1, 0.2, 0.4, 0.8]),
     Panel(SKIN, [0.25, 0.5, 1.0])]
-QUICK = [Panel(STEP, [0.6, 1.8], STIFFNESS, [0.1]), Panel(SKIN, [0.5])]
+QUICK = [Panel(STEP, [0.5, 1.8], STIFFNESS, [0.1]), Panel(SKIN, [0.5])]
 
 
 @dataclass

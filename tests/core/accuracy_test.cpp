@@ -98,7 +98,7 @@ TEST(Accuracy, StaysWhereTheRuleWasMeasured) {
   pick_dials(lying);
   EXPECT_EQ(lying.solver.duration, duration);
   EXPECT_TRUE(std::isnan(predicted_error(lying).promised(lying)));
-  EXPECT_EQ(describe_accuracy(predicted_error(lying), predicted_error(lying).promised(lying)),
+  EXPECT_EQ(describe_accuracy(predicted_error(lying), predicted_error(lying).promised(lying), 1.0),
             "accuracy is not predicted: nothing has a stroke");
 }
 
