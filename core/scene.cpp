@@ -125,9 +125,9 @@ PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a,
       0.5 * std::min(slave.membrane.fabric.surface_density, master.membrane.fabric.surface_density);
   pair.contact.law = make_law(data.contact, penalty, density, data.friction(a, b));
   pair.contact.distance = 0.5 * (slave.thickness + master.thickness);
-  // What a point sees late is then below h/50 times the fold between its faces: a tenth of what
-  // contacts give way by.
-  pair.contact.rest = 0.02 * pair.contact.distance;
+  // What a point sees late adds energy when it does, in proportion to `rest`: at h/50 a coarse
+  // stack's ledger is off by 8 %, at h/500 by less than 1 %, which costs 4 % of the time.
+  pair.contact.rest = 0.002 * pair.contact.distance;
   pair.contact.look_every = 0.05 * std::sqrt(cell_area(master));
   return pair;
 }

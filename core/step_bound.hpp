@@ -22,7 +22,17 @@
 #include "core/scene.hpp"
 #include "core/thread_team.hpp"
 
+#include <cmath>
+
 namespace plyform {
+
+/// k and c of (S), 1/s^2 and 1/s.
+struct Frequencies {
+  double omega2 = 0.0, damping = 0.0;
+
+  double left_of_s(double dt) const { return dt * dt * omega2 + 2.0 * dt * damping; }
+  double step() const { return (std::sqrt(damping * damping + 4.0 * omega2) - damping) / omega2; }
+};
 
 /// What limits the step now, from the elements and the contacts.
 struct StepBound {
@@ -37,6 +47,7 @@ StepBound stable_step(const Scene& scene, ThreadTeam& team);
 
 /// mm; by when anything has moved by half of it the bound is due again.
 constexpr double bound_margin = 0.5;
+constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same of folded edges
 
 /// Renews PlyBody::bound at the present shape, and if due PlyBody::sharpness and Scene::stretch.
 void renew_bounds(Scene& scene, ThreadTeam& team);

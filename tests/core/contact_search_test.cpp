@@ -2,7 +2,9 @@
 // Whole scenes in motion: at many steps every node of a ply within contact distance of another ply
 // or of a tool, found by brute force, is among the scene's contact points, and where it should be.
 #include "contact/point_triangle.hpp"
+#include "core/case_file.hpp"
 #include "core/contact_search.hpp"
+#include "core/run.hpp"
 #include "core/step.hpp"
 #include "scene_checks.hpp"
 
@@ -149,6 +151,16 @@ TEST(ContactSearch, RestingPointsAreHardlyLate) {
   EXPECT_GT(touching.late, 0.0); // some did rest
   RecordProperty("late_mm", fmt::format("{:.2g}", touching.late));
   fmt::print("late by {:.2g} mm at most, of {:.2g} mm slid\n", touching.late, rest);
+}
+
+/// A face seen late is closer than the one before, so that each such switch adds energy: little, in
+/// a stack of coarse plies drawn over small radii.
+TEST(ContactSearch, RestingPointsKeepTheLedger) {
+  const CaseReading reading = read_case(PLYFORM_CASES "/stability/five_plies.toml", {});
+  ASSERT_TRUE(reading.value);
+  const RunResult run = run_case(*reading.value, 1, {});
+  ASSERT_EQ(run.summary.status, "done") << run.summary.message;
+  EXPECT_LE(std::abs(run.last.energy.balance_error()), 0.02);
 }
 
 /// The second ply is of the second blank; all lie on a floor, of little friction.
