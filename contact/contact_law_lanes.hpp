@@ -75,8 +75,8 @@ PLYFORM_INLINE Double4 normal_pressure(const Contact& k, Double4 area, Double4 d
   return pressure + resistance;
 }
 
-/// (T): friction force, N, under `pressure` (N/mm^2). n: normals; old: what is remembered, turned
-/// with the body; slip: mm, relative motion of the step. k: friction, tangential.
+/// (T): friction force, N, under `pressure` (N/mm^2). n: normals; remembered: s, turned with the
+/// body; slip: mm, relative motion of the step. k: friction, tangential.
 template <class Contact>
 PLYFORM_INLINE Vector4 friction_of(const Contact& k, Double4 area, Double4 pressure,
                                    const Vector4& n, const Vector4& remembered, const Vector4& slip,
