@@ -2,6 +2,7 @@
 #include "core/membrane_frequency.hpp"
 
 #include "core/lanczos.hpp"
+#include "core/mass_scaling.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -189,13 +190,11 @@ double sharpness(const Membrane& m, std::span<const Vec3> x) {
   YarnProduct stiffness(m, x, 1.0, 0.0);
   std::vector<Vec3> y(x.size()), f(x.size());
   const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
-    for (std::size_t n = 0; n < y.size(); ++n)
-      y[n] = v.segment<3>(static_cast<Eigen::Index>(3 * n)) / std::sqrt(m.node_mass[n]);
+    over_root_of_mass(m, v, y);
     std::fill(f.begin(), f.end(), Vec3::Zero());
     stiffness.add_to(y, f);
     Eigen::VectorXd w(v.size());
-    for (std::size_t n = 0; n < f.size(); ++n)
-      w.segment<3>(static_cast<Eigen::Index>(3 * n)) = f[n] / std::sqrt(m.node_mass[n]);
+    over_root_of_mass(m, std::span<const Vec3>(f), w);
     return w;
   };
   const double found = largest_ritz_value(apply, scattered_motion(m, x), ritz_steps);

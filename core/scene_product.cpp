@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/scene_product.hpp"
 
+#include "core/mass_scaling.hpp"
 #include "core/step_bound.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace plyform {
 
@@ -71,18 +71,16 @@ Eigen::VectorXd SceneProduct::times(const Eigen::VectorXd& v, ThreadTeam& team) 
 Eigen::VectorXd SceneProduct::start() const {
   Eigen::VectorXd v(size_);
   for (std::size_t p = 0; p < y_.size(); ++p)
-    v.segment(first_[p], static_cast<Eigen::Index>(3 * y_[p].size())) =
-        scattered_motion(s_.plies[p].membrane, s_.plies[p].x);
+    v.segment(first_[p], freedoms(p)) = scattered_motion(s_.plies[p].membrane, s_.plies[p].x);
   return v;
 }
 
-double SceneProduct::root_of_mass(std::size_t p, std::size_t n) const {
-  return std::sqrt(s_.plies[p].membrane.node_mass[n]);
+Eigen::Index SceneProduct::freedoms(std::size_t p) const {
+  return static_cast<Eigen::Index>(3 * y_[p].size());
 }
 
 void SceneProduct::scale(const Eigen::VectorXd& v, std::size_t p) {
-  for (std::size_t n = 0; n < y_[p].size(); ++n)
-    y_[p][n] = v.segment<3>(first_[p] + static_cast<Eigen::Index>(3 * n)) / root_of_mass(p, n);
+  over_root_of_mass(s_.plies[p].membrane, v.segment(first_[p], freedoms(p)), y_[p]);
 }
 
 void SceneProduct::on_ply(std::size_t p) {
@@ -108,8 +106,8 @@ void SceneProduct::gather(std::size_t p, Eigen::VectorXd& w) {
     if (pair.a == p) add(pair.force_a);
     if (pair.b == p) add(pair.force_b);
   }
-  for (std::size_t n = 0; n < f_[p].size(); ++n)
-    w.segment<3>(first_[p] + static_cast<Eigen::Index>(3 * n)) = f_[p][n] / root_of_mass(p, n);
+  over_root_of_mass(s_.plies[p].membrane, std::span<const Vec3>(f_[p]),
+                    w.segment(first_[p], freedoms(p)));
 }
 
 } // namespace plyform

@@ -35,7 +35,7 @@ private:
 
   void add_ply(const PlyBody& ply, double dt);
   void add_pair(const PlyPair& pair);
-  double root_of_mass(std::size_t p, std::size_t n) const;
+  Eigen::Index freedoms(std::size_t p) const; ///< of ply p, 3 a node
   void scale(const Eigen::VectorXd& v, std::size_t p);
   void on_ply(std::size_t p);
   void on_pair(Pair& pair);
