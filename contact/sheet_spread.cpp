@@ -10,13 +10,10 @@ namespace plyform {
 // Each node gets the sum of the normals around it, and the largest square of the difference from
 // its direction; two faces of a node then differ by no more than both together.
 void sheet_spread(std::span<const Vec3> x, std::span<const Triangle> triangles,
-                  SpreadScratch& scratch, std::vector<double>& spread) {
+                  std::vector<double>& spread) {
   const auto at = [](int n) { return static_cast<std::size_t>(n); };
-  std::vector<Vec3>&normal = scratch.normal, &mean = scratch.mean;
-  std::vector<double>& off = scratch.off;
-  normal.resize(triangles.size());
-  mean.assign(x.size(), Vec3::Zero());
-  off.assign(x.size(), 0.0);
+  std::vector<Vec3> normal(triangles.size()), mean(x.size(), Vec3::Zero());
+  std::vector<double> off(x.size(), 0.0);
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     const Triangle& t = triangles[f];
     normal[f] = (x[at(t[1])] - x[at(t[0])]).cross(x[at(t[2])] - x[at(t[0])]).normalized();

@@ -18,15 +18,9 @@ namespace plyform {
 
 constexpr double spread_margin = 0.2; ///< rad
 
-/// Kept by the caller from one renewal to the next, so that nothing is allocated.
-struct SpreadScratch {
-  std::vector<Vec3> normal, mean; ///< of triangles, of nodes
-  std::vector<double> off;
-};
-
 /// At least 1.2 tan((phi + margin) / 2) of each triangle, infinite where phi + margin is more than
 /// 0.8; phi is taken for up to twice as large as it is. x: mm.
 void sheet_spread(std::span<const Vec3> x, std::span<const Triangle> triangles,
-                  SpreadScratch& scratch, std::vector<double>& spread);
+                  std::vector<double>& spread);
 
 } // namespace plyform

@@ -261,7 +261,6 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
   const std::vector<double> old_wake = std::move(contact.list.wake);
   contact.points.clear();
   clear(contact.list);
-  contact.force.assign(ply.x.size(), Vec3::Zero());
   contact.free.resize(ply.x.size(), -std::numeric_limits<float>::infinity());
   std::size_t next_old = 0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
@@ -289,6 +288,7 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
     contact.points.push_back(point);
     contact.list.wake.push_back(touched ? std::min(path, path + gap) : path + gap);
   }
+  contact.force.assign(contact.points.empty() ? 0 : ply.x.size(), Vec3::Zero());
 }
 
 Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,

@@ -56,7 +56,7 @@ struct ToolContact {
   std::vector<ToolContactPoint> points;
   NearList list;           ///< of the points
   std::vector<float> free; ///< mm, one a node of the ply: path before which it cannot touch
-  std::vector<Vec3> force; ///< one a node of the ply, N; zero where there is no point
+  std::vector<Vec3> force; ///< one a node of the ply, N; zero where there is no point. Empty: none
   ContactSums sums;
   ContactTime time; ///< without the balance of a pushed tool, which all its plies share
 };

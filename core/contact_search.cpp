@@ -119,9 +119,25 @@ void search_edges(Scene& s, PlyEdgeContact& pair) {
                   b.edges, open_edges(s, pair.b, pair.a, reach), s.skin, a.path + b.path);
 }
 
+/// Room for the forces of two plies of which something may touch: most pairs of a stack never do.
+void make_room(const Scene& s, PlyPair& pair) {
+  const auto may_touch = [&s](int i) {
+    return !s.ply_contacts[static_cast<std::size_t>(i)].contact.points.empty();
+  };
+  const auto may_cross = [&s](int i) {
+    return !s.edge_contacts[static_cast<std::size_t>(i)].contact.pairs.empty();
+  };
+  if (!pair.force_a.empty() ||
+      !(std::any_of(pair.contacts.begin(), pair.contacts.end(), may_touch) ||
+        std::any_of(pair.edges.begin(), pair.edges.end(), may_cross)))
+    return;
+  pair.force_a.assign(s.plies[static_cast<std::size_t>(pair.a)].x.size(), Vec3::Zero());
+  pair.force_b.assign(s.plies[static_cast<std::size_t>(pair.b)].x.size(), Vec3::Zero());
+}
+
 void renew_spread(const Scene& s, PlyBody& ply) {
   if (s.ply_contacts.empty()) return; // nobody asks for it
-  sheet_spread(ply.x, ply.membrane.triangles, ply.spread_scratch, ply.spread);
+  sheet_spread(ply.x, ply.membrane.triangles, ply.spread);
   ply.spread_way = ply.way;
 }
 
@@ -202,6 +218,8 @@ void search_contacts(Scene& s, ThreadTeam& team) {
     else
       search_edges(s, s.edge_contacts[static_cast<std::size_t>(i - far)]);
   });
+  for (PlyPair& pair : s.ply_pairs)
+    make_room(s, pair);
   for (NodeSums& n : s.node_sums)
     n.moved2 = 0.0;
   for (PlyBody& ply : s.plies)

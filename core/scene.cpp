@@ -46,10 +46,12 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.x = body.x_search = body.x0;
   body.velocity.assign(body.x.size(), Vec3::Zero());
   body.motion = body.velocity;
-  if (fits_lanes(body.membrane))
+  if (fits_lanes(body.membrane)) {
     body.lanes = make_lanes(body.membrane, body.x);
-  else
+    body.membrane.last_lambda = body.membrane.last_viscous = {}; // the lanes have their own
+  } else {
     body.q.resize(mesh.triangles.size());
+  }
   body.edges = sheet_edges(body.membrane.triangles);
   body.on_rim = faces_on_rim(body.edges, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
@@ -149,8 +151,6 @@ std::vector<PlyPair> make_pairs(const Scene& s) {
         if (s.edge_contacts[i].a == a && s.edge_contacts[i].b == b)
           pair.edges.push_back(static_cast<int>(i));
       if (pair.contacts.empty()) continue;
-      pair.force_a.assign(s.plies[static_cast<std::size_t>(a)].x.size(), Vec3::Zero());
-      pair.force_b.assign(s.plies[static_cast<std::size_t>(b)].x.size(), Vec3::Zero());
       pairs.push_back(std::move(pair));
     }
   return pairs;

@@ -39,8 +39,7 @@ struct PlyBody {
   std::unique_ptr<SheetTree> tree;
   double search_seconds = 0.0; ///< refitting the tree, finding folds
   std::vector<SheetEdge> edges;
-  std::vector<double> spread; ///< contact/sheet_spread.hpp, one a triangle
-  SpreadScratch spread_scratch;
+  std::vector<double> spread;               ///< contact/sheet_spread.hpp, one a triangle
   double spread_way = 0.0;                  ///< mm, way when it was last renewed
   std::vector<char> on_rim;                 ///< triangles with a node on the rim
   std::array<std::vector<char>, 2> covered; ///< nodes that the next ply below, above covers
@@ -85,7 +84,7 @@ struct PlyPair {
   int a = 0, b = 0;
   std::vector<int> contacts;          ///< in Scene::ply_contacts
   std::vector<int> edges;             ///< in Scene::edge_contacts
-  std::vector<Vec3> force_a, force_b; ///< N, of all of them
+  std::vector<Vec3> force_a, force_b; ///< N, of all of them; empty while none may touch
   bool loaded = false;                ///< something touches now; else the forces are zero
 };
 

@@ -15,11 +15,11 @@
 namespace plyform {
 namespace {
 
-/// Bytes of memory that the process holds (Linux).
+/// Bytes of memory that the process holds, its code left out (Linux).
 double resident_bytes() {
   std::ifstream status("/proc/self/status");
   for (std::string word; status >> word;)
-    if (word == "VmRSS:") {
+    if (word == "RssAnon:") {
       double kilobytes = 0.0;
       status >> kilobytes;
       return 1024.0 * kilobytes;
