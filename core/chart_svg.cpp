@@ -70,13 +70,15 @@ Axis axis_of(const std::vector<double>& values, double from, double to, double r
 
 /// 1, 2 and 5 of every decade within the axis, or the decades alone where that would be many.
 std::vector<double> ticks(const Axis& axis) {
+  const double decades = axis.high - axis.low;
+  std::vector<double> steps{1.0};
+  if (decades < 3.0) steps = {1.0, 2.0, 5.0};
+  if (decades < 0.7) steps = {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0};
   std::vector<double> all;
-  const bool few = axis.high - axis.low < 3.0;
   for (int decade = static_cast<int>(std::floor(axis.low)); decade <= axis.high; ++decade)
-    for (const int step : {1, 2, 5}) {
+    for (const double step : steps) {
       const double value = step * std::pow(10.0, decade);
-      if ((step == 1 || few) && std::log10(value) >= axis.low && std::log10(value) <= axis.high)
-        all.push_back(value);
+      if (std::log10(value) >= axis.low && std::log10(value) <= axis.high) all.push_back(value);
     }
   return all;
 }

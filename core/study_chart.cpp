@@ -55,7 +55,9 @@ std::string field(double number) {
 
 ChartPoint chart_point(const StudyPoint& point, const std::vector<RunOutcome>& outcomes) {
   const RunOutcome& outcome = outcomes[point.run];
-  return {outcome.wall_time_s, outcome.error.rms, point.label, true, outcome.promised_deg};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  return {outcome.wall_time_s, outcome.error.rms, point.label, true,
+          point.kind == PointKind::preset ? outcome.promised_deg : none};
 }
 
 /// The dial's points, by value where all are numbers, with the case itself among them.

@@ -167,6 +167,16 @@ TEST(ChartSvg, IsWellFormedAndShowsEveryDialPresetAndValue) {
   EXPECT_FALSE(contains(svg, "nan") || contains(svg, "inf"));
 }
 
+TEST(ChartSvg, NumbersAnAxisOfLessThanADecade) {
+  Example e = example();
+  for (RunOutcome& o : e.outcomes)
+    o.error.rms = 0.13 + 0.05 * o.error.rms; // 0.155 to 0.28
+  e.outcomes[2].promised_deg = 0.31;
+  const std::string svg = chart_svg(study_chart(e.study, e.plan, e.outcomes, ""));
+  for (const char* number : {">0.15<", ">0.2<", ">0.3<"})
+    EXPECT_TRUE(contains(svg, number)) << number << svg;
+}
+
 TEST(ChartSvg, DrawsAnythingWithoutNumbersThatAreNone) {
   Chart chart;
   EXPECT_TRUE(well_formed(chart_svg(chart)));
