@@ -129,10 +129,9 @@ SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near,
   SheetContactPoint c{};
   c.node = near.front().node;
   c.first_face = static_cast<std::int32_t>(contact.faces.size());
-  constexpr double below = 1.0 - 1e-6; // that rounding does not raise it
   for (const Candidate& n : near) {
     contact.faces.push_back(n.face);
-    contact.face_distance.push_back(static_cast<float>(below * std::sqrt(n.distance2)));
+    contact.face_distance.push_back(std::sqrt(n.distance2));
   }
   c.end_face = static_cast<std::int32_t>(contact.faces.size());
   const double tied = (1.0 + same_distance) * near.front().distance2;
@@ -166,7 +165,7 @@ const SheetContactPoint* find_old(std::span<const SheetContactPoint> old, std::s
 } // namespace
 
 double distance_of_others(const SheetKernelPoint& point, const std::int32_t* triangles,
-                          const std::int32_t* faces, const float* face_distance) {
+                          const std::int32_t* faces, const double* face_distance) {
   const auto corners = [triangles](std::int32_t face) {
     return triangles + 3 * std::ptrdiff_t(face);
   };

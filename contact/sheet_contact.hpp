@@ -65,7 +65,7 @@ struct SheetContact {
   double distance = 0.0;                 ///< h, mm
   std::vector<SheetContactPoint> points; ///< ascending by node
   std::vector<std::int32_t> faces;       ///< of each point, nearest first
-  std::vector<float> face_distance;      ///< mm, when the search was done; no more than it was
+  std::vector<double> face_distance;     ///< mm, when the search was done
   NearList list;                         ///< of the points
   double rest = 0.0;        ///< mm, sliding by which a point keeps its face unseen; 0: none
   double look_every = 0.0;  ///< mm of path, at which all points look around

@@ -27,7 +27,7 @@ struct SheetKernelContact {
   const double* spread;          ///< of the master's faces (contact/sheet_spread.hpp), or null
   const std::int32_t* triangles; ///< 3 a face of the master
   const std::int32_t* faces;     ///< of the points, nearest first
-  const float* face_distance;    ///< mm, when the search was done; no more than it was
+  const double* face_distance;   ///< mm, when the search was done
   double *slave_force, *master_force;
   double way;  ///< mm, of anything relative to anything since the search
   double path; ///< mm (contact/near_list.hpp)
@@ -48,7 +48,7 @@ constexpr double same_distance = 1e-10;
 /// `other` of a point whose closest face is point.face: the distance at the search of the nearest
 /// of its faces that shares no node with that one. triangles, faces, face_distance: as above.
 double distance_of_others(const SheetKernelPoint& point, const std::int32_t* triangles,
-                          const std::int32_t* faces, const float* face_distance);
+                          const std::int32_t* faces, const double* face_distance);
 
 /// Added up over the points that touch.
 struct SheetKernelSums {
