@@ -90,8 +90,8 @@ struct Membrane {
   std::vector<double> node_mass;          ///< n, t
   std::vector<std::int32_t> gather_begin; ///< n + 1, into gather
   std::vector<std::int32_t> gather;       ///< 3 * triangle + corner, ascending
-  // state of the viscosity: mean stretches and viscous tensions of the last step, one a patch; empty
-  // where core/membrane_lanes.hpp computes the forces
+  // state of the viscosity: mean stretches and viscous tensions of the last step, one a patch;
+  // empty where core/membrane_lanes.hpp computes the forces
   std::vector<std::array<double, 2>> last_lambda, last_viscous;
 
   int patches() const { return static_cast<int>(patch_begin.size()) - 1; }
