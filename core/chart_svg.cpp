@@ -68,7 +68,7 @@ Axis axis_of(const std::vector<double>& values, double from, double to, double r
   return {low - 0.5 * lack - 0.09 * span, high + 0.5 * lack + room_above * span, from, to};
 }
 
-/// 1, 2 and 5 of every decade within the axis, or the decades alone where that would be many.
+/// Round numbers within the axis: the decades alone on a long one, more on a short one.
 std::vector<double> ticks(const Axis& axis) {
   const double decades = axis.high - axis.low;
   std::vector<double> steps{1.0};
