@@ -89,7 +89,8 @@ double MomentLaw::largest_slope() const {
 }
 
 bool BendingLaw::any() const {
-  return warp.largest_slope() > 0.0 || weft.largest_slope() > 0.0 || twist > 0.0;
+  return warp.largest_slope() > 0.0 || weft.largest_slope() > 0.0 || twist > 0.0 ||
+         in_plane[0] > 0.0 || in_plane[1] > 0.0;
 }
 
 bool balanced(const Fabric& fabric) {

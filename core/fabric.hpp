@@ -7,6 +7,8 @@
 
 #include "core/isotropic.hpp"
 
+#include <array>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
@@ -24,6 +26,8 @@ struct TensionLaw {
   double stiffness = 0.0;              ///< N per yarn; used when the table is empty
   std::vector<double> strain, tension; ///< ascending from (0, 0), linear between, last slope beyond
   double compression = 0.0; ///< N per yarn; no more than largest_slope(), or steps are not stable
+  /// N: a yarn pressed with more gives way and takes hardly more.
+  double buckling_force = std::numeric_limits<double>::infinity();
   /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
   LawPoint at(double eps) const;
   double largest_slope() const; ///< N, in tension
@@ -56,6 +60,7 @@ struct MomentLaw {
 struct BendingLaw {
   MomentLaw warp, weft;
   double coupling = 0.0, twist = 0.0; ///< D_c, D_t, N mm
+  std::array<double, 2> in_plane{};   ///< D_g of warp and weft, N mm
   bool any() const;
 };
 
@@ -68,6 +73,7 @@ struct Fabric {
   double surface_density = 0.0;            ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
   double thickness = 0.0;                  ///< mm
   double fibre_angle = 1.5707963267948966; ///< rad from warp to weft before forming, in (0, pi)
+  std::optional<double> locking_angle;     ///< rad of shear, beyond which it wrinkles
   /// A sheet without yarns: then the laws and densities above are all zero, and the directions of
   /// warp and weft, at right angles, only mark the material.
   std::optional<IsotropicLaw> isotropic;
