@@ -18,6 +18,7 @@ struct NearList {
   std::vector<double> wake;       ///< mm, one a pair: the path before which it cannot touch
   std::vector<std::int32_t> near; ///< pairs that may touch
   double until = -1.0;            ///< mm, path at which the list is due again
+  double last_path = 0.0;         ///< mm, path of the step before
 };
 
 /// Forgets all pairs: a search begins.
@@ -32,7 +33,10 @@ inline void clear(NearList& list) {
 /// not made anew at every step, and not for long, so that those that have opened come to rest.
 template <class Rest>
 void renew(NearList& list, double path, const Rest& rest) {
-  constexpr double ahead = 0.05, longest = 0.2; // mm
+  constexpr double least_ahead = 0.05, longest = 0.2; // mm
+  // by two steps at least: how fast a pair closes is known before it touches
+  const double ahead = std::max(least_ahead, 2.0 * (path - list.last_path));
+  list.last_path = path;
   if (path < list.until) return;
   const double now = path + ahead;
   for (const std::int32_t i : list.near)
@@ -44,6 +48,7 @@ void renew(NearList& list, double path, const Rest& rest) {
       next = std::min(next, list.wake[i]);
     else
       list.near.push_back(static_cast<std::int32_t>(i));
+  next = std::max(next - ahead, path);
   list.until = list.near.empty() ? next : std::min(next, path + longest);
 }
 

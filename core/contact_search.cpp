@@ -198,7 +198,8 @@ void search_contacts(Scene& s, ThreadTeam& team) {
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
     renew_spread(s, ply);
-    ply.folded = folded_edges(ply.edges, ply.membrane.triangles, ply.x, ply.thickness);
+    ply.folded = folded_edges(ply.edges, ply.membrane.triangles, ply.x, least_sag * ply.thickness,
+                              s.longest_edge);
   });
   // plies next to each other first: what they cover need not be asked for those beyond
   std::array<std::vector<PlyContact*>, 2> pairs;

@@ -132,9 +132,11 @@ struct Scene {
   double start_energy = 0.0;          ///< N mm, that the plies were given to start with
   double mass_damping_work = 0.0;     ///< N mm, since the start
   double element_size = 0.0;          ///< mm, smallest mean of a ply
+  double longest_edge = 0.0;          ///< mm, of any ply before forming
   double skin = 0.0;                  ///< mm, Case's or by the element size
   double time = 0.0;                  ///< s, of x
   double dt = 0.0, next_dt = 0.0;     ///< s, the step that led to x and the one that leaves it
+  double stable_dt = 0.0;             ///< s, step_factor times the stable step when last renewed
   double min_dt = 0.0, max_dt = 0.0;  ///< s, used so far
   double bound_way = 0.0;             ///< mm, furthest way since the search at the last bound
   double stretch = 1.0;               ///< stable step over its bound, core/step_bound.hpp

@@ -30,9 +30,10 @@ constexpr double always = std::numeric_limits<double>::infinity(); // mm, no pai
 
 void search(EdgeContact& contact, const OwnedSheet& a, const OwnedSheet& b, double skin) {
   const auto edges_a = sheet_edges(a.triangles), edges_b = sheet_edges(b.triangles);
-  find_edge_pairs(contact, a.state(), edges_a, folded_edges(edges_a, a.triangles, a.x, thickness),
-                  b.state(), edges_b, folded_edges(edges_b, b.triangles, b.x, thickness), skin,
-                  0.0);
+  find_edge_pairs(contact, a.state(), edges_a,
+                  folded_edges(edges_a, a.triangles, a.x, least_sag * thickness, 0.0), b.state(),
+                  edges_b, folded_edges(edges_b, b.triangles, b.x, least_sag * thickness, 0.0),
+                  skin, 0.0);
 }
 
 /// A contact with what it does to both sheets' nodes.
@@ -142,7 +143,7 @@ TEST(EdgeContact, OnlyFoldsAndRimsCount) {
   for (std::size_t i = 1; i < edges.size(); ++i)
     EXPECT_LT(std::pair(edges[i - 1].a, edges[i - 1].b), std::pair(edges[i].a, edges[i].b));
   const auto count = [&] {
-    return folded_edges(edges, sheet.triangles, sheet.x, thickness).size();
+    return folded_edges(edges, sheet.triangles, sheet.x, least_sag * thickness, 0.0).size();
   };
   EXPECT_EQ(count(), 16u); // the rim
   const double degree = std::numbers::pi / 180.0;
@@ -169,8 +170,9 @@ TEST(EdgeContact, FindsEveryPairWithinReach) {
       EXPECT_TRUE(found.insert({p.a.a, p.a.b, p.b.a, p.b.b}).second);
     const auto edges_a = sheet_edges(a.triangles), edges_b = sheet_edges(b.triangles);
     int near = 0;
-    for (const std::int32_t i : folded_edges(edges_a, a.triangles, a.x, thickness))
-      for (const std::int32_t j : folded_edges(edges_b, b.triangles, b.x, thickness)) {
+    for (const std::int32_t i : folded_edges(edges_a, a.triangles, a.x, least_sag * thickness, 0.0))
+      for (const std::int32_t j :
+           folded_edges(edges_b, b.triangles, b.x, least_sag * thickness, 0.0)) {
         const SheetEdge &e = edges_a[static_cast<std::size_t>(i)],
                         &g = edges_b[static_cast<std::size_t>(j)];
         double nearest = 1e300; // by points along both: never below the true distance
