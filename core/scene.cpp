@@ -31,6 +31,7 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   Fabric fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
   fabric.warp = softened(fabric.warp, data.solver.fibre_softening);
   fabric.weft = softened(fabric.weft, data.solver.fibre_softening);
+  if (fabric.isotropic) fabric.bending.in_plane = {}; // no yarns that could bend in its plane
   const BlankMesh mesh = mesh_blank(data.blanks[static_cast<std::size_t>(ply.blank)], ply.angle,
                                     ply.angle + fabric.fibre_angle);
   body.name = ply.name;
