@@ -2,7 +2,6 @@
 #include "core/bending.hpp"
 
 #include "core/bending_fit.hpp"
-#include "core/gather.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,17 +17,20 @@ double bound(const Bending& b, std::span<const double> node_mass) {
   const double coupling = std::abs(b.law.coupling);
   const double d[3] = {b.law.warp.largest_slope() + coupling, b.law.weft.largest_slope() + coupling,
                        b.law.twist};
+  std::vector<int> patches(b.area.size(), 0); // that a node belongs to
+  for (const std::int32_t n : b.node)
+    ++patches[static_cast<std::size_t>(n)];
   double largest = 0.0;
   for (std::size_t e = 0; e < b.area.size(); ++e) {
     double across = 0.0, in_plane = 0.0;
     for (auto i = static_cast<std::size_t>(b.begin[e]);
          i < static_cast<std::size_t>(b.begin[e + 1]); ++i) {
       const auto n = static_cast<std::size_t>(b.node[i]);
-      const double patches = b.gather_begin[n + 1] - b.gather_begin[n];
       for (std::size_t k = 0; k < 3; ++k)
-        across += b.area[e] * d[k] * b.b[i][k] * b.b[i][k] * patches / node_mass[n];
+        across += b.area[e] * d[k] * b.b[i][k] * b.b[i][k] * patches[n] / node_mass[n];
       for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
-        in_plane += b.area[e] * b.in_plane[e][k] * b.b[i][k] * b.b[i][k] * patches / node_mass[n];
+        in_plane +=
+            b.area[e] * b.in_plane[e][k] * b.b[i][k] * b.b[i][k] * patches[n] / node_mass[n];
     }
     largest = std::max({largest, across, in_plane});
   }
@@ -105,30 +107,29 @@ std::array<double, 3> moments(const BendingLaw& law, const std::array<double, 3>
 
 /// (I) of one family on the nodes of a patch, but for the turning of the normal. Returns what that
 /// adds to h, N/mm.
-Vec3 add_in_plane(Bending& b, const YarnTurn& t, std::size_t patch, std::size_t family,
-                  const Vec3& normal) {
+Vec3 add_in_plane(const Bending& b, const YarnTurn& t, std::size_t patch, std::size_t family,
+                  const Vec3& normal, std::vector<Vec3>& force) {
   const Vec3 turned = t.slope.cross(normal);
   for (auto i = static_cast<std::size_t>(b.begin[patch]);
        i < static_cast<std::size_t>(b.begin[patch + 1]); ++i)
-    b.force[i] -= b.area[patch] * t.moment * (b.b[i][family] * t.across + b.a[i][family] * turned);
+    force[static_cast<std::size_t>(b.node[i])] -=
+        b.area[patch] * t.moment * (b.b[i][family] * t.across + b.a[i][family] * turned);
   return t.moment * t.along.cross(t.slope);
 }
 
 /// - dN/dx_i . `along` on the nodes of a patch, the last term of (F); `along` is A0 h_t / |N|.
-void turn_normal(Bending& b, std::span<const Vec3> x, std::size_t patch, const Vec3& along) {
-  const auto first = static_cast<std::size_t>(b.begin[patch]);
+void turn_normal(const Bending& b, std::span<const Vec3> x, std::size_t patch, const Vec3& along,
+                 std::vector<Vec3>& force) {
   for (auto i = static_cast<std::size_t>(b.fan_begin[patch]);
        i < static_cast<std::size_t>(b.fan_begin[patch + 1]); ++i) {
-    std::array<std::size_t, 3> place;
+    std::array<std::size_t, 3> n;
     for (std::size_t k = 0; k < 3; ++k)
-      place[k] = first + static_cast<std::size_t>(b.fan[i][k]);
-    const auto at = [&](std::size_t k) -> const Vec3& {
-      return x[static_cast<std::size_t>(b.node[place[k]])];
-    };
-    const Vec3 turn1 = (at(2) - at(0)).cross(along), turn2 = along.cross(at(1) - at(0));
-    b.force[place[0]] += turn1 + turn2;
-    b.force[place[1]] -= turn1;
-    b.force[place[2]] -= turn2;
+      n[k] =
+          static_cast<std::size_t>(b.node[static_cast<std::size_t>(b.begin[patch] + b.fan[i][k])]);
+    const Vec3 turn1 = (x[n[2]] - x[n[0]]).cross(along), turn2 = along.cross(x[n[1]] - x[n[0]]);
+    force[n[0]] += turn1 + turn2;
+    force[n[1]] -= turn1;
+    force[n[2]] -= turn2;
   }
 }
 
@@ -140,10 +141,6 @@ Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& trian
   Bending b;
   b.law = law;
   fit_patches(b, x, triangles, warp, weft);
-  b.force.assign(b.node.size(), Vec3::Zero());
-  Gather gather = make_gather(b.node, x.size());
-  b.gather_begin = std::move(gather.begin);
-  b.gather = std::move(gather.gather);
   b.omega2 = bound(b, node_mass);
   return b;
 }
@@ -157,28 +154,21 @@ double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, i
   return turn_of(b, x, n, static_cast<std::size_t>(family), shape_of(b, x, n)).kappa;
 }
 
-void bending_forces(Bending& b, std::span<const Vec3> x, int begin, int end) {
-  for (auto n = static_cast<std::size_t>(begin); n < static_cast<std::size_t>(end); ++n) {
+std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x) {
+  std::vector<Vec3> force(x.size(), Vec3::Zero());
+  for (std::size_t n = 0; n < x.size(); ++n) {
     const PatchShape s = shape_of(b, x, n);
     const std::array<double, 3> m = moments(b.law, s.kappa);
     for (auto i = static_cast<std::size_t>(b.begin[n]);
          i < static_cast<std::size_t>(b.begin[n + 1]); ++i)
-      b.force[i] =
-          -b.area[n] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal; // (F)
+      force[static_cast<std::size_t>(b.node[i])] -=
+          b.area[n] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal; // (F)
     Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
     for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
-      h += add_in_plane(b, turn_of(b, x, n, k, s), n, k, s.normal);
-    turn_normal(b, x, n, (b.area[n] / s.size) * (h - h.dot(s.normal) * s.normal));
+      h += add_in_plane(b, turn_of(b, x, n, k, s), n, k, s.normal, force);
+    turn_normal(b, x, n, (b.area[n] / s.size) * (h - h.dot(s.normal) * s.normal), force);
   }
-}
-
-Vec3 bending_force(const Bending& b, int node) {
-  Vec3 f = Vec3::Zero();
-  const auto n = static_cast<std::size_t>(node);
-  for (auto i = static_cast<std::size_t>(b.gather_begin[n]);
-       i < static_cast<std::size_t>(b.gather_begin[n + 1]); ++i)
-    f += b.force[static_cast<std::size_t>(b.gather[i])];
-  return f;
+  return force;
 }
 
 double bending_energy(const Bending& b, std::span<const Vec3> x) {

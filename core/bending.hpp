@@ -69,10 +69,8 @@ struct Bending {
   std::vector<std::array<double, 2>> a;        ///< A_1, A_2 likewise, if yarns bend in the sheet
   std::vector<std::array<double, 2>> in_plane; ///< n, D_g of warp and weft where (T) is known, else
                                                ///< 0; empty if yarns do not bend in the sheet
-  std::vector<Vec3> force;                     ///< (F) + (I), N, of each patch node
   std::vector<std::int32_t> fan_begin;         ///< n + 1, into fan
   std::vector<Triangle> fan;                   ///< triangles around, as places within the patch
-  std::vector<std::int32_t> gather_begin, gather; ///< n + 1, and into `force`, ascending
   double omega2 = 0.0; ///< 1/s^2, bound of the largest eigenvalue of M^-1 K, shape as unformed
 };
 
@@ -87,11 +85,8 @@ std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int 
 /// (T) of the warp (family 0) or weft (1) at one node; asks for D_g of either.
 double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family);
 
-/// (F) + (I) of the patches of nodes [begin, end), into b.force.
-void bending_forces(Bending& b, std::span<const Vec3> x, int begin, int end);
-
-/// Force on a node, N, from all patches that it belongs to, in fixed order.
-Vec3 bending_force(const Bending& b, int node);
+/// (F) + (I) on each node, N, one patch after the other: the oracle of core/bending_lanes.hpp.
+std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x);
 
 /// (E) + (G) over all nodes, N mm.
 double bending_energy(const Bending& b, std::span<const Vec3> x);

@@ -3,16 +3,13 @@
 // pointers, nothing inline (contact/lanes.hpp says why).
 #pragma once
 
-#include <cstdint>
+#include "core/lane_kernel.hpp"
 
 namespace plyform {
 
 struct Fabric;
 
-constexpr int lanes = 4;            ///< triangles side by side
 constexpr int most_shear_terms = 8; ///< longer polynomials are asked for like tables
-constexpr int most_block_nodes =
-    384; ///< their places and forces, 24 kB, leave a 32 kB cache some room
 
 /// One triangle of each of four patches.
 struct alignas(32) LaneTriangles {
@@ -25,11 +22,6 @@ struct alignas(32) LaneTriangles {
 /// Viscosity of four patches: mean stretches and viscous tensions of the last step.
 struct alignas(32) LaneViscosity {
   double lambda[2][lanes], tension[2][lanes];
-};
-
-/// N, on a node of a block.
-struct alignas(32) LaneForce {
-  double x, y, z, unused;
 };
 
 /// Constants of (N) for one family of yarns, each times their density d_a: per mm, not per yarn.

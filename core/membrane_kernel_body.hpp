@@ -4,7 +4,7 @@
 //   gamma = omega0 - pi/2 + arctan(d / J),  tau = A0 n_c p gamma / J
 // (Q) needs no unit vectors:
 //   q_1 = (A0 d_1 N_1 / lambda_1 - tau d / a) k_1 + tau k_2, and so with 1 and 2 exchanged     (Q')
-#include "contact/lanes.hpp"
+#include "core/lane_kernel_body.hpp"
 #include "core/membrane_kernel.hpp"
 
 namespace plyform {
@@ -44,14 +44,6 @@ struct LaneState {
   Double4 a, b, d, lambda1, lambda2, j;
   Double4 gamma, area_a, area_b, per_j; ///< area_a: A0 / a; per_j: 1 / J
 };
-
-/// Of a node of the block, `at` as in LaneTriangles.
-PLYFORM_INLINE const double* of_node(const double* first, std::uint16_t at) {
-  return reinterpret_cast<const double*>(reinterpret_cast<const char*>(first) + at);
-}
-PLYFORM_INLINE double* of_node(double* first, std::uint16_t at) {
-  return reinterpret_cast<double*>(reinterpret_cast<char*>(first) + at);
-}
 
 PLYFORM_INLINE void find_lengths(const LaneTriangles& t, const double* place, LaneState& s) {
   const auto side = [&](int corner, int lane) {
@@ -227,13 +219,6 @@ PLYFORM_INLINE int at_most(int a, int b) {
   return a < b ? a : b;
 }
 
-PLYFORM_INLINE void gather_places(const KernelBlock& block, const double* x, double* place) {
-  for (int i = 0; i < block.node_count; ++i) {
-    const double* at = x + 3 * static_cast<std::int64_t>(block.nodes[i]);
-    store(place + 4 * i, Double4{at[0], at[1], at[2], 0.0});
-  }
-}
-
 /// Goes through a block's groups, pairs first: each(group, triangles, states, pair, odd).
 template <class Each>
 PLYFORM_INLINE void for_groups(const KernelBlock& block, const LaneLaw& law, const double* place,
@@ -258,7 +243,7 @@ template <bool tables>
 PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelLaw& law,
                                          const double* x, double per_dt) {
   alignas(32) double place[4 * most_block_nodes];
-  gather_places(block, x, place);
+  gather_places(block.nodes, block.node_count, x, place);
   double* force = &block.force->x;
   for (int i = 0; i < block.node_count; ++i)
     store(force + 4 * i, all(0.0));
@@ -313,7 +298,7 @@ template <bool tables>
 PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelLaw& law,
                                          const double* x) {
   alignas(32) double place[4 * most_block_nodes];
-  gather_places(block, x, place);
+  gather_places(block.nodes, block.node_count, x, place);
   const LaneLaw lane = lane_law(law, 0.0);
   const LaneBlockWork w{law, lane, nullptr, all(0.0)};
   const LaneYarns &warp = lane.yarns[0], &weft = lane.yarns[1];

@@ -2,7 +2,6 @@
 #include "core/membrane_lanes.hpp"
 
 #include "contact/processor.hpp"
-#include "core/gather.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -12,40 +11,20 @@ namespace {
 
 constexpr int block_patches = 512; // long enough to hide the hand-over, short enough to share out
 
-/// Bits of a and b in turn: near in the plane is near along this number (Morton's order).
-std::uint64_t interleaved(std::uint32_t a, std::uint32_t b) {
-  const auto spread = [](std::uint64_t v) {
-    v = (v | (v << 16)) & 0x0000FFFF0000FFFF;
-    v = (v | (v << 8)) & 0x00FF00FF00FF00FF;
-    v = (v | (v << 4)) & 0x0F0F0F0F0F0F0F0F;
-    v = (v | (v << 2)) & 0x3333333333333333;
-    return (v | (v << 1)) & 0x5555555555555555;
-  };
-  return spread(a) | (spread(b) << 1);
-}
-
 /// Patches in an order in which neighbours are near each other.
 std::vector<int> ordered_patches(const Membrane& m, std::span<const Vec3> x) {
   Box3 box;
   for (const Vec3& p : x)
     box.extend(p);
-  const double scale = 65535.0 / std::max(1e-300, box.sizes().head<2>().maxCoeff());
-  std::vector<std::pair<std::uint64_t, int>> keys;
+  std::vector<Vec3> centres;
   for (int p = 0; p < m.patches(); ++p) {
     const Triangle& t =
         m.triangles[static_cast<std::size_t>(m.patch_begin[static_cast<std::size_t>(p)])];
-    Vec3 centre = Vec3::Zero();
+    Vec3& centre = centres.emplace_back(Vec3::Zero());
     for (const int n : t)
       centre += x[static_cast<std::size_t>(n)] / 3.0;
-    const Vec3 cell = scale * (centre - box.min());
-    keys.emplace_back(
-        interleaved(static_cast<std::uint32_t>(cell.x()), static_cast<std::uint32_t>(cell.y())), p);
   }
-  std::sort(keys.begin(), keys.end());
-  std::vector<int> order;
-  for (const auto& key : keys)
-    order.push_back(key.second);
-  return order;
+  return morton_order(centres, box);
 }
 
 /// Builds one block after the other.
@@ -201,22 +180,6 @@ KernelBlock kernel_block(const MembraneLanes& l, const LaneBlock& b, LaneViscosi
           force ? force + b.first_node : nullptr};
 }
 
-void find_node_forces(MembraneLanes& l, std::size_t nodes) {
-  const Gather gather = make_gather(l.nodes, nodes);
-  const auto zero = static_cast<std::int32_t>(l.nodes.size());
-  for (std::size_t n = 0; n < nodes; ++n) {
-    const std::int32_t* begin = gather.gather.data() + gather.begin[n];
-    const std::int32_t count = gather.begin[n + 1] - gather.begin[n];
-    NodeForces of{count > 0 ? begin[0] : zero, count > 1 ? begin[1] : zero};
-    if (count > 2) {
-      of.second = ~static_cast<std::int32_t>(l.more.size());
-      l.more.push_back(count - 1);
-      l.more.insert(l.more.end(), begin + 1, begin + count);
-    }
-    l.force_of.push_back(of);
-  }
-}
-
 } // namespace
 
 bool fits_lanes(const Membrane& m) {
@@ -229,7 +192,6 @@ MembraneLanes make_lanes(const Membrane& m, std::span<const Vec3> x) {
   for (const int patch : ordered_patches(m, x))
     maker.add(patch);
   maker.close();
-  out.force.assign(out.nodes.size() + 1, LaneForce{});
   find_node_forces(out, x.size());
   return out;
 }

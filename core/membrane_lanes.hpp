@@ -4,10 +4,10 @@
 // oracle of its test.
 //
 // A block gathers the places of its nodes, does its patches, and adds their forces up at its own
-// nodes: no triangle's force goes to memory. A node on the border of blocks has a force from each;
-// they are added in the order of the blocks, by whoever moves the node.
+// nodes: no triangle's force goes to memory. core/block_forces.hpp says how a node finds its sum.
 #pragma once
 
+#include "core/block_forces.hpp"
 #include "core/membrane.hpp"
 #include "core/membrane_kernel.hpp"
 
@@ -20,21 +20,10 @@ struct LaneBlock {
   int pair_groups = 0, single_groups = 0;
 };
 
-/// Where a node's forces are in MembraneLanes::force. Most nodes belong to one block; then the
-/// second is the zero at its end, so that reading it is a matter of no branch.
-struct NodeForces {
-  std::int32_t first = 0;
-  std::int32_t second = 0; ///< below 0: there are more, from ~second in MembraneLanes::more
-};
-
-struct MembraneLanes {
+struct MembraneLanes : BlockForces {
   std::vector<LaneBlock> blocks;
-  std::vector<std::int32_t> nodes;      ///< of the blocks, in the ply
   std::vector<LaneTriangles> triangles; ///< of the blocks, pairs first
   std::vector<LaneViscosity> viscosity; ///< one a group of four patches
-  std::vector<LaneForce> force;         ///< one each of `nodes`, and a zero
-  std::vector<NodeForces> force_of;     ///< one a node of the ply, ascending
-  std::vector<std::int32_t> more;       ///< how many, then these, of nodes with more than two
 };
 
 /// Whether the kernel knows this membrane: it has yarns.
@@ -51,21 +40,5 @@ PatchReport lane_forces(MembraneLanes& lanes, const Membrane& m, std::span<const
 /// Energies of a block's patches; membrane_energy is their sum.
 MembraneEnergy lane_energy(const MembraneLanes& lanes, const Membrane& m, std::span<const Vec3> x,
                            int block);
-
-/// N, internal force on a node of the ply, after lane_forces of all blocks.
-inline Vec3 lane_force(const MembraneLanes& l, std::size_t node) {
-  const auto force = [&l](std::int32_t i) {
-    const LaneForce& f = l.force[static_cast<std::size_t>(i)];
-    return Vec3(f.x, f.y, f.z);
-  };
-  const NodeForces of = l.force_of[node];
-  if (of.second >= 0) [[likely]]
-    return force(of.first) + force(of.second);
-  Vec3 sum = force(of.first);
-  const std::int32_t* more = &l.more[static_cast<std::size_t>(~of.second)];
-  for (std::int32_t i = 1; i <= more[0]; ++i)
-    sum += force(more[i]);
-  return sum;
-}
 
 } // namespace plyform

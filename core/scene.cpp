@@ -44,6 +44,7 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
                                 ply.angle + fabric.fibre_angle, body.membrane.node_mass);
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
+  if (body.bending) body.bending_lanes = make_bending_lanes(*body.bending, body.x0);
   body.x = body.x_search = body.x0;
   body.velocity.assign(body.x.size(), Vec3::Zero());
   body.motion = body.velocity;
@@ -209,7 +210,7 @@ Scene make_scene(const Case& data) {
     else
       add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
     add_blocks(s.node_blocks, p, ply.x.size());
-    if (ply.bending) add_blocks(s.bending_blocks, p, ply.x.size());
+    add_blocks(s.bending_blocks, p, ply.bending_lanes.blocks.size(), 1);
   }
   for (int p = 0; p < n; ++p) {
     PlyBody& ply = s.plies[static_cast<std::size_t>(p)];

@@ -7,7 +7,7 @@
 #include "contact/sheet_contact.hpp"
 #include "contact/sheet_spread.hpp"
 #include "contact/tool_contact.hpp"
-#include "core/bending.hpp"
+#include "core/bending_lanes.hpp"
 #include "core/boundary.hpp"
 #include "core/membrane_frequency.hpp"
 #include "core/membrane_lanes.hpp"
@@ -36,6 +36,7 @@ struct PlyBody {
   std::optional<MembraneLanes> lanes; ///< forces, unless it has no yarns
   std::vector<ElementForce> q;        ///< forces then, one a triangle
   std::optional<Bending> bending;     ///< if the fabric has it
+  BendingLanes bending_lanes;         ///< its forces, or empty
   std::unique_ptr<SheetTree> tree;
   double search_seconds = 0.0; ///< refitting the tree, finding folds
   std::vector<SheetEdge> edges;

@@ -118,7 +118,7 @@ void add_up_forces(Scene& s, ThreadTeam& team) {
     Block& block = s.bending_blocks[static_cast<std::size_t>(i)];
     const Stopwatch watch(block.seconds);
     PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
-    bending_forces(*ply.bending, ply.x, block.begin, block.end);
+    bending_forces(ply.bending_lanes, *ply.bending, ply.x, block.begin);
   };
   const int pairs = static_cast<int>(s.ply_pairs.size());
   const int tools = pairs + static_cast<int>(s.tools.size());
@@ -157,7 +157,7 @@ void add_up(const PlyBody& ply, int begin, int end, Vec3* f) {
     Vec3& sum = f[n - begin];
     sum = ply.lanes ? lane_force(*ply.lanes, static_cast<std::size_t>(n))
                     : node_force(ply.membrane, ply.q, n);
-    if (ply.bending) sum += bending_force(*ply.bending, n);
+    if (ply.bending) sum += lane_force(ply.bending_lanes, static_cast<std::size_t>(n));
   }
   for (const std::vector<Vec3>* force : ply.nodal_forces) {
     const Vec3* from = force->data() + begin;
