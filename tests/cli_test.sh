@@ -33,6 +33,7 @@ expect 2 'did you mean angle' run cases/hemisphere_0 --set ply.0.angel=3
 expect 2 'KEY=VALUE' run cases/hemisphere_0 --set angle
 [ ! -e results ] || { echo "a wrong case has written results"; failures=$((failures + 1)); }
 expect 0 'the case is sound' check cases/hemisphere_0 "${short[@]}"
+expect 0 'tool punch: driven 35 mm, smallest radius 10 mm' check cases/square_box
 expect 0 'boundary frame: frame, holds 40 nodes of ply square, moves 46.5 mm' check cases/picture_frame
 expect 0 'boundary lower_grip: grip, holds 9 nodes of ply strip, stays' check cases/bias_extension
 cat >cases/half.toml <<'END'

@@ -60,13 +60,18 @@ void print_plies(const Scene& s) {
   }
 }
 
+/// Whether the tightest curve of a shape bends both ways: a ball, and a box at its rounded corners.
+bool bends_both_ways(const ToolShape& shape) {
+  const auto* box = std::get_if<Box>(&shape);
+  return std::holds_alternative<Sphere>(shape) || (box && box->edge_radius > 0.0);
+}
+
 /// Says if a ply may be cut by more than half its thickness, for the one that is cut most.
 void print_cut(const Scene& s, const ToolAndContacts& tool) {
   constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
   const double radius = smallest_radius(tool.body.shape);
   if (!std::isfinite(radius)) return;
-  const bool ball = std::holds_alternative<Sphere>(tool.body.shape);
-  const double spread = ball ? 2.0 / std::sqrt(3.0) : 1.0; // curved both ways
+  const double spread = bends_both_ways(tool.body.shape) ? 2.0 / std::sqrt(3.0) : 1.0;
   const PlyBody* worst = nullptr;
   double most = 0.5;
   for (const PlyBody& ply : s.plies) {

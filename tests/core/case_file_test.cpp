@@ -227,7 +227,9 @@ TEST(CaseFile, ReadsShapesOfTools) {
   ASSERT_EQ(c.tools.size(), 8u);
   EXPECT_DOUBLE_EQ(std::get<Sphere>(c.tools[0].shape).radius, 5.0);
   EXPECT_DOUBLE_EQ(std::get<Cylinder>(c.tools[1].shape).length, 40.0);
+  EXPECT_DOUBLE_EQ(std::get<Cylinder>(c.tools[1].shape).edge_radius, 2.0);
   EXPECT_EQ(std::get<Box>(c.tools[2].shape).size, Vec3(4, 5, 6));
+  EXPECT_DOUBLE_EQ(std::get<Box>(c.tools[2].shape).edge_radius, 1.5);
   EXPECT_TRUE(std::holds_alternative<Plane>(c.tools[3].shape));
   const Annulus disc = std::get<Annulus>(c.tools[4].shape),
                 ring = std::get<Annulus>(c.tools[5].shape);
