@@ -41,27 +41,14 @@ double distance_to_segment(const Vec3& p, const Vec3& from, const Vec3& to) {
   return (p - from - t * along).norm();
 }
 
-} // namespace
-
-double edge_distance(const EdgePair& pair, const SheetState& a, const SheetState& b) {
-  const Vec3 &x1 = at(a.x, pair.a.a), &x2 = at(a.x, pair.a.b);
-  const Vec3 &x3 = at(b.x, pair.b.a), &x4 = at(b.x, pair.b.b);
-  const SegmentDistance d = segment_distance(x1, x2, x3, x4);
-  if (d.parallel)
-    return std::min({distance_to_segment(x1, x3, x4), distance_to_segment(x2, x3, x4),
-                     distance_to_segment(x3, x1, x2), distance_to_segment(x4, x1, x2)});
-  if (d.inside) return d.across.norm();
-  // Where the lines are closest is outside one segment or both. The closest points are then an end
-  // of a segment that is passed and what is closest to it on the other (Ericson, Real-Time
-  // Collision Detection, 5.1.9).
-  double distance = std::numeric_limits<double>::max();
-  if (d.s <= 0.0 || d.s >= 1.0) distance = distance_to_segment(d.s <= 0.0 ? x1 : x2, x3, x4);
-  if (d.t <= 0.0 || d.t >= 1.0)
-    distance = std::min(distance, distance_to_segment(d.t <= 0.0 ? x3 : x4, x1, x2));
-  return distance;
+double edge_area(const SheetState& sheet, const EdgeNodes& e) {
+  return 0.5 *
+         (sheet.area[static_cast<std::size_t>(e.a)] + sheet.area[static_cast<std::size_t>(e.b)]);
 }
 
-Vec3 measure_edges(EdgePair& pair, const SheetState& a, const SheetState& b, double far) {
+/// Brings a pair up to date, its distance to `far` (mm) while the closest points are not inside
+/// both edges; returns the unit vector from b to a across the gap, or zero then.
+Vec3 measure(EdgePair& pair, const SheetState& a, const SheetState& b, double far) {
   const SegmentDistance d =
       segment_distance(at(a.x, pair.a.a), at(a.x, pair.a.b), at(b.x, pair.b.a), at(b.x, pair.b.b));
   pair.distance = far;
@@ -80,28 +67,73 @@ Vec3 measure_edges(EdgePair& pair, const SheetState& a, const SheetState& b, dou
   return pair.side * d.normal.normalized();
 }
 
-void edge_forces(EdgeContact& contact, const SheetState& a, const SheetState& b, double dt,
-                 double path, std::span<Vec3> force_a, std::span<Vec3> force_b) {
+/// Lists the pairs that may touch now. Those that were listed keep what they know.
+void renew_pairs(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
+                 const SheetState& b, std::span<const SheetEdge> edges_b, double path) {
+  if (!renew(contact.list, path, [](std::int32_t) {})) return;
+  const std::vector<EdgePair> old = std::move(contact.pairs);
+  contact.pairs.clear();
+  std::size_t known = 0;
+  for (const std::int32_t i : contact.list.near) {
+    const auto& edge = contact.candidates[static_cast<std::size_t>(i)];
+    while (known < old.size() && old[known].edge < edge)
+      ++known;
+    if (known < old.size() && old[known].edge == edge) {
+      contact.pairs.push_back(old[known]);
+      continue;
+    }
+    const SheetEdge &of_a = edges_a[static_cast<std::size_t>(edge[0])],
+                    &of_b = edges_b[static_cast<std::size_t>(edge[1])];
+    EdgePair pair{edge, {of_a.a, of_a.b}, {of_b.a, of_b.b}};
+    pair.distance = 2.0 * contact.distance;
+    pair.area = std::min(edge_area(a, pair.a), edge_area(b, pair.b));
+    contact.pairs.push_back(pair);
+  }
+}
+
+} // namespace
+
+double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const EdgeNodes& edge_b,
+                     std::span<const Vec3> b) {
+  const Vec3 &x1 = at(a, edge_a.a), &x2 = at(a, edge_a.b);
+  const Vec3 &x3 = at(b, edge_b.a), &x4 = at(b, edge_b.b);
+  const SegmentDistance d = segment_distance(x1, x2, x3, x4);
+  if (d.parallel)
+    return std::min({distance_to_segment(x1, x3, x4), distance_to_segment(x2, x3, x4),
+                     distance_to_segment(x3, x1, x2), distance_to_segment(x4, x1, x2)});
+  if (d.inside) return d.across.norm();
+  // Where the lines are closest is outside one segment or both. The closest points are then an end
+  // of a segment that is passed and what is closest to it on the other (Ericson, Real-Time
+  // Collision Detection, 5.1.9).
+  double distance = std::numeric_limits<double>::max();
+  if (d.s <= 0.0 || d.s >= 1.0) distance = distance_to_segment(d.s <= 0.0 ? x1 : x2, x3, x4);
+  if (d.t <= 0.0 || d.t >= 1.0)
+    distance = std::min(distance, distance_to_segment(d.t <= 0.0 ? x3 : x4, x1, x2));
+  return distance;
+}
+
+void edge_forces(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
+                 const SheetState& b, std::span<const SheetEdge> edges_b, double dt, double path,
+                 std::span<Vec3> force_a, std::span<Vec3> force_b) {
   const Stopwatch watch(contact.time.forces);
   ContactSums& sums = contact.sums;
-  renew(contact.list, path, [&contact](std::int32_t i) { // cannot cross: its side does not matter
-    contact.pairs[static_cast<std::size_t>(i)].side = 0;
-  });
+  renew_pairs(contact, a, edges_a, b, edges_b, path);
   clear_present(sums);
   const double far = 2.0 * contact.distance;
-  for (const std::int32_t i : contact.list.near) {
-    EdgePair& pair = contact.pairs[static_cast<std::size_t>(i)];
-    double& wake = contact.list.wake[static_cast<std::size_t>(i)];
+  for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
+    EdgePair& pair = contact.pairs[i];
+    double& wake = contact.list.wake[static_cast<std::size_t>(contact.list.near[i])];
     if (wake > path) continue;
     const bool followed = pair.side != 0;
     const double last = pair.distance;
-    const Vec3 n = measure_edges(pair, a, b, far);
+    const Vec3 n = measure(pair, a, b, far);
     const double p = contact.distance - pair.distance, dp = last - pair.distance;
     if (followed && pair.side != 0)
       sums.step_ratio = std::min(sums.step_ratio, step_ratio(contact.law, p, dp));
     if (!(p > 0.0)) {
       if (last < contact.distance) continue;
-      wake = path + edge_distance(pair, a, b) - contact.distance; // until then it may rest
+      // until then it cannot touch
+      wake = path + edge_distance(pair.a, a.x, pair.b, b.x) - contact.distance;
       continue;
     }
     const NormalForce force =

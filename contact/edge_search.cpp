@@ -12,10 +12,6 @@ const Vec3& at(std::span<const Vec3> x, int n) {
   return x[static_cast<std::size_t>(n)];
 }
 
-Vec3 face_normal(const Triangle& t, std::span<const Vec3> x) {
-  return (at(x, t[1]) - at(x, t[0])).cross(at(x, t[2]) - at(x, t[0]));
-}
-
 Box3 edge_box(const SheetEdge& e, std::span<const Vec3> x, double inflate) {
   Box3 box(at(x, e.a).cwiseMin(at(x, e.b)), at(x, e.a).cwiseMax(at(x, e.b)));
   box.min().array() -= inflate;
@@ -23,20 +19,14 @@ Box3 edge_box(const SheetEdge& e, std::span<const Vec3> x, double inflate) {
   return box;
 }
 
-double edge_area(const SheetState& sheet, const EdgeNodes& e) {
-  return 0.5 *
-         (sheet.area[static_cast<std::size_t>(e.a)] + sheet.area[static_cast<std::size_t>(e.b)]);
-}
-
 /// The boxes of some edges, sorted into square cells of a grid across the two axes along which they
 /// spread furthest; each edge in the cell of the lower corner of its box.
 class EdgeGrid {
 public:
-  EdgeGrid(std::span<const SheetEdge> edges, std::span<const std::int32_t> some,
-           std::span<const Vec3> x) {
+  EdgeGrid(const EdgeSet& edges, std::span<const Vec3> x) {
     Box3 all;
-    for (const std::int32_t e : some) {
-      entries_.push_back({edge_box(edges[static_cast<std::size_t>(e)], x, 0.0), e});
+    for (const std::int32_t e : edges.some) {
+      entries_.push_back({edge_box(edges.all[static_cast<std::size_t>(e)], x, 0.0), e});
       all.extend(entries_.back().box);
       widest_ = widest_.cwiseMax(entries_.back().box.sizes());
     }
@@ -106,18 +96,6 @@ private:
   std::array<int, 3> count_{1, 1, 1};
 };
 
-std::array<std::int32_t, 4> key(const EdgePair& p) {
-  return {p.a.a, p.a.b, p.b.a, p.b.b};
-}
-
-bool before(const EdgePair& p, const EdgePair& q) {
-  return key(p) < key(q);
-}
-
-bool same(const EdgePair& p, const EdgePair& q) {
-  return key(p) == key(q);
-}
-
 } // namespace
 
 std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles) {
@@ -144,64 +122,26 @@ std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles) {
   return edges;
 }
 
-std::vector<std::int32_t> folded_edges(std::span<const SheetEdge> edges,
-                                       std::span<const Triangle> triangles, std::span<const Vec3> x,
-                                       double least, double other_length) {
-  std::vector<std::int32_t> folded;
-  for (std::size_t i = 0; i < edges.size(); ++i) {
-    const SheetEdge& e = edges[i];
-    if (e.right >= 0) {
-      const Vec3 n = face_normal(triangles[static_cast<std::size_t>(e.left)], x);
-      const Vec3 m = face_normal(triangles[static_cast<std::size_t>(e.right)], x);
-      const double cosine = n.dot(m), size = n.norm() * m.norm();
-      // tan^2(fold/2) = (1 - cos) / (1 + cos)
-      const double length = (at(x, e.b) - at(x, e.a)).norm(), over = std::max(length, other_length);
-      const double reach = 0.5 * over * std::max(1.0, 0.5 * over / length);
-      if (reach * reach * (size - cosine) < least * least * (size + cosine)) continue;
-    }
-    folded.push_back(static_cast<std::int32_t>(i));
-  }
-  return folded;
-}
-
-void find_edge_pairs(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
-                     std::span<const std::int32_t> folded_a, const SheetState& b,
-                     std::span<const SheetEdge> edges_b, std::span<const std::int32_t> folded_b,
-                     double skin, double path) {
-  const std::vector<EdgePair> old = std::move(contact.pairs);
-  contact.pairs.clear();
+void find_edge_pairs(EdgeContact& contact, const SheetState& a, const EdgeSet& edges_a,
+                     const SheetState& b, const EdgeSet& edges_b, double skin, double path) {
+  contact.candidates.clear();
   clear(contact.list);
-  std::vector<EdgePair> near;
-  for (const EdgePair& pair : old) // touching, but perhaps no longer folded
-    if (pair.distance < contact.distance) near.push_back(pair);
-  const EdgeGrid grid(edges_b, folded_b, b.x);
-  for (const std::int32_t e : folded_a) {
-    const SheetEdge& edge = edges_a[static_cast<std::size_t>(e)];
-    grid.visit(edge_box(edge, a.x, contact.distance + skin), [&](std::int32_t other) {
-      const SheetEdge& of_b = edges_b[static_cast<std::size_t>(other)];
-      EdgePair pair{};
-      pair.a = {edge.a, edge.b};
-      pair.b = {of_b.a, of_b.b};
-      near.push_back(pair);
-    });
-  }
-  std::sort(near.begin(), near.end(), before);
-  near.erase(std::unique(near.begin(), near.end(), same), near.end());
-  std::size_t known = 0;
-  for (EdgePair pair : near) {
-    while (known < old.size() && before(old[known], pair))
-      ++known;
-    if (known < old.size() && same(old[known], pair))
-      pair = old[known];
-    else
-      measure_edges(pair, a, b, contact.distance + skin);
-    const bool touches = pair.distance < contact.distance;
-    const double gap = touches ? 0.0 : edge_distance(pair, a, b) - contact.distance;
-    if (gap > skin) continue;    // its box was in reach
-    if (!touches) pair.side = 0; // taken anew when they come near
-    pair.area = std::min(edge_area(a, pair.a), edge_area(b, pair.b));
-    contact.list.wake.push_back(path + gap);
-    contact.pairs.push_back(pair);
+  const EdgeGrid grid(edges_b, b.x);
+  std::vector<std::int32_t> near;
+  for (const std::int32_t e : edges_a.some) {
+    const SheetEdge& edge = edges_a.all[static_cast<std::size_t>(e)];
+    near.clear();
+    grid.visit(edge_box(edge, a.x, contact.distance + skin),
+               [&near](std::int32_t other) { near.push_back(other); });
+    std::sort(near.begin(), near.end());
+    for (const std::int32_t other : near) {
+      const SheetEdge& of_b = edges_b.all[static_cast<std::size_t>(other)];
+      const double gap =
+          edge_distance({edge.a, edge.b}, a.x, {of_b.a, of_b.b}, b.x) - contact.distance;
+      if (gap > skin) continue; // only its box was in reach
+      contact.candidates.push_back({e, other});
+      contact.list.wake.push_back(path + gap);
+    }
   }
 }
 

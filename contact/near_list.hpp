@@ -31,14 +31,15 @@ inline void clear(NearList& list) {
 /// Lists the pairs that may touch now that the path is `path` (mm). rest(i) is
 /// called for each that was listed and no longer is. The list runs ahead a little, so that it is
 /// not made anew at every step, and not for long, so that those that have opened come to rest.
+/// Called at every step; returns whether the list is a new one.
 template <class Rest>
-void renew(NearList& list, double path, const Rest& rest) {
-  constexpr double least_ahead = 0.05, longest = 0.2; // mm
-  // by two steps at least: how fast a pair closes is known before it touches
-  const double ahead = std::max(least_ahead, 2.0 * (path - list.last_path));
+bool renew(NearList& list, double path, const Rest& rest) {
+  constexpr double kept = 0.05, longest = 0.2; // mm
+  // two steps before it may touch: how fast a pair closes is known by then
+  const double ahead = 2.0 * (path - list.last_path);
   list.last_path = path;
-  if (path < list.until) return;
-  const double now = path + ahead;
+  if (path < list.until) return false;
+  const double now = path + kept + ahead;
   for (const std::int32_t i : list.near)
     if (list.wake[static_cast<std::size_t>(i)] > now) rest(i);
   list.near.clear();
@@ -50,6 +51,7 @@ void renew(NearList& list, double path, const Rest& rest) {
       list.near.push_back(static_cast<std::int32_t>(i));
   next = std::max(next - ahead, path);
   list.until = list.near.empty() ? next : std::min(next, path + longest);
+  return true;
 }
 
 } // namespace plyform

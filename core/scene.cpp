@@ -182,11 +182,6 @@ Scene make_scene(const Case& data) {
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
   s.element_size = smallest_element(s.plies);
-  for (const PlyBody& ply : s.plies)
-    for (const SheetEdge& e : ply.edges)
-      s.longest_edge = std::max(
-          s.longest_edge,
-          (ply.x0[static_cast<std::size_t>(e.b)] - ply.x0[static_cast<std::size_t>(e.a)]).norm());
   // Motion uses a skin up, points and faces in reach grow with its square: at a third of an element
   // neither counts for much.
   s.skin = data.contact.skin > 0.0 ? data.contact.skin : 0.3 * s.element_size;

@@ -44,7 +44,6 @@ struct PlyBody {
   double spread_way = 0.0;                  ///< mm, way when it was last renewed
   std::vector<char> on_rim;                 ///< triangles with a node on the rim
   std::array<std::vector<char>, 2> covered; ///< nodes that the next ply below, above covers
-  std::vector<std::int32_t> folded;         ///< edges folded at the last contact search
   std::vector<Vec3> reaction; ///< N, that boundaries hold each node with; empty if none does
   std::vector<const std::vector<Vec3>*>
       nodal_forces; ///< reaction, contacts: those in use now, in order
@@ -74,7 +73,7 @@ struct PlyContact {
   SheetContact contact;
 };
 
-/// Folded edges of two plies, a < b.
+/// Edges of two plies, a < b.
 struct PlyEdgeContact {
   int a = 0, b = 0;
   EdgeContact contact;
@@ -133,7 +132,6 @@ struct Scene {
   double start_energy = 0.0;          ///< N mm, that the plies were given to start with
   double mass_damping_work = 0.0;     ///< N mm, since the start
   double element_size = 0.0;          ///< mm, smallest mean of a ply
-  double longest_edge = 0.0;          ///< mm, of any ply before forming
   double skin = 0.0;                  ///< mm, Case's or by the element size
   double time = 0.0;                  ///< s, of x
   double dt = 0.0, next_dt = 0.0;     ///< s, the step that led to x and the one that leaves it

@@ -87,7 +87,8 @@ void pair_forces(Scene& s, PlyPair& pair) {
   }
   for (const int i : pair.edges) {
     EdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
-    edge_forces(contact, a.state(), b.state(), s.dt, a.path + b.path, pair.force_a, pair.force_b);
+    edge_forces(contact, a.state(), a.edges, b.state(), b.edges, s.dt, a.path + b.path,
+                pair.force_a, pair.force_b);
     pair.loaded = pair.loaded || contact.sums.touching > 0;
   }
 }
