@@ -108,7 +108,7 @@ Rows fabric_rows() {
                  .least_items = 2,
                  .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
                             "same with minus sign for negative angles"}});
-  append(rows, twist_rows());
+  append(rows, sheet_rows());
   return rows;
 }
 

@@ -28,10 +28,7 @@ std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
 
 PlyBody make_ply(const Case& data, const Ply& ply) {
   PlyBody body;
-  Fabric fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
-  fabric.warp = softened(fabric.warp, data.solver.fibre_softening);
-  fabric.weft = softened(fabric.weft, data.solver.fibre_softening);
-  if (fabric.isotropic) fabric.bending.in_plane = {}; // no yarns that could bend in its plane
+  const Fabric& fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
   const BlankMesh mesh = mesh_blank(data.blanks[static_cast<std::size_t>(ply.blank)], ply.angle,
                                     ply.angle + fabric.fibre_angle);
   body.name = ply.name;
@@ -60,8 +57,9 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.bound = frequency_bound(body.membrane, body.x);
   const double omega = std::sqrt(body.bound.omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
-  body.membrane.viscosity = {2.0 * data.solver.fibre_damping * fabric.warp.largest_slope() / omega,
-                             2.0 * data.solver.fibre_damping * fabric.weft.largest_slope() / omega};
+  const Fabric& soft = body.membrane.fabric;
+  body.membrane.viscosity = {2.0 * data.solver.fibre_damping * soft.warp.largest_slope() / omega,
+                             2.0 * data.solver.fibre_damping * soft.weft.largest_slope() / omega};
   body.bound = frequency_bound(body.membrane, body.x); // with viscosity
   return body;
 }

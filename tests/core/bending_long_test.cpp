@@ -68,8 +68,9 @@ Fabric plate(double stiffness) {
   return fabric;
 }
 
-/// The glass weave with bending, N mm, and compressive stiffness as a share of the tensile.
-Fabric weave(double warp, double weft, double compression = 0.01) {
+/// The glass weave with bending, N mm, and compressive stiffness as a share of the tensile: yarns
+/// are then softened by 1000, and no more.
+Fabric weave(double warp, double weft, double compression = 0.001) {
   Fabric fabric = glass_weave();
   fabric.bending.warp.stiffness = warp;
   fabric.bending.weft.stiffness = weft;

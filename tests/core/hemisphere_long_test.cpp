@@ -69,7 +69,7 @@ TEST(HemisphereLong, OnePlyShearsAsAnIndependentPrototype) {
 }
 
 TEST(HemisphereLong, FivePliesFormSoundly) {
-  Case data = shipped("hemisphere_five_ply");
+  Case data = shipped("hemisphere_five_ply_paper");
   data.solver.outputs = 100;
   double holder_force = 0.0;
   int frames = 0;
