@@ -86,15 +86,15 @@ void print_work(const WorkReport& w, long steps) {
 void print_plausibility(const std::string& name, const PlyReport& ply) {
   fmt::print("  {:16} ", name);
   if (const auto& pressed = ply.pressed)
-    fmt::print("pressed {:.1f} % at most, over 2 % on {:.1f} and over 5 % on {:.1f} % of the area, "
-               "excess length {:.1f} mm; ",
-               100.0 * pressed->largest, 100.0 * pressed->share_above_2,
-               100.0 * pressed->share_above_5, pressed->excess_mm);
-  fmt::print("wrinkles {:.1f} mm", ply.wrinkle.height);
+    fmt::print(
+        "pressed {:.1f} %, over 2 / 5 % on {:.1f} / {:.1f} % of the area; excess length {:.1f}, ",
+        100.0 * pressed->largest, 100.0 * pressed->share_above_2, 100.0 * pressed->share_above_5,
+        pressed->excess_mm);
+  fmt::print("wrinkles {:.1f}", ply.wrinkle.height);
+  if (ply.draw_in.unknown.empty()) fmt::print(", draw-in {:.1f}", ply.draw_in.mean());
+  fmt::print(" mm");
   if (ply.beyond_locking_share)
-    fmt::print(", beyond locking on {:.1f} % of the area", 100.0 * *ply.beyond_locking_share);
-  if (ply.draw_in.unknown.empty())
-    fmt::print(", draw-in {:.1f} mm ({:.1f} at most)", ply.draw_in.mean(), ply.draw_in.largest());
+    fmt::print("; beyond locking on {:.1f} %", 100.0 * *ply.beyond_locking_share);
   fmt::print("\n");
 }
 
