@@ -36,7 +36,7 @@ Tip hang_strip(const Fabric& fabric, MeshKind mesh, double angle, double softeni
   data.solver.mass_damping = 40.0; // 1/s, about critical for the first mode of the softer strip
   data.solver.duration = 0.5;
   const RunResult run = run_case(data, 1, {}); // too small to share out
-  EXPECT_EQ(run.summary.status, "done") << run.summary.message;
+  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
   const PlyFrame& ply = run.last.plies[0];
   Tip tip;
   int ends = 0;
