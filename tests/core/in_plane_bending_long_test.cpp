@@ -50,7 +50,7 @@ double right_load(const RunResult& run) {
   return std::nan("");
 }
 
-TEST(InPlaneBendingScene, ShearComesUpFromAClampOverTheWidthOfItsLayer) {
+TEST(InPlaneBendingLong, ShearComesUpFromAClampOverTheWidthOfItsLayer) {
   for (const double in_plane : {2.0, 8.0}) { // N mm
     const Strip strip{100.0, 12.0, 2.0, in_plane, 0.0};
     const double layer = std::sqrt(in_plane / shear_stiffness); // mm: 9.3 and 18.6
@@ -115,27 +115,30 @@ double buckling_load(const Strip& strip, const Vec3& sideways, double theory) {
   return -right_load(run) / strip.width;
 }
 
-TEST(InPlaneBendingScene, PressedStripHeldFlatGivesWaySidewaysUnderItsLoad) {
+TEST(InPlaneBendingLong, PressedStripHeldFlatGivesWaySidewaysUnderItsLoad) {
   for (const double in_plane : {2.0, 8.0}) { // N mm
     const Strip strip{57.0, 12.0, 3.0, in_plane, 0.0};
     const double length = strip.free_length + strip.size; // mm, of the one wave
     const double theory =
         shear_stiffness + 4.0 * std::pow(std::numbers::pi / length, 2) * in_plane; // N/mm
-    // 4 %: the bend to slopes of 0.13 by 1 % (its shear law's third power, the cosine, the
-    // shortened wave), the rest the mesh, (pi h/L)^2/3 = 1 %
+    // 2 %: 1.5 % of the part of shear by the third power of its law at slopes of 0.13; the mesh,
+    // (2 pi h/L)^2/12 = 0.8 %; the cosine, 0.4 %
     const double load = buckling_load(strip, Vec3::UnitY(), theory);
-    EXPECT_NEAR(load, theory, 0.04 * theory);
+    EXPECT_NEAR(load, theory, 0.02 * theory);
     fmt::print("sideways: {:.4f} N/mm, {:.3f} of theory\n", load, load / theory);
   }
 }
 
-TEST(InPlaneBendingScene, FreeStripBucklesAsEulersStrut) {
+TEST(InPlaneBendingLong, FreeStripBucklesAsEulersStrut) {
   for (const double bending : {1.0, 2.0}) { // N mm; 8 N mm in the plane, where it stays straight
-    const Strip strip{57.0, 12.0, 3.0, 8.0, bending};
+    // wide: the rows of nodes on free rims are softer than the inner ones (0.96 at a width of 12
+    // mm)
+    const Strip strip{57.0, 36.0, 3.0, 8.0, bending};
     const double length = strip.free_length + strip.size;
     const double theory = 4.0 * std::pow(std::numbers::pi / length, 2) * bending; // N/mm
+    // 2 %: the mesh 0.8 % and the cosine 0.4 %, both as above
     const double load = buckling_load(strip, Vec3::UnitZ(), theory);
-    EXPECT_NEAR(load, theory, 0.04 * theory);
+    EXPECT_NEAR(load, theory, 0.02 * theory);
     fmt::print("out of its plane: {:.4f} N/mm, {:.3f} of theory\n", load, load / theory);
   }
 }
