@@ -31,7 +31,6 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   Fabric fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
   fabric.warp = softened(fabric.warp, data.solver.fibre_softening);
   fabric.weft = softened(fabric.weft, data.solver.fibre_softening);
-  if (fabric.isotropic) fabric.bending.in_plane = {}; // no yarns that could bend in its plane
   const BlankMesh mesh = mesh_blank(data.blanks[static_cast<std::size_t>(ply.blank)], ply.angle,
                                     ply.angle + fabric.fibre_angle);
   body.name = ply.name;
@@ -39,6 +38,7 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.thickness = fabric.thickness;
   body.membrane =
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
+  if (fabric.isotropic) fabric.bending.in_plane = {}; // no yarns that could bend in its plane
   if (fabric.bending.any())
     body.bending = make_bending(mesh.x, body.membrane.triangles, fabric.bending, ply.angle,
                                 ply.angle + fabric.fibre_angle, body.membrane.node_mass);

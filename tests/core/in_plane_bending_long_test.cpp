@@ -153,7 +153,7 @@ std::vector<double> bias_shares(double in_plane, double size) {
   fabric.bending.in_plane = {in_plane, in_plane};
   std::vector<double> shares =
       bias_loads(strip_mesh({MeshKind::crossed, size, 0.0, 0.0}, length, width), fabric, length,
-                 width, ElementKind::plain, angles, 1e-7);
+                 width, ElementKind::plain, angles, 1e-9);
   const ShearTest test = shear_test(BiasSpecimen{length, width});
   for (std::size_t i = 0; i < angles.size(); ++i) {
     const double drawn = std::numbers::sqrt2 * std::cos(0.25 * std::numbers::pi - 0.5 * angles[i]);
