@@ -36,7 +36,7 @@ template <class Rest>
 bool renew(NearList& list, double path, const Rest& rest) {
   constexpr double kept = 0.05, longest = 0.2; // mm
   // two steps before it may touch: how fast a pair closes is known by then
-  const double ahead = 2.0 * (path - list.last_path);
+  const double ahead = 2.0 * std::max(path - list.last_path, 0.0);
   list.last_path = path;
   if (path < list.until) return false;
   const double now = path + kept + ahead;

@@ -336,6 +336,7 @@ void start(Scene& s, ThreadTeam& team) {
   search_contacts(s, team);
   renew_bounds(s, team);
   renew_stable_step(s, team);
+  set_step(s);
 }
 
 std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {

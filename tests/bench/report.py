@@ -87,6 +87,9 @@ def element_rows(best: dict) -> list[Row]:
                          f"{100 * b['of_peak']:.0f} % of the arithmetic"))
         if name.startswith("ElementForces/"):
             rows.append((f"element one by one, {kind}", size, number(b["ns_an_element"]), "", ""))
+        if name.startswith("Bending"):
+            how = "bending" if name.startswith("BendingLanes") else "bending one by one"
+            rows.append((f"{how}, {kind}", size, number(b["ns_an_element"]), "", ""))
     return rows
 
 

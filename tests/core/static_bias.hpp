@@ -4,6 +4,7 @@
 // load converges.
 #pragma once
 
+#include "core/bending.hpp"
 #include "core/membrane.hpp"
 #include "core/shear_tests.hpp"
 #include "membrane_checks.hpp"
@@ -17,7 +18,9 @@ namespace plyform {
 /// Internal forces, their tangent and the energy of a membrane that stays in its plane.
 class FlatMembrane {
 public:
-  FlatMembrane(Membrane membrane, std::vector<char> held) : m(std::move(membrane)) {
+  /// bending: of its yarns in its plane, if they bend.
+  FlatMembrane(Membrane membrane, std::vector<char> held, std::optional<Bending> turning = {})
+      : m(std::move(membrane)), bending(std::move(turning)) {
     for (const char h : held) {
       freedom.push_back(h ? -1 : freedoms);
       freedoms += h ? 0 : 2;
@@ -56,7 +59,14 @@ public:
     throw std::runtime_error("no equilibrium after 3000 iterations");
   }
 
-  std::vector<Vec3> nodal(const std::vector<Vec3>& x) { return nodal_forces(m, x); }
+  std::vector<Vec3> nodal(const std::vector<Vec3>& x) {
+    std::vector<Vec3> force = nodal_forces(m, x);
+    if (!bending) return force;
+    const std::vector<Vec3> turning = reference_bending_forces(*bending, x);
+    for (std::size_t n = 0; n < x.size(); ++n)
+      force[n] += turning[n];
+    return force;
+  }
   const Membrane& membrane() const { return m; }
 
 private:
@@ -75,7 +85,7 @@ private:
 
   double total_energy(const std::vector<Vec3>& x) const {
     const MembraneEnergy e = membrane_energy(m, x);
-    return e.fibre + e.shear;
+    return e.fibre + e.shear + (bending ? bending_energy(*bending, x) : 0.0);
   }
 
   Eigen::VectorXd forces(const std::vector<Vec3>& x) {
@@ -201,12 +211,43 @@ private:
     return s;
   }
 
+  /// A0 D_g of (G) times the square of the gradient of (T); the rest of its second derivative,
+  /// which falls with kappa_g, is left to the iteration. Families without bending are left out.
+  void add_turns(const std::vector<Vec3>& x, std::vector<Eigen::Triplet<double>>& entries) const {
+    const Bending& b = *bending;
+    for (std::size_t n = 0; n < x.size(); ++n)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const auto begin = static_cast<std::size_t>(b.begin[n]),
+                   end = static_cast<std::size_t>(b.begin[n + 1]);
+        const double stiffness = b.area[n] * b.in_plane[n][k];
+        if (stiffness == 0.0) continue;
+        Vec2 d = Vec2::Zero(), s = d;
+        for (std::size_t i = begin; i < end; ++i) {
+          const Vec2 at = x[static_cast<std::size_t>(b.node[i])].head<2>();
+          d += b.a[i][k] * at, s += b.b[i][k] * at;
+        }
+        const Vec2 across = Vec2(-d.y(), d.x()) / d.squaredNorm();
+        const Vec2 q = s / d.squaredNorm() - 2.0 * s.dot(across) * across, turned(q.y(), -q.x());
+        for (std::size_t i = begin; i < end; ++i)
+          for (std::size_t j = begin; j < end; ++j) {
+            const int row = freedom[static_cast<std::size_t>(b.node[i])],
+                      column = freedom[static_cast<std::size_t>(b.node[j])];
+            if (row < 0 || column < 0) continue;
+            const Vec2 gi = b.b[i][k] * across + b.a[i][k] * turned,
+                       gj = b.b[j][k] * across + b.a[j][k] * turned;
+            for (int r = 0; r < 4; ++r)
+              entries.emplace_back(row + r / 2, column + r % 2, stiffness * gi[r / 2] * gj[r % 2]);
+          }
+      }
+  }
+
   /// K^-1 f, with as much added to the diagonal as makes K positive; `damping` keeps it.
   Eigen::VectorXd newton(const std::vector<Vec3>& x, const Eigen::VectorXd& force,
                          double& damping) const {
     std::vector<Eigen::Triplet<double>> entries;
     for (int p = 0; p < m.patches(); ++p)
       add_patch(x, p, entries);
+    if (bending) add_turns(x, entries);
     Eigen::SparseMatrix<double> stiffness(freedoms, freedoms), one(freedoms, freedoms);
     stiffness.setFromTriplets(entries.begin(), entries.end());
     one.setIdentity();
@@ -219,6 +260,7 @@ private:
   }
 
   Membrane m;
+  std::optional<Bending> bending;
   std::vector<int> freedom; ///< first of a node's two unknowns, or -1
   int freedoms = 0;
 };
@@ -293,7 +335,12 @@ inline std::vector<double> bias_loads(const BlankMesh& mesh, const Fabric& fabri
     held.push_back(pulled.back() || p.x() < -0.5 * length + 1e-9 * length);
   }
   start = x;
-  FlatMembrane strip(make_membrane(mesh, fabric, 0.25 * std::numbers::pi, element), held);
+  Membrane membrane = make_membrane(mesh, fabric, 0.25 * std::numbers::pi, element);
+  std::optional<Bending> bending;
+  if (fabric.bending.in_plane != std::array{0.0, 0.0})
+    bending = make_bending(mesh.x, mesh.triangles, fabric.bending, 0.25 * std::numbers::pi,
+                           0.25 * std::numbers::pi + fabric.fibre_angle, membrane.node_mass);
+  FlatMembrane strip(std::move(membrane), held, std::move(bending));
   std::vector<double> loads;
   double before = 0.0, before_step = 0.0, angle = 0.0;
   std::vector<Vec3> last = x;
