@@ -110,6 +110,9 @@ struct Summary {
   AccuracyReport accuracy;
   ContactReport contact;
   WorkReport work;
+  /// A sentence each: estimates in the place of what the case does not have, and what of it was not
+  /// taken as it stands (core/fabric_estimates.hpp).
+  std::vector<std::string> assumed;
 };
 
 /// Writes a run's folder as it goes. Everything it writes goes to a temporary name first and is

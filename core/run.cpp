@@ -3,6 +3,7 @@
 
 #include "contact/audit.hpp"
 #include "core/accuracy.hpp"
+#include "core/fabric_estimates.hpp"
 #include "core/frame.hpp"
 #include "core/step.hpp"
 #include "core/tool_depth.hpp"
@@ -159,6 +160,7 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.contact = audit(s, depths);
   sum.contact.max_tool_penetration_between_nodes_mm = depth_between_nodes(s);
   sum.work = report_work(s, result.last, sum.contact);
+  sum.assumed = assumptions(s.data);
   const auto stop_if = [&sum](bool wrong, const std::string& message) {
     if (wrong && sum.status == "done") sum.status = "stopped", sum.message = message;
   };

@@ -71,9 +71,7 @@ void print_plies(const Scene& s) {
 
 /// Numbers that the case does not have, and what of it is not taken as it stands.
 void print_fabrics(const Case& data) {
-  for (const std::string& line : describe_estimates(data))
-    fmt::print("fabric {}\n", line);
-  for (const std::string& line : describe_softening(data))
+  for (const std::string& line : assumptions(data))
     fmt::print("fabric {}\n", line);
 }
 

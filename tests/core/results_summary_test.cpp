@@ -44,6 +44,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
                   4,
                   {0.25, 0.5, 0.75, 1.5},
                   {0.01, 0.02, 0.05, 3, 4},
+                  {},
                   {}};
   summary.work = {0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7}}, {"bending: small"},
                   {}};
@@ -77,6 +78,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "pairs": [
     {"a": "die", "b": "p", "time_share": 0.2500, "deepest_mm": 0.03, "slip_mm": 1.5, "friction_coefficient": 0.2, "friction_mJ": 7}
   ],
+  "assumed": [],
   "could_be_left_out": [
     "bending: small"
   ],
