@@ -166,4 +166,11 @@ std::vector<std::string> describe_softening(const Case& data) {
   return lines;
 }
 
+std::vector<std::string> assumptions(const Case& data) {
+  std::vector<std::string> lines = describe_estimates(data);
+  for (std::string& line : describe_softening(data))
+    lines.push_back(std::move(line));
+  return lines;
+}
+
 } // namespace plyform

@@ -58,4 +58,7 @@ std::vector<std::string> describe_estimates(const Case& data);
 /// people; none where it acts in full.
 std::vector<std::string> describe_softening(const Case& data);
 
+/// Both.
+std::vector<std::string> assumptions(const Case& data);
+
 } // namespace plyform

@@ -118,6 +118,9 @@ struct Summary {
   ContactReport contact;
   WorkReport work;
   std::vector<PlyReport> plies; ///< one each of the last frame's, or empty: not known
+  /// A sentence each: estimates in the place of what the case does not have, and what of it was not
+  /// taken as it stands (core/fabric_estimates.hpp).
+  std::vector<std::string> assumed;
 };
 
 /// Whether a run with this status went all the way to its end.

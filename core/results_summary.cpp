@@ -295,6 +295,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
   entry("searches", fmt::to_string(summary.work.searches));
   entry("time_shares", time_json(summary.work));
   entry("pairs", json_list(summary.work.pairs, pair_json));
+  entry("assumed", json_list(summary.assumed, json_string));
   entry("could_be_left_out", json_list(summary.work.could_be_left_out, json_string));
   entry("missing", json_list(summary.work.missing, json_string));
   return out + "\n}\n";

@@ -3,6 +3,7 @@
 
 #include "contact/audit.hpp"
 #include "core/accuracy.hpp"
+#include "core/fabric_estimates.hpp"
 #include "core/frame.hpp"
 #include "core/ply_plausibility.hpp"
 #include "core/step.hpp"
@@ -172,6 +173,7 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
   sum.work = report_work(s, result.last, sum.contact);
   sum.plies = report_plies(s, result.last);
+  sum.assumed = assumptions(s.data);
   const auto stop_if = [&sum](bool wrong, const std::string& message) {
     if (wrong && sum.status == "done") sum.status = "stopped", sum.message = message;
   };

@@ -33,9 +33,11 @@ std::string bending_text(const PlyBody& ply) {
       "their plane, yarns compressed by {:.3g} and {:.3g} N per strain",
       along(law.warp), along(law.weft), law.twist, law.in_plane[0], law.in_plane[1],
       fabric.warp.compression, fabric.weft.compression);
+  const auto force = [](const TensionLaw& yarn) {
+    return yarn.buckles() ? fmt::format("{:.3g} N", yarn.buckling_force) : std::string("no force");
+  };
   if (fabric.warp.buckles() || fabric.weft.buckles())
-    text += fmt::format(", buckling at {:.3g} and {:.3g} N", fabric.warp.buckling_force,
-                        fabric.weft.buckling_force);
+    text += fmt::format(", buckling at {} and {}", force(fabric.warp), force(fabric.weft));
   return text;
 }
 
@@ -71,9 +73,7 @@ void print_plies(const Scene& s) {
 
 /// Numbers that the case does not have, and what of it is not taken as it stands.
 void print_fabrics(const Case& data) {
-  for (const std::string& line : describe_estimates(data))
-    fmt::print("fabric {}\n", line);
-  for (const std::string& line : describe_softening(data))
+  for (const std::string& line : assumptions(data))
     fmt::print("fabric {}\n", line);
 }
 

@@ -126,6 +126,8 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   const AccuracyReport& a = r.summary.accuracy;
   fmt::print("  {}\n", describe_accuracy({a.inertia_deg, a.softening_deg, a.mesh_deg},
                                          a.promised_deg, a.coarsening));
+  for (const std::string& line : r.summary.assumed)
+    fmt::print("  assumed: {}\n", line);
   print_work(r.summary.work, r.summary.steps);
   fmt::print("results are in {}\n", folder.string());
 }

@@ -180,5 +180,31 @@ TEST(FabricFile, ReportsMistakesWithTheirPlace) {
             std::string::npos);
 }
 
+TEST(WithLaw, KeepsWhatItKnowsOfPressedAndBentYarns) {
+  const Folder folder;
+  const Fabric fabric = in_a_case(folder, with_law(R"(
+surface_density = 600.0
+thickness = 0.6
+locking_angle = 50.0
+[warp]
+density = 0.25
+stiffness = 46000.0
+compression_stiffness = 460.0
+buckling_force = 5.0
+in_plane_bending_stiffness = 8.0
+[weft]
+density = 0.25
+stiffness = 48000.0
+[shear]
+polynomial = [1.0]
+)",
+                                                   polynomial));
+  EXPECT_EQ(fabric.shear.k, (std::vector<double>{0.5, 0.25}));
+  EXPECT_EQ(fabric.warp.compression, 460.0);
+  EXPECT_EQ(fabric.warp.buckling_force, 5.0);
+  EXPECT_EQ(fabric.bending.in_plane[0], 8.0);
+  EXPECT_TRUE(fabric.locking_angle);
+}
+
 } // namespace
 } // namespace plyform

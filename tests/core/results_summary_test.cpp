@@ -78,6 +78,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "pairs": [
     {"a": "die", "b": "p", "time_share": 0.2500, "deepest_mm": 0.03, "slip_mm": 1.5, "friction_coefficient": 0.2, "friction_mJ": 7}
   ],
+  "assumed": [],
   "could_be_left_out": [
     "bending: small"
   ],
