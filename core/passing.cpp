@@ -85,7 +85,8 @@ std::optional<Stop> find_passed(const Scene& s, const ToolAndContacts& tool, std
     for (const ToolContactPoint& c : contact.points)
       if (-c.gap > thickness)
         return Stop{fmt::format("{} lies {:.3g} mm below the surface of tool {}, thickness {:.3g} "
-                                "mm; a larger contact.stiffness or a slower stroke may help",
+                                "mm; a longer solver.duration or a smaller solver.step_factor lets "
+                                "it close by less in a step",
                                 when_and_who(s, p, c.node), -c.gap - contact.half_thickness,
                                 tool.name, thickness)};
   const double way = plyform::step_way(s, static_cast<int>(p), tool);

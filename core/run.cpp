@@ -179,13 +179,12 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   };
   stop_if(sum.contact.intersections_between_plies > 0,
           fmt::format("the plies overlap: {} pairs of triangles of different plies cross in "
-                      "the final state; a finer mesh, a larger contact.stiffness or a slower "
-                      "stroke may help",
+                      "the final state; a finer mesh or a longer solver.duration may help",
                       sum.contact.intersections_between_plies));
   stop_if(s.data.contact.self && sum.contact.intersections_within_plies > 0,
           fmt::format("a ply goes through itself: {} pairs of triangles of one ply cross in the "
-                      "final state, though contact.self is on; a finer mesh or a larger "
-                      "contact.stiffness may help",
+                      "final state, though contact.self is on; a finer mesh or a longer "
+                      "solver.duration may help",
                       sum.contact.intersections_within_plies));
   doubt_if(doubts(s, result.last, sum.plies, cuts), sum);
 }

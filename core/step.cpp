@@ -271,7 +271,8 @@ std::optional<Stop> find_fault(const Scene& s) {
     if (fault.node < 0) continue;
     return Stop{fmt::format("{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm "
                             "apart, thickness {:.3g} "
-                            "mm; a larger contact.stiffness or a slower stroke may help",
+                            "mm; a longer solver.duration or a smaller solver.step_factor lets "
+                            "them close by less in a step",
                             when(s), s.plies[static_cast<std::size_t>(pair.slave)].name, fault.node,
                             s.plies[static_cast<std::size_t>(pair.master)].name, fault.face,
                             fault.distance, pair.contact.distance)};

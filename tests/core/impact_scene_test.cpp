@@ -45,11 +45,13 @@ EndedRun watch(const std::function<Scene()>& make, Seen& seen) {
 /// What central differences leave open in the ledger of one blow, relative to its energy. In the
 /// step that closes a gap force goes from 0 to k p over a way dp of which the spring sees p: the
 /// ledger misses k p (dp - p)/2 <= k dp^2/8, of m v^2/2: (omega dt)^2/4, omega^2 = k/m; the same
-/// again, less the damping, in the step that opens it.
+/// again, less the damping, in the step that opens it. A gap closes by no more than half of the
+/// room in one step, where the force is 1.8 times k p.
 double of_one_blow(const Scene& s) {
   double worst = 0.0;
   const auto add = [&](const ContactLaw& law, double density) {
-    worst = std::max(worst, 0.25 * law.stiffness * s.max_dt * s.max_dt / density);
+    const double half = 0.5 * law.max_depth, k = law.pressure(half) / half;
+    worst = std::max(worst, 0.25 * k * s.max_dt * s.max_dt / density);
   };
   for (const ToolAndContacts& tool : s.tools)
     add(tool.contacts[0].law, s.plies[0].membrane.fabric.surface_density);
@@ -110,8 +112,9 @@ void throw_ply(PlyBody& ply, const Vec3& velocity, double tilt) {
 }
 
 /// A ply of 60 mm falls flat, or tilted by 17 degrees, on a plate as thick as a tool and on one
-/// thinner than the ply. At 5 m/s the plate bears it; at 50 m/s the way of a step (0.9 mm) is
-/// longer than the ply is thick, at 500 m/s longer than it can come back from: that has to be said.
+/// thinner than the ply. Up to 50 m/s the plate bears it, though the way of a stable step (0.9 mm)
+/// is then longer than the ply is thick: steps get shorter. At 500 m/s it is borne, or that is
+/// said.
 TEST(Impact, PlyThrownAtAPlateIsBorneOrNamed) {
   for (const double thickness : {10.0, 0.3})
     for (const double tilt : {0.0, 0.3})
@@ -136,11 +139,7 @@ TEST(Impact, PlyThrownAtAPlateIsBorneOrNamed) {
             fmt::format("plate of {} mm, tilt {}, {} m/s", thickness, tilt, 1e-3 * speed);
         expect_sound(run, seen, {"ply ply1", "node ", "tool plate"}, what);
         EXPECT_GE(seen.lowest, -0.3) << what; // no deeper than half a thickness, and not below
-        if (speed < 1e4) {
-          EXPECT_TRUE(ended(run.result.summary.status)) << what;
-        } else if (speed > 4e4) {
-          EXPECT_EQ(run.result.summary.status, "stopped") << what;
-        }
+        EXPECT_TRUE(speed > 1e5 || ended(run.result.summary.status)) << what;
       }
 }
 
@@ -161,11 +160,7 @@ TEST(Impact, PlyThrownAtAPlyIsBorneOrNamed) {
           seen);
       const std::string what = fmt::format("ply at ply, tilt {}, {} m/s", tilt, 1e-3 * speed);
       expect_sound(run, seen, {"ply ply1", "ply ply2", "node ", "triangle "}, what);
-      if (speed < 1e4) {
-        EXPECT_TRUE(ended(run.result.summary.status)) << what;
-      } else if (speed > 4e4) {
-        EXPECT_EQ(run.result.summary.status, "stopped") << what;
-      }
+      EXPECT_TRUE(speed > 1e5 || ended(run.result.summary.status)) << what;
     }
 }
 
@@ -187,26 +182,35 @@ TEST(Impact, PunchAtTenTimesItsSpeed) {
   }
 }
 
-/// Three plies that start 0.3 thicknesses deep in each other and in the floor: they come apart.
-TEST(Impact, PliesThatStartDeepInEachOtherComeApart) {
-  Seen seen;
-  const EndedRun run = watch(
-      [] {
+/// Three plies that start `deep` thicknesses in each other, and a tenth in the floor.
+EndedRun start_deep(double deep, Seen& seen) {
+  return watch(
+      [deep] {
         Case data = stack_of({0.0, 0.5, 0.0}, rectangle(60.0, 60.0, 10.0));
         press_by_plate(data);
         data.tools.resize(1);
         set_friction(data, 0.2);
         for (std::size_t p = 0; p < 3; ++p)
-          data.plies[p].z = 0.6 * (0.5 + 0.7 * static_cast<double>(p)) - 0.06;
+          data.plies[p].z = 0.6 * (0.5 + (1.0 - deep) * static_cast<double>(p)) - 0.06;
         data.solver.duration = 0.005;
         data.solver.outputs = 50;
         return make_scene(data);
       },
       seen);
+}
+
+/// They come apart as far as contact has room, a quarter of a thickness; what is deeper is named.
+TEST(Impact, PliesThatStartDeepInEachOtherComeApart) {
+  Seen seen;
+  const EndedRun run = start_deep(0.2, seen);
   expect_sound(run, seen, {}, "deep start");
   EXPECT_TRUE(ended(run.result.summary.status));
-  EXPECT_GT(seen.gap, 0.7 * 0.6 - 1e-9);
+  EXPECT_GT(seen.gap, 0.8 * 0.6 - 1e-9);
   EXPECT_GT(least_gap(run.result.last), 0.55);
+  Seen too_deep;
+  const EndedRun stopped = start_deep(0.3, too_deep);
+  EXPECT_EQ(stopped.result.summary.status, "stopped");
+  expect_sound(stopped, too_deep, {"ply ply1", "ply ply2", "node "}, "too deep a start");
 }
 
 /// A plate pushed by 30 N, 10 mm above two plies on a floor: it comes down at its closing speed.

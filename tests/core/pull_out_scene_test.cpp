@@ -102,7 +102,7 @@ double stored_and_lost(const Energies& e) {
 TEST(PullOutScene, PullAtConstantPressureFallsWithTheArea) {
   const double depth = 0.02; // mm
   const Case data = between_fixed_plates(depth);
-  const double p = depth * make_scene(data).tools[0].contacts[0].law.stiffness; // N/mm^2
+  const double p = make_scene(data).tools[0].contacts[0].law.pressure(depth); // N/mm^2
   std::array<double, 4> pull{}, normal{}; // N, sums over each cell of the way
   std::array<int, 4> count{};
   double at_start = 0.0; // N mm

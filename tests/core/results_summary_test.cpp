@@ -45,6 +45,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
                   {0.25, 0.5, 0.75, 1.5},
                   {0.01, 0.02, 0.05, 3, 4},
                   {},
+                  {},
                   {}};
   summary.work = {0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7}}, {"bending: small"},
                   {}};
