@@ -9,6 +9,7 @@ namespace plyform {
 namespace {
 
 constexpr int four = 4;
+constexpr double kernel_least_room = 1e-3; ///< least_room of contact/contact_law.hpp
 
 PLYFORM_INLINE Double4 square(const Vector4& a) {
   return dot(a, a);
@@ -34,6 +35,11 @@ PLYFORM_INLINE Rows turned(const Rows& r) {
            __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
 }
 
+PLYFORM_INLINE double smallest(Double4 a) {
+  const double low = a[0] < a[1] ? a[0] : a[1], high = a[2] < a[3] ? a[2] : a[3];
+  return low < high ? low : high;
+}
+
 PLYFORM_INLINE double largest(Double4 a) {
   const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
   return low > high ? low : high;
@@ -43,6 +49,7 @@ PLYFORM_INLINE double largest(Double4 a) {
 struct LaneSums {
   Double4 elastic = all(0.0), friction = all(0.0), damping = all(0.0);
   Double4 penetration = all(0.0), slip = all(0.0);
+  Double4 step_ratio = all(1e300);
   int touching = 0;
 };
 
@@ -60,13 +67,29 @@ PLYFORM_INLINE Vector4 into_plane(const Vector4& s, const Vector4& n) {
   return by * flat;
 }
 
+/// q of contact/contact_law.hpp.
+template <class Contact>
+PLYFORM_INLINE Double4 room_of(const Contact& k, Double4 depth) {
+  return larger(1.0 - depth * depth * k.per_depth2, all(kernel_least_room));
+}
+
+/// ContactSums::step_ratio of four contacts at `depth` that closed by `dp` (mm) in the last step. A
+/// contact that is still open may close, and then use half of the whole depth.
+template <class Contact>
+PLYFORM_INLINE Double4 step_ratio_of(const Contact& k, Double4 depth, Double4 dp) {
+  const Double4 inside = larger(depth, all(0.0)), open = inside - depth;
+  const Double4 way = open + 0.5 * (k.max_depth - inside);
+  return dp > 0.0 ? larger(way, all(0.0)) / dp : all(1e300);
+}
+
 /// (N): normal pressure, N/mm^2, of contacts `depth` mm deep that had opened by `opened` <= 0. The
 /// work of damping is summed where `counted`; dp: mm, way of closing. k: stiffness, damping_per_dt.
 template <class Contact>
 PLYFORM_INLINE Double4 normal_pressure(const Contact& k, Double4 area, Double4 depth,
                                        Double4 opened, Double4 dp, Long4 counted, LaneMemory& m,
                                        LaneSums& sums) {
-  const Double4 pressure = k.stiffness * depth; // N/mm^2, elastic and viscous
+  const Double4 q = room_of(k, depth);
+  const Double4 pressure = k.stiffness * depth / (q * q); // N/mm^2, elastic and viscous
   const Double4 resistance = larger(k.damping_per_dt * (depth + opened), -pressure);
   const Double4 viscous = area * resistance;
   sums.damping += counted ? 0.5 * (viscous + m.damping_force) * dp : all(0.0);

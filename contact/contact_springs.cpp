@@ -8,10 +8,11 @@ const Vec3& at(std::span<const Vec3> x, std::int32_t n) {
   return x[static_cast<std::size_t>(n)];
 }
 
-/// Both stiffnesses of a contact that stands for `area` (mm^2).
-void set_stiffness(ContactSpring& spring, const ContactLaw& law, double area,
+/// Both stiffnesses of a contact `depth` mm deep that stands for `area` (mm^2).
+void set_stiffness(ContactSpring& spring, const ContactLaw& law, double area, double depth,
                    const SpringFactors& factors) {
-  spring.along = area * (factors.stiffness * law.stiffness + factors.damping * law.damping);
+  const ContactRow row = row_of(law, depth);
+  spring.along = area * (factors.stiffness * row.stiffness + factors.damping * row.damping);
   if (law.friction > 0.0) spring.across = area * factors.stiffness * law.tangential();
 }
 
@@ -25,7 +26,8 @@ void append_springs(const ToolContact& contact, std::span<const double> area, do
     spring.node = {c.node};
     spring.share = {1.0};
     spring.normal = c.normal;
-    set_stiffness(spring, contact.law, area[static_cast<std::size_t>(c.node)], factors);
+    set_stiffness(spring, contact.law, area[static_cast<std::size_t>(c.node)], -c.latest_gap(),
+                  factors);
     springs.push_back(spring);
   }
 }
@@ -42,7 +44,7 @@ void append_springs(const SheetContact& contact, const SheetState& slave, const 
     spring.share = {1.0, -w[0], -w[1], -w[2]};
     spring.nodes = 4;
     spring.normal = contact_normal(c, slave.x, master.x, triangles);
-    set_stiffness(spring, contact.law, c.area, factors);
+    set_stiffness(spring, contact.law, c.area, -c.latest_gap(), factors);
     if (spring.across > 0.0)
       spring.couple = {contact.distance * spring.normal,
                        face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]))};
@@ -63,7 +65,7 @@ void append_springs(const EdgeContact& contact, const SheetState& a, const Sheet
     spring.normal =
         (at(a.x, pair.a.b) - at(a.x, pair.a.a)).cross(at(b.x, pair.b.b) - at(b.x, pair.b.a));
     spring.normal.normalize();
-    set_stiffness(spring, contact.law, pair.area, factors);
+    set_stiffness(spring, contact.law, pair.area, contact.distance - pair.distance, factors);
     spring.across = 0.0; // edges meet without friction
     springs.push_back(spring);
   }

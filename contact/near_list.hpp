@@ -18,6 +18,7 @@ struct NearList {
   std::vector<double> wake;       ///< mm, one a pair: the path before which it cannot touch
   std::vector<std::int32_t> near; ///< pairs that may touch
   double until = -1.0;            ///< mm, path at which the list is due again
+  double last_path = 0.0;         ///< mm, path of the step before
 };
 
 /// Forgets all pairs: a search begins.
@@ -30,11 +31,15 @@ inline void clear(NearList& list) {
 /// Lists the pairs that may touch now that the path is `path` (mm). rest(i) is
 /// called for each that was listed and no longer is. The list runs ahead a little, so that it is
 /// not made anew at every step, and not for long, so that those that have opened come to rest.
+/// Called at every step; returns whether the list is a new one.
 template <class Rest>
-void renew(NearList& list, double path, const Rest& rest) {
-  constexpr double ahead = 0.05, longest = 0.2; // mm
-  if (path < list.until) return;
-  const double now = path + ahead;
+bool renew(NearList& list, double path, const Rest& rest) {
+  constexpr double kept = 0.05, longest = 0.2; // mm
+  // two steps before it may touch: how fast a pair closes is known by then
+  const double ahead = 2.0 * std::max(path - list.last_path, 0.0);
+  list.last_path = path;
+  if (path < list.until) return false;
+  const double now = path + kept + ahead;
   for (const std::int32_t i : list.near)
     if (list.wake[static_cast<std::size_t>(i)] > now) rest(i);
   list.near.clear();
@@ -44,7 +49,9 @@ void renew(NearList& list, double path, const Rest& rest) {
       next = std::min(next, list.wake[i]);
     else
       list.near.push_back(static_cast<std::int32_t>(i));
+  next = std::max(next - ahead, path);
   list.until = list.near.empty() ? next : std::min(next, path + longest);
+  return true;
 }
 
 } // namespace plyform

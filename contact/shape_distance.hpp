@@ -7,6 +7,9 @@
 // by radius e, asked at u = |p| componentwise, q = u - (h - e):
 //   s = |max(q, 0)| + min(max_i q_i, 0) - e                                        (1)
 // Gradient: max(q, 0) normalised outside of the inner box, the axis of the largest q_i inside.
+// (1) is exact inside too. All that lies within e of the inner box is rounded, so a point beyond
+// the inner box is as deep as it is short of e from it; inside of the inner box the nearest place
+// of the surface is on a flat face, as far as that of the sharp box.
 #pragma once
 
 #include "contact/mesh_shape.hpp"
@@ -73,6 +76,14 @@ inline RingSection section_of(const Annulus& a) {
   return {centre, half, std::min(a.edge_radius, half.minCoeff())};
 }
 
+/// The roundings (mm) of a cylinder's rims and of a box's edges: no more than fits.
+inline double edge_of(const Cylinder& c) {
+  return std::min({c.edge_radius, c.radius, 0.5 * c.length});
+}
+inline double edge_of(const Box& b) {
+  return std::min(b.edge_radius, 0.5 * b.size.minCoeff());
+}
+
 inline auto distance_of(const Sphere& sphere) {
   return [radius = sphere.radius](const Vec3& p, int&) -> SurfacePoint {
     const double d = p.norm();
@@ -81,14 +92,14 @@ inline auto distance_of(const Sphere& sphere) {
 }
 
 inline auto distance_of(const Cylinder& c) {
-  return [half = Vec2(c.radius, 0.5 * c.length)](const Vec3& p, int&) {
-    return revolved(p, [&](const Vec2& q) { return rounded_box<2>(q, half, 0.0); });
+  return [half = Vec2(c.radius, 0.5 * c.length), edge = edge_of(c)](const Vec3& p, int&) {
+    return revolved(p, [&](const Vec2& q) { return rounded_box<2>(q, half, edge); });
   };
 }
 
 inline auto distance_of(const Box& box) {
-  return [half = Vec3(0.5 * box.size)](const Vec3& p, int&) -> SurfacePoint {
-    const auto [s, n] = rounded_box<3>(p, half, 0.0);
+  return [half = Vec3(0.5 * box.size), edge = edge_of(box)](const Vec3& p, int&) -> SurfacePoint {
+    const auto [s, n] = rounded_box<3>(p, half, edge);
     return {s, n};
   };
 }

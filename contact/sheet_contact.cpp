@@ -279,6 +279,8 @@ SheetKernelContact kernel_view(KernelSide& k, double dt) {
   view.stiffness = c.law.stiffness;
   view.tangential = c.law.tangential();
   view.friction = c.law.friction;
+  view.max_depth = c.law.max_depth;
+  view.per_depth2 = 1.0 / (c.law.max_depth * c.law.max_depth);
   view.damping_per_dt = dt > 0.0 ? c.law.damping / dt : 0.0;
   view.self = &k;
   view.open = open_point;
@@ -294,8 +296,7 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
   const Stopwatch watch(contact.time.forces);
   renew(contact.list, gone.path,
         [&contact](std::int32_t i) { lay_to_rest(contact.points[static_cast<std::size_t>(i)]); });
-  contact.sums.elastic = contact.sums.penetration = 0.0;
-  contact.sums.touching = 0;
+  clear_present(contact.sums);
   if (contact.list.near.empty()) return;
   const bool look_all = gone.path - contact.looked_path > contact.look_every;
   if (look_all) contact.looked_path = gone.path;
@@ -309,6 +310,7 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
   sums.penetration = added.penetration;
   sums.slip = std::max(sums.slip, added.slip);
   sums.touching = added.touching;
+  sums.step_ratio = added.step_ratio;
   sums.deepest = std::max(sums.deepest, sums.penetration);
 }
 
@@ -323,14 +325,14 @@ Vec3 contact_normal(const SheetContactPoint& point, std::span<const Vec3> slave,
 
 void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
                          std::span<const Triangle> triangles, double margin,
-                         std::span<double> slave_rows, std::span<double> master_rows) {
+                         std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows) {
   // Normal: k G G^T with G = (1, -w), whose row i is |G_i| sum_j |G_j| = 2 |G_i|. Friction, with
   // half of k, along the face the same, and across it the couple's g_j = d |gradient_j|: with
   // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
   for (const SheetContactPoint& c : contact.points) {
     if (c.latest_gap() > margin) continue;
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
-    const double normal = 2.0 * c.area * contact.law.stiffness;
+    const ContactRow normal = 2.0 * c.area * row_of(contact.law, -c.latest_gap());
     slave_rows[static_cast<std::size_t>(c.node)] += normal;
     if (contact.law.friction > 0.0) {
       std::array<double, 3> couple{};
@@ -339,7 +341,7 @@ void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
       for (std::size_t j = 0; j < 3; ++j)
         sum += couple[j] = contact.distance * f.gradient[j].norm();
       for (std::size_t j = 0; j < 3; ++j)
-        master_rows[static_cast<std::size_t>(t[j])] +=
+        master_rows[static_cast<std::size_t>(t[j])].stiffness +=
             2.0 * c.area * contact.law.tangential() * sum * couple[j];
     }
     const std::array<double, 3> w = c.weights();

@@ -70,6 +70,7 @@ struct SheetContact {
   double rest = 0.0;        ///< mm, sliding by which a point keeps its face unseen; 0: none
   double look_every = 0.0;  ///< mm of path, at which all points look around
   double looked_path = 0.0; ///< mm, when they last did
+  double renew_depth = 0.0; ///< mm, penetration at which the stable step is due again
   ContactSums sums;
   ContactFault fault;
   ContactTime time;
@@ -98,10 +99,10 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
 Vec3 contact_normal(const SheetContactPoint& point, std::span<const Vec3> slave,
                     std::span<const Vec3> master, std::span<const Triangle> master_triangles);
 
-/// Row sums of the contact stiffness matrix, N/mm, added to each sheet's nodes: of contacts that
-/// touch or were within `margin` (mm) of it when last looked at.
+/// Row sums of the contact matrices added to each sheet's nodes: of contacts that touch or were
+/// within `margin` (mm) of it when last looked at.
 void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
                          std::span<const Triangle> master_triangles, double margin,
-                         std::span<double> slave_rows, std::span<double> master_rows);
+                         std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows);
 
 } // namespace plyform

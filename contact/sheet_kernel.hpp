@@ -33,6 +33,7 @@ struct SheetKernelContact {
   double path; ///< mm (contact/near_list.hpp)
   double rest; ///< mm, sliding since it looked around by which a point need not again
   double distance, stiffness, tangential, friction; ///< h, k, k_t, mu of contact/contact_law.hpp
+  double max_depth, per_depth2;                     ///< delta and 1/delta^2 of it; finite
   double damping_per_dt;                            ///< c / dt, or 0
   void* self;
   /// A point that held something has opened; last_gap: mm, of the step before.
@@ -52,7 +53,7 @@ double distance_of_others(const SheetKernelPoint& point, const std::int32_t* tri
 
 /// Added up over the points that touch.
 struct SheetKernelSums {
-  double elastic, friction, damping, penetration, slip;
+  double elastic, friction, damping, penetration, slip, step_ratio;
   int touching;
 };
 

@@ -12,6 +12,9 @@
 namespace plyform {
 namespace {
 
+/// Of max_depth: what is deeper has no room left, and the law no meaning (least_room).
+constexpr double deepest_sound = 0.9995;
+
 using Pair2 = double __attribute__((vector_size(16), may_alias, aligned(8)));
 
 PLYFORM_INLINE void add3(double* at, Double4 row) {
@@ -64,7 +67,9 @@ PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces
     f.couple2 = per_size * (dot(x.b, couple) * n - half * x.b);
     stored2 = square(p.memory.s);
   }
-  sums.elastic += 0.5 * area * (k.stiffness * depth * depth + k.tangential * stored2);
+  sums.elastic +=
+      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * stored2);
+  sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, depth, dp));
   sums.penetration = larger(sums.penetration, touch ? depth : zero);
   return f;
 }
@@ -126,7 +131,8 @@ PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Lan
   const Double4 height = dot(cross(x.b, x.c), x.p);
   // forgotten on edges: a node may slide round the rim to the other side
   const Long4 side = foot.inside & (height >= 0.0 ? Long4{1, 1, 1, 1} : Long4{-1, -1, -1, -1});
-  const Long4 deep = foot.distance < 0.5 * k.distance;
+  const Long4 deep = (foot.distance < 0.5 * k.distance) |
+                     (k.distance - foot.distance >= deepest_sound * k.max_depth);
   const Rows s = turned({{m.s.x, m.s.y, m.s.z, m.damping_force}});
   const Rows b = turned({{m.normal_force, m.slip, p.area, p.gap}});
   for (int i = 0; i < g.count; ++i) {
@@ -141,10 +147,13 @@ PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Lan
 
 /// A point that does not touch.
 PLYFORM_INLINE void pass_by(const SheetKernelContact& k, std::int32_t index, double distance,
-                            bool inside) {
+                            bool inside, LaneSums& sums) {
   SheetKernelPoint& at = k.points[index];
   const double last_gap = at.gap;
   at.gap = distance - k.distance;
+  if (last_gap < 1e300) // else it was inactive
+    sums.step_ratio =
+        smaller(sums.step_ratio, step_ratio_of(k, all(-at.gap), all(last_gap - at.gap)));
   at.side = 0;
   if (inside) { // it may come down on this side later
     const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(at.face);
@@ -255,7 +264,7 @@ PLYFORM_INLINE void do_some(const SheetKernelContact& k, const std::int32_t* nea
     if (chunk.distance[n] < k.distance)
       touching[touches++] = n;
     else
-      pass_by(k, near[n], chunk.distance[n], chunk.inside[n]);
+      pass_by(k, near[n], chunk.distance[n], chunk.inside[n], sums);
   }
   for (int i = 0; i < touches; i += four)
     press_later(k, near, touching + i, touches - i, chunk, sums);
@@ -265,8 +274,9 @@ PLYFORM_INLINE SheetKernelSums sheet_kernel(const SheetKernelContact& k) {
   LaneSums sums;
   for (int i = 0; i < k.near_count; i += Chunk::most)
     do_some(k, k.near + i, k.near_count - i < Chunk::most ? k.near_count - i : Chunk::most, sums);
-  return {sum(sums.elastic),         sum(sums.friction), sum(sums.damping),
-          largest(sums.penetration), largest(sums.slip), sums.touching};
+  return {
+      sum(sums.elastic),  sum(sums.friction),        sum(sums.damping), largest(sums.penetration),
+      largest(sums.slip), smallest(sums.step_ratio), sums.touching};
 }
 
 } // namespace

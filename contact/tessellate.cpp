@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Triangles of a tool, for pictures and the exact audit. Nodes lie on the surface, so curved parts
 // are inscribed: a chord of length l on a circle of radius R misses it by l^2/(8 R).
-#include "contact/mesh_shape.hpp"
-#include "contact/profile.hpp"
+#include "contact/shape_distance.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <map>
 #include <numbers>
 #include <stdexcept>
+#include <utility>
 
 namespace plyform {
 namespace {
@@ -90,9 +90,9 @@ Surface triangles_of(const Sphere& s, double size, double extent) {
 }
 
 Surface triangles_of(const Cylinder& c, double size, double extent) {
-  const double r = c.radius, h = 0.5 * c.length;
-  return triangles_of(make_profile({{0.0, h, 0.0}, {r, h, 0.0}, {r, -h, 0.0}, {0.0, -h, 0.0}}),
-                      size, extent);
+  const double r = c.radius, h = 0.5 * c.length, e = edge_of(c);
+  return triangles_of(make_profile({{0.0, h, 0.0}, {r, h, e}, {r, -h, e}, {0.0, -h, 0.0}}), size,
+                      extent);
 }
 
 Surface triangles_of(const Annulus& a, double size, double extent) {
@@ -107,41 +107,91 @@ Surface triangles_of(const Annulus& a, double size, double extent) {
   return triangles_of(make_profile(ring), size, extent);
 }
 
-/// Grid of n[0] x n[1] x n[2] cells on the surface of a box, each square halved.
-Surface triangles_of(const Box& b, double size, double) {
-  const std::array<int, 3> n{pieces(b.size.x(), size), pieces(b.size.y(), size),
-                             pieces(b.size.z(), size)};
-  Surface surface;
-  std::map<std::array<int, 3>, std::int32_t> nodes;
-  const auto node = [&](const std::array<int, 3>& i) {
-    const auto [at, added] = nodes.try_emplace(i, static_cast<std::int32_t>(surface.x.size()));
-    if (added)
-      surface.x.push_back(
-          b.size.cwiseProduct(Vec3(double(i[0]) / n[0], double(i[1]) / n[1], double(i[2]) / n[2]) -
-                              Vec3::Constant(0.5)));
-    return at->second;
+/// Nodes on the surface of a box, numbered as those of a grid of n[0] x n[1] x n[2] cells. The
+/// first and last `rounded` cells along each axis lie on half a quarter turn, between an edge and
+/// its middle; tangents of equal steps of the angle make them equally long. A sharp box has none.
+struct BoxGrid {
+  Vec3 flat; ///< mm, edge lengths of the box that lies inside by the edge radius
+  double edge;
+  int rounded;
+  std::array<int, 3> n;
+  std::map<std::array<int, 3>, std::int32_t> nodes{};
+  Surface surface{};
+
+  BoxGrid(const Box& box, double size);
+  Vec3 point(const std::array<int, 3>& i) const;
+  std::int32_t node(const std::array<int, 3>& i);
+  void add_square(std::int32_t a, std::int32_t p, std::int32_t c, std::int32_t q);
+};
+
+BoxGrid::BoxGrid(const Box& box, double size)
+    : flat(box.size - Vec3::Constant(2.0 * edge_of(box))), edge(edge_of(box)) {
+  constexpr double half_quarter = std::numbers::pi / 4.0;
+  rounded = edge > 0.0
+                ? std::max(pieces(half_quarter * edge, size), pieces(half_quarter, largest_turn))
+                : 0;
+  for (std::size_t k = 0; k < 3; ++k)
+    n[k] = pieces(flat[static_cast<Eigen::Index>(k)], size) + 2 * rounded;
+}
+
+Vec3 BoxGrid::point(const std::array<int, 3>& i) const {
+  Vec3 share, way; // place in the flat part, from 0 to 1; direction from there to the surface
+  for (std::size_t k = 0; k < 3; ++k) {
+    const int cells = n[k] - 2 * rounded, at = std::clamp(i[k] - rounded, 0, cells);
+    const auto axis = static_cast<Eigen::Index>(k);
+    const int beyond = i[k] - rounded - at; // steps of the angle, to either side
+    share[axis] = double(at) / cells;
+    way[axis] = beyond == 0 ? 0.0 : std::tan(std::numbers::pi / 4.0 * beyond / rounded);
+  }
+  const Vec3 inner = flat.cwiseProduct(share - Vec3::Constant(0.5));
+  return rounded > 0 ? Vec3(inner + edge * way.normalized()) : inner;
+}
+
+std::int32_t BoxGrid::node(const std::array<int, 3>& i) {
+  const auto [at, added] = nodes.try_emplace(i, static_cast<std::int32_t>(surface.x.size()));
+  if (added) surface.x.push_back(point(i));
+  return at->second;
+}
+
+/// Two triangles of the square a, p, c, q, whose sides are in this order. Squares on corners are
+/// rhombs: halved along the shorter diagonal. Flat ones are halved from a to c, also where rounding
+/// makes p q the shorter one.
+void BoxGrid::add_square(std::int32_t a, std::int32_t p, std::int32_t c, std::int32_t q) {
+  constexpr double clearly = 1.0 - 1e-9; // far above rounding, far below what a rhomb differs by
+  const auto length = [&](std::int32_t i, std::int32_t j) {
+    return (surface.x[static_cast<std::size_t>(i)] - surface.x[static_cast<std::size_t>(j)]).norm();
   };
+  if (length(p, q) < clearly * length(a, c)) {
+    surface.triangles.push_back({a, p, q});
+    surface.triangles.push_back({p, c, q});
+    return;
+  }
+  surface.triangles.push_back({a, p, c});
+  surface.triangles.push_back({a, c, q});
+}
+
+Surface triangles_of(const Box& b, double size, double) {
+  BoxGrid grid(b, size);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
     for (int side = 0; side < 2; ++side)
-      for (int i = 0; i < n[u]; ++i)
-        for (int j = 0; j < n[v]; ++j) {
+      for (int i = 0; i < grid.n[u]; ++i)
+        for (int j = 0; j < grid.n[v]; ++j) {
           const auto at = [&](int di, int dj) {
             std::array<int, 3> k{};
-            k[axis] = side * n[axis];
+            k[axis] = side * grid.n[axis];
             k[u] = i + di;
             k[v] = j + dj;
-            return node(k);
+            return grid.node(k);
           };
           const std::int32_t a = at(0, 0), c = at(1, 1);
           // At the low side u and v change places, so that the normal points outwards.
           const std::int32_t p = side == 1 ? at(1, 0) : at(0, 1);
           const std::int32_t q = side == 1 ? at(0, 1) : at(1, 0);
-          surface.triangles.push_back({a, p, c});
-          surface.triangles.push_back({a, c, q});
+          grid.add_square(a, p, c, q);
         }
   }
-  return surface;
+  return std::move(grid.surface);
 }
 
 Surface triangles_of(const Plane&, double size, double extent) {

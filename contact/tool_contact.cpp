@@ -107,11 +107,6 @@ ToolKernelPoint* kernel_points(ToolContactPoint* points) {
   return reinterpret_cast<ToolKernelPoint*>(points);
 }
 
-void clear_present(ContactSums& sums) {
-  sums.elastic = sums.penetration = 0.0;
-  sums.touching = 0;
-}
-
 /// Forces of measured points; advance: mm, of the tool since. Returns the force on the tool, N.
 Vec3 press(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
            const Vec3& advance, double dt, Part part) {
@@ -128,6 +123,8 @@ Vec3 press(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
   k.stiffness = contact.law.stiffness;
   k.tangential = contact.law.tangential();
   k.friction = contact.law.friction;
+  k.max_depth = contact.law.max_depth;
+  k.per_depth2 = 1.0 / (k.max_depth * k.max_depth);
   k.damping_per_dt = dt > 0.0 ? contact.law.damping / dt : 0.0;
   const ToolKernelSums added = (has_avx2() ? tool_kernel_avx2 : tool_kernel_any)(k);
   ContactSums& sums = contact.sums;
@@ -138,6 +135,7 @@ Vec3 press(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
   sums.deepest = std::max(sums.deepest, added.penetration);
   sums.slip = std::max(sums.slip, added.slip);
   sums.touching += added.touching;
+  sums.step_ratio = std::min(sums.step_ratio, added.step_ratio);
   return -Vec3(added.on_nodes[0], added.on_nodes[1], added.on_nodes[2]);
 }
 
@@ -158,12 +156,22 @@ Vec3 measure_and_press(ToolContact& contact, const ToolBody& tool, const SheetSt
   return on_tool;
 }
 
-/// A point that the motion of (B) may press. With p = facing delta - gap its force is
-/// N = A (k p + c / dt (p + opened)) = rate delta - offset where that is positive; p is then, too.
+/// A point that the motion of (B) may press, to a depth p = facing delta - gap.
 struct Pressed {
-  double facing; ///< of the normal along the motion
-  double rate;   ///< N/mm
-  double offset; ///< N
+  double facing;  ///< of the normal along the motion
+  double gap;     ///< mm, before the motion
+  double viscous; ///< N/mm, A c / dt
+  double opened;  ///< mm, of last_gap, what was penetrated before: -p then, at most 0
+  double area;    ///< mm^2
+  const ContactLaw* law;
+
+  /// (N) at depth p, and its slope (N, N/mm).
+  std::pair<double, double> force(double p) const {
+    if (!(p > 0.0)) return {0.0, 0.0};
+    const double n = area * law->pressure(p) + viscous * (p + opened);
+    if (!(n > 0.0)) return {0.0, 0.0};
+    return {n, area * law->tangent(p) + viscous};
+  }
 };
 
 /// Those that a motion of no more than `most` (mm) may press.
@@ -176,14 +184,13 @@ std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolContact
   pressed.reserve(count);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactLaw& law = contacts[i].law;
-    const double viscous = law.damping / dt, both = law.stiffness + viscous; // N/mm^3
     for (const std::int32_t k : contacts[i].list.near) {
       const ToolContactPoint& c = contacts[i].points[static_cast<std::size_t>(k)];
       const double facing = c.normal.dot(tool.direction);
       if (!(std::abs(facing) * most > c.gap)) continue;
       const double area = plies[i].area[static_cast<std::size_t>(c.node)];
-      const double opened = std::min(c.last_gap, 0.0);
-      pressed.push_back({facing, area * both * facing, area * (both * c.gap - viscous * opened)});
+      pressed.push_back(
+          {facing, c.gap, area * law.damping / dt, std::min(c.last_gap, 0.0), area, &law});
     }
   }
   return pressed;
@@ -200,23 +207,36 @@ Residual residual_of(const ToolBody& tool, std::span<const Pressed> pressed, dou
   const double inertia = tool.mass / (dt * dt);
   Residual r{tool.force - inertia * (delta - tool.speed * dt), -inertia};
   for (const Pressed& c : pressed) {
-    const double n = c.rate * delta - c.offset; // (N)
-    r.value -= n > 0.0 ? c.facing * n : 0.0;
-    r.slope -= n > 0.0 ? c.facing * c.rate : 0.0;
+    const auto [force, slope] = c.force(c.facing * delta - c.gap);
+    r.value -= c.facing * force;
+    r.slope -= c.facing * c.facing * slope;
   }
   return r;
 }
 
-/// Solves (B) for delta within what the closing speed allows: Newton's method inside a bracket,
-/// halved where a step would leave it (contacts that begin make the residual jump).
+/// mm: the furthest motion towards `high` in which every point keeps half of its room.
+double within_room(std::span<const Pressed> pressed, double high) {
+  constexpr double share = 0.5;
+  for (const Pressed& c : pressed) {
+    const double depth = std::max(-c.gap, 0.0);
+    const double most = depth + share * std::max(c.law->max_depth - depth, 0.0) + c.gap;
+    if (c.facing * high > most) high = most / c.facing;
+  }
+  return high;
+}
+
+/// Solves (B) for delta within what the closing speed and the room of the contacts allow: Newton's
+/// method inside a bracket, halved where a step would leave it (contacts that begin make the
+/// residual jump).
 double equilibrium_motion(const ToolBody& tool, std::span<const ToolContact> contacts,
                           std::span<const SheetState> plies, double dt) {
-  double high = tool.speed_limit * dt, low = -high;
-  const std::vector<Pressed> pressed = may_press(tool, contacts, plies, high, dt);
+  const double fastest = tool.speed_limit * dt;
+  const std::vector<Pressed> pressed = may_press(tool, contacts, plies, fastest, dt);
+  double high = within_room(pressed, fastest), low = within_room(pressed, -fastest);
   if (residual_of(tool, pressed, high, dt).value >= 0.0) return high;
   if (residual_of(tool, pressed, low, dt).value <= 0.0) return low;
   double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
-  constexpr int most_rounds = 60; // the bracket is then at rounding; 3 to 6 rounds are usual
+  constexpr int most_rounds = 60; // the bracket is then at rounding; 4 to 8 rounds are usual
   for (int round = 0; round < most_rounds; ++round) {
     const Residual r = residual_of(tool, pressed, delta, dt);
     if (std::abs(r.value) <= 1e-9 * std::abs(tool.force)) break;
@@ -303,11 +323,11 @@ Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<cons
 }
 
 void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
-                        std::span<double> rows) {
+                        std::span<ContactRow> rows) {
   for (const ToolContactPoint& c : contact.points) {
     if (c.latest_gap() > margin) continue;
     const auto n = static_cast<std::size_t>(c.node);
-    rows[n] += area[n] * contact.law.stiffness;
+    rows[n] += area[n] * row_of(contact.law, -c.latest_gap());
   }
 }
 

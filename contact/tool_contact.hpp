@@ -6,9 +6,10 @@
 //
 //   M (delta/dt - v) / dt = F - R(delta)                                                    (B)
 //
-// R: reaction of the contacts, a monotone, piecewise linear function of the motion delta of this
-// step. With M = 0 the plies feel exactly F at every moment and the tool cannot bounce. Removing a
-// freedom by its own equilibrium never raises the largest frequency, so the stable step stays.
+// R: reaction of the contacts, a monotone function of the motion delta of this step, with a pole
+// where a contact has no room left. With M = 0 the plies feel exactly F at every moment and the
+// tool cannot bounce. Removing a freedom by its own equilibrium never raises the largest frequency,
+// so the stable step stays.
 #pragma once
 
 #include "contact/contact_law.hpp"
@@ -58,7 +59,8 @@ struct ToolContact {
   std::vector<float> free; ///< mm, one a node of the ply: path before which it cannot touch
   std::vector<Vec3> force; ///< one a node of the ply, N; zero where there is no point. Empty: none
   ContactSums sums;
-  ContactTime time; ///< without the balance of a pushed tool, which all its plies share
+  double renew_depth = 0.0; ///< mm, penetration at which the stable step is due again
+  ContactTime time;         ///< without the balance of a pushed tool, which all its plies share
 };
 
 /// A ply as contact sees it: spans of n nodes.
@@ -85,9 +87,9 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
 Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
                  std::span<const double> paths, double dt);
 
-/// Adds each contact's stiffness to rows[node], N/mm: row sums of the contact stiffness matrix. Of
-/// contacts that touch or were within `margin` (mm) of it when last looked at.
+/// Adds each contact to rows[node]: row sums of the contact matrices. Of contacts that touch or
+/// were within `margin` (mm) of it when last looked at.
 void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
-                        std::span<double> rows);
+                        std::span<ContactRow> rows);
 
 } // namespace plyform

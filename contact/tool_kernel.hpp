@@ -26,12 +26,13 @@ struct ToolKernelContact {
   double tool_motion[3];                  ///< mm, in this step
   double advance[3];                      ///< mm, of the tool since the gaps were measured
   double stiffness, tangential, friction; ///< k, k_t, mu of contact/contact_law.hpp
+  double max_depth, per_depth2;           ///< delta and 1/delta^2 of it; finite
   double damping_per_dt;                  ///< c / dt, or 0
 };
 
 /// Added up over the points that touch; `on_nodes`: their forces.
 struct ToolKernelSums {
-  double elastic, friction, damping, penetration, slip;
+  double elastic, friction, damping, penetration, slip, step_ratio;
   int touching;
   double on_nodes[3];
 };

@@ -82,7 +82,8 @@ PLYFORM_INLINE Vector4 forces_of(const ToolKernelContact& k, const ToolGroup& g,
     f = f + friction_of(k, area, pressure, normal, m.s, slip, touch, m, sums);
     m.slip = touch ? m.slip : zero;
   }
-  sums.elastic += 0.5 * area * (k.stiffness * depth * depth + k.tangential * square(m.s));
+  sums.elastic +=
+      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * square(m.s));
   sums.penetration = larger(sums.penetration, touch ? depth : zero);
   for (int i = 0; i < g.count; ++i)
     sums.touching += touch[i] ? 1 : 0;
@@ -97,6 +98,7 @@ PLYFORM_INLINE void press_four(const ToolKernelContact& k, const ToolGroup& g, L
   const Double4 last_gap = gaps.row[3], gap = gaps.row[2] - dot(normal, everywhere(k.advance));
   LaneMemory m{held.row[3], gaps.row[0], gaps.row[1], {held.row[0], held.row[1], held.row[2]}};
   const Long4 touch = g.real & (gap < 0.0);
+  sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, -gap, last_gap - gap));
   if (any(touch | (m.normal_force != 0.0) | (m.damping_force != 0.0))) {
     const Vector4 f = forces_of(k, g, normal, gap, last_gap, touch, m, sums);
     set_forces(k, g, f);
@@ -112,13 +114,10 @@ PLYFORM_INLINE ToolKernelSums tool_kernel(const ToolKernelContact& k) {
   Vector4 f{all(0.0), all(0.0), all(0.0)};
   for (int first = 0; first < k.near_count; first += four)
     press_four(k, group_of(k, first), sums, f);
-  return {sum(sums.elastic),
-          sum(sums.friction),
-          sum(sums.damping),
-          largest(sums.penetration),
-          largest(sums.slip),
-          sums.touching,
-          {sum(f.x), sum(f.y), sum(f.z)}};
+  return {sum(sums.elastic),  sum(sums.friction),
+          sum(sums.damping),  largest(sums.penetration),
+          largest(sums.slip), smallest(sums.step_ratio),
+          sums.touching,      {sum(f.x), sum(f.y), sum(f.z)}};
 }
 
 } // namespace

@@ -41,11 +41,11 @@ double gap_between(const Box3& a, const Box3& b) {
 double smallest(const Sphere& s) {
   return s.radius;
 }
-double smallest(const Cylinder&) {
-  return 0.0;
+double smallest(const Cylinder& c) {
+  return edge_of(c);
 }
-double smallest(const Box&) {
-  return 0.0;
+double smallest(const Box& b) {
+  return edge_of(b);
 }
 double smallest(const Plane&) {
   return infinity;

@@ -19,13 +19,17 @@ namespace plyform {
 struct Sphere {
   double radius;
 };
-/// Solid cylinder along z, from z = -length/2 to +length/2.
+/// Solid cylinder along z, from z = -length/2 to +length/2, its rims rounded with edge_radius (no
+/// more than fits): all that lies within edge_radius of the cylinder that is smaller by it on every
+/// side, so that radius and length stay those of the whole.
 struct Cylinder {
-  double radius, length;
+  double radius, length, edge_radius = 0.0;
 };
-/// Solid box centred on the origin, full edge lengths `size`.
+/// Solid box centred on the origin, full edge lengths `size`, its edges and corners rounded with
+/// edge_radius as a cylinder's.
 struct Box {
   Vec3 size;
+  double edge_radius = 0.0;
 };
 /// Half-space z <= 0.
 struct Plane {};

@@ -25,9 +25,15 @@ double degrees(double radians) {
   return radians * 180.0 / M_PI;
 }
 
+/// A family of yarns: S of (E) for softening 1, and what it can be softened by.
+struct Family {
+  double softening, most;
+};
+
 /// Numbers of (E) for duration 1 s, softening 1.
 struct Numbers {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
+  std::vector<Family> families{};  ///< `softening` is that of the softest
   double swinging = 0.0;           ///< c_inertia or c_stack; 0: nothing has a stroke
   double shared = 1.0;             ///< n^p_shared: plies hold each other's softened yarns
   double softest = most_softening; ///< softening at most
@@ -47,6 +53,33 @@ Strokes strokes_of(const Case& data) {
   for (const Boundary& b : data.boundaries)
     s.boundary = std::max(s.boundary, b.stroke);
   return s;
+}
+
+/// w: energy of shear per area, N/mm.
+void add_families(Numbers& n, const Fabric& f, double w) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  for (const auto& [law, density] :
+       {std::pair(&f.warp, f.warp_density), std::pair(&f.weft, f.weft_density)}) {
+    const double stiffness = density * law->largest_slope();
+    if (!(stiffness > 0.0)) continue;
+    n.families.push_back({w / stiffness, effective_softening(*law, any)});
+    n.softening = std::max(n.softening, w / stiffness);
+  }
+}
+
+/// Softening beyond which steps get no longer: all yarns of the case are then as soft in tension as
+/// the stiffest are in compression, per mass. Infinite where none bears compression.
+double useful_softening(const Case& data) {
+  double tension = 0.0, compression = 0.0; // N mm/t
+  for (const Ply& ply : data.plies) {
+    const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
+    for (const auto& [law, density] :
+         {std::pair(&f.warp, f.warp_density), std::pair(&f.weft, f.weft_density)}) {
+      tension = std::max(tension, density * law->largest_slope() / f.surface_density);
+      compression = std::max(compression, density * law->compression / f.surface_density);
+    }
+  }
+  return compression > 0.0 ? tension / compression : std::numeric_limits<double>::infinity();
 }
 
 Numbers numbers_of(const Case& data) {
@@ -72,10 +105,9 @@ Numbers numbers_of(const Case& data) {
         f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.at(half_radian).energy;
     if (!(w > 0.0)) continue; // no shear stiffness: nothing to compare with
     n.inertia = std::max(n.inertia, 0.5 * f.surface_density * stroke * stroke / w);
-    const double stiffness =
-        std::min(f.warp_density * f.warp.largest_slope(), f.weft_density * f.weft.largest_slope());
-    if (stiffness > 0.0) n.softening = std::max(n.softening, w / stiffness);
+    add_families(n, f, w);
   }
+  n.softest = std::min(n.softest, useful_softening(data));
   return n;
 }
 
@@ -84,7 +116,10 @@ double inertia_error(const Numbers& n, double duration) {
 }
 
 double softening_error(const Numbers& n, double softening) {
-  return c_softening * n.load * n.shared * std::pow(n.softening * softening, p_softening);
+  double worst = 0.0; // S of (E)
+  for (const Family& f : n.families)
+    worst = std::max(worst, f.softening * std::min(softening, f.most));
+  return c_softening * n.load * n.shared * std::pow(worst, p_softening);
 }
 
 double mesh_error(const Numbers& n) {

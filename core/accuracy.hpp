@@ -5,7 +5,7 @@
 // converged (docs/accuracy.md: how it was measured, on which cases the rule was set and on which it
 // was checked). Three causes, each a power of a number without unit:
 //   inertia    I = 1/2 rho v^2 / w       rho t/mm^2, v = stroke / duration, w N/mm
-//   softening  S = s w / (d k)           s softening, k N a yarn, d yarns per mm
+//   softening  S = s w / (d k)           s effective_softening, k N a yarn, d yarns per mm
 //   mesh       M = h / L                 element size over stroke, mm
 //   plies      n                         in a stack: the outer ones are held on one side only, and
 //                                        plies hold each other's yarns

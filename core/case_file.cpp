@@ -5,6 +5,7 @@
 #include "core/accuracy.hpp"
 #include "core/case_override.hpp"
 #include "core/case_parts.hpp"
+#include "core/fabric_estimates.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -259,9 +260,11 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
     const Section root{&*entries, "", ""};
     check_section(root, findings);
     Case built = build_case(root, folder, findings);
+    if (findings.errors.empty()) estimate_missing(built);
     if (findings.errors.empty()) check_scene(built, locate_parts(root), findings);
     if (findings.errors.empty()) {
       pick_dials(built);
+      check_resolution(built, locate_parts(root), findings);
       reading.value = std::move(built);
     }
   }

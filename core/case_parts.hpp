@@ -46,4 +46,7 @@ void check_boundaries(const Case& scene, const CaseParts& parts, const std::vect
 /// plies overlapping at the start, tools inside plies, tools closer together than the stack.
 void check_scene(const Case& scene, const CaseParts& parts, Findings& findings);
 
+/// core/resolution_checks.cpp: meshes too coarse for what yarns' bending decides; warnings.
+void check_resolution(const Case& scene, const CaseParts& parts, Findings& findings);
+
 } // namespace plyform

@@ -96,17 +96,17 @@ void search_plies(Scene& s, PlyContact& pair) {
   if (neighbours(pair)) mark_covered(s.plies[static_cast<std::size_t>(pair.slave)], pair, master);
 }
 
-/// Folded edges of a ply that may meet another: without those both of whose nodes a ply in between
-/// covers.
+/// Edges of a ply that may meet another: without those both of whose nodes a ply in between covers.
 std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double reach) {
   const PlyBody& body = s.plies[static_cast<std::size_t>(ply)];
   const std::span<const char> covered = covered_nodes(s, ply, other, reach);
-  std::vector<std::int32_t> open = body.folded;
-  if (!covered.empty())
-    std::erase_if(open, [&](std::int32_t e) {
-      const SheetEdge& edge = body.edges[static_cast<std::size_t>(e)];
-      return covered[static_cast<std::size_t>(edge.a)] && covered[static_cast<std::size_t>(edge.b)];
-    });
+  std::vector<std::int32_t> open;
+  for (std::size_t i = 0; i < body.edges.size(); ++i) {
+    const SheetEdge& e = body.edges[i];
+    if (covered.empty() || !covered[static_cast<std::size_t>(e.a)] ||
+        !covered[static_cast<std::size_t>(e.b)])
+      open.push_back(static_cast<std::int32_t>(i));
+  }
   return open;
 }
 
@@ -115,8 +115,13 @@ void search_edges(Scene& s, PlyEdgeContact& pair) {
   const PlyBody& b = s.plies[static_cast<std::size_t>(pair.b)];
   const Stopwatch watch(pair.contact.time.search);
   const double reach = pair.contact.distance + s.skin;
-  find_edge_pairs(pair.contact, a.state(), a.edges, open_edges(s, pair.a, pair.b, reach), b.state(),
-                  b.edges, open_edges(s, pair.b, pair.a, reach), s.skin, a.path + b.path);
+  std::vector<std::int32_t> open_a, open_b;
+  if (may_meet(a.tree->bounds(), b.tree->bounds(), reach)) {
+    open_a = open_edges(s, pair.a, pair.b, reach);
+    open_b = open_edges(s, pair.b, pair.a, reach);
+  }
+  find_edge_pairs(pair.contact, a.state(), {a.edges, open_a}, b.state(), {b.edges, open_b}, s.skin,
+                  a.path + b.path);
 }
 
 /// Room for the forces of two plies of which something may touch: most pairs of a stack never do.
@@ -125,7 +130,7 @@ void make_room(const Scene& s, PlyPair& pair) {
     return !s.ply_contacts[static_cast<std::size_t>(i)].contact.points.empty();
   };
   const auto may_cross = [&s](int i) {
-    return !s.edge_contacts[static_cast<std::size_t>(i)].contact.pairs.empty();
+    return !s.edge_contacts[static_cast<std::size_t>(i)].contact.candidates.empty();
   };
   if (!pair.force_a.empty() ||
       !(std::any_of(pair.contacts.begin(), pair.contacts.end(), may_touch) ||
@@ -198,7 +203,6 @@ void search_contacts(Scene& s, ThreadTeam& team) {
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
     renew_spread(s, ply);
-    ply.folded = folded_edges(ply.edges, ply.membrane.triangles, ply.x, ply.thickness);
   });
   // plies next to each other first: what they cover need not be asked for those beyond
   std::array<std::vector<PlyContact*>, 2> pairs;

@@ -40,7 +40,12 @@ LawPoint odd(const std::vector<double>& x, const std::vector<double>& y, double 
 LawPoint TensionLaw::at(double eps) const {
   if (!(eps > 0.0)) {
     if (compression == 0.0) return {0.0, 0.0, 0.0};
-    return {compression * eps, compression, 0.5 * compression * eps * eps};
+    const LawPoint straight{compression * eps, compression, 0.5 * compression * eps * eps};
+    if (!buckles()) return straight;
+    const double beyond = std::max(0.0, -buckling_strain() - eps);
+    const double less = (1.0 - buckled_share) * compression; // of the slope, beyond
+    return {straight.value + less * beyond, beyond > 0.0 ? compression - less : compression,
+            straight.energy - 0.5 * less * beyond * beyond};
   }
   if (strain.empty()) return {stiffness * eps, stiffness, 0.5 * stiffness * eps * eps};
   return on_table(strain, tension, eps);
@@ -50,11 +55,15 @@ double TensionLaw::largest_slope() const {
   return strain.empty() ? stiffness : steepest(strain, tension);
 }
 
-TensionLaw softened(TensionLaw law, double by) {
+double effective_softening(const TensionLaw& law, double asked) {
+  return law.compression > 0.0 ? std::min(asked, law.largest_slope() / law.compression) : asked;
+}
+
+TensionLaw softened(TensionLaw law, double asked) {
+  const double by = effective_softening(law, asked);
   law.stiffness /= by;
   for (double& n : law.tension)
     n /= by;
-  law.compression = std::min(law.compression, law.largest_slope());
   return law;
 }
 
@@ -96,11 +105,12 @@ bool BendingLaw::any() const {
 bool balanced(const Fabric& fabric) {
   const auto same = [](const TensionLaw& a, const TensionLaw& b) {
     return a.stiffness == b.stiffness && a.strain == b.strain && a.tension == b.tension &&
-           a.compression == b.compression;
+           a.compression == b.compression && a.buckling_force == b.buckling_force;
   };
   const MomentLaw &a = fabric.bending.warp, &b = fabric.bending.weft;
-  const bool bend =
-      a.stiffness == b.stiffness && a.curvature == b.curvature && a.moment == b.moment;
+  const auto& in_plane = fabric.bending.in_plane;
+  const bool bend = a.stiffness == b.stiffness && a.curvature == b.curvature &&
+                    a.moment == b.moment && in_plane[0] == in_plane[1];
   return bend && same(fabric.warp, fabric.weft) && fabric.warp_density == fabric.weft_density;
 }
 

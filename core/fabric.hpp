@@ -8,6 +8,7 @@
 #include "core/isotropic.hpp"
 
 #include <array>
+#include <cmath>
 #include <limits>
 #include <optional>
 #include <string>
@@ -20,22 +21,33 @@ struct LawPoint {
   double value, slope, energy;
 };
 
+/// Slope of a yarn that has buckled, over its compression stiffness: as little as may be without
+/// all further shortening gathering in one row of elements.
+constexpr double buckled_share = 0.01;
+
 /// Tension of one yarn against its strain: N = stiffness * strain, or a table. For strain <= 0
-/// N = compression * strain; with compression 0, the paper's law, exactly zero.
+/// N = compression * strain; with compression 0, the paper's law, exactly zero. Pressed with more
+/// than buckling_force, at strains below -buckling_force / compression, it goes on with
+/// buckled_share of that slope; unloading goes the same way back.
 struct TensionLaw {
   double stiffness = 0.0;              ///< N per yarn; used when the table is empty
   std::vector<double> strain, tension; ///< ascending from (0, 0), linear between, last slope beyond
   double compression = 0.0; ///< N per yarn; no more than largest_slope(), or steps are not stable
-  /// N: a yarn pressed with more gives way and takes hardly more.
-  double buckling_force = std::numeric_limits<double>::infinity();
+  double buckling_force = std::numeric_limits<double>::infinity(); ///< N, at least 0
   /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
   LawPoint at(double eps) const;
   double largest_slope() const; ///< N, in tension
+  bool buckles() const { return compression > 0.0 && std::isfinite(buckling_force); }
+  double buckling_strain() const { return buckling_force / compression; } ///< of one that buckles
 };
 
-/// The law of a yarn `by` times as soft in tension. Compression stays as it is, but for what would
-/// be stiffer than the tension that is left.
-TensionLaw softened(TensionLaw law, double by);
+/// What a yarn's tension is divided by where `asked` (at least 1) is wanted: no more than leaves it
+/// as stiff as its compression, which is never softened. So the cloth stays the same, and the step,
+/// which the stiffest sets, would not get longer by more.
+double effective_softening(const TensionLaw& law, double asked);
+
+/// The law of a yarn effective_softening(law, asked) times as soft in tension. Compression stays.
+TensionLaw softened(TensionLaw law, double asked);
 
 /// Torque that warp and weft exert on each other in one unit cell against the shear angle: odd
 /// polynomial k[0] g + k[1] g^3 + k[2] g^5 ..., or an odd table (given for g >= 0).
@@ -64,6 +76,19 @@ struct BendingLaw {
   bool any() const;
 };
 
+/// Where a number of a fabric comes from.
+enum class ValueSource {
+  given,     ///< by whoever made the fabric
+  missing,   ///< in its file: the fabric is without it
+  estimated, ///< was missing; core/fabric_estimates.hpp
+};
+
+/// Numbers of one family of yarns that a file may leave out.
+struct YarnSources {
+  ValueSource compression = ValueSource::given, bending = ValueSource::given,
+              in_plane_bending = ValueSource::given;
+};
+
 struct Fabric {
   std::string name;
   TensionLaw warp, weft;
@@ -74,6 +99,8 @@ struct Fabric {
   double thickness = 0.0;                  ///< mm
   double fibre_angle = 1.5707963267948966; ///< rad from warp to weft before forming, in (0, pi)
   std::optional<double> locking_angle;     ///< rad of shear, beyond which it wrinkles
+  std::array<YarnSources, 2> sources;      ///< of warp and weft
+  bool twist_given = true;                 ///< else it follows both bending stiffnesses
   /// A sheet without yarns: then the laws and densities above are all zero, and the directions of
   /// warp and weft, at right angles, only mark the material.
   std::optional<IsotropicLaw> isotropic;

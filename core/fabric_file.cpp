@@ -3,6 +3,7 @@
 #include "core/fabric_file.hpp"
 
 #include "core/case_parts.hpp"
+#include "core/fabric_estimates.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -43,17 +44,33 @@ void split(const std::vector<Vec2>& points, std::vector<double>& first,
   }
 }
 
+/// Whether the file says that yarns do not bear compression; where it says nothing of it they are
+/// given an estimate if they need it (core/fabric_estimates.hpp).
+bool tension_only(const Section& yarn, const TensionLaw& law) {
+  return given(yarn, "compression_stiffness") && law.compression == 0.0;
+}
+
 TensionLaw read_tension(const Section& yarn, Findings& findings) {
   TensionLaw law;
   const std::vector<Vec2> points = pairs(yarn, "table");
   check_law(yarn, "table", points, "tension", findings);
   split(points, law.strain, law.tension);
   if (points.empty()) law.stiffness = number(yarn, "stiffness");
-  law.compression = number(yarn, "compression_stiffness");
+  if (given(yarn, "compression_stiffness")) law.compression = number(yarn, "compression_stiffness");
   if (const double most = law.largest_slope(); law.compression > most)
     value_error(yarn, "compression_stiffness",
                 fmt::format("must be at most the largest stiffness in tension, {:g}", most),
-                fmt::format("give {:g}, a hundredth of that, or so", 0.01 * most), findings);
+                fmt::format("give {:g}, a hundredth of that, or so", usual_compression(law)),
+                findings);
+  if (given(yarn, "buckling_force")) law.buckling_force = number(yarn, "buckling_force");
+  if (std::isfinite(law.buckling_force) && tension_only(yarn, law))
+    value_error(yarn, "buckling_force",
+                "needs a compression_stiffness of the same yarns above 0: yarns that carry tension "
+                "only have no force to buckle at",
+                fmt::format("give compression_stiffness = {:g}, 0.01 of the largest stiffness in "
+                            "tension, or take buckling_force out",
+                            usual_compression(law)),
+                findings);
   return law;
 }
 
@@ -64,26 +81,39 @@ MomentLaw read_moments(const Section& yarn, const TensionLaw& tension, Findings&
   check_law(yarn, "bending_table", points, "moment", findings);
   split(points, law.curvature, law.moment);
   if (given(yarn, "bending_stiffness")) law.stiffness = number(yarn, "bending_stiffness");
-  if (law.largest_slope() > 0.0 && tension.compression == 0.0)
+  if (law.largest_slope() > 0.0 && tension_only(yarn, tension))
     value_error(yarn, points.empty() ? "bending_stiffness" : "bending_table",
                 "needs a compression_stiffness of the same yarns, or they shorten instead of "
                 "bending",
                 fmt::format("give compression_stiffness = {:g}, 0.01 of the largest stiffness in "
                             "tension, or so",
-                            0.01 * tension.largest_slope()),
+                            usual_compression(tension)),
                 findings);
   return law;
 }
 
+YarnSources sources_of(const Section& yarn) {
+  const auto source = [](bool is_given) {
+    return is_given ? ValueSource::given : ValueSource::missing;
+  };
+  return {source(given(yarn, "compression_stiffness")),
+          source(given(yarn, "bending_stiffness") || given(yarn, "bending_table")),
+          source(given(yarn, "in_plane_bending_stiffness"))};
+}
+
 BendingLaw read_bending(const Section& section, const Fabric& fabric, Findings& findings) {
   BendingLaw law;
-  law.warp = read_moments(subsection(section, "warp"), fabric.warp, findings);
-  law.weft = read_moments(subsection(section, "weft"), fabric.weft, findings);
-  const double product = law.warp.at(0.0).slope * law.weft.at(0.0).slope;
-  law.twist = std::sqrt(product); // half of Huber's estimate for plates, see docs/method.md
-  if (!given(section, "twist_stiffness")) return law;
+  const Section warp = subsection(section, "warp"), weft = subsection(section, "weft");
+  law.warp = read_moments(warp, fabric.warp, findings);
+  law.weft = read_moments(weft, fabric.weft, findings);
+  if (given(warp, "in_plane_bending_stiffness"))
+    law.in_plane[0] = number(warp, "in_plane_bending_stiffness");
+  if (given(weft, "in_plane_bending_stiffness"))
+    law.in_plane[1] = number(weft, "in_plane_bending_stiffness");
+  law.twist = usual_twist(law);
+  if (!fabric.twist_given) return law;
   law.twist = number(section, "twist_stiffness");
-  if (law.twist > 0.0 && !(product > 0.0))
+  if (law.twist > 0.0 && !(usual_twist(law) > 0.0))
     value_error(section, "twist_stiffness", "needs bending stiffness along warp and weft",
                 "give bending_stiffness to both, or take twist_stiffness out", findings);
   return law;
@@ -118,6 +148,7 @@ Fabric read_fabric(const Section& section, const std::string& key, Findings& fin
   fabric.surface_density = number(section, "surface_density");
   fabric.thickness = number(section, "thickness");
   if (given(section, "fibre_angle")) fabric.fibre_angle = number(section, "fibre_angle");
+  if (given(section, "locking_angle")) fabric.locking_angle = number(section, "locking_angle");
   if (text(section, "law") == "isotropic") {
     const Section law = subsection(section, "isotropic");
     fabric.isotropic = {number(law, "youngs_modulus") * fabric.thickness,
@@ -132,6 +163,8 @@ Fabric read_fabric(const Section& section, const std::string& key, Findings& fin
   fabric.warp = read_tension(warp, findings);
   fabric.weft = read_tension(weft, findings);
   fabric.shear = read_shear(subsection(section, "shear"), findings);
+  fabric.sources = {sources_of(warp), sources_of(weft)};
+  fabric.twist_given = given(section, "twist_stiffness") != nullptr;
   fabric.bending = read_bending(section, fabric, findings);
   return fabric;
 }

@@ -108,7 +108,7 @@ Rows fabric_rows() {
                  .least_items = 2,
                  .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
                             "same with minus sign for negative angles"}});
-  append(rows, twist_rows());
+  append(rows, sheet_rows());
   return rows;
 }
 
@@ -226,7 +226,8 @@ Rows tool_rows() {
       radial("inner_radius", {"annulus"}, not_negative, "radius of the hole"),
       radial("outer_radius", {"annulus"}, positive, "outer radius"),
       radial("thickness", {"disc", "annulus"}, positive, "thickness along the axis"),
-      radial("edge_radius", {"disc", "annulus"}, not_negative, "rounding of all edges"),
+      radial("edge_radius", {"cylinder", "box", "disc", "annulus"}, not_negative,
+             "rounding of all edges; the outer dimensions stay"),
       {.key = "tool[].points",
        .kind = K::profile,
        .unit = "mm",

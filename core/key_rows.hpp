@@ -21,7 +21,7 @@ inline void append(Rows& all, Rows part) {
 
 /// core/key_rows_bending.cpp: keys of a yarn ("warp", "weft") and of the fabric.
 Rows yarn_bending_rows(const std::string& yarn);
-Rows twist_rows();
+Rows sheet_rows();
 
 /// core/key_rows_boundary.cpp: [[boundary]].
 Rows boundary_rows();

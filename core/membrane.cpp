@@ -20,7 +20,7 @@ constexpr double guard_stretch = 0.5;
 /// Below this sine the two fibre families coincide and the shear angle has no meaning.
 constexpr double least_sine = 1e-9;
 
-/// s_a and g_a of a family of yarns, see (E).
+/// s_a and g_a of a family of yarns softened by `softening`, see (E).
 SideStiffness side_stiffness(const Membrane& m, const TensionLaw& yarn, double density,
                              double softening) {
   const double soft = yarn.largest_slope(), stiff = softening * soft;
@@ -38,10 +38,14 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
                        ElementKind kind, double softening) {
   Membrane m;
   m.fabric = fabric;
+  m.softening = {effective_softening(fabric.warp, softening),
+                 effective_softening(fabric.weft, softening)};
+  m.fabric.warp = softened(fabric.warp, softening);
+  m.fabric.weft = softened(fabric.weft, softening);
   m.omega0 = fabric.fibre_angle;
   m.cells_per_area = fabric.warp_density * fabric.weft_density * std::sin(m.omega0);
-  m.side = {side_stiffness(m, fabric.warp, fabric.warp_density, softening),
-            side_stiffness(m, fabric.weft, fabric.weft_density, softening)};
+  m.side = {side_stiffness(m, m.fabric.warp, fabric.warp_density, m.softening[0]),
+            side_stiffness(m, m.fabric.weft, fabric.weft_density, m.softening[1])};
   if (fabric.isotropic) kind = ElementKind::plain; // there is no yarn to lock
   std::vector<char> alone;                         // the paper's element where it does not lock
   if (kind == ElementKind::automatic) alone = along_fibres(mesh, warp_angle, warp_angle + m.omega0);

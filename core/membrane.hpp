@@ -77,9 +77,10 @@ struct SideStiffness {
 /// One ply's membrane; nodes and triangles are numbered within the ply. Constant topology, and the
 /// little state that viscosity needs. Sizes: n nodes, m triangles.
 struct Membrane {
-  Fabric fabric;               ///< stiffness already softened if the case asks for it
-  double omega0 = 0.0;         ///< rad
-  double cells_per_area = 0.0; ///< n_c, 1/mm^2
+  Fabric fabric;                             ///< its yarns already softened if the case asks for it
+  std::array<double, 2> softening{1.0, 1.0}; ///< by which warp and weft are: effective_softening
+  double omega0 = 0.0;                       ///< rad
+  double cells_per_area = 0.0;               ///< n_c, 1/mm^2
   FibreViscosity viscosity;
   std::array<SideStiffness, 2> side{};    ///< warp, weft
   std::vector<Triangle> triangles;        ///< m, those of a patch next to each other
@@ -104,10 +105,11 @@ struct FibreState {
   double cos_omega, sin_omega, gamma;
 };
 
-/// `warp_angle` in rad from x. `softening`: what the yarns' laws in `fabric` have been divided by;
-/// s_a and g_a go by the true stiffness. With `kind` automatic the triangles that along_fibres
-/// (core/patches.hpp) marks are plain, the others averaged. Triangles are put in the order of their
-/// patches. Throws std::invalid_argument for a triangle of zero or inverted area.
+/// `warp_angle` in rad from x. `fabric`: the true one; its yarns are softened by `softening`, as
+/// far as effective_softening allows; s_a and g_a go by the true stiffness. With `kind` automatic
+/// the triangles that along_fibres (core/patches.hpp) marks are plain, the others averaged.
+/// Triangles are put in the order of their patches. Throws std::invalid_argument for a triangle of
+/// zero or inverted area.
 Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
                        ElementKind kind, double softening = 1.0);
 

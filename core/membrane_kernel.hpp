@@ -27,7 +27,10 @@ struct alignas(32) LaneViscosity {
 /// Constants of (N) for one family of yarns, each times their density d_a: per mm, not per yarn.
 struct KernelYarns {
   double stiffness, compression, viscosity, stabilisation, guard;
-  bool table; ///< ask KernelLaw::tension
+  bool table;             ///< ask KernelLaw::tension
+  bool buckles;           ///< if not by table: the two below hold
+  double buckling_strain; ///< -, above 0: pressed beyond it, the slope is less ...
+  double buckling_drop;   ///< N/mm: ... by this
 };
 
 struct KernelLaw {

@@ -90,12 +90,20 @@ struct LaneBlockWork {
   Double4 work;
 };
 
-/// d_a W_a', N/mm.
-template <bool tables>
+/// Of yarns pressed beyond their buckling strain: how far. 0 for others.
+PLYFORM_INLINE Double4 buckled_by(const KernelYarns& yarns, Double4 strain) {
+  return larger(all(0.0), -yarns.buckling_strain - strain);
+}
+
+/// d_a W_a', N/mm. `general`: some law of the fabric is a table, or has yarns that buckle.
+template <bool general>
 PLYFORM_INLINE Double4 yarn_tension(const LaneBlockWork& w, int family, Double4 strain) {
   const LaneYarns& yarns = w.lane.yarns[family];
-  if (!tables || !w.law.yarns[family].table)
-    return strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
+  const KernelYarns& law = w.law.yarns[family];
+  if (!general || !law.table) {
+    const Double4 n = strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
+    return general && law.buckles ? n + law.buckling_drop * buckled_by(law, strain) : n;
+  }
   alignas(32) double at[lanes], n[lanes];
   store(at, strain);
   w.law.tension(w.law, family, at, n);
@@ -103,10 +111,10 @@ PLYFORM_INLINE Double4 yarn_tension(const LaneBlockWork& w, int family, Double4 
 }
 
 /// n_c p, N/mm, for four g^2.
-template <bool tables>
+template <bool general>
 PLYFORM_INLINE Double4 lane_secant(const LaneBlockWork& w, Double4 measure2) {
   const int terms = w.law.shear_terms;
-  if (!tables || terms > 0) {
+  if (!general || terms > 0) {
     const Double4* k = w.lane.shear;
     Double4 p = k[2];
     if (terms > 3) {
@@ -160,31 +168,31 @@ PLYFORM_INLINE void add_guard(const LaneLaw& law, const LaneState& s, Double4& n
   n2 -= law.yarns[1].guard * larger(all(0.0), guard_stretch - s.lambda2);
 }
 
-template <bool tables>
+template <bool general>
 PLYFORM_INLINE void single_group(LaneBlockWork& w, const LaneTriangles& t, const LaneState& s,
                                  bool odd, LaneViscosity& v) {
-  Double4 n1 = yarn_tension<tables>(w, 0, s.lambda1 - 1.0);
-  Double4 n2 = yarn_tension<tables>(w, 1, s.lambda2 - 1.0);
+  Double4 n1 = yarn_tension<general>(w, 0, s.lambda1 - 1.0);
+  Double4 n2 = yarn_tension<general>(w, 1, s.lambda2 - 1.0);
   add_viscosity(w, v, s.lambda1, s.lambda2, load(t.area), n1, n2);
   if (odd) add_guard(w.lane, s, n1, n2);
-  add_forces(t, s, n1, n2, lane_secant<tables>(w, s.gamma * s.gamma), w.force);
+  add_forces(t, s, n1, n2, lane_secant<general>(w, s.gamma * s.gamma), w.force);
 }
 
-template <bool tables>
+template <bool general>
 PLYFORM_INLINE void pair_group(LaneBlockWork& w, const LaneTriangles* t, const LaneState* s,
                                bool odd, LaneViscosity& v) {
   const Double4 share[2] = {load(t[0].share), load(t[1].share)};
   const Double4 mean1 = share[0] * s[0].lambda1 + share[1] * s[1].lambda1;
   const Double4 mean2 = share[0] * s[0].lambda2 + share[1] * s[1].lambda2;
-  Double4 n1 = yarn_tension<tables>(w, 0, mean1 - 1.0);
-  Double4 n2 = yarn_tension<tables>(w, 1, mean2 - 1.0);
+  Double4 n1 = yarn_tension<general>(w, 0, mean1 - 1.0);
+  Double4 n2 = yarn_tension<general>(w, 1, mean2 - 1.0);
   add_viscosity(w, v, mean1, mean2, load(t[0].area) + load(t[1].area), n1, n2);
   Double4 secant[2], held1[2], held2[2]; // n_c p delta_a
   Double4 delta1[2], delta2[2];
   for (int i = 0; i < 2; ++i) {
     delta1[i] = s[i].lambda1 - mean1, delta2[i] = s[i].lambda2 - mean2;
     const Double4 deviation2 = delta1[i] * delta1[i] + delta2[i] * delta2[i];
-    secant[i] = lane_secant<tables>(w, s[i].gamma * s[i].gamma + w.lane.beta * deviation2);
+    secant[i] = lane_secant<general>(w, s[i].gamma * s[i].gamma + w.lane.beta * deviation2);
     held1[i] = secant[i] * delta1[i], held2[i] = secant[i] * delta2[i];
   }
   const Double4 mean_held1 = share[0] * held1[0] + share[1] * held1[1];
@@ -239,7 +247,7 @@ PLYFORM_INLINE void for_groups(const KernelBlock& block, const LaneLaw& law, con
     some(begin, all, Count<1>{});
 }
 
-template <bool tables>
+template <bool general>
 PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelLaw& law,
                                          const double* x, double per_dt) {
   alignas(32) double place[4 * most_block_nodes];
@@ -254,19 +262,24 @@ PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelL
     for (int i = 0; odd && i < of; ++i)
       collapsed |= lane_collapsed(s[i]);
     if constexpr (of == 2)
-      pair_group<tables>(w, t, s, odd, block.viscosity[group]);
+      pair_group<general>(w, t, s, odd, block.viscosity[group]);
     else
-      single_group<tables>(w, *t, *s, odd, block.viscosity[group]);
+      single_group<general>(w, *t, *s, odd, block.viscosity[group]);
   });
   return {0.5 * sum(w.work), any(collapsed)}; // trapezoidal rule
 }
 
 /// d_a W_a, N/mm, of four strains.
-template <bool tables>
+template <bool general>
 PLYFORM_INLINE Double4 yarn_energy(const LaneBlockWork& w, int family, Double4 strain) {
   const LaneYarns& yarns = w.lane.yarns[family];
-  if (!tables || !w.law.yarns[family].table)
-    return 0.5 * strain * strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
+  const KernelYarns& law = w.law.yarns[family];
+  if (!general || !law.table) {
+    const Double4 e = 0.5 * strain * strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
+    if (!general || !law.buckles) return e;
+    const Double4 beyond = buckled_by(law, strain);
+    return e - 0.5 * law.buckling_drop * beyond * beyond;
+  }
   alignas(32) double at[lanes], energy[lanes];
   store(at, strain);
   w.law.tension_energy(w.law, family, at, energy);
@@ -274,9 +287,9 @@ PLYFORM_INLINE Double4 yarn_energy(const LaneBlockWork& w, int family, Double4 s
 }
 
 /// n_c Ws, N/mm, of four g^2.
-template <bool tables>
+template <bool general>
 PLYFORM_INLINE Double4 shear_energy(const LaneBlockWork& w, Double4 measure2) {
-  if (!tables || w.law.shear_terms > 0) {
+  if (!general || w.law.shear_terms > 0) {
     Double4 energy = all(0.0);
     for (int i = w.law.shear_terms - 1; i >= 0; --i)
       energy = (energy + w.lane.shear[i] * (0.5 / (i + 1))) * measure2;
@@ -294,7 +307,7 @@ PLYFORM_INLINE Double4 side_energy(const LaneYarns& yarns, Double4 lambda, Doubl
   return 0.5 * (yarns.stabilisation * delta * delta + yarns.guard * folded * folded);
 }
 
-template <bool tables>
+template <bool general>
 PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelLaw& law,
                                          const double* x) {
   alignas(32) double place[4 * most_block_nodes];
@@ -310,32 +323,36 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
       mean1 += load(t[i].share) * s[i].lambda1, mean2 += load(t[i].share) * s[i].lambda2;
     }
     fibre +=
-        area * (yarn_energy<tables>(w, 0, mean1 - 1.0) + yarn_energy<tables>(w, 1, mean2 - 1.0));
+        area * (yarn_energy<general>(w, 0, mean1 - 1.0) + yarn_energy<general>(w, 1, mean2 - 1.0));
     for (int i = 0; i < of; ++i) {
       const Double4 delta1 = s[i].lambda1 - mean1, delta2 = s[i].lambda2 - mean2;
       const Double4 deviation2 = delta1 * delta1 + delta2 * delta2;
       const Double4 own = load(t[i].area);
       fibre +=
           own * (side_energy(warp, s[i].lambda1, delta1) + side_energy(weft, s[i].lambda2, delta2));
-      shear += own * shear_energy<tables>(w, s[i].gamma * s[i].gamma + lane.beta * deviation2);
+      shear += own * shear_energy<general>(w, s[i].gamma * s[i].gamma + lane.beta * deviation2);
     }
   });
   return {sum(fibre), sum(shear)};
 }
 
-PLYFORM_INLINE bool has_tables(const KernelLaw& law) {
-  return law.yarns[0].table || law.yarns[1].table || law.shear_terms == 0;
+PLYFORM_INLINE bool is_general(const KernelYarns& yarns) {
+  return yarns.table || yarns.buckles;
+}
+
+PLYFORM_INLINE bool is_general(const KernelLaw& law) {
+  return is_general(law.yarns[0]) || is_general(law.yarns[1]) || law.shear_terms == 0;
 }
 
 PLYFORM_INLINE KernelReport membrane_kernel(const KernelBlock& block, const KernelLaw& law,
                                             const double* x, double per_dt) {
-  return has_tables(law) ? block_forces<true>(block, law, x, per_dt)
+  return is_general(law) ? block_forces<true>(block, law, x, per_dt)
                          : block_forces<false>(block, law, x, per_dt);
 }
 
 PLYFORM_INLINE KernelEnergy membrane_energy_kernel(const KernelBlock& block, const KernelLaw& law,
                                                    const double* x) {
-  return has_tables(law) ? block_energy<true>(block, law, x) : block_energy<false>(block, law, x);
+  return is_general(law) ? block_energy<true>(block, law, x) : block_energy<false>(block, law, x);
 }
 
 } // namespace

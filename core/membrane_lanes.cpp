@@ -141,8 +141,19 @@ void shear_energy_of_table(const KernelLaw& law, const double* measure2, double*
 
 KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosity,
                          const SideStiffness& side) {
-  return {density * yarn.stiffness,     density * yarn.compression, density * viscosity,
-          density * side.stabilisation, density * side.guard,       !yarn.strain.empty()};
+  KernelYarns k{};
+  k.stiffness = density * yarn.stiffness;
+  k.compression = density * yarn.compression;
+  k.viscosity = density * viscosity;
+  k.stabilisation = density * side.stabilisation;
+  k.guard = density * side.guard;
+  k.table = !yarn.strain.empty();
+  k.buckles = yarn.buckles();
+  if (k.buckles) {
+    k.buckling_strain = yarn.buckling_strain();
+    k.buckling_drop = (1.0 - buckled_share) * k.compression;
+  }
+  return k;
 }
 
 KernelLaw kernel_law(const Membrane& m) {

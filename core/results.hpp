@@ -6,10 +6,15 @@
 #pragma once
 
 #include "contact/geometry.hpp"
+#include "core/draw_in.hpp"
+#include "core/ply_frame.hpp"
+#include "core/wrinkles.hpp"
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace plyform {
@@ -23,21 +28,6 @@ struct Energies {
   /// (kinetic + fibre + shear + bending + contact + friction + damping - external) over the largest
   /// of them; 0 when all are 0.
   double balance_error() const;
-};
-
-/// One ply at one time. Sizes: n nodes, m triangles.
-struct PlyFrame {
-  std::string name;
-  double angle_deg = 0;
-  std::vector<Vec3> x0, x;                        ///< n, mm: before and now
-  std::vector<Triangle> triangles;                ///< m
-  std::vector<Vec3> warp, weft;                   ///< m, unit vectors of the fibres now
-  std::vector<double> shear_deg;                  ///< m, signed
-  std::vector<double> warp_strain, weft_strain;   ///< m
-  std::vector<double> warp_tension, weft_tension; ///< m, N per yarn
-  std::vector<double> thickness;                  ///< m, mm, from constant volume
-  std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
-  std::vector<Vec3> reaction; ///< n, N, of grips, frames and symmetry; empty if none holds the ply
 };
 
 struct ToolFrame {
@@ -99,10 +89,27 @@ struct AccuracyReport {
   double coarsening = 1.0; ///< element sizes over those of the case file
 };
 
+/// Pressed yarns of one ply: what its membrane shortens by, where real yarns would buckle.
+struct PressedYarns {
+  double largest = 0;                          ///< strain, 0.01: 1 % shorter; 0 if none is
+  double share_above_2 = 0, share_above_5 = 0; ///< of the area before forming, by more than 2, 5 %
+  double excess_mm = 0;                        ///< core/ply_plausibility.hpp
+  Vec3 excess_at = Vec3::Zero();               ///< mm, where that yarn is pressed most, formed
+};
+
+/// What each ply has come to, and whether cloth can be like that.
+struct PlyReport {
+  std::optional<PressedYarns> pressed; ///< none of a sheet without yarns
+  Wrinkle wrinkle;
+  std::optional<double> beyond_locking_share; ///< of the area before forming; if the angle is known
+  DrawIn draw_in;
+};
+
 struct Summary {
   std::string title, version;
-  std::string status = "done"; ///< done, interrupted, stopped
-  std::string message;         ///< why it was stopped, else empty
+  /// done; doubtful: it ended, but not all of it can be true; interrupted; stopped
+  std::string status = "done";
+  std::string message; ///< why it was stopped, or what not to trust; else empty
   double wall_time_s = 0;
   long steps = 0;
   double min_step_s = 0, max_step_s = 0;
@@ -110,7 +117,13 @@ struct Summary {
   AccuracyReport accuracy;
   ContactReport contact;
   WorkReport work;
+  std::vector<PlyReport> plies; ///< one each of the last frame's, or empty: not known
 };
+
+/// Whether a run with this status went all the way to its end.
+inline bool ended(std::string_view status) {
+  return status == "done" || status == "doubtful";
+}
 
 /// Writes a run's folder as it goes. Everything it writes goes to a temporary name first and is
 /// renamed when whole, so that a crash never leaves a half file under a final name; results.h5 is

@@ -6,6 +6,7 @@
 #include "core/results_files.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
@@ -86,18 +87,6 @@ double largest_value(const std::vector<double>& values) {
   return largest;
 }
 
-std::vector<double> areas_before(const PlyFrame& ply) {
-  std::vector<double> areas;
-  areas.reserve(ply.triangles.size());
-  for (const Triangle& t : ply.triangles) {
-    const Vec3& a = ply.x0[static_cast<std::size_t>(t[0])];
-    const Vec3& b = ply.x0[static_cast<std::size_t>(t[1])];
-    const Vec3& c = ply.x0[static_cast<std::size_t>(t[2])];
-    areas.push_back((b - a).cross(c - a).norm() / 2);
-  }
-  return areas;
-}
-
 /// The smallest |value| that is not exceeded on `share` of the area.
 double percentile(const std::vector<double>& values, const std::vector<double>& areas,
                   double share) {
@@ -138,12 +127,64 @@ std::vector<double> negative(std::vector<double> values) {
   return values;
 }
 
-std::string ply_json(const PlyFrame& ply) {
+/// A place, mm.
+std::string json_place(const Vec3& x) {
+  return fmt::format("[{}, {}, {}]", json_number(x.x()), json_number(x.y()), json_number(x.z()));
+}
+
+std::string json_numbers(const std::array<double, 4>& values) {
+  return fmt::format("[{}, {}, {}, {}]", json_number(values[0]), json_number(values[1]),
+                     json_number(values[2]), json_number(values[3]));
+}
+
+/// Four walks of core/draw_in.hpp.
+std::string walks_json(std::array<double, 4> directions, const std::array<double, 4>& each) {
+  double mean = 0.0;
+  for (std::size_t k = 0; k < 4; ++k) {
+    mean += each[k] / 4.0;
+    directions[k] -= 360.0 * std::floor(directions[k] / 360.0);
+  }
+  const auto [least, most] = std::minmax_element(each.begin(), each.end());
+  return fmt::format("{{\"mean\": {}, \"spread\": {}, \"directions_deg\": {}, \"each\": {}}}",
+                     json_number(mean), json_number(*most - *least), json_numbers(directions),
+                     json_numbers(each));
+}
+
+std::string draw_in_json(const DrawIn& d) {
+  if (!d.unknown.empty()) return fmt::format("\"no_draw_in\": {}", json_string(d.unknown));
+  return fmt::format("\"draw_in_mm\": {{\"mean\": {}, \"largest\": {}}}, "
+                     "\"draw_in_yarns_mm\": {}, \"draw_in_bisectors_mm\": {}",
+                     json_number(d.mean()), json_number(d.largest()),
+                     walks_json(d.yarns_deg, d.yarns), walks_json(d.bisectors_deg, d.bisectors));
+}
+
+/// The keys of a ply's report, each with a comma before it.
+std::string report_json(const PlyReport& report) {
+  std::string out;
+  if (const auto& pressed = report.pressed)
+    out += fmt::format(", \"max_pressed_strain\": {}, \"area_share_pressed_over_2_percent\": {}, "
+                       "\"area_share_pressed_over_5_percent\": {}, \"excess_length_mm\": {}, "
+                       "\"excess_length_at_mm\": {}",
+                       json_number(pressed->largest), json_number(pressed->share_above_2),
+                       json_number(pressed->share_above_5), json_number(pressed->excess_mm),
+                       json_place(pressed->excess_at));
+  out += fmt::format(", \"wrinkle_height_mm\": {}, \"wrinkle_length_mm\": {}, "
+                     "\"wrinkle_at_mm\": {}",
+                     json_number(report.wrinkle.height), json_number(report.wrinkle.wavelength),
+                     json_place(report.wrinkle.at));
+  if (report.beyond_locking_share)
+    out += fmt::format(", \"area_share_beyond_locking_angle\": {}",
+                       json_number(*report.beyond_locking_share));
+  return out + ", " + draw_in_json(report.draw_in);
+}
+
+/// `report`: null where nothing but the fields is known.
+std::string ply_json(const PlyFrame& ply, const PlyReport* report) {
   const std::vector<double> areas = areas_before(ply);
   return fmt::format(
       "{{\"name\": {}, \"angle_deg\": {}, \"max_shear_deg\": {}, \"p99_shear_deg\": {}, "
       "\"rms_shear_deg\": {}, \"max_fibre_strain\": {}, \"min_fibre_strain\": {}, "
-      "\"max_tension_N_per_yarn\": {}}}",
+      "\"max_tension_N_per_yarn\": {}{}}}",
       json_string(ply.name), json_number(ply.angle_deg),
       json_number(largest_magnitude(ply.shear_deg)),
       json_number(percentile(ply.shear_deg, areas, 0.99)),
@@ -151,7 +192,8 @@ std::string ply_json(const PlyFrame& ply) {
       json_number(larger(largest_value(ply.warp_strain), largest_value(ply.weft_strain))),
       json_number(-larger(largest_value(negative(ply.warp_strain)),
                           largest_value(negative(ply.weft_strain)))),
-      json_number(larger(largest_value(ply.warp_tension), largest_value(ply.weft_tension))));
+      json_number(larger(largest_value(ply.warp_tension), largest_value(ply.weft_tension))),
+      report ? report_json(*report) : "");
 }
 
 std::string tool_json(const ToolFrame& tool) {
@@ -241,7 +283,10 @@ std::string summary_json(const Frame& last, const Summary& summary) {
   entry("threads", fmt::to_string(summary.threads));
   entry("elements", fmt::to_string(elements));
   entry("nodes", fmt::to_string(nodes));
-  entry("plies", json_list(last.plies, ply_json));
+  entry("plies", json_list(last.plies, [&](const PlyFrame& ply) {
+          const auto index = static_cast<std::size_t>(&ply - last.plies.data());
+          return ply_json(ply, summary.plies.empty() ? nullptr : &summary.plies.at(index));
+        }));
   entry("tools", json_list(last.tools, tool_json));
   entry("boundaries", json_list(last.boundaries, boundary_json));
   entry("energy", energy_json(last.energy));

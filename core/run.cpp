@@ -4,6 +4,7 @@
 #include "contact/audit.hpp"
 #include "core/accuracy.hpp"
 #include "core/frame.hpp"
+#include "core/ply_plausibility.hpp"
 #include "core/step.hpp"
 #include "core/tool_depth.hpp"
 #include "core/version.hpp"
@@ -143,6 +144,16 @@ Progress progress_of(const Scene& s, const Energies& e, double elapsed) {
   return p;
 }
 
+/// Puts reasons to doubt a result first among what is missing; a run that was done is then
+/// doubtful.
+void doubt_if(const std::vector<std::string>& reasons, Summary& sum) {
+  sum.work.missing.insert(sum.work.missing.begin(), reasons.begin(), reasons.end());
+  if (reasons.empty() || sum.status != "done") return;
+  sum.status = "doubtful";
+  for (const std::string& reason : reasons)
+    sum.message += (sum.message.empty() ? "" : "; ") + reason;
+}
+
 void finish(const Scene& s, const ContactReport& depths, RunResult& result, int threads,
             double elapsed) {
   Summary& sum = result.summary;
@@ -157,8 +168,10 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data),
                   s.data.accuracy.coarsening};
   sum.contact = audit(s, depths);
-  sum.contact.max_tool_penetration_between_nodes_mm = depth_between_nodes(s);
+  const std::vector<ToolCut> cuts = cuts_between_nodes(s);
+  sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
   sum.work = report_work(s, result.last, sum.contact);
+  sum.plies = report_plies(s, result.last);
   const auto stop_if = [&sum](bool wrong, const std::string& message) {
     if (wrong && sum.status == "done") sum.status = "stopped", sum.message = message;
   };
@@ -172,6 +185,7 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
                       "final state, though contact.self is on; a finer mesh or a larger "
                       "contact.stiffness may help",
                       sum.contact.intersections_within_plies));
+  doubt_if(doubts(s, result.last, sum.plies, cuts), sum);
 }
 
 } // namespace

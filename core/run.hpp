@@ -29,7 +29,7 @@ struct RunHooks {
 
 struct RunResult {
   Frame last;      ///< the last good state
-  Summary summary; ///< status: done, interrupted, stopped
+  Summary summary; ///< status: done, doubtful, interrupted, stopped
 };
 
 /// Forms the plies. Stops early, with the last good state, when a value is not finite, an element

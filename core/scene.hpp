@@ -44,7 +44,6 @@ struct PlyBody {
   double spread_way = 0.0;                  ///< mm, way when it was last renewed
   std::vector<char> on_rim;                 ///< triangles with a node on the rim
   std::array<std::vector<char>, 2> covered; ///< nodes that the next ply below, above covers
-  std::vector<std::int32_t> folded;         ///< edges folded at the last contact search
   std::vector<Vec3> reaction; ///< N, that boundaries hold each node with; empty if none does
   std::vector<const std::vector<Vec3>*>
       nodal_forces; ///< reaction, contacts: those in use now, in order
@@ -74,7 +73,7 @@ struct PlyContact {
   SheetContact contact;
 };
 
-/// Folded edges of two plies, a < b.
+/// Edges of two plies, a < b.
 struct PlyEdgeContact {
   int a = 0, b = 0;
   EdgeContact contact;
@@ -136,6 +135,7 @@ struct Scene {
   double skin = 0.0;                  ///< mm, Case's or by the element size
   double time = 0.0;                  ///< s, of x
   double dt = 0.0, next_dt = 0.0;     ///< s, the step that led to x and the one that leaves it
+  double stable_dt = 0.0;             ///< s, step_factor times the stable step when last renewed
   double min_dt = 0.0, max_dt = 0.0;  ///< s, used so far
   double bound_way = 0.0;             ///< mm, furthest way since the search at the last bound
   double stretch = 1.0;               ///< stable step over its bound, core/step_bound.hpp

@@ -8,13 +8,15 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace plyform {
 namespace {
 
-constexpr int bound_every = 200; // steps between renewals of the step bound at most: geometry
-                                 // changes by far less than the case's step factor leaves room
-                                 // for; contacts are looked at more often
+// Steps between renewals of the stable step at most. Of elements: geometry changes by far less than
+// the case's step factor leaves room for. Of contacts: each may get deeper in that time, though
+// none beyond the deepest of its pair (renew_depth).
+constexpr int elements_every = 200, contacts_every = 50;
 
 std::string when(const Scene& s) {
   return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
@@ -85,7 +87,8 @@ void pair_forces(Scene& s, PlyPair& pair) {
   }
   for (const int i : pair.edges) {
     EdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
-    edge_forces(contact, a.state(), b.state(), s.dt, a.path + b.path, pair.force_a, pair.force_b);
+    edge_forces(contact, a.state(), a.edges, b.state(), b.edges, s.dt, a.path + b.path,
+                pair.force_a, pair.force_b);
     pair.loaded = pair.loaded || contact.sums.touching > 0;
   }
 }
@@ -289,9 +292,40 @@ std::optional<Stop> find_collapsed(const Scene& s) {
   return std::nullopt;
 }
 
-void set_step(Scene& s, ThreadTeam& team) {
-  s.next_dt = s.data.solver.step_factor * stable_step(s, team).dt;
+/// visit(contact) for every ToolContact, SheetContact and EdgeContact of the scene.
+template <class SomeScene, class Visit>
+void visit_contacts(SomeScene& s, const Visit& visit) {
+  for (auto& tool : s.tools)
+    for (auto& contact : tool.contacts)
+      visit(contact);
+  for (auto& pair : s.ply_contacts)
+    visit(pair.contact);
+  for (auto& pair : s.edge_contacts)
+    visit(pair.contact);
+}
+
+void renew_stable_step(Scene& s, ThreadTeam& team) {
+  s.stable_dt = s.data.solver.step_factor * stable_step(s, team).dt;
   s.bound_way = furthest_way(s);
+  visit_contacts(s, [](auto& contact) {
+    contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
+  });
+}
+
+bool contacts_deepened(const Scene& s) {
+  bool deepened = false;
+  visit_contacts(s, [&](const auto& contact) {
+    deepened = deepened || contact.sums.penetration > contact.renew_depth;
+  });
+  return deepened;
+}
+
+/// The next step: the stable one, or a shorter one in which no contact closes by more than half of
+/// the room that it has left.
+void set_step(Scene& s) {
+  double ratio = std::numeric_limits<double>::infinity();
+  visit_contacts(s, [&](const auto& contact) { ratio = std::min(ratio, contact.sums.step_ratio); });
+  s.next_dt = s.dt > 0.0 ? std::min(s.stable_dt, s.dt * ratio) : s.stable_dt;
   s.min_dt = s.min_dt > 0.0 ? std::min(s.min_dt, s.next_dt) : s.next_dt;
   s.max_dt = std::max(s.max_dt, s.next_dt);
 }
@@ -301,7 +335,8 @@ void set_step(Scene& s, ThreadTeam& team) {
 void start(Scene& s, ThreadTeam& team) {
   search_contacts(s, team);
   renew_bounds(s, team);
-  set_step(s, team);
+  renew_stable_step(s, team);
+  set_step(s);
 }
 
 std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
@@ -311,11 +346,14 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
     if (auto stop = find_not_finite(s)) return stop;
     search_contacts(s, team);
   }
-  const bool due = used_up || s.step % bound_every == 0;
+  const bool due = used_up || s.step % elements_every == 0;
   if (due) renew_bounds(s, team);
-  if (due || furthest_way(s) - s.bound_way > 0.5 * bound_margin) set_step(s, team);
+  if (due || s.step % contacts_every == 0 || contacts_deepened(s) ||
+      furthest_way(s) - s.bound_way > 0.5 * bound_margin)
+    renew_stable_step(s, team);
   if (!used_up) follow_spread(s, team);
   add_up_forces(s, team);
+  set_step(s);
   // at every step: small triangles turn over within a few
   if (std::find(s.patch_collapsed.begin(), s.patch_collapsed.end(), 1) != s.patch_collapsed.end())
     if (auto stop = find_collapsed(s)) return stop;

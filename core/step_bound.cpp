@@ -13,15 +13,12 @@ namespace {
 
 constexpr int sharpen_every = 1000; // steps: ratios change slower than bounds
 
-/// Row sums of contact stiffness of each ply's nodes, N/mm, and the largest c/k of any contact.
-struct ContactRows {
-  std::vector<std::vector<double>> rows;
-  double damping_ratio = 0.0;
-};
+/// Row sums of the contact matrices, of each ply's nodes.
+using ContactRows = std::vector<std::vector<ContactRow>>;
 
 /// What the contacts between two plies add to the rows of both.
 struct PairRows {
-  std::vector<double> a, b;
+  std::vector<ContactRow> a, b;
 };
 
 PairRows rows_of(const Scene& s, const PlyPair& pair) {
@@ -50,34 +47,21 @@ PairRows rows_of(const Scene& s, const PlyPair& pair) {
   return rows;
 }
 
-double largest_damping_ratio(const Scene& s) {
-  double largest = 0.0;
-  const auto grow = [&largest](const ContactLaw& law) {
-    largest = std::max(largest, law.damping / law.stiffness);
-  };
-  for (const ToolAndContacts& tool : s.tools)
-    for (const ToolContact& c : tool.contacts)
-      if (!c.points.empty()) grow(c.law);
-  for (const PlyContact& pair : s.ply_contacts)
-    if (!pair.contact.points.empty()) grow(pair.contact.law);
-  return largest;
-}
-
 ContactRows contact_rows(const Scene& s, ThreadTeam& team) {
   std::vector<PairRows> of_pair(s.ply_pairs.size());
   team.run(static_cast<int>(of_pair.size()), [&](int i) {
     const auto pair = static_cast<std::size_t>(i);
     of_pair[pair] = rows_of(s, s.ply_pairs[pair]);
   });
-  ContactRows c{{}, largest_damping_ratio(s)};
+  ContactRows c;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBody& ply = s.plies[p];
-    std::vector<double>& rows = c.rows.emplace_back(ply.x.size(), 0.0);
+    std::vector<ContactRow>& rows = c.emplace_back(ply.x.size());
     for (const ToolAndContacts& tool : s.tools)
       add_tool_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
   }
-  const auto add = [&c](int ply, const std::vector<double>& rows) {
-    std::vector<double>& to = c.rows[static_cast<std::size_t>(ply)];
+  const auto add = [&c](int ply, const std::vector<ContactRow>& rows) {
+    std::vector<ContactRow>& to = c[static_cast<std::size_t>(ply)];
     for (std::size_t n = 0; n < rows.size(); ++n)
       to[n] += rows[n];
   };
@@ -105,10 +89,12 @@ PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
   of.elements = {highest_omega2(b, ply.sharpness) + (ply.bending ? ply.bending->omega2 : 0.0),
                  b.guarded ? b.damping : std::min(b.damping, ply.sharpness * b.yarns * b.viscous)};
   of.elements.damping += s.data.solver.mass_damping;
-  for (std::size_t n = 0; n < ply.x.size(); ++n)
-    of.contacts.omega2 =
-        std::max(of.contacts.omega2, touching.rows[p][n] / ply.membrane.node_mass[n]);
-  of.contacts.damping = of.contacts.omega2 * touching.damping_ratio;
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    const ContactRow& row = touching[p][n];
+    const double mass = ply.membrane.node_mass[n];
+    of.contacts.omega2 = std::max(of.contacts.omega2, row.stiffness / mass);
+    of.contacts.damping = std::max(of.contacts.damping, row.damping / mass);
+  }
   return of;
 }
 

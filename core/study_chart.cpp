@@ -92,7 +92,9 @@ ChartLine chart_line(const StudyPlan& plan, const std::vector<RunOutcome>& outco
 RunOutcome read_outcome(const std::string& summary_json) {
   RunOutcome outcome;
   const std::string status = value_of(summary_json, "status");
-  outcome.status = status == "\"done\"" ? "done" : status == "\"stopped\"" ? "stopped" : "failed";
+  outcome.status = "failed";
+  for (const char* known : {"done", "doubtful", "stopped"})
+    if (status == fmt::format("\"{}\"", known)) outcome.status = known;
   if (outcome.status == "failed") return outcome;
   outcome.wall_time_s = number_of(value_of(summary_json, "wall_time_s"));
   outcome.steps = count_of(value_of(summary_json, "steps"));
@@ -104,7 +106,7 @@ RunOutcome read_outcome(const std::string& summary_json) {
 std::vector<bool> on_front(const StudyPlan& plan, const std::vector<RunOutcome>& outcomes) {
   std::vector<bool> measured(outcomes.size());
   for (std::size_t i = 0; i < outcomes.size(); ++i)
-    measured[i] = outcomes[i].status == "done" && !std::isnan(outcomes[i].error.rms);
+    measured[i] = ended(outcomes[i].status) && !std::isnan(outcomes[i].error.rms);
   for (const StudyPoint& point : plan.points)
     if (point.kind == PointKind::reference) measured[point.run] = false;
   std::vector<bool> front = measured;

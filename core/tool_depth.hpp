@@ -15,6 +15,9 @@
 
 #include "core/scene.hpp"
 
+#include <string>
+#include <vector>
+
 namespace plyform {
 
 /// Longest side of the ply's triangles now, mm.
@@ -26,10 +29,22 @@ double cut_between_nodes(double side, double radius, double thickness, double ha
 /// The longest side (mm) whose cut is half a thickness.
 double side_of_half_cut(double radius, double thickness, double half_turn);
 
-/// Deepest penetration (mm) of any ply into any tool as they stand now, by the measure of contact:
-/// half the thickness minus the distance of the mid-surface; 0 if nothing touches. Asked at the 15
-/// points of each triangle whose weights are multiples of 1/4, nodes included: a peak between
-/// them is missed by at most an eighth of a side times its slope.
-double depth_between_nodes(const Scene& scene);
+/// How deep one ply is in one tool, as they stand now, by the measure of contact: half the
+/// thickness minus the distance of the mid-surface.
+struct ToolCut {
+  std::string tool, ply;
+  double depth = 0.0;     ///< mm, the largest, nodes included; 0 if they do not touch
+  double thickness = 0.0; ///< mm, of the ply
+};
+
+/// Every tool, meshes included, with every ply. Each triangle is asked at the 15 points whose
+/// weights are multiples of 1/4 and then, where its tangent plane to the tool lets it be deeper
+/// than the deepest point so far, divided until that is known to a hundredth of a thickness. This
+/// is exact for tools that are convex where the ply meets them, and where they are hollow; what can
+/// be missed is a spike of a tool with hollows round it that is narrower than a quarter of a side.
+std::vector<ToolCut> cuts_between_nodes(const Scene& scene);
+
+/// The largest depth (mm) of them, 0 if there is none.
+double deepest(const std::vector<ToolCut>& cuts);
 
 } // namespace plyform

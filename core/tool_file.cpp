@@ -3,6 +3,7 @@
 #include "core/case_override.hpp"
 #include "core/case_parts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 
@@ -120,6 +121,28 @@ Annulus read_ring(const Section& tool, bool disc, Findings& findings) {
   return {inner, outer, thickness, edge};
 }
 
+/// The rounding of all edges of a box or cylinder whose smallest dimension is given: below half of
+/// it, so that something flat is left on every side.
+double read_edge(const Section& tool, double smallest, Findings& findings) {
+  const double edge = number(tool, "edge_radius");
+  if (smallest > 0.0 && edge >= 0.5 * smallest)
+    value_error(tool, "edge_radius",
+                fmt::format("must be less than {:g}, half the smallest dimension of the {}",
+                            0.5 * smallest, text(tool, "shape")),
+                "make it smaller or the " + text(tool, "shape") + " larger", findings);
+  return edge;
+}
+
+Cylinder read_cylinder(const Section& tool, Findings& findings) {
+  const double radius = number(tool, "radius"), length = number(tool, "length");
+  return {radius, length, read_edge(tool, std::min(2.0 * radius, length), findings)};
+}
+
+Box read_box(const Section& tool, Findings& findings) {
+  const Vec3 size = vector3(tool, "size");
+  return {size, read_edge(tool, size.minCoeff(), findings)};
+}
+
 ToolShape read_mesh(const Section& tool, const std::filesystem::path& folder, Findings& findings) {
   const Entry* file = given(tool, "file");
   const double scale = number(tool, "scale");
@@ -136,8 +159,8 @@ ToolShape read_mesh(const Section& tool, const std::filesystem::path& folder, Fi
 ToolShape read_shape(const Section& tool, const std::filesystem::path& folder, Findings& findings) {
   const std::string shape = text(tool, "shape");
   if (shape == "sphere") return Sphere{number(tool, "radius")};
-  if (shape == "cylinder") return Cylinder{number(tool, "radius"), number(tool, "length")};
-  if (shape == "box") return Box{vector3(tool, "size")};
+  if (shape == "cylinder") return read_cylinder(tool, findings);
+  if (shape == "box") return read_box(tool, findings);
   if (shape == "disc" || shape == "annulus") return read_ring(tool, shape == "disc", findings);
   if (shape == "profile") return read_profile(tool, findings);
   if (shape == "mesh") return read_mesh(tool, folder, findings);

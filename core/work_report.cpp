@@ -123,6 +123,15 @@ std::pair<double, std::string> longest_yarn(const Frame& last) {
   return found;
 }
 
+/// What the yarns of a ply are divided by, the softer family's.
+double largest_softening(const Scene& s, const std::string& name) {
+  double largest = 1.0;
+  for (const PlyBody& ply : s.plies)
+    if (ply.name == name)
+      largest = std::max({largest, ply.membrane.softening[0], ply.membrane.softening[1]});
+  return largest;
+}
+
 std::vector<std::string> too_little(const Scene& s, const Frame& last, const ContactReport& c,
                                     const WorkReport& w) {
   const Energies& e = last.energy;
@@ -143,10 +152,10 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
                                 "a longer solver.duration makes it less",
                                 e.kinetic / e.shear));
   const auto [strain, ply] = longest_yarn(last);
-  if (s.data.solver.fibre_softening > 1.0 && strain > long_strain)
-    found.push_back(fmt::format("tensile stiffness: yarns of {} are {:.2g} % longer, with "
-                                "solver.fibre_softening = {:g}; a smaller one makes it less",
-                                ply, 100.0 * strain, s.data.solver.fibre_softening));
+  if (const double by = largest_softening(s, ply); by > 1.0 && strain > long_strain)
+    found.push_back(fmt::format("tensile stiffness: yarns of {} are {:.2g} % longer, softened by "
+                                "{:g}; a smaller solver.fibre_softening makes it less",
+                                ply, 100.0 * strain, by));
   if (c.intersections_within_plies > 0 && !s.data.contact.self)
     found.push_back(fmt::format("self-contact: {} pairs of triangles of one ply cross; "
                                 "contact.self = \"on\" keeps folds apart",

@@ -33,6 +33,7 @@ expect 2 'did you mean angle' run cases/hemisphere_0 --set ply.0.angel=3
 expect 2 'KEY=VALUE' run cases/hemisphere_0 --set angle
 [ ! -e results ] || { echo "a wrong case has written results"; failures=$((failures + 1)); }
 expect 0 'the case is sound' check cases/hemisphere_0 "${short[@]}"
+expect 0 'tool punch: driven 35 mm, smallest radius 10 mm' check cases/square_box
 expect 0 'boundary frame: frame, holds 40 nodes of ply square, moves 46.5 mm' check cases/picture_frame
 expect 0 'boundary lower_grip: grip, holds 9 nodes of ply strip, stays' check cases/bias_extension
 cat >cases/half.toml <<'END'
@@ -63,6 +64,13 @@ for name in hemisphere_0 hemisphere_45; do
 done
 expect 3 'last good state' run cases/hemisphere_0 -o stopped --set solver.max_balance_error=1e-9
 [ -s stopped/summary.json ] || { echo "a stopped run left nothing"; failures=$((failures + 1)); }
+# Large elements on a fillet of 10 mm: it ends, and says what not to trust.
+expect 0 'die cuts into it between nodes' \
+  run cases/hemisphere_0 --accuracy draft --set blanks.square.element_size=9 -o doubtful
+if ! grep -q '"status": "doubtful"' doubtful/summary.json; then
+  echo "the summary of a doubtful run does not say so"
+  failures=$((failures + 1))
+fi
 
 # Ctrl-C: the state reached is written.
 "$program" run cases/hemisphere_0 -o broken_off >log 2>&1 &

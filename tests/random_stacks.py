@@ -96,7 +96,7 @@ def form(program: str, folder: Path, count: int, seed: int, size: float) -> bool
           f"depth {contact['max_tool_penetration_mm']:.3f} / "
           f"{contact['max_ply_penetration_mm']:.3f} mm, largest shear {shear:.1f} deg, "
           f"balance {told['energy']['balance_error']:.1e}", flush=True)
-    return told["status"] == "done" and contact["intersections_between_plies"] == 0
+    return told["status"] in ("done", "doubtful") and contact["intersections_between_plies"] == 0
 
 
 def main() -> None:

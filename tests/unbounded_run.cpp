@@ -49,7 +49,7 @@ int run(int count, char** arguments) {
   hooks.frame = [&](const Frame& frame) { writer.write_frame(frame); };
   const RunResult result = run_case(*reading.value, 1, hooks);
   writer.write_final(result.last, result.summary);
-  return result.summary.status == "done" ? 0 : 3;
+  return ended(result.summary.status) ? 0 : 3;
 }
 
 } // namespace

@@ -69,8 +69,8 @@ void print_table(const StudyPlan& plan, const std::vector<RunOutcome>& outcomes)
   for (const StudyPoint& point : plan.points) {
     const RunOutcome& o = outcomes[point.run];
     const std::string name = point.line + (point.setting.empty() ? "" : " " + point.setting);
-    if (o.status != "done" || point.kind == PointKind::reference)
-      fmt::print("{:40} {:9.3g} {:>9}\n", name, o.wall_time_s, o.status == "done" ? "0" : o.status);
+    if (!ended(o.status) || point.kind == PointKind::reference)
+      fmt::print("{:40} {:9.3g} {:>9}\n", name, o.wall_time_s, ended(o.status) ? "0" : o.status);
     else
       fmt::print("{:40} {:9.3g} {:9.3g} {:9.3g}{}\n", name, o.wall_time_s, o.error.rms, o.error.max,
                  front[point.run] ? "  best for its time" : "");

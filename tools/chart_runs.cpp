@@ -50,7 +50,7 @@ std::string settings_text(const StudyRun& run, int threads) {
 bool is_done(const StudyRun& run, const RunOptions& options) {
   const fs::path folder = options.folder / run.name;
   return content(folder / "settings.txt").starts_with(settings_text(run, options.threads)) &&
-         read_outcome(content(folder / "summary.json")).status == "done" &&
+         ended(read_outcome(content(folder / "summary.json")).status) &&
          fs::is_regular_file(folder / "results.h5");
 }
 

@@ -23,10 +23,10 @@ struct RunsEnd {
 };
 
 /// Runs whatever the plan has that is not done yet: a run is done if its folder has a summary.json
-/// with status "done" and a settings.txt that says the same inputs and threads. The first run that
-/// is refused (exit code 2), the reference stopping, and Ctrl-C end all others; what was finished
-/// stays. Throws std::runtime_error or std::filesystem::filesystem_error where the folder cannot be
-/// written or no process be started.
+/// with status "done" or "doubtful" and a settings.txt that says the same inputs and threads. The
+/// first run that is refused (exit code 2), the reference stopping, and Ctrl-C end all others; what
+/// was finished stays. Throws std::runtime_error or std::filesystem::filesystem_error where the
+/// folder cannot be written or no process be started.
 RunsEnd run_all(const StudyPlan& plan, const std::filesystem::path& case_file,
                 const RunOptions& options);
 

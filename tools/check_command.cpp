@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/accuracy.hpp"
+#include "core/bending_resolution.hpp"
+#include "core/fabric_estimates.hpp"
 #include "core/step.hpp"
 #include "core/step_bound.hpp"
 #include "core/tool_depth.hpp"
@@ -9,6 +11,8 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
+#include <set>
 #include <thread>
 
 namespace plyform {
@@ -24,10 +28,15 @@ std::string bending_text(const PlyBody& ply) {
     return moments.curvature.empty() ? fmt::format("{:.3g}", moments.stiffness)
                                      : fmt::format("{:.3g} by table", moments.at(0.0).slope);
   };
-  return fmt::format("bending {} N mm along warp, {} along weft, {:.3g} in twist, yarns compressed "
-                     "by {:.3g} and {:.3g} N per strain",
-                     along(law.warp), along(law.weft), law.twist, fabric.warp.compression,
-                     fabric.weft.compression);
+  std::string text = fmt::format(
+      "bending {} N mm along warp, {} along weft, {:.3g} in twist, {:.3g} and {:.3g} in "
+      "their plane, yarns compressed by {:.3g} and {:.3g} N per strain",
+      along(law.warp), along(law.weft), law.twist, law.in_plane[0], law.in_plane[1],
+      fabric.warp.compression, fabric.weft.compression);
+  if (fabric.warp.buckles() || fabric.weft.buckles())
+    text += fmt::format(", buckling at {:.3g} and {:.3g} N", fabric.warp.buckling_force,
+                        fabric.weft.buckling_force);
+  return text;
 }
 
 /// Which element, and why.
@@ -60,13 +69,49 @@ void print_plies(const Scene& s) {
   }
 }
 
+/// Numbers that the case does not have, and what of it is not taken as it stands.
+void print_fabrics(const Case& data) {
+  for (const std::string& line : describe_estimates(data))
+    fmt::print("fabric {}\n", line);
+  for (const std::string& line : describe_softening(data))
+    fmt::print("fabric {}\n", line);
+}
+
+/// Says how long the waves are in which pressed plies would wrinkle under tools that are pushed,
+/// once for each fabric and blank.
+void print_wrinkles(const Scene& s) {
+  double force = 0.0; // N, of the tool that is pushed hardest
+  for (const Tool& tool : s.data.tools)
+    if (tool.motion == Motion::force) force = std::max(force, tool.force);
+  std::set<std::pair<int, int>> seen;
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const Ply& ply = s.data.plies[p];
+    if (!seen.emplace(ply.fabric, ply.blank).second) continue;
+    const std::vector<double>& areas = s.plies[p].membrane.node_area;
+    const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
+    const double h =
+        std::sqrt(2.0 * area / static_cast<double>(s.plies[p].membrane.triangles.size()));
+    const auto wave = bending_lengths(s.plies[p].membrane.fabric, force / area).upwards;
+    if (!wave || *wave >= elements_in_wave * h) continue;
+    fmt::print("    note: under {:g} N of a tool the yarns of ply {} would wrinkle in waves of "
+               "{:.3g} mm, {:.2g} elements: the mesh shows how much length is too much, not the "
+               "wrinkles; they would take elements of {:.2g} mm\n",
+               force, ply.name, *wave, *wave / h, *wave / elements_in_wave);
+  }
+}
+
+/// Whether the tightest curve of a shape bends both ways: a ball, and a box at its rounded corners.
+bool bends_both_ways(const ToolShape& shape) {
+  const auto* box = std::get_if<Box>(&shape);
+  return std::holds_alternative<Sphere>(shape) || (box && box->edge_radius > 0.0);
+}
+
 /// Says if a ply may be cut by more than half its thickness, for the one that is cut most.
 void print_cut(const Scene& s, const ToolAndContacts& tool) {
   constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
   const double radius = smallest_radius(tool.body.shape);
   if (!std::isfinite(radius)) return;
-  const bool ball = std::holds_alternative<Sphere>(tool.body.shape);
-  const double spread = ball ? 2.0 / std::sqrt(3.0) : 1.0; // curved both ways
+  const double spread = bends_both_ways(tool.body.shape) ? 2.0 / std::sqrt(3.0) : 1.0;
   const PlyBody* worst = nullptr;
   double most = 0.5;
   for (const PlyBody& ply : s.plies) {
@@ -167,7 +212,9 @@ int check_command(const CaseArguments& arguments) {
   Scene s = make_scene(*data);
   start(s, team);
   fmt::print("{}\n", data->title);
+  print_fabrics(s.data);
   print_plies(s);
+  print_wrinkles(s);
   print_tools(s);
   print_boundaries(s);
   const StepBound bound = stable_step(s, team);

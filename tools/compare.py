@@ -7,14 +7,10 @@
 With --against, first how far the shear angles and the largest tension of each ply are from those
 of another folder, whatever the meshes: at 60 x 60 points of the unformed ply, between nodal means.
 
-One row a ply and folder with shear angles, tension, strains and draw-in, then one row a folder with
-forces, and one with what a run is judged by.
-
-Draw-in: four straight walks from the middle of the unformed ply's bounding box to its border, both
-ways along the two yarns through the middle; and four along the lines that halve the angles between
-them. Draw-in is how much nearer, seen from above, the border came to where the middle was: the
-mean of the four, and in brackets the largest less the smallest. Of a ply with planes of symmetry
-only the modelled part is seen, its middle too.
+One row a ply and folder with shear angles, tension, strains, what says whether cloth can be so, and
+draw-in: of the four walks along the yarns, and of the four along the lines that halve the angles
+between them, the mean, and in brackets the largest less the smallest (docs/results.md). Then one
+row a folder with forces, and one with what a run is judged by.
 
 Exit codes: 0 done, 1 something is missing or cannot be read, 2 wrong arguments.
 """
@@ -26,57 +22,12 @@ from pathlib import Path
 
 try:
     import numpy as np
-    from plotting.numbers import border_loop, values_at
-    from plotting.reading import (FIELDS, Ply, Trouble, read_fibre_angles, read_state,
-                                  read_summary)
+    from plotting.numbers import values_at
+    from plotting.reading import FIELDS, Ply, Trouble, ended, read_state, read_summary
 except ImportError as error:
     sys.exit(f"compare.py: error: {error}; install python3-h5py")
 
 NONE = "–"
-
-
-def draw_in(ply: Ply, loop: np.ndarray, directions_deg: list[float]) -> np.ndarray:
-    """Draw-in (mm) where walks from the middle of the unformed ply first meet its border; `loop`
-    holds the border's nodes in order. NaN where the middle is not inside the border."""
-    middle = 0.5 * (ply.x0.min(axis=0) + ply.x0.max(axis=0))[:2]
-    before, after = ply.x0[loop, :2] - middle, ply.x[loop, :2] - middle
-    found = []
-    for angle in np.radians(directions_deg):
-        along = before @ [np.cos(angle), np.sin(angle)]
-        across = before @ [-np.sin(angle), np.cos(angle)]
-        following = np.roll(across, -1)
-        edges = np.flatnonzero((across < 0.0) != (following < 0.0))  # a corner counts once
-        share = across[edges] / (across[edges] - following[edges])
-        met = (1.0 - share) * along[edges] + share * np.roll(along, -1)[edges]
-        ahead = np.flatnonzero(met > 0.0)
-        if len(ahead) % 2 == 0:
-            found.append(np.nan)
-            continue
-        first = ahead[met[ahead].argmin()]
-        a, w = edges[first], share[first]
-        formed = (1.0 - w) * after[a] + w * after[(a + 1) % len(loop)]
-        found.append(met[first] - np.hypot(*formed))
-    return np.array(found)
-
-
-def draw_ins(ply: Ply, fibre_angle_deg: float) -> dict:
-    """Both draw-ins of a ply, as they stand in the JSON; or why there is none."""
-    warp, weft = ply.angle_deg, ply.angle_deg + fibre_angle_deg
-    between = 0.5 * (warp + weft)
-    try:
-        loop = border_loop(ply.x0, ply.triangles)
-    except Trouble:
-        return {"no_draw_in": "its border meets itself"}
-    told = {}
-    for key, directions in (("yarns", [warp, weft, warp + 180.0, weft + 180.0]),
-                            ("bisectors", [between + 90.0 * k for k in range(4)])):
-        each = draw_in(ply, loop, directions)
-        if not np.isfinite(each).all():
-            return {"no_draw_in": "the middle of its bounding box is outside"}
-        told[f"draw_in_{key}_mm"] = {"mean": float(each.mean()), "spread": float(np.ptp(each)),
-                                     "directions_deg": [d % 360.0 for d in directions],
-                                     "each": each.tolist()}
-    return told
 
 
 def shear_difference(ply: Ply, other: Ply) -> dict:
@@ -102,16 +53,14 @@ def read_reference(folder: Path) -> dict[str, tuple[Ply, float | None]]:
 
 
 def read_run(folder: Path, reference: dict[str, tuple[Ply, float | None]]) -> dict:
-    """The summary and the folder, with the draw-ins of each ply and, where the reference has it,
-    how far it is from that."""
+    """The summary and the folder and, of each ply that the reference has, how far it is from
+    that."""
     run = {"folder": str(folder), **read_summary(folder)}
-    state, angles = read_state(folder, FIELDS["shear"]), read_fibre_angles(folder)
-    plies = {ply.name: ply for ply in state.plies}
+    plies = {ply.name: ply for ply in read_state(folder, FIELDS["shear"]).plies}
     if list(plies) != [ply.get("name") for ply in run["plies"]]:
         raise Trouble(f"{folder}: summary.json and results.h5 have different plies: "
                       "are they of one run?")
     for ply in run["plies"]:
-        ply.update(draw_ins(plies[ply["name"]], angles[ply["name"]]))
         if ply["name"] in reference:
             other, theirs = reference[ply["name"]]
             mine = ply.get("max_tension_N_per_yarn")
@@ -137,7 +86,8 @@ def number(value, form: str, factor: float = 1.0) -> str:
 def with_spread(told: dict | None) -> str:
     if told is None:
         return NONE
-    return f"{round(told['mean'], 1) + 0.0:.1f} ({told['spread']:.1f})"  # + 0.0: no "-0.0"
+    mean = number(told.get("mean"), ".1f")
+    return f"{'0.0' if mean == '-0.0' else mean} ({number(told.get('spread'), '.1f')})"
 
 
 def table(head: list[str], rows: list[list[str]], texts: int) -> str:
@@ -150,12 +100,18 @@ def table(head: list[str], rows: list[list[str]], texts: int) -> str:
 def ply_table(runs: list[dict], names: list[str]) -> str:
     head = ["folder", "ply", "angle, °", "shear: largest, °", "99 %, °", "rms, °",
             "largest tension, N per yarn", "fibre strain: largest, %", "smallest, %",
+            "pressed over 2 %, % of area", "over 5 %, % of area", "excess length, mm",
+            "wrinkles, mm", "beyond locking, % of area",
             "draw-in along the yarns, mm", "along the bisectors, mm"]
     rows = [[name, ply["name"], number(ply.get("angle_deg"), "g"),
              *(number(ply.get(f"{key}_shear_deg"), ".1f") for key in ("max", "p99", "rms")),
              number(ply.get("max_tension_N_per_yarn"), ".3g"),
              number(ply.get("max_fibre_strain"), ".2f", 100.0),
              number(ply.get("min_fibre_strain"), ".1f", 100.0),
+             *(number(ply.get(f"area_share_{key}"), ".1f", 100.0) for key in
+               ("pressed_over_2_percent", "pressed_over_5_percent")),
+             *(number(ply.get(key), ".1f") for key in ("excess_length_mm", "wrinkle_height_mm")),
+             number(ply.get("area_share_beyond_locking_angle"), ".1f", 100.0),
              *(with_spread(ply.get(f"draw_in_{key}_mm")) for key in ("yarns", "bisectors"))]
             for run, name in zip(runs, names) for ply in run["plies"]]
     return table(head, rows, 2)
@@ -202,8 +158,10 @@ def run_table(runs: list[dict], names: list[str]) -> str:
 
 
 def remarks(runs: list[dict], names: list[str]) -> str:
-    """What the tables cannot say: why runs ended early and why draw-ins are missing."""
-    lines = [f"- {name} is not done ({run['status']}): {run.get('message') or 'no reason given'}"
+    """What the tables cannot say: why runs ended early, what not to trust and why draw-ins are
+    missing."""
+    lines = [f"- {name} is {'doubtful' if ended(run) else 'not done (' + run['status'] + ')'}: "
+             f"{run.get('message') or 'no reason given'}"
              for run, name in zip(runs, names) if run["status"] != "done"]
     lines += [f"- {name}, ply {ply['name']}: no draw-in, {ply['no_draw_in']}"
               for run, name in zip(runs, names) for ply in run["plies"] if "no_draw_in" in ply]
@@ -215,7 +173,7 @@ def main() -> None:
     parser.add_argument("folders", nargs="+", type=Path, metavar="DIR", help="result folder")
     parser.add_argument("--against", type=Path, metavar="DIR",
                         help="result folder that the others are compared with")
-    parser.add_argument("--json", type=Path, metavar="FILE", help="the numbers, with all walks")
+    parser.add_argument("--json", type=Path, metavar="FILE", help="all numbers, with all walks of the draw-in")
     options = parser.parse_args()
     try:
         reference = read_reference(options.against) if options.against else {}

@@ -35,7 +35,7 @@ run() {
   local results
   results=results/$(basename "$1" .toml)
   if [ -z "$always" ]; then
-    ! grep -qs '"status": "done"' "$results/summary.json" || return 0
+    ! grep -qsE '"status": "(done|doubtful)"' "$results/summary.json" || return 0
   elif [ -n "${fresh[$1]:-}" ]; then
     return 0
   fi

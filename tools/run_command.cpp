@@ -82,6 +82,22 @@ void print_work(const WorkReport& w, long steps) {
     fmt::print("  missing: {}\n", what);
 }
 
+/// One line a ply: what of it cloth would not do, wrinkles and draw-in.
+void print_plausibility(const std::string& name, const PlyReport& ply) {
+  fmt::print("  {:16} ", name);
+  if (const auto& pressed = ply.pressed)
+    fmt::print(
+        "pressed {:.1f} %, over 2 / 5 % on {:.1f} / {:.1f} % of the area; excess length {:.1f}, ",
+        100.0 * pressed->largest, 100.0 * pressed->share_above_2, 100.0 * pressed->share_above_5,
+        pressed->excess_mm);
+  fmt::print("wrinkles {:.1f}", ply.wrinkle.height);
+  if (ply.draw_in.unknown.empty()) fmt::print(", draw-in {:.1f}", ply.draw_in.mean());
+  fmt::print(" mm");
+  if (ply.beyond_locking_share)
+    fmt::print("; beyond locking on {:.1f} %", 100.0 * *ply.beyond_locking_share);
+  fmt::print("\n");
+}
+
 void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   const Energies& e = r.last.energy;
   fmt::print("{} at {:.2f} mm of stroke after {} steps in {:.1f} s\n", r.summary.status,
@@ -95,6 +111,8 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
     fmt::print("  {:16} largest shear {:5.1f} deg, largest tension {:6.2f} N per yarn\n", ply.name,
                shear, tension);
   }
+  for (std::size_t p = 0; p < r.summary.plies.size(); ++p)
+    print_plausibility(r.last.plies[p].name, r.summary.plies[p]);
   for (const ToolFrame& tool : r.last.tools)
     fmt::print("  {:16} force {:8.1f} N, displacement {:7.2f} mm\n", tool.name, tool.force_N,
                tool.stroke_mm);
@@ -139,7 +157,9 @@ int run_command(const RunArguments& arguments) {
   }
   if (result.summary.status == "interrupted")
     fmt::print(stderr, "plyform: interrupted; the state reached is in {}\n", folder.string());
-  return result.summary.status == "done" ? exit_done : exit_other;
+  if (result.summary.status == "doubtful")
+    fmt::print(stderr, "plyform: doubtful: {}\n", result.summary.message);
+  return ended(result.summary.status) ? exit_done : exit_other;
 }
 
 } // namespace plyform

@@ -42,7 +42,7 @@ from pathlib import Path
 try:
     import numpy as np
     from plotting.draw_stability import draw_map
-    from plotting.reading import Trouble, read_history
+    from plotting.reading import Trouble, ended, read_history
 except ImportError as error:
     sys.exit(f"stability_map.py: error: {error}; install python3-matplotlib")
 
@@ -119,7 +119,7 @@ def judge(folder: Path) -> dict:
            "tool_depth_mm": contact["max_tool_penetration_mm"],
            "ply_depth_mm": contact["max_ply_penetration_mm"],
            "balance_error": summary["energy"]["balance_error"], "message": summary["message"]}
-    if summary["status"] != "done":
+    if not ended(summary):
         why = next((letter for text, letter in REASONS.items() if text in summary["message"]), "?")
         return {**row, "state": "stopped", "why": why}
     history = read_history(folder)

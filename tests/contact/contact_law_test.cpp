@@ -25,6 +25,33 @@ TEST(ContactLaw, NormalForceIsSpringAndDamperWithoutAdhesion) {
   EXPECT_EQ(normal_force(law, area, 0.01, 0.5, 0.0).damping, 0.0); // no step yet
 }
 
+TEST(ContactLaw, PressureIsTheSlopeOfTheEnergyAndHasNoEndBeforeItsLimit) {
+  constexpr double limit = 0.15;
+  const ContactLaw law{k, 0.0, 0.0, limit};
+  for (double u = 0.05; u < 0.99; u += 0.01) {
+    const double p = u * limit, h = 1e-5 * (1.0 - u) * limit;
+    const double slope = (law.energy(p + h) - law.energy(p - h)) / (2.0 * h);
+    const double tangent = (law.pressure(p + h) - law.pressure(p - h)) / (2.0 * h);
+    // differences over 1e-5 of the room: 1e-10 of curvature, 1e-16 / 1e-5 of rounding
+    EXPECT_NEAR(slope / law.pressure(p), 1.0, 1e-8) << u;
+    EXPECT_NEAR(tangent / law.tangent(p), 1.0, 1e-8) << u;
+    EXPECT_GT(law.pressure(p), k * p);
+  }
+  EXPECT_NEAR(law.pressure(0.01 * limit), k * 0.01 * limit, 3e-4 * k * 0.01 * limit); // 2 u^2
+  EXPECT_GT(law.energy(0.999 * limit), 400.0 * k * limit * limit / 2.0);
+  EXPECT_TRUE(std::isfinite(law.pressure(2.0 * limit))); // a fault, but a number
+  EXPECT_EQ(law.tangent(-0.1), k);
+}
+
+TEST(ContactLaw, NextStepLeavesHalfOfTheRoom) {
+  constexpr double limit = 0.1;
+  const ContactLaw law{k, 0.0, 0.0, limit};
+  EXPECT_DOUBLE_EQ(step_ratio(law, 0.06, 0.01), 0.5 * 0.04 / 0.01);
+  EXPECT_DOUBLE_EQ(step_ratio(law, -0.02, 0.01), (0.02 + 0.5 * limit) / 0.01);
+  EXPECT_TRUE(std::isinf(step_ratio(law, 0.06, -0.01))); // it opens
+  EXPECT_EQ(step_ratio(law, 2.0 * limit, 0.01), 0.0);
+}
+
 TEST(ContactLaw, FrictionHeatIsNeverNegativeAndNeverMoreThanTheWork) {
   Random random(1);
   for (int trial = 0; trial < 200; ++trial) {

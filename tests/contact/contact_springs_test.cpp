@@ -139,10 +139,10 @@ TEST(ContactSprings, AnswerAsEdgesDo) {
   contact.distance = 0.3;
   const auto edges = sheet_edges(a.triangles);
   const std::vector<std::int32_t> first{0};
-  find_edge_pairs(contact, a.state(), edges, first, b.state(), edges, first, margin, 0.0);
+  find_edge_pairs(contact, a.state(), {edges, first}, b.state(), {edges, first}, margin, 0.0);
   const auto forces = [&] {
     std::vector<Vec3> f(6, Vec3::Zero());
-    edge_forces(contact, a.state(), b.state(), 0.0, 10.0, std::span(f).first(3),
+    edge_forces(contact, a.state(), edges, b.state(), edges, 0.0, 10.0, std::span(f).first(3),
                 std::span(f).last(3));
     return f;
   };

@@ -28,11 +28,19 @@ OwnedSheet roof(double up, double angle, double z) {
 
 constexpr double always = std::numeric_limits<double>::infinity(); // mm, no pair is left out
 
+/// The edges of a sheet, all of them looked at.
+struct AllEdges {
+  std::vector<SheetEdge> edges;
+  std::vector<std::int32_t> numbers;
+  explicit AllEdges(const OwnedSheet& sheet)
+      : edges(sheet_edges(sheet.triangles)), numbers(edges.size()) {
+    std::iota(numbers.begin(), numbers.end(), 0);
+  }
+  EdgeSet set() const { return {edges, numbers}; }
+};
+
 void search(EdgeContact& contact, const OwnedSheet& a, const OwnedSheet& b, double skin) {
-  const auto edges_a = sheet_edges(a.triangles), edges_b = sheet_edges(b.triangles);
-  find_edge_pairs(contact, a.state(), edges_a, folded_edges(edges_a, a.triangles, a.x, thickness),
-                  b.state(), edges_b, folded_edges(edges_b, b.triangles, b.x, thickness), skin,
-                  0.0);
+  find_edge_pairs(contact, a.state(), AllEdges(a).set(), b.state(), AllEdges(b).set(), skin, 0.0);
 }
 
 /// A contact with what it does to both sheets' nodes.
@@ -40,10 +48,11 @@ struct Loaded : EdgeContact {
   std::vector<Vec3> force_a, force_b; ///< N
 };
 
-void press(Loaded& contact, const SheetState& a, const SheetState& b, double dt) {
+void press(Loaded& contact, const OwnedSheet& a, const OwnedSheet& b, double dt) {
   contact.force_a.assign(a.x.size(), Vec3::Zero());
   contact.force_b.assign(b.x.size(), Vec3::Zero());
-  edge_forces(contact, a, b, dt, always, contact.force_a, contact.force_b);
+  edge_forces(contact, a.state(), AllEdges(a).edges, b.state(), AllEdges(b).edges, dt, always,
+              contact.force_a, contact.force_b);
 }
 
 Loaded contact_of(const ContactLaw& law) {
@@ -72,14 +81,15 @@ TEST(EdgeContact, ForceIsMinusEnergyGradient) {
     Ridges r(random, 0.3 + 0.06 * state, 0.2);
     Loaded contact = contact_of({3.0, 0.0, 0.0});
     search(contact, r.a, r.b, 0.5);
+    press(contact, r.a, r.b, 0.0); // the side
     const double further = state % 4 == 3 ? 0.3 : 0.05;
     for (Vec3& x : r.b.x)
       x.z() -= further;
-    press(contact, r.a.state(), r.b.state(), 0.0);
+    press(contact, r.a, r.b, 0.0);
     ASSERT_EQ(contact.sums.touching, 1) << state;
     const auto energy = [&] {
       Loaded copy = contact;
-      press(copy, r.a.state(), r.b.state(), 0.0);
+      press(copy, r.a, r.b, 0.0);
       return copy.sums.elastic;
     };
     const std::vector<Vec3> on_a = contact.force_a, on_b = contact.force_b;
@@ -107,13 +117,14 @@ TEST(EdgeContact, RemembersItsSideAcrossASearch) {
   Ridges r(random, 1.2, 0.2);
   Loaded contact = contact_of({3.0, 0.0, 0.0});
   search(contact, r.a, r.b, 0.5);
+  press(contact, r.a, r.b, 0.0);
   for (Vec3& x : r.b.x)
     x.z() -= 0.4;
-  press(contact, r.a.state(), r.b.state(), 0.0);
+  press(contact, r.a, r.b, 0.0);
   const std::vector<Vec3> before = contact.force_b;
   EXPECT_GT(contact.sums.penetration, distance);
   search(contact, r.a, r.b, 0.5);
-  press(contact, r.a.state(), r.b.state(), 0.0);
+  press(contact, r.a, r.b, 0.0);
   for (std::size_t n = 0; n < 4; ++n)
     EXPECT_EQ((before[n] - contact.force_b[n]).norm(), 0.0);
 }
@@ -127,7 +138,7 @@ TEST(EdgeContact, DampingTakesEnergyOnly) {
   for (int i = 0; i < 40; ++i) { // in and out again
     for (Vec3& x : r.b.x)
       x.z() += 0.02 * std::cos(0.2 * i + std::numbers::pi);
-    press(contact, r.a.state(), r.b.state(), 1e-6);
+    press(contact, r.a, r.b, 1e-6);
     EXPECT_GE(contact.sums.damping, last);
     EXPECT_GE(contact.force_b[0].z(), 0.0); // no adhesion
     last = contact.sums.damping;
@@ -135,23 +146,11 @@ TEST(EdgeContact, DampingTakesEnergyOnly) {
   EXPECT_GT(last, 0.0);
 }
 
-TEST(EdgeContact, OnlyFoldsAndRimsCount) {
-  OwnedSheet sheet = square_sheet(4, 5.0, 0.0);
-  const auto edges = sheet_edges(sheet.triangles);
+TEST(EdgeContact, EveryEdgeIsListedOnce) {
+  const auto edges = sheet_edges(square_sheet(4, 5.0, 0.0).triangles);
   EXPECT_EQ(edges.size(), 4u * 5 * 2 + 16); // sides of cells and diagonals
   for (std::size_t i = 1; i < edges.size(); ++i)
     EXPECT_LT(std::pair(edges[i - 1].a, edges[i - 1].b), std::pair(edges[i].a, edges[i].b));
-  const auto count = [&] {
-    return folded_edges(edges, sheet.triangles, sheet.x, thickness).size();
-  };
-  EXPECT_EQ(count(), 16u); // the rim
-  const double degree = std::numbers::pi / 180.0;
-  // sag of a side of 5 mm: 2.5 tan(fold/2) = 0.4 * 0.6 at 10.97 degrees
-  for (const double fold : {10.5, 11.5}) { // along the line x = 0
-    for (Vec3& x : sheet.x)
-      x.z() = x.x() > 0.0 ? x.x() * std::tan(fold * degree) : 0.0;
-    EXPECT_EQ(count(), fold > 11.0 ? 20u : 16u);
-  }
 }
 
 TEST(EdgeContact, FindsEveryPairWithinReach) {
@@ -164,15 +163,15 @@ TEST(EdgeContact, FindsEveryPairWithinReach) {
     Loaded contact = contact_of({1.0, 0.0, 0.0});
     constexpr double skin = 0.5;
     search(contact, a, b, skin);
-    std::set<std::array<int, 4>> found;
-    for (const EdgePair& p : contact.pairs)
-      EXPECT_TRUE(found.insert({p.a.a, p.a.b, p.b.a, p.b.b}).second);
-    const auto edges_a = sheet_edges(a.triangles), edges_b = sheet_edges(b.triangles);
+    std::set<std::array<std::int32_t, 2>> found(contact.candidates.begin(),
+                                                contact.candidates.end());
+    EXPECT_EQ(found.size(), contact.candidates.size());
+    const AllEdges edges_a(a), edges_b(b);
     int near = 0;
-    for (const std::int32_t i : folded_edges(edges_a, a.triangles, a.x, thickness))
-      for (const std::int32_t j : folded_edges(edges_b, b.triangles, b.x, thickness)) {
-        const SheetEdge &e = edges_a[static_cast<std::size_t>(i)],
-                        &g = edges_b[static_cast<std::size_t>(j)];
+    for (const std::int32_t i : edges_a.numbers)
+      for (const std::int32_t j : edges_b.numbers) {
+        const SheetEdge &e = edges_a.edges[static_cast<std::size_t>(i)],
+                        &g = edges_b.edges[static_cast<std::size_t>(j)];
         double nearest = 1e300; // by points along both: never below the true distance
         for (int s = 0; s <= 30; ++s)
           for (int t = 0; t <= 30; ++t) {
@@ -186,24 +185,37 @@ TEST(EdgeContact, FindsEveryPairWithinReach) {
           }
         if (nearest > distance + skin) continue;
         ++near;
-        EXPECT_TRUE(found.contains({e.a, e.b, g.a, g.b})) << state;
+        EXPECT_TRUE(found.contains({i, j})) << state;
       }
     EXPECT_GT(near, 20);
   }
 }
 
-TEST(EdgeContact, KeepsATouchingPairWhoseFoldOpens) {
-  OwnedSheet a = roof(-1.0, 0.0, 0.2), b = roof(1.0, 0.5 * std::numbers::pi, 0.0);
-  Loaded contact = contact_of({1.0, 0.0, 0.0});
+TEST(EdgeContact, IsLinearWhileShallowAndHasNoEndBeforeItsLimit) {
+  constexpr double k = 3.0, limit = 0.5 * distance;
+  const ContactLaw law{k, 0.0, 0.0, limit};
+  const auto force_at = [&](double gap) {
+    OwnedSheet a = roof(-1.0, 0.0, gap), b = roof(1.0, 0.5 * std::numbers::pi, 0.0);
+    Loaded contact = contact_of(law);
+    search(contact, a, b, 0.1);
+    press(contact, a, b, 0.0);
+    return (contact.force_a[0] + contact.force_a[1]).z() / contact.pairs.at(0).area;
+  };
+  EXPECT_NEAR(force_at(distance - 0.003), k * 0.003, 1e-3 * k * 0.003); // (1 - u^2)^-2 at u = 0.02
+  EXPECT_GT(force_at(distance - 0.999 * limit), 1e5 * k * limit);       // (1 - u^2)^2 = 4e-6
+}
+
+TEST(EdgeContact, TellsHowMuchLongerTheNextStepMayBe) {
+  const ContactLaw law{3.0, 0.0, 0.0, 0.5 * distance};
+  OwnedSheet a = roof(-1.0, 0.0, distance + 0.02), b = roof(1.0, 0.5 * std::numbers::pi, 0.0);
+  Loaded contact = contact_of(law);
   search(contact, a, b, 0.1);
-  press(contact, a.state(), b.state(), 0.0);
-  ASSERT_EQ(contact.sums.touching, 1); // ridges 0.2 mm apart, contact from 0.3 mm on
-  for (OwnedSheet* sheet : {&a, &b})   // wings up or down to the ridge's height: flat sheets
-    for (std::size_t n = 2; n < 4; ++n)
-      sheet->x[n].z() = sheet->x[0].z();
-  search(contact, a, b, 0.1);
-  press(contact, a.state(), b.state(), 0.0);
-  EXPECT_GE(contact.sums.touching, 1);
+  press(contact, a, b, 0.0);
+  for (Vec3& x : a.x)
+    x.z() -= 0.01;
+  press(contact, a, b, 0.0);
+  // 0.01 mm from touching, closing by 0.01 mm a step: to half of the depth limit
+  EXPECT_NEAR(contact.sums.step_ratio, (0.01 + 0.25 * distance) / 0.01, 1e-9);
 }
 
 } // namespace

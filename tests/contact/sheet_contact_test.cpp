@@ -61,7 +61,7 @@ TEST(SheetContact, ForceIsMinusEnergyGradient) {
   double worst = 0.0;
   for (int state = 0; state < 20; ++state) {
     BumpyPair p = bumpy_pair(random);
-    Loaded contact = contact_of({3.0, 0.0, 0.0});
+    Loaded contact = contact_of({3.0, 0.0, 0.0, 0.25});
     search(contact, p.slave, p.master, 0.5);
     forces(contact, p.slave, p.master);
     EXPECT_LT(contact.fault.node, 0);

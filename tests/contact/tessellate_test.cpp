@@ -45,6 +45,14 @@ double sagitta(double r) {
   return r * (1.0 - std::cos(std::min(pi / 16.0, 1.0 / r)));
 }
 
+/// Volume (mm^3) of a box of outer edges x, y, z rounded by e: Steiner's formula, for all within e
+/// of the box of edges a, b, c.
+double steiner(double x, double y, double z, double e) {
+  const double a = x - 2.0 * e, b = y - 2.0 * e, c = z - 2.0 * e;
+  return a * b * c + 2.0 * e * (a * b + b * c + c * a) + pi * e * e * (a + b + c) +
+         4.0 / 3.0 * pi * e * e * e;
+}
+
 std::vector<Solid> solids() {
   // Volumes by Pappus; the last is a cone of radius 10 and height 20 on a disc.
   const double ring = pi * (45 * 45 - 20 * 20) * 10;
@@ -53,10 +61,18 @@ std::vector<Solid> solids() {
   const double cut = 9.0 * (1.0 - pi / 4.0),
                from_side = 3.0 * (10.0 - 3.0 * pi) / (12.0 - 3.0 * pi);
   const double rounded = ring - 2.0 * cut * 2.0 * pi * ((45.0 - from_side) + (20.0 + from_side));
+  // A disc of radius 45 - 4 and height 10 and, outside of it, the section's half disc of radius 4
+  // (centroid 16/(3 pi) from its straight side) and the rectangle between the two roundings.
+  const double rim = 2.0 * pi * (8.0 * pi * (41.0 + 16.0 / (3.0 * pi)) + 4.0 * 2.0 * 43.0);
   return {
       {"sphere", Sphere{20}, 4.0 / 3.0 * pi * 8000, 2 * sagitta(20)},
       {"cylinder", Cylinder{15, 20}, pi * 225 * 20, sagitta(15)},
+      {"rounded cylinder", Cylinder{45, 10, 4}, pi * 41 * 41 * 10 + rim, sagitta(45) + sagitta(4)},
       {"box", Box{Vec3(20, 14, 10)}, 2800, 1e-12},
+      // a square of a corner is halved along a diagonal: both sides' sagittas add up
+      {"rounded box", Box{Vec3(20, 14, 10), 2}, steiner(20, 14, 10, 2), 2 * sagitta(2)},
+      {"box of large roundings", Box{Vec3(40, 41, 42), 19.9}, steiner(40, 41, 42, 19.9),
+       2 * sagitta(19.9)},
       {"ring", Annulus{20, 45, 10, 3}, rounded, sagitta(45) + sagitta(3)},
       {"sharp ring", Annulus{20, 45, 10, 0}, ring, sagitta(45)},
       {"disc", Annulus{0, 45, 10, 0}, pi * 45 * 45 * 10, sagitta(45)},

@@ -62,7 +62,7 @@ TEST(ToolContact, ForceIsMinusEnergyGradient) {
       for (int n = 0; n < 30; ++n) // some touch, some do not
         x.push_back(near_tool(tool, half_thickness - 0.2, half_thickness + 0.1, random));
       OwnedSheet nodes = points_only(x, 4.0);
-      ToolContact contact = contact_of({3.0, 0.0, 0.0});
+      ToolContact contact = contact_of({3.0, 0.0, 0.0, 0.25});
       find_tool_points(contact, tool, nodes.state(), 0.5, all_ways);
       const Vec3 on_tool = forces(tool, contact, nodes, 0.0);
       EXPECT_GT(contact.sums.touching, 10);
@@ -196,7 +196,7 @@ TEST(ToolContact, PushedToolFeelsItsForce) {
         OwnedSheet nodes = square_sheet(6, 1.0, -half_thickness);
         for (Vec3& x : nodes.x)
           x.z() += 2e-4 * signed_unit(random); // gaps of some tenths of a step's way
-        ToolContact contact = contact_of({50.0, 5e-5, ball ? 0.0 : 0.2});
+        ToolContact contact = contact_of({50.0, 5e-5, ball ? 0.0 : 0.2, 0.02}); // it is pressed to 0.6 of that
         find_tool_points(contact, tool, nodes.state(), 1.0, all_ways);
         int free_steps = 0;
         for (int step = 0; step < 50; ++step) {

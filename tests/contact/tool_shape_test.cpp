@@ -132,6 +132,8 @@ std::vector<ToolShape> closed_forms() {
   return {Sphere{40.0},
           Cylinder{35.0, 50.0},
           Box{Vec3(70.0, 50.0, 30.0)},
+          Cylinder{35.0, 50.0, 6.0},
+          Box{Vec3(70.0, 50.0, 30.0), 8.0},
           Plane{},
           Annulus{20.0, 45.0, 10.0, 3.0},
           Annulus{0.0, 45.0, 10.0, 4.0},
@@ -188,6 +190,10 @@ TEST(ToolShape, SmallestRadius) {
   EXPECT_EQ(smallest_radius(Sphere{75}), 75.0);
   EXPECT_EQ(smallest_radius(Cylinder{75, 10}), 0.0);
   EXPECT_EQ(smallest_radius(Box{Vec3(1, 2, 3)}), 0.0);
+  EXPECT_EQ(smallest_radius(Cylinder{75, 10, 2}), 2.0);
+  EXPECT_EQ(smallest_radius(Cylinder{3, 10, 4}), 3.0); // no more than fits
+  EXPECT_EQ(smallest_radius(Box{Vec3(10, 20, 30), 2}), 2.0);
+  EXPECT_EQ(smallest_radius(Box{Vec3(10, 20, 30), 7}), 5.0); // no more than fits
   EXPECT_EQ(smallest_radius(Plane{}), infinity);
   EXPECT_EQ(smallest_radius(Annulus{92, 300, 10, 2}), 2.0);
   EXPECT_EQ(smallest_radius(Annulus{92, 300, 10, 0}), 0.0);

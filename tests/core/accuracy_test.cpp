@@ -17,7 +17,7 @@ Case case_at(const std::string& file, const std::vector<Override>& overrides = {
   return reading.value.value_or(Case{});
 }
 
-const std::string five = PLYFORM_CASES "/hemisphere_five_ply/case.toml";
+const std::string five = PLYFORM_CASES "/hemisphere_five_ply_paper/case.toml";
 
 TEST(Accuracy, EveryDialHasItsError) {
   const PredictedError as_is = predicted_error(case_at(five));
@@ -62,6 +62,22 @@ TEST(Accuracy, PicksTheLeastWorkOfAllDialsThatKeepThePromise) {
               << coarser << ", " << duration << " s, " << softening;
         }
   }
+}
+
+TEST(Accuracy, SoftensNoFurtherThanCompressionAllows) {
+  Case cloth = case_at(PLYFORM_CASES "/hemisphere_five_ply/case.toml"); // 1 % in compression
+  cloth.solver.fibre_softening = 250.0;
+  const double error = predicted_error(cloth).softening;
+  cloth.solver.fibre_softening = 100.0;
+  EXPECT_NEAR(predicted_error(cloth).softening, error, 1e-12 * error);
+  EXPECT_EQ(error, predicted_error(case_at(five)).softening);
+  cloth.accuracy.shear_error = 3.0 * std::numbers::pi / 180.0;
+  pick_dials(cloth);
+  EXPECT_NEAR(cloth.solver.fibre_softening, 48000.0 / 480.0, 1e-9);
+  Case paper = case_at(five);
+  paper.accuracy.shear_error = cloth.accuracy.shear_error;
+  pick_dials(paper);
+  EXPECT_GT(paper.solver.fibre_softening, 200.0);
 }
 
 /// mm, element size that `case_file` gets for an error of `wanted` degrees.

@@ -36,7 +36,7 @@ Tip hang_strip(const Fabric& fabric, MeshKind mesh, double angle, double softeni
   data.solver.mass_damping = 40.0; // 1/s, about critical for the first mode of the softer strip
   data.solver.duration = 0.5;
   const RunResult run = run_case(data, 1, {}); // too small to share out
-  EXPECT_EQ(run.summary.status, "done") << run.summary.message;
+  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
   const PlyFrame& ply = run.last.plies[0];
   Tip tip;
   int ends = 0;
@@ -68,8 +68,9 @@ Fabric plate(double stiffness) {
   return fabric;
 }
 
-/// The glass weave with bending, N mm, and compressive stiffness as a share of the tensile.
-Fabric weave(double warp, double weft, double compression = 0.01) {
+/// The glass weave with bending, N mm, and compressive stiffness as a share of the tensile: yarns
+/// are then softened by 1000, and no more.
+Fabric weave(double warp, double weft, double compression = 0.001) {
   Fabric fabric = glass_weave();
   fabric.bending.warp.stiffness = warp;
   fabric.bending.weft.stiffness = weft;

@@ -148,7 +148,10 @@ TEST(CaseFile, ReadsAllShippedCasesWithoutErrorOrWarning) {
       continue;
     const CaseReading reading = read_case(entry.path(), {});
     EXPECT_TRUE(reading.value) << all_texts(reading);
-    EXPECT_TRUE(reading.warnings.empty()) << reading.warnings.front();
+    const bool coarse = entry.path().parent_path().filename() == "stability"; // on purpose
+    for (const std::string& warning : reading.warnings)
+      EXPECT_TRUE(coarse && warning.find("is too coarse for how yarns") != std::string::npos)
+          << warning;
     ++cases;
   }
   EXPECT_GE(cases, 3);
@@ -227,7 +230,9 @@ TEST(CaseFile, ReadsShapesOfTools) {
   ASSERT_EQ(c.tools.size(), 8u);
   EXPECT_DOUBLE_EQ(std::get<Sphere>(c.tools[0].shape).radius, 5.0);
   EXPECT_DOUBLE_EQ(std::get<Cylinder>(c.tools[1].shape).length, 40.0);
+  EXPECT_DOUBLE_EQ(std::get<Cylinder>(c.tools[1].shape).edge_radius, 2.0);
   EXPECT_EQ(std::get<Box>(c.tools[2].shape).size, Vec3(4, 5, 6));
+  EXPECT_DOUBLE_EQ(std::get<Box>(c.tools[2].shape).edge_radius, 1.5);
   EXPECT_TRUE(std::holds_alternative<Plane>(c.tools[3].shape));
   const Annulus disc = std::get<Annulus>(c.tools[4].shape),
                 ring = std::get<Annulus>(c.tools[5].shape);
@@ -351,6 +356,13 @@ TEST(CaseFile, HasTheFabricsBending) {
   EXPECT_EQ(line.bending.weft.stiffness, 1.0);
   EXPECT_EQ(line.bending.twist, 3.0);
   EXPECT_EQ(line.bending.coupling, 0.0);
+  EXPECT_EQ(line.bending.in_plane[0], 8.0);
+  EXPECT_EQ(line.warp.buckling_force, 5.0);
+  EXPECT_FALSE(line.weft.buckles());
+  EXPECT_NEAR(line.locking_angle.value(), 50.0 * pi / 180.0, 1e-15);
+  EXPECT_FALSE(table.locking_angle);
+  EXPECT_EQ(table.bending.in_plane[1], 2.0);
+  EXPECT_TRUE(table.weft.buckles());
   EXPECT_EQ(table.bending.warp.curvature, (std::vector<double>{0.0, 0.01, 0.05}));
   EXPECT_EQ(table.bending.warp.moment, (std::vector<double>{0.0, 0.04, 0.08}));
   EXPECT_DOUBLE_EQ(table.bending.twist, 2.0); // root of 4 times 1

@@ -156,10 +156,12 @@ TEST(ContactSearch, RestingPointsAreHardlyLate) {
 /// A face seen late is closer than the one before, so that each such switch adds energy: little, in
 /// a stack of coarse plies drawn over small radii.
 TEST(ContactSearch, RestingPointsKeepTheLedger) {
-  const CaseReading reading = read_case(PLYFORM_CASES "/stability/five_plies.toml", {});
+  const CaseReading reading = read_case(
+      PLYFORM_CASES "/stability/five_plies.toml", // yarns that carry tension only are held least
+      {{"fabrics.glass", "../fabrics/glass_plain_weave_paper.toml"}});
   ASSERT_TRUE(reading.value);
   const RunResult run = run_case(*reading.value, 1, {});
-  ASSERT_EQ(run.summary.status, "done") << run.summary.message;
+  ASSERT_TRUE(ended(run.summary.status)) << run.summary.message;
   EXPECT_LE(std::abs(run.last.energy.balance_error()), 0.02);
 }
 

@@ -56,16 +56,45 @@ TEST(TensionLaw, TakesCompressionIfAskedTo) {
   }
 }
 
-TEST(TensionLaw, SoftensCompressionOnlyWhereItWouldBeStifferThanTension) {
+TEST(TensionLaw, BucklesAtItsForceAndComesBackTheSameWay) {
+  for (TensionLaw law : {TensionLaw{46000.0, {}, {}}, crimped()}) {
+    law.compression = 400.0;
+    law.buckling_force = 2.0; // at a strain of 0.005
+    EXPECT_EQ(law.buckling_strain(), 0.005);
+    for (const double strain : {-0.9, -0.0051, -0.0049, -1e-4, 1e-4, 0.003})
+      expect_consistent(law, strain, 46000.0);
+    EXPECT_NEAR(law.at(-0.004).value, -1.6, 1e-14);
+    EXPECT_NEAR(law.at(-0.005).value, -2.0, 1e-14);
+    EXPECT_NEAR(law.at(-0.105).value, -2.0 - 4.0 * 0.1, 1e-13); // 0.01 of 400 N
+    EXPECT_NEAR(law.at(-0.105).slope, 4.0, 1e-12);
+    // a triangle, and a trapezium beyond
+    EXPECT_NEAR(law.at(-0.105).energy, 0.5 * 2.0 * 0.005 + 0.5 * (2.0 + 2.4) * 0.1, 1e-13);
+    const double tension = law.at(0.003).value;
+    law.buckling_force = 0.0; // takes 0.01 of its stiffness from the start
+    EXPECT_NEAR(law.at(-0.1).value, -0.4, 1e-13);
+    EXPECT_EQ(law.at(0.003).value, tension);
+    law.buckling_force = std::numeric_limits<double>::infinity();
+    EXPECT_FALSE(law.buckles());
+    EXPECT_EQ(law.at(-0.1).value, -40.0);
+  }
+}
+
+TEST(TensionLaw, IsSoftenedNoFurtherThanItsCompression) {
   for (TensionLaw law : {TensionLaw{46000.0, {}, {}}, crimped()}) {
     law.compression = 460.0;
+    law.buckling_force = 5.0;
     const TensionLaw some = softened(law, 10.0), much = softened(law, 1000.0);
+    EXPECT_EQ(effective_softening(law, 10.0), 10.0);
+    EXPECT_NEAR(effective_softening(law, 1000.0), 100.0, 1e-12);
     EXPECT_NEAR(some.largest_slope(), 4600.0, 1e-6);
+    EXPECT_NEAR(much.largest_slope(), 460.0, 1e-6);
     EXPECT_NEAR(some.at(0.003).value, 0.1 * law.at(0.003).value, 1e-12);
-    EXPECT_EQ(some.compression, 460.0);
-    EXPECT_NEAR(much.compression, 46.0, 1e-9);
+    for (const TensionLaw& soft : {some, much}) // the cloth that is pressed stays the same
+      for (const double strain : {-0.3, -0.005})
+        EXPECT_EQ(soft.at(strain).value, law.at(strain).value);
     law.compression = 0.0;
-    EXPECT_EQ(softened(law, 1000.0).compression, 0.0);
+    EXPECT_EQ(effective_softening(law, 1000.0), 1000.0);
+    EXPECT_EQ(softened(law, 1000.0).largest_slope(), law.largest_slope() / 1000.0);
   }
 }
 

@@ -86,7 +86,7 @@ TEST(MembraneFrequency, BoundHoldsForCompressedYarns) {
     const double softening = state % 2 ? 1000.0 : 1.0; // then as stiff as in tension, and a guard
     for (TensionLaw* law : {&fabric.warp, &fabric.weft}) {
       law->compression = 0.01 * law->stiffness;
-      *law = softened(*law, softening);
+      if (state % 3 == 0) law->buckling_force = 10.0;
     }
     const auto kind = state % 4 < 2 ? ElementKind::plain : ElementKind::averaged;
     Membrane m = make_membrane(mesh, fabric, 3.0 * signed_unit(random), kind, softening);
@@ -143,10 +143,7 @@ TEST(MembraneFrequency, HighestIsSharp) {
     for (const double angle : {0.0, 0.3, 0.5 * right_angle})
       for (const double softening : {1.0, 100.0})
         for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged}) {
-          Fabric fabric = glass_weave();
-          fabric.warp = softened(fabric.warp, softening);
-          fabric.weft = softened(fabric.weft, softening);
-          Membrane m = make_membrane(mesh, fabric, angle, kind, softening);
+          Membrane m = make_membrane(mesh, glass_weave(), angle, kind, softening);
           const std::vector<Vec3> x = stretched(mesh, 1.001);
           const double found = highest(m, x), largest = largest_eigenvalue(m, x);
           EXPECT_GE(found, largest);
@@ -172,10 +169,7 @@ TEST(MembraneFrequency, HighestIsABoundWhereGuardsAct) {
     for (const double softening :
          {100.0, 1000.0}) // a guard a tenth as stiff as the yarns; as stiff
       for (const double stretch : {0.3, 0.48, 0.7}) {
-        Fabric fabric = glass_weave();
-        fabric.warp = softened(fabric.warp, softening);
-        fabric.weft = softened(fabric.weft, softening);
-        Membrane m = make_membrane(mesh, fabric, 0.3, ElementKind::averaged, softening);
+        Membrane m = make_membrane(mesh, glass_weave(), 0.3, ElementKind::averaged, softening);
         const double flat = sharpness(m, stretched(mesh, 1.0)); // as old as it can be in a run
         std::vector<Vec3> x = stretched(mesh, stretch);
         for (Vec3& p : x)

@@ -56,7 +56,7 @@ Case busy_case() {
 TEST(MovedScene, FormsTheSameWay) {
   const Case data = busy_case();
   const EndedRun here = run_on_any_threads([&] { return make_scene(data); });
-  ASSERT_EQ(here.result.summary.status, "done") << here.result.summary.message;
+  ASSERT_TRUE(ended(here.result.summary.status)) << here.result.summary.message;
   EXPECT_GT(here.result.last.energy.friction, 1.0); // N mm: it does slide
   Random random(7);
   for (const double far : {0.0, 1e4}) {
@@ -66,7 +66,7 @@ TEST(MovedScene, FormsTheSameWay) {
       carry(s, to);
       return s;
     });
-    ASSERT_EQ(there.result.summary.status, "done") << there.result.summary.message;
+    ASSERT_TRUE(ended(there.result.summary.status)) << there.result.summary.message;
     EXPECT_EQ(there.result.summary.steps, here.result.summary.steps);
     double off = 0.0, force_off = 0.0;
     for (std::size_t p = 0; p < data.plies.size(); ++p)

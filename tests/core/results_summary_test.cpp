@@ -44,6 +44,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
                   4,
                   {0.25, 0.5, 0.75, 1.5},
                   {0.01, 0.02, 0.05, 3, 4},
+                  {},
                   {}};
   summary.work = {0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7}}, {"bending: small"},
                   {}};
@@ -83,6 +84,37 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "missing": []
 }
 )"); // rms: sqrt((99 * 10^2 + 1 * 20^2) / 100) = sqrt(103)
+}
+
+TEST(SummaryJson, HasTheKeysOfAPlysReport) {
+  Summary summary;
+  PlyReport report;
+  report.pressed = PressedYarns{0.07, 0.3, 0.04, 2.5, {1, 2, 3}};
+  report.wrinkle = {1.5, 40, {4, 5, 6}};
+  report.beyond_locking_share = 0.125;
+  report.draw_in = {{-45, 45, 135, 225}, {0, 90, 180, 270}, {1, 2, 3, 4}, {5, 6, 7, 12}, ""};
+  summary.plies = {report};
+  const std::string json = summary_json(unequal(10, -20), summary);
+  EXPECT_TRUE(contains(json,
+                       "\"max_tension_N_per_yarn\": 7, \"max_pressed_strain\": 0.07, "
+                       "\"area_share_pressed_over_2_percent\": 0.3, "
+                       "\"area_share_pressed_over_5_percent\": 0.04, \"excess_length_mm\": 2.5, "
+                       "\"excess_length_at_mm\": [1, 2, 3], \"wrinkle_height_mm\": 1.5, "
+                       "\"wrinkle_length_mm\": 40, \"wrinkle_at_mm\": [4, 5, 6], "
+                       "\"area_share_beyond_locking_angle\": 0.125, "
+                       "\"draw_in_mm\": {\"mean\": 5, \"largest\": 12}, "
+                       "\"draw_in_yarns_mm\": {\"mean\": 2.5, \"spread\": 3, "
+                       "\"directions_deg\": [315, 45, 135, 225], \"each\": [1, 2, 3, 4]}, "
+                       "\"draw_in_bisectors_mm\": {\"mean\": 7.5, \"spread\": 7, "
+                       "\"directions_deg\": [0, 90, 180, 270], \"each\": [5, 6, 7, 12]}}"))
+      << json;
+  report = {};
+  report.draw_in.unknown = "why";
+  summary.plies = {report};
+  const std::string bare = summary_json(unequal(10, -20), summary);
+  EXPECT_TRUE(contains(bare, "7, \"wrinkle_height_mm\": 0, \"wrinkle_length_mm\": 0, "
+                             "\"wrinkle_at_mm\": [0, 0, 0], \"no_draw_in\": \"why\"}"))
+      << bare;
 }
 
 TEST(SummaryJson, PercentileOfShearIsWeightedByAreaNotByNumber) {

@@ -25,7 +25,7 @@ TEST(Run, GivesTheSameBitsForAnyNumberOfThreads) {
   data.tools[0].stroke = 30.0; // two plies of 20 mm cells do not come round the fillet much further
   data.solver.duration = 0.03; // s: soon done
   const RunResult one = run_case(data, 1, {});
-  ASSERT_EQ(one.summary.status, "done") << one.summary.message;
+  ASSERT_TRUE(ended(one.summary.status)) << one.summary.message;
   ASSERT_TRUE(all_finite(one.last));
   EXPECT_GT(one.last.energy.shear, 0.0);
   EXPECT_GT(one.last.energy.friction, 0.0);
@@ -42,7 +42,7 @@ TEST(Run, NeedsNoDrivenTool) {
   data.tools[0].stroke = 0.0;
   data.solver.duration = 0.01;
   const RunResult run = run_case(data, 1, {});
-  EXPECT_EQ(run.summary.status, "done") << run.summary.message;
+  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
   EXPECT_NEAR(run.last.tools[2].force_N, data.tools[2].force, 1e-6 * data.tools[2].force);
 }
 
@@ -54,7 +54,7 @@ TEST(Run, WritesEachStateOnceAndTheLastAtTheEnd) {
   RunHooks hooks;
   hooks.frame = [&](const Frame& f) { times.push_back(f.time); };
   const RunResult run = run_case(data, 1, hooks);
-  ASSERT_EQ(run.summary.status, "done") << run.summary.message;
+  ASSERT_TRUE(ended(run.summary.status)) << run.summary.message;
   ASSERT_EQ(times.size(), 5u); // the start and four
   for (std::size_t i = 1; i < times.size(); ++i)
     EXPECT_GT(times[i], times[i - 1]);

@@ -2,6 +2,7 @@
 // What the checks of the whole scene see: lines through tools, plies from above, slabs of surfaces.
 #include "core/scene_probe.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -28,6 +29,20 @@ TEST(SceneProbe, FindsWhereALineRunsInATool) {
   const auto cut = occupied(tool, {1.0, 0.0}, 0.0, 1.0); // wholly inside
   ASSERT_EQ(cut.size(), 1u);
   EXPECT_EQ(cut[0], std::pair(0.0, 1.0));
+}
+
+TEST(SceneProbe, FindsWhereALineRunsInARoundedEdge) {
+  Tool punch;
+  punch.shape = Box{Vec3(20.0, 20.0, 12.0), 4.0};
+  punch.position = {0.0, 0.0, 3.0};
+  for (const double x : {0.0, 5.9, 7.0, 9.0, 9.99}) { // rounded from 6 on
+    const double into = std::max(0.0, x - 6.0), half = 2.0 + std::sqrt(16.0 - into * into);
+    const auto parts = occupied(punch, {x, 1.0}, -20.0, 20.0);
+    ASSERT_EQ(parts.size(), 1u) << x;
+    EXPECT_NEAR(parts[0].first, 3.0 - half, 3e-8); // 2^-30 of a step, at most 22 mm
+    EXPECT_NEAR(parts[0].second, 3.0 + half, 3e-8);
+  }
+  EXPECT_TRUE(occupied(punch, {9.0, 9.0}, -20.0, 20.0).empty()); // beyond the rounded upright edge
 }
 
 TEST(SceneProbe, KnowsTheMeshFromItsHoles) {

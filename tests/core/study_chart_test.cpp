@@ -120,6 +120,8 @@ TEST(StudyChart, ReadsOutcomesFromWhatRunsWrite) {
   EXPECT_EQ(done.promised_deg, 1.25);
   summary.status = "stopped";
   EXPECT_EQ(read_outcome(summary_json(results_test::frame(1.0), summary)).status, "stopped");
+  summary.status = "doubtful";
+  EXPECT_EQ(read_outcome(summary_json(results_test::frame(1.0), summary)).status, "doubtful");
   EXPECT_EQ(read_outcome("").status, "failed");
   EXPECT_TRUE(std::isnan(read_outcome("{\n  \"status\": \"done\"\n}\n").promised_deg));
 }

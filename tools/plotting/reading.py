@@ -116,23 +116,6 @@ def state_of(file: h5py.File, folder: Path, field: Field, frame: int, tools: boo
     return State(folder, float(now.attrs["stroke_mm"]), plies, bodies)
 
 
-def read_fibre_angles(folder: Path) -> dict[str, float]:
-    """Degrees from warp to weft in each unformed ply, about +z; mean over its triangles."""
-    path = file_in(folder, "results.h5")
-    try:
-        with h5py.File(path, "r") as file:
-            return {name: fibre_angle(file["frames/000000/plies"][name])
-                    for name in file.attrs["plies"]}
-    except (OSError, KeyError, ValueError) as problem:
-        raise Trouble(f"{path} cannot be read as results of plyform: {problem}") from problem
-
-
-def fibre_angle(ply: h5py.Group) -> float:
-    warp, weft = ply["warp"][:], ply["weft"][:]
-    across = warp[:, 0] * weft[:, 1] - warp[:, 1] * weft[:, 0]
-    return float(np.degrees(np.arctan2(across.sum(), np.einsum("mk,mk", warp, weft))))
-
-
 def read_summary(folder: Path) -> dict:
     path = file_in(folder, "summary.json")
     try:
@@ -147,6 +130,11 @@ def read_summary(folder: Path) -> dict:
         raise Trouble(f"{path} cannot be read as a summary of plyform: "
                       f"{problem}") from problem
     return summary
+
+
+def ended(summary: dict) -> bool:
+    """Whether a run went all the way to its end, be its result doubtful or not."""
+    return summary["status"] in ("done", "doubtful")
 
 
 def read_table(path: Path, needed: list[str] = ()) -> dict[str, np.ndarray]:
