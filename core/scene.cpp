@@ -36,8 +36,10 @@ PlyBody make_ply(const Case& data, const Ply& ply) {
   body.thickness = fabric.thickness;
   body.membrane =
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
-  if (fabric.bending.any())
-    body.bending = make_bending(mesh.x, body.membrane.triangles, fabric.bending, ply.angle,
+  BendingLaw bending = fabric.bending;
+  if (fabric.isotropic) bending.in_plane = {}; // no yarns that could bend in its plane
+  if (bending.any())
+    body.bending = make_bending(mesh.x, body.membrane.triangles, bending, ply.angle,
                                 ply.angle + fabric.fibre_angle, body.membrane.node_mass);
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
