@@ -17,12 +17,12 @@
 //       penetrated, not the way, so that N has no jump where p = 0                          (N)
 //   dN/dp = A k (1 + 3 u^2) / q^3                                                           (K)
 //
-// (E) is the linear penalty while u is small (1.2 times it at u = 0.3), and grows without limit
+// (N) is the linear penalty while u is small (1.2 times it at u = 0.3). (E) grows without limit
 // before delta is reached: no finite energy drives a contact through, which a penalty of finite
 // stiffness only makes rarer. It needs steps in which no contact closes by more than half of the
-// room that it has left, and that follow (K): core/stable_step.hpp. Barriers of this kind, there
-// logarithmic: Li et al., Incremental Potential Contact, ACM Trans. Graph. 39(4), 2020; a rational
-// one needs no logarithm, and its energy has a pole, not only its force.
+// room that it has left at its present speed, and that follow (K): core/step_bound.hpp. Barriers of
+// this kind, there logarithmic: Li et al., Incremental Potential Contact, ACM Trans. Graph. 39(4),
+// 2020; a rational one needs no logarithm, and its energy has a pole, not only its force.
 //
 //   s_trial = rotate(s) + tangential part of the relative motion of this step
 //   T = -A k_t s,  |T| <= mu N, s shortened to fit when it slides                             (T)
@@ -40,9 +40,9 @@
 
 namespace plyform {
 
-/// q of (E) at least: depths of more than 0.9995 delta are a fault, and their force need not be
-/// right, only finite.
-constexpr double least_room = 1e-3;
+/// q of (E) at least, and the depth over delta where that is: what is deeper is a fault, whose
+/// force need not be right, only finite.
+constexpr double least_room = 1e-3, deepest_sound = 0.9995;
 
 struct ContactLaw {
   double stiffness = 0.0;                                     ///< k, N/mm^3
@@ -115,7 +115,7 @@ inline double step_ratio(const ContactLaw& law, double p, double dp) {
 }
 
 /// By how much of its room a contact may get deeper before the stable step is renewed.
-constexpr double deepening = 0.1;
+constexpr double deepening = 0.03;
 
 /// mm: depth for which the stable step must do when a contact is `depth` mm deep now.
 inline double depth_ahead(const ContactLaw& law, double depth) {

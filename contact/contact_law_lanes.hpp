@@ -9,7 +9,8 @@ namespace plyform {
 namespace {
 
 constexpr int four = 4;
-constexpr double kernel_least_room = 1e-3; ///< least_room of contact/contact_law.hpp
+/// least_room and deepest_sound of contact/contact_law.hpp, which kernels cannot include.
+constexpr double kernel_least_room = 1e-3, kernel_deepest_sound = 0.9995;
 
 PLYFORM_INLINE Double4 square(const Vector4& a) {
   return dot(a, a);

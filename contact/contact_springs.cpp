@@ -56,7 +56,7 @@ void append_springs(const EdgeContact& contact, const SheetState& a, const Sheet
                     double margin, const SpringFactors& factors,
                     std::vector<ContactSpring>& springs) {
   for (const EdgePair& pair : contact.pairs) {
-    if (pair.distance > contact.distance + margin) continue;
+    if (!within(contact, pair, margin)) continue;
     ContactSpring spring;
     spring.node = {pair.a.a, pair.a.b, pair.b.a, pair.b.b};
     spring.share = {1.0 - pair.s, pair.s, pair.t - 1.0, -pair.t};

@@ -67,6 +67,11 @@ Vec3 measure(EdgePair& pair, const SheetState& a, const SheetState& b, double fa
   return pair.side * d.normal.normalized();
 }
 
+/// mm, EdgePair::distance of a pair whose closest points are not inside both edges.
+double far_of(const EdgeContact& contact) {
+  return 2.0 * contact.distance;
+}
+
 /// Lists the pairs that may touch now. Those that were listed keep what they know.
 void renew_pairs(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
                  const SheetState& b, std::span<const SheetEdge> edges_b, double path) {
@@ -85,8 +90,8 @@ void renew_pairs(EdgeContact& contact, const SheetState& a, std::span<const Shee
     const SheetEdge &of_a = edges_a[static_cast<std::size_t>(edge[0])],
                     &of_b = edges_b[static_cast<std::size_t>(edge[1])];
     EdgePair pair{edge, {of_a.a, of_a.b}, {of_b.a, of_b.b}};
-    pair.distance = 2.0 * contact.distance;
     pair.area = std::min(edge_area(a, pair.a), edge_area(b, pair.b));
+    measure(pair, a, b, far_of(contact));
     contact.pairs.push_back(pair);
   }
 }
@@ -119,14 +124,13 @@ void edge_forces(EdgeContact& contact, const SheetState& a, std::span<const Shee
   ContactSums& sums = contact.sums;
   renew_pairs(contact, a, edges_a, b, edges_b, path);
   clear_present(sums);
-  const double far = 2.0 * contact.distance;
   for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
     EdgePair& pair = contact.pairs[i];
     double& wake = contact.list.wake[static_cast<std::size_t>(contact.list.near[i])];
-    if (wake > path) continue;
+    if (wake > path + contact.list.ahead) continue;
     const bool followed = pair.side != 0;
     const double last = pair.distance;
-    const Vec3 n = measure(pair, a, b, far);
+    const Vec3 n = measure(pair, a, b, far_of(contact));
     const double p = contact.distance - pair.distance, dp = last - pair.distance;
     if (followed && pair.side != 0)
       sums.step_ratio = std::min(sums.step_ratio, step_ratio(contact.law, p, dp));
@@ -134,6 +138,7 @@ void edge_forces(EdgeContact& contact, const SheetState& a, std::span<const Shee
       if (last < contact.distance) continue;
       // until then it cannot touch
       wake = path + edge_distance(pair.a, a.x, pair.b, b.x) - contact.distance;
+      if (wake > path + contact.list.ahead) pair.side = 0; // edges may turn past each other
       continue;
     }
     const NormalForce force =
@@ -157,7 +162,7 @@ void edge_forces(EdgeContact& contact, const SheetState& a, std::span<const Shee
 void add_edge_stiffness(const EdgeContact& contact, double margin, std::span<ContactRow> rows_a,
                         std::span<ContactRow> rows_b) {
   for (const EdgePair& pair : contact.pairs) {
-    if (pair.distance > contact.distance + margin) continue;
+    if (!within(contact, pair, margin)) continue;
     const ContactRow row = 2.0 * pair.area * row_of(contact.law, contact.distance - pair.distance);
     rows_a[static_cast<std::size_t>(pair.a.a)] += (1.0 - pair.s) * row;
     rows_a[static_cast<std::size_t>(pair.a.b)] += pair.s * row;

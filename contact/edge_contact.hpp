@@ -44,7 +44,7 @@ struct EdgePair {
   EdgeNodes a, b;
   int side = 0;          ///< orientation since the closest points are inside both; 0: they are not
   double area = 0.0;     ///< mm^2
-  double distance = 0.0; ///< mm, signed
+  double distance = 0.0; ///< mm, signed; twice the contact's where side is 0
   double s = 0.0, t = 0.0;
 };
 
@@ -65,7 +65,7 @@ struct EdgeContact {
   ContactTime time;
 };
 
-/// Renews the candidates: pairs of edges within distance + skin. Pairs keep their side. path: mm,
+/// Renews the candidates: pairs of edges within distance + skin. path: mm,
 /// as of contact/near_list.hpp.
 void find_edge_pairs(EdgeContact& contact, const SheetState& a, const EdgeSet& edges_a,
                      const SheetState& b, const EdgeSet& edges_b, double skin, double path);
@@ -73,6 +73,13 @@ void find_edge_pairs(EdgeContact& contact, const SheetState& a, const EdgeSet& e
 /// mm, of two edges wherever their closest points are.
 double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const EdgeNodes& edge_b,
                      std::span<const Vec3> b);
+
+/// Whether a pair touches or is within `margin` (mm) of it, but no more than half of its distance:
+/// edges of flat plies on each other are as far apart as they should be.
+inline bool within(const EdgeContact& contact, const EdgePair& pair, double margin) {
+  return pair.side != 0 &&
+         pair.distance <= contact.distance + std::min(margin, 0.5 * contact.distance);
+}
 
 /// Adds the forces of one step to those of each sheet's nodes, N. dt: the step that led to these
 /// positions, s. path: mm, as of contact/near_list.hpp.

@@ -34,7 +34,7 @@ public:
     all.sizes().minCoeff(&flat_);
     low_ = all.min();
     constexpr double most_cells = 1000.0; // along an axis, whatever edges there are
-    cell_ = std::max(widest_.maxCoeff(), all.sizes().maxCoeff() / most_cells);
+    cell_ = std::max({widest_.maxCoeff(), all.sizes().maxCoeff() / most_cells, 1e-9});
     for (int axis = 0; axis < 3; ++axis)
       count_[static_cast<std::size_t>(axis)] =
           axis == flat_ ? 1 : place(all.max()[axis], axis, 1 << 20) + 1;

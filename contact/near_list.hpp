@@ -19,6 +19,7 @@ struct NearList {
   std::vector<std::int32_t> near; ///< pairs that may touch
   double until = -1.0;            ///< mm, path at which the list is due again
   double last_path = 0.0;         ///< mm, path of the step before
+  double ahead = 0.0;             ///< mm, path of two steps like the last one
 };
 
 /// Forgets all pairs: a search begins.
@@ -36,10 +37,10 @@ template <class Rest>
 bool renew(NearList& list, double path, const Rest& rest) {
   constexpr double kept = 0.05, longest = 0.2; // mm
   // two steps before it may touch: how fast a pair closes is known by then
-  const double ahead = 2.0 * std::max(path - list.last_path, 0.0);
+  list.ahead = 2.0 * std::max(path - list.last_path, 0.0);
   list.last_path = path;
   if (path < list.until) return false;
-  const double now = path + kept + ahead;
+  const double now = path + kept + list.ahead;
   for (const std::int32_t i : list.near)
     if (list.wake[static_cast<std::size_t>(i)] > now) rest(i);
   list.near.clear();
@@ -49,7 +50,7 @@ bool renew(NearList& list, double path, const Rest& rest) {
       next = std::min(next, list.wake[i]);
     else
       list.near.push_back(static_cast<std::int32_t>(i));
-  next = std::max(next - ahead, path);
+  next = std::max(next - list.ahead, path);
   list.until = list.near.empty() ? next : std::min(next, path + longest);
   return true;
 }

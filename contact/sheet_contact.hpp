@@ -4,7 +4,7 @@
 //
 //   x_s  mm  slave node;  x_c = sum_j w_j x_j  mm  closest point of the master's faces
 //   d = |x_s - x_c|,  n = (x_s - x_c)/d,  h = half the sum of both thicknesses,  p = h - d
-//   E = 1/2 A k p^2;  F_s = A k p n,  F_j = -w_j F_s                                         (S)
+//   E(p) and N(p) of contact_law.hpp;  F_s = N n,  F_j = -w_j F_s                            (S)
 //
 // (S) is the exact gradient of E: x_c minimises the distance, so the w_j do not count (envelope
 // theorem). The distance to a polyhedral surface is continuous across edges, around the rim and
@@ -54,7 +54,7 @@ struct alignas(32) SheetContactPoint {
   double latest_gap() const { return std::isinf(gap) ? double{rested} : gap; } ///< mm, last seen
 };
 
-/// A node that got to the wrong side or deeper than half of h: the contact cannot be resolved.
+/// A node that got to the wrong side or as deep as contact has room: it cannot be resolved.
 struct ContactFault {
   int node = -1, face = -1;
   double distance = 0.0; ///< mm

@@ -12,9 +12,6 @@
 namespace plyform {
 namespace {
 
-/// Of max_depth: what is deeper has no room left, and the law no meaning (least_room).
-constexpr double deepest_sound = 0.9995;
-
 using Pair2 = double __attribute__((vector_size(16), may_alias, aligned(8)));
 
 PLYFORM_INLINE void add3(double* at, Double4 row) {
@@ -131,8 +128,8 @@ PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Lan
   const Double4 height = dot(cross(x.b, x.c), x.p);
   // forgotten on edges: a node may slide round the rim to the other side
   const Long4 side = foot.inside & (height >= 0.0 ? Long4{1, 1, 1, 1} : Long4{-1, -1, -1, -1});
-  const Long4 deep = (foot.distance < 0.5 * k.distance) |
-                     (k.distance - foot.distance >= deepest_sound * k.max_depth);
+  const Long4 deep = (foot.distance < 0.5 * k.distance) | // where depth has no limit
+                     (k.distance - foot.distance >= kernel_deepest_sound * k.max_depth);
   const Rows s = turned({{m.s.x, m.s.y, m.s.z, m.damping_force}});
   const Rows b = turned({{m.normal_force, m.slip, p.area, p.gap}});
   for (int i = 0; i < g.count; ++i) {

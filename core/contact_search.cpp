@@ -114,13 +114,14 @@ void search_edges(Scene& s, PlyEdgeContact& pair) {
   const PlyBody& a = s.plies[static_cast<std::size_t>(pair.a)];
   const PlyBody& b = s.plies[static_cast<std::size_t>(pair.b)];
   const Stopwatch watch(pair.contact.time.search);
-  const double reach = pair.contact.distance + s.skin;
+  const double skin = std::max(s.skin, step_way(s, pair.a) + step_way(s, pair.b));
+  const double reach = pair.contact.distance + skin;
   std::vector<std::int32_t> open_a, open_b;
   if (may_meet(a.tree->bounds(), b.tree->bounds(), reach)) {
     open_a = open_edges(s, pair.a, pair.b, reach);
     open_b = open_edges(s, pair.b, pair.a, reach);
   }
-  find_edge_pairs(pair.contact, a.state(), {a.edges, open_a}, b.state(), {b.edges, open_b}, s.skin,
+  find_edge_pairs(pair.contact, a.state(), {a.edges, open_a}, b.state(), {b.edges, open_b}, skin,
                   a.path + b.path);
 }
 

@@ -29,7 +29,7 @@ std::string when_and_who(const Scene& s, std::size_t ply, int node) {
 }
 
 std::optional<Stop> find_passed(const Scene& s, const PlyContact& pair) {
-  // the two start more than h/2 apart, or the run has stopped before
+  // the two start more than h/2 apart: contact leaves three quarters of h at least
   if (!(step_way(s, pair) > 0.5 * pair.contact.distance)) return std::nullopt;
   const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
   const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
@@ -81,14 +81,14 @@ bool passed(const ToolBody& tool, const Vec3& x, const Vec3& way, int hint) {
 std::optional<Stop> find_passed(const Scene& s, const ToolAndContacts& tool, std::size_t p) {
   const ToolContact& contact = tool.contacts[p];
   const double thickness = 2.0 * contact.half_thickness;
-  if (contact.sums.penetration > thickness)
+  const double deepest = std::min(deepest_sound * contact.law.max_depth, thickness);
+  if (contact.sums.penetration > deepest)
     for (const ToolContactPoint& c : contact.points)
-      if (-c.gap > thickness)
-        return Stop{fmt::format("{} lies {:.3g} mm below the surface of tool {}, thickness {:.3g} "
+      if (-c.gap > deepest)
+        return Stop{fmt::format("{} lies {:.3g} mm deep in tool {}, thickness {:.3g} "
                                 "mm; a longer solver.duration or a smaller solver.step_factor lets "
                                 "it close by less in a step",
-                                when_and_who(s, p, c.node), -c.gap - contact.half_thickness,
-                                tool.name, thickness)};
+                                when_and_who(s, p, c.node), -c.gap, tool.name, thickness)};
   const double way = plyform::step_way(s, static_cast<int>(p), tool);
   if (!(std::max(contact.sums.penetration, way) > contact.half_thickness)) return std::nullopt;
   for (const ToolContactPoint& c : contact.points) {

@@ -38,7 +38,7 @@ struct PlyBody {
   std::optional<Bending> bending;     ///< if the fabric has it
   BendingLanes bending_lanes;         ///< its forces, or empty
   std::unique_ptr<SheetTree> tree;
-  double search_seconds = 0.0; ///< refitting the tree, finding folds
+  double search_seconds = 0.0; ///< refitting the tree, bounding folds
   std::vector<SheetEdge> edges;
   std::vector<double> spread;               ///< contact/sheet_spread.hpp, one a triangle
   double spread_way = 0.0;                  ///< mm, way when it was last renewed

@@ -250,9 +250,12 @@ NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt,
 double kinetic_energy(const PlyBody& ply, double dt, double next_dt, const MassLoads& loads) {
   double sum = 0.0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
-    const Vec3& v = ply.velocity[n];
-    const Vec3 next = v + 0.5 * (dt + next_dt) * acceleration(ply, static_cast<int>(n), loads);
-    sum += 0.5 * ply.membrane.node_mass[n] * v.dot(next);
+    // Between two half steps: the product of their velocities where steps are equal (it is what
+    // central differences conserve), and without their difference where they are not.
+    const Vec3 a = acceleration(ply, static_cast<int>(n), loads);
+    const Vec3 now = ply.velocity[n] + 0.5 * dt * a;
+    sum += 0.5 * ply.membrane.node_mass[n] *
+           (now.squaredNorm() - 0.25 * dt * next_dt * a.squaredNorm());
   }
   return sum;
 }
@@ -278,6 +281,29 @@ std::optional<Stop> find_fault(const Scene& s) {
                             fault.distance, pair.contact.distance)};
   }
   return std::nullopt;
+}
+
+/// Where bodies close however short the step: something is driven into what cannot give way.
+std::optional<Stop> find_squeezed(const Scene& s) {
+  constexpr double least = 1e-5; // of the longest step: the run would not come to an end
+  if (s.next_dt > least * s.max_dt) return std::nullopt;
+  std::string who = "plies";
+  double ratio = std::numeric_limits<double>::infinity();
+  const auto name = [&](const ContactSums& sums, const std::string& a, const std::string& b) {
+    if (sums.step_ratio < ratio) ratio = sums.step_ratio, who = a + " and " + b;
+  };
+  const auto ply = [&s](int p) { return "ply " + s.plies[static_cast<std::size_t>(p)].name; };
+  for (const ToolAndContacts& t : s.tools)
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      name(t.contacts[p].sums, "tool " + t.name, ply(static_cast<int>(p)));
+  for (const PlyContact& pair : s.ply_contacts)
+    name(pair.contact.sums, ply(pair.slave), ply(pair.master));
+  for (const PlyEdgeContact& pair : s.edge_contacts)
+    name(pair.contact.sums, ply(pair.a), ply(pair.b));
+  return Stop{fmt::format("{}: {} are squeezed: the step in which they keep apart has fallen from "
+                          "{:.2g} to {:.2g} s; give the stack more room between the tools, or a "
+                          "pushed tool less force",
+                          when(s), who, s.max_dt, s.next_dt)};
 }
 
 std::optional<Stop> find_collapsed(const Scene& s) {
@@ -349,18 +375,20 @@ std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
   }
   const bool due = used_up || s.step % elements_every == 0;
   if (due) renew_bounds(s, team);
+  if (!used_up) follow_spread(s, team);
+  add_up_forces(s, team);
   if (due || s.step % contacts_every == 0 || contacts_deepened(s) ||
       furthest_way(s) - s.bound_way > 0.5 * bound_margin)
     renew_stable_step(s, team);
-  if (!used_up) follow_spread(s, team);
-  add_up_forces(s, team);
   set_step(s);
   // at every step: small triangles turn over within a few
   if (std::find(s.patch_collapsed.begin(), s.patch_collapsed.end(), 1) != s.patch_collapsed.end())
     if (auto stop = find_collapsed(s)) return stop;
-  hold_nodes(s);
   if (auto stop = find_fault(s)) return stop;
-  return find_passed(s);
+  if (auto stop = find_passed(s)) return stop;
+  if (auto stop = find_squeezed(s)) return stop;
+  hold_nodes(s);
+  return std::nullopt;
 }
 
 Energies current_energies(const Scene& s, ThreadTeam& team) {

@@ -47,7 +47,7 @@ StepBound stable_step(const Scene& scene, ThreadTeam& team);
 
 /// mm; by when anything has moved by half of it the bound is due again.
 constexpr double bound_margin = 0.5;
-constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same of folded edges
+constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same of edges
 
 /// Renews PlyBody::bound at the present shape, and if due PlyBody::sharpness and Scene::stretch.
 void renew_bounds(Scene& scene, ThreadTeam& team);
