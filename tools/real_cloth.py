@@ -46,7 +46,7 @@ def run_sets(sets: list, options: argparse.Namespace, folder: Folder) -> list[st
     if not runs:
         raise Trouble(f"no run has a name like {options.only}")
     runner = Runner(options.program, folder, options.jobs)
-    return runner.run_all(list(dict.fromkeys(runs)), options.again)
+    return runner.run_all(runs, options.again)
 
 
 def with_settings(one, extra: tuple[str, ...]):

@@ -79,18 +79,30 @@ def label(entry: Entry) -> str:
                               if entry.quarters else "")
 
 
+def there(place: Path) -> bool:
+    return (place / "summary.json").is_file() and (place / "results.h5").is_file()
+
+
 def add_differences(row: dict, entry: Entry, folder: Folder, rough: bool) -> None:
-    """Area means against the other run, if both are there; a run is no news against itself."""
-    other = folder.path / "runs" / entry.against
-    itself = entry.against == entry.run.name and not entry.quarters
-    if not rough and (not entry.against or itself):
+    """Area means against the other run. A run is no news against itself; of one that was stopped,
+    or whose field cannot be read, the differences are NaN."""
+    place = folder.path / "runs" / entry.against
+    compared = entry.against and (entry.against != entry.run.name or entry.quarters)
+    row["waits"] = bool(compared and not there(place))
+    stopped = compared and not row["waits"] and "stopped" in (
+        row["status"], read_summary(place)["status"])
+    if not rough and (not compared or row["waits"] or stopped):
+        row["apart_deg"] = [nan] * len(row["angles_deg"]) if stopped else []
         return
-    if not entry.against or not (other / "results.h5").is_file():
-        other = folder.of(entry.run)
-        itself = True
-    told = compare(folder.of(entry.run), other, RADIUS_MM, entry.quarters)
-    if not itself:
-        row["apart_deg"] = [ply["rms_deg"] for ply in told]
+    try:
+        told = compare(folder.of(entry.run), place if compared and not row["waits"]
+                       else folder.of(entry.run), RADIUS_MM, entry.quarters)
+    except Trouble as problem:
+        row["message"] = f"{row['message']} {problem}".strip()
+        told = [{"rms_deg": nan, "a": {"jump_deg": nan, "outlier_deg": nan}}
+                for _ in row["angles_deg"]]
+    if compared and not row["waits"]:
+        row["apart_deg"] = [nan if stopped else ply["rms_deg"] for ply in told]
     row["jump_deg"] = [ply["a"]["jump_deg"] for ply in told]
     row["outlier_deg"] = [ply["a"]["outlier_deg"] for ply in told]
 
@@ -167,24 +179,25 @@ def csv_text(rows: list[dict]) -> str:
     return out.getvalue()
 
 
-def verdict(must: Must, rows: list[dict], missing: int) -> str:
+def verdict(must: Must, rows: list[dict], missing: list[Entry]) -> str:
     """One line. What is not a number fails: it is not known to hold."""
-    judged = [(must.number(row), row) for row in rows if must.where(row)]
+    values = [(must.number(row, rows), row) for row in rows if must.where(row)]
+    judged = [(value, row) for value, row in values if value is not None]
+    lacking = len(values) - len(judged) + sum(must.where({"run": entry.run, "x": entry.x})
+                                              for entry in missing)
     bad = [(value, row) for value, row in judged if not value <= must.limit]
     if bad:
         value, row = next((pair for pair in bad if pair[0] != pair[0]),
                           max(bad, key=lambda pair: pair[0]))
-        return (f"**fails**: {must.text}: {len(bad)} of {len(judged)} rows, "
-                f"{value:.3g} in {row['label']}")
-    worst = max((value for value, _ in judged), default=nan)
-    if missing or not judged:
-        state = f"open, {missing} runs missing" if missing else "open, nothing to judge"
-        return f"**{state}**: {must.text}" + (f" ({worst:.3g} so far)" if judged else "")
-    return f"**holds**: {must.text} ({worst:.3g} at most in {len(judged)} rows)"
+        return (f"**fails**: {must.text}: {len(bad)} of {len(judged)}, {value:.3g} in "
+                f"{row['label']}")
+    worst = f" ({max(value for value, _ in judged):.3g} at most, {len(judged)} judged)" \
+        if judged else ""
+    return f"**{f'open, {lacking} missing' if lacking else 'holds'}**: {must.text}{worst}"
 
 
 def verdicts(which: Set, rows: list[dict], missing: list[Entry]) -> str:
-    return "\n".join(f"- {verdict(must, rows, len(missing))}" for must in which.musts)
+    return "\n".join(f"- {verdict(must, rows, missing)}" for must in which.musts)
 
 
 def remarks(rows: list[dict], missing: list[Entry]) -> list[str]:

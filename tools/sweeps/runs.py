@@ -76,7 +76,8 @@ def case_of(run: Run) -> tuple[Path, str]:
 
 def wanted(run: Run) -> dict:
     """What decides a run's results, to tell whether a folder holds this run."""
-    told = {key: value for key, value in asdict(run).items() if key not in ("name", "label", "stroke_mm")}
+    told = {key: value for key, value in asdict(run).items()
+            if key not in ("name", "label", "stroke_mm")}
     return json.loads(json.dumps(told))
 
 
@@ -135,19 +136,19 @@ class Runner:
         self.lock, self.leaving, self.count = Lock(), False, 0
 
     def run_all(self, runs: list[Run], again: bool) -> list[str]:
-        """A sentence for each run that left no results."""
+        """Each name once. A sentence for each run that left no results."""
         (self.folder.path / "runs").mkdir(parents=True, exist_ok=True)
         with open(self.folder.path / ".lock", "w", encoding="utf-8") as lock:
             try:
                 fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
             except OSError as problem:
                 raise Trouble(f"another command runs into {self.folder.path}") from problem
-            return self.run_locked(runs, again)
+            return self.run_locked(list({run.name: run for run in runs}.values()), again)
 
     def run_locked(self, runs: list[Run], again: bool) -> list[str]:
         for rest in (self.folder.path / "runs").glob("*.running.*"):
             shutil.rmtree(rest, ignore_errors=True)  # killed on its way
-        todo = [run for run in dict.fromkeys(runs)
+        todo = [run for run in runs
                 if again or self.folder.status(run) not in ENDED]
         say(f"{len(runs) - len(todo)} of {len(runs)} runs are there")
         if todo and shutil.which(self.program) is None:
