@@ -5,6 +5,7 @@
     real_cloth.py SET... [--only PATTERN] [--jobs N] [--program PLYFORM] [-o FOLDER] [--again]
                   [--set KEY=VALUE]
     real_cloth.py SET... --report        tables of what is there, nothing is run
+    real_cloth.py --tables TEXT          into a text (docs/real_cloth.md), nothing is run
 
 Each set goes on where it stopped: a run that has ended (done, doubtful, or stopped by plyform) is
 not repeated unless --again; one that was killed starts anew. FOLDER/runs/NAME has the results of
@@ -25,11 +26,11 @@ from pathlib import Path
 
 try:
     from plotting.reading import Trouble
-    from sweeps import report
+    from sweeps import fill, report
     from sweeps.runs import SOURCES, Folder, Runner
     from sweeps.sets import SETS
 except ImportError as error:
-    sys.exit(f"real_cloth.py: error: {error}; install python3-h5py")
+    sys.exit(f"real_cloth.py: error: {error}; install python3-h5py and python3-matplotlib")
 
 
 def fits(name: str, pattern: str | None) -> bool:
@@ -64,6 +65,14 @@ def tell(sets: list, folder: Folder) -> None:
         print(f"## {one.name}: {one.title}\n\n{report.text_of(one, rows, missing)}\n", flush=True)
 
 
+def tables(text: Path, folder: Folder, extra: tuple[str, ...]) -> None:
+    told = {}
+    for name in fill.names_in(text.read_text(encoding="utf-8"), SETS):
+        one = with_settings(SETS[name](), extra)
+        told[name] = (one, *report.rows_of(one, folder))
+    fill.fill(text, told)
+
+
 def arguments() -> argparse.Namespace:
     parser = argparse.ArgumentParser(prog="real_cloth.py", description=__doc__.split("\n", 1)[0])
     parser.add_argument("sets", nargs="*", metavar="SET", help=f"of {', '.join(SETS)}; or all")
@@ -73,12 +82,15 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--again", action="store_true", help="repeat what has ended, too")
     parser.add_argument("--set", dest="extra", action="append", default=[], metavar="KEY=VALUE")
     parser.add_argument("--report", action="store_true", help="run nothing")
+    parser.add_argument("--tables", type=Path, metavar="TEXT",
+                        help="fill tables and pictures into a text")
     parser.add_argument("-o", "--output", type=Path, metavar="FOLDER",
                         default=Path("results/real_cloth"))
     options = parser.parse_args()
     unknown = [name for name in options.sets if name not in (*SETS, "all")]
-    if unknown or not options.sets:
-        parser.error(f"{unknown[0] if unknown else 'no set'}: give {', '.join(SETS)}, or all")
+    if unknown or bool(options.sets) == bool(options.tables):
+        parser.error(f"{unknown[0] if unknown else 'sets or --tables'}: give {', '.join(SETS)}, "
+                     "or all; or --tables")
     if options.jobs < 1:
         parser.error("--jobs must be at least 1")
     return options
@@ -89,6 +101,9 @@ def main() -> None:
     names = list(SETS) if "all" in options.sets else list(dict.fromkeys(options.sets))
     signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))
     try:
+        if options.tables:
+            tables(options.tables, Folder(options.output), tuple(options.extra))
+            return
         sets = [with_settings(SETS[name](), tuple(options.extra)) for name in names]
         folder, trouble = Folder(options.output), []
         if not options.report:

@@ -14,6 +14,7 @@ from sweeps.sets import Entry, Must, Set
 
 NONE = "–"
 RADIUS_MM = 10.0  # of the discs, 20 mm wide
+HIDDEN = ("run", "target_mm", "waits", "is_reference")  # in CSV
 MANY = 5          # plies; of more a cell shows the range
 
 
@@ -70,6 +71,7 @@ def row_of(entry: Entry, folder: Folder) -> dict:
                              for ply in plies),
         "pressed_5": largest(number(ply.get("area_share_pressed_over_5_percent"))
                              for ply in plies),
+        "ply_pressed": [pressed(ply) for ply in plies],
         "angles_deg": [number(ply.get("angle_deg")) for ply in plies],
         "apart_deg": [], "jump_deg": [], "outlier_deg": []}
 
@@ -88,6 +90,7 @@ def add_differences(row: dict, entry: Entry, folder: Folder, rough: bool) -> Non
     or whose field cannot be read, the differences are NaN."""
     place = folder.path / "runs" / entry.against
     compared = entry.against and (entry.against != entry.run.name or entry.quarters)
+    row["is_reference"] = entry.against == entry.run.name and not entry.quarters
     row["waits"] = bool(compared and not there(place))
     stopped = compared and not row["waits"] and "stopped" in (
         row["status"], read_summary(place)["status"])
@@ -167,7 +170,7 @@ def csv_text(rows: list[dict]) -> str:
         for key, value in row.items():
             if isinstance(value, list):
                 one.update({f"{key}_{i + 1}": v for i, v in enumerate(value)})
-            elif key not in ("run", "target_mm"):
+            elif key not in HIDDEN:
                 one[key] = value
         flat.append(one)
     columns = list(dict.fromkeys(key for one in flat for key in one))
