@@ -192,7 +192,8 @@ def check_text(folder):
     scene.call("fabric", "--only", "460_2_*")
     text = folder / "text" / "page.md"
     text.write_text("# Page\n\n<!-- table: buckling -->\n\nbetween\n\n"
-                    "<!-- picture: fabric -->\nformer words\n<!-- end -->\n\n<!-- picture: buckling -->\nlast\n", encoding="utf-8")
+                    "<!-- picture: fabric -->\nformer words\n<!-- end -->\n\n"
+                    "<!-- picture: buckling -->\nlast\n", encoding="utf-8")
     assert call(program, "--tables", text, "-o", scene.results).code == 0
     filled = text.read_text(encoding="utf-8")
     for words in ("| plateau 0.8 N/mm |", "\nbetween\n", "(page_fabric.png)", "\nlast\n",
