@@ -15,6 +15,7 @@ from sweeps.sets import Entry, Must, Set
 NONE = "–"
 RADIUS_MM = 10.0  # of the discs, 20 mm wide
 HIDDEN = ("run", "target_mm", "waits", "is_reference")  # in CSV
+SOME = 8          # names of missing runs that are told
 MANY = 5          # plies; of more a cell shows the range
 
 
@@ -206,8 +207,11 @@ def verdicts(which: Set, rows: list[dict], missing: list[Entry]) -> str:
 def remarks(rows: list[dict], missing: list[Entry]) -> list[str]:
     lines = [f"- {row['label']} was stopped at {row['stroke_mm']:.1f} mm: {row['message']}"
              for row in rows if row["status"] == "stopped"]
-    return lines + ([f"- not there: {', '.join(entry.run.name for entry in missing)}"]
-                    if missing else [])
+    if missing:
+        names = [entry.run.name for entry in missing]
+        lines.append(f"- {len(names)} not there: {', '.join(names[:SOME])}"
+                     f"{' and so on' if len(names) > SOME else ''}")
+    return lines
 
 
 def text_of(which: Set, rows: list[dict], missing: list[Entry]) -> str:
