@@ -22,6 +22,9 @@ namespace plyform {
 /// the area is no longer a spot but the answer.
 constexpr double doubtful_pressed_share = 0.02;
 
+/// Energy balance error of a run beyond which its forces are not to be trusted.
+constexpr double doubtful_balance_error = 0.01;
+
 /// What has to be known of a ply beside its frame.
 struct PlyNature {
   double fibre_angle_deg = 90.0; ///< from warp to weft before forming

@@ -78,8 +78,13 @@ double cell_area(const PlyBody& ply) {
 /// falls with the square of the element size, while a ply may not sink in deeper for being meshed
 /// coarsely: so no less than what elements of 12.5 thicknesses would have, within a factor of 2.5,
 /// beyond which crossed plies chatter over a fillet (docs/contact.md).
-double penalty_per_area(const PlyBody& ply, double fraction) {
-  constexpr double fine = 12.5, most = 2.5;
+///
+/// In a stack it does not follow the yarns further than fibre_softening = 100 (`stack_softening`):
+/// what presses plies on each other does not get less with them.
+double penalty_per_area(const PlyBody& ply, double fraction, bool stack) {
+  constexpr double fine = 12.5, most = 2.5, stack_softening = 100.0;
+  const auto& softening = ply.membrane.softening;
+  if (stack) fraction *= std::max(1.0, std::max(softening[0], softening[1]) / stack_softening);
   const double coarse = cell_area(ply) / (fine * fine * ply.thickness * ply.thickness);
   return std::clamp(coarse, 1.0, most) * fraction * ply.membrane.fabric.surface_density *
          ply.bound.omega2;
@@ -113,7 +118,7 @@ ToolAndContacts make_tool(const Case& data, std::size_t index, const std::vector
     ToolContact c;
     const int body = static_cast<int>(plies.size() + index);
     c.law =
-        make_law(data.contact, penalty_per_area(plies[p], data.contact.stiffness),
+        make_law(data.contact, penalty_per_area(plies[p], data.contact.stiffness, plies.size() > 1),
                  plies[p].membrane.fabric.surface_density, data.friction(static_cast<int>(p), body),
                  deepest_in_tool * plies[p].thickness);
     c.half_thickness = 0.5 * plies[p].thickness;
@@ -129,8 +134,8 @@ PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a,
   PlyContact pair;
   pair.slave = a;
   pair.master = b;
-  const double penalty = 0.5 * std::min(penalty_per_area(slave, data.contact.stiffness),
-                                        penalty_per_area(master, data.contact.stiffness));
+  const double penalty = 0.5 * std::min(penalty_per_area(slave, data.contact.stiffness, true),
+                                        penalty_per_area(master, data.contact.stiffness, true));
   const double density =
       0.5 * std::min(slave.membrane.fabric.surface_density, master.membrane.fabric.surface_density);
   pair.contact.distance = 0.5 * (slave.thickness + master.thickness);

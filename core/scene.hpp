@@ -27,6 +27,7 @@ struct PlyBody {
   Membrane membrane;
   FrequencyBound bound;               ///< of the membrane, renewed now and then
   double sharpness = 1.0;             ///< core/membrane_frequency.hpp, renewed more rarely
+  double stretch_contacts = 0.0;      ///< 1/s^2, bound of contacts when Scene::stretch was found
   std::vector<Vec3> x0, x;            ///< mm
   std::vector<Vec3> velocity;         ///< mm/s, half a step behind x
   std::vector<Vec3> motion;           ///< mm, of the last step

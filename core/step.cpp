@@ -289,20 +289,34 @@ std::optional<Stop> find_squeezed(const Scene& s) {
   if (s.next_dt > least * s.max_dt) return std::nullopt;
   std::string who = "plies";
   double ratio = std::numeric_limits<double>::infinity();
-  const auto name = [&](const ContactSums& sums, const std::string& a, const std::string& b) {
-    if (sums.step_ratio < ratio) ratio = sums.step_ratio, who = a + " and " + b;
+  const auto first = [&ratio](const ContactSums& sums) {
+    const bool closer = sums.step_ratio < ratio;
+    if (closer) ratio = sums.step_ratio;
+    return closer;
   };
-  const auto ply = [&s](int p) { return "ply " + s.plies[static_cast<std::size_t>(p)].name; };
+  const auto deepest = [](const auto& points) {
+    return std::min_element(points.begin(), points.end(),
+                            [](const auto& a, const auto& b) { return a.gap < b.gap; })
+        ->node;
+  };
+  const auto ply = [&s](int p) -> const std::string& {
+    return s.plies[static_cast<std::size_t>(p)].name;
+  };
   for (const ToolAndContacts& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
-      name(t.contacts[p].sums, "tool " + t.name, ply(static_cast<int>(p)));
+      if (first(t.contacts[p].sums))
+        who = fmt::format("ply {}, node {}, and tool {}", s.plies[p].name,
+                          deepest(t.contacts[p].points), t.name);
   for (const PlyContact& pair : s.ply_contacts)
-    name(pair.contact.sums, ply(pair.slave), ply(pair.master));
+    if (first(pair.contact.sums))
+      who = fmt::format("ply {}, node {}, and ply {}", ply(pair.slave),
+                        deepest(pair.contact.points), ply(pair.master));
   for (const PlyEdgeContact& pair : s.edge_contacts)
-    name(pair.contact.sums, ply(pair.a), ply(pair.b));
+    if (first(pair.contact.sums))
+      who = fmt::format("edges of plies {} and {}", ply(pair.a), ply(pair.b));
   return Stop{fmt::format("{}: {} are squeezed: the step in which they keep apart has fallen from "
-                          "{:.2g} to {:.2g} s; give the stack more room between the tools, or a "
-                          "pushed tool less force",
+                          "{:.2g} to {:.2g} s; give the stack more room between the tools, a "
+                          "slower stroke, or a pushed tool less force",
                           when(s), who, s.max_dt, s.next_dt)};
 }
 

@@ -80,6 +80,16 @@ struct PlyBound {
     return Frequencies{elements.omega2 + contacts.omega2, elements.damping + contacts.damping}
         .step();
   }
+
+  /// The step of the sum, whose part up to `known` (1/s^2) of contacts is `stretch` times as long
+  /// as the sum says. What contacts have grown by since that was found counts in full: a single
+  /// deep contact is as stiff as its row.
+  double sharpened_step(double stretch, double known) const {
+    const double grown = std::max(contacts.omega2 - known, 0.0);
+    return Frequencies{(elements.omega2 + contacts.omega2 - grown) / (stretch * stretch) + grown,
+                       (elements.damping + contacts.damping) / stretch}
+        .step();
+  }
 };
 
 PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
@@ -115,7 +125,8 @@ StepBound stable_step(const Scene& s, ThreadTeam& team) {
   StepBound bound;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBound of = bound_of(s, touching, p);
-    double dt = std::min(s.stretch * of.sum_step(), of.elements.step());
+    double dt =
+        std::min(of.sharpened_step(s.stretch, s.plies[p].stretch_contacts), of.elements.step());
     if (of.contacts.omega2 > 0.0) dt = std::min(dt, of.contacts.step());
     if (bound.ply < 0 || !(dt >= bound.dt))
       bound = {dt, of.elements.omega2 + of.contacts.omega2, static_cast<int>(p),
@@ -136,8 +147,11 @@ void renew_bounds(Scene& s, ThreadTeam& team) {
   s.next_sharpening = s.step + sharpen_every;
   const ContactRows touching = contact_rows(s, team);
   double dt = std::numeric_limits<double>::infinity();
-  for (std::size_t p = 0; p < s.plies.size(); ++p)
-    dt = std::min(dt, bound_of(s, touching, p).sum_step());
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const PlyBound of = bound_of(s, touching, p);
+    s.plies[p].stretch_contacts = of.contacts.omega2;
+    dt = std::min(dt, of.sum_step());
+  }
   const double stretch = s.stretch * stretch_of(s, s.stretch * dt, team);
   constexpr double grain = 1e-3; // so that what rounding does to the iteration goes no further
   s.stretch = std::max(1.0, grain * std::floor(stretch / grain));

@@ -15,8 +15,8 @@
 //           present shape, yarns taut and contacts stuck, by Lanczos' iteration; costs as much as
 //           30 steps and is renewed every 1000
 //
-// Between renewals the bound times stretch holds as far as elements and contacts change alike;
-// neither may be more than its own bound allows.
+// Between renewals the bound times stretch holds as far as elements and contacts change alike: what
+// contacts have grown by counts in full, and neither may be more than its own bound allows.
 #pragma once
 
 #include "core/scene.hpp"

@@ -16,7 +16,7 @@ namespace {
 /// real_cloth.md): 28 mm wide.
 Case coarse_five_plies() {
   const std::string path = std::string(PLYFORM_CASES) + "/hemisphere_five_ply/case.toml";
-  const CaseReading reading = read_case(path, {"blanks.square.element_size=10.0"});
+  const CaseReading reading = read_case(path, {{"blanks.square.element_size", "10.0"}});
   for (const CaseError& error : reading.errors)
     ADD_FAILURE() << error.text();
   Case data = reading.value.value();
@@ -29,14 +29,13 @@ Case coarse_five_plies() {
 void expect_sound(const RunResult& run, const std::string& what) {
   ASSERT_TRUE(ended(run.summary.status)) << what << ": " << run.summary.message;
   const ContactReport& contact = run.summary.contact;
-  fmt::print("{}: {} steps, balance {:.1e}, {:.3f} mm into tools, {:.3f} between plies; shear", what,
-             run.summary.steps, run.last.energy.balance_error(), contact.max_tool_penetration_mm,
-             contact.max_ply_penetration_mm);
+  fmt::print("{}: {} steps, balance {:.1e}, {:.3f} mm into tools, {:.3f} between plies; shear",
+             what, run.summary.steps, run.last.energy.balance_error(),
+             contact.max_tool_penetration_mm, contact.max_ply_penetration_mm);
   for (const PlyFrame& ply : run.last.plies)
-    fmt::print(" {:.1f}", std::abs(*std::max_element(ply.shear_deg.begin(), ply.shear_deg.end(),
-                                                     [](double a, double b) {
-                                                       return std::abs(a) < std::abs(b);
-                                                     })));
+    fmt::print(" {:.1f}", std::abs(*std::max_element(
+                              ply.shear_deg.begin(), ply.shear_deg.end(),
+                              [](double a, double b) { return std::abs(a) < std::abs(b); })));
   fmt::print(" deg\n");
   EXPECT_EQ(contact.intersections_between_plies, 0) << what;
   EXPECT_EQ(contact.intersections_within_plies, 0) << what;
@@ -56,8 +55,8 @@ TEST(RealClothLong, FivePliesShearAsOneAloneAndDoNotShorten) {
     for (const double g : ply.shear_deg)
       sum += g * g;
     const double rms = std::sqrt(sum / static_cast<double>(ply.shear_deg.size()));
-    // one ply alone has 19.8 degrees; tension-only yarns in the stack have 11
-    EXPECT_NEAR(rms, 20.5, 2.0) << ply.name;
+    // one ply alone has 19.8 degrees, five of 6.8 mm 20.6 to 22.1; tension-only yarns have 11
+    EXPECT_NEAR(rms, 21.0, 2.0) << ply.name;
   }
 }
 
