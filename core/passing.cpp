@@ -85,9 +85,9 @@ std::optional<Stop> find_passed(const Scene& s, const ToolAndContacts& tool, std
   if (contact.sums.penetration > deepest)
     for (const ToolContactPoint& c : contact.points)
       if (-c.gap > deepest)
-        return Stop{fmt::format("{} lies {:.3g} mm deep in tool {}, thickness {:.3g} "
-                                "mm; a longer solver.duration or a smaller solver.step_factor lets "
-                                "it close by less in a step",
+        return Stop{fmt::format("{} lies {:.3g} mm deep in tool {}, thickness {:.3g} mm, which is "
+                                "all the room that contact has; give the stack more room between "
+                                "the tools, a slower stroke, or a smaller solver.step_factor",
                                 when_and_who(s, p, c.node), -c.gap, tool.name, thickness)};
   const double way = plyform::step_way(s, static_cast<int>(p), tool);
   if (!(std::max(contact.sums.penetration, way) > contact.half_thickness)) return std::nullopt;

@@ -274,8 +274,8 @@ std::optional<Stop> find_fault(const Scene& s) {
     if (fault.node < 0) continue;
     return Stop{fmt::format("{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm "
                             "apart, thickness {:.3g} "
-                            "mm; a longer solver.duration or a smaller solver.step_factor lets "
-                            "them close by less in a step",
+                            "mm; give the stack more room between the tools, a slower stroke, or a "
+                            "smaller solver.step_factor",
                             when(s), s.plies[static_cast<std::size_t>(pair.slave)].name, fault.node,
                             s.plies[static_cast<std::size_t>(pair.master)].name, fault.face,
                             fault.distance, pair.contact.distance)};

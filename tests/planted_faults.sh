@@ -26,11 +26,17 @@ faults=(
   "friction with tools is forgotten at a search | contact/tool_contact.cpp | s/if (known) point = old\[next_old++\];/if (known) point = old[next_old++], point.memory = {};/"
   "plies touch each other at half their thickness | core/scene.cpp | s/0.5 \* (slave.thickness + master.thickness)/0.25 * (slave.thickness + master.thickness)/"
   "plies touch tools at half their half thickness | core/scene.cpp | s/half_thickness = 0.5 \* plies\[p\].thickness/half_thickness = 0.25 * plies[p].thickness/"
+  "depth between plies has no limit | core/scene.cpp | s/deepest_in_ply \* pair.contact.distance/1e9/"
+  "contacts close by any way in a step | core/step.cpp | s/std::min(s.stable_dt, s.dt \* ratio)/s.stable_dt/"
+  "the stable step takes contacts for as soft as shallow ones | contact/contact_law.hpp | s/return {law.tangent(depth_ahead(law, depth)), law.damping};/return {law.stiffness, law.damping};/"
+  "every other edge is not looked at | contact/edge_search.cpp | s/for (const std::int32_t other : near) {/for (const std::int32_t other : near) { if (other % 2 == 1) continue;/"
+  "edges push towards each other | contact/edge_contact.cpp | s/return pair.side \* d.normal.normalized();/return -pair.side * d.normal.normalized();/"
+  "the balance of a pushed tool takes contact for linear | contact/tool_contact.cpp | s/const double n = area \* law->pressure(p)/const double n = area * law->stiffness * p/"
   "the stable step knows no couples of friction | contact/contact_springs.cpp | s/if (spring.across > 0.0)/if (spring.across < 0.0)/"
   "friction takes tools for standing still | contact/tool_kernel_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g)/"
   "friction takes tools to move the other way | contact/tool_kernel_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
 )
-filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*'
+filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeContact*'
 
 if [ $# -gt 0 ]; then
   mkdir -p "$1"

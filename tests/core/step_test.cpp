@@ -367,9 +367,10 @@ double let_a_pressed_stack_vibrate(double damping, double step_factor, double& s
 TEST(Step, OfAPressedStackIsLongerThanItsPartsSayAndStable) {
   for (const double damping : {0.0, 0.05}) {
     double stretch = 0.0;
-    // without damping nodes that go over to other faces stir the highest modes a little
-    const double most = damping > 0.0 ? 1.01 : 1.1;
-    EXPECT_LT(let_a_pressed_stack_vibrate(damping, 0.98, stretch), most) << damping;
+    // Without damping nodes that go over to other faces stir the highest modes a little, and
+    // contacts that stiffen with depth take them over the limit: after 2000 steps at 0.95 of it.
+    const double most = damping > 0.0 ? 1.01 : 1.1, part = damping > 0.0 ? 0.98 : 0.9;
+    EXPECT_LT(let_a_pressed_stack_vibrate(damping, part, stretch), most) << damping;
     EXPECT_GT(stretch, 1.1) << damping; // elements and contacts add up to less than their bounds
     EXPECT_GT(let_a_pressed_stack_vibrate(damping, 1.1, stretch), 5.0) << damping;
   }
