@@ -285,7 +285,7 @@ std::optional<Stop> find_fault(const Scene& s) {
 
 /// Where bodies close however short the step: something is driven into what cannot give way.
 std::optional<Stop> find_squeezed(const Scene& s) {
-  constexpr double least = 1e-5; // of the longest step: the run would not come to an end
+  constexpr double least = 1e-4; // of the longest step: the run would not come to an end
   if (s.next_dt > least * s.max_dt) return std::nullopt;
   std::string who = "plies";
   double ratio = std::numeric_limits<double>::infinity();

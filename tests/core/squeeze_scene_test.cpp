@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plies between a driven tool and a fixed one that leave them too little room: contact does not
 // give way, and the run says who is squeezed.
+#include "core/run.hpp"
 #include "scene_checks.hpp"
-#include "thread_checks.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -35,19 +35,17 @@ Case under_a_press(int plies, double stroke) {
 TEST(SqueezeScene, RoomThatContactHasIsUsedAndNoMore) {
   // a tenth of a millimetre into each tool, 0.15 mm between plies: 0.2 and 0.35 mm at the very most
   for (const auto& [plies, stroke] : {std::pair(1, 0.15), std::pair(2, 0.25)}) {
-    const EndedRun run =
-        run_on_any_threads([&, n = plies, s = stroke] { return make_scene(under_a_press(n, s)); });
-    EXPECT_TRUE(ended(run.result.summary.status)) << run.result.summary.message;
-    EXPECT_LT(run.result.summary.contact.max_tool_penetration_mm, 0.1);
-    EXPECT_LT(run.result.summary.contact.max_ply_penetration_mm, 0.15);
+    const Summary told = run_case(under_a_press(plies, stroke), 1, {}).summary;
+    EXPECT_TRUE(ended(told.status)) << told.message;
+    EXPECT_LT(told.contact.max_tool_penetration_mm, 0.1);
+    EXPECT_LT(told.contact.max_ply_penetration_mm, 0.15);
   }
 }
 
 TEST(SqueezeScene, TooLittleRoomIsNamed) {
   for (const auto& [plies, stroke] : {std::pair(1, 0.4), std::pair(2, 0.6)}) {
-    const EndedRun run =
-        run_on_any_threads([&, n = plies, s = stroke] { return make_scene(under_a_press(n, s)); });
-    const Summary& told = run.result.summary;
+    const Summary told = run_case(under_a_press(plies, stroke), 1, {}).summary;
+    fmt::print("{} steps: {}\n", told.steps, told.message);
     EXPECT_EQ(told.status, "stopped");
     for (const char* name : {"ply ply", "node ", "more room"})
       EXPECT_NE(told.message.find(name), std::string::npos) << told.message;
