@@ -18,7 +18,7 @@ constexpr double c_mesh = 40.0, p_mesh = 1.6, c_fewer = 0.6, settled = 5.0;
 constexpr double half_radian = 0.5;
 // The rule was not measured beyond:
 constexpr double most_softening = 1000.0, most_inertia = 2.8;
-// Contacts are as soft as the elements: in a stack they sink in by half a thickness not far beyond.
+// Set on stacks of yarns that carry tension only, and not checked on real cloth.
 constexpr double most_softening_of_stack = 300.0;
 
 double degrees(double radians) {
