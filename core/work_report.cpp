@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <map>
 
 namespace plyform {
 namespace {
@@ -14,8 +15,8 @@ namespace {
 // the plies by less than the dials of a run do (docs/method.md).
 constexpr double small_bending = 0.01, small_friction = 1e-3;
 
-constexpr double deep_in_tool = 0.1, deep_in_ply = 0.2; // thicknesses
-constexpr double high_inertia = 0.05;                   // kinetic over shear energy at the end
+constexpr double deep = 0.9;          // of the depth at which contact has no limit (core/scene.cpp)
+constexpr double high_inertia = 0.05; // kinetic over shear energy at the end
 constexpr double long_strain = 0.005; // softened yarns; woven ones break at 0.02 to 0.04
 
 void add(PairReport& pair, const ContactSums& sums, const ContactTime& time) {
@@ -132,21 +133,26 @@ double largest_softening(const Scene& s, const std::string& name) {
   return largest;
 }
 
-std::vector<std::string> too_little(const Scene& s, const Frame& last, const ContactReport& c,
-                                    const WorkReport& w) {
+std::vector<std::string> too_little(const Scene& s, const Frame& last, const ContactReport& c) {
   const Energies& e = last.energy;
   std::vector<std::string> found;
-  for (const PairReport& pair : w.pairs) {
-    double thickness = 0.0, limit = deep_in_ply;
-    for (const PlyBody& ply : s.plies)
-      if (ply.name == pair.b) thickness = ply.thickness;
-    for (const ToolAndContacts& t : s.tools)
-      if (t.name == pair.a) limit = deep_in_tool;
-    if (pair.deepest_mm > limit * thickness)
-      found.push_back(fmt::format("{}: {:.3f} mm deep at some time, more than {:g} of a thickness; "
-                                  "a larger contact.stiffness or a finer mesh makes it less",
-                                  named(pair), pair.deepest_mm, limit));
-  }
+  std::map<std::pair<std::string, std::string>, std::pair<double, double>> deepest; // and the limit
+  const auto look = [&deepest](const std::string& a, const std::string& b, const ContactSums& sums,
+                               const ContactLaw& law) {
+    auto& [depth, limit] = deepest[std::minmax(a, b)];
+    if (sums.deepest >= depth) depth = sums.deepest, limit = law.max_depth;
+  };
+  for (const ToolAndContacts& t : s.tools)
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      look(t.name, s.plies[p].name, t.contacts[p].sums, t.contacts[p].law);
+  for (const PlyContact& pair : s.ply_contacts) // both ways
+    look(s.plies[static_cast<std::size_t>(pair.slave)].name,
+         s.plies[static_cast<std::size_t>(pair.master)].name, pair.contact.sums, pair.contact.law);
+  for (const auto& [names, depth] : deepest)
+    if (depth.first > deep * depth.second)
+      found.push_back(fmt::format("{} with {}: {:.3f} mm deep at some time, of {:.3g} mm that "
+                                  "contact has; a finer mesh spreads the pressure over more nodes",
+                                  names.first, names.second, depth.first, depth.second));
   if (e.shear > 0.0 && e.kinetic > high_inertia * e.shear)
     found.push_back(fmt::format("inertia: kinetic energy is {:.2g} of the shear energy at the end; "
                                 "a longer solver.duration makes it less",
@@ -178,7 +184,7 @@ WorkReport report_work(const Scene& s, const Frame& last, const ContactReport& c
       pair.time_share /= all;
   }
   w.could_be_left_out = too_much(s, last.energy, w);
-  w.missing = too_little(s, last, contact, w);
+  w.missing = too_little(s, last, contact);
   return w;
 }
 
