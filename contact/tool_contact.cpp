@@ -158,19 +158,21 @@ Vec3 measure_and_press(ToolContact& contact, const ToolBody& tool, const SheetSt
 
 /// A point that the motion of (B) may press, to a depth p = facing delta - gap.
 struct Pressed {
-  double facing;  ///< of the normal along the motion
-  double gap;     ///< mm, before the motion
-  double viscous; ///< N/mm, A c / dt
-  double opened;  ///< mm, of last_gap, what was penetrated before: -p then, at most 0
-  double area;    ///< mm^2
-  const ContactLaw* law;
+  double facing;    ///< of the normal along the motion
+  double gap;       ///< mm, before the motion
+  double stiffness; ///< N/mm, A k
+  double viscous;   ///< N/mm, A c / dt
+  double opened;    ///< mm, of last_gap, what was penetrated before: -p then, at most 0
+  double max_depth; ///< mm, delta
 
-  /// (N) at depth p, and its slope (N, N/mm).
+  /// (N) at depth p, and its slope (K), N and N/mm.
   std::pair<double, double> force(double p) const {
     if (!(p > 0.0)) return {0.0, 0.0};
-    const double n = area * law->pressure(p) + viscous * (p + opened);
+    const double u = p / max_depth, u2 = u * u, per_room = 1.0 / std::max(1.0 - u2, least_room);
+    const double rate = stiffness * per_room * per_room;
+    const double n = rate * p + viscous * (p + opened);
     if (!(n > 0.0)) return {0.0, 0.0};
-    return {n, area * law->tangent(p) + viscous};
+    return {n, rate * per_room * (1.0 + 3.0 * u2) + viscous};
   }
 };
 
@@ -189,8 +191,8 @@ std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolContact
       const double facing = c.normal.dot(tool.direction);
       if (!(std::abs(facing) * most > c.gap)) continue;
       const double area = plies[i].area[static_cast<std::size_t>(c.node)];
-      pressed.push_back(
-          {facing, c.gap, area * law.damping / dt, std::min(c.last_gap, 0.0), area, &law});
+      pressed.push_back({facing, c.gap, area * law.stiffness, area * law.damping / dt,
+                         std::min(c.last_gap, 0.0), law.max_depth});
     }
   }
   return pressed;
@@ -219,7 +221,7 @@ double within_room(std::span<const Pressed> pressed, double high) {
   constexpr double share = 0.5;
   for (const Pressed& c : pressed) {
     const double depth = std::max(-c.gap, 0.0);
-    const double most = depth + share * std::max(c.law->max_depth - depth, 0.0) + c.gap;
+    const double most = depth + share * std::max(c.max_depth - depth, 0.0) + c.gap;
     if (c.facing * high > most) high = most / c.facing;
   }
   return high;

@@ -31,7 +31,7 @@ faults=(
   "the stable step takes contacts for as soft as shallow ones | contact/contact_law.hpp | s/return {law.tangent(depth_ahead(law, depth)), law.damping};/return {law.stiffness, law.damping};/"
   "every other edge is not looked at | contact/edge_search.cpp | s/for (const std::int32_t other : near) {/for (const std::int32_t other : near) { if (other % 2 == 1) continue;/"
   "edges push towards each other | contact/edge_contact.cpp | s/return pair.side \* d.normal.normalized();/return -pair.side * d.normal.normalized();/"
-  "the balance of a pushed tool takes contact for linear | contact/tool_contact.cpp | s/const double n = area \* law->pressure(p)/const double n = area * law->stiffness * p/"
+  "the balance of a pushed tool takes contact for linear | contact/tool_contact.cpp | s/const double rate = stiffness \* per_room \* per_room;/const double rate = stiffness;/"
   "the stable step knows no couples of friction | contact/contact_springs.cpp | s/if (spring.across > 0.0)/if (spring.across < 0.0)/"
   "friction takes tools for standing still | contact/tool_kernel_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g)/"
   "friction takes tools to move the other way | contact/tool_kernel_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
