@@ -235,16 +235,26 @@ double equilibrium_motion(const ToolBody& tool, std::span<const ToolContact> con
   const double fastest = tool.speed_limit * dt;
   const std::vector<Pressed> pressed = may_press(tool, contacts, plies, fastest, dt);
   double high = within_room(pressed, fastest), low = within_room(pressed, -fastest);
-  if (residual_of(tool, pressed, high, dt).value >= 0.0) return high;
-  if (residual_of(tool, pressed, low, dt).value <= 0.0) return low;
   double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
-  constexpr int most_rounds = 60; // the bracket is then at rounding; 4 to 8 rounds are usual
+  bool high_known = false, low_known = false; // that the solution lies this side of them
+  constexpr int most_rounds = 60; // the bracket is then at rounding; 3 to 6 rounds are usual
   for (int round = 0; round < most_rounds; ++round) {
     const Residual r = residual_of(tool, pressed, delta, dt);
     if (std::abs(r.value) <= 1e-9 * std::abs(tool.force)) break;
-    (r.value > 0.0 ? low : high) = delta;
-    const double newton = r.slope < 0.0 ? delta - r.value / r.slope : high;
-    delta = newton > low && newton < high ? newton : 0.5 * (low + high);
+    const bool further = r.value > 0.0;
+    (further ? low : high) = delta;
+    (further ? low_known : high_known) = true;
+    const double newton = r.slope < 0.0 ? delta - r.value / r.slope : further ? high : low;
+    if (newton > low && newton < high) {
+      delta = newton;
+      continue;
+    }
+    if (bool& known = further ? high_known : low_known; !known) {
+      known = true;
+      const double end = further ? high : low, left = residual_of(tool, pressed, end, dt).value;
+      if (further ? left >= 0.0 : left <= 0.0) return end;
+    }
+    delta = 0.5 * (low + high);
   }
   return delta;
 }
