@@ -196,7 +196,8 @@ TEST(ToolContact, PushedToolFeelsItsForce) {
         OwnedSheet nodes = square_sheet(6, 1.0, -half_thickness);
         for (Vec3& x : nodes.x)
           x.z() += 2e-4 * signed_unit(random); // gaps of some tenths of a step's way
-        ToolContact contact = contact_of({50.0, 5e-5, ball ? 0.0 : 0.2, 0.02}); // it is pressed to 0.6 of that
+        ToolContact contact =
+            contact_of({50.0, 5e-5, ball ? 0.0 : 0.2, 0.02}); // it is pressed to 0.6 of that
         find_tool_points(contact, tool, nodes.state(), 1.0, all_ways);
         int free_steps = 0;
         for (int step = 0; step < 50; ++step) {
