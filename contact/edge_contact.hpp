@@ -24,9 +24,10 @@
 
 namespace plyform {
 
-/// An edge of a sheet: its nodes and the triangles on both sides (-1: none, it is a rim).
+/// An edge of a sheet: its nodes, and whether it has a triangle on one side only.
 struct SheetEdge {
-  std::int32_t a, b, left, right;
+  std::int32_t a, b;
+  bool rim;
 };
 
 /// All edges of a sheet, in ascending order of their nodes. Non-manifold edges are given once for

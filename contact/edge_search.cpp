@@ -101,15 +101,15 @@ private:
 std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles) {
   std::map<std::pair<int, int>, SheetEdge> open;
   std::vector<SheetEdge> edges;
-  for (std::size_t f = 0; f < triangles.size(); ++f)
+  for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const int i = triangles[f][k], j = triangles[f][(k + 1) % 3];
+      const int i = t[k], j = t[(k + 1) % 3];
       const auto key = std::minmax(i, j);
       const auto found = open.find(key);
       if (found == open.end()) {
-        open[key] = {key.first, key.second, static_cast<std::int32_t>(f), -1};
+        open[key] = {key.first, key.second, true};
       } else {
-        found->second.right = static_cast<std::int32_t>(f);
+        found->second.rim = false;
         edges.push_back(found->second);
         open.erase(found);
       }

@@ -19,7 +19,7 @@ std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
                                std::span<const Triangle> triangles, std::size_t nodes) {
   std::vector<char> node(nodes, 0), face;
   for (const SheetEdge& e : edges)
-    if (e.right < 0) node[static_cast<std::size_t>(e.a)] = node[static_cast<std::size_t>(e.b)] = 1;
+    if (e.rim) node[static_cast<std::size_t>(e.a)] = node[static_cast<std::size_t>(e.b)] = 1;
   for (const Triangle& t : triangles)
     face.push_back(static_cast<char>(std::any_of(
         t.begin(), t.end(), [&](int n) { return node[static_cast<std::size_t>(n)] != 0; })));
