@@ -77,6 +77,17 @@ void print_fabrics(const Case& data) {
     fmt::print("fabric {}\n", line);
 }
 
+/// mm^2, before forming.
+double area_of(const PlyBody& ply) {
+  const std::vector<double>& areas = ply.membrane.node_area;
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
+/// mm: side of a square of two triangles.
+double element_size(const PlyBody& ply) {
+  return std::sqrt(2.0 * area_of(ply) / static_cast<double>(ply.membrane.triangles.size()));
+}
+
 /// Says which plies lock a little: averaged elements of yarns that push, too few across a narrow
 /// ply (docs/method.md, YarnsThatBearCompressionNeedAFinerMesh).
 void print_locking(const Scene& s) {
@@ -92,8 +103,7 @@ void print_locking(const Scene& s) {
     for (const Vec3& x : s.plies[p].x0)
       box.extend(x);
     const double width = box.sizes().head<2>().minCoeff();
-    const double h = std::sqrt(2.0 * std::accumulate(m.node_area.begin(), m.node_area.end(), 0.0) /
-                               static_cast<double>(m.triangles.size()));
+    const double h = element_size(s.plies[p]);
     if (width >= enough * h) continue;
     fmt::print(
         "    warning: ply {} has {:.3g} elements across and yarns that bear compression: its "
@@ -113,10 +123,7 @@ void print_wrinkles(const Scene& s) {
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const Ply& ply = s.data.plies[p];
     if (!seen.emplace(ply.fabric, ply.blank).second) continue;
-    const std::vector<double>& areas = s.plies[p].membrane.node_area;
-    const double area = std::accumulate(areas.begin(), areas.end(), 0.0);
-    const double h =
-        std::sqrt(2.0 * area / static_cast<double>(s.plies[p].membrane.triangles.size()));
+    const double area = area_of(s.plies[p]), h = element_size(s.plies[p]);
     const auto wave = bending_lengths(s.plies[p].membrane.fabric, force / area).upwards;
     if (!wave || *wave >= elements_in_wave * h) continue;
     fmt::print("    note: under {:g} N of a tool the yarns of ply {} would wrinkle in waves of "
