@@ -153,13 +153,44 @@ def mesh_set() -> Set:
                          settings=(f"blanks.square.element_size={h:g}",)), "mesh_3.4", x=h)
                for h in sizes]
     entries[0] = replace(entries[0], run=replace(DEFAULT, label="elements of 6.8 mm (default)"))
+    rounder = "tool.1.points=[[80.0, -120.0], [80.0, 0.0, 20.0], [400.0, 0.0]]"
+    entries += [Entry(Run(f"fillet_{h:g}", f"elements of {h:g} mm, die fillet of 20 mm",
+                          settings=(rounder, f"blanks.square.element_size={h:g}")), "fillet_3.4",
+                      x=h) for h in (6.8, 3.4)]
     near = Must("area means within 1.5 degrees rms of the finest mesh", apart, 1.5,
-                lambda row: row["run"].name != "mesh_3.4")
+                lambda row: row["x"] > 3.4)
     falls = [Must(f"the {word} falls in proportion to h (over h, at most 1.25 of that at 6.8 mm)",
-                  over_coarsest(key, DEFAULT.name), 1.25, lambda row: row["x"] < 6.8)
+                  over_coarsest(key, DEFAULT.name), 1.25,
+                  lambda row: row["run"].name.startswith("mesh_"))
              for word, key in (("jump", "jump_deg"), ("outlier", "outlier_deg"))]
     return Set("mesh", "Finer meshes, default fabric", entries, [*SOUND, *DEPTHS, near, *falls],
-               "elements of 3.4 mm", rough=True)
+               "elements of 3.4 mm with the same fillet", rough=True)
+
+
+def from_shipped(key: str, row: dict, rows: list[dict]) -> float | None:
+    """Degrees, largest distance of a ply's number from the same of the case as shipped."""
+    shipped = next((other for other in rows if other["run"].name == row["run"].case), None)
+    if shipped is None:
+        return None
+    return max((abs(a - b) for a, b in zip(row[key], shipped[key])), default=nan)
+
+
+def one_ply_set() -> Set:
+    """One ply does not need these numbers: they must not change it."""
+    entries = []
+    for case in ("hemisphere_0", "hemisphere_45"):
+        plain = Run(case, f"{case} as shipped", case=case)
+        entries.append(Entry(plain))
+        for c, b, d in ((460, 2, 8), (460, 0.5, 2), (46, 2, 8), (46, 0.5, 2)):
+            yarns = (("compression_stiffness", c), ("bending_stiffness", b),
+                     ("in_plane_bending_stiffness", d))
+            entries.append(Entry(Run(f"{case}_{c}_{b:g}_{d}", f"{case}, C {c}, B {b:g}, D_g {d}",
+                                     case=case, yarns=yarns), case))
+    near = [Must(f"{word} shear angle within 1 degree of the case as shipped",
+                 lambda row, rows, key=key: from_shipped(key, row, rows), 1.0)
+            for word, key in (("largest", "max_shear_deg"), ("rms", "rms_shear_deg"))]
+    return Set("one_ply", "One ply with and without these numbers", entries, [*SOUND, *near],
+               "the case as shipped")
 
 
 def stacks_set() -> Set:
@@ -184,4 +215,4 @@ def free_set() -> Set:
 
 SETS = {"fabric": fabric_set, "buckling": buckling_set, "accuracy": accuracy_set,
         "repeat": repeat_set, "mesh": mesh_set, "box": box_set, "free": free_set,
-        "stacks": stacks_set}
+        "one_ply": one_ply_set, "stacks": stacks_set}
