@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # cmake --install: the program, both libraries with their headers, the cases, and the package that
-# find_package(plyform) finds. Headers go to include/plyform/, so that #include "core/case.hpp"
+# find_package(plyform) finds. Headers go to include/plyform/, so that #include "core/model/case.hpp"
 # reads the same in other projects as here.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/plyform)

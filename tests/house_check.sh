@@ -43,7 +43,7 @@ flags='[-](march|mtune|mcpu|mavx|msse|mfma|ffast-math|Ofast|funsafe-math|fassoci
 breach "flag that ties the program to one processor or changes its sums" "$(
   for file in "${build[@]}"; do
     allowed=none # kernels are compiled for AVX2 as well, to the same bits
-    [ "$file" != cmake/lanes.cmake ] || allowed='[-]mavx2'
+    [ "$file" != cmake/simd.cmake ] || allowed='[-]mavx2'
     sed "s/#.*//; s/$allowed)//" "$file" | grep -nE "$flags" | sed "s|^|$file:|" || true
   done
   grep -nE 'optimize *\(|#pragma +(GCC|clang) +(optimize|target)' "${cpp[@]}" || true
@@ -54,6 +54,28 @@ breach "more than 500 lines" "$(
     lines=$(wc -l <"$file")
     [ "$lines" -le 500 ] || echo "$file: $lines lines"
   done
+)"
+
+# Arrows between rooms run one way: tests/rooms.txt.
+breach "includes a file of a room that its own must not know (tests/rooms.txt)" "$(
+  awk '
+    FILENAME == "tests/rooms.txt" {
+      if ($0 ~ /^#/) next
+      order[$1] = ++rooms
+      for (i = 2; i <= NF; ++i) may[$1, $i] = 1
+      for (i = 2; i <= NF; ++i) if ($i in order) print "tests/rooms.txt:" FNR ": " $1 " -> " $i " runs back up"
+      next
+    }
+    FNR == 1 { room = FILENAME; sub(/^\.\//, "", room); sub(/\/[^\/]*$/, "", room) }
+    /^#include "(core|contact|tools|support)\// {
+      split($0, part, "\"")
+      to = part[2]; sub(/\/[^\/]*$/, "", to)
+      all = to; sub(/\/.*/, "/*", all)
+      if (!(room in order)) print FILENAME ": stands in no room of tests/rooms.txt"
+      else if (to != room && !((room, to) in may) && !((room, all) in may))
+        print FILENAME ":" FNR ": " part[2]
+    }
+  ' tests/rooms.txt $(printf '%s\n' "${cpp[@]}" | grep -E '^\./?(core|contact|tools)/|^(core|contact|tools)/')
 )"
 
 breach "script that cannot be executed" "$(

@@ -11,30 +11,30 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # NAME | FILE | what sed does to it. Each must change its file.
 faults=(
-  "normals of tools point inward | contact/tool_contact.cpp | s/c.normal = s.normal;/c.normal = -s.normal;/"
-  "normals beside edges of profiles point to the edge, inside as outside | contact/profile.cpp | s/d \* (sign \/ length)}/d \/ length}/"
-  "normals beside edges of mesh tools point to the edge, inside as outside | contact/mesh_shape.cpp | s/d \* (sign \/ length)}/d \/ length}/"
-  "normal force between plies pulls | contact/sheet_kernel_body.hpp | s/LaneForces f{p.memory.normal_force \* normal/LaneForces f{-p.memory.normal_force * normal/"
-  "boxes of the search: one triangle in 64 is never a candidate | contact/candidates.cpp | s/if (q.distance2 <= reach.distance \* reach.distance)/if (q.distance2 <= reach.distance * reach.distance \&\& face % 64 != 7)/"
-  "boxes of the search are not brought up to date | core/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
-  "contacts of plies are listed without the skin | core/contact_search.cpp | s/pair.contact.distance + s.skin/pair.contact.distance/"
-  "what may have closed its gap is looked at too late, plies | contact/near_list.hpp | s/if (list.wake\[i\] > now)/if (list.wake[i] + 0.5 > now)/"
-  "a fold round a face is taken for a tenth of what it is | contact/sheet_closest_body.hpp | s/return k.distance \* Double4{k.spread/return 0.1 * k.distance * Double4{k.spread/"
-  "a ply keeps those on its sides apart past its rim | core/contact_search.cpp | s/^ *char inside = .*/covered[static_cast<std::size_t>(c.node)] = 1; char inside = 1;/"
-  "the first node near a tool is not listed | contact/tool_contact.cpp | s/if (gap > reach) {/if (gap > reach || contact.points.empty()) {/"
-  "friction between plies is forgotten at a search | contact/sheet_contact.cpp | s/c.memory = before->memory;//"
-  "friction with tools is forgotten at a search | contact/tool_contact.cpp | s/if (known) point = old\[next_old++\];/if (known) point = old[next_old++], point.memory = {};/"
-  "plies touch each other at half their thickness | core/scene.cpp | s/0.5 \* (slave.thickness + master.thickness)/0.25 * (slave.thickness + master.thickness)/"
-  "plies touch tools at half their half thickness | core/scene.cpp | s/half_thickness = 0.5 \* plies\[p\].thickness/half_thickness = 0.25 * plies[p].thickness/"
-  "depth between plies has no limit | core/scene.cpp | s/deepest_in_ply \* pair.contact.distance/1e9/"
-  "contacts close by any way in a step | core/step.cpp | s/std::min(s.stable_dt, s.dt \* ratio)/s.stable_dt/"
-  "the stable step takes contacts for as soft as shallow ones | contact/contact_law.hpp | s/return {law.tangent(depth_ahead(law, depth)), law.damping};/return {law.stiffness, law.damping};/"
-  "every other edge is not looked at | contact/edge_search.cpp | s/for (const std::int32_t other : near) {/for (const std::int32_t other : near) { if (other % 2 == 1) continue;/"
-  "edges push towards each other | contact/edge_contact.cpp | s/return pair.side \* d.normal.normalized();/return -pair.side * d.normal.normalized();/"
-  "the balance of a pushed tool takes contact for linear | contact/tool_contact.cpp | s/const double rate = stiffness \* per_room \* per_room;/const double rate = stiffness;/"
-  "the stable step knows no couples of friction | contact/contact_springs.cpp | s/if (spring.across > 0.0)/if (spring.across < 0.0)/"
-  "friction takes tools for standing still | contact/tool_kernel_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g)/"
-  "friction takes tools to move the other way | contact/tool_kernel_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
+  "normals of tools point inward | contact/forces/tool_ply.cpp | s/c.normal = s.normal;/c.normal = -s.normal;/"
+  "normals beside edges of profiles point to the edge, inside as outside | contact/shapes/profile.cpp | s/d \* (sign \/ length)}/d \/ length}/"
+  "normals beside edges of mesh tools point to the edge, inside as outside | contact/shapes/mesh_shape.cpp | s/d \* (sign \/ length)}/d \/ length}/"
+  "normal force between plies pulls | contact/simd/ply_ply_body.hpp | s/LaneForces f{p.memory.normal_force \* normal/LaneForces f{-p.memory.normal_force * normal/"
+  "boxes of the search: one triangle in 64 is never a candidate | contact/search/sheet_bvh.cpp | s/if (q.distance2 <= reach.distance \* reach.distance)/if (q.distance2 <= reach.distance * reach.distance \&\& face % 64 != 7)/"
+  "boxes of the search are not brought up to date | core/solver/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
+  "contacts of plies are listed without the skin | core/solver/contact_search.cpp | s/pair.contact.distance + s.skin/pair.contact.distance/"
+  "what may have closed its gap is looked at too late, plies | contact/search/active_list.hpp | s/if (list.wake\[i\] > now)/if (list.wake[i] + 0.5 > now)/"
+  "a fold round a face is taken for a tenth of what it is | contact/simd/ply_ply_closest.hpp | s/return k.distance \* Double4{k.spread/return 0.1 * k.distance * Double4{k.spread/"
+  "a ply keeps those on its sides apart past its rim | core/solver/contact_search.cpp | s/^ *char inside = .*/covered[static_cast<std::size_t>(c.node)] = 1; char inside = 1;/"
+  "the first node near a tool is not listed | contact/forces/tool_ply.cpp | s/if (gap > reach) {/if (gap > reach || contact.points.empty()) {/"
+  "friction between plies is forgotten at a search | contact/forces/ply_ply.cpp | s/c.memory = before->memory;//"
+  "friction with tools is forgotten at a search | contact/forces/tool_ply.cpp | s/if (known) point = old\[next_old++\];/if (known) point = old[next_old++], point.memory = {};/"
+  "plies touch each other at half their thickness | core/solver/scene.cpp | s/0.5 \* (slave.thickness + master.thickness)/0.25 * (slave.thickness + master.thickness)/"
+  "plies touch tools at half their half thickness | core/solver/scene.cpp | s/half_thickness = 0.5 \* plies\[p\].thickness/half_thickness = 0.25 * plies[p].thickness/"
+  "depth between plies has no limit | core/solver/scene.cpp | s/deepest_in_ply \* pair.contact.distance/1e9/"
+  "contacts close by any way in a step | core/solver/step.cpp | s/std::min(s.stable_dt, s.dt \* ratio)/s.stable_dt/"
+  "the stable step takes contacts for as soft as shallow ones | contact/forces/contact_law.hpp | s/return {law.tangent(depth_ahead(law, depth)), law.damping};/return {law.stiffness, law.damping};/"
+  "every other edge is not looked at | contact/forces/edge_search.cpp | s/for (const std::int32_t other : near) {/for (const std::int32_t other : near) { if (other % 2 == 1) continue;/"
+  "edges push towards each other | contact/forces/edge_edge.cpp | s/return pair.side \* d.normal.normalized();/return -pair.side * d.normal.normalized();/"
+  "the balance of a pushed tool takes contact for linear | contact/forces/tool_ply.cpp | s/const double rate = stiffness \* per_room \* per_room;/const double rate = stiffness;/"
+  "the stable step knows no couples of friction | contact/forces/contact_tangent.cpp | s/if (spring.across > 0.0)/if (spring.across < 0.0)/"
+  "friction takes tools for standing still | contact/simd/tool_ply_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g)/"
+  "friction takes tools to move the other way | contact/simd/tool_ply_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
 )
 filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeContact*'
 
@@ -61,7 +61,7 @@ fi
 cmake --preset release "${launcher[@]}" >"$log" || { cat "$log"; exit 1; }
 
 build() {
-  cmake --build build/release --target contact_tests core_tests >"$log" 2>&1 || {
+  cmake --build build/release --target contact_tests core_tests scenes_tests >"$log" 2>&1 || {
     tail -n 40 "$log"
     echo "planted_faults.sh: error: does not build: $1" >&2
     exit 1
@@ -71,7 +71,7 @@ build() {
 # failing: names of the tests that fail, a line each; a program that crashes or hangs is one more.
 failing() {
   local program code
-  for program in contact_tests core_tests; do
+  for program in contact_tests core_tests scenes_tests; do
     code=0
     timeout 300 "build/release/tests/$program" --gtest_filter="$filter" >"$log" 2>&1 || code=$?
     grep -oE '^\[  FAILED  \] [A-Za-z]+\.[A-Za-z0-9]+' "$log" | sed 's/.*\] //' | sort -u || true

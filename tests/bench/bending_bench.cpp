@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bending: forces of all nodes, four side by side as the step does it and one after the other, out
 // of the sheet alone and with yarns that bend in it.
-#include "core/bending_lanes.hpp"
+#include "core/ply/bending_simd.hpp"
 
 #include <benchmark/benchmark.h>
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The contact step of two sheets that touch all over, with friction, both directed contacts; and
 // what contact does now and then: trees, search, closest points, the exact audit.
-#include "contact/audit.hpp"
+#include "contact/intersections.hpp"
 #include "contact/point_triangle.hpp"
 #include "tests/bench/sheets.hpp"
 

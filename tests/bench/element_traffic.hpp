@@ -2,7 +2,7 @@
 // What the element kernel must at least move and compute.
 #pragma once
 
-#include "core/membrane_lanes.hpp"
+#include "core/ply/membrane_simd.hpp"
 #include "tests/bench/machine.hpp"
 
 namespace plyform {
@@ -19,7 +19,7 @@ inline Traffic lane_traffic(const MembraneLanes& l, std::size_t nodes) {
   return t;
 }
 
-/// Operations on doubles a triangle, counted by hand in core/membrane_kernel_body.hpp for a shear
+/// Operations on doubles a triangle, counted by hand in core/ply/membrane_simd_body.hpp for a shear
 /// law of three terms and yarns of one stiffness; a division or a root counts as one.
 inline double element_operations(bool averaged) {
   return averaged ? 183.0 : 168.0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bandwidth and arithmetic of one core.
-#include "contact/processor.hpp"
+#include "contact/simd/cpu_features.hpp"
 #include "tests/bench/machine.hpp"
 #include "tests/bench/machine_kernel.hpp"
 
@@ -57,7 +57,7 @@ struct Arrays {
 };
 
 double measure_bandwidth(double bytes) {
-  const auto triad = has_avx2() ? triad_avx2 : triad_any;
+  const auto triad = has_avx2() ? triad_avx2 : triad_generic;
   Arrays arrays(bytes);
   const double pass = 24.0 * static_cast<double>(arrays.count);
   const int passes = static_cast<int>(std::max(1.0, 4e7 / pass)); // some milliseconds
@@ -76,7 +76,7 @@ double measure_bandwidth(double bytes) {
 }
 
 double measure_arithmetic() {
-  const auto chains = has_avx2() ? chains_avx2 : chains_any;
+  const auto chains = has_avx2() ? chains_avx2 : chains_generic;
   double best = 0.0, spent = 0.0;
   while (spent < 0.5) { // long enough to find a moment when nobody else shares the core
     alignas(32) double at[4] = {1.0, 2.0, 3.0, 4.0};

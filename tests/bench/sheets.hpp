@@ -2,7 +2,7 @@
 // Two wavy sheets that lie on each other, one turned against the other's mesh.
 #pragma once
 
-#include "contact/sheet_contact.hpp"
+#include "contact/forces/ply_ply.hpp"
 #include "tests/bench/machine.hpp"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole steps of the shipped case of five plies over a hemisphere, finer and finer.
-#include "core/case_file.hpp"
-#include "core/step.hpp"
+#include "core/input/case_file.hpp"
+#include "core/solver/step.hpp"
 #include "tests/bench/element_traffic.hpp"
 #include "tests/bench/sheets.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Uses of the installed contact library that need FCL (SheetTree) and CGAL (the audit).
-#include "contact/audit.hpp"
-#include "contact/candidates.hpp"
+#include "contact/intersections.hpp"
+#include "contact/search/sheet_bvh.hpp"
 
 #include <cstdio>
 #include <vector>

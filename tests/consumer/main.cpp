@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Uses of the installed core library that need toml++ (read_case) and HDF5 (ResultWriter):
 //   consumer RESULT_FOLDER
-#include "core/case_file.hpp"
-#include "core/results.hpp"
+#include "core/input/case_file.hpp"
+#include "core/results/result_writer.hpp"
 
 #include <cstdio>
 

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/forces/contact_tangent.hpp"
+
+namespace plyform {
+namespace {
+
+const Vec3& at(std::span<const Vec3> x, std::int32_t n) {
+  return x[static_cast<std::size_t>(n)];
+}
+
+/// Both stiffnesses of a contact `depth` mm deep that stands for `area` (mm^2).
+void set_stiffness(ContactSpring& spring, const ContactLaw& law, double area, double depth,
+                   const SpringFactors& factors) {
+  const ContactRow row = row_of(law, depth);
+  spring.along = area * (factors.stiffness * row.stiffness + factors.damping * row.damping);
+  if (law.friction > 0.0) spring.across = area * factors.stiffness * law.tangential();
+}
+
+} // namespace
+
+void append_springs(const ToolContact& contact, std::span<const double> area, double margin,
+                    const SpringFactors& factors, std::vector<ContactSpring>& springs) {
+  for (const ToolContactPoint& c : contact.points) {
+    if (c.latest_gap() > margin) continue;
+    ContactSpring spring;
+    spring.node = {c.node};
+    spring.share = {1.0};
+    spring.normal = c.normal;
+    set_stiffness(spring, contact.law, area[static_cast<std::size_t>(c.node)], -c.latest_gap(),
+                  factors);
+    springs.push_back(spring);
+  }
+}
+
+void append_springs(const SheetContact& contact, const SheetState& slave, const SheetState& master,
+                    std::span<const Triangle> triangles, double margin,
+                    const SpringFactors& factors, std::vector<ContactSpring>& springs) {
+  for (const SheetContactPoint& c : contact.points) {
+    if (c.latest_gap() > margin) continue;
+    const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+    const std::array<double, 3> w = c.weights();
+    ContactSpring spring;
+    spring.node = {c.node, t[0], t[1], t[2]};
+    spring.share = {1.0, -w[0], -w[1], -w[2]};
+    spring.nodes = 4;
+    spring.normal = contact_normal(c, slave.x, master.x, triangles);
+    set_stiffness(spring, contact.law, c.area, -c.latest_gap(), factors);
+    if (spring.across > 0.0)
+      spring.couple = {contact.distance * spring.normal,
+                       face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]))};
+    springs.push_back(spring);
+  }
+}
+
+void append_springs(const EdgeContact& contact, const SheetState& a, const SheetState& b,
+                    double margin, const SpringFactors& factors,
+                    std::vector<ContactSpring>& springs) {
+  for (const EdgePair& pair : contact.pairs) {
+    if (!within(contact, pair, margin)) continue;
+    ContactSpring spring;
+    spring.node = {pair.a.a, pair.a.b, pair.b.a, pair.b.b};
+    spring.share = {1.0 - pair.s, pair.s, pair.t - 1.0, -pair.t};
+    spring.own = 2;
+    spring.nodes = 4;
+    spring.normal =
+        (at(a.x, pair.a.b) - at(a.x, pair.a.a)).cross(at(b.x, pair.b.b) - at(b.x, pair.b.a));
+    spring.normal.normalize();
+    set_stiffness(spring, contact.law, pair.area, contact.distance - pair.distance, factors);
+    spring.across = 0.0; // edges meet without friction
+    springs.push_back(spring);
+  }
+}
+
+void add_spring_forces(std::span<const ContactSpring> springs, std::span<const Vec3> own_y,
+                       std::span<const Vec3> other_y, std::span<Vec3> own_force,
+                       std::span<Vec3> other_force) {
+  for (const ContactSpring& s : springs) {
+    const auto own = static_cast<std::size_t>(s.own), nodes = static_cast<std::size_t>(s.nodes);
+    std::array<Vec3, 4> y;
+    Vec3 way = Vec3::Zero();
+    for (std::size_t i = 0; i < nodes; ++i) {
+      y[i] = at(i < own ? own_y : other_y, s.node[i]);
+      way += s.share[i] * y[i];
+    }
+    Vec3 slip = way;
+    if (s.couple) slip -= face_turn(s.couple->face, {y[1], y[2], y[3]}).cross(s.couple->arm);
+    slip -= s.normal.dot(slip) * s.normal;
+    const Vec3 stuck = s.across * slip;
+    const Vec3 force = s.along * s.normal.dot(way) * s.normal + stuck;
+    for (std::size_t i = 0; i < nodes; ++i)
+      (i < own ? own_force : other_force)[static_cast<std::size_t>(s.node[i])] +=
+          s.share[i] * force;
+    if (!s.couple) continue;
+    const auto turning = forces_of_couple(s.couple->face, -s.couple->arm.cross(stuck));
+    for (std::size_t j = 0; j < 3; ++j)
+      other_force[static_cast<std::size_t>(s.node[j + 1])] += turning[j];
+  }
+}
+
+} // namespace plyform

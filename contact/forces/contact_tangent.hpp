@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What contacts answer to small displacements, friction stuck: the part of contact in K and C of
+// M x'' + C x' + K x = 0, which limits the stable step (core/solver/stable_time_step.hpp).
+//
+//   y   mm    displacements of the nodes
+//   n   -     unit normal of the contact;  G y = sum of share_i y_i    mm
+//   slip      tangential part of G y - turn x r                        (P) of ply_ply.hpp
+//   F_i = share_i [ along n (n . G y) + across slip ] and those of the couple on the face (M)   (L)
+#pragma once
+
+#include "contact/forces/edge_edge.hpp"
+#include "contact/forces/face_rotation.hpp"
+#include "contact/forces/ply_ply.hpp"
+
+#include <optional>
+#include <span>
+#include <vector>
+
+namespace plyform {
+
+/// Of friction between a node and a face.
+struct SpringCouple {
+  Vec3 arm; ///< mm
+  FaceFrame face;
+};
+
+/// One contact between up to four nodes: the first `own` are of the slave (or the only) sheet, the
+/// rest, up to `nodes`, of the other.
+struct ContactSpring {
+  std::array<std::int32_t, 4> node{};
+  std::array<double, 4> share{};
+  int own = 1, nodes = 1;
+  Vec3 normal = Vec3::Zero();
+  std::optional<SpringCouple> couple;
+  double along = 0.0, across = 0.0; ///< N/mm
+};
+
+/// Factors of K and of C in what is summed up.
+struct SpringFactors {
+  double stiffness = 1.0, damping = 0.0;
+};
+
+/// Appends the contacts that touch or were within `margin` (mm) of it when last looked at.
+void append_springs(const ToolContact& contact, std::span<const double> area, double margin,
+                    const SpringFactors& factors, std::vector<ContactSpring>& springs);
+void append_springs(const SheetContact& contact, const SheetState& slave, const SheetState& master,
+                    std::span<const Triangle> master_triangles, double margin,
+                    const SpringFactors& factors, std::vector<ContactSpring>& springs);
+void append_springs(const EdgeContact& contact, const SheetState& a, const SheetState& b,
+                    double margin, const SpringFactors& factors,
+                    std::vector<ContactSpring>& springs);
+
+/// Adds (L), N, to the forces of both sheets, which may be one.
+void add_spring_forces(std::span<const ContactSpring> springs, std::span<const Vec3> own_y,
+                       std::span<const Vec3> other_y, std::span<Vec3> own_force,
+                       std::span<Vec3> other_force);
+
+} // namespace plyform

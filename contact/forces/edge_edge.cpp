@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/forces/edge_edge.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+const Vec3& at(std::span<const Vec3> x, int n) {
+  return x[static_cast<std::size_t>(n)];
+}
+
+/// Closest points of the lines' segments; inside: whether they lie inside both.
+struct SegmentDistance {
+  double s, t;
+  bool inside;
+  Vec3 across; ///< y_a - y_b
+  Vec3 normal; ///< (x2 - x1) x (x4 - x3)
+  bool parallel;
+};
+
+SegmentDistance segment_distance(const Vec3& x1, const Vec3& x2, const Vec3& x3, const Vec3& x4) {
+  const Vec3 u = x2 - x1, v = x4 - x3, w = x1 - x3;
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
+  const double det = uu * vv - uv * uv;
+  SegmentDistance d{};
+  d.normal = u.cross(v);
+  d.parallel = !(det > 1e-4 * uu * vv); // within half a degree: the nodes see each other
+  if (d.parallel) return d;
+  d.s = (uv * v.dot(w) - vv * u.dot(w)) / det;
+  d.t = (uu * v.dot(w) - uv * u.dot(w)) / det;
+  d.inside = d.s > 0.0 && d.s < 1.0 && d.t > 0.0 && d.t < 1.0;
+  d.across = w + d.s * u - d.t * v;
+  return d;
+}
+
+double distance_to_segment(const Vec3& p, const Vec3& from, const Vec3& to) {
+  const Vec3 along = to - from;
+  const double t = std::clamp((p - from).dot(along) / along.squaredNorm(), 0.0, 1.0);
+  return (p - from - t * along).norm();
+}
+
+double edge_area(const SheetState& sheet, const EdgeNodes& e) {
+  return 0.5 *
+         (sheet.area[static_cast<std::size_t>(e.a)] + sheet.area[static_cast<std::size_t>(e.b)]);
+}
+
+/// Brings a pair up to date, its distance to `far` (mm) while the closest points are not inside
+/// both edges; returns the unit vector from b to a across the gap, or zero then.
+Vec3 measure(EdgePair& pair, const SheetState& a, const SheetState& b, double far) {
+  const SegmentDistance d =
+      segment_distance(at(a.x, pair.a.a), at(a.x, pair.a.b), at(b.x, pair.b.a), at(b.x, pair.b.b));
+  pair.distance = far;
+  if (d.parallel || !d.inside) {
+    // Edges can only cross while both closest points are inside; outside, the ends may swap sides
+    // freely (and the cross product turns over when edges pass through parallel).
+    pair.side = 0;
+    return Vec3::Zero();
+  }
+  const double along = d.normal.dot(d.across);
+  const int side = along > 0.0 ? 1 : -1;
+  if (pair.side == 0) pair.side = side;
+  pair.s = d.s;
+  pair.t = d.t;
+  pair.distance = pair.side * side * d.across.norm();
+  return pair.side * d.normal.normalized();
+}
+
+/// mm, EdgePair::distance of a pair whose closest points are not inside both edges.
+double far_of(const EdgeContact& contact) {
+  return 2.0 * contact.distance;
+}
+
+/// Lists the pairs that may touch now. Those that were listed keep what they know.
+void renew_pairs(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
+                 const SheetState& b, std::span<const SheetEdge> edges_b, double path) {
+  if (!renew(contact.list, path, [](std::int32_t) {})) return;
+  const std::vector<EdgePair> old = std::move(contact.pairs);
+  contact.pairs.clear();
+  std::size_t known = 0;
+  for (const std::int32_t i : contact.list.near) {
+    const auto& edge = contact.candidates[static_cast<std::size_t>(i)];
+    while (known < old.size() && old[known].edge < edge)
+      ++known;
+    if (known < old.size() && old[known].edge == edge) {
+      contact.pairs.push_back(old[known]);
+      continue;
+    }
+    const SheetEdge &of_a = edges_a[static_cast<std::size_t>(edge[0])],
+                    &of_b = edges_b[static_cast<std::size_t>(edge[1])];
+    EdgePair pair{edge, {of_a.a, of_a.b}, {of_b.a, of_b.b}};
+    pair.area = std::min(edge_area(a, pair.a), edge_area(b, pair.b));
+    measure(pair, a, b, far_of(contact));
+    contact.pairs.push_back(pair);
+  }
+}
+
+} // namespace
+
+double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const EdgeNodes& edge_b,
+                     std::span<const Vec3> b) {
+  const Vec3 &x1 = at(a, edge_a.a), &x2 = at(a, edge_a.b);
+  const Vec3 &x3 = at(b, edge_b.a), &x4 = at(b, edge_b.b);
+  const SegmentDistance d = segment_distance(x1, x2, x3, x4);
+  if (d.parallel)
+    return std::min({distance_to_segment(x1, x3, x4), distance_to_segment(x2, x3, x4),
+                     distance_to_segment(x3, x1, x2), distance_to_segment(x4, x1, x2)});
+  if (d.inside) return d.across.norm();
+  // Where the lines are closest is outside one segment or both. The closest points are then an end
+  // of a segment that is passed and what is closest to it on the other (Ericson, Real-Time
+  // Collision Detection, 5.1.9).
+  double distance = std::numeric_limits<double>::max();
+  if (d.s <= 0.0 || d.s >= 1.0) distance = distance_to_segment(d.s <= 0.0 ? x1 : x2, x3, x4);
+  if (d.t <= 0.0 || d.t >= 1.0)
+    distance = std::min(distance, distance_to_segment(d.t <= 0.0 ? x3 : x4, x1, x2));
+  return distance;
+}
+
+void edge_forces(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
+                 const SheetState& b, std::span<const SheetEdge> edges_b, double dt, double path,
+                 std::span<Vec3> force_a, std::span<Vec3> force_b) {
+  const Stopwatch watch(contact.time.forces);
+  ContactSums& sums = contact.sums;
+  renew_pairs(contact, a, edges_a, b, edges_b, path);
+  clear_present(sums);
+  for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
+    EdgePair& pair = contact.pairs[i];
+    double& wake = contact.list.wake[static_cast<std::size_t>(contact.list.near[i])];
+    if (wake > path + contact.list.ahead) continue;
+    const bool followed = pair.side != 0;
+    const double last = pair.distance;
+    const Vec3 n = measure(pair, a, b, far_of(contact));
+    const double p = contact.distance - pair.distance, dp = last - pair.distance;
+    if (followed && pair.side != 0)
+      sums.step_ratio = std::min(sums.step_ratio, step_ratio(contact.law, p, dp));
+    if (!(p > 0.0)) {
+      if (last < contact.distance) continue;
+      // until then it cannot touch
+      wake = path + edge_distance(pair.a, a.x, pair.b, b.x) - contact.distance;
+      if (wake > path + contact.list.ahead) pair.side = 0; // edges may turn past each other
+      continue;
+    }
+    const NormalForce force =
+        normal_force(contact.law, pair.area, p, last < contact.distance ? dp : 0.0, dt);
+    sums.damping += force.damping * dp;
+    const Vec3 f = force.total * n;
+    const auto add = [](std::span<Vec3> to, int node, const Vec3& share) {
+      to[static_cast<std::size_t>(node)] += share;
+    };
+    add(force_a, pair.a.a, (1.0 - pair.s) * f);
+    add(force_a, pair.a.b, pair.s * f);
+    add(force_b, pair.b.a, (pair.t - 1.0) * f);
+    add(force_b, pair.b.b, -pair.t * f);
+    sums.elastic += pair.area * contact.law.energy(p);
+    sums.penetration = std::max(sums.penetration, p);
+    ++sums.touching;
+  }
+  sums.deepest = std::max(sums.deepest, sums.penetration);
+}
+
+void add_edge_stiffness(const EdgeContact& contact, double margin, std::span<ContactRow> rows_a,
+                        std::span<ContactRow> rows_b) {
+  for (const EdgePair& pair : contact.pairs) {
+    if (!within(contact, pair, margin)) continue;
+    const ContactRow row = 2.0 * pair.area * row_of(contact.law, contact.distance - pair.distance);
+    rows_a[static_cast<std::size_t>(pair.a.a)] += (1.0 - pair.s) * row;
+    rows_a[static_cast<std::size_t>(pair.a.b)] += pair.s * row;
+    rows_b[static_cast<std::size_t>(pair.b.a)] += (1.0 - pair.t) * row;
+    rows_b[static_cast<std::size_t>(pair.b.b)] += pair.t * row;
+  }
+}
+
+} // namespace plyform

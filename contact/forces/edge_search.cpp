@@ -1,0 +1,148 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which edges of two sheets may come close to each other.
+#include "contact/forces/edge_edge.hpp"
+
+#include <cmath>
+#include <map>
+
+namespace plyform {
+namespace {
+
+const Vec3& at(std::span<const Vec3> x, int n) {
+  return x[static_cast<std::size_t>(n)];
+}
+
+Box3 edge_box(const SheetEdge& e, std::span<const Vec3> x, double inflate) {
+  Box3 box(at(x, e.a).cwiseMin(at(x, e.b)), at(x, e.a).cwiseMax(at(x, e.b)));
+  box.min().array() -= inflate;
+  box.max().array() += inflate;
+  return box;
+}
+
+/// The boxes of some edges, sorted into square cells of a grid across the two axes along which they
+/// spread furthest; each edge in the cell of the lower corner of its box.
+class EdgeGrid {
+public:
+  EdgeGrid(const EdgeSet& edges, std::span<const Vec3> x) {
+    Box3 all;
+    for (const std::int32_t e : edges.some) {
+      entries_.push_back({edge_box(edges.all[static_cast<std::size_t>(e)], x, 0.0), e});
+      all.extend(entries_.back().box);
+      widest_ = widest_.cwiseMax(entries_.back().box.sizes());
+    }
+    if (entries_.empty()) return;
+    all.sizes().minCoeff(&flat_);
+    low_ = all.min();
+    constexpr double most_cells = 1000.0; // along an axis, whatever edges there are
+    cell_ = std::max({widest_.maxCoeff(), all.sizes().maxCoeff() / most_cells, 1e-9});
+    for (int axis = 0; axis < 3; ++axis)
+      count_[static_cast<std::size_t>(axis)] =
+          axis == flat_ ? 1 : place(all.max()[axis], axis, 1 << 20) + 1;
+    std::stable_sort(entries_.begin(), entries_.end(), [this](const Entry& a, const Entry& b) {
+      return cell_of(a.box.min()) < cell_of(b.box.min());
+    });
+    begin_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2] + 1), 0);
+    for (const Entry& e : entries_)
+      ++begin_[static_cast<std::size_t>(cell_of(e.box.min())) + 1];
+    for (std::size_t i = 1; i < begin_.size(); ++i)
+      begin_[i] += begin_[i - 1];
+  }
+
+  /// found(edge) for each whose box meets this one.
+  template <class Found>
+  void visit(const Box3& box, const Found& found) const {
+    if (entries_.empty()) return;
+    std::array<int, 3> from{}, to{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto a = static_cast<std::size_t>(axis);
+      from[a] = axis == flat_ ? 0 : place(box.min()[axis] - widest_[axis], axis, count_[a] - 1);
+      to[a] = axis == flat_ ? 0 : place(box.max()[axis], axis, count_[a] - 1);
+    }
+    for (int i = from[0]; i <= to[0]; ++i)
+      for (int j = from[1]; j <= to[1]; ++j)
+        for (int k = from[2]; k <= to[2]; ++k) {
+          const auto cell = static_cast<std::size_t>((i * count_[1] + j) * count_[2] + k);
+          for (std::int32_t e = begin_[cell]; e < begin_[cell + 1]; ++e) {
+            const Entry& entry = entries_[static_cast<std::size_t>(e)];
+            if (box.intersects(entry.box)) found(entry.edge);
+          }
+        }
+  }
+
+private:
+  struct Entry {
+    Box3 box;
+    std::int32_t edge;
+  };
+
+  int place(double x, int axis, int last) const {
+    return static_cast<int>(
+        std::clamp(std::floor((x - low_[axis]) / cell_), 0.0, static_cast<double>(last)));
+  }
+  int cell_of(const Vec3& x) const {
+    std::array<int, 3> i{};
+    for (int axis = 0; axis < 3; ++axis)
+      if (axis != flat_)
+        i[static_cast<std::size_t>(axis)] =
+            place(x[axis], axis, count_[static_cast<std::size_t>(axis)] - 1);
+    return (i[0] * count_[1] + i[1]) * count_[2] + i[2];
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<std::int32_t> begin_;
+  Vec3 low_ = Vec3::Zero(), widest_ = Vec3::Zero(); ///< mm
+  double cell_ = 1.0;                               ///< mm
+  int flat_ = 2;                                    ///< axis without cells
+  std::array<int, 3> count_{1, 1, 1};
+};
+
+} // namespace
+
+std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles) {
+  std::map<std::pair<int, int>, SheetEdge> open;
+  std::vector<SheetEdge> edges;
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int i = t[k], j = t[(k + 1) % 3];
+      const auto key = std::minmax(i, j);
+      const auto found = open.find(key);
+      if (found == open.end()) {
+        open[key] = {key.first, key.second, true};
+      } else {
+        found->second.rim = false;
+        edges.push_back(found->second);
+        open.erase(found);
+      }
+    }
+  for (const auto& [key, edge] : open)
+    edges.push_back(edge);
+  std::sort(edges.begin(), edges.end(), [](const SheetEdge& e, const SheetEdge& g) {
+    return std::pair(e.a, e.b) < std::pair(g.a, g.b);
+  });
+  return edges;
+}
+
+void find_edge_pairs(EdgeContact& contact, const SheetState& a, const EdgeSet& edges_a,
+                     const SheetState& b, const EdgeSet& edges_b, double skin, double path) {
+  contact.candidates.clear();
+  clear(contact.list);
+  const EdgeGrid grid(edges_b, b.x);
+  std::vector<std::int32_t> near;
+  for (const std::int32_t e : edges_a.some) {
+    const SheetEdge& edge = edges_a.all[static_cast<std::size_t>(e)];
+    near.clear();
+    grid.visit(edge_box(edge, a.x, contact.distance + skin),
+               [&near](std::int32_t other) { near.push_back(other); });
+    std::sort(near.begin(), near.end());
+    for (const std::int32_t other : near) {
+      const SheetEdge& of_b = edges_b.all[static_cast<std::size_t>(other)];
+      const double gap =
+          edge_distance({edge.a, edge.b}, a.x, {of_b.a, of_b.b}, b.x) - contact.distance;
+      if (gap > skin) continue; // only its box was in reach
+      contact.candidates.push_back({e, other});
+      contact.list.wake.push_back(path + gap);
+    }
+  }
+}
+
+} // namespace plyform

@@ -1,0 +1,353 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/forces/ply_ply.hpp"
+
+#include "contact/forces/face_rotation.hpp"
+#include "contact/simd/cpu_features.hpp"
+#include "contact/simd/ply_ply_kernel.hpp"
+
+#include <cstddef>
+#include <limits>
+#include <numeric>
+
+namespace plyform {
+namespace {
+
+const Vec3& at(std::span<const Vec3> x, int n) {
+  return x[static_cast<std::size_t>(n)];
+}
+
+/// Whether one node is a corner of all these faces: they are then one patch.
+bool share_node(std::span<const Candidate> group, std::span<const Triangle> triangles) {
+  const Triangle& t = triangles[static_cast<std::size_t>(group.front().face)];
+  int a = 1, b = 1, c = 1;
+  for (const Candidate& n : group) {
+    const auto [u, v, w] = triangles[static_cast<std::size_t>(n.face)];
+    a &= int(t[0] == u) | int(t[0] == v) | int(t[0] == w);
+    b &= int(t[1] == u) | int(t[1] == v) | int(t[1] == w);
+    c &= int(t[2] == u) | int(t[2] == v) | int(t[2] == w);
+  }
+  return (a | b | c) != 0;
+}
+
+/// Whether all these faces hang together, found by growing the patch of the first. No more than
+/// 64 faces; of more: false, label_patches will tell.
+bool one_patch(std::span<const Candidate> group, std::span<const Triangle> triangles) {
+  if (share_node(group, triangles)) return true;
+  constexpr std::size_t most = 64;
+  if (group.size() > most) return false;
+  std::array<std::int32_t, 3 * most> corners; // of the patch
+  std::array<const Triangle*, most> outside;
+  std::size_t met = 0, left = group.size();
+  for (std::size_t i = 0; i < left; ++i)
+    outside[i] = &triangles[static_cast<std::size_t>(group[i].face)];
+  const auto add = [&](const Triangle& t) {
+    for (const std::int32_t n : t)
+      corners[met++] = n;
+  };
+  add(*outside[--left]);
+  for (std::size_t known = 0; known < met && left > 0; ++known)
+    for (std::size_t i = left; i-- > 0;) {
+      const Triangle& t = *outside[i];
+      if (!(int(t[0] == corners[known]) | int(t[1] == corners[known]) |
+            int(t[2] == corners[known])))
+        continue;
+      add(t);
+      outside[i] = outside[--left];
+    }
+  return left == 0;
+}
+
+/// Numbers the connected patches among a node's candidate faces: label[i] = smallest index of its
+/// patch.
+void label_patches(std::span<const Candidate> group, std::span<const Triangle> triangles,
+                   std::vector<int>& label) {
+  label.assign(group.size(), 0);
+  if (one_patch(group, triangles)) return;
+  std::vector<std::pair<std::int32_t, int>> met; // nodes of the faces so far, and their patch
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    label[i] = static_cast<int>(i);
+    const Triangle& t = triangles[static_cast<std::size_t>(group[i].face)];
+    for (const std::int32_t n : t)
+      for (const auto& [node, patch] : met)
+        if (node == n) label[i] = std::min(label[i], patch);
+    for (const std::int32_t n : t) {
+      const auto known =
+          std::find_if(met.begin(), met.end(), [n](const auto& m) { return m.first == n; });
+      if (known == met.end()) {
+        met.emplace_back(n, label[i]);
+      } else if (const int joined = known->second; joined != label[i]) { // two patches meet here
+        for (auto& m : met)
+          if (m.second == joined) m.second = label[i];
+        for (std::size_t j = 0; j < i; ++j)
+          if (label[j] == joined) label[j] = label[i];
+      }
+    }
+  }
+}
+
+/// Area that one contact stands for: no more than the smaller of both sheets' node areas, so that
+/// a coarse node does not overload the small nodes of a fine sheet. The master's is that at the
+/// closest point: where faces meet, rounding says which of them is closest, and must not count.
+double contact_area(const SheetState& slave, const SheetState& master, const SheetContactPoint& c,
+                    const Triangle& face) {
+  const std::array<double, 3> w = c.weights();
+  double there = 0.0;
+  for (std::size_t j = 0; j < 3; ++j)
+    there += w[j] * master.area[static_cast<std::size_t>(face[j])];
+  return std::min(slave.area[static_cast<std::size_t>(c.node)], there);
+}
+
+/// Points as the kernel sees them.
+SheetKernelPoint* kernel_points(SheetContactPoint* points) {
+  using P = SheetContactPoint;
+  using Q = SheetKernelPoint;
+  static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
+                offsetof(ContactMemory, damping_force) == offsetof(Q, damping_force) &&
+                offsetof(ContactMemory, normal_force) == offsetof(Q, normal_force) &&
+                offsetof(ContactMemory, slip) == offsetof(Q, slip) &&
+                offsetof(P, area) == offsetof(Q, area) && offsetof(P, gap) == offsetof(Q, gap) &&
+                offsetof(P, w) == offsetof(Q, w) && offsetof(P, looked) == offsetof(Q, looked) &&
+                offsetof(P, other) == offsetof(Q, other) &&
+                offsetof(P, rested) == offsetof(Q, rested) &&
+                offsetof(P, node) == offsetof(Q, node) && offsetof(P, side) == offsetof(Q, side));
+  return reinterpret_cast<Q*>(points);
+}
+
+/// Lays a point that has opened to rest: where it is on either side does not matter meanwhile.
+void lay_to_rest(SheetContactPoint& c) {
+  c.rested = static_cast<float>(c.gap);
+  c.gap = std::numeric_limits<double>::infinity();
+  c.side = 0;
+}
+
+/// A contact of these candidates' node, not touched yet.
+SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near,
+                            std::span<const Triangle> triangles, double path) {
+  std::sort(near.begin(), near.end(), [](const Candidate& a, const Candidate& b) {
+    return std::pair(a.distance2, a.face) < std::pair(b.distance2, b.face);
+  });
+  SheetContactPoint c{};
+  c.node = near.front().node;
+  c.first_face = static_cast<std::int32_t>(contact.faces.size());
+  for (const Candidate& n : near) {
+    contact.faces.push_back(n.face);
+    contact.face_distance.push_back(std::sqrt(n.distance2));
+  }
+  c.end_face = static_cast<std::int32_t>(contact.faces.size());
+  const double tied = (1.0 + same_distance) * near.front().distance2;
+  const Candidate* first = &near.front();
+  for (const Candidate& n : near)
+    if (n.distance2 <= tied && n.face < first->face) first = &n;
+  c.face = first->face;
+  c.w = {first->w[1], first->w[2]};
+  c.other = distance_of_others(*kernel_points(&c), triangles.data()->data(), contact.faces.data(),
+                               contact.face_distance.data());
+  c.gap = std::sqrt(near.front().distance2) - contact.distance;
+  contact.list.wake.push_back(path + c.gap);
+  lay_to_rest(c);
+  c.looked.fill(std::numeric_limits<double>::quiet_NaN());
+  return c;
+}
+
+/// The old contact of this node whose last face is in the new patch, or null.
+const SheetContactPoint* find_old(std::span<const SheetContactPoint> old, std::size_t& begin,
+                                  const SheetContactPoint& now,
+                                  std::span<const std::int32_t> faces) {
+  while (begin < old.size() && old[begin].node < now.node)
+    ++begin;
+  for (std::size_t i = begin; i < old.size() && old[i].node == now.node; ++i)
+    if (std::find(faces.begin() + now.first_face, faces.begin() + now.end_face, old[i].face) !=
+        faces.begin() + now.end_face)
+      return &old[i];
+  return nullptr;
+}
+
+} // namespace
+
+double distance_of_others(const SheetKernelPoint& point, const std::int32_t* triangles,
+                          const std::int32_t* faces, const double* face_distance) {
+  const auto corners = [triangles](std::int32_t face) {
+    return triangles + 3 * std::ptrdiff_t(face);
+  };
+  const std::int32_t* t = corners(point.face);
+  for (std::int32_t i = point.first_face; i < point.end_face; ++i) {
+    const std::int32_t* u = corners(faces[i]);
+    if (std::find_first_of(t, t + 3, u, u + 3) == t + 3) return face_distance[i];
+  }
+  return std::numeric_limits<double>::max(); // what is not listed cannot touch
+}
+
+void find_sheet_points(SheetContact& contact, std::span<const Candidate> candidates,
+                       const SheetState& slave, const SheetState& master,
+                       std::span<const Triangle> triangles, double path) {
+  const std::vector<SheetContactPoint> old = std::move(contact.points);
+  contact.points.clear();
+  contact.faces.clear();
+  contact.face_distance.clear();
+  clear(contact.list);
+  contact.looked_path = path;
+  std::vector<int> label;
+  std::vector<Candidate> near;
+  std::vector<char> adopted(old.size(), 0);
+  std::size_t next_old = 0;
+  for (std::size_t begin = 0, end = 0; begin < candidates.size(); begin = end) {
+    while (end < candidates.size() && candidates[end].node == candidates[begin].node)
+      ++end;
+    const auto group = candidates.subspan(begin, end - begin);
+    label_patches(group, triangles, label);
+    for (std::size_t first = 0; first < group.size(); ++first) {
+      if (label[first] != static_cast<int>(first)) continue;
+      near.clear();
+      for (std::size_t i = first; i < group.size(); ++i)
+        if (label[i] == label[first]) near.push_back(group[i]);
+      SheetContactPoint c = add_faces(contact, near, triangles, path);
+      c.area = contact_area(slave, master, c, triangles[static_cast<std::size_t>(c.face)]);
+      if (const SheetContactPoint* before = find_old(old, next_old, c, contact.faces)) {
+        adopted[static_cast<std::size_t>(before - old.data())] = 1;
+        c.memory = before->memory;
+        c.side = before->side;
+        c.area = before->area;
+        double& wake = contact.list.wake.back();
+        if (before->gap < 0.0) c.gap = before->gap, wake = std::min(wake, path);
+      }
+      contact.points.push_back(c);
+    }
+  }
+  for (std::size_t i = 0; i < old.size(); ++i) {
+    ContactMemory memory = old[i].memory;
+    if (!adopted[i]) release(contact.law, old[i].area, memory, contact.sums);
+  }
+}
+
+namespace {
+
+/// What the kernel asks back, of one contact in one step.
+struct KernelSide {
+  SheetContact& contact;
+  const SheetState &slave, &master;
+  std::span<const Triangle> triangles;
+  SheetWay gone;
+  bool look_all;
+  std::span<Vec3> slave_force, master_force;
+};
+
+KernelSide& of(void* self) {
+  return *static_cast<KernelSide*>(self);
+}
+
+SheetContactPoint& point_of(KernelSide& k, std::int32_t point) {
+  return k.contact.points[static_cast<std::size_t>(point)];
+}
+
+void open_point(void* self, std::int32_t point, double last_gap) {
+  KernelSide& k = of(self);
+  SheetContactPoint& c = point_of(k, point);
+  if (c.memory.damping_force != 0.0) // the trapezoid's last half
+    k.contact.sums.damping += 0.5 * c.memory.damping_force * (last_gap - c.gap);
+  c.memory.damping_force = 0.0;
+  release(k.contact.law, c.area, c.memory, k.contact.sums);
+}
+
+void fault_at(void* self, std::int32_t point, double distance) {
+  KernelSide& k = of(self);
+  const SheetContactPoint& c = point_of(k, point);
+  k.contact.fault = {c.node, c.face, distance};
+}
+
+SheetKernelContact kernel_view(KernelSide& k, double dt) {
+  SheetContact& c = k.contact;
+  static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::int32_t));
+  SheetKernelContact view{};
+  view.points = kernel_points(c.points.data());
+  view.near = c.list.near.data();
+  view.near_count = static_cast<int>(c.list.near.size());
+  view.wake = c.list.wake.data();
+  view.slave_x = k.slave.x.data()->data();
+  view.slave_motion = k.slave.motion.data()->data();
+  view.master_x = k.master.x.data()->data();
+  view.master_motion = k.master.motion.data()->data();
+  view.faces = c.faces.data();
+  view.face_distance = c.face_distance.data();
+  view.spread = k.master.spread.empty() ? nullptr : k.master.spread.data();
+  view.way = k.gone.way;
+  view.path = k.gone.path;
+  view.rest = k.look_all ? 0.0 : c.rest;
+  view.triangles = k.triangles.data()->data();
+  view.slave_force = k.slave_force.data()->data();
+  view.master_force = k.master_force.data()->data();
+  view.distance = c.distance;
+  view.stiffness = c.law.stiffness;
+  view.tangential = c.law.tangential();
+  view.friction = c.law.friction;
+  view.max_depth = c.law.max_depth;
+  view.per_depth2 = 1.0 / (c.law.max_depth * c.law.max_depth);
+  view.damping_per_dt = dt > 0.0 ? c.law.damping / dt : 0.0;
+  view.self = &k;
+  view.open = open_point;
+  view.fault = fault_at;
+  return view;
+}
+
+} // namespace
+
+void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
+                  std::span<const Triangle> triangles, double dt, const SheetWay& gone,
+                  std::span<Vec3> slave_force, std::span<Vec3> master_force) {
+  const Stopwatch watch(contact.time.forces);
+  renew(contact.list, gone.path,
+        [&contact](std::int32_t i) { lay_to_rest(contact.points[static_cast<std::size_t>(i)]); });
+  clear_present(contact.sums);
+  if (contact.list.near.empty()) return;
+  const bool look_all = gone.path - contact.looked_path > contact.look_every;
+  if (look_all) contact.looked_path = gone.path;
+  KernelSide side{contact, slave, master, triangles, gone, look_all, slave_force, master_force};
+  const auto run = has_avx2() ? sheet_kernel_avx2 : sheet_kernel_generic;
+  const SheetKernelSums added = run(kernel_view(side, dt));
+  ContactSums& sums = contact.sums;
+  sums.elastic = added.elastic;
+  sums.friction += added.friction;
+  sums.damping += added.damping;
+  sums.penetration = added.penetration;
+  sums.slip = std::max(sums.slip, added.slip);
+  sums.touching = added.touching;
+  sums.step_ratio = added.step_ratio;
+  sums.deepest = std::max(sums.deepest, sums.penetration);
+}
+
+Vec3 contact_normal(const SheetContactPoint& point, std::span<const Vec3> slave,
+                    std::span<const Vec3> master, std::span<const Triangle> triangles) {
+  const Triangle& t = triangles[static_cast<std::size_t>(point.face)];
+  const std::array<double, 3> w = point.weights();
+  return (at(slave, point.node) -
+          (w[0] * at(master, t[0]) + w[1] * at(master, t[1]) + w[2] * at(master, t[2])))
+      .normalized();
+}
+
+void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
+                         std::span<const Triangle> triangles, double margin,
+                         std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows) {
+  // Normal: k G G^T with G = (1, -w), whose row i is |G_i| sum_j |G_j| = 2 |G_i|. Friction, with
+  // half of k, along the face the same, and across it the couple's g_j = d |gradient_j|: with
+  // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
+  for (const SheetContactPoint& c : contact.points) {
+    if (c.latest_gap() > margin) continue;
+    const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+    const ContactRow normal = 2.0 * c.area * row_of(contact.law, -c.latest_gap());
+    slave_rows[static_cast<std::size_t>(c.node)] += normal;
+    if (contact.law.friction > 0.0) {
+      std::array<double, 3> couple{};
+      const FaceFrame f = face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]));
+      double sum = 0.0;
+      for (std::size_t j = 0; j < 3; ++j)
+        sum += couple[j] = contact.distance * f.gradient[j].norm();
+      for (std::size_t j = 0; j < 3; ++j)
+        master_rows[static_cast<std::size_t>(t[j])].stiffness +=
+            2.0 * c.area * contact.law.tangential() * sum * couple[j];
+    }
+    const std::array<double, 3> w = c.weights();
+    for (std::size_t j = 0; j < 3; ++j)
+      master_rows[static_cast<std::size_t>(t[j])] += w[j] * normal;
+  }
+}
+
+} // namespace plyform

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contact of two plies: nodes of the slave sheet against the faces of the master sheet. Run both
+// ways, each with half the stiffness, so that neither sheet is preferred.
+//
+//   x_s  mm  slave node;  x_c = sum_j w_j x_j  mm  closest point of the master's faces
+//   d = |x_s - x_c|,  n = (x_s - x_c)/d,  h = half the sum of both thicknesses,  p = h - d
+//   E(p) and N(p) of contact_law.hpp;  F_s = N n,  F_j = -w_j F_s                            (S)
+//
+// (S) is the exact gradient of E: x_c minimises the distance, so the w_j do not count (envelope
+// theorem). The distance to a polyhedral surface is continuous across edges, around the rim and
+// while the node slides off it, and so is the force. The mid-surfaces stay about h apart, so the
+// direction n is always well defined; which side the node is on is remembered, and a node found on
+// the other side is a fault that stops the run.
+//
+// Friction acts where the surfaces touch, the thicknesses apart from the two mid-surfaces. So slip
+// is measured, and a couple given, as if an arm r = x_s - x_c stood on the face and turned with it:
+//   slip of a step = tangential part of u_s - sum_j w_j u_j - turn x r                       (P)
+//   F_s = T,  F_j = -w_j T + those of the couple -r x T on the face                          (M)
+// turn and the couple's forces: face_rotation.hpp. (M) does the work of T on (P); its moments
+// cancel, and two sheets that move as one rigid body do not slip.
+//
+// A point rests on its face until it has slid by `rest` since it looked around, and meanwhile takes
+// the closest point of that face alone, so that (S) and (M) stay exact for it. A face across an
+// edge that has become closer is seen late, by no more than `rest` times the fold between the two.
+// All look around again when the sheets have gone `look_every`, for folds change too.
+#pragma once
+
+#include "contact/forces/contact_law.hpp"
+#include "contact/forces/tool_ply.hpp"
+#include "contact/search/active_list.hpp"
+#include "contact/search/sheet_bvh.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plyform {
+
+/// One slave node and one connected patch of master faces near it (two patches: a fold). Laid out
+/// in rows of 32 bytes, SheetKernelPoint (contact/simd/ply_ply_kernel.hpp).
+struct alignas(32) SheetContactPoint {
+  ContactMemory memory;
+  double area = 0.0;              ///< mm^2 that the contact stands for
+  double gap = 0.0;               ///< mm, d - h of the last step; infinite: it rested
+  std::array<double, 2> w{};      ///< weights of corners b and c at the closest point
+  std::array<double, 2> looked{}; ///< of its foot on the face's plane when it last looked around
+  double other = 0.0;          ///< mm, at the search, to the next face that shares no node with it
+  float rested = 0.0F;         ///< mm, gap when it went to rest
+  std::int32_t node, face = 0; ///< closest face; of those that tie the first
+  std::int32_t first_face, end_face; ///< range in SheetContact::faces
+  int side = 0; ///< +1: on the side of the face normal, -1: other, 0: not known
+
+  /// Of the closest point.
+  std::array<double, 3> weights() const { return {1.0 - w[0] - w[1], w[0], w[1]}; }
+  double latest_gap() const { return std::isinf(gap) ? double{rested} : gap; } ///< mm, last seen
+};
+
+/// A node that got to the wrong side or as deep as contact has room: it cannot be resolved.
+struct ContactFault {
+  int node = -1, face = -1;
+  double distance = 0.0; ///< mm
+};
+
+struct SheetContact {
+  ContactLaw law;                        ///< with half of the pair's stiffness
+  double distance = 0.0;                 ///< h, mm
+  std::vector<SheetContactPoint> points; ///< ascending by node
+  std::vector<std::int32_t> faces;       ///< of each point, nearest first
+  std::vector<double> face_distance;     ///< mm, when the search was done
+  NearList list;                         ///< of the points
+  double rest = 0.0;        ///< mm, sliding by which a point keeps its face unseen; 0: none
+  double look_every = 0.0;  ///< mm of path, at which all points look around
+  double looked_path = 0.0; ///< mm, when they last did
+  double renew_depth = 0.0; ///< mm, penetration at which the stable step is due again
+  ContactSums sums;
+  ContactFault fault;
+  ContactTime time;
+};
+
+/// How far two sheets have gone relative to each other, mm: no node of one further than `way`
+/// relative to any of the other since the search; `path` as of contact/search/active_list.hpp.
+struct SheetWay {
+  double way = 0.0, path = 0.0;
+};
+
+/// Renews the points from the broad phase's candidates (sorted by node and face). Contacts keep
+/// their memory. path: mm, as of SheetWay.
+void find_sheet_points(SheetContact& contact, std::span<const Candidate> candidates,
+                       const SheetState& slave, const SheetState& master,
+                       std::span<const Triangle> master_triangles, double path);
+
+/// Adds the forces of one step (S), (N), (T), (M) to those of each sheet's nodes, N. dt: the step
+/// that led to these positions, s. Points and faces that the sheets have not gone far enough to
+/// bring together are not looked at.
+void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
+                  std::span<const Triangle> master_triangles, double dt, const SheetWay& gone,
+                  std::span<Vec3> slave_force, std::span<Vec3> master_force);
+
+/// n of a point, from the positions that its last forces belong to.
+Vec3 contact_normal(const SheetContactPoint& point, std::span<const Vec3> slave,
+                    std::span<const Vec3> master, std::span<const Triangle> master_triangles);
+
+/// Row sums of the contact matrices added to each sheet's nodes: of contacts that touch or were
+/// within `margin` (mm) of it when last looked at.
+void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
+                         std::span<const Triangle> master_triangles, double margin,
+                         std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows);
+
+} // namespace plyform

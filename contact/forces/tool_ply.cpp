@@ -1,0 +1,346 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/forces/tool_ply.hpp"
+
+#include "contact/shapes/shape_distance.hpp"
+#include "contact/simd/cpu_features.hpp"
+#include "contact/simd/tool_ply_kernel.hpp"
+
+#include <cstddef>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+void lay_to_rest(ToolContactPoint& c) {
+  if (std::isinf(c.gap)) return;
+  c.last_gap = c.gap;
+  c.gap = std::numeric_limits<double>::infinity();
+}
+
+/// Distances of a tool where it stands now; to_shape: of its shape, in its own frame.
+template <class ToShape>
+class Placed {
+public:
+  Placed(const ToolBody& tool, ToShape to_shape)
+      : to_shape_(std::move(to_shape)), origin_(tool.position + tool.displacement),
+        rotation_(tool.rotation), turned_(!tool.rotation.isIdentity(0.0)) {}
+
+  SurfacePoint operator()(const Vec3& x, int& hint) const {
+    const Vec3 from_origin = x - origin_;
+    if (!turned_) return to_shape_(from_origin, hint);
+    SurfacePoint s = to_shape_(rotation_.transpose() * from_origin, hint);
+    s.normal = rotation_ * s.normal;
+    return s;
+  }
+
+private:
+  ToShape to_shape_;
+  Vec3 origin_; ///< mm, of the tool frame
+  Eigen::Matrix3d rotation_;
+  bool turned_;
+};
+
+/// Calls use(distance), distance(x, hint) as distance_to_tool: for many points of one tool.
+template <class Use>
+void with_distance(const ToolBody& tool, const Use& use) {
+  std::visit([&](const auto& shape) { use(Placed(tool, distance_of(shape))); }, tool.shape);
+}
+
+/// Points of a list, done one after another.
+using Part = std::span<const std::int32_t>;
+
+/// work(part) of all points in order. One part stays in the fastest cache.
+template <class Work>
+void in_parts(const NearList& list, const Work& work) {
+  constexpr std::size_t most = 128;
+  const Part all = list.near;
+  for (std::size_t first = 0; first < all.size(); first += most)
+    work(all.subspan(first, std::min(most, all.size() - first)));
+}
+
+/// Lists the points that may touch.
+void renew_near(ToolContact& contact, double path) {
+  renew(contact.list, path,
+        [&contact](std::int32_t i) { lay_to_rest(contact.points[static_cast<std::size_t>(i)]); });
+}
+
+/// Gaps and normals where tool and ply stand now.
+template <class Distance>
+void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double path,
+             Part part, const Distance& distance) {
+  const Vec3 tool_motion = tool.pushed ? Vec3(Vec3::Zero()) : tool.motion; // not yet moved
+  for (const std::int32_t i : part) {
+    ToolContactPoint& c = contact.points[static_cast<std::size_t>(i)];
+    const auto n = static_cast<std::size_t>(c.node);
+    const SurfacePoint s = distance(ply.x[n], c.hint);
+    const bool rested = std::isinf(c.gap);
+    c.last_gap = c.gap;
+    c.gap = s.distance - contact.half_thickness;
+    c.normal = s.normal;
+    if (rested) c.last_gap = c.gap - c.normal.dot(ply.motion[n] - tool_motion);
+    if (c.gap > 0.0) contact.list.wake[static_cast<std::size_t>(i)] = path + c.gap;
+  }
+}
+
+/// All near points of a pushed tool, which (B) needs before it presses.
+void measure_all(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double path) {
+  const Stopwatch watch(contact.time.forces);
+  renew_near(contact, path);
+  if (contact.list.near.empty()) return;
+  with_distance(tool, [&](const auto& distance) {
+    measure(contact, tool, ply, path, contact.list.near, distance);
+  });
+}
+
+/// Points as the kernel sees them.
+ToolKernelPoint* kernel_points(ToolContactPoint* points) {
+  using P = ToolContactPoint;
+  using Q = ToolKernelPoint;
+  static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
+                offsetof(ContactMemory, damping_force) == offsetof(Q, damping_force) &&
+                offsetof(ContactMemory, normal_force) == offsetof(Q, normal_force) &&
+                offsetof(ContactMemory, slip) == offsetof(Q, slip) &&
+                offsetof(P, gap) == offsetof(Q, gap) &&
+                offsetof(P, last_gap) == offsetof(Q, last_gap) &&
+                offsetof(P, normal) == offsetof(Q, normal) &&
+                offsetof(P, node) == offsetof(Q, node) && offsetof(P, hint) == offsetof(Q, hint));
+  return reinterpret_cast<ToolKernelPoint*>(points);
+}
+
+/// Forces of measured points; advance: mm, of the tool since. Returns the force on the tool, N.
+Vec3 press(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
+           const Vec3& advance, double dt, Part part) {
+  static_assert(sizeof(Vec3) == 3 * sizeof(double));
+  ToolKernelContact k{};
+  k.points = kernel_points(contact.points.data());
+  k.near = part.data();
+  k.near_count = static_cast<int>(part.size());
+  k.area = ply.area.data();
+  k.motion = ply.motion.data()->data();
+  k.force = contact.force.data()->data();
+  Eigen::Map<Vec3>(k.tool_motion) = tool_motion;
+  Eigen::Map<Vec3>(k.advance) = advance;
+  k.stiffness = contact.law.stiffness;
+  k.tangential = contact.law.tangential();
+  k.friction = contact.law.friction;
+  k.max_depth = contact.law.max_depth;
+  k.per_depth2 = 1.0 / (k.max_depth * k.max_depth);
+  k.damping_per_dt = dt > 0.0 ? contact.law.damping / dt : 0.0;
+  const ToolKernelSums added = (has_avx2() ? tool_kernel_avx2 : tool_kernel_generic)(k);
+  ContactSums& sums = contact.sums;
+  sums.elastic += added.elastic;
+  sums.friction += added.friction;
+  sums.damping += added.damping;
+  sums.penetration = std::max(sums.penetration, added.penetration);
+  sums.deepest = std::max(sums.deepest, added.penetration);
+  sums.slip = std::max(sums.slip, added.slip);
+  sums.touching += added.touching;
+  sums.step_ratio = std::min(sums.step_ratio, added.step_ratio);
+  return -Vec3(added.on_nodes[0], added.on_nodes[1], added.on_nodes[2]);
+}
+
+/// Forces of a tool that does not move by (B), each part measured and pressed at once.
+Vec3 measure_and_press(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
+                       double path, double dt) {
+  const Stopwatch watch(contact.time.forces);
+  renew_near(contact, path);
+  clear_present(contact.sums);
+  Vec3 on_tool = Vec3::Zero();
+  if (contact.list.near.empty()) return on_tool;
+  with_distance(tool, [&](const auto& distance) {
+    in_parts(contact.list, [&](Part part) {
+      measure(contact, tool, ply, path, part, distance);
+      on_tool += press(contact, ply, tool.motion, Vec3::Zero(), dt, part);
+    });
+  });
+  return on_tool;
+}
+
+/// A point that the motion of (B) may press, to a depth p = facing delta - gap.
+struct Pressed {
+  double facing;    ///< of the normal along the motion
+  double gap;       ///< mm, before the motion
+  double stiffness; ///< N/mm, A k
+  double viscous;   ///< N/mm, A c / dt
+  double opened;    ///< mm, of last_gap, what was penetrated before: -p then, at most 0
+  double max_depth; ///< mm, delta
+
+  /// (N) at depth p, and its slope (K), N and N/mm.
+  std::pair<double, double> force(double p) const {
+    if (!(p > 0.0)) return {0.0, 0.0};
+    const double u = p / max_depth, u2 = u * u, per_room = 1.0 / std::max(1.0 - u2, least_room);
+    const double rate = stiffness * per_room * per_room;
+    const double n = rate * p + viscous * (p + opened);
+    if (!(n > 0.0)) return {0.0, 0.0};
+    return {n, rate * per_room * (1.0 + 3.0 * u2) + viscous};
+  }
+};
+
+/// Those that a motion of no more than `most` (mm) may press.
+std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolContact> contacts,
+                               std::span<const SheetState> plies, double most, double dt) {
+  std::vector<Pressed> pressed;
+  std::size_t count = 0;
+  for (const ToolContact& contact : contacts)
+    count += contact.list.near.size();
+  pressed.reserve(count);
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const ContactLaw& law = contacts[i].law;
+    for (const std::int32_t k : contacts[i].list.near) {
+      const ToolContactPoint& c = contacts[i].points[static_cast<std::size_t>(k)];
+      const double facing = c.normal.dot(tool.direction);
+      if (!(std::abs(facing) * most > c.gap)) continue;
+      const double area = plies[i].area[static_cast<std::size_t>(c.node)];
+      pressed.push_back({facing, c.gap, area * law.stiffness, area * law.damping / dt,
+                         std::min(c.last_gap, 0.0), law.max_depth});
+    }
+  }
+  return pressed;
+}
+
+/// Left side minus right side of (B) for a motion `delta`, N, and its slope, N/mm (both fall with
+/// delta).
+struct Residual {
+  double value, slope;
+};
+
+Residual residual_of(const ToolBody& tool, std::span<const Pressed> pressed, double delta,
+                     double dt) {
+  const double inertia = tool.mass / (dt * dt);
+  Residual r{tool.force - inertia * (delta - tool.speed * dt), -inertia};
+  for (const Pressed& c : pressed) {
+    const auto [force, slope] = c.force(c.facing * delta - c.gap);
+    r.value -= c.facing * force;
+    r.slope -= c.facing * c.facing * slope;
+  }
+  return r;
+}
+
+/// mm: the furthest motion towards `high` in which every point keeps half of its room.
+double within_room(std::span<const Pressed> pressed, double high) {
+  constexpr double share = 0.5;
+  for (const Pressed& c : pressed) {
+    const double depth = std::max(-c.gap, 0.0);
+    const double most = depth + share * std::max(c.max_depth - depth, 0.0) + c.gap;
+    if (c.facing * high > most) high = most / c.facing;
+  }
+  return high;
+}
+
+/// Solves (B) for delta within what the closing speed and the room of the contacts allow: Newton's
+/// method inside a bracket, halved where a step would leave it (contacts that begin make the
+/// residual jump).
+double equilibrium_motion(const ToolBody& tool, std::span<const ToolContact> contacts,
+                          std::span<const SheetState> plies, double dt) {
+  const double fastest = tool.speed_limit * dt;
+  const std::vector<Pressed> pressed = may_press(tool, contacts, plies, fastest, dt);
+  double high = within_room(pressed, fastest), low = within_room(pressed, -fastest);
+  double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
+  bool high_known = false, low_known = false; // that the solution lies this side of them
+  constexpr int most_rounds = 60; // the bracket is then at rounding; 3 to 6 rounds are usual
+  for (int round = 0; round < most_rounds; ++round) {
+    const Residual r = residual_of(tool, pressed, delta, dt);
+    if (std::abs(r.value) <= 1e-9 * std::abs(tool.force)) break;
+    const bool further = r.value > 0.0;
+    (further ? low : high) = delta;
+    (further ? low_known : high_known) = true;
+    const double newton = r.slope < 0.0 ? delta - r.value / r.slope : further ? high : low;
+    if (newton > low && newton < high) {
+      delta = newton;
+      continue;
+    }
+    if (bool& known = further ? high_known : low_known; !known) {
+      known = true;
+      const double end = further ? high : low, left = residual_of(tool, pressed, end, dt).value;
+      if (further ? left >= 0.0 : left <= 0.0) return end;
+    }
+    delta = 0.5 * (low + high);
+  }
+  return delta;
+}
+
+/// Moves a pushed tool by (B), its contacts measured, and presses.
+Vec3 push_and_press(ToolBody& tool, std::span<ToolContact> contacts,
+                    std::span<const SheetState> plies, double dt) {
+  Vec3 advance = Vec3::Zero();
+  if (dt > 0.0) {
+    const double delta = equilibrium_motion(tool, contacts, plies, dt);
+    tool.speed = delta / dt;
+    advance = tool.motion = delta * tool.direction;
+    tool.displacement += tool.motion;
+  }
+  Vec3 on_tool = Vec3::Zero();
+  for (std::size_t i = 0; i < contacts.size(); ++i) {
+    const Stopwatch watch(contacts[i].time.forces);
+    clear_present(contacts[i].sums);
+    if (contacts[i].list.near.empty()) continue;
+    on_tool += press(contacts[i], plies[i], tool.motion, advance, dt, contacts[i].list.near);
+  }
+  return on_tool;
+}
+
+} // namespace
+
+SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint) {
+  const auto to_shape = [&](const Vec3& p, int& h) { return signed_distance(tool.shape, p, h); };
+  return Placed(tool, to_shape)(x, hint);
+}
+
+void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
+                      double reach, double path) {
+  const Stopwatch watch(contact.time.search);
+  std::vector<ToolContactPoint> old = std::move(contact.points);
+  const std::vector<double> old_wake = std::move(contact.list.wake);
+  contact.points.clear();
+  clear(contact.list);
+  contact.free.resize(ply.x.size(), -std::numeric_limits<float>::infinity());
+  std::size_t next_old = 0;
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    const bool known = next_old < old.size() && old[next_old].node == static_cast<int>(n);
+    double gap = (known ? old_wake[next_old] : static_cast<double>(contact.free[n])) - path;
+    ToolContactPoint point{};
+    point.node = static_cast<int>(n);
+    if (known) point = old[next_old++];
+    const bool touched = known && point.gap < 0.0; // it may have a spring to give back
+    if (touched || (!known && gap <= reach)) {
+      const SurfacePoint at = distance_to_tool(tool, ply.x[n], point.hint);
+      gap = at.distance - contact.half_thickness;
+      point.normal = at.normal;
+    }
+    constexpr double below = 1.0 - 1e-6; // that rounding does not raise it
+    contact.free[n] = static_cast<float>(below * (path + gap));
+    if (gap > reach) {
+      if (touched) release(contact.law, ply.area[n], point.memory, contact.sums);
+      continue;
+    }
+    if (!touched) {
+      if (!known || !std::isinf(point.gap)) point.gap = gap;
+      lay_to_rest(point);
+    }
+    contact.points.push_back(point);
+    contact.list.wake.push_back(touched ? std::min(path, path + gap) : path + gap);
+  }
+  contact.force.assign(contact.points.empty() ? 0 : ply.x.size(), Vec3::Zero());
+}
+
+Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
+                 std::span<const double> paths, double dt) {
+  Vec3 on_tool = Vec3::Zero();
+  for (std::size_t i = 0; i < contacts.size(); ++i)
+    if (tool.pushed)
+      measure_all(contacts[i], tool, plies[i], paths[i]);
+    else
+      on_tool += measure_and_press(contacts[i], tool, plies[i], paths[i], dt);
+  return tool.pushed ? push_and_press(tool, contacts, plies, dt) : on_tool;
+}
+
+void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
+                        std::span<ContactRow> rows) {
+  for (const ToolContactPoint& c : contact.points) {
+    if (c.latest_gap() > margin) continue;
+    const auto n = static_cast<std::size_t>(c.node);
+    rows[n] += area[n] * row_of(contact.law, -c.latest_gap());
+  }
+}
+
+} // namespace plyform

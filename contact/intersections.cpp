@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/intersections.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/box_intersection_d.h>
+#include <CGAL/intersections.h>
+#include <algorithm>
+#include <fmt/format.h>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+#include <variant>
+
+namespace plyform {
+
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+using Point = Kernel::Point_3;
+using Segment = Kernel::Segment_3;
+/// A triangle as the set of points that it is: CGAL's triangle predicates need three corners that
+/// are not in line.
+using Shape = std::variant<Point, Segment, Kernel::Triangle_3>;
+
+struct Face {
+  int sheet, index;
+  Triangle node;
+  std::array<Point, 3> x;
+  Shape shape;
+};
+using FaceBox = CGAL::Box_intersection_d::Box_with_handle_d<double, 3, const Face*>;
+
+bool meet(const Shape& a, const Shape& b) {
+  return std::visit([](const auto& s, const auto& t) { return bool(CGAL::do_intersect(s, t)); }, a,
+                    b);
+}
+
+Shape make_shape(const Point& a, const Point& b) {
+  if (a == b) return a;
+  return Segment(a, b);
+}
+
+Shape make_shape(const std::array<Point, 3>& x) {
+  if (!CGAL::collinear(x[0], x[1], x[2])) return Kernel::Triangle_3(x[0], x[1], x[2]);
+  // The order of points in line is that of their coordinates.
+  const auto [low, high] = std::minmax_element(x.begin(), x.end());
+  return make_shape(*low, *high);
+}
+
+/// `face` cut into pieces that are fans from its corner k: the piece and its side opposite to the
+/// corner, which does not hold the corner. One piece for a true triangle; a segment through the
+/// corner has one on either side; a point has none.
+struct Piece {
+  Shape fan, opposite;
+};
+std::vector<Piece> fans(const Face& face, int k) {
+  const Point &v = face.x[k], &a = face.x[(k + 1) % 3], &b = face.x[(k + 2) % 3];
+  if (face.shape.index() == 2) return {{face.shape, Segment(a, b)}};
+  std::vector<Piece> pieces;
+  for (const Point& end : {a, b})
+    if (end != v) pieces.push_back({Segment(v, end), end});
+  return pieces;
+}
+
+/// Faces that share one node, at corners k and l. From a common point walk away from the node: the
+/// walk leaves one of the two fans first, through its opposite side, still inside the other.
+bool meet_beyond_corner(const Face& f, int k, const Face& g, int l) {
+  if (f.shape.index() == 2 && g.shape.index() == 2) { // the usual case, without allocation
+    return meet(Segment(f.x[(k + 1) % 3], f.x[(k + 2) % 3]), g.shape) ||
+           meet(f.shape, Segment(g.x[(l + 1) % 3], g.x[(l + 2) % 3]));
+  }
+  for (const Piece& p : fans(f, k))
+    for (const Piece& q : fans(g, l))
+      if (meet(p.opposite, q.fan) || meet(p.fan, q.opposite)) return true;
+  return false;
+}
+
+/// Faces p q r and p q s that share the edge p q: they meet beyond it only when folded flat onto
+/// each other, or, being segments or points, when both stick out of the same end.
+bool meet_beyond_edge(const Face& f, const Face& g, const Point& p, const Point& q, const Point& r,
+                      const Point& s) {
+  const bool f_flat = f.shape.index() != 2, g_flat = g.shape.index() != 2;
+  if (!f_flat && !g_flat)
+    return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
+  if (!f_flat || !g_flat) return false; // the flat one lies along p q, the other touches only p q
+  if (p == q)
+    return p != r && p != s && CGAL::collinear(p, r, s) &&
+           !CGAL::collinear_are_ordered_along_line(r, p, s);
+  const auto outside = [](const Point& from, const Point& end, const Point& x) {
+    return CGAL::collinear_are_strictly_ordered_along_line(from, end, x);
+  };
+  return (outside(p, q, r) && outside(p, q, s)) || (outside(q, p, r) && outside(q, p, s));
+}
+
+/// The corner of `face` at `node`, or none.
+std::optional<int> corner_at(const Face& face, std::int32_t node) {
+  for (int k = 0; k < 3; ++k)
+    if (face.node[k] == node) return k;
+  return std::nullopt;
+}
+
+/// The first corner of `face` at a node that `other` does not have.
+std::optional<int> corner_not_in(const Face& face, const Face& other) {
+  for (int k = 0; k < 3; ++k)
+    if (!corner_at(other, face.node[k])) return k;
+  return std::nullopt;
+}
+
+bool intersect(const Face& f, const Face& g) {
+  if (f.sheet != g.sheet) return meet(f.shape, g.shape);
+  std::array<int, 3> shared{}; // corners of f at different nodes that g has too
+  int count = 0;
+  for (int k = 0; k < 3; ++k)
+    if (corner_at(f, f.node[k]) == k && corner_at(g, f.node[k])) shared[count++] = k;
+  if (count == 0) return meet(f.shape, g.shape);
+  if (count == 1) return meet_beyond_corner(f, shared[0], g, *corner_at(g, f.node[shared[0]]));
+  if (count == 3) return true; // the same triangle twice
+  const auto r = corner_not_in(f, g), s = corner_not_in(g, f);
+  if (!r || !s) return false; // one names a node twice: it is the shared edge
+  return meet_beyond_edge(f, g, f.x[shared[0]], f.x[shared[1]], f.x[*r], g.x[*s]);
+}
+
+std::vector<Point> checked_points(const SheetView& sheet, int sheet_number) {
+  std::vector<Point> points;
+  points.reserve(sheet.x.size());
+  for (const Vec3& x : sheet.x) {
+    if (!x.allFinite())
+      throw std::runtime_error(fmt::format(
+          "audit: node {} of sheet {} is not finite ({}, {}, {}); intersections are only defined "
+          "for finite positions: look for the step where it was lost",
+          points.size(), sheet_number, x.x(), x.y(), x.z()));
+    points.emplace_back(x.x(), x.y(), x.z());
+  }
+  return points;
+}
+
+std::vector<Face> collect_faces(std::span<const SheetView> sheets) {
+  std::vector<Face> faces;
+  for (int s = 0; s < int(sheets.size()); ++s) {
+    const std::vector<Point> points = checked_points(sheets[s], s);
+    for (int t = 0; t < int(sheets[s].triangles.size()); ++t) {
+      const Triangle& node = sheets[s].triangles[t];
+      for (const std::int32_t n : node)
+        if (n < 0 || std::size_t(n) >= points.size())
+          throw std::runtime_error(fmt::format("audit: triangle {} of sheet {} names node {} of {}",
+                                               t, s, n, points.size()));
+      const std::array<Point, 3> x{points[node[0]], points[node[1]], points[node[2]]};
+      faces.push_back({s, t, node, x, make_shape(x)});
+    }
+  }
+  return faces;
+}
+
+} // namespace
+
+AuditResult audit_intersections(std::span<const SheetView> sheets) {
+  const std::vector<Face> faces = collect_faces(sheets);
+  std::vector<FaceBox> boxes;
+  boxes.reserve(faces.size());
+  for (const Face& face : faces)
+    boxes.emplace_back(face.x[0].bbox() + face.x[1].bbox() + face.x[2].bbox(), &face);
+
+  AuditResult result;
+  CGAL::box_self_intersection_d(
+      boxes.begin(), boxes.end(), [&result](const FaceBox& left, const FaceBox& right) {
+        const Face* f = left.handle(); // faces lie in memory by sheet, then triangle
+        const Face* g = right.handle();
+        if (g < f) std::swap(f, g);
+        if (!intersect(*f, *g)) return;
+        auto& list = f->sheet == g->sheet ? result.within : result.between;
+        list.push_back({f->sheet, f->index, g->sheet, g->index});
+      });
+  for (auto* list : {&result.between, &result.within}) {
+    std::sort(list->begin(), list->end());
+    list->erase(std::unique(list->begin(), list->end()), list->end());
+  }
+  return result;
+}
+
+} // namespace plyform

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From polygons as a file holds them to a clean tool mesh: merged, manifold, oriented, closed ones
+// outward and free of self-intersections. Signs by pseudo-normals are only right on such meshes.
+#include "contact/shapes/tool_mesh.hpp"
+
+#include "contact/shapes/mesh_shape.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Polygon_mesh_processing/measure.h>
+#include <CGAL/Polygon_mesh_processing/orient_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/orientation.h>
+#include <CGAL/Polygon_mesh_processing/polygon_soup_to_polygon_mesh.h>
+#include <CGAL/Polygon_mesh_processing/repair_degeneracies.h>
+#include <CGAL/Polygon_mesh_processing/repair_polygon_soup.h>
+#include <CGAL/Polygon_mesh_processing/self_intersections.h>
+#include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
+#include <CGAL/Surface_mesh.h>
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+namespace plyform {
+namespace {
+
+namespace PMP = CGAL::Polygon_mesh_processing;
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel; // exact predicates: self-touch
+using Point = Kernel::Point_3;
+using Mesh = CGAL::Surface_mesh<Point>;
+using Polygons = std::vector<std::vector<std::size_t>>;
+using EdgeCount = std::map<std::pair<std::size_t, std::size_t>, int>;
+
+[[noreturn]] void fail(const std::string& name, const std::string& text) {
+  throw std::runtime_error(name + ": " + text);
+}
+
+std::string text_of(const Point& p) {
+  return fmt::format("({:g}, {:g}, {:g})", p.x(), p.y(), p.z());
+}
+
+void check(const PolygonSoup& soup, const std::string& name) {
+  for (std::size_t i = 0; i < soup.points.size(); ++i)
+    if (!soup.points[i].allFinite())
+      fail(name, fmt::format("a coordinate of point {} is not a finite number (nan or inf); export "
+                             "the mesh again",
+                             i));
+  if (soup.polygons.empty())
+    fail(name, "it holds no faces; it may be truncated, or hold points or curves only: export the "
+               "surface as triangles");
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f)
+    for (const std::size_t i : soup.polygons[f])
+      if (i >= soup.points.size())
+        fail(name, fmt::format("face {} names point {}, but there are only {}; export the mesh "
+                               "again",
+                               f, i, soup.points.size()));
+}
+
+/// A corner named twice, running on to the other: nothing is left of such a face.
+std::size_t drop_collapsed(Polygons& polygons) {
+  return std::erase_if(polygons, [](const std::vector<std::size_t>& polygon) {
+    std::vector<std::size_t> corners = polygon;
+    std::sort(corners.begin(), corners.end());
+    return corners.size() < 3 ||
+           std::adjacent_find(corners.begin(), corners.end()) != corners.end();
+  });
+}
+
+EdgeCount count_edges(const Polygons& polygons) {
+  EdgeCount count;
+  for (const auto& polygon : polygons)
+    for (std::size_t k = 0; k < polygon.size(); ++k)
+      ++count[std::minmax(polygon[k], polygon[(k + 1) % polygon.size()])];
+  return count;
+}
+
+std::size_t count_borders(const EdgeCount& edges) {
+  return static_cast<std::size_t>(
+      std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second == 1; }));
+}
+
+/// Neighbours agree on which side is out, or it throws.
+void orient(std::vector<Point>& points, Polygons& polygons, const std::string& name) {
+  const EdgeCount edges = count_edges(polygons);
+  for (const auto& [edge, faces] : edges)
+    if (faces > 2)
+      fail(name, fmt::format("not orientable: {} faces share the edge from {} to {}, so it has no "
+                             "two sides there; remove walls inside the part",
+                             faces, text_of(points[edge.first]), text_of(points[edge.second])));
+  PMP::orient_polygon_soup(points, polygons);
+  // CGAL cuts a one-sided surface open along edges: then there are more borders than before.
+  const std::size_t before = count_borders(edges), after = count_borders(count_edges(polygons));
+  if (after != before)
+    fail(name, fmt::format("not orientable: it is a one-sided surface like a Moebius strip ({} "
+                           "edges join faces whose sides cannot agree); make it two-sided",
+                           (after - before) / 2));
+}
+
+std::size_t remove_flat_faces(Mesh& mesh, const std::string& name) {
+  std::vector<Mesh::Face_index> flat;
+  PMP::degenerate_faces(mesh, std::back_inserter(flat));
+  if (flat.empty()) return 0;
+  if (flat.size() == mesh.number_of_faces())
+    fail(name, "none of its faces has an area; check the units and the export");
+  if (!PMP::remove_degenerate_faces(mesh))
+    fail(name, fmt::format("{} faces without area cannot be taken out without tearing it; repair "
+                           "the mesh",
+                           flat.size()));
+  mesh.collect_garbage();
+  return flat.size();
+}
+
+/// Turns a closed mesh outward (inner shells inward); whether that changed anything.
+bool turn_outward(Mesh& mesh, const std::string& name) {
+  std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> crossing;
+  PMP::self_intersections(mesh, std::back_inserter(crossing));
+  if (!crossing.empty()) {
+    const Mesh::Halfedge_index h = mesh.halfedge(crossing.front().first);
+    fail(name, fmt::format("the closed mesh crosses or touches itself at {} pairs of faces, first "
+                           "near {}; inside and outside are not clear there: repair it or unite "
+                           "its parts",
+                           crossing.size(), text_of(mesh.point(mesh.target(h)))));
+  }
+  const double before = PMP::volume(mesh);
+  PMP::orient_to_bound_a_volume(mesh);
+  const double after = PMP::volume(mesh);
+  return std::abs(after - before) > 1e-9 * after;
+}
+
+Surface surface_of(const Mesh& mesh) {
+  Surface surface;
+  std::vector<std::int32_t> number(mesh.num_vertices(), -1);
+  for (const Mesh::Face_index f : mesh.faces()) {
+    Triangle triangle{};
+    std::size_t k = 0;
+    for (const Mesh::Vertex_index v : vertices_around_face(mesh.halfedge(f), mesh)) {
+      std::int32_t& n = number[v.idx()];
+      if (n < 0) {
+        n = static_cast<std::int32_t>(surface.x.size());
+        const Point& p = mesh.point(v);
+        surface.x.emplace_back(p.x(), p.y(), p.z());
+      }
+      triangle[k++] = n;
+    }
+    surface.triangles.push_back(triangle);
+  }
+  return surface;
+}
+
+} // namespace
+
+MeshShapePtr make_mesh_shape(PolygonSoup soup, const std::string& name, MeshReport* report) {
+  check(soup, name);
+  MeshReport done;
+  std::vector<Point> points;
+  points.reserve(soup.points.size());
+  for (const Vec3& p : soup.points)
+    points.emplace_back(p.x(), p.y(), p.z());
+  PMP::merge_duplicate_points_in_polygon_soup(points, soup.polygons);
+  done.removed_degenerate = drop_collapsed(soup.polygons);
+  PMP::merge_duplicate_polygons_in_polygon_soup(points, soup.polygons,
+                                                CGAL::parameters::erase_all_duplicates(false));
+  if (soup.polygons.empty())
+    fail(name, "none of its faces has an area; check the units and the export");
+  orient(points, soup.polygons, name);
+
+  Mesh mesh;
+  PMP::polygon_soup_to_polygon_mesh(points, soup.polygons, mesh);
+  if (!PMP::triangulate_faces(mesh))
+    fail(name,
+         "a face of more than three corners cannot be split into triangles; export triangles");
+  done.removed_degenerate += remove_flat_faces(mesh, name);
+  done.closed = CGAL::is_closed(mesh);
+  if (done.closed) done.flipped = turn_outward(mesh, name);
+  Surface surface = surface_of(mesh);
+  done.vertices = surface.x.size();
+  done.faces = surface.triangles.size();
+  if (report) *report = done;
+  return std::make_shared<const MeshShape>(std::move(surface));
+}
+
+MeshShapePtr make_mesh_shape(const Surface& surface, MeshReport* report) {
+  PolygonSoup soup{surface.x, {}};
+  soup.polygons.reserve(surface.triangles.size());
+  for (const auto& [a, b, c] : surface.triangles)
+    soup.polygons.push_back({static_cast<std::size_t>(a), static_cast<std::size_t>(b),
+                             static_cast<std::size_t>(c)}); // a negative number is out of range
+  return make_mesh_shape(std::move(soup), "tool mesh", report);
+}
+
+} // namespace plyform

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What holds for every shape: its distance to a point or a box, and its tightest curve.
+#include "contact/shapes/tool_shape.hpp"
+
+#include "contact/shapes/shape_distance.hpp"
+
+#include <limits>
+
+namespace plyform {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+Box3 upright(double r, double z0, double z1) {
+  return {Vec3(-r, -r, z0), Vec3(r, r, z1)};
+}
+
+Box3 bounds(const Sphere& s) {
+  return upright(s.radius, -s.radius, s.radius);
+}
+Box3 bounds(const Cylinder& c) {
+  return upright(c.radius, -0.5 * c.length, 0.5 * c.length);
+}
+Box3 bounds(const Box& b) {
+  return {-0.5 * b.size, 0.5 * b.size};
+}
+Box3 bounds(const Plane&) {
+  return {Vec3(-infinity, -infinity, -infinity), Vec3(infinity, infinity, 0.0)};
+}
+Box3 bounds(const Annulus& a) {
+  return upright(a.outer_radius, 0.0, a.thickness);
+}
+Box3 bounds(const MeshShapePtr& mesh) {
+  return mesh->bounds();
+}
+
+double gap_between(const Box3& a, const Box3& b) {
+  return (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0).norm();
+}
+
+double smallest(const Sphere& s) {
+  return s.radius;
+}
+double smallest(const Cylinder& c) {
+  return edge_of(c);
+}
+double smallest(const Box& b) {
+  return edge_of(b);
+}
+double smallest(const Plane&) {
+  return infinity;
+}
+double smallest(const Annulus& a) {
+  return section_of(a).edge;
+}
+double smallest(const MeshShapePtr&) {
+  return infinity;
+}
+
+/// Arcs, and 0 where the material ends in an edge: a turn to the right, or a tip on the axis.
+/// Inner corners do not count: a sheet bridges them.
+double smallest(const RevolvedProfile& profile) {
+  constexpr double straight = 1e-6; // rad, above the rounding of tangents
+  const auto& s = profile.segments;
+  double radius = infinity;
+  for (std::size_t i = 0; i < s.size(); ++i) {
+    if (s[i].kind == ProfileSegment::Kind::arc)
+      radius = std::min(radius, (s[i].a - s[i].centre).norm());
+    if (i + 1 == s.size() && !is_ring(profile)) break;
+    const Vec2 t = tangent(s[i], 1), next = tangent(s[(i + 1) % s.size()], 0);
+    if (t.x() * next.y() - t.y() * next.x() < -straight) return 0.0;
+  }
+  if (is_ring(profile)) return radius;
+  // Walking away from the axis downwards, or towards it downwards: a cone's tip.
+  const Vec2 t0 = tangent(s.front(), 0), t1 = tangent(s.back(), 1);
+  if (s.front().a.x() <= 0.0 && t0.x() * t0.y() < -straight) return 0.0;
+  if (s.back().b.x() <= 0.0 && t1.x() * t1.y() > straight) return 0.0;
+  return radius;
+}
+
+} // namespace
+
+SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint) {
+  if (const auto* profile = std::get_if<RevolvedProfile>(&shape)) // one point: nothing to prepare
+    return revolved(p, [&](const Vec2& q) { return section_distance(*profile, q); });
+  return std::visit([&](const auto& s) { return distance_of(s)(p, hint); }, shape);
+}
+
+double distance_lower_bound(const ToolShape& shape, const Box3& box) {
+  int hint = -1;
+  // The distance changes by no more than the way.
+  const double at_centre = signed_distance(shape, box.center(), hint).distance;
+  const double bound = at_centre - 0.5 * box.diagonal().norm();
+  if (at_centre <= 0.0) return bound;
+  const double gap = std::visit([&](const auto& s) { return gap_between(bounds(s), box); }, shape);
+  return gap > 0.0 ? std::max(bound, gap) : bound;
+}
+
+double smallest_radius(const ToolShape& shape) {
+  return std::visit([](const auto& s) { return smallest(s); }, shape);
+}
+
+} // namespace plyform

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// (N) and (T) of contact/forces/contact_law.hpp for four contacts at a time, and what the kernels
+// of contacts with tools and plies share. As contact/simd/simd.hpp: only for those kernels.
+#pragma once
+
+#include "contact/simd/simd.hpp"
+
+namespace plyform {
+namespace {
+
+constexpr int four = 4;
+/// least_room and deepest_sound of contact/forces/contact_law.hpp, which kernels cannot include.
+constexpr double kernel_least_room = 1e-3, kernel_deepest_sound = 0.9995;
+
+PLYFORM_INLINE Double4 square(const Vector4& a) {
+  return dot(a, a);
+}
+
+/// (x, y, z) of an array of 3 a node.
+PLYFORM_INLINE Double4 load3(const double* at) {
+#if defined(__AVX__)
+  const Long4 three{-1, -1, -1, 0};
+  return reinterpret_cast<Double4>(_mm256_maskload_pd(at, reinterpret_cast<__m256i>(three)));
+#else
+  return Double4{at[0], at[1], at[2], 0.0};
+#endif
+}
+
+/// A 4 x 4 matrix and its transpose: four rows to four columns and back.
+PLYFORM_INLINE Rows turned(const Rows& r) {
+  const Double4 a = __builtin_shufflevector(r.row[0], r.row[1], 0, 4, 2, 6);
+  const Double4 b = __builtin_shufflevector(r.row[0], r.row[1], 1, 5, 3, 7);
+  const Double4 c = __builtin_shufflevector(r.row[2], r.row[3], 0, 4, 2, 6);
+  const Double4 d = __builtin_shufflevector(r.row[2], r.row[3], 1, 5, 3, 7);
+  return {{__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(b, d, 0, 1, 4, 5),
+           __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
+}
+
+PLYFORM_INLINE double smallest(Double4 a) {
+  const double low = a[0] < a[1] ? a[0] : a[1], high = a[2] < a[3] ? a[2] : a[3];
+  return low < high ? low : high;
+}
+
+PLYFORM_INLINE double largest(Double4 a) {
+  const double low = a[0] > a[1] ? a[0] : a[1], high = a[2] > a[3] ? a[2] : a[3];
+  return low > high ? low : high;
+}
+
+/// Sums of four contacts each, as of ContactSums.
+struct LaneSums {
+  Double4 elastic = all(0.0), friction = all(0.0), damping = all(0.0);
+  Double4 penetration = all(0.0), slip = all(0.0);
+  Double4 step_ratio = all(1e300);
+  int touching = 0;
+};
+
+/// The memory of four contacts.
+struct LaneMemory {
+  Double4 damping_force, normal_force, slip;
+  Vector4 s;
+};
+
+/// s turned into the plane across n, its length kept.
+PLYFORM_INLINE Vector4 into_plane(const Vector4& s, const Vector4& n) {
+  const Vector4 flat = s - dot(n, s) * n;
+  const Double4 length2 = square(s), flat2 = square(flat);
+  const Double4 by = flat2 > 0.0 ? root(length2 / flat2) : all(0.0);
+  return by * flat;
+}
+
+/// q of contact/forces/contact_law.hpp.
+template <class Contact>
+PLYFORM_INLINE Double4 room_of(const Contact& k, Double4 depth) {
+  return larger(1.0 - depth * depth * k.per_depth2, all(kernel_least_room));
+}
+
+/// ContactSums::step_ratio of four contacts at `depth` that closed by `dp` (mm) in the last step. A
+/// contact that is still open may close, and then use half of the whole depth.
+template <class Contact>
+PLYFORM_INLINE Double4 step_ratio_of(const Contact& k, Double4 depth, Double4 dp) {
+  const Double4 inside = larger(depth, all(0.0)), open = inside - depth;
+  const Double4 way = open + 0.5 * (k.max_depth - inside);
+  return dp > 0.0 ? larger(way, all(0.0)) / dp : all(1e300);
+}
+
+/// (N): normal pressure, N/mm^2, of contacts `depth` mm deep that had opened by `opened` <= 0. The
+/// work of damping is summed where `counted`; dp: mm, way of closing. k: stiffness, damping_per_dt.
+template <class Contact>
+PLYFORM_INLINE Double4 normal_pressure(const Contact& k, Double4 area, Double4 depth,
+                                       Double4 opened, Double4 dp, Long4 counted, LaneMemory& m,
+                                       LaneSums& sums) {
+  const Double4 q = room_of(k, depth);
+  const Double4 pressure = k.stiffness * depth / (q * q); // N/mm^2, elastic and viscous
+  const Double4 resistance = larger(k.damping_per_dt * (depth + opened), -pressure);
+  const Double4 viscous = area * resistance;
+  sums.damping += counted ? 0.5 * (viscous + m.damping_force) * dp : all(0.0);
+  m.damping_force = viscous;
+  m.normal_force = area * (pressure + resistance);
+  return pressure + resistance;
+}
+
+/// (T): friction force, N, under `pressure` (N/mm^2). n: normals; remembered: s, turned with the
+/// body; slip: mm, relative motion of the step. k: friction, tangential.
+template <class Contact>
+PLYFORM_INLINE Vector4 friction_of(const Contact& k, Double4 area, Double4 pressure,
+                                   const Vector4& n, const Vector4& remembered, const Vector4& slip,
+                                   Long4 touch, LaneMemory& m, LaneSums& sums) {
+  const Double4 zero = all(0.0);
+  const Vector4 old = into_plane(remembered, n);
+  const Vector4 trial = old + slip - dot(n, slip) * n;
+  const Double4 stiffness = area * k.tangential;
+  const Double4 limit = touch ? (k.friction / k.tangential) * pressure : zero;
+  const Double4 stretch = root(square(trial));
+  m.s = (stretch > limit ? limit / stretch : all(1.0)) * trial;
+  m.slip += touch ? larger(stretch - limit, zero) : zero;
+  sums.slip = larger(sums.slip, touch ? m.slip : zero);
+  sums.friction += 0.5 * stiffness * dot(old + m.s, trial - m.s);
+  return -stiffness * m.s;
+}
+
+} // namespace
+} // namespace plyform

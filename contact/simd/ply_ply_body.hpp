@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// (S), (P) and (M) of contact/forces/ply_ply.hpp for four points at a time, with the law of
+// contact/forces/contact_law.hpp. A point stays with the face it remembers while its foot is inside
+// that face and no other can have come closer; else all its faces are looked at that may be
+// closest.
+//
+// With B = b - a, C = c - a, N = B x C of the face, n = N / |N|, v_1 = u_b - u_a, v_2 = u_c - u_a,
+// and the edges opposite to the corners E_1 = -C, E_2 = B, (W) and (C) of
+// contact/forces/face_rotation.hpp are
+//   turn = [ (n.v_2) B - (n.v_1) C - 1/2 (B.v_2 - C.v_1) n ] / |N|                          (W')
+//   F_j  = [ (E_j.K) n - 1/2 (K.n) E_j ] / |N|   from a couple K, j = 1, 2;  F_0 = -F_1 - F_2 (C')
+#include "contact/simd/ply_ply_closest.hpp"
+
+namespace plyform {
+namespace {
+
+using Pair2 = double __attribute__((vector_size(16), may_alias, aligned(8)));
+
+PLYFORM_INLINE void add3(double* at, Double4 row) {
+  Pair2& low = *reinterpret_cast<Pair2*>(at);
+  low += Pair2{row[0], row[1]};
+  at[2] += row[2];
+}
+
+/// The state of four points that changes with their forces.
+struct LanePoints {
+  Double4 area, gap, last_gap;
+  LaneMemory memory;
+};
+
+struct LaneForces {
+  Vector4 on_node, couple1, couple2; ///< of (C') on corners b and c
+};
+
+/// Normal force and friction of four points whose feet are known; `touch`: those that touch.
+PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces& x,
+                                    const LaneFaces& u, const LaneFoot& foot, Long4 touch,
+                                    LanePoints& p, LaneSums& sums) {
+  const Double4 zero = all(0.0);
+  const Vector4 arm = x.p - foot.wb * x.b - foot.wc * x.c;
+  const Vector4 motion = u.p - foot.wb * u.b - foot.wc * u.c;
+  const Double4 depth = k.distance - foot.distance;
+  const Vector4 normal = (1.0 / foot.distance) * arm;
+  const Double4 area = touch ? p.area : zero;
+  const Long4 known = p.last_gap < 1e300;
+  const Double4 opened = known ? smaller(p.last_gap, zero) : zero;
+  const Double4 dp = known ? p.last_gap - p.gap : -dot(normal, motion);
+  const Double4 pressure = normal_pressure(k, area, depth, opened, dp, touch, p.memory, sums);
+  LaneForces f{p.memory.normal_force * normal, {zero, zero, zero}, {zero, zero, zero}};
+  Double4 stored2 = zero;
+  if (k.friction > 0.0) {
+    const Vector4 across = cross(x.b, x.c);
+    const Double4 per_size = 1.0 / root(square(across));
+    const Vector4 n = per_size * across;
+    const Double4 v1 = dot(n, u.b), v2 = dot(n, u.c);
+    const Double4 spin = 0.5 * (dot(x.b, u.c) - dot(x.c, u.b));
+    const Vector4 turn = per_size * (v2 * x.b - v1 * x.c - spin * n); // (W')
+    const Vector4 slip = motion - cross(turn, arm);                   // (P)
+    const Vector4& s = p.memory.s;
+    const Vector4 tangential =
+        friction_of(k, area, pressure, normal, s + cross(turn, s), slip, touch, p.memory, sums);
+    f.on_node = f.on_node + tangential;
+    const Vector4 couple = cross(tangential, arm); // -r x T of (M)
+    const Double4 half = 0.5 * dot(couple, n);
+    f.couple1 = per_size * (half * x.c - dot(x.c, couple) * n); // (C'), E_1 = -C
+    f.couple2 = per_size * (dot(x.b, couple) * n - half * x.b);
+    stored2 = square(p.memory.s);
+  }
+  sums.elastic +=
+      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * stored2);
+  sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, depth, dp));
+  sums.penetration = larger(sums.penetration, touch ? depth : zero);
+  return f;
+}
+
+/// Forces on the nodes and corners of the points in `touch`.
+PLYFORM_INLINE void add_forces(const SheetKernelContact& k, SheetKernelPoint* const* point,
+                               const LaneFoot& foot, const LaneForces& f, Long4 touch) {
+  const Rows on_node = rows(f.on_node);
+  const Rows on_b = rows(f.couple1 - foot.wb * f.on_node);
+  const Rows on_c = rows(f.couple2 - foot.wc * f.on_node);
+  for (int i = 0; i < four; ++i) {
+    if (!touch[i]) continue;
+    const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(point[i]->face);
+    add3(k.slave_force + 3 * static_cast<std::int64_t>(point[i]->node), on_node.row[i]);
+    add3(k.master_force + 3 * static_cast<std::int64_t>(t[1]), on_b.row[i]);
+    add3(k.master_force + 3 * static_cast<std::int64_t>(t[2]), on_c.row[i]);
+    add3(k.master_force + 3 * static_cast<std::int64_t>(t[0]),
+         -(on_node.row[i] + on_b.row[i] + on_c.row[i]));
+  }
+}
+
+/// Up to four points; those from `count` on are fillers, the same as the first.
+struct Group {
+  SheetKernelPoint* point[four];
+  std::int32_t index[four];
+  int count;
+  Long4 real;
+};
+
+PLYFORM_INLINE Group group_of(const SheetKernelContact& k, const std::int32_t* index, int left) {
+  Group g;
+  g.count = left < four ? left : four;
+  for (int i = 0; i < four; ++i) {
+    g.index[i] = index[i < g.count ? i : 0];
+    g.point[i] = k.points + g.index[i];
+  }
+  g.real = Long4{0, 1, 2, 3} < static_cast<std::int64_t>(g.count);
+  return g;
+}
+
+PLYFORM_INLINE Long4 remembered(const Group& g) {
+  return Long4{g.point[0]->face, g.point[1]->face, g.point[2]->face, g.point[3]->face};
+}
+
+/// Forces of up to four points that touch, x their places and foot their closest points.
+PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const LaneFaces& x,
+                          const LaneFoot& foot, LaneSums& sums) {
+  const LaneFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
+  const Rows held = load_rows(g.point, held_row), force = load_rows(g.point, force_row);
+  LanePoints p;
+  LaneMemory& m = p.memory;
+  m.s = {held.row[0], held.row[1], held.row[2]};
+  m.damping_force = held.row[3];
+  m.normal_force = force.row[0], m.slip = force.row[1], p.area = force.row[2];
+  p.last_gap = force.row[3];
+  p.gap = foot.distance - k.distance;
+  const LaneForces f = forces_of(k, x, u, foot, g.real, p, sums);
+  add_forces(k, g.point, foot, f, g.real);
+  const Double4 height = dot(cross(x.b, x.c), x.p);
+  // forgotten on edges: a node may slide round the rim to the other side
+  const Long4 side = foot.inside & (height >= 0.0 ? Long4{1, 1, 1, 1} : Long4{-1, -1, -1, -1});
+  const Long4 deep = (foot.distance < 0.5 * k.distance) | // where depth has no limit
+                     (k.distance - foot.distance >= kernel_deepest_sound * k.max_depth);
+  const Rows s = turned({{m.s.x, m.s.y, m.s.z, m.damping_force}});
+  const Rows b = turned({{m.normal_force, m.slip, p.area, p.gap}});
+  for (int i = 0; i < g.count; ++i) {
+    SheetKernelPoint& at = *g.point[i];
+    if (at.side * side[i] < 0 || deep[i]) k.fault(k.self, g.index[i], foot.distance[i]);
+    at.side = static_cast<std::int32_t>(side[i]);
+    store(row_of(&at, held_row), s.row[i]);
+    store(row_of(&at, force_row), b.row[i]);
+  }
+  sums.touching += g.count;
+}
+
+/// A point that does not touch.
+PLYFORM_INLINE void pass_by(const SheetKernelContact& k, std::int32_t index, double distance,
+                            bool inside, LaneSums& sums) {
+  SheetKernelPoint& at = k.points[index];
+  const double last_gap = at.gap;
+  at.gap = distance - k.distance;
+  if (last_gap < 1e300) // else it was inactive
+    sums.step_ratio =
+        smaller(sums.step_ratio, step_ratio_of(k, all(-at.gap), all(last_gap - at.gap)));
+  at.side = 0;
+  if (inside) { // it may come down on this side later
+    const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(at.face);
+    const double* a = k.master_x + 3 * static_cast<std::int64_t>(t[0]);
+    const double* b = k.master_x + 3 * static_cast<std::int64_t>(t[1]);
+    const double* c = k.master_x + 3 * static_cast<std::int64_t>(t[2]);
+    const double* p = k.slave_x + 3 * static_cast<std::int64_t>(at.node);
+    double height = 0.0;
+    for (int i = 0; i < 3; ++i) {
+      const int j = (i + 1) % 3, l = (i + 2) % 3;
+      height += ((b[j] - a[j]) * (c[l] - a[l]) - (b[l] - a[l]) * (c[j] - a[j])) * (p[i] - a[i]);
+    }
+    at.side = height >= 0.0 ? 1 : -1;
+  }
+  if (at.normal_force != 0.0 || at.damping_force != 0.0) k.open(k.self, index, last_gap);
+  k.wake[index] = k.path + at.gap;
+}
+
+/// Points of a chunk that were not done in one go: they look around, or their fours are mixed.
+struct Chunk {
+  static constexpr int most = 64;
+  alignas(32) double distance[most]; ///< mm
+  bool inside[most];                 ///< the foot is inside the face
+  std::int32_t look[2][most];        ///< those that must look at all faces; [1]: at their sides too
+  int looks[2] = {0, 0};
+  std::int32_t later[most]; ///< those whose forces are still to come, in the order of the points
+  int laters = 0;
+};
+
+PLYFORM_INLINE void keep_foot(Chunk& chunk, const std::int32_t* number, int count,
+                              const LaneFoot& foot) {
+  for (int i = 0; i < count; ++i) {
+    chunk.distance[number[i]] = foot.distance[i];
+    chunk.inside[number[i]] = foot.inside[i] != 0;
+  }
+}
+
+/// First pass: closest points on the faces remembered; forces where four that touch are settled.
+PLYFORM_INLINE void follow(const SheetKernelContact& k, const std::int32_t* near, int count,
+                           Chunk& chunk, LaneSums& sums) {
+  for (int first = 0; first < count; first += four) {
+    const Group g = group_of(k, near + first, count - first);
+    const LaneFaces x = load_faces(k, g.point, remembered(g), k.slave_x, k.master_x);
+    LaneRoom room;
+    const LaneFoot foot = foot_of(k, g.point, x, room);
+    Long4 mild;
+    const Long4 sure = sure_of(k, g.point, foot, room, mild);
+    keep_weights(g.point, g.count, foot, room.looked_b, room.looked_c);
+    if (!any(~(sure & (foot.distance < k.distance)))) {
+      press(k, g, x, foot, sums);
+      continue;
+    }
+    const std::int32_t number[four] = {first, first + 1, first + 2, first + 3};
+    keep_foot(chunk, number, g.count, foot);
+    for (int i = 0; i < g.count; ++i) {
+      chunk.later[chunk.laters++] = first + i;
+      if (sure[i]) continue;
+      const int sides = mild[i] ? 0 : 1;
+      chunk.look[sides][chunk.looks[sides]++] = first + i;
+    }
+  }
+}
+
+/// Second pass: closest points of those that had to look.
+PLYFORM_INLINE void look_around(const SheetKernelContact& k, const std::int32_t* near, bool sides,
+                                Chunk& chunk) {
+  for (int first = 0; first < chunk.looks[sides]; first += four) {
+    const int left = chunk.looks[sides] - first;
+    std::int32_t number[four], index[four];
+    for (int i = 0; i < four; ++i) {
+      number[i] = chunk.look[sides][first + (i < left ? i : 0)];
+      index[i] = near[number[i]];
+    }
+    const Group g = group_of(k, index, left);
+    keep_foot(chunk, number, g.count, look_at_all(k, g.point, g.count, sides));
+  }
+}
+
+/// Third pass: forces of up to four points whose closest points are known.
+PLYFORM_INLINE void press_later(const SheetKernelContact& k, const std::int32_t* near,
+                                const std::int32_t* number, int count, const Chunk& chunk,
+                                LaneSums& sums) {
+  std::int32_t index[four];
+  Double4 distance;
+  Long4 inside;
+  for (int i = 0; i < four; ++i) {
+    const std::int32_t from = number[i < count ? i : 0];
+    index[i] = near[from];
+    distance[i] = chunk.distance[from];
+    inside[i] = chunk.inside[from] ? -1 : 0;
+  }
+  const Group g = group_of(k, index, count);
+  const Rows w = load_rows(g.point, weight_row);
+  press(k, g, load_faces(k, g.point, remembered(g), k.slave_x, k.master_x),
+        {w.row[0], w.row[1], distance, inside}, sums);
+}
+
+PLYFORM_INLINE void do_some(const SheetKernelContact& k, const std::int32_t* near, int count,
+                            LaneSums& sums) {
+  Chunk chunk;
+  follow(k, near, count, chunk, sums);
+  look_around(k, near, false, chunk);
+  look_around(k, near, true, chunk);
+  std::int32_t touching[Chunk::most];
+  int touches = 0;
+  for (int i = 0; i < chunk.laters; ++i) {
+    const std::int32_t n = chunk.later[i];
+    if (chunk.distance[n] < k.distance)
+      touching[touches++] = n;
+    else
+      pass_by(k, near[n], chunk.distance[n], chunk.inside[n], sums);
+  }
+  for (int i = 0; i < touches; i += four)
+    press_later(k, near, touching + i, touches - i, chunk, sums);
+}
+
+PLYFORM_INLINE SheetKernelSums sheet_kernel(const SheetKernelContact& k) {
+  LaneSums sums;
+  for (int i = 0; i < k.near_count; i += Chunk::most)
+    do_some(k, k.near + i, k.near_count - i < Chunk::most ? k.near_count - i : Chunk::most, sums);
+  return {
+      sum(sums.elastic),  sum(sums.friction),        sum(sums.damping), largest(sums.penetration),
+      largest(sums.slip), smallest(sums.step_ratio), sums.touching};
+}
+
+} // namespace
+} // namespace plyform

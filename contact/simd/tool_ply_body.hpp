@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces between a tool and four nodes at a time, their gaps and normals known.
+#include "contact/simd/contact_law_simd.hpp"
+#include "contact/simd/tool_ply_kernel.hpp"
+
+namespace plyform {
+namespace {
+
+/// Up to four points; those from `count` on are fillers, the same as the first.
+struct ToolGroup {
+  ToolKernelPoint* point[four];
+  int count;
+  Long4 real;
+};
+
+PLYFORM_INLINE ToolGroup group_of(const ToolKernelContact& k, int first) {
+  ToolGroup g;
+  g.count = k.near_count - first < four ? k.near_count - first : four;
+  for (int i = 0; i < four; ++i)
+    g.point[i] = k.points + k.near[first + (i < g.count ? i : 0)];
+  g.real = Long4{0, 1, 2, 3} < static_cast<std::int64_t>(g.count);
+  return g;
+}
+
+/// Rows of a ToolKernelPoint: s and damping_force; normal_force, slip and gaps; normal and numbers.
+enum ToolRow { memory_row, gap_row, normal_row };
+
+PLYFORM_INLINE double* row_of(ToolKernelPoint* p, ToolRow row) {
+  return reinterpret_cast<double*>(p) + 4 * row;
+}
+
+/// One row of four points, by columns.
+PLYFORM_INLINE Rows load_rows(const ToolGroup& g, ToolRow row) {
+  return turned({{load(row_of(g.point[0], row)), load(row_of(g.point[1], row)),
+                  load(row_of(g.point[2], row)), load(row_of(g.point[3], row))}});
+}
+
+PLYFORM_INLINE void store_rows(const ToolGroup& g, ToolRow row, const Rows& columns) {
+  const Rows r = turned(columns);
+  for (int i = 0; i < g.count; ++i)
+    store(row_of(g.point[i], row), r.row[i]);
+}
+
+PLYFORM_INLINE Double4 areas(const ToolKernelContact& k, const ToolGroup& g) {
+  return Double4{k.area[g.point[0]->node], k.area[g.point[1]->node], k.area[g.point[2]->node],
+                 k.area[g.point[3]->node]};
+}
+
+PLYFORM_INLINE Vector4 motions(const ToolKernelContact& k, const ToolGroup& g) {
+  Double4 u[four];
+  for (int i = 0; i < four; ++i)
+    u[i] = load3(k.motion + 3 * static_cast<std::int64_t>(g.point[i]->node));
+  return components(u[0], u[1], u[2], u[3]);
+}
+
+PLYFORM_INLINE void set_forces(const ToolKernelContact& k, const ToolGroup& g, const Vector4& f) {
+  const Rows r = rows(f);
+  for (int i = 0; i < g.count; ++i) {
+    double* at = k.force + 3 * static_cast<std::int64_t>(g.point[i]->node);
+    at[0] = r.row[i][0], at[1] = r.row[i][1], at[2] = r.row[i][2];
+  }
+}
+
+PLYFORM_INLINE Vector4 everywhere(const double* v) {
+  return {all(v[0]), all(v[1]), all(v[2])};
+}
+
+/// Forces on four nodes. Those that have opened give up what they hold: without an area the law
+/// leaves nothing of it but the slip.
+PLYFORM_INLINE Vector4 forces_of(const ToolKernelContact& k, const ToolGroup& g,
+                                 const Vector4& normal, Double4 gap, Double4 last_gap, Long4 touch,
+                                 LaneMemory& m, LaneSums& sums) {
+  const Double4 zero = all(0.0), whole = areas(k, g), area = touch ? whole : zero;
+  const Double4 depth = -gap, dp = last_gap - gap;
+  const Double4 opening = g.real & ~touch ? whole : zero;
+  sums.friction += 0.5 * opening * k.tangential * square(m.s);
+  const Double4 pressure =
+      normal_pressure(k, area, depth, smaller(last_gap, zero), dp, g.real, m, sums);
+  Vector4 f = m.normal_force * normal;
+  if (k.friction > 0.0) {
+    const Vector4 slip = motions(k, g) - everywhere(k.tool_motion);
+    f = f + friction_of(k, area, pressure, normal, m.s, slip, touch, m, sums);
+    m.slip = touch ? m.slip : zero;
+  }
+  sums.elastic +=
+      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * square(m.s));
+  sums.penetration = larger(sums.penetration, touch ? depth : zero);
+  for (int i = 0; i < g.count; ++i)
+    sums.touching += touch[i] ? 1 : 0;
+  return f;
+}
+
+PLYFORM_INLINE void press_four(const ToolKernelContact& k, const ToolGroup& g, LaneSums& sums,
+                               Vector4& on_nodes) {
+  const Rows n = load_rows(g, normal_row), held = load_rows(g, memory_row);
+  const Rows gaps = load_rows(g, gap_row);
+  const Vector4 normal{n.row[0], n.row[1], n.row[2]};
+  const Double4 last_gap = gaps.row[3], gap = gaps.row[2] - dot(normal, everywhere(k.advance));
+  LaneMemory m{held.row[3], gaps.row[0], gaps.row[1], {held.row[0], held.row[1], held.row[2]}};
+  const Long4 touch = g.real & (gap < 0.0);
+  sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, -gap, last_gap - gap));
+  if (any(touch | (m.normal_force != 0.0) | (m.damping_force != 0.0))) {
+    const Vector4 f = forces_of(k, g, normal, gap, last_gap, touch, m, sums);
+    set_forces(k, g, f);
+    on_nodes = on_nodes +
+               Vector4{g.real ? f.x : all(0.0), g.real ? f.y : all(0.0), g.real ? f.z : all(0.0)};
+    store_rows(g, memory_row, {{m.s.x, m.s.y, m.s.z, m.damping_force}});
+  }
+  store_rows(g, gap_row, {{m.normal_force, m.slip, gap, last_gap}});
+}
+
+PLYFORM_INLINE ToolKernelSums tool_kernel(const ToolKernelContact& k) {
+  LaneSums sums;
+  Vector4 f{all(0.0), all(0.0), all(0.0)};
+  for (int first = 0; first < k.near_count; first += four)
+    press_four(k, group_of(k, first), sums, f);
+  return {sum(sums.elastic),  sum(sums.friction),
+          sum(sums.damping),  largest(sums.penetration),
+          largest(sums.slip), smallest(sums.step_ratio),
+          sums.touching,      {sum(f.x), sum(f.y), sum(f.z)}};
+}
+
+} // namespace
+} // namespace plyform

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/simd/tool_ply_body.hpp"
+
+namespace plyform {
+
+ToolKernelSums tool_kernel_generic(const ToolKernelContact& contact) {
+  return tool_kernel(contact);
+}
+
+} // namespace plyform

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The force law of contact/forces/tool_ply.hpp as its two compiled copies see it: plain numbers and
+// pointers, nothing inline (contact/simd/simd.hpp says why).
+#pragma once
+
+#include <cstdint>
+
+namespace plyform {
+
+/// A ToolContactPoint, member for member, in rows of 32 bytes.
+struct alignas(32) ToolKernelPoint {
+  double s[3], damping_force;
+  double normal_force, slip, gap, last_gap;
+  double normal[3];
+  std::int32_t node, hint;
+};
+
+/// What the kernel reads and writes of a contact. Motions and forces: 3 a node.
+struct ToolKernelContact {
+  ToolKernelPoint* points;  ///< gaps and normals are those of this step, before the tool's advance
+  const std::int32_t* near; ///< points to look at
+  int near_count;
+  const double* area;                     ///< mm^2, of the nodes
+  const double* motion;                   ///< mm, of the nodes in this step
+  double* force;                          ///< N, on the nodes
+  double tool_motion[3];                  ///< mm, in this step
+  double advance[3];                      ///< mm, of the tool since the gaps were measured
+  double stiffness, tangential, friction; ///< k, k_t, mu of contact/forces/contact_law.hpp
+  double max_depth, per_depth2;           ///< delta and 1/delta^2 of it; finite
+  double damping_per_dt;                  ///< c / dt, or 0
+};
+
+/// Added up over the points that touch; `on_nodes`: their forces.
+struct ToolKernelSums {
+  double elastic, friction, damping, penetration, slip, step_ratio;
+  int touching;
+  double on_nodes[3];
+};
+
+ToolKernelSums tool_kernel_generic(const ToolKernelContact& contact);
+ToolKernelSums tool_kernel_avx2(const ToolKernelContact& contact);
+
+} // namespace plyform

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/accuracy/error_model.hpp"
+
+#include "core/mesh/mesh_blank.hpp"
+#include "core/model/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+// (E): degrees, and exponents. Set on the hemispheres of one (at 0 degrees), two, three and five
+// plies and on bias_extension (docs/accuracy.md).
+constexpr double c_inertia = 0.52, c_stack = 33.7, p_inertia = 1.5;
+constexpr double c_softening = 1580.0, p_softening = 0.84, p_shared = -0.25;
+constexpr double c_mesh = 40.0, p_mesh = 1.6, c_fewer = 0.6, settled = 5.0;
+
+constexpr double half_radian = 0.5;
+// The rule was not measured beyond:
+constexpr double most_softening = 1000.0, most_inertia = 2.8;
+// Set on stacks of yarns that carry tension only, and not checked on real cloth.
+constexpr double most_softening_of_stack = 300.0;
+
+double degrees(double radians) {
+  return radians * 180.0 / M_PI;
+}
+
+/// A family of yarns: S of (E) for softening 1, and what it can be softened by.
+struct Family {
+  double softening, most;
+};
+
+/// Numbers of (E) for duration 1 s, softening 1.
+struct Numbers {
+  double inertia = 0.0, softening = 0.0, mesh = 0.0;
+  std::vector<Family> families{};  ///< `softening` is that of the softest
+  double swinging = 0.0;           ///< c_inertia or c_stack; 0: nothing has a stroke
+  double shared = 1.0;             ///< n^p_shared: plies hold each other's softened yarns
+  double softest = most_softening; ///< softening at most
+  double sliding = 1.0; ///< of few plies: which slide and which stick depends on the mesh
+  double load = 1.0;    ///< on softened yarns, times that under tools
+};
+
+/// w: energy of shear per area, N/mm.
+void add_families(Numbers& n, const Fabric& f, double w) {
+  constexpr double any = std::numeric_limits<double>::infinity();
+  for (const auto& [law, density] :
+       {std::pair(&f.warp, f.warp_density), std::pair(&f.weft, f.weft_density)}) {
+    const double stiffness = density * law->largest_slope();
+    if (!(stiffness > 0.0)) continue;
+    n.families.push_back({w / stiffness, effective_softening(*law, any)});
+    n.softening = std::max(n.softening, w / stiffness);
+  }
+}
+
+/// Softening beyond which steps get no longer: all yarns of the case are then as soft in tension as
+/// the stiffest are in compression, per mass. Infinite where none bears compression.
+double useful_softening(const Case& data) {
+  double tension = 0.0, compression = 0.0; // N mm/t
+  for (const Ply& ply : data.plies) {
+    const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
+    for (const auto& [law, density] :
+         {std::pair(&f.warp, f.warp_density), std::pair(&f.weft, f.weft_density)}) {
+      tension = std::max(tension, density * law->largest_slope() / f.surface_density);
+      compression = std::max(compression, density * law->compression / f.surface_density);
+    }
+  }
+  return compression > 0.0 ? tension / compression : std::numeric_limits<double>::infinity();
+}
+
+Numbers numbers_of(const Case& data) {
+  Numbers n;
+  const Strokes strokes = longest_strokes(data);
+  const double stroke = strokes.longest();
+  if (stroke == 0.0) return n;
+  // A ply that is pulled by its edge swings like the outer ones of a stack, and the yarns in the
+  // grips bear the whole load: bias_extension.
+  const bool pulled = strokes.boundary > strokes.tool;
+  constexpr double in_grips = 5.5;
+  const auto plies = static_cast<double>(data.plies.size());
+  n.swinging = pulled || plies > 1.0 ? c_stack : c_inertia;
+  n.load = pulled ? in_grips : 1.0;
+  n.shared = std::pow(plies, p_shared);
+  if (data.plies.size() > 1) n.softest = most_softening_of_stack;
+  if (plies > 1.0) n.sliding += c_fewer * std::max(settled - plies, 0.0);
+  for (const Ply& ply : data.plies) {
+    const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
+    const double size = data.blanks[static_cast<std::size_t>(ply.blank)].element_size;
+    n.mesh = std::max(n.mesh, size / stroke);
+    const double w =
+        f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.at(half_radian).energy;
+    if (!(w > 0.0)) continue; // no shear stiffness: nothing to compare with
+    n.inertia = std::max(n.inertia, 0.5 * f.surface_density * stroke * stroke / w);
+    add_families(n, f, w);
+  }
+  n.softest = std::min(n.softest, useful_softening(data));
+  return n;
+}
+
+double inertia_error(const Numbers& n, double duration) {
+  return n.swinging * std::pow(n.inertia / (duration * duration), p_inertia);
+}
+
+double softening_error(const Numbers& n, double softening) {
+  double worst = 0.0; // S of (E)
+  for (const Family& f : n.families)
+    worst = std::max(worst, f.softening * std::min(softening, f.most));
+  return c_softening * n.load * n.shared * std::pow(worst, p_softening);
+}
+
+double mesh_error(const Numbers& n) {
+  return c_mesh * n.sliding * std::pow(n.mesh, p_mesh);
+}
+
+} // namespace
+
+double PredictedError::total() const {
+  return std::sqrt(inertia * inertia + softening * softening + mesh * mesh);
+}
+
+double PredictedError::promised(const Case& data) const {
+  const double predicted = total(); // NaN stays
+  return predicted < degrees(data.accuracy.shear_error) ? degrees(data.accuracy.shear_error)
+                                                        : predicted;
+}
+
+PredictedError predicted_error(const Case& data) {
+  const Numbers n = numbers_of(data);
+  if (n.swinging == 0.0) {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return {unknown, unknown, unknown};
+  }
+  return {inertia_error(n, data.solver.duration), softening_error(n, data.solver.fibre_softening),
+          mesh_error(n)};
+}
+
+std::string describe_accuracy(const PredictedError& error, double promised, double coarsening) {
+  if (std::isnan(promised)) return "accuracy is not predicted: nothing has a stroke";
+  std::string mesh = fmt::format("mesh {:.2g}", error.mesh);
+  if (coarsening > 1.0)
+    mesh += fmt::format(", of elements {:g} times as large as the case's", coarsening);
+  return fmt::format(
+      "shear angles to {:.2g} deg rms, as predicted: inertia {:.2g}, softened fibres "
+      "{:.2g}, {}",
+      promised, error.inertia, error.softening, mesh);
+}
+
+double preset_error(const std::string& word) {
+  return word == "draft" ? 3.0 : word == "standard" ? 1.0 : word == "reference" ? 0.3 : 0.0;
+}
+
+namespace {
+
+/// Dials, and what they cost: CPU time over that of the case's own mesh for 1 s and softening 1.
+struct Dials {
+  double coarsening = 1.0, duration = 0.0, softening = 1.0;
+  double cost = std::numeric_limits<double>::max();
+};
+
+/// The cheapest duration and softening whose errors, squared, add up to `left2` at most.
+Dials cheapest(const Numbers& n, double left2) {
+  Dials best;
+  constexpr int shares = 200; // that of softening is walked through; inertia takes the rest
+  for (int i = 1; i < shares; ++i) {
+    const double share = static_cast<double>(i) / shares;
+    double softening = n.softest;
+    if (n.softening > 0.0)
+      softening = std::clamp(std::pow(std::sqrt(share * left2) / (c_softening * n.load * n.shared),
+                                      1.0 / p_softening) /
+                                 n.softening,
+                             1.0, n.softest);
+    const double of_softening = softening_error(n, softening);
+    const double rest2 = left2 - of_softening * of_softening;
+    if (!(rest2 > 0.0)) continue;
+    const double inertia =
+        std::min(most_inertia, std::pow(std::sqrt(rest2) / n.swinging, 1.0 / p_inertia));
+    const double duration = std::sqrt(n.inertia / inertia);
+    const double steps = duration / std::sqrt(softening);
+    if (steps < best.cost) best = {1.0, duration, softening, steps};
+  }
+  return best;
+}
+
+/// Whether every blank of a ply may have elements so many times as large: no longer than the
+/// tightest fillet, nor than contact was measured with, and its outline still takes them.
+bool may_coarsen(const Case& data, double by) {
+  constexpr double most_thicknesses = 16.0;
+  double longest = std::numeric_limits<double>::max();
+  for (const Tool& t : data.tools)
+    if (const double radius = smallest_radius(t.shape); radius > 0.0)
+      longest = std::min(longest, radius);
+  for (const Ply& ply : data.plies) {
+    const double thickness = data.fabrics[static_cast<std::size_t>(ply.fabric)].thickness;
+    BlankSpec blank = data.blanks[static_cast<std::size_t>(ply.blank)];
+    if (blank.mesh == MeshKind::file) return false;
+    blank.element_size *= by;
+    if (blank.element_size > std::min(longest, most_thicknesses * thickness)) return false;
+    if (!takes_elements(blank)) return false;
+  }
+  return data.boundaries.empty(); // which nodes they hold goes by the mesh
+}
+
+} // namespace
+
+void pick_dials(Case& data) {
+  const Numbers n = numbers_of(data);
+  const double wanted = degrees(data.accuracy.shear_error);
+  if (!(wanted > 0.0) || n.inertia == 0.0) return;
+  Dials best;
+  for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4}) { // the rule was not measured beyond
+    if (by > 1.0 && (n.sliding > 1.0 || !may_coarsen(data, by))) break;
+    const double mesh = mesh_error(n) * std::pow(by, p_mesh);
+    double left2 = wanted * wanted - mesh * mesh;
+    const double least2 = 0.25 * wanted * wanted;
+    if (left2 < least2 && by > 1.0) break;
+    left2 = std::max(left2, least2);
+    Dials dials = cheapest(n, left2);
+    dials.coarsening = by;
+    // elements, and the step, which contacts that are as stiff as before hold below h
+    dials.cost /= by * by * std::pow(by, 0.7);
+    if (dials.cost < best.cost) best = dials;
+  }
+  data.solver.duration = best.duration;
+  data.solver.fibre_softening = best.softening;
+  data.accuracy.coarsening = best.coarsening;
+  if (best.coarsening > 1.0)
+    for (BlankSpec& blank : data.blanks)
+      blank.element_size *= best.coarsening;
+}
+
+} // namespace plyform

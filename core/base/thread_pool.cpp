@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/thread_pool.hpp"
+
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <utility>
+#include <vector>
+
+namespace plyform {
+
+// One round: the caller publishes the task, raises `round`, works too, and waits until every
+// helper has left the round. Helpers spin for a while, then sleep on `round`: a step is a fraction
+// of a millisecond, so waking through the kernel each time would cost more than it saves.
+struct ThreadTeam::Impl {
+  std::vector<std::thread> helpers;
+  const std::function<void(int)>* task = nullptr;
+  int count = 0;
+  std::atomic<int> next{0};
+  std::atomic<int> busy{0};
+  std::atomic<unsigned> round{0};
+  std::atomic<bool> quit{false};
+  std::mutex failure_lock;
+  std::exception_ptr failure;
+
+  void work() {
+    for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1)) {
+      try {
+        (*task)(i);
+      } catch (...) {
+        const std::lock_guard lock(failure_lock);
+        if (!failure) failure = std::current_exception();
+      }
+    }
+  }
+
+  void help() {
+    unsigned seen = 0;
+    for (;;) {
+      constexpr int spins = 20000; // about 20 microseconds: longer than the gap between phases
+      for (int s = 0; s < spins && round.load(std::memory_order_acquire) == seen; ++s) {
+      }
+      round.wait(seen, std::memory_order_acquire);
+      seen = round.load(std::memory_order_acquire);
+      if (quit.load()) return;
+      work();
+      busy.fetch_sub(1, std::memory_order_release);
+    }
+  }
+};
+
+ThreadTeam::ThreadTeam(int threads) : impl_(std::make_unique<Impl>()) {
+  for (int i = 1; i < threads; ++i)
+    impl_->helpers.emplace_back([this] { impl_->help(); });
+}
+
+ThreadTeam::~ThreadTeam() {
+  impl_->quit = true;
+  impl_->round.fetch_add(1, std::memory_order_release);
+  impl_->round.notify_all();
+  for (std::thread& t : impl_->helpers)
+    t.join();
+}
+
+void ThreadTeam::run(int count, const std::function<void(int)>& task) {
+  Impl& s = *impl_;
+  if (s.helpers.empty()) {
+    for (int i = 0; i < count; ++i)
+      task(i);
+    return;
+  }
+  s.task = &task;
+  s.count = count;
+  s.next.store(0, std::memory_order_relaxed);
+  s.busy.store(static_cast<int>(s.helpers.size()), std::memory_order_relaxed);
+  s.round.fetch_add(1, std::memory_order_release);
+  s.round.notify_all();
+  s.work();
+  for (int spin = 0; s.busy.load(std::memory_order_acquire) > 0; ++spin)
+    if (spin > 1000) std::this_thread::yield();
+  if (s.failure) std::rethrow_exception(std::exchange(s.failure, nullptr));
+}
+
+int ThreadTeam::size() const {
+  return static_cast<int>(impl_->helpers.size()) + 1;
+}
+
+} // namespace plyform

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The two tests that measure the shear law of a woven fabric, as its torque loads them.
+//
+// Symbols: d extension (mm), gamma shear angle (rad), F load (N), d1, d2 yarns per mm across warp
+// and weft, Cs(gamma) torque of one unit cell of 1/(d1 d2) mm^2 (N mm), D the diagonal that
+// the extension lengthens (mm). Both tests deform the yarns' net like a hinged square of that
+// diagonal, with inextensible yarns at 90 degrees:
+//
+//   cos((pi/2 - gamma) / 2) = (D + d) / (sqrt(2) D),  or  sin(gamma) = (1 + d/D)^2 - 1         (a)
+//   dgamma/dd = 2 / (sqrt(2) D sqrt(1 - ((D + d) / (sqrt(2) D))^2)) = 2 (1 + d/D) / (D cos gamma)
+//                                                                                             (b)
+//
+// and the power of the load is that of the cells, those of the half zones shearing by gamma/2:
+//
+//   F = d1 d2 (S_whole Cs(gamma) + S_half Cs(gamma/2) / 2) dgamma/dd                      (40, 41)
+//
+// Bias extension, specimen L x w, yarns at +-45 degrees to L: D = L - w, S_whole = w (2L - 3w)/2,
+// S_half = w^2; the rest, w^2/2 at the clamps, does not shear. Picture frame of side a, filled by
+// the fabric: D = sqrt(2) a, S_whole = a^2, S_half = 0, then (40, 41) is
+// F = d1 d2 a^2 sqrt(2) Cs / (a (cos(gamma/2) - sin(gamma/2))).
+//
+// Source: Hamila and Boisse 2008, equations (40) and (41). Valid for 0 <= gamma < 90 degrees and
+// L >= 2w: in a shorter specimen some yarns are clamped at one end while those that cross them are
+// clamped at the other, and its zones are not those of (40). That the zones shear evenly is an
+// assumption: the energy minimum of an inextensible net lies 1 to 2 % below (40).
+#pragma once
+
+#include "core/model/fabric.hpp"
+
+#include <optional>
+#include <string>
+
+namespace plyform {
+
+/// Free length between the clamps and width, mm.
+struct BiasSpecimen {
+  double length, width;
+};
+
+/// Side from hinge to hinge, mm.
+struct FrameSpecimen {
+  double side;
+};
+
+/// What (a), (b) and (40, 41) need of either test: mm, mm^2, mm^2.
+struct ShearTest {
+  double diagonal, whole_area, half_area;
+};
+
+/// A specimen that the equations do not hold for: which size, its value, rule and remedy.
+struct SpecimenFault {
+  std::string size; ///< length, width or side
+  double value;
+  std::string rule, remedy;
+};
+std::optional<SpecimenFault> fault_of(const BiasSpecimen& specimen);
+std::optional<SpecimenFault> fault_of(const FrameSpecimen& specimen);
+
+/// Throw std::invalid_argument for a specimen with a fault.
+ShearTest shear_test(const BiasSpecimen& specimen);
+ShearTest shear_test(const FrameSpecimen& specimen);
+
+/// Extension (mm) at which gamma would be 90 degrees; (40, 41) hold below it.
+double locking_extension(const ShearTest& test);
+
+/// gamma (rad) by (a), of the extension's sign; NaN where |gamma| would exceed 90 degrees.
+double shear_angle(const ShearTest& test, double extension);
+
+/// Extension (mm) at a shear angle (rad), by (a).
+double extension_at(const ShearTest& test, double angle);
+
+/// The load is linear in the torque: F = whole Cs(gamma) + half Cs(gamma/2), weights in 1/mm.
+struct TorqueWeights {
+  double angle; ///< gamma, rad
+  double whole, half;
+};
+TorqueWeights torque_weights(const ShearTest& test, const Fabric& fabric, double extension);
+
+/// F (N) by (40, 41), from the fabric's densities and shear law.
+double test_load(const ShearTest& test, const Fabric& fabric, double extension);
+
+} // namespace plyform

@@ -1,0 +1,272 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// case.toml -> entries -> overrides -> check against the table of keys -> Case -> whole scene.
+#include "core/input/case_file.hpp"
+
+#include "core/accuracy/error_model.hpp"
+#include "core/base/text.hpp"
+#include "core/input/case_parts.hpp"
+#include "core/input/overrides.hpp"
+#include "core/model/fabric_estimates.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <map>
+#include <set>
+#include <tuple>
+
+namespace plyform {
+
+namespace {
+
+using Numbers = std::map<std::string, int>; ///< index by name
+
+BlankSpec read_blank(const Section& section, const std::filesystem::path& folder,
+                     Findings& findings) {
+  static const std::map<std::string, MeshKind> kinds{
+      {"diagonal", MeshKind::diagonal}, {"alternating", MeshKind::alternating},
+      {"crossed", MeshKind::crossed},   {"fibres", MeshKind::fibres},
+      {"free", MeshKind::free},         {"file", MeshKind::file}};
+  BlankSpec blank;
+  const auto kind = kinds.find(text(section, "mesh"));
+  if (kind == kinds.end()) return blank;
+  blank.mesh = kind->second;
+  if (blank.mesh == MeshKind::file) {
+    const Entry* file = given(section, "file");
+    if (!file) return blank;
+    blank.file = resolve_path(*file, folder).lexically_normal();
+    if (!std::filesystem::is_regular_file(blank.file))
+      value_error(section, "file", "there is no file " + blank.file.string(),
+                  "give the path of a blank's mesh, seen from the file that names it", findings);
+    return blank;
+  }
+  blank.element_size = number(section, "element_size");
+  const Vec2 centre = vector2(section, "centre"), half = 0.5 * vector2(section, "size");
+  blank.outline.boundary = pairs(section, "outline");
+  if (given(section, "size"))
+    blank.outline.boundary = {
+        {-half.x(), -half.y()}, {half.x(), -half.y()}, {half.x(), half.y()}, {-half.x(), half.y()}};
+  if (const Entry* holes = given(section, "holes"))
+    for (const Entry& hole : holes->children) {
+      std::vector<Vec2>& corners = blank.outline.holes.emplace_back();
+      for (const Entry& corner : hole.children)
+        corners.emplace_back(corner.children[0].number, corner.children[1].number);
+    }
+  for (Vec2& x : blank.outline.boundary)
+    x += centre;
+  for (std::vector<Vec2>& hole : blank.outline.holes)
+    for (Vec2& x : hole)
+      x += centre;
+  return blank;
+}
+
+/// Names of the tables of a map, in order.
+Numbers names_of(const Section& root, const std::string& key) {
+  Numbers names;
+  for (const Section& section : subsections(root, key))
+    names.emplace(section.item.substr(key.size() + 1), static_cast<int>(names.size()));
+  return names;
+}
+
+std::string known_names(const Numbers& names) {
+  std::vector<std::string> words;
+  for (const auto& [name, index] : names)
+    words.push_back(name);
+  return words.empty() ? "there are none" : "there are " + joined(words);
+}
+
+/// The number of the part that a key names; 0 and a report if there is none.
+int named_part(const Section& section, const std::string& key, const Numbers& names,
+               Findings& findings) {
+  const auto it = names.find(text(section, key));
+  if (it != names.end()) return it->second;
+  if (given(section, key))
+    value_error(section, key, "names no " + key + " of this case", known_names(names), findings);
+  return 0;
+}
+
+std::vector<Ply> read_plies(const Section& root, const std::vector<Fabric>& fabrics,
+                            Findings& findings) {
+  const Numbers fabric_names = names_of(root, "fabrics"), blank_names = names_of(root, "blanks");
+  double top = number(subsection(root, "stack"), "bottom");
+  std::vector<Ply> plies;
+  for (const Section& section : subsections(root, "ply")) {
+    Ply ply;
+    ply.name = text(section, "name");
+    ply.fabric = named_part(section, "fabric", fabric_names, findings);
+    ply.blank = named_part(section, "blank", blank_names, findings);
+    ply.angle = number(section, "angle");
+    const std::size_t fabric = static_cast<std::size_t>(ply.fabric);
+    const double thickness = fabric < fabrics.size() ? fabrics[fabric].thickness : 0.0;
+    ply.z = given(section, "z") ? number(section, "z") : top + 0.5 * thickness;
+    // Not z + t/2: sums of thicknesses, so that n equal plies are n t high to the last bit or so.
+    top = given(section, "z") ? ply.z + 0.5 * thickness : top + thickness;
+    plies.push_back(ply);
+  }
+  return plies;
+}
+
+/// Numbers of the bodies by name: plies, then tools, then boundaries (which touch nothing). Names
+/// used twice are reported.
+Numbers number_bodies(const Section& root, Findings& findings) {
+  Numbers bodies;
+  int count = 0;
+  for (const char* key : {"ply", "tool", "boundary"})
+    for (const Section& section : subsections(root, key)) {
+      const std::string name = text(section, "name");
+      const int body = count++;
+      if (name.empty()) continue;
+      if (name == "plies" || name == "tools") // in contact.pair
+        value_error(section, "name", "stands for all " + name, "choose another name", findings);
+      else if (!bodies.emplace(name, body).second)
+        value_error(section, "name", "is the name of another ply, tool or boundary too",
+                    "give each of them a name of its own", findings);
+    }
+  return bodies;
+}
+
+/// The bodies that one name of a pair means.
+std::vector<int> bodies_named(const Entry& name, const std::string& item, const Numbers& bodies,
+                              int plies, int count, Findings& findings) {
+  std::vector<int> found;
+  const bool all_plies = name.text == "plies", all_tools = name.text == "tools";
+  if (all_plies || all_tools) {
+    for (int body = all_plies ? 0 : plies; body < (all_plies ? plies : count); ++body)
+      found.push_back(body);
+  } else if (const auto it = bodies.find(name.text); it != bodies.end()) {
+    found.push_back(it->second);
+  } else {
+    findings.error(name.at, item, name.written, "names no ply or tool of this case",
+                   known_names(bodies) + "; and plies and tools for all of them");
+  }
+  return found;
+}
+
+FrictionTable read_friction(const Section& contact, const Numbers& bodies, int plies, int count,
+                            Findings& findings) {
+  FrictionTable table;
+  table.bodies = count;
+  table.mu.assign(static_cast<std::size_t>(count * count), number(contact, "friction"));
+  for (const Section& pair : subsections(contact, "pair")) {
+    const Entry* between = given(pair, "between");
+    const double mu = number(pair, "friction");
+    if (!between) continue;
+    std::vector<int> sides[2];
+    for (std::size_t i = 0; i < 2; ++i)
+      sides[i] = bodies_named(between->children[i], fmt::format("{}.between.{}", pair.item, i),
+                              bodies, plies, count, findings);
+    const auto tool = [&](int body) { return body >= plies; };
+    if (!sides[0].empty() && !sides[1].empty() && tool(sides[0][0]) && tool(sides[1][0]))
+      value_error(pair, "between", "names two tools, which never touch each other here",
+                  "name a ply, or plies for all of them", findings);
+    for (const int a : sides[0])
+      for (const int b : sides[1])
+        table.mu[static_cast<std::size_t>(a * count + b)] =
+            table.mu[static_cast<std::size_t>(b * count + a)] = mu;
+  }
+  return table;
+}
+
+ContactOptions read_contact(const Section& contact) {
+  return {.stiffness = number(contact, "stiffness"),
+          .damping = number(contact, "damping"),
+          .skin = given(contact, "skin") ? number(contact, "skin") : 0.0,
+          .self = text(contact, "self") == "on"};
+}
+
+ElementKind element_kind(const std::string& word) {
+  if (word == "plain") return ElementKind::plain;
+  return word == "averaged" ? ElementKind::averaged : ElementKind::automatic;
+}
+
+SolverOptions read_solver(const Section& solver) {
+  const double outputs = number(solver, "outputs");
+  return {.element = element_kind(text(solver, "element")),
+          .duration = number(solver, "duration"),
+          .step_factor = number(solver, "step_factor"),
+          .fibre_softening = number(solver, "fibre_softening"),
+          .fibre_damping = number(solver, "fibre_damping"),
+          .mass_damping = number(solver, "mass_damping"),
+          .max_balance_error = number(solver, "max_balance_error"),
+          .outputs = outputs > 0.0 ? static_cast<int>(outputs) : 0};
+}
+
+Case build_case(const Section& root, const std::filesystem::path& folder, Findings& findings) {
+  Case built;
+  built.title = text(root, "title");
+  built.fabrics = read_fabrics(root, findings);
+  for (const Section& section : subsections(root, "blanks"))
+    built.blanks.push_back(read_blank(section, folder, findings));
+  built.plies = read_plies(root, built.fabrics, findings);
+  built.tools = read_tools(root, folder, findings);
+  built.boundaries = read_boundaries(root, built.plies, findings);
+  built.gravity = vector3(root, "gravity");
+  Numbers bodies = number_bodies(root, findings);
+  const Section contact = subsection(root, "contact");
+  const int plies = static_cast<int>(built.plies.size());
+  const int count = plies + static_cast<int>(built.tools.size());
+  std::erase_if(bodies, [&](const auto& body) { return body.second >= count; }); // touch nothing
+  built.friction = read_friction(contact, bodies, plies, count, findings);
+  built.contact = read_contact(contact);
+  built.solver = read_solver(subsection(root, "solver"));
+  const Section accuracy = subsection(root, "accuracy");
+  if (given(accuracy, "shear_deg")) built.accuracy.shear_error = number(accuracy, "shear_deg");
+  return built;
+}
+
+CaseParts locate_parts(const Section& root) {
+  const auto locate = [&](const char* key) {
+    std::vector<Located> places;
+    for (const Section& section : subsections(root, key))
+      places.push_back({section.entry ? section.entry->at : root.entry->at, section.item});
+    return places;
+  };
+  return {locate("blanks"), locate("ply"), locate("tool"), locate("boundary")};
+}
+
+/// The case file's mistakes first, then those of the files it names, overrides last; by line and
+/// column; none twice (a fabric file may stand under two names).
+void put_in_order(std::vector<CaseError>& errors, const std::string& case_name) {
+  const auto rank = [&](const CaseError& error) {
+    const int file = error.file == case_name ? 0 : error.file == override_file ? 2 : 1;
+    return std::tuple(file, error.file, error.line, error.column);
+  };
+  std::stable_sort(errors.begin(), errors.end(),
+                   [&](const CaseError& a, const CaseError& b) { return rank(a) < rank(b); });
+  std::set<std::tuple<std::string, int, int, std::string, std::string>> seen;
+  std::erase_if(errors, [&](const CaseError& e) {
+    return !seen.emplace(e.file, e.line, e.column, last_part(e.item), e.rule).second;
+  });
+}
+
+} // namespace
+
+CaseReading read_case(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  Findings findings;
+  CaseReading reading;
+  std::string reason;
+  const std::string name = file.string();
+  if (const std::optional<std::string> content = read_text(file, reason); !content) {
+    findings.error({name, 1, 1}, "", "", "the case file " + reason, "give the path of a case file");
+  } else if (std::optional<Entry> entries = parse_entries(*content, name, findings)) {
+    const std::filesystem::path folder = file.parent_path();
+    for (const Override& change : overrides)
+      apply_override(*entries, change, folder, findings);
+    load_fabrics(*entries, folder, findings);
+    const Section root{&*entries, "", ""};
+    check_section(root, findings);
+    Case built = build_case(root, folder, findings);
+    if (findings.errors.empty()) estimate_missing(built);
+    if (findings.errors.empty()) check_scene(built, locate_parts(root), findings);
+    if (findings.errors.empty()) {
+      pick_dials(built);
+      check_resolution(built, locate_parts(root), findings);
+      reading.value = std::move(built);
+    }
+  }
+  put_in_order(findings.errors, name);
+  reading.errors = std::move(findings.errors);
+  reading.warnings = std::move(findings.warnings);
+  return reading;
+}
+
+} // namespace plyform

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From checked entries to the parts of a Case. Each function reports what the table of keys cannot
+// know (names, files, numbers that do not fit together) and fills in what it can: the case is only
+// used when no mistake was found.
+#pragma once
+
+#include "core/input/initial_scene.hpp"
+#include "core/input/schema_check.hpp"
+#include "core/model/case.hpp"
+
+#include <filesystem>
+#include <vector>
+
+namespace plyform {
+
+/// Where a part of the case stands in the file, for mistakes found in the scene as a whole.
+struct Located {
+  Place at;
+  std::string item;
+};
+
+struct CaseParts {
+  std::vector<Located> blanks, plies, tools, boundaries;
+};
+
+/// core/input/fabric_file.cpp: fabric files and tables.
+std::vector<Fabric> read_fabrics(const Section& root, Findings& findings);
+
+/// core/input/tool_file.cpp: tools, their shapes, places and motions. `folder` is the case file's.
+std::vector<Tool> read_tools(const Section& root, const std::filesystem::path& folder,
+                             Findings& findings);
+
+/// A direction of the section made a unit vector; the zero vector is reported.
+Vec3 read_direction(const Section& section, const std::string& key, Findings& findings);
+
+/// core/input/boundary_file.cpp: grips, frames, planes of symmetry.
+std::vector<Boundary> read_boundaries(const Section& root, const std::vector<Ply>& plies,
+                                      Findings& findings);
+
+/// core/input/boundary_checks.cpp: boundaries that hold nothing or contradict each other, and
+/// planes of symmetry that blank, fabric or tools do not have. `surfaces`: of the tools, in space.
+void check_boundaries(const Case& scene, const CaseParts& parts, const std::vector<FlatPly>& plies,
+                      const std::vector<Surface>& surfaces, Findings& findings);
+
+/// core/input/scene_checks.cpp: mistakes that only the whole scene shows: blanks that cannot be
+/// meshed, plies overlapping at the start, tools inside plies, tools closer together than the
+/// stack.
+void check_scene(const Case& scene, const CaseParts& parts, Findings& findings);
+
+/// core/input/resolution_checks.cpp: meshes too coarse for what yarns' bending decides; warnings.
+void check_resolution(const Case& scene, const CaseParts& parts, Findings& findings);
+
+} // namespace plyform

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fabrics: a yarn's tension and a cell's torque as constants or tables.
+#include "core/input/fabric_file.hpp"
+
+#include "core/base/text.hpp"
+#include "core/input/case_parts.hpp"
+#include "core/model/fabric_estimates.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+#include <string_view>
+
+namespace plyform {
+
+namespace {
+
+/// Tables of laws start in the origin and go on to the right; `rising`: and what is in the second
+/// column never goes down (empty: it may).
+void check_law(const Section& law, const std::string& key, const std::vector<Vec2>& points,
+               const std::string& rising, Findings& findings) {
+  const Entry* table = given(law, key);
+  if (!table || points.empty()) return;
+  const auto fail = [&](std::size_t row, const std::string& rule, const std::string& remedy) {
+    const Entry& entry = table->children[row];
+    findings.error(entry.at, fmt::format("{}.{}", item_of(law, key), row), entry.written, rule,
+                   remedy);
+  };
+  if (points[0] != Vec2::Zero())
+    return fail(0, "must be [0, 0], where the law starts", "put [0.0, 0.0] first");
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (!(points[i].x() > points[i - 1].x()))
+      return fail(i, "must have a first number above that of the row before",
+                  "put the rows in ascending order, each value once");
+    if (!rising.empty() && !(points[i].y() >= points[i - 1].y()))
+      return fail(i, fmt::format("must not have less {} than the row before", rising),
+                  "take out what falls: a yarn that softens is not modelled");
+  }
+}
+
+void split(const std::vector<Vec2>& points, std::vector<double>& first,
+           std::vector<double>& second) {
+  for (const Vec2& point : points) {
+    first.push_back(point.x());
+    second.push_back(point.y());
+  }
+}
+
+/// Whether the file says that yarns do not bear compression; where it says nothing of it they are
+/// given an estimate if they need it (core/model/fabric_estimates.hpp).
+bool tension_only(const Section& yarn, const TensionLaw& law) {
+  return given(yarn, "compression_stiffness") && law.compression == 0.0;
+}
+
+TensionLaw read_tension(const Section& yarn, Findings& findings) {
+  TensionLaw law;
+  const std::vector<Vec2> points = pairs(yarn, "table");
+  check_law(yarn, "table", points, "tension", findings);
+  split(points, law.strain, law.tension);
+  if (points.empty()) law.stiffness = number(yarn, "stiffness");
+  if (given(yarn, "compression_stiffness")) law.compression = number(yarn, "compression_stiffness");
+  if (const double most = law.largest_slope(); law.compression > most)
+    value_error(yarn, "compression_stiffness",
+                fmt::format("must be at most the largest stiffness in tension, {:g}", most),
+                fmt::format("give {:g}, a hundredth of that, or so", usual_compression(law)),
+                findings);
+  if (given(yarn, "buckling_force")) law.buckling_force = number(yarn, "buckling_force");
+  if (std::isfinite(law.buckling_force) && tension_only(yarn, law))
+    value_error(yarn, "buckling_force",
+                "needs a compression_stiffness of the same yarns above 0: yarns that carry tension "
+                "only have no force to buckle at",
+                fmt::format("give compression_stiffness = {:g}, 0.01 of the largest stiffness in "
+                            "tension, or take buckling_force out",
+                            usual_compression(law)),
+                findings);
+  return law;
+}
+
+/// `tension`: of the same yarns. A bending moment shortens yarns that nothing holds against it.
+MomentLaw read_moments(const Section& yarn, const TensionLaw& tension, Findings& findings) {
+  MomentLaw law;
+  const std::vector<Vec2> points = pairs(yarn, "bending_table");
+  check_law(yarn, "bending_table", points, "moment", findings);
+  split(points, law.curvature, law.moment);
+  if (given(yarn, "bending_stiffness")) law.stiffness = number(yarn, "bending_stiffness");
+  if (law.largest_slope() > 0.0 && tension_only(yarn, tension))
+    value_error(yarn, points.empty() ? "bending_stiffness" : "bending_table",
+                "needs a compression_stiffness of the same yarns, or they shorten instead of "
+                "bending",
+                fmt::format("give compression_stiffness = {:g}, 0.01 of the largest stiffness in "
+                            "tension, or so",
+                            usual_compression(tension)),
+                findings);
+  return law;
+}
+
+YarnSources sources_of(const Section& yarn) {
+  const auto source = [](bool is_given) {
+    return is_given ? ValueSource::given : ValueSource::missing;
+  };
+  return {source(given(yarn, "compression_stiffness")),
+          source(given(yarn, "bending_stiffness") || given(yarn, "bending_table")),
+          source(given(yarn, "in_plane_bending_stiffness"))};
+}
+
+BendingLaw read_bending(const Section& section, const Fabric& fabric, Findings& findings) {
+  BendingLaw law;
+  const Section warp = subsection(section, "warp"), weft = subsection(section, "weft");
+  law.warp = read_moments(warp, fabric.warp, findings);
+  law.weft = read_moments(weft, fabric.weft, findings);
+  if (given(warp, "in_plane_bending_stiffness"))
+    law.in_plane[0] = number(warp, "in_plane_bending_stiffness");
+  if (given(weft, "in_plane_bending_stiffness"))
+    law.in_plane[1] = number(weft, "in_plane_bending_stiffness");
+  law.twist = usual_twist(law);
+  if (!fabric.twist_given) return law;
+  law.twist = number(section, "twist_stiffness");
+  if (law.twist > 0.0 && !(usual_twist(law) > 0.0))
+    value_error(section, "twist_stiffness", "needs bending stiffness along warp and weft",
+                "give bending_stiffness to both, or take twist_stiffness out", findings);
+  return law;
+}
+
+ShearLaw read_shear(const Section& shear, Findings& findings) {
+  ShearLaw law;
+  const std::vector<Vec2> points = pairs(shear, "table");
+  check_law(shear, "table", points, "", findings);
+  split(points, law.angle, law.torque);
+  law.k = numbers(shear, "polynomial");
+  if (!law.k.empty() && law.k[0] < 0.0)
+    value_error(shear, "polynomial", "must start with a k1 of at least 0",
+                "give k1, k3, k5 ...; a cell with k1 < 0 shears by itself", findings);
+  return law;
+}
+
+/// Bending of an isotropic plate: core/ply/bending.hpp.
+BendingLaw plate_bending(const IsotropicLaw& law, double thickness) {
+  const double nu = law.poissons_ratio;
+  const double d = law.modulus * thickness * thickness / (12.0 * (1.0 - nu * nu));
+  BendingLaw bending;
+  bending.warp.stiffness = bending.weft.stiffness = d;
+  bending.coupling = nu * d;
+  bending.twist = 2.0 * (1.0 - nu) * d;
+  return bending;
+}
+
+Fabric read_fabric(const Section& section, const std::string& key, Findings& findings) {
+  Fabric fabric;
+  fabric.name = given(section, "name") ? text(section, "name") : key;
+  fabric.surface_density = number(section, "surface_density");
+  fabric.thickness = number(section, "thickness");
+  if (given(section, "fibre_angle")) fabric.fibre_angle = number(section, "fibre_angle");
+  if (given(section, "locking_angle")) fabric.locking_angle = number(section, "locking_angle");
+  if (text(section, "law") == "isotropic") {
+    const Section law = subsection(section, "isotropic");
+    fabric.isotropic = {number(law, "youngs_modulus") * fabric.thickness,
+                        number(law, "poissons_ratio")};
+    if (text(law, "bending") == "plate")
+      fabric.bending = plate_bending(*fabric.isotropic, fabric.thickness);
+    return fabric;
+  }
+  const Section warp = subsection(section, "warp"), weft = subsection(section, "weft");
+  fabric.warp_density = number(warp, "density");
+  fabric.weft_density = number(weft, "density");
+  fabric.warp = read_tension(warp, findings);
+  fabric.weft = read_tension(weft, findings);
+  fabric.shear = read_shear(subsection(section, "shear"), findings);
+  fabric.sources = {sources_of(warp), sources_of(weft)};
+  fabric.twist_given = given(section, "twist_stiffness") != nullptr;
+  fabric.bending = read_bending(section, fabric, findings);
+  return fabric;
+}
+
+/// Puts a law that is sound into a table that has none; true if it did.
+bool stand_in(Entry& root, const std::string& table, const std::string& key, const char* value) {
+  Entry* section = root.find(table);
+  if (section &&
+      (section->kind != Entry::Kind::table || section->find(key) || section->find("table")))
+    return false;
+  if (!section) {
+    Entry made;
+    made.key = table;
+    made.at = made.key_at = root.at;
+    root.children.push_back(std::move(made));
+    section = &root.children.back();
+  }
+  std::string reason;
+  Entry law = *parse_value(value, root.at.file, 1, reason);
+  law.key = key;
+  law.at = law.key_at = section->at;
+  section->children.push_back(std::move(law));
+  return true;
+}
+
+} // namespace
+
+std::vector<Fabric> read_fabrics(const Section& root, Findings& findings) {
+  std::vector<Fabric> fabrics;
+  for (const Section& section : subsections(root, "fabrics"))
+    fabrics.push_back(
+        read_fabric(section, section.item.substr(std::string("fabrics.").size()), findings));
+  return fabrics;
+}
+
+FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_miss) {
+  FabricReading reading;
+  Findings findings;
+  const std::string name = file.string();
+  std::string reason;
+  const std::optional<std::string> content = read_text(file, reason);
+  if (!content)
+    findings.error({name, 1, 1}, "", "", "the fabric file " + reason,
+                   "give the path of a fabric file");
+  std::optional<Entry> root = content ? parse_entries(*content, name, findings) : std::nullopt;
+  if (root) {
+    reading.text = *content;
+    root->at.file = name;
+    for (const char* table : {"warp", "weft", "shear"}) {
+      const bool shear = std::string_view(table) == "shear";
+      if (laws_may_miss && stand_in(*root, table, shear ? "polynomial" : "stiffness",
+                                    shear ? "[1.0]" : "1e9")) // more than any compression_stiffness
+        reading.missing.push_back(table);
+    }
+    const Section section{&*root, "fabrics.NAME", ""};
+    check_section(section, findings);
+    Fabric fabric = read_fabric(section, file.stem().string(), findings);
+    for (const std::string& table : reading.missing) {
+      if (table == "warp") fabric.warp = {};
+      if (table == "weft") fabric.weft = {};
+      if (table == "shear") fabric.shear = {};
+    }
+    if (findings.errors.empty()) reading.value = std::move(fabric);
+  }
+  reading.errors = std::move(findings.errors);
+  return reading;
+}
+
+} // namespace plyform

@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Mistakes that only the whole scene shows.
+#include "core/input/case_parts.hpp"
+#include "core/input/initial_scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <tuple>
+
+namespace plyform {
+
+namespace {
+
+constexpr double touching = 1e-6;      ///< mm, depth that counts as touching: rounding of distances
+constexpr double surface_error = 1e-3; ///< mm, of distances between tessellated surfaces
+
+struct SceneCheck {
+  const Case& scene;
+  const CaseParts& parts;
+  Findings& findings;
+  std::vector<FlatPly> plies{};
+  std::vector<Surface> surfaces{}; ///< of the tools, in space
+  double bottom = 0.0, top = 0.0;  ///< mm, of the stack
+  Eigen::AlignedBox2d bounds{};    ///< of all plies
+  double stack = 0.0;              ///< mm, thickness of all plies together
+
+  void tool_error(std::size_t tool, const std::string& rule, const std::string& remedy) {
+    findings.error(parts.tools[tool].at, parts.tools[tool].item, scene.tools[tool].name, rule,
+                   remedy);
+  }
+};
+
+const Fabric& fabric_of(const Case& scene, const Ply& ply) {
+  return scene.fabrics[static_cast<std::size_t>(ply.fabric)];
+}
+
+/// The blank's mesh, or nothing and a report, once a blank.
+std::optional<BlankMesh> mesh_ply(SceneCheck& check, const Ply& ply, std::set<int>& reported) {
+  const BlankSpec& blank = check.scene.blanks[static_cast<std::size_t>(ply.blank)];
+  try {
+    return mesh_blank(blank, ply.angle, ply.angle + fabric_of(check.scene, ply).fibre_angle);
+  } catch (const std::runtime_error& error) {
+    if (!reported.insert(ply.blank).second) return std::nullopt;
+    const Located& place = check.parts.blanks[static_cast<std::size_t>(ply.blank)];
+    check.findings.error_from(place.at, place.item, "", "cannot be meshed: ", error.what());
+    return std::nullopt;
+  }
+}
+
+/// Meshes all plies; false if one cannot be.
+bool lay_plies(SceneCheck& check) {
+  std::map<std::tuple<int, double, int>, BlankMesh> meshes; // only MeshKind::fibres has an angle
+  std::set<int> reported;
+  for (const Ply& ply : check.scene.plies) {
+    const BlankSpec& blank = check.scene.blanks[static_cast<std::size_t>(ply.blank)];
+    const bool by_angle = blank.mesh == MeshKind::fibres;
+    const std::tuple key(ply.blank, by_angle ? ply.angle : 0.0, by_angle ? ply.fabric : 0);
+    if (!meshes.contains(key)) {
+      std::optional<BlankMesh> mesh = mesh_ply(check, ply, reported);
+      if (!mesh) continue;
+      meshes.emplace(key, std::move(*mesh));
+    }
+    check.plies.push_back(
+        make_flat_ply(meshes.at(key), ply.z, fabric_of(check.scene, ply).thickness));
+  }
+  check.bottom = std::numeric_limits<double>::infinity();
+  check.top = -check.bottom;
+  for (const FlatPly& ply : check.plies) {
+    check.bottom = std::min(check.bottom, ply.z - ply.half);
+    check.top = std::max(check.top, ply.z + ply.half);
+    check.bounds.extend(ply.bounds);
+    check.stack += 2.0 * ply.half;
+  }
+  return reported.empty();
+}
+
+/// Plies whose bounding rectangles overlap are at least half of both thicknesses apart.
+void check_plies_apart(SceneCheck& check) {
+  for (std::size_t b = 0; b < check.plies.size(); ++b)
+    for (std::size_t a = 0; a < b; ++a) {
+      const FlatPly &pa = check.plies[a], &pb = check.plies[b];
+      const double apart = std::abs(pb.z - pa.z), needed = pa.half + pb.half;
+      if (!pa.bounds.intersects(pb.bounds) || apart >= needed - 1e-9) continue;
+      check.findings.error(
+          check.parts.plies[b].at, check.parts.plies[b].item, check.scene.plies[b].name,
+          fmt::format("overlaps ply {} at the start: the mid-surfaces are {:.4g} mm apart and need "
+                      "{:.4g} mm",
+                      check.scene.plies[a].name, apart, needed),
+          "change z of one of them, or leave z out to lay each ply on the one below");
+      break; // one report a ply
+    }
+}
+
+/// Where a tool lies deepest inside a ply, and all ply points that are inside it.
+struct Intrusion {
+  double depth = 0.0;
+  std::size_t ply = 0;
+  Vec3 where = Vec3::Zero();
+  std::vector<Vec2> lines;
+  void add(double depth_here, std::size_t ply_here, const Vec3& p) {
+    if (!(depth_here > touching)) return;
+    lines.push_back(p.head<2>());
+    if (depth_here <= depth) return;
+    depth = depth_here;
+    ply = ply_here;
+    where = p;
+  }
+};
+
+/// Nodes against the tool's distance, and the tool's surface against the flat ply: that finds
+/// tools that pass between the nodes.
+Intrusion find_intrusion(const SceneCheck& check, std::size_t tool_number) {
+  const Tool& tool = check.scene.tools[tool_number];
+  Intrusion found;
+  int hint = -1; // neighbouring nodes have neighbouring closest triangles
+  for (std::size_t i = 0; i < check.plies.size(); ++i) {
+    const FlatPly& ply = check.plies[i];
+    for (const Vec2& x : ply.mesh.x) {
+      const Vec3 p(x.x(), x.y(), ply.z);
+      found.add(ply.half - tool_distance(tool, Vec3::Zero(), p, hint), i, p);
+    }
+    visit_slab(check.surfaces[tool_number], ply.z - ply.half + touching,
+               ply.z + ply.half - touching, [&](const Vec3& p) {
+                 const double depth = ply.half - std::abs(p.z() - ply.z);
+                 // Chords across a hole are not in the tool: only points that are count.
+                 if (depth > touching && covers(ply, p.head<2>()) &&
+                     tool_distance(tool, Vec3::Zero(), p, hint) <= touching)
+                   found.add(depth, i, p);
+               });
+  }
+  return found;
+}
+
+/// The least room that two tools leave along one of the vertical lines where plies lie.
+struct Clearance {
+  double room = std::numeric_limits<double>::infinity(), needed = 0.0;
+  std::size_t other = 0;
+  Vec2 where = Vec2::Zero();
+};
+
+void clearance_on_line(const SceneCheck& check, std::size_t tool, const Vec2& xy,
+                       Clearance& least) {
+  double needed = 0.0;
+  for (const FlatPly& ply : check.plies)
+    if (covers(ply, xy)) needed += 2.0 * ply.half;
+  const double low = check.bottom - check.stack, high = check.top + check.stack;
+  const double middle = 0.5 * (check.bottom + check.top);
+  const auto own = occupied(check.scene.tools[tool], xy, low, high);
+  for (std::size_t other = 0; other < check.scene.tools.size(); ++other) {
+    if (other == tool) continue;
+    for (const auto& theirs : occupied(check.scene.tools[other], xy, low, high))
+      for (const auto& mine : own) {
+        const auto &under = mine.first < theirs.first ? mine : theirs,
+                   &over = mine.first < theirs.first ? theirs : mine;
+        const double room = over.first - under.second;
+        const bool facing = under.first + under.second < 2.0 * middle &&
+                            over.first + over.second > 2.0 * middle && room >= 0.0;
+        if (facing && room < needed - touching && room < least.room)
+          least = {room, needed, other, xy};
+      }
+  }
+}
+
+/// Tools inside plies; if another tool stands opposite, it is the clearance that is too small.
+void check_tools_outside(SceneCheck& check) {
+  std::set<std::pair<std::size_t, std::size_t>> reported;
+  for (std::size_t tool = 0; tool < check.scene.tools.size(); ++tool) {
+    const Intrusion found = find_intrusion(check, tool);
+    if (!(found.depth > touching)) continue;
+    Clearance least;
+    // Some hundred lines show the least room as well as thousands.
+    const std::size_t stride = std::max<std::size_t>(1, found.lines.size() / 300);
+    for (std::size_t i = 0; i < found.lines.size(); i += stride)
+      clearance_on_line(check, tool, found.lines[i], least);
+    if (!std::isfinite(least.room)) {
+      check.tool_error(tool,
+                       fmt::format("lies inside ply {} at the start, {:.4g} mm deep at ({:.4g}, "
+                                   "{:.4g}, {:.4g})",
+                                   check.scene.plies[found.ply].name, found.depth, found.where.x(),
+                                   found.where.y(), found.where.z()),
+                       "move the tool (position) or the stack (stack.bottom) so that they at most "
+                       "touch");
+    } else if (reported.insert(std::minmax(tool, least.other)).second) {
+      check.tool_error(
+          tool,
+          fmt::format("leaves a clearance of {:.4g} mm to tool {} at ({:.4g}, {:.4g}), "
+                      "less than the {:.4g} mm of the plies between them",
+                      least.room, check.scene.tools[least.other].name, least.where.x(),
+                      least.where.y(), least.needed),
+          fmt::format("move the tools {:.4g} mm apart, or take plies out",
+                      least.needed - least.room));
+    }
+  }
+}
+
+Vec3 stroke_of(const Tool& tool) {
+  return tool.motion == Motion::driven ? Vec3(tool.stroke * tool.direction) : Vec3(Vec3::Zero());
+}
+
+/// The least distance (mm) of a's surface to b, both at the end of their strokes, where plies were.
+double approach(const SceneCheck& check, std::size_t a, std::size_t b) {
+  const Tool &ta = check.scene.tools[a], &tb = check.scene.tools[b];
+  const Vec3 shift_a = stroke_of(ta), shift_b = stroke_of(tb);
+  double least = std::numeric_limits<double>::infinity();
+  int hint_a = -1, hint_b = -1;
+  for (const Vec3& x : check.surfaces[a].x) {
+    const Vec3 p = x + shift_a;
+    if (!check.bounds.contains(p.head<2>())) continue;
+    // Corners of the tessellation are up to a sag off the true surface: taken off again.
+    const double off = tool_distance(ta, shift_a, p, hint_a);
+    least = std::min(least, tool_distance(tb, shift_b, p, hint_b) + off);
+  }
+  return least;
+}
+
+/// What a driven tool comes to at the end of its stroke. A tool under a force is taken where it
+/// stands at the start: it may give way, so that is a warning only.
+void check_end_of_stroke(SceneCheck& check) {
+  const std::vector<Tool>& tools = check.scene.tools;
+  for (std::size_t a = 0; a < tools.size(); ++a) {
+    if (tools[a].motion != Motion::driven) continue;
+    for (std::size_t b = 0; b < tools.size(); ++b) {
+      if (b == a || (tools[b].motion == Motion::driven && b < a)) continue;
+      const double room = std::min(approach(check, a, b), approach(check, b, a));
+      if (room < -surface_error && tools[b].motion != Motion::force)
+        check.tool_error(a,
+                         fmt::format("goes {:.4g} mm into tool {} at the end of the stroke", -room,
+                                     tools[b].name),
+                         "shorten the stroke, or move one of the two");
+      else if (room < check.stack - surface_error)
+        check.findings.warning(
+            check.parts.tools[a].at,
+            fmt::format("{} = {}: comes within {:.4g} mm of tool {} at the end of the stroke, less "
+                        "than the {:.4g} mm of the stack",
+                        check.parts.tools[a].item, tools[a].name, std::max(room, 0.0),
+                        tools[b].name, check.stack));
+    }
+  }
+}
+
+void make_surfaces(SceneCheck& check) {
+  double size = std::numeric_limits<double>::infinity();
+  for (const BlankSpec& blank : check.scene.blanks)
+    if (blank.element_size > 0.0) size = std::min(size, blank.element_size);
+  if (!std::isfinite(size)) size = check.bounds.diagonal().norm() / 100.0;
+  double reach = 0.0; // of the plies, from the origin
+  for (const FlatPly& ply : check.plies)
+    for (const Vec2& x : ply.mesh.x)
+      reach = std::max(reach, x.norm());
+  reach += std::max(std::abs(check.bottom), std::abs(check.top));
+  for (const Tool& tool : check.scene.tools)
+    check.surfaces.push_back(
+        tool_surface(tool, size, reach + tool.position.norm() + stroke_of(tool).norm()));
+}
+
+} // namespace
+
+void check_scene(const Case& scene, const CaseParts& parts, Findings& findings) {
+  SceneCheck check{scene, parts, findings};
+  const bool meshed = lay_plies(check);
+  if (!meshed) return;
+  check_plies_apart(check);
+  make_surfaces(check);
+  check_boundaries(scene, parts, check.plies, check.surfaces, findings);
+  check_tools_outside(check);
+  if (findings.errors.empty()) check_end_of_stroke(check);
+}
+
+} // namespace plyform

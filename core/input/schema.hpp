@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The one table of all keys of case and fabric files. The reader checks files against it and
+// `plyform keys` prints it, so that the two cannot disagree.
+//
+// Key patterns: NAME stands for a name of the user's choice, [] for an item of a list:
+// blanks.NAME.size, tool[].radius. Fabric files have the keys below fabrics.NAME.
+#pragma once
+
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+enum class KeyKind {
+  table,  ///< [key]
+  tables, ///< [[key]]
+  map,    ///< [key.NAME]
+  fabric, ///< path of a fabric file, or its table
+  text,   ///< any string
+  name,   ///< string of letters, digits, _ and -
+  path,   ///< string, sought from the file that it stands in
+  choice, ///< one of `choices`
+  number,
+  integer,
+  numbers,  ///< list of `count` numbers, or of any number of them if count is 0
+  pairs,    ///< list of [a, b]
+  polygons, ///< list of lists of [x, y]
+  names,    ///< list of `count` strings
+  profile,  ///< list of [r, z], [r, z, fillet] and tables
+};
+
+/// Allowed numbers; the ends belong to it unless open.
+struct Range {
+  double least = -std::numeric_limits<double>::infinity();
+  double most = std::numeric_limits<double>::infinity();
+  bool open_least = false, open_most = false;
+  bool holds(double x) const;
+  std::string text() const; ///< "> 0", "[0, 1]", empty when unbounded
+  std::string rule() const; ///< "must be greater than 0"
+};
+
+/// A key. Required unless it has a fallback, an `otherwise` or a key that may stand in its place.
+struct KeyRow {
+  std::string key; ///< pattern
+  KeyKind kind = KeyKind::number;
+  std::string unit = "-";      ///< of each column: "deg, N mm"
+  std::string fallback{};      ///< TOML value taken when the key is not given
+  std::string otherwise{};     ///< in words, for what is not given and has no such value
+  std::string instead{};       ///< the key that may stand in its place, never beside it; one of
+                               ///< the two is required unless they have an `otherwise`
+  std::vector<Range> ranges{}; ///< of each column; the last for all further ones
+  std::vector<std::string> choices{}; ///< for KeyKind::choice
+  std::size_t count = 0;              ///< items of numbers and names; 0 = any
+  std::size_t least_items = 0;        ///< of lists of any length
+  std::string of{};                   ///< neighbouring choice key that this key depends on ...
+  std::vector<std::string> with{};    ///< ... and its values that have this key
+  std::string meaning{};              ///< noun phrase, completes "give the ..."
+
+  bool required() const { return fallback.empty() && otherwise.empty() && instead.empty(); }
+  const Range& range_of(std::size_t column) const;
+  bool goes_with(const std::string& choice) const;
+};
+
+const std::vector<KeyRow>& key_table();
+
+/// The row of a pattern, or null.
+const KeyRow* find_key(const std::string& pattern);
+
+/// The rows one level below a pattern ("" for the top of the case file).
+std::vector<const KeyRow*> keys_below(const std::string& pattern);
+
+/// The pattern of `name` in the table with the given pattern, empty if there is no such key.
+std::string pattern_of(const std::string& pattern, const std::string& name);
+
+/// The last part of a pattern: radius for tool[].radius.
+std::string last_part(const std::string& pattern);
+
+/// What one unit is inside the program (mm, N, s, t, rad), by column: g/m2 -> 1e-12 t/mm2.
+double unit_factor(const KeyRow& row, std::size_t column);
+
+} // namespace plyform

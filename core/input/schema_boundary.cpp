@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Keys of grips, frames and planes of symmetry.
+#include "core/input/schema_case.hpp"
+
+namespace plyform {
+
+namespace {
+
+using K = KeyKind;
+
+/// A pair of points that belongs to one kind of boundary.
+KeyRow points(const char* name, const char* kind, std::size_t count, const char* meaning) {
+  return {.key = std::string("boundary[].") + name,
+          .kind = K::pairs,
+          .unit = "mm",
+          .least_items = count,
+          .of = "kind",
+          .with = {kind},
+          .meaning = meaning};
+}
+
+} // namespace
+
+Rows boundary_rows() {
+  Rows rows{{.key = "boundary",
+             .kind = K::tables,
+             .fallback = "[]",
+             .meaning = "boundaries, one [[boundary]] each: nodes whose motion is given"},
+            {.key = "boundary[].name",
+             .kind = K::name,
+             .meaning = "boundary's name, unlike those of plies, tools and other boundaries"},
+            {.key = "boundary[].kind",
+             .kind = K::choice,
+             .choices = {"grip", "frame", "symmetry"},
+             .meaning = "kind of boundary: a rigid grip that moves (or stays) as one piece; four "
+                        "hinged bars pulled along a diagonal; a vertical plane of symmetry"},
+            {.key = "boundary[].ply",
+             .kind = K::text,
+             .otherwise = "all plies",
+             .meaning = "name of the one ply that is held"},
+            points("box", "grip", 2,
+                   "two corners [x, y] of a rectangle; it holds all nodes of the unformed ply "
+                   "inside and on its rim"),
+            points("edge", "grip", 2, "two ends [x, y] of a line; it holds all nodes on it"),
+            points("hinges", "frame", 4,
+                   "four hinges [x, y] in order, a parallelogram; the first stays, the third moves "
+                   "away from it; the bars hold all nodes on them"),
+            {.key = "boundary[].hold",
+             .kind = K::choice,
+             .fallback = "\"xyz\"",
+             .choices = {"xyz", "xy", "xz", "yz", "x", "y", "z"},
+             .of = "kind",
+             .with = {"grip"},
+             .meaning = "directions in which the nodes are held; they are free in the others"},
+            {.key = "boundary[].direction",
+             .kind = K::numbers,
+             .fallback = "[1.0, 0.0, 0.0]",
+             .count = 3,
+             .of = "kind",
+             .with = {"grip"},
+             .meaning = "direction of stroke and measured force, of any length"},
+            {.key = "boundary[].stroke",
+             .unit = "mm",
+             .fallback = "0.0",
+             .ranges = {not_negative},
+             .of = "kind",
+             .with = {"grip", "frame"},
+             .meaning = "stroke over the duration; of a grip along its direction, of a frame along "
+                        "the diagonal from the first hinge to the third"},
+            {.key = "boundary[].point",
+             .kind = K::numbers,
+             .unit = "mm",
+             .fallback = "[0.0, 0.0]",
+             .count = 2,
+             .of = "kind",
+             .with = {"symmetry"},
+             .meaning = "point [x, y] on the plane"},
+            {.key = "boundary[].normal",
+             .kind = K::numbers,
+             .count = 2,
+             .of = "kind",
+             .with = {"symmetry"},
+             .meaning = "direction [x, y] at right angles to the plane, of any length"}};
+  for (KeyRow& row : rows) {
+    if (row.key == "boundary[].box") row.instead = "edge";
+    if (row.key == "boundary[].edge") row.instead = "box";
+  }
+  return rows;
+}
+
+} // namespace plyform

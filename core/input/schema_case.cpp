@@ -1,0 +1,456 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rows of the table of keys: what may stand in a case or fabric file.
+#include "core/input/schema_case.hpp"
+
+#include <fmt/format.h>
+
+namespace plyform {
+
+namespace {
+
+using K = KeyKind;
+
+const Range share{.least = 0.0, .most = 1.0};
+const Range positive_share{.least = 0.0, .most = 1.0, .open_least = true};
+
+/// A default that the program's own options already have.
+std::string toml(double number) {
+  return fmt::format("{}", number);
+}
+
+Rows fabric_rows() {
+  Rows rows{
+      {.key = "fabrics", .kind = K::map, .meaning = "fabrics, each under a name of your choice"},
+      {.key = "fabrics.NAME", .kind = K::fabric, .meaning = "fabric file, or its keys in a table"},
+      {.key = "fabrics.NAME.name",
+       .kind = K::text,
+       .otherwise = "the NAME",
+       .meaning = "fabric's name in results"},
+      {.key = "fabrics.NAME.surface_density",
+       .unit = "g/m2",
+       .ranges = {positive},
+       .meaning = "mass per area of the unformed fabric"},
+      {.key = "fabrics.NAME.thickness",
+       .unit = "mm",
+       .ranges = {positive},
+       .meaning = "thickness of the unformed fabric"},
+      {.key = "fabrics.NAME.fibre_angle",
+       .unit = "deg",
+       .fallback = "90.0",
+       .ranges = {{.least = 0.0, .most = 180.0, .open_least = true, .open_most = true}},
+       .of = "law",
+       .with = {"woven"},
+       .meaning = "angle from warp to weft before forming"},
+      {.key = "fabrics.NAME.law",
+       .kind = K::choice,
+       .fallback = "\"woven\"",
+       .choices = {"woven", "isotropic"},
+       .meaning = "kind of sheet: yarns in two directions (woven or non-crimp), or a foil without"},
+      {.key = "fabrics.NAME.isotropic",
+       .kind = K::table,
+       .of = "law",
+       .with = {"isotropic"},
+       .meaning = "law of a sheet without yarns, which resists compression too"},
+      {.key = "fabrics.NAME.isotropic.youngs_modulus",
+       .unit = "N/mm2",
+       .ranges = {positive},
+       .meaning = "Young's modulus, multiplied by the thickness"},
+      {.key = "fabrics.NAME.isotropic.poissons_ratio",
+       .ranges = {{.least = 0.0, .most = 0.5}},
+       .meaning = "Poisson's ratio"},
+      {.key = "fabrics.NAME.isotropic.bending",
+       .kind = K::choice,
+       .fallback = "\"none\"",
+       .choices = {"none", "plate"},
+       .meaning = "bending stiffness: none, a membrane; or that of a plate of this thickness"}};
+  for (const std::string yarn : {"warp", "weft"}) {
+    const std::string table = "fabrics.NAME." + yarn;
+    append(rows, {{.key = table,
+                   .kind = K::table,
+                   .of = "law",
+                   .with = {"woven"},
+                   .meaning = yarn + " yarns"},
+                  {.key = table + ".density",
+                   .unit = "yarns/mm",
+                   .ranges = {positive},
+                   .meaning = "number of " + yarn + " yarns per mm across them"},
+                  {.key = table + ".stiffness",
+                   .unit = "N/yarn",
+                   .instead = "table",
+                   .ranges = {positive},
+                   .meaning = "tension of one yarn divided by its strain"},
+                  {.key = table + ".table",
+                   .kind = K::pairs,
+                   .unit = "-, N/yarn",
+                   .instead = "stiffness",
+                   .ranges = {not_negative, not_negative},
+                   .least_items = 2,
+                   .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}});
+    append(rows, yarn_bending_rows(yarn));
+  }
+  append(rows, {{.key = "fabrics.NAME.shear",
+                 .kind = K::table,
+                 .of = "law",
+                 .with = {"woven"},
+                 .meaning = "law of in-plane shear"},
+                {.key = "fabrics.NAME.shear.polynomial",
+                 .kind = K::numbers,
+                 .unit = "N mm",
+                 .instead = "table",
+                 .least_items = 1,
+                 .meaning = "coefficients k1, k3, k5 ... of the torque of one unit cell, "
+                            "k1 g + k3 g^3 + k5 g^5 ..., g the shear angle in rad"},
+                {.key = "fabrics.NAME.shear.table",
+                 .kind = K::pairs,
+                 .unit = "deg, N mm",
+                 .instead = "polynomial",
+                 .ranges = {{.least = 0.0, .most = 90.0, .open_most = true}, not_negative},
+                 .least_items = 2,
+                 .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
+                            "same with minus sign for negative angles"}});
+  append(rows, sheet_rows());
+  return rows;
+}
+
+Rows blank_rows() {
+  const std::vector<std::string> meshed{"diagonal", "alternating", "crossed", "fibres", "free"};
+  return {
+      {.key = "blanks", .kind = K::map, .meaning = "blanks, each under a name of your choice"},
+      {.key = "blanks.NAME", .kind = K::table, .meaning = "outline and mesh of an unformed ply"},
+      {.key = "blanks.NAME.mesh",
+       .kind = K::choice,
+       .fallback = "\"diagonal\"",
+       .choices = {"diagonal", "alternating", "crossed", "fibres", "free", "file"},
+       .meaning = "kind of mesh: squares with one diagonal (all the same way, or alternating) or "
+                  "with both, cells along both fibre "
+                  "directions, free triangles, or triangles from a file"},
+      {.key = "blanks.NAME.size",
+       .kind = K::numbers,
+       .unit = "mm",
+       .instead = "outline",
+       .ranges = {positive},
+       .count = 2,
+       .of = "mesh",
+       .with = meshed,
+       .meaning = "side lengths of a rectangular blank, along x and y"},
+      {.key = "blanks.NAME.outline",
+       .kind = K::pairs,
+       .unit = "mm",
+       .instead = "size",
+       .least_items = 3,
+       .of = "mesh",
+       .with = meshed,
+       .meaning = "corners [x, y] of the blank, in order"},
+      {.key = "blanks.NAME.holes",
+       .kind = K::polygons,
+       .unit = "mm",
+       .otherwise = "none",
+       .least_items = 3,
+       .of = "mesh",
+       .with = meshed,
+       .meaning = "corners [x, y] of each hole, in order"},
+      {.key = "blanks.NAME.centre",
+       .kind = K::numbers,
+       .unit = "mm",
+       .fallback = "[0.0, 0.0]",
+       .count = 2,
+       .of = "mesh",
+       .with = meshed,
+       .meaning = "place of the rectangle's centre; of the outline's and holes' [0, 0]"},
+      {.key = "blanks.NAME.element_size",
+       .unit = "mm",
+       .ranges = {positive},
+       .of = "mesh",
+       .with = meshed,
+       .meaning = "side of a square or cell, mean edge of a free mesh"},
+      {.key = "blanks.NAME.file",
+       .kind = K::path,
+       .of = "mesh",
+       .with = {"file"},
+       .meaning = "mesh file of the flat blank (STL, OBJ, PLY or OFF, in mm, z constant)"}};
+}
+
+Rows ply_rows() {
+  return {{.key = "stack", .kind = K::table, .fallback = "{}", .meaning = "place of the stack"},
+          {.key = "stack.bottom",
+           .unit = "mm",
+           .fallback = "0.0",
+           .meaning = "height z of the lowest ply's lower face"},
+          {.key = "ply",
+           .kind = K::tables,
+           .least_items = 1,
+           .meaning = "plies, one [[ply]] each, from the bottom up"},
+          {.key = "ply[].name",
+           .kind = K::name,
+           .meaning = "ply's name, unlike all others; names its result file"},
+          {.key = "ply[].fabric", .kind = K::text, .meaning = "name of one of the fabrics"},
+          {.key = "ply[].blank", .kind = K::text, .meaning = "name of one of the blanks"},
+          {.key = "ply[].angle",
+           .unit = "deg",
+           .ranges = {{.least = -360.0, .most = 360.0}},
+           .meaning = "angle from x to the warp yarns, about z; the outline stays as it is"},
+          {.key = "ply[].z",
+           .unit = "mm",
+           .otherwise = "on top of the ply below",
+           .meaning = "height of the mid-surface"}};
+}
+
+Rows tool_rows() {
+  const auto radial = [](const char* name, std::vector<std::string> shapes, Range range,
+                         const char* meaning) {
+    return KeyRow{.key = std::string("tool[].") + name,
+                  .unit = "mm",
+                  .ranges = {range},
+                  .of = "shape",
+                  .with = std::move(shapes),
+                  .meaning = meaning};
+  };
+  Rows rows{
+      {.key = "tool", .kind = K::tables, .fallback = "[]", .meaning = "tools, one [[tool]] each"},
+      {.key = "tool[].name", .kind = K::name, .meaning = "tool's name, unlike all others"},
+      {.key = "tool[].shape",
+       .kind = K::choice,
+       .choices = {"sphere", "cylinder", "box", "plane", "disc", "annulus", "profile", "mesh"},
+       .meaning = "shape; its own frame has the axis as z; cylinder and box are centred on the "
+                  "position, disc and annulus stand on it, a plane has its material below it"},
+      radial("radius", {"sphere", "cylinder", "disc"}, positive, "radius"),
+      radial("length", {"cylinder"}, positive, "length along the axis"),
+      {.key = "tool[].size",
+       .kind = K::numbers,
+       .unit = "mm",
+       .ranges = {positive},
+       .count = 3,
+       .of = "shape",
+       .with = {"box"},
+       .meaning = "full edge lengths"},
+      radial("inner_radius", {"annulus"}, not_negative, "radius of the hole"),
+      radial("outer_radius", {"annulus"}, positive, "outer radius"),
+      radial("thickness", {"disc", "annulus"}, positive, "thickness along the axis"),
+      radial("edge_radius", {"cylinder", "box", "disc", "annulus"}, not_negative,
+             "rounding of all edges; the outer dimensions stay"),
+      {.key = "tool[].points",
+       .kind = K::profile,
+       .unit = "mm",
+       .ranges = {not_negative, {}, not_negative},
+       .least_items = 2,
+       .of = "shape",
+       .with = {"profile"},
+       .meaning = "points [r, z] of the section, turned about the axis; material to the right in "
+                  "walking order; a third number rounds the corner; a table is an arc from the "
+                  "point before"},
+      {.key = "tool[].points[].to",
+       .kind = K::numbers,
+       .unit = "mm",
+       .ranges = {not_negative, {}},
+       .count = 2,
+       .meaning = "end [r, z] of the arc"},
+      {.key = "tool[].points[].centre",
+       .kind = K::numbers,
+       .unit = "mm",
+       .count = 2,
+       .meaning = "centre [r, z] of the arc"},
+      {.key = "tool[].points[].turn",
+       .kind = K::choice,
+       .choices = {"left", "right"},
+       .meaning = "side to which the arc bends, walking with r to the right and z up"},
+      {.key = "tool[].file",
+       .kind = K::path,
+       .of = "shape",
+       .with = {"mesh"},
+       .meaning = "mesh file of the tool (STL, OBJ, PLY or OFF)"},
+      {.key = "tool[].scale",
+       .fallback = "1.0",
+       .ranges = {positive},
+       .of = "shape",
+       .with = {"mesh"},
+       .meaning = "mm per unit of the mesh file"}};
+  for (KeyRow& row : rows)
+    if (row.key == "tool[].edge_radius") row.fallback = "0.0";
+  return rows;
+}
+
+Rows motion_rows() {
+  const std::vector<std::string> moving{"driven", "force"};
+  return {{.key = "tool[].position",
+           .kind = K::numbers,
+           .unit = "mm",
+           .fallback = "[0.0, 0.0, 0.0]",
+           .count = 3,
+           .meaning = "place of the tool's origin"},
+          {.key = "tool[].axis",
+           .kind = K::numbers,
+           .fallback = "[0.0, 0.0, 1.0]",
+           .count = 3,
+           .meaning = "direction of the tool's own z, of any length; the tool is turned there "
+                      "the shortest way (from z to -z about x)"},
+          {.key = "tool[].turn",
+           .unit = "deg",
+           .fallback = "0.0",
+           .ranges = {{.least = -360.0, .most = 360.0}},
+           .meaning = "turn about the tool's own z, before z is brought to the axis"},
+          {.key = "tool[].motion",
+           .kind = K::choice,
+           .fallback = "\"fixed\"",
+           .choices = {"fixed", "driven", "force"},
+           .meaning = "motion: none, a given stroke, or under a given force"},
+          {.key = "tool[].direction",
+           .kind = K::numbers,
+           .fallback = "[0.0, 0.0, -1.0]",
+           .count = 3,
+           .of = "motion",
+           .with = moving,
+           .meaning = "direction of stroke or force, of any length"},
+          {.key = "tool[].stroke",
+           .unit = "mm",
+           .ranges = {positive},
+           .of = "motion",
+           .with = {"driven"},
+           .meaning = "stroke along the direction, over the duration"},
+          {.key = "tool[].force",
+           .unit = "N",
+           .ranges = {not_negative},
+           .of = "motion",
+           .with = {"force"},
+           .meaning = "force on the tool along the direction"},
+          {.key = "tool[].mass",
+           .unit = "kg",
+           .fallback = "0.0",
+           .ranges = {not_negative},
+           .of = "motion",
+           .with = {"force"},
+           .meaning = "mass of the tool; 0 keeps it in equilibrium with its force at every step"}};
+}
+
+Rows contact_rows() {
+  const ContactOptions contact;
+  return {{.key = "contact",
+           .kind = K::table,
+           .fallback = "{}",
+           .meaning = "friction and contact options"},
+          {.key = "contact.friction",
+           .fallback = "0.2",
+           .ranges = {not_negative},
+           .meaning = "friction coefficient of all pairs, usually 0.1 to 0.4"},
+          {.key = "contact.pair",
+           .kind = K::tables,
+           .fallback = "[]",
+           .meaning = "pairs with a friction of their own, one [[contact.pair]] each; of several "
+                      "that fit, the last holds"},
+          {.key = "contact.pair[].between",
+           .kind = K::names,
+           .count = 2,
+           .meaning = "two names of plies or tools; \"plies\" and \"tools\" stand for all of them"},
+          {.key = "contact.pair[].friction",
+           .ranges = {not_negative},
+           .meaning = "friction coefficient of the pair, usually 0.1 to 0.4"},
+          {.key = "contact.stiffness",
+           .fallback = toml(contact.stiffness),
+           .ranges = {positive_share},
+           .meaning = "contact stiffness as a fraction of the largest stable one"},
+          {.key = "contact.damping",
+           .fallback = toml(contact.damping),
+           .ranges = {share},
+           .meaning = "damping of contacts as a fraction of critical"},
+          {.key = "contact.skin",
+           .unit = "mm",
+           .otherwise = "0.3 of the smallest mean element size",
+           .ranges = {positive},
+           .meaning = "search distance beyond contact"},
+          {.key = "contact.self",
+           .kind = K::choice,
+           .fallback = "\"off\"",
+           .choices = {"off", "on"},
+           .meaning = "contact of each ply with itself, where it folds over"}};
+}
+
+Rows solver_rows() {
+  const SolverOptions solver;
+  return {{.key = "solver",
+           .kind = K::table,
+           .fallback = "{}",
+           .meaning = "options of the time stepping"},
+          {.key = "solver.duration",
+           .unit = "s",
+           .fallback = toml(solver.duration),
+           .ranges = {positive},
+           .meaning = "simulated time of the stroke"},
+          {.key = "solver.element",
+           .kind = K::choice,
+           .fallback = "\"auto\"",
+           .choices = {"auto", "plain", "averaged"},
+           .meaning =
+               "plain: the paper's; averaged: does not lock; auto: plain where sides run along "
+               "both fibre families"},
+          {.key = "solver.step_factor",
+           .fallback = toml(solver.step_factor),
+           .ranges = {positive_share},
+           .meaning = "time step as a fraction of the stable one"},
+          {.key = "solver.fibre_softening",
+           .fallback = toml(solver.fibre_softening),
+           .ranges = {{.least = 1.0}},
+           .meaning = "number that divides the fibre stiffness, for larger steps"},
+          {.key = "solver.fibre_damping",
+           .fallback = toml(solver.fibre_damping),
+           .ranges = {share},
+           .meaning = "damping of fibres as a fraction of critical of the stiffest mode"},
+          {.key = "solver.mass_damping",
+           .unit = "1/s",
+           .fallback = toml(solver.mass_damping),
+           .ranges = {not_negative},
+           .meaning = "deceleration per velocity of all nodes"},
+          {.key = "solver.max_balance_error",
+           .fallback = toml(solver.max_balance_error),
+           .ranges = {positive},
+           .meaning = "relative error of the energy balance above which the run stops"},
+          {.key = "solver.outputs",
+           .kind = K::integer,
+           .fallback = fmt::format("{}", solver.outputs),
+           .ranges = {{.least = 1.0, .most = 100000.0}},
+           .meaning = "number of states written, evenly over the stroke"}};
+}
+
+Rows accuracy_rows() {
+  return {{.key = "accuracy",
+           .kind = K::table,
+           .fallback = "{}",
+           .meaning = "how near to a converged run; picks solver.duration, solver.fibre_softening "
+                      "and up to 1.4 times larger elements"},
+          {.key = "accuracy.shear_deg",
+           .unit = "deg",
+           .otherwise = "as the solver's dials have it",
+           .ranges = {{.least = 0.05, .most = 20.0}},
+           .meaning = "root mean square error of the shear angle that is allowed; `plyform run "
+                      "--accuracy draft` is 3, standard 1, reference 0.3"}};
+}
+
+Rows all_rows() {
+  Rows rows{{.key = "title",
+             .kind = K::text,
+             .fallback = "\"\"",
+             .meaning = "title of the case in results"},
+            {.key = "gravity",
+             .kind = K::numbers,
+             .unit = "mm/s2",
+             .fallback = "[0.0, 0.0, 0.0]",
+             .count = 3,
+             .meaning = "acceleration by gravity, [0, 0, -9810] for plies that lie flat on earth"}};
+  append(rows, fabric_rows());
+  append(rows, blank_rows());
+  append(rows, ply_rows());
+  append(rows, tool_rows());
+  append(rows, motion_rows());
+  append(rows, boundary_rows());
+  append(rows, contact_rows());
+  append(rows, solver_rows());
+  append(rows, accuracy_rows());
+  return rows;
+}
+
+} // namespace
+
+const std::vector<KeyRow>& key_table() {
+  static const std::vector<KeyRow> rows = all_rows();
+  return rows;
+}
+
+} // namespace plyform

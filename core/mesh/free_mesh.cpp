@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The only place that knows CGAL's Delaunay mesher.
+#include "core/mesh/mesher_parts.hpp"
+
+#include <CGAL/Constrained_Delaunay_triangulation_2.h>
+#include <CGAL/Delaunay_mesh_face_base_2.h>
+#include <CGAL/Delaunay_mesh_size_criteria_2.h>
+#include <CGAL/Delaunay_mesh_vertex_base_2.h>
+#include <CGAL/Delaunay_mesher_2.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/Triangulation_vertex_base_with_info_2.h>
+#include <cmath>
+#include <map>
+#include <queue>
+
+namespace plyform {
+namespace {
+
+using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
+
+/// Node number; -1 for points that the mesher added.
+struct Number {
+  std::int32_t value = -1;
+};
+
+using VertexBase =
+    CGAL::Triangulation_vertex_base_with_info_2<Number, Kernel,
+                                                CGAL::Delaunay_mesh_vertex_base_2<Kernel>>;
+using FaceBase = CGAL::Delaunay_mesh_face_base_2<Kernel>;
+using Storage = CGAL::Triangulation_data_structure_2<VertexBase, FaceBase>;
+using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Storage>;
+using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
+using Face = Triangulation::Face_handle;
+
+Triangulation triangulate(const Region& region) {
+  Triangulation t;
+  std::vector<Triangulation::Vertex_handle> v;
+  v.reserve(region.x.size());
+  Face near;
+  for (const Vec2& x : region.x) {
+    v.push_back(t.insert(Kernel::Point_2(x.x(), x.y()), near));
+    v.back()->info().value = static_cast<std::int32_t>(v.size()) - 1;
+    near = v.back()->face();
+  }
+  for (const Edge& e : region.edges)
+    t.insert_constraint(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]);
+  return t;
+}
+
+/// Marks the faces that an odd number of constraints shields from infinity.
+void mark_region(Triangulation& t) {
+  std::map<Face, bool> inside{{t.infinite_face(), false}};
+  std::queue<Face> todo;
+  todo.push(t.infinite_face());
+  for (; !todo.empty(); todo.pop()) {
+    const Face f = todo.front();
+    const bool f_inside = inside.at(f);
+    f->set_in_domain(f_inside);
+    for (int i = 0; i < 3; ++i)
+      if (inside.emplace(f->neighbor(i), f_inside != f->is_constrained(i)).second)
+        todo.push(f->neighbor(i));
+  }
+}
+
+} // namespace
+
+BlankMesh refine(const Region& region, double min_angle, double max_edge) {
+  Triangulation t = triangulate(region);
+  mark_region(t);
+  const double sine = std::sin(min_angle);
+  CGAL::refine_Delaunay_mesh_2(t, Criteria(sine * sine, max_edge), true);
+
+  BlankMesh mesh{region.x, {}};
+  for (const auto v : t.finite_vertex_handles())
+    if (v->info().value < 0) {
+      v->info().value = static_cast<std::int32_t>(mesh.x.size());
+      mesh.x.emplace_back(v->point().x(), v->point().y());
+    }
+  for (const auto f : t.finite_face_handles())
+    if (f->is_in_domain())
+      mesh.triangles.push_back(
+          {f->vertex(0)->info().value, f->vertex(1)->info().value, f->vertex(2)->info().value});
+  return mesh;
+}
+
+} // namespace plyform

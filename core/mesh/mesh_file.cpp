@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A blank meshed elsewhere: STL, OBJ, PLY or OFF, read by CGAL as loose triangles. Triangles are
+// turned anticlockwise and equal nodes joined (STL repeats them); anything else wrong is an error.
+#include "core/mesh/mesher_parts.hpp"
+
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
+#include <CGAL/IO/polygon_soup_io.h>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <fstream>
+#include <map>
+#include <numeric>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+namespace plyform {
+namespace {
+
+/// Of the blank's size; a binary STL rounds to 6e-8.
+constexpr double flat = 1e-6;
+/// Height over longest side below which a triangle counts as having no area.
+constexpr double thin = 1e-6;
+
+struct Soup {
+  std::vector<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3> points;
+  std::vector<std::vector<std::size_t>> faces;
+};
+
+std::string text(const Vec2& p) {
+  return fmt::format("({:.6g}, {:.6g})", p.x(), p.y());
+}
+
+Soup read_soup(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  for (char& c : extension)
+    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  if (extension != ".stl" && extension != ".obj" && extension != ".ply" && extension != ".off")
+    throw std::runtime_error("is no STL, OBJ, PLY or OFF file by its name; convert it to one");
+  if (!std::filesystem::is_regular_file(file) || !std::ifstream(file))
+    throw std::runtime_error("cannot be opened; check that it exists and may be read");
+  Soup soup;
+  if (!CGAL::IO::read_polygon_soup(file.string(), soup.points, soup.faces))
+    throw std::runtime_error("cannot be read as " + extension.substr(1) +
+                             "; check that it is whole and in that format, or export it again");
+  if (soup.faces.empty())
+    throw std::runtime_error("holds no triangles; it may be cut short, export it again");
+  return soup;
+}
+
+void check_soup(const Soup& soup) {
+  Eigen::AlignedBox3d box;
+  for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+    if (soup.faces[f].size() != 3)
+      throw std::runtime_error(fmt::format("face {} has {} corners; export the mesh as triangles",
+                                           f, soup.faces[f].size()));
+    for (const std::size_t n : soup.faces[f]) {
+      if (n >= soup.points.size())
+        throw std::runtime_error(
+            fmt::format("face {} names node {} of {}; export it again", f, n, soup.points.size()));
+      const Vec3 x(soup.points[n].x(), soup.points[n].y(), soup.points[n].z());
+      if (!x.allFinite())
+        throw std::runtime_error(
+            fmt::format("node {} of face {} is not finite; export it again", n, f));
+      box.extend(x);
+    }
+  }
+  const double rise = box.sizes().z();
+  if (!(rise <= flat * box.sizes().head<2>().maxCoeff()))
+    throw std::runtime_error(
+        fmt::format("is not flat, z runs from {:g} to {:g} mm; a blank needs the same z everywhere",
+                    box.min().z(), box.max().z()));
+}
+
+/// Joins equal nodes, drops unused ones (order of first use) and turns triangles anticlockwise.
+BlankMesh join(const Soup& soup) {
+  BlankMesh mesh;
+  std::map<std::pair<double, double>, std::int32_t> node;
+  for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+    Triangle t{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& p = soup.points[soup.faces[f][k]];
+      const auto next = static_cast<std::int32_t>(mesh.x.size());
+      const auto [entry, added] = node.try_emplace({p.x(), p.y()}, next);
+      if (added) mesh.x.emplace_back(p.x(), p.y());
+      t[k] = entry->second;
+    }
+    const Vec2 a = mesh.x[static_cast<std::size_t>(t[0])];
+    const Vec2 ab = mesh.x[static_cast<std::size_t>(t[1])] - a;
+    const Vec2 ac = mesh.x[static_cast<std::size_t>(t[2])] - a;
+    const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
+    if (!(std::abs(cross(ab, ac)) > thin * longest))
+      throw std::runtime_error(fmt::format(
+          "triangle {} at {} has no area; collapse its shortest edge or mesh the blank again", f,
+          text(a)));
+    if (cross(ab, ac) < 0) std::swap(t[1], t[2]);
+    mesh.triangles.push_back(t);
+  }
+  return mesh;
+}
+
+/// Directed edges, sorted: each may occur once, its reverse once at most.
+std::vector<Edge> checked_edges(const BlankMesh& mesh) {
+  std::vector<Edge> edges;
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      edges.push_back({t[k], t[(k + 1) % 3]});
+  std::sort(edges.begin(), edges.end());
+  const auto twice = std::adjacent_find(edges.begin(), edges.end());
+  if (twice != edges.end())
+    throw std::runtime_error(
+        fmt::format("is not manifold, triangles overlap along the edge from {} to {}: it is shared "
+                    "by more than "
+                    "two triangles or two on the same side; remove the surplus ones",
+                    text(mesh.x[static_cast<std::size_t>((*twice)[0])]),
+                    text(mesh.x[static_cast<std::size_t>((*twice)[1])])));
+  return edges;
+}
+
+/// At each node at most one edge of the rim leaves; two mean that parts meet in the node only.
+void check_nodes(const BlankMesh& mesh, const std::vector<Edge>& edges) {
+  std::vector<char> on_rim(mesh.x.size(), 0);
+  for (const Edge& e : edges) {
+    if (std::binary_search(edges.begin(), edges.end(), Edge{e[1], e[0]})) continue;
+    char& seen = on_rim[static_cast<std::size_t>(e[0])];
+    if (seen)
+      throw std::runtime_error(fmt::format(
+          "is not manifold, parts of it meet only in the node at {}; join them along an "
+          "edge or part them",
+          text(mesh.x[static_cast<std::size_t>(e[0])])));
+    seen = 1;
+  }
+}
+
+void check_one_piece(const BlankMesh& mesh, const std::vector<Edge>& edges) {
+  std::vector<std::int32_t> root(mesh.x.size());
+  std::iota(root.begin(), root.end(), 0);
+  const auto find = [&](std::int32_t n) {
+    while (root[static_cast<std::size_t>(n)] != n)
+      n = root[static_cast<std::size_t>(n)] =
+          root[static_cast<std::size_t>(root[static_cast<std::size_t>(n)])];
+    return n;
+  };
+  for (const Edge& e : edges)
+    root[static_cast<std::size_t>(find(e[0]))] = find(e[1]);
+  for (std::int32_t n = 0; n < static_cast<std::int32_t>(mesh.x.size()); ++n)
+    if (find(n) != find(0))
+      throw std::runtime_error(
+          fmt::format("falls into separate pieces, one at {}, one at {}; join nodes that should be "
+                      "one, or give each piece as a blank of its own",
+                      text(mesh.x[0]), text(mesh.x[static_cast<std::size_t>(n)])));
+}
+
+} // namespace
+
+BlankMesh blank_from_file(const std::filesystem::path& file) {
+  try {
+    const Soup soup = read_soup(file);
+    check_soup(soup);
+    BlankMesh mesh = join(soup);
+    const std::vector<Edge> edges = checked_edges(mesh);
+    check_nodes(mesh, edges);
+    check_one_piece(mesh, edges);
+    return mesh;
+  } catch (const std::exception& error) {
+    throw std::runtime_error(fmt::format("blank file {}: {}", file.string(), error.what()));
+  }
+}
+
+} // namespace plyform

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the blank mesher is made of; only files of core/mesh include this. mm throughout.
+#pragma once
+
+#include "core/mesh/mesh_blank.hpp"
+
+#include <array>
+#include <optional>
+#include <vector>
+
+namespace plyform {
+
+using Edge = std::array<std::int32_t, 2>;
+
+/// z component of a x b.
+inline double cross(const Vec2& a, const Vec2& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Points joined by edges; the region to mesh is what an odd number of edges shields from infinity.
+struct Region {
+  std::vector<Vec2> x;
+  std::vector<Edge> edges;
+};
+
+/// Unit directions of two families of cell sides, cross(a, b) > 0 and a.b >= 0.
+struct CellDirections {
+  Vec2 a = Vec2::UnitX(), b = Vec2::UnitY();
+};
+
+/// x and y, or for MeshKind::fibres the fibre directions (rad), so turned or swapped that the angle
+/// from a to b is at most 90 degrees. Throws if they are nearly parallel.
+CellDirections cell_directions(MeshKind mesh, double warp, double weft);
+
+/// Cells that are not squares: the angle from a to b differs from 90 degrees.
+inline bool is_skew(const CellDirections& d) {
+  return d.a.dot(d.b) > 1e-8;
+}
+
+/// Throws std::runtime_error unless the outline can be meshed with elements of this size.
+void check_outline(const Outline& outline, double element_size);
+
+/// The loops of the outline cut into pieces of about `spacing`, evenly between corners; every
+/// corner stays.
+Region sample_outline(const Outline& outline, double spacing);
+
+/// The one or two diagonals of the cell p00 p10 p11 p01 (node numbers); `centre` is the node in
+/// the middle, for MeshKind::crossed. The diagonal is p00-p11, or the other one, p10-p01: the
+/// shorter one of a skew cell (angle at p00 below 90 degrees).
+void append_cell(const std::array<std::int32_t, 4>& cell, std::int32_t centre, MeshKind mesh,
+                 bool other_diagonal, std::vector<Triangle>& triangles);
+
+/// Exact grid if the outline is a parallelogram without holes with sides along the cells.
+std::optional<BlankMesh> structured_blank(const BlankSpec& spec, const CellDirections& directions);
+
+/// Whole cells inside, a band of triangles along the outline.
+BlankMesh cut_blank(const BlankSpec& spec, const CellDirections& directions);
+
+BlankMesh free_blank(const BlankSpec& spec);
+
+BlankMesh blank_from_file(const std::filesystem::path& file);
+
+/// Delaunay refinement (CGAL Mesh_2) of a region. The nodes of the region come first and keep their
+/// numbers; edges may be split. `min_angle` in rad, at most 20.7 degrees (else it need not end);
+/// angles of the region's own that are smaller stay. `max_edge` 0: no bound.
+BlankMesh refine(const Region& region, double min_angle, double max_edge);
+
+} // namespace plyform

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A case as plain data: what is formed, by which tools, how it is computed. Units inside: mm, N,
+// s, t, rad. Filled by read_case (core/input/case_file.hpp), turned into a Scene by make_scene.
+#pragma once
+
+#include "contact/shapes/tool_shape.hpp"
+#include "core/model/blank_spec.hpp"
+#include "core/model/fabric.hpp"
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+/// One ply of the stack. Plies are listed from the bottom up.
+struct Ply {
+  std::string name;
+  int fabric = 0;     ///< index into Case::fabrics
+  int blank = 0;      ///< index into Case::blanks
+  double angle = 0.0; ///< rad, from x to warp, about +z
+  double z = 0.0;     ///< mm, height of the mid-surface at the start
+};
+
+enum class Motion {
+  fixed,  ///< stays
+  driven, ///< moves `stroke` along `direction`, smoothly, over the duration
+  force,  ///< pushed by `force` along `direction`, free to move along it only
+};
+
+struct Tool {
+  std::string name;
+  ToolShape shape;
+  Vec3 position = Vec3::Zero();                           ///< mm, of the tool frame's origin
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< tool frame to space
+  Motion motion = Motion::fixed;
+  Vec3 direction = -Vec3::UnitZ(); ///< unit vector
+  double stroke = 0.0;             ///< mm, for Motion::driven
+  double force = 0.0;              ///< N, for Motion::force
+  double mass = 0.0;               ///< t, for Motion::force
+};
+
+enum class BoundaryKind {
+  grip,     ///< rigid: all its nodes move by one displacement
+  frame,    ///< four bars hinged at their ends, pulled along a diagonal
+  symmetry, ///< a vertical plane that the plies do not leave
+};
+
+/// Nodes whose motion is given (core/model/boundary.hpp). Places are those of the unformed plies.
+struct Boundary {
+  std::string name;
+  BoundaryKind kind = BoundaryKind::grip;
+  int ply = -1; ///< index into Case::plies; -1: all
+  // grip
+  bool on_edge = false; ///< nodes on a line, else in a box
+  /// mm, ends of the line, corners of the box
+  std::array<Vec2, 2> place = {Vec2::Zero(), Vec2::Zero()};
+  std::array<bool, 3> held = {{true, true, true}}; ///< along x, y, z; the rest is free
+  Vec3 direction = Vec3::UnitX();                  ///< unit vector, of the stroke
+  // frame: hinges in order; the first stays, the third moves away from it
+  std::array<Vec2, 4> hinges = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()}; ///< mm
+  // symmetry
+  Vec2 point = Vec2::Zero(), normal = Vec2::UnitX(); ///< mm; unit vector
+  double stroke = 0.0; ///< mm, of a grip along its direction, of a frame along its diagonal
+};
+
+enum class ElementKind {
+  automatic, ///< plain where sides run along both fibre families, averaged elsewhere
+  plain,     ///< the paper's element
+  averaged,  ///< fibre strains averaged over small patches of triangles: does not lock
+};
+
+struct SolverOptions {
+  ElementKind element = ElementKind::automatic;
+  double duration = 0.1;          ///< s simulated
+  double step_factor = 0.5;       ///< fraction of the stable step
+  double fibre_softening = 1.0;   ///< fibre stiffness is divided by this
+  double fibre_damping = 0.05;    ///< fraction of critical of the stiffest element mode
+  double mass_damping = 0.0;      ///< 1/s, acceleration -mass_damping * velocity
+  double max_balance_error = 0.1; ///< stop above this relative energy balance error
+  int outputs = 20;               ///< states written, evenly over the stroke
+};
+
+struct ContactOptions {
+  double stiffness = 0.1; ///< fraction of the stable limit
+  double damping = 0.2;   ///< fraction of critical
+  double skin = 0.0;      ///< mm, search distance beyond contact; 0: by the element size
+  bool self = false;      ///< plies may touch themselves
+};
+
+/// How near a run is to come to a converged one (core/accuracy/error_model.hpp).
+struct AccuracyOptions {
+  double shear_error = 0.0; ///< rad, rms; 0: not asked for, the solver's dials hold
+  double coarsening = 1.0;  ///< element sizes over those given, as pick_dials set them
+};
+
+/// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.
+struct FrictionTable {
+  int bodies = 0;
+  std::vector<double> mu; ///< bodies x bodies, symmetric
+  double operator()(int a, int b) const { return mu[static_cast<std::size_t>(a * bodies + b)]; }
+};
+
+struct Case {
+  std::string title;
+  std::vector<Fabric> fabrics;
+  std::vector<BlankSpec> blanks;
+  std::vector<Ply> plies;
+  std::vector<Tool> tools;
+  std::vector<Boundary> boundaries;
+  Vec3 gravity = Vec3::Zero(); ///< mm/s^2
+  FrictionTable friction;
+  SolverOptions solver;
+  ContactOptions contact;
+  AccuracyOptions accuracy;
+};
+
+} // namespace plyform

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/model/fabric_estimates.hpp"
+
+#include "core/base/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <set>
+#include <vector>
+
+namespace plyform {
+namespace {
+
+constexpr double compression_share = 0.01; // of tension
+constexpr double bending_length = 70.0;    // mm
+constexpr double gravity = 9810.0;         // mm/s^2, turns mass per area into weight
+constexpr double zone_in_cells = 2.5;
+constexpr double shear_scale_at = 0.5; // rad
+
+/// Laws of warp (0) or weft (1).
+TensionLaw& tension_of(Fabric& f, std::size_t family) {
+  return family == 0 ? f.warp : f.weft;
+}
+MomentLaw& moments_of(Fabric& f, std::size_t family) {
+  return family == 0 ? f.bending.warp : f.bending.weft;
+}
+
+/// C of a family, if its file says nothing of it.
+void estimate_compression(Fabric& f, std::size_t family) {
+  ValueSource& source = f.sources[family].compression;
+  if (source != ValueSource::missing) return;
+  TensionLaw& law = tension_of(f, family);
+  law.compression = usual_compression(law);
+  source = ValueSource::estimated;
+}
+
+void estimate_for_stack(Fabric& f) {
+  for (const std::size_t family : {0u, 1u}) {
+    estimate_compression(f, family);
+    if (tension_of(f, family).compression == 0.0) continue;
+    YarnSources& sources = f.sources[family];
+    if (sources.bending == ValueSource::missing) {
+      moments_of(f, family).stiffness = usual_bending(f);
+      sources.bending = ValueSource::estimated;
+    }
+    if (sources.in_plane_bending == ValueSource::missing && usual_in_plane_bending(f) > 0.0) {
+      f.bending.in_plane[family] = usual_in_plane_bending(f);
+      sources.in_plane_bending = ValueSource::estimated;
+    }
+  }
+  if (!f.twist_given) f.bending.twist = usual_twist(f.bending);
+}
+
+void estimate_for_one_ply(Fabric& f) {
+  for (const std::size_t family : {0u, 1u})
+    if (moments_of(f, family).largest_slope() > 0.0 ||
+        std::isfinite(tension_of(f, family).buckling_force))
+      estimate_compression(f, family);
+}
+
+/// "460 / 480" of both families, "460 along the warp" if only that is estimated, "" if none is.
+std::string both(const std::array<YarnSources, 2>& sources, ValueSource YarnSources::*which,
+                 double warp, double weft, const char* unit, const char* format) {
+  const bool first = sources[0].*which == ValueSource::estimated,
+             second = sources[1].*which == ValueSource::estimated;
+  const auto number = [&](double value) { return fmt::format(fmt::runtime(format), value); };
+  if (!first && !second) return "";
+  if (!second) return fmt::format("{} {} along the warp", number(warp), unit);
+  if (!first) return fmt::format("{} {} along the weft", number(weft), unit);
+  if (number(warp) == number(weft)) return fmt::format("{} {}", number(warp), unit);
+  return fmt::format("{} / {} {}", number(warp), number(weft), unit);
+}
+
+std::string estimated_values(const Fabric& f) {
+  std::vector<std::string> parts;
+  const auto add = [&](const char* what, const std::string& values, const std::string& reason) {
+    if (!values.empty()) parts.push_back(fmt::format("{} {} ({})", what, values, reason));
+  };
+  add("compression",
+      both(f.sources, &YarnSources::compression, f.warp.compression, f.weft.compression,
+           "N per yarn", "{:.4g}"),
+      "1 % of tension");
+  add("bending",
+      both(f.sources, &YarnSources::bending, f.bending.warp.stiffness, f.bending.weft.stiffness,
+           "N mm", "{:.2g}"),
+      fmt::format("bending length {:g} mm", bending_length));
+  add("in-plane bending",
+      both(f.sources, &YarnSources::in_plane_bending, f.bending.in_plane[0], f.bending.in_plane[1],
+           "N mm", "{:.2g}"),
+      fmt::format("zones of {:.3g} mm", usual_zone_width(f)));
+  return joined(parts);
+}
+
+} // namespace
+
+double usual_compression(const TensionLaw& law) {
+  return compression_share * law.largest_slope();
+}
+
+double usual_twist(const BendingLaw& law) {
+  return std::sqrt(law.warp.at(0.0).slope * law.weft.at(0.0).slope);
+}
+
+double usual_bending(const Fabric& fabric) {
+  return fabric.surface_density * gravity * bending_length * bending_length * bending_length;
+}
+
+double usual_zone_width(const Fabric& fabric) {
+  return zone_in_cells * 2.0 / std::sqrt(fabric.warp_density * fabric.weft_density);
+}
+
+double shear_rigidity(const Fabric& fabric) {
+  const double cells =
+      fabric.warp_density * fabric.weft_density * std::sin(fabric.fibre_angle); // n_c
+  const double start = fabric.shear.at(0.0).slope;
+  return cells * (start > 0.0 ? start : fabric.shear.secant(shear_scale_at));
+}
+
+double usual_in_plane_bending(const Fabric& fabric) {
+  const double l = usual_zone_width(fabric);
+  return shear_rigidity(fabric) * l * l;
+}
+
+void estimate_missing(Case& data) {
+  std::set<int> used;
+  for (const Ply& ply : data.plies)
+    used.insert(ply.fabric);
+  for (const int index : used) {
+    Fabric& fabric = data.fabrics[static_cast<std::size_t>(index)];
+    if (fabric.isotropic) continue;
+    if (data.plies.size() > 1)
+      estimate_for_stack(fabric);
+    else
+      estimate_for_one_ply(fabric);
+  }
+}
+
+std::vector<std::string> describe_estimates(const Case& data) {
+  const std::string why = data.plies.size() > 1 ? "since a stack of plies presses its yarns"
+                                                : "since yarns that bend or buckle need it";
+  std::vector<std::string> lines;
+  for (const Fabric& f : data.fabrics) {
+    const std::string values = estimated_values(f);
+    if (values.empty()) continue;
+    lines.push_back(
+        fmt::format("{}: {}: estimated, {}; give the keys, or compression_stiffness = 0 "
+                    "for yarns that carry tension only",
+                    f.name, values, why));
+  }
+  return lines;
+}
+
+std::vector<std::string> describe_softening(const Case& data) {
+  const double asked = data.solver.fibre_softening;
+  std::vector<std::string> lines;
+  for (const Fabric& f : data.fabrics) {
+    const double warp = effective_softening(f.warp, asked),
+                 weft = effective_softening(f.weft, asked);
+    if (warp == asked && weft == asked) continue;
+    lines.push_back(fmt::format("{}: solver.fibre_softening = {:g} divides the tension of warp and "
+                                "weft by {:.3g} and {:.3g} only: they are then as stiff as in "
+                                "compression, which is not softened",
+                                f.name, asked, warp, weft));
+  }
+  return lines;
+}
+
+std::vector<std::string> assumptions(const Case& data) {
+  std::vector<std::string> lines = describe_estimates(data);
+  for (std::string& line : describe_softening(data))
+    lines.push_back(std::move(line));
+  return lines;
+}
+
+} // namespace plyform

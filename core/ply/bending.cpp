@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/ply/bending.hpp"
+
+#include "core/ply/bending_fit.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plyform {
+namespace {
+
+/// (G) with each node's mass shared out evenly among its patches (Irons): the mesh does not exceed
+/// the largest eigenvalue of any patch, which is at most the trace of M_e^-1 K_e. Motions across
+/// the flat sheet and in it do not mix, so the larger of their two traces is enough. In the plane
+/// warp and weft are added up: sheared they come near each other, and then do mix.
+double bound(const Bending& b, std::span<const double> node_mass) {
+  const double coupling = std::abs(b.law.coupling);
+  const double d[3] = {b.law.warp.largest_slope() + coupling, b.law.weft.largest_slope() + coupling,
+                       b.law.twist};
+  std::vector<int> patches(b.area.size(), 0); // that a node belongs to
+  for (const std::int32_t n : b.node)
+    ++patches[static_cast<std::size_t>(n)];
+  double largest = 0.0;
+  for (std::size_t e = 0; e < b.area.size(); ++e) {
+    double across = 0.0, in_plane = 0.0;
+    for (auto i = static_cast<std::size_t>(b.begin[e]);
+         i < static_cast<std::size_t>(b.begin[e + 1]); ++i) {
+      const auto n = static_cast<std::size_t>(b.node[i]);
+      for (std::size_t k = 0; k < 3; ++k)
+        across += b.area[e] * d[k] * b.b[i][k] * b.b[i][k] * patches[n] / node_mass[n];
+      for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
+        in_plane +=
+            b.area[e] * b.in_plane[e][k] * b.b[i][k] * b.b[i][k] * patches[n] / node_mass[n];
+    }
+    largest = std::max({largest, across, in_plane});
+  }
+  return largest;
+}
+
+/// Normal and second derivatives at one node.
+struct PatchShape {
+  Vec3 normal;
+  double size;                ///< |N|
+  std::array<Vec3, 3> second; ///< s_11, s_22, s_12, 1/mm
+  std::array<double, 3> kappa;
+};
+
+/// How one family of yarns turns in the surface at one node.
+struct YarnTurn {
+  Vec3 along;          ///< d
+  Vec3 across;         ///< c / l^2
+  Vec3 slope;          ///< q, 1/mm
+  double kappa = 0.0;  ///< 1/mm
+  double moment = 0.0; ///< M_g, N
+};
+
+PatchShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t patch) {
+  const auto first = static_cast<std::size_t>(b.begin[patch]);
+  const auto at = [&](std::size_t place) -> const Vec3& {
+    return x[static_cast<std::size_t>(b.node[first + place])];
+  };
+  PatchShape s;
+  s.normal.setZero();
+  for (auto i = static_cast<std::size_t>(b.fan_begin[patch]);
+       i < static_cast<std::size_t>(b.fan_begin[patch + 1]); ++i) {
+    const auto& [p, q, r] = b.fan[i];
+    const Vec3& x0 = at(static_cast<std::size_t>(p));
+    s.normal += (at(static_cast<std::size_t>(q)) - x0).cross(at(static_cast<std::size_t>(r)) - x0);
+  }
+  s.size = s.normal.norm();
+  s.normal /= s.size;
+  s.second.fill(Vec3::Zero());
+  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[patch + 1]); ++i) {
+    const Vec3 from = at(i - first) - at(0); // small numbers: less rounding
+    for (std::size_t k = 0; k < 3; ++k)
+      s.second[k] += b.b[i][k] * from;
+  }
+  for (std::size_t k = 0; k < 3; ++k)
+    s.kappa[k] = s.normal.dot(s.second[k]); // (K)
+  return s;
+}
+
+/// (T); `family` 0 the warp, 1 the weft.
+YarnTurn turn_of(const Bending& b, std::span<const Vec3> x, std::size_t patch, std::size_t family,
+                 const PatchShape& s) {
+  const auto first = static_cast<std::size_t>(b.begin[patch]);
+  const Vec3& own = x[patch];
+  YarnTurn t;
+  t.along.setZero();
+  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[patch + 1]); ++i)
+    t.along += b.a[i][family] * (x[static_cast<std::size_t>(b.node[i])] - own);
+  const Vec3 c = s.normal.cross(t.along);
+  constexpr double least = 1e-12; // l^2; with less, a yarn has no direction
+  const double l2 = std::max(least, c.squaredNorm());
+  t.across = c / l2;
+  t.kappa = s.second[family].dot(t.across);
+  t.slope = s.second[family] / l2 - 2.0 * t.kappa * t.across;
+  t.moment = b.in_plane[patch][family] * t.kappa;
+  return t;
+}
+
+/// (M)
+std::array<double, 3> moments(const BendingLaw& law, const std::array<double, 3>& kappa) {
+  return {law.warp.at(kappa[0]).value + law.coupling * kappa[1],
+          law.weft.at(kappa[1]).value + law.coupling * kappa[0], law.twist * kappa[2]};
+}
+
+/// (I) of one family on the nodes of a patch, but for the turning of the normal. Returns what that
+/// adds to h, N/mm.
+Vec3 add_in_plane(const Bending& b, const YarnTurn& t, std::size_t patch, std::size_t family,
+                  const Vec3& normal, std::vector<Vec3>& force) {
+  const Vec3 turned = t.slope.cross(normal);
+  for (auto i = static_cast<std::size_t>(b.begin[patch]);
+       i < static_cast<std::size_t>(b.begin[patch + 1]); ++i)
+    force[static_cast<std::size_t>(b.node[i])] -=
+        b.area[patch] * t.moment * (b.b[i][family] * t.across + b.a[i][family] * turned);
+  return t.moment * t.along.cross(t.slope);
+}
+
+/// - dN/dx_i . `along` on the nodes of a patch, the last term of (F); `along` is A0 h_t / |N|.
+void turn_normal(const Bending& b, std::span<const Vec3> x, std::size_t patch, const Vec3& along,
+                 std::vector<Vec3>& force) {
+  for (auto i = static_cast<std::size_t>(b.fan_begin[patch]);
+       i < static_cast<std::size_t>(b.fan_begin[patch + 1]); ++i) {
+    std::array<std::size_t, 3> n;
+    for (std::size_t k = 0; k < 3; ++k)
+      n[k] =
+          static_cast<std::size_t>(b.node[static_cast<std::size_t>(b.begin[patch] + b.fan[i][k])]);
+    const Vec3 turn1 = (x[n[2]] - x[n[0]]).cross(along), turn2 = along.cross(x[n[1]] - x[n[0]]);
+    force[n[0]] += turn1 + turn2;
+    force[n[1]] -= turn1;
+    force[n[2]] -= turn2;
+  }
+}
+
+} // namespace
+
+Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& triangles,
+                     const BendingLaw& law, double warp, double weft,
+                     std::span<const double> node_mass) {
+  Bending b;
+  b.law = law;
+  fit_patches(b, x, triangles, warp, weft);
+  b.omega2 = bound(b, node_mass);
+  return b;
+}
+
+std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int node) {
+  return shape_of(b, x, static_cast<std::size_t>(node)).kappa;
+}
+
+double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family) {
+  const auto n = static_cast<std::size_t>(node);
+  return turn_of(b, x, n, static_cast<std::size_t>(family), shape_of(b, x, n)).kappa;
+}
+
+std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x) {
+  std::vector<Vec3> force(x.size(), Vec3::Zero());
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    const PatchShape s = shape_of(b, x, n);
+    const std::array<double, 3> m = moments(b.law, s.kappa);
+    for (auto i = static_cast<std::size_t>(b.begin[n]);
+         i < static_cast<std::size_t>(b.begin[n + 1]); ++i)
+      force[static_cast<std::size_t>(b.node[i])] -=
+          b.area[n] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal; // (F)
+    Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
+    for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
+      h += add_in_plane(b, turn_of(b, x, n, k, s), n, k, s.normal, force);
+    turn_normal(b, x, n, (b.area[n] / s.size) * (h - h.dot(s.normal) * s.normal), force);
+  }
+  return force;
+}
+
+double bending_energy(const Bending& b, std::span<const Vec3> x) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < b.area.size(); ++n) {
+    const PatchShape s = shape_of(b, x, n);
+    const std::array<double, 3>& k = s.kappa;
+    sum += b.area[n] * (b.law.warp.at(k[0]).energy + b.law.weft.at(k[1]).energy +
+                        b.law.coupling * k[0] * k[1] + 0.5 * b.law.twist * k[2] * k[2]); // (E)
+    for (std::size_t f = 0; f < 2 && !b.in_plane.empty(); ++f) {
+      const YarnTurn t = turn_of(b, x, n, f, s);
+      sum += 0.5 * b.area[n] * t.moment * t.kappa; // (G)
+    }
+  }
+  return sum;
+}
+
+} // namespace plyform

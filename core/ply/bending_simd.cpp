@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/ply/bending_simd.hpp"
+
+#include "contact/simd/cpu_features.hpp"
+
+#include <algorithm>
+#include <stdexcept>
+
+namespace plyform {
+namespace {
+
+/// The slots of one patch: places of its nodes within the patch (0: its own), the ring first.
+struct PatchSlots {
+  int patch = 0;
+  std::vector<int> ring, others;
+};
+
+/// The nodes around, in the order of the triangles. Where these do not close to a ring, the own
+/// node, whose difference is zero, stands between the last and the first.
+std::vector<int> ring_of(const Bending& b, std::size_t patch) {
+  std::vector<std::array<int, 2>> links; // the two other nodes of each triangle
+  for (auto i = static_cast<std::size_t>(b.fan_begin[patch]);
+       i < static_cast<std::size_t>(b.fan_begin[patch + 1]); ++i) {
+    Triangle t = b.fan[i];
+    std::rotate(t.begin(), std::find(t.begin(), t.end(), 0), t.end());
+    links.push_back({t[1], t[2]});
+  }
+  std::vector<int> ring;
+  while (!links.empty()) {
+    const auto is_start = [&](const auto& link) {
+      return std::none_of(links.begin(), links.end(),
+                          [&](const auto& other) { return other[1] == link[0]; });
+    };
+    auto next = std::find_if(links.begin(), links.end(), is_start);
+    if (next == links.end()) next = links.begin(); // closed
+    const int start = (*next)[0];
+    ring.push_back(start);
+    while (next != links.end()) {
+      ring.push_back((*next)[1]);
+      links.erase(next);
+      next = std::find_if(links.begin(), links.end(),
+                          [&](const auto& link) { return link[0] == ring.back(); });
+    }
+    if (links.empty() && ring.front() == start && ring.back() == start)
+      ring.pop_back(); // all of it: the last follows the first anyway
+    else
+      ring.push_back(0);
+  }
+  return ring;
+}
+
+PatchSlots slots_of(const Bending& b, int patch) {
+  const auto p = static_cast<std::size_t>(patch);
+  PatchSlots s{patch, ring_of(b, p), {}};
+  for (int i = 1; i < b.begin[p + 1] - b.begin[p]; ++i)
+    if (std::find(s.ring.begin(), s.ring.end(), i) == s.ring.end()) s.others.push_back(i);
+  if (s.ring.size() + s.others.size() > most_patch_slots)
+    throw std::length_error("bending: too many nodes around one");
+  return s;
+}
+
+/// Builds one block after the other.
+class BlockMaker {
+public:
+  BlockMaker(const Bending& bending, BendingLanes& lanes_)
+      : b(bending), out(lanes_), local(bending.area.size(), -1) {}
+
+  void add(int patch) {
+    const auto p = static_cast<std::size_t>(patch);
+    const std::span<const std::int32_t> nodes(b.node.data() + b.begin[p],
+                                              b.node.data() + b.begin[p + 1]);
+    const auto fresh = std::count_if(nodes.begin(), nodes.end(),
+                                     [&](int n) { return local[static_cast<std::size_t>(n)] < 0; });
+    if (static_cast<int>(list.size()) + static_cast<int>(fresh) > most_block_nodes) close();
+    for (const int n : nodes) {
+      std::int32_t& number = local[static_cast<std::size_t>(n)];
+      if (number < 0) number = static_cast<std::int32_t>(list.size()), list.push_back(n);
+    }
+    patches.push_back(slots_of(b, patch));
+  }
+
+  void close() {
+    if (list.empty()) return;
+    BendingBlock block;
+    block.first_node = static_cast<int>(out.nodes.size());
+    block.nodes = static_cast<int>(list.size());
+    block.first_group = static_cast<int>(out.patches.size());
+    block.first_slot = out.slots.size() / lanes;
+    add_groups();
+    block.groups = static_cast<int>(out.patches.size()) - block.first_group;
+    out.blocks.push_back(block);
+    out.nodes.insert(out.nodes.end(), list.begin(), list.end());
+    for (const int n : list)
+      local[static_cast<std::size_t>(n)] = -1;
+    list.clear(), patches.clear();
+  }
+
+private:
+  using Four = std::array<const PatchSlots*, lanes>; ///< null: a lane that only fills up
+
+  static auto size_of(const PatchSlots& p) { return std::pair(p.ring.size(), p.others.size()); }
+
+  /// Patches of one size side by side; what is left of each size then likewise, padded. Each lane
+  /// goes through a quarter of a size: neighbours follow each other in a lane, where the one's
+  /// force is added to their nodes long before the other's.
+  void add_groups() {
+    std::stable_sort(patches.begin(), patches.end(), [](const PatchSlots& p, const PatchSlots& q) {
+      return size_of(p) > size_of(q);
+    });
+    std::vector<const PatchSlots*> left;
+    for (std::size_t begin = 0, end = 0; begin < patches.size(); begin = end) {
+      while (end < patches.size() && size_of(patches[end]) == size_of(patches[begin]))
+        ++end;
+      const std::size_t groups = (end - begin) / lanes;
+      for (std::size_t g = 0; g < groups; ++g) {
+        Four four;
+        for (std::size_t lane = 0; lane < lanes; ++lane)
+          four[lane] = &patches[begin + lane * groups + g];
+        add_group(four);
+      }
+      for (std::size_t i = begin + lanes * groups; i < end; ++i)
+        left.push_back(&patches[i]);
+    }
+    for (std::size_t i = 0; i < left.size(); i += lanes) {
+      Four four{};
+      for (std::size_t lane = 0; lane < lanes && i + lane < left.size(); ++lane)
+        four[lane] = left[i + lane];
+      add_group(four);
+    }
+  }
+
+  void add_group(const Four& four) {
+    LanePatches& group = out.patches.emplace_back();
+    std::size_t ring = 0, others = 0;
+    for (const PatchSlots* p : four)
+      if (p) ring = std::max(ring, p->ring.size()), others = std::max(others, p->others.size());
+    group.ring = static_cast<std::int32_t>(ring);
+    group.slots = static_cast<std::int32_t>(ring + others);
+    const std::size_t first = out.slots.size();
+    out.slots.resize(first + lanes * (ring + others));
+    out.constants.resize(out.slots.size() / lanes * slot_numbers());
+    for (std::size_t lane = 0; lane < lanes; ++lane) {
+      const PatchSlots& p = four[lane] ? *four[lane] : *four[0];
+      const auto n = static_cast<std::size_t>(p.patch);
+      group.area[lane] = four[lane] ? b.area[n] : 0.0;
+      for (std::size_t k = 0; k < 2; ++k)
+        group.in_plane[k][lane] = b.in_plane.empty() ? 0.0 : b.in_plane[n][k];
+      group.own[lane] = at(p, 0);
+      std::vector<int> padded = p.ring; // the last again: no triangle between it and itself
+      padded.resize(ring, p.ring.back());
+      padded.insert(padded.end(), p.others.begin(), p.others.end());
+      padded.resize(ring + others, 0);
+      std::vector<char> done(static_cast<std::size_t>(b.begin[n + 1] - b.begin[n]), 0);
+      for (std::size_t i = 0; i < padded.size(); ++i) {
+        out.slots[first + lanes * i + lane] = at(p, padded[i]);
+        char& before = done[static_cast<std::size_t>(padded[i])];
+        if (padded[i] != 0 && !before) set_constants(first / lanes + i, lane, p, padded[i]);
+        before = 1;
+      }
+    }
+  }
+
+  std::size_t slot_numbers() const { return b.in_plane.empty() ? 3 : 5; }
+
+  std::size_t index(const PatchSlots& p, int place) const {
+    return static_cast<std::size_t>(b.begin[static_cast<std::size_t>(p.patch)] + place);
+  }
+
+  std::uint16_t at(const PatchSlots& p, int place) const {
+    const auto node = static_cast<std::size_t>(b.node[index(p, place)]);
+    return static_cast<std::uint16_t>(local[node] * 32);
+  }
+
+  void set_constants(std::size_t slot, std::size_t lane, const PatchSlots& p, int place) {
+    LaneNumbers* to = out.constants.data() + slot * slot_numbers();
+    const std::size_t i = index(p, place);
+    for (std::size_t k = 0; k < 3; ++k)
+      to[k].of[lane] = b.b[i][k];
+    for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
+      to[3 + k].of[lane] = b.a[i][k];
+  }
+
+  const Bending& b;
+  BendingLanes& out;
+  std::vector<std::int32_t> local; ///< number of a node of the ply in the open block, or -1
+  std::vector<std::int32_t> list;  ///< nodes of the open block
+  std::vector<PatchSlots> patches; ///< of the open block
+};
+
+void moment_of_table(const BendingKernelLaw& law, int family, const double* kappa, double* m) {
+  for (int i = 0; i < lanes; ++i)
+    m[i] = (family == 0 ? law.law->warp : law.law->weft).at(kappa[i]).value;
+}
+
+BendingKernelLaw kernel_law(const Bending& b) {
+  const BendingLaw& law = b.law;
+  const bool table = !law.warp.curvature.empty() || !law.weft.curvature.empty();
+  return {{law.warp.stiffness, law.weft.stiffness},
+          law.coupling,
+          law.twist,
+          table,
+          !b.in_plane.empty(),
+          &law,
+          moment_of_table};
+}
+
+} // namespace
+
+BendingLanes make_bending_lanes(const Bending& b, std::span<const Vec3> x) {
+  BendingLanes out;
+  Box3 box;
+  for (const Vec3& p : x)
+    box.extend(p);
+  BlockMaker maker(b, out);
+  for (const int node : morton_order(x, box))
+    maker.add(node);
+  maker.close();
+  find_node_forces(out, x.size());
+  return out;
+}
+
+void bending_forces(BendingLanes& l, const Bending& b, std::span<const Vec3> x, int block) {
+  const BendingBlock& of = l.blocks[static_cast<std::size_t>(block)];
+  const BendingKernelLaw law = kernel_law(b);
+  const std::size_t slot_numbers = law.in_plane ? 5 : 3;
+  const BendingKernelBlock kernel{l.nodes.data() + of.first_node,
+                                  of.nodes,
+                                  l.patches.data() + of.first_group,
+                                  of.groups,
+                                  l.constants.data() + of.first_slot * slot_numbers,
+                                  l.slots.data() + of.first_slot * lanes,
+                                  l.force.data() + of.first_node};
+  const auto run = has_avx2() ? bending_kernel_avx2 : bending_kernel_generic;
+  run(kernel, law, x.data()->data());
+}
+
+} // namespace plyform

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The semi-discrete three-node membrane of Hamila and Boisse (2008), in energy form.
+//
+//   x_n      mm      positions of the triangle's nodes, n = 0 1 2
+//   c_a,n    1/mm    gradient of N_n along fibre family a (1 warp, 2 weft), sums to 0 over n
+//   k_a      -       k_a = sum_n c_a,n x_n                                              (1)(11)
+//   lambda_a -       |k_a|;  eps_a = lambda_a - 1;  f_a = k_a / lambda_a
+//   omega    rad     angle from f_1 to f_2, omega0 before forming; gamma = omega0 - omega
+//   N_a      N       tension of one yarn;  Cs  N mm  torque of one unit cell
+//   d_a      1/mm    yarns per mm;  n_c = d_1 d_2 sin(omega0)  1/mm^2  unit cells per area
+//   A0       mm^2    initial area
+//
+//   P        -       patch: a pair of triangles that share a mean strain, or one alone
+//   A        mm^2    sum of A0 over the patch; mean: average over the patch by area
+//   delta_a  -       eps_a - mean eps_a, zero for a triangle alone
+//   g        rad     sqrt(gamma^2 + beta (delta_1^2 + delta_2^2)): deviations count as shear
+//   beta     -       8
+//   s_a      N       holds deviations of a fabric without shear stiffness: 1e-6 of the yarn's own;
+//                    with it no more than a tenth of what the shear itself holds them with at half
+//                    a radian, n_c beta p / d_a, or very stiff yarns would lock
+//   g_a      N       guard against folding a triangle flat, acts below a stretch of one half: 1e-3
+//                    of the yarn stiffness, and no more than the (softened) yarn's own, which
+//                    is slack there unless the yarn bears compression or its pair is taut
+//
+// clang-format off
+//   E_P = A [ d_1 W_1(mean eps_1) + d_2 W_2(mean eps_2) ]
+//         + sum over P of A0 [ n_c Ws(g) + sum_a d_a ( s_a/2 delta_a^2
+//                                                    + g_a/2 max(0, 1/2 - lambda_a)^2 ) ]    (E)
+//   p   = Cs(g) / g, N mm: secant stiffness of the cell;  t_a = n_c beta p delta_a / d_a
+//   N_a = W_a'(mean eps_a) + s_a delta_a + t_a - mean t_a - g_a max(0, 1/2 - lambda_a)       (N)
+//   q_a = A0 [ d_a N_a f_a + n_c p gamma (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]    (Q)
+//   F_n = -( c_1,n q_1 + c_2,n q_2 )                                            (31)(32)(39)(F)
+// clang-format on
+//
+// Numbers in brackets: the paper's equations, cleaned. With patches of one triangle this is the
+// paper's element exactly (the guard apart, which no sound result reaches); for omega0 = 90 degrees
+// (Q) is then the sum of (31), (32) and (39). The element only needs k_1 and k_2, so the fibres may
+// lie at any angle to the sides and to each other.
+//
+// Why pairs: two stiff fibre strains a triangle are about four constraints a node, twice as many
+// as the node has freedoms in the plane; the mesh locks unless sides run along both families. One
+// mean strain a pair of triangles leaves two a node. The mean is convex, so a pair is never stiffer
+// than its triangles. Why deviations count as shear: what a pair is free to do must cost as much as
+// the shear that it could replace, at any shear angle, and no more: measured in docs/locking.md.
+#pragma once
+
+#include "contact/geometry.hpp"
+#include "core/mesh/mesh_blank.hpp"
+#include "core/model/case.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plyform {
+
+constexpr double deviation_weight = 8.0; ///< beta of (E)
+
+/// Fibre family constants of one triangle: c_a,1 and c_a,2 (c_a,0 = -c_a,1 - c_a,2).
+struct FibreGradients {
+  double c11, c12, c21, c22;
+};
+
+/// What a triangle answers: q_1, q_2 of (Q), N mm.
+struct ElementForce {
+  Vec3 q1, q2;
+};
+
+/// Fibre viscosity, in tension only: N += eta d(eps)/dt, eta in N s per yarn.
+struct FibreViscosity {
+  double warp = 0.0, weft = 0.0;
+};
+
+/// s_a and g_a of one family, N.
+struct SideStiffness {
+  double stabilisation = 0.0, guard = 0.0;
+};
+
+/// One ply's membrane; nodes and triangles are numbered within the ply. Constant topology, and the
+/// little state that viscosity needs. Sizes: n nodes, m triangles.
+struct Membrane {
+  Fabric fabric;                             ///< its yarns already softened if the case asks for it
+  std::array<double, 2> softening{1.0, 1.0}; ///< by which warp and weft are: effective_softening
+  double omega0 = 0.0;                       ///< rad
+  double cells_per_area = 0.0;               ///< n_c, 1/mm^2
+  FibreViscosity viscosity;
+  std::array<SideStiffness, 2> side{};    ///< warp, weft
+  std::vector<Triangle> triangles;        ///< m, those of a patch next to each other
+  std::vector<std::int32_t> patch_begin;  ///< patches + 1, into triangles
+  std::vector<FibreGradients> c;          ///< m
+  std::vector<double> area;               ///< m, A0
+  std::vector<double> node_area;          ///< n, a third of the triangles around it
+  std::vector<double> node_mass;          ///< n, t
+  std::vector<std::int32_t> gather_begin; ///< n + 1, into gather
+  std::vector<std::int32_t> gather;       ///< 3 * triangle + corner, ascending
+  // state of the viscosity: mean stretches and viscous tensions of the last step, one a patch;
+  // empty where core/ply/membrane_simd.hpp computes the forces
+  std::vector<std::array<double, 2>> last_lambda, last_viscous;
+
+  int patches() const { return static_cast<int>(patch_begin.size()) - 1; }
+};
+
+/// Strains and directions of one triangle.
+struct FibreState {
+  Vec3 f1, f2;             ///< unit vectors
+  double lambda1, lambda2; ///< stretches
+  double cos_omega, sin_omega, gamma;
+};
+
+/// `warp_angle` in rad from x. `fabric`: the true one; its yarns are softened by `softening`, as
+/// far as effective_softening allows; s_a and g_a go by the true stiffness. With `kind` automatic
+/// the triangles that along_fibres (core/mesh/pairs.hpp) marks are plain, the others averaged.
+/// Triangles are put in the order of their patches. Throws std::invalid_argument for a triangle of
+/// zero or inverted area.
+Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
+                       ElementKind kind, double softening = 1.0);
+
+FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle);
+
+/// beta n_c times the larger of Cs'(gamma) and Cs(gamma)/gamma, N/mm: what holds the deviations of
+/// (E) at shear angle gamma (rad).
+double deviation_stiffness(const Membrane& m, double gamma);
+
+/// Mean strains {warp, weft} of the patch that a triangle belongs to, for all m triangles: those
+/// that its yarns are stretched by.
+std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x);
+
+/// Tensions {warp, weft} (N per yarn) of all m triangles. Of triangles alone W_a' at their
+/// strain. Those of pairs scatter about their mean from pair to pair, as do the multipliers of any
+/// element with as many constraints as freedoms: they are evened out by two passes of means at the
+/// nodes, as is done with the pressures of such elements (docs/locking.md has what it changes).
+std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
+
+/// Whether a triangle has no meaning any more: shrunk to a tenth along a yarn, or its yarns within
+/// 1.1 degrees of lying on each other. One that turns over in its plane goes through this.
+bool collapsed(const FibreState& state);
+
+/// What came up with the forces of some patches.
+struct PatchReport {
+  double viscous_work = 0.0; ///< N mm, done against viscosity in the step that led here
+  bool collapsed = false;    ///< a triangle is
+};
+
+/// (Q) for patches [begin, end) at positions x, viscous forces included (dt: the step that led to
+/// x, s; 0 leaves the viscosity out). q: one a triangle.
+PatchReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+                           std::span<ElementForce> q);
+
+/// (F): internal force on a node, N, from all its triangles in fixed order.
+Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);
+
+/// All of an isotropic sheet's energy counts as shear: it has no fibres.
+struct MembraneEnergy {
+  double fibre = 0.0, shear = 0.0; ///< N mm
+};
+/// (E) over all triangles.
+MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x);
+
+} // namespace plyform

@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/ply/membrane_eigenvalue.hpp"
+
+#include "core/base/lanczos.hpp"
+#include "core/ply/mass_normalise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plyform {
+namespace {
+
+constexpr double guard_reach = 0.55; // stretch: the guard acts below 0.5
+
+/// Whether some triangles share their yarns' strains.
+bool is_paired(const Membrane& m) {
+  return static_cast<std::size_t>(m.patches()) < m.triangles.size();
+}
+
+/// Larger eigenvalue of {{a, off}, {off, b}}.
+double largest(double a, double b, double off) {
+  return 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + off * off);
+}
+
+/// Stiffness of both families per area, N/mm, yarns taut or pressed flat.
+std::array<double, 2> yarn_stiffness(const Membrane& m) {
+  const auto slope = [](const TensionLaw& yarn, const SideStiffness& side) {
+    return std::max(yarn.largest_slope(), yarn.compression + side.guard);
+  };
+  return {m.fabric.warp_density * slope(m.fabric.warp, m.side[0]),
+          m.fabric.weft_density * slope(m.fabric.weft, m.side[1])};
+}
+
+/// Stiffness per area against deviations within a patch, N/mm.
+std::array<double, 2> deviation_stiffness(const Membrane& m, const FibreState& s) {
+  const double shear = deviation_stiffness(m, s.gamma);
+  return {m.fabric.warp_density * m.side[0].stabilisation + shear,
+          m.fabric.weft_density * m.side[1].stabilisation + shear};
+}
+
+/// G_ab = c_a . c_b of one triangle, 1/mm^2.
+struct Gram {
+  double g11, g22, g12;
+};
+
+Gram gram(const FibreGradients& c) {
+  const double c10 = -c.c11 - c.c12, c20 = -c.c21 - c.c22;
+  return {c10 * c10 + c.c11 * c.c11 + c.c12 * c.c12, c20 * c20 + c.c21 * c.c21 + c.c22 * c.c22,
+          c10 * c20 + c.c11 * c.c21 + c.c12 * c.c22};
+}
+
+/// Shear and geometric part of H below, N/mm, bounded by norms; the second derivative of the angle
+/// is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2).
+double soft_stiffness(const Membrane& m, const FibreState& s) {
+  const LawPoint shear = m.fabric.shear.at(s.gamma);
+  const double inv2 = 1.0 / (s.lambda1 * s.lambda1) + 1.0 / (s.lambda2 * s.lambda2);
+  const double n1 = m.fabric.warp_density * m.fabric.warp.at(s.lambda1 - 1.0).value / s.lambda1;
+  const double n2 = m.fabric.weft_density * m.fabric.weft.at(s.lambda2 - 1.0).value / s.lambda2;
+  return std::max({0.0, n1, n2}) +
+         m.cells_per_area * inv2 *
+             (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
+}
+
+} // namespace
+
+FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
+  // K_e = A0 B^T H B with B = [c_1; c_2] x I. Its non-zero eigenvalues are those of H (G x I),
+  // and every node carries at least rho A0 / 3: so omega^2 <= 3/rho * them. Fibre part of H: exact,
+  // a 2 x 2 problem. A sheet without yarns has only its own (core/model/isotropic.hpp).
+  FrequencyBound bound;
+  const auto [s1, s2] = yarn_stiffness(m);
+  const double v1 = m.fabric.warp_density * m.viscosity.warp;
+  const double v2 = m.fabric.weft_density * m.viscosity.weft;
+  bound.viscous = std::max(s1 > 0.0 ? v1 / s1 : 0.0, s2 > 0.0 ? v2 / s2 : 0.0);
+  const double per_mass = 3.0 / m.fabric.surface_density;
+  // a triangle's guard adds to the stiffness of its pair's taut yarns
+  const bool paired = is_paired(m);
+  const double g1 = m.fabric.warp_density * m.side[0].guard;
+  const double g2 = m.fabric.weft_density * m.side[1].guard;
+  constexpr double considerable = 0.2; // of the yarn's stiffness: less is covered by step factors
+  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+    const Gram g = gram(m.c[e]);
+    const FibreState s = fibre_state(m, x, static_cast<int>(e));
+    const auto [d1, d2] = deviation_stiffness(m, s);
+    const double k1 = s1 + d1 + (paired && s.lambda1 < guard_reach ? g1 : 0.0);
+    const double k2 = s2 + d2 + (paired && s.lambda2 < guard_reach ? g2 : 0.0);
+    const double fibre = largest(k1 * g.g11, k2 * g.g22, std::sqrt(k1 * k2) * g.g12 * s.cos_omega);
+    const double viscous =
+        largest(v1 * g.g11, v2 * g.g22, std::sqrt(v1 * v2) * g.g12 * s.cos_omega);
+    const double sheet =
+        m.fabric.isotropic
+            ? isotropic_stiffness(
+                  *m.fabric.isotropic,
+                  isotropic_state(*m.fabric.isotropic, s.lambda1 * s.f1, s.lambda2 * s.f2), g.g11,
+                  g.g22, g.g12)
+            : 0.0;
+    const double soft = soft_stiffness(m, s) * largest(g.g11, g.g22, g.g12);
+    for (std::size_t a = 0; a < 2; ++a) {
+      const TensionLaw& yarn = a == 0 ? m.fabric.warp : m.fabric.weft;
+      const double lambda = a == 0 ? s.lambda1 : s.lambda2;
+      bound.guarded = bound.guarded || (lambda < guard_reach &&
+                                        m.side[a].guard > considerable * yarn.largest_slope());
+    }
+    bound.yarns = std::max(bound.yarns, per_mass * (fibre + sheet));
+    bound.soft = std::max(bound.soft, per_mass * soft);
+    const double omega2 = per_mass * (fibre + sheet + soft);
+    if (!(omega2 <= bound.omega2)) {
+      bound.omega2 = omega2;
+      bound.triangle = static_cast<int>(e);
+    }
+    bound.damping = std::max(bound.damping, per_mass * viscous);
+  }
+  return bound;
+}
+
+YarnProduct::YarnProduct(const Membrane& m, std::span<const Vec3> x, double stiffness,
+                         double damping)
+    : m_(m), q_(m.triangles.size()) {
+  const auto yarn = yarn_stiffness(m);
+  taut_ = {stiffness * yarn[0] + damping * m.fabric.warp_density * m.viscosity.warp,
+           stiffness * yarn[1] + damping * m.fabric.weft_density * m.viscosity.weft};
+  const std::array<double, 2> guard{stiffness * m.fabric.warp_density * m.side[0].guard,
+                                    stiffness * m.fabric.weft_density * m.side[1].guard};
+  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+    const FibreState s = fibre_state(m, x, static_cast<int>(e));
+    const auto [d1, d2] = deviation_stiffness(m, s);
+    const bool paired = is_paired(m);
+    rows_.push_back({s.f1,
+                     s.f2,
+                     {stiffness * d1, stiffness * d2},
+                     {paired && s.lambda1 < guard_reach ? guard[0] : 0.0,
+                      paired && s.lambda2 < guard_reach ? guard[1] : 0.0}});
+  }
+}
+
+void YarnProduct::strain_patch(std::span<const Vec3> y, std::size_t patch) {
+  const auto begin = static_cast<std::size_t>(m_.patch_begin[patch]),
+             end = static_cast<std::size_t>(m_.patch_begin[patch + 1]);
+  double area = 0.0;
+  std::array<double, 2> mean{};
+  std::array<std::array<double, 2>, most_in_patch> strain{};
+  for (std::size_t e = begin; e < end; ++e) {
+    const FibreGradients& c = m_.c[e];
+    const Triangle& t = m_.triangles[e];
+    const Vec3& y0 = y[static_cast<std::size_t>(t[0])];
+    const Vec3 g1 = y[static_cast<std::size_t>(t[1])] - y0,
+               g2 = y[static_cast<std::size_t>(t[2])] - y0;
+    strain[e - begin] = {rows_[e].f1.dot(c.c11 * g1 + c.c12 * g2),
+                         rows_[e].f2.dot(c.c21 * g1 + c.c22 * g2)};
+    area += m_.area[e];
+    for (std::size_t a = 0; a < 2; ++a)
+      mean[a] += m_.area[e] * strain[e - begin][a];
+  }
+  for (double& value : mean)
+    value /= area;
+  for (std::size_t e = begin; e < end; ++e) {
+    const Row& row = rows_[e];
+    std::array<double, 2> pull;
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double own = strain[e - begin][a];
+      pull[a] = m_.area[e] *
+                (taut_[a] * mean[a] + row.deviation[a] * (own - mean[a]) + row.guard[a] * own);
+    }
+    q_[e] = {pull[0] * row.f1, pull[1] * row.f2};
+  }
+}
+
+void YarnProduct::add_to(std::span<const Vec3> y, std::span<Vec3> f) {
+  for (std::size_t p = 0; p < static_cast<std::size_t>(m_.patches()); ++p)
+    strain_patch(y, p);
+  for (std::size_t n = 0; n < f.size(); ++n)
+    f[n] -= node_force(m_, q_, static_cast<int>(n));
+}
+
+Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x) {
+  Eigen::VectorXd v(static_cast<Eigen::Index>(3 * x.size()));
+  Scatter scatter;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    const int triangle = m.gather[static_cast<std::size_t>(m.gather_begin[n])] / 3;
+    const FibreState s = fibre_state(m, x, triangle);
+    const double along1 = scatter.next(), along2 = scatter.next(), across = scatter.next();
+    v.segment<3>(static_cast<Eigen::Index>(3 * n)) =
+        along1 * s.f1 + along2 * s.f2 + across * s.f1.cross(s.f2);
+  }
+  return v;
+}
+
+double sharpness(const Membrane& m, std::span<const Vec3> x) {
+  if (m.fabric.isotropic) return 1.0;
+  YarnProduct stiffness(m, x, 1.0, 0.0);
+  std::vector<Vec3> y(x.size()), f(x.size());
+  const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
+    over_root_of_mass(m, v, y);
+    std::fill(f.begin(), f.end(), Vec3::Zero());
+    stiffness.add_to(y, f);
+    Eigen::VectorXd w(v.size());
+    over_root_of_mass(m, std::span<const Vec3>(f), w);
+    return w;
+  };
+  const double found = largest_ritz_value(apply, scattered_motion(m, x), ritz_steps);
+  return std::min(1.0, ritz_margin * found / frequency_bound(m, x).yarns);
+}
+
+double highest_omega2(const FrequencyBound& bound, double sharpness) {
+  if (bound.guarded) return bound.omega2;
+  return std::min(bound.omega2, sharpness * bound.yarns + bound.soft);
+}
+
+} // namespace plyform

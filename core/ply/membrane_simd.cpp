@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/ply/membrane_simd.hpp"
+
+#include "contact/simd/cpu_features.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace plyform {
+namespace {
+
+constexpr int block_patches = 512; // long enough to hide the hand-over, short enough to share out
+
+/// Patches in an order in which neighbours are near each other.
+std::vector<int> ordered_patches(const Membrane& m, std::span<const Vec3> x) {
+  Box3 box;
+  for (const Vec3& p : x)
+    box.extend(p);
+  std::vector<Vec3> centres;
+  for (int p = 0; p < m.patches(); ++p) {
+    const Triangle& t =
+        m.triangles[static_cast<std::size_t>(m.patch_begin[static_cast<std::size_t>(p)])];
+    Vec3& centre = centres.emplace_back(Vec3::Zero());
+    for (const int n : t)
+      centre += x[static_cast<std::size_t>(n)] / 3.0;
+  }
+  return morton_order(centres, box);
+}
+
+/// Builds one block after the other.
+class BlockMaker {
+public:
+  BlockMaker(const Membrane& membrane, std::size_t nodes, MembraneLanes& lanes_)
+      : m(membrane), out(lanes_), local(nodes, -1) {}
+
+  void add(int patch) {
+    if (static_cast<int>(pairs.size() + singles.size()) == block_patches ||
+        static_cast<int>(list.size()) + 4 > most_block_nodes)
+      close();
+    (size(patch) == 2 ? pairs : singles).push_back(patch);
+    for (int e = first(patch); e < first(patch) + size(patch); ++e)
+      for (const int n : m.triangles[static_cast<std::size_t>(e)]) {
+        std::int32_t& number = local[static_cast<std::size_t>(n)];
+        if (number < 0) number = static_cast<std::int32_t>(list.size()), list.push_back(n);
+      }
+  }
+
+  void close() {
+    if (list.empty()) return;
+    LaneBlock block;
+    block.first_node = static_cast<int>(out.nodes.size());
+    block.nodes = static_cast<int>(list.size());
+    block.first_triangles = static_cast<int>(out.triangles.size());
+    block.first_group = static_cast<int>(out.viscosity.size());
+    block.pair_groups = add_groups(pairs, 2);
+    block.single_groups = add_groups(singles, 1);
+    out.blocks.push_back(block);
+    out.nodes.insert(out.nodes.end(), list.begin(), list.end());
+    for (const int n : list)
+      local[static_cast<std::size_t>(n)] = -1;
+    list.clear(), pairs.clear(), singles.clear();
+  }
+
+private:
+  int first(int patch) const { return m.patch_begin[static_cast<std::size_t>(patch)]; }
+  int size(int patch) const {
+    return m.patch_begin[static_cast<std::size_t>(patch) + 1] - first(patch);
+  }
+
+  int add_groups(const std::vector<int>& patches, int of) {
+    // each lane goes through a quarter of its own: neighbours follow each other in a lane, where
+    // the one's force is added to their nodes long before the other's
+    const std::size_t groups = (patches.size() + lanes - 1) / lanes;
+    for (std::size_t group = 0; group < groups; ++group) {
+      for (int i = 0; i < of; ++i) {
+        LaneTriangles& t = out.triangles.emplace_back();
+        for (std::size_t lane = 0; lane < lanes; ++lane) {
+          const std::size_t i_patch = lane * groups + group;
+          const bool filler = i_patch >= patches.size();
+          const int patch = patches[filler ? patches.size() - 1 : i_patch];
+          set(t, lane, patch, first(patch) + i, filler);
+        }
+      }
+      LaneViscosity& v = out.viscosity.emplace_back();
+      for (std::size_t lane = 0; lane < lanes; ++lane) {
+        v.lambda[0][lane] = v.lambda[1][lane] = 1.0;
+        v.tension[0][lane] = v.tension[1][lane] = 0.0;
+      }
+    }
+    return static_cast<int>(groups);
+  }
+
+  void set(LaneTriangles& t, std::size_t lane, int patch, int triangle, bool filler) const {
+    const auto e = static_cast<std::size_t>(triangle);
+    const FibreGradients& c = m.c[e];
+    t.c11[lane] = c.c11, t.c12[lane] = c.c12, t.c21[lane] = c.c21, t.c22[lane] = c.c22;
+    double patch_area = 0.0;
+    for (int i = first(patch); i < first(patch) + size(patch); ++i)
+      patch_area += m.area[static_cast<std::size_t>(i)];
+    t.area[lane] = filler ? 0.0 : m.area[e];
+    t.share[lane] = m.area[e] / patch_area;
+    for (std::size_t corner = 0; corner < 3; ++corner)
+      t.node[corner][lane] =
+          static_cast<std::uint16_t>(local[static_cast<std::size_t>(m.triangles[e][corner])] * 32);
+  }
+
+  const Membrane& m;
+  MembraneLanes& out;
+  std::vector<std::int32_t> local; ///< number of a node of the ply in the open block, or -1
+  std::vector<std::int32_t> list;  ///< nodes of the open block
+  std::vector<int> pairs, singles;
+};
+
+LawPoint on_yarn(const KernelLaw& law, int family, double strain) {
+  return (family == 0 ? law.fabric->warp : law.fabric->weft).at(strain);
+}
+
+double density(const KernelLaw& law, int family) {
+  return family == 0 ? law.fabric->warp_density : law.fabric->weft_density;
+}
+
+void tension_of_table(const KernelLaw& law, int family, const double* strain, double* n) {
+  for (int i = 0; i < lanes; ++i)
+    n[i] = density(law, family) * on_yarn(law, family, strain[i]).value;
+}
+
+void tension_energy_of_table(const KernelLaw& law, int family, const double* strain, double* e) {
+  for (int i = 0; i < lanes; ++i)
+    e[i] = density(law, family) * on_yarn(law, family, strain[i]).energy;
+}
+
+void secant_of_table(const KernelLaw& law, const double* measure2, double* p) {
+  for (int i = 0; i < lanes; ++i)
+    p[i] = law.cells * law.fabric->shear.secant(std::sqrt(measure2[i]));
+}
+
+void shear_energy_of_table(const KernelLaw& law, const double* measure2, double* e) {
+  for (int i = 0; i < lanes; ++i)
+    e[i] = law.cells * law.fabric->shear.at(std::sqrt(measure2[i])).energy;
+}
+
+KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosity,
+                         const SideStiffness& side) {
+  KernelYarns k{};
+  k.stiffness = density * yarn.stiffness;
+  k.compression = density * yarn.compression;
+  k.viscosity = density * viscosity;
+  k.stabilisation = density * side.stabilisation;
+  k.guard = density * side.guard;
+  k.table = !yarn.strain.empty();
+  k.buckles = yarn.buckles();
+  if (k.buckles) {
+    k.buckling_strain = yarn.buckling_strain();
+    k.buckling_drop = (1.0 - buckled_share) * k.compression;
+  }
+  return k;
+}
+
+KernelLaw kernel_law(const Membrane& m) {
+  const Fabric& f = m.fabric;
+  KernelLaw law{};
+  law.yarns[0] = kernel_yarns(f.warp, f.warp_density, m.viscosity.warp, m.side[0]);
+  law.yarns[1] = kernel_yarns(f.weft, f.weft_density, m.viscosity.weft, m.side[1]);
+  law.angle = m.omega0 - 0.5 * M_PI;
+  law.cells = m.cells_per_area;
+  law.beta = deviation_weight;
+  if (f.shear.angle.empty() && f.shear.k.size() <= most_shear_terms) {
+    law.shear_terms = static_cast<int>(f.shear.k.size());
+    for (std::size_t i = 0; i < f.shear.k.size(); ++i)
+      law.shear[i] = law.cells * f.shear.k[i];
+  }
+  law.fabric = &f;
+  law.tension = tension_of_table;
+  law.secant = secant_of_table;
+  law.tension_energy = tension_energy_of_table;
+  law.shear_energy = shear_energy_of_table;
+  return law;
+}
+
+static_assert(sizeof(Vec3) == 3 * sizeof(double)); // as the kernel takes it
+
+/// viscosity, force: of all blocks, or null where they are not asked for.
+KernelBlock kernel_block(const MembraneLanes& l, const LaneBlock& b, LaneViscosity* viscosity,
+                         LaneForce* force) {
+  return {l.nodes.data() + b.first_node,
+          b.nodes,
+          l.triangles.data() + b.first_triangles,
+          viscosity ? viscosity + b.first_group : nullptr,
+          b.pair_groups,
+          b.single_groups,
+          force ? force + b.first_node : nullptr};
+}
+
+} // namespace
+
+bool fits_lanes(const Membrane& m) {
+  return !m.fabric.isotropic;
+}
+
+MembraneLanes make_lanes(const Membrane& m, std::span<const Vec3> x) {
+  MembraneLanes out;
+  BlockMaker maker(m, x.size(), out);
+  for (const int patch : ordered_patches(m, x))
+    maker.add(patch);
+  maker.close();
+  find_node_forces(out, x.size());
+  return out;
+}
+
+PatchReport lane_forces(MembraneLanes& l, const Membrane& m, std::span<const Vec3> x, double dt,
+                        int block) {
+  const LaneBlock& b = l.blocks[static_cast<std::size_t>(block)];
+  const KernelBlock kernel = kernel_block(l, b, l.viscosity.data(), l.force.data());
+  const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
+  const auto run = has_avx2() ? membrane_kernel_avx2 : membrane_kernel_generic;
+  const KernelReport report = run(kernel, kernel_law(m), x.data()->data(), per_dt);
+  return {report.viscous_work, report.collapsed};
+}
+
+MembraneEnergy lane_energy(const MembraneLanes& l, const Membrane& m, std::span<const Vec3> x,
+                           int block) {
+  const LaneBlock& b = l.blocks[static_cast<std::size_t>(block)];
+  const KernelBlock kernel = kernel_block(l, b, nullptr, nullptr);
+  const auto run = has_avx2() ? membrane_energy_avx2 : membrane_energy_generic;
+  const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data());
+  return {energy.fibre, energy.shear};
+}
+
+} // namespace plyform

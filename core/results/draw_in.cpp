@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/results/draw_in.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+#include <numeric>
+#include <optional>
+#include <utility>
+
+namespace plyform {
+namespace {
+
+constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+using Loop = std::vector<std::int32_t>;
+
+/// The two nodes beside each node of the border: the border's edges belong to one triangle each.
+/// Nothing if the border meets itself at a node.
+std::optional<std::map<std::int32_t, std::pair<std::int32_t, std::int32_t>>>
+border_neighbours(const std::vector<Triangle>& triangles) {
+  std::map<std::pair<std::int32_t, std::int32_t>, int> count;
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      ++count[std::minmax(t[k], t[(k + 1) % 3])];
+  std::map<std::int32_t, std::vector<std::int32_t>> beside;
+  for (const auto& [edge, triangles_of_edge] : count)
+    if (triangles_of_edge == 1) {
+      beside[edge.first].push_back(edge.second);
+      beside[edge.second].push_back(edge.first);
+    }
+  std::map<std::int32_t, std::pair<std::int32_t, std::int32_t>> pairs;
+  for (const auto& [node, others] : beside) {
+    if (others.size() != 2) return std::nullopt;
+    pairs[node] = {others[0], others[1]};
+  }
+  return pairs;
+}
+
+double enclosed_area(const PlyFrame& ply, const Loop& loop) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec3 &a = ply.x0[at(loop[i])], &b = ply.x0[at(loop[(i + 1) % loop.size()])];
+    twice += a.x() * b.y() - b.x() * a.y();
+  }
+  return 0.5 * std::abs(twice);
+}
+
+/// Nodes of the outer border in order: of the closed loops of edges the one round the largest area.
+std::optional<Loop> outer_border(const PlyFrame& ply) {
+  auto beside = border_neighbours(ply.triangles);
+  if (!beside || beside->empty()) return std::nullopt;
+  Loop best;
+  double best_area = -1.0;
+  while (!beside->empty()) {
+    Loop loop{beside->begin()->first};
+    auto ahead = beside->begin()->second;
+    beside->erase(beside->begin());
+    for (;;) {
+      auto next = beside->find(ahead.first);
+      if (next == beside->end()) next = beside->find(ahead.second);
+      if (next == beside->end()) break;
+      loop.push_back(next->first);
+      ahead = next->second;
+      beside->erase(next);
+    }
+    if (const double area = enclosed_area(ply, loop); area > best_area)
+      best = std::move(loop), best_area = area;
+  }
+  return best;
+}
+
+/// mm; NaN where the middle is not inside the border.
+double draw_in_of_walk(const PlyFrame& ply, const Loop& loop, const Vec2& middle, double angle) {
+  const Vec2 u(std::cos(angle), std::sin(angle)), side(-u.y(), u.x());
+  double nearest = std::numeric_limits<double>::infinity(), formed = nan_value;
+  int ahead = 0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const std::size_t a = at(loop[i]), b = at(loop[(i + 1) % loop.size()]);
+    const Vec2 from = ply.x0[a].head<2>() - middle, to = ply.x0[b].head<2>() - middle;
+    const double across = from.dot(side), following = to.dot(side);
+    if ((across < 0.0) == (following < 0.0)) continue; // so that a corner counts once
+    const double w = across / (across - following);
+    const double met = ((1.0 - w) * from + w * to).dot(u);
+    if (met <= 0.0) continue;
+    ++ahead;
+    if (met >= nearest) continue;
+    nearest = met;
+    formed = ((1.0 - w) * ply.x[a] + w * ply.x[b]).head<2>().operator-(middle).norm();
+  }
+  return ahead % 2 == 0 ? nan_value : nearest - formed;
+}
+
+} // namespace
+
+double DrawIn::mean() const {
+  return (std::accumulate(yarns.begin(), yarns.end(), 0.0) +
+          std::accumulate(bisectors.begin(), bisectors.end(), 0.0)) /
+         8.0;
+}
+
+double DrawIn::largest() const {
+  return std::max(*std::max_element(yarns.begin(), yarns.end()),
+                  *std::max_element(bisectors.begin(), bisectors.end()));
+}
+
+DrawIn draw_in(const PlyFrame& ply, double fibre_angle_deg) {
+  DrawIn told;
+  const double warp = ply.angle_deg, weft = warp + fibre_angle_deg;
+  told.yarns_deg = {warp, weft, warp + 180.0, weft + 180.0};
+  for (std::size_t k = 0; k < 4; ++k)
+    told.bisectors_deg[k] = 0.5 * (warp + weft) + 90.0 * static_cast<double>(k);
+  const std::optional<Loop> loop = outer_border(ply);
+  if (!loop) {
+    told.unknown = "its border meets itself";
+    return told;
+  }
+  Vec2 low = ply.x0.front().head<2>(), high = low;
+  for (const Vec3& x : ply.x0)
+    low = low.cwiseMin(x.head<2>()), high = high.cwiseMax(x.head<2>());
+  const Vec2 middle = 0.5 * (low + high);
+  for (std::size_t k = 0; k < 4; ++k) {
+    constexpr double radians = std::numbers::pi / 180.0;
+    told.yarns[k] = draw_in_of_walk(ply, *loop, middle, radians * told.yarns_deg[k]);
+    told.bisectors[k] = draw_in_of_walk(ply, *loop, middle, radians * told.bisectors_deg[k]);
+  }
+  if (!std::isfinite(told.mean())) told.unknown = "the middle of its bounding box is outside";
+  return told;
+}
+
+} // namespace plyform

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The last state in formats that other programs read: VTK XML (.vtu), binary STL and CSV.
+#include "core/results/export.hpp"
+
+#include "core/results/result_fields.hpp"
+
+#include <bit>
+#include <cstdint>
+#include <fmt/format.h>
+#include <iterator>
+#include <stdexcept>
+#include <system_error>
+
+namespace plyform {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+// Binary STL is written as numbers lie in memory.
+static_assert(std::endian::native == std::endian::little);
+
+template <class T>
+void put_bytes(std::string& out, const T* values, std::size_t count) {
+  out.append(reinterpret_cast<const char*>(values), count * sizeof(T));
+}
+
+/// Triangles with corners in `x`. Binary STL: 80 bytes of text, the number of triangles, and for
+/// each its normal and corners as 12 floats and two empty bytes. Lengths in mm.
+std::string stl(const std::vector<Vec3>& x, const std::vector<Triangle>& triangles) {
+  std::string out = "plyform, lengths in mm";
+  out.resize(80, ' ');
+  const auto count = static_cast<std::uint32_t>(triangles.size());
+  put_bytes(out, &count, 1);
+  for (const Triangle& t : triangles) {
+    const Vec3& a = x[static_cast<std::size_t>(t[0])];
+    const Vec3& b = x[static_cast<std::size_t>(t[1])];
+    const Vec3& c = x[static_cast<std::size_t>(t[2])];
+    const Vec3 normal = (b - a).cross(c - a).stableNormalized(); // zero stays zero
+    for (const Vec3& v : {normal, a, b, c}) {
+      const Eigen::Vector3f single = v.cast<float>();
+      put_bytes(out, single.data(), 3);
+    }
+    out.append(2, '\0');
+  }
+  return out;
+}
+
+/// A .vtu file in the making. Arrays stand in the text, numbers in the shortest form that gives the
+/// same bits back: raw bytes appended behind the XML are shorter, but VTK 9 cannot read them with
+/// the expat of Debian's security updates (2.5.0-1+deb12u5), which looks further ahead.
+struct VtuFile {
+  std::string xml;
+
+  template <class T>
+  void array(const char* name, const char* type, std::size_t components, const T* values,
+             std::size_t count) {
+    xml += fmt::format("<DataArray Name=\"{}\" type=\"{}\" NumberOfComponents=\"{}\" "
+                       "format=\"ascii\">\n",
+                       name, type, components);
+    for (std::size_t i = 0; i < count; ++i)
+      fmt::format_to(std::back_inserter(xml), "{}{}", values[i],
+                     (i + 1) % components == 0 ? '\n' : ' ');
+    xml += "</DataArray>\n";
+  }
+  void scalars(const char* name, const std::vector<double>& values) {
+    array(name, "Float64", 1, values.data(), values.size());
+  }
+  void vectors(const char* name, const std::vector<Vec3>& values) {
+    array(name, "Float64", 3, values.empty() ? nullptr : values.front().data(), 3 * values.size());
+  }
+};
+
+void put_cells(VtuFile& file, const std::vector<Triangle>& triangles) {
+  const std::size_t m = triangles.size();
+  std::vector<std::int32_t> offsets(m);
+  for (std::size_t i = 0; i < m; ++i)
+    offsets[i] = static_cast<std::int32_t>(3 * (i + 1));
+  const std::vector<std::uint8_t> types(m, 5); // VTK_TRIANGLE
+  file.xml += "<Cells>\n";
+  file.array("connectivity", "Int32", 1, m ? triangles.front().data() : nullptr, 3 * m);
+  file.array("offsets", "Int32", 1, offsets.data(), m);
+  file.array("types", "UInt8", 1, types.data(), m);
+  file.xml += "</Cells>\n";
+}
+
+std::string vtu(const PlyFrame& ply) {
+  VtuFile file;
+  file.xml = "<?xml version=\"1.0\"?>\n<VTKFile type=\"UnstructuredGrid\" version=\"1.0\" "
+             "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
+  file.xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
+                          ply.x.size(), ply.triangles.size());
+  file.vectors("Points", ply.x);
+  file.xml += "</Points>\n";
+  put_cells(file, ply.triangles);
+  file.xml += "<PointData>\n";
+  file.vectors("x0", ply.x0);
+  file.scalars(contact_pressure_name, ply.contact_pressure);
+  if (!ply.reaction.empty()) file.vectors(reaction_name, ply.reaction);
+  file.xml += "</PointData>\n<CellData>\n";
+  for (const CellVector& field : cell_vectors)
+    file.vectors(field.name, ply.*field.values);
+  for (const CellScalar& field : cell_scalars)
+    file.scalars(field.name, ply.*field.values);
+  return file.xml + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
+}
+
+} // namespace
+
+std::vector<fs::path> export_results(const fs::path& directory) {
+  const fs::path states = directory / "results.h5";
+  const Frame last = read_last_frame(states);
+  try {
+    check_frame(last); // the names become file names: none may lead out of the folder
+  } catch (const std::exception& error) {
+    throw std::runtime_error(states.string() + ": " + error.what());
+  }
+  const fs::path folder = directory / "export";
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error)
+    throw std::runtime_error(
+        fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
+  std::vector<fs::path> files;
+  const auto write = [&](const std::string& name, const std::string& content) {
+    files.push_back(folder / name);
+    write_whole(files.back(), content);
+  };
+  for (const PlyFrame& ply : last.plies) {
+    write(ply.name + ".vtu", vtu(ply));
+    write(ply.name + ".stl", stl(ply.x, ply.triangles));
+    write(ply.name + ".csv", ply_table(ply));
+  }
+  for (const ToolFrame& tool : last.tools) {
+    std::vector<Vec3> x = tool.surface.x;
+    for (Vec3& point : x)
+      point += tool.displacement;
+    write(tool.name + ".stl", stl(x, tool.surface.triangles));
+  }
+  return files;
+}
+
+} // namespace plyform

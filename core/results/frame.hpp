@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One state of a run, as results show it. Units at this border: mm, N, s, degrees, N per yarn.
+#pragma once
+
+#include "core/model/energies.hpp"
+#include "core/results/ply_frame.hpp"
+
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+struct ToolFrame {
+  std::string name;
+  Surface surface;                  ///< in space at time 0
+  Vec3 displacement = Vec3::Zero(); ///< mm, since time 0
+  Vec3 force = Vec3::Zero();        ///< N, that the plies exert on the tool
+  double stroke_mm = 0;             ///< displacement along the tool's direction
+  double force_N = 0; ///< reaction of the plies against that direction, + when pushed back
+};
+
+/// A grip or a frame.
+struct BoundaryFrame {
+  std::string name;
+  double stroke_mm = 0;
+  double force_N = 0;        ///< conjugate to the stroke, + when it pulls along it
+  Vec3 force = Vec3::Zero(); ///< N, on the plies
+};
+
+struct Frame {
+  double time = 0;      ///< s
+  double stroke_mm = 0; ///< of the first driven tool
+  long step = 0;
+  std::vector<PlyFrame> plies; ///< topology and names the same in every frame of a run
+  std::vector<ToolFrame> tools;
+  std::vector<BoundaryFrame> boundaries;
+  Energies energy;
+};
+
+} // namespace plyform

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Reads the last whole frame of results.h5. The layout is described in docs/results.md.
+//
+// The file may come from anywhere: sizes and node numbers are checked before they are used.
+#include "core/results/hdf5_writer.ipp"
+#include "core/results/result_fields.hpp"
+
+#include <algorithm>
+
+namespace plyform {
+
+namespace fs = std::filesystem;
+using namespace hdf5;
+
+namespace {
+
+/// Where things come from: `where` below is a path inside the file.
+struct Reader {
+  const fs::path& path; ///< of the file, for messages
+  hid_t file;
+
+  [[noreturn]] void broken(const std::string& where, const std::string& what) const {
+    throw std::runtime_error(fmt::format(
+        "{}: {} {}; the file is damaged or not by this version of plyform: run the case again",
+        path.string(), where, what));
+  }
+
+  bool has(const std::string& where) const {
+    return H5Lexists(file, where.c_str(), H5P_DEFAULT) > 0;
+  }
+
+  template <class T>
+  std::vector<T> dataset(const std::string& where) const {
+    const Handle set(H5Dopen2(file, where.c_str(), H5P_DEFAULT), H5Dclose);
+    if (!set.valid()) broken(where, "is missing");
+    const Handle space(H5Dget_space(set.id()), H5Sclose);
+    hsize_t size[2] = {0, 1};
+    const int dimensions = H5Sget_simple_extent_ndims(space.id());
+    if (dimensions != (columns<T> == 1 ? 1 : 2)) broken(where, "has a wrong shape");
+    H5Sget_simple_extent_dims(space.id(), size, nullptr);
+    if (size[1] != columns<T>) broken(where, "has a wrong shape");
+    // A damaged header must not make us ask for more memory than the file has bytes.
+    const Handle layout(H5Dget_create_plist(set.id()), H5Pclose);
+    if (H5Pget_layout(layout.id()) == H5D_CONTIGUOUS && size[0] > fs::file_size(path) / sizeof(T))
+      broken(where, "is larger than the file");
+    std::vector<T> values(size[0]);
+    if (H5Dread(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
+      broken(where, "cannot be read (" + reason() + ")");
+    return values;
+  }
+
+  /// One number an entry: `rows` of them, else the file is broken.
+  template <class T>
+  std::vector<T> dataset(const std::string& where, std::size_t rows) const {
+    std::vector<T> values = dataset<T>(where);
+    if (values.size() != rows)
+      broken(where, fmt::format("has {} rows in place of {}", values.size(), rows));
+    return values;
+  }
+
+  std::vector<Triangle> triangles(const std::string& where, std::size_t nodes) const {
+    std::vector<Triangle> values = dataset<Triangle>(where);
+    for (const Triangle& triangle : values)
+      for (const std::int32_t node : triangle)
+        if (node < 0 || static_cast<std::size_t>(node) >= nodes)
+          broken(where, fmt::format("names node {} of {} nodes", node, nodes));
+    return values;
+  }
+
+  Handle attribute(const std::string& where, const char* name, hsize_t entries) const {
+    Handle found(H5Aopen_by_name(file, where.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+    if (!found.valid()) broken(where + ":" + name, "is missing");
+    const Handle space(H5Aget_space(found.id()), H5Sclose);
+    if (H5Sget_simple_extent_npoints(space.id()) != static_cast<hssize_t>(entries))
+      broken(where + ":" + name, "has a wrong shape");
+    return found;
+  }
+
+  template <class T>
+  void number(const std::string& where, const char* name, T& value) const {
+    const Handle found = attribute(where, name, 1);
+    if (H5Aread(found.id(), memory_type<T>(), &value) < 0)
+      broken(where + ":" + name, "cannot be read");
+  }
+
+  void vector(const std::string& where, const char* name, Vec3& value) const {
+    const Handle found = attribute(where, name, 3);
+    if (H5Aread(found.id(), memory_type<Vec3>(), value.data()) < 0)
+      broken(where + ":" + name, "cannot be read");
+  }
+
+  std::vector<std::string> texts(const std::string& where, const char* name) const {
+    const Handle found(H5Aopen_by_name(file, where.c_str(), name, H5P_DEFAULT, H5P_DEFAULT),
+                       H5Aclose);
+    if (!found.valid()) broken(where + ":" + name, "is missing");
+    const Handle space(H5Aget_space(found.id()), H5Sclose);
+    const hssize_t entries = H5Sget_simple_extent_npoints(space.id());
+    std::vector<char*> raw(static_cast<std::size_t>(std::max<hssize_t>(entries, 0)), nullptr);
+    const Handle type = utf8_type();
+    if (!raw.empty() && H5Aread(found.id(), type.id(), raw.data()) < 0)
+      broken(where + ":" + name, "cannot be read");
+    std::vector<std::string> values;
+    for (const char* text : raw)
+      values.emplace_back(text ? text : "");
+    if (!raw.empty()) H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, raw.data());
+    return values;
+  }
+};
+
+PlyFrame read_ply(const Reader& in, const std::string& group, const std::string& name) {
+  PlyFrame ply;
+  ply.name = name;
+  const std::string fixed = "/plies/" + name, now = group + fixed + "/";
+  in.number(fixed, "angle_deg", ply.angle_deg);
+  ply.x0 = in.dataset<Vec3>(fixed + "/x0");
+  const std::size_t n = ply.x0.size();
+  ply.triangles = in.triangles(fixed + "/triangles", n);
+  const std::size_t m = ply.triangles.size();
+  ply.x = in.dataset<Vec3>(now + "x", n);
+  ply.contact_pressure = in.dataset<double>(now + contact_pressure_name, n);
+  if (in.has(now + reaction_name)) ply.reaction = in.dataset<Vec3>(now + reaction_name, n);
+  for (const CellVector& field : cell_vectors)
+    ply.*field.values = in.dataset<Vec3>(now + field.name, m);
+  for (const CellScalar& field : cell_scalars)
+    ply.*field.values = in.dataset<double>(now + field.name, m);
+  return ply;
+}
+
+ToolFrame read_tool(const Reader& in, const std::string& group, const std::string& name) {
+  ToolFrame tool;
+  tool.name = name;
+  const std::string fixed = "/tools/" + name, now = group + fixed;
+  tool.surface.x = in.dataset<Vec3>(fixed + "/x0");
+  tool.surface.triangles = in.triangles(fixed + "/triangles", tool.surface.x.size());
+  in.vector(now, "displacement_mm", tool.displacement);
+  in.vector(now, "force_vector_N", tool.force);
+  in.number(now, "stroke_mm", tool.stroke_mm);
+  in.number(now, "force_N", tool.force_N);
+  return tool;
+}
+
+BoundaryFrame read_boundary(const Reader& in, const std::string& group, const std::string& name) {
+  BoundaryFrame boundary;
+  boundary.name = name;
+  const std::string now = group + "/boundaries/" + name;
+  in.vector(now, "force_vector_N", boundary.force);
+  in.number(now, "stroke_mm", boundary.stroke_mm);
+  in.number(now, "force_N", boundary.force_N);
+  return boundary;
+}
+
+} // namespace
+
+Frame read_last_frame(const fs::path& path) {
+  const QuietErrors quiet;
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw std::runtime_error(
+        fmt::format("{}: no such file: give the result folder of a run (plyform run CASE -o DIR)",
+                    path.string()));
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file.valid()) fail(path, "cannot be opened as results of a run");
+  const Reader in{path, file.id()};
+  if (!in.has("/time_s") || !in.has("/frames")) in.broken("/frames or /time_s", "is missing");
+  const std::vector<double> times = in.dataset<double>("/time_s");
+  if (times.empty()) in.broken("/time_s", "is empty: the run was stopped before its first state");
+  const std::string group = frame_group(times.size() - 1);
+  Frame frame;
+  frame.time = times.back();
+  in.number(group, "stroke_mm", frame.stroke_mm);
+  std::int64_t step = 0;
+  in.number(group, "step", step);
+  frame.step = static_cast<long>(step);
+  for (const std::string& name : in.texts("/", "plies"))
+    frame.plies.push_back(read_ply(in, group, name));
+  for (const std::string& name : in.texts("/", "tools"))
+    frame.tools.push_back(read_tool(in, group, name));
+  if (H5Aexists(file.id(), "boundaries") > 0) // not in files of earlier versions
+    for (const std::string& name : in.texts("/", "boundaries"))
+      frame.boundaries.push_back(read_boundary(in, group, name));
+  return frame;
+}
+
+} // namespace plyform

@@ -1,0 +1,259 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/results/result_writer.hpp"
+
+#include "core/results/result_fields.hpp"
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <fmt/compile.h>
+#include <fmt/format.h>
+#include <iterator>
+#include <set>
+#include <stdexcept>
+#include <system_error>
+
+namespace plyform {
+
+namespace fs = std::filesystem;
+
+// Files that appear whole or not at all.
+
+void write_whole(const fs::path& path, std::string_view content) {
+  fs::path temporary = path;
+  temporary += ".tmp";
+  const auto fail = [&](const char* what, int error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), what,
+                                         std::generic_category().message(error)));
+  };
+  std::FILE* file = std::fopen(temporary.c_str(), "wb");
+  if (!file) fail("create the file", errno);
+  int error = 0;
+  if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) error = errno;
+  if (std::fclose(file) != 0 && error == 0) error = errno; // the buffer's last bytes go out here
+  if (error != 0) fail("write", error);
+  std::error_code renamed;
+  fs::rename(temporary, path, renamed);
+  if (renamed) fail("replace the file", renamed.value());
+}
+
+// What a frame must satisfy before anything is written.
+
+namespace {
+
+void check_name(const std::string& name, const char* kind) {
+  const auto forbidden = [](unsigned char c) {
+    return c < 0x20 || c == 0x7f ||
+           std::string_view("/\\:*?\"<>|").find(static_cast<char>(c)) != std::string_view::npos;
+  };
+  if (!name.empty() && name.front() != '.' && std::none_of(name.begin(), name.end(), forbidden))
+    return;
+  throw std::runtime_error(fmt::format(
+      "{} name \"{}\" cannot be a file name: it must not be empty, start with a dot or hold "
+      "control characters or any of / \\ : * ? \" < > |; rename the {} in the case file",
+      kind, name, kind));
+}
+
+void check_sizes(const PlyFrame& ply) {
+  const std::size_t n = ply.x0.size(), m = ply.triangles.size();
+  bool fits = ply.x.size() == n && ply.contact_pressure.size() == n &&
+              (ply.reaction.empty() || ply.reaction.size() == n);
+  for (const CellScalar& field : cell_scalars)
+    fits = fits && (ply.*field.values).size() == m;
+  for (const CellVector& field : cell_vectors)
+    fits = fits && (ply.*field.values).size() == m;
+  if (!fits)
+    throw std::logic_error(fmt::format(
+        "ply \"{}\": an array has not one entry for each of its {} nodes or {} triangles", ply.name,
+        n, m));
+}
+
+} // namespace
+
+void check_frame(const Frame& frame) {
+  std::set<std::string> names; // also across plies and tools: blocks and files are named by them
+  const auto take = [&](const std::string& name, const char* kind) {
+    check_name(name, kind);
+    if (!names.insert(name).second)
+      throw std::runtime_error(
+          fmt::format("{} name \"{}\" is used twice: every ply and tool needs a name of its own, "
+                      "because the result files are named by it; rename one in the case file",
+                      kind, name));
+  };
+  for (const PlyFrame& ply : frame.plies) {
+    take(ply.name, "ply");
+    check_sizes(ply);
+  }
+  for (const ToolFrame& tool : frame.tools)
+    take(tool.name, "tool");
+  for (const BoundaryFrame& boundary : frame.boundaries)
+    take(boundary.name, "boundary");
+}
+
+// The tables.
+
+namespace {
+
+using Buffer = fmt::memory_buffer;
+
+void put(Buffer& out, double value) {
+  fmt::format_to(std::back_inserter(out), FMT_COMPILE("{:.9g},"), value);
+}
+
+void put(Buffer& out, const Vec3& v) {
+  fmt::format_to(std::back_inserter(out), FMT_COMPILE("{:.9g},{:.9g},{:.9g},"), v.x(), v.y(),
+                 v.z());
+}
+
+void end_row(Buffer& out) {
+  out.data()[out.size() - 1] = '\n';
+} // in place of the last comma
+
+Vec3 centroid(const std::vector<Vec3>& x, const Triangle& t) {
+  return (x[static_cast<std::size_t>(t[0])] + x[static_cast<std::size_t>(t[1])] +
+          x[static_cast<std::size_t>(t[2])]) /
+         3;
+}
+
+/// A column heading; one with a comma in quotes (names hold no quotes, see check_name).
+std::string heading(const std::string& text) {
+  return text.find(',') == std::string::npos ? text : fmt::format("\"{}\"", text);
+}
+
+std::string history_header(const Frame& frame) {
+  std::string line = "time_s,stroke_mm";
+  for (const ToolFrame& tool : frame.tools)
+    line += fmt::format(",{},{}", heading(tool.name + "_force_N"),
+                        heading(tool.name + "_displacement_mm"));
+  for (const BoundaryFrame& b : frame.boundaries)
+    line +=
+        fmt::format(",{},{}", heading(b.name + "_force_N"), heading(b.name + "_displacement_mm"));
+  return line +
+         ",kinetic_mJ,fibre_mJ,shear_mJ,bending_mJ,contact_mJ,friction_mJ,damping_mJ,external_mJ,"
+         "balance_error\n";
+}
+
+std::string history_row(const Frame& frame) {
+  Buffer out;
+  put(out, frame.time);
+  put(out, frame.stroke_mm);
+  for (const ToolFrame& tool : frame.tools) {
+    put(out, tool.force_N);
+    put(out, tool.stroke_mm);
+  }
+  for (const BoundaryFrame& b : frame.boundaries) {
+    put(out, b.force_N);
+    put(out, b.stroke_mm);
+  }
+  const Energies& e = frame.energy;
+  for (const double value : {e.kinetic, e.fibre, e.shear, e.bending, e.contact, e.friction,
+                             e.damping, e.external, e.balance_error()})
+    put(out, value);
+  end_row(out);
+  return fmt::to_string(out);
+}
+
+} // namespace
+
+std::string ply_table(const PlyFrame& ply) {
+  Buffer out;
+  out.append(std::string_view("x0,y0,z0,x,y,z,warp_x,warp_y,warp_z,weft_x,weft_y,weft_z,"));
+  for (const CellScalar& field : cell_scalars)
+    fmt::format_to(std::back_inserter(out), "{},", field.name);
+  end_row(out);
+  for (std::size_t i = 0; i < ply.triangles.size(); ++i) {
+    put(out, centroid(ply.x0, ply.triangles[i]));
+    put(out, centroid(ply.x, ply.triangles[i]));
+    for (const CellVector& field : cell_vectors)
+      put(out, (ply.*field.values)[i]);
+    for (const CellScalar& field : cell_scalars)
+      put(out, (ply.*field.values)[i]);
+    end_row(out);
+  }
+  return fmt::to_string(out);
+}
+
+// The folder.
+
+namespace {
+
+void remove_file(const fs::path& path) {
+  std::error_code error;
+  fs::remove(path, error);
+  if (error)
+    throw std::runtime_error(fmt::format("{}: cannot remove the file of a former run: {}",
+                                         path.string(), error.message()));
+}
+
+/// Takes away what a former run left and this one may not overwrite, so that a folder never shows
+/// one run's states beside another's summary. Only files that a run itself writes.
+void remove_former_run(const fs::path& directory) {
+  remove_file(directory / "summary.json");
+  remove_file(directory / "history.csv");
+  remove_file(directory / "results.xdmf");
+  remove_file(directory / "results.h5");
+  std::vector<fs::path> tables;
+  for (const fs::directory_entry& entry : fs::directory_iterator(directory / "plies")) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_directory() && (name.ends_with(".csv") || name.ends_with(".csv.tmp")))
+      tables.push_back(entry.path());
+  }
+  for (const fs::path& table : tables)
+    remove_file(table);
+}
+
+} // namespace
+
+struct ResultWriter::Impl {
+  fs::path directory;
+  StateFile states;
+  std::string history; ///< all of history.csv so far
+  XdmfText xdmf;
+  double last_time = 0;
+  long last_step = 0;
+};
+
+ResultWriter::ResultWriter(const fs::path& directory)
+    : impl_(new Impl{directory, StateFile(directory / "results.h5"), {}, {}, 0, 0}) {
+  const fs::path plies = directory / "plies";
+  std::error_code error;
+  fs::create_directories(plies, error);
+  if (!error && !fs::is_directory(plies)) error = std::make_error_code(std::errc::not_a_directory);
+  if (error)
+    throw std::runtime_error(fmt::format("{}: cannot create the result folder: {}",
+                                         directory.string(), error.message()));
+}
+
+ResultWriter::~ResultWriter() = default;
+
+void ResultWriter::write_frame(const Frame& frame) {
+  check_frame(frame);
+  if (impl_->states.frames() == 0) {
+    remove_former_run(impl_->directory);
+    impl_->history = history_header(frame);
+  }
+  const std::size_t index = impl_->states.frames();
+  impl_->states.append(frame);
+  impl_->history += history_row(frame);
+  impl_->xdmf.add(frame, index);
+  impl_->last_time = frame.time;
+  impl_->last_step = frame.step;
+  write_whole(impl_->directory / "results.xdmf", impl_->xdmf.document());
+  write_whole(impl_->directory / "history.csv", impl_->history);
+}
+
+void ResultWriter::write_final(const Frame& last, const Summary& summary) {
+  const bool written =
+      impl_->states.frames() > 0 && last.time == impl_->last_time && last.step == impl_->last_step;
+  // A run that stops between two outputs: results.h5 must end with the state of the tables.
+  if (!written) write_frame(last);
+  for (const PlyFrame& ply : last.plies)
+    write_whole(impl_->directory / "plies" / (ply.name + ".csv"), ply_table(ply));
+  impl_->states.close();
+  write_whole(impl_->directory / "summary.json", summary_json(last, summary)); // last: all is there
+}
+
+} // namespace plyform

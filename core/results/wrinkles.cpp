@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/results/wrinkles.hpp"
+
+#include "contact/forces/tool_ply.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+namespace plyform {
+namespace {
+
+constexpr double shortest_half = 1.5; // elements: three to a wave, fewer is the mesh's own zigzag
+constexpr double longest_half = 4.0;  // elements, so that coarse meshes are looked at too
+constexpr double longest_half_mm = 30.0; // waves of dry cloth under a holder are 20 to 60 mm long
+constexpr double half_growth = 1.2;      // from one s to the next; between them H loses 3 % at most
+constexpr double facing = std::numbers::sqrt2 / 2.0; // cosine of 45 degrees
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+double mean_side(const PlyFrame& ply) {
+  double sum = 0.0;
+  for (const Triangle& t : ply.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      sum += (ply.x0[at(t[k])] - ply.x0[at(t[(k + 1) % 3])]).norm();
+  return sum / (3.0 * static_cast<double>(ply.triangles.size()));
+}
+
+std::vector<Vec3> node_normals(const PlyFrame& ply) {
+  std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
+  for (const Triangle& t : ply.triangles) {
+    const Vec3& a = ply.x[at(t[0])];
+    const Vec3 n = (ply.x[at(t[1])] - a).cross(ply.x[at(t[2])] - a);
+    for (const std::int32_t k : t)
+      normals[at(k)] += n;
+  }
+  for (Vec3& n : normals)
+    n.stableNormalize();
+  return normals;
+}
+
+/// A place of the formed ply, found by where it was.
+struct Place {
+  Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
+  bool inside = false; ///< else there is no ply here
+};
+
+/// Places on a square grid of the unformed ply whose rows run along the warp.
+class Grid {
+public:
+  Grid(const PlyFrame& ply, double step) : step_(step), ply_(ply), normals_(node_normals(ply)) {
+    const double angle = -ply.angle_deg * std::numbers::pi / 180.0;
+    for (const Vec3& x : ply.x0)
+      flat_.push_back(Eigen::Rotation2Dd(angle) * x.head<2>());
+    low_ = flat_.front();
+    Vec2 high = low_;
+    for (const Vec2& x : flat_)
+      low_ = low_.cwiseMin(x), high = high.cwiseMax(x);
+    columns_ = static_cast<int>((high.x() - low_.x()) / step) + 1;
+    rows_ = static_cast<int>((high.y() - low_.y()) / step) + 1;
+    // Half of what is left over on each side, so that no column lies on the border by rounding.
+    low_ += 0.5 * (high - low_ - step * Vec2(columns_ - 1, rows_ - 1));
+    places_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
+    for (const Triangle& t : ply.triangles)
+      fill(t);
+  }
+
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
+  double step() const { return step_; }
+  /// Null off the grid and where there is no ply.
+  const Place* find(int i, int j) const {
+    if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return nullptr;
+    const Place& p = places_[index(i, j)];
+    return p.inside ? &p : nullptr;
+  }
+
+private:
+  std::size_t index(int i, int j) const {
+    return static_cast<std::size_t>(j) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(i);
+  }
+
+  /// (2)
+  Place place(const Triangle& t, const Vec3& w) const {
+    Vec3 p = Vec3::Zero(), q = Vec3::Zero(), n = Vec3::Zero();
+    for (std::size_t k = 0; k < 3; ++k)
+      p += w[static_cast<int>(k)] * ply_.x[at(t[k])];
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3& normal = normals_[at(t[k])];
+      q += w[static_cast<int>(k)] * (p - normal.dot(p - ply_.x[at(t[k])]) * normal);
+      n += w[static_cast<int>(k)] * normal;
+    }
+    return {0.5 * (p + q), n.stableNormalized(), true};
+  }
+
+  void fill(const Triangle& t) {
+    const Vec2 &a = flat_[at(t[0])], &b = flat_[at(t[1])], &c = flat_[at(t[2])];
+    const auto cross = [](const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); };
+    const double whole = cross(b - a, c - a);
+    const Vec2 from = (a.cwiseMin(b).cwiseMin(c) - low_) / step_,
+               to = (a.cwiseMax(b).cwiseMax(c) - low_) / step_;
+    for (int j = std::max(0, static_cast<int>(std::ceil(from.y()))); j < rows_ && j <= to.y(); ++j)
+      for (int i = std::max(0, static_cast<int>(std::ceil(from.x()))); i < columns_ && i <= to.x();
+           ++i) {
+        const Vec2 p = low_ + step_ * Vec2(i, j);
+        const double wb = cross(p - a, c - a) / whole, wc = cross(b - a, p - a) / whole;
+        constexpr double rounding = 1e-9; // of a share, so that no place on a side is lost
+        if (std::min({1.0 - wb - wc, wb, wc}) < -rounding) continue;
+        places_[index(i, j)] = place(t, {1.0 - wb - wc, wb, wc});
+      }
+  }
+
+  double step_;
+  const PlyFrame& ply_;
+  std::vector<Vec3> normals_;
+  std::vector<Vec2> flat_;
+  Vec2 low_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<Place> places_;
+};
+
+using Line = std::array<const Place*, 5>;
+
+/// (1) from D_-1, D_0, D_1
+double height(double before, double here, double after) {
+  if (before * here >= 0.0 || after * here >= 0.0) return 0.0;
+  return std::min({std::abs(here), 2.0 * std::abs(before), 2.0 * std::abs(after)});
+}
+
+double height_of_shape(const Line& line) {
+  std::array<double, 3> d{};
+  for (std::size_t k = 0; k < 3; ++k)
+    d[k] = line[k + 1]->normal.dot(line[k + 1]->x - 0.5 * (line[k]->x + line[k + 2]->x));
+  return height(d[0], d[1], d[2]);
+}
+
+/// The least H of the distances from the tools that face the ply; infinite if none does.
+double height_above_tools(const Line& line, const std::vector<const ToolBody*>& tools,
+                          double half_wave) {
+  double least = std::numeric_limits<double>::infinity();
+  for (const ToolBody* tool : tools) {
+    int hint = -1;
+    const SurfacePoint nearest = distance_to_tool(*tool, line[2]->x, hint);
+    if (std::abs(nearest.distance) > half_wave ||
+        std::abs(nearest.normal.dot(line[2]->normal)) < facing)
+      continue;
+    std::array<double, 5> f{};
+    for (std::size_t k = 0; k < 5; ++k)
+      f[k] = distance_to_tool(*tool, line[k]->x, hint).distance;
+    const auto d = [&](std::size_t k) { return f[k] - 0.5 * (f[k - 1] + f[k + 1]); };
+    least = std::min(least, height(d(1), d(2), d(3)));
+  }
+  return least;
+}
+
+/// Takes the highest wrinkle of all lines with places (di, dj) of the grid apart into `best`.
+void search_along(const Grid& grid, int di, int dj, const std::vector<const ToolBody*>& tools,
+                  Wrinkle& best) {
+  const double half_wave = grid.step() * std::hypot(di, dj);
+  for (int j = 0; j < grid.rows(); ++j)
+    for (int i = 0; i < grid.columns(); ++i) {
+      Line line{};
+      bool whole = true;
+      for (int k = -2; k <= 2 && whole; ++k) {
+        line[static_cast<std::size_t>(k + 2)] = grid.find(i + k * di, j + k * dj);
+        whole = line[static_cast<std::size_t>(k + 2)] != nullptr;
+      }
+      if (!whole) continue;
+      double found = height_of_shape(line);
+      if (found <= best.height) continue;
+      found = std::min(found, height_above_tools(line, tools, half_wave));
+      if (found > best.height) best = {found, 2.0 * half_wave, line[2]->x};
+    }
+}
+
+/// The highest wrinkle of all four directions at about this half wavelength, mm.
+Wrinkle search_at(const Grid& grid, double half_wave, const std::vector<const ToolBody*>& tools,
+                  Wrinkle best) {
+  const double steps = half_wave / grid.step();
+  const int straight = static_cast<int>(std::lround(steps));
+  const int slanted = static_cast<int>(std::lround(steps / std::numbers::sqrt2));
+  search_along(grid, straight, 0, tools, best);
+  search_along(grid, 0, straight, tools, best);
+  search_along(grid, slanted, slanted, tools, best);
+  search_along(grid, slanted, -slanted, tools, best);
+  return best;
+}
+
+} // namespace
+
+Wrinkle highest_wrinkle(const PlyFrame& ply, const std::vector<const ToolBody*>& tools) {
+  Wrinkle best;
+  if (ply.triangles.empty()) return best;
+  for (const Vec3& x : ply.x)
+    if (!x.allFinite()) return best;
+  const double side = mean_side(ply);
+  const Grid grid(ply, 0.5 * side);
+  const double longest = std::max(longest_half * side, longest_half_mm);
+  // A wave is nearly as high along lines that cross it aslant or a little off its length: the
+  // length told is the shortest at which it has all but a twentieth of its height.
+  double length_of = 0.0; // mm, the height that the length and the place were found with
+  for (double half = shortest_half * side; half <= longest; half *= half_growth) {
+    const Wrinkle found = search_at(grid, half, tools, best);
+    best.height = found.height;
+    if (found.height > length_of / 0.95) best = found, length_of = found.height;
+  }
+  return best;
+}
+
+} // namespace plyform

@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// results.xdmf: tells ParaView which dataset of results.h5 is what. Version 2 of the format, which
+// the readers of XDMF 2 and of XDMF 3 both take: one time series for each ply and each tool, side
+// by side in one collection. The other way round, a collection for each time, the XDMF 2 reader
+// calls the blocks NAME, NAME[1], NAME[2] from one time to the next.
+#include "core/results/result_fields.hpp"
+
+#include <fmt/format.h>
+
+namespace plyform {
+
+namespace {
+
+std::string xml_text(std::string_view text) {
+  std::string out;
+  for (const char c : text) {
+    if (c == '&')
+      out += "&amp;";
+    else if (c == '\'')
+      out += "&apos;";
+    else
+      out += c; // < > " and control characters do not pass check_frame
+  }
+  return out;
+}
+
+std::string data_item(std::size_t rows, std::size_t columns, const char* type, int bytes,
+                      const std::string& dataset) {
+  const std::string size =
+      columns == 1 ? fmt::to_string(rows) : fmt::format("{} {}", rows, columns);
+  return fmt::format("<DataItem Dimensions=\"{}\" NumberType=\"{}\" Precision=\"{}\" "
+                     "Format=\"HDF\">results.h5:{}</DataItem>\n",
+                     size, type, bytes, xml_text(dataset));
+}
+
+std::string attribute(const char* name, const char* type, const char* centre,
+                      const std::string& item) {
+  return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
+                     name, type, centre, item);
+}
+
+/// `x` and `triangles` are datasets of n x 3 and m x 3.
+std::string mesh(std::size_t n, const std::string& x, std::size_t m, const std::string& triangles) {
+  return fmt::format("<Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n"
+                     "<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+                     m, data_item(m, 3, "Int", 4, triangles), data_item(n, 3, "Float", 8, x));
+}
+
+std::string grid_start(const std::string& name, double time) {
+  return fmt::format("<Grid Name=\"{}\" GridType=\"Uniform\">\n<Time Value=\"{:.9g}\"/>\n",
+                     xml_text(name), time);
+}
+
+std::string ply_grid(const PlyFrame& ply, const std::string& group, double time) {
+  const std::size_t n = ply.x.size(), m = ply.triangles.size();
+  const std::string here = group + "/plies/" + ply.name + "/";
+  std::string out =
+      grid_start(ply.name, time) + mesh(n, here + "x", m, "/plies/" + ply.name + "/triangles");
+  for (const CellVector& field : cell_vectors)
+    out += attribute(field.name, "Vector", "Cell", data_item(m, 3, "Float", 8, here + field.name));
+  for (const CellScalar& field : cell_scalars)
+    out += attribute(field.name, "Scalar", "Cell", data_item(m, 1, "Float", 8, here + field.name));
+  out += attribute(contact_pressure_name, "Scalar", "Node",
+                   data_item(n, 1, "Float", 8, here + contact_pressure_name));
+  if (!ply.reaction.empty())
+    out += attribute(reaction_name, "Vector", "Node",
+                     data_item(n, 3, "Float", 8, here + reaction_name));
+  return out + "</Grid>\n";
+}
+
+std::string tool_grid(const ToolFrame& tool, const std::string& group, double time) {
+  const std::string fixed = "/tools/" + tool.name + "/";
+  // A tool where it started has no positions of its own in the frame (StateFile::append).
+  const std::string x = tool.displacement.isZero(0) ? fixed + "x0" : group + fixed + "x";
+  return grid_start(tool.name, time) +
+         mesh(tool.surface.x.size(), x, tool.surface.triangles.size(), fixed + "triangles") +
+         "</Grid>\n";
+}
+
+} // namespace
+
+std::string frame_group(std::size_t index) {
+  return fmt::format("/frames/{:06}", index);
+}
+
+void XdmfText::add(const Frame& frame, std::size_t index) {
+  const std::string group = frame_group(index);
+  if (names.empty()) {
+    for (const PlyFrame& ply : frame.plies)
+      names.push_back(ply.name);
+    for (const ToolFrame& tool : frame.tools)
+      names.push_back(tool.name);
+    grids.resize(names.size());
+  }
+  std::size_t part = 0;
+  for (const PlyFrame& ply : frame.plies)
+    grids[part++] += ply_grid(ply, group, frame.time);
+  for (const ToolFrame& tool : frame.tools)
+    grids[part++] += tool_grid(tool, group, frame.time);
+}
+
+std::string XdmfText::document() const {
+  std::string out = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n<Xdmf Version=\"2.0\">\n<Domain>\n"
+                    "<Grid Name=\"plyform\" GridType=\"Collection\" CollectionType=\"Spatial\">\n";
+  for (std::size_t i = 0; i < names.size(); ++i)
+    out += fmt::format(
+        "<Grid Name=\"{}\" GridType=\"Collection\" CollectionType=\"Temporal\">\n{}</Grid>\n",
+        xml_text(names[i]), grids[i]);
+  return out + "</Grid>\n</Domain>\n</Xdmf>\n";
+}
+
+} // namespace plyform

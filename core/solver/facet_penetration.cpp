@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/facet_penetration.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace plyform {
+namespace {
+
+constexpr double resolution = 0.01; // thicknesses: a hundredth of what makes a result doubtful
+constexpr int most_halvings = 8;    // of a quarter of a side: 0.01 mm where a side has 10 mm
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// A search for the deepest place of one ply in one tool.
+class Search {
+public:
+  Search(const PlyBody& ply, const ToolBody& tool)
+      : ply_(ply), tool_(tool), half_(0.5 * ply.thickness) {}
+
+  double deepest() {
+    std::vector<const Triangle*> near;
+    for (const Triangle& t : ply_.membrane.triangles)
+      if (sample(t)) near.push_back(&t);
+    for (const Triangle* t : near) {
+      const Vec3 &a = corner(*t, 0), u = (corner(*t, 1) - a) / parts,
+                 v = (corner(*t, 2) - a) / parts;
+      for (int i = 0; i < parts; ++i)
+        for (int j = 0; i + j < parts; ++j) {
+          const Vec3 p = a + i * u + j * v;
+          divide({p, p + u, p + v}, most_halvings);
+          if (i + j + 1 < parts) divide({p + u, p + u + v, p + v}, most_halvings);
+        }
+    }
+    return depth_;
+  }
+
+private:
+  static constexpr int parts = 4; // of a side
+
+  const Vec3& corner(const Triangle& t, std::size_t k) const { return ply_.x[at(t[k])]; }
+
+  SurfacePoint ask(const Vec3& p) {
+    const SurfacePoint found = distance_to_tool(tool_, p, hint_);
+    depth_ = std::max(depth_, half_ - found.distance);
+    return found;
+  }
+
+  /// The 15 points of a triangle; false if it is too far off to touch the tool.
+  bool sample(const Triangle& t) {
+    const Vec3 &a = corner(t, 0), u = (corner(t, 1) - a) / parts, v = (corner(t, 2) - a) / parts;
+    const Vec3 middle = a + (u + v) * parts / 3.0;
+    double size = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      size = std::max(size, (corner(t, k) - middle).norm());
+    if (distance_to_tool(tool_, middle, hint_).distance > half_ + size) return false;
+    for (int i = 0; i <= parts; ++i)
+      for (int j = 0; i + j <= parts; ++j)
+        ask(a + i * u + j * v);
+    return true;
+  }
+
+  /// Asks a piece at its middle. The tangent plane there bounds the depth of a convex tool, the
+  /// piece's corners that of a hollow one; they are asked when a piece is divided.
+  void divide(const std::array<Vec3, 3>& piece, int halvings) {
+    const Vec3 middle = (piece[0] + piece[1] + piece[2]) / 3.0;
+    const SurfacePoint found = ask(middle);
+    double rise = 0.0;
+    for (const Vec3& x : piece)
+      rise = std::max(rise, -found.normal.dot(x - middle));
+    if (halvings == 0 || half_ - found.distance + rise <= depth_ + resolution * ply_.thickness)
+      return;
+    std::array<Vec3, 3> side;
+    for (std::size_t k = 0; k < 3; ++k) {
+      side[k] = 0.5 * (piece[k] + piece[(k + 1) % 3]);
+      ask(side[k]);
+    }
+    divide(side, halvings - 1);
+    for (std::size_t k = 0; k < 3; ++k)
+      divide({piece[k], side[k], side[(k + 2) % 3]}, halvings - 1);
+  }
+
+  const PlyBody& ply_;
+  const ToolBody& tool_;
+  double half_;
+  double depth_ = 0.0;
+  int hint_ = -1; // neighbours in number are mostly neighbours in space
+};
+
+} // namespace
+
+double longest_side(const PlyBody& ply) {
+  double longest = 0.0;
+  for (const SheetEdge& e : ply.edges)
+    longest = std::max(
+        longest,
+        (ply.x[static_cast<std::size_t>(e.a)] - ply.x[static_cast<std::size_t>(e.b)]).norm());
+  return longest;
+}
+
+double cut_between_nodes(double side, double radius, double thickness, double half_turn) {
+  const double R = radius + 0.5 * thickness, half = 0.5 * side;
+  if (half <= R * std::sin(half_turn)) return R - std::sqrt(R * R - half * half); // (1)
+  return half * std::tan(half_turn) - R * (1.0 / std::cos(half_turn) - 1.0);      // (2)
+}
+
+double side_of_half_cut(double radius, double thickness, double half_turn) {
+  const double R = radius + 0.5 * thickness, cut = 0.5 * thickness;
+  if (cut <= R * (1.0 - std::cos(half_turn))) return 2.0 * std::sqrt(cut * (2.0 * R - cut)); // (1)
+  return 2.0 * (cut + R * (1.0 / std::cos(half_turn) - 1.0)) / std::tan(half_turn);          // (2)
+}
+
+std::vector<ToolCut> cuts_between_nodes(const Scene& s) {
+  std::vector<ToolCut> cuts;
+  for (const ToolAndContacts& tool : s.tools)
+    for (const PlyBody& ply : s.plies)
+      cuts.push_back({tool.name, ply.name, Search(ply, tool.body).deepest(), ply.thickness});
+  return cuts;
+}
+
+double deepest(const std::vector<ToolCut>& cuts) {
+  double depth = 0.0;
+  for (const ToolCut& cut : cuts)
+    depth = std::max(depth, cut.depth);
+  return depth;
+}
+
+} // namespace plyform

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/output_state.hpp"
+
+#include "core/model/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace plyform {
+namespace {
+
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+std::vector<Vec3> node_normals(const PlyBody& ply) {
+  std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
+  for (const Triangle& t : ply.membrane.triangles) {
+    const Vec3& a = ply.x[static_cast<std::size_t>(t[0])];
+    const Vec3 n = (ply.x[static_cast<std::size_t>(t[1])] - a)
+                       .cross(ply.x[static_cast<std::size_t>(t[2])] - a);
+    for (int k : t)
+      normals[static_cast<std::size_t>(k)] += n;
+  }
+  return normals;
+}
+
+/// Normal forces on one ply, above and below, N.
+struct SideForces {
+  std::vector<Vec3> normals;
+  std::vector<double> above, below;
+  void add(int node, const Vec3& direction, double force) {
+    const auto n = static_cast<std::size_t>(node);
+    (direction.dot(normals[n]) < 0.0 ? above : below)[n] += force; // pushed down: from above
+  }
+};
+
+PlyFrame make_ply_frame(const Scene& scene, int index) {
+  const PlyBody& ply = scene.plies[static_cast<std::size_t>(index)];
+  PlyFrame f;
+  f.name = ply.name;
+  f.angle_deg = ply.angle * degrees;
+  f.x0 = ply.x0;
+  f.x = ply.x;
+  f.triangles = ply.membrane.triangles;
+  const auto strains = yarn_strains(ply.membrane, ply.x);
+  const auto tensions = yarn_tensions(ply.membrane, ply.x);
+  for (std::size_t e = 0; e < f.triangles.size(); ++e) {
+    const FibreState s = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
+    const auto [warp_strain, weft_strain] = strains[e];
+    f.warp.push_back(s.f1);
+    f.weft.push_back(s.f2);
+    f.shear_deg.push_back(s.gamma * degrees);
+    f.warp_strain.push_back(warp_strain);
+    f.weft_strain.push_back(weft_strain);
+    f.warp_tension.push_back(tensions[e][0]);
+    f.weft_tension.push_back(tensions[e][1]);
+    const double area_ratio = s.lambda1 * s.lambda2 * s.sin_omega / std::sin(ply.membrane.omega0);
+    f.thickness.push_back(ply.thickness / area_ratio);
+  }
+  f.contact_pressure = contact_pressure(scene, index);
+  f.reaction = ply.reaction;
+  return f;
+}
+
+ToolFrame make_tool_frame(const Scene& scene, const ToolAndContacts& tool) {
+  ToolFrame f;
+  f.name = tool.name;
+  const ToolBody& body = tool.body;
+  double extent = 0.0; // from the tool, wherever the case has its origin
+  for (const PlyBody& ply : scene.plies)
+    for (const Vec3& x : ply.x0)
+      extent = std::max(extent, (x - body.position).norm());
+  constexpr double facet = 5.0; // mm, for pictures
+  f.surface = tessellate(body.shape, facet, 1.2 * extent);
+  for (Vec3& x : f.surface.x)
+    x = body.rotation * x + body.position;
+  f.displacement = body.displacement;
+  f.force = tool.force;
+  f.stroke_mm = body.displacement.dot(body.direction);
+  f.force_N = -tool.force.dot(body.direction);
+  return f;
+}
+
+} // namespace
+
+std::vector<double> contact_pressure(const Scene& scene, int index) {
+  const auto p = static_cast<std::size_t>(index);
+  const PlyBody& ply = scene.plies[p];
+  SideForces sides{node_normals(ply), std::vector<double>(ply.x.size(), 0.0), {}};
+  sides.below = sides.above;
+  for (const ToolAndContacts& tool : scene.tools)
+    for (const ToolContactPoint& c : tool.contacts[p].points)
+      sides.add(c.node, c.normal, c.memory.normal_force);
+  for (const PlyContact& pair : scene.ply_contacts)
+    for (const SheetContactPoint& c : pair.contact.points) {
+      if (c.memory.normal_force == 0.0 || (pair.slave != index && pair.master != index)) continue;
+      const PlyBody& master = scene.plies[static_cast<std::size_t>(pair.master)];
+      const std::vector<Triangle>& triangles = master.membrane.triangles;
+      const Vec3 normal = contact_normal(c, scene.plies[static_cast<std::size_t>(pair.slave)].x,
+                                         master.x, triangles);
+      if (pair.slave == index) sides.add(c.node, normal, c.memory.normal_force);
+      if (pair.master != index) continue;
+      const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+      const std::array<double, 3> w = c.weights();
+      for (std::size_t j = 0; j < 3; ++j)
+        sides.add(t[j], -normal, w[j] * c.memory.normal_force);
+    }
+  std::vector<double> pressure(ply.x.size());
+  for (std::size_t n = 0; n < pressure.size(); ++n)
+    pressure[n] = std::max(sides.above[n], sides.below[n]) / ply.membrane.node_area[n];
+  return pressure;
+}
+
+double current_stroke(const Scene& scene) {
+  return smooth_path(whole_stroke(scene.data), scene.time, scene.data.solver.duration);
+}
+
+Frame make_frame(const Scene& scene, const Energies& energy) {
+  Frame f;
+  f.time = scene.time;
+  f.step = scene.step;
+  f.stroke_mm = current_stroke(scene);
+  f.energy = energy;
+  for (std::size_t p = 0; p < scene.plies.size(); ++p)
+    f.plies.push_back(make_ply_frame(scene, static_cast<int>(p)));
+  for (const ToolAndContacts& t : scene.tools)
+    f.tools.push_back(make_tool_frame(scene, t));
+  for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
+    const BoundaryState& state = scene.boundaries[b];
+    if (scene.data.boundaries[b].kind != BoundaryKind::symmetry)
+      f.boundaries.push_back(
+          {scene.data.boundaries[b].name, state.displacement, state.load, state.force});
+  }
+  return f;
+}
+
+} // namespace plyform

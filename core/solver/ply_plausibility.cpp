@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/ply_plausibility.hpp"
+
+#include "core/base/text.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+#include <map>
+#include <numbers>
+
+namespace plyform {
+namespace {
+
+constexpr double line_spacing = 2.0; // mm, (1): about a yarn, finer than any mesh of use
+constexpr double degrees = 180.0 / std::numbers::pi;
+
+std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+Vec3 formed_centroid(const PlyFrame& ply, std::size_t t) {
+  const Triangle& n = ply.triangles[t];
+  return (ply.x[at(n[0])] + ply.x[at(n[1])] + ply.x[at(n[2])]) / 3.0;
+}
+
+/// A straight line along one yarn.
+struct YarnLine {
+  double excess = 0.0;      ///< mm
+  double most = 0.0;        ///< strain, where it is pressed most
+  std::size_t triangle = 0; ///< there
+};
+
+/// Adds what one triangle presses to the lines that cross it. across: mm, of its corners, in units
+/// of the spacing from line 0.
+void add_chords(std::array<double, 3> across, double area, double pressed, std::size_t triangle,
+                std::vector<YarnLine>& lines) {
+  std::sort(across.begin(), across.end());
+  const auto [low, middle, high] = across;
+  if (!(high > low)) return;
+  // Chords are longest through the middle corner, and shrink in proportion to either side.
+  const double longest = 2.0 * area / ((high - low) * line_spacing);
+  for (auto k = static_cast<std::size_t>(std::ceil(std::max(low, 0.0)));
+       static_cast<double>(k) < high && k < lines.size(); ++k) {
+    const auto v = static_cast<double>(k);
+    const double share = v < middle ? (v - low) / (middle - low) : (high - v) / (high - middle);
+    YarnLine& line = lines[k];
+    line.excess += longest * share * pressed;
+    if (pressed > line.most) line.most = pressed, line.triangle = triangle;
+  }
+}
+
+/// The line of one family that has the largest (1). angle: rad, of the yarns before forming.
+YarnLine worst_line(const PlyFrame& ply, const std::vector<double>& strain,
+                    const std::vector<double>& areas, double angle) {
+  const Vec3 across(-std::sin(angle), std::cos(angle), 0.0);
+  double low = 0.0, high = 0.0;
+  for (const Vec3& x : ply.x0) {
+    const double v = across.dot(x - ply.x0.front());
+    low = std::min(low, v), high = std::max(high, v);
+  }
+  // The first line lies half a spacing inside, so that none lies on the rim.
+  const Vec3 start = ply.x0.front() + (low + 0.5 * line_spacing) * across;
+  std::vector<YarnLine> lines(1 + static_cast<std::size_t>((high - low) / line_spacing));
+  for (std::size_t t = 0; t < ply.triangles.size(); ++t) {
+    if (!(strain[t] < 0.0)) continue;
+    std::array<double, 3> v{};
+    for (std::size_t k = 0; k < 3; ++k)
+      v[k] = across.dot(ply.x0[at(ply.triangles[t][k])] - start) / line_spacing;
+    add_chords(v, areas[t], -strain[t], t, lines);
+  }
+  return *std::max_element(lines.begin(), lines.end(), [](const YarnLine& a, const YarnLine& b) {
+    return a.excess < b.excess;
+  });
+}
+
+PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas,
+                           double fibre_angle_deg) {
+  PressedYarns told;
+  std::vector<double> pressed(ply.triangles.size()); // of the family that is pressed more
+  for (std::size_t t = 0; t < pressed.size(); ++t) {
+    pressed[t] = std::max({0.0, -ply.warp_strain[t], -ply.weft_strain[t]});
+    if (std::isnan(ply.warp_strain[t] + ply.weft_strain[t]))
+      pressed[t] = std::numeric_limits<double>::quiet_NaN();
+    told.largest = std::isnan(told.largest) || std::isnan(pressed[t])
+                       ? std::numeric_limits<double>::quiet_NaN()
+                       : std::max(told.largest, pressed[t]);
+  }
+  told.share_above_2 = area_share_above(pressed, 0.02, areas);
+  told.share_above_5 = area_share_above(pressed, 0.05, areas);
+  const double warp = ply.angle_deg / degrees, weft = warp + fibre_angle_deg / degrees;
+  for (const YarnLine& line : {worst_line(ply, ply.warp_strain, areas, warp),
+                               worst_line(ply, ply.weft_strain, areas, weft)})
+    if (line.excess > told.excess_mm) {
+      told.excess_mm = line.excess;
+      told.excess_at = formed_centroid(ply, line.triangle);
+    }
+  return told;
+}
+
+bool bears_compression(const Fabric& fabric) {
+  return fabric.warp.compression > 0.0 && fabric.weft.compression > 0.0;
+}
+
+/// Where the excess of pressed yarns stands in reality, and what to do.
+std::string remedy(const Fabric& fabric) {
+  if (!bears_compression(fabric))
+    return "this fabric's yarns carry tension only: give it compression_stiffness, and bending "
+           "that "
+           "makes wrinkles of it";
+  std::string told;
+  if (std::isfinite(fabric.warp.buckling_force) || std::isfinite(fabric.weft.buckling_force))
+    told = "they gave way at buckling_force, in wrinkles that the mesh does not show, and whose "
+           "place it does not know; ";
+  return told +
+         "less friction or a wider gap below the blank-holder presses them less, a finer mesh "
+         "can show them as wrinkles";
+}
+
+/// How many times smaller elements have to be for a cut of no more than a thickness: by (1) and (2)
+/// of core/solver/facet_penetration.hpp curves cut by the square of a side, sharp edges in
+/// proportion to it, as meshes may.
+double refinement(const ToolAndContacts& tool, const ToolCut& cut) {
+  const double radius = smallest_radius(tool.body.shape), excess = cut.depth / cut.thickness;
+  const bool curved = std::isfinite(radius) && radius > cut.thickness;
+  constexpr double margin = 1.2; // without it, hemisphere_0 at 3.9 for 6.8 mm has 0.64 for 0.6 mm
+  return margin * (curved ? std::sqrt(excess) : excess);
+}
+
+/// Plies with the same remedy share a sentence.
+std::vector<std::string> doubts_of_yarns(const Scene& s, const Frame& last,
+                                         const std::vector<PlyReport>& plies) {
+  struct Group {
+    std::vector<std::string> names;
+    double least_share = 1.0, most_share = 0.0, largest = 0.0;
+  };
+  std::map<std::string, Group> groups; // by remedy
+  for (std::size_t p = 0; p < plies.size(); ++p) {
+    const std::optional<PressedYarns>& pressed = plies[p].pressed;
+    if (!pressed || !(pressed->share_above_5 > doubtful_pressed_share)) continue;
+    const auto fabric = static_cast<std::size_t>(s.data.plies[p].fabric);
+    Group& group = groups[remedy(s.data.fabrics[fabric])];
+    group.names.push_back(last.plies[p].name);
+    group.least_share = std::min(group.least_share, pressed->share_above_5);
+    group.most_share = std::max(group.most_share, pressed->share_above_5);
+    group.largest = std::max(group.largest, pressed->largest);
+  }
+  std::vector<std::string> found;
+  for (const auto& [what_to_do, group] : groups) {
+    const bool one = group.names.size() == 1;
+    found.push_back(fmt::format(
+        "do not trust the shape, shear and draw-in of {}: yarns are pressed by more than 5 % on "
+        "{}{:.2g} % of the area, by {:.2g} % at most, and woven yarns buckle before that; {}",
+        joined(group.names), one ? "" : fmt::format("{:.2g} to ", 100.0 * group.least_share),
+        100.0 * group.most_share, 100.0 * group.largest, what_to_do));
+  }
+  return found;
+}
+
+} // namespace
+
+PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
+                     const std::vector<const ToolBody*>& tools) {
+  PlyReport told;
+  const std::vector<double> areas = areas_before(ply);
+  if (nature.woven) told.pressed = pressed_yarns(ply, areas, nature.fibre_angle_deg);
+  told.wrinkle = highest_wrinkle(ply, tools);
+  if (nature.locking_angle_deg) {
+    std::vector<double> shear = ply.shear_deg;
+    for (double& angle : shear)
+      angle = std::abs(angle);
+    told.beyond_locking_share = area_share_above(shear, *nature.locking_angle_deg, areas);
+  }
+  told.draw_in = draw_in(ply, nature.fibre_angle_deg);
+  return told;
+}
+
+std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
+  std::vector<const ToolBody*> tools;
+  for (const ToolAndContacts& tool : s.tools)
+    tools.push_back(&tool.body);
+  std::vector<PlyReport> told;
+  for (std::size_t p = 0; p < last.plies.size(); ++p) {
+    const Fabric& fabric = s.data.fabrics[static_cast<std::size_t>(s.data.plies[p].fabric)];
+    PlyNature nature{fabric.fibre_angle * degrees, !fabric.isotropic, std::nullopt};
+    if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle * degrees;
+    told.push_back(report_ply(last.plies[p], nature, tools));
+  }
+  return told;
+}
+
+std::vector<std::string> doubts(const Scene& s, const Frame& last,
+                                const std::vector<PlyReport>& plies,
+                                const std::vector<ToolCut>& cuts) {
+  std::vector<std::string> found = doubts_of_yarns(s, last, plies);
+  if (const double error = last.energy.balance_error(); std::abs(error) > doubtful_balance_error)
+    found.push_back(fmt::format("do not trust forces: the energy balance is off by {:.2g} %, "
+                                "energy that comes from nowhere "
+                                "or goes nowhere; a smaller solver.step_factor makes it less",
+                                100.0 * error));
+  for (const ToolAndContacts& tool : s.tools) {
+    std::vector<std::string> names;
+    ToolCut worst;
+    for (const ToolCut& cut : cuts) {
+      if (cut.tool != tool.name || !(cut.depth > cut.thickness)) continue;
+      names.push_back(cut.ply);
+      if (cut.depth > worst.depth) worst = cut;
+    }
+    if (!names.empty())
+      found.push_back(fmt::format(
+          "do not trust {} where {} cuts into it between nodes, by {:.2g} mm at most, more than "
+          "the "
+          "thickness of {:g} mm: nodes are too far apart to follow the tool; elements {:.1f} times "
+          "smaller or a rounder tool avoid it",
+          joined(names), tool.name, worst.depth, worst.thickness, refinement(tool, worst)));
+  }
+  return found;
+}
+
+} // namespace plyform

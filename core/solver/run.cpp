@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/run.hpp"
+
+#include "contact/intersections.hpp"
+#include "core/accuracy/error_model.hpp"
+#include "core/base/version.hpp"
+#include "core/model/fabric_estimates.hpp"
+#include "core/model/motion.hpp"
+#include "core/solver/facet_penetration.hpp"
+#include "core/solver/output_state.hpp"
+#include "core/solver/ply_plausibility.hpp"
+#include "core/solver/run_diagnosis.hpp"
+#include "core/solver/step.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace plyform {
+namespace {
+
+constexpr int check_every = 100; // steps between looks at energies, balance and the clock
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point t) {
+  return std::chrono::duration<double>(Clock::now() - t).count();
+}
+
+/// What is needed to go back to the last good state.
+struct Snapshot {
+  std::vector<std::vector<Vec3>> x;
+  std::vector<std::vector<Vec3>> reaction;
+  std::vector<Vec3> tool_displacement, tool_force;
+  std::vector<BoundaryState> boundaries;
+  Energies energy;
+  ContactReport contact; ///< penetrations only
+  double time = 0.0;
+  long step = 0;
+};
+
+ContactReport penetrations(const Scene& s) {
+  ContactReport r;
+  for (const ToolAndContacts& t : s.tools)
+    for (const ToolContact& c : t.contacts)
+      r.max_tool_penetration_mm = std::max(r.max_tool_penetration_mm, c.sums.penetration);
+  for (const PlyContact& pair : s.ply_contacts)
+    r.max_ply_penetration_mm = std::max(r.max_ply_penetration_mm, pair.contact.sums.penetration);
+  return r;
+}
+
+void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
+  snapshot.x.resize(s.plies.size());
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    snapshot.x[p] = s.plies[p].x;
+  snapshot.reaction.resize(s.plies.size());
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    snapshot.reaction[p] = s.plies[p].reaction;
+  snapshot.boundaries = s.boundaries;
+  snapshot.tool_displacement.clear();
+  snapshot.tool_force.clear();
+  for (const ToolAndContacts& t : s.tools) {
+    snapshot.tool_displacement.push_back(t.body.displacement);
+    snapshot.tool_force.push_back(t.force);
+  }
+  snapshot.energy = energy;
+  snapshot.contact = penetrations(s);
+  snapshot.time = s.time;
+  snapshot.step = s.step;
+}
+
+void go_back(Scene& s, const Snapshot& snapshot) {
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    s.plies[p].x = snapshot.x[p], s.plies[p].reaction = snapshot.reaction[p];
+  s.boundaries = snapshot.boundaries;
+  for (std::size_t t = 0; t < s.tools.size(); ++t) {
+    s.tools[t].body.displacement = snapshot.tool_displacement[t];
+    s.tools[t].force = snapshot.tool_force[t];
+  }
+  s.time = snapshot.time;
+  s.step = snapshot.step;
+}
+
+/// Energy (N mm) below which the balance is not judged, since it is then a ratio of roundings: a
+/// hundredth of the stack's kinetic energy at the fastest driven tool's or grip's peak speed, and
+/// what each pushed tool's force and the weight do on a tenth of a millimetre.
+double balance_floor(const Scene& s) {
+  double mass = 0.0, pushed = 0.0;
+  for (const PlyBody& ply : s.plies)
+    for (double m : ply.membrane.node_mass)
+      mass += m;
+  for (const ToolAndContacts& t : s.tools)
+    pushed += 0.1 * std::abs(t.force_on);
+  pushed += 0.1 * mass * s.data.gravity.norm();
+  const double peak_speed = path_peak * longest_strokes(s.data).longest() / s.data.solver.duration;
+  return 1e-6 + pushed + 0.01 * 0.5 * mass * peak_speed * peak_speed;
+}
+
+std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floor) {
+  const double error = e.balance_error();
+  const double limit = s.data.solver.max_balance_error;
+  const double largest =
+      std::max({std::abs(e.kinetic), e.fibre, e.shear, e.bending, e.contact, std::abs(e.friction),
+                std::abs(e.damping), std::abs(e.external)});
+  if (std::isfinite(error) && (largest < floor || std::abs(error) <= limit)) return std::nullopt;
+  return Stop{
+      fmt::format("stopped at step {}, time {:.6g} s: energy balance error {:.3g} passes "
+                  "solver.max_balance_error = {:.3g}; a smaller solver.step_factor may help",
+                  s.step, s.time, error, limit)};
+}
+
+/// The state number that is due next: outputs are spread evenly over the stroke, or over the time
+/// where nothing is driven.
+int outputs_due(const Scene& s) {
+  const double stroke = whole_stroke(s.data);
+  const double done = stroke != 0.0 ? current_stroke(s) / stroke : s.time / s.data.solver.duration;
+  const int due = static_cast<int>(std::floor(done * s.data.solver.outputs + 1e-9));
+  return std::min(due, s.data.solver.outputs - 1); // the last one comes when the time is up
+}
+
+/// The exact audit of the state in `s`, with the penetrations that belong to it.
+ContactReport audit(const Scene& s, ContactReport r) {
+  std::vector<SheetView> sheets;
+  for (const PlyBody& ply : s.plies)
+    sheets.push_back({ply.x, ply.membrane.triangles});
+  const AuditResult found = audit_intersections(sheets);
+  r.intersections_between_plies = static_cast<long>(found.between.size());
+  r.intersections_within_plies = static_cast<long>(found.within.size());
+  return r;
+}
+
+Progress progress_of(const Scene& s, const Energies& e, double elapsed) {
+  Progress p;
+  p.fraction = std::min(1.0, s.time / s.data.solver.duration);
+  p.stroke_mm = current_stroke(s);
+  p.step = s.step;
+  p.elapsed_s = elapsed;
+  p.remaining_s = p.fraction > 0.0 ? elapsed * (1.0 - p.fraction) / p.fraction : 0.0;
+  p.kinetic_over_shear = e.shear > 0.0 ? e.kinetic / e.shear : 0.0;
+  p.balance_error = e.balance_error();
+  return p;
+}
+
+/// Puts reasons to doubt a result first among what is missing; a run that was done is then
+/// doubtful.
+void doubt_if(const std::vector<std::string>& reasons, Summary& sum) {
+  sum.work.missing.insert(sum.work.missing.begin(), reasons.begin(), reasons.end());
+  if (reasons.empty() || sum.status != "done") return;
+  sum.status = "doubtful";
+  for (const std::string& reason : reasons)
+    sum.message += (sum.message.empty() ? "" : "; ") + reason;
+}
+
+void finish(const Scene& s, const ContactReport& depths, RunResult& result, int threads,
+            double elapsed) {
+  Summary& sum = result.summary;
+  sum.title = s.data.title;
+  sum.version = version();
+  sum.wall_time_s = elapsed;
+  sum.steps = s.step;
+  sum.min_step_s = s.min_dt;
+  sum.max_step_s = s.max_dt;
+  sum.threads = threads;
+  const PredictedError error = predicted_error(s.data);
+  sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data),
+                  s.data.accuracy.coarsening};
+  sum.contact = audit(s, depths);
+  const std::vector<ToolCut> cuts = cuts_between_nodes(s);
+  sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
+  sum.work = report_work(s, result.last, sum.contact);
+  sum.plies = report_plies(s, result.last);
+  sum.assumed = assumptions(s.data);
+  const auto stop_if = [&sum](bool wrong, const std::string& message) {
+    if (wrong && sum.status == "done") sum.status = "stopped", sum.message = message;
+  };
+  stop_if(sum.contact.intersections_between_plies > 0,
+          fmt::format("the plies overlap: {} pairs of triangles of different plies cross in "
+                      "the final state; a finer mesh or a longer solver.duration may help",
+                      sum.contact.intersections_between_plies));
+  stop_if(s.data.contact.self && sum.contact.intersections_within_plies > 0,
+          fmt::format("a ply goes through itself: {} pairs of triangles of one ply cross in the "
+                      "final state, though contact.self is on; a finer mesh or a longer "
+                      "solver.duration may help",
+                      sum.contact.intersections_within_plies));
+  doubt_if(doubts(s, result.last, sum.plies, cuts), sum);
+}
+
+} // namespace
+
+RunResult run_case(const Case& data, int threads, const RunHooks& hooks) {
+  Scene s = make_scene(data);
+  return run_scene(s, threads, hooks);
+}
+
+RunResult run_scene(Scene& s, int threads, const RunHooks& hooks) {
+  const auto begin = Clock::now();
+  ThreadTeam team(threads);
+  start(s, team);
+  const double floor = balance_floor(s);
+  RunResult result;
+  Energies energy;
+  Snapshot good;
+  keep(s, energy, good);
+  int written = -1;
+  std::optional<Stop> stop;
+  const auto write = [&] {
+    result.last = make_frame(s, energy);
+    written = outputs_due(s);
+    if (hooks.frame) hooks.frame(result.last);
+  };
+  for (;;) {
+    stop = compute_forces(s, team);
+    if (stop) break;
+    const bool interrupted = hooks.interrupt && hooks.interrupt->load();
+    const bool last = interrupted || s.time >= s.data.solver.duration;
+    const bool output = last || outputs_due(s) > written;
+    if (s.step == 0) s.start_energy = current_energies(s, team).surplus();
+    if (output || s.step % check_every == 0) {
+      energy = current_energies(s, team);
+      stop = check_balance(s, energy, floor);
+      if (stop) break;
+      keep(s, energy, good);
+      if (hooks.progress) hooks.progress(progress_of(s, energy, seconds_since(begin)));
+    }
+    if (output) write();
+    if (interrupted && s.time < s.data.solver.duration) result.summary.status = "interrupted";
+    if (last) break;
+    move_plies(s, team);
+  }
+  if (stop) {
+    result.summary.status = "stopped";
+    result.summary.message = stop->message;
+    go_back(s, good);
+    energy = good.energy;
+    if (s.step != result.last.step || written < 0) write();
+  }
+  finish(s, good.contact, result, threads, seconds_since(begin));
+  return result;
+}
+
+} // namespace plyform

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/scene.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count, int size = node_block) {
+  const int n = static_cast<int>(count);
+  for (int begin = 0; begin < n; begin += size)
+    blocks.push_back({ply, begin, std::min(n, begin + size), 0.0});
+}
+
+/// Which triangles have a node on the ply's rim.
+std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
+                               std::span<const Triangle> triangles, std::size_t nodes) {
+  std::vector<char> node(nodes, 0), face;
+  for (const SheetEdge& e : edges)
+    if (e.rim) node[static_cast<std::size_t>(e.a)] = node[static_cast<std::size_t>(e.b)] = 1;
+  for (const Triangle& t : triangles)
+    face.push_back(static_cast<char>(std::any_of(
+        t.begin(), t.end(), [&](int n) { return node[static_cast<std::size_t>(n)] != 0; })));
+  return face;
+}
+
+PlyBody make_ply(const Case& data, const Ply& ply) {
+  PlyBody body;
+  const Fabric& fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
+  const BlankMesh mesh = mesh_blank(data.blanks[static_cast<std::size_t>(ply.blank)], ply.angle,
+                                    ply.angle + fabric.fibre_angle);
+  body.name = ply.name;
+  body.angle = ply.angle;
+  body.thickness = fabric.thickness;
+  body.membrane =
+      make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
+  BendingLaw bending = fabric.bending;
+  if (fabric.isotropic) bending.in_plane = {}; // no yarns that could bend in its plane
+  if (bending.any())
+    body.bending = make_bending(mesh.x, body.membrane.triangles, bending, ply.angle,
+                                ply.angle + fabric.fibre_angle, body.membrane.node_mass);
+  for (const Vec2& p : mesh.x)
+    body.x0.emplace_back(p.x(), p.y(), ply.z);
+  if (body.bending) body.bending_lanes = make_bending_lanes(*body.bending, body.x0);
+  body.x = body.x_search = body.x0;
+  body.velocity.assign(body.x.size(), Vec3::Zero());
+  body.motion = body.velocity;
+  if (fits_lanes(body.membrane)) {
+    body.lanes = make_lanes(body.membrane, body.x);
+    body.membrane.last_lambda = body.membrane.last_viscous = {}; // the lanes have their own
+  } else {
+    body.q.resize(mesh.triangles.size());
+  }
+  body.edges = sheet_edges(body.membrane.triangles);
+  body.on_rim = faces_on_rim(body.edges, body.membrane.triangles, body.x.size());
+  body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
+  body.bound = frequency_bound(body.membrane, body.x);
+  const double omega = std::sqrt(body.bound.omega2);
+  // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
+  const Fabric& soft = body.membrane.fabric;
+  body.membrane.viscosity = {2.0 * data.solver.fibre_damping * soft.warp.largest_slope() / omega,
+                             2.0 * data.solver.fibre_damping * soft.weft.largest_slope() / omega};
+  body.bound = frequency_bound(body.membrane, body.x); // with viscosity
+  return body;
+}
+
+/// mm^2, of two triangles on average: the square of the element size.
+double cell_area(const PlyBody& ply) {
+  double area = 0.0;
+  for (const double a : ply.membrane.node_area)
+    area += a;
+  return 2.0 * area / static_cast<double>(ply.membrane.triangles.size());
+}
+
+/// Contact stiffness per area that moves a free node at `fraction` of the elements' omega^2. That
+/// falls with the square of the element size, while a ply may not sink in deeper for being meshed
+/// coarsely: so no less than what elements of 12.5 thicknesses would have, within a factor of 2.5,
+/// beyond which crossed plies chatter over a fillet (docs/contact.md).
+///
+/// In a stack it does not follow the yarns further than fibre_softening = 100 (`stack_softening`):
+/// what presses plies on each other does not get less with them.
+double penalty_per_area(const PlyBody& ply, double fraction, bool stack) {
+  constexpr double fine = 12.5, most = 2.5, stack_softening = 100.0;
+  const auto& softening = ply.membrane.softening;
+  if (stack) fraction *= std::max(1.0, std::max(softening[0], softening[1]) / stack_softening);
+  const double coarse = cell_area(ply) / (fine * fine * ply.thickness * ply.thickness);
+  return std::clamp(coarse, 1.0, most) * fraction * ply.membrane.fabric.surface_density *
+         ply.bound.omega2;
+}
+
+// Depth limits, of a ply's thickness. Between plies a quarter: edges that cross each other then
+// keep apart too (contact/forces/edge_edge.hpp). Into tools a sixth: 0.1 mm of a ply of 0.6 mm.
+constexpr double deepest_in_ply = 0.25, deepest_in_tool = 1.0 / 6.0, deepest_of_edges = 0.25;
+
+ContactLaw make_law(const ContactOptions& options, double penalty, double density, double mu,
+                    double max_depth) {
+  // c = 2 zeta sqrt(k rho): fraction zeta of critical for a node against a wall
+  return {penalty, 2.0 * options.damping * std::sqrt(penalty * density), mu, max_depth};
+}
+
+ToolAndContacts make_tool(const Case& data, std::size_t index, const std::vector<PlyBody>& plies) {
+  const Tool& tool = data.tools[index];
+  ToolAndContacts t;
+  t.name = tool.name;
+  t.body.shape = tool.shape;
+  t.body.position = tool.position;
+  t.body.rotation = tool.rotation;
+  t.body.direction = tool.direction;
+  t.body.pushed = tool.motion == Motion::force;
+  t.force_on = tool.force;
+  t.body.mass = tool.mass;
+  constexpr double closing_speed = 1000.0; // mm/s: that of a fast press
+  t.body.speed_limit = closing_speed;
+  t.stroke = tool.motion == Motion::driven ? tool.stroke : 0.0;
+  for (std::size_t p = 0; p < plies.size(); ++p) {
+    ToolContact c;
+    const int body = static_cast<int>(plies.size() + index);
+    c.law =
+        make_law(data.contact, penalty_per_area(plies[p], data.contact.stiffness, plies.size() > 1),
+                 plies[p].membrane.fabric.surface_density, data.friction(static_cast<int>(p), body),
+                 deepest_in_tool * plies[p].thickness);
+    c.half_thickness = 0.5 * plies[p].thickness;
+    t.contacts.push_back(std::move(c));
+  }
+  t.ply_paths.assign(plies.size(), 0.0);
+  return t;
+}
+
+PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a, int b) {
+  const PlyBody& slave = plies[static_cast<std::size_t>(a)];
+  const PlyBody& master = plies[static_cast<std::size_t>(b)];
+  PlyContact pair;
+  pair.slave = a;
+  pair.master = b;
+  const double penalty = 0.5 * std::min(penalty_per_area(slave, data.contact.stiffness, true),
+                                        penalty_per_area(master, data.contact.stiffness, true));
+  const double density =
+      0.5 * std::min(slave.membrane.fabric.surface_density, master.membrane.fabric.surface_density);
+  pair.contact.distance = 0.5 * (slave.thickness + master.thickness);
+  pair.contact.law = make_law(data.contact, penalty, density, data.friction(a, b),
+                              deepest_in_ply * pair.contact.distance);
+  // What a point sees late adds energy when it does, in proportion to `rest`: at h/50 a coarse
+  // stack's ledger is off by 8 %, at h/500 by less than 1 %, which costs 4 % of the time.
+  pair.contact.rest = 0.002 * pair.contact.distance;
+  pair.contact.look_every = 0.025 * std::sqrt(cell_area(master));
+  return pair;
+}
+
+/// Pairs of plies next to each other first: they have the most to do.
+std::vector<PlyPair> make_pairs(const Scene& s) {
+  std::vector<PlyPair> pairs;
+  const int n = static_cast<int>(s.plies.size());
+  for (int apart = 1; apart <= n; ++apart)
+    for (int a = 0; a < n; ++a) {
+      const int b = a + apart % n; // with itself last
+      if (b >= n) continue;
+      PlyPair pair;
+      pair.a = a, pair.b = b;
+      for (std::size_t i = 0; i < s.ply_contacts.size(); ++i)
+        if (std::minmax(s.ply_contacts[i].slave, s.ply_contacts[i].master) == std::minmax(a, b))
+          pair.contacts.push_back(static_cast<int>(i));
+      for (std::size_t i = 0; i < s.edge_contacts.size(); ++i)
+        if (s.edge_contacts[i].a == a && s.edge_contacts[i].b == b)
+          pair.edges.push_back(static_cast<int>(i));
+      if (pair.contacts.empty()) continue;
+      pairs.push_back(std::move(pair));
+    }
+  return pairs;
+}
+
+double smallest_element(const std::vector<PlyBody>& plies) {
+  double smallest = std::numeric_limits<double>::max();
+  for (const PlyBody& ply : plies)
+    smallest = std::min(smallest, std::sqrt(cell_area(ply)));
+  return smallest;
+}
+
+} // namespace
+
+Scene make_scene(const Case& data) {
+  Scene s;
+  s.data = data;
+  for (const Ply& ply : data.plies)
+    s.plies.push_back(make_ply(data, ply));
+  for (std::size_t t = 0; t < data.tools.size(); ++t)
+    s.tools.push_back(make_tool(data, t, s.plies));
+  s.element_size = smallest_element(s.plies);
+  // Motion uses a skin up, points and faces in reach grow with its square: at a third of an element
+  // neither counts for much.
+  s.skin = data.contact.skin > 0.0 ? data.contact.skin : 0.3 * s.element_size;
+  const int n = static_cast<int>(s.plies.size());
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b)
+      if (a != b || data.contact.self) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
+  for (const PlyContact& pair : s.ply_contacts)
+    if (pair.slave < pair.master) {
+      PlyEdgeContact edges{pair.slave, pair.master, {}};
+      edges.contact.law = pair.contact.law;
+      edges.contact.law.max_depth = deepest_of_edges * pair.contact.distance;
+      edges.contact.distance = 0.5 * pair.contact.distance;
+      s.edge_contacts.push_back(std::move(edges));
+    }
+  s.ply_pairs = make_pairs(s);
+  for (int p = 0; p < n; ++p) {
+    const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+    if (ply.lanes)
+      add_blocks(s.patch_blocks, p, ply.lanes->blocks.size(), 1);
+    else
+      add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
+    add_blocks(s.node_blocks, p, ply.x.size());
+    add_blocks(s.bending_blocks, p, ply.bending_lanes.blocks.size(), 1);
+  }
+  for (int p = 0; p < n; ++p) {
+    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+    const std::vector<HeldNode> held = held_nodes(data.boundaries, p, ply.x0);
+    if (!held.empty()) ply.reaction.assign(ply.x0.size(), Vec3::Zero());
+    s.held.insert(s.held.end(), held.begin(), held.end());
+  }
+  s.boundaries.resize(data.boundaries.size());
+  s.patch_sums.assign(s.patch_blocks.size(), 0.0);
+  s.patch_collapsed.assign(s.patch_blocks.size(), 0);
+  s.node_sums.assign(s.node_blocks.size(), {});
+  return s;
+}
+
+} // namespace plyform

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Everything a running simulation holds: plies, tools, contacts between them, sums. Topology is
+// constant; the arrays change step by step (core/solver/step.hpp).
+#pragma once
+
+#include "contact/forces/edge_edge.hpp"
+#include "contact/forces/ply_ply.hpp"
+#include "contact/forces/tool_ply.hpp"
+#include "contact/search/fold_bound.hpp"
+#include "core/model/boundary.hpp"
+#include "core/ply/bending_simd.hpp"
+#include "core/ply/membrane_eigenvalue.hpp"
+#include "core/ply/membrane_simd.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+/// A ply in motion. Arrays of n nodes.
+struct PlyBody {
+  std::string name;
+  double angle = 0.0;     ///< rad, warp from x, before forming
+  double thickness = 0.0; ///< mm
+  Membrane membrane;
+  FrequencyBound bound;               ///< of the membrane, renewed now and then
+  double sharpness = 1.0;             ///< core/ply/membrane_eigenvalue.hpp, renewed more rarely
+  double stretch_contacts = 0.0;      ///< 1/s^2, bound of contacts when Scene::stretch was found
+  std::vector<Vec3> x0, x;            ///< mm
+  std::vector<Vec3> velocity;         ///< mm/s, half a step behind x
+  std::vector<Vec3> motion;           ///< mm, of the last step
+  std::vector<Vec3> x_search;         ///< mm, where the contact search was last done
+  double way = 0.0;                   ///< mm, furthest that any node has been from there
+  double path = 0.0;                  ///< mm, contact/search/active_list.hpp
+  std::optional<MembraneLanes> lanes; ///< forces, unless it has no yarns
+  std::vector<ElementForce> q;        ///< forces then, one a triangle
+  std::optional<Bending> bending;     ///< if the fabric has it
+  BendingLanes bending_lanes;         ///< its forces, or empty
+  std::unique_ptr<SheetTree> tree;
+  double search_seconds = 0.0; ///< refitting the tree, bounding folds
+  std::vector<SheetEdge> edges;
+  std::vector<double> spread;               ///< contact/search/fold_bound.hpp, one a triangle
+  double spread_way = 0.0;                  ///< mm, way when it was last renewed
+  std::vector<char> on_rim;                 ///< triangles with a node on the rim
+  std::array<std::vector<char>, 2> covered; ///< nodes that the next ply below, above covers
+  std::vector<Vec3> reaction; ///< N, that boundaries hold each node with; empty if none does
+  std::vector<const std::vector<Vec3>*>
+      nodal_forces; ///< reaction, contacts: those in use now, in order
+
+  SheetState state() const { return {x, motion, membrane.node_area, spread}; }
+};
+
+/// One tool with its contacts: contacts[i] is with ply i.
+struct ToolAndContacts {
+  std::string name;
+  ToolBody body;
+  double stroke = 0.0;   ///< mm, 0 unless driven
+  double force_on = 0.0; ///< N, 0 unless pushed
+  std::vector<ToolContact> contacts;
+  Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
+  Vec3 displacement_search = Vec3::Zero();
+  double way = 0.0;  ///< mm, furthest from there, what it may still do in this step included
+  double path = 0.0; ///< mm, contact/search/active_list.hpp
+  std::vector<double> ply_paths; ///< mm, with each ply, what it may still do in this step included
+  double work = 0.0;             ///< N mm, done by the tool on the plies since the start
+  double seconds = 0.0;          ///< all of its forces
+};
+
+/// One directed contact between two plies, or of a ply with itself.
+struct PlyContact {
+  int slave = 0, master = 0;
+  SheetContact contact;
+};
+
+/// Edges of two plies, a < b.
+struct PlyEdgeContact {
+  int a = 0, b = 0;
+  EdgeContact contact;
+};
+
+/// Two plies, a < b, or one with itself, and what their contacts do to their nodes.
+struct PlyPair {
+  int a = 0, b = 0;
+  std::vector<int> contacts;          ///< in Scene::ply_contacts
+  std::vector<int> edges;             ///< in Scene::edge_contacts
+  std::vector<Vec3> force_a, force_b; ///< N, of all of them; empty while none may touch
+  bool loaded = false;                ///< something touches now; else the forces are zero
+};
+
+/// What a boundary (Case::boundaries) is doing.
+struct BoundaryState {
+  double displacement = 0.0;      ///< mm, d, now
+  double next_displacement = 0.0; ///< mm, d at the end of the coming step
+  double load = 0.0;              ///< N, (L): + when it pulls along its stroke
+  Vec3 force = Vec3::Zero();      ///< N, sum of what it holds its nodes with
+  double work = 0.0;              ///< N mm, done on the plies since the start
+};
+
+/// Nodes in a block: long enough to hide the hand-over, short enough to share out.
+constexpr int node_block = 512;
+
+/// A run of nodes or patches (or one of the ply's LaneBlocks): the unit of work of a thread. Fixed
+/// size, so that sums come out the same whatever the number of threads.
+struct Block {
+  int ply, begin, end;
+  double seconds = 0.0; ///< computing time since the start
+};
+
+/// What a block of nodes reports of one step.
+struct NodeSums {
+  double kinetic = 0.0; ///< N mm, at the time of the forces
+  double damping = 0.0; ///< N mm, work of mass damping in this step
+  double moved2 = 0.0;  ///< mm^2, largest squared way since the last contact search
+  double step2 = 0.0;   ///< mm^2, largest squared way of this step
+};
+
+struct Scene {
+  Case data;
+  std::vector<PlyBody> plies;
+  std::vector<ToolAndContacts> tools;
+  std::vector<PlyContact> ply_contacts;
+  std::vector<PlyEdgeContact> edge_contacts;
+  std::vector<PlyPair> ply_pairs;
+  std::vector<HeldNode> held;            ///< by ply and node
+  std::vector<BoundaryState> boundaries; ///< one each of Case::boundaries
+  std::vector<Block> patch_blocks, node_blocks, bending_blocks;
+  std::vector<SheetState> ply_states; ///< views of the plies, renewed every step
+  std::vector<double> patch_sums;     ///< viscous work, one a patch block
+  std::vector<char> patch_collapsed;  ///< whether a triangle has collapsed, one a patch block
+  std::vector<NodeSums> node_sums;    ///< one a node block
+  double start_energy = 0.0;          ///< N mm, that the plies were given to start with
+  double mass_damping_work = 0.0;     ///< N mm, since the start
+  double element_size = 0.0;          ///< mm, smallest mean of a ply
+  double skin = 0.0;                  ///< mm, Case's or by the element size
+  double time = 0.0;                  ///< s, of x
+  double dt = 0.0, next_dt = 0.0;     ///< s, the step that led to x and the one that leaves it
+  double stable_dt = 0.0;             ///< s, step_factor times the stable step when last renewed
+  double min_dt = 0.0, max_dt = 0.0;  ///< s, used so far
+  double bound_way = 0.0;             ///< mm, furthest way since the search at the last bound
+  double stretch = 1.0; ///< stable step over its bound, core/solver/stable_time_step.hpp
+  long step = 0, next_sharpening = 0; ///< the next step that renews stretch and sharpness
+  long searches = 0;                  ///< broad phases done
+};
+
+/// Meshes the blanks, places plies and tools, sets contact stiffness from the stable step.
+/// Throws std::runtime_error if a blank cannot be meshed.
+Scene make_scene(const Case& data);
+
+} // namespace plyform

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// One explicit step: central differences with lumped mass, the paper's (14)-(17).
+//
+//   a_i      = M^-1 ( F_ext - F_int - C v_(i-1/2) )                                        (17)
+//   v_(i+1/2) = v_(i-1/2) + 1/2 (dt_(i-1) + dt_i) a_i                                      (16)
+//   x_(i+1)  = x_i + v_(i+1/2) dt_i                                                        (15)
+#pragma once
+
+#include "core/base/thread_pool.hpp"
+#include "core/model/energies.hpp"
+#include "core/solver/scene.hpp"
+#include "core/solver/stop.hpp"
+
+#include <optional>
+
+namespace plyform {
+
+/// Prepares the first step: contact search, step size.
+void start(Scene& scene, ThreadTeam& team);
+
+/// Driven tools to scene.time, contact search if motion has used up the skin, step size if due, and
+/// all forces at the present positions.
+std::optional<Stop> compute_forces(Scene& scene, ThreadTeam& team);
+
+/// Energies and work at the present positions; after compute_forces. The kinetic energy is that of
+/// the velocities half a step before and after, 1/2 m v- . v+, which central differences conserve.
+Energies current_energies(const Scene& scene, ThreadTeam& team);
+
+/// (15)-(17): on to the next positions.
+void move_plies(Scene& scene, ThreadTeam& team);
+
+} // namespace plyform

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/step_faults.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+std::string when(const Scene& s) {
+  return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
+}
+
+} // namespace
+
+std::optional<Stop> find_not_finite(const Scene& s) {
+  for (const PlyBody& ply : s.plies)
+    for (std::size_t n = 0; n < ply.x.size(); ++n)
+      if (!ply.x[n].allFinite())
+        return Stop{fmt::format("{}: ply {}, node {}: position is not finite; a smaller "
+                                "solver.step_factor or more damping may help",
+                                when(s), ply.name, n)};
+  return std::nullopt;
+}
+
+std::optional<Stop> find_fault(const Scene& s) {
+  for (const PlyContact& pair : s.ply_contacts) {
+    const ContactFault& fault = pair.contact.fault;
+    if (fault.node < 0) continue;
+    return Stop{fmt::format("{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm "
+                            "apart, thickness {:.3g} "
+                            "mm; give the stack more room between the tools, a slower stroke, or a "
+                            "smaller solver.step_factor",
+                            when(s), s.plies[static_cast<std::size_t>(pair.slave)].name, fault.node,
+                            s.plies[static_cast<std::size_t>(pair.master)].name, fault.face,
+                            fault.distance, pair.contact.distance)};
+  }
+  return std::nullopt;
+}
+
+std::optional<Stop> find_squeezed(const Scene& s) {
+  constexpr double least = 1e-4; // of the longest step: the run would not come to an end
+  if (s.next_dt > least * s.max_dt) return std::nullopt;
+  std::string who = "plies";
+  double ratio = std::numeric_limits<double>::infinity();
+  const auto first = [&ratio](const ContactSums& sums) {
+    const bool closer = sums.step_ratio < ratio;
+    if (closer) ratio = sums.step_ratio;
+    return closer;
+  };
+  const auto deepest = [](const auto& points) {
+    return std::min_element(points.begin(), points.end(),
+                            [](const auto& a, const auto& b) { return a.gap < b.gap; })
+        ->node;
+  };
+  const auto ply = [&s](int p) -> const std::string& {
+    return s.plies[static_cast<std::size_t>(p)].name;
+  };
+  for (const ToolAndContacts& t : s.tools)
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      if (first(t.contacts[p].sums))
+        who = fmt::format("ply {}, node {}, and tool {}", s.plies[p].name,
+                          deepest(t.contacts[p].points), t.name);
+  for (const PlyContact& pair : s.ply_contacts)
+    if (first(pair.contact.sums))
+      who = fmt::format("ply {}, node {}, and ply {}", ply(pair.slave),
+                        deepest(pair.contact.points), ply(pair.master));
+  for (const PlyEdgeContact& pair : s.edge_contacts)
+    if (first(pair.contact.sums))
+      who = fmt::format("edges of plies {} and {}", ply(pair.a), ply(pair.b));
+  return Stop{fmt::format("{}: {} are squeezed: the step in which they keep apart has fallen from "
+                          "{:.2g} to {:.2g} s; give the stack more room between the tools, a "
+                          "slower stroke, or a pushed tool less force",
+                          when(s), who, s.max_dt, s.next_dt)};
+}
+
+std::optional<Stop> find_collapsed(const Scene& s) {
+  for (const PlyBody& ply : s.plies)
+    for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e) {
+      const FibreState f = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
+      if (!collapsed(f)) continue;
+      return Stop{fmt::format("{}: ply {}, triangle {} has collapsed: stretch {:.3g} along warp, "
+                              "{:.3g} along weft, {:.3g} degrees between them",
+                              when(s), ply.name, e, f.lambda1, f.lambda2,
+                              std::atan2(f.sin_omega, f.cos_omega) * 180.0 / M_PI)};
+    }
+  return std::nullopt;
+}
+
+} // namespace plyform

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How far the shear angles of one run are from those of another, on whatever meshes.
+#pragma once
+
+#include "core/results/result_writer.hpp"
+
+#include <vector>
+
+namespace plyform {
+
+/// Of the difference of two fields, over the area before forming.
+struct FieldError {
+  double rms = 0; ///< root of the mean square
+  double p99 = 0; ///< 99 % of the area has at most this magnitude
+  double max = 0;
+};
+
+/// A value of each triangle made one of each node: the mean over the triangles around it, weighted
+/// by their areas before forming. On the rim this is the value a third of a side or so inside.
+/// Sizes: m values of m triangles in, n values of n nodes out.
+std::vector<double> nodal_means(const PlyFrame& ply, const std::vector<double>& values);
+
+/// The field with the given values at the nodes of `ply` (n), linear in each triangle before
+/// forming, at the points (x and y, mm; p of them, as many values out). A point outside of the ply
+/// takes the value at the nearest place on it. Throws std::runtime_error for a ply without
+/// triangles.
+std::vector<double> interpolate(const PlyFrame& ply, const std::vector<double>& nodal,
+                                const std::vector<Vec3>& points);
+
+/// Shear angles of the run less those of the reference, degrees, at all nodes of all plies of the
+/// reference before forming, weighted by the area of each node there. NaN if any of them is. Throws
+/// std::runtime_error if the two have not the same number of plies.
+FieldError shear_error(const Frame& run, const Frame& reference);
+
+} // namespace plyform

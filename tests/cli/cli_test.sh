@@ -1,0 +1,87 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# The command line as a user meets it: exit codes, messages, where results go.
+#   tests/cli/cli_test.sh PROGRAM CASES_FOLDER
+set -euo pipefail
+program=$1 cases=$2
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+failures=0
+
+# expect CODE TEXT ARGUMENT...: the exit code, and a text in what is printed.
+expect() {
+  local code=$1 text=$2 found=0 output
+  shift 2
+  output=$("$program" "$@" 2>&1) || found=$?
+  if [ "$found" != "$code" ] || ! grep -qF -- "$text" <<<"$output"; then
+    printf 'plyform %s: exit code %s, expected %s and "%s"; printed:\n%s\n' \
+      "$*" "$found" "$code" "$text" "$output"
+    failures=$((failures + 1))
+  fi
+}
+
+cp -r "$cases" cases
+short=(--set blanks.square.element_size=34 --set solver.duration=0.002 --set tool.0.stroke=0.5)
+expect 0 plyform version
+expect 0 'tool[].radius' keys
+expect 1 'subcommand is required'
+expect 1 'subcommand is required' frob
+expect 1 'threads' run cases/hemisphere_0 --threads 0
+expect 2 'nosuch:1:1' run nosuch
+expect 2 'did you mean angle' run cases/hemisphere_0 --set ply.0.angel=3
+expect 2 'KEY=VALUE' run cases/hemisphere_0 --set angle
+[ ! -e results ] || { echo "a wrong case has written results"; failures=$((failures + 1)); }
+expect 0 'the case is sound' check cases/hemisphere_0 "${short[@]}"
+expect 0 'tool punch: driven 35 mm, smallest radius 10 mm' check cases/square_box
+expect 0 'boundary frame: frame, holds 40 nodes of ply square, moves 46.5 mm' check cases/picture_frame
+expect 0 'boundary lower_grip: grip, holds 9 nodes of ply strip, stays' check cases/bias_extension
+cat >cases/half.toml <<'END'
+[fabrics]
+glass = "fabrics/glass_plain_weave.toml"
+[blanks.half]
+size = [50.0, 100.0]
+centre = [25.0, 0.0]
+element_size = 10.0
+[[ply]]
+name = "half"
+fabric = "glass"
+blank = "half"
+angle = 0.0
+[[boundary]]
+name = "middle"
+kind = "symmetry"
+normal = [1.0, 0.0]
+END
+expect 0 'boundary middle: plane of symmetry, holds 11 nodes of ply half' check cases/half.toml
+expect 0 'symmetry: forces and energies' check cases/half.toml
+expect 0 'results/hemisphere_0' run cases/hemisphere_0/ "${short[@]}"
+expect 0 'results/hemisphere_45' run cases/hemisphere_45/case.toml "${short[@]}"
+expect 0 'ply.vtu' export results/hemisphere_0
+expect 1 'results.h5' export nosuch
+for name in hemisphere_0 hemisphere_45; do
+  [ -s "results/$name/summary.json" ] || { echo "no results/$name"; failures=$((failures + 1)); }
+done
+expect 3 'last good state' run cases/hemisphere_0 -o stopped --set solver.max_balance_error=1e-9
+[ -s stopped/summary.json ] || { echo "a stopped run left nothing"; failures=$((failures + 1)); }
+# Large elements on a fillet of 10 mm: it ends, and says what not to trust.
+expect 0 'die cuts into it between nodes' \
+  run cases/hemisphere_0 --accuracy draft --set blanks.square.element_size=9 -o doubtful
+if ! grep -q '"status": "doubtful"' doubtful/summary.json; then
+  echo "the summary of a doubtful run does not say so"
+  failures=$((failures + 1))
+fi
+
+# Ctrl-C: the state reached is written.
+"$program" run cases/hemisphere_0 -o broken_off >log 2>&1 &
+for _ in $(seq 600); do # until the first state is written: then the program listens
+  [ -e broken_off/results.h5 ] && break
+  sleep 0.1
+done
+kill -INT $!
+wait $! && code=0 || code=$?
+if [ "$code" != 1 ] || ! grep -q interrupted log || [ ! -s broken_off/summary.json ]; then
+  echo "Ctrl-C: exit code $code"; cat log; failures=$((failures + 1))
+fi
+echo "$failures failed"
+[ "$failures" = 0 ]

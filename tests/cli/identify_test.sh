@@ -1,0 +1,111 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# plyform identify and theory as a user meets them: laws found again, exit codes, messages.
+#   tests/cli/identify_test.sh PROGRAM CASES_FOLDER
+set -euo pipefail
+. "$(dirname "${BASH_SOURCE[0]}")/expect.sh"
+program=$1 fabric=$2/fabrics/glass_plain_weave.toml
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cp "$fabric" "$folder/glass.toml"
+cp -r "$2/hemisphere_0" "$folder/case"
+cd "$folder"
+# expect_law FILE KEY VALUE TOLERANCE: the first number of a key, within a relative tolerance.
+expect_law() {
+  local found
+  found=$(sed -n "s/^$2 = \[*\([-+.0-9e]*\).*/\1/p" "$1" | head -n 1)
+  awk -v a="$found" -v b="$3" -v t="$4" 'BEGIN { d = a / b - 1; exit !(d * d <= t * t) }' ||
+    fail "$1: $2 starts with $found, expected $3"
+}
+
+bias=(--length 300 --width 100 --fabric glass.toml)
+columns=(--x-column displacement_mm --y-column force_N)
+
+# There and back, and the written file in a case.
+expect 0 'bias.csv, 61 rows' theory bias "${bias[@]}" --to 55 --points 60 -o bias.csv
+expect 0 'k1 = 0.37044, k3 = 0.84105, k5 = 1.0311' \
+  identify bias bias.csv "${columns[@]}" "${bias[@]}" -o found.toml
+expect_law found.toml polynomial 0.37044 1e-6
+[ "$(head -n 1 found_fit.csv)" = displacement_mm,shear_deg,measured_N,fitted_N ] ||
+  fail 'found_fit.csv: header'
+[ "$(wc -l <found_fit.csv)" = 62 ] || fail 'found_fit.csv: rows'
+grep -q '^# .*from bias.csv' found.toml || fail 'found.toml does not say where its law is from'
+grep -q 'Hamila' found.toml || fail 'found.toml has lost the comment of its base'
+sed -i 's|^glass = .*|glass = "../found.toml"|' case/case.toml
+grep -q found.toml case/case.toml || fail 'the case does not use the fabric found'
+expect 0 'the case is sound' check case --set blanks.square.element_size=34
+expect 0 'frame.csv' theory frame --side 200 --fabric glass.toml --to 50 -o frame.csv
+expect 0 'plot: tools/plot.py fit fit.csv -o fit.png' identify frame frame.csv "${columns[@]}" \
+  --side 200 --fabric glass.toml --coefficients 3 --to 45 -o found.toml --fit fit.csv
+expect_law found.toml polynomial 0.37044 1e-6
+
+# A curve 2 % below theory gives a law 2 % low: that is what reading (40) backwards does.
+awk -F, -v OFS=';' 'NR > 1 { print $1, 0.98 * $3 }' bias.csv >low.csv
+expect 0 'shear angle 0 to 55 degrees' identify bias low.csv "${bias[@]}" -o low.toml
+expect_law low.toml polynomial 0.3630312 1e-6
+
+# A fabric without any law gets all three, one after the other.
+printf 'surface_density = 600\nthickness = 0.6\n[warp]\ndensity = 0.25\n[weft]\ndensity = 0.25\n' \
+  >bare.toml
+expect 2 'shear: is missing' theory bias --length 300 --width 100 --fabric bare.toml --to 30 -o x.csv
+awk 'BEGIN { for (i = 0; i <= 20; i++) print i / 10 "\t" i * 11500 * 25 / 1000 / 10 }' >strip.csv
+expect 0 'still without a law: weft' \
+  identify warp strip.csv --yarns 25 --gauge-length 250 --fabric bare.toml -o warp.toml
+expect_law warp.toml stiffness 2875 1e-6
+awk 'BEGIN { for (i = 0; i <= 50; i++) print i / 5000 "," 4e6 * (i / 5000) ^ 2 }' >yarn.csv
+expect 0 'table of 20 rows' identify weft yarn.csv --fabric warp.toml -o both.toml
+expect 0 'strain 0 to 0.01' identify weft yarn.csv --fabric warp.toml -o both.toml
+expect 0 'bias-extension' identify bias bias.csv "${columns[@]}" --length 300 --width 100 \
+  --fabric both.toml -o all.toml
+sed -i 's|^glass = .*|glass = "../all.toml"|' case/case.toml
+expect 0 'the case is sound' check case --set blanks.square.element_size=34
+[ "$(grep -c '^# Identified' all.toml)" = 3 ] || fail 'all.toml does not name three tests'
+
+# What is wrong with the curve.
+go() { expect 2 "$1" identify bias "$2" "${bias[@]}" -o never.toml "${@:3}"; }
+go 'nosuch.csv:1:1: error: the curve cannot be opened' nosuch.csv
+go 'y-column = 4: the rows have 3 columns' bias.csv --y-column 4
+go 'did you mean force_N?' bias.csv --y-column force
+go 'the fitted torque falls' bias.csv # the second column is the shear angle
+(cat low.csv; sed '1!G;h;$!d' low.csv) >unloaded.csv
+go 'if the test was unloaded there, take out the rows from line 63 on' unloaded.csv
+awk -F';' -v OFS=';' '{ print $1, -$2 }' low.csv >negative.csv
+go 'turn the sign of the column round' negative.csv
+awk -F';' -v OFS=';' '{ print -$1, -$2 }' low.csv >turned.csv
+go 'the extension falls from the first row on' turned.csv
+head -n 6 low.csv >short.csv
+go '5 rows with a shear angle above 0 within the range, 3 coefficients need at least 6' short.csv
+go 'degrees of shear angle, there must be at least 5' short.csv --coefficients 2
+awk -F';' -v OFS=';' '{ print 10 * $1, $2 }' low.csv >far.csv
+go 'the extension must be less than 82.84 mm' far.csv
+awk -F';' -v OFS=';' '{ print $1, $2 * (NR % 2 ? 0.5 : 1.5) }' low.csv >scattered.csv
+go 'they must be less than 20 %' scattered.csv
+printf '1;2\n3,5;4\n' >comma.csv
+go 'comma.csv:2:1: error: column 1 = 3,5: must be a number; write a decimal point' comma.csv
+awk -F';' -v OFS=';' '{ print $1, $2 * (NR % 2 ? 0.95 : 1.05) }' low.csv >rough.csv
+expect 0 'warning: noise' identify bias rough.csv "${bias[@]}" -o rough.toml
+
+# What is wrong with options and files.
+expect 2 'length = 150: must be at least twice the width' identify bias low.csv --length 150 \
+  --width 100 --fabric glass.toml -o never.toml
+go 'coefficients = 9: must be 1 to 6' low.csv --coefficients 9
+go 'to = 5: must be greater than --from, 10' low.csv --from 10 --to 5
+go 'would overwrite low.csv' low.csv --fit ./low.csv
+go 'would overwrite never.toml' low.csv --fit never.toml
+cp glass.toml before.toml
+expect 2 'would overwrite glass.toml' identify bias low.csv "${bias[@]}" -o case/../glass.toml
+cmp -s glass.toml before.toml || fail 'the base has been overwritten'
+printf 'fibre_angle = 60.0\n%s\n' "$(cat glass.toml)" >oblique.toml
+expect 2 'fibre_angle = 60: must be 90 degrees' identify frame frame.csv --side 200 \
+  --fabric oblique.toml -o never.toml
+expect 2 'yarns = 0: must be greater than 0' identify warp yarn.csv --yarns 0 \
+  --fabric glass.toml -o never.toml
+expect 2 'to = 90: must be above 0 and below 90' theory bias "${bias[@]}" --to 90 -o never.csv
+expect 1 'nosuch/never' identify bias low.csv "${bias[@]}" -o nosuch/never.toml
+expect 1 '--length is required' identify bias low.csv --width 100 --fabric glass.toml -o never.toml
+expect 1 'subcommand is required' identify
+for file in never.toml never_fit.csv never.csv x.csv; do
+  [ ! -e "$file" ] || fail "a mistake has written $file"
+done
+echo "$failures failed"
+[ "$failures" = 0 ]

@@ -1,0 +1,26 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Installs a finished build into a fresh prefix, runs the program from there, and builds and runs
+# another project (tests/consumer) that knows nothing but that prefix.
+#   tests/cli/install_test.sh TESTS_FOLDER BUILD_FOLDER
+set -euo pipefail
+tests=$1 build=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+prefix=$work/prefix
+
+cmake --install "$build" --prefix "$prefix"
+# Moved once more: an installed tree may not know where it was installed first.
+mv "$prefix" "$work/moved"
+prefix=$work/moved
+if grep -rnF "$(dirname "$tests")" "$prefix/lib" --include='*.cmake'; then
+  echo "install_test.sh: the package names the source folder" >&2
+  exit 1
+fi
+"$prefix/bin/plyform" version
+
+cmake -S "$tests/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
+  -DCMAKE_PREFIX_PATH="$prefix"
+cmake --build "$work/build"
+"$work/build/contact_consumer"
+"$work/build/consumer" "$work/results"

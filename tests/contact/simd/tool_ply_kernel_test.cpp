@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The kernel of contacts with tools against the law one contact after the other, and its two
+// compiled copies against each other.
+#include "contact/forces/contact_law.hpp"
+#include "contact/simd/cpu_features.hpp"
+#include "contact/simd/tool_ply_kernel.hpp"
+#include "support/contact_checks.hpp"
+
+#include <cstring>
+#include <gtest/gtest.h>
+#include <numeric>
+
+namespace plyform {
+namespace {
+
+/// A step of contacts with random memories and gaps up to 0.05 mm either way; nodes are points.
+struct RandomStep {
+  std::vector<ToolKernelPoint> points;
+  std::vector<std::int32_t> near;
+  OwnedSheet nodes;
+  std::vector<Vec3> force;
+  ToolKernelContact contact{};
+
+  RandomStep(int count, const ContactLaw& law, double dt, Random& random)
+      : near(static_cast<std::size_t>(count)),
+        nodes(points_only(std::vector<Vec3>(near.size(), Vec3::Zero()), 0.0)),
+        force(near.size(), Vec3::Zero()) {
+    std::iota(near.begin(), near.end(), 0);
+    for (const std::int32_t n : near) {
+      const auto i = static_cast<std::size_t>(n);
+      nodes.area[i] = 2.0 + signed_unit(random);
+      nodes.motion[i] = 0.01 * random_vector(random);
+      ToolKernelPoint p{};
+      if (n % 3 != 0) { // it touched
+        Eigen::Map<Vec3>(p.s) = 0.01 * random_vector(random);
+        p.damping_force = 0.1 * signed_unit(random);
+        p.normal_force = 1.0 + signed_unit(random);
+        p.slip = 0.01 * (1.0 + signed_unit(random));
+      }
+      Eigen::Map<Vec3>(p.normal) = random_vector(random).normalized();
+      p.gap = 0.05 * signed_unit(random);
+      p.last_gap = p.gap + 0.01 * signed_unit(random);
+      p.node = n;
+      points.push_back(p);
+    }
+    contact.near_count = count;
+    Eigen::Map<Vec3>(contact.tool_motion) = 0.01 * random_vector(random);
+    Eigen::Map<Vec3>(contact.advance) = 0.01 * random_vector(random);
+    contact.stiffness = law.stiffness;
+    contact.max_depth = law.max_depth;
+    contact.per_depth2 = 1.0 / (law.max_depth * law.max_depth);
+    contact.tangential = law.tangential();
+    contact.friction = law.friction;
+    contact.damping_per_dt = dt > 0.0 ? law.damping / dt : 0.0;
+  }
+
+  ToolKernelSums run(ToolKernelSums (*kernel)(const ToolKernelContact&)) {
+    contact.points = points.data();
+    contact.near = near.data();
+    contact.area = nodes.area.data();
+    contact.motion = nodes.motion.data()->data();
+    contact.force = force.data()->data();
+    return kernel(contact);
+  }
+};
+
+/// The force (N) on the node of one point, whose memory is renewed.
+Vec3 force_by_law(const ContactLaw& law, double dt, const RandomStep& step,
+                  const ToolKernelPoint& p, ContactMemory& m, ContactSums& sums) {
+  m.s = Eigen::Map<const Vec3>(p.s);
+  m.damping_force = p.damping_force, m.normal_force = p.normal_force, m.slip = p.slip;
+  const auto n = static_cast<std::size_t>(p.node);
+  const Vec3 normal = Eigen::Map<const Vec3>(p.normal);
+  const double area = step.nodes.area[n];
+  const double depth = -p.gap + normal.dot(Eigen::Map<const Vec3>(step.contact.advance));
+  const double dp = p.last_gap + depth;
+  if (depth <= 0.0) {
+    sums.damping += 0.5 * m.damping_force * dp;
+    release(law, area, m, sums);
+    return Vec3::Zero();
+  }
+  const NormalForce pressed = normal_force(law, area, depth, depth + std::min(p.last_gap, 0.0), dt);
+  sums.damping += 0.5 * (pressed.damping + m.damping_force) * dp;
+  m.damping_force = pressed.damping;
+  m.normal_force = pressed.total;
+  const Vec3 slip = step.nodes.motion[n] - Eigen::Map<const Vec3>(step.contact.tool_motion);
+  const Vec3 f =
+      pressed.total * normal + friction_force(law, area, pressed.total, normal, slip, m, sums);
+  sums.elastic += spring_energy(law, area, depth, m);
+  sums.penetration = std::max(sums.penetration, depth);
+  ++sums.touching;
+  return f;
+}
+
+TEST(ToolKernelOracle, FollowsTheLawOfOneContact) {
+  Random random(3);
+  for (const double dt : {0.0, 1e-6})
+    for (const int count : {1, 3, 4, 130}) {
+      const ContactLaw law{3.0, 1e-6, 0.2, 0.08}; // gaps of up to 0.07 mm
+      RandomStep step(count, law, dt, random);
+      const RandomStep before = step;
+      const ToolKernelSums sums = step.run(tool_kernel_generic);
+      ContactSums expected;
+      Vec3 on_nodes = Vec3::Zero();
+      for (std::size_t i = 0; i < before.points.size(); ++i) {
+        ContactMemory m;
+        const Vec3 f = force_by_law(law, dt, before, before.points[i], m, expected);
+        on_nodes += f;
+        const ToolKernelPoint& p = step.points[i];
+        EXPECT_LE((step.force[i] - f).norm(), 1e-14) << i;
+        EXPECT_LE((Eigen::Map<const Vec3>(p.s) - m.s).norm(), 1e-16) << i;
+        EXPECT_NEAR(p.damping_force, m.damping_force, 1e-15) << i;
+        EXPECT_NEAR(p.normal_force, m.normal_force, 1e-15) << i;
+        EXPECT_NEAR(p.slip, m.slip, 1e-16) << i;
+      }
+      EXPECT_EQ(sums.touching, expected.touching);
+      EXPECT_NEAR(sums.elastic, expected.elastic, 1e-13 * expected.elastic);
+      EXPECT_NEAR(sums.friction, expected.friction, 1e-13);
+      EXPECT_NEAR(sums.damping, expected.damping, 1e-13);
+      EXPECT_NEAR(sums.penetration, expected.penetration, 1e-16);
+      EXPECT_NEAR(sums.slip, expected.slip, 1e-16);
+      EXPECT_LE((Eigen::Map<const Vec3>(sums.on_nodes) - on_nodes).norm(), 1e-13);
+    }
+}
+
+TEST(ToolKernelOracle, GivesTheSameBitsOnEveryProcessor) {
+  if (!has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
+  Random random(4);
+  for (int count = 1; count < 40; ++count) {
+    RandomStep a(count, {3.0, 1e-6, 0.2, 0.08}, 1e-6, random), b = a;
+    const ToolKernelSums sums = a.run(tool_kernel_generic), other = b.run(tool_kernel_avx2);
+    ASSERT_EQ(std::memcmp(a.force.data(), b.force.data(), a.force.size() * sizeof(Vec3)), 0);
+    ASSERT_EQ(
+        std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(ToolKernelPoint)),
+        0);
+    ASSERT_EQ(sums.elastic, other.elastic);
+    ASSERT_EQ(sums.friction, other.friction);
+    ASSERT_EQ(sums.damping, other.damping);
+    ASSERT_EQ(sums.slip, other.slip);
+    ASSERT_EQ(std::memcmp(sums.on_nodes, other.on_nodes, sizeof sums.on_nodes), 0);
+  }
+}
+
+} // namespace
+} // namespace plyform

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The rule that picks dials: against a search by hand, on real cases. Whether what it promises
+// holds is measured by `plyform chart` (docs/accuracy.md).
+#include "core/accuracy/error_model.hpp"
+#include "core/input/case_file.hpp"
+
+#include <cmath>
+#include <gtest/gtest.h>
+#include <numbers>
+
+namespace plyform {
+namespace {
+
+Case case_at(const std::string& file, const std::vector<Override>& overrides = {}) {
+  const CaseReading reading = read_case(file, overrides);
+  EXPECT_TRUE(reading.errors.empty()) << file;
+  return reading.value.value_or(Case{});
+}
+
+const std::string five = PLYFORM_CASES "/hemisphere_five_ply_paper/case.toml";
+
+TEST(Accuracy, EveryDialHasItsError) {
+  const PredictedError as_is = predicted_error(case_at(five));
+  EXPECT_GT(as_is.inertia, 0.0);
+  EXPECT_GT(as_is.softening, 0.0);
+  EXPECT_GT(as_is.mesh, 0.0);
+  EXPECT_NEAR(as_is.total(), std::hypot(as_is.inertia, as_is.softening, as_is.mesh), 1e-12);
+  const PredictedError slow = predicted_error(case_at(five, {{"solver.duration", "0.2"}}));
+  EXPECT_LT(slow.inertia, as_is.inertia);
+  EXPECT_EQ(slow.softening, as_is.softening);
+  const PredictedError stiff = predicted_error(case_at(five, {{"solver.fibre_softening", "10"}}));
+  EXPECT_LT(stiff.softening, as_is.softening);
+  EXPECT_EQ(stiff.mesh, as_is.mesh);
+  const PredictedError fine =
+      predicted_error(case_at(five, {{"blanks.square.element_size", "3.4"}}));
+  EXPECT_LT(fine.mesh, as_is.mesh);
+  EXPECT_EQ(fine.inertia, as_is.inertia);
+}
+
+TEST(Accuracy, PicksTheLeastWorkOfAllDialsThatKeepThePromise) {
+  for (const double wanted : {1.0, 2.0, 3.0}) {
+    Case data = case_at(five);
+    const double own_size = data.blanks[0].element_size;
+    data.accuracy.shear_error = wanted * std::numbers::pi / 180.0;
+    pick_dials(data);
+    const PredictedError error = predicted_error(data);
+    EXPECT_LE(error.total(), 1.0001 * wanted);
+    EXPECT_NEAR(error.promised(data), wanted, 1e-9);
+    const auto work = [](const Case& c) {
+      return c.solver.duration / std::sqrt(c.solver.fibre_softening) /
+             std::pow(c.blanks[0].element_size, 2.7);
+    };
+    Case other = data;
+    for (const double coarser : {1.0, 1.1, 1.2, 1.3, 1.4})
+      for (double duration = 0.026; duration < 2.0; duration *= 1.05)
+        for (double softening = 1.0; softening <= 300.0; softening *= 1.1) {
+          other.blanks[0].element_size = coarser * own_size;
+          other.solver.duration = duration;
+          other.solver.fibre_softening = softening;
+          if (predicted_error(other).total() > wanted) continue;
+          EXPECT_GE(work(other), 0.97 * work(data)) // shares go by two hundredths
+              << coarser << ", " << duration << " s, " << softening;
+        }
+  }
+}
+
+TEST(Accuracy, SoftensNoFurtherThanCompressionAllows) {
+  Case cloth = case_at(PLYFORM_CASES "/hemisphere_five_ply/case.toml"); // 1 % in compression
+  cloth.solver.fibre_softening = 250.0;
+  const double error = predicted_error(cloth).softening;
+  cloth.solver.fibre_softening = 100.0;
+  EXPECT_NEAR(predicted_error(cloth).softening, error, 1e-12 * error);
+  EXPECT_EQ(error, predicted_error(case_at(five)).softening);
+  cloth.accuracy.shear_error = 3.0 * std::numbers::pi / 180.0;
+  pick_dials(cloth);
+  EXPECT_NEAR(cloth.solver.fibre_softening, 48000.0 / 480.0, 1e-9);
+  Case paper = case_at(five);
+  paper.accuracy.shear_error = cloth.accuracy.shear_error;
+  pick_dials(paper);
+  EXPECT_GT(paper.solver.fibre_softening, 200.0);
+}
+
+/// mm, element size that `case_file` gets for an error of `wanted` degrees.
+double size_for(const std::string& case_file, double wanted,
+                const std::vector<Override>& overrides = {}) {
+  Case data = case_at(case_file, overrides);
+  data.accuracy.shear_error = wanted * std::numbers::pi / 180.0;
+  pick_dials(data);
+  return data.blanks[0].element_size;
+}
+
+TEST(Accuracy, CoarsensTheMeshWhereItMay) {
+  EXPECT_NEAR(size_for(five, 3.0), 1.4 * 6.8, 1e-12);
+  EXPECT_EQ(size_for(five, 0.9), 6.8); // its error is that already
+  EXPECT_EQ(size_for(PLYFORM_CASES "/hemisphere_three_ply/case.toml", 3.0), 6.8); // not measured
+  EXPECT_EQ(size_for(PLYFORM_CASES "/bias_extension/case.toml", 6.0),
+            case_at(PLYFORM_CASES "/bias_extension/case.toml").blanks[0].element_size); // grips
+  // no longer than the tightest fillet is round
+  EXPECT_NEAR(size_for(five, 3.0, {{"tool.1.points", "[[80, -120], [80, 0, 8], [400, 0]]"}}),
+              1.1 * 6.8, 1e-12);
+}
+
+TEST(Accuracy, StaysWhereTheRuleWasMeasured) {
+  Case data = case_at(PLYFORM_CASES "/hemisphere_0/case.toml");
+  const double at_tenth = predicted_error(data).inertia; // one ply: small
+  data.accuracy.shear_error = 15.0 * std::numbers::pi / 180.0;
+  pick_dials(data);
+  EXPECT_LE(data.solver.fibre_softening, 1000.0);
+  EXPECT_GT(data.solver.duration, 0.012); // I = 2.8 is at 0.0125 s
+  EXPECT_GT(predicted_error(data).inertia, at_tenth);
+  Case lying = case_at(PLYFORM_CASES "/circular_table/case.toml"); // gravity only
+  const double duration = lying.solver.duration;
+  lying.accuracy.shear_error = 0.02;
+  pick_dials(lying);
+  EXPECT_EQ(lying.solver.duration, duration);
+  EXPECT_TRUE(std::isnan(predicted_error(lying).promised(lying)));
+  EXPECT_EQ(describe_accuracy(predicted_error(lying), predicted_error(lying).promised(lying), 1.0),
+            "accuracy is not predicted: nothing has a stroke");
+}
+
+TEST(Accuracy, AMeshTooCoarseLeavesHalfToTheOtherDials) {
+  Case data = case_at(five, {{"blanks.square.element_size", "40"}});
+  data.accuracy.shear_error = 1.0 * std::numbers::pi / 180.0;
+  pick_dials(data);
+  const PredictedError error = predicted_error(data);
+  ASSERT_GT(error.mesh, 1.0);
+  EXPECT_NEAR(std::hypot(error.inertia, error.softening), 0.5, 0.001);
+  EXPECT_EQ(error.promised(data), error.total());
+}
+
+TEST(Accuracy, CasesMayAskForIt) {
+  const Case asked = case_at(PLYFORM_TEST_DATA "/good/accuracy.toml");
+  const Case base = case_at(PLYFORM_TEST_DATA "/good/base.toml");
+  EXPECT_NEAR(asked.accuracy.shear_error, 1.5 * std::numbers::pi / 180.0, 1e-15);
+  EXPECT_NE(asked.solver.duration, base.solver.duration);
+  EXPECT_EQ(base.accuracy.shear_error, 0.0);
+  EXPECT_EQ(preset_error("draft"), 3.0);
+  EXPECT_EQ(preset_error("standard"), 1.0);
+  EXPECT_EQ(preset_error("reference"), 0.3);
+  EXPECT_EQ(preset_error("perfect"), 0.0);
+}
+
+} // namespace
+} // namespace plyform

@@ -1,0 +1,451 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Good case files give the right numbers; wrong ones exactly the mistakes that stand in them.
+#include "core/base/text.hpp"
+#include "core/input/case_file.hpp"
+#include "core/input/schema_check.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <gtest/gtest.h>
+#include <numbers>
+#include <set>
+#include <sstream>
+
+namespace plyform {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path data = PLYFORM_TEST_DATA;
+constexpr double pi = std::numbers::pi;
+
+std::string all_texts(const CaseReading& reading) {
+  std::string texts;
+  for (const CaseError& error : reading.errors)
+    texts += error.text() + "\n";
+  return texts;
+}
+
+/// A case that must be right.
+Case good_case(const fs::path& file, const std::vector<Override>& overrides = {}) {
+  const CaseReading reading = read_case(file, overrides);
+  EXPECT_TRUE(reading.value) << all_texts(reading);
+  return reading.value ? *reading.value : Case{};
+}
+
+// ---- one mistake a file ----
+
+/// First line of a broken case: # expect [FILE] LINE:COLUMN FRAGMENT OF THE MESSAGE
+struct Expectation {
+  fs::path file;
+  int line = 0, column = 0;
+  std::string fragment;
+};
+
+Expectation expectation(const fs::path& file) {
+  std::ifstream stream(file);
+  std::string first, mark, expect, place;
+  std::getline(stream, first);
+  std::istringstream words(first);
+  words >> mark >> expect >> place;
+  Expectation wanted;
+  wanted.file = file;
+  if (!std::isdigit(static_cast<unsigned char>(place[0]))) {
+    wanted.file = (file.parent_path() / place).lexically_normal();
+    words >> place;
+  }
+  char colon = 0;
+  std::istringstream(place) >> wanted.line >> colon >> wanted.column;
+  words >> std::ws;
+  std::getline(words, wanted.fragment);
+  return wanted;
+}
+
+std::vector<std::string> broken_files() {
+  std::vector<std::string> names;
+  for (const fs::directory_entry& entry : fs::directory_iterator(data / "broken"))
+    names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+class BrokenCase : public ::testing::TestWithParam<std::string> {};
+
+TEST_P(BrokenCase, GivesItsOneMistakeWithItsPlace) {
+  const fs::path file = data / "broken" / (GetParam() + ".toml");
+  const Expectation wanted = expectation(file);
+  ASSERT_GT(wanted.line, 0);
+  ASSERT_FALSE(wanted.fragment.empty());
+  const CaseReading reading = read_case(file, {});
+  EXPECT_FALSE(reading.value);
+  ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading);
+  const CaseError& error = reading.errors.front();
+  EXPECT_EQ(fs::path(error.file), wanted.file);
+  EXPECT_EQ(error.line, wanted.line) << error.text();
+  EXPECT_EQ(error.column, wanted.column) << error.text();
+  EXPECT_NE(error.text().find(wanted.fragment), std::string::npos) << error.text() << "\nhas no\n"
+                                                                   << wanted.fragment;
+  EXPECT_FALSE(error.rule.empty());
+  EXPECT_FALSE(error.remedy.empty()) << error.text();
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BrokenCase, ::testing::ValuesIn(broken_files()),
+                         [](const auto& which) { return which.param; });
+
+TEST(BrokenCases, HaveMessagesOfTheirOwn) {
+  std::set<std::string> messages;
+  const std::vector<std::string> names = broken_files();
+  EXPECT_GE(names.size(), 30u);
+  for (const std::string& name : names)
+    for (const CaseError& e : read_case(data / "broken" / (name + ".toml"), {}).errors)
+      EXPECT_TRUE(messages.insert(e.item + "|" + e.value + "|" + e.rule + "|" + e.remedy).second)
+          << name << ": " << e.text();
+}
+
+TEST(CaseFile, ReportsAllMistakesOfAllFilesAtOnce) {
+  const CaseReading reading = read_case(data / "several/five_mistakes.toml", {});
+  ASSERT_EQ(reading.errors.size(), 5u) << all_texts(reading);
+  const std::vector<std::string> items{"ply.0.fabric", "ply.0.angle", "tool.0.radius",
+                                       "contact.fricton", "fabrics.plain.thickness"};
+  for (std::size_t i = 0; i < items.size(); ++i)
+    EXPECT_EQ(reading.errors[i].item, items[i]);
+  EXPECT_FALSE(reading.value);
+}
+
+TEST(CaseFile, IsReportedWhenItCannotBeOpened) {
+  const CaseReading absent = read_case(data / "absent.toml", {}), folder = read_case(data, {});
+  ASSERT_EQ(absent.errors.size(), 1u);
+  EXPECT_NE(absent.errors[0].text().find("No such file"), std::string::npos);
+  ASSERT_EQ(folder.errors.size(), 1u);
+  EXPECT_NE(folder.errors[0].text().find("is a folder"), std::string::npos);
+}
+
+TEST(CaseError, IsOneLineWithPlaceItemValueRuleAndRemedy) {
+  CaseError error{"a.toml", 3, 7, "ply.2.angle", "true", "must be a number", "give the angle"};
+  EXPECT_EQ(error.text(),
+            "a.toml:3:7: error: ply.2.angle = true: must be a number; give the angle");
+  error.value.clear();
+  EXPECT_EQ(error.text(), "a.toml:3:7: error: ply.2.angle: must be a number; give the angle");
+  error.item.clear();
+  EXPECT_EQ(error.text(), "a.toml:3:7: error: must be a number; give the angle");
+}
+
+// ---- good cases ----
+
+bool is_fabric(const fs::path& shipped) {
+  return shipped.parent_path().filename() == "fabrics";
+}
+
+/// Not a case but a list of runs of one: core/study/study.hpp.
+bool is_study(const fs::path& shipped) {
+  return shipped.parent_path().filename() == "studies";
+}
+
+TEST(CaseFile, ReadsAllShippedCasesWithoutErrorOrWarning) {
+  int cases = 0;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(PLYFORM_CASES)) {
+    if (entry.path().extension() != ".toml" || is_fabric(entry.path()) || is_study(entry.path()))
+      continue;
+    const CaseReading reading = read_case(entry.path(), {});
+    EXPECT_TRUE(reading.value) << all_texts(reading);
+    const bool coarse = entry.path().parent_path().filename() == "stability"; // on purpose
+    for (const std::string& warning : reading.warnings)
+      EXPECT_TRUE(coarse && warning.find("is too coarse for how yarns") != std::string::npos)
+          << warning;
+    ++cases;
+  }
+  EXPECT_GE(cases, 3);
+}
+
+TEST(CaseFile, ConvertsUnitsOfFabrics) {
+  const Case c = good_case(data / "good/every_shape.toml");
+  ASSERT_EQ(c.fabrics.size(), 2u);
+  const Fabric &plain = c.fabrics[0], &skew = c.fabrics[1];
+  EXPECT_EQ(plain.name, "plain weave");
+  EXPECT_DOUBLE_EQ(plain.surface_density, 600e-12); // 600 g/m2 in t/mm2
+  EXPECT_DOUBLE_EQ(plain.thickness, 0.5);
+  EXPECT_DOUBLE_EQ(plain.fibre_angle, pi / 2.0);
+  EXPECT_DOUBLE_EQ(plain.warp.stiffness, 46000.0);
+  EXPECT_DOUBLE_EQ(plain.weft.stiffness, 48000.0);
+  EXPECT_DOUBLE_EQ(plain.warp_density, 0.25);
+  EXPECT_EQ(plain.shear.k, (std::vector<double>{0.4, 0.8, 1.0}));
+  EXPECT_TRUE(plain.warp.strain.empty() && plain.shear.angle.empty());
+  EXPECT_DOUBLE_EQ(skew.fibre_angle, pi / 3.0);
+  EXPECT_DOUBLE_EQ(skew.weft_density, 0.4);
+  EXPECT_EQ(skew.warp.strain, (std::vector<double>{0.0, 0.005, 0.01}));
+  EXPECT_EQ(skew.warp.tension, (std::vector<double>{0.0, 10.0, 200.0}));
+  ASSERT_EQ(skew.shear.angle.size(), 3u);
+  EXPECT_DOUBLE_EQ(skew.shear.angle[1], pi / 6.0);
+  EXPECT_DOUBLE_EQ(skew.shear.angle[2], pi / 4.0);
+  EXPECT_EQ(skew.shear.torque, (std::vector<double>{0.0, 0.5, 1.5}));
+  EXPECT_TRUE(skew.shear.k.empty());
+}
+
+TEST(CaseFile, ReadsBlanksAndLaysPliesOnEachOther) {
+  const Case c = good_case(data / "good/every_shape.toml");
+  ASSERT_EQ(c.blanks.size(), 3u);
+  EXPECT_EQ(c.blanks[0].outline.boundary,
+            (std::vector<Vec2>{{-9, -8}, {11, -8}, {11, 12}, {-9, 12}}));
+  EXPECT_EQ(c.blanks[1].mesh, MeshKind::free);
+  EXPECT_EQ(c.blanks[1].outline.holes.size(), 1u);
+  EXPECT_EQ(c.blanks[2].mesh, MeshKind::file);
+  EXPECT_TRUE(fs::exists(c.blanks[2].file));
+  ASSERT_EQ(c.plies.size(), 3u);
+  EXPECT_DOUBLE_EQ(c.plies[0].z, 1.25); // bottom 1, 0.5 thick
+  EXPECT_DOUBLE_EQ(c.plies[1].z, 1.65); // 0.3 thick, on top of it
+  EXPECT_DOUBLE_EQ(c.plies[2].z, 3.0);  // as given
+  EXPECT_DOUBLE_EQ(c.plies[1].angle, -pi / 4.0);
+  EXPECT_EQ(c.plies[1].fabric, 1);
+  EXPECT_EQ(c.plies[2].blank, 2);
+  const Case five = good_case(fs::path(PLYFORM_CASES) / "hemisphere_five_ply/case.toml");
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR(five.plies[i].z, 0.3 + 0.6 * static_cast<double>(i), 1e-14); // sums
+}
+
+TEST(CaseFile, ReadsPlacesAndMotionsOfTools) {
+  const Case c = good_case(data / "good/every_shape.toml");
+  ASSERT_EQ(c.tools.size(), 8u);
+  const Tool &ball = c.tools[0], &roll = c.tools[1], &block = c.tools[2], &coin = c.tools[4];
+  EXPECT_EQ(ball.motion, Motion::driven);
+  EXPECT_DOUBLE_EQ(ball.stroke, 1.0);
+  EXPECT_EQ(ball.direction, Vec3(0, 0, -1)); // given as (0, 0, -2)
+  EXPECT_EQ(ball.position, Vec3(0, 0, 10));
+  EXPECT_TRUE(ball.rotation.isIdentity(0.0));
+  EXPECT_EQ(c.tools[3].motion, Motion::fixed);
+  EXPECT_EQ(coin.motion, Motion::force);
+  EXPECT_DOUBLE_EQ(coin.force, 300.0);
+  EXPECT_DOUBLE_EQ(coin.mass, 2.5e-3); // t
+  EXPECT_EQ(c.tools[5].mass, 0.0);     // the default
+  // Rotations are products of sines and cosines: some rounding.
+  EXPECT_TRUE((roll.rotation * Vec3::UnitZ()).isApprox(Vec3::UnitY(), 1e-14));
+  EXPECT_TRUE((roll.rotation * Vec3::UnitX()).isApprox(Vec3::UnitX(), 1e-14)); // shortest way
+  EXPECT_TRUE((block.rotation * Vec3::UnitX()).isApprox(Vec3::UnitY(), 1e-14));
+  EXPECT_TRUE((coin.rotation * Vec3::UnitZ()).isApprox(-Vec3::UnitZ(), 1e-14));
+  for (const Tool& tool : c.tools)
+    EXPECT_NEAR(tool.rotation.determinant(), 1.0, 1e-14);
+}
+
+TEST(CaseFile, ReadsShapesOfTools) {
+  const Case c = good_case(data / "good/every_shape.toml");
+  ASSERT_EQ(c.tools.size(), 8u);
+  EXPECT_DOUBLE_EQ(std::get<Sphere>(c.tools[0].shape).radius, 5.0);
+  EXPECT_DOUBLE_EQ(std::get<Cylinder>(c.tools[1].shape).length, 40.0);
+  EXPECT_DOUBLE_EQ(std::get<Cylinder>(c.tools[1].shape).edge_radius, 2.0);
+  EXPECT_EQ(std::get<Box>(c.tools[2].shape).size, Vec3(4, 5, 6));
+  EXPECT_DOUBLE_EQ(std::get<Box>(c.tools[2].shape).edge_radius, 1.5);
+  EXPECT_TRUE(std::holds_alternative<Plane>(c.tools[3].shape));
+  const Annulus disc = std::get<Annulus>(c.tools[4].shape),
+                ring = std::get<Annulus>(c.tools[5].shape);
+  EXPECT_DOUBLE_EQ(disc.inner_radius, 0.0);
+  EXPECT_DOUBLE_EQ(disc.edge_radius, 0.0);
+  EXPECT_DOUBLE_EQ(ring.inner_radius, 12.0);
+  EXPECT_DOUBLE_EQ(ring.edge_radius, 1.0);
+  const auto distance = [&](std::size_t tool, const Vec3& p) {
+    int hint = -1;
+    return signed_distance(c.tools[tool].shape, p, hint).distance;
+  };
+  // Middles of the arc and of the fillet, 2 mm about (14, -2) and (28, -2), and 1 mm above each.
+  const double near = 2.0 / std::numbers::sqrt2, far = 3.0 / std::numbers::sqrt2;
+  EXPECT_NEAR(distance(6, {14 - near, 0, -2 + near}), 0.0, 1e-12);
+  EXPECT_NEAR(distance(6, {14 - far, 0, -2 + far}), 1.0, 1e-12);
+  EXPECT_NEAR(distance(6, {28 + near, 0, -2 + near}), 0.0, 1e-12);
+  EXPECT_NEAR(distance(6, {28 + far, 0, -2 + far}), 1.0, 1e-12);
+  // The tetrahedron, its face at z = 1 scaled to 3 mm.
+  EXPECT_NEAR(distance(7, {0.1, 0, 5}), 2.0, 1e-12);
+}
+
+TEST(CaseFile, ReadsFrictionOfPairsTheLastThatFits) {
+  const Case c = good_case(data / "good/every_shape.toml");
+  ASSERT_EQ(c.friction.bodies, 3 + 8);
+  EXPECT_EQ(c.friction(0, 3), 0.3);  // lower, ball
+  EXPECT_EQ(c.friction(0, 1), 0.1);  // plies
+  EXPECT_EQ(c.friction(2, 3), 0.05); // upper, ball
+  for (int a = 0; a < 11; ++a)
+    for (int b = 0; b < 11; ++b)
+      EXPECT_EQ(c.friction(a, b), c.friction(b, a));
+}
+
+TEST(CaseFile, ReadsSolverAndContactOptions) {
+  const Case c = good_case(data / "good/every_shape.toml");
+  EXPECT_EQ(c.title, "every shape");
+  EXPECT_EQ(c.solver.duration, 0.2);
+  EXPECT_EQ(c.solver.step_factor, 0.8);
+  EXPECT_EQ(c.solver.fibre_softening, 10.0);
+  EXPECT_EQ(c.solver.fibre_damping, 0.06);
+  EXPECT_EQ(c.solver.mass_damping, 3.0);
+  EXPECT_EQ(c.solver.element, ElementKind::averaged);
+  EXPECT_EQ(c.solver.max_balance_error, 0.2);
+  EXPECT_EQ(c.solver.outputs, 7);
+  EXPECT_EQ(c.contact.stiffness, 0.2);
+  EXPECT_EQ(c.contact.damping, 0.1);
+  EXPECT_EQ(c.contact.skin, 0.7);
+}
+
+TEST(CaseFile, ReadsGripsFramesAndPlanesOfSymmetry) {
+  const Case c = good_case(data / "good/boundaries.toml");
+  ASSERT_EQ(c.boundaries.size(), 5u);
+  const Boundary &middle = c.boundaries[0], &pulled = c.boundaries[1], &clamp = c.boundaries[2],
+                 &bars = c.boundaries[3], &far_side = c.boundaries[4];
+  EXPECT_EQ(middle.kind, BoundaryKind::symmetry);
+  EXPECT_EQ(middle.normal, Vec2(1, 0)); // given as (2, 0)
+  EXPECT_EQ(middle.point, Vec2(0, 0));
+  EXPECT_EQ(middle.ply, -1);
+  EXPECT_EQ(pulled.name, "pulled");
+  EXPECT_EQ(pulled.kind, BoundaryKind::grip);
+  EXPECT_TRUE(pulled.on_edge);
+  EXPECT_EQ(pulled.place[1], Vec2(20, 20));
+  EXPECT_EQ(pulled.held, (std::array<bool, 3>{true, false, true}));
+  EXPECT_TRUE(pulled.direction.isApprox(Vec3(0.6, 0, 0.8), 1e-15)); // given as (3, 0, 4)
+  EXPECT_EQ(pulled.stroke, 2.0);
+  EXPECT_FALSE(clamp.on_edge);
+  EXPECT_EQ(clamp.ply, 1);
+  EXPECT_EQ(clamp.place[0], Vec2(10, -5)); // corners in any order
+  EXPECT_EQ(clamp.held, (std::array<bool, 3>{true, true, true}));
+  EXPECT_EQ(clamp.direction, Vec3(1, 0, 0));
+  EXPECT_EQ(clamp.stroke, 0.0);
+  EXPECT_EQ(bars.kind, BoundaryKind::frame);
+  EXPECT_EQ(bars.ply, 0);
+  EXPECT_EQ(bars.hinges[2], Vec2(15, 10));
+  EXPECT_EQ(bars.stroke, 3.0);
+  EXPECT_EQ(far_side.normal, Vec2(0, 1));
+  EXPECT_EQ(far_side.point, Vec2(3, -20));
+}
+
+TEST(CaseFile, ReadsGravityAndIsotropicSheets) {
+  const Case c = good_case(data / "good/boundaries.toml");
+  EXPECT_EQ(c.gravity, Vec3(0, 0, -9810));
+  ASSERT_EQ(c.fabrics.size(), 2u);
+  const auto fabric_of = [&](std::size_t ply) {
+    return c.fabrics.at(static_cast<std::size_t>(c.plies.at(ply).fabric));
+  };
+  const Fabric cloth = fabric_of(0), foil = fabric_of(1);
+  EXPECT_FALSE(cloth.isotropic);
+  ASSERT_TRUE(foil.isotropic);
+  EXPECT_DOUBLE_EQ(foil.isotropic->modulus, 3000.0 * 0.2); // N/mm: times the thickness
+  EXPECT_DOUBLE_EQ(foil.isotropic->poissons_ratio, 0.3);
+  EXPECT_DOUBLE_EQ(foil.fibre_angle, pi / 2.0);
+  EXPECT_EQ(foil.warp.largest_slope(), 0.0);
+  EXPECT_TRUE(good_case(data / "good/inline.toml").gravity.isZero(0.0)); // the default
+}
+
+TEST(CaseFile, TakesTheProgramsOwnDefaults) {
+  const Case c = good_case(data / "good/inline.toml");
+  const SolverOptions solver;
+  const ContactOptions contact;
+  EXPECT_EQ(c.solver.duration, solver.duration);
+  EXPECT_EQ(c.solver.step_factor, solver.step_factor);
+  EXPECT_EQ(c.solver.fibre_softening, solver.fibre_softening);
+  EXPECT_EQ(c.solver.fibre_damping, solver.fibre_damping);
+  EXPECT_EQ(c.solver.mass_damping, solver.mass_damping);
+  EXPECT_EQ(c.solver.max_balance_error, solver.max_balance_error);
+  EXPECT_EQ(c.solver.outputs, solver.outputs);
+  EXPECT_EQ(c.contact.stiffness, contact.stiffness);
+  EXPECT_EQ(c.contact.damping, contact.damping);
+  EXPECT_EQ(c.contact.skin, contact.skin);
+  EXPECT_EQ(c.friction(0, 0), 0.2);
+  EXPECT_EQ(c.fabrics.at(0).name, "bare");
+  EXPECT_TRUE(c.tools.empty());
+}
+
+TEST(CaseFile, HasTheFabricsBending) {
+  const Case c = good_case(data / "good/bending.toml");
+  const Fabric &line = c.fabrics.at(0), &table = c.fabrics.at(1), &warp_only = c.fabrics.at(2);
+  EXPECT_EQ(line.warp.compression, 460.0);
+  EXPECT_EQ(line.weft.compression, 480.0);
+  EXPECT_EQ(line.bending.warp.stiffness, 4.0);
+  EXPECT_EQ(line.bending.weft.stiffness, 1.0);
+  EXPECT_EQ(line.bending.twist, 3.0);
+  EXPECT_EQ(line.bending.coupling, 0.0);
+  EXPECT_EQ(line.bending.in_plane[0], 8.0);
+  EXPECT_EQ(line.warp.buckling_force, 5.0);
+  EXPECT_FALSE(line.weft.buckles());
+  EXPECT_NEAR(line.locking_angle.value(), 50.0 * pi / 180.0, 1e-15);
+  EXPECT_FALSE(table.locking_angle);
+  EXPECT_EQ(table.bending.in_plane[1], 2.0);
+  EXPECT_TRUE(table.weft.buckles());
+  EXPECT_EQ(table.bending.warp.curvature, (std::vector<double>{0.0, 0.01, 0.05}));
+  EXPECT_EQ(table.bending.warp.moment, (std::vector<double>{0.0, 0.04, 0.08}));
+  EXPECT_DOUBLE_EQ(table.bending.twist, 2.0); // root of 4 times 1
+  EXPECT_EQ(warp_only.bending.warp.stiffness, 4.0);
+  EXPECT_FALSE(warp_only.bending.weft.largest_slope() > 0.0);
+  EXPECT_EQ(warp_only.bending.twist, 0.0);
+  const Fabric without = good_case(data / "good/base.toml").fabrics.at(0);
+  EXPECT_FALSE(without.bending.any());
+  EXPECT_EQ(without.warp.compression, 0.0);
+}
+
+// ---- keys ----
+
+/// All patterns of keys that stand in a file.
+void collect_keys(const Entry& table, const std::string& pattern, std::set<std::string>& keys) {
+  for (const Entry& child : table.children) {
+    const std::string key =
+        table.kind == Entry::Kind::list ? pattern + "[]" : pattern_of(pattern, child.key);
+    if (table.kind == Entry::Kind::table) keys.insert(key);
+    collect_keys(child, key, keys);
+  }
+}
+
+/// The keys of case files (pattern "") or fabric files ("fabrics.NAME"), and those listed.
+struct Keys {
+  std::set<std::string> used, listed;
+  Keys() {
+    for (const KeyInfo& key : case_keys())
+      listed.insert(key.key);
+  }
+  void add(const fs::path& file, const std::string& pattern) {
+    std::string reason;
+    Findings findings;
+    const auto content = read_text(file, reason);
+    ASSERT_TRUE(content) << reason;
+    const auto entries = parse_entries(*content, file.string(), findings);
+    ASSERT_TRUE(entries) << file;
+    collect_keys(*entries, pattern, used);
+  }
+};
+
+TEST(CaseKeys, AreJustThoseThatGoodFilesUse) {
+  Keys keys;
+  for (const char* name : {"every_shape", "inline", "base", "boundaries", "bending", "accuracy"}) {
+    good_case(data / "good" / (std::string(name) + ".toml")); // each of its keys is accepted
+    keys.add(data / "good" / (std::string(name) + ".toml"), "");
+  }
+  for (const char* name : {"plain", "tables"}) // the fabrics of these cases
+    keys.add(data / "fabrics" / (std::string(name) + ".toml"), "fabrics.NAME");
+  EXPECT_EQ(keys.used, keys.listed);
+}
+
+TEST(CaseKeys, CoverTheShippedCases) {
+  Keys keys;
+  for (const fs::directory_entry& entry : fs::recursive_directory_iterator(PLYFORM_CASES))
+    if (entry.path().extension() == ".toml" && !is_study(entry.path()))
+      keys.add(entry.path(), is_fabric(entry.path()) ? "fabrics.NAME" : "");
+  EXPECT_GT(keys.used.size(), 40u);
+  for (const std::string& key : keys.used)
+    EXPECT_TRUE(keys.listed.contains(key)) << key;
+}
+
+TEST(CaseKeys, AreDescribedAndListedOnce) {
+  std::set<std::string> keys;
+  for (const KeyInfo& key : case_keys()) {
+    EXPECT_TRUE(keys.insert(key.key).second) << key.key;
+    EXPECT_FALSE(key.type.empty() || key.unit.empty() || key.fallback.empty()) << key.key;
+    EXPECT_FALSE(key.meaning.empty()) << key.key;
+  }
+}
+
+TEST(CaseKeys, HaveDefaultsThatTheReaderAccepts) {
+  for (const KeyRow& row : key_table()) {
+    if (row.fallback.empty()) continue;
+    std::string reason;
+    const auto value = parse_value(row.fallback, "default", 1, reason);
+    ASSERT_TRUE(value) << row.key << ": " << reason;
+    if (value->is_number()) {
+      EXPECT_TRUE(row.range_of(0).holds(value->number)) << row.key;
+    }
+  }
+}
+
+} // namespace
+} // namespace plyform

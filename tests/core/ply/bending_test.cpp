@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Bending: curvatures of known surfaces, forces from energy, momentum, the step's bound.
+#include "core/ply/bending.hpp"
+#include "support/scene_checks.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+namespace plyform {
+namespace {
+
+BendingLaw cloth() {
+  BendingLaw law;
+  law.warp.stiffness = 5.0; // N mm
+  law.weft.stiffness = 0.5;
+  law.coupling = 0.2;
+  law.twist = 0.3;
+  return law;
+}
+
+/// A square of 60 mm with free triangles of 8 mm.
+BlankMesh free_square() {
+  BlankSpec blank = rectangle(60.0, 60.0, 8.0);
+  blank.mesh = MeshKind::free;
+  return mesh_blank(blank, 0.0, 0.0);
+}
+
+Bending bend(const BlankMesh& mesh, const BendingLaw& law, double warp, double mass = 1e-8) {
+  const std::vector<double> masses(mesh.x.size(), mass);
+  return make_bending(mesh.x, mesh.triangles, law, warp, warp + 0.5 * std::numbers::pi, masses);
+}
+
+std::vector<Vec3> wavy(const BlankMesh& mesh) {
+  std::vector<Vec3> x;
+  for (const Vec2& p : mesh.x)
+    x.emplace_back(1.02 * p.x() + 0.1 * p.y(), 0.97 * p.y() - 0.05 * p.x(),
+                   3.0 * std::sin(0.1 * p.x() + 0.07 * p.y()) + 0.01 * p.y() * p.x());
+  return x;
+}
+
+TEST(Bending, FindsTheSecondDerivativesOfAnyQuadraticInsideAnyMesh) {
+  const double angle = 0.4, a = 2e-3, c = -1e-3, twist = 5e-4; // 1/mm
+  const Vec2 e1(std::cos(angle), std::sin(angle)), e2(-e1.y(), e1.x());
+  BlankSpec crossed = rectangle(60.0, 60.0, 10.0);
+  crossed.mesh = MeshKind::crossed;
+  for (const BlankMesh& mesh : {free_square(), mesh_blank(crossed, 0.0, 0.0),
+                                mesh_blank(rectangle(60.0, 60.0, 10.0), 0.0, 0.0)}) {
+    const Bending b = bend(mesh, cloth(), angle);
+    std::vector<Vec3> x;
+    for (const Vec2& p : mesh.x) {
+      const double r = p.dot(e1), s = p.dot(e2);
+      x.emplace_back(p.x(), p.y(), 0.5 * a * r * r + 0.5 * c * s * s + twist * r * s + 0.1 * r);
+    }
+    std::vector<Vec3> normal(x.size(), Vec3::Zero());
+    for (const Triangle& t : mesh.triangles)
+      for (const int n : t)
+        normal[static_cast<std::size_t>(n)] +=
+            (x[static_cast<std::size_t>(t[1])] - x[static_cast<std::size_t>(t[0])])
+                .cross(x[static_cast<std::size_t>(t[2])] - x[static_cast<std::size_t>(t[0])]);
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      if (mesh.x[n].cwiseAbs().maxCoeff() > 29.999) continue; // the rim
+      const double up = normal[n].normalized().z();
+      const std::array<double, 3> k = curvatures(b, x, static_cast<int>(n));
+      // 1e-10: rounding of fits with singular values down to 0.02 of the largest
+      EXPECT_NEAR(k[0], a * up, 1e-10);
+      EXPECT_NEAR(k[1], c * up, 1e-10);
+      EXPECT_NEAR(k[2], twist * up, 1e-10);
+    }
+  }
+}
+
+TEST(Bending, ForceIsMinusEnergyGradient) {
+  const BlankMesh mesh = free_square();
+  BendingLaw table = cloth();
+  table.warp.curvature = {0.0, 0.01, 0.03};
+  table.warp.moment = {0.0, 0.05, 0.07};
+  for (const BendingLaw& law : {cloth(), table}) {
+    Bending b = bend(mesh, law, 0.3);
+    std::vector<Vec3> x = wavy(mesh);
+    const std::vector<Vec3> f = reference_bending_forces(b, x);
+    const double scale = largest_norm(f), h = 1e-4; // mm
+    ASSERT_GT(scale, 1e-4);
+    for (std::size_t n = 0; n < x.size(); n += 7)
+      for (int k = 0; k < 3; ++k) {
+        const double place = x[n][k];
+        x[n][k] = place + h;
+        const double up = bending_energy(b, x);
+        x[n][k] = place - h;
+        const double down = bending_energy(b, x);
+        x[n][k] = place;
+        EXPECT_NEAR(f[n][k], -(up - down) / (2.0 * h), 1e-6 * scale) << n << ' ' << k;
+      }
+  }
+}
+
+TEST(Bending, HasNeitherNetForceNorMomentAndDoesNotSeeRotations) {
+  const BlankMesh mesh = free_square();
+  Bending b = bend(mesh, cloth(), 0.3);
+  const std::vector<Vec3> x = wavy(mesh);
+  const std::vector<Vec3> f = reference_bending_forces(b, x);
+  const double scale = largest_norm(f);
+  Vec3 sum = Vec3::Zero(), moment = Vec3::Zero();
+  for (std::size_t n = 0; n < f.size(); ++n) {
+    sum += f[n];
+    moment += x[n].cross(f[n]);
+  }
+  EXPECT_LE(sum.norm(), 1e-10 * scale);
+  EXPECT_LE(moment.norm(), 1e-10 * scale * 60.0); // the square's size, mm
+  Random random(3);
+  const Eigen::Matrix3d turn = random_rotation(random);
+  std::vector<Vec3> turned;
+  for (const Vec3& p : x)
+    turned.push_back(turn * p + Vec3(4.0, -2.0, 9.0));
+  const double e = bending_energy(b, x);
+  EXPECT_NEAR(bending_energy(b, turned), e, 1e-11 * e);
+}
+
+/// Eigenvalues (1/s^2, ascending) of deflections of the flat sheet, each node of the given mass.
+Eigen::VectorXd flat_modes(Bending& b, const BlankMesh& mesh, double mass) {
+  std::vector<Vec3> x;
+  for (const Vec2& p : mesh.x)
+    x.emplace_back(p.x(), p.y(), 0.0);
+  const auto n = static_cast<Eigen::Index>(x.size());
+  Eigen::MatrixXd k(n, n); // of deflections: linear, so a unit step is exact but for its square
+  const double step = 1e-6;
+  for (Eigen::Index j = 0; j < n; ++j) {
+    x[static_cast<std::size_t>(j)].z() = step;
+    const std::vector<Vec3> f = reference_bending_forces(b, x);
+    x[static_cast<std::size_t>(j)].z() = 0.0;
+    for (Eigen::Index i = 0; i < n; ++i)
+      k(i, j) = -f[static_cast<std::size_t>(i)].z() / step;
+  }
+  return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (k + k.transpose())).eigenvalues() /
+         mass;
+}
+
+TEST(Bending, BoundHoldsAndLeavesNoModeOfTheFlatSheetFree) {
+  const BlankMesh mesh = mesh_blank(rectangle(40.0, 40.0, 10.0), 0.0, 0.0);
+  BendingLaw plate; // nu = 0.3
+  plate.warp.stiffness = plate.weft.stiffness = 2.0;
+  plate.coupling = 0.6;
+  plate.twist = 2.8;
+  const double mass = 1e-8; // t
+  Bending b = bend(mesh, plate, 0.0, mass);
+  const Eigen::VectorXd omega2 = flat_modes(b, mesh, mass);
+  const Eigen::Index n = omega2.size();
+  EXPECT_GE(b.omega2, omega2[n - 1]);
+  EXPECT_LE(b.omega2, 8.0 * omega2[n - 1]); // it bounds the step only where bending is very stiff
+  EXPECT_LE(std::abs(omega2[2]), 1e-9 * omega2[n - 1]); // one shift, two rotations
+  EXPECT_GE(omega2[3], 1e-5 * omega2[n - 1]); // all else bends; a strip's first mode is (h/L)^4
+}
+
+TEST(Bending, BoundHoldsForAWeaveAndItsSoftestShapeIsTheSaddle) {
+  BlankSpec spec = rectangle(40.0, 40.0, 10.0);
+  const double mass = 1e-8; // t
+  for (const MeshKind kind : {MeshKind::diagonal, MeshKind::alternating, MeshKind::free})
+    for (const double warp : {0.0, 0.5}) {
+      spec.mesh = kind;
+      const BlankMesh mesh = mesh_blank(spec, warp, warp + 0.5 * std::numbers::pi);
+      BendingLaw law;
+      law.warp.stiffness = 2.0;
+      law.weft.stiffness = 0.5;
+      Bending limp = bend(mesh, law, warp, mass);
+      law.twist = 1.0;
+      Bending b = bend(mesh, law, warp, mass);
+      const Eigen::VectorXd omega2 = flat_modes(b, mesh, mass),
+                            without = flat_modes(limp, mesh, mass);
+      EXPECT_GE(b.omega2, omega2[omega2.size() - 1]);
+      EXPECT_GE(limp.omega2, without[without.size() - 1]);
+      // small rims at an angle to the yarns hold a saddle, too
+      if (warp == 0.0) {
+        EXPECT_LE(without[3], 0.1 * omega2[3]) << static_cast<int>(kind);
+      }
+      EXPECT_GE(omega2[3], 1e-4 * omega2[omega2.size() - 1]);
+    }
+}
+
+} // namespace
+} // namespace plyform

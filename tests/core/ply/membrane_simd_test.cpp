@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The kernel against the membrane computed one triangle after the other.
+#include "contact/simd/cpu_features.hpp"
+#include "core/ply/membrane_simd.hpp"
+#include "support/membrane_checks.hpp"
+
+#include <cstring>
+#include <gtest/gtest.h>
+
+namespace plyform {
+namespace {
+
+/// Table laws that bend, and yarns that bear some compression.
+Fabric table_weave() {
+  Fabric f = glass_weave();
+  f.fibre_angle = 1.2;
+  f.warp.strain = {0.0, 0.002, 0.01};
+  f.warp.tension = {0.0, 20.0, 400.0};
+  f.weft.compression = 50.0;
+  f.shear.angle = {0.0, 0.3, 0.9};
+  f.shear.torque = {0.0, 0.1, 1.2};
+  f.shear.k.clear();
+  return f;
+}
+
+/// Yarns that buckle: the warp by numbers, the weft by a table too.
+Fabric buckling_weave(bool table) {
+  Fabric f = table ? table_weave() : glass_weave();
+  f.warp.compression = 300.0;
+  f.warp.buckling_force = 12.0; // at a strain of 0.04
+  f.weft.compression = 50.0;
+  if (table) f.weft.buckling_force = 4.0;
+  return f;
+}
+
+struct Sums {
+  std::vector<Vec3> force;
+  double work = 0.0;
+  bool collapsed = false;
+};
+
+Sums by_lanes(MembraneLanes& lanes, const Membrane& m, const std::vector<Vec3>& x, double dt) {
+  Sums sums;
+  for (int b = 0; b < static_cast<int>(lanes.blocks.size()); ++b) {
+    const PatchReport report = lane_forces(lanes, m, x, dt, b);
+    sums.work += report.viscous_work;
+    sums.collapsed |= report.collapsed;
+  }
+  for (std::size_t n = 0; n < x.size(); ++n)
+    sums.force.push_back(lane_force(lanes, n));
+  return sums;
+}
+
+Sums one_by_one(Membrane& m, const std::vector<Vec3>& x, double dt) {
+  std::vector<ElementForce> q(m.triangles.size());
+  const PatchReport report = element_forces(m, x, dt, 0, m.patches(), q);
+  Sums sums{{}, report.viscous_work, report.collapsed};
+  for (std::size_t n = 0; n < x.size(); ++n)
+    sums.force.push_back(node_force(m, q, static_cast<int>(n)));
+  return sums;
+}
+
+void expect_near(const Sums& fast, const Sums& slow) {
+  double largest = 0.0;
+  for (const Vec3& f : slow.force)
+    largest = std::max(largest, f.norm());
+  ASSERT_GT(largest, 0.0);
+  // strains of 1e-3 and less keep twelve digits of stretches of one
+  for (std::size_t n = 0; n < slow.force.size(); ++n)
+    ASSERT_LE((fast.force[n] - slow.force[n]).norm(), 1e-11 * largest) << n;
+  EXPECT_NEAR(fast.work, slow.work, 1e-11 * std::abs(slow.work) + 1e-13);
+  EXPECT_EQ(fast.collapsed, slow.collapsed);
+}
+
+TEST(MembraneLanes, AgreeWithTheMembraneOneByOne) {
+  Random random(11);
+  for (const Fabric& fabric :
+       {glass_weave(), table_weave(), buckling_weave(false), buckling_weave(true)})
+    for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged})
+      for (int i = 0; i < 20; ++i) {
+        const BlankMesh mesh = irregular_mesh(random);
+        Membrane m = make_membrane(mesh, fabric, 0.4, kind);
+        m.viscosity = {0.02, 0.03};
+        std::vector<Vec3> x0;
+        for (const Vec2& p : mesh.x)
+          x0.emplace_back(p.x(), p.y(), 0.0);
+        MembraneLanes lanes = make_lanes(m, x0);
+        for (const double dt : {0.0, 1e-5, 2e-5}) { // the state of the viscosity goes along
+          const double stretch = i % 3 == 2 ? 0.85 : i % 3 ? 1.0 : 1.1;
+          const std::vector<Vec3> x = random_state(mesh, stretch, 0.3, random);
+          expect_near(by_lanes(lanes, m, x, dt), one_by_one(m, x, dt));
+        }
+      }
+}
+
+TEST(MembraneLanes, EnergyAgreesWithTheMembraneOneByOne) {
+  Random random(12);
+  Fabric long_law = glass_weave(); // a polynomial longer than the kernel's own
+  long_law.shear.k.assign(most_shear_terms + 1, 0.1);
+  for (const Fabric& fabric :
+       {glass_weave(), table_weave(), long_law, buckling_weave(false), buckling_weave(true)})
+    for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged})
+      for (int i = 0; i < 20; ++i) {
+        const BlankMesh mesh = irregular_mesh(random);
+        const Membrane m = make_membrane(mesh, fabric, 0.3, kind);
+        // states of wide stretches: the guard acts in some
+        const std::vector<Vec3> x = random_state(mesh, i % 2 ? 0.45 : 1.1, 0.3, random);
+        const MembraneLanes lanes = make_lanes(m, x);
+        MembraneEnergy sum;
+        for (int b = 0; b < static_cast<int>(lanes.blocks.size()); ++b) {
+          const MembraneEnergy e = lane_energy(lanes, m, x, b);
+          sum.fibre += e.fibre, sum.shear += e.shear;
+        }
+        const MembraneEnergy slow = membrane_energy(m, x);
+        ASSERT_GT(slow.fibre, 0.0);
+        ASSERT_GT(slow.shear, 0.0);
+        EXPECT_NEAR(sum.fibre, slow.fibre, 1e-12 * slow.fibre); // sums of positive terms
+        EXPECT_NEAR(sum.shear, slow.shear, 1e-12 * slow.shear);
+      }
+}
+
+TEST(MembraneLanes, ManyBlocksHoldEveryTriangleOnce) {
+  const BlankMesh mesh = mesh_blank(rectangle(300.0, 200.0, 4.0), 0.0, 1.5);
+  BlankMesh half = mesh; // one half along the yarns: pairs and singles in the same block
+  Random random(4);
+  for (Vec2& p : half.x)
+    if (p.x() > 8.0 && p.x() < 140.0 && std::abs(p.y()) < 90.0)
+      p += 1.0 * Vec2(signed_unit(random), signed_unit(random));
+  Membrane m = make_membrane(half, glass_weave(), 0.0, ElementKind::automatic);
+  std::vector<Vec3> x0, x;
+  for (const Vec2& p : half.x)
+    x0.emplace_back(p.x(), p.y(), 0.0);
+  MembraneLanes lanes = make_lanes(m, x0);
+  ASSERT_GT(lanes.blocks.size(), 8u);
+  int pairs = 0, singles = 0;
+  for (const LaneBlock& b : lanes.blocks) {
+    EXPECT_LE(b.nodes, most_block_nodes);
+    pairs += b.pair_groups, singles += b.single_groups;
+  }
+  EXPECT_GT(pairs, 0);
+  EXPECT_GT(singles, 0);
+  for (const Vec3& p : x0)
+    x.emplace_back(1.01 * p.x() + 0.3 * p.y(), 1.02 * p.y(), 0.01 * p.x() * p.y() / 100.0);
+  expect_near(by_lanes(lanes, m, x, 0.0), one_by_one(m, x, 0.0));
+}
+
+TEST(MembraneLanes, SeeTrianglesCollapse) {
+  Random random(3);
+  const BlankMesh mesh = irregular_mesh(random);
+  Membrane m = make_membrane(mesh, glass_weave(), 0.3, ElementKind::plain);
+  std::vector<Vec3> x;
+  for (const Vec2& p : mesh.x)
+    x.emplace_back(p.x(), p.y(), 0.0);
+  MembraneLanes lanes = make_lanes(m, x);
+  EXPECT_FALSE(by_lanes(lanes, m, x, 0.0).collapsed);
+  std::vector<Vec3> flat = x, lost = x;
+  for (Vec3& p : flat)
+    p = Vec3(p.x(), p.x(), p.x() * 1e-3);
+  EXPECT_TRUE(by_lanes(lanes, m, flat, 0.0).collapsed);
+  lost[5].x() = std::nan("");
+  EXPECT_TRUE(by_lanes(lanes, m, lost, 0.0).collapsed);
+}
+
+/// Both copies of the kernel: no processor answers differently.
+TEST(MembraneLanes, GiveTheSameBitsOnEveryProcessor) {
+  if (!has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
+  Random random(8);
+  alignas(32) LaneForce force[2][6];
+  for (int i = 0; i < 200; ++i) {
+    LaneTriangles t[2];
+    LaneViscosity v[2];
+    double x[18];
+    for (double& a : x)
+      a = 3.0 * signed_unit(random);
+    for (std::size_t lane = 0; lane < lanes; ++lane)
+      for (LaneTriangles& triangle : t) {
+        triangle.c11[lane] = signed_unit(random), triangle.c12[lane] = signed_unit(random);
+        triangle.c21[lane] = signed_unit(random), triangle.c22[lane] = signed_unit(random);
+        triangle.area[lane] = 1.0 + signed_unit(random);
+        triangle.share[lane] = 0.5;
+        for (std::size_t k = 0; k < 3; ++k)
+          triangle.node[k][lane] = static_cast<std::uint16_t>(sizeof(LaneForce) * ((k + lane) % 6));
+        for (std::size_t k = 0; k < 2; ++k)
+          v[0].lambda[k][lane] = v[1].lambda[k][lane] = 1.0,
+          v[0].tension[k][lane] = v[1].tension[k][lane] = 0.1;
+      }
+    KernelLaw law{{},      0.1,     8.0,    {0.022, 0.05, 0.062}, 3, nullptr, 0.0, nullptr,
+                  nullptr, nullptr, nullptr};
+    law.yarns[0] = law.yarns[1] = {115.0, 0.0, 2.5e-4, 0.0025, 0.025, false, false, 0.0, 0.0};
+    if (i % 2) law.yarns[1] = {115.0, 40.0, 2.5e-4, 0.0025, 0.025, false, true, 0.2, 39.6};
+    const std::int32_t nodes[6] = {0, 1, 2, 3, 4, 5};
+    const KernelBlock one{nodes, 6, t, &v[0], 1, 0, force[0]},
+        other{nodes, 6, t, &v[1], 1, 0, force[1]};
+    const KernelReport a = membrane_kernel_generic(one, law, x, 1e5);
+    const KernelReport b = membrane_kernel_avx2(other, law, x, 1e5);
+    ASSERT_TRUE(std::isfinite(force[0][0].x));
+    ASSERT_EQ(a.viscous_work, b.viscous_work);
+    ASSERT_EQ(a.collapsed, b.collapsed);
+    ASSERT_EQ(std::memcmp(force[0], force[1], sizeof force[0]), 0) << i;
+    ASSERT_EQ(std::memcmp(&v[0], &v[1], sizeof v[0]), 0) << i;
+    const KernelEnergy c = membrane_energy_generic(one, law, x),
+                       d = membrane_energy_avx2(one, law, x);
+    ASSERT_GT(c.shear, 0.0);
+    ASSERT_EQ(c.fibre, d.fibre);
+    ASSERT_EQ(c.shear, d.shear);
+  }
+}
+
+} // namespace
+} // namespace plyform

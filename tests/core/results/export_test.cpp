@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// tests/python/results_vtk_test.py opens the exported files with VTK.
+#include "core/results/export.hpp"
+#include "tests/support/results_helpers.hpp"
+
+#include <cstdint>
+#include <cstring>
+#include <gtest/gtest.h>
+#include <hdf5.h>
+
+namespace plyform {
+namespace {
+
+using namespace results_test;
+using ResultsExport = ResultFolder;
+
+TEST_F(ResultsExport, ExportSaysWhatIsWrongWithAFolder) {
+  const std::string missing = error_of([&] { export_results(directory); });
+  EXPECT_TRUE(contains(missing, "results.h5: no such file")) << missing;
+  write_run(directory, {0.5});
+  const std::string whole = content(directory / "results.h5");
+  put(directory / "results.h5", "no HDF5 at all");
+  const std::string other = error_of([&] { export_results(directory); });
+  EXPECT_TRUE(contains(other, "results.h5: cannot be opened")) << other;
+  put(directory / "results.h5", whole.substr(0, whole.size() / 2));
+  const std::string half = error_of([&] { export_results(directory); });
+  EXPECT_TRUE(contains(half, "results.h5: cannot be opened")) << half;
+}
+
+/// Puts `values` in the place of the dataset `where` (none: only removes it).
+void replace_dataset(const fs::path& path, const char* where, const std::vector<double>& values) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(H5Ldelete(file, where, H5P_DEFAULT), 0) << where;
+  if (!values.empty()) {
+    const hsize_t size[2] = {values.size() / 3, 3};
+    const hid_t space = H5Screate_simple(2, size, nullptr);
+    const hid_t set =
+        H5Dcreate2(file, where, H5T_NATIVE_DOUBLE, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    ASSERT_GE(H5Dwrite(set, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()), 0);
+    H5Dclose(set);
+    H5Sclose(space);
+  }
+  H5Fclose(file);
+}
+
+TEST_F(ResultsExport, ExportChecksWhatItReadsBeforeItUsesIt) {
+  struct Damage {
+    const char* where;
+    std::vector<double> values;
+    const char* rule;
+  };
+  for (const Damage& damage :
+       {Damage{"/plies/lower/triangles", {0, 1, 16}, "names node 16 of 16"},
+        Damage{"/plies/lower/triangles", {0, -1, 2}, "names node -1 of 16"},
+        Damage{"/plies/lower/x0", {}, "is missing"},
+        Damage{"/frames/000000/plies/lower/x", {1, 2, 3}, "has 1 rows"},
+        Damage{"/frames/000000/plies/lower/warp", {1, 2, 3}, "has 1 rows"},
+        Damage{"/frames/000000/plies/lower/warp_strain", {1, 2, 3}, "shape"},
+        Damage{"/frames/000000", {}, "is missing"}, Damage{"/time_s", {}, "is missing"}}) {
+    write_run(directory, {0.5});
+    replace_dataset(directory / "results.h5", damage.where, damage.values);
+    const std::string error = error_of([&] { export_results(directory); });
+    EXPECT_TRUE(contains(error, (directory / "results.h5").string())) << error;
+    EXPECT_TRUE(contains(error, damage.where)) << error;
+    EXPECT_TRUE(contains(error, damage.rule)) << error;
+    EXPECT_FALSE(fs::exists(directory / "export"));
+  }
+}
+
+TEST_F(ResultsExport, ExportWritesNowhereButInItsFolder) {
+  write_run(directory, {0.5});
+  const hid_t file = H5Fopen((directory / "results.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t links = H5Pcreate(H5P_LINK_CREATE);
+  H5Pset_create_intermediate_group(links, 1);
+  for (const std::string group : {"/plies/", "/frames/000000/plies/"}) // ".." is a name to HDF5
+    ASSERT_GE(H5Lmove(file, (group + "lower").c_str(), file, (group + "../../out").c_str(), links,
+                      H5P_DEFAULT),
+              0);
+  const hid_t type = H5Tcopy(H5T_C_S1);
+  H5Tset_size(type, H5T_VARIABLE);
+  H5Tset_cset(type, H5T_CSET_UTF8);
+  const hid_t names = H5Aopen(file, "plies", H5P_DEFAULT);
+  const char* outside[] = {"../../out", "90\u00b0 ply & co"};
+  ASSERT_GE(H5Awrite(names, type, outside), 0);
+  H5Aclose(names);
+  H5Tclose(type);
+  H5Pclose(links);
+  H5Fclose(file);
+  const std::string error = error_of([&] { export_results(directory); });
+  EXPECT_TRUE(contains(error, "\"../../out\" cannot be a file name")) << error;
+  EXPECT_FALSE(fs::exists(directory / "export"));
+}
+
+TEST_F(ResultsExport, ExportWritesTheLastStateOfEachPlyAndTool) {
+  write_run(directory, {0.0, 0.5});
+  const std::vector<fs::path> files = export_results(directory);
+  std::vector<std::string> names;
+  for (const fs::path& file : files)
+    names.push_back(fs::relative(file, directory / "export").string());
+  std::sort(names.begin(), names.end());
+  EXPECT_EQ(names, files_in(directory / "export"));
+  EXPECT_EQ(names, (std::vector<std::string>{"90\u00b0 ply & co.csv", "90\u00b0 ply & co.stl",
+                                             "90\u00b0 ply & co.vtu", "die.stl", "lower.csv",
+                                             "lower.stl", "lower.vtu", "punch.stl"}));
+  EXPECT_EQ(content(directory / "export/lower.csv"), content(directory / "plies/lower.csv"));
+}
+
+TEST_F(ResultsExport, ExportedToolStandsWhereItEndedAndFacesOutward) {
+  write_run(directory, {0.0, 0.5});
+  export_results(directory);
+  const std::string stl = content(directory / "export/punch.stl");
+  std::uint32_t count = 0;
+  std::memcpy(&count, stl.data() + 80, 4);
+  ASSERT_EQ(count, 8u);
+  ASSERT_EQ(stl.size(), 84u + 50u * count);
+  for (std::uint32_t i = 0; i < count; ++i) {
+    float values[12];
+    std::memcpy(values, stl.data() + 84 + 50 * i, sizeof values);
+    EXPECT_EQ(values[2], 1.0f) << "normal of the flat punch, counter-clockwise from above";
+    for (const int corner : {0, 1, 2})
+      EXPECT_EQ(values[3 + 3 * corner + 2], 5.0f) << "30 mm at the start less 25 mm of stroke";
+  }
+}
+
+} // namespace
+} // namespace plyform

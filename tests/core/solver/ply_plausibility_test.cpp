@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is said of plies with known fields, and which runs are doubtful.
+#include "core/solver/ply_plausibility.hpp"
+#include "core/solver/run.hpp"
+#include "support/ply_sheets.hpp"
+#include "support/stress_scenes.hpp"
+
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+using sheets::sheet;
+
+/// Strains of both families by the place before forming.
+void strain(PlyFrame& ply, const std::function<double(const Vec2&)>& warp,
+            const std::function<double(const Vec2&)>& weft) {
+  for (std::size_t t = 0; t < ply.triangles.size(); ++t) {
+    ply.warp_strain[t] = warp(sheets::centre(ply, t));
+    ply.weft_strain[t] = weft(sheets::centre(ply, t));
+  }
+}
+
+TEST(PlyPlausibility, EitherFamilyPressesItsShareOfTheArea) {
+  PlyFrame ply = sheet(20, 10, 10.0, 0.0, sheets::flat);
+  strain(
+      ply, [](const Vec2& p) { return p.x() < 0.0 ? -0.03 : 0.2; }, // the left half
+      [](const Vec2& p) { return p.y() > 40.0 ? -0.06 : -0.001; }); // the upper tenth
+  const PlyReport told = report_ply(ply, {}, {});
+  ASSERT_TRUE(told.pressed);
+  EXPECT_EQ(told.pressed->largest, 0.06);
+  EXPECT_NEAR(told.pressed->share_above_2, 0.55, 1e-12);
+  EXPECT_NEAR(told.pressed->share_above_5, 0.1, 1e-12);
+  // warp: 3 % of the 100 mm of the left half; weft: 6 % of 10 mm and 0.1 % of 90 mm
+  EXPECT_NEAR(told.pressed->excess_mm, 3.0, 1e-9);
+  EXPECT_LT(told.pressed->excess_at.x(), 0.0);
+  EXPECT_FALSE(told.beyond_locking_share);
+}
+
+/// A pressed spot in a sheet whose yarns run at 30 and 100 degrees across its mesh: lines integrate
+/// over the triangles as they are, so that only the steps of the field count.
+TEST(PlyPlausibility, ExcessLengthIsTheIntegralAlongTheYarn) {
+  PlyFrame ply = sheet(100, 100, 2.0, 0.0, sheets::flat);
+  ply.angle_deg = 30.0;
+  const Vec2 middle(20.0, 10.0);
+  const auto spot = [&](const Vec2& p) {
+    return -0.1 * std::max(0.0, 1.0 - (p - middle).norm() / 30.0); // a cone
+  };
+  strain(
+      ply, [](const Vec2&) { return 0.0; }, spot);
+  const PlyReport told = report_ply(ply, {.fibre_angle_deg = 70.0}, {});
+  EXPECT_NEAR(told.pressed->excess_mm, 0.1 * 30.0, 0.03); // through the tip: half of 0.1 x 60 mm
+  EXPECT_LT((told.pressed->excess_at.head<2>() - middle).norm(), 3.0);
+}
+
+TEST(PlyPlausibility, NothingPressedIsNothing) {
+  const PlyReport told = report_ply(sheet(5, 5, 10.0, 15.0, sheets::flat), {}, {});
+  EXPECT_EQ(told.pressed->largest, 0.0);
+  EXPECT_EQ(told.pressed->share_above_2, 0.0);
+  EXPECT_EQ(told.pressed->excess_mm, 0.0);
+  EXPECT_FALSE(report_ply(sheet(5, 5, 10.0, 0.0, sheets::flat), {.woven = false}, {}).pressed);
+}
+
+TEST(PlyPlausibility, NumbersThatAreNotFiniteAreNotLost) {
+  PlyFrame ply = sheet(5, 5, 10.0, 0.0, sheets::flat);
+  ply.weft_strain[7] = std::numeric_limits<double>::quiet_NaN();
+  const PlyReport told = report_ply(ply, {}, {});
+  EXPECT_TRUE(std::isnan(told.pressed->largest));
+  EXPECT_TRUE(std::isnan(told.pressed->share_above_5));
+}
+
+TEST(PlyPlausibility, ShareBeyondTheLockingAngle) {
+  PlyFrame ply = sheet(10, 10, 10.0, 0.0, sheets::flat);
+  for (std::size_t t = 0; t < ply.triangles.size(); ++t)
+    ply.shear_deg[t] = sheets::centre(ply, t).x() < -20.0 ? -50.0 : 39.0;
+  const PlyReport told = report_ply(ply, {.locking_angle_deg = 40.0}, {});
+  EXPECT_NEAR(told.beyond_locking_share.value(), 0.3, 1e-12);
+}
+
+/// A strip whose ends are pushed together by `stroke` of its 100 mm.
+Case pushed_together(double stroke) {
+  Case data = stack_of({0.0}, rectangle(100.0, 20.0, 5.0));
+  data.tools.clear();
+  data.boundaries = {hold("push", {50.0, -10.0}, {50.0, 10.0}, -Vec3::UnitX(), stroke),
+                     hold("stop", {-50.0, -10.0}, {-50.0, 10.0}, Vec3::UnitX(), 0.0)};
+  data.gravity = Vec3::Zero();
+  data.solver.fibre_softening = 100.0;
+  data.solver.duration = 0.02;
+  return data;
+}
+
+TEST(Doubtful, IsARunThatPressesWovenYarnsByMoreThanFivePercent) {
+  const RunResult pressed = run_case(pushed_together(12.0), 1, {});
+  const Summary& s = pressed.summary;
+  EXPECT_EQ(s.status, "doubtful") << s.message;
+  ASSERT_EQ(s.plies.size(), 1u);
+  EXPECT_GT(s.plies[0].pressed->share_above_5, doubtful_pressed_share);
+  EXPECT_NEAR(s.plies[0].pressed->excess_mm, 12.0, 0.5);
+  EXPECT_NE(s.message.find("do not trust"), std::string::npos) << s.message;
+  EXPECT_NE(s.message.find("compression_stiffness"), std::string::npos) << s.message;
+  ASSERT_FALSE(s.work.missing.empty());
+  EXPECT_EQ(s.work.missing.front(), s.message);
+}
+
+/// With yarns that bear it the strip gives way sideways in its plane instead.
+TEST(Doubtful, IsNotARunThatPressesThemByLess) {
+  Case data = pushed_together(2.0);
+  data.solver.duration = 0.1; // slow enough for its energy balance
+  data.fabrics[0].warp.compression = data.fabrics[0].weft.compression = 100.0; // N
+  const RunResult run = run_case(data, 1, {});
+  EXPECT_EQ(run.summary.status, "done") << run.summary.message;
+  EXPECT_LT(run.summary.plies.at(0).pressed->excess_mm, 1.0);
+  EXPECT_EQ(run.summary.plies.at(0).pressed->share_above_5, 0.0);
+}
+
+TEST(Doubtful, IsNotASheetWithoutYarns) {
+  Case data = pushed_together(12.0);
+  Fabric& film = data.fabrics[0];
+  film.warp = film.weft = TensionLaw{};
+  film.shear = ShearLaw{};
+  film.warp_density = film.weft_density = 0.0;
+  film.isotropic = IsotropicLaw{10.0, 0.3}; // N/mm
+  const RunResult run = run_case(data, 1, {});
+  EXPECT_EQ(run.summary.status, "done") << run.summary.message;
+  EXPECT_FALSE(run.summary.plies.at(0).pressed);
+}
+
+} // namespace
+} // namespace plyform

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The load of the bias-extension test does not hang on how the mesh lies to the yarns.
+#include "support/static_bias.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plyform {
+namespace {
+
+constexpr double length = 300.0, width = 100.0, degree = std::numbers::pi / 180.0;
+const std::vector<double> angles{10.0 * degree, 20.0 * degree, 30.0 * degree};
+
+std::vector<double> loads(const StripMesh& mesh, ElementKind element) {
+  return bias_loads(strip_mesh(mesh, length, width), glass_weave(), length, width, element, angles);
+}
+
+/// Both diagonals of squares, which lie along the yarns: no locking, and converged (test below).
+std::vector<double> converged_loads() {
+  return loads({MeshKind::crossed, 10.0, 0.0, 0.0}, ElementKind::plain);
+}
+
+TEST(LockingLong, ReferenceIsConvergedAndNearTheory) {
+  const std::vector<double> fine = loads({MeshKind::crossed, 5.0, 0.0, 0.0}, ElementKind::plain),
+                            coarse = converged_loads();
+  const ShearTest test = shear_test(BiasSpecimen{length, width});
+  for (std::size_t i = 0; i < angles.size(); ++i) {
+    EXPECT_NEAR(coarse[i] / fine[i], 1.0, 0.002);
+    const double theory = test_load(test, glass_weave(), extension_at(test, angles[i]));
+    EXPECT_NEAR(fine[i] / theory, 1.0, 0.02) << i; // zones are not as even as (40) has them
+  }
+}
+
+/// Meshes of squares with one diagonal whose nodes are moved by up to 30 % of a side, and free
+/// meshes, at 0 to 45 degrees to the yarns in steps: load within `most` of the converged one.
+void judge(double size, double most, int step) {
+  const std::vector<double> converged = converged_loads();
+  for (const MeshKind kind : {MeshKind::fibres, MeshKind::free})
+    for (int turn = 0; turn <= 45; turn += step) {
+      const double noise = kind == MeshKind::free ? 0.0 : 0.3;
+      const std::vector<double> found =
+          loads({kind, size, (45.0 - turn) * degree, noise}, ElementKind::averaged);
+      for (std::size_t i = 0; i < angles.size(); ++i)
+        EXPECT_NEAR(found[i] / converged[i], 1.0, most)
+            << (noise > 0.0 ? "shaken" : "free") << ", yarns at " << turn << " to the cells, angle "
+            << angles[i] / degree;
+    }
+}
+
+TEST(LockingLong, AveragedElementIsWithinTenPercentAtTenElementsAWidth) {
+  judge(0.1 * width, 0.10, 5);
+}
+
+TEST(LockingLong, AveragedElementIsWithinFivePercentAtTwentyElementsAWidth) {
+  judge(0.05 * width, 0.05, 15); // the angles between: locking_study angles
+}
+
+TEST(LockingLong, PlainElementIsNot) {
+  const std::vector<double> converged = converged_loads();
+  const std::vector<double> found =
+      loads({MeshKind::fibres, 10.0, 25.0 * degree, 0.3}, ElementKind::plain);
+  EXPECT_GT(found[2] / converged[2], 1.5);
+}
+
+} // namespace
+} // namespace plyform

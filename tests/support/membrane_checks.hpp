@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Small membranes in random states, for tests.
+#pragma once
+
+#include "core/ply/membrane.hpp"
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+namespace plyform {
+
+/// The paper's glass plain weave (Hamila and Boisse 2008, table 1).
+inline Fabric glass_weave() {
+  Fabric f;
+  f.name = "glass";
+  f.warp.stiffness = 46000.0;
+  f.weft.stiffness = 48000.0;
+  f.warp_density = f.weft_density = 0.25;
+  f.shear.k = {0.37044, 0.84105, 1.03113};
+  f.surface_density = 6e-10;
+  f.thickness = 0.6;
+  return f;
+}
+
+/// Rectangle about the origin, meshed.
+inline BlankSpec rectangle(double width, double height, double size,
+                           MeshKind kind = MeshKind::diagonal) {
+  BlankSpec spec;
+  const double a = 0.5 * width, b = 0.5 * height;
+  spec.outline.boundary = {{-a, -b}, {a, -b}, {a, b}, {-a, b}};
+  spec.mesh = kind;
+  spec.element_size = size;
+  return spec;
+}
+
+using Random = std::mt19937_64;
+
+/// Between -1 and 1.
+inline double signed_unit(Random& random) {
+  return std::uniform_real_distribution<double>(-1.0, 1.0)(random);
+}
+
+inline Vec3 random_vector(Random& random) {
+  const double x = signed_unit(random), y = signed_unit(random);
+  return {x, y, signed_unit(random)};
+}
+
+inline Eigen::Matrix3d random_rotation(Random& random) {
+  const Vec3 axis = random_vector(random).normalized();
+  return Eigen::AngleAxisd(std::numbers::pi * signed_unit(random), axis).toRotationMatrix();
+}
+
+/// 3 x 3 cells of 10 mm whose nodes are moved at random: no side runs along a fibre.
+inline BlankMesh irregular_mesh(Random& random) {
+  BlankMesh mesh = mesh_blank(rectangle(30.0, 30.0, 10.0), 0.0, 0.5 * std::numbers::pi);
+  for (Vec2& p : mesh.x)
+    p += 2.0 * Vec2(signed_unit(random), signed_unit(random));
+  return mesh;
+}
+
+/// The mesh in space: stretched to `stretch` on the whole, sheared, wavy, turned.
+inline std::vector<Vec3> random_state(const BlankMesh& mesh, double stretch, double noise,
+                                      Random& random) {
+  Eigen::Matrix2d f = stretch * Eigen::Matrix2d::Identity();
+  for (int i = 0; i < 4; ++i)
+    f(i / 2, i % 2) += 0.2 * stretch * signed_unit(random);
+  const Eigen::Matrix3d turn = random_rotation(random);
+  std::vector<Vec3> x;
+  for (const Vec2& p : mesh.x) {
+    const Vec2 q = f * p;
+    x.push_back(turn *
+                (Vec3(q.x(), q.y(), 0.01 * q.squaredNorm()) + noise * random_vector(random)));
+  }
+  return x;
+}
+
+inline std::vector<Vec3> nodal_forces(Membrane& m, const std::vector<Vec3>& x, double dt = 0.0) {
+  std::vector<ElementForce> q(m.triangles.size());
+  element_forces(m, x, dt, 0, m.patches(), q);
+  std::vector<Vec3> f;
+  for (std::size_t n = 0; n < x.size(); ++n)
+    f.push_back(node_force(m, q, static_cast<int>(n)));
+  return f;
+}
+
+inline double largest_norm(const std::vector<Vec3>& vectors) {
+  double largest = 0.0;
+  for (const Vec3& v : vectors)
+    if (!(v.norm() <= largest) && !std::isnan(largest)) largest = v.norm(); // NaN stays
+  return largest;
+}
+
+} // namespace plyform

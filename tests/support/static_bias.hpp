@@ -1,0 +1,378 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The bias-extension test at rest, on any mesh: the element's own forces and energy brought to
+// equilibrium by Newton's method, without the time step and its inertia. Shows locking, and how the
+// load converges.
+#pragma once
+
+#include "core/fit/shear_tests.hpp"
+#include "core/ply/bending.hpp"
+#include "core/ply/membrane.hpp"
+#include "support/membrane_checks.hpp"
+
+#include <Eigen/SparseCholesky>
+#include <algorithm>
+#include <stdexcept>
+
+namespace plyform {
+
+/// Internal forces, their tangent and the energy of a membrane that stays in its plane.
+class FlatMembrane {
+public:
+  /// bending: of its yarns in its plane, if they bend.
+  FlatMembrane(Membrane membrane, std::vector<char> held, std::optional<Bending> turning = {})
+      : m(std::move(membrane)), bending(std::move(turning)) {
+    for (const char h : held) {
+      freedom.push_back(h ? -1 : freedoms);
+      freedoms += h ? 0 : 2;
+    }
+  }
+
+  /// Moves the free nodes of x (mm) until Newton's next step would change the energy by less than
+  /// `accuracy` of it. Throws std::runtime_error if that fails.
+  void relax(std::vector<Vec3>& x, double accuracy = 1e-10) {
+    constexpr int most_iterations = 3000; // locked meshes of slack yarns need 1000
+    double energy = total_energy(x), damping = 0.0;
+    for (int iteration = 0; iteration < most_iterations; ++iteration) {
+      const Eigen::VectorXd force = forces(x);
+      const Eigen::VectorXd move = newton(x, force, damping);
+      const double gain = force.dot(move); // first-order decrease of the energy
+      if (gain < accuracy * energy) return;
+      double share = std::min(1.0, 5.0 / move.lpNorm<Eigen::Infinity>()); // 5 mm at most
+      std::vector<Vec3> next;
+      double lower = energy;
+      for (int half = 0; half < 30; ++half, share *= 0.5) {
+        next = moved(x, share * move);
+        lower = total_energy(next);
+        if (lower <= energy - 1e-4 * share * gain) break;
+      }
+      if (!(lower < energy)) {
+        if (gain < 1e-8 * energy) return; // as far as rounding of the energy lets it go
+        damping = std::max(1e-3, 10.0 * damping);
+        if (damping > 1e6) throw std::runtime_error("no equilibrium found");
+        continue;
+      }
+      damping = share > 0.5 ? 0.1 * damping : damping;
+      if (damping < 1e-8) damping = 0.0;
+      x = next;
+      energy = lower;
+    }
+    throw std::runtime_error("no equilibrium after 3000 iterations");
+  }
+
+  std::vector<Vec3> nodal(const std::vector<Vec3>& x) {
+    std::vector<Vec3> force = nodal_forces(m, x);
+    if (!bending) return force;
+    const std::vector<Vec3> turning = reference_bending_forces(*bending, x);
+    for (std::size_t n = 0; n < x.size(); ++n)
+      force[n] += turning[n];
+    return force;
+  }
+  const Membrane& membrane() const { return m; }
+
+private:
+  using Vec6 = Eigen::Matrix<double, 6, 1>;
+  using Mat6 = Eigen::Matrix<double, 6, 6>;
+  /// Stretches and shear angle of a triangle in its plane with first and second derivatives by the
+  /// places of its corners.
+  struct PlaneState {
+    double area, gamma;
+    std::array<double, 2> lambda;
+    std::array<Vec6, 2> by_lambda;
+    std::array<Mat6, 2> bend_lambda;
+    Vec6 by_gamma;
+    Mat6 bend_gamma;
+  };
+
+  double total_energy(const std::vector<Vec3>& x) const {
+    const MembraneEnergy e = membrane_energy(m, x);
+    return e.fibre + e.shear + (bending ? bending_energy(*bending, x) : 0.0);
+  }
+
+  Eigen::VectorXd forces(const std::vector<Vec3>& x) {
+    Eigen::VectorXd f(freedoms);
+    const std::vector<Vec3> all = nodal(x);
+    for (std::size_t n = 0; n < x.size(); ++n)
+      if (freedom[n] >= 0) f.segment<2>(freedom[n]) = all[n].head<2>();
+    return f;
+  }
+
+  std::vector<Vec3> moved(std::vector<Vec3> x, const Eigen::VectorXd& by) const {
+    for (std::size_t n = 0; n < x.size(); ++n)
+      if (freedom[n] >= 0) x[n].head<2>() += by.segment<2>(freedom[n]);
+    return x;
+  }
+
+  /// Stiffness of one patch, from the second derivatives of (E) by lambda_a, delta_a and gamma: by
+  /// differences of forces it would straddle the kink of yarns that are just taut.
+  void add_patch(const std::vector<Vec3>& x, int patch,
+                 std::vector<Eigen::Triplet<double>>& entries) const {
+    const auto p = static_cast<std::size_t>(patch);
+    const int begin = m.patch_begin[p], size = m.patch_begin[p + 1] - begin;
+    std::vector<PlaneState> t;
+    double area = 0.0;
+    std::array<double, 2> mean{};
+    for (int e = begin; e < begin + size; ++e) {
+      t.push_back(plane_state(x, e));
+      area += t.back().area;
+      for (std::size_t a = 0; a < 2; ++a)
+        mean[a] += t.back().area * t.back().lambda[a];
+    }
+    for (double& value : mean)
+      value /= area;
+    Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6 * size, 6 * size);
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double d = a == 0 ? m.fabric.warp_density : m.fabric.weft_density;
+      const LawPoint yarn = (a == 0 ? m.fabric.warp : m.fabric.weft).at(mean[a] - 1.0);
+      Eigen::VectorXd g = Eigen::VectorXd::Zero(6 * size);
+      for (int i = 0; i < size; ++i) {
+        const PlaneState& s = t[static_cast<std::size_t>(i)];
+        g.segment<6>(6 * i) += s.area / area * s.by_lambda[a];
+        k.block<6, 6>(6 * i, 6 * i) += s.area * d * yarn.value * s.bend_lambda[a];
+      }
+      k += area * d * yarn.slope * g * g.transpose();
+    }
+    for (int i = 0; i < size; ++i)
+      add_shear(t, i, area, mean, k);
+    for (int r = 0; r < 6 * size; ++r)
+      for (int c = 0; c < 6 * size; ++c) {
+        const int row = unknown(begin, r), column = unknown(begin, c);
+        if (row >= 0 && column >= 0) entries.emplace_back(row, column, k(r, c));
+      }
+  }
+
+  /// n_c A0 Ws(g) and the s_a of triangle i of a patch; the guard, slack here, is left out.
+  void add_shear(const std::vector<PlaneState>& t, int triangle, double area,
+                 const std::array<double, 2>& mean, Eigen::MatrixXd& k) const {
+    const auto i = static_cast<std::size_t>(triangle);
+    const PlaneState& s = t[i];
+    constexpr double beta = deviation_weight;
+    std::array<double, 2> delta{s.lambda[0] - mean[0], s.lambda[1] - mean[1]};
+    const double g2 = s.gamma * s.gamma + beta * (delta[0] * delta[0] + delta[1] * delta[1]);
+    const double g = std::sqrt(g2), cells = m.cells_per_area * s.area;
+    const LawPoint law = m.fabric.shear.at(g);
+    const double secant = g > 1e-9 ? law.value / g : law.slope;
+    Eigen::VectorXd by_g2 = Eigen::VectorXd::Zero(k.rows()); // half the gradient of g^2
+    Eigen::VectorXd by_gamma = by_g2;
+    by_gamma.segment<6>(6 * triangle) = s.by_gamma;
+    by_g2 += s.gamma * by_gamma;
+    k += cells * secant * by_gamma * by_gamma.transpose();
+    k.block<6, 6>(6 * triangle, 6 * triangle) += cells * secant * s.gamma * s.bend_gamma;
+    for (std::size_t a = 0; a < 2; ++a) {
+      const double d = a == 0 ? m.fabric.warp_density : m.fabric.weft_density;
+      const double side = s.area * d * m.side[a].stabilisation, held = cells * beta * secant;
+      Eigen::VectorXd by_delta = Eigen::VectorXd::Zero(k.rows());
+      for (std::size_t j = 0; j < t.size(); ++j) {
+        const double share = (j == i ? 1.0 : 0.0) - t[j].area / area;
+        const auto at = static_cast<Eigen::Index>(6 * j);
+        by_delta.segment<6>(at) += share * t[j].by_lambda[a];
+        k.block<6, 6>(at, at) += (side + held) * delta[a] * share * t[j].bend_lambda[a];
+      }
+      k += (side + held) * by_delta * by_delta.transpose();
+      by_g2 += beta * delta[a] * by_delta;
+    }
+    if (g > 1e-9) k += cells * (law.slope - secant) / g2 * by_g2 * by_g2.transpose();
+  }
+
+  /// Unknown that column c of a patch's stiffness belongs to: triangles in turn, corners, x and y.
+  int unknown(int begin, int c) const {
+    const auto e = static_cast<std::size_t>(begin + c / 6);
+    const int n = m.triangles[e][static_cast<std::size_t>(c % 6 / 2)];
+    const int first = freedom[static_cast<std::size_t>(n)];
+    return first < 0 ? -1 : first + c % 2;
+  }
+
+  PlaneState plane_state(const std::vector<Vec3>& x, int triangle) const {
+    const auto e = static_cast<std::size_t>(triangle);
+    const FibreGradients& c = m.c[e];
+    const FibreState f = fibre_state(m, x, triangle);
+    PlaneState s;
+    s.area = m.area[e];
+    s.lambda = {f.lambda1, f.lambda2};
+    // fibre_state has no sign of the angle beyond 0 to 180 degrees, which is all that occurs
+    s.gamma = f.gamma;
+    s.by_gamma.setZero();
+    s.bend_gamma.setZero();
+    const double turn = f.f1.cross(f.f2).z() > 0.0 ? 1.0 : -1.0; // weft to the left of warp
+    for (std::size_t a = 0; a < 2; ++a) {
+      const std::array<double, 3> shape = a == 0 ? std::array{-c.c11 - c.c12, c.c11, c.c12}
+                                                 : std::array{-c.c21 - c.c22, c.c21, c.c22};
+      const Vec2 along = (a == 0 ? f.f1 : f.f2).head<2>(), across(-along.y(), along.x());
+      Vec6 u, v;
+      for (std::size_t k = 0; k < 3; ++k) {
+        u.segment<2>(static_cast<Eigen::Index>(2 * k)) = shape[k] * along;
+        v.segment<2>(static_cast<Eigen::Index>(2 * k)) = shape[k] * across / s.lambda[a];
+      }
+      s.by_lambda[a] = u;
+      s.bend_lambda[a] = s.lambda[a] * v * v.transpose();
+      const double sign = turn * (a == 0 ? 1.0 : -1.0); // gamma falls with the weft's direction
+      s.by_gamma += sign * v;
+      s.bend_gamma -= sign / s.lambda[a] * (u * v.transpose() + v * u.transpose());
+    }
+    return s;
+  }
+
+  /// A0 D_g of (G) times the square of the gradient of (T); the rest of its second derivative,
+  /// which falls with kappa_g, is left to the iteration. Families without bending are left out.
+  void add_turns(const std::vector<Vec3>& x, std::vector<Eigen::Triplet<double>>& entries) const {
+    const Bending& b = *bending;
+    for (std::size_t n = 0; n < x.size(); ++n)
+      for (std::size_t k = 0; k < 2; ++k) {
+        const auto begin = static_cast<std::size_t>(b.begin[n]),
+                   end = static_cast<std::size_t>(b.begin[n + 1]);
+        const double stiffness = b.area[n] * b.in_plane[n][k];
+        if (stiffness == 0.0) continue;
+        Vec2 d = Vec2::Zero(), s = d;
+        for (std::size_t i = begin; i < end; ++i) {
+          const Vec2 at = x[static_cast<std::size_t>(b.node[i])].head<2>();
+          d += b.a[i][k] * at, s += b.b[i][k] * at;
+        }
+        const Vec2 across = Vec2(-d.y(), d.x()) / d.squaredNorm();
+        const Vec2 q = s / d.squaredNorm() - 2.0 * s.dot(across) * across, turned(q.y(), -q.x());
+        for (std::size_t i = begin; i < end; ++i)
+          for (std::size_t j = begin; j < end; ++j) {
+            const int row = freedom[static_cast<std::size_t>(b.node[i])],
+                      column = freedom[static_cast<std::size_t>(b.node[j])];
+            if (row < 0 || column < 0) continue;
+            const Vec2 gi = b.b[i][k] * across + b.a[i][k] * turned,
+                       gj = b.b[j][k] * across + b.a[j][k] * turned;
+            for (int r = 0; r < 4; ++r)
+              entries.emplace_back(row + r / 2, column + r % 2, stiffness * gi[r / 2] * gj[r % 2]);
+          }
+      }
+  }
+
+  /// K^-1 f, with as much added to the diagonal as makes K positive; `damping` keeps it.
+  Eigen::VectorXd newton(const std::vector<Vec3>& x, const Eigen::VectorXd& force,
+                         double& damping) const {
+    std::vector<Eigen::Triplet<double>> entries;
+    for (int p = 0; p < m.patches(); ++p)
+      add_patch(x, p, entries);
+    if (bending) add_turns(x, entries);
+    Eigen::SparseMatrix<double> stiffness(freedoms, freedoms), one(freedoms, freedoms);
+    stiffness.setFromTriplets(entries.begin(), entries.end());
+    one.setIdentity();
+    for (; damping < 1e6; damping = std::max(1e-4, 10.0 * damping)) {
+      Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(stiffness + damping * one);
+      if (solver.info() == Eigen::Success && solver.vectorD().minCoeff() > 0.0)
+        return solver.solve(force);
+    }
+    throw std::runtime_error("no tangent");
+  }
+
+  Membrane m;
+  std::optional<Bending> bending;
+  std::vector<int> freedom; ///< first of a node's two unknowns, or -1
+  int freedoms = 0;
+};
+
+/// The strip of the test, meshed: cells (or a free mesh) turned by `turn` (rad) from the strip, and
+/// inner nodes moved by up to `noise` times the size along x and y.
+struct StripMesh {
+  MeshKind kind = MeshKind::fibres;
+  double size = 5.0, turn = 0.0, noise = 0.0; ///< mm, rad, -
+};
+
+inline double twice_area(const BlankMesh& mesh, int triangle) {
+  const Triangle& t = mesh.triangles[static_cast<std::size_t>(triangle)];
+  const auto at = [&](std::size_t k) { return mesh.x[static_cast<std::size_t>(t[k])]; };
+  const Vec2 a = at(1) - at(0), b = at(2) - at(0);
+  return a.x() * b.y() - a.y() * b.x();
+}
+
+/// Moves inner nodes at random, less where a triangle would become a sliver.
+inline void shake(BlankMesh& mesh, double most, const std::vector<char>& on_rim) {
+  Random random(7);
+  std::vector<std::vector<int>> around(mesh.x.size());
+  for (std::size_t e = 0; e < mesh.triangles.size(); ++e)
+    for (const int n : mesh.triangles[e])
+      around[static_cast<std::size_t>(n)].push_back(static_cast<int>(e));
+  for (std::size_t n = 0; n < mesh.x.size(); ++n) {
+    const double dx = most * signed_unit(random), dy = most * signed_unit(random);
+    if (on_rim[n]) continue;
+    const Vec2 before = mesh.x[n];
+    std::vector<double> area;
+    for (const int e : around[n])
+      area.push_back(twice_area(mesh, e));
+    for (double share = 1.0; share > 0.1; share *= 0.5) {
+      mesh.x[n] = before + share * Vec2(dx, dy);
+      bool sound = true;
+      for (std::size_t i = 0; i < area.size(); ++i)
+        sound = sound && twice_area(mesh, around[n][i]) > 0.2 * area[i];
+      if (sound) break;
+      mesh.x[n] = before;
+    }
+  }
+}
+
+inline BlankMesh strip_mesh(const StripMesh& spec, double length, double width) {
+  BlankSpec blank = rectangle(length, width, spec.size, spec.kind);
+  const bool free = spec.kind == MeshKind::free;
+  const Eigen::Rotation2Dd turn(spec.turn);
+  if (free) // meshed in its turned place: another mesh for every angle
+    for (Vec2& p : blank.outline.boundary)
+      p = turn * p;
+  BlankMesh mesh = mesh_blank(blank, spec.turn, spec.turn + 0.5 * std::numbers::pi);
+  std::vector<char> on_rim;
+  for (Vec2& p : mesh.x) {
+    if (free) p = turn.inverse() * p;
+    on_rim.push_back(std::abs(std::abs(p.x()) - 0.5 * length) < 1e-9 * length ||
+                     std::abs(std::abs(p.y()) - 0.5 * width) < 1e-9 * length);
+  }
+  shake(mesh, spec.noise * spec.size, on_rim);
+  return mesh;
+}
+
+/// Load (N) of the bias test of a strip (mm) with yarns at 45 degrees to the pull, when (40) says
+/// that the middle zone is sheared by `angles` (rad, ascending).
+inline std::vector<double> bias_loads(const BlankMesh& mesh, const Fabric& fabric, double length,
+                                      double width, ElementKind element,
+                                      const std::vector<double>& angles, double accuracy = 1e-10) {
+  std::vector<char> held, pulled;
+  std::vector<Vec3> x, start;
+  for (const Vec2& p : mesh.x) {
+    x.emplace_back(p.x(), p.y(), 0.0);
+    pulled.push_back(p.x() > 0.5 * length - 1e-9 * length);
+    held.push_back(pulled.back() || p.x() < -0.5 * length + 1e-9 * length);
+  }
+  start = x;
+  Membrane membrane = make_membrane(mesh, fabric, 0.25 * std::numbers::pi, element);
+  std::optional<Bending> bending;
+  if (fabric.bending.in_plane != std::array{0.0, 0.0})
+    bending = make_bending(mesh.x, mesh.triangles, fabric.bending, 0.25 * std::numbers::pi,
+                           0.25 * std::numbers::pi + fabric.fibre_angle, membrane.node_mass);
+  FlatMembrane strip(std::move(membrane), held, std::move(bending));
+  std::vector<double> loads;
+  double before = 0.0, before_step = 0.0, angle = 0.0;
+  std::vector<Vec3> last = x;
+  for (const double wanted : angles) {
+    const int parts = static_cast<int>(std::ceil((wanted - angle) / 0.09)); // 5 degrees
+    for (int i = 1; i <= parts; ++i) {
+      const double a = angle + (wanted - angle) * i / parts;
+      const double stroke =
+          (length - width) *
+          (std::numbers::sqrt2 * std::cos(0.25 * std::numbers::pi - 0.5 * a) - 1.0);
+      const std::vector<Vec3> now = x;
+      for (std::size_t n = 0; n < x.size(); ++n) {
+        // first guess: evenly drawn out, then on along the last step
+        if (before == 0.0)
+          x[n].x() += stroke * (start[n].x() / length + 0.5);
+        else
+          x[n] += (x[n] - last[n]) * ((stroke - before) / before_step);
+        if (pulled[n]) x[n] = start[n] + Vec3(stroke, 0.0, 0.0);
+      }
+      last = now;
+      before_step = stroke - before;
+      before = stroke;
+      strip.relax(x, accuracy);
+    }
+    angle = wanted;
+    const std::vector<Vec3> f = strip.nodal(x);
+    double load = 0.0;
+    for (std::size_t n = 0; n < x.size(); ++n)
+      if (pulled[n]) load -= f[n].x();
+    loads.push_back(load);
+  }
+  return loads;
+}
+
+} // namespace plyform

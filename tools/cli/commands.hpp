@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The commands of plyform, one file each. Each returns the exit code.
+#pragma once
+
+#include "core/model/case.hpp"
+
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace plyform {
+
+enum ExitCode { exit_done = 0, exit_other = 1, exit_case_wrong = 2, exit_stopped = 3 };
+
+/// What names a case on the command line.
+struct CaseArguments {
+  std::string file;                  ///< case.toml, or its folder
+  std::vector<std::string> settings; ///< KEY=VALUE
+  std::string accuracy;              ///< draft, standard, reference or empty: as the case says
+};
+
+struct RunArguments {
+  CaseArguments input;
+  std::string output;
+  int threads = 0; ///< 0: as many as there are cores
+};
+
+struct ChartArguments {
+  std::string study, output;
+  int jobs = 0, threads = 0; ///< 0: not given
+};
+
+/// A shear test: bias or frame; NaN where not given.
+struct SpecimenArguments {
+  double length = std::numeric_limits<double>::quiet_NaN(); ///< mm, bias
+  double width = std::numeric_limits<double>::quiet_NaN();  ///< mm, bias
+  double side = std::numeric_limits<double>::quiet_NaN();   ///< mm, frame
+};
+
+struct IdentifyArguments {
+  std::string test; ///< bias, frame, warp or weft
+  std::string curve, x_column, y_column;
+  std::string fabric, output, fit;
+  SpecimenArguments specimen;
+  int coefficients = 3;
+  double from = 0.0, to = std::numeric_limits<double>::infinity(); ///< degrees, or strain
+  double yarns = 1.0, gauge_length = 1.0;                          ///< -, mm
+};
+
+struct TheoryArguments {
+  std::string test; ///< bias or frame
+  std::string fabric, output;
+  SpecimenArguments specimen;
+  double to = 0.0; ///< degrees
+  int points = 100;
+};
+
+/// Reads the case; prints every mistake to standard error and returns nothing if there is one.
+std::optional<Case> load_case(const CaseArguments& arguments);
+
+int run_command(const RunArguments& arguments);
+int check_command(const CaseArguments& arguments);
+int chart_command(const ChartArguments& arguments);
+int keys_command();
+int identify_command(const IdentifyArguments& arguments);
+int theory_command(const TheoryArguments& arguments);
+
+/// tools/cli/identify_options.cpp: a command for each test, with its options; the arguments must
+/// live as long as the apps.
+void add_identify_tests(CLI::App& command, IdentifyArguments& to);
+void add_theory_tests(CLI::App& command, TheoryArguments& to);
+
+} // namespace plyform

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/accuracy/error_model.hpp"
+#include "core/base/text.hpp"
+#include "core/input/schema.hpp"
+#include "core/solver/run.hpp"
+#include "tools/cli/commands.hpp"
+
+#include <atomic>
+#include <chrono>
+#include <csignal>
+#include <cstdio>
+#include <filesystem>
+#include <fmt/format.h>
+#include <thread>
+#include <unistd.h>
+
+namespace plyform {
+namespace {
+
+std::atomic<bool> interrupted{false};
+
+void on_interrupt(int) {
+  interrupted = true;
+}
+
+/// One line that is drawn over itself on a terminal; a new line every few seconds elsewhere.
+class ProgressLine {
+public:
+  void show(const Progress& p) {
+    const auto now = std::chrono::steady_clock::now();
+    const double since = std::chrono::duration<double>(now - last_).count();
+    if (since < (terminal_ ? 0.2 : 5.0)) return;
+    last_ = now;
+    fmt::print(stderr,
+               "{}{:3.0f} %  stroke {:7.2f} mm  step {:8}  {:4.0f} s left  kinetic/shear {:.3f}  "
+               "balance {:+.2e}{}",
+               terminal_ ? "\r" : "", 100.0 * p.fraction, p.stroke_mm, p.step, p.remaining_s,
+               p.kinetic_over_shear, p.balance_error, terminal_ ? "\033[K" : "\n");
+    std::fflush(stderr);
+    drawn_ = terminal_;
+  }
+  void end() {
+    if (drawn_) fmt::print(stderr, "\n");
+  }
+
+private:
+  bool terminal_ = isatty(STDERR_FILENO) != 0;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point last_{};
+};
+
+/// results/NAME: NAME is the case's folder, or the file's name if it is not called case.toml.
+std::filesystem::path output_folder(const RunArguments& arguments) {
+  if (!arguments.output.empty()) return arguments.output;
+  std::filesystem::path file = std::filesystem::absolute(arguments.input.file).lexically_normal();
+  if (!file.has_filename()) file = file.parent_path(); // "cases/NAME/"
+  if (std::filesystem::is_directory(file))
+    return std::filesystem::path("results") / file.filename();
+  if (file.filename() == "case.toml")
+    return std::filesystem::path("results") / file.parent_path().filename();
+  return std::filesystem::path("results") / file.stem();
+}
+
+/// What was modelled, what it did, and what that says.
+void print_work(const WorkReport& w, long steps) {
+  fmt::print("  computing time: elements {:.0f} %, contact {:.0f} %, search {:.0f} % ({} times, "
+             "every {} steps)\n",
+             100.0 * w.elements_share, 100.0 * w.contact_share, 100.0 * w.search_share, w.searches,
+             steps / std::max(w.searches, 1L));
+  std::vector<std::string> apart;
+  for (const PairReport& pair : w.pairs) {
+    if (!pair.touched()) {
+      apart.push_back(pair.a + " - " + pair.b);
+      continue;
+    }
+    fmt::print("  {:28} {:4.1f} % of the time, {:.3f} mm deep, slid {:.2f} mm at most\n",
+               pair.a + " - " + pair.b, 100.0 * pair.time_share, pair.deepest_mm, pair.slip_mm);
+  }
+  if (!apart.empty()) fmt::print("  never touched: {}\n", joined(apart));
+  for (const std::string& what : w.could_be_left_out)
+    fmt::print("  could be left out: {}\n", what);
+  for (const std::string& what : w.missing)
+    fmt::print("  missing: {}\n", what);
+}
+
+/// One line a ply: what of it cloth would not do, wrinkles and draw-in.
+void print_plausibility(const std::string& name, const PlyReport& ply) {
+  fmt::print("  {:16} ", name);
+  if (const auto& pressed = ply.pressed)
+    fmt::print(
+        "pressed {:.1f} %, over 2 / 5 % on {:.1f} / {:.1f} % of the area; excess length {:.1f}, ",
+        100.0 * pressed->largest, 100.0 * pressed->share_above_2, 100.0 * pressed->share_above_5,
+        pressed->excess_mm);
+  fmt::print("wrinkles {:.1f}", ply.wrinkle.height);
+  if (ply.draw_in.unknown.empty()) fmt::print(", draw-in {:.1f}", ply.draw_in.mean());
+  fmt::print(" mm");
+  if (ply.beyond_locking_share)
+    fmt::print("; beyond locking on {:.1f} %", 100.0 * *ply.beyond_locking_share);
+  fmt::print("\n");
+}
+
+void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
+  const Energies& e = r.last.energy;
+  fmt::print("{} at {:.2f} mm of stroke after {} steps in {:.1f} s\n", r.summary.status,
+             r.last.stroke_mm, r.summary.steps, r.summary.wall_time_s);
+  for (const PlyFrame& ply : r.last.plies) {
+    double shear = 0.0, tension = 0.0;
+    for (std::size_t i = 0; i < ply.triangles.size(); ++i) {
+      shear = std::max(shear, std::abs(ply.shear_deg[i]));
+      tension = std::max({tension, ply.warp_tension[i], ply.weft_tension[i]});
+    }
+    fmt::print("  {:16} largest shear {:5.1f} deg, largest tension {:6.2f} N per yarn\n", ply.name,
+               shear, tension);
+  }
+  for (std::size_t p = 0; p < r.summary.plies.size(); ++p)
+    print_plausibility(r.last.plies[p].name, r.summary.plies[p]);
+  for (const ToolFrame& tool : r.last.tools)
+    fmt::print("  {:16} force {:8.1f} N, displacement {:7.2f} mm\n", tool.name, tool.force_N,
+               tool.stroke_mm);
+  fmt::print("  energy balance error {:.2e}, kinetic over shear energy {:.2e}\n", e.balance_error(),
+             e.shear > 0.0 ? e.kinetic / e.shear : 0.0);
+  const ContactReport& c = r.summary.contact;
+  fmt::print("  penetration {:.3f} mm into tools, {:.3f} mm between plies; triangles crossing: {} "
+             "between plies, {} within\n",
+             c.max_tool_penetration_mm, c.max_ply_penetration_mm, c.intersections_between_plies,
+             c.intersections_within_plies);
+  const AccuracyReport& a = r.summary.accuracy;
+  fmt::print("  {}\n", describe_accuracy({a.inertia_deg, a.softening_deg, a.mesh_deg},
+                                         a.promised_deg, a.coarsening));
+  for (const std::string& line : r.summary.assumed)
+    fmt::print("  assumed: {}\n", line);
+  print_work(r.summary.work, r.summary.steps);
+  fmt::print("results are in {}\n", folder.string());
+}
+
+} // namespace
+
+int run_command(const RunArguments& arguments) {
+  const std::optional<Case> data = load_case(arguments.input);
+  if (!data) return exit_case_wrong;
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const int threads = arguments.threads > 0 ? arguments.threads : cores;
+  const std::filesystem::path folder = output_folder(arguments);
+  ResultWriter writer(folder);
+  std::signal(SIGINT, on_interrupt);
+  std::signal(SIGTERM, on_interrupt);
+  ProgressLine line;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& frame) { writer.write_frame(frame); };
+  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.interrupt = &interrupted;
+  const RunResult result = run_case(*data, threads, hooks);
+  line.end();
+  writer.write_final(result.last, result.summary);
+  print_outcome(result, folder);
+  if (result.summary.status == "stopped") {
+    fmt::print(stderr, "plyform: {}\n         the last good state is in {}\n",
+               result.summary.message, folder.string());
+    return exit_stopped;
+  }
+  if (result.summary.status == "interrupted")
+    fmt::print(stderr, "plyform: interrupted; the state reached is in {}\n", folder.string());
+  if (result.summary.status == "doubtful")
+    fmt::print(stderr, "plyform: doubtful: {}\n", result.summary.message);
+  return ended(result.summary.status) ? exit_done : exit_other;
+}
+
+} // namespace plyform
