@@ -10,4 +10,7 @@ function(plyform_simd_kernel name)
     list(APPEND options -mavx2)
   endif()
   set_source_files_properties(${name}_avx2.cpp PROPERTIES COMPILE_OPTIONS "${options}")
+  # precompiled headers are compiled without these flags, and kernels include none of them
+  set_source_files_properties(${name}_generic.cpp ${name}_avx2.cpp PROPERTIES
+                              SKIP_PRECOMPILE_HEADERS ON)
 endfunction()

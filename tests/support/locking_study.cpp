@@ -4,7 +4,7 @@
 //   locking_study angles     sizes w/10 and w/20, cells at 0 to 45 degrees to the yarns
 //   locking_study sizes      four sizes, four angles
 #include "core/mesh/mesh_blank.hpp"
-#include "core/static_bias.hpp"
+#include "support/static_bias.hpp"
 
 #include <cstdio>
 #include <cstring>
