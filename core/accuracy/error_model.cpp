@@ -160,28 +160,49 @@ struct Dials {
   double cost = std::numeric_limits<double>::max();
 };
 
+/// The largest softening whose error is `error` at most.
+double softening_for(const Numbers& n, double error) {
+  if (!(n.softening > 0.0)) return n.softest;
+  const double most = std::pow(error / (c_softening * n.load * n.shared), 1.0 / p_softening);
+  return std::clamp(most / n.softening, 1.0, n.softest);
+}
+
+/// s, the shortest duration whose error is `error` at most.
+double duration_for(const Numbers& n, double error) {
+  const double inertia = std::min(most_inertia, std::pow(error / n.swinging, 1.0 / p_inertia));
+  return std::sqrt(n.inertia / inertia);
+}
+
 /// The cheapest duration and softening whose errors, squared, add up to `left2` at most.
 Dials cheapest(const Numbers& n, double left2) {
   Dials best;
   constexpr int shares = 200; // that of softening is walked through; inertia takes the rest
   for (int i = 1; i < shares; ++i) {
     const double share = static_cast<double>(i) / shares;
-    double softening = n.softest;
-    if (n.softening > 0.0)
-      softening = std::clamp(std::pow(std::sqrt(share * left2) / (c_softening * n.load * n.shared),
-                                      1.0 / p_softening) /
-                                 n.softening,
-                             1.0, n.softest);
+    const double softening = softening_for(n, std::sqrt(share * left2));
     const double of_softening = softening_error(n, softening);
     const double rest2 = left2 - of_softening * of_softening;
     if (!(rest2 > 0.0)) continue;
-    const double inertia =
-        std::min(most_inertia, std::pow(std::sqrt(rest2) / n.swinging, 1.0 / p_inertia));
-    const double duration = std::sqrt(n.inertia / inertia);
+    const double duration = duration_for(n, std::sqrt(rest2));
     const double steps = duration / std::sqrt(softening);
     if (steps < best.cost) best = {1.0, duration, softening, steps};
   }
   return best;
+}
+
+/// The same where one of the two, or both, are as the case has them.
+Dials cheapest(const Numbers& n, double left2, const SolverOptions& now, const FixedDials& fixed) {
+  if (!fixed.duration && !fixed.softening) return cheapest(n, left2);
+  const auto left_by = [&](double error) {
+    return std::sqrt(std::max(left2 - error * error, 0.25 * left2));
+  };
+  Dials dials{1.0, now.duration, now.fibre_softening, 0.0};
+  if (!fixed.duration)
+    dials.duration = duration_for(n, left_by(softening_error(n, dials.softening)));
+  if (!fixed.softening)
+    dials.softening = softening_for(n, left_by(inertia_error(n, dials.duration)));
+  dials.cost = dials.duration / std::sqrt(dials.softening);
+  return dials;
 }
 
 /// Whether every blank of a ply may have elements so many times as large: no longer than the
@@ -205,19 +226,19 @@ bool may_coarsen(const Case& data, double by) {
 
 } // namespace
 
-void pick_dials(Case& data) {
+double pick_dials(Case& data, const FixedDials& fixed) {
   const Numbers n = numbers_of(data);
   const double wanted = degrees(data.accuracy.shear_error);
-  if (!(wanted > 0.0) || n.inertia == 0.0) return;
+  if (!(wanted > 0.0) || n.inertia == 0.0) return 1.0;
   Dials best;
   for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4}) { // the rule was not measured beyond
-    if (by > 1.0 && (n.sliding > 1.0 || !may_coarsen(data, by))) break;
+    if (by > 1.0 && (fixed.element_size || n.sliding > 1.0 || !may_coarsen(data, by))) break;
     const double mesh = mesh_error(n) * std::pow(by, p_mesh);
     double left2 = wanted * wanted - mesh * mesh;
     const double least2 = 0.25 * wanted * wanted;
     if (left2 < least2 && by > 1.0) break;
     left2 = std::max(left2, least2);
-    Dials dials = cheapest(n, left2);
+    Dials dials = cheapest(n, left2, data.solver, fixed);
     dials.coarsening = by;
     // elements, and the step, which contacts that are as stiff as before hold below h
     dials.cost /= by * by * std::pow(by, 0.7);
@@ -225,10 +246,10 @@ void pick_dials(Case& data) {
   }
   data.solver.duration = best.duration;
   data.solver.fibre_softening = best.softening;
-  data.accuracy.coarsening = best.coarsening;
   if (best.coarsening > 1.0)
     for (BlankSpec& blank : data.blanks)
       blank.element_size *= best.coarsening;
+  return best.coarsening;
 }
 
 } // namespace plyform

@@ -35,18 +35,24 @@ struct PredictedError {
 /// and blanks the worst counts.
 PredictedError predicted_error(const Case& data);
 
-/// One line for the user; promised: degrees; coarsening: AccuracyOptions'.
+/// One line for the user; promised: degrees; coarsening: as pick_dials returned it.
 std::string describe_accuracy(const PredictedError& error, double promised, double coarsening);
 
 /// Presets of --accuracy, and their promise in degrees. 0 for a word that is none.
 double preset_error(const std::string& word);
+
+/// Dials that the user has set by hand.
+struct FixedDials {
+  bool duration = false, softening = false, element_size = false;
+};
 
 /// Sets solver.duration, solver.fibre_softening and the element size of the blanks for the least
 /// work whose error (E) is at most accuracy.shear_deg: softening between 1 and 1000 (stacks: 300),
 /// I at most 2.8, elements up to 1.4 times as large as the case's where tools and outlines allow
 /// it (not in stacks of two to four plies, where that was not measured), never smaller. Where the
 /// mesh leaves less than half of the error, inertia and softening get half. Nothing is done without
-/// accuracy.shear_deg or a stroke.
-void pick_dials(Case& data);
+/// accuracy.shear_deg or a stroke. What is fixed stays; the others then make up for it as far as
+/// they can, with half of the wanted error at least. Returns the element sizes over those before.
+double pick_dials(Case& data, const FixedDials& fixed = {});
 
 } // namespace plyform

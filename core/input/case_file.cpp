@@ -2,7 +2,6 @@
 // case.toml -> entries -> overrides -> check against the table of keys -> Case -> whole scene.
 #include "core/input/case_file.hpp"
 
-#include "core/accuracy/error_model.hpp"
 #include "core/base/text.hpp"
 #include "core/input/case_parts.hpp"
 #include "core/input/overrides.hpp"
@@ -243,23 +242,24 @@ void put_in_order(std::vector<CaseError>& errors, const std::string& case_name) 
 CaseReading read_case(const std::filesystem::path& file, const std::vector<Override>& overrides) {
   Findings findings;
   CaseReading reading;
+  reading.file = file;
   std::string reason;
   const std::string name = file.string();
   if (const std::optional<std::string> content = read_text(file, reason); !content) {
     findings.error({name, 1, 1}, "", "", "the case file " + reason, "give the path of a case file");
   } else if (std::optional<Entry> entries = parse_entries(*content, name, findings)) {
     const std::filesystem::path folder = file.parent_path();
-    for (const Override& change : overrides)
+    for (const Override& change : overrides) {
       apply_override(*entries, change, folder, findings);
+      reading.overridden.insert(change.first);
+    }
     load_fabrics(*entries, folder, findings);
     const Section root{&*entries, "", ""};
     check_section(root, findings);
     Case built = build_case(root, folder, findings);
-    if (findings.errors.empty()) estimate_missing(built);
-    if (findings.errors.empty()) check_scene(built, locate_parts(root), findings);
     if (findings.errors.empty()) {
-      pick_dials(built);
-      check_resolution(built, locate_parts(root), findings);
+      estimate_missing(built);
+      reading.parts = locate_parts(root);
       reading.value = std::move(built);
     }
   }
@@ -267,6 +267,19 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
   reading.errors = std::move(findings.errors);
   reading.warnings = std::move(findings.warnings);
   return reading;
+}
+
+std::vector<BlankMesh> check_case(CaseReading& reading) {
+  if (!reading.value) return {};
+  Findings findings;
+  std::vector<BlankMesh> meshes = check_scene(*reading.value, reading.parts, findings);
+  if (findings.errors.empty()) check_resolution(*reading.value, reading.parts, meshes, findings);
+  put_in_order(findings.errors, reading.file.string());
+  if (!findings.errors.empty()) reading.value.reset();
+  reading.errors.insert(reading.errors.end(), findings.errors.begin(), findings.errors.end());
+  reading.warnings.insert(reading.warnings.end(), findings.warnings.begin(),
+                          findings.warnings.end());
+  return meshes;
 }
 
 } // namespace plyform

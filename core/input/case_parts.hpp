@@ -4,6 +4,7 @@
 // used when no mistake was found.
 #pragma once
 
+#include "core/input/case_file.hpp"
 #include "core/input/initial_scene.hpp"
 #include "core/input/schema_check.hpp"
 #include "core/model/case.hpp"
@@ -12,16 +13,6 @@
 #include <vector>
 
 namespace plyform {
-
-/// Where a part of the case stands in the file, for mistakes found in the scene as a whole.
-struct Located {
-  Place at;
-  std::string item;
-};
-
-struct CaseParts {
-  std::vector<Located> blanks, plies, tools, boundaries;
-};
 
 /// core/input/fabric_file.cpp: fabric files and tables.
 std::vector<Fabric> read_fabrics(const Section& root, Findings& findings);
@@ -44,10 +35,12 @@ void check_boundaries(const Case& scene, const CaseParts& parts, const std::vect
 
 /// core/input/scene_checks.cpp: mistakes that only the whole scene shows: blanks that cannot be
 /// meshed, plies overlapping at the start, tools inside plies, tools closer together than the
-/// stack.
-void check_scene(const Case& scene, const CaseParts& parts, Findings& findings);
+/// stack. Returns the meshes, one a ply; none if one of them cannot be.
+std::vector<BlankMesh> check_scene(const Case& scene, const CaseParts& parts, Findings& findings);
 
 /// core/input/resolution_checks.cpp: meshes too coarse for what yarns' bending decides; warnings.
-void check_resolution(const Case& scene, const CaseParts& parts, Findings& findings);
+/// meshes: of the plies, one each.
+void check_resolution(const Case& scene, const CaseParts& parts,
+                      const std::vector<BlankMesh>& meshes, Findings& findings);
 
 } // namespace plyform

@@ -41,10 +41,8 @@ std::string too_coarse(const Fabric& f, bool stack, double h) {
                      f.name, what, std::floor(10.0 * element_size_needed(lengths)) / 10.0);
 }
 
-/// mm: side of a square of two triangles; 0 for a mesh that cannot be read.
-double size_of(const BlankSpec& blank) {
-  if (blank.mesh != MeshKind::file) return blank.element_size;
-  const BlankMesh mesh = mesh_blank(blank, 0.0, 0.5 * M_PI);
+/// mm: side of a square of two triangles, on average.
+double size_of(const BlankMesh& mesh) {
   double twice_area = 0.0;
   for (const Triangle& t : mesh.triangles) {
     const Vec2 a = mesh.x[static_cast<std::size_t>(t[0])];
@@ -57,13 +55,16 @@ double size_of(const BlankSpec& blank) {
 
 } // namespace
 
-void check_resolution(const Case& scene, const CaseParts& parts, Findings& findings) {
+void check_resolution(const Case& scene, const CaseParts& parts,
+                      const std::vector<BlankMesh>& meshes, Findings& findings) {
   std::set<std::pair<int, int>> seen;
-  for (const Ply& ply : scene.plies) {
+  for (std::size_t p = 0; p < scene.plies.size(); ++p) {
+    const Ply& ply = scene.plies[p];
     if (!seen.emplace(ply.fabric, ply.blank).second) continue;
     const Fabric& fabric = scene.fabrics[static_cast<std::size_t>(ply.fabric)];
     const auto number = static_cast<std::size_t>(ply.blank);
-    const double h = size_of(scene.blanks[number]);
+    const BlankSpec& spec = scene.blanks[number];
+    const double h = spec.mesh == MeshKind::file ? size_of(meshes[p]) : spec.element_size;
     const std::string text = too_coarse(fabric, scene.plies.size() > 1, h);
     if (text.empty()) continue;
     const Located& blank = parts.blanks[number];

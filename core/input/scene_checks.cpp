@@ -261,15 +261,19 @@ void make_surfaces(SceneCheck& check) {
 
 } // namespace
 
-void check_scene(const Case& scene, const CaseParts& parts, Findings& findings) {
+std::vector<BlankMesh> check_scene(const Case& scene, const CaseParts& parts, Findings& findings) {
   SceneCheck check{scene, parts, findings};
   const bool meshed = lay_plies(check);
-  if (!meshed) return;
+  if (!meshed) return {};
   check_plies_apart(check);
   make_surfaces(check);
   check_boundaries(scene, parts, check.plies, check.surfaces, findings);
   check_tools_outside(check);
   if (findings.errors.empty()) check_end_of_stroke(check);
+  std::vector<BlankMesh> meshes;
+  for (FlatPly& ply : check.plies)
+    meshes.push_back(std::move(ply.mesh));
+  return meshes;
 }
 
 } // namespace plyform

@@ -91,7 +91,6 @@ struct ContactOptions {
 /// How near a run is to come to a converged one (core/accuracy/error_model.hpp).
 struct AccuracyOptions {
   double shear_error = 0.0; ///< rad, rms; 0: not asked for, the solver's dials hold
-  double coarsening = 1.0;  ///< element sizes over those given, as pick_dials set them
 };
 
 /// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.

@@ -163,8 +163,7 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.max_step_s = s.max_dt;
   sum.threads = threads;
   const PredictedError error = predicted_error(s.data);
-  sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data),
-                  s.data.accuracy.coarsening};
+  sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data)};
   sum.contact = audit(s, depths);
   const std::vector<ToolCut> cuts = cuts_between_nodes(s);
   sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
@@ -188,8 +187,9 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
 
 } // namespace
 
-RunResult run_case(const Case& data, int threads, const RunHooks& hooks) {
-  Scene s = make_scene(data);
+RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
+                   const std::vector<BlankMesh>& meshes) {
+  Scene s = make_scene(data, meshes);
   return run_scene(s, threads, hooks);
 }
 

@@ -33,8 +33,10 @@ struct RunResult {
 };
 
 /// Forms the plies. Stops early, with the last good state, when a value is not finite, an element
-/// collapses, a ply goes through another or the energy balance error passes its limit.
-RunResult run_case(const Case& data, int threads, const RunHooks& hooks);
+/// collapses, a ply goes through another or the energy balance error passes its limit. meshes: as
+/// of make_scene.
+RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
+                   const std::vector<BlankMesh>& meshes = {});
 
 /// The same from a scene of make_scene, whose plies may have been given another start: positions
 /// (PlyBody::x, and x0 where boundaries hold them) and velocities. The scene is left in the last

@@ -26,11 +26,15 @@ std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
   return face;
 }
 
-PlyBody make_ply(const Case& data, const Ply& ply) {
+BlankMesh mesh_ply(const Case& data, const Ply& ply) {
+  const Fabric& fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
+  return mesh_blank(data.blanks[static_cast<std::size_t>(ply.blank)], ply.angle,
+                    ply.angle + fabric.fibre_angle);
+}
+
+PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
   PlyBody body;
   const Fabric& fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
-  const BlankMesh mesh = mesh_blank(data.blanks[static_cast<std::size_t>(ply.blank)], ply.angle,
-                                    ply.angle + fabric.fibre_angle);
   body.name = ply.name;
   body.angle = ply.angle;
   body.thickness = fabric.thickness;
@@ -179,11 +183,12 @@ double smallest_element(const std::vector<PlyBody>& plies) {
 
 } // namespace
 
-Scene make_scene(const Case& data) {
+Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
   Scene s;
   s.data = data;
   for (const Ply& ply : data.plies)
-    s.plies.push_back(make_ply(data, ply));
+    s.plies.push_back(
+        make_ply(data, ply, meshes.empty() ? mesh_ply(data, ply) : meshes[s.plies.size()]));
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
   s.element_size = smallest_element(s.plies);

@@ -144,8 +144,8 @@ struct Scene {
   long searches = 0;                  ///< broad phases done
 };
 
-/// Meshes the blanks, places plies and tools, sets contact stiffness from the stable step.
-/// Throws std::runtime_error if a blank cannot be meshed.
-Scene make_scene(const Case& data);
+/// Places plies and tools, sets contact stiffness from the stable step. meshes: of the blanks, one
+/// a ply; none: they are meshed here. Throws std::runtime_error if a blank cannot be meshed.
+Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes = {});
 
 } // namespace plyform

@@ -4,6 +4,7 @@
 
 #include "core/base/text.hpp"
 #include "core/input/schema.hpp"
+#include "core/setup/prepare_case.hpp"
 #include "core/study/study_plan.hpp"
 
 #include <algorithm>
@@ -244,7 +245,7 @@ bool check_settings(const std::filesystem::path& file, std::vector<std::string> 
                     const Part& part, const std::vector<std::string>& settings) {
   for (std::size_t i = 0; i < settings.size(); ++i) {
     before.push_back(settings[i]);
-    const CaseReading reading = read_case(file, split_settings(before));
+    const PreparedCase reading = prepare_case(file, split_settings(before));
     if (reading.value) continue;
     const Entry& item = part.table.find("settings")->children[i];
     report(reading.errors.front(), item.at, part.path(fmt::format("settings.{}", i)), item.written,
@@ -266,7 +267,7 @@ void check_reference(const Study& study, const StudyRun& run, const Part& top) {
   const Part part{table ? *table : none, "reference", top.findings};
   std::vector<std::string> before = study.settings;
   if (!check_settings(study.case_file, before, part, study.reference.settings)) return;
-  const CaseReading reading = read_case(study.case_file, split_settings(run.settings));
+  const PreparedCase reading = prepare_case(study.case_file, split_settings(run.settings));
   if (reading.value) return;
   const char* factor = factor_behind(reading.errors.front());
   const Entry* value = table ? table->find(factor) : nullptr;
@@ -293,7 +294,7 @@ void check_dial(const Study& study, const StudyPlan& plan, int index, const Part
         point.value != 1.0)
       return part.fail(*table.find("key"), "key", "no blank of the case has an element_size",
                        "take the dial out: blanks from mesh files have the file's mesh");
-    const CaseReading reading = read_case(study.case_file, split_settings(run.settings));
+    const PreparedCase reading = prepare_case(study.case_file, split_settings(run.settings));
     if (reading.value) continue;
     const CaseError& error = reading.errors.front();
     const bool of_key =
@@ -306,9 +307,9 @@ void check_dial(const Study& study, const StudyPlan& plan, int index, const Part
 
 void check_runs(const Study& study, const Part& top) {
   Findings& findings = top.findings;
-  CaseReading bare = read_case(study.case_file, split_settings(study.settings));
+  PreparedCase bare = prepare_case(study.case_file, split_settings(study.settings));
   if (!bare.value) {
-    bare = read_case(study.case_file, {});
+    bare = prepare_case(study.case_file, {});
     findings.errors.insert(findings.errors.end(), bare.errors.begin(), bare.errors.end());
     if (bare.value) check_settings(study.case_file, {}, top, study.settings);
     return;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole steps of the shipped case of five plies over a hemisphere, finer and finer.
-#include "core/input/case_file.hpp"
+#include "core/setup/prepare_case.hpp"
 #include "core/solver/step.hpp"
 #include "tests/bench/element_traffic.hpp"
 #include "tests/bench/sheets.hpp"
@@ -31,10 +31,10 @@ Scene five_plies(double element_size) {
   constexpr double shipped = 6.8; // mm
   // Steps shrink with the elements: so does the time, and the blank-holder's force comes on within
   // as many steps.
-  const CaseReading reading =
-      read_case(PLYFORM_CASES "/hemisphere_five_ply_paper/case.toml",
-                {{"blanks.square.element_size", fmt::format("{}", element_size)},
-                 {"solver.duration", fmt::format("{}", 0.1 * element_size / shipped)}});
+  const PreparedCase reading =
+      prepare_case(PLYFORM_CASES "/hemisphere_five_ply_paper/case.toml",
+                   {{"blanks.square.element_size", fmt::format("{}", element_size)},
+                    {"solver.duration", fmt::format("{}", 0.1 * element_size / shipped)}});
   if (!reading.value) throw std::runtime_error(reading.errors.front().text());
   return make_scene(*reading.value);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shipped hemisphere cases, whole, as `plyform run` computes them.
-#include "core/input/case_file.hpp"
+#include "core/setup/prepare_case.hpp"
 #include "core/solver/run.hpp"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ namespace plyform {
 namespace {
 
 Case shipped(const char* name) {
-  const CaseReading reading = read_case(std::string(PLYFORM_CASES) + "/" + name + "/case.toml", {});
+  const PreparedCase reading =
+      prepare_case(std::string(PLYFORM_CASES) + "/" + name + "/case.toml", {});
   for (const CaseError& error : reading.errors)
     ADD_FAILURE() << error.text();
   return reading.value.value();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shipped cases of Hamila and Boisse (2008), whole, against theory.
 #include "core/fit/fit_shear.hpp"
-#include "core/input/case_file.hpp"
+#include "core/setup/prepare_case.hpp"
 #include "core/solver/run.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 constexpr double degrees = 180.0 / std::numbers::pi;
 
 Case shipped(const std::string& file) {
-  const CaseReading reading = read_case(std::string(PLYFORM_CASES) + "/" + file, {});
+  const PreparedCase reading = prepare_case(std::string(PLYFORM_CASES) + "/" + file, {});
   for (const CaseError& error : reading.errors)
     ADD_FAILURE() << error.text();
   return reading.value.value();

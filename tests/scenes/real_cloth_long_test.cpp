@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Stacks of yarns that bear compression and bend in their plane, formed whole.
-#include "core/input/case_file.hpp"
+#include "core/setup/prepare_case.hpp"
 #include "support/scene_checks.hpp"
 #include "support/thread_checks.hpp"
 
@@ -16,7 +16,7 @@ namespace {
 /// real_cloth.md): 28 mm wide.
 Case coarse_five_plies() {
   const std::string path = std::string(PLYFORM_CASES) + "/hemisphere_five_ply/case.toml";
-  const CaseReading reading = read_case(path, {{"blanks.square.element_size", "10.0"}});
+  const PreparedCase reading = prepare_case(path, {{"blanks.square.element_size", "10.0"}});
   for (const CaseError& error : reading.errors)
     ADD_FAILURE() << error.text();
   Case data = reading.value.value();

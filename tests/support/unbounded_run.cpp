@@ -3,7 +3,7 @@
 // step longer than the stable one, contacts stiffer or more damped than a case may have.
 //   unbounded_run CASE.toml FOLDER [KEY=VALUE]...
 // Exit codes as of plyform: 0 done, 2 the case is wrong, 3 the simulation stopped itself.
-#include "core/input/case_file.hpp"
+#include "core/setup/prepare_case.hpp"
 #include "core/solver/run.hpp"
 
 #include <cstdio>
@@ -38,7 +38,7 @@ int run(int count, char** arguments) {
     else
       settings.emplace_back(key, value);
   }
-  CaseReading reading = read_case(arguments[1], settings);
+  PreparedCase reading = prepare_case(arguments[1], settings);
   for (const CaseError& error : reading.errors)
     std::fprintf(stderr, "%s\n", error.text().c_str());
   if (!reading.value) return 2;

@@ -239,12 +239,13 @@ std::optional<Stop> time_a_step(Scene& s, ThreadTeam& team, double& seconds) {
 } // namespace
 
 int check_command(const CaseArguments& arguments) {
-  const std::optional<Case> data = load_case(arguments);
-  if (!data) return exit_case_wrong;
+  const PreparedCase prepared = load_case(arguments);
+  if (!prepared.value) return exit_case_wrong;
+  const Case& data = *prepared.value;
   ThreadTeam team(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
-  Scene s = make_scene(*data);
+  Scene s = make_scene(data, prepared.meshes);
   start(s, team);
-  fmt::print("{}\n", data->title);
+  fmt::print("{}\n", data.title);
   print_fabrics(s.data);
   print_plies(s);
   print_locking(s);
@@ -252,15 +253,17 @@ int check_command(const CaseArguments& arguments) {
   print_tools(s);
   print_boundaries(s);
   const StepBound bound = stable_step(s, team);
-  const double steps = data->solver.duration / s.next_dt;
+  const double steps = data.solver.duration / s.next_dt;
   fmt::print("contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm\n",
              s.ply_contacts.size(), s.skin);
   fmt::print("stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s\n", bound.dt,
              s.plies[static_cast<std::size_t>(bound.ply)].name, bound.triangle, s.next_dt);
-  const PredictedError error = predicted_error(*data);
-  fmt::print("{}\n", describe_accuracy(error, error.promised(*data), data->accuracy.coarsening));
+  const PredictedError error = predicted_error(data);
+  fmt::print("{}\n", describe_accuracy(error, error.promised(data), prepared.coarsening));
+  for (const std::string& note : prepared.notes)
+    fmt::print("{}\n", note);
   fmt::print("fibre stiffness divided by {:g}, {:g} s simulated: about {:.0f} steps\n",
-             data->solver.fibre_softening, data->solver.duration, steps);
+             data.solver.fibre_softening, data.solver.duration, steps);
   double seconds = 0.0;
   if (const auto stop = time_a_step(s, team, seconds)) {
     fmt::print(stderr, "plyform: {}\n", stop->message);

@@ -2,10 +2,9 @@
 // The commands of plyform, one file each. Each returns the exit code.
 #pragma once
 
-#include "core/model/case.hpp"
+#include "core/setup/prepare_case.hpp"
 
 #include <limits>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -60,8 +59,8 @@ struct TheoryArguments {
   int points = 100;
 };
 
-/// Reads the case; prints every mistake to standard error and returns nothing if there is one.
-std::optional<Case> load_case(const CaseArguments& arguments);
+/// Prepares the case; prints every mistake to standard error, and then has no value.
+PreparedCase load_case(const CaseArguments& arguments);
 
 int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);

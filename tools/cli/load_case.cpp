@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/accuracy/error_model.hpp"
-#include "core/input/case_file.hpp"
+#include "core/setup/prepare_case.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <filesystem>
 #include <fmt/format.h>
 
 namespace plyform {
-std::optional<Case> load_case(const CaseArguments& arguments) {
+PreparedCase load_case(const CaseArguments& arguments) {
   std::filesystem::path file = arguments.file;
   if (std::filesystem::is_directory(file)) file /= "case.toml";
   std::vector<Override> overrides;
@@ -17,19 +17,18 @@ std::optional<Case> load_case(const CaseArguments& arguments) {
       fmt::print(stderr,
                  "--set:1:1: error: {}: is not KEY=VALUE; write for example --set ply.0.angle=30\n",
                  setting);
-      return std::nullopt;
+      return {};
     }
     overrides.emplace_back(setting.substr(0, equals), setting.substr(equals + 1));
   }
   if (const double error = preset_error(arguments.accuracy); error > 0.0)
     overrides.emplace_back("accuracy.shear_deg", fmt::format("{}", error));
-  CaseReading reading = read_case(file, overrides);
-  for (const std::string& warning : reading.warnings)
+  PreparedCase prepared = prepare_case(file, overrides);
+  for (const std::string& warning : prepared.warnings)
     fmt::print(stderr, "{}\n", warning);
-  for (const CaseError& error : reading.errors)
+  for (const CaseError& error : prepared.errors)
     fmt::print(stderr, "{}\n", error.text());
-  if (!reading.value) return std::nullopt;
-  return std::move(reading.value);
+  return prepared;
 }
 
 } // namespace plyform

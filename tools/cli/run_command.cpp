@@ -136,8 +136,8 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
 } // namespace
 
 int run_command(const RunArguments& arguments) {
-  const std::optional<Case> data = load_case(arguments.input);
-  if (!data) return exit_case_wrong;
+  const PreparedCase prepared = load_case(arguments.input);
+  if (!prepared.value) return exit_case_wrong;
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int threads = arguments.threads > 0 ? arguments.threads : cores;
   const std::filesystem::path folder = output_folder(arguments);
@@ -149,7 +149,10 @@ int run_command(const RunArguments& arguments) {
   hooks.frame = [&](const Frame& frame) { writer.write_frame(frame); };
   hooks.progress = [&](const Progress& p) { line.show(p); };
   hooks.interrupt = &interrupted;
-  const RunResult result = run_case(*data, threads, hooks);
+  RunResult result = run_case(*prepared.value, threads, hooks, prepared.meshes);
+  result.summary.accuracy.coarsening = prepared.coarsening;
+  result.summary.assumed.insert(result.summary.assumed.begin(), prepared.notes.begin(),
+                                prepared.notes.end());
   line.end();
   writer.write_final(result.last, result.summary);
   print_outcome(result, folder);

@@ -2,7 +2,7 @@
 // The rule that picks dials: against a search by hand, on real cases. Whether what it promises
 // holds is measured by `plyform chart` (docs/accuracy.md).
 #include "core/accuracy/error_model.hpp"
-#include "core/input/case_file.hpp"
+#include "core/setup/prepare_case.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@ namespace plyform {
 namespace {
 
 Case case_at(const std::string& file, const std::vector<Override>& overrides = {}) {
-  const CaseReading reading = read_case(file, overrides);
+  const PreparedCase reading = prepare_case(file, overrides);
   EXPECT_TRUE(reading.errors.empty()) << file;
   return reading.value.value_or(Case{});
 }
@@ -78,6 +78,54 @@ TEST(Accuracy, SoftensNoFurtherThanCompressionAllows) {
   paper.accuracy.shear_error = cloth.accuracy.shear_error;
   pick_dials(paper);
   EXPECT_GT(paper.solver.fibre_softening, 200.0);
+}
+
+TEST(Accuracy, WorksAroundDialsThatAreFixed) {
+  const double wanted = 2.0;
+  const auto picked = [&](const FixedDials& fixed, double duration, double softening) {
+    Case data = case_at(five);
+    data.solver.duration = duration;
+    data.solver.fibre_softening = softening;
+    data.accuracy.shear_error = wanted * std::numbers::pi / 180.0;
+    EXPECT_EQ(fixed.element_size, pick_dials(data, fixed) == 1.0);
+    return data;
+  };
+  const Case free = picked({}, 0.1, 100.0);
+  const double coarsened = free.blanks[0].element_size / case_at(five).blanks[0].element_size;
+  EXPECT_GT(coarsened, 1.0);
+  // a slower stroke leaves more to the yarns, and the other way round; the promise is kept
+  const Case slow = picked({.duration = true}, 2.0 * free.solver.duration, 100.0);
+  EXPECT_EQ(slow.solver.duration, 2.0 * free.solver.duration);
+  EXPECT_GT(slow.solver.fibre_softening, 1.01 * free.solver.fibre_softening);
+  const Case stiff = picked({.softening = true}, 0.1, 0.3 * free.solver.fibre_softening);
+  EXPECT_EQ(stiff.solver.fibre_softening, 0.3 * free.solver.fibre_softening);
+  EXPECT_LT(stiff.solver.duration, 0.99 * free.solver.duration);
+  for (const Case* data : {&slow, &stiff})
+    EXPECT_LE(predicted_error(*data).total(), 1.0001 * wanted);
+  const Case fine = picked({.element_size = true}, 0.1, 100.0);
+  EXPECT_EQ(fine.blanks[0].element_size, case_at(five).blanks[0].element_size);
+  EXPECT_LE(predicted_error(fine).total(), 1.0001 * wanted);
+  // one that cannot be made up for is not hidden: the promise is what is predicted
+  const Case fast = picked({.duration = true}, 0.01, 100.0);
+  EXPECT_GT(predicted_error(fast).promised(fast), wanted);
+}
+
+TEST(Accuracy, KeepsWhatOverridesSetAndSaysSo) {
+  const std::vector<Override> asked{{"accuracy.shear_deg", "3"}};
+  const PreparedCase plain = prepare_case(five, asked);
+  ASSERT_TRUE(plain.value);
+  EXPECT_NEAR(plain.coarsening, 1.4, 1e-12);
+  EXPECT_TRUE(plain.notes.empty());
+  const PreparedCase kept = prepare_case(
+      five, {asked[0], {"solver.duration", "0.07"}, {"blanks.square.element_size", "10"}});
+  ASSERT_TRUE(kept.value);
+  EXPECT_EQ(kept.value->solver.duration, 0.07);
+  EXPECT_EQ(kept.value->blanks[0].element_size, 10.0);
+  EXPECT_EQ(kept.coarsening, 1.0);
+  ASSERT_EQ(kept.notes.size(), 1u);
+  EXPECT_EQ(kept.notes[0], "accuracy asked for: blanks.square.element_size, solver.duration as set "
+                           "by hand, the other dials picked around them");
+  EXPECT_EQ(kept.meshes.size(), 5u);
 }
 
 /// mm, element size that `case_file` gets for an error of `wanted` degrees.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Good case files give the right numbers; wrong ones exactly the mistakes that stand in them.
 #include "core/base/text.hpp"
-#include "core/input/case_file.hpp"
 #include "core/input/schema_check.hpp"
+#include "core/setup/prepare_case.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 const fs::path data = PLYFORM_TEST_DATA;
 constexpr double pi = std::numbers::pi;
 
-std::string all_texts(const CaseReading& reading) {
+std::string all_texts(const PreparedCase& reading) {
   std::string texts;
   for (const CaseError& error : reading.errors)
     texts += error.text() + "\n";
@@ -29,7 +29,7 @@ std::string all_texts(const CaseReading& reading) {
 
 /// A case that must be right.
 Case good_case(const fs::path& file, const std::vector<Override>& overrides = {}) {
-  const CaseReading reading = read_case(file, overrides);
+  const PreparedCase reading = prepare_case(file, overrides);
   EXPECT_TRUE(reading.value) << all_texts(reading);
   return reading.value ? *reading.value : Case{};
 }
@@ -77,7 +77,7 @@ TEST_P(BrokenCase, GivesItsOneMistakeWithItsPlace) {
   const Expectation wanted = expectation(file);
   ASSERT_GT(wanted.line, 0);
   ASSERT_FALSE(wanted.fragment.empty());
-  const CaseReading reading = read_case(file, {});
+  const PreparedCase reading = prepare_case(file, {});
   EXPECT_FALSE(reading.value);
   ASSERT_EQ(reading.errors.size(), 1u) << all_texts(reading);
   const CaseError& error = reading.errors.front();
@@ -98,13 +98,13 @@ TEST(BrokenCases, HaveMessagesOfTheirOwn) {
   const std::vector<std::string> names = broken_files();
   EXPECT_GE(names.size(), 30u);
   for (const std::string& name : names)
-    for (const CaseError& e : read_case(data / "broken" / (name + ".toml"), {}).errors)
+    for (const CaseError& e : prepare_case(data / "broken" / (name + ".toml"), {}).errors)
       EXPECT_TRUE(messages.insert(e.item + "|" + e.value + "|" + e.rule + "|" + e.remedy).second)
           << name << ": " << e.text();
 }
 
 TEST(CaseFile, ReportsAllMistakesOfAllFilesAtOnce) {
-  const CaseReading reading = read_case(data / "several/five_mistakes.toml", {});
+  const PreparedCase reading = prepare_case(data / "several/five_mistakes.toml", {});
   ASSERT_EQ(reading.errors.size(), 5u) << all_texts(reading);
   const std::vector<std::string> items{"ply.0.fabric", "ply.0.angle", "tool.0.radius",
                                        "contact.fricton", "fabrics.plain.thickness"};
@@ -114,7 +114,8 @@ TEST(CaseFile, ReportsAllMistakesOfAllFilesAtOnce) {
 }
 
 TEST(CaseFile, IsReportedWhenItCannotBeOpened) {
-  const CaseReading absent = read_case(data / "absent.toml", {}), folder = read_case(data, {});
+  const PreparedCase absent = prepare_case(data / "absent.toml", {}),
+                     folder = prepare_case(data, {});
   ASSERT_EQ(absent.errors.size(), 1u);
   EXPECT_NE(absent.errors[0].text().find("No such file"), std::string::npos);
   ASSERT_EQ(folder.errors.size(), 1u);
@@ -147,7 +148,7 @@ TEST(CaseFile, ReadsAllShippedCasesWithoutErrorOrWarning) {
   for (const fs::directory_entry& entry : fs::recursive_directory_iterator(PLYFORM_CASES)) {
     if (entry.path().extension() != ".toml" || is_fabric(entry.path()) || is_study(entry.path()))
       continue;
-    const CaseReading reading = read_case(entry.path(), {});
+    const PreparedCase reading = prepare_case(entry.path(), {});
     EXPECT_TRUE(reading.value) << all_texts(reading);
     const bool coarse = entry.path().parent_path().filename() == "stability"; // on purpose
     for (const std::string& warning : reading.warnings)

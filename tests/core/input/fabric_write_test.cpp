@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Fabric files on their own: read, given another law, and read again as a case does.
 #include "core/input/fabric_file.hpp"
+#include "core/setup/prepare_case.hpp"
 
 #include <filesystem>
 #include <fstream>
@@ -52,7 +53,7 @@ fabric = "glass"
 blank = "square"
 angle = 0.0
 )");
-  const CaseReading reading = read_case(file, {});
+  const PreparedCase reading = prepare_case(file, {});
   EXPECT_TRUE(reading.value) << texts(reading.errors) << fabric;
   return reading.value ? reading.value->fabrics.at(0) : Fabric{};
 }

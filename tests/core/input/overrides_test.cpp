@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // --set KEY=VALUE, and the checks of the scene as a whole on a case changed by it.
-#include "core/input/case_file.hpp"
+#include "core/setup/prepare_case.hpp"
 
 #include <gtest/gtest.h>
 #include <numbers>
@@ -11,7 +11,7 @@ namespace {
 const std::filesystem::path data = PLYFORM_TEST_DATA;
 constexpr double pi = std::numbers::pi;
 
-std::string all_texts(const CaseReading& reading) {
+std::string all_texts(const PreparedCase& reading) {
   std::string texts;
   for (const CaseError& error : reading.errors)
     texts += error.text() + "\n";
@@ -20,7 +20,7 @@ std::string all_texts(const CaseReading& reading) {
 
 /// A case that must be right.
 Case good_case(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  const CaseReading reading = read_case(file, overrides);
+  const PreparedCase reading = prepare_case(file, overrides);
   EXPECT_TRUE(reading.value) << all_texts(reading);
   return reading.value ? *reading.value : Case{};
 }
@@ -31,7 +31,7 @@ Case base_with(const std::vector<Override>& overrides) {
 
 /// The one error that an override gives.
 CaseError override_error(const std::string& key, const std::string& value) {
-  const CaseReading reading = read_case(data / "good/base.toml", {{key, value}});
+  const PreparedCase reading = prepare_case(data / "good/base.toml", {{key, value}});
   EXPECT_EQ(reading.errors.size(), 1u) << key << "=" << value << "\n" << all_texts(reading);
   EXPECT_FALSE(reading.value);
   return reading.errors.empty() ? CaseError{} : reading.errors.front();
@@ -116,14 +116,14 @@ TEST(SceneCheck, LetsAToolStandInTheBlanksHole) {
   pin.push_back({"tool.0", "{name = 'pin', shape = 'cylinder', radius = 2, length = 30}"});
   base_with(pin);
   pin.back().second = "{name = 'pin', shape = 'cylinder', radius = 4, length = 30}";
-  const CaseReading wide = read_case(data / "good/base.toml", pin);
+  const PreparedCase wide = prepare_case(data / "good/base.toml", pin);
   ASSERT_EQ(wide.errors.size(), 1u) << all_texts(wide);
   EXPECT_NE(wide.errors[0].text().find("lies inside ply"), std::string::npos);
 }
 
 TEST(SceneCheck, WarnsWhenTheStrokeLeavesLessThanTheStack) {
   // A ball of radius 7.7 in a hole of radius 8 leaves 0.3 mm, the ply is 0.5 mm thick.
-  const CaseReading reading = read_case(
+  const PreparedCase reading = prepare_case(
       data / "good/base.toml",
       {{"tool.0.radius", "7.7"}, {"tool.0.position.2", "9.0"}, {"tool.0.stroke", "11.0"}});
   ASSERT_TRUE(reading.value) << all_texts(reading);
@@ -135,7 +135,8 @@ TEST(SceneCheck, WarnsWhenTheStrokeLeavesLessThanTheStack) {
 
 TEST(SceneCheck, LetsToolsTouchThePlies) {
   base_with({{"tool.0.position.2", "5.5"}}); // ball of radius 5 on a ply whose top is at 0.5
-  const CaseReading inside = read_case(data / "good/base.toml", {{"tool.0.position.2", "5.49"}});
+  const PreparedCase inside =
+      prepare_case(data / "good/base.toml", {{"tool.0.position.2", "5.49"}});
   EXPECT_EQ(inside.errors.size(), 1u) << all_texts(inside);
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of a fabric that its file leaves out: which cases get them, which values, what is said.
 #include "core/input/bending_resolution.hpp"
-#include "core/input/case_file.hpp"
 #include "core/model/fabric_estimates.hpp"
+#include "core/setup/prepare_case.hpp"
 #include "support/membrane_checks.hpp"
 
 #include <fmt/format.h>
@@ -22,7 +22,7 @@ struct Stack {
   double size = 6.0, softening = 1.0; ///< mm of the elements
 };
 
-CaseReading read_stack(const Stack& stack) {
+PreparedCase read_stack(const Stack& stack) {
   std::string text =
       fmt::format("[fabrics.glass]\nsurface_density = 600.0\nthickness = 0.6\n{}\n"
                   "[fabrics.glass.warp]\ndensity = 0.25\nstiffness = 46000.0\n{}\n"
@@ -38,13 +38,13 @@ CaseReading read_stack(const Stack& stack) {
   const fs::path file =
       fs::path(::testing::TempDir()) / fmt::format("plyform_estimates_{}.toml", getpid());
   std::ofstream(file) << text;
-  const CaseReading reading = read_case(file, {});
+  const PreparedCase reading = prepare_case(file, {});
   fs::remove(file);
   return reading;
 }
 
 Case case_of(const Stack& stack) {
-  const CaseReading reading = read_stack(stack);
+  const PreparedCase reading = read_stack(stack);
   EXPECT_TRUE(reading.value) << (reading.errors.empty() ? "" : reading.errors[0].text());
   return reading.value.value_or(Case{});
 }

@@ -2,7 +2,7 @@
 // Whole scenes in motion: at many steps every node of a ply within contact distance of another ply
 // or of a tool, found by brute force, is among the scene's contact points, and where it should be.
 #include "contact/point_triangle.hpp"
-#include "core/input/case_file.hpp"
+#include "core/setup/prepare_case.hpp"
 #include "core/solver/contact_search.hpp"
 #include "core/solver/run.hpp"
 #include "core/solver/step.hpp"
@@ -156,7 +156,7 @@ TEST(ContactSearch, RestingPointsAreHardlyLate) {
 /// A face seen late is closer than the one before, so that each such switch adds energy: little, in
 /// a stack of coarse plies drawn over small radii.
 TEST(ContactSearch, RestingPointsKeepTheLedger) {
-  const CaseReading reading = read_case(
+  const PreparedCase reading = prepare_case(
       PLYFORM_CASES "/stability/five_plies.toml", // yarns that carry tension only are held least
       {{"fabrics.glass", "../fabrics/glass_plain_weave_paper.toml"}});
   ASSERT_TRUE(reading.value);

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// From a case file to the scene that will run: read as it is, the dials of the accuracy asked for,
+// checked as a whole and meshed, once.
+#pragma once
+
+#include "core/input/case_file.hpp"
+
+namespace plyform {
+
+struct PreparedCase {
+  std::optional<Case> value;     ///< only when there is no error
+  std::vector<BlankMesh> meshes; ///< of its plies, one each
+  double coarsening = 1.0; ///< element sizes over those of the file, for the accuracy asked for
+  std::vector<CaseError> errors;
+  std::vector<std::string> warnings;
+  std::vector<std::string> notes; ///< what the accuracy asked for did not change, a sentence each
+};
+
+/// read_case, pick_dials, check_case. Dials that an override sets stay as they are where an
+/// accuracy is asked for: the others are picked around them, and a note says so.
+PreparedCase prepare_case(const std::filesystem::path& file,
+                          const std::vector<Override>& overrides);
+
+} // namespace plyform
