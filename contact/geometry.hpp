@@ -18,7 +18,7 @@ using Box3 = Eigen::AlignedBox3d;
 using Triangle = std::array<std::int32_t, 3>;
 
 /// A triangulated surface: node positions (mm) and triangles.
-struct Surface {
+struct TriMesh {
   std::vector<Vec3> x;
   std::vector<Triangle> triangles;
 };

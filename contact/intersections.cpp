@@ -120,7 +120,7 @@ bool intersect(const Face& f, const Face& g) {
   return meet_beyond_edge(f, g, f.x[shared[0]], f.x[shared[1]], f.x[*r], g.x[*s]);
 }
 
-std::vector<Point> checked_points(const SheetView& sheet, int sheet_number) {
+std::vector<Point> checked_points(const MeshView& sheet, int sheet_number) {
   std::vector<Point> points;
   points.reserve(sheet.x.size());
   for (const Vec3& x : sheet.x) {
@@ -134,7 +134,7 @@ std::vector<Point> checked_points(const SheetView& sheet, int sheet_number) {
   return points;
 }
 
-std::vector<Face> collect_faces(std::span<const SheetView> sheets) {
+std::vector<Face> collect_faces(std::span<const MeshView> sheets) {
   std::vector<Face> faces;
   for (int s = 0; s < int(sheets.size()); ++s) {
     const std::vector<Point> points = checked_points(sheets[s], s);
@@ -153,14 +153,14 @@ std::vector<Face> collect_faces(std::span<const SheetView> sheets) {
 
 } // namespace
 
-AuditResult audit_intersections(std::span<const SheetView> sheets) {
+Intersections find_intersections(std::span<const MeshView> sheets) {
   const std::vector<Face> faces = collect_faces(sheets);
   std::vector<FaceBox> boxes;
   boxes.reserve(faces.size());
   for (const Face& face : faces)
     boxes.emplace_back(face.x[0].bbox() + face.x[1].bbox() + face.x[2].bbox(), &face);
 
-  AuditResult result;
+  Intersections result;
   CGAL::box_self_intersection_d(
       boxes.begin(), boxes.end(), [&result](const FaceBox& left, const FaceBox& right) {
         const Face* f = left.handle(); // faces lie in memory by sheet, then triangle

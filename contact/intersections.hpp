@@ -17,12 +17,12 @@ struct Intersection {
   auto operator<=>(const Intersection&) const = default;
 };
 
-struct AuditResult {
+struct Intersections {
   std::vector<Intersection> between; ///< pairs of triangles of different sheets
   std::vector<Intersection> within;  ///< pairs of one sheet
 };
 
-struct SheetView {
+struct MeshView {
   std::span<const Vec3> x; ///< mm
   std::span<const Triangle> triangles;
 };
@@ -33,6 +33,6 @@ struct SheetView {
 /// they meet beyond the node or edge that they share. A degenerate triangle is the segment or point
 /// that it is. Cost about n log n. Throws std::runtime_error naming sheet and node if a position
 /// is not finite or a triangle names a node that does not exist.
-AuditResult audit_intersections(std::span<const SheetView> sheets);
+Intersections find_intersections(std::span<const MeshView> sheets);
 
 } // namespace plyform

@@ -14,13 +14,13 @@ faults=(
   "normals of tools point inward | contact/forces/tool_ply.cpp | s/c.normal = s.normal;/c.normal = -s.normal;/"
   "normals beside edges of profiles point to the edge, inside as outside | contact/shapes/profile.cpp | s/d \* (sign \/ length)}/d \/ length}/"
   "normals beside edges of mesh tools point to the edge, inside as outside | contact/shapes/mesh_shape.cpp | s/d \* (sign \/ length)}/d \/ length}/"
-  "normal force between plies pulls | contact/simd/ply_ply_body.hpp | s/LaneForces f{p.memory.normal_force \* normal/LaneForces f{-p.memory.normal_force * normal/"
+  "normal force between plies pulls | contact/simd/ply_ply_body.hpp | s/SimdForces f{p.memory.normal_force \* normal/SimdForces f{-p.memory.normal_force * normal/"
   "boxes of the search: one triangle in 64 is never a candidate | contact/search/sheet_bvh.cpp | s/if (q.distance2 <= reach.distance \* reach.distance)/if (q.distance2 <= reach.distance * reach.distance \&\& face % 64 != 7)/"
   "boxes of the search are not brought up to date | core/solver/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
   "contacts of plies are listed without the skin | core/solver/contact_search.cpp | s/pair.contact.distance + s.skin/pair.contact.distance/"
-  "what may have closed its gap is looked at too late, plies | contact/search/active_list.hpp | s/if (list.wake\[i\] > now)/if (list.wake[i] + 0.5 > now)/"
-  "a fold round a face is taken for a tenth of what it is | contact/simd/ply_ply_closest.hpp | s/return k.distance \* Double4{k.spread/return 0.1 * k.distance * Double4{k.spread/"
-  "a ply keeps those on its sides apart past its rim | core/solver/contact_search.cpp | s/^ *char inside = .*/covered[static_cast<std::size_t>(c.node)] = 1; char inside = 1;/"
+  "what may have closed its gap is looked at too late, plies | contact/search/active_list.hpp | s/if (list.free_until\[i\] > now)/if (list.free_until[i] + 0.5 > now)/"
+  "a fold round a face is taken for a tenth of what it is | contact/simd/ply_ply_closest.hpp | s/return k.distance \* Double4{k.fold_bound/return 0.1 * k.distance * Double4{k.fold_bound/"
+  "a ply keeps those on its sides apart past its rim | core/solver/contact_search.cpp | s/^ *char inside = .*/occluded[static_cast<std::size_t>(c.node)] = 1; char inside = 1;/"
   "the first node near a tool is not listed | contact/forces/tool_ply.cpp | s/if (gap > reach) {/if (gap > reach || contact.points.empty()) {/"
   "friction between plies is forgotten at a search | contact/forces/ply_ply.cpp | s/c.memory = before->memory;//"
   "friction with tools is forgotten at a search | contact/forces/tool_ply.cpp | s/if (known) point = old\[next_old++\];/if (known) point = old[next_old++], point.memory = {};/"
@@ -36,7 +36,7 @@ faults=(
   "friction takes tools for standing still | contact/simd/tool_ply_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g)/"
   "friction takes tools to move the other way | contact/simd/tool_ply_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
 )
-filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeContact*'
+filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeEdgeContact*'
 
 if [ $# -gt 0 ]; then
   mkdir -p "$1"

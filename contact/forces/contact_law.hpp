@@ -73,7 +73,7 @@ struct ContactLaw {
 };
 
 /// Sums over contacts since the last reset or, for the energies, at present. N mm, N, mm.
-struct ContactSums {
+struct ContactTotals {
   double elastic = 0.0;     ///< energy stored now in normal and tangential springs
   double friction = 0.0;    ///< work turned to heat by sliding, since the start
   double damping = 0.0;     ///< work of normal damping, since the start
@@ -87,7 +87,7 @@ struct ContactSums {
 };
 
 /// Nothing touches, before the contacts of a step are gone through.
-inline void clear_present(ContactSums& sums) {
+inline void clear_present(ContactTotals& sums) {
   sums.elastic = sums.penetration = 0.0;
   sums.touching = 0;
   sums.step_ratio = std::numeric_limits<double>::infinity();
@@ -107,8 +107,8 @@ inline ContactRow operator*(double by, const ContactRow& row) {
   return {by * row.stiffness, by * row.damping};
 }
 
-/// ContactSums::step_ratio of one contact at depth p (mm, below 0: open) that closed by dp (mm) in
-/// the last step. While it is open it may close, and then use half of the whole depth.
+/// ContactTotals::step_ratio of one contact at depth p (mm, below 0: open) that closed by dp (mm)
+/// in the last step. While it is open it may close, and then use half of the whole depth.
 inline double step_ratio(const ContactLaw& law, double p, double dp) {
   if (!(dp > 0.0)) return std::numeric_limits<double>::infinity();
   const double inside = std::max(p, 0.0);
@@ -132,7 +132,7 @@ inline ContactRow row_of(const ContactLaw& law, double depth) {
 }
 
 /// What one contact remembers from step to step.
-struct ContactMemory {
+struct ContactHistory {
   Vec3 s = Vec3::Zero();    ///< mm
   double damping_force = 0; ///< N, of the last step, for the trapezoidal work sum
   double normal_force = 0;  ///< N
@@ -154,7 +154,7 @@ inline NormalForce normal_force(const ContactLaw& law, double area, double p, do
 /// (T): updates memory.s and returns the tangential force on the body whose motion relative to the
 /// other one, this step, is `motion` (mm). n: unit normal. Adds the heat of sliding to sums.
 inline Vec3 friction_force(const ContactLaw& law, double area, double n_force, const Vec3& n,
-                           const Vec3& motion, ContactMemory& memory, ContactSums& sums) {
+                           const Vec3& motion, ContactHistory& memory, ContactTotals& sums) {
   if (law.friction == 0.0) return Vec3::Zero();
   const double k = area * law.tangential();
   Vec3 old = memory.s;
@@ -175,13 +175,14 @@ inline Vec3 friction_force(const ContactLaw& law, double area, double n_force, c
 }
 
 /// Energy (N mm) that the springs of a contact hold, p mm deep.
-inline double spring_energy(const ContactLaw& law, double area, double p,
-                            const ContactMemory& memory) {
+inline double tangent_energy(const ContactLaw& law, double area, double p,
+                             const ContactHistory& memory) {
   return area * (law.energy(p) + 0.5 * law.tangential() * memory.s.squaredNorm());
 }
 
 /// The contact has opened: what its spring still holds is given up as heat.
-inline void release(const ContactLaw& law, double area, ContactMemory& memory, ContactSums& sums) {
+inline void release(const ContactLaw& law, double area, ContactHistory& memory,
+                    ContactTotals& sums) {
   if (memory.normal_force == 0.0 && memory.s.isZero(0.0)) return;
   sums.friction += 0.5 * area * law.tangential() * memory.s.squaredNorm();
   memory = {};

@@ -9,8 +9,8 @@ const Vec3& at(std::span<const Vec3> x, std::int32_t n) {
 }
 
 /// Both stiffnesses of a contact `depth` mm deep that stands for `area` (mm^2).
-void set_stiffness(ContactSpring& spring, const ContactLaw& law, double area, double depth,
-                   const SpringFactors& factors) {
+void set_stiffness(ContactTangent& spring, const ContactLaw& law, double area, double depth,
+                   const TangentFactors& factors) {
   const ContactRow row = row_of(law, depth);
   spring.along = area * (factors.stiffness * row.stiffness + factors.damping * row.damping);
   if (law.friction > 0.0) spring.across = area * factors.stiffness * law.tangential();
@@ -18,11 +18,11 @@ void set_stiffness(ContactSpring& spring, const ContactLaw& law, double area, do
 
 } // namespace
 
-void append_springs(const ToolContact& contact, std::span<const double> area, double margin,
-                    const SpringFactors& factors, std::vector<ContactSpring>& springs) {
-  for (const ToolContactPoint& c : contact.points) {
+void append_tangents(const ToolPlyContact& contact, std::span<const double> area, double margin,
+                     const TangentFactors& factors, std::vector<ContactTangent>& springs) {
+  for (const ToolPlyPoint& c : contact.points) {
     if (c.latest_gap() > margin) continue;
-    ContactSpring spring;
+    ContactTangent spring;
     spring.node = {c.node};
     spring.share = {1.0};
     spring.normal = c.normal;
@@ -32,14 +32,15 @@ void append_springs(const ToolContact& contact, std::span<const double> area, do
   }
 }
 
-void append_springs(const SheetContact& contact, const SheetState& slave, const SheetState& master,
-                    std::span<const Triangle> triangles, double margin,
-                    const SpringFactors& factors, std::vector<ContactSpring>& springs) {
-  for (const SheetContactPoint& c : contact.points) {
+void append_tangents(const PlyPlyContact& contact, const SurfaceKinematics& slave,
+                     const SurfaceKinematics& master, std::span<const Triangle> triangles,
+                     double margin, const TangentFactors& factors,
+                     std::vector<ContactTangent>& springs) {
+  for (const PlyPlyPoint& c : contact.points) {
     if (c.latest_gap() > margin) continue;
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
     const std::array<double, 3> w = c.weights();
-    ContactSpring spring;
+    ContactTangent spring;
     spring.node = {c.node, t[0], t[1], t[2]};
     spring.share = {1.0, -w[0], -w[1], -w[2]};
     spring.nodes = 4;
@@ -52,12 +53,12 @@ void append_springs(const SheetContact& contact, const SheetState& slave, const 
   }
 }
 
-void append_springs(const EdgeContact& contact, const SheetState& a, const SheetState& b,
-                    double margin, const SpringFactors& factors,
-                    std::vector<ContactSpring>& springs) {
+void append_tangents(const EdgeEdgeContact& contact, const SurfaceKinematics& a,
+                     const SurfaceKinematics& b, double margin, const TangentFactors& factors,
+                     std::vector<ContactTangent>& springs) {
   for (const EdgePair& pair : contact.pairs) {
     if (!within(contact, pair, margin)) continue;
-    ContactSpring spring;
+    ContactTangent spring;
     spring.node = {pair.a.a, pair.a.b, pair.b.a, pair.b.b};
     spring.share = {1.0 - pair.s, pair.s, pair.t - 1.0, -pair.t};
     spring.own = 2;
@@ -71,22 +72,22 @@ void append_springs(const EdgeContact& contact, const SheetState& a, const Sheet
   }
 }
 
-void add_spring_forces(std::span<const ContactSpring> springs, std::span<const Vec3> own_y,
-                       std::span<const Vec3> other_y, std::span<Vec3> own_force,
-                       std::span<Vec3> other_force) {
-  for (const ContactSpring& s : springs) {
+void add_tangent_forces(std::span<const ContactTangent> springs, std::span<const Vec3> own_y,
+                        std::span<const Vec3> other_y, std::span<Vec3> own_force,
+                        std::span<Vec3> other_force) {
+  for (const ContactTangent& s : springs) {
     const auto own = static_cast<std::size_t>(s.own), nodes = static_cast<std::size_t>(s.nodes);
     std::array<Vec3, 4> y;
-    Vec3 way = Vec3::Zero();
+    Vec3 displacement = Vec3::Zero();
     for (std::size_t i = 0; i < nodes; ++i) {
       y[i] = at(i < own ? own_y : other_y, s.node[i]);
-      way += s.share[i] * y[i];
+      displacement += s.share[i] * y[i];
     }
-    Vec3 slip = way;
+    Vec3 slip = displacement;
     if (s.couple) slip -= face_turn(s.couple->face, {y[1], y[2], y[3]}).cross(s.couple->arm);
     slip -= s.normal.dot(slip) * s.normal;
     const Vec3 stuck = s.across * slip;
-    const Vec3 force = s.along * s.normal.dot(way) * s.normal + stuck;
+    const Vec3 force = s.along * s.normal.dot(displacement) * s.normal + stuck;
     for (std::size_t i = 0; i < nodes; ++i)
       (i < own ? own_force : other_force)[static_cast<std::size_t>(s.node[i])] +=
           s.share[i] * force;

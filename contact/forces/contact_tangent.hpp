@@ -19,40 +19,41 @@
 namespace plyform {
 
 /// Of friction between a node and a face.
-struct SpringCouple {
+struct TangentCouple {
   Vec3 arm; ///< mm
   FaceFrame face;
 };
 
 /// One contact between up to four nodes: the first `own` are of the slave (or the only) sheet, the
 /// rest, up to `nodes`, of the other.
-struct ContactSpring {
+struct ContactTangent {
   std::array<std::int32_t, 4> node{};
   std::array<double, 4> share{};
   int own = 1, nodes = 1;
   Vec3 normal = Vec3::Zero();
-  std::optional<SpringCouple> couple;
+  std::optional<TangentCouple> couple;
   double along = 0.0, across = 0.0; ///< N/mm
 };
 
 /// Factors of K and of C in what is summed up.
-struct SpringFactors {
+struct TangentFactors {
   double stiffness = 1.0, damping = 0.0;
 };
 
 /// Appends the contacts that touch or were within `margin` (mm) of it when last looked at.
-void append_springs(const ToolContact& contact, std::span<const double> area, double margin,
-                    const SpringFactors& factors, std::vector<ContactSpring>& springs);
-void append_springs(const SheetContact& contact, const SheetState& slave, const SheetState& master,
-                    std::span<const Triangle> master_triangles, double margin,
-                    const SpringFactors& factors, std::vector<ContactSpring>& springs);
-void append_springs(const EdgeContact& contact, const SheetState& a, const SheetState& b,
-                    double margin, const SpringFactors& factors,
-                    std::vector<ContactSpring>& springs);
+void append_tangents(const ToolPlyContact& contact, std::span<const double> area, double margin,
+                     const TangentFactors& factors, std::vector<ContactTangent>& springs);
+void append_tangents(const PlyPlyContact& contact, const SurfaceKinematics& slave,
+                     const SurfaceKinematics& master, std::span<const Triangle> master_triangles,
+                     double margin, const TangentFactors& factors,
+                     std::vector<ContactTangent>& springs);
+void append_tangents(const EdgeEdgeContact& contact, const SurfaceKinematics& a,
+                     const SurfaceKinematics& b, double margin, const TangentFactors& factors,
+                     std::vector<ContactTangent>& springs);
 
 /// Adds (L), N, to the forces of both sheets, which may be one.
-void add_spring_forces(std::span<const ContactSpring> springs, std::span<const Vec3> own_y,
-                       std::span<const Vec3> other_y, std::span<Vec3> own_force,
-                       std::span<Vec3> other_force);
+void add_tangent_forces(std::span<const ContactTangent> springs, std::span<const Vec3> own_y,
+                        std::span<const Vec3> other_y, std::span<Vec3> own_force,
+                        std::span<Vec3> other_force);
 
 } // namespace plyform

@@ -41,14 +41,14 @@ double distance_to_segment(const Vec3& p, const Vec3& from, const Vec3& to) {
   return (p - from - t * along).norm();
 }
 
-double edge_area(const SheetState& sheet, const EdgeNodes& e) {
+double edge_area(const SurfaceKinematics& sheet, const EdgeNodes& e) {
   return 0.5 *
          (sheet.area[static_cast<std::size_t>(e.a)] + sheet.area[static_cast<std::size_t>(e.b)]);
 }
 
 /// Brings a pair up to date, its distance to `far` (mm) while the closest points are not inside
 /// both edges; returns the unit vector from b to a across the gap, or zero then.
-Vec3 measure(EdgePair& pair, const SheetState& a, const SheetState& b, double far) {
+Vec3 measure(EdgePair& pair, const SurfaceKinematics& a, const SurfaceKinematics& b, double far) {
   const SegmentDistance d =
       segment_distance(at(a.x, pair.a.a), at(a.x, pair.a.b), at(b.x, pair.b.a), at(b.x, pair.b.b));
   pair.distance = far;
@@ -68,18 +68,19 @@ Vec3 measure(EdgePair& pair, const SheetState& a, const SheetState& b, double fa
 }
 
 /// mm, EdgePair::distance of a pair whose closest points are not inside both edges.
-double far_of(const EdgeContact& contact) {
+double far_of(const EdgeEdgeContact& contact) {
   return 2.0 * contact.distance;
 }
 
 /// Lists the pairs that may touch now. Those that were listed keep what they know.
-void renew_pairs(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
-                 const SheetState& b, std::span<const SheetEdge> edges_b, double path) {
-  if (!renew(contact.list, path, [](std::int32_t) {})) return;
+void renew_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a,
+                 std::span<const SheetEdge> edges_a, const SurfaceKinematics& b,
+                 std::span<const SheetEdge> edges_b, double path_length) {
+  if (!update(contact.list, path_length, [](std::int32_t) {})) return;
   const std::vector<EdgePair> old = std::move(contact.pairs);
   contact.pairs.clear();
   std::size_t known = 0;
-  for (const std::int32_t i : contact.list.near) {
+  for (const std::int32_t i : contact.list.active) {
     const auto& edge = contact.candidates[static_cast<std::size_t>(i)];
     while (known < old.size() && old[known].edge < edge)
       ++known;
@@ -117,17 +118,18 @@ double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const Edg
   return distance;
 }
 
-void edge_forces(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
-                 const SheetState& b, std::span<const SheetEdge> edges_b, double dt, double path,
+void edge_forces(EdgeEdgeContact& contact, const SurfaceKinematics& a,
+                 std::span<const SheetEdge> edges_a, const SurfaceKinematics& b,
+                 std::span<const SheetEdge> edges_b, double dt, double path_length,
                  std::span<Vec3> force_a, std::span<Vec3> force_b) {
   const Stopwatch watch(contact.time.forces);
-  ContactSums& sums = contact.sums;
-  renew_pairs(contact, a, edges_a, b, edges_b, path);
+  ContactTotals& sums = contact.sums;
+  renew_pairs(contact, a, edges_a, b, edges_b, path_length);
   clear_present(sums);
   for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
     EdgePair& pair = contact.pairs[i];
-    double& wake = contact.list.wake[static_cast<std::size_t>(contact.list.near[i])];
-    if (wake > path + contact.list.ahead) continue;
+    double& free_until = contact.list.free_until[static_cast<std::size_t>(contact.list.active[i])];
+    if (free_until > path_length + contact.list.ahead) continue;
     const bool followed = pair.side != 0;
     const double last = pair.distance;
     const Vec3 n = measure(pair, a, b, far_of(contact));
@@ -137,8 +139,9 @@ void edge_forces(EdgeContact& contact, const SheetState& a, std::span<const Shee
     if (!(p > 0.0)) {
       if (last < contact.distance) continue;
       // until then it cannot touch
-      wake = path + edge_distance(pair.a, a.x, pair.b, b.x) - contact.distance;
-      if (wake > path + contact.list.ahead) pair.side = 0; // edges may turn past each other
+      free_until = path_length + edge_distance(pair.a, a.x, pair.b, b.x) - contact.distance;
+      if (free_until > path_length + contact.list.ahead)
+        pair.side = 0; // edges may turn past each other
       continue;
     }
     const NormalForce force =
@@ -159,7 +162,7 @@ void edge_forces(EdgeContact& contact, const SheetState& a, std::span<const Shee
   sums.deepest = std::max(sums.deepest, sums.penetration);
 }
 
-void add_edge_stiffness(const EdgeContact& contact, double margin, std::span<ContactRow> rows_a,
+void add_edge_stiffness(const EdgeEdgeContact& contact, double margin, std::span<ContactRow> rows_a,
                         std::span<ContactRow> rows_b) {
   for (const EdgePair& pair : contact.pairs) {
     if (!within(contact, pair, margin)) continue;

@@ -55,21 +55,22 @@ struct EdgeSet {
   std::span<const std::int32_t> some;
 };
 
-struct EdgeContact {
+struct EdgeEdgeContact {
   ContactLaw law;        ///< stiffness and damping per area; friction is not used
   double distance = 0.0; ///< h/2, mm
   std::vector<std::array<std::int32_t, 2>> candidates; ///< numbers of edges of a and b, ascending
-  NearList list;                                       ///< of the candidates
-  std::vector<EdgePair> pairs;                         ///< of list.near, in its order
+  ActiveList list;                                     ///< of the candidates
+  std::vector<EdgePair> pairs;                         ///< of list.active, in its order
   double renew_depth = 0.0; ///< mm, penetration at which the stable step is due again
-  ContactSums sums;
+  ContactTotals sums;
   ContactTime time;
 };
 
 /// Renews the candidates: pairs of edges within distance + skin. path: mm,
 /// as of contact/search/active_list.hpp.
-void find_edge_pairs(EdgeContact& contact, const SheetState& a, const EdgeSet& edges_a,
-                     const SheetState& b, const EdgeSet& edges_b, double skin, double path);
+void find_edge_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a, const EdgeSet& edges_a,
+                     const SurfaceKinematics& b, const EdgeSet& edges_b, double skin,
+                     double path_length);
 
 /// mm, of two edges wherever their closest points are.
 double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const EdgeNodes& edge_b,
@@ -77,19 +78,20 @@ double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const Edg
 
 /// Whether a pair touches or is within `margin` (mm) of it, but no more than half of its distance:
 /// edges of flat plies on each other are as far apart as they should be.
-inline bool within(const EdgeContact& contact, const EdgePair& pair, double margin) {
+inline bool within(const EdgeEdgeContact& contact, const EdgePair& pair, double margin) {
   return pair.side != 0 &&
          pair.distance <= contact.distance + std::min(margin, 0.5 * contact.distance);
 }
 
 /// Adds the forces of one step to those of each sheet's nodes, N. dt: the step that led to these
 /// positions, s. path: mm, as of contact/search/active_list.hpp.
-void edge_forces(EdgeContact& contact, const SheetState& a, std::span<const SheetEdge> edges_a,
-                 const SheetState& b, std::span<const SheetEdge> edges_b, double dt, double path,
+void edge_forces(EdgeEdgeContact& contact, const SurfaceKinematics& a,
+                 std::span<const SheetEdge> edges_a, const SurfaceKinematics& b,
+                 std::span<const SheetEdge> edges_b, double dt, double path_length,
                  std::span<Vec3> force_a, std::span<Vec3> force_b);
 
 /// Row sums of the contact matrices, of pairs that touch or are within `margin` (mm) of it.
-void add_edge_stiffness(const EdgeContact& contact, double margin, std::span<ContactRow> rows_a,
+void add_edge_stiffness(const EdgeEdgeContact& contact, double margin, std::span<ContactRow> rows_a,
                         std::span<ContactRow> rows_b);
 
 } // namespace plyform

@@ -122,8 +122,9 @@ std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles) {
   return edges;
 }
 
-void find_edge_pairs(EdgeContact& contact, const SheetState& a, const EdgeSet& edges_a,
-                     const SheetState& b, const EdgeSet& edges_b, double skin, double path) {
+void find_edge_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a, const EdgeSet& edges_a,
+                     const SurfaceKinematics& b, const EdgeSet& edges_b, double skin,
+                     double path_length) {
   contact.candidates.clear();
   clear(contact.list);
   const EdgeGrid grid(edges_b, b.x);
@@ -140,7 +141,7 @@ void find_edge_pairs(EdgeContact& contact, const SheetState& a, const EdgeSet& e
           edge_distance({edge.a, edge.b}, a.x, {of_b.a, of_b.b}, b.x) - contact.distance;
       if (gap > skin) continue; // only its box was in reach
       contact.candidates.push_back({e, other});
-      contact.list.wake.push_back(path + gap);
+      contact.list.free_until.push_back(path_length + gap);
     }
   }
 }

@@ -88,8 +88,8 @@ void label_patches(std::span<const Candidate> group, std::span<const Triangle> t
 /// Area that one contact stands for: no more than the smaller of both sheets' node areas, so that
 /// a coarse node does not overload the small nodes of a fine sheet. The master's is that at the
 /// closest point: where faces meet, rounding says which of them is closest, and must not count.
-double contact_area(const SheetState& slave, const SheetState& master, const SheetContactPoint& c,
-                    const Triangle& face) {
+double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& master,
+                    const PlyPlyPoint& c, const Triangle& face) {
   const std::array<double, 3> w = c.weights();
   double there = 0.0;
   for (std::size_t j = 0; j < 3; ++j)
@@ -98,35 +98,36 @@ double contact_area(const SheetState& slave, const SheetState& master, const She
 }
 
 /// Points as the kernel sees them.
-SheetKernelPoint* kernel_points(SheetContactPoint* points) {
-  using P = SheetContactPoint;
-  using Q = SheetKernelPoint;
+PlyPlyKernelPoint* kernel_points(PlyPlyPoint* points) {
+  using P = PlyPlyPoint;
+  using Q = PlyPlyKernelPoint;
   static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
-                offsetof(ContactMemory, damping_force) == offsetof(Q, damping_force) &&
-                offsetof(ContactMemory, normal_force) == offsetof(Q, normal_force) &&
-                offsetof(ContactMemory, slip) == offsetof(Q, slip) &&
+                offsetof(ContactHistory, damping_force) == offsetof(Q, damping_force) &&
+                offsetof(ContactHistory, normal_force) == offsetof(Q, normal_force) &&
+                offsetof(ContactHistory, slip) == offsetof(Q, slip) &&
                 offsetof(P, area) == offsetof(Q, area) && offsetof(P, gap) == offsetof(Q, gap) &&
-                offsetof(P, w) == offsetof(Q, w) && offsetof(P, looked) == offsetof(Q, looked) &&
+                offsetof(P, w) == offsetof(Q, w) &&
+                offsetof(P, last_search_foot) == offsetof(Q, last_search_foot) &&
                 offsetof(P, other) == offsetof(Q, other) &&
-                offsetof(P, rested) == offsetof(Q, rested) &&
+                offsetof(P, gap_when_deactivated) == offsetof(Q, gap_when_deactivated) &&
                 offsetof(P, node) == offsetof(Q, node) && offsetof(P, side) == offsetof(Q, side));
   return reinterpret_cast<Q*>(points);
 }
 
 /// Lays a point that has opened to rest: where it is on either side does not matter meanwhile.
-void lay_to_rest(SheetContactPoint& c) {
-  c.rested = static_cast<float>(c.gap);
+void deactivate(PlyPlyPoint& c) {
+  c.gap_when_deactivated = static_cast<float>(c.gap);
   c.gap = std::numeric_limits<double>::infinity();
   c.side = 0;
 }
 
 /// A contact of these candidates' node, not touched yet.
-SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near,
-                            std::span<const Triangle> triangles, double path) {
+PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
+                      std::span<const Triangle> triangles, double path_length) {
   std::sort(near.begin(), near.end(), [](const Candidate& a, const Candidate& b) {
     return std::pair(a.distance2, a.face) < std::pair(b.distance2, b.face);
   });
-  SheetContactPoint c{};
+  PlyPlyPoint c{};
   c.node = near.front().node;
   c.first_face = static_cast<std::int32_t>(contact.faces.size());
   for (const Candidate& n : near) {
@@ -143,16 +144,15 @@ SheetContactPoint add_faces(SheetContact& contact, std::vector<Candidate>& near,
   c.other = distance_of_others(*kernel_points(&c), triangles.data()->data(), contact.faces.data(),
                                contact.face_distance.data());
   c.gap = std::sqrt(near.front().distance2) - contact.distance;
-  contact.list.wake.push_back(path + c.gap);
-  lay_to_rest(c);
-  c.looked.fill(std::numeric_limits<double>::quiet_NaN());
+  contact.list.free_until.push_back(path_length + c.gap);
+  deactivate(c);
+  c.last_search_foot.fill(std::numeric_limits<double>::quiet_NaN());
   return c;
 }
 
 /// The old contact of this node whose last face is in the new patch, or null.
-const SheetContactPoint* find_old(std::span<const SheetContactPoint> old, std::size_t& begin,
-                                  const SheetContactPoint& now,
-                                  std::span<const std::int32_t> faces) {
+const PlyPlyPoint* find_old(std::span<const PlyPlyPoint> old, std::size_t& begin,
+                            const PlyPlyPoint& now, std::span<const std::int32_t> faces) {
   while (begin < old.size() && old[begin].node < now.node)
     ++begin;
   for (std::size_t i = begin; i < old.size() && old[i].node == now.node; ++i)
@@ -164,7 +164,7 @@ const SheetContactPoint* find_old(std::span<const SheetContactPoint> old, std::s
 
 } // namespace
 
-double distance_of_others(const SheetKernelPoint& point, const std::int32_t* triangles,
+double distance_of_others(const PlyPlyKernelPoint& point, const std::int32_t* triangles,
                           const std::int32_t* faces, const double* face_distance) {
   const auto corners = [triangles](std::int32_t face) {
     return triangles + 3 * std::ptrdiff_t(face);
@@ -177,15 +177,15 @@ double distance_of_others(const SheetKernelPoint& point, const std::int32_t* tri
   return std::numeric_limits<double>::max(); // what is not listed cannot touch
 }
 
-void find_sheet_points(SheetContact& contact, std::span<const Candidate> candidates,
-                       const SheetState& slave, const SheetState& master,
-                       std::span<const Triangle> triangles, double path) {
-  const std::vector<SheetContactPoint> old = std::move(contact.points);
+void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> candidates,
+                         const SurfaceKinematics& slave, const SurfaceKinematics& master,
+                         std::span<const Triangle> triangles, double path_length) {
+  const std::vector<PlyPlyPoint> old = std::move(contact.points);
   contact.points.clear();
   contact.faces.clear();
   contact.face_distance.clear();
   clear(contact.list);
-  contact.looked_path = path;
+  contact.last_full_search = path_length;
   std::vector<int> label;
   std::vector<Candidate> near;
   std::vector<char> adopted(old.size(), 0);
@@ -200,21 +200,21 @@ void find_sheet_points(SheetContact& contact, std::span<const Candidate> candida
       near.clear();
       for (std::size_t i = first; i < group.size(); ++i)
         if (label[i] == label[first]) near.push_back(group[i]);
-      SheetContactPoint c = add_faces(contact, near, triangles, path);
+      PlyPlyPoint c = add_faces(contact, near, triangles, path_length);
       c.area = contact_area(slave, master, c, triangles[static_cast<std::size_t>(c.face)]);
-      if (const SheetContactPoint* before = find_old(old, next_old, c, contact.faces)) {
+      if (const PlyPlyPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[static_cast<std::size_t>(before - old.data())] = 1;
         c.memory = before->memory;
         c.side = before->side;
         c.area = before->area;
-        double& wake = contact.list.wake.back();
-        if (before->gap < 0.0) c.gap = before->gap, wake = std::min(wake, path);
+        double& free_until = contact.list.free_until.back();
+        if (before->gap < 0.0) c.gap = before->gap, free_until = std::min(free_until, path_length);
       }
       contact.points.push_back(c);
     }
   }
   for (std::size_t i = 0; i < old.size(); ++i) {
-    ContactMemory memory = old[i].memory;
+    ContactHistory memory = old[i].memory;
     if (!adopted[i]) release(contact.law, old[i].area, memory, contact.sums);
   }
 }
@@ -223,10 +223,10 @@ namespace {
 
 /// What the kernel asks back, of one contact in one step.
 struct KernelSide {
-  SheetContact& contact;
-  const SheetState &slave, &master;
+  PlyPlyContact& contact;
+  const SurfaceKinematics &slave, &master;
   std::span<const Triangle> triangles;
-  SheetWay gone;
+  RelativeMotion gone;
   bool look_all;
   std::span<Vec3> slave_force, master_force;
 };
@@ -235,13 +235,13 @@ KernelSide& of(void* self) {
   return *static_cast<KernelSide*>(self);
 }
 
-SheetContactPoint& point_of(KernelSide& k, std::int32_t point) {
+PlyPlyPoint& point_of(KernelSide& k, std::int32_t point) {
   return k.contact.points[static_cast<std::size_t>(point)];
 }
 
 void open_point(void* self, std::int32_t point, double last_gap) {
   KernelSide& k = of(self);
-  SheetContactPoint& c = point_of(k, point);
+  PlyPlyPoint& c = point_of(k, point);
   if (c.memory.damping_force != 0.0) // the trapezoid's last half
     k.contact.sums.damping += 0.5 * c.memory.damping_force * (last_gap - c.gap);
   c.memory.damping_force = 0.0;
@@ -250,28 +250,28 @@ void open_point(void* self, std::int32_t point, double last_gap) {
 
 void fault_at(void* self, std::int32_t point, double distance) {
   KernelSide& k = of(self);
-  const SheetContactPoint& c = point_of(k, point);
+  const PlyPlyPoint& c = point_of(k, point);
   k.contact.fault = {c.node, c.face, distance};
 }
 
-SheetKernelContact kernel_view(KernelSide& k, double dt) {
-  SheetContact& c = k.contact;
+PlyPlyKernelContact kernel_view(KernelSide& k, double dt) {
+  PlyPlyContact& c = k.contact;
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::int32_t));
-  SheetKernelContact view{};
+  PlyPlyKernelContact view{};
   view.points = kernel_points(c.points.data());
-  view.near = c.list.near.data();
-  view.near_count = static_cast<int>(c.list.near.size());
-  view.wake = c.list.wake.data();
+  view.active = c.list.active.data();
+  view.active_count = static_cast<int>(c.list.active.size());
+  view.free_until = c.list.free_until.data();
   view.slave_x = k.slave.x.data()->data();
   view.slave_motion = k.slave.motion.data()->data();
   view.master_x = k.master.x.data()->data();
   view.master_motion = k.master.motion.data()->data();
   view.faces = c.faces.data();
   view.face_distance = c.face_distance.data();
-  view.spread = k.master.spread.empty() ? nullptr : k.master.spread.data();
-  view.way = k.gone.way;
-  view.path = k.gone.path;
-  view.rest = k.look_all ? 0.0 : c.rest;
+  view.fold_bound = k.master.fold_bound.empty() ? nullptr : k.master.fold_bound.data();
+  view.max_displacement = k.gone.max_displacement;
+  view.path_length = k.gone.path_length;
+  view.slide_limit = k.look_all ? 0.0 : c.slide_limit;
   view.triangles = k.triangles.data()->data();
   view.slave_force = k.slave_force.data()->data();
   view.master_force = k.master_force.data()->data();
@@ -290,20 +290,21 @@ SheetKernelContact kernel_view(KernelSide& k, double dt) {
 
 } // namespace
 
-void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
-                  std::span<const Triangle> triangles, double dt, const SheetWay& gone,
-                  std::span<Vec3> slave_force, std::span<Vec3> master_force) {
+void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
+                    const SurfaceKinematics& master, std::span<const Triangle> triangles, double dt,
+                    const RelativeMotion& gone, std::span<Vec3> slave_force,
+                    std::span<Vec3> master_force) {
   const Stopwatch watch(contact.time.forces);
-  renew(contact.list, gone.path,
-        [&contact](std::int32_t i) { lay_to_rest(contact.points[static_cast<std::size_t>(i)]); });
+  update(contact.list, gone.path_length,
+         [&contact](std::int32_t i) { deactivate(contact.points[static_cast<std::size_t>(i)]); });
   clear_present(contact.sums);
-  if (contact.list.near.empty()) return;
-  const bool look_all = gone.path - contact.looked_path > contact.look_every;
-  if (look_all) contact.looked_path = gone.path;
+  if (contact.list.active.empty()) return;
+  const bool look_all = gone.path_length - contact.last_full_search > contact.full_search_interval;
+  if (look_all) contact.last_full_search = gone.path_length;
   KernelSide side{contact, slave, master, triangles, gone, look_all, slave_force, master_force};
-  const auto run = has_avx2() ? sheet_kernel_avx2 : sheet_kernel_generic;
-  const SheetKernelSums added = run(kernel_view(side, dt));
-  ContactSums& sums = contact.sums;
+  const auto run = has_avx2() ? ply_ply_kernel_avx2 : ply_ply_kernel_generic;
+  const PlyPlyKernelTotals added = run(kernel_view(side, dt));
+  ContactTotals& sums = contact.sums;
   sums.elastic = added.elastic;
   sums.friction += added.friction;
   sums.damping += added.damping;
@@ -314,7 +315,7 @@ void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetSta
   sums.deepest = std::max(sums.deepest, sums.penetration);
 }
 
-Vec3 contact_normal(const SheetContactPoint& point, std::span<const Vec3> slave,
+Vec3 contact_normal(const PlyPlyPoint& point, std::span<const Vec3> slave,
                     std::span<const Vec3> master, std::span<const Triangle> triangles) {
   const Triangle& t = triangles[static_cast<std::size_t>(point.face)];
   const std::array<double, 3> w = point.weights();
@@ -323,13 +324,13 @@ Vec3 contact_normal(const SheetContactPoint& point, std::span<const Vec3> slave,
       .normalized();
 }
 
-void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
-                         std::span<const Triangle> triangles, double margin,
-                         std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows) {
+void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics& master,
+                           std::span<const Triangle> triangles, double margin,
+                           std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows) {
   // Normal: k G G^T with G = (1, -w), whose row i is |G_i| sum_j |G_j| = 2 |G_i|. Friction, with
   // half of k, along the face the same, and across it the couple's g_j = d |gradient_j|: with
   // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
-  for (const SheetContactPoint& c : contact.points) {
+  for (const PlyPlyPoint& c : contact.points) {
     if (c.latest_gap() > margin) continue;
     const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
     const ContactRow normal = 2.0 * c.area * row_of(contact.law, -c.latest_gap());

@@ -36,22 +36,25 @@
 namespace plyform {
 
 /// One slave node and one connected patch of master faces near it (two patches: a fold). Laid out
-/// in rows of 32 bytes, SheetKernelPoint (contact/simd/ply_ply_kernel.hpp).
-struct alignas(32) SheetContactPoint {
-  ContactMemory memory;
-  double area = 0.0;              ///< mm^2 that the contact stands for
-  double gap = 0.0;               ///< mm, d - h of the last step; infinite: it rested
-  std::array<double, 2> w{};      ///< weights of corners b and c at the closest point
-  std::array<double, 2> looked{}; ///< of its foot on the face's plane when it last looked around
-  double other = 0.0;          ///< mm, at the search, to the next face that shares no node with it
-  float rested = 0.0F;         ///< mm, gap when it went to rest
-  std::int32_t node, face = 0; ///< closest face; of those that tie the first
-  std::int32_t first_face, end_face; ///< range in SheetContact::faces
+/// in rows of 32 bytes, PlyPlyKernelPoint (contact/simd/ply_ply_kernel.hpp).
+struct alignas(32) PlyPlyPoint {
+  ContactHistory memory;
+  double area = 0.0;         ///< mm^2 that the contact stands for
+  double gap = 0.0;          ///< mm, d - h of the last step; infinite: it rested
+  std::array<double, 2> w{}; ///< weights of corners b and c at the closest point
+  std::array<double, 2>
+      last_search_foot{}; ///< of its foot on the face's plane when it last looked around
+  double other = 0.0;     ///< mm, at the search, to the next face that shares no node with it
+  float gap_when_deactivated = 0.0F; ///< mm, gap when it went to rest
+  std::int32_t node, face = 0;       ///< closest face; of those that tie the first
+  std::int32_t first_face, end_face; ///< range in PlyPlyContact::faces
   int side = 0; ///< +1: on the side of the face normal, -1: other, 0: not known
 
   /// Of the closest point.
   std::array<double, 3> weights() const { return {1.0 - w[0] - w[1], w[0], w[1]}; }
-  double latest_gap() const { return std::isinf(gap) ? double{rested} : gap; } ///< mm, last seen
+  double latest_gap() const {
+    return std::isinf(gap) ? double{gap_when_deactivated} : gap;
+  } ///< mm, last seen
 };
 
 /// A node that got to the wrong side or as deep as contact has room: it cannot be resolved.
@@ -60,49 +63,50 @@ struct ContactFault {
   double distance = 0.0; ///< mm
 };
 
-struct SheetContact {
-  ContactLaw law;                        ///< with half of the pair's stiffness
-  double distance = 0.0;                 ///< h, mm
-  std::vector<SheetContactPoint> points; ///< ascending by node
-  std::vector<std::int32_t> faces;       ///< of each point, nearest first
-  std::vector<double> face_distance;     ///< mm, when the search was done
-  NearList list;                         ///< of the points
-  double rest = 0.0;        ///< mm, sliding by which a point keeps its face unseen; 0: none
-  double look_every = 0.0;  ///< mm of path, at which all points look around
-  double looked_path = 0.0; ///< mm, when they last did
-  double renew_depth = 0.0; ///< mm, penetration at which the stable step is due again
-  ContactSums sums;
+struct PlyPlyContact {
+  ContactLaw law;                    ///< with half of the pair's stiffness
+  double distance = 0.0;             ///< h, mm
+  std::vector<PlyPlyPoint> points;   ///< ascending by node
+  std::vector<std::int32_t> faces;   ///< of each point, nearest first
+  std::vector<double> face_distance; ///< mm, when the search was done
+  ActiveList list;                   ///< of the points
+  double slide_limit = 0.0; ///< mm, sliding by which a point keeps its face unseen; 0: none
+  double full_search_interval = 0.0; ///< mm of path, at which all points look around
+  double last_full_search = 0.0;     ///< mm, when they last did
+  double renew_depth = 0.0;          ///< mm, penetration at which the stable step is due again
+  ContactTotals sums;
   ContactFault fault;
   ContactTime time;
 };
 
 /// How far two sheets have gone relative to each other, mm: no node of one further than `way`
 /// relative to any of the other since the search; `path` as of contact/search/active_list.hpp.
-struct SheetWay {
-  double way = 0.0, path = 0.0;
+struct RelativeMotion {
+  double max_displacement = 0.0, path_length = 0.0;
 };
 
 /// Renews the points from the broad phase's candidates (sorted by node and face). Contacts keep
-/// their memory. path: mm, as of SheetWay.
-void find_sheet_points(SheetContact& contact, std::span<const Candidate> candidates,
-                       const SheetState& slave, const SheetState& master,
-                       std::span<const Triangle> master_triangles, double path);
+/// their memory. path: mm, as of RelativeMotion.
+void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> candidates,
+                         const SurfaceKinematics& slave, const SurfaceKinematics& master,
+                         std::span<const Triangle> master_triangles, double path_length);
 
 /// Adds the forces of one step (S), (N), (T), (M) to those of each sheet's nodes, N. dt: the step
 /// that led to these positions, s. Points and faces that the sheets have not gone far enough to
 /// bring together are not looked at.
-void sheet_forces(SheetContact& contact, const SheetState& slave, const SheetState& master,
-                  std::span<const Triangle> master_triangles, double dt, const SheetWay& gone,
-                  std::span<Vec3> slave_force, std::span<Vec3> master_force);
+void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
+                    const SurfaceKinematics& master, std::span<const Triangle> master_triangles,
+                    double dt, const RelativeMotion& gone, std::span<Vec3> slave_force,
+                    std::span<Vec3> master_force);
 
 /// n of a point, from the positions that its last forces belong to.
-Vec3 contact_normal(const SheetContactPoint& point, std::span<const Vec3> slave,
+Vec3 contact_normal(const PlyPlyPoint& point, std::span<const Vec3> slave,
                     std::span<const Vec3> master, std::span<const Triangle> master_triangles);
 
 /// Row sums of the contact matrices added to each sheet's nodes: of contacts that touch or were
 /// within `margin` (mm) of it when last looked at.
-void add_sheet_stiffness(const SheetContact& contact, const SheetState& master,
-                         std::span<const Triangle> master_triangles, double margin,
-                         std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows);
+void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics& master,
+                           std::span<const Triangle> master_triangles, double margin,
+                           std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows);
 
 } // namespace plyform

@@ -11,7 +11,7 @@
 namespace plyform {
 namespace {
 
-void lay_to_rest(ToolContactPoint& c) {
+void deactivate(ToolPlyPoint& c) {
   if (std::isinf(c.gap)) return;
   c.last_gap = c.gap;
   c.gap = std::numeric_limits<double>::infinity();
@@ -51,70 +51,72 @@ using Part = std::span<const std::int32_t>;
 
 /// work(part) of all points in order. One part stays in the fastest cache.
 template <class Work>
-void in_parts(const NearList& list, const Work& work) {
+void in_parts(const ActiveList& list, const Work& work) {
   constexpr std::size_t most = 128;
-  const Part all = list.near;
+  const Part all = list.active;
   for (std::size_t first = 0; first < all.size(); first += most)
     work(all.subspan(first, std::min(most, all.size() - first)));
 }
 
 /// Lists the points that may touch.
-void renew_near(ToolContact& contact, double path) {
-  renew(contact.list, path,
-        [&contact](std::int32_t i) { lay_to_rest(contact.points[static_cast<std::size_t>(i)]); });
+void update_active(ToolPlyContact& contact, double path_length) {
+  update(contact.list, path_length,
+         [&contact](std::int32_t i) { deactivate(contact.points[static_cast<std::size_t>(i)]); });
 }
 
 /// Gaps and normals where tool and ply stand now.
 template <class Distance>
-void measure(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double path,
-             Part part, const Distance& distance) {
-  const Vec3 tool_motion = tool.pushed ? Vec3(Vec3::Zero()) : tool.motion; // not yet moved
+void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
+             double path_length, Part part, const Distance& distance) {
+  const Vec3 tool_motion =
+      tool.force_controlled ? Vec3(Vec3::Zero()) : tool.motion; // not yet moved
   for (const std::int32_t i : part) {
-    ToolContactPoint& c = contact.points[static_cast<std::size_t>(i)];
+    ToolPlyPoint& c = contact.points[static_cast<std::size_t>(i)];
     const auto n = static_cast<std::size_t>(c.node);
     const SurfacePoint s = distance(ply.x[n], c.hint);
-    const bool rested = std::isinf(c.gap);
+    const bool gap_when_deactivated = std::isinf(c.gap);
     c.last_gap = c.gap;
     c.gap = s.distance - contact.half_thickness;
     c.normal = s.normal;
-    if (rested) c.last_gap = c.gap - c.normal.dot(ply.motion[n] - tool_motion);
-    if (c.gap > 0.0) contact.list.wake[static_cast<std::size_t>(i)] = path + c.gap;
+    if (gap_when_deactivated) c.last_gap = c.gap - c.normal.dot(ply.motion[n] - tool_motion);
+    if (c.gap > 0.0) contact.list.free_until[static_cast<std::size_t>(i)] = path_length + c.gap;
   }
 }
 
 /// All near points of a pushed tool, which (B) needs before it presses.
-void measure_all(ToolContact& contact, const ToolBody& tool, const SheetState& ply, double path) {
+void measure_all(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
+                 double path_length) {
   const Stopwatch watch(contact.time.forces);
-  renew_near(contact, path);
-  if (contact.list.near.empty()) return;
+  update_active(contact, path_length);
+  if (contact.list.active.empty()) return;
   with_distance(tool, [&](const auto& distance) {
-    measure(contact, tool, ply, path, contact.list.near, distance);
+    measure(contact, tool, ply, path_length, contact.list.active, distance);
   });
 }
 
 /// Points as the kernel sees them.
-ToolKernelPoint* kernel_points(ToolContactPoint* points) {
-  using P = ToolContactPoint;
-  using Q = ToolKernelPoint;
+ToolPlyKernelPoint* kernel_points(ToolPlyPoint* points) {
+  using P = ToolPlyPoint;
+  using Q = ToolPlyKernelPoint;
   static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
-                offsetof(ContactMemory, damping_force) == offsetof(Q, damping_force) &&
-                offsetof(ContactMemory, normal_force) == offsetof(Q, normal_force) &&
-                offsetof(ContactMemory, slip) == offsetof(Q, slip) &&
+                offsetof(ContactHistory, damping_force) == offsetof(Q, damping_force) &&
+                offsetof(ContactHistory, normal_force) == offsetof(Q, normal_force) &&
+                offsetof(ContactHistory, slip) == offsetof(Q, slip) &&
                 offsetof(P, gap) == offsetof(Q, gap) &&
                 offsetof(P, last_gap) == offsetof(Q, last_gap) &&
                 offsetof(P, normal) == offsetof(Q, normal) &&
                 offsetof(P, node) == offsetof(Q, node) && offsetof(P, hint) == offsetof(Q, hint));
-  return reinterpret_cast<ToolKernelPoint*>(points);
+  return reinterpret_cast<ToolPlyKernelPoint*>(points);
 }
 
 /// Forces of measured points; advance: mm, of the tool since. Returns the force on the tool, N.
-Vec3 press(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
+Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& tool_motion,
            const Vec3& advance, double dt, Part part) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
-  ToolKernelContact k{};
+  ToolPlyKernelContact k{};
   k.points = kernel_points(contact.points.data());
-  k.near = part.data();
-  k.near_count = static_cast<int>(part.size());
+  k.active = part.data();
+  k.active_count = static_cast<int>(part.size());
   k.area = ply.area.data();
   k.motion = ply.motion.data()->data();
   k.force = contact.force.data()->data();
@@ -126,8 +128,9 @@ Vec3 press(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
   k.max_depth = contact.law.max_depth;
   k.per_depth2 = 1.0 / (k.max_depth * k.max_depth);
   k.damping_per_dt = dt > 0.0 ? contact.law.damping / dt : 0.0;
-  const ToolKernelSums added = (has_avx2() ? tool_kernel_avx2 : tool_kernel_generic)(k);
-  ContactSums& sums = contact.sums;
+  const ToolPlyKernelTotals added =
+      (has_avx2() ? tool_ply_kernel_avx2 : tool_ply_kernel_generic)(k);
+  ContactTotals& sums = contact.sums;
   sums.elastic += added.elastic;
   sums.friction += added.friction;
   sums.damping += added.damping;
@@ -140,16 +143,16 @@ Vec3 press(ToolContact& contact, const SheetState& ply, const Vec3& tool_motion,
 }
 
 /// Forces of a tool that does not move by (B), each part measured and pressed at once.
-Vec3 measure_and_press(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
-                       double path, double dt) {
+Vec3 measure_and_press(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
+                       double path_length, double dt) {
   const Stopwatch watch(contact.time.forces);
-  renew_near(contact, path);
+  update_active(contact, path_length);
   clear_present(contact.sums);
   Vec3 on_tool = Vec3::Zero();
-  if (contact.list.near.empty()) return on_tool;
+  if (contact.list.active.empty()) return on_tool;
   with_distance(tool, [&](const auto& distance) {
     in_parts(contact.list, [&](Part part) {
-      measure(contact, tool, ply, path, part, distance);
+      measure(contact, tool, ply, path_length, part, distance);
       on_tool += press(contact, ply, tool.motion, Vec3::Zero(), dt, part);
     });
   });
@@ -177,17 +180,17 @@ struct Pressed {
 };
 
 /// Those that a motion of no more than `most` (mm) may press.
-std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolContact> contacts,
-                               std::span<const SheetState> plies, double most, double dt) {
+std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolPlyContact> contacts,
+                               std::span<const SurfaceKinematics> plies, double most, double dt) {
   std::vector<Pressed> pressed;
   std::size_t count = 0;
-  for (const ToolContact& contact : contacts)
-    count += contact.list.near.size();
+  for (const ToolPlyContact& contact : contacts)
+    count += contact.list.active.size();
   pressed.reserve(count);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactLaw& law = contacts[i].law;
-    for (const std::int32_t k : contacts[i].list.near) {
-      const ToolContactPoint& c = contacts[i].points[static_cast<std::size_t>(k)];
+    for (const std::int32_t k : contacts[i].list.active) {
+      const ToolPlyPoint& c = contacts[i].points[static_cast<std::size_t>(k)];
       const double facing = c.normal.dot(tool.direction);
       if (!(std::abs(facing) * most > c.gap)) continue;
       const double area = plies[i].area[static_cast<std::size_t>(c.node)];
@@ -230,9 +233,9 @@ double within_room(std::span<const Pressed> pressed, double high) {
 /// Solves (B) for delta within what the closing speed and the room of the contacts allow: Newton's
 /// method inside a bracket, halved where a step would leave it (contacts that begin make the
 /// residual jump).
-double equilibrium_motion(const ToolBody& tool, std::span<const ToolContact> contacts,
-                          std::span<const SheetState> plies, double dt) {
-  const double fastest = tool.speed_limit * dt;
+double equilibrium_motion(const ToolBody& tool, std::span<const ToolPlyContact> contacts,
+                          std::span<const SurfaceKinematics> plies, double dt) {
+  const double fastest = tool.max_approach_speed * dt;
   const std::vector<Pressed> pressed = may_press(tool, contacts, plies, fastest, dt);
   double high = within_room(pressed, fastest), low = within_room(pressed, -fastest);
   double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
@@ -260,8 +263,8 @@ double equilibrium_motion(const ToolBody& tool, std::span<const ToolContact> con
 }
 
 /// Moves a pushed tool by (B), its contacts measured, and presses.
-Vec3 push_and_press(ToolBody& tool, std::span<ToolContact> contacts,
-                    std::span<const SheetState> plies, double dt) {
+Vec3 push_and_press(ToolBody& tool, std::span<ToolPlyContact> contacts,
+                    std::span<const SurfaceKinematics> plies, double dt) {
   Vec3 advance = Vec3::Zero();
   if (dt > 0.0) {
     const double delta = equilibrium_motion(tool, contacts, plies, dt);
@@ -273,8 +276,8 @@ Vec3 push_and_press(ToolBody& tool, std::span<ToolContact> contacts,
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const Stopwatch watch(contacts[i].time.forces);
     clear_present(contacts[i].sums);
-    if (contacts[i].list.near.empty()) continue;
-    on_tool += press(contacts[i], plies[i], tool.motion, advance, dt, contacts[i].list.near);
+    if (contacts[i].list.active.empty()) continue;
+    on_tool += press(contacts[i], plies[i], tool.motion, advance, dt, contacts[i].list.active);
   }
   return on_tool;
 }
@@ -286,19 +289,19 @@ SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint) {
   return Placed(tool, to_shape)(x, hint);
 }
 
-void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
-                      double reach, double path) {
+void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
+                          const SurfaceKinematics& ply, double reach, double path_length) {
   const Stopwatch watch(contact.time.search);
-  std::vector<ToolContactPoint> old = std::move(contact.points);
-  const std::vector<double> old_wake = std::move(contact.list.wake);
+  std::vector<ToolPlyPoint> old = std::move(contact.points);
+  const std::vector<double> old_wake = std::move(contact.list.free_until);
   contact.points.clear();
   clear(contact.list);
   contact.free.resize(ply.x.size(), -std::numeric_limits<float>::infinity());
   std::size_t next_old = 0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const bool known = next_old < old.size() && old[next_old].node == static_cast<int>(n);
-    double gap = (known ? old_wake[next_old] : static_cast<double>(contact.free[n])) - path;
-    ToolContactPoint point{};
+    double gap = (known ? old_wake[next_old] : static_cast<double>(contact.free[n])) - path_length;
+    ToolPlyPoint point{};
     point.node = static_cast<int>(n);
     if (known) point = old[next_old++];
     const bool touched = known && point.gap < 0.0; // it may have a spring to give back
@@ -308,35 +311,37 @@ void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetSta
       point.normal = at.normal;
     }
     constexpr double below = 1.0 - 1e-6; // that rounding does not raise it
-    contact.free[n] = static_cast<float>(below * (path + gap));
+    contact.free[n] = static_cast<float>(below * (path_length + gap));
     if (gap > reach) {
       if (touched) release(contact.law, ply.area[n], point.memory, contact.sums);
       continue;
     }
     if (!touched) {
       if (!known || !std::isinf(point.gap)) point.gap = gap;
-      lay_to_rest(point);
+      deactivate(point);
     }
     contact.points.push_back(point);
-    contact.list.wake.push_back(touched ? std::min(path, path + gap) : path + gap);
+    contact.list.free_until.push_back(touched ? std::min(path_length, path_length + gap)
+                                              : path_length + gap);
   }
   contact.force.assign(contact.points.empty() ? 0 : ply.x.size(), Vec3::Zero());
 }
 
-Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
-                 std::span<const double> paths, double dt) {
+Vec3 tool_ply_forces(ToolBody& tool, std::span<ToolPlyContact> contacts,
+                     std::span<const SurfaceKinematics> plies, std::span<const double> paths,
+                     double dt) {
   Vec3 on_tool = Vec3::Zero();
   for (std::size_t i = 0; i < contacts.size(); ++i)
-    if (tool.pushed)
+    if (tool.force_controlled)
       measure_all(contacts[i], tool, plies[i], paths[i]);
     else
       on_tool += measure_and_press(contacts[i], tool, plies[i], paths[i], dt);
-  return tool.pushed ? push_and_press(tool, contacts, plies, dt) : on_tool;
+  return tool.force_controlled ? push_and_press(tool, contacts, plies, dt) : on_tool;
 }
 
-void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
-                        std::span<ContactRow> rows) {
-  for (const ToolContactPoint& c : contact.points) {
+void add_tool_ply_stiffness(const ToolPlyContact& contact, std::span<const double> area,
+                            double margin, std::span<ContactRow> rows) {
+  for (const ToolPlyPoint& c : contact.points) {
     if (c.latest_gap() > margin) continue;
     const auto n = static_cast<std::size_t>(c.node);
     rows[n] += area[n] * row_of(contact.law, -c.latest_gap());

@@ -30,18 +30,18 @@ struct ToolBody {
   Vec3 displacement = Vec3::Zero();                       ///< mm, since the start
   Vec3 motion = Vec3::Zero();                             ///< mm, of the last step
   // for a tool pushed by a force:
-  bool pushed = false;
+  bool force_controlled = false;
   Vec3 direction = Vec3::Zero();
-  double force = 0.0;       ///< N
-  double mass = 0.0;        ///< t; 0: in equilibrium at every step
-  double speed = 0.0;       ///< mm/s along direction
-  double speed_limit = 0.0; ///< mm/s, closing speed while it meets no resistance
+  double force = 0.0;              ///< N
+  double mass = 0.0;               ///< t; 0: in equilibrium at every step
+  double speed = 0.0;              ///< mm/s along direction
+  double max_approach_speed = 0.0; ///< mm/s, closing speed while it meets no resistance
 };
 
-/// One node of a ply near the tool. Laid out in rows of 32 bytes, ToolKernelPoint
+/// One node of a ply near the tool. Laid out in rows of 32 bytes, ToolPlyKernelPoint
 /// (contact/simd/tool_ply_kernel.hpp).
-struct alignas(32) ToolContactPoint {
-  ContactMemory memory;
+struct alignas(32) ToolPlyPoint {
+  ContactHistory memory;
   double gap = 0.0;             ///< mm, distance minus half thickness; infinite: it rests
   double last_gap = 0.0;        ///< mm, of the step before; while it rests: when it went to rest
   Vec3 normal = Vec3::Zero();   ///< in space, of this step or when it was last measured
@@ -51,46 +51,48 @@ struct alignas(32) ToolContactPoint {
 };
 
 /// A tool against one ply. `points` hold the nodes within reach, ascending.
-struct ToolContact {
+struct ToolPlyContact {
   ContactLaw law;
   double half_thickness = 0.0; ///< mm, of the ply
-  std::vector<ToolContactPoint> points;
-  NearList list;           ///< of the points
+  std::vector<ToolPlyPoint> points;
+  ActiveList list;         ///< of the points
   std::vector<float> free; ///< mm, one a node of the ply: path before which it cannot touch
   std::vector<Vec3> force; ///< one a node of the ply, N; zero where there is no point. Empty: none
-  ContactSums sums;
+  ContactTotals sums;
   double renew_depth = 0.0; ///< mm, penetration at which the stable step is due again
   ContactTime time;         ///< without the balance of a pushed tool, which all its plies share
 };
 
 /// A ply as contact sees it: spans of n nodes.
-struct SheetState {
-  std::span<const Vec3> x;        ///< mm
-  std::span<const Vec3> motion;   ///< mm, displacement in the last step
-  std::span<const double> area;   ///< mm^2
-  std::span<const double> spread; ///< of faces (contact/search/fold_bound.hpp); empty: not known
+struct SurfaceKinematics {
+  std::span<const Vec3> x;      ///< mm
+  std::span<const Vec3> motion; ///< mm, displacement in the last step
+  std::span<const double> area; ///< mm^2
+  std::span<const double>
+      fold_bound; ///< of faces (contact/search/fold_bound.hpp); empty: not known
 };
 
 /// Signed distance (mm) and normal, in space, of a tool where it stands now.
 SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint);
 
 /// Renews the points: every node that may have a gap <= reach (mm). Contacts keep their memory.
-/// path: as paths[i] of tool_forces; nodes that were too far off, when last measured, to be near by
-/// now are not measured again.
-void find_tool_points(ToolContact& contact, const ToolBody& tool, const SheetState& ply,
-                      double reach, double path);
+/// path: as paths[i] of tool_ply_forces; nodes that were too far off, when last measured, to be
+/// near by now are not measured again.
+void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
+                          const SurfaceKinematics& ply, double reach, double path_length);
 
 /// Forces of one step of one tool on all its plies; contacts[i] is with plies[i]. dt: the step
 /// that led to these positions, s. paths[i]: mm, of ply i and the tool
 /// (contact/search/active_list.hpp), the tool's own motion in this call included. For a pushed tool
 /// also moves it by (B), limited to dt * speed_limit. Returns the force (N) of the plies on the
 /// tool.
-Vec3 tool_forces(ToolBody& tool, std::span<ToolContact> contacts, std::span<const SheetState> plies,
-                 std::span<const double> paths, double dt);
+Vec3 tool_ply_forces(ToolBody& tool, std::span<ToolPlyContact> contacts,
+                     std::span<const SurfaceKinematics> plies, std::span<const double> paths,
+                     double dt);
 
 /// Adds each contact to rows[node]: row sums of the contact matrices. Of contacts that touch or
 /// were within `margin` (mm) of it when last looked at.
-void add_tool_stiffness(const ToolContact& contact, std::span<const double> area, double margin,
-                        std::span<ContactRow> rows);
+void add_tool_ply_stiffness(const ToolPlyContact& contact, std::span<const double> area,
+                            double margin, std::span<ContactRow> rows);
 
 } // namespace plyform

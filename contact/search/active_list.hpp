@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which of the pairs that a contact search has listed may touch by now. A pair rests, and costs
-// nothing, until the bodies have gone far enough to close its gap.
+// Which of the pairs that a contact search has listed may touch by now. A pair is inactive, and
+// costs nothing, until the bodies have moved far enough to close its gap.
 //
-// The path of a body is the sum over the steps of the furthest that any of its nodes went in one;
-// that of a pair of bodies the sum of both. A pair with a gap g when the path was s cannot touch
-// before it is s + g, wherever they went meanwhile.
+// The path length of a body is the sum over the steps of the largest displacement of any of its
+// nodes in a step; that of a pair of bodies the sum of both. A pair with a gap g when the path
+// length was s cannot touch before it is s + g, wherever the bodies went meanwhile.
 #pragma once
 
 #include <algorithm>
@@ -14,44 +14,44 @@
 
 namespace plyform {
 
-struct NearList {
-  std::vector<double> wake;       ///< mm, one a pair: the path before which it cannot touch
-  std::vector<std::int32_t> near; ///< pairs that may touch
-  double until = -1.0;            ///< mm, path at which the list is due again
-  double last_path = 0.0;         ///< mm, path of the step before
-  double ahead = 0.0;             ///< mm, path of two steps like the last one
+struct ActiveList {
+  std::vector<double> free_until;   ///< mm, one a pair: path length before which it cannot touch
+  std::vector<std::int32_t> active; ///< pairs that may touch
+  double until = -1.0;              ///< mm, path length at which the list is updated next
+  double last_path = 0.0;           ///< mm, path length at the step before
+  double ahead = 0.0;               ///< mm, path length of two steps like the last one
 };
 
 /// Forgets all pairs: a search begins.
-inline void clear(NearList& list) {
-  list.wake.clear();
-  list.near.clear();
+inline void clear(ActiveList& list) {
+  list.free_until.clear();
+  list.active.clear();
   list.until = -1.0;
 }
 
-/// Lists the pairs that may touch now that the path is `path` (mm). rest(i) is
-/// called for each that was listed and no longer is. The list runs ahead a little, so that it is
-/// not made anew at every step, and not for long, so that those that have opened come to rest.
-/// Called at every step; returns whether the list is a new one.
-template <class Rest>
-bool renew(NearList& list, double path, const Rest& rest) {
+/// Activates the pairs that may touch at this path length (mm). deactivate(i) is called for each
+/// that was active and no longer is. The list holds a little longer than one step, so that it is
+/// not updated at every step, and not for long, so that pairs that have opened become inactive.
+/// Called at every step; returns whether the list was updated.
+template <class Deactivate>
+bool update(ActiveList& list, double path_length, const Deactivate& deactivate) {
   constexpr double kept = 0.05, longest = 0.2; // mm
   // two steps before it may touch: how fast a pair closes is known by then
-  list.ahead = 2.0 * std::max(path - list.last_path, 0.0);
-  list.last_path = path;
-  if (path < list.until) return false;
-  const double now = path + kept + list.ahead;
-  for (const std::int32_t i : list.near)
-    if (list.wake[static_cast<std::size_t>(i)] > now) rest(i);
-  list.near.clear();
+  list.ahead = 2.0 * std::max(path_length - list.last_path, 0.0);
+  list.last_path = path_length;
+  if (path_length < list.until) return false;
+  const double now = path_length + kept + list.ahead;
+  for (const std::int32_t i : list.active)
+    if (list.free_until[static_cast<std::size_t>(i)] > now) deactivate(i);
+  list.active.clear();
   double next = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < list.wake.size(); ++i)
-    if (list.wake[i] > now)
-      next = std::min(next, list.wake[i]);
+  for (std::size_t i = 0; i < list.free_until.size(); ++i)
+    if (list.free_until[i] > now)
+      next = std::min(next, list.free_until[i]);
     else
-      list.near.push_back(static_cast<std::int32_t>(i));
-  next = std::max(next - list.ahead, path);
-  list.until = list.near.empty() ? next : std::min(next, path + longest);
+      list.active.push_back(static_cast<std::int32_t>(i));
+  next = std::max(next - list.ahead, path_length);
+  list.until = list.active.empty() ? next : std::min(next, path_length + longest);
   return true;
 }
 

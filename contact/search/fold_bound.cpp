@@ -9,8 +9,8 @@ namespace plyform {
 
 // Each node gets the sum of the normals around it, and the largest square of the difference from
 // its direction; two faces of a node then differ by no more than both together.
-void sheet_spread(std::span<const Vec3> x, std::span<const Triangle> triangles,
-                  std::vector<double>& spread) {
+void fold_bounds(std::span<const Vec3> x, std::span<const Triangle> triangles,
+                 std::vector<double>& fold_bound) {
   const auto at = [](int n) { return static_cast<std::size_t>(n); };
   std::vector<Vec3> normal(triangles.size()), mean(x.size(), Vec3::Zero());
   std::vector<double> off(x.size(), 0.0);
@@ -27,15 +27,16 @@ void sheet_spread(std::span<const Vec3> x, std::span<const Triangle> triangles,
       const double here = (normal[f] - mean[at(n)]).squaredNorm();
       if (!(here <= off[at(n)])) off[at(n)] = here; // NaN too
     }
-  spread.resize(triangles.size());
+  fold_bound.resize(triangles.size());
   constexpr double most = 0.4;
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     double chord = 0.0;
     for (const int n : triangles[f])
       chord = std::max(chord, (normal[f] - mean[at(n)]).norm() + std::sqrt(off[at(n)]));
     // An arc is less than 1.1 chords up to a right angle, and tan(a) < a / (1 - a^2 / 2) below 1.2.
-    const double a = 0.5 * (1.1 * chord + spread_margin);
-    spread[f] = a < most ? 1.2 * a / (1.0 - 0.5 * a * a) : std::numeric_limits<double>::infinity();
+    const double a = 0.5 * (1.1 * chord + fold_margin);
+    fold_bound[f] =
+        a < most ? 1.2 * a / (1.0 - 0.5 * a * a) : std::numeric_limits<double>::infinity();
   }
 }
 

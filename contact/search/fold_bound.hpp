@@ -16,11 +16,11 @@
 
 namespace plyform {
 
-constexpr double spread_margin = 0.2; ///< rad
+constexpr double fold_margin = 0.2; ///< rad
 
 /// At least 1.2 tan((phi + margin) / 2) of each triangle, infinite where phi + margin is more than
 /// 0.8; phi is taken for up to twice as large as it is. x: mm.
-void sheet_spread(std::span<const Vec3> x, std::span<const Triangle> triangles,
-                  std::vector<double>& spread);
+void fold_bounds(std::span<const Vec3> x, std::span<const Triangle> triangles,
+                 std::vector<double>& fold_bound);
 
 } // namespace plyform

@@ -99,7 +99,7 @@ std::pair<std::int32_t, std::int32_t> edge_of(const Triangle& t, std::size_t sid
   return std::minmax(t[side], t[(side + 1) % 3]);
 }
 
-std::vector<std::array<Vec3, 7>> pseudo_normals(const Surface& s,
+std::vector<std::array<Vec3, 7>> pseudo_normals(const TriMesh& s,
                                                 const std::vector<std::array<Vec3, 3>>& corners) {
   std::vector<Vec3> vertex(s.x.size(), Vec3::Zero());
   std::map<std::pair<std::int32_t, std::int32_t>, Vec3> edge;
@@ -141,7 +141,7 @@ struct MeshShape::Tree {
   }
 };
 
-MeshShape::MeshShape(Surface surface) : surface_(std::move(surface)) {
+MeshShape::MeshShape(TriMesh surface) : surface_(std::move(surface)) {
   for (const Vec3& x : surface_.x)
     bounds_.extend(x);
   corners_.reserve(surface_.triangles.size());

@@ -10,18 +10,18 @@ class MeshShape {
 public:
   /// surface: consistently oriented, manifold, no zero-area triangles; closed ones outward and free
   /// of self-intersections (make_mesh_shape and load_tool_mesh see to that). Builds the tree.
-  explicit MeshShape(Surface surface);
+  explicit MeshShape(TriMesh surface);
   ~MeshShape();
 
   /// As plyform::signed_distance. Thread-safe; allocates nothing.
   SurfacePoint signed_distance(const Vec3& p, int& hint) const;
 
-  const Surface& surface() const { return surface_; }
+  const TriMesh& surface() const { return surface_; }
   const Box3& bounds() const { return bounds_; }
 
 private:
   struct Tree;
-  Surface surface_;
+  TriMesh surface_;
   Box3 bounds_;
   std::vector<std::array<Vec3, 3>> corners_; ///< of each triangle, side by side for the search
   std::vector<std::array<Vec3, 7>> normals_; ///< unit pseudo-normals by ClosestPoint::feature

@@ -59,13 +59,13 @@ void join(const Ring& a, const Ring& b, int sectors, std::vector<Triangle>& out)
   }
 }
 
-Surface triangles_of(const RevolvedProfile& profile, double size, double) {
+TriMesh triangles_of(const RevolvedProfile& profile, double size, double) {
   const std::vector<Vec2> points = section_points(profile, size);
   double widest = 0.0;
   for (const Vec2& p : points)
     widest = std::max(widest, p.x());
   const int sectors = std::max(16, pieces(2.0 * std::numbers::pi * widest, size));
-  Surface surface;
+  TriMesh surface;
   std::vector<Ring> rings;
   for (const Vec2& p : points) {
     const bool tip = p.x() == 0.0;
@@ -83,19 +83,19 @@ Surface triangles_of(const RevolvedProfile& profile, double size, double) {
 
 using Kind = ProfileSegment::Kind;
 
-Surface triangles_of(const Sphere& s, double size, double extent) {
+TriMesh triangles_of(const Sphere& s, double size, double extent) {
   const double r = s.radius;
   return triangles_of(RevolvedProfile{{{Kind::arc, {0.0, r}, {0.0, -r}, {0.0, 0.0}, -1}}}, size,
                       extent);
 }
 
-Surface triangles_of(const Cylinder& c, double size, double extent) {
+TriMesh triangles_of(const Cylinder& c, double size, double extent) {
   const double r = c.radius, h = 0.5 * c.length, e = edge_of(c);
   return triangles_of(make_profile({{0.0, h, 0.0}, {r, h, e}, {r, -h, e}, {0.0, -h, 0.0}}), size,
                       extent);
 }
 
-Surface triangles_of(const Annulus& a, double size, double extent) {
+TriMesh triangles_of(const Annulus& a, double size, double extent) {
   const double ri = a.inner_radius, ro = a.outer_radius, h = a.thickness;
   const double e = std::min({a.edge_radius, 0.5 * h, ri > 0.0 ? 0.5 * (ro - ri) : ro});
   if (ri <= 0.0)
@@ -116,7 +116,7 @@ struct BoxGrid {
   int rounded;
   std::array<int, 3> n;
   std::map<std::array<int, 3>, std::int32_t> nodes{};
-  Surface surface{};
+  TriMesh surface{};
 
   BoxGrid(const Box& box, double size);
   Vec3 point(const std::array<int, 3>& i) const;
@@ -170,7 +170,7 @@ void BoxGrid::add_square(std::int32_t a, std::int32_t p, std::int32_t c, std::in
   surface.triangles.push_back({a, c, q});
 }
 
-Surface triangles_of(const Box& b, double size, double) {
+TriMesh triangles_of(const Box& b, double size, double) {
   BoxGrid grid(b, size);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
@@ -194,10 +194,10 @@ Surface triangles_of(const Box& b, double size, double) {
   return std::move(grid.surface);
 }
 
-Surface triangles_of(const Plane&, double size, double extent) {
+TriMesh triangles_of(const Plane&, double size, double extent) {
   const int n = pieces(2.0 * extent, size);
   const auto at = [n](int i, int j) { return static_cast<std::int32_t>(j * (n + 1) + i); };
-  Surface surface;
+  TriMesh surface;
   for (int j = 0; j <= n; ++j)
     for (int i = 0; i <= n; ++i)
       surface.x.emplace_back(extent * (2.0 * i / n - 1.0), extent * (2.0 * j / n - 1.0), 0.0);
@@ -209,13 +209,13 @@ Surface triangles_of(const Plane&, double size, double extent) {
   return surface;
 }
 
-Surface triangles_of(const MeshShapePtr& mesh, double, double) {
+TriMesh triangles_of(const MeshShapePtr& mesh, double, double) {
   return mesh->surface();
 }
 
 } // namespace
 
-Surface tessellate(const ToolShape& shape, double size, double extent) {
+TriMesh tessellate(const ToolShape& shape, double size, double extent) {
   if (!(size > 0.0))
     throw std::invalid_argument(
         fmt::format("the triangle size of a tool must be above 0 mm, got {:g}", size));

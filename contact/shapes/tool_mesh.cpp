@@ -127,8 +127,8 @@ bool turn_outward(Mesh& mesh, const std::string& name) {
   return std::abs(after - before) > 1e-9 * after;
 }
 
-Surface surface_of(const Mesh& mesh) {
-  Surface surface;
+TriMesh surface_of(const Mesh& mesh) {
+  TriMesh surface;
   std::vector<std::int32_t> number(mesh.num_vertices(), -1);
   for (const Mesh::Face_index f : mesh.faces()) {
     Triangle triangle{};
@@ -172,14 +172,14 @@ MeshShapePtr make_mesh_shape(PolygonSoup soup, const std::string& name, MeshRepo
   done.removed_degenerate += remove_flat_faces(mesh, name);
   done.closed = CGAL::is_closed(mesh);
   if (done.closed) done.flipped = turn_outward(mesh, name);
-  Surface surface = surface_of(mesh);
+  TriMesh surface = surface_of(mesh);
   done.vertices = surface.x.size();
   done.faces = surface.triangles.size();
   if (report) *report = done;
   return std::make_shared<const MeshShape>(std::move(surface));
 }
 
-MeshShapePtr make_mesh_shape(const Surface& surface, MeshReport* report) {
+MeshShapePtr make_mesh_shape(const TriMesh& surface, MeshReport* report) {
   PolygonSoup soup{surface.x, {}};
   soup.polygons.reserve(surface.triangles.size());
   for (const auto& [a, b, c] : surface.triangles)

@@ -86,7 +86,7 @@ double distance_lower_bound(const ToolShape& shape, const Box3& box);
 /// shapes (plane) are cut to `extent` (mm from the origin). Nodes lie on the surface; arcs get
 /// pieces of at most 22.5 degrees. Solids give closed meshes, outward; normals of open ones point
 /// to the free side. A mesh is returned as it is. Throws std::invalid_argument unless size > 0.
-Surface tessellate(const ToolShape& shape, double size, double extent);
+TriMesh tessellate(const ToolShape& shape, double size, double extent);
 
 /// Radius (mm) of the tightest curve of the shape that a sheet has to follow; 0 for a sharp edge,
 /// infinity for a plane. For meshes: infinity (unknown). Inner corners of a profile do not count.
@@ -114,6 +114,6 @@ struct MeshReport {
 MeshShapePtr load_tool_mesh(const std::filesystem::path& file, double scale, MeshReport* report);
 
 /// The same from triangles in memory (tests, generated tools).
-MeshShapePtr make_mesh_shape(const Surface& surface, MeshReport* report);
+MeshShapePtr make_mesh_shape(const TriMesh& surface, MeshReport* report);
 
 } // namespace plyform

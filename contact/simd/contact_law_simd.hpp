@@ -46,8 +46,8 @@ PLYFORM_INLINE double largest(Double4 a) {
   return low > high ? low : high;
 }
 
-/// Sums of four contacts each, as of ContactSums.
-struct LaneSums {
+/// Sums of four contacts each, as of ContactTotals.
+struct SimdTotals {
   Double4 elastic = all(0.0), friction = all(0.0), damping = all(0.0);
   Double4 penetration = all(0.0), slip = all(0.0);
   Double4 step_ratio = all(1e300);
@@ -55,7 +55,7 @@ struct LaneSums {
 };
 
 /// The memory of four contacts.
-struct LaneMemory {
+struct SimdHistory {
   Double4 damping_force, normal_force, slip;
   Vector4 s;
 };
@@ -74,8 +74,8 @@ PLYFORM_INLINE Double4 room_of(const Contact& k, Double4 depth) {
   return larger(1.0 - depth * depth * k.per_depth2, all(kernel_least_room));
 }
 
-/// ContactSums::step_ratio of four contacts at `depth` that closed by `dp` (mm) in the last step. A
-/// contact that is still open may close, and then use half of the whole depth.
+/// ContactTotals::step_ratio of four contacts at `depth` that closed by `dp` (mm) in the last step.
+/// A contact that is still open may close, and then use half of the whole depth.
 template <class Contact>
 PLYFORM_INLINE Double4 step_ratio_of(const Contact& k, Double4 depth, Double4 dp) {
   const Double4 inside = larger(depth, all(0.0)), open = inside - depth;
@@ -87,8 +87,8 @@ PLYFORM_INLINE Double4 step_ratio_of(const Contact& k, Double4 depth, Double4 dp
 /// work of damping is summed where `counted`; dp: mm, way of closing. k: stiffness, damping_per_dt.
 template <class Contact>
 PLYFORM_INLINE Double4 normal_pressure(const Contact& k, Double4 area, Double4 depth,
-                                       Double4 opened, Double4 dp, Long4 counted, LaneMemory& m,
-                                       LaneSums& sums) {
+                                       Double4 opened, Double4 dp, Long4 counted, SimdHistory& m,
+                                       SimdTotals& sums) {
   const Double4 q = room_of(k, depth);
   const Double4 pressure = k.stiffness * depth / (q * q); // N/mm^2, elastic and viscous
   const Double4 resistance = larger(k.damping_per_dt * (depth + opened), -pressure);
@@ -104,7 +104,7 @@ PLYFORM_INLINE Double4 normal_pressure(const Contact& k, Double4 area, Double4 d
 template <class Contact>
 PLYFORM_INLINE Vector4 friction_of(const Contact& k, Double4 area, Double4 pressure,
                                    const Vector4& n, const Vector4& remembered, const Vector4& slip,
-                                   Long4 touch, LaneMemory& m, LaneSums& sums) {
+                                   Long4 touch, SimdHistory& m, SimdTotals& sums) {
   const Double4 zero = all(0.0);
   const Vector4 old = into_plane(remembered, n);
   const Vector4 trial = old + slip - dot(n, slip) * n;

@@ -3,7 +3,7 @@
 
 namespace plyform {
 
-SheetKernelSums sheet_kernel_avx2(const SheetKernelContact& contact) {
+PlyPlyKernelTotals ply_ply_kernel_avx2(const PlyPlyKernelContact& contact) {
   return sheet_kernel(contact);
 }
 

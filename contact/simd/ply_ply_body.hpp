@@ -23,19 +23,19 @@ PLYFORM_INLINE void add3(double* at, Double4 row) {
 }
 
 /// The state of four points that changes with their forces.
-struct LanePoints {
+struct SimdPoints {
   Double4 area, gap, last_gap;
-  LaneMemory memory;
+  SimdHistory memory;
 };
 
-struct LaneForces {
+struct SimdForces {
   Vector4 on_node, couple1, couple2; ///< of (C') on corners b and c
 };
 
 /// Normal force and friction of four points whose feet are known; `touch`: those that touch.
-PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces& x,
-                                    const LaneFaces& u, const LaneFoot& foot, Long4 touch,
-                                    LanePoints& p, LaneSums& sums) {
+PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFaces& x,
+                                    const SimdFaces& u, const SimdFoot& foot, Long4 touch,
+                                    SimdPoints& p, SimdTotals& sums) {
   const Double4 zero = all(0.0);
   const Vector4 arm = x.p - foot.wb * x.b - foot.wc * x.c;
   const Vector4 motion = u.p - foot.wb * u.b - foot.wc * u.c;
@@ -46,7 +46,7 @@ PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces
   const Double4 opened = known ? smaller(p.last_gap, zero) : zero;
   const Double4 dp = known ? p.last_gap - p.gap : -dot(normal, motion);
   const Double4 pressure = normal_pressure(k, area, depth, opened, dp, touch, p.memory, sums);
-  LaneForces f{p.memory.normal_force * normal, {zero, zero, zero}, {zero, zero, zero}};
+  SimdForces f{p.memory.normal_force * normal, {zero, zero, zero}, {zero, zero, zero}};
   Double4 stored2 = zero;
   if (k.friction > 0.0) {
     const Vector4 across = cross(x.b, x.c);
@@ -74,8 +74,8 @@ PLYFORM_INLINE LaneForces forces_of(const SheetKernelContact& k, const LaneFaces
 }
 
 /// Forces on the nodes and corners of the points in `touch`.
-PLYFORM_INLINE void add_forces(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                               const LaneFoot& foot, const LaneForces& f, Long4 touch) {
+PLYFORM_INLINE void add_forces(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
+                               const SimdFoot& foot, const SimdForces& f, Long4 touch) {
   const Rows on_node = rows(f.on_node);
   const Rows on_b = rows(f.couple1 - foot.wb * f.on_node);
   const Rows on_c = rows(f.couple2 - foot.wc * f.on_node);
@@ -92,13 +92,13 @@ PLYFORM_INLINE void add_forces(const SheetKernelContact& k, SheetKernelPoint* co
 
 /// Up to four points; those from `count` on are fillers, the same as the first.
 struct Group {
-  SheetKernelPoint* point[four];
+  PlyPlyKernelPoint* point[four];
   std::int32_t index[four];
   int count;
   Long4 real;
 };
 
-PLYFORM_INLINE Group group_of(const SheetKernelContact& k, const std::int32_t* index, int left) {
+PLYFORM_INLINE Group group_of(const PlyPlyKernelContact& k, const std::int32_t* index, int left) {
   Group g;
   g.count = left < four ? left : four;
   for (int i = 0; i < four; ++i) {
@@ -114,18 +114,18 @@ PLYFORM_INLINE Long4 remembered(const Group& g) {
 }
 
 /// Forces of up to four points that touch, x their places and foot their closest points.
-PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const LaneFaces& x,
-                          const LaneFoot& foot, LaneSums& sums) {
-  const LaneFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
+PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const SimdFaces& x,
+                          const SimdFoot& foot, SimdTotals& sums) {
+  const SimdFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
   const Rows held = load_rows(g.point, held_row), force = load_rows(g.point, force_row);
-  LanePoints p;
-  LaneMemory& m = p.memory;
+  SimdPoints p;
+  SimdHistory& m = p.memory;
   m.s = {held.row[0], held.row[1], held.row[2]};
   m.damping_force = held.row[3];
   m.normal_force = force.row[0], m.slip = force.row[1], p.area = force.row[2];
   p.last_gap = force.row[3];
   p.gap = foot.distance - k.distance;
-  const LaneForces f = forces_of(k, x, u, foot, g.real, p, sums);
+  const SimdForces f = forces_of(k, x, u, foot, g.real, p, sums);
   add_forces(k, g.point, foot, f, g.real);
   const Double4 height = dot(cross(x.b, x.c), x.p);
   // forgotten on edges: a node may slide round the rim to the other side
@@ -135,7 +135,7 @@ PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Lan
   const Rows s = turned({{m.s.x, m.s.y, m.s.z, m.damping_force}});
   const Rows b = turned({{m.normal_force, m.slip, p.area, p.gap}});
   for (int i = 0; i < g.count; ++i) {
-    SheetKernelPoint& at = *g.point[i];
+    PlyPlyKernelPoint& at = *g.point[i];
     if (at.side * side[i] < 0 || deep[i]) k.fault(k.self, g.index[i], foot.distance[i]);
     at.side = static_cast<std::int32_t>(side[i]);
     store(row_of(&at, held_row), s.row[i]);
@@ -145,9 +145,9 @@ PLYFORM_INLINE void press(const SheetKernelContact& k, const Group& g, const Lan
 }
 
 /// A point that does not touch.
-PLYFORM_INLINE void pass_by(const SheetKernelContact& k, std::int32_t index, double distance,
-                            bool inside, LaneSums& sums) {
-  SheetKernelPoint& at = k.points[index];
+PLYFORM_INLINE void pass_by(const PlyPlyKernelContact& k, std::int32_t index, double distance,
+                            bool inside, SimdTotals& sums) {
+  PlyPlyKernelPoint& at = k.points[index];
   const double last_gap = at.gap;
   at.gap = distance - k.distance;
   if (last_gap < 1e300) // else it was inactive
@@ -168,7 +168,7 @@ PLYFORM_INLINE void pass_by(const SheetKernelContact& k, std::int32_t index, dou
     at.side = height >= 0.0 ? 1 : -1;
   }
   if (at.normal_force != 0.0 || at.damping_force != 0.0) k.open(k.self, index, last_gap);
-  k.wake[index] = k.path + at.gap;
+  k.free_until[index] = k.path_length + at.gap;
 }
 
 /// Points of a chunk that were not done in one go: they look around, or their fours are mixed.
@@ -183,7 +183,7 @@ struct Chunk {
 };
 
 PLYFORM_INLINE void keep_foot(Chunk& chunk, const std::int32_t* number, int count,
-                              const LaneFoot& foot) {
+                              const SimdFoot& foot) {
   for (int i = 0; i < count; ++i) {
     chunk.distance[number[i]] = foot.distance[i];
     chunk.inside[number[i]] = foot.inside[i] != 0;
@@ -191,13 +191,13 @@ PLYFORM_INLINE void keep_foot(Chunk& chunk, const std::int32_t* number, int coun
 }
 
 /// First pass: closest points on the faces remembered; forces where four that touch are settled.
-PLYFORM_INLINE void follow(const SheetKernelContact& k, const std::int32_t* near, int count,
-                           Chunk& chunk, LaneSums& sums) {
+PLYFORM_INLINE void follow(const PlyPlyKernelContact& k, const std::int32_t* active, int count,
+                           Chunk& chunk, SimdTotals& sums) {
   for (int first = 0; first < count; first += four) {
-    const Group g = group_of(k, near + first, count - first);
-    const LaneFaces x = load_faces(k, g.point, remembered(g), k.slave_x, k.master_x);
-    LaneRoom room;
-    const LaneFoot foot = foot_of(k, g.point, x, room);
+    const Group g = group_of(k, active + first, count - first);
+    const SimdFaces x = load_faces(k, g.point, remembered(g), k.slave_x, k.master_x);
+    SimdRoom room;
+    const SimdFoot foot = foot_of(k, g.point, x, room);
     Long4 mild;
     const Long4 sure = sure_of(k, g.point, foot, room, mild);
     keep_weights(g.point, g.count, foot, room.looked_b, room.looked_c);
@@ -217,14 +217,14 @@ PLYFORM_INLINE void follow(const SheetKernelContact& k, const std::int32_t* near
 }
 
 /// Second pass: closest points of those that had to look.
-PLYFORM_INLINE void look_around(const SheetKernelContact& k, const std::int32_t* near, bool sides,
-                                Chunk& chunk) {
+PLYFORM_INLINE void look_around(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                bool sides, Chunk& chunk) {
   for (int first = 0; first < chunk.looks[sides]; first += four) {
     const int left = chunk.looks[sides] - first;
     std::int32_t number[four], index[four];
     for (int i = 0; i < four; ++i) {
       number[i] = chunk.look[sides][first + (i < left ? i : 0)];
-      index[i] = near[number[i]];
+      index[i] = active[number[i]];
     }
     const Group g = group_of(k, index, left);
     keep_foot(chunk, number, g.count, look_at_all(k, g.point, g.count, sides));
@@ -232,15 +232,15 @@ PLYFORM_INLINE void look_around(const SheetKernelContact& k, const std::int32_t*
 }
 
 /// Third pass: forces of up to four points whose closest points are known.
-PLYFORM_INLINE void press_later(const SheetKernelContact& k, const std::int32_t* near,
+PLYFORM_INLINE void press_later(const PlyPlyKernelContact& k, const std::int32_t* active,
                                 const std::int32_t* number, int count, const Chunk& chunk,
-                                LaneSums& sums) {
+                                SimdTotals& sums) {
   std::int32_t index[four];
   Double4 distance;
   Long4 inside;
   for (int i = 0; i < four; ++i) {
     const std::int32_t from = number[i < count ? i : 0];
-    index[i] = near[from];
+    index[i] = active[from];
     distance[i] = chunk.distance[from];
     inside[i] = chunk.inside[from] ? -1 : 0;
   }
@@ -250,12 +250,12 @@ PLYFORM_INLINE void press_later(const SheetKernelContact& k, const std::int32_t*
         {w.row[0], w.row[1], distance, inside}, sums);
 }
 
-PLYFORM_INLINE void do_some(const SheetKernelContact& k, const std::int32_t* near, int count,
-                            LaneSums& sums) {
+PLYFORM_INLINE void do_some(const PlyPlyKernelContact& k, const std::int32_t* active, int count,
+                            SimdTotals& sums) {
   Chunk chunk;
-  follow(k, near, count, chunk, sums);
-  look_around(k, near, false, chunk);
-  look_around(k, near, true, chunk);
+  follow(k, active, count, chunk, sums);
+  look_around(k, active, false, chunk);
+  look_around(k, active, true, chunk);
   std::int32_t touching[Chunk::most];
   int touches = 0;
   for (int i = 0; i < chunk.laters; ++i) {
@@ -263,16 +263,17 @@ PLYFORM_INLINE void do_some(const SheetKernelContact& k, const std::int32_t* nea
     if (chunk.distance[n] < k.distance)
       touching[touches++] = n;
     else
-      pass_by(k, near[n], chunk.distance[n], chunk.inside[n], sums);
+      pass_by(k, active[n], chunk.distance[n], chunk.inside[n], sums);
   }
   for (int i = 0; i < touches; i += four)
-    press_later(k, near, touching + i, touches - i, chunk, sums);
+    press_later(k, active, touching + i, touches - i, chunk, sums);
 }
 
-PLYFORM_INLINE SheetKernelSums sheet_kernel(const SheetKernelContact& k) {
-  LaneSums sums;
-  for (int i = 0; i < k.near_count; i += Chunk::most)
-    do_some(k, k.near + i, k.near_count - i < Chunk::most ? k.near_count - i : Chunk::most, sums);
+PLYFORM_INLINE PlyPlyKernelTotals sheet_kernel(const PlyPlyKernelContact& k) {
+  SimdTotals sums;
+  for (int i = 0; i < k.active_count; i += Chunk::most)
+    do_some(k, k.active + i, k.active_count - i < Chunk::most ? k.active_count - i : Chunk::most,
+            sums);
   return {
       sum(sums.elastic),  sum(sums.friction),        sum(sums.damping), largest(sums.penetration),
       largest(sums.slip), smallest(sums.step_ratio), sums.touching};

@@ -12,25 +12,25 @@ namespace {
 constexpr double sliver_sine2 = 0.01; // as in contact/point_triangle.hpp
 constexpr double far2 = 1e300;        // mm^2
 
-/// Rows of a SheetKernelPoint: s and damping_force; normal_force, slip, area, gap; w and looked.
+/// Rows of a PlyPlyKernelPoint: s and damping_force; normal_force, slip, area, gap; w and looked.
 enum PointRow { held_row, force_row, weight_row };
 
-PLYFORM_INLINE double* row_of(SheetKernelPoint* p, PointRow row) {
+PLYFORM_INLINE double* row_of(PlyPlyKernelPoint* p, PointRow row) {
   return reinterpret_cast<double*>(p) + 4 * row;
 }
 
 /// One row of four points, by columns.
-PLYFORM_INLINE Rows load_rows(SheetKernelPoint* const* p, PointRow row) {
+PLYFORM_INLINE Rows load_rows(PlyPlyKernelPoint* const* p, PointRow row) {
   return turned({{load(row_of(p[0], row)), load(row_of(p[1], row)), load(row_of(p[2], row)),
                   load(row_of(p[3], row))}});
 }
 
 /// Places or motions of four nodes and of the corners of their faces, relative to a.
-struct LaneFaces {
+struct SimdFaces {
   Vector4 p, b, c;
 };
 
-PLYFORM_INLINE LaneFaces load_faces(const SheetKernelContact& k, SheetKernelPoint* const* point,
+PLYFORM_INLINE SimdFaces load_faces(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
                                     Long4 face, const double* slave, const double* master) {
   Double4 p[four], b[four], c[four];
   for (int i = 0; i < four; ++i) {
@@ -45,13 +45,13 @@ PLYFORM_INLINE LaneFaces load_faces(const SheetKernelContact& k, SheetKernelPoin
 }
 
 /// Where four nodes stand over the planes of their faces: (1), (2) of contact/point_triangle.hpp.
-struct LanePlanes {
+struct SimdPlanes {
   Double4 bb, cc, bc, pb, pc, det, wa, wb, wc;
   Long4 inside;
 };
 
-PLYFORM_INLINE LanePlanes planes_of(const LaneFaces& x) {
-  LanePlanes q;
+PLYFORM_INLINE SimdPlanes planes_of(const SimdFaces& x) {
+  SimdPlanes q;
   q.bb = dot(x.b, x.b), q.cc = dot(x.c, x.c), q.bc = dot(x.b, x.c);
   q.pb = dot(x.p, x.b), q.pc = dot(x.p, x.c);
   q.det = q.bb * q.cc - q.bc * q.bc;
@@ -69,13 +69,13 @@ PLYFORM_INLINE Double4 share_of_side(Double4 t) {
 
 /// The closest points of four faces: the foot if it is inside, else, if `sides` are asked for, the
 /// closest of the points on them, as closest_point_on_sliver of contact/point_triangle.hpp.
-struct LaneClosest {
+struct SimdClosest {
   Double4 wb, wc, distance2;
   Long4 inside;
 };
 
-PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x, const LanePlanes& plane, bool sides) {
-  LaneClosest q{plane.wb, plane.wc, all(far2), plane.inside};
+PLYFORM_INLINE SimdClosest closest_of(const SimdFaces& x, const SimdPlanes& plane, bool sides) {
+  SimdClosest q{plane.wb, plane.wc, all(far2), plane.inside};
   q.distance2 = q.inside ? square(x.p - q.wb * x.b - q.wc * x.c) : q.distance2;
   if (!sides || !any(~q.inside)) return q;
   const Double4 bb = plane.bb, cc = plane.cc, bc = plane.bc, pb = plane.pb, pc = plane.pc;
@@ -92,28 +92,28 @@ PLYFORM_INLINE LaneClosest closest_of(const LaneFaces& x, const LanePlanes& plan
 }
 
 /// What is closest of four nodes, on the faces that they remember.
-struct LaneFoot {
+struct SimdFoot {
   Double4 wb, wc, distance;
   Long4 inside; ///< the foot on the plane is
 };
 
 /// Whether a foot inside is clear of where other faces begin, and what the point remembers.
-struct LaneRoom {
+struct SimdRoom {
   Long4 of_sides, of_corners; ///< clear of all sides; of all but one
   Double4 slid2;              ///< mm^2, along the face, since the point looked around
   Double4 looked_b, looked_c;
 };
 
 /// mm, by contact/search/fold_bound.hpp: how far from a side a foot must be.
-PLYFORM_INLINE Double4 clearance(const SheetKernelContact& k, SheetKernelPoint* const* point) {
-  if (!k.spread) return all(far2);
-  return k.distance * Double4{k.spread[point[0]->face], k.spread[point[1]->face],
-                              k.spread[point[2]->face], k.spread[point[3]->face]};
+PLYFORM_INLINE Double4 clearance(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point) {
+  if (!k.fold_bound) return all(far2);
+  return k.distance * Double4{k.fold_bound[point[0]->face], k.fold_bound[point[1]->face],
+                              k.fold_bound[point[2]->face], k.fold_bound[point[3]->face]};
 }
 
-PLYFORM_INLINE LaneFoot foot_of(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                                const LaneFaces& x, LaneRoom& room) {
-  const LanePlanes q = planes_of(x);
+PLYFORM_INLINE SimdFoot foot_of(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
+                                const SimdFaces& x, SimdRoom& room) {
+  const SimdPlanes q = planes_of(x);
   // w_i times the height over side i, which is sqrt(det) / |side|, against the clearance
   const Double4 keep = clearance(k, point), keep2 = keep * keep;
   const Long4 a = q.wa * q.wa * q.det > keep2 * (q.bb + q.cc - 2.0 * q.bc);
@@ -124,11 +124,11 @@ PLYFORM_INLINE LaneFoot foot_of(const SheetKernelContact& k, SheetKernelPoint* c
   room.looked_b = last.row[2], room.looked_c = last.row[3];
   const Double4 db = q.wb - room.looked_b, dc = q.wc - room.looked_c;
   room.slid2 = db * db * q.bb + 2.0 * (db * dc) * q.bc + dc * dc * q.cc;
-  const LaneClosest closest = closest_of(x, q, k.rest > 0.0);
+  const SimdClosest closest = closest_of(x, q, k.slide_limit > 0.0);
   return {closest.wb, closest.wc, root(closest.distance2), closest.inside};
 }
 
-PLYFORM_INLINE void keep_weights(SheetKernelPoint* const* point, int count, const LaneFoot& foot,
+PLYFORM_INLINE void keep_weights(PlyPlyKernelPoint* const* point, int count, const SimdFoot& foot,
                                  Double4 looked_b, Double4 looked_c) {
   const Rows w = turned({{foot.wb, foot.wc, looked_b, looked_c}});
   for (int i = 0; i < count; ++i)
@@ -138,7 +138,7 @@ PLYFORM_INLINE void keep_weights(SheetKernelPoint* const* point, int count, cons
 /// Closest points of the `count` first of four points over all of their faces that can be closest:
 /// face and other of each; returns where. Points near one edge
 /// only, inside their face, need no `sides`: the edge that both share is further than the foot.
-PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoint* const* point,
+PLYFORM_INLINE SimdFoot look_at_all(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
                                     int count, bool sides) {
   Double4 best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
   Double4 plane_b = all(0.0), plane_c = all(0.0);
@@ -155,20 +155,20 @@ PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoin
       more[lane] = -1;
     }
     if (!any(more)) break;
-    const LaneFaces x = load_faces(k, point, at, k.slave_x, k.master_x);
-    const LanePlanes plane = planes_of(x);
-    const LaneClosest q = closest_of(x, plane, sides);
+    const SimdFaces x = load_faces(k, point, at, k.slave_x, k.master_x);
+    const SimdPlanes plane = planes_of(x);
+    const SimdClosest q = closest_of(x, plane, sides);
     const Long4 tied = magnitude(q.distance2 - best2) <= same_distance * best2;
     const Long4 chosen = more & (tied ? at < face : q.distance2 < best2);
     const Long4 closer = more & (q.distance2 < best2);
     best2 = closer ? q.distance2 : best2;
-    limit = (1.0 + same_distance) * root(best2) + k.way; // with those that tie
+    limit = (1.0 + same_distance) * root(best2) + k.max_displacement; // with those that tie
     wb = chosen ? q.wb : wb, wc = chosen ? q.wc : wc;
     plane_b = chosen ? plane.wb : plane_b, plane_c = chosen ? plane.wc : plane_c;
     face = chosen ? at : face;
     inside = chosen ? q.inside : inside;
   }
-  const LaneFoot foot{wb, wc, root(best2), inside};
+  const SimdFoot foot{wb, wc, root(best2), inside};
   keep_weights(point, count, foot, plane_b, plane_c);
   for (int lane = 0; lane < count; ++lane) {
     if (face[lane] >= 0 && point[lane]->face != face[lane]) {
@@ -184,12 +184,12 @@ PLYFORM_INLINE LaneFoot look_at_all(const SheetKernelContact& k, SheetKernelPoin
 /// point has not slid by `rest` since it looked, and one across an edge can be closer by no more
 /// than that times their fold (contact/forces/ply_ply.hpp). mild: only one across an edge may be
 /// closer, with its inside.
-PLYFORM_INLINE Long4 sure_of(const SheetKernelContact& k, SheetKernelPoint* const* point,
-                             const LaneFoot& foot, const LaneRoom& room, Long4& mild) {
+PLYFORM_INLINE Long4 sure_of(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
+                             const SimdFoot& foot, const SimdRoom& room, Long4& mild) {
   const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
-  const Long4 near = other - k.way > foot.distance;
-  mild = near & foot.inside & room.of_corners;
-  return (mild & room.of_sides) | (near & (room.slid2 < k.rest * k.rest));
+  const Long4 active = other - k.max_displacement > foot.distance;
+  mild = active & foot.inside & room.of_corners;
+  return (mild & room.of_sides) | (active & (room.slid2 < k.slide_limit * k.slide_limit));
 }
 
 } // namespace

@@ -3,7 +3,7 @@
 
 namespace plyform {
 
-SheetKernelSums sheet_kernel_generic(const SheetKernelContact& contact) {
+PlyPlyKernelTotals ply_ply_kernel_generic(const PlyPlyKernelContact& contact) {
   return sheet_kernel(contact);
 }
 

@@ -7,31 +7,31 @@
 
 namespace plyform {
 
-/// A SheetContactPoint, member for member, in rows of 32 bytes.
-struct alignas(32) SheetKernelPoint {
+/// A PlyPlyPoint, member for member, in rows of 32 bytes.
+struct alignas(32) PlyPlyKernelPoint {
   double s[3], damping_force;
   double normal_force, slip, area, gap;
-  double w[2], looked[2];
+  double w[2], last_search_foot[2];
   double other;
-  float rested;
+  float gap_when_deactivated;
   std::int32_t node, face, first_face, end_face, side;
 };
 
 /// What the kernel reads and writes of a contact. Positions, motions and forces: 3 a node.
-struct SheetKernelContact {
-  SheetKernelPoint* points;
-  const std::int32_t* near; ///< points to look at
-  int near_count;
-  double* wake; ///< mm, of the points (contact/search/active_list.hpp)
+struct PlyPlyKernelContact {
+  PlyPlyKernelPoint* points;
+  const std::int32_t* active; ///< points to look at
+  int active_count;
+  double* free_until; ///< mm, of the points (contact/search/active_list.hpp)
   const double *slave_x, *slave_motion, *master_x, *master_motion;
-  const double* spread;          ///< of the master's faces (contact/search/fold_bound.hpp), or null
+  const double* fold_bound;      ///< of the master's faces (contact/search/fold_bound.hpp), or null
   const std::int32_t* triangles; ///< 3 a face of the master
   const std::int32_t* faces;     ///< of the points, nearest first
   const double* face_distance;   ///< mm, when the search was done
   double *slave_force, *master_force;
-  double way;  ///< mm, of anything relative to anything since the search
-  double path; ///< mm (contact/search/active_list.hpp)
-  double rest; ///< mm, sliding since it looked around by which a point need not again
+  double max_displacement; ///< mm, of anything relative to anything since the search
+  double path_length;      ///< mm (contact/search/active_list.hpp)
+  double slide_limit;      ///< mm, sliding since it looked around by which a point need not again
   double distance, stiffness, tangential,
       friction;                 ///< h, k, k_t, mu of contact/forces/contact_law.hpp
   double max_depth, per_depth2; ///< delta and 1/delta^2 of it; finite
@@ -49,16 +49,16 @@ constexpr double same_distance = 1e-10;
 
 /// `other` of a point whose closest face is point.face: the distance at the search of the nearest
 /// of its faces that shares no node with that one. triangles, faces, face_distance: as above.
-double distance_of_others(const SheetKernelPoint& point, const std::int32_t* triangles,
+double distance_of_others(const PlyPlyKernelPoint& point, const std::int32_t* triangles,
                           const std::int32_t* faces, const double* face_distance);
 
 /// Added up over the points that touch.
-struct SheetKernelSums {
+struct PlyPlyKernelTotals {
   double elastic, friction, damping, penetration, slip, step_ratio;
   int touching;
 };
 
-SheetKernelSums sheet_kernel_generic(const SheetKernelContact& contact);
-SheetKernelSums sheet_kernel_avx2(const SheetKernelContact& contact);
+PlyPlyKernelTotals ply_ply_kernel_generic(const PlyPlyKernelContact& contact);
+PlyPlyKernelTotals ply_ply_kernel_avx2(const PlyPlyKernelContact& contact);
 
 } // namespace plyform

@@ -3,7 +3,7 @@
 
 namespace plyform {
 
-ToolKernelSums tool_kernel_avx2(const ToolKernelContact& contact) {
+ToolPlyKernelTotals tool_ply_kernel_avx2(const ToolPlyKernelContact& contact) {
   return tool_kernel(contact);
 }
 

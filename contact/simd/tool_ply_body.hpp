@@ -8,24 +8,25 @@ namespace {
 
 /// Up to four points; those from `count` on are fillers, the same as the first.
 struct ToolGroup {
-  ToolKernelPoint* point[four];
+  ToolPlyKernelPoint* point[four];
   int count;
   Long4 real;
 };
 
-PLYFORM_INLINE ToolGroup group_of(const ToolKernelContact& k, int first) {
+PLYFORM_INLINE ToolGroup group_of(const ToolPlyKernelContact& k, int first) {
   ToolGroup g;
-  g.count = k.near_count - first < four ? k.near_count - first : four;
+  g.count = k.active_count - first < four ? k.active_count - first : four;
   for (int i = 0; i < four; ++i)
-    g.point[i] = k.points + k.near[first + (i < g.count ? i : 0)];
+    g.point[i] = k.points + k.active[first + (i < g.count ? i : 0)];
   g.real = Long4{0, 1, 2, 3} < static_cast<std::int64_t>(g.count);
   return g;
 }
 
-/// Rows of a ToolKernelPoint: s and damping_force; normal_force, slip and gaps; normal and numbers.
+/// Rows of a ToolPlyKernelPoint: s and damping_force; normal_force, slip and gaps; normal and
+/// numbers.
 enum ToolRow { memory_row, gap_row, normal_row };
 
-PLYFORM_INLINE double* row_of(ToolKernelPoint* p, ToolRow row) {
+PLYFORM_INLINE double* row_of(ToolPlyKernelPoint* p, ToolRow row) {
   return reinterpret_cast<double*>(p) + 4 * row;
 }
 
@@ -41,19 +42,20 @@ PLYFORM_INLINE void store_rows(const ToolGroup& g, ToolRow row, const Rows& colu
     store(row_of(g.point[i], row), r.row[i]);
 }
 
-PLYFORM_INLINE Double4 areas(const ToolKernelContact& k, const ToolGroup& g) {
+PLYFORM_INLINE Double4 areas(const ToolPlyKernelContact& k, const ToolGroup& g) {
   return Double4{k.area[g.point[0]->node], k.area[g.point[1]->node], k.area[g.point[2]->node],
                  k.area[g.point[3]->node]};
 }
 
-PLYFORM_INLINE Vector4 motions(const ToolKernelContact& k, const ToolGroup& g) {
+PLYFORM_INLINE Vector4 motions(const ToolPlyKernelContact& k, const ToolGroup& g) {
   Double4 u[four];
   for (int i = 0; i < four; ++i)
     u[i] = load3(k.motion + 3 * static_cast<std::int64_t>(g.point[i]->node));
   return components(u[0], u[1], u[2], u[3]);
 }
 
-PLYFORM_INLINE void set_forces(const ToolKernelContact& k, const ToolGroup& g, const Vector4& f) {
+PLYFORM_INLINE void set_forces(const ToolPlyKernelContact& k, const ToolGroup& g,
+                               const Vector4& f) {
   const Rows r = rows(f);
   for (int i = 0; i < g.count; ++i) {
     double* at = k.force + 3 * static_cast<std::int64_t>(g.point[i]->node);
@@ -67,9 +69,9 @@ PLYFORM_INLINE Vector4 everywhere(const double* v) {
 
 /// Forces on four nodes. Those that have opened give up what they hold: without an area the law
 /// leaves nothing of it but the slip.
-PLYFORM_INLINE Vector4 forces_of(const ToolKernelContact& k, const ToolGroup& g,
+PLYFORM_INLINE Vector4 forces_of(const ToolPlyKernelContact& k, const ToolGroup& g,
                                  const Vector4& normal, Double4 gap, Double4 last_gap, Long4 touch,
-                                 LaneMemory& m, LaneSums& sums) {
+                                 SimdHistory& m, SimdTotals& sums) {
   const Double4 zero = all(0.0), whole = areas(k, g), area = touch ? whole : zero;
   const Double4 depth = -gap, dp = last_gap - gap;
   const Double4 opening = g.real & ~touch ? whole : zero;
@@ -90,13 +92,13 @@ PLYFORM_INLINE Vector4 forces_of(const ToolKernelContact& k, const ToolGroup& g,
   return f;
 }
 
-PLYFORM_INLINE void press_four(const ToolKernelContact& k, const ToolGroup& g, LaneSums& sums,
+PLYFORM_INLINE void press_four(const ToolPlyKernelContact& k, const ToolGroup& g, SimdTotals& sums,
                                Vector4& on_nodes) {
   const Rows n = load_rows(g, normal_row), held = load_rows(g, memory_row);
   const Rows gaps = load_rows(g, gap_row);
   const Vector4 normal{n.row[0], n.row[1], n.row[2]};
   const Double4 last_gap = gaps.row[3], gap = gaps.row[2] - dot(normal, everywhere(k.advance));
-  LaneMemory m{held.row[3], gaps.row[0], gaps.row[1], {held.row[0], held.row[1], held.row[2]}};
+  SimdHistory m{held.row[3], gaps.row[0], gaps.row[1], {held.row[0], held.row[1], held.row[2]}};
   const Long4 touch = g.real & (gap < 0.0);
   sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, -gap, last_gap - gap));
   if (any(touch | (m.normal_force != 0.0) | (m.damping_force != 0.0))) {
@@ -109,10 +111,10 @@ PLYFORM_INLINE void press_four(const ToolKernelContact& k, const ToolGroup& g, L
   store_rows(g, gap_row, {{m.normal_force, m.slip, gap, last_gap}});
 }
 
-PLYFORM_INLINE ToolKernelSums tool_kernel(const ToolKernelContact& k) {
-  LaneSums sums;
+PLYFORM_INLINE ToolPlyKernelTotals tool_kernel(const ToolPlyKernelContact& k) {
+  SimdTotals sums;
   Vector4 f{all(0.0), all(0.0), all(0.0)};
-  for (int first = 0; first < k.near_count; first += four)
+  for (int first = 0; first < k.active_count; first += four)
     press_four(k, group_of(k, first), sums, f);
   return {sum(sums.elastic),  sum(sums.friction),
           sum(sums.damping),  largest(sums.penetration),

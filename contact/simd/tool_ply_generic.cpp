@@ -3,7 +3,7 @@
 
 namespace plyform {
 
-ToolKernelSums tool_kernel_generic(const ToolKernelContact& contact) {
+ToolPlyKernelTotals tool_ply_kernel_generic(const ToolPlyKernelContact& contact) {
   return tool_kernel(contact);
 }
 

@@ -7,8 +7,8 @@
 
 namespace plyform {
 
-/// A ToolContactPoint, member for member, in rows of 32 bytes.
-struct alignas(32) ToolKernelPoint {
+/// A ToolPlyPoint, member for member, in rows of 32 bytes.
+struct alignas(32) ToolPlyKernelPoint {
   double s[3], damping_force;
   double normal_force, slip, gap, last_gap;
   double normal[3];
@@ -16,10 +16,11 @@ struct alignas(32) ToolKernelPoint {
 };
 
 /// What the kernel reads and writes of a contact. Motions and forces: 3 a node.
-struct ToolKernelContact {
-  ToolKernelPoint* points;  ///< gaps and normals are those of this step, before the tool's advance
-  const std::int32_t* near; ///< points to look at
-  int near_count;
+struct ToolPlyKernelContact {
+  ToolPlyKernelPoint*
+      points; ///< gaps and normals are those of this step, before the tool's advance
+  const std::int32_t* active; ///< points to look at
+  int active_count;
   const double* area;                     ///< mm^2, of the nodes
   const double* motion;                   ///< mm, of the nodes in this step
   double* force;                          ///< N, on the nodes
@@ -31,13 +32,13 @@ struct ToolKernelContact {
 };
 
 /// Added up over the points that touch; `on_nodes`: their forces.
-struct ToolKernelSums {
+struct ToolPlyKernelTotals {
   double elastic, friction, damping, penetration, slip, step_ratio;
   int touching;
   double on_nodes[3];
 };
 
-ToolKernelSums tool_kernel_generic(const ToolKernelContact& contact);
-ToolKernelSums tool_kernel_avx2(const ToolKernelContact& contact);
+ToolPlyKernelTotals tool_ply_kernel_generic(const ToolPlyKernelContact& contact);
+ToolPlyKernelTotals tool_ply_kernel_avx2(const ToolPlyKernelContact& contact);
 
 } // namespace plyform

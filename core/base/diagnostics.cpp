@@ -11,20 +11,20 @@ std::string CaseError::text() const {
   return fmt::format("{}:{}:{}: error: {}{}; {}", file, line, column, subject, rule, remedy);
 }
 
-void Findings::error(const Place& at, const std::string& item, const std::string& value,
-                     const std::string& rule, const std::string& remedy) {
+void Diagnostics::error(const Place& at, const std::string& item, const std::string& value,
+                        const std::string& rule, const std::string& remedy) {
   errors.push_back({at.file, at.line, at.column, item, value, rule, remedy});
 }
 
-void Findings::error_from(const Place& at, const std::string& item, const std::string& value,
-                          const std::string& what, const std::string& message) {
+void Diagnostics::error_from(const Place& at, const std::string& item, const std::string& value,
+                             const std::string& what, const std::string& message) {
   const std::size_t cut = message.rfind("; ");
   const bool has_remedy = cut != std::string::npos;
   error(at, item, value, what + message.substr(0, cut),
         has_remedy ? message.substr(cut + 2) : "correct it or take it out");
 }
 
-void Findings::warning(const Place& at, const std::string& text) {
+void Diagnostics::warning(const Place& at, const std::string& text) {
   warnings.push_back(fmt::format("{}:{}:{}: warning: {}", at.file, at.line, at.column, text));
 }
 

@@ -26,7 +26,7 @@ struct CaseError {
 };
 
 /// Every mistake and warning found so far.
-struct Findings {
+struct Diagnostics {
   std::vector<CaseError> errors;
   std::vector<std::string> warnings;
   void error(const Place& at, const std::string& item, const std::string& value,

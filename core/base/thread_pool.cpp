@@ -13,7 +13,7 @@ namespace plyform {
 // One round: the caller publishes the task, raises `round`, works too, and waits until every
 // helper has left the round. Helpers spin for a while, then sleep on `round`: a step is a fraction
 // of a millisecond, so waking through the kernel each time would cost more than it saves.
-struct ThreadTeam::Impl {
+struct ThreadPool::Impl {
   std::vector<std::thread> helpers;
   const std::function<void(int)>* task = nullptr;
   int count = 0;
@@ -50,12 +50,12 @@ struct ThreadTeam::Impl {
   }
 };
 
-ThreadTeam::ThreadTeam(int threads) : impl_(std::make_unique<Impl>()) {
+ThreadPool::ThreadPool(int threads) : impl_(std::make_unique<Impl>()) {
   for (int i = 1; i < threads; ++i)
     impl_->helpers.emplace_back([this] { impl_->help(); });
 }
 
-ThreadTeam::~ThreadTeam() {
+ThreadPool::~ThreadPool() {
   impl_->quit = true;
   impl_->round.fetch_add(1, std::memory_order_release);
   impl_->round.notify_all();
@@ -63,7 +63,7 @@ ThreadTeam::~ThreadTeam() {
     t.join();
 }
 
-void ThreadTeam::run(int count, const std::function<void(int)>& task) {
+void ThreadPool::run(int count, const std::function<void(int)>& task) {
   Impl& s = *impl_;
   if (s.helpers.empty()) {
     for (int i = 0; i < count; ++i)
@@ -82,7 +82,7 @@ void ThreadTeam::run(int count, const std::function<void(int)>& task) {
   if (s.failure) std::rethrow_exception(std::exchange(s.failure, nullptr));
 }
 
-int ThreadTeam::size() const {
+int ThreadPool::size() const {
   return static_cast<int>(impl_->helpers.size()) + 1;
 }
 

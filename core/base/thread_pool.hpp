@@ -8,13 +8,13 @@
 
 namespace plyform {
 
-class ThreadTeam {
+class ThreadPool {
 public:
   /// `threads` >= 1, the calling thread included.
-  explicit ThreadTeam(int threads);
-  ~ThreadTeam();
-  ThreadTeam(const ThreadTeam&) = delete;
-  ThreadTeam& operator=(const ThreadTeam&) = delete;
+  explicit ThreadPool(int threads);
+  ~ThreadPool();
+  ThreadPool(const ThreadPool&) = delete;
+  ThreadPool& operator=(const ThreadPool&) = delete;
 
   /// Calls task(0) .. task(count - 1), each once, and returns when all are done. If tasks throw,
   /// the rest is still done and the first exception seen is thrown again here.

@@ -107,7 +107,7 @@ bool is_header(const Row& row) {
 
 /// Column of a name or number, from 0; nothing and a report if there is none.
 std::optional<std::size_t> find_column(const std::string& wanted, const char* option,
-                                       const std::vector<Field>& header, Findings& findings) {
+                                       const std::vector<Field>& header, Diagnostics& diagnostics) {
   std::vector<std::string> names;
   for (const Field& field : header)
     names.push_back(field.text);
@@ -115,8 +115,8 @@ std::optional<std::size_t> find_column(const std::string& wanted, const char* op
   const std::string item = std::string(option).substr(2);
   const auto count = std::count(names.begin(), names.end(), wanted);
   if (count > 1) {
-    findings.error(at, item, wanted, fmt::format("stands {} times in the header", count),
-                   "give the number of the column, from 1");
+    diagnostics.error(at, item, wanted, fmt::format("stands {} times in the header", count),
+                      "give the number of the column, from 1");
     return std::nullopt;
   }
   if (count == 1)
@@ -124,16 +124,16 @@ std::optional<std::size_t> find_column(const std::string& wanted, const char* op
   if (const auto number = number_in(wanted)) {
     if (*number >= 1.0 && *number <= 10000.0 && *number == std::floor(*number))
       return static_cast<std::size_t>(*number) - 1;
-    findings.error(at, item, wanted, "must be a whole number from 1",
-                   "give the number or the name of a column");
+    diagnostics.error(at, item, wanted, "must be a whole number from 1",
+                      "give the number or the name of a column");
   } else if (header.empty()) {
-    findings.error(at, item, wanted, "names a column, but the file has no header row",
-                   "give the number of the column, from 1");
+    diagnostics.error(at, item, wanted, "names a column, but the file has no header row",
+                      "give the number of the column, from 1");
   } else {
     const std::string nearest = nearest_word(wanted, names);
-    findings.error(at, item, wanted, "is no column of the header",
-                   nearest.empty() ? "it has " + joined(names)
-                                   : fmt::format("did you mean {}?", nearest));
+    diagnostics.error(at, item, wanted, "is no column of the header",
+                      nearest.empty() ? "it has " + joined(names)
+                                      : fmt::format("did you mean {}?", nearest));
   }
   return std::nullopt;
 }
@@ -142,15 +142,15 @@ std::optional<std::size_t> find_column(const std::string& wanted, const char* op
 /// of numbers (`first`) has is the option's mistake, unless it was not given.
 std::optional<std::size_t> chosen_column(const std::string& wanted, const char* otherwise,
                                          const char* option, const std::vector<Row>& rows,
-                                         std::size_t first, Findings& findings) {
+                                         std::size_t first, Diagnostics& diagnostics) {
   const std::vector<Field> header = first > 0 ? rows[0].fields : std::vector<Field>{};
-  const auto column = find_column(wanted.empty() ? otherwise : wanted, option, header, findings);
+  const auto column = find_column(wanted.empty() ? otherwise : wanted, option, header, diagnostics);
   if (!column || wanted.empty() || first == rows.size()) return column;
   const std::size_t count = rows[first].fields.size();
   if (*column < count) return column;
-  findings.error({option, 1, 1}, std::string(option).substr(2), wanted,
-                 fmt::format("the rows have {} column{}", count, count == 1 ? "" : "s"),
-                 "give another column, or separate columns by comma, semicolon or tab");
+  diagnostics.error({option, 1, 1}, std::string(option).substr(2), wanted,
+                    fmt::format("the rows have {} column{}", count, count == 1 ? "" : "s"),
+                    "give another column, or separate columns by comma, semicolon or tab");
   return std::nullopt;
 }
 
@@ -175,7 +175,7 @@ Cell read_cell(const std::string& text) {
 
 /// Collects the numbers; reports the first mistakes and how many more there are.
 bool read_cells(const std::vector<Row>& rows, std::size_t first, const std::size_t columns[2],
-                Curve& curve, Findings& findings) {
+                Curve& curve, Diagnostics& diagnostics) {
   constexpr int shown = 5;
   const std::size_t needed = std::max(columns[0], columns[1]) + 1;
   int mistakes = 0;
@@ -183,11 +183,11 @@ bool read_cells(const std::vector<Row>& rows, std::size_t first, const std::size
     const Row& row = rows[r];
     if (row.fields.size() < needed) {
       if (++mistakes <= shown)
-        findings.error({curve.file, row.line, 1}, "", "",
-                       fmt::format("the row has {} column{}, there must be at least {}",
-                                   row.fields.size(), row.fields.size() == 1 ? "" : "s", needed),
-                       "separate columns by comma, semicolon or tab, and give every row all of "
-                       "them");
+        diagnostics.error({curve.file, row.line, 1}, "", "",
+                          fmt::format("the row has {} column{}, there must be at least {}",
+                                      row.fields.size(), row.fields.size() == 1 ? "" : "s", needed),
+                          "separate columns by comma, semicolon or tab, and give every row all of "
+                          "them");
       continue;
     }
     double values[2];
@@ -196,17 +196,17 @@ bool read_cells(const std::vector<Row>& rows, std::size_t first, const std::size
       const Cell cell = read_cell(field.text);
       values[i] = cell.value;
       if (!cell.rule.empty() && ++mistakes <= shown)
-        findings.error({curve.file, row.line, field.column}, i == 0 ? curve.x_name : curve.y_name,
-                       field.text, cell.rule, cell.remedy);
+        diagnostics.error({curve.file, row.line, field.column},
+                          i == 0 ? curve.x_name : curve.y_name, field.text, cell.rule, cell.remedy);
     }
     curve.x.push_back(values[0]);
     curve.y.push_back(values[1]);
     curve.line.push_back(row.line);
   }
   if (mistakes > shown)
-    findings.error({curve.file, rows.back().line, 1}, "", "",
-                   fmt::format("{} more mistakes like these", mistakes - shown),
-                   "check the separator and the columns chosen");
+    diagnostics.error({curve.file, rows.back().line, 1}, "", "",
+                      fmt::format("{} more mistakes like these", mistakes - shown),
+                      "check the separator and the columns chosen");
   return mistakes == 0;
 }
 
@@ -217,18 +217,18 @@ std::string name_of(const std::vector<Field>& header, std::size_t column) {
 
 /// Rows that step back by more than noise: the test was unloaded, or the column has another sign.
 void report_falling(const Curve& curve, const std::string& word, std::size_t row, double peak,
-                    int peak_line, Findings& findings) {
+                    int peak_line, Diagnostics& diagnostics) {
   const Place at{curve.file, curve.line[row], 1};
   const std::string value = fmt::format("{:g}", curve.x[row]);
   const double lowest = *std::min_element(curve.x.begin(), curve.x.end());
   if (curve.x.front() - curve.x.back() >= 0.5 * (curve.x.front() - lowest) &&
       *std::max_element(curve.x.begin(), curve.x.end()) - curve.x.front() <=
           back_share * (curve.x.front() - lowest))
-    findings.error(at, curve.x_name, value,
-                   fmt::format("the {} falls from the first row on, it must rise", word),
-                   "turn its sign round, or choose another column with --x-column");
+    diagnostics.error(at, curve.x_name, value,
+                      fmt::format("the {} falls from the first row on, it must rise", word),
+                      "turn its sign round, or choose another column with --x-column");
   else
-    findings.error(
+    diagnostics.error(
         at, curve.x_name, value,
         fmt::format("the {} must rise, but falls from {:g} in line {}", word, peak, peak_line),
         fmt::format("if the test was unloaded there, take out the rows from line {} on; "
@@ -237,14 +237,14 @@ void report_falling(const Curve& curve, const std::string& word, std::size_t row
 }
 
 /// Sorts small steps back; false if there are large ones.
-bool sort_rows(Curve& curve, const std::string& word, Findings& findings) {
+bool sort_rows(Curve& curve, const std::string& word, Diagnostics& diagnostics) {
   const auto [least, most] = std::minmax_element(curve.x.begin(), curve.x.end());
   const double span = *most - *least;
   if (!(span > 0.0)) {
-    findings.error({curve.file, curve.line.front(), 1}, curve.x_name,
-                   fmt::format("{:g}", curve.x.front()),
-                   fmt::format("the {} is the same in every row, it must rise", word),
-                   "choose another column with --x-column");
+    diagnostics.error({curve.file, curve.line.front(), 1}, curve.x_name,
+                      fmt::format("{:g}", curve.x.front()),
+                      fmt::format("the {} is the same in every row, it must rise", word),
+                      "choose another column with --x-column");
     return false;
   }
   std::size_t peak = 0;
@@ -256,14 +256,15 @@ bool sort_rows(Curve& curve, const std::string& word, Findings& findings) {
     const double back = curve.x[peak] - curve.x[i];
     largest = std::max(largest, back);
     if (back <= back_share * span) continue;
-    report_falling(curve, word, i, curve.x[peak], curve.line[peak], findings);
+    report_falling(curve, word, i, curve.x[peak], curve.line[peak], diagnostics);
     return false;
   }
   if (steps == 0) return true;
-  findings.warning({curve.file, curve.line.front(), 1},
-                   fmt::format("the {} steps back {} time{}, by {:.2g} % of its span at most: the "
-                               "rows have been sorted",
-                               word, steps, steps == 1 ? "" : "s", 100.0 * largest / span));
+  diagnostics.warning(
+      {curve.file, curve.line.front(), 1},
+      fmt::format("the {} steps back {} time{}, by {:.2g} % of its span at most: the "
+                  "rows have been sorted",
+                  word, steps, steps == 1 ? "" : "s", 100.0 * largest / span));
   std::vector<std::size_t> order(curve.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(),
@@ -278,94 +279,95 @@ bool sort_rows(Curve& curve, const std::string& word, Findings& findings) {
 }
 
 /// Takes out rows below 0 in x; false if they are more than noise.
-bool cut_below_zero(Curve& curve, const std::string& word, Findings& findings) {
+bool cut_below_zero(Curve& curve, const std::string& word, Diagnostics& diagnostics) {
   const auto below = std::lower_bound(curve.x.begin(), curve.x.end(), 0.0) - curve.x.begin();
   if (below == 0) return true;
   if (-curve.x.front() > back_share * curve.x.back()) {
-    findings.error({curve.file, curve.line.front(), 1}, curve.x_name,
-                   fmt::format("{:g}", curve.x.front()),
-                   fmt::format("the {} must not be below 0", word),
-                   "subtract the value at which the load begins to rise");
+    diagnostics.error({curve.file, curve.line.front(), 1}, curve.x_name,
+                      fmt::format("{:g}", curve.x.front()),
+                      fmt::format("the {} must not be below 0", word),
+                      "subtract the value at which the load begins to rise");
     return false;
   }
-  findings.warning({curve.file, curve.line.front(), 1},
-                   fmt::format("{} row{} with {} below 0, down to {:g}: left out", below,
-                               below == 1 ? "" : "s", word, curve.x.front()));
+  diagnostics.warning({curve.file, curve.line.front(), 1},
+                      fmt::format("{} row{} with {} below 0, down to {:g}: left out", below,
+                                  below == 1 ? "" : "s", word, curve.x.front()));
   curve.x.erase(curve.x.begin(), curve.x.begin() + below);
   curve.y.erase(curve.y.begin(), curve.y.begin() + below);
   curve.line.erase(curve.line.begin(), curve.line.begin() + below);
   return true;
 }
 
-bool check_signs(const Curve& curve, const std::string& word, Findings& findings) {
+bool check_signs(const Curve& curve, const std::string& word, Diagnostics& diagnostics) {
   const double most = *std::max_element(curve.y.begin(), curve.y.end());
   const auto least = std::min_element(curve.y.begin(), curve.y.end()) - curve.y.begin();
   const std::size_t row = static_cast<std::size_t>(least);
   if (most > 0.0 && curve.y[row] >= -noise_share * most) return true;
   const Place at{curve.file, curve.line[row], 1};
   if (most == 0.0 && curve.y[row] == 0.0) {
-    findings.error(at, curve.y_name, "0",
-                   fmt::format("the {} is 0 in every row, it must rise", word),
-                   "choose another column with --y-column");
+    diagnostics.error(at, curve.y_name, "0",
+                      fmt::format("the {} is 0 in every row, it must rise", word),
+                      "choose another column with --y-column");
     return false;
   }
   const bool turned = !(most > -curve.y[row]);
-  findings.error(at, curve.y_name, fmt::format("{:g}", curve.y[row]),
-                 fmt::format("the {} must not be below 0 by more than {:g} % of its largest value, "
-                             "{:g}",
-                             word, 100.0 * noise_share, most),
-                 turned ? "turn the sign of the column round, or choose another with --y-column"
-                        : "subtract the value that the load cell shows without load");
+  diagnostics.error(
+      at, curve.y_name, fmt::format("{:g}", curve.y[row]),
+      fmt::format("the {} must not be below 0 by more than {:g} % of its largest value, "
+                  "{:g}",
+                  word, 100.0 * noise_share, most),
+      turned ? "turn the sign of the column round, or choose another with --y-column"
+             : "subtract the value that the load cell shows without load");
   return false;
 }
 
 } // namespace
 
 std::optional<Curve> read_curve(const std::filesystem::path& file, const std::string& x_column,
-                                const std::string& y_column, Findings& findings) {
+                                const std::string& y_column, Diagnostics& diagnostics) {
   Curve curve;
   curve.file = file.string();
   const Place start{curve.file, 1, 1};
   std::string reason;
   const std::optional<std::string> text = read_text(file, reason);
   if (!text) {
-    findings.error(start, "", "", "the curve " + reason, "give the path of a CSV file");
+    diagnostics.error(start, "", "", "the curve " + reason, "give the path of a CSV file");
     return std::nullopt;
   }
   if (text->find('\0') != std::string::npos) {
-    findings.error(start, "", "", "the file is no plain text in UTF-8",
-                   "save the curve as CSV in UTF-8");
+    diagnostics.error(start, "", "", "the file is no plain text in UTF-8",
+                      "save the curve as CSV in UTF-8");
     return std::nullopt;
   }
   const std::vector<Row> rows = split_rows(*text);
   std::size_t first = 0;
   while (first < rows.size() && is_header(rows[first]))
     ++first;
-  const auto x = chosen_column(x_column, "1", "--x-column", rows, first, findings);
-  const auto y = chosen_column(y_column, "2", "--y-column", rows, first, findings);
+  const auto x = chosen_column(x_column, "1", "--x-column", rows, first, diagnostics);
+  const auto y = chosen_column(y_column, "2", "--y-column", rows, first, diagnostics);
   if (!x || !y) return std::nullopt;
   const std::vector<Field> header = first > 0 ? rows[0].fields : std::vector<Field>{};
   curve.x_name = name_of(header, *x);
   curve.y_name = name_of(header, *y);
   if (*x == *y) {
-    findings.error({"--y-column", 1, 1}, "y-column", y_column.empty() ? "2" : y_column,
-                   "is the column of --x-column too", "give two different columns");
+    diagnostics.error({"--y-column", 1, 1}, "y-column", y_column.empty() ? "2" : y_column,
+                      "is the column of --x-column too", "give two different columns");
     return std::nullopt;
   }
   if (first == rows.size()) {
-    findings.error(start, "", "", "the file has no row of numbers",
-                   "give a CSV file with two columns of numbers");
+    diagnostics.error(start, "", "", "the file has no row of numbers",
+                      "give a CSV file with two columns of numbers");
     return std::nullopt;
   }
   const std::size_t columns[2] = {*x, *y};
-  if (!read_cells(rows, first, columns, curve, findings)) return std::nullopt;
+  if (!read_cells(rows, first, columns, curve, diagnostics)) return std::nullopt;
   return curve;
 }
 
 bool check_curve(Curve& curve, const std::string& x_word, const std::string& y_word,
-                 Findings& findings) {
-  return sort_rows(curve, x_word, findings) && cut_below_zero(curve, x_word, findings) &&
-         check_signs(curve, y_word, findings);
+                 Diagnostics& diagnostics) {
+  return sort_rows(curve, x_word, diagnostics) && cut_below_zero(curve, x_word, diagnostics) &&
+         check_signs(curve, y_word, diagnostics);
 }
 
 } // namespace plyform

@@ -27,7 +27,7 @@ struct Curve {
 /// two. Every mistake goes to `findings`, of unreadable numbers the first five; then the answer is
 /// nothing. Never throws for anything that stands in the file.
 std::optional<Curve> read_curve(const std::filesystem::path& file, const std::string& x_column,
-                                const std::string& y_column, Findings& findings);
+                                const std::string& y_column, Diagnostics& diagnostics);
 
 /// What the curve of a test that only loads must satisfy; false, and a report, if it does not:
 /// - x rises; it may step back by `back_share` of its span at most, then the rows are sorted and a
@@ -36,7 +36,7 @@ std::optional<Curve> read_curve(const std::filesystem::path& file, const std::st
 /// - y is not below 0 by more than `noise_share` of its largest value.
 /// `x_word` and `y_word` ("extension", "load") name the columns in messages.
 bool check_curve(Curve& curve, const std::string& x_word, const std::string& y_word,
-                 Findings& findings);
+                 Diagnostics& diagnostics);
 inline constexpr double back_share = 0.01;
 /// Load cells are good to some tenths of a percent of their range, of which a test uses a part.
 inline constexpr double noise_share = 0.02;

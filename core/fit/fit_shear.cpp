@@ -27,18 +27,18 @@ Place place_of(const Curve& curve, std::size_t row = 0) {
 /// The rows between `from` and `to`; nothing and a report if one is beyond the test's geometry.
 std::optional<std::vector<Sample>> samples_of(const Curve& curve, const ShearTest& test,
                                               const Fabric& fabric, const FitOptions& options,
-                                              Findings& findings) {
+                                              Diagnostics& diagnostics) {
   std::vector<Sample> samples;
   const double locking = locking_extension(test);
   for (std::size_t i = 0; i < curve.size(); ++i) {
     if (curve.x[i] >= locking) {
       if (options.to < 0.5 * std::numbers::pi) break; // rows rise: all others are beyond it too
-      findings.error(place_of(curve, i), curve.x_name, fmt::format("{:g}", curve.x[i]),
-                     fmt::format("the extension must be less than {:.4g} mm, where the specimen "
-                                 "would shear by 90 degrees",
-                                 locking),
-                     "check the size of the specimen and that the column is in mm, or leave the "
-                     "end out with --to");
+      diagnostics.error(place_of(curve, i), curve.x_name, fmt::format("{:g}", curve.x[i]),
+                        fmt::format("the extension must be less than {:.4g} mm, where the specimen "
+                                    "would shear by 90 degrees",
+                                    locking),
+                        "check the size of the specimen and that the column is in mm, or leave the "
+                        "end out with --to");
       return std::nullopt;
     }
     const TorqueWeights weights = torque_weights(test, fabric, curve.x[i]);
@@ -49,27 +49,28 @@ std::optional<std::vector<Sample>> samples_of(const Curve& curve, const ShearTes
 }
 
 bool enough(const Curve& curve, const std::vector<Sample>& samples, const FitOptions& options,
-            Findings& findings) {
+            Diagnostics& diagnostics) {
   const int sheared = static_cast<int>(std::count_if(
       samples.begin(), samples.end(), [](const Sample& s) { return s.weights.angle > 0.0; }));
   if (sheared < 2 * options.coefficients) {
-    findings.error(place_of(curve), "", "",
-                   fmt::format("{} row{} with a shear angle above 0 within the range, {} "
-                               "coefficient{} need{} at least {}",
-                               sheared, sheared == 1 ? "" : "s", options.coefficients,
-                               options.coefficients == 1 ? "" : "s",
-                               options.coefficients == 1 ? "s" : "", 2 * options.coefficients),
-                   "record more rows, widen --from and --to, or take fewer --coefficients");
+    diagnostics.error(place_of(curve), "", "",
+                      fmt::format("{} row{} with a shear angle above 0 within the range, {} "
+                                  "coefficient{} need{} at least {}",
+                                  sheared, sheared == 1 ? "" : "s", options.coefficients,
+                                  options.coefficients == 1 ? "" : "s",
+                                  options.coefficients == 1 ? "s" : "", 2 * options.coefficients),
+                      "record more rows, widen --from and --to, or take fewer --coefficients");
     return false;
   }
   const double range = samples.back().weights.angle - samples.front().weights.angle;
   if (range >= least_range) return true;
-  findings.error(place_of(curve), "", "",
-                 fmt::format("the rows cover {:.2g} degrees of shear angle, there must be at least "
-                             "{:g}",
-                             range / deg, least_range / deg),
-                 "test to a larger extension, widen --from and --to, or check the size of the "
-                 "specimen and that the column is in mm");
+  diagnostics.error(
+      place_of(curve), "", "",
+      fmt::format("the rows cover {:.2g} degrees of shear angle, there must be at least "
+                  "{:g}",
+                  range / deg, least_range / deg),
+      "test to a larger extension, widen --from and --to, or check the size of the "
+      "specimen and that the column is in mm");
   return false;
 }
 
@@ -109,11 +110,12 @@ double unsound_at(const ShearLaw& law, double from, double to) {
   return 2.0 * to;
 }
 
-bool sound(const Curve& curve, const ShearLaw& law, const FitQuality& quality, Findings& findings) {
+bool valid(const Curve& curve, const ShearLaw& law, const FitQuality& quality,
+           Diagnostics& diagnostics) {
   const double at = unsound_at(law, 0.0, quality.to);
   if (at <= quality.to) {
     const LawPoint p = law.at(at);
-    findings.error(
+    diagnostics.error(
         place_of(curve), "", "",
         fmt::format("the fitted torque {} at {:.3g} degrees ({:.3g} N mm, slope {:.3g} N mm/rad), "
                     "within the range covered: a cell must resist shear everywhere",
@@ -126,26 +128,27 @@ bool sound(const Curve& curve, const ShearLaw& law, const FitQuality& quality, F
   }
   constexpr double end = 0.5 * std::numbers::pi;
   if (const double beyond = unsound_at(law, quality.to, end); beyond <= end)
-    findings.warning(place_of(curve),
-                     fmt::format("beyond the range covered, from {:.3g} degrees on, the torque "
-                                 "falls: do not form to larger angles with it, or take fewer "
-                                 "--coefficients",
-                                 beyond / deg));
+    diagnostics.warning(place_of(curve),
+                        fmt::format("beyond the range covered, from {:.3g} degrees on, the torque "
+                                    "falls: do not form to larger angles with it, or take fewer "
+                                    "--coefficients",
+                                    beyond / deg));
   return true;
 }
 
-void warn_of_start(const Curve& curve, const Sample& first, Findings& findings) {
+void warn_of_start(const Curve& curve, const Sample& first, Diagnostics& diagnostics) {
   const double angle = first.weights.angle;
   if (angle > least_range)
-    findings.warning(place_of(curve), fmt::format("the rows start at {:.3g} degrees: below, the "
-                                                  "law is a guess",
-                                                  angle / deg));
+    diagnostics.warning(place_of(curve), fmt::format("the rows start at {:.3g} degrees: below, the "
+                                                     "law is a guess",
+                                                     angle / deg));
   const double most = *std::max_element(curve.y.begin(), curve.y.end());
   if (angle < 0.1 * deg && first.load > noise_share * most)
-    findings.warning(place_of(curve),
-                     fmt::format("{:.3g} N at an extension of {:.3g} mm, where the theory has next "
-                                 "to none: subtract a preload or an offset, or start with --from",
-                                 first.load, first.extension));
+    diagnostics.warning(
+        place_of(curve),
+        fmt::format("{:.3g} N at an extension of {:.3g} mm, where the theory has next "
+                    "to none: subtract a preload or an offset, or start with --from",
+                    first.load, first.extension));
 }
 
 void check_options(const Fabric& fabric, const FitOptions& options) {
@@ -176,30 +179,32 @@ FitQuality quality_of(const std::vector<double>& at, const std::vector<double>& 
 }
 
 bool check_quality(const Curve& curve, const FitQuality& quality, const std::string& where,
-                   const std::string& remedy, Findings& findings) {
+                   const std::string& remedy, Diagnostics& diagnostics) {
   const std::string figures = fmt::format("{:.3g} % rms of the load, {:.3g} % at most, at {}",
                                           100.0 * quality.rms, 100.0 * quality.largest, where);
   if (!(quality.rms <= useless)) {
-    findings.error(place_of(curve), "", "",
-                   fmt::format("the curve is no law's: residuals {}; they must be less than {:g} %",
-                               figures, 100.0 * useless),
-                   remedy);
+    diagnostics.error(
+        place_of(curve), "", "",
+        fmt::format("the curve is no law's: residuals {}; they must be less than {:g} %", figures,
+                    100.0 * useless),
+        remedy);
     return false;
   }
   if (quality.rms > noisy)
-    findings.warning(place_of(curve), fmt::format("noise, or a shape that the law does not have: "
-                                                  "residuals {}; {}",
-                                                  figures, remedy));
+    diagnostics.warning(place_of(curve),
+                        fmt::format("noise, or a shape that the law does not have: "
+                                    "residuals {}; {}",
+                                    figures, remedy));
   return true;
 }
 
 std::optional<ShearFit> identify_shear(Curve curve, const ShearTest& test, const Fabric& fabric,
-                                       const FitOptions& options, Findings& findings) {
+                                       const FitOptions& options, Diagnostics& diagnostics) {
   check_options(fabric, options);
-  if (!check_curve(curve, "extension", "load", findings)) return std::nullopt;
-  const auto samples = samples_of(curve, test, fabric, options, findings);
-  if (!samples || !enough(curve, *samples, options, findings)) return std::nullopt;
-  warn_of_start(curve, samples->front(), findings);
+  if (!check_curve(curve, "extension", "load", diagnostics)) return std::nullopt;
+  const auto samples = samples_of(curve, test, fabric, options, diagnostics);
+  if (!samples || !enough(curve, *samples, options, diagnostics)) return std::nullopt;
+  warn_of_start(curve, samples->front(), diagnostics);
   ShearFit result;
   result.law.k = fit(*samples, options.coefficients);
   clear_rounding(result.law, samples->back().weights.angle);
@@ -216,8 +221,8 @@ std::optional<ShearFit> identify_shear(Curve curve, const ShearTest& test, const
       curve, result.quality, fmt::format("{:.3g} degrees", result.quality.largest_at / deg),
       "check columns and specimen, smooth the curve, take more --coefficients, or leave out "
       "slipping and wrinkling with --to",
-      findings);
-  if (!good || !sound(curve, result.law, result.quality, findings)) return std::nullopt;
+      diagnostics);
+  if (!good || !valid(curve, result.law, result.quality, diagnostics)) return std::nullopt;
   return result;
 }
 

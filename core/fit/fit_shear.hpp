@@ -71,7 +71,7 @@ struct TensionFit {
 /// followed to within 20 %, or gives a torque that is negative or falls within the range covered.
 /// Throws std::invalid_argument for options out of range.
 std::optional<ShearFit> identify_shear(Curve curve, const ShearTest& test, const Fabric& fabric,
-                                       const FitOptions& options, Findings& findings);
+                                       const FitOptions& options, Diagnostics& diagnostics);
 
 /// How a tension curve was measured; x / gauge_length is the strain, y / yarns the tension of one
 /// yarn, N.
@@ -86,13 +86,13 @@ struct Strip {
 /// tensions by least squares. Nothing, and a report, when the curve breaks a rule of check_curve,
 /// has fewer than two rows, strains of 50 % and more, softens, or is not followed to within 20 %.
 std::optional<TensionFit> identify_tension(Curve curve, const Strip& strip,
-                                           const FitOptions& options, Findings& findings);
+                                           const FitOptions& options, Diagnostics& diagnostics);
 
 /// Parts of both. quality_of: the residuals of each row at `at`. check_quality: false, and a
 /// report, if they are useless; a warning if they are noisy; `where` says where the largest one is.
 FitQuality quality_of(const std::vector<double>& at, const std::vector<double>& measured,
                       const std::vector<double>& fitted);
 bool check_quality(const Curve& curve, const FitQuality& quality, const std::string& where,
-                   const std::string& remedy, Findings& findings);
+                   const std::string& remedy, Diagnostics& diagnostics);
 
 } // namespace plyform

@@ -33,30 +33,31 @@ void scale_curve(Curve& curve, const Strip& strip, const FitOptions& options) {
   curve = std::move(scaled);
 }
 
-bool enough(const Curve& curve, const Place& start, Findings& findings) {
+bool enough(const Curve& curve, const Place& start, Diagnostics& diagnostics) {
   const auto strained =
       std::count_if(curve.x.begin(), curve.x.end(), [](double strain) { return strain > 0.0; });
   if (strained < 2) {
-    findings.error(start, "", "",
-                   fmt::format("{} row{} with a strain above 0 within the range, a law of tension "
-                               "needs at least 2",
-                               strained, strained == 1 ? "" : "s"),
-                   "record more rows, or widen --from and --to");
+    diagnostics.error(
+        start, "", "",
+        fmt::format("{} row{} with a strain above 0 within the range, a law of tension "
+                    "needs at least 2",
+                    strained, strained == 1 ? "" : "s"),
+        "record more rows, or widen --from and --to");
     return false;
   }
   const double most = curve.x.back();
   if (most >= impossible_strain) {
-    findings.error(place_of(curve, curve.size() - 1), curve.x_name, fmt::format("{:g}", most),
-                   fmt::format("the strain must be less than {:g}", impossible_strain),
-                   "give --gauge-length if the column is a displacement in mm, 100 if it is a "
-                   "strain in %");
+    diagnostics.error(place_of(curve, curve.size() - 1), curve.x_name, fmt::format("{:g}", most),
+                      fmt::format("the strain must be less than {:g}", impossible_strain),
+                      "give --gauge-length if the column is a displacement in mm, 100 if it is a "
+                      "strain in %");
     return false;
   }
   if (most > much_strain)
-    findings.warning(place_of(curve, curve.size() - 1),
-                     fmt::format("a strain of {:.3g} is much for a yarn: if the column is in %, "
-                                 "give --gauge-length 100",
-                                 most));
+    diagnostics.warning(place_of(curve, curve.size() - 1),
+                        fmt::format("a strain of {:.3g} is much for a yarn: if the column is in %, "
+                                    "give --gauge-length 100",
+                                    most));
   return true;
 }
 
@@ -123,17 +124,18 @@ double make_rising(std::vector<double>& tension) {
 }
 
 /// The table, or nothing and a report if the curve softens.
-std::optional<TensionLaw> table_of(const Curve& curve, Findings& findings) {
+std::optional<TensionLaw> table_of(const Curve& curve, Diagnostics& diagnostics) {
   std::vector<double> knots = knots_of(curve), tension = tensions_at(knots, curve);
   const double most = *std::max_element(tension.begin(), tension.end());
   const auto peak = std::max_element(curve.y.begin(), curve.y.end()) - curve.y.begin();
   if (const double change = make_rising(tension); change > noise_share * most) {
-    findings.error(place_of(curve, static_cast<std::size_t>(peak)), curve.y_name,
-                   fmt::format("{:g}", curve.y[static_cast<std::size_t>(peak)]),
-                   fmt::format("the tension falls with rising strain, by more than {:g} % of its "
-                               "largest value: a yarn that softens is not modelled",
-                               100.0 * noise_share),
-                   "end the curve before it breaks, with --to, or smooth it");
+    diagnostics.error(
+        place_of(curve, static_cast<std::size_t>(peak)), curve.y_name,
+        fmt::format("{:g}", curve.y[static_cast<std::size_t>(peak)]),
+        fmt::format("the tension falls with rising strain, by more than {:g} % of its "
+                    "largest value: a yarn that softens is not modelled",
+                    100.0 * noise_share),
+        "end the curve before it breaks, with --to, or smooth it");
     return std::nullopt;
   }
   while (knots.size() > 1 && tension[tension.size() - 2] == tension.back()) {
@@ -160,27 +162,27 @@ TensionFit result_of(const TensionLaw& law, const Curve& curve) {
 } // namespace
 
 std::optional<TensionFit> identify_tension(Curve curve, const Strip& strip,
-                                           const FitOptions& options, Findings& findings) {
+                                           const FitOptions& options, Diagnostics& diagnostics) {
   if (!(strip.yarns > 0.0 && strip.gauge_length > 0.0))
     throw std::invalid_argument("yarns and gauge length must be greater than 0");
   if (!(options.from >= 0.0 && options.to > options.from))
     throw std::invalid_argument("the range must start at 0 or above and end above its start");
-  if (!check_curve(curve, "strain", "tension", findings)) return std::nullopt;
+  if (!check_curve(curve, "strain", "tension", diagnostics)) return std::nullopt;
   const Place start = place_of(curve);
   scale_curve(curve, strip, options);
-  if (!enough(curve, start, findings)) return std::nullopt;
+  if (!enough(curve, start, diagnostics)) return std::nullopt;
   TensionLaw line;
   line.stiffness = weighted_least_squares(vector_of(curve.x), vector_of(curve.y))[0];
   TensionFit result = result_of(line, curve);
   if (result.quality.rms > noisy) {
-    const std::optional<TensionLaw> table = table_of(curve, findings);
+    const std::optional<TensionLaw> table = table_of(curve, diagnostics);
     if (!table) return std::nullopt;
     const TensionFit with_table = result_of(*table, curve);
     if (with_table.quality.rms < 0.5 * result.quality.rms) result = with_table;
   }
   if (!check_quality(curve, result.quality,
                      fmt::format("a strain of {:.3g}", result.quality.largest_at),
-                     "check the columns, or smooth the curve", findings))
+                     "check the columns, or smooth the curve", diagnostics))
     return std::nullopt;
   return result;
 }

@@ -15,11 +15,11 @@ struct BoundaryCheck {
   const Case& scene;
   const CaseParts& parts;
   const std::vector<FlatPly>& plies;
-  Findings& findings;
+  Diagnostics& diagnostics;
 
   void fail(std::size_t boundary, const std::string& rule, const std::string& remedy) {
-    findings.error(parts.boundaries[boundary].at, parts.boundaries[boundary].item,
-                   scene.boundaries[boundary].name, rule, remedy);
+    diagnostics.error(parts.boundaries[boundary].at, parts.boundaries[boundary].item,
+                      scene.boundaries[boundary].name, rule, remedy);
   }
 };
 
@@ -114,7 +114,7 @@ void check_fibres(BoundaryCheck& check, std::size_t index) {
 
 /// Tools must be their own mirror images and stay so.
 void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
-                          const std::vector<Surface>& surfaces) {
+                          const std::vector<TriMesh>& surfaces) {
   const Boundary& plane = check.scene.boundaries[index];
   const Vec3 normal = normal_of(plane), point(plane.point.x(), plane.point.y(), 0.0);
   constexpr double same = 0.01; // mm: less than any contact depth
@@ -150,7 +150,7 @@ bool crosses(const BoundaryCheck& check, const Boundary& plane, const Boundary& 
       if (!holds(plane, ply, x) || !holds(other, ply, x)) continue;
       const Vec3 X(x.x(), x.y(), 0.0);
       for (const double part : {0.5, 1.0}) // frames move on curves
-        if (std::abs((held_place(other, X, part * other.stroke) - X).dot(normal)) >
+        if (std::abs((prescribed_position(other, X, part * other.stroke) - X).dot(normal)) >
             1e-6 * other.stroke)
           return true;
     }
@@ -171,8 +171,8 @@ void check_mirrored_loads(BoundaryCheck& check, std::size_t index) {
 } // namespace
 
 void check_boundaries(const Case& scene, const CaseParts& parts, const std::vector<FlatPly>& plies,
-                      const std::vector<Surface>& surfaces, Findings& findings) {
-  BoundaryCheck check{scene, parts, plies, findings};
+                      const std::vector<TriMesh>& surfaces, Diagnostics& diagnostics) {
+  BoundaryCheck check{scene, parts, plies, diagnostics};
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
     check_holds_something(check, b);
     for (std::size_t a = 0; a < b; ++a)

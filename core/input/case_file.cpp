@@ -19,8 +19,8 @@ namespace {
 
 using Numbers = std::map<std::string, int>; ///< index by name
 
-BlankSpec read_blank(const Section& section, const std::filesystem::path& folder,
-                     Findings& findings) {
+BlankSpec read_blank(const TableView& section, const std::filesystem::path& folder,
+                     Diagnostics& diagnostics) {
   static const std::map<std::string, MeshKind> kinds{
       {"diagonal", MeshKind::diagonal}, {"alternating", MeshKind::alternating},
       {"crossed", MeshKind::crossed},   {"fibres", MeshKind::fibres},
@@ -30,12 +30,12 @@ BlankSpec read_blank(const Section& section, const std::filesystem::path& folder
   if (kind == kinds.end()) return blank;
   blank.mesh = kind->second;
   if (blank.mesh == MeshKind::file) {
-    const Entry* file = given(section, "file");
+    const TomlNode* file = given(section, "file");
     if (!file) return blank;
     blank.file = resolve_path(*file, folder).lexically_normal();
     if (!std::filesystem::is_regular_file(blank.file))
       value_error(section, "file", "there is no file " + blank.file.string(),
-                  "give the path of a blank's mesh, seen from the file that names it", findings);
+                  "give the path of a blank's mesh, seen from the file that names it", diagnostics);
     return blank;
   }
   blank.element_size = number(section, "element_size");
@@ -44,10 +44,10 @@ BlankSpec read_blank(const Section& section, const std::filesystem::path& folder
   if (given(section, "size"))
     blank.outline.boundary = {
         {-half.x(), -half.y()}, {half.x(), -half.y()}, {half.x(), half.y()}, {-half.x(), half.y()}};
-  if (const Entry* holes = given(section, "holes"))
-    for (const Entry& hole : holes->children) {
+  if (const TomlNode* holes = given(section, "holes"))
+    for (const TomlNode& hole : holes->children) {
       std::vector<Vec2>& corners = blank.outline.holes.emplace_back();
-      for (const Entry& corner : hole.children)
+      for (const TomlNode& corner : hole.children)
         corners.emplace_back(corner.children[0].number, corner.children[1].number);
     }
   for (Vec2& x : blank.outline.boundary)
@@ -59,9 +59,9 @@ BlankSpec read_blank(const Section& section, const std::filesystem::path& folder
 }
 
 /// Names of the tables of a map, in order.
-Numbers names_of(const Section& root, const std::string& key) {
+Numbers names_of(const TableView& root, const std::string& key) {
   Numbers names;
-  for (const Section& section : subsections(root, key))
+  for (const TableView& section : subsections(root, key))
     names.emplace(section.item.substr(key.size() + 1), static_cast<int>(names.size()));
   return names;
 }
@@ -74,25 +74,25 @@ std::string known_names(const Numbers& names) {
 }
 
 /// The number of the part that a key names; 0 and a report if there is none.
-int named_part(const Section& section, const std::string& key, const Numbers& names,
-               Findings& findings) {
+int named_part(const TableView& section, const std::string& key, const Numbers& names,
+               Diagnostics& diagnostics) {
   const auto it = names.find(text(section, key));
   if (it != names.end()) return it->second;
   if (given(section, key))
-    value_error(section, key, "names no " + key + " of this case", known_names(names), findings);
+    value_error(section, key, "names no " + key + " of this case", known_names(names), diagnostics);
   return 0;
 }
 
-std::vector<Ply> read_plies(const Section& root, const std::vector<Fabric>& fabrics,
-                            Findings& findings) {
+std::vector<Ply> read_plies(const TableView& root, const std::vector<Fabric>& fabrics,
+                            Diagnostics& diagnostics) {
   const Numbers fabric_names = names_of(root, "fabrics"), blank_names = names_of(root, "blanks");
   double top = number(subsection(root, "stack"), "bottom");
   std::vector<Ply> plies;
-  for (const Section& section : subsections(root, "ply")) {
+  for (const TableView& section : subsections(root, "ply")) {
     Ply ply;
     ply.name = text(section, "name");
-    ply.fabric = named_part(section, "fabric", fabric_names, findings);
-    ply.blank = named_part(section, "blank", blank_names, findings);
+    ply.fabric = named_part(section, "fabric", fabric_names, diagnostics);
+    ply.blank = named_part(section, "blank", blank_names, diagnostics);
     ply.angle = number(section, "angle");
     const std::size_t fabric = static_cast<std::size_t>(ply.fabric);
     const double thickness = fabric < fabrics.size() ? fabrics[fabric].thickness : 0.0;
@@ -106,26 +106,26 @@ std::vector<Ply> read_plies(const Section& root, const std::vector<Fabric>& fabr
 
 /// Numbers of the bodies by name: plies, then tools, then boundaries (which touch nothing). Names
 /// used twice are reported.
-Numbers number_bodies(const Section& root, Findings& findings) {
+Numbers number_bodies(const TableView& root, Diagnostics& diagnostics) {
   Numbers bodies;
   int count = 0;
   for (const char* key : {"ply", "tool", "boundary"})
-    for (const Section& section : subsections(root, key)) {
+    for (const TableView& section : subsections(root, key)) {
       const std::string name = text(section, "name");
       const int body = count++;
       if (name.empty()) continue;
       if (name == "plies" || name == "tools") // in contact.pair
-        value_error(section, "name", "stands for all " + name, "choose another name", findings);
+        value_error(section, "name", "stands for all " + name, "choose another name", diagnostics);
       else if (!bodies.emplace(name, body).second)
         value_error(section, "name", "is the name of another ply, tool or boundary too",
-                    "give each of them a name of its own", findings);
+                    "give each of them a name of its own", diagnostics);
     }
   return bodies;
 }
 
 /// The bodies that one name of a pair means.
-std::vector<int> bodies_named(const Entry& name, const std::string& item, const Numbers& bodies,
-                              int plies, int count, Findings& findings) {
+std::vector<int> bodies_named(const TomlNode& name, const std::string& item, const Numbers& bodies,
+                              int plies, int count, Diagnostics& diagnostics) {
   std::vector<int> found;
   const bool all_plies = name.text == "plies", all_tools = name.text == "tools";
   if (all_plies || all_tools) {
@@ -134,29 +134,29 @@ std::vector<int> bodies_named(const Entry& name, const std::string& item, const 
   } else if (const auto it = bodies.find(name.text); it != bodies.end()) {
     found.push_back(it->second);
   } else {
-    findings.error(name.at, item, name.written, "names no ply or tool of this case",
-                   known_names(bodies) + "; and plies and tools for all of them");
+    diagnostics.error(name.at, item, name.source_text, "names no ply or tool of this case",
+                      known_names(bodies) + "; and plies and tools for all of them");
   }
   return found;
 }
 
-FrictionTable read_friction(const Section& contact, const Numbers& bodies, int plies, int count,
-                            Findings& findings) {
+FrictionTable read_friction(const TableView& contact, const Numbers& bodies, int plies, int count,
+                            Diagnostics& diagnostics) {
   FrictionTable table;
   table.bodies = count;
   table.mu.assign(static_cast<std::size_t>(count * count), number(contact, "friction"));
-  for (const Section& pair : subsections(contact, "pair")) {
-    const Entry* between = given(pair, "between");
+  for (const TableView& pair : subsections(contact, "pair")) {
+    const TomlNode* between = given(pair, "between");
     const double mu = number(pair, "friction");
     if (!between) continue;
     std::vector<int> sides[2];
     for (std::size_t i = 0; i < 2; ++i)
       sides[i] = bodies_named(between->children[i], fmt::format("{}.between.{}", pair.item, i),
-                              bodies, plies, count, findings);
+                              bodies, plies, count, diagnostics);
     const auto tool = [&](int body) { return body >= plies; };
     if (!sides[0].empty() && !sides[1].empty() && tool(sides[0][0]) && tool(sides[1][0]))
       value_error(pair, "between", "names two tools, which never touch each other here",
-                  "name a ply, or plies for all of them", findings);
+                  "name a ply, or plies for all of them", diagnostics);
     for (const int a : sides[0])
       for (const int b : sides[1])
         table.mu[static_cast<std::size_t>(a * count + b)] =
@@ -165,7 +165,7 @@ FrictionTable read_friction(const Section& contact, const Numbers& bodies, int p
   return table;
 }
 
-ContactOptions read_contact(const Section& contact) {
+ContactOptions read_contact(const TableView& contact) {
   return {.stiffness = number(contact, "stiffness"),
           .damping = number(contact, "damping"),
           .skin = given(contact, "skin") ? number(contact, "skin") : 0.0,
@@ -177,7 +177,7 @@ ElementKind element_kind(const std::string& word) {
   return word == "averaged" ? ElementKind::averaged : ElementKind::automatic;
 }
 
-SolverOptions read_solver(const Section& solver) {
+SolverOptions read_solver(const TableView& solver) {
   const double outputs = number(solver, "outputs");
   return {.element = element_kind(text(solver, "element")),
           .duration = number(solver, "duration"),
@@ -189,33 +189,34 @@ SolverOptions read_solver(const Section& solver) {
           .outputs = outputs > 0.0 ? static_cast<int>(outputs) : 0};
 }
 
-Case build_case(const Section& root, const std::filesystem::path& folder, Findings& findings) {
+Case build_case(const TableView& root, const std::filesystem::path& folder,
+                Diagnostics& diagnostics) {
   Case built;
   built.title = text(root, "title");
-  built.fabrics = read_fabrics(root, findings);
-  for (const Section& section : subsections(root, "blanks"))
-    built.blanks.push_back(read_blank(section, folder, findings));
-  built.plies = read_plies(root, built.fabrics, findings);
-  built.tools = read_tools(root, folder, findings);
-  built.boundaries = read_boundaries(root, built.plies, findings);
+  built.fabrics = read_fabrics(root, diagnostics);
+  for (const TableView& section : subsections(root, "blanks"))
+    built.blanks.push_back(read_blank(section, folder, diagnostics));
+  built.plies = read_plies(root, built.fabrics, diagnostics);
+  built.tools = read_tools(root, folder, diagnostics);
+  built.boundaries = read_boundaries(root, built.plies, diagnostics);
   built.gravity = vector3(root, "gravity");
-  Numbers bodies = number_bodies(root, findings);
-  const Section contact = subsection(root, "contact");
+  Numbers bodies = number_bodies(root, diagnostics);
+  const TableView contact = subsection(root, "contact");
   const int plies = static_cast<int>(built.plies.size());
   const int count = plies + static_cast<int>(built.tools.size());
   std::erase_if(bodies, [&](const auto& body) { return body.second >= count; }); // touch nothing
-  built.friction = read_friction(contact, bodies, plies, count, findings);
+  built.friction = read_friction(contact, bodies, plies, count, diagnostics);
   built.contact = read_contact(contact);
   built.solver = read_solver(subsection(root, "solver"));
-  const Section accuracy = subsection(root, "accuracy");
+  const TableView accuracy = subsection(root, "accuracy");
   if (given(accuracy, "shear_deg")) built.accuracy.shear_error = number(accuracy, "shear_deg");
   return built;
 }
 
-CaseParts locate_parts(const Section& root) {
+CaseParts locate_parts(const TableView& root) {
   const auto locate = [&](const char* key) {
-    std::vector<Located> places;
-    for (const Section& section : subsections(root, key))
+    std::vector<SourceLocation> places;
+    for (const TableView& section : subsections(root, key))
       places.push_back({section.entry ? section.entry->at : root.entry->at, section.item});
     return places;
   };
@@ -240,45 +241,47 @@ void put_in_order(std::vector<CaseError>& errors, const std::string& case_name) 
 } // namespace
 
 CaseReading read_case(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  Findings findings;
+  Diagnostics diagnostics;
   CaseReading reading;
   reading.file = file;
   std::string reason;
   const std::string name = file.string();
   if (const std::optional<std::string> content = read_text(file, reason); !content) {
-    findings.error({name, 1, 1}, "", "", "the case file " + reason, "give the path of a case file");
-  } else if (std::optional<Entry> entries = parse_entries(*content, name, findings)) {
+    diagnostics.error({name, 1, 1}, "", "", "the case file " + reason,
+                      "give the path of a case file");
+  } else if (std::optional<TomlNode> entries = parse_entries(*content, name, diagnostics)) {
     const std::filesystem::path folder = file.parent_path();
     for (const Override& change : overrides) {
-      apply_override(*entries, change, folder, findings);
+      apply_override(*entries, change, folder, diagnostics);
       reading.overridden.insert(change.first);
     }
-    load_fabrics(*entries, folder, findings);
-    const Section root{&*entries, "", ""};
-    check_section(root, findings);
-    Case built = build_case(root, folder, findings);
-    if (findings.errors.empty()) {
+    load_fabrics(*entries, folder, diagnostics);
+    const TableView root{&*entries, "", ""};
+    check_section(root, diagnostics);
+    Case built = build_case(root, folder, diagnostics);
+    if (diagnostics.errors.empty()) {
       estimate_missing(built);
       reading.parts = locate_parts(root);
       reading.value = std::move(built);
     }
   }
-  put_in_order(findings.errors, name);
-  reading.errors = std::move(findings.errors);
-  reading.warnings = std::move(findings.warnings);
+  put_in_order(diagnostics.errors, name);
+  reading.errors = std::move(diagnostics.errors);
+  reading.warnings = std::move(diagnostics.warnings);
   return reading;
 }
 
 std::vector<BlankMesh> check_case(CaseReading& reading) {
   if (!reading.value) return {};
-  Findings findings;
-  std::vector<BlankMesh> meshes = check_scene(*reading.value, reading.parts, findings);
-  if (findings.errors.empty()) check_resolution(*reading.value, reading.parts, meshes, findings);
-  put_in_order(findings.errors, reading.file.string());
-  if (!findings.errors.empty()) reading.value.reset();
-  reading.errors.insert(reading.errors.end(), findings.errors.begin(), findings.errors.end());
-  reading.warnings.insert(reading.warnings.end(), findings.warnings.begin(),
-                          findings.warnings.end());
+  Diagnostics diagnostics;
+  std::vector<BlankMesh> meshes = check_scene(*reading.value, reading.parts, diagnostics);
+  if (diagnostics.errors.empty())
+    check_resolution(*reading.value, reading.parts, meshes, diagnostics);
+  put_in_order(diagnostics.errors, reading.file.string());
+  if (!diagnostics.errors.empty()) reading.value.reset();
+  reading.errors.insert(reading.errors.end(), diagnostics.errors.begin(), diagnostics.errors.end());
+  reading.warnings.insert(reading.warnings.end(), diagnostics.warnings.begin(),
+                          diagnostics.warnings.end());
   return meshes;
 }
 

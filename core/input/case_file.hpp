@@ -16,13 +16,13 @@
 namespace plyform {
 
 /// Where a part of the case stands in the file, for mistakes found in the scene as a whole.
-struct Located {
+struct SourceLocation {
   Place at;
   std::string item;
 };
 
 struct CaseParts {
-  std::vector<Located> blanks, plies, tools, boundaries;
+  std::vector<SourceLocation> blanks, plies, tools, boundaries;
 };
 
 /// What a case file and the overrides say, before anything is made of it.

@@ -16,14 +16,14 @@ namespace {
 
 /// Tables of laws start in the origin and go on to the right; `rising`: and what is in the second
 /// column never goes down (empty: it may).
-void check_law(const Section& law, const std::string& key, const std::vector<Vec2>& points,
-               const std::string& rising, Findings& findings) {
-  const Entry* table = given(law, key);
+void check_law(const TableView& law, const std::string& key, const std::vector<Vec2>& points,
+               const std::string& rising, Diagnostics& diagnostics) {
+  const TomlNode* table = given(law, key);
   if (!table || points.empty()) return;
   const auto fail = [&](std::size_t row, const std::string& rule, const std::string& remedy) {
-    const Entry& entry = table->children[row];
-    findings.error(entry.at, fmt::format("{}.{}", item_of(law, key), row), entry.written, rule,
-                   remedy);
+    const TomlNode& entry = table->children[row];
+    diagnostics.error(entry.at, fmt::format("{}.{}", item_of(law, key), row), entry.source_text,
+                      rule, remedy);
   };
   if (points[0] != Vec2::Zero())
     return fail(0, "must be [0, 0], where the law starts", "put [0.0, 0.0] first");
@@ -47,14 +47,14 @@ void split(const std::vector<Vec2>& points, std::vector<double>& first,
 
 /// Whether the file says that yarns do not bear compression; where it says nothing of it they are
 /// given an estimate if they need it (core/model/fabric_estimates.hpp).
-bool tension_only(const Section& yarn, const TensionLaw& law) {
+bool tension_only(const TableView& yarn, const TensionLaw& law) {
   return given(yarn, "compression_stiffness") && law.compression == 0.0;
 }
 
-TensionLaw read_tension(const Section& yarn, Findings& findings) {
+TensionLaw read_tension(const TableView& yarn, Diagnostics& diagnostics) {
   TensionLaw law;
   const std::vector<Vec2> points = pairs(yarn, "table");
-  check_law(yarn, "table", points, "tension", findings);
+  check_law(yarn, "table", points, "tension", diagnostics);
   split(points, law.strain, law.tension);
   if (points.empty()) law.stiffness = number(yarn, "stiffness");
   if (given(yarn, "compression_stiffness")) law.compression = number(yarn, "compression_stiffness");
@@ -62,7 +62,7 @@ TensionLaw read_tension(const Section& yarn, Findings& findings) {
     value_error(yarn, "compression_stiffness",
                 fmt::format("must be at most the largest stiffness in tension, {:g}", most),
                 fmt::format("give {:g}, a hundredth of that, or so", usual_compression(law)),
-                findings);
+                diagnostics);
   if (given(yarn, "buckling_force")) law.buckling_force = number(yarn, "buckling_force");
   if (std::isfinite(law.buckling_force) && tension_only(yarn, law))
     value_error(yarn, "buckling_force",
@@ -71,15 +71,15 @@ TensionLaw read_tension(const Section& yarn, Findings& findings) {
                 fmt::format("give compression_stiffness = {:g}, 0.01 of the largest stiffness in "
                             "tension, or take buckling_force out",
                             usual_compression(law)),
-                findings);
+                diagnostics);
   return law;
 }
 
 /// `tension`: of the same yarns. A bending moment shortens yarns that nothing holds against it.
-MomentLaw read_moments(const Section& yarn, const TensionLaw& tension, Findings& findings) {
+MomentLaw read_moments(const TableView& yarn, const TensionLaw& tension, Diagnostics& diagnostics) {
   MomentLaw law;
   const std::vector<Vec2> points = pairs(yarn, "bending_table");
-  check_law(yarn, "bending_table", points, "moment", findings);
+  check_law(yarn, "bending_table", points, "moment", diagnostics);
   split(points, law.curvature, law.moment);
   if (given(yarn, "bending_stiffness")) law.stiffness = number(yarn, "bending_stiffness");
   if (law.largest_slope() > 0.0 && tension_only(yarn, tension))
@@ -89,11 +89,11 @@ MomentLaw read_moments(const Section& yarn, const TensionLaw& tension, Findings&
                 fmt::format("give compression_stiffness = {:g}, 0.01 of the largest stiffness in "
                             "tension, or so",
                             usual_compression(tension)),
-                findings);
+                diagnostics);
   return law;
 }
 
-YarnSources sources_of(const Section& yarn) {
+YarnSources sources_of(const TableView& yarn) {
   const auto source = [](bool is_given) {
     return is_given ? ValueSource::given : ValueSource::missing;
   };
@@ -102,11 +102,11 @@ YarnSources sources_of(const Section& yarn) {
           source(given(yarn, "in_plane_bending_stiffness"))};
 }
 
-BendingLaw read_bending(const Section& section, const Fabric& fabric, Findings& findings) {
+BendingLaw read_bending(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
   BendingLaw law;
-  const Section warp = subsection(section, "warp"), weft = subsection(section, "weft");
-  law.warp = read_moments(warp, fabric.warp, findings);
-  law.weft = read_moments(weft, fabric.weft, findings);
+  const TableView warp = subsection(section, "warp"), weft = subsection(section, "weft");
+  law.warp = read_moments(warp, fabric.warp, diagnostics);
+  law.weft = read_moments(weft, fabric.weft, diagnostics);
   if (given(warp, "in_plane_bending_stiffness"))
     law.in_plane[0] = number(warp, "in_plane_bending_stiffness");
   if (given(weft, "in_plane_bending_stiffness"))
@@ -116,19 +116,19 @@ BendingLaw read_bending(const Section& section, const Fabric& fabric, Findings& 
   law.twist = number(section, "twist_stiffness");
   if (law.twist > 0.0 && !(usual_twist(law) > 0.0))
     value_error(section, "twist_stiffness", "needs bending stiffness along warp and weft",
-                "give bending_stiffness to both, or take twist_stiffness out", findings);
+                "give bending_stiffness to both, or take twist_stiffness out", diagnostics);
   return law;
 }
 
-ShearLaw read_shear(const Section& shear, Findings& findings) {
+ShearLaw read_shear(const TableView& shear, Diagnostics& diagnostics) {
   ShearLaw law;
   const std::vector<Vec2> points = pairs(shear, "table");
-  check_law(shear, "table", points, "", findings);
+  check_law(shear, "table", points, "", diagnostics);
   split(points, law.angle, law.torque);
   law.k = numbers(shear, "polynomial");
   if (!law.k.empty() && law.k[0] < 0.0)
     value_error(shear, "polynomial", "must start with a k1 of at least 0",
-                "give k1, k3, k5 ...; a cell with k1 < 0 shears by itself", findings);
+                "give k1, k3, k5 ...; a cell with k1 < 0 shears by itself", diagnostics);
   return law;
 }
 
@@ -143,7 +143,7 @@ BendingLaw plate_bending(const IsotropicLaw& law, double thickness) {
   return bending;
 }
 
-Fabric read_fabric(const Section& section, const std::string& key, Findings& findings) {
+Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics& diagnostics) {
   Fabric fabric;
   fabric.name = given(section, "name") ? text(section, "name") : key;
   fabric.surface_density = number(section, "surface_density");
@@ -151,40 +151,40 @@ Fabric read_fabric(const Section& section, const std::string& key, Findings& fin
   if (given(section, "fibre_angle")) fabric.fibre_angle = number(section, "fibre_angle");
   if (given(section, "locking_angle")) fabric.locking_angle = number(section, "locking_angle");
   if (text(section, "law") == "isotropic") {
-    const Section law = subsection(section, "isotropic");
+    const TableView law = subsection(section, "isotropic");
     fabric.isotropic = {number(law, "youngs_modulus") * fabric.thickness,
                         number(law, "poissons_ratio")};
     if (text(law, "bending") == "plate")
       fabric.bending = plate_bending(*fabric.isotropic, fabric.thickness);
     return fabric;
   }
-  const Section warp = subsection(section, "warp"), weft = subsection(section, "weft");
+  const TableView warp = subsection(section, "warp"), weft = subsection(section, "weft");
   fabric.warp_density = number(warp, "density");
   fabric.weft_density = number(weft, "density");
-  fabric.warp = read_tension(warp, findings);
-  fabric.weft = read_tension(weft, findings);
-  fabric.shear = read_shear(subsection(section, "shear"), findings);
+  fabric.warp = read_tension(warp, diagnostics);
+  fabric.weft = read_tension(weft, diagnostics);
+  fabric.shear = read_shear(subsection(section, "shear"), diagnostics);
   fabric.sources = {sources_of(warp), sources_of(weft)};
   fabric.twist_given = given(section, "twist_stiffness") != nullptr;
-  fabric.bending = read_bending(section, fabric, findings);
+  fabric.bending = read_bending(section, fabric, diagnostics);
   return fabric;
 }
 
 /// Puts a law that is sound into a table that has none; true if it did.
-bool stand_in(Entry& root, const std::string& table, const std::string& key, const char* value) {
-  Entry* section = root.find(table);
+bool stand_in(TomlNode& root, const std::string& table, const std::string& key, const char* value) {
+  TomlNode* section = root.find(table);
   if (section &&
-      (section->kind != Entry::Kind::table || section->find(key) || section->find("table")))
+      (section->kind != TomlNode::Kind::table || section->find(key) || section->find("table")))
     return false;
   if (!section) {
-    Entry made;
+    TomlNode made;
     made.key = table;
     made.at = made.key_at = root.at;
     root.children.push_back(std::move(made));
     section = &root.children.back();
   }
   std::string reason;
-  Entry law = *parse_value(value, root.at.file, 1, reason);
+  TomlNode law = *parse_value(value, root.at.file, 1, reason);
   law.key = key;
   law.at = law.key_at = section->at;
   section->children.push_back(std::move(law));
@@ -193,24 +193,25 @@ bool stand_in(Entry& root, const std::string& table, const std::string& key, con
 
 } // namespace
 
-std::vector<Fabric> read_fabrics(const Section& root, Findings& findings) {
+std::vector<Fabric> read_fabrics(const TableView& root, Diagnostics& diagnostics) {
   std::vector<Fabric> fabrics;
-  for (const Section& section : subsections(root, "fabrics"))
+  for (const TableView& section : subsections(root, "fabrics"))
     fabrics.push_back(
-        read_fabric(section, section.item.substr(std::string("fabrics.").size()), findings));
+        read_fabric(section, section.item.substr(std::string("fabrics.").size()), diagnostics));
   return fabrics;
 }
 
 FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_miss) {
   FabricReading reading;
-  Findings findings;
+  Diagnostics diagnostics;
   const std::string name = file.string();
   std::string reason;
   const std::optional<std::string> content = read_text(file, reason);
   if (!content)
-    findings.error({name, 1, 1}, "", "", "the fabric file " + reason,
-                   "give the path of a fabric file");
-  std::optional<Entry> root = content ? parse_entries(*content, name, findings) : std::nullopt;
+    diagnostics.error({name, 1, 1}, "", "", "the fabric file " + reason,
+                      "give the path of a fabric file");
+  std::optional<TomlNode> root =
+      content ? parse_entries(*content, name, diagnostics) : std::nullopt;
   if (root) {
     reading.text = *content;
     root->at.file = name;
@@ -220,17 +221,17 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
                                     shear ? "[1.0]" : "1e9")) // more than any compression_stiffness
         reading.missing.push_back(table);
     }
-    const Section section{&*root, "fabrics.NAME", ""};
-    check_section(section, findings);
-    Fabric fabric = read_fabric(section, file.stem().string(), findings);
+    const TableView section{&*root, "fabrics.NAME", ""};
+    check_section(section, diagnostics);
+    Fabric fabric = read_fabric(section, file.stem().string(), diagnostics);
     for (const std::string& table : reading.missing) {
       if (table == "warp") fabric.warp = {};
       if (table == "weft") fabric.weft = {};
       if (table == "shear") fabric.shear = {};
     }
-    if (findings.errors.empty()) reading.value = std::move(fabric);
+    if (diagnostics.errors.empty()) reading.value = std::move(fabric);
   }
-  reading.errors = std::move(findings.errors);
+  reading.errors = std::move(diagnostics.errors);
   return reading;
 }
 

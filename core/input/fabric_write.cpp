@@ -36,25 +36,25 @@ std::string key_text(const std::string& key) {
 }
 
 /// A value on one line, but pairs each on a line of their own.
-std::string value_text(const Entry& entry) {
+std::string value_text(const TomlNode& entry) {
   std::string items;
   switch (entry.kind) {
-  case Entry::Kind::string:
+  case TomlNode::Kind::string:
     return quoted(entry.text);
-  case Entry::Kind::list: {
+  case TomlNode::Kind::list: {
     const bool rows = std::any_of(entry.children.begin(), entry.children.end(),
-                                  [](const Entry& e) { return e.kind == Entry::Kind::list; });
-    for (const Entry& child : entry.children)
+                                  [](const TomlNode& e) { return e.kind == TomlNode::Kind::list; });
+    for (const TomlNode& child : entry.children)
       items += (rows ? "\n    " : items.empty() ? "" : " ") + value_text(child) + ",";
     if (!rows && !items.empty()) items.pop_back();
     return "[" + items + (rows ? "\n]" : "]");
   }
-  case Entry::Kind::table:
-    for (const Entry& child : entry.children)
+  case TomlNode::Kind::table:
+    for (const TomlNode& child : entry.children)
       items += (items.empty() ? " " : ", ") + key_text(child.key) + " = " + value_text(child);
     return "{" + items + " }";
   default:
-    return entry.written; // numbers, dates: as the user wrote them
+    return entry.source_text; // numbers, dates: as the user wrote them
   }
 }
 
@@ -81,15 +81,15 @@ void put_comment_above(FabricText& to, int line) {
 }
 
 /// The comment that follows a value on its line, with the blanks before it; else nothing.
-std::string comment_behind(const FabricText& from, const Entry& entry) {
+std::string comment_behind(const FabricText& from, const TomlNode& entry) {
   const auto index = static_cast<std::size_t>(entry.at.line) - 1;
-  if (entry.at.line < 1 || index >= from.lines.size() || entry.written.empty()) return "";
+  if (entry.at.line < 1 || index >= from.lines.size() || entry.source_text.empty()) return "";
   const std::string& line = from.lines[index];
   const std::size_t equals = line.find('=');
   const std::size_t value =
-      equals == std::string::npos ? equals : line.find(entry.written, equals + 1);
+      equals == std::string::npos ? equals : line.find(entry.source_text, equals + 1);
   if (value == std::string::npos) return "";
-  const std::size_t behind = value + entry.written.size();
+  const std::size_t behind = value + entry.source_text.size();
   const std::size_t mark = line.find_first_not_of(" \t", behind);
   return mark == std::string::npos || line[mark] != '#' ? "" : line.substr(behind);
 }
@@ -104,20 +104,20 @@ void put_law(FabricText& to) {
 }
 
 /// `path`: dotted, empty for the file as a whole.
-void put_table(FabricText& to, const Entry& table, const std::string& path) {
+void put_table(FabricText& to, const TomlNode& table, const std::string& path) {
   bool law_due = path == to.law.table;
-  for (const Entry& child : table.children) {
+  for (const TomlNode& child : table.children) {
     if (path == to.law.table && is_law(child.key)) {
       if (law_due) put_law(to);
       law_due = false;
-    } else if (child.kind != Entry::Kind::table) {
+    } else if (child.kind != TomlNode::Kind::table) {
       put_comment_above(to, child.key_at.line);
       to.put(key_text(child.key) + " = " + value_text(child) + comment_behind(to, child));
     }
   }
   if (law_due) put_law(to);
-  for (const Entry& child : table.children) {
-    if (child.kind != Entry::Kind::table) continue;
+  for (const TomlNode& child : table.children) {
+    if (child.kind != TomlNode::Kind::table) continue;
     const std::string below = (path.empty() ? "" : path + ".") + key_text(child.key);
     if (!to.out.empty()) to.put("");
     put_comment_above(to, child.at.line);
@@ -129,9 +129,9 @@ void put_table(FabricText& to, const Entry& table, const std::string& path) {
 } // namespace
 
 std::string with_law(const std::string& text, const LawText& law) {
-  Findings findings;
-  std::optional<Entry> root = parse_entries(text, "fabric", findings);
-  if (!root) throw std::invalid_argument(findings.errors.front().text());
+  Diagnostics diagnostics;
+  std::optional<TomlNode> root = parse_entries(text, "fabric", diagnostics);
+  if (!root) throw std::invalid_argument(diagnostics.errors.front().text());
   FabricText to{{}, law, ""};
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find('\n', at), text.size());
@@ -151,7 +151,7 @@ std::string with_law(const std::string& text, const LawText& law) {
     to.put("");
   }
   if (!root->find(law.table)) {
-    Entry table;
+    TomlNode table;
     table.key = law.table;
     table.at.line = table.key_at.line = 0;
     root->children.push_back(std::move(table));

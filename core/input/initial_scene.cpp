@@ -37,21 +37,21 @@ double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, int& hi
   return signed_distance(tool.shape, local, hint).distance;
 }
 
-Surface tool_surface(const Tool& tool, double size, double extent) {
-  const Surface rough = tessellate(tool.shape, extent / 8.0, extent);
+TriMesh tool_surface(const Tool& tool, double size, double extent) {
+  const TriMesh rough = tessellate(tool.shape, extent / 8.0, extent);
   Box3 box;
   for (const Vec3& x : rough.x)
     box.extend(x);
   if (box.isEmpty()) return rough;
   const double diagonal = box.diagonal().norm();
-  Surface surface =
+  TriMesh surface =
       tessellate(tool.shape, std::clamp(size, diagonal / 300.0, diagonal / 60.0), extent);
   for (Vec3& x : surface.x)
     x = tool.position + tool.rotation * x;
   return surface;
 }
 
-void visit_slab(const Surface& surface, double low, double high,
+void visit_slab(const TriMesh& surface, double low, double high,
                 const std::function<void(const Vec3&)>& visit) {
   for (const Triangle& t : surface.triangles) {
     std::array<Vec3, 3> x;

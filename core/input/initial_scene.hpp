@@ -30,11 +30,11 @@ double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, int& hi
 
 /// The tool's surface in space as triangles small enough to show its form: between 1/300 and 1/60
 /// of its diagonal, in between `size` (mm). Planes reach `extent` mm from the tool's origin.
-Surface tool_surface(const Tool& tool, double size, double extent);
+TriMesh tool_surface(const Tool& tool, double size, double extent);
 
 /// Calls `visit` with points of the surface whose height is from `low` to `high`: corners, middles
 /// of triangles, and the ends and middle of every edge's part in between.
-void visit_slab(const Surface& surface, double low, double high,
+void visit_slab(const TriMesh& surface, double low, double high,
                 const std::function<void(const Vec3&)>& visit);
 
 /// The parts of the vertical line through (x, y), from z = low to high, that lie in the tool.

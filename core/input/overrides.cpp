@@ -30,81 +30,84 @@ std::vector<Step> split_path(const std::string& path) {
 }
 
 /// The value of an override; a bare word that is no TOML value is a string.
-std::optional<Entry> override_value(const Override& change, Findings& findings) {
-  const auto& [key, written] = change;
+std::optional<TomlNode> override_value(const Override& change, Diagnostics& diagnostics) {
+  const auto& [key, source_text] = change;
   const int column = static_cast<int>(key.size()) + 2;
   std::string reason;
-  std::optional<Entry> value = parse_value(written, override_file, column, reason);
+  std::optional<TomlNode> value = parse_value(source_text, override_file, column, reason);
   if (value && key.size() > 0) return value;
-  const std::size_t start = written.find_first_not_of(" \t");
+  const std::size_t start = source_text.find_first_not_of(" \t");
   const bool bare = start != std::string::npos &&
-                    std::string("\"'[{#\n").find(written[start]) == std::string::npos &&
-                    written.find('\n') == std::string::npos;
+                    std::string("\"'[{#\n").find(source_text[start]) == std::string::npos &&
+                    source_text.find('\n') == std::string::npos;
   if (!bare) {
-    findings.error({override_file, 1, column}, key, written, "must be a TOML value or a word",
-                   "write KEY=VALUE, texts with spaces in quotes: " + key + "='\"a b\"'");
+    diagnostics.error({override_file, 1, column}, key, source_text,
+                      "must be a TOML value or a word",
+                      "write KEY=VALUE, texts with spaces in quotes: " + key + "='\"a b\"'");
     return std::nullopt;
   }
-  Entry word;
-  word.kind = Entry::Kind::string;
-  word.text = word.written = written;
+  TomlNode word;
+  word.kind = TomlNode::Kind::string;
+  word.text = word.source_text = source_text;
   word.at = word.key_at = {override_file, 1, column};
   return word;
 }
 
 /// Walks along the path; where it stands is the entry, its pattern and its dotted path so far.
 struct Walk {
-  Entry* entry;
+  TomlNode* entry;
   std::string pattern, item;
 };
 
 /// The list's item that a step names, or null and a report.
-Entry* list_item(const Walk& walk, const Step& step, const std::string& key, Findings& findings) {
+TomlNode* list_item(const Walk& walk, const Step& step, const std::string& key,
+                    Diagnostics& diagnostics) {
   const bool digits = !step.name.empty() && step.name.size() < 9 &&
                       step.name.find_first_not_of("0123456789") == std::string::npos;
   const std::size_t size = walk.entry->children.size();
   const std::size_t index = digits ? static_cast<std::size_t>(std::atol(step.name.c_str())) : size;
   if (index < size) return &walk.entry->children[index];
-  findings.error({override_file, 1, step.column}, key, "",
-                 fmt::format("{} has no item {}", walk.item, step.name),
-                 size ? fmt::format("its items are numbered from 0 to {}", size - 1)
-                      : "it has no items; give the list as a whole");
+  diagnostics.error({override_file, 1, step.column}, key, "",
+                    fmt::format("{} has no item {}", walk.item, step.name),
+                    size ? fmt::format("its items are numbered from 0 to {}", size - 1)
+                         : "it has no items; give the list as a whole");
   return nullptr;
 }
 
 /// The member of a table that a step names, made if it is not there; null and a report if the
 /// table of keys does not know it.
-Entry* member(const Walk& walk, const Step& step, const std::string& pattern, Findings& findings) {
+TomlNode* member(const Walk& walk, const Step& step, const std::string& pattern,
+                 Diagnostics& diagnostics) {
   const Place at{override_file, 1, step.column};
   if (pattern.empty()) {
-    report_unknown_key({walk.entry, walk.pattern, walk.item}, at, step.name, "", findings);
+    report_unknown_key({walk.entry, walk.pattern, walk.item}, at, step.name, "", diagnostics);
     return nullptr;
   }
-  if (Entry* entry = walk.entry->find(step.name)) return entry;
+  if (TomlNode* entry = walk.entry->find(step.name)) return entry;
   const KeyKind kind = find_key(pattern)->kind;
-  Entry made;
+  TomlNode made;
   made.key = step.name;
   made.at = made.key_at = at;
   const bool table = kind == KeyKind::table || kind == KeyKind::map || kind == KeyKind::fabric;
-  made.kind = table ? Entry::Kind::table : Entry::Kind::list;
+  made.kind = table ? TomlNode::Kind::table : TomlNode::Kind::list;
   walk.entry->children.push_back(made);
   return &walk.entry->children.back();
 }
 
 /// One step down; false (and a report) if there is no way.
-bool descend(Walk& walk, const Step& step, const std::string& key, Findings& findings) {
+bool descend(Walk& walk, const Step& step, const std::string& key, Diagnostics& diagnostics) {
   std::string pattern;
-  Entry* next = nullptr;
-  if (walk.entry->kind == Entry::Kind::list) {
+  TomlNode* next = nullptr;
+  if (walk.entry->kind == TomlNode::Kind::list) {
     pattern = walk.pattern + "[]";
-    next = list_item(walk, step, key, findings);
-  } else if (walk.entry->kind == Entry::Kind::table) {
+    next = list_item(walk, step, key, diagnostics);
+  } else if (walk.entry->kind == TomlNode::Kind::table) {
     pattern = pattern_of(walk.pattern, step.name);
-    next = member(walk, step, pattern, findings);
+    next = member(walk, step, pattern, diagnostics);
   } else {
-    findings.error({override_file, 1, step.column}, key, "",
-                   fmt::format("{} is a single value and has no {}", walk.item, step.name),
-                   fmt::format("set {} itself", walk.item));
+    diagnostics.error({override_file, 1, step.column}, key, "",
+                      fmt::format("{} is a single value and has no {}", walk.item, step.name),
+                      fmt::format("set {} itself", walk.item));
   }
   walk = {next, pattern, (walk.item.empty() ? "" : walk.item + ".") + step.name};
   return next != nullptr;
@@ -112,17 +115,17 @@ bool descend(Walk& walk, const Step& step, const std::string& key, Findings& fin
 
 } // namespace
 
-void apply_override(Entry& root, const Override& change, const std::filesystem::path& folder,
-                    Findings& findings) {
-  std::optional<Entry> value = override_value(change, findings);
+void apply_override(TomlNode& root, const Override& change, const std::filesystem::path& folder,
+                    Diagnostics& diagnostics) {
+  std::optional<TomlNode> value = override_value(change, diagnostics);
   if (!value) return;
   const std::vector<Step> steps = split_path(change.first);
-  Entry changed = root; // a path that leads nowhere leaves no half-made tables behind
+  TomlNode changed = root; // a path that leads nowhere leaves no half-made tables behind
   Walk walk{&changed, "", ""};
   for (const Step& step : steps) {
-    if (walk.pattern == "fabrics.NAME") load_fabric(*walk.entry, walk.item, folder, findings);
-    if (!walk.entry->sound) return; // the fabric's file cannot be read, and that is reported
-    if (!descend(walk, step, change.first, findings)) return;
+    if (walk.pattern == "fabrics.NAME") load_fabric(*walk.entry, walk.item, folder, diagnostics);
+    if (!walk.entry->valid) return; // the fabric's file cannot be read, and that is reported
+    if (!descend(walk, step, change.first, diagnostics)) return;
   }
   value->key = walk.entry->key;
   value->key_at = {override_file, 1, steps.back().column};
@@ -130,28 +133,29 @@ void apply_override(Entry& root, const Override& change, const std::filesystem::
   root = std::move(changed);
 }
 
-std::filesystem::path resolve_path(const Entry& entry, const std::filesystem::path& folder) {
+std::filesystem::path resolve_path(const TomlNode& entry, const std::filesystem::path& folder) {
   const bool overridden = entry.at.file == override_file;
   return (overridden ? folder : std::filesystem::path(entry.at.file).parent_path()) / entry.text;
 }
 
-void load_fabric(Entry& entry, const std::string& item, const std::filesystem::path& folder,
-                 Findings& findings) {
-  if (entry.kind != Entry::Kind::string || !entry.sound) return;
+void load_fabric(TomlNode& entry, const std::string& item, const std::filesystem::path& folder,
+                 Diagnostics& diagnostics) {
+  if (entry.kind != TomlNode::Kind::string || !entry.valid) return;
   const std::filesystem::path file = resolve_path(entry, folder);
   std::string reason = "must not be empty";
   const std::optional<std::string> content =
       entry.text.empty() ? std::nullopt : read_text(file, reason);
   const std::string name = file.lexically_normal().string();
   if (!content) {
-    findings.error(entry.at, item, entry.written, entry.text.empty() ? reason : name + " " + reason,
-                   "give the fabric file's path, seen from the file that names it");
-    entry.sound = false;
+    diagnostics.error(entry.at, item, entry.source_text,
+                      entry.text.empty() ? reason : name + " " + reason,
+                      "give the fabric file's path, seen from the file that names it");
+    entry.valid = false;
     return;
   }
-  std::optional<Entry> table = parse_entries(*content, name, findings);
+  std::optional<TomlNode> table = parse_entries(*content, name, diagnostics);
   if (!table) {
-    entry.sound = false;
+    entry.valid = false;
     return;
   }
   table->key = entry.key;
@@ -159,11 +163,11 @@ void load_fabric(Entry& entry, const std::string& item, const std::filesystem::p
   entry = std::move(*table);
 }
 
-void load_fabrics(Entry& root, const std::filesystem::path& folder, Findings& findings) {
-  Entry* fabrics = root.find("fabrics");
-  if (!fabrics || fabrics->kind != Entry::Kind::table) return;
-  for (Entry& entry : fabrics->children)
-    load_fabric(entry, "fabrics." + entry.key, folder, findings);
+void load_fabrics(TomlNode& root, const std::filesystem::path& folder, Diagnostics& diagnostics) {
+  TomlNode* fabrics = root.find("fabrics");
+  if (!fabrics || fabrics->kind != TomlNode::Kind::table) return;
+  for (TomlNode& entry : fabrics->children)
+    load_fabric(entry, "fabrics." + entry.key, folder, diagnostics);
 }
 
 } // namespace plyform

@@ -56,7 +56,7 @@ double size_of(const BlankMesh& mesh) {
 } // namespace
 
 void check_resolution(const Case& scene, const CaseParts& parts,
-                      const std::vector<BlankMesh>& meshes, Findings& findings) {
+                      const std::vector<BlankMesh>& meshes, Diagnostics& diagnostics) {
   std::set<std::pair<int, int>> seen;
   for (std::size_t p = 0; p < scene.plies.size(); ++p) {
     const Ply& ply = scene.plies[p];
@@ -67,8 +67,9 @@ void check_resolution(const Case& scene, const CaseParts& parts,
     const double h = spec.mesh == MeshKind::file ? size_of(meshes[p]) : spec.element_size;
     const std::string text = too_coarse(fabric, scene.plies.size() > 1, h);
     if (text.empty()) continue;
-    const Located& blank = parts.blanks[number];
-    findings.warning(blank.at, fmt::format("{}, elements of {:.3g} mm: {}", blank.item, h, text));
+    const SourceLocation& blank = parts.blanks[number];
+    diagnostics.warning(blank.at,
+                        fmt::format("{}, elements of {:.3g} mm: {}", blank.item, h, text));
   }
 }
 

@@ -23,16 +23,16 @@ constexpr double surface_error = 1e-3; ///< mm, of distances between tessellated
 struct SceneCheck {
   const Case& scene;
   const CaseParts& parts;
-  Findings& findings;
+  Diagnostics& diagnostics;
   std::vector<FlatPly> plies{};
-  std::vector<Surface> surfaces{}; ///< of the tools, in space
+  std::vector<TriMesh> surfaces{}; ///< of the tools, in space
   double bottom = 0.0, top = 0.0;  ///< mm, of the stack
   Eigen::AlignedBox2d bounds{};    ///< of all plies
   double stack = 0.0;              ///< mm, thickness of all plies together
 
   void tool_error(std::size_t tool, const std::string& rule, const std::string& remedy) {
-    findings.error(parts.tools[tool].at, parts.tools[tool].item, scene.tools[tool].name, rule,
-                   remedy);
+    diagnostics.error(parts.tools[tool].at, parts.tools[tool].item, scene.tools[tool].name, rule,
+                      remedy);
   }
 };
 
@@ -47,8 +47,8 @@ std::optional<BlankMesh> mesh_ply(SceneCheck& check, const Ply& ply, std::set<in
     return mesh_blank(blank, ply.angle, ply.angle + fabric_of(check.scene, ply).fibre_angle);
   } catch (const std::runtime_error& error) {
     if (!reported.insert(ply.blank).second) return std::nullopt;
-    const Located& place = check.parts.blanks[static_cast<std::size_t>(ply.blank)];
-    check.findings.error_from(place.at, place.item, "", "cannot be meshed: ", error.what());
+    const SourceLocation& place = check.parts.blanks[static_cast<std::size_t>(ply.blank)];
+    check.diagnostics.error_from(place.at, place.item, "", "cannot be meshed: ", error.what());
     return std::nullopt;
   }
 }
@@ -87,7 +87,7 @@ void check_plies_apart(SceneCheck& check) {
       const FlatPly &pa = check.plies[a], &pb = check.plies[b];
       const double apart = std::abs(pb.z - pa.z), needed = pa.half + pb.half;
       if (!pa.bounds.intersects(pb.bounds) || apart >= needed - 1e-9) continue;
-      check.findings.error(
+      check.diagnostics.error(
           check.parts.plies[b].at, check.parts.plies[b].item, check.scene.plies[b].name,
           fmt::format("overlaps ply {} at the start: the mid-surfaces are {:.4g} mm apart and need "
                       "{:.4g} mm",
@@ -234,7 +234,7 @@ void check_end_of_stroke(SceneCheck& check) {
                                      tools[b].name),
                          "shorten the stroke, or move one of the two");
       else if (room < check.stack - surface_error)
-        check.findings.warning(
+        check.diagnostics.warning(
             check.parts.tools[a].at,
             fmt::format("{} = {}: comes within {:.4g} mm of tool {} at the end of the stroke, less "
                         "than the {:.4g} mm of the stack",
@@ -261,15 +261,16 @@ void make_surfaces(SceneCheck& check) {
 
 } // namespace
 
-std::vector<BlankMesh> check_scene(const Case& scene, const CaseParts& parts, Findings& findings) {
-  SceneCheck check{scene, parts, findings};
+std::vector<BlankMesh> check_scene(const Case& scene, const CaseParts& parts,
+                                   Diagnostics& diagnostics) {
+  SceneCheck check{scene, parts, diagnostics};
   const bool meshed = lay_plies(check);
   if (!meshed) return {};
   check_plies_apart(check);
   make_surfaces(check);
-  check_boundaries(scene, parts, check.plies, check.surfaces, findings);
+  check_boundaries(scene, parts, check.plies, check.surfaces, diagnostics);
   check_tools_outside(check);
-  if (findings.errors.empty()) check_end_of_stroke(check);
+  if (diagnostics.errors.empty()) check_end_of_stroke(check);
   std::vector<BlankMesh> meshes;
   for (FlatPly& ply : check.plies)
     meshes.push_back(std::move(ply.mesh));

@@ -11,7 +11,7 @@ namespace plyform {
 
 namespace {
 
-using Kind = Entry::Kind;
+using Kind = TomlNode::Kind;
 
 /// "give the radius, in mm": the first part of the meaning, without explanations.
 std::string give(const KeyRow& row) {
@@ -22,15 +22,16 @@ std::string give(const KeyRow& row) {
 /// What is being checked: a value, its row and its dotted path.
 struct Check {
   const KeyRow& row;
-  Findings& findings;
+  Diagnostics& diagnostics;
   /// Reports and marks the value as wrong. Always false, to be handed on.
-  bool fail(Entry& value, const std::string& item, const std::string& rule) const {
-    findings.error(value.at, item, value.written, rule, give(row));
-    return value.sound = false;
+  bool fail(TomlNode& value, const std::string& item, const std::string& rule) const {
+    diagnostics.error(value.at, item, value.source_text, rule, give(row));
+    return value.valid = false;
   }
 };
 
-bool check_number(const Check& check, Entry& value, const std::string& item, std::size_t column) {
+bool check_number(const Check& check, TomlNode& value, const std::string& item,
+                  std::size_t column) {
   if (!value.is_number()) return check.fail(value, item, "must be a number");
   if (!std::isfinite(value.number)) return check.fail(value, item, "must be a finite number");
   const Range& range = check.row.range_of(column);
@@ -38,7 +39,7 @@ bool check_number(const Check& check, Entry& value, const std::string& item, std
   return true;
 }
 
-bool check_list(const Check& check, Entry& value, const std::string& item, const char* what) {
+bool check_list(const Check& check, TomlNode& value, const std::string& item, const char* what) {
   if (value.kind != Kind::list)
     return check.fail(value, item, fmt::format("must be a list of {}", what));
   if (value.children.size() < check.row.least_items)
@@ -49,72 +50,72 @@ bool check_list(const Check& check, Entry& value, const std::string& item, const
 }
 
 /// Numbers of a list; `least` to `most` of them.
-bool check_numbers(const Check& check, Entry& value, const std::string& item, std::size_t least,
+bool check_numbers(const Check& check, TomlNode& value, const std::string& item, std::size_t least,
                    std::size_t most) {
   const std::string wanted =
       least == most ? fmt::format("{}", most) : fmt::format("{} or {}", least, most);
   if (value.kind != Kind::list || value.children.size() < least || value.children.size() > most)
     return check.fail(value, item, fmt::format("must be a list of {} numbers", wanted));
-  bool sound = true;
+  bool valid = true;
   for (std::size_t i = 0; i < value.children.size(); ++i)
-    sound &= check_number(check, value.children[i], fmt::format("{}.{}", item, i), i);
-  return value.sound = sound;
+    valid &= check_number(check, value.children[i], fmt::format("{}.{}", item, i), i);
+  return value.valid = valid;
 }
 
-bool check_any_numbers(const Check& check, Entry& value, const std::string& item) {
+bool check_any_numbers(const Check& check, TomlNode& value, const std::string& item) {
   if (!check_list(check, value, item, "numbers")) return false;
-  bool sound = true;
+  bool valid = true;
   for (std::size_t i = 0; i < value.children.size(); ++i)
-    sound &= check_number(check, value.children[i], fmt::format("{}.{}", item, i), i);
-  return value.sound = sound;
+    valid &= check_number(check, value.children[i], fmt::format("{}.{}", item, i), i);
+  return value.valid = valid;
 }
 
-bool check_pairs(const Check& check, Entry& value, const std::string& item) {
+bool check_pairs(const Check& check, TomlNode& value, const std::string& item) {
   if (!check_list(check, value, item, "pairs of numbers")) return false;
-  bool sound = true;
+  bool valid = true;
   for (std::size_t i = 0; i < value.children.size(); ++i)
-    sound &= check_numbers(check, value.children[i], fmt::format("{}.{}", item, i), 2, 2);
-  return value.sound = sound;
+    valid &= check_numbers(check, value.children[i], fmt::format("{}.{}", item, i), 2, 2);
+  return value.valid = valid;
 }
 
-bool check_polygons(const Check& check, Entry& value, const std::string& item) {
+bool check_polygons(const Check& check, TomlNode& value, const std::string& item) {
   if (value.kind != Kind::list)
     return check.fail(value, item, "must be a list of lists of pairs of numbers");
-  bool sound = true;
+  bool valid = true;
   for (std::size_t i = 0; i < value.children.size(); ++i)
-    sound &= check_pairs(check, value.children[i], fmt::format("{}.{}", item, i));
-  return value.sound = sound;
+    valid &= check_pairs(check, value.children[i], fmt::format("{}.{}", item, i));
+  return value.valid = valid;
 }
 
-bool check_profile(const Check& check, Entry& value, const std::string& item) {
+bool check_profile(const Check& check, TomlNode& value, const std::string& item) {
   if (!check_list(check, value, item, "points")) return false;
-  bool sound = true;
+  bool valid = true;
   for (std::size_t i = 0; i < value.children.size(); ++i) {
-    Entry& point = value.children[i];
+    TomlNode& point = value.children[i];
     const std::string path = fmt::format("{}.{}", item, i);
     if (point.kind == Kind::table) {
-      check_section({&point, check.row.key + "[]", path}, check.findings);
-      for (const Entry& part : point.children)
-        sound &= part.sound;
-      sound &= point.sound;
+      check_section({&point, check.row.key + "[]", path}, check.diagnostics);
+      for (const TomlNode& part : point.children)
+        valid &= part.valid;
+      valid &= point.valid;
     } else {
-      sound &= check_numbers(check, point, path, 2, 3);
+      valid &= check_numbers(check, point, path, 2, 3);
     }
   }
-  return value.sound = sound;
+  return value.valid = valid;
 }
 
-bool check_names(const Check& check, Entry& value, const std::string& item) {
+bool check_names(const Check& check, TomlNode& value, const std::string& item) {
   if (value.kind != Kind::list || value.children.size() != check.row.count)
     return check.fail(value, item, fmt::format("must be a list of {} names", check.row.count));
-  bool sound = true;
+  bool valid = true;
   for (std::size_t i = 0; i < value.children.size(); ++i)
     if (value.children[i].kind != Kind::string)
-      sound = check.fail(value.children[i], fmt::format("{}.{}", item, i), "must be a string");
-  return value.sound = sound;
+      valid = check.fail(value.children[i], fmt::format("{}.{}", item, i), "must be a string");
+  return value.valid = valid;
 }
 
-bool check_string(const Check& check, Entry& value, const std::string& item) {
+bool check_string(const Check& check, TomlNode& value, const std::string& item) {
   if (value.kind != Kind::string) return check.fail(value, item, "must be a string");
   if (check.row.kind != KeyKind::text && value.text.empty())
     return check.fail(value, item, "must not be empty");
@@ -129,9 +130,9 @@ bool check_string(const Check& check, Entry& value, const std::string& item) {
   return true;
 }
 
-bool check_tables(const Check& check, Entry& value, const std::string& item) {
+bool check_tables(const Check& check, TomlNode& value, const std::string& item) {
   const std::string header = last_part(check.row.key);
-  const auto is_table = [](const Entry& entry) { return entry.kind == Kind::table; };
+  const auto is_table = [](const TomlNode& entry) { return entry.kind == Kind::table; };
   if (value.kind != Kind::list ||
       !std::all_of(value.children.begin(), value.children.end(), is_table))
     return check.fail(value, item,
@@ -139,20 +140,20 @@ bool check_tables(const Check& check, Entry& value, const std::string& item) {
   if (!check_list(check, value, item, "tables")) return false;
   for (std::size_t i = 0; i < value.children.size(); ++i)
     check_section({&value.children[i], check.row.key + "[]", fmt::format("{}.{}", item, i)},
-                  check.findings);
+                  check.diagnostics);
   return true;
 }
 
-bool check_table(const Check& check, Entry& value, const std::string& item) {
+bool check_table(const Check& check, TomlNode& value, const std::string& item) {
   const bool path = check.row.kind == KeyKind::fabric;
   if (value.kind != Kind::table)
     return check.fail(value, item, path ? "must be a path or a table" : "must be a table");
-  check_section({&value, check.row.key, item}, check.findings);
+  check_section({&value, check.row.key, item}, check.diagnostics);
   return true;
 }
 
-bool check_value(const Check& check, Entry& value, const std::string& item) {
-  if (!value.sound) return false; // reported before: a fabric file that cannot be read
+bool check_value(const Check& check, TomlNode& value, const std::string& item) {
+  if (!value.valid) return false; // reported before: a fabric file that cannot be read
   switch (check.row.kind) {
   case KeyKind::table:
   case KeyKind::map:
@@ -185,22 +186,22 @@ bool check_value(const Check& check, Entry& value, const std::string& item) {
   return true;
 }
 
-void report_other_choice(const Section& section, const KeyRow& row, Entry& value,
-                         const std::string& choice, Findings& findings) {
+void report_other_choice(const TableView& section, const KeyRow& row, TomlNode& value,
+                         const std::string& choice, Diagnostics& diagnostics) {
   std::vector<std::string> keys;
   for (const KeyRow* other : keys_below(section.pattern))
     if (other->of == row.of && other->goes_with(choice)) keys.push_back(last_part(other->key));
-  findings.error(value.key_at, item_of(section, value.key), value.written,
-                 fmt::format("{} is no key of {} {}", value.key, row.of, choice),
-                 keys.empty() ? fmt::format("take it out, or choose a {} that has it: {}", row.of,
-                                            joined(row.with))
-                              : fmt::format("it has {}", joined(keys)));
-  value.sound = false;
+  diagnostics.error(value.key_at, item_of(section, value.key), value.source_text,
+                    fmt::format("{} is no key of {} {}", value.key, row.of, choice),
+                    keys.empty() ? fmt::format("take it out, or choose a {} that has it: {}",
+                                               row.of, joined(row.with))
+                                 : fmt::format("it has {}", joined(keys)));
+  value.valid = false;
 }
 
-void add_default(Entry& table, const KeyRow& row) {
+void add_default(TomlNode& table, const KeyRow& row) {
   std::string reason;
-  std::optional<Entry> value = parse_value(row.fallback, table.at.file, 1, reason);
+  std::optional<TomlNode> value = parse_value(row.fallback, table.at.file, 1, reason);
   value->key = last_part(row.key);
   value->at = value->key_at = table.at;
   table.children.push_back(std::move(*value));
@@ -212,15 +213,15 @@ std::string pattern_beside(const KeyRow& row) {
 }
 
 /// One row of the table against what is given for it.
-void check_row(const Section& section, const KeyRow& row, Findings& findings) {
+void check_row(const TableView& section, const KeyRow& row, Diagnostics& diagnostics) {
   const std::string key = last_part(row.key);
-  Entry& table = *section.entry;
+  TomlNode& table = *section.entry;
   bool applies = true;
   if (!row.of.empty()) {
-    const Entry* choice = given(section, row.of);
+    const TomlNode* choice = given(section, row.of);
     applies = choice && row.goes_with(choice->text);
-    if (Entry* value = table.find(key); value && choice && !applies)
-      return report_other_choice(section, row, *value, choice->text, findings);
+    if (TomlNode* value = table.find(key); value && choice && !applies)
+      return report_other_choice(section, row, *value, choice->text, diagnostics);
   }
   if (applies && !row.fallback.empty() && !table.find(key)) add_default(table, row);
   const std::string item = item_of(section, key);
@@ -228,55 +229,56 @@ void check_row(const Section& section, const KeyRow& row, Findings& findings) {
   // much, so that neither mistake is reported twice.
   const KeyRow* other = row.instead.empty() ? nullptr : find_key(pattern_beside(row));
   const bool first = other && &row < other;
-  if (Entry* value = table.find(key)) {
-    check_value({row, findings}, *value, item);
+  if (TomlNode* value = table.find(key)) {
+    check_value({row, diagnostics}, *value, item);
     if (!other || first || !table.find(row.instead)) return;
-    findings.error(value->key_at, item, value->written,
-                   fmt::format("cannot stand beside {}", row.instead), "take one of the two out");
+    diagnostics.error(value->key_at, item, value->source_text,
+                      fmt::format("cannot stand beside {}", row.instead),
+                      "take one of the two out");
   } else if (applies &&
              (row.required() || (first && row.otherwise.empty() && !table.find(row.instead)))) {
-    findings.error(table.at, item, "", "is missing",
-                   give(row) + (other ? ", or " + row.instead : ""));
-    table.sound = false;
+    diagnostics.error(table.at, item, "", "is missing",
+                      give(row) + (other ? ", or " + row.instead : ""));
+    table.valid = false;
   }
 }
 
 } // namespace
 
-void report_unknown_key(const Section& section, const Place& at, const std::string& key,
-                        const std::string& value, Findings& findings) {
+void report_unknown_key(const TableView& section, const Place& at, const std::string& key,
+                        const std::string& value, Diagnostics& diagnostics) {
   std::vector<std::string> known; // without those of other shapes and kinds
   for (const KeyRow* row : keys_below(section.pattern)) {
-    const Entry* choice = row->of.empty() ? nullptr : given(section, row->of);
+    const TomlNode* choice = row->of.empty() ? nullptr : given(section, row->of);
     if (!choice || row->goes_with(choice->text)) known.push_back(last_part(row->key));
   }
   const std::string nearest = nearest_word(key, known);
   const std::string place = section.pattern.empty() ? "the case" : section.pattern;
-  findings.error(
+  diagnostics.error(
       at, item_of(section, key), value, fmt::format("unknown key, {} has no {}", place, key),
       nearest.empty() ? "it has " + joined(known) : fmt::format("did you mean {}?", nearest));
 }
 
-void check_section(const Section& section, Findings& findings) {
-  Entry& table = *section.entry;
+void check_section(const TableView& section, Diagnostics& diagnostics) {
+  TomlNode& table = *section.entry;
   const KeyRow* own = find_key(section.pattern);
   if (own && own->kind == KeyKind::map) { // every key is a name of the user's choice
-    for (Entry& child : table.children)
-      check_value({*find_key(section.pattern + ".NAME"), findings}, child,
+    for (TomlNode& child : table.children)
+      check_value({*find_key(section.pattern + ".NAME"), diagnostics}, child,
                   item_of(section, child.key));
     return;
   }
   const std::vector<const KeyRow*> rows = keys_below(section.pattern);
   for (const KeyRow* row : rows) // the choices first: other keys depend on them
-    if (row->of.empty()) check_row(section, *row, findings);
+    if (row->of.empty()) check_row(section, *row, diagnostics);
   for (const KeyRow* row : rows)
-    if (!row->of.empty()) check_row(section, *row, findings);
-  for (const Entry& child : table.children)
+    if (!row->of.empty()) check_row(section, *row, diagnostics);
+  for (const TomlNode& child : table.children)
     if (pattern_of(section.pattern, child.key).empty())
-      report_unknown_key(section, child.key_at, child.key, child.written, findings);
+      report_unknown_key(section, child.key_at, child.key, child.source_text, diagnostics);
 }
 
-std::string item_of(const Section& section, const std::string& key) {
+std::string item_of(const TableView& section, const std::string& key) {
   return section.item.empty() ? key : section.item + "." + key;
 }
 

@@ -13,41 +13,41 @@ namespace plyform {
 
 /// A table of the file with its pattern (tool[]) and dotted path (tool.1). `entry` is null where
 /// the table is missing or wrong: then nothing in it is given.
-struct Section {
-  Entry* entry;
+struct TableView {
+  TomlNode* entry;
   std::string pattern, item;
 };
 
 /// Reports unknown and missing keys, keys of another shape or kind, wrong types and numbers out of
 /// range, in the section and all below it; marks what is wrong as not sound; and puts in the
 /// defaults of keys that are not given.
-void check_section(const Section& section, Findings& findings);
+void check_section(const TableView& section, Diagnostics& diagnostics);
 
 /// Reports a key of the section that the table does not have: the nearest one that it has, or all.
-void report_unknown_key(const Section& section, const Place& at, const std::string& key,
-                        const std::string& value, Findings& findings);
+void report_unknown_key(const TableView& section, const Place& at, const std::string& key,
+                        const std::string& value, Diagnostics& diagnostics);
 
 /// "tool.1.radius"
-std::string item_of(const Section& section, const std::string& key);
+std::string item_of(const TableView& section, const std::string& key);
 
 /// The value of a key, or null if it is not given or wrong.
-const Entry* given(const Section& section, const std::string& key);
+const TomlNode* given(const TableView& section, const std::string& key);
 
-Section subsection(const Section& section, const std::string& key);
+TableView subsection(const TableView& section, const std::string& key);
 /// The tables of a list of tables or the tables of a map.
-std::vector<Section> subsections(const Section& section, const std::string& key);
+std::vector<TableView> subsections(const TableView& section, const std::string& key);
 
 /// Values in the program's units (mm, N, s, t, rad). NaN or empty where not given or wrong, so
 /// that comparisons fail and no second mistake is reported for the same value.
-double number(const Section& section, const std::string& key);
-std::vector<double> numbers(const Section& section, const std::string& key);
-std::vector<Vec2> pairs(const Section& section, const std::string& key);
-std::string text(const Section& section, const std::string& key);
-Vec2 vector2(const Section& section, const std::string& key);
-Vec3 vector3(const Section& section, const std::string& key);
+double number(const TableView& section, const std::string& key);
+std::vector<double> numbers(const TableView& section, const std::string& key);
+std::vector<Vec2> pairs(const TableView& section, const std::string& key);
+std::string text(const TableView& section, const std::string& key);
+Vec2 vector2(const TableView& section, const std::string& key);
+Vec3 vector3(const TableView& section, const std::string& key);
 
 /// Reports a mistake in the value of a key.
-void value_error(const Section& section, const std::string& key, const std::string& rule,
-                 const std::string& remedy, Findings& findings);
+void value_error(const TableView& section, const std::string& key, const std::string& rule,
+                 const std::string& remedy, Diagnostics& diagnostics);
 
 } // namespace plyform

@@ -12,14 +12,14 @@
 
 namespace plyform {
 
-Entry* Entry::find(const std::string& name) {
+TomlNode* TomlNode::find(const std::string& name) {
   const auto it = std::find_if(children.begin(), children.end(),
-                               [&](const Entry& child) { return child.key == name; });
+                               [&](const TomlNode& child) { return child.key == name; });
   return kind == Kind::table && it != children.end() ? &*it : nullptr;
 }
 
-const Entry* Entry::find(const std::string& name) const {
-  return const_cast<Entry*>(this)->find(name);
+const TomlNode* TomlNode::find(const std::string& name) const {
+  return const_cast<TomlNode*>(this)->find(name);
 }
 
 namespace {
@@ -69,76 +69,76 @@ Place place_of(const Source& source, const toml::source_position& position) {
   return {source.name, static_cast<int>(position.line), static_cast<int>(position.column)};
 }
 
-Entry convert(const toml::node& node, const Source& source);
+TomlNode convert(const toml::node& node, const Source& source);
 
-void convert_members(const toml::table& table, const Source& source, Entry& entry) {
+void convert_members(const toml::table& table, const Source& source, TomlNode& entry) {
   for (auto&& [key, value] : table) {
-    Entry child = convert(value, source);
+    TomlNode child = convert(value, source);
     child.key = std::string(key.str());
     child.key_at = place_of(source, key.source().begin);
     entry.children.push_back(std::move(child));
   }
   // toml++ sorts keys by name; mistakes read better in the order of the file.
   std::stable_sort(entry.children.begin(), entry.children.end(),
-                   [](const Entry& a, const Entry& b) {
+                   [](const TomlNode& a, const TomlNode& b) {
                      return std::pair(a.key_at.line, a.key_at.column) <
                             std::pair(b.key_at.line, b.key_at.column);
                    });
 }
 
-Entry convert(const toml::node& node, const Source& source) {
-  Entry entry;
+TomlNode convert(const toml::node& node, const Source& source) {
+  TomlNode entry;
   entry.at = entry.key_at = place_of(source, node.source().begin);
-  entry.written = quote(source, node.source());
+  entry.source_text = quote(source, node.source());
   if (const toml::table* table = node.as_table()) {
     convert_members(*table, source, entry);
   } else if (const toml::array* array = node.as_array()) {
-    entry.kind = Entry::Kind::list;
+    entry.kind = TomlNode::Kind::list;
     for (const toml::node& item : *array)
       entry.children.push_back(convert(item, source));
   } else if (const auto* text = node.as_string()) {
-    entry.kind = Entry::Kind::string;
+    entry.kind = TomlNode::Kind::string;
     entry.text = text->get();
   } else if (const auto* integer = node.as_integer()) {
-    entry.kind = Entry::Kind::integer;
+    entry.kind = TomlNode::Kind::integer;
     entry.number = static_cast<double>(integer->get());
   } else if (const auto* number = node.as_floating_point()) {
-    entry.kind = Entry::Kind::number;
+    entry.kind = TomlNode::Kind::number;
     entry.number = number->get();
   } else {
-    entry.kind = node.is_boolean() ? Entry::Kind::boolean : Entry::Kind::date;
+    entry.kind = node.is_boolean() ? TomlNode::Kind::boolean : TomlNode::Kind::date;
   }
   return entry;
 }
 
 } // namespace
 
-std::optional<Entry> parse_entries(const std::string& text, const std::string& name,
-                                   Findings& findings) {
+std::optional<TomlNode> parse_entries(const std::string& text, const std::string& name,
+                                      Diagnostics& diagnostics) {
   const Source source = split_lines(text, name);
   try {
     const toml::table table = toml::parse(std::string_view(text), std::string_view(name));
     return convert(table, source);
   } catch (const toml::parse_error& error) {
-    findings.error(place_of(source, error.source().begin), "", "",
-                   "is no TOML: " + std::string(error.description()),
-                   "correct the line, or the bracket or quote left open before it");
+    diagnostics.error(place_of(source, error.source().begin), "", "",
+                      "is no TOML: " + std::string(error.description()),
+                      "correct the line, or the bracket or quote left open before it");
     return std::nullopt;
   }
 }
 
-std::optional<Entry> parse_value(const std::string& text, const std::string& name, int column,
-                                 std::string& reason) {
+std::optional<TomlNode> parse_value(const std::string& text, const std::string& name, int column,
+                                    std::string& reason) {
   if (text.find('\n') != std::string::npos) {
     reason = "it has more than one line";
     return std::nullopt;
   }
   // A key padded with spaces puts the value into its column.
   const std::string line = fmt::format("v{:{}}={}", "", std::max(column, 3) - 3, text);
-  Findings findings;
-  std::optional<Entry> table = parse_entries(line, name, findings);
+  Diagnostics diagnostics;
+  std::optional<TomlNode> table = parse_entries(line, name, diagnostics);
   if (!table) {
-    reason = findings.errors.front().rule;
+    reason = diagnostics.errors.front().rule;
     return std::nullopt;
   }
   return std::move(table->children.front());

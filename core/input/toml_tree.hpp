@@ -12,20 +12,20 @@
 namespace plyform {
 
 /// A value and, for tables and lists, what is in it.
-struct Entry {
+struct TomlNode {
   enum class Kind { table, list, string, integer, number, boolean, date };
   Kind kind = Kind::table;
-  Place at;                    ///< of the value; of the header for [tables]
-  Place key_at;                ///< of its key; the same as `at` in a list
-  std::string key;             ///< in its table; empty in a list
-  std::string written;         ///< as it stands in the file, shortened
-  std::string text;            ///< of a string
-  double number = 0.0;         ///< of an integer or number
-  std::vector<Entry> children; ///< of a table in the order of the file, of a list
-  bool sound = true;           ///< false once a mistake in it has been reported
+  Place at;                       ///< of the value; of the header for [tables]
+  Place key_at;                   ///< of its key; the same as `at` in a list
+  std::string key;                ///< in its table; empty in a list
+  std::string source_text;        ///< as it stands in the file, shortened
+  std::string text;               ///< of a string
+  double number = 0.0;            ///< of an integer or number
+  std::vector<TomlNode> children; ///< of a table in the order of the file, of a list
+  bool valid = true;              ///< false once a mistake in it has been reported
 
-  Entry* find(const std::string& name);
-  const Entry* find(const std::string& name) const;
+  TomlNode* find(const std::string& name);
+  const TomlNode* find(const std::string& name) const;
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
 };
 
@@ -33,12 +33,12 @@ struct Entry {
 inline constexpr const char* override_file = "--set";
 
 /// Parses TOML text; a syntax error is reported with its place in `name` and answered with nothing.
-std::optional<Entry> parse_entries(const std::string& text, const std::string& name,
-                                   Findings& findings);
+std::optional<TomlNode> parse_entries(const std::string& text, const std::string& name,
+                                      Diagnostics& diagnostics);
 
 /// One value as TOML, without its key. Nothing if it is no TOML value; `reason` then says why.
 /// `column` (from 1) is where it starts in the text the places shall refer to.
-std::optional<Entry> parse_value(const std::string& text, const std::string& name, int column,
-                                 std::string& reason);
+std::optional<TomlNode> parse_value(const std::string& text, const std::string& name, int column,
+                                    std::string& reason);
 
 } // namespace plyform

@@ -9,12 +9,12 @@
 
 namespace plyform {
 
-Vec3 read_direction(const Section& tool, const std::string& key, Findings& findings) {
+Vec3 read_direction(const TableView& tool, const std::string& key, Diagnostics& diagnostics) {
   const Vec3 v = vector3(tool, key);
   const double length = v.norm();
   if (length > 0.0 && std::isfinite(length)) return v / length;
   value_error(tool, key, length > 0.0 ? "is too long" : "must not be the zero vector",
-              "give a vector that points the way", findings);
+              "give a vector that points the way", diagnostics);
   return Vec3::UnitZ();
 }
 
@@ -22,23 +22,23 @@ namespace {
 
 /// Straight points with fillets and arcs, put together into one profile.
 struct ProfileReader {
-  const Section& tool;
-  Findings& findings;
+  const TableView& tool;
+  Diagnostics& diagnostics;
   RevolvedProfile profile{};
-  std::vector<std::array<double, 3>> run{}; ///< points joined by straight lines so far
-  std::vector<const Entry*> run_entries{};  ///< and where they stand
+  std::vector<std::array<double, 3>> run{};   ///< points joined by straight lines so far
+  std::vector<const TomlNode*> run_entries{}; ///< and where they stand
 
-  void fail(const Entry& at, std::size_t index, const std::string& rule,
+  void fail(const TomlNode& at, std::size_t index, const std::string& rule,
             const std::string& remedy) {
-    findings.error(at.at, fmt::format("{}.{}", item_of(tool, "points"), index), at.written, rule,
-                   remedy);
+    diagnostics.error(at.at, fmt::format("{}.{}", item_of(tool, "points"), index), at.source_text,
+                      rule, remedy);
   }
-  void straight(const Entry& entry);
-  void arc(const Entry& entry, std::size_t index);
+  void straight(const TomlNode& entry);
+  void arc(const TomlNode& entry, std::size_t index);
   void finish_run();
 };
 
-void ProfileReader::straight(const Entry& entry) {
+void ProfileReader::straight(const TomlNode& entry) {
   const double fillet = entry.children.size() > 2 ? entry.children[2].number : 0.0;
   run.push_back({entry.children[0].number, entry.children[1].number, fillet});
   run_entries.push_back(&entry);
@@ -48,7 +48,7 @@ void ProfileReader::straight(const Entry& entry) {
 void ProfileReader::finish_run() {
   for (const std::size_t end : {std::size_t{0}, run.size() - 1}) {
     if (run[end][2] == 0.0) continue;
-    const Entry& entry = *run_entries[end];
+    const TomlNode& entry = *run_entries[end];
     const auto index = &entry - given(tool, "points")->children.data();
     return fail(entry, static_cast<std::size_t>(index),
                 "rounds a corner that has no straight line on both sides",
@@ -59,15 +59,16 @@ void ProfileReader::finish_run() {
     const RevolvedProfile part = make_profile(run);
     profile.segments.insert(profile.segments.end(), part.segments.begin(), part.segments.end());
   } catch (const std::exception& error) {
-    const Entry* points = given(tool, "points");
-    findings.error_from(points->at, item_of(tool, "points"), points->written, "", error.what());
+    const TomlNode* points = given(tool, "points");
+    diagnostics.error_from(points->at, item_of(tool, "points"), points->source_text, "",
+                           error.what());
   }
 }
 
 /// {to = [r, z], centre = [r, z], turn = "left" or "right"}, from the point before.
-void ProfileReader::arc(const Entry& entry, std::size_t index) {
+void ProfileReader::arc(const TomlNode& entry, std::size_t index) {
   const auto point = [&](const char* key) {
-    const Entry* list = entry.find(key);
+    const TomlNode* list = entry.find(key);
     return Vec2(list->children[0].number, list->children[1].number);
   };
   const Vec2 a(run.back()[0], run.back()[1]), b = point("to"), centre = point("centre");
@@ -85,13 +86,13 @@ void ProfileReader::arc(const Entry& entry, std::size_t index) {
   run_entries = {&entry};
 }
 
-RevolvedProfile read_profile(const Section& tool, Findings& findings) {
-  ProfileReader reader{tool, findings};
-  const Entry* points = given(tool, "points");
+RevolvedProfile read_profile(const TableView& tool, Diagnostics& diagnostics) {
+  ProfileReader reader{tool, diagnostics};
+  const TomlNode* points = given(tool, "points");
   if (!points) return {};
   for (std::size_t i = 0; i < points->children.size(); ++i) {
-    const Entry& entry = points->children[i];
-    if (entry.kind != Entry::Kind::table) {
+    const TomlNode& entry = points->children[i];
+    if (entry.kind != TomlNode::Kind::table) {
       reader.straight(entry);
     } else if (i == 0) {
       reader.fail(entry, i, "is an arc without a point before it", "start with a point [r, z]");
@@ -104,75 +105,77 @@ RevolvedProfile read_profile(const Section& tool, Findings& findings) {
   return reader.profile;
 }
 
-Annulus read_ring(const Section& tool, bool disc, Findings& findings) {
+Annulus read_ring(const TableView& tool, bool disc, Diagnostics& diagnostics) {
   const double inner = disc ? 0.0 : number(tool, "inner_radius");
   const double outer = number(tool, disc ? "radius" : "outer_radius");
   const double thickness = number(tool, "thickness"), edge = number(tool, "edge_radius");
   if (inner >= outer)
     value_error(tool, "inner_radius",
                 fmt::format("must be less than outer_radius, which is {:g}", outer),
-                "exchange the two, or use shape disc for a ring without a hole", findings);
+                "exchange the two, or use shape disc for a ring without a hole", diagnostics);
   const double width = disc ? outer : (outer - inner) / 2.0; // that one rounding may take
   const double room = std::min(thickness / 2.0, width);
   if (room > 0.0 && edge > room)
     value_error(tool, "edge_radius",
                 fmt::format("must be at most {:g}, for the roundings to fit the section", room),
-                "make it smaller or the section larger", findings);
+                "make it smaller or the section larger", diagnostics);
   return {inner, outer, thickness, edge};
 }
 
 /// The rounding of all edges of a box or cylinder whose smallest dimension is given: below half of
 /// it, so that something flat is left on every side.
-double read_edge(const Section& tool, double smallest, Findings& findings) {
+double read_edge(const TableView& tool, double smallest, Diagnostics& diagnostics) {
   const double edge = number(tool, "edge_radius");
   if (smallest > 0.0 && edge >= 0.5 * smallest)
     value_error(tool, "edge_radius",
                 fmt::format("must be less than {:g}, half the smallest dimension of the {}",
                             0.5 * smallest, text(tool, "shape")),
-                "make it smaller or the " + text(tool, "shape") + " larger", findings);
+                "make it smaller or the " + text(tool, "shape") + " larger", diagnostics);
   return edge;
 }
 
-Cylinder read_cylinder(const Section& tool, Findings& findings) {
+Cylinder read_cylinder(const TableView& tool, Diagnostics& diagnostics) {
   const double radius = number(tool, "radius"), length = number(tool, "length");
-  return {radius, length, read_edge(tool, std::min(2.0 * radius, length), findings)};
+  return {radius, length, read_edge(tool, std::min(2.0 * radius, length), diagnostics)};
 }
 
-Box read_box(const Section& tool, Findings& findings) {
+Box read_box(const TableView& tool, Diagnostics& diagnostics) {
   const Vec3 size = vector3(tool, "size");
-  return {size, read_edge(tool, size.minCoeff(), findings)};
+  return {size, read_edge(tool, size.minCoeff(), diagnostics)};
 }
 
-ToolShape read_mesh(const Section& tool, const std::filesystem::path& folder, Findings& findings) {
-  const Entry* file = given(tool, "file");
+ToolShape read_mesh(const TableView& tool, const std::filesystem::path& folder,
+                    Diagnostics& diagnostics) {
+  const TomlNode* file = given(tool, "file");
   const double scale = number(tool, "scale");
   if (!file || std::isnan(scale)) return Plane{};
   try {
     return load_tool_mesh(resolve_path(*file, folder).lexically_normal(), scale, nullptr);
   } catch (const std::exception& error) {
-    findings.error_from(file->at, item_of(tool, "file"), file->written,
-                        "cannot be used: ", error.what());
+    diagnostics.error_from(file->at, item_of(tool, "file"), file->source_text,
+                           "cannot be used: ", error.what());
     return Plane{};
   }
 }
 
-ToolShape read_shape(const Section& tool, const std::filesystem::path& folder, Findings& findings) {
+ToolShape read_shape(const TableView& tool, const std::filesystem::path& folder,
+                     Diagnostics& diagnostics) {
   const std::string shape = text(tool, "shape");
   if (shape == "sphere") return Sphere{number(tool, "radius")};
-  if (shape == "cylinder") return read_cylinder(tool, findings);
-  if (shape == "box") return read_box(tool, findings);
-  if (shape == "disc" || shape == "annulus") return read_ring(tool, shape == "disc", findings);
-  if (shape == "profile") return read_profile(tool, findings);
-  if (shape == "mesh") return read_mesh(tool, folder, findings);
+  if (shape == "cylinder") return read_cylinder(tool, diagnostics);
+  if (shape == "box") return read_box(tool, diagnostics);
+  if (shape == "disc" || shape == "annulus") return read_ring(tool, shape == "disc", diagnostics);
+  if (shape == "profile") return read_profile(tool, diagnostics);
+  if (shape == "mesh") return read_mesh(tool, folder, diagnostics);
   return Plane{};
 }
 
 /// Turn about z first, then the shortest rotation that brings z to the axis.
-Eigen::Matrix3d read_rotation(const Section& tool, Findings& findings) {
+Eigen::Matrix3d read_rotation(const TableView& tool, Diagnostics& diagnostics) {
   const double turn = number(tool, "turn");
   const Eigen::Matrix3d turned = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
   if (!given(tool, "axis")) return turned;
-  const Vec3 axis = read_direction(tool, "axis", findings);
+  const Vec3 axis = read_direction(tool, "axis", diagnostics);
   if (axis.z() > 1.0 - 1e-14) return turned; // no rounding for tools that stand upright
   Eigen::Quaterniond tilt = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis);
   // Half a turn has no shortest way: about x.
@@ -180,15 +183,17 @@ Eigen::Matrix3d read_rotation(const Section& tool, Findings& findings) {
   return tilt.toRotationMatrix() * turned;
 }
 
-Tool read_tool(const Section& section, const std::filesystem::path& folder, Findings& findings) {
+Tool read_tool(const TableView& section, const std::filesystem::path& folder,
+               Diagnostics& diagnostics) {
   Tool tool;
   tool.name = text(section, "name");
-  tool.shape = read_shape(section, folder, findings);
+  tool.shape = read_shape(section, folder, diagnostics);
   tool.position = vector3(section, "position");
-  tool.rotation = read_rotation(section, findings);
+  tool.rotation = read_rotation(section, diagnostics);
   const std::string motion = text(section, "motion");
   if (motion == "fixed" || motion.empty()) return tool;
-  if (given(section, "direction")) tool.direction = read_direction(section, "direction", findings);
+  if (given(section, "direction"))
+    tool.direction = read_direction(section, "direction", diagnostics);
   if (motion == "driven") {
     tool.motion = Motion::driven;
     tool.stroke = number(section, "stroke");
@@ -202,11 +207,11 @@ Tool read_tool(const Section& section, const std::filesystem::path& folder, Find
 
 } // namespace
 
-std::vector<Tool> read_tools(const Section& root, const std::filesystem::path& folder,
-                             Findings& findings) {
+std::vector<Tool> read_tools(const TableView& root, const std::filesystem::path& folder,
+                             Diagnostics& diagnostics) {
   std::vector<Tool> tools;
-  for (const Section& section : subsections(root, "tool"))
-    tools.push_back(read_tool(section, folder, findings));
+  for (const TableView& section : subsections(root, "tool"))
+    tools.push_back(read_tool(section, folder, diagnostics));
   return tools;
 }
 

@@ -121,10 +121,10 @@ std::vector<Edge> checked_edges(const BlankMesh& mesh) {
 
 /// At each node at most one edge of the rim leaves; two mean that parts meet in the node only.
 void check_nodes(const BlankMesh& mesh, const std::vector<Edge>& edges) {
-  std::vector<char> on_rim(mesh.x.size(), 0);
+  std::vector<char> touches_boundary_edge(mesh.x.size(), 0);
   for (const Edge& e : edges) {
     if (std::binary_search(edges.begin(), edges.end(), Edge{e[1], e[0]})) continue;
-    char& seen = on_rim[static_cast<std::size_t>(e[0])];
+    char& seen = touches_boundary_edge[static_cast<std::size_t>(e[0])];
     if (seen)
       throw std::runtime_error(fmt::format(
           "is not manifold, parts of it meet only in the node at {}; join them along an "

@@ -104,8 +104,8 @@ private:
 
 } // namespace
 
-Patches single_patches(std::size_t triangles) {
-  Patches p;
+StrainGroups single_triangles(std::size_t triangles) {
+  StrainGroups p;
   p.triangles.resize(triangles);
   std::iota(p.triangles.begin(), p.triangles.end(), 0);
   p.begin.resize(triangles + 1);
@@ -143,7 +143,7 @@ std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double 
   return inside;
 }
 
-Patches pair_patches(const BlankMesh& mesh, const std::vector<char>& alone) {
+StrainGroups pair_triangles(const BlankMesh& mesh, const std::vector<char>& alone) {
   std::vector<SharedSide> sides = shared_sides(mesh);
   if (!alone.empty())
     std::erase_if(sides, [&alone](const SharedSide& s) {
@@ -158,7 +158,7 @@ Patches pair_patches(const BlankMesh& mesh, const std::vector<char>& alone) {
   ChainSearch search(beside, mate);
   for (std::size_t e = 0; e < mate.size(); ++e)
     if (mate[e] < 0) search.pair_up(static_cast<std::int32_t>(e));
-  Patches result;
+  StrainGroups result;
   result.begin.push_back(0);
   for (std::size_t e = 0; e < mate.size(); ++e) {
     const auto own = static_cast<std::int32_t>(e);

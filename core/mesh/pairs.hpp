@@ -9,22 +9,22 @@
 
 namespace plyform {
 
-constexpr int most_in_patch = 2;
+constexpr int most_in_group = 2;
 
 /// Patch p holds triangles[begin[p]] .. triangles[begin[p + 1] - 1] of the mesh.
-struct Patches {
+struct StrainGroups {
   std::vector<std::int32_t> triangles;
-  std::vector<std::int32_t> begin; ///< patches + 1
+  std::vector<std::int32_t> begin; ///< groups + 1
 };
 
 /// Every triangle alone, in the order of the mesh.
-Patches single_patches(std::size_t triangles);
+StrainGroups single_triangles(std::size_t triangles);
 
 /// Pairs across shared sides: longest sides first (the two halves of a square find each other),
 /// then re-paired along chains of neighbours until hardly a triangle is alone. Triangles alone
-/// stiffen the mesh, patches of three soften it: see the table in docs/locking.md. Those marked in
+/// stiffen the mesh, groups of three soften it: see the table in docs/locking.md. Those marked in
 /// `alone` (one a triangle, or empty) stay so.
-Patches pair_patches(const BlankMesh& mesh, const std::vector<char>& alone = {});
+StrainGroups pair_triangles(const BlankMesh& mesh, const std::vector<char>& alone = {});
 
 /// Triangles (1, else 0) that the plain element suits: with a side along warp and one along weft,
 /// to a thousandth of a radian, as have their neighbours, so that they share their constraints; and

@@ -49,7 +49,7 @@ Vec2 frame_coordinates(const Boundary& frame, const Vec2& X) {
 }
 
 /// Adds what is new of `axis` to those already held.
-void hold_axis(HeldNode& node, Vec3 axis, int boundary) {
+void hold_axis(PrescribedNode& node, Vec3 axis, int boundary) {
   for (int i = 0; i < node.count; ++i) {
     const Vec3& taken = node.axis[static_cast<std::size_t>(i)];
     axis -= axis.dot(taken) * taken;
@@ -60,7 +60,7 @@ void hold_axis(HeldNode& node, Vec3 axis, int boundary) {
   node.boundary[static_cast<std::size_t>(node.count++)] = boundary;
 }
 
-void hold_by(HeldNode& node, const Boundary& boundary, int index) {
+void hold_by(PrescribedNode& node, const Boundary& boundary, int index) {
   if (boundary.kind == BoundaryKind::symmetry)
     return hold_axis(node, {boundary.normal.x(), boundary.normal.y(), 0.0}, index);
   for (int k = 0; k < 3; ++k)
@@ -85,7 +85,7 @@ bool holds(const Boundary& b, int ply, const Vec2& X) {
   return false;
 }
 
-Vec3 held_place(const Boundary& b, const Vec3& X, double d) {
+Vec3 prescribed_position(const Boundary& b, const Vec3& X, double d) {
   if (b.kind == BoundaryKind::grip) return X + d * b.direction;
   if (b.kind == BoundaryKind::symmetry || d == 0.0) return X;
   const Vec2 st = frame_coordinates(b, X.head<2>());
@@ -95,7 +95,7 @@ Vec3 held_place(const Boundary& b, const Vec3& X, double d) {
   return x;
 }
 
-Vec3 held_slope(const Boundary& b, const Vec3& X, double d) {
+Vec3 prescribed_slope(const Boundary& b, const Vec3& X, double d) {
   if (b.kind == BoundaryKind::grip) return b.direction;
   Vec3 slope = Vec3::Zero();
   if (b.kind == BoundaryKind::symmetry) return slope;
@@ -110,11 +110,11 @@ double longest_stroke(const Boundary& frame) {
   return (p[1] - p[0]).norm() + (p[2] - p[1]).norm() - (p[2] - p[0]).norm();
 }
 
-std::vector<HeldNode> held_nodes(const std::vector<Boundary>& boundaries, int ply,
-                                 std::span<const Vec3> x0) {
-  std::vector<HeldNode> held;
+std::vector<PrescribedNode> prescribed_nodes(const std::vector<Boundary>& boundaries, int ply,
+                                             std::span<const Vec3> x0) {
+  std::vector<PrescribedNode> held;
   for (std::size_t n = 0; n < x0.size(); ++n) {
-    HeldNode node{ply, static_cast<int>(n)};
+    PrescribedNode node{ply, static_cast<int>(n)};
     for (const bool planes : {false, true})
       for (std::size_t b = 0; b < boundaries.size(); ++b)
         if ((boundaries[b].kind == BoundaryKind::symmetry) == planes &&

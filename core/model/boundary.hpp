@@ -23,7 +23,7 @@
 namespace plyform {
 
 /// A node that is held: `count` axes (unit vectors at right angles), each by a boundary.
-struct HeldNode {
+struct PrescribedNode {
   int ply = 0, node = 0, count = 0;
   std::array<Vec3, 3> axis = {Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};
   std::array<int, 3> boundary{}; ///< index into Case::boundaries
@@ -33,17 +33,17 @@ struct HeldNode {
 bool holds(const Boundary& boundary, int ply, const Vec2& X);
 
 /// Place (mm) of a held node when the displacement is d (mm).
-Vec3 held_place(const Boundary& boundary, const Vec3& X, double d);
+Vec3 prescribed_position(const Boundary& boundary, const Vec3& X, double d);
 
 /// dx/dd of a held node at displacement d.
-Vec3 held_slope(const Boundary& boundary, const Vec3& X, double d);
+Vec3 prescribed_slope(const Boundary& boundary, const Vec3& X, double d);
 
 /// Longest stroke (mm) that the bars of a frame allow: D0 + stroke < sum of two bars.
 double longest_stroke(const Boundary& frame);
 
 /// The held nodes of one ply with nodes `x0` (mm), by number. Axes of a later boundary that an
 /// earlier one holds already are left out; grips and frames go before planes of symmetry.
-std::vector<HeldNode> held_nodes(const std::vector<Boundary>& boundaries, int ply,
-                                 std::span<const Vec3> x0);
+std::vector<PrescribedNode> prescribed_nodes(const std::vector<Boundary>& boundaries, int ply,
+                                             std::span<const Vec3> x0);
 
 } // namespace plyform

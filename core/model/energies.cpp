@@ -6,7 +6,7 @@
 
 namespace plyform {
 
-double Energies::surplus() const {
+double Energies::residual() const {
   return kinetic + fibre + shear + bending + contact + friction + damping - external;
 }
 
@@ -18,7 +18,7 @@ double Energies::balance_error() const {
     largest = std::max(largest, std::abs(term));
   }
   if (largest == 0) return 0;
-  return surplus() / largest;
+  return residual() / largest;
 }
 
 } // namespace plyform

@@ -9,7 +9,7 @@ namespace plyform {
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, bending = 0, contact = 0, friction = 0, damping = 0,
          external = 0;
-  double surplus() const; ///< all kept and lost, less what was put in
+  double residual() const; ///< all kept and lost, less what was put in
   /// (kinetic + fibre + shear + bending + contact + friction + damping - external) over the largest
   /// of them; 0 when all are 0.
   double balance_error() const;

@@ -23,16 +23,16 @@ Strokes longest_strokes(const Case& data) {
   return s;
 }
 
-double smooth_path(double end, double t, double duration) {
-  constexpr double r = path_ramp;
+double smooth_step(double end, double t, double duration) {
+  constexpr double r = ramp_share;
   const double u = std::clamp(t / duration, 0.0, 1.0);
   const auto ramp = [](double from_end) {
     const double w = from_end / r;
-    return path_peak * r * w * w * w * (1.0 - 0.5 * w);
+    return peak_speed_ratio * r * w * w * w * (1.0 - 0.5 * w);
   };
   if (u < r) return end * ramp(u);
   if (u > 1.0 - r) return end * (1.0 - ramp(1.0 - u));
-  return end * path_peak * (u - 0.5 * r);
+  return end * peak_speed_ratio * (u - 0.5 * r);
 }
 
 } // namespace plyform

@@ -21,8 +21,8 @@ Strokes longest_strokes(const Case& data);
 /// no jump. Against a polynomial over all of the time, with its higher peak of speed, stacks come
 /// out as near to a slow run in a tenth less time (docs/accuracy.md). Displacement of a driven tool
 /// (mm), force of a pushed one (N).
-double smooth_path(double end, double t, double duration);
-constexpr double path_ramp = 0.25;                    ///< of the duration, each
-constexpr double path_peak = 1.0 / (1.0 - path_ramp); ///< largest speed over the mean
+double smooth_step(double end, double t, double duration);
+constexpr double ramp_share = 0.25;                           ///< of the duration, each
+constexpr double peak_speed_ratio = 1.0 / (1.0 - ramp_share); ///< largest speed over the mean
 
 } // namespace plyform

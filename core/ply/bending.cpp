@@ -9,17 +9,17 @@
 namespace plyform {
 namespace {
 
-/// (G) with each node's mass shared out evenly among its patches (Irons): the mesh does not exceed
-/// the largest eigenvalue of any patch, which is at most the trace of M_e^-1 K_e. Motions across
+/// (G) with each node's mass shared out evenly among its stencils (Irons): the mesh does not exceed
+/// the largest eigenvalue of any stencil, which is at most the trace of M_e^-1 K_e. Motions across
 /// the flat sheet and in it do not mix, so the larger of their two traces is enough. In the plane
 /// warp and weft are added up: sheared they come near each other, and then do mix.
 double bound(const Bending& b, std::span<const double> node_mass) {
   const double coupling = std::abs(b.law.coupling);
   const double d[3] = {b.law.warp.largest_slope() + coupling, b.law.weft.largest_slope() + coupling,
                        b.law.twist};
-  std::vector<int> patches(b.area.size(), 0); // that a node belongs to
+  std::vector<int> stencils(b.area.size(), 0); // that a node belongs to
   for (const std::int32_t n : b.node)
-    ++patches[static_cast<std::size_t>(n)];
+    ++stencils[static_cast<std::size_t>(n)];
   double largest = 0.0;
   for (std::size_t e = 0; e < b.area.size(); ++e) {
     double across = 0.0, in_plane = 0.0;
@@ -27,10 +27,10 @@ double bound(const Bending& b, std::span<const double> node_mass) {
          i < static_cast<std::size_t>(b.begin[e + 1]); ++i) {
       const auto n = static_cast<std::size_t>(b.node[i]);
       for (std::size_t k = 0; k < 3; ++k)
-        across += b.area[e] * d[k] * b.b[i][k] * b.b[i][k] * patches[n] / node_mass[n];
+        across += b.area[e] * d[k] * b.b[i][k] * b.b[i][k] * stencils[n] / node_mass[n];
       for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
         in_plane +=
-            b.area[e] * b.in_plane[e][k] * b.b[i][k] * b.b[i][k] * patches[n] / node_mass[n];
+            b.area[e] * b.in_plane[e][k] * b.b[i][k] * b.b[i][k] * stencils[n] / node_mass[n];
     }
     largest = std::max({largest, across, in_plane});
   }
@@ -54,15 +54,15 @@ struct YarnTurn {
   double moment = 0.0; ///< M_g, N
 };
 
-PatchShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t patch) {
-  const auto first = static_cast<std::size_t>(b.begin[patch]);
+PatchShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t stencil) {
+  const auto first = static_cast<std::size_t>(b.begin[stencil]);
   const auto at = [&](std::size_t place) -> const Vec3& {
     return x[static_cast<std::size_t>(b.node[first + place])];
   };
   PatchShape s;
   s.normal.setZero();
-  for (auto i = static_cast<std::size_t>(b.fan_begin[patch]);
-       i < static_cast<std::size_t>(b.fan_begin[patch + 1]); ++i) {
+  for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
+       i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
     const auto& [p, q, r] = b.fan[i];
     const Vec3& x0 = at(static_cast<std::size_t>(p));
     s.normal += (at(static_cast<std::size_t>(q)) - x0).cross(at(static_cast<std::size_t>(r)) - x0);
@@ -70,7 +70,7 @@ PatchShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t patch
   s.size = s.normal.norm();
   s.normal /= s.size;
   s.second.fill(Vec3::Zero());
-  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[patch + 1]); ++i) {
+  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i) {
     const Vec3 from = at(i - first) - at(0); // small numbers: less rounding
     for (std::size_t k = 0; k < 3; ++k)
       s.second[k] += b.b[i][k] * from;
@@ -81,13 +81,13 @@ PatchShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t patch
 }
 
 /// (T); `family` 0 the warp, 1 the weft.
-YarnTurn turn_of(const Bending& b, std::span<const Vec3> x, std::size_t patch, std::size_t family,
+YarnTurn turn_of(const Bending& b, std::span<const Vec3> x, std::size_t stencil, std::size_t family,
                  const PatchShape& s) {
-  const auto first = static_cast<std::size_t>(b.begin[patch]);
-  const Vec3& own = x[patch];
+  const auto first = static_cast<std::size_t>(b.begin[stencil]);
+  const Vec3& own = x[stencil];
   YarnTurn t;
   t.along.setZero();
-  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[patch + 1]); ++i)
+  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
     t.along += b.a[i][family] * (x[static_cast<std::size_t>(b.node[i])] - own);
   const Vec3 c = s.normal.cross(t.along);
   constexpr double least = 1e-12; // l^2; with less, a yarn has no direction
@@ -95,7 +95,7 @@ YarnTurn turn_of(const Bending& b, std::span<const Vec3> x, std::size_t patch, s
   t.across = c / l2;
   t.kappa = s.second[family].dot(t.across);
   t.slope = s.second[family] / l2 - 2.0 * t.kappa * t.across;
-  t.moment = b.in_plane[patch][family] * t.kappa;
+  t.moment = b.in_plane[stencil][family] * t.kappa;
   return t;
 }
 
@@ -105,27 +105,27 @@ std::array<double, 3> moments(const BendingLaw& law, const std::array<double, 3>
           law.weft.at(kappa[1]).value + law.coupling * kappa[0], law.twist * kappa[2]};
 }
 
-/// (I) of one family on the nodes of a patch, but for the turning of the normal. Returns what that
-/// adds to h, N/mm.
-Vec3 add_in_plane(const Bending& b, const YarnTurn& t, std::size_t patch, std::size_t family,
+/// (I) of one family on the nodes of a stencil, but for the turning of the normal. Returns what
+/// that adds to h, N/mm.
+Vec3 add_in_plane(const Bending& b, const YarnTurn& t, std::size_t stencil, std::size_t family,
                   const Vec3& normal, std::vector<Vec3>& force) {
   const Vec3 turned = t.slope.cross(normal);
-  for (auto i = static_cast<std::size_t>(b.begin[patch]);
-       i < static_cast<std::size_t>(b.begin[patch + 1]); ++i)
+  for (auto i = static_cast<std::size_t>(b.begin[stencil]);
+       i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
     force[static_cast<std::size_t>(b.node[i])] -=
-        b.area[patch] * t.moment * (b.b[i][family] * t.across + b.a[i][family] * turned);
+        b.area[stencil] * t.moment * (b.b[i][family] * t.across + b.a[i][family] * turned);
   return t.moment * t.along.cross(t.slope);
 }
 
-/// - dN/dx_i . `along` on the nodes of a patch, the last term of (F); `along` is A0 h_t / |N|.
-void turn_normal(const Bending& b, std::span<const Vec3> x, std::size_t patch, const Vec3& along,
+/// - dN/dx_i . `along` on the nodes of a stencil, the last term of (F); `along` is A0 h_t / |N|.
+void turn_normal(const Bending& b, std::span<const Vec3> x, std::size_t stencil, const Vec3& along,
                  std::vector<Vec3>& force) {
-  for (auto i = static_cast<std::size_t>(b.fan_begin[patch]);
-       i < static_cast<std::size_t>(b.fan_begin[patch + 1]); ++i) {
+  for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
+       i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
     std::array<std::size_t, 3> n;
     for (std::size_t k = 0; k < 3; ++k)
-      n[k] =
-          static_cast<std::size_t>(b.node[static_cast<std::size_t>(b.begin[patch] + b.fan[i][k])]);
+      n[k] = static_cast<std::size_t>(
+          b.node[static_cast<std::size_t>(b.begin[stencil] + b.fan[i][k])]);
     const Vec3 turn1 = (x[n[2]] - x[n[0]]).cross(along), turn2 = along.cross(x[n[1]] - x[n[0]]);
     force[n[0]] += turn1 + turn2;
     force[n[1]] -= turn1;
@@ -140,7 +140,7 @@ Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& trian
                      std::span<const double> node_mass) {
   Bending b;
   b.law = law;
-  fit_patches(b, x, triangles, warp, weft);
+  fit_stencils(b, x, triangles, warp, weft);
   b.omega2 = bound(b, node_mass);
   return b;
 }

@@ -5,7 +5,7 @@
 //   r_1, r_2   mm     lengths along warp and weft in the unformed ply
 //   A_a,i      1/mm   first and
 //   B_ab,i     1/mm^2 second derivatives of the quadratic polynomial through (or nearest to) the
-//                     nodes i of a patch: dx/dr_a = sum_i A_a,i x_i, d^2 x / dr_a dr_b =
+//                     nodes i of a stencil: dx/dr_a = sum_i A_a,i x_i, d^2 x / dr_a dr_b =
 //                     sum_i B_ab,i x_i; constants. Exact for any quadratic shape, whatever the
 //                     mesh, but for the rim, where only what is along it counts (the moment across
 //                     a free edge is zero)
@@ -59,22 +59,23 @@
 
 namespace plyform {
 
-/// Bending of one ply of n nodes: a patch a node.
+/// Bending of one ply of n nodes: a stencil a node.
 struct Bending {
   BendingLaw law;
   std::vector<double> area;                    ///< n, A0: a third of the triangles around
-  std::vector<std::int32_t> begin;             ///< n + 1, into the arrays of patch nodes
-  std::vector<std::int32_t> node;              ///< the patch's own first, then those around it
-  std::vector<std::array<double, 3>> b;        ///< B_11, B_22, B_12 of each patch node
+  std::vector<std::int32_t> begin;             ///< n + 1, into the arrays of stencil nodes
+  std::vector<std::int32_t> node;              ///< the stencil's own first, then those around it
+  std::vector<std::array<double, 3>> b;        ///< B_11, B_22, B_12 of each stencil node
   std::vector<std::array<double, 2>> a;        ///< A_1, A_2 likewise, if yarns bend in the sheet
   std::vector<std::array<double, 2>> in_plane; ///< n, D_g of warp and weft where (T) is known, else
                                                ///< 0; empty if yarns do not bend in the sheet
   std::vector<std::int32_t> fan_begin;         ///< n + 1, into fan
-  std::vector<Triangle> fan;                   ///< triangles around, as places within the patch
+  std::vector<Triangle> fan;                   ///< triangles around, as places within the stencil
   double omega2 = 0.0; ///< 1/s^2, bound of the largest eigenvalue of M^-1 K, shape as unformed
 };
 
-/// Fits all patches (core/ply/bending_fit.hpp). `node_mass` in t; warp and weft: directions in rad.
+/// Fits all stencils (core/ply/bending_fit.hpp). `node_mass` in t; warp and weft: directions in
+/// rad.
 Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& triangles,
                      const BendingLaw& law, double warp, double weft,
                      std::span<const double> node_mass);
@@ -85,7 +86,7 @@ std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int 
 /// (T) of the warp (family 0) or weft (1) at one node; asks for D_g of either.
 double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family);
 
-/// (F) + (I) on each node, N, one patch after the other: the oracle of core/ply/bending_simd.hpp.
+/// (F) + (I) on each node, N, one stencil after the other: the oracle of core/ply/bending_simd.hpp.
 std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x);
 
 /// (E) + (G) over all nodes, N mm.

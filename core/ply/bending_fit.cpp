@@ -10,7 +10,7 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// What all patches are fitted in.
+/// What all stencils are fitted in.
 struct Sheet {
   std::span<const Vec2> x;
   const std::vector<Triangle>& triangles;
@@ -19,9 +19,9 @@ struct Sheet {
   double fibre_angle;                   ///< rad, from warp to weft
 };
 
-/// Derivatives per value at each node of a patch: rows d/d1, d/d2 (1/mm), d2/d11, d2/d22, d2/d12
+/// Derivatives per value at each node of a stencil: rows d/d1, d/d2 (1/mm), d2/d11, d2/d22, d2/d12
 /// (1/mm^2); 1 along the warp, 2 at right angles to it.
-struct PatchFit {
+struct StencilFit {
   Matrix rows;
   std::array<bool, 2> follows_yarn; ///< whether they say how warp and weft turn
 };
@@ -39,7 +39,7 @@ double across(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// 1, r, s, r^2/2, s^2/2, r s at each node, r and s from the patch's own node in units of `size`,
+/// 1, r, s, r^2/2, s^2/2, r s at each node, r and s from the stencil's own node in units of `size`,
 /// along e1 and at right angles to it.
 Matrix monomials(std::span<const Vec2> x, const std::vector<int>& nodes, double size,
                  const Vec2& e1) {
@@ -54,8 +54,8 @@ Matrix monomials(std::span<const Vec2> x, const std::vector<int>& nodes, double 
 }
 
 /// Of an inner node; lengths in units of `size`. May add to `nodes`.
-PatchFit interior_fit(const Sheet& sheet, std::vector<int>& nodes, double size) {
-  constexpr double sound = 0.002; // ratio of singular values; a regular patch has 0.01 to 0.1
+StencilFit interior_fit(const Sheet& sheet, std::vector<int>& nodes, double size) {
+  constexpr double sound = 0.002; // ratio of singular values; a regular stencil has 0.01 to 0.1
   const auto place = [&](std::size_t i) -> const Vec2& {
     return sheet.x[static_cast<std::size_t>(nodes[i])];
   };
@@ -99,9 +99,9 @@ std::vector<int> rim_neighbours(const Sheet& sheet, const std::vector<int>& node
 /// that it takes no part in the energy. So a yarn that lies along the rim is followed; one that
 /// ends there has a free end, without moment, and what is known there, the turn of the rim, would
 /// charge it for being stretched unevenly while straight. At corners there is nothing.
-PatchFit rim_fit(const Sheet& sheet, const std::vector<int>& nodes, double size,
-                 const std::vector<int>& rim) {
-  PatchFit fit{Matrix::Zero(5, static_cast<Eigen::Index>(nodes.size())), {false, false}};
+StencilFit rim_fit(const Sheet& sheet, const std::vector<int>& nodes, double size,
+                   const std::vector<int>& rim) {
+  StencilFit fit{Matrix::Zero(5, static_cast<Eigen::Index>(nodes.size())), {false, false}};
   if (rim.size() != 2) return fit;
   const Vec2& middle = sheet.x[static_cast<std::size_t>(nodes[0])];
   const Vec2 a = sheet.x[static_cast<std::size_t>(rim[0])] - middle;
@@ -133,8 +133,8 @@ void balance(std::vector<std::array<double, size>>& constants, std::size_t first
   }
 }
 
-/// The fit as derivatives along the yarns, in mm, of the last patch of `b`.
-void append_constants(Bending& b, const Sheet& sheet, const PatchFit& fit, double size) {
+/// The fit as derivatives along the yarns, in mm, of the last stencil of `b`.
+void append_constants(Bending& b, const Sheet& sheet, const StencilFit& fit, double size) {
   const double c = std::cos(sheet.fibre_angle), s = std::sin(sheet.fibre_angle);
   const Matrix second = fit.rows.bottomRows(3) / (size * size);
   const std::size_t first = b.b.size();
@@ -151,14 +151,14 @@ void append_constants(Bending& b, const Sheet& sheet, const PatchFit& fit, doubl
   balance(b.a, first);
 }
 
-/// Nodes and constants of one node's patch, added to `b`.
-void fit_patch(Bending& b, const Sheet& sheet, int node) {
+/// Nodes and constants of one node's stencil, added to `b`.
+void fit_stencil(Bending& b, const Sheet& sheet, int node) {
   std::vector<int> nodes{node};
   const auto own = static_cast<std::size_t>(node);
   const double size = std::sqrt(b.area[own]);
   grow(nodes, sheet);
   const std::vector<int> rim = rim_neighbours(sheet, nodes);
-  const PatchFit fit =
+  const StencilFit fit =
       rim.empty() ? interior_fit(sheet, nodes, size) : rim_fit(sheet, nodes, size, rim);
   append_constants(b, sheet, fit, size);
   if (!b.in_plane.empty())
@@ -179,8 +179,8 @@ void fit_patch(Bending& b, const Sheet& sheet, int node) {
 
 } // namespace
 
-void fit_patches(Bending& b, std::span<const Vec2> x, const std::vector<Triangle>& triangles,
-                 double warp, double weft) {
+void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangle>& triangles,
+                  double warp, double weft) {
   Sheet sheet{x,
               triangles,
               std::vector<std::vector<int>>(x.size()),
@@ -199,7 +199,7 @@ void fit_patches(Bending& b, std::span<const Vec2> x, const std::vector<Triangle
     }
   }
   for (std::size_t n = 0; n < x.size(); ++n)
-    fit_patch(b, sheet, static_cast<int>(n));
+    fit_stencil(b, sheet, static_cast<int>(n));
 }
 
 } // namespace plyform

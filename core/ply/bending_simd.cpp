@@ -9,18 +9,18 @@
 namespace plyform {
 namespace {
 
-/// The slots of one patch: places of its nodes within the patch (0: its own), the ring first.
-struct PatchSlots {
-  int patch = 0;
+/// The slots of one stencil: places of its nodes within the stencil (0: its own), the ring first.
+struct StencilSlots {
+  int stencil = 0;
   std::vector<int> ring, others;
 };
 
 /// The nodes around, in the order of the triangles. Where these do not close to a ring, the own
 /// node, whose difference is zero, stands between the last and the first.
-std::vector<int> ring_of(const Bending& b, std::size_t patch) {
+std::vector<int> ring_of(const Bending& b, std::size_t stencil) {
   std::vector<std::array<int, 2>> links; // the two other nodes of each triangle
-  for (auto i = static_cast<std::size_t>(b.fan_begin[patch]);
-       i < static_cast<std::size_t>(b.fan_begin[patch + 1]); ++i) {
+  for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
+       i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
     Triangle t = b.fan[i];
     std::rotate(t.begin(), std::find(t.begin(), t.end(), 0), t.end());
     links.push_back({t[1], t[2]});
@@ -49,12 +49,12 @@ std::vector<int> ring_of(const Bending& b, std::size_t patch) {
   return ring;
 }
 
-PatchSlots slots_of(const Bending& b, int patch) {
-  const auto p = static_cast<std::size_t>(patch);
-  PatchSlots s{patch, ring_of(b, p), {}};
+StencilSlots slots_of(const Bending& b, int stencil) {
+  const auto p = static_cast<std::size_t>(stencil);
+  StencilSlots s{stencil, ring_of(b, p), {}};
   for (int i = 1; i < b.begin[p + 1] - b.begin[p]; ++i)
     if (std::find(s.ring.begin(), s.ring.end(), i) == s.ring.end()) s.others.push_back(i);
-  if (s.ring.size() + s.others.size() > most_patch_slots)
+  if (s.ring.size() + s.others.size() > most_stencil_slots)
     throw std::length_error("bending: too many nodes around one");
   return s;
 }
@@ -62,11 +62,11 @@ PatchSlots slots_of(const Bending& b, int patch) {
 /// Builds one block after the other.
 class BlockMaker {
 public:
-  BlockMaker(const Bending& bending, BendingLanes& lanes_)
+  BlockMaker(const Bending& bending, BendingSimd& lanes_)
       : b(bending), out(lanes_), local(bending.area.size(), -1) {}
 
-  void add(int patch) {
-    const auto p = static_cast<std::size_t>(patch);
+  void add(int stencil) {
+    const auto p = static_cast<std::size_t>(stencil);
     const std::span<const std::int32_t> nodes(b.node.data() + b.begin[p],
                                               b.node.data() + b.begin[p + 1]);
     const auto fresh = std::count_if(nodes.begin(), nodes.end(),
@@ -76,7 +76,7 @@ public:
       std::int32_t& number = local[static_cast<std::size_t>(n)];
       if (number < 0) number = static_cast<std::int32_t>(list.size()), list.push_back(n);
     }
-    patches.push_back(slots_of(b, patch));
+    stencils.push_back(slots_of(b, stencil));
   }
 
   void close() {
@@ -84,64 +84,64 @@ public:
     BendingBlock block;
     block.first_node = static_cast<int>(out.nodes.size());
     block.nodes = static_cast<int>(list.size());
-    block.first_group = static_cast<int>(out.patches.size());
-    block.first_slot = out.slots.size() / lanes;
+    block.first_group = static_cast<int>(out.stencils.size());
+    block.first_slot = out.slots.size() / simd_width;
     add_groups();
-    block.groups = static_cast<int>(out.patches.size()) - block.first_group;
+    block.groups = static_cast<int>(out.stencils.size()) - block.first_group;
     out.blocks.push_back(block);
     out.nodes.insert(out.nodes.end(), list.begin(), list.end());
     for (const int n : list)
       local[static_cast<std::size_t>(n)] = -1;
-    list.clear(), patches.clear();
+    list.clear(), stencils.clear();
   }
 
 private:
-  using Four = std::array<const PatchSlots*, lanes>; ///< null: a lane that only fills up
+  using Four = std::array<const StencilSlots*, simd_width>; ///< null: a lane that only fills up
 
-  static auto size_of(const PatchSlots& p) { return std::pair(p.ring.size(), p.others.size()); }
+  static auto size_of(const StencilSlots& p) { return std::pair(p.ring.size(), p.others.size()); }
 
-  /// Patches of one size side by side; what is left of each size then likewise, padded. Each lane
-  /// goes through a quarter of a size: neighbours follow each other in a lane, where the one's
+  /// StrainGroups of one size side by side; what is left of each size then likewise, padded. Each
+  /// lane goes through a quarter of a size: neighbours follow each other in a lane, where the one's
   /// force is added to their nodes long before the other's.
   void add_groups() {
-    std::stable_sort(patches.begin(), patches.end(), [](const PatchSlots& p, const PatchSlots& q) {
-      return size_of(p) > size_of(q);
-    });
-    std::vector<const PatchSlots*> left;
-    for (std::size_t begin = 0, end = 0; begin < patches.size(); begin = end) {
-      while (end < patches.size() && size_of(patches[end]) == size_of(patches[begin]))
+    std::stable_sort(
+        stencils.begin(), stencils.end(),
+        [](const StencilSlots& p, const StencilSlots& q) { return size_of(p) > size_of(q); });
+    std::vector<const StencilSlots*> left;
+    for (std::size_t begin = 0, end = 0; begin < stencils.size(); begin = end) {
+      while (end < stencils.size() && size_of(stencils[end]) == size_of(stencils[begin]))
         ++end;
-      const std::size_t groups = (end - begin) / lanes;
+      const std::size_t groups = (end - begin) / simd_width;
       for (std::size_t g = 0; g < groups; ++g) {
         Four four;
-        for (std::size_t lane = 0; lane < lanes; ++lane)
-          four[lane] = &patches[begin + lane * groups + g];
+        for (std::size_t lane = 0; lane < simd_width; ++lane)
+          four[lane] = &stencils[begin + lane * groups + g];
         add_group(four);
       }
-      for (std::size_t i = begin + lanes * groups; i < end; ++i)
-        left.push_back(&patches[i]);
+      for (std::size_t i = begin + simd_width * groups; i < end; ++i)
+        left.push_back(&stencils[i]);
     }
-    for (std::size_t i = 0; i < left.size(); i += lanes) {
+    for (std::size_t i = 0; i < left.size(); i += simd_width) {
       Four four{};
-      for (std::size_t lane = 0; lane < lanes && i + lane < left.size(); ++lane)
+      for (std::size_t lane = 0; lane < simd_width && i + lane < left.size(); ++lane)
         four[lane] = left[i + lane];
       add_group(four);
     }
   }
 
   void add_group(const Four& four) {
-    LanePatches& group = out.patches.emplace_back();
+    SimdPatches& group = out.stencils.emplace_back();
     std::size_t ring = 0, others = 0;
-    for (const PatchSlots* p : four)
+    for (const StencilSlots* p : four)
       if (p) ring = std::max(ring, p->ring.size()), others = std::max(others, p->others.size());
     group.ring = static_cast<std::int32_t>(ring);
     group.slots = static_cast<std::int32_t>(ring + others);
     const std::size_t first = out.slots.size();
-    out.slots.resize(first + lanes * (ring + others));
-    out.constants.resize(out.slots.size() / lanes * slot_numbers());
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      const PatchSlots& p = four[lane] ? *four[lane] : *four[0];
-      const auto n = static_cast<std::size_t>(p.patch);
+    out.slots.resize(first + simd_width * (ring + others));
+    out.constants.resize(out.slots.size() / simd_width * slot_numbers());
+    for (std::size_t lane = 0; lane < simd_width; ++lane) {
+      const StencilSlots& p = four[lane] ? *four[lane] : *four[0];
+      const auto n = static_cast<std::size_t>(p.stencil);
       group.area[lane] = four[lane] ? b.area[n] : 0.0;
       for (std::size_t k = 0; k < 2; ++k)
         group.in_plane[k][lane] = b.in_plane.empty() ? 0.0 : b.in_plane[n][k];
@@ -152,9 +152,9 @@ private:
       padded.resize(ring + others, 0);
       std::vector<char> done(static_cast<std::size_t>(b.begin[n + 1] - b.begin[n]), 0);
       for (std::size_t i = 0; i < padded.size(); ++i) {
-        out.slots[first + lanes * i + lane] = at(p, padded[i]);
+        out.slots[first + simd_width * i + lane] = at(p, padded[i]);
         char& before = done[static_cast<std::size_t>(padded[i])];
-        if (padded[i] != 0 && !before) set_constants(first / lanes + i, lane, p, padded[i]);
+        if (padded[i] != 0 && !before) set_constants(first / simd_width + i, lane, p, padded[i]);
         before = 1;
       }
     }
@@ -162,17 +162,17 @@ private:
 
   std::size_t slot_numbers() const { return b.in_plane.empty() ? 3 : 5; }
 
-  std::size_t index(const PatchSlots& p, int place) const {
-    return static_cast<std::size_t>(b.begin[static_cast<std::size_t>(p.patch)] + place);
+  std::size_t index(const StencilSlots& p, int place) const {
+    return static_cast<std::size_t>(b.begin[static_cast<std::size_t>(p.stencil)] + place);
   }
 
-  std::uint16_t at(const PatchSlots& p, int place) const {
+  std::uint16_t at(const StencilSlots& p, int place) const {
     const auto node = static_cast<std::size_t>(b.node[index(p, place)]);
     return static_cast<std::uint16_t>(local[node] * 32);
   }
 
-  void set_constants(std::size_t slot, std::size_t lane, const PatchSlots& p, int place) {
-    LaneNumbers* to = out.constants.data() + slot * slot_numbers();
+  void set_constants(std::size_t slot, std::size_t lane, const StencilSlots& p, int place) {
+    SimdNumbers* to = out.constants.data() + slot * slot_numbers();
     const std::size_t i = index(p, place);
     for (std::size_t k = 0; k < 3; ++k)
       to[k].of[lane] = b.b[i][k];
@@ -181,14 +181,14 @@ private:
   }
 
   const Bending& b;
-  BendingLanes& out;
-  std::vector<std::int32_t> local; ///< number of a node of the ply in the open block, or -1
-  std::vector<std::int32_t> list;  ///< nodes of the open block
-  std::vector<PatchSlots> patches; ///< of the open block
+  BendingSimd& out;
+  std::vector<std::int32_t> local;    ///< number of a node of the ply in the open block, or -1
+  std::vector<std::int32_t> list;     ///< nodes of the open block
+  std::vector<StencilSlots> stencils; ///< of the open block
 };
 
 void moment_of_table(const BendingKernelLaw& law, int family, const double* kappa, double* m) {
-  for (int i = 0; i < lanes; ++i)
+  for (int i = 0; i < simd_width; ++i)
     m[i] = (family == 0 ? law.law->warp : law.law->weft).at(kappa[i]).value;
 }
 
@@ -206,8 +206,8 @@ BendingKernelLaw kernel_law(const Bending& b) {
 
 } // namespace
 
-BendingLanes make_bending_lanes(const Bending& b, std::span<const Vec3> x) {
-  BendingLanes out;
+BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
+  BendingSimd out;
   Box3 box;
   for (const Vec3& p : x)
     box.extend(p);
@@ -219,16 +219,16 @@ BendingLanes make_bending_lanes(const Bending& b, std::span<const Vec3> x) {
   return out;
 }
 
-void bending_forces(BendingLanes& l, const Bending& b, std::span<const Vec3> x, int block) {
+void bending_forces(BendingSimd& l, const Bending& b, std::span<const Vec3> x, int block) {
   const BendingBlock& of = l.blocks[static_cast<std::size_t>(block)];
   const BendingKernelLaw law = kernel_law(b);
   const std::size_t slot_numbers = law.in_plane ? 5 : 3;
   const BendingKernelBlock kernel{l.nodes.data() + of.first_node,
                                   of.nodes,
-                                  l.patches.data() + of.first_group,
+                                  l.stencils.data() + of.first_group,
                                   of.groups,
                                   l.constants.data() + of.first_slot * slot_numbers,
-                                  l.slots.data() + of.first_slot * lanes,
+                                  l.slots.data() + of.first_slot * simd_width,
                                   l.force.data() + of.first_node};
   const auto run = has_avx2() ? bending_kernel_avx2 : bending_kernel_generic;
   run(kernel, law, x.data()->data());

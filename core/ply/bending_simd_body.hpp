@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// (F) and (I) of core/ply/bending.hpp for four nodes at a time. Constants of a patch add up to
+// (F) and (I) of core/ply/bending.hpp for four nodes at a time. Constants of a stencil add up to
 // zero, so only differences d_i = x_i - x_own matter, and the own node gets minus the forces on the
 // others:
 //   N = sum_k d_k x d_{k+1}            over the ring, from its last back to its first
@@ -11,15 +11,15 @@
 namespace plyform {
 namespace {
 
-/// What four patches become.
-struct LaneShape {
+/// What four stencils become.
+struct SimdShape {
   Vector4 sum;       ///< N
   Vector4 second[3]; ///< s_11, s_22, s_12
   Vector4 first[2];  ///< d of warp and weft
 };
 
 /// Factors of the constants in the forces.
-struct LaneFactors {
+struct SimdFactors {
   Vector4 second[3]; ///< V_11, V_22, V_12
   Vector4 first[2];  ///< U_1, U_2
   Vector4 turn;      ///< v
@@ -43,12 +43,12 @@ PLYFORM_INLINE void add_to(Vector4& sum, Double4 factor, const Vector4& a) {
 
 /// d_i of all slots, and the derivatives that they give.
 template <bool in_plane>
-PLYFORM_INLINE LaneShape find_shape(const LanePatches& p, const std::uint16_t* slots,
-                                    const LaneNumbers* constants, const double* place, Vector4* d) {
+PLYFORM_INLINE SimdShape find_shape(const SimdPatches& p, const std::uint16_t* slots,
+                                    const SimdNumbers* constants, const double* place, Vector4* d) {
   const Vector4 own = places(place, p.own);
-  LaneShape s{none(), {none(), none(), none()}, {none(), none()}};
+  SimdShape s{none(), {none(), none(), none()}, {none(), none()}};
   for (int i = 0; i < p.slots; ++i, constants += slot_numbers<in_plane>) {
-    const Vector4 di = places(place, slots + lanes * i) - own;
+    const Vector4 di = places(place, slots + simd_width * i) - own;
     d[i] = di;
     for (int k = 0; k < 3; ++k)
       add_to(s.second[k], load(constants[k].of), di);
@@ -67,15 +67,15 @@ PLYFORM_INLINE LaneShape find_shape(const LanePatches& p, const std::uint16_t* s
 template <bool tables>
 PLYFORM_INLINE Double4 yarn_moment(const BendingKernelLaw& law, int family, Double4 kappa) {
   if (!tables) return law.stiffness[family] * kappa;
-  alignas(32) double at[lanes], m[lanes];
+  alignas(32) double at[simd_width], m[simd_width];
   store(at, kappa);
   law.moment(law, family, at, m);
   return load(m);
 }
 
 /// (I) of one family: adds to the factors, and to h.
-PLYFORM_INLINE void add_in_plane(const LaneShape& s, const Vector4& normal, Double4 area,
-                                 Double4 stiffness, int family, LaneFactors& f, Vector4& h) {
+PLYFORM_INLINE void add_in_plane(const SimdShape& s, const Vector4& normal, Double4 area,
+                                 Double4 stiffness, int family, SimdFactors& f, Vector4& h) {
   constexpr double least = 1e-12; // l^2; with less, a yarn has no direction
   const Vector4 &along = s.first[family], &second = s.second[family];
   const Vector4 c = cross(normal, along);
@@ -90,7 +90,7 @@ PLYFORM_INLINE void add_in_plane(const LaneShape& s, const Vector4& normal, Doub
 }
 
 template <bool in_plane, bool tables>
-PLYFORM_INLINE LaneFactors find_factors(const LanePatches& p, const LaneShape& s,
+PLYFORM_INLINE SimdFactors find_factors(const SimdPatches& p, const SimdShape& s,
                                         const BendingKernelLaw& law) {
   const Double4 area = load(p.area), per_size = 1.0 / root(dot(s.sum, s.sum));
   const Vector4 normal = per_size * s.sum;
@@ -99,7 +99,7 @@ PLYFORM_INLINE LaneFactors find_factors(const LanePatches& p, const LaneShape& s
   const Double4 m2 = yarn_moment<tables>(law, 1, kappa2) + law.coupling * kappa1;
   const Double4 m12 = law.twist * dot(normal, s.second[2]);
   Vector4 h = m1 * s.second[0] + m2 * s.second[1] + m12 * s.second[2];
-  LaneFactors f{{(-(area * m1)) * normal, (-(area * m2)) * normal, (-(area * m12)) * normal},
+  SimdFactors f{{(-(area * m1)) * normal, (-(area * m2)) * normal, (-(area * m12)) * normal},
                 {none(), none()},
                 none()};
   for (int k = 0; k < 2 && in_plane; ++k)
@@ -111,15 +111,15 @@ PLYFORM_INLINE LaneFactors find_factors(const LanePatches& p, const LaneShape& s
 /// Adds four forces to four nodes.
 PLYFORM_INLINE void add_rows(const Vector4& f, const std::uint16_t* at, double* force) {
   const Rows r = rows(f);
-  for (int i = 0; i < lanes; ++i) {
+  for (int i = 0; i < simd_width; ++i) {
     double* to = of_node(force, at[i]);
     store(to, load(to) + r.row[i]);
   }
 }
 
 template <bool in_plane>
-PLYFORM_INLINE void add_forces(const LanePatches& p, const LaneFactors& f,
-                               const std::uint16_t* slots, const LaneNumbers* constants,
+PLYFORM_INLINE void add_forces(const SimdPatches& p, const SimdFactors& f,
+                               const std::uint16_t* slots, const SimdNumbers* constants,
                                const Vector4* d, double* force) {
   Vector4 sum = none(), before = d[p.ring - 1];
   for (int i = 0; i < p.slots; ++i, constants += slot_numbers<in_plane>) {
@@ -133,7 +133,7 @@ PLYFORM_INLINE void add_forces(const LanePatches& p, const LaneFactors& f,
       before = d[i];
     }
     sum = sum + fi;
-    add_rows(fi, slots + lanes * i, force);
+    add_rows(fi, slots + simd_width * i, force);
   }
   add_rows(none() - sum, p.own, force);
 }
@@ -145,16 +145,16 @@ PLYFORM_INLINE void block_forces(const BendingKernelBlock& block, const BendingK
   double* force = &block.force->x;
   for (int i = 0; i < block.node_count; ++i)
     store(force + 4 * i, all(0.0));
-  Vector4 d[most_patch_slots];
-  const LaneNumbers* constants = block.constants;
+  Vector4 d[most_stencil_slots];
+  const SimdNumbers* constants = block.constants;
   const std::uint16_t* slots = block.slots;
   for (int group = 0; group < block.groups; ++group) {
-    const LanePatches& p = block.patches[group];
-    const LaneShape s = find_shape<in_plane>(p, slots, constants, place, d);
-    const LaneFactors f = find_factors<in_plane, tables>(p, s, law);
+    const SimdPatches& p = block.stencils[group];
+    const SimdShape s = find_shape<in_plane>(p, slots, constants, place, d);
+    const SimdFactors f = find_factors<in_plane, tables>(p, s, law);
     add_forces<in_plane>(p, f, slots, constants, d, force);
     constants += slot_numbers<in_plane> * p.slots;
-    slots += lanes * p.slots;
+    slots += simd_width * p.slots;
   }
 }
 

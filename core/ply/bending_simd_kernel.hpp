@@ -9,18 +9,19 @@ namespace plyform {
 
 struct BendingLaw;
 
-constexpr int most_patch_slots = 512; ///< their differences, 48 kB, are mostly not used
-constexpr int most_bending_nodes = most_patch_slots + 1; ///< of a block, more than most_block_nodes
-                                                         ///< only if one patch has so many
+constexpr int most_stencil_slots = 512; ///< their differences, 48 kB, are mostly not used
+constexpr int most_bending_nodes =
+    most_stencil_slots + 1; ///< of a block, more than most_block_nodes
+                            ///< only if one stencil has so many
 
-/// Four patches of four nodes. A slot is a node of each, around its own. The slots of the ring come
-/// first: each patch's triangles are its own node and two slots that follow each other, the last
-/// and the first slot included.
-struct alignas(32) LanePatches {
-  double area[lanes];        ///< mm^2, A0; 0 where a lane only fills up the group
-  double in_plane[2][lanes]; ///< N mm, D_g of warp and weft at the patch's node
-  std::uint16_t own[lanes];  ///< bytes: 32 times the number in the block's list
-  std::int32_t ring, slots;  ///< slots of the ring, of all; at most most_patch_slots
+/// Four stencils of four nodes. A slot is a node of each, around its own. The slots of the ring
+/// come first: each stencil's triangles are its own node and two slots that follow each other, the
+/// last and the first slot included.
+struct alignas(32) SimdPatches {
+  double area[simd_width];        ///< mm^2, A0; 0 where a lane only fills up the group
+  double in_plane[2][simd_width]; ///< N mm, D_g of warp and weft at the stencil's node
+  std::uint16_t own[simd_width];  ///< bytes: 32 times the number in the block's list
+  std::int32_t ring, slots;       ///< slots of the ring, of all; at most most_stencil_slots
 };
 
 /// Constants of (M), N mm.
@@ -33,18 +34,18 @@ struct BendingKernelLaw {
   void (*moment)(const BendingKernelLaw&, int family, const double* kappa, double* m);
 };
 
-/// Patches that share a list of nodes. All arrays are the block's own.
+/// StrainGroups that share a list of nodes. All arrays are the block's own.
 struct BendingKernelBlock {
   const std::int32_t* nodes; ///< in the ply
   int node_count;
-  const LanePatches* patches;
+  const SimdPatches* stencils;
   int groups;
-  const LaneNumbers* constants; ///< a slot: B_11, B_22, B_12; with in_plane A_1, A_2 more
-  const std::uint16_t* slots;   ///< a slot: four nodes, as LanePatches::own
-  LaneForce* force;             ///< one a node
+  const SimdNumbers* constants; ///< a slot: B_11, B_22, B_12; with in_plane A_1, A_2 more
+  const std::uint16_t* slots;   ///< a slot: four nodes, as SimdPatches::own
+  SimdForce* force;             ///< one a node
 };
 
-/// (F) + (I) of a block's patches, added up at its nodes. x: 3 a node of the ply, mm.
+/// (F) + (I) of a block's stencils, added up at its nodes. x: 3 a node of the ply, mm.
 void bending_kernel_generic(const BendingKernelBlock& block, const BendingKernelLaw& law,
                             const double* x);
 void bending_kernel_avx2(const BendingKernelBlock& block, const BendingKernelLaw& law,

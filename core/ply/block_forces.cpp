@@ -23,7 +23,7 @@ std::uint64_t interleaved(std::uint32_t a, std::uint32_t b) {
 } // namespace
 
 void find_node_forces(BlockForces& b, std::size_t count) {
-  b.force.assign(b.nodes.size() + 1, LaneForce{});
+  b.force.assign(b.nodes.size() + 1, SimdForce{});
   const Gather gather = make_gather(b.nodes, count);
   const auto zero = static_cast<std::int32_t>(b.nodes.size());
   for (std::size_t n = 0; n < count; ++n) {

@@ -22,7 +22,7 @@ struct NodeForces {
 
 struct BlockForces {
   std::vector<std::int32_t> nodes;  ///< of the blocks, in the ply
-  std::vector<LaneForce> force;     ///< one each of `nodes`, and a zero
+  std::vector<SimdForce> force;     ///< one each of `nodes`, and a zero
   std::vector<NodeForces> force_of; ///< one a node of the ply, ascending
   std::vector<std::int32_t> more;   ///< how many, then these, of nodes with more than two
 };
@@ -31,9 +31,9 @@ struct BlockForces {
 void find_node_forces(BlockForces& b, std::size_t count);
 
 /// N, on a node of the ply from all blocks.
-inline Vec3 lane_force(const BlockForces& b, std::size_t node) {
+inline Vec3 simd_force(const BlockForces& b, std::size_t node) {
   const auto force = [&b](std::int32_t i) {
-    const LaneForce& f = b.force[static_cast<std::size_t>(i)];
+    const SimdForce& f = b.force[static_cast<std::size_t>(i)];
     return Vec3(f.x, f.y, f.z);
   };
   const NodeForces of = b.force_of[node];

@@ -11,11 +11,11 @@
 namespace plyform {
 namespace {
 
-constexpr double stabilisation = 1e-6; // s_a over yarn stiffness, see (E)
-constexpr double most_of_shear = 0.1;  // s_a over what the shear holds deviations with, and
-constexpr double shear_scale_at = 0.5; // rad: where that is taken; the law may start from zero
-constexpr double guard = 1e-3;         // g_a over yarn stiffness: far above the shear's scale
-constexpr double guard_stretch = 0.5;
+constexpr double stabilisation = 1e-6;    // s_a over yarn stiffness, see (E)
+constexpr double most_of_shear = 0.1;     // s_a over what the shear holds deviations with, and
+constexpr double shear_scale_at = 0.5;    // rad: where that is taken; the law may start from zero
+constexpr double collapse_penalty = 1e-3; // g_a over yarn stiffness: far above the shear's scale
+constexpr double collapse_stretch = 0.5;
 
 /// Below this sine the two fibre families coincide and the shear angle has no meaning.
 constexpr double least_sine = 1e-9;
@@ -27,7 +27,7 @@ SideStiffness side_stiffness(const Membrane& m, const TensionLaw& yarn, double d
   const double secant = m.fabric.shear.at(shear_scale_at).value / shear_scale_at;
   const double by_shear = density > 0.0 ? m.cells_per_area * deviation_weight * secant / density
                                         : 0.0; // a sheet without yarns has none
-  SideStiffness side{stabilisation * stiff, std::min(guard * stiff, soft)};
+  SideStiffness side{stabilisation * stiff, std::min(collapse_penalty * stiff, soft)};
   if (by_shear > 0.0) side.stabilisation = std::min(side.stabilisation, most_of_shear * by_shear);
   return side;
 }
@@ -49,10 +49,10 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   if (fabric.isotropic) kind = ElementKind::plain; // there is no yarn to lock
   std::vector<char> alone;                         // the paper's element where it does not lock
   if (kind == ElementKind::automatic) alone = along_fibres(mesh, warp_angle, warp_angle + m.omega0);
-  const Patches patches = kind == ElementKind::plain ? single_patches(mesh.triangles.size())
-                                                     : pair_patches(mesh, alone);
-  m.patch_begin = patches.begin;
-  for (std::int32_t e : patches.triangles)
+  const StrainGroups groups = kind == ElementKind::plain ? single_triangles(mesh.triangles.size())
+                                                         : pair_triangles(mesh, alone);
+  m.group_begin = groups.begin;
+  for (std::int32_t e : groups.triangles)
     m.triangles.push_back(mesh.triangles[static_cast<std::size_t>(e)]);
   m.node_area.assign(mesh.x.size(), 0.0);
   const Vec2 e1(std::cos(warp_angle), std::sin(warp_angle));
@@ -78,8 +78,8 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   Gather gather = make_gather(corners, mesh.x.size());
   m.gather_begin = std::move(gather.begin);
   m.gather = std::move(gather.gather);
-  m.last_lambda.assign(static_cast<std::size_t>(m.patches()), {1.0, 1.0});
-  m.last_viscous.assign(static_cast<std::size_t>(m.patches()), {0.0, 0.0});
+  m.last_lambda.assign(static_cast<std::size_t>(m.groups()), {1.0, 1.0});
+  m.last_viscous.assign(static_cast<std::size_t>(m.groups()), {0.0, 0.0});
   return m;
 }
 
@@ -117,9 +117,9 @@ IsotropicState isotropic_state(const Membrane& m, const FibreState& s) {
 }
 
 /// (q) of core/model/isotropic.hpp for triangles [begin, end).
-PatchReport isotropic_forces(const Membrane& m, std::span<const Vec3> x, int begin, int end,
+GroupReport isotropic_forces(const Membrane& m, std::span<const Vec3> x, int begin, int end,
                              std::span<ElementForce> q) {
-  PatchReport report;
+  GroupReport report;
   for (int i = begin; i < end; ++i) {
     const auto e = static_cast<std::size_t>(i);
     const FibreState s = fibre_state(m, x, i);
@@ -131,18 +131,18 @@ PatchReport isotropic_forces(const Membrane& m, std::span<const Vec3> x, int beg
   return report;
 }
 
-/// The triangles of one patch and their mean stretches.
-struct PatchState {
+/// The triangles of one group and their mean stretches.
+struct GroupState {
   int begin, size;
-  std::array<FibreState, most_in_patch> triangle;
+  std::array<FibreState, most_in_group> triangle;
   double area = 0.0, mean1 = 0.0, mean2 = 0.0;
 };
 
-PatchState patch_state(const Membrane& m, std::span<const Vec3> x, int patch) {
-  const auto p = static_cast<std::size_t>(patch);
-  PatchState s;
-  s.begin = m.patch_begin[p];
-  s.size = m.patch_begin[p + 1] - s.begin;
+GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group) {
+  const auto p = static_cast<std::size_t>(group);
+  GroupState s;
+  s.begin = m.group_begin[p];
+  s.size = m.group_begin[p + 1] - s.begin;
   for (int i = 0; i < s.size; ++i) {
     const double area = m.area[static_cast<std::size_t>(s.begin + i)];
     FibreState& t = s.triangle[static_cast<std::size_t>(i)];
@@ -158,16 +158,18 @@ PatchState patch_state(const Membrane& m, std::span<const Vec3> x, int patch) {
 
 /// Stabilisation and guard of (N) for one family.
 double side_tension(const SideStiffness& side, double lambda, double mean) {
-  return side.stabilisation * (lambda - mean) - side.guard * std::max(0.0, guard_stretch - lambda);
+  return side.stabilisation * (lambda - mean) -
+         side.collapse_penalty * std::max(0.0, collapse_stretch - lambda);
 }
 
 /// Their energy per yarn length, N.
 double side_energy(const SideStiffness& side, double lambda, double mean) {
-  const double deviation = lambda - mean, folded = std::max(0.0, guard_stretch - lambda);
-  return 0.5 * (side.stabilisation * deviation * deviation + side.guard * folded * folded);
+  const double deviation = lambda - mean, folded = std::max(0.0, collapse_stretch - lambda);
+  return 0.5 *
+         (side.stabilisation * deviation * deviation + side.collapse_penalty * folded * folded);
 }
 
-/// g of (E) for a triangle of a patch.
+/// g of (E) for a triangle of a group.
 double shear_measure(const FibreState& s, double mean1, double mean2) {
   const double d1 = s.lambda1 - mean1, d2 = s.lambda2 - mean2;
   return std::sqrt(s.gamma * s.gamma + deviation_weight * (d1 * d1 + d2 * d2));
@@ -187,10 +189,10 @@ ElementForce triangle_force(const Membrane& m, const FibreState& s, double area,
           (area * m.fabric.weft_density * n2 - t2 * s.cos_omega) * s.f2 + t2 * s.f1};
 }
 
-/// (Q) of all triangles of a patch whose yarns pull with n1 and n2 on the mean.
-void patch_forces(const Membrane& m, const PatchState& s, double n1, double n2,
+/// (Q) of all triangles of a group whose yarns pull with n1 and n2 on the mean.
+void patch_forces(const Membrane& m, const GroupState& s, double n1, double n2,
                   std::span<ElementForce> q) {
-  std::array<double, most_in_patch> secant{};
+  std::array<double, most_in_group> secant{};
   double mean1 = 0.0, mean2 = 0.0; // of n_c p delta_a
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
     const FibreState& t = s.triangle[i];
@@ -220,8 +222,8 @@ double deviation_stiffness(const Membrane& m, double gamma) {
 
 std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x) {
   std::vector<std::array<double, 2>> strains(m.triangles.size());
-  for (int p = 0; p < m.patches(); ++p) {
-    const PatchState s = patch_state(m, x, p);
+  for (int p = 0; p < m.groups(); ++p) {
+    const GroupState s = group_state(m, x, p);
     for (int i = 0; i < s.size; ++i)
       strains[static_cast<std::size_t>(s.begin + i)] = {s.mean1 - 1.0, s.mean2 - 1.0};
   }
@@ -235,9 +237,9 @@ std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<co
     weft = m.fabric.weft.at(weft).value;
   }
   std::vector<std::size_t> paired;
-  for (std::size_t p = 0; p + 1 < m.patch_begin.size(); ++p)
-    for (int e = m.patch_begin[p]; e < m.patch_begin[p + 1]; ++e)
-      if (m.patch_begin[p + 1] - m.patch_begin[p] > 1)
+  for (std::size_t p = 0; p + 1 < m.group_begin.size(); ++p)
+    for (int e = m.group_begin[p]; e < m.group_begin[p + 1]; ++e)
+      if (m.group_begin[p + 1] - m.group_begin[p] > 1)
         paired.push_back(static_cast<std::size_t>(e));
   const int passes = paired.empty() ? 0 : 2;
   std::vector<std::array<double, 2>> at_node(x.size());
@@ -259,14 +261,14 @@ std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<co
   return tensions;
 }
 
-PatchReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+GroupReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                            std::span<ElementForce> q) {
   if (m.fabric.isotropic) return isotropic_forces(m, x, begin, end, q);
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
-  PatchReport report;
+  GroupReport report;
   for (int p = begin; p < end; ++p) {
-    const PatchState s = patch_state(m, x, p);
+    const GroupState s = group_state(m, x, p);
     double n1 = m.fabric.warp.at(s.mean1 - 1.0).value;
     double n2 = m.fabric.weft.at(s.mean2 - 1.0).value;
     // viscosity of taut fibres; its work by the trapezoidal rule over the step that led here
@@ -314,8 +316,8 @@ Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node) {
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
   MembraneEnergy sum;
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
-  for (int p = 0; p < m.patches(); ++p) {
-    const PatchState s = patch_state(m, x, p);
+  for (int p = 0; p < m.groups(); ++p) {
+    const GroupState s = group_state(m, x, p);
     sum.fibre += s.area * (d1 * m.fabric.warp.at(s.mean1 - 1.0).energy +
                            d2 * m.fabric.weft.at(s.mean2 - 1.0).energy);
     for (int i = 0; i < s.size; ++i) {

@@ -10,8 +10,8 @@
 //   d_a      1/mm    yarns per mm;  n_c = d_1 d_2 sin(omega0)  1/mm^2  unit cells per area
 //   A0       mm^2    initial area
 //
-//   P        -       patch: a pair of triangles that share a mean strain, or one alone
-//   A        mm^2    sum of A0 over the patch; mean: average over the patch by area
+//   P        -       group: a pair of triangles that share a mean strain, or one alone
+//   A        mm^2    sum of A0 over the group; mean: average over the group by area
 //   delta_a  -       eps_a - mean eps_a, zero for a triangle alone
 //   g        rad     sqrt(gamma^2 + beta (delta_1^2 + delta_2^2)): deviations count as shear
 //   beta     -       8
@@ -32,7 +32,7 @@
 //   F_n = -( c_1,n q_1 + c_2,n q_2 )                                            (31)(32)(39)(F)
 // clang-format on
 //
-// Numbers in brackets: the paper's equations, cleaned. With patches of one triangle this is the
+// Numbers in brackets: the paper's equations, cleaned. With groups of one triangle this is the
 // paper's element exactly (the guard apart, which no sound result reaches); for omega0 = 90 degrees
 // (Q) is then the sum of (31), (32) and (39). The element only needs k_1 and k_2, so the fibres may
 // lie at any angle to the sides and to each other.
@@ -72,7 +72,7 @@ struct FibreViscosity {
 
 /// s_a and g_a of one family, N.
 struct SideStiffness {
-  double stabilisation = 0.0, guard = 0.0;
+  double stabilisation = 0.0, collapse_penalty = 0.0;
 };
 
 /// One ply's membrane; nodes and triangles are numbered within the ply. Constant topology, and the
@@ -84,19 +84,19 @@ struct Membrane {
   double cells_per_area = 0.0;               ///< n_c, 1/mm^2
   FibreViscosity viscosity;
   std::array<SideStiffness, 2> side{};    ///< warp, weft
-  std::vector<Triangle> triangles;        ///< m, those of a patch next to each other
-  std::vector<std::int32_t> patch_begin;  ///< patches + 1, into triangles
+  std::vector<Triangle> triangles;        ///< m, those of a group next to each other
+  std::vector<std::int32_t> group_begin;  ///< groups + 1, into triangles
   std::vector<FibreGradients> c;          ///< m
   std::vector<double> area;               ///< m, A0
   std::vector<double> node_area;          ///< n, a third of the triangles around it
   std::vector<double> node_mass;          ///< n, t
   std::vector<std::int32_t> gather_begin; ///< n + 1, into gather
   std::vector<std::int32_t> gather;       ///< 3 * triangle + corner, ascending
-  // state of the viscosity: mean stretches and viscous tensions of the last step, one a patch;
+  // state of the viscosity: mean stretches and viscous tensions of the last step, one a group;
   // empty where core/ply/membrane_simd.hpp computes the forces
   std::vector<std::array<double, 2>> last_lambda, last_viscous;
 
-  int patches() const { return static_cast<int>(patch_begin.size()) - 1; }
+  int groups() const { return static_cast<int>(group_begin.size()) - 1; }
 };
 
 /// Strains and directions of one triangle.
@@ -109,7 +109,7 @@ struct FibreState {
 /// `warp_angle` in rad from x. `fabric`: the true one; its yarns are softened by `softening`, as
 /// far as effective_softening allows; s_a and g_a go by the true stiffness. With `kind` automatic
 /// the triangles that along_fibres (core/mesh/pairs.hpp) marks are plain, the others averaged.
-/// Triangles are put in the order of their patches. Throws std::invalid_argument for a triangle of
+/// Triangles are put in the order of their groups. Throws std::invalid_argument for a triangle of
 /// zero or inverted area.
 Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
                        ElementKind kind, double softening = 1.0);
@@ -120,7 +120,7 @@ FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle)
 /// (E) at shear angle gamma (rad).
 double deviation_stiffness(const Membrane& m, double gamma);
 
-/// Mean strains {warp, weft} of the patch that a triangle belongs to, for all m triangles: those
+/// Mean strains {warp, weft} of the group that a triangle belongs to, for all m triangles: those
 /// that its yarns are stretched by.
 std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x);
 
@@ -134,15 +134,15 @@ std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<co
 /// 1.1 degrees of lying on each other. One that turns over in its plane goes through this.
 bool collapsed(const FibreState& state);
 
-/// What came up with the forces of some patches.
-struct PatchReport {
+/// What came up with the forces of some groups.
+struct GroupReport {
   double viscous_work = 0.0; ///< N mm, done against viscosity in the step that led here
   bool collapsed = false;    ///< a triangle is
 };
 
-/// (Q) for patches [begin, end) at positions x, viscous forces included (dt: the step that led to
+/// (Q) for groups [begin, end) at positions x, viscous forces included (dt: the step that led to
 /// x, s; 0 leaves the viscosity out). q: one a triangle.
-PatchReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+GroupReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                            std::span<ElementForce> q);
 
 /// (F): internal force on a node, N, from all its triangles in fixed order.

@@ -10,11 +10,11 @@
 namespace plyform {
 namespace {
 
-constexpr double guard_reach = 0.55; // stretch: the guard acts below 0.5
+constexpr double collapse_reach = 0.55; // stretch: the guard acts below 0.5
 
 /// Whether some triangles share their yarns' strains.
 bool is_paired(const Membrane& m) {
-  return static_cast<std::size_t>(m.patches()) < m.triangles.size();
+  return static_cast<std::size_t>(m.groups()) < m.triangles.size();
 }
 
 /// Larger eigenvalue of {{a, off}, {off, b}}.
@@ -25,13 +25,13 @@ double largest(double a, double b, double off) {
 /// Stiffness of both families per area, N/mm, yarns taut or pressed flat.
 std::array<double, 2> yarn_stiffness(const Membrane& m) {
   const auto slope = [](const TensionLaw& yarn, const SideStiffness& side) {
-    return std::max(yarn.largest_slope(), yarn.compression + side.guard);
+    return std::max(yarn.largest_slope(), yarn.compression + side.collapse_penalty);
   };
   return {m.fabric.warp_density * slope(m.fabric.warp, m.side[0]),
           m.fabric.weft_density * slope(m.fabric.weft, m.side[1])};
 }
 
-/// Stiffness per area against deviations within a patch, N/mm.
+/// Stiffness per area against deviations within a group, N/mm.
 std::array<double, 2> deviation_stiffness(const Membrane& m, const FibreState& s) {
   const double shear = deviation_stiffness(m, s.gamma);
   return {m.fabric.warp_density * m.side[0].stabilisation + shear,
@@ -63,11 +63,11 @@ double soft_stiffness(const Membrane& m, const FibreState& s) {
 
 } // namespace
 
-FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
+EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
   // K_e = A0 B^T H B with B = [c_1; c_2] x I. Its non-zero eigenvalues are those of H (G x I),
   // and every node carries at least rho A0 / 3: so omega^2 <= 3/rho * them. Fibre part of H: exact,
   // a 2 x 2 problem. A sheet without yarns has only its own (core/model/isotropic.hpp).
-  FrequencyBound bound;
+  EigenvalueBound bound;
   const auto [s1, s2] = yarn_stiffness(m);
   const double v1 = m.fabric.warp_density * m.viscosity.warp;
   const double v2 = m.fabric.weft_density * m.viscosity.weft;
@@ -75,15 +75,15 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
   const double per_mass = 3.0 / m.fabric.surface_density;
   // a triangle's guard adds to the stiffness of its pair's taut yarns
   const bool paired = is_paired(m);
-  const double g1 = m.fabric.warp_density * m.side[0].guard;
-  const double g2 = m.fabric.weft_density * m.side[1].guard;
+  const double g1 = m.fabric.warp_density * m.side[0].collapse_penalty;
+  const double g2 = m.fabric.weft_density * m.side[1].collapse_penalty;
   constexpr double considerable = 0.2; // of the yarn's stiffness: less is covered by step factors
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const Gram g = gram(m.c[e]);
     const FibreState s = fibre_state(m, x, static_cast<int>(e));
     const auto [d1, d2] = deviation_stiffness(m, s);
-    const double k1 = s1 + d1 + (paired && s.lambda1 < guard_reach ? g1 : 0.0);
-    const double k2 = s2 + d2 + (paired && s.lambda2 < guard_reach ? g2 : 0.0);
+    const double k1 = s1 + d1 + (paired && s.lambda1 < collapse_reach ? g1 : 0.0);
+    const double k2 = s2 + d2 + (paired && s.lambda2 < collapse_reach ? g2 : 0.0);
     const double fibre = largest(k1 * g.g11, k2 * g.g22, std::sqrt(k1 * k2) * g.g12 * s.cos_omega);
     const double viscous =
         largest(v1 * g.g11, v2 * g.g22, std::sqrt(v1 * v2) * g.g12 * s.cos_omega);
@@ -98,8 +98,9 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
     for (std::size_t a = 0; a < 2; ++a) {
       const TensionLaw& yarn = a == 0 ? m.fabric.warp : m.fabric.weft;
       const double lambda = a == 0 ? s.lambda1 : s.lambda2;
-      bound.guarded = bound.guarded || (lambda < guard_reach &&
-                                        m.side[a].guard > considerable * yarn.largest_slope());
+      bound.guarded =
+          bound.guarded || (lambda < collapse_reach &&
+                            m.side[a].collapse_penalty > considerable * yarn.largest_slope());
     }
     bound.yarns = std::max(bound.yarns, per_mass * (fibre + sheet));
     bound.soft = std::max(bound.soft, per_mass * soft);
@@ -113,14 +114,15 @@ FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x) {
   return bound;
 }
 
-YarnProduct::YarnProduct(const Membrane& m, std::span<const Vec3> x, double stiffness,
-                         double damping)
+YarnStiffness::YarnStiffness(const Membrane& m, std::span<const Vec3> x, double stiffness,
+                             double damping)
     : m_(m), q_(m.triangles.size()) {
   const auto yarn = yarn_stiffness(m);
   taut_ = {stiffness * yarn[0] + damping * m.fabric.warp_density * m.viscosity.warp,
            stiffness * yarn[1] + damping * m.fabric.weft_density * m.viscosity.weft};
-  const std::array<double, 2> guard{stiffness * m.fabric.warp_density * m.side[0].guard,
-                                    stiffness * m.fabric.weft_density * m.side[1].guard};
+  const std::array<double, 2> collapse_penalty{
+      stiffness * m.fabric.warp_density * m.side[0].collapse_penalty,
+      stiffness * m.fabric.weft_density * m.side[1].collapse_penalty};
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const FibreState s = fibre_state(m, x, static_cast<int>(e));
     const auto [d1, d2] = deviation_stiffness(m, s);
@@ -128,17 +130,17 @@ YarnProduct::YarnProduct(const Membrane& m, std::span<const Vec3> x, double stif
     rows_.push_back({s.f1,
                      s.f2,
                      {stiffness * d1, stiffness * d2},
-                     {paired && s.lambda1 < guard_reach ? guard[0] : 0.0,
-                      paired && s.lambda2 < guard_reach ? guard[1] : 0.0}});
+                     {paired && s.lambda1 < collapse_reach ? collapse_penalty[0] : 0.0,
+                      paired && s.lambda2 < collapse_reach ? collapse_penalty[1] : 0.0}});
   }
 }
 
-void YarnProduct::strain_patch(std::span<const Vec3> y, std::size_t patch) {
-  const auto begin = static_cast<std::size_t>(m_.patch_begin[patch]),
-             end = static_cast<std::size_t>(m_.patch_begin[patch + 1]);
+void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
+  const auto begin = static_cast<std::size_t>(m_.group_begin[group]),
+             end = static_cast<std::size_t>(m_.group_begin[group + 1]);
   double area = 0.0;
   std::array<double, 2> mean{};
-  std::array<std::array<double, 2>, most_in_patch> strain{};
+  std::array<std::array<double, 2>, most_in_group> strain{};
   for (std::size_t e = begin; e < end; ++e) {
     const FibreGradients& c = m_.c[e];
     const Triangle& t = m_.triangles[e];
@@ -158,16 +160,16 @@ void YarnProduct::strain_patch(std::span<const Vec3> y, std::size_t patch) {
     std::array<double, 2> pull;
     for (std::size_t a = 0; a < 2; ++a) {
       const double own = strain[e - begin][a];
-      pull[a] = m_.area[e] *
-                (taut_[a] * mean[a] + row.deviation[a] * (own - mean[a]) + row.guard[a] * own);
+      pull[a] = m_.area[e] * (taut_[a] * mean[a] + row.deviation[a] * (own - mean[a]) +
+                              row.collapse_penalty[a] * own);
     }
     q_[e] = {pull[0] * row.f1, pull[1] * row.f2};
   }
 }
 
-void YarnProduct::add_to(std::span<const Vec3> y, std::span<Vec3> f) {
-  for (std::size_t p = 0; p < static_cast<std::size_t>(m_.patches()); ++p)
-    strain_patch(y, p);
+void YarnStiffness::add_to(std::span<const Vec3> y, std::span<Vec3> f) {
+  for (std::size_t p = 0; p < static_cast<std::size_t>(m_.groups()); ++p)
+    strain_group(y, p);
   for (std::size_t n = 0; n < f.size(); ++n)
     f[n] -= node_force(m_, q_, static_cast<int>(n));
 }
@@ -185,9 +187,9 @@ Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x) {
   return v;
 }
 
-double sharpness(const Membrane& m, std::span<const Vec3> x) {
+double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x) {
   if (m.fabric.isotropic) return 1.0;
-  YarnProduct stiffness(m, x, 1.0, 0.0);
+  YarnStiffness stiffness(m, x, 1.0, 0.0);
   std::vector<Vec3> y(x.size()), f(x.size());
   const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
     over_root_of_mass(m, v, y);
@@ -198,12 +200,12 @@ double sharpness(const Membrane& m, std::span<const Vec3> x) {
     return w;
   };
   const double found = largest_ritz_value(apply, scattered_motion(m, x), ritz_steps);
-  return std::min(1.0, ritz_margin * found / frequency_bound(m, x).yarns);
+  return std::min(1.0, ritz_margin * found / eigenvalue_bound(m, x).yarns);
 }
 
-double highest_omega2(const FrequencyBound& bound, double sharpness) {
+double highest_omega2(const EigenvalueBound& bound, double eigenvalue_ratio) {
   if (bound.guarded) return bound.omega2;
-  return std::min(bound.omega2, sharpness * bound.yarns + bound.soft);
+  return std::min(bound.omega2, eigenvalue_ratio * bound.yarns + bound.soft);
 }
 
 } // namespace plyform

@@ -15,7 +15,7 @@
 namespace plyform {
 
 /// Bounds of one ply at its present shape, by Irons.
-struct FrequencyBound {
+struct EigenvalueBound {
   double omega2 = 0.0;            ///< 1/s^2
   double yarns = 0.0, soft = 0.0; ///< 1/s^2, largest of yarns alone; of shear and tension
   bool guarded = false; ///< whether a guard about as stiff as its yarns acts on a triangle
@@ -23,13 +23,13 @@ struct FrequencyBound {
   double viscous = 0.0; ///< s, C is at most so many times the yarns' K
   int triangle = -1;    ///< where
 };
-FrequencyBound frequency_bound(const Membrane& m, std::span<const Vec3> x);
+EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x);
 
 /// Products with (stiffness K + damping C) of taut yarns, guards that act included, at one shape;
 /// not for a sheet without yarns. The membrane must outlive it.
-class YarnProduct {
+class YarnStiffness {
 public:
-  YarnProduct(const Membrane& m, std::span<const Vec3> x, double stiffness, double damping);
+  YarnStiffness(const Membrane& m, std::span<const Vec3> x, double stiffness, double damping);
 
   /// Adds the product with y (mm), (K), to f, both n nodes.
   void add_to(std::span<const Vec3> y, std::span<Vec3> f);
@@ -37,9 +37,9 @@ public:
 private:
   struct Row {
     Vec3 f1, f2;
-    std::array<double, 2> deviation, guard; ///< N/mm
+    std::array<double, 2> deviation, collapse_penalty; ///< N/mm
   };
-  void strain_patch(std::span<const Vec3> y, std::size_t patch);
+  void strain_group(std::span<const Vec3> y, std::size_t group);
 
   const Membrane& m_;
   std::array<double, 2> taut_; ///< N/mm
@@ -54,13 +54,13 @@ Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x);
 constexpr int ritz_steps = 30;       ///< leaves 1 % to find on meshes of 1e6 triangles
 constexpr double ritz_margin = 1.03; ///< for that, three times
 
-/// omega^2 of the yarns' stiffness alone at shape x (mm) over FrequencyBound::yarns, at most 1: the
-/// largest Ritz value with a margin of 3 % for what the iteration has not found. 1 for a sheet
+/// omega^2 of the yarns' stiffness alone at shape x (mm) over EigenvalueBound::yarns, at most 1:
+/// the largest Ritz value with a margin of 3 % for what the iteration has not found. 1 for a sheet
 /// without yarns.
-double sharpness(const Membrane& m, std::span<const Vec3> x);
+double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x);
 
 /// Largest omega^2 (1/s^2) of a bound whose part of the yarns is sharpened; Irons' where guards
 /// act.
-double highest_omega2(const FrequencyBound& bound, double sharpness);
+double highest_omega2(const EigenvalueBound& bound, double eigenvalue_ratio);
 
 } // namespace plyform

@@ -11,15 +11,15 @@ namespace {
 
 constexpr int block_patches = 512; // long enough to hide the hand-over, short enough to share out
 
-/// Patches in an order in which neighbours are near each other.
+/// StrainGroups in an order in which neighbours are near each other.
 std::vector<int> ordered_patches(const Membrane& m, std::span<const Vec3> x) {
   Box3 box;
   for (const Vec3& p : x)
     box.extend(p);
   std::vector<Vec3> centres;
-  for (int p = 0; p < m.patches(); ++p) {
+  for (int p = 0; p < m.groups(); ++p) {
     const Triangle& t =
-        m.triangles[static_cast<std::size_t>(m.patch_begin[static_cast<std::size_t>(p)])];
+        m.triangles[static_cast<std::size_t>(m.group_begin[static_cast<std::size_t>(p)])];
     Vec3& centre = centres.emplace_back(Vec3::Zero());
     for (const int n : t)
       centre += x[static_cast<std::size_t>(n)] / 3.0;
@@ -30,15 +30,15 @@ std::vector<int> ordered_patches(const Membrane& m, std::span<const Vec3> x) {
 /// Builds one block after the other.
 class BlockMaker {
 public:
-  BlockMaker(const Membrane& membrane, std::size_t nodes, MembraneLanes& lanes_)
+  BlockMaker(const Membrane& membrane, std::size_t nodes, MembraneSimd& lanes_)
       : m(membrane), out(lanes_), local(nodes, -1) {}
 
-  void add(int patch) {
+  void add(int group) {
     if (static_cast<int>(pairs.size() + singles.size()) == block_patches ||
         static_cast<int>(list.size()) + 4 > most_block_nodes)
       close();
-    (size(patch) == 2 ? pairs : singles).push_back(patch);
-    for (int e = first(patch); e < first(patch) + size(patch); ++e)
+    (size(group) == 2 ? pairs : singles).push_back(group);
+    for (int e = first(group); e < first(group) + size(group); ++e)
       for (const int n : m.triangles[static_cast<std::size_t>(e)]) {
         std::int32_t& number = local[static_cast<std::size_t>(n)];
         if (number < 0) number = static_cast<std::int32_t>(list.size()), list.push_back(n);
@@ -47,13 +47,13 @@ public:
 
   void close() {
     if (list.empty()) return;
-    LaneBlock block;
+    SimdBlock block;
     block.first_node = static_cast<int>(out.nodes.size());
     block.nodes = static_cast<int>(list.size());
     block.first_triangles = static_cast<int>(out.triangles.size());
     block.first_group = static_cast<int>(out.viscosity.size());
-    block.pair_groups = add_groups(pairs, 2);
-    block.single_groups = add_groups(singles, 1);
+    block.pair_packs = add_groups(pairs, 2);
+    block.single_packs = add_groups(singles, 1);
     out.blocks.push_back(block);
     out.nodes.insert(out.nodes.end(), list.begin(), list.end());
     for (const int n : list)
@@ -62,40 +62,40 @@ public:
   }
 
 private:
-  int first(int patch) const { return m.patch_begin[static_cast<std::size_t>(patch)]; }
-  int size(int patch) const {
-    return m.patch_begin[static_cast<std::size_t>(patch) + 1] - first(patch);
+  int first(int group) const { return m.group_begin[static_cast<std::size_t>(group)]; }
+  int size(int group) const {
+    return m.group_begin[static_cast<std::size_t>(group) + 1] - first(group);
   }
 
-  int add_groups(const std::vector<int>& patches, int of) {
+  int add_groups(const std::vector<int>& groups, int of) {
     // each lane goes through a quarter of its own: neighbours follow each other in a lane, where
     // the one's force is added to their nodes long before the other's
-    const std::size_t groups = (patches.size() + lanes - 1) / lanes;
-    for (std::size_t group = 0; group < groups; ++group) {
+    const std::size_t packs = (groups.size() + simd_width - 1) / simd_width;
+    for (std::size_t pack = 0; pack < packs; ++pack) {
       for (int i = 0; i < of; ++i) {
-        LaneTriangles& t = out.triangles.emplace_back();
-        for (std::size_t lane = 0; lane < lanes; ++lane) {
-          const std::size_t i_patch = lane * groups + group;
-          const bool filler = i_patch >= patches.size();
-          const int patch = patches[filler ? patches.size() - 1 : i_patch];
-          set(t, lane, patch, first(patch) + i, filler);
+        SimdTriangles& t = out.triangles.emplace_back();
+        for (std::size_t lane = 0; lane < simd_width; ++lane) {
+          const std::size_t i_group = lane * packs + pack;
+          const bool filler = i_group >= groups.size();
+          const int group = groups[filler ? groups.size() - 1 : i_group];
+          set(t, lane, group, first(group) + i, filler);
         }
       }
-      LaneViscosity& v = out.viscosity.emplace_back();
-      for (std::size_t lane = 0; lane < lanes; ++lane) {
+      SimdViscosity& v = out.viscosity.emplace_back();
+      for (std::size_t lane = 0; lane < simd_width; ++lane) {
         v.lambda[0][lane] = v.lambda[1][lane] = 1.0;
         v.tension[0][lane] = v.tension[1][lane] = 0.0;
       }
     }
-    return static_cast<int>(groups);
+    return static_cast<int>(packs);
   }
 
-  void set(LaneTriangles& t, std::size_t lane, int patch, int triangle, bool filler) const {
+  void set(SimdTriangles& t, std::size_t lane, int group, int triangle, bool filler) const {
     const auto e = static_cast<std::size_t>(triangle);
     const FibreGradients& c = m.c[e];
     t.c11[lane] = c.c11, t.c12[lane] = c.c12, t.c21[lane] = c.c21, t.c22[lane] = c.c22;
     double patch_area = 0.0;
-    for (int i = first(patch); i < first(patch) + size(patch); ++i)
+    for (int i = first(group); i < first(group) + size(group); ++i)
       patch_area += m.area[static_cast<std::size_t>(i)];
     t.area[lane] = filler ? 0.0 : m.area[e];
     t.share[lane] = m.area[e] / patch_area;
@@ -105,7 +105,7 @@ private:
   }
 
   const Membrane& m;
-  MembraneLanes& out;
+  MembraneSimd& out;
   std::vector<std::int32_t> local; ///< number of a node of the ply in the open block, or -1
   std::vector<std::int32_t> list;  ///< nodes of the open block
   std::vector<int> pairs, singles;
@@ -120,22 +120,22 @@ double density(const KernelLaw& law, int family) {
 }
 
 void tension_of_table(const KernelLaw& law, int family, const double* strain, double* n) {
-  for (int i = 0; i < lanes; ++i)
+  for (int i = 0; i < simd_width; ++i)
     n[i] = density(law, family) * on_yarn(law, family, strain[i]).value;
 }
 
 void tension_energy_of_table(const KernelLaw& law, int family, const double* strain, double* e) {
-  for (int i = 0; i < lanes; ++i)
+  for (int i = 0; i < simd_width; ++i)
     e[i] = density(law, family) * on_yarn(law, family, strain[i]).energy;
 }
 
 void secant_of_table(const KernelLaw& law, const double* measure2, double* p) {
-  for (int i = 0; i < lanes; ++i)
+  for (int i = 0; i < simd_width; ++i)
     p[i] = law.cells * law.fabric->shear.secant(std::sqrt(measure2[i]));
 }
 
 void shear_energy_of_table(const KernelLaw& law, const double* measure2, double* e) {
-  for (int i = 0; i < lanes; ++i)
+  for (int i = 0; i < simd_width; ++i)
     e[i] = law.cells * law.fabric->shear.at(std::sqrt(measure2[i])).energy;
 }
 
@@ -146,7 +146,7 @@ KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosit
   k.compression = density * yarn.compression;
   k.viscosity = density * viscosity;
   k.stabilisation = density * side.stabilisation;
-  k.guard = density * side.guard;
+  k.collapse_penalty = density * side.collapse_penalty;
   k.table = !yarn.strain.empty();
   k.buckles = yarn.buckles();
   if (k.buckles) {
@@ -180,36 +180,36 @@ KernelLaw kernel_law(const Membrane& m) {
 static_assert(sizeof(Vec3) == 3 * sizeof(double)); // as the kernel takes it
 
 /// viscosity, force: of all blocks, or null where they are not asked for.
-KernelBlock kernel_block(const MembraneLanes& l, const LaneBlock& b, LaneViscosity* viscosity,
-                         LaneForce* force) {
+KernelBlock kernel_block(const MembraneSimd& l, const SimdBlock& b, SimdViscosity* viscosity,
+                         SimdForce* force) {
   return {l.nodes.data() + b.first_node,
           b.nodes,
           l.triangles.data() + b.first_triangles,
           viscosity ? viscosity + b.first_group : nullptr,
-          b.pair_groups,
-          b.single_groups,
+          b.pair_packs,
+          b.single_packs,
           force ? force + b.first_node : nullptr};
 }
 
 } // namespace
 
-bool fits_lanes(const Membrane& m) {
+bool fits_simd(const Membrane& m) {
   return !m.fabric.isotropic;
 }
 
-MembraneLanes make_lanes(const Membrane& m, std::span<const Vec3> x) {
-  MembraneLanes out;
+MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {
+  MembraneSimd out;
   BlockMaker maker(m, x.size(), out);
-  for (const int patch : ordered_patches(m, x))
-    maker.add(patch);
+  for (const int group : ordered_patches(m, x))
+    maker.add(group);
   maker.close();
   find_node_forces(out, x.size());
   return out;
 }
 
-PatchReport lane_forces(MembraneLanes& l, const Membrane& m, std::span<const Vec3> x, double dt,
+GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block) {
-  const LaneBlock& b = l.blocks[static_cast<std::size_t>(block)];
+  const SimdBlock& b = l.blocks[static_cast<std::size_t>(block)];
   const KernelBlock kernel = kernel_block(l, b, l.viscosity.data(), l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = has_avx2() ? membrane_kernel_avx2 : membrane_kernel_generic;
@@ -217,9 +217,9 @@ PatchReport lane_forces(MembraneLanes& l, const Membrane& m, std::span<const Vec
   return {report.viscous_work, report.collapsed};
 }
 
-MembraneEnergy lane_energy(const MembraneLanes& l, const Membrane& m, std::span<const Vec3> x,
+MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
                            int block) {
-  const LaneBlock& b = l.blocks[static_cast<std::size_t>(block)];
+  const SimdBlock& b = l.blocks[static_cast<std::size_t>(block)];
   const KernelBlock kernel = kernel_block(l, b, nullptr, nullptr);
   const auto run = has_avx2() ? membrane_energy_avx2 : membrane_energy_generic;
   const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data());

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// (N), (Q) and (F) of core/ply/membrane.hpp for four patches at a time. With
+// (N), (Q) and (F) of core/ply/membrane.hpp for four groups at a time. With
 //   a = k_1.k_1,  b = k_2.k_2,  d = k_1.k_2,  J = sqrt(a b - d^2) = lambda_1 lambda_2 sin(omega)
 //   gamma = omega0 - pi/2 + arctan(d / J),  tau = A0 n_c p gamma / J
 // (Q) needs no unit vectors:
@@ -10,27 +10,27 @@
 namespace plyform {
 namespace {
 
-/// LaneTriangles that go through each step together, so that the processor finds work in the one
+/// SimdTriangles that go through each step together, so that the processor finds work in the one
 /// while it waits for a root of the other. Even: pairs stay together.
 constexpr int batch = 8;
-constexpr double guard_stretch = 0.5, least_sine_between = 0.02;
+constexpr double collapse_stretch = 0.5, least_sine_between = 0.02;
 
 /// KernelLaw, four times each.
-struct LaneYarns {
-  Double4 stiffness, compression, viscosity, stabilisation, guard; ///< viscosity: N/mm
+struct SimdYarns {
+  Double4 stiffness, compression, viscosity, stabilisation, collapse_penalty; ///< viscosity: N/mm
 };
 
-struct LaneLaw {
-  LaneYarns yarns[2];
+struct SimdLaw {
+  SimdYarns yarns[2];
   Double4 angle, beta, shear[most_shear_terms];
 };
 
-PLYFORM_INLINE LaneLaw lane_law(const KernelLaw& law, double per_dt) {
-  LaneLaw l;
+PLYFORM_INLINE SimdLaw lane_law(const KernelLaw& law, double per_dt) {
+  SimdLaw l;
   for (int a = 0; a < 2; ++a) {
     const KernelYarns& y = law.yarns[a];
     l.yarns[a] = {all(y.stiffness), all(y.compression), all(y.viscosity * per_dt),
-                  all(y.stabilisation), all(y.guard)};
+                  all(y.stabilisation), all(y.collapse_penalty)};
   }
   l.angle = all(law.angle), l.beta = all(law.beta);
   for (int i = 0; i < most_shear_terms; ++i)
@@ -39,13 +39,13 @@ PLYFORM_INLINE LaneLaw lane_law(const KernelLaw& law, double per_dt) {
 }
 
 /// Four triangles and what they become.
-struct LaneState {
+struct SimdState {
   Vector4 k1, k2;
   Double4 a, b, d, lambda1, lambda2, j;
   Double4 gamma, area_a, area_b, per_j; ///< area_a: A0 / a; per_j: 1 / J
 };
 
-PLYFORM_INLINE void find_lengths(const LaneTriangles& t, const double* place, LaneState& s) {
+PLYFORM_INLINE void find_lengths(const SimdTriangles& t, const double* place, SimdState& s) {
   const auto side = [&](int corner, int lane) {
     return load(of_node(place, t.node[corner][lane])) - load(of_node(place, t.node[0][lane]));
   };
@@ -63,29 +63,29 @@ PLYFORM_INLINE void find_lengths(const LaneTriangles& t, const double* place, La
 }
 
 /// Returns where a triangle is odd: collapsed, guarded, or not a number.
-PLYFORM_INLINE Long4 find_angle(const LaneTriangles& t, const LaneLaw& law, LaneState& s) {
+PLYFORM_INLINE Long4 find_angle(const SimdTriangles& t, const SimdLaw& law, SimdState& s) {
   const Double4 length2 = s.lambda1 * s.lambda2;
   const Double4 ab = s.a * s.b, aj = s.a * s.j, bj = s.b * s.j;
   const Double4 inverse = 1.0 / (ab * s.j), area = load(t.area) * inverse;
   s.area_a = area * bj, s.area_b = area * aj, s.per_j = inverse * ab;
   s.gamma = law.angle + arctan(s.d, s.j, length2);
-  const Long4 sound = (s.lambda1 > all(guard_stretch)) & (s.lambda2 > all(guard_stretch)) &
+  const Long4 sound = (s.lambda1 > all(collapse_stretch)) & (s.lambda2 > all(collapse_stretch)) &
                       (s.j > least_sine_between * length2);
   return ~sound;
 }
 
 /// As collapsed() of core/ply/membrane.hpp; NaN counts.
-PLYFORM_INLINE Long4 lane_collapsed(const LaneState& s) {
+PLYFORM_INLINE Long4 lane_collapsed(const SimdState& s) {
   constexpr double least_stretch = 0.1;
   const Long4 sound = (s.lambda1 > all(least_stretch)) & (s.lambda2 > all(least_stretch)) &
                       (s.j > least_sine_between * (s.lambda1 * s.lambda2));
   return ~sound;
 }
 
-/// What a block's groups share.
-struct LaneBlockWork {
+/// What a block's packs share.
+struct SimdBlockWork {
   const KernelLaw& law;
-  const LaneLaw& lane;
+  const SimdLaw& lane;
   double* force;
   Double4 work;
 };
@@ -97,14 +97,14 @@ PLYFORM_INLINE Double4 buckled_by(const KernelYarns& yarns, Double4 strain) {
 
 /// d_a W_a', N/mm. `general`: some law of the fabric is a table, or has yarns that buckle.
 template <bool general>
-PLYFORM_INLINE Double4 yarn_tension(const LaneBlockWork& w, int family, Double4 strain) {
-  const LaneYarns& yarns = w.lane.yarns[family];
+PLYFORM_INLINE Double4 yarn_tension(const SimdBlockWork& w, int family, Double4 strain) {
+  const SimdYarns& yarns = w.lane.yarns[family];
   const KernelYarns& law = w.law.yarns[family];
   if (!general || !law.table) {
     const Double4 n = strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
     return general && law.buckles ? n + law.buckling_drop * buckled_by(law, strain) : n;
   }
-  alignas(32) double at[lanes], n[lanes];
+  alignas(32) double at[simd_width], n[simd_width];
   store(at, strain);
   w.law.tension(w.law, family, at, n);
   return load(n);
@@ -112,7 +112,7 @@ PLYFORM_INLINE Double4 yarn_tension(const LaneBlockWork& w, int family, Double4 
 
 /// n_c p, N/mm, for four g^2.
 template <bool general>
-PLYFORM_INLINE Double4 lane_secant(const LaneBlockWork& w, Double4 measure2) {
+PLYFORM_INLINE Double4 lane_secant(const SimdBlockWork& w, Double4 measure2) {
   const int terms = w.law.shear_terms;
   if (!general || terms > 0) {
     const Double4* k = w.lane.shear;
@@ -124,14 +124,14 @@ PLYFORM_INLINE Double4 lane_secant(const LaneBlockWork& w, Double4 measure2) {
     }
     return (p * measure2 + k[1]) * measure2 + k[0];
   }
-  alignas(32) double at[lanes], p[lanes];
+  alignas(32) double at[simd_width], p[simd_width];
   store(at, measure2);
   w.law.secant(w.law, at, p);
   return load(p);
 }
 
-/// Adds the viscous tension of four patches to n1 and n2; its work is added up.
-PLYFORM_INLINE void add_viscosity(LaneBlockWork& w, LaneViscosity& v, Double4 mean1, Double4 mean2,
+/// Adds the viscous tension of four groups to n1 and n2; its work is added up.
+PLYFORM_INLINE void add_viscosity(SimdBlockWork& w, SimdViscosity& v, Double4 mean1, Double4 mean2,
                                   Double4 area, Double4& n1, Double4& n2) {
   const Double4 way1 = mean1 - load(v.lambda[0]), way2 = mean2 - load(v.lambda[1]);
   const Double4 now1 = n1 > 0.0 ? w.lane.yarns[0].viscosity * way1 : all(0.0);
@@ -143,7 +143,7 @@ PLYFORM_INLINE void add_viscosity(LaneBlockWork& w, LaneViscosity& v, Double4 me
 }
 
 /// (Q') and (F) of four triangles; n1, n2: d_a N_a; secant: n_c p.
-PLYFORM_INLINE void add_forces(const LaneTriangles& t, const LaneState& s, Double4 n1, Double4 n2,
+PLYFORM_INLINE void add_forces(const SimdTriangles& t, const SimdState& s, Double4 n1, Double4 n2,
                                Double4 secant, double* force) {
   const Double4 shear = secant * s.gamma * s.per_j, tau = shear * load(t.area);
   const Double4 away = shear * s.d;
@@ -152,7 +152,7 @@ PLYFORM_INLINE void add_forces(const LaneTriangles& t, const LaneState& s, Doubl
   const Double4 c11 = load(t.c11), c12 = load(t.c12), c21 = load(t.c21), c22 = load(t.c22);
   const Rows f1 = rows((c11 * s1 + c21 * tau) * s.k1 + (c11 * tau + c21 * s2) * s.k2);
   const Rows f2 = rows((c12 * s1 + c22 * tau) * s.k1 + (c12 * tau + c22 * s2) * s.k2);
-  for (int i = 0; i < lanes; ++i) {
+  for (int i = 0; i < simd_width; ++i) {
     double* at0 = of_node(force, t.node[0][i]);
     double* at1 = of_node(force, t.node[1][i]);
     double* at2 = of_node(force, t.node[2][i]);
@@ -163,24 +163,25 @@ PLYFORM_INLINE void add_forces(const LaneTriangles& t, const LaneState& s, Doubl
 }
 
 /// Guard of (N).
-PLYFORM_INLINE void add_guard(const LaneLaw& law, const LaneState& s, Double4& n1, Double4& n2) {
-  n1 -= law.yarns[0].guard * larger(all(0.0), guard_stretch - s.lambda1);
-  n2 -= law.yarns[1].guard * larger(all(0.0), guard_stretch - s.lambda2);
+PLYFORM_INLINE void add_collapse_penalty(const SimdLaw& law, const SimdState& s, Double4& n1,
+                                         Double4& n2) {
+  n1 -= law.yarns[0].collapse_penalty * larger(all(0.0), collapse_stretch - s.lambda1);
+  n2 -= law.yarns[1].collapse_penalty * larger(all(0.0), collapse_stretch - s.lambda2);
 }
 
 template <bool general>
-PLYFORM_INLINE void single_group(LaneBlockWork& w, const LaneTriangles& t, const LaneState& s,
-                                 bool odd, LaneViscosity& v) {
+PLYFORM_INLINE void single_pack(SimdBlockWork& w, const SimdTriangles& t, const SimdState& s,
+                                bool needs_penalty, SimdViscosity& v) {
   Double4 n1 = yarn_tension<general>(w, 0, s.lambda1 - 1.0);
   Double4 n2 = yarn_tension<general>(w, 1, s.lambda2 - 1.0);
   add_viscosity(w, v, s.lambda1, s.lambda2, load(t.area), n1, n2);
-  if (odd) add_guard(w.lane, s, n1, n2);
+  if (needs_penalty) add_collapse_penalty(w.lane, s, n1, n2);
   add_forces(t, s, n1, n2, lane_secant<general>(w, s.gamma * s.gamma), w.force);
 }
 
 template <bool general>
-PLYFORM_INLINE void pair_group(LaneBlockWork& w, const LaneTriangles* t, const LaneState* s,
-                               bool odd, LaneViscosity& v) {
+PLYFORM_INLINE void pair_pack(SimdBlockWork& w, const SimdTriangles* t, const SimdState* s,
+                              bool needs_penalty, SimdViscosity& v) {
   const Double4 share[2] = {load(t[0].share), load(t[1].share)};
   const Double4 mean1 = share[0] * s[0].lambda1 + share[1] * s[1].lambda1;
   const Double4 mean2 = share[0] * s[0].lambda2 + share[1] * s[1].lambda2;
@@ -198,23 +199,23 @@ PLYFORM_INLINE void pair_group(LaneBlockWork& w, const LaneTriangles* t, const L
   const Double4 mean_held1 = share[0] * held1[0] + share[1] * held1[1];
   const Double4 mean_held2 = share[0] * held2[0] + share[1] * held2[1];
   for (int i = 0; i < 2; ++i) {
-    const LaneYarns &warp = w.lane.yarns[0], &weft = w.lane.yarns[1];
+    const SimdYarns &warp = w.lane.yarns[0], &weft = w.lane.yarns[1];
     Double4 own1 = n1 + w.lane.beta * (held1[i] - mean_held1) + warp.stabilisation * delta1[i];
     Double4 own2 = n2 + w.lane.beta * (held2[i] - mean_held2) + weft.stabilisation * delta2[i];
-    if (odd) add_guard(w.lane, s[i], own1, own2);
+    if (needs_penalty) add_collapse_penalty(w.lane, s[i], own1, own2);
     add_forces(t[i], s[i], own1, own2, secant[i], w.force);
   }
 }
 
-/// States of some LaneTriangles; whether one of them is odd.
-PLYFORM_INLINE bool find_states(const LaneTriangles* t, int count, const LaneLaw& law,
-                                const double* place, LaneState* s) {
+/// States of some SimdTriangles; whether one of them is odd.
+PLYFORM_INLINE bool find_states(const SimdTriangles* t, int count, const SimdLaw& law,
+                                const double* place, SimdState* s) {
   for (int i = 0; i < count; ++i)
     find_lengths(t[i], place, s[i]);
-  Long4 odd{0, 0, 0, 0};
+  Long4 needs_penalty{0, 0, 0, 0};
   for (int i = 0; i < count; ++i)
-    odd |= find_angle(t[i], law, s[i]);
-  return any(odd);
+    needs_penalty |= find_angle(t[i], law, s[i]);
+  return any(needs_penalty);
 }
 
 /// A number that the compiler knows.
@@ -227,19 +228,19 @@ PLYFORM_INLINE int at_most(int a, int b) {
   return a < b ? a : b;
 }
 
-/// Goes through a block's groups, pairs first: each(group, triangles, states, pair, odd).
+/// Goes through a block's packs, pairs first: each(pack, triangles, states, pair, odd).
 template <class Each>
-PLYFORM_INLINE void for_groups(const KernelBlock& block, const LaneLaw& law, const double* place,
-                               Each&& each) {
-  LaneState state[batch];
-  const int pairs = 2 * block.pair_groups, all = pairs + block.single_groups;
-  int group = 0;
+PLYFORM_INLINE void for_packs(const KernelBlock& block, const SimdLaw& law, const double* place,
+                              Each&& each) {
+  SimdState state[batch];
+  const int pairs = 2 * block.pair_packs, all = pairs + block.single_packs;
+  int pack = 0;
   const auto some = [&](int begin, int end, auto of) {
-    const LaneTriangles* t = block.triangles + begin;
+    const SimdTriangles* t = block.triangles + begin;
     const int size = at_most(end - begin, batch);
-    const bool odd = find_states(t, size, law, place, state);
+    const bool needs_penalty = find_states(t, size, law, place, state);
     for (int i = 0; i < size; i += of)
-      each(group++, t + i, state + i, of, odd);
+      each(pack++, t + i, state + i, of, needs_penalty);
   };
   for (int begin = 0; begin < pairs; begin += batch)
     some(begin, pairs, Count<2>{});
@@ -255,24 +256,25 @@ PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelL
   double* force = &block.force->x;
   for (int i = 0; i < block.node_count; ++i)
     store(force + 4 * i, all(0.0));
-  const LaneLaw lane = lane_law(law, per_dt);
-  LaneBlockWork w{law, lane, force, all(0.0)};
+  const SimdLaw lane = lane_law(law, per_dt);
+  SimdBlockWork w{law, lane, force, all(0.0)};
   Long4 collapsed{0, 0, 0, 0};
-  for_groups(block, lane, place, [&](int group, const auto* t, const auto* s, auto of, bool odd) {
-    for (int i = 0; odd && i < of; ++i)
-      collapsed |= lane_collapsed(s[i]);
-    if constexpr (of == 2)
-      pair_group<general>(w, t, s, odd, block.viscosity[group]);
-    else
-      single_group<general>(w, *t, *s, odd, block.viscosity[group]);
-  });
+  for_packs(block, lane, place,
+            [&](int pack, const auto* t, const auto* s, auto of, bool needs_penalty) {
+              for (int i = 0; needs_penalty && i < of; ++i)
+                collapsed |= lane_collapsed(s[i]);
+              if constexpr (of == 2)
+                pair_pack<general>(w, t, s, needs_penalty, block.viscosity[pack]);
+              else
+                single_pack<general>(w, *t, *s, needs_penalty, block.viscosity[pack]);
+            });
   return {0.5 * sum(w.work), any(collapsed)}; // trapezoidal rule
 }
 
 /// d_a W_a, N/mm, of four strains.
 template <bool general>
-PLYFORM_INLINE Double4 yarn_energy(const LaneBlockWork& w, int family, Double4 strain) {
-  const LaneYarns& yarns = w.lane.yarns[family];
+PLYFORM_INLINE Double4 yarn_energy(const SimdBlockWork& w, int family, Double4 strain) {
+  const SimdYarns& yarns = w.lane.yarns[family];
   const KernelYarns& law = w.law.yarns[family];
   if (!general || !law.table) {
     const Double4 e = 0.5 * strain * strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
@@ -280,7 +282,7 @@ PLYFORM_INLINE Double4 yarn_energy(const LaneBlockWork& w, int family, Double4 s
     const Double4 beyond = buckled_by(law, strain);
     return e - 0.5 * law.buckling_drop * beyond * beyond;
   }
-  alignas(32) double at[lanes], energy[lanes];
+  alignas(32) double at[simd_width], energy[simd_width];
   store(at, strain);
   w.law.tension_energy(w.law, family, at, energy);
   return load(energy);
@@ -288,23 +290,23 @@ PLYFORM_INLINE Double4 yarn_energy(const LaneBlockWork& w, int family, Double4 s
 
 /// n_c Ws, N/mm, of four g^2.
 template <bool general>
-PLYFORM_INLINE Double4 shear_energy(const LaneBlockWork& w, Double4 measure2) {
+PLYFORM_INLINE Double4 shear_energy(const SimdBlockWork& w, Double4 measure2) {
   if (!general || w.law.shear_terms > 0) {
     Double4 energy = all(0.0);
     for (int i = w.law.shear_terms - 1; i >= 0; --i)
       energy = (energy + w.lane.shear[i] * (0.5 / (i + 1))) * measure2;
     return energy;
   }
-  alignas(32) double at[lanes], energy[lanes];
+  alignas(32) double at[simd_width], energy[simd_width];
   store(at, measure2);
   w.law.shear_energy(w.law, at, energy);
   return load(energy);
 }
 
 /// Stabilisation and guard of (E), d_a times.
-PLYFORM_INLINE Double4 side_energy(const LaneYarns& yarns, Double4 lambda, Double4 delta) {
-  const Double4 folded = larger(all(0.0), guard_stretch - lambda);
-  return 0.5 * (yarns.stabilisation * delta * delta + yarns.guard * folded * folded);
+PLYFORM_INLINE Double4 side_energy(const SimdYarns& yarns, Double4 lambda, Double4 delta) {
+  const Double4 folded = larger(all(0.0), collapse_stretch - lambda);
+  return 0.5 * (yarns.stabilisation * delta * delta + yarns.collapse_penalty * folded * folded);
 }
 
 template <bool general>
@@ -312,11 +314,11 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
                                          const double* x) {
   alignas(32) double place[4 * most_block_nodes];
   gather_places(block.nodes, block.node_count, x, place);
-  const LaneLaw lane = lane_law(law, 0.0);
-  const LaneBlockWork w{law, lane, nullptr, all(0.0)};
-  const LaneYarns &warp = lane.yarns[0], &weft = lane.yarns[1];
+  const SimdLaw lane = lane_law(law, 0.0);
+  const SimdBlockWork w{law, lane, nullptr, all(0.0)};
+  const SimdYarns &warp = lane.yarns[0], &weft = lane.yarns[1];
   Double4 fibre = all(0.0), shear = all(0.0);
-  for_groups(block, lane, place, [&](int, const auto* t, const auto* s, auto of, bool) {
+  for_packs(block, lane, place, [&](int, const auto* t, const auto* s, auto of, bool) {
     Double4 area = all(0.0), mean1 = area, mean2 = area;
     for (int i = 0; i < of; ++i) {
       area += load(t[i].area);

@@ -11,22 +11,23 @@ struct Fabric;
 
 constexpr int most_shear_terms = 8; ///< longer polynomials are asked for like tables
 
-/// One triangle of each of four patches.
-struct alignas(32) LaneTriangles {
-  double c11[lanes], c12[lanes], c21[lanes], c22[lanes]; ///< 1/mm, FibreGradients
-  double area[lanes];           ///< mm^2, A0; 0 where a lane only fills up the group
-  double share[lanes];          ///< A0 / A of the patch
-  std::uint16_t node[3][lanes]; ///< bytes: 32 times the number in the block's list
+/// One triangle of each of four groups.
+struct alignas(32) SimdTriangles {
+  double c11[simd_width], c12[simd_width], c21[simd_width],
+      c22[simd_width];               ///< 1/mm, FibreGradients
+  double area[simd_width];           ///< mm^2, A0; 0 where a lane only fills up the pack
+  double share[simd_width];          ///< A0 / A of the group
+  std::uint16_t node[3][simd_width]; ///< bytes: 32 times the number in the block's list
 };
 
-/// Viscosity of four patches: mean stretches and viscous tensions of the last step.
-struct alignas(32) LaneViscosity {
-  double lambda[2][lanes], tension[2][lanes];
+/// Viscosity of four groups: mean stretches and viscous tensions of the last step.
+struct alignas(32) SimdViscosity {
+  double lambda[2][simd_width], tension[2][simd_width];
 };
 
 /// Constants of (N) for one family of yarns, each times their density d_a: per mm, not per yarn.
 struct KernelYarns {
-  double stiffness, compression, viscosity, stabilisation, guard;
+  double stiffness, compression, viscosity, stabilisation, collapse_penalty;
   bool table;             ///< ask KernelLaw::tension
   bool buckles;           ///< if not by table: the two below hold
   double buckling_strain; ///< -, above 0: pressed beyond it, the slope is less ...
@@ -49,14 +50,14 @@ struct KernelLaw {
   void (*shear_energy)(const KernelLaw&, const double* measure2, double* energy);
 };
 
-/// Patches that share a list of nodes; pairs first. All arrays are the block's own.
+/// StrainGroups that share a list of nodes; pairs first. All arrays are the block's own.
 struct KernelBlock {
   const std::int32_t* nodes; ///< in the ply
   int node_count;            ///< at most most_block_nodes
-  const LaneTriangles* triangles;
-  LaneViscosity* viscosity; ///< one a group
-  int pair_groups, single_groups;
-  LaneForce* force; ///< one a node
+  const SimdTriangles* triangles;
+  SimdViscosity* viscosity; ///< one a pack
+  int pair_packs, single_packs;
+  SimdForce* force; ///< one a node
 };
 
 struct KernelReport {
@@ -69,7 +70,7 @@ struct KernelEnergy {
   double fibre, shear;
 };
 
-/// Forces (F) of a block's patches on its nodes. x: 3 a node of the ply, mm; per_dt: 1/s, of the
+/// Forces (F) of a block's groups on its nodes. x: 3 a node of the ply, mm; per_dt: 1/s, of the
 /// step that led to x, or 0.
 KernelReport membrane_kernel_generic(const KernelBlock& block, const KernelLaw& law,
                                      const double* x, double per_dt);

@@ -7,17 +7,17 @@
 
 namespace plyform {
 
-constexpr int lanes = 4; ///< triangles or nodes side by side
+constexpr int simd_width = 4; ///< triangles or nodes side by side
 constexpr int most_block_nodes =
     384; ///< their places and forces, 24 kB, leave a 32 kB cache some room
 
 /// One number of each lane.
-struct alignas(32) LaneNumbers {
-  double of[lanes];
+struct alignas(32) SimdNumbers {
+  double of[simd_width];
 };
 
 /// N, on a node of a block.
-struct alignas(32) LaneForce {
+struct alignas(32) SimdForce {
   double x, y, z, unused;
 };
 

@@ -12,7 +12,7 @@ namespace plyform {
 
 struct ToolFrame {
   std::string name;
-  Surface surface;                  ///< in space at time 0
+  TriMesh surface;                  ///< in space at time 0
   Vec3 displacement = Vec3::Zero(); ///< mm, since time 0
   Vec3 force = Vec3::Zero();        ///< N, that the plies exert on the tool
   double stroke_mm = 0;             ///< displacement along the tool's direction

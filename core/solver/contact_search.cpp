@@ -35,11 +35,11 @@ void leave_out_neighbours(std::vector<Candidate>& candidates, std::span<const Ve
   std::erase_if(candidates, neighbour);
 }
 
-void search_tool(Scene& s, ToolAndContacts& t) {
+void search_tool(Scene& s, ToolState& t) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
-    find_tool_points(t.contacts[p], t.body, s.plies[p].state(),
-                     std::max(s.skin, step_way(s, static_cast<int>(p), t)),
-                     path_ahead(s, t) + s.plies[p].path);
+    find_tool_ply_points(t.contacts[p], t.body, s.plies[p].state(),
+                         std::max(s.skin, step_displacement(s, static_cast<int>(p), t)),
+                         path_ahead(s, t) + s.plies[p].path_length);
   t.displacement_search = t.body.displacement;
 }
 
@@ -54,36 +54,36 @@ bool neighbours(const PlyContact& pair) {
 
 /// Marks the slave's nodes that are so close to the master, away from its rim, that no ply beyond
 /// it can be near them: a third ply does not fit in between.
-void mark_covered(PlyBody& slave, const PlyContact& pair, const PlyBody& master) {
-  const double path = slave.path + master.path;
-  std::vector<char>& covered = slave.covered[pair.master > pair.slave];
-  covered.assign(slave.x.size(), 0);
+void mark_covered(PlyState& slave, const PlyContact& pair, const PlyState& master) {
+  const double path_length = slave.path_length + master.path_length;
+  std::vector<char>& occluded = slave.occluded[pair.master > pair.slave];
+  occluded.assign(slave.x.size(), 0);
   for (std::size_t p = 0; p < pair.contact.points.size(); ++p) {
-    const SheetContactPoint& c = pair.contact.points[p];
-    char inside = pair.contact.list.wake[p] - path < 0.5 * pair.contact.distance;
+    const PlyPlyPoint& c = pair.contact.points[p];
+    char inside = pair.contact.list.free_until[p] - path_length < 0.5 * pair.contact.distance;
     for (int i = c.first_face; i < c.end_face; ++i)
-      inside &=
-          !master.on_rim[static_cast<std::size_t>(pair.contact.faces[static_cast<std::size_t>(i)])];
-    covered[static_cast<std::size_t>(c.node)] |= inside;
+      inside &= !master.touches_boundary_edge[static_cast<std::size_t>(
+          pair.contact.faces[static_cast<std::size_t>(i)])];
+    occluded[static_cast<std::size_t>(c.node)] |= inside;
   }
 }
 
 /// The slave's nodes that another ply keeps from the master; empty: none.
 std::span<const char> covered_nodes(const Scene& s, int slave_ply, int master_ply, double reach) {
   if (slave_ply == master_ply || next_ply(slave_ply, master_ply) == master_ply) return {};
-  const PlyBody& slave = s.plies[static_cast<std::size_t>(slave_ply)];
-  const PlyBody& between = s.plies[static_cast<std::size_t>(next_ply(slave_ply, master_ply))];
+  const PlyState& slave = s.plies[static_cast<std::size_t>(slave_ply)];
+  const PlyState& between = s.plies[static_cast<std::size_t>(next_ply(slave_ply, master_ply))];
   // what covers was looked for within that distance only
   if (reach > 0.5 * (slave.thickness + between.thickness) + s.skin) return {};
-  return slave.covered[master_ply > slave_ply];
+  return slave.occluded[master_ply > slave_ply];
 }
 
 void search_plies(Scene& s, PlyContact& pair) {
-  const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
-  const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
+  const PlyState& slave = s.plies[static_cast<std::size_t>(pair.slave)];
+  const PlyState& master = s.plies[static_cast<std::size_t>(pair.master)];
   const Stopwatch watch(pair.contact.time.search);
-  // also what has come through within the step: find_passed looks at it
-  const double reach = std::max(pair.contact.distance + s.skin, step_way(s, pair));
+  // also what has come through within the step: find_pass_through looks at it
+  const double reach = std::max(pair.contact.distance + s.skin, step_displacement(s, pair));
   std::vector<Candidate> candidates;
   if (may_meet(slave.tree->bounds(), master.tree->bounds(), reach))
     master.tree->candidates(slave.x, reach, candidates,
@@ -91,30 +91,30 @@ void search_plies(Scene& s, PlyContact& pair) {
   if (pair.slave == pair.master)
     leave_out_neighbours(candidates, slave.x0, slave.membrane.triangles,
                          neighbourhood * pair.contact.distance);
-  find_sheet_points(pair.contact, candidates, slave.state(), master.state(),
-                    master.membrane.triangles, slave.path + master.path);
+  find_ply_ply_points(pair.contact, candidates, slave.state(), master.state(),
+                      master.membrane.triangles, slave.path_length + master.path_length);
   if (neighbours(pair)) mark_covered(s.plies[static_cast<std::size_t>(pair.slave)], pair, master);
 }
 
 /// Edges of a ply that may meet another: without those both of whose nodes a ply in between covers.
 std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double reach) {
-  const PlyBody& body = s.plies[static_cast<std::size_t>(ply)];
-  const std::span<const char> covered = covered_nodes(s, ply, other, reach);
+  const PlyState& body = s.plies[static_cast<std::size_t>(ply)];
+  const std::span<const char> occluded = covered_nodes(s, ply, other, reach);
   std::vector<std::int32_t> open;
   for (std::size_t i = 0; i < body.edges.size(); ++i) {
     const SheetEdge& e = body.edges[i];
-    if (covered.empty() || !covered[static_cast<std::size_t>(e.a)] ||
-        !covered[static_cast<std::size_t>(e.b)])
+    if (occluded.empty() || !occluded[static_cast<std::size_t>(e.a)] ||
+        !occluded[static_cast<std::size_t>(e.b)])
       open.push_back(static_cast<std::int32_t>(i));
   }
   return open;
 }
 
 void search_edges(Scene& s, PlyEdgeContact& pair) {
-  const PlyBody& a = s.plies[static_cast<std::size_t>(pair.a)];
-  const PlyBody& b = s.plies[static_cast<std::size_t>(pair.b)];
+  const PlyState& a = s.plies[static_cast<std::size_t>(pair.a)];
+  const PlyState& b = s.plies[static_cast<std::size_t>(pair.b)];
   const Stopwatch watch(pair.contact.time.search);
-  const double skin = std::max(s.skin, step_way(s, pair.a) + step_way(s, pair.b));
+  const double skin = std::max(s.skin, step_displacement(s, pair.a) + step_displacement(s, pair.b));
   const double reach = pair.contact.distance + skin;
   std::vector<std::int32_t> open_a, open_b;
   if (may_meet(a.tree->bounds(), b.tree->bounds(), reach)) {
@@ -122,7 +122,7 @@ void search_edges(Scene& s, PlyEdgeContact& pair) {
     open_b = open_edges(s, pair.b, pair.a, reach);
   }
   find_edge_pairs(pair.contact, a.state(), {a.edges, open_a}, b.state(), {b.edges, open_b}, skin,
-                  a.path + b.path);
+                  a.path_length + b.path_length);
 }
 
 /// Room for the forces of two plies of which something may touch: most pairs of a stack never do.
@@ -141,21 +141,23 @@ void make_room(const Scene& s, PlyPair& pair) {
   pair.force_b.assign(s.plies[static_cast<std::size_t>(pair.b)].x.size(), Vec3::Zero());
 }
 
-void renew_spread(const Scene& s, PlyBody& ply) {
+void renew_spread(const Scene& s, PlyState& ply) {
   if (s.ply_contacts.empty()) return; // nobody asks for it
-  sheet_spread(ply.x, ply.membrane.triangles, ply.spread);
-  ply.spread_way = ply.way;
+  fold_bounds(ply.x, ply.membrane.triangles, ply.fold_bound);
+  ply.fold_bound_displacement = ply.max_displacement;
 }
 
 } // namespace
 
-void follow_spread(Scene& s, ThreadTeam& team) {
+void follow_spread(Scene& s, ThreadPool& pool) {
   // two nodes a side apart that move by `most` against each other turn it by half the margin
-  const double most = 0.25 * spread_margin * s.element_size;
-  const auto due = [most](const PlyBody& ply) { return ply.way - ply.spread_way > most; };
+  const double most = 0.25 * fold_margin * s.element_size;
+  const auto due = [most](const PlyState& ply) {
+    return ply.max_displacement - ply.fold_bound_displacement > most;
+  };
   if (s.ply_contacts.empty() || std::none_of(s.plies.begin(), s.plies.end(), due)) return;
-  team.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+  pool.run(static_cast<int>(s.plies.size()), [&](int p) {
+    PlyState& ply = s.plies[static_cast<std::size_t>(p)];
     if (!due(ply)) return;
     const Stopwatch watch(ply.search_seconds);
     renew_spread(s, ply);
@@ -164,42 +166,44 @@ void follow_spread(Scene& s, ThreadTeam& team) {
 
 bool follow_ways(Scene& s) {
   // Ways only grow between searches: what has once been looked at is looked at again.
-  const auto grow = [](double& way, double now) {
-    if (!(now <= way) && !std::isnan(way)) way = now; // NaN stays
+  const auto grow = [](double& max_displacement, double now) {
+    if (!(now <= max_displacement) && !std::isnan(max_displacement))
+      max_displacement = now; // NaN stays
   };
   for (std::size_t i = 0; i < s.node_blocks.size(); ++i)
-    grow(s.plies[static_cast<std::size_t>(s.node_blocks[i].ply)].way,
+    grow(s.plies[static_cast<std::size_t>(s.node_blocks[i].ply)].max_displacement,
          std::sqrt(s.node_sums[i].moved2));
   for (std::size_t p = 0; p < s.plies.size(); ++p)
-    s.plies[p].path += step_way(s, static_cast<int>(p));
-  for (ToolAndContacts& t : s.tools) {
+    s.plies[p].path_length += step_displacement(s, static_cast<int>(p));
+  for (ToolState& t : s.tools) {
     // A pushed tool still moves after this, with the forces of the step.
-    const double ahead = t.body.pushed ? t.body.speed_limit * s.dt : 0.0;
-    t.path += t.body.motion.norm();
-    grow(t.way, (t.body.displacement - t.displacement_search).norm() + ahead);
+    const double ahead = t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0;
+    t.path_length += t.body.motion.norm();
+    grow(t.max_displacement, (t.body.displacement - t.displacement_search).norm() + ahead);
   }
   return furthest_way(s) <= 0.5 * s.skin;
 }
 
-double path_ahead(const Scene& s, const ToolAndContacts& t) {
-  return t.path + (t.body.pushed ? t.body.speed_limit * s.dt : 0.0);
+double path_ahead(const Scene& s, const ToolState& t) {
+  return t.path_length + (t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0);
 }
 
 double furthest_way(const Scene& s) {
   double furthest = 0.0;
-  const auto grow = [&furthest](double way) {
-    if (!(way <= furthest) && !std::isnan(furthest)) furthest = way; // NaN stays
+  const auto grow = [&furthest](double max_displacement) {
+    if (!(max_displacement <= furthest) && !std::isnan(furthest))
+      furthest = max_displacement; // NaN stays
   };
-  for (const PlyBody& ply : s.plies)
-    grow(ply.way);
-  for (const ToolAndContacts& t : s.tools)
-    grow(t.way);
+  for (const PlyState& ply : s.plies)
+    grow(ply.max_displacement);
+  for (const ToolState& t : s.tools)
+    grow(t.max_displacement);
   return furthest;
 }
 
-void search_contacts(Scene& s, ThreadTeam& team) {
-  team.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+void search_contacts(Scene& s, ThreadPool& pool) {
+  pool.run(static_cast<int>(s.plies.size()), [&](int p) {
+    PlyState& ply = s.plies[static_cast<std::size_t>(p)];
     const Stopwatch watch(ply.search_seconds);
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
@@ -210,14 +214,14 @@ void search_contacts(Scene& s, ThreadTeam& team) {
   for (PlyContact& pair : s.ply_contacts)
     pairs[neighbours(pair) ? 0 : 1].push_back(&pair);
   const int near = static_cast<int>(pairs[0].size());
-  team.run(near + static_cast<int>(s.tools.size()), [&](int i) {
+  pool.run(near + static_cast<int>(s.tools.size()), [&](int i) {
     if (i < near)
       search_plies(s, *pairs[0][static_cast<std::size_t>(i)]);
     else
       search_tool(s, s.tools[static_cast<std::size_t>(i - near)]);
   });
   const int far = static_cast<int>(pairs[1].size());
-  team.run(far + static_cast<int>(s.edge_contacts.size()), [&](int i) {
+  pool.run(far + static_cast<int>(s.edge_contacts.size()), [&](int i) {
     if (i < far)
       search_plies(s, *pairs[1][static_cast<std::size_t>(i)]);
     else
@@ -227,10 +231,10 @@ void search_contacts(Scene& s, ThreadTeam& team) {
     make_room(s, pair);
   for (NodeSums& n : s.node_sums)
     n.moved2 = 0.0;
-  for (PlyBody& ply : s.plies)
-    ply.way = ply.spread_way = 0.0;
-  for (ToolAndContacts& t : s.tools) // the way it may still go in this step
-    t.way = t.body.pushed ? t.body.speed_limit * s.dt : 0.0;
+  for (PlyState& ply : s.plies)
+    ply.max_displacement = ply.fold_bound_displacement = 0.0;
+  for (ToolState& t : s.tools) // the way it may still go in this step
+    t.max_displacement = t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0;
   ++s.searches;
 }
 

@@ -12,17 +12,17 @@ namespace plyform {
 /// finite.
 bool follow_ways(Scene& scene);
 
-/// mm, ToolAndContacts::path with what a pushed tool may still go in this step.
-double path_ahead(const Scene& scene, const ToolAndContacts& tool);
+/// mm, ToolState::path with what a pushed tool may still go in this step.
+double path_ahead(const Scene& scene, const ToolState& tool);
 
 /// The largest of those ways, mm; NaN if a position is not finite.
 double furthest_way(const Scene& scene);
 
-/// Renews what has been used up of PlyBody::spread.
-void follow_spread(Scene& scene, ThreadTeam& team);
+/// Renews what has been used up of PlyState::spread.
+void follow_spread(Scene& scene, ThreadPool& pool);
 
 /// Lists every pair within contact distance + skin. Until something has moved by half the skin no
 /// other pair can touch.
-void search_contacts(Scene& scene, ThreadTeam& team);
+void search_contacts(Scene& scene, ThreadPool& pool);
 
 } // namespace plyform

@@ -18,7 +18,7 @@ std::size_t at(std::int32_t index) {
 /// A search for the deepest place of one ply in one tool.
 class Search {
 public:
-  Search(const PlyBody& ply, const ToolBody& tool)
+  Search(const PlyState& ply, const ToolBody& tool)
       : ply_(ply), tool_(tool), half_(0.5 * ply.thickness) {}
 
   double deepest() {
@@ -83,7 +83,7 @@ private:
       divide({piece[k], side[k], side[(k + 2) % 3]}, halvings - 1);
   }
 
-  const PlyBody& ply_;
+  const PlyState& ply_;
   const ToolBody& tool_;
   double half_;
   double depth_ = 0.0;
@@ -92,7 +92,7 @@ private:
 
 } // namespace
 
-double longest_side(const PlyBody& ply) {
+double longest_side(const PlyState& ply) {
   double longest = 0.0;
   for (const SheetEdge& e : ply.edges)
     longest = std::max(
@@ -115,8 +115,8 @@ double side_of_half_cut(double radius, double thickness, double half_turn) {
 
 std::vector<ToolCut> cuts_between_nodes(const Scene& s) {
   std::vector<ToolCut> cuts;
-  for (const ToolAndContacts& tool : s.tools)
-    for (const PlyBody& ply : s.plies)
+  for (const ToolState& tool : s.tools)
+    for (const PlyState& ply : s.plies)
       cuts.push_back({tool.name, ply.name, Search(ply, tool.body).deepest(), ply.thickness});
   return cuts;
 }

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-std::vector<Vec3> node_normals(const PlyBody& ply) {
+std::vector<Vec3> node_normals(const PlyState& ply) {
   std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3& a = ply.x[static_cast<std::size_t>(t[0])];
@@ -35,7 +35,7 @@ struct SideForces {
 };
 
 PlyFrame make_ply_frame(const Scene& scene, int index) {
-  const PlyBody& ply = scene.plies[static_cast<std::size_t>(index)];
+  const PlyState& ply = scene.plies[static_cast<std::size_t>(index)];
   PlyFrame f;
   f.name = ply.name;
   f.angle_deg = ply.angle * degrees;
@@ -62,12 +62,12 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   return f;
 }
 
-ToolFrame make_tool_frame(const Scene& scene, const ToolAndContacts& tool) {
+ToolFrame make_tool_frame(const Scene& scene, const ToolState& tool) {
   ToolFrame f;
   f.name = tool.name;
   const ToolBody& body = tool.body;
   double extent = 0.0; // from the tool, wherever the case has its origin
-  for (const PlyBody& ply : scene.plies)
+  for (const PlyState& ply : scene.plies)
     for (const Vec3& x : ply.x0)
       extent = std::max(extent, (x - body.position).norm());
   constexpr double facet = 5.0; // mm, for pictures
@@ -85,16 +85,16 @@ ToolFrame make_tool_frame(const Scene& scene, const ToolAndContacts& tool) {
 
 std::vector<double> contact_pressure(const Scene& scene, int index) {
   const auto p = static_cast<std::size_t>(index);
-  const PlyBody& ply = scene.plies[p];
+  const PlyState& ply = scene.plies[p];
   SideForces sides{node_normals(ply), std::vector<double>(ply.x.size(), 0.0), {}};
   sides.below = sides.above;
-  for (const ToolAndContacts& tool : scene.tools)
-    for (const ToolContactPoint& c : tool.contacts[p].points)
+  for (const ToolState& tool : scene.tools)
+    for (const ToolPlyPoint& c : tool.contacts[p].points)
       sides.add(c.node, c.normal, c.memory.normal_force);
   for (const PlyContact& pair : scene.ply_contacts)
-    for (const SheetContactPoint& c : pair.contact.points) {
+    for (const PlyPlyPoint& c : pair.contact.points) {
       if (c.memory.normal_force == 0.0 || (pair.slave != index && pair.master != index)) continue;
-      const PlyBody& master = scene.plies[static_cast<std::size_t>(pair.master)];
+      const PlyState& master = scene.plies[static_cast<std::size_t>(pair.master)];
       const std::vector<Triangle>& triangles = master.membrane.triangles;
       const Vec3 normal = contact_normal(c, scene.plies[static_cast<std::size_t>(pair.slave)].x,
                                          master.x, triangles);
@@ -112,7 +112,7 @@ std::vector<double> contact_pressure(const Scene& scene, int index) {
 }
 
 double current_stroke(const Scene& scene) {
-  return smooth_path(whole_stroke(scene.data), scene.time, scene.data.solver.duration);
+  return smooth_step(whole_stroke(scene.data), scene.time, scene.data.solver.duration);
 }
 
 Frame make_frame(const Scene& scene, const Energies& energy) {
@@ -123,7 +123,7 @@ Frame make_frame(const Scene& scene, const Energies& energy) {
   f.energy = energy;
   for (std::size_t p = 0; p < scene.plies.size(); ++p)
     f.plies.push_back(make_ply_frame(scene, static_cast<int>(p)));
-  for (const ToolAndContacts& t : scene.tools)
+  for (const ToolState& t : scene.tools)
     f.tools.push_back(make_tool_frame(scene, t));
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
     const BoundaryState& state = scene.boundaries[b];

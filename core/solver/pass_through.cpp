@@ -14,7 +14,7 @@ const Vec3& at(const std::vector<Vec3>& v, int n) {
 
 } // namespace
 
-double step_way(const Scene& s, int ply) {
+double step_displacement(const Scene& s, int ply) {
   double step2 = 0.0;
   for (std::size_t b = 0; b < s.node_blocks.size(); ++b)
     if (s.node_blocks[b].ply == ply) step2 = std::max(step2, s.node_sums[b].step2);
@@ -28,12 +28,12 @@ std::string when_and_who(const Scene& s, std::size_t ply, int node) {
                      s.plies[ply].name, node);
 }
 
-std::optional<Stop> find_passed(const Scene& s, const PlyContact& pair) {
+std::optional<Stop> find_pass_through(const Scene& s, const PlyContact& pair) {
   // the two start more than h/2 apart: contact leaves three quarters of h at least
-  if (!(step_way(s, pair) > 0.5 * pair.contact.distance)) return std::nullopt;
-  const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
-  const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
-  for (const SheetContactPoint& c : pair.contact.points) {
+  if (!(step_displacement(s, pair) > 0.5 * pair.contact.distance)) return std::nullopt;
+  const PlyState& slave = s.plies[static_cast<std::size_t>(pair.slave)];
+  const PlyState& master = s.plies[static_cast<std::size_t>(pair.master)];
+  for (const PlyPlyPoint& c : pair.contact.points) {
     const Triangle& t = master.membrane.triangles[static_cast<std::size_t>(c.face)];
     Vec3 u = at(slave.x, c.node), r = at(slave.motion, c.node);
     const std::array<double, 3> w = c.weights();
@@ -52,14 +52,14 @@ std::optional<Stop> find_passed(const Scene& s, const PlyContact& pair) {
 
 /// Whether a way met the tool: walks along it by the distance that is free all round, so that a
 /// thin tool is not stepped over.
-bool meets_tool(const ToolBody& tool, const Vec3& from, const Vec3& way) {
+bool meets_tool(const ToolBody& tool, const Vec3& from, const Vec3& displacement) {
   constexpr int most = 1000;      // walks that only graze end sooner
   constexpr double nearly = 1e-3; // mm
-  const double length = way.norm();
+  const double length = displacement.norm();
   int hint = -1;
   double gone = 0.0;
   for (int i = 0; i < most && gone < length; ++i) {
-    const double free = distance_to_tool(tool, from + gone / length * way, hint).distance;
+    const double free = distance_to_tool(tool, from + gone / length * displacement, hint).distance;
     if (free <= 0.0) return true;
     gone += std::max(free, nearly);
   }
@@ -68,30 +68,31 @@ bool meets_tool(const ToolBody& tool, const Vec3& from, const Vec3& way) {
 
 /// Whether a node left or is about to leave the tool on another side than it came from: its normal
 /// has turned round. Over the edge of a solid it turns by less.
-bool passed(const ToolBody& tool, const Vec3& x, const Vec3& way, int hint) {
+bool passed(const ToolBody& tool, const Vec3& x, const Vec3& displacement, int hint) {
   const SurfacePoint now = distance_to_tool(tool, x, hint);
-  if (now.distance >= way.norm()) return false; // no room for a tool
-  const SurfacePoint before = distance_to_tool(tool, x - way, hint);
+  if (now.distance >= displacement.norm()) return false; // no room for a tool
+  const SurfacePoint before = distance_to_tool(tool, x - displacement, hint);
   const double turn = before.normal.dot(now.normal);
   if (before.distance > 0.0 && now.distance > 0.0)
-    return turn < 0.0 && meets_tool(tool, x - way, way);
+    return turn < 0.0 && meets_tool(tool, x - displacement, displacement);
   return turn < -0.5;
 }
 
-std::optional<Stop> find_passed(const Scene& s, const ToolAndContacts& tool, std::size_t p) {
-  const ToolContact& contact = tool.contacts[p];
+std::optional<Stop> find_pass_through(const Scene& s, const ToolState& tool, std::size_t p) {
+  const ToolPlyContact& contact = tool.contacts[p];
   const double thickness = 2.0 * contact.half_thickness;
   const double deepest = std::min(deepest_sound * contact.law.max_depth, thickness);
   if (contact.sums.penetration > deepest)
-    for (const ToolContactPoint& c : contact.points)
+    for (const ToolPlyPoint& c : contact.points)
       if (-c.gap > deepest)
         return Stop{fmt::format("{} lies {:.3g} mm deep in tool {}, thickness {:.3g} mm, which is "
                                 "all the room that contact has; give the stack more room between "
                                 "the tools, a slower stroke, or a smaller solver.step_factor",
                                 when_and_who(s, p, c.node), -c.gap, tool.name, thickness)};
-  const double way = plyform::step_way(s, static_cast<int>(p), tool);
-  if (!(std::max(contact.sums.penetration, way) > contact.half_thickness)) return std::nullopt;
-  for (const ToolContactPoint& c : contact.points) {
+  const double displacement = plyform::step_displacement(s, static_cast<int>(p), tool);
+  if (!(std::max(contact.sums.penetration, displacement) > contact.half_thickness))
+    return std::nullopt;
+  for (const ToolPlyPoint& c : contact.points) {
     const Vec3 moved = at(s.plies[p].motion, c.node) - tool.body.motion;
     if (passed(tool.body, at(s.plies[p].x, c.node), moved, c.hint))
       return Stop{fmt::format("{} went through tool {} by a step of {:.3g} mm; a slower stroke or "
@@ -103,22 +104,22 @@ std::optional<Stop> find_passed(const Scene& s, const ToolAndContacts& tool, std
 
 } // namespace
 
-double step_way(const Scene& s, const PlyContact& pair) {
-  return step_way(s, pair.slave) + step_way(s, pair.master);
+double step_displacement(const Scene& s, const PlyContact& pair) {
+  return step_displacement(s, pair.slave) + step_displacement(s, pair.master);
 }
 
-double step_way(const Scene& s, int ply, const ToolAndContacts& tool) {
+double step_displacement(const Scene& s, int ply, const ToolState& tool) {
   // a pushed tool moves after the search
-  const double ahead = tool.body.pushed ? tool.body.speed_limit * s.dt : 0.0;
-  return step_way(s, ply) + std::max(tool.body.motion.norm(), ahead);
+  const double ahead = tool.body.force_controlled ? tool.body.max_approach_speed * s.dt : 0.0;
+  return step_displacement(s, ply) + std::max(tool.body.motion.norm(), ahead);
 }
 
-std::optional<Stop> find_passed(const Scene& s) {
+std::optional<Stop> find_pass_through(const Scene& s) {
   for (const PlyContact& pair : s.ply_contacts)
-    if (auto stop = find_passed(s, pair)) return stop;
-  for (const ToolAndContacts& tool : s.tools)
+    if (auto stop = find_pass_through(s, pair)) return stop;
+  for (const ToolState& tool : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
-      if (auto stop = find_passed(s, tool, p)) return stop;
+      if (auto stop = find_pass_through(s, tool, p)) return stop;
   return std::nullopt;
 }
 

@@ -14,14 +14,14 @@
 namespace plyform {
 
 /// Longest way (mm) that a node of the slave and one of the master went together in this step.
-double step_way(const Scene& scene, const PlyContact& pair);
+double step_displacement(const Scene& scene, const PlyContact& pair);
 
 /// Longest way (mm) of a node of a ply in this step; the same of a ply and a tool.
-double step_way(const Scene& scene, int ply);
-double step_way(const Scene& scene, int ply, const ToolAndContacts& tool);
+double step_displacement(const Scene& scene, int ply);
+double step_displacement(const Scene& scene, int ply, const ToolState& tool);
 
 /// A node that went through another ply or a tool within the last step, or lies deeper than half a
 /// thickness below a tool's surface. After contact search and forces.
-std::optional<Stop> find_passed(const Scene& scene);
+std::optional<Stop> find_pass_through(const Scene& scene);
 
 } // namespace plyform

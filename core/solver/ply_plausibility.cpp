@@ -122,7 +122,7 @@ std::string remedy(const Fabric& fabric) {
 /// How many times smaller elements have to be for a cut of no more than a thickness: by (1) and (2)
 /// of core/solver/facet_penetration.hpp curves cut by the square of a side, sharp edges in
 /// proportion to it, as meshes may.
-double refinement(const ToolAndContacts& tool, const ToolCut& cut) {
+double refinement(const ToolState& tool, const ToolCut& cut) {
   const double radius = smallest_radius(tool.body.shape), excess = cut.depth / cut.thickness;
   const bool curved = std::isfinite(radius) && radius > cut.thickness;
   constexpr double margin = 1.2; // without it, hemisphere_0 at 3.9 for 6.8 mm has 0.64 for 0.6 mm
@@ -179,7 +179,7 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
 
 std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
   std::vector<const ToolBody*> tools;
-  for (const ToolAndContacts& tool : s.tools)
+  for (const ToolState& tool : s.tools)
     tools.push_back(&tool.body);
   std::vector<PlyReport> told;
   for (std::size_t p = 0; p < last.plies.size(); ++p) {
@@ -200,7 +200,7 @@ std::vector<std::string> doubts(const Scene& s, const Frame& last,
                                 "energy that comes from nowhere "
                                 "or goes nowhere; a smaller solver.step_factor makes it less",
                                 100.0 * error));
-  for (const ToolAndContacts& tool : s.tools) {
+  for (const ToolState& tool : s.tools) {
     std::vector<std::string> names;
     ToolCut worst;
     for (const ToolCut& cut : cuts) {

@@ -42,8 +42,8 @@ struct Snapshot {
 
 ContactReport penetrations(const Scene& s) {
   ContactReport r;
-  for (const ToolAndContacts& t : s.tools)
-    for (const ToolContact& c : t.contacts)
+  for (const ToolState& t : s.tools)
+    for (const ToolPlyContact& c : t.contacts)
       r.max_tool_penetration_mm = std::max(r.max_tool_penetration_mm, c.sums.penetration);
   for (const PlyContact& pair : s.ply_contacts)
     r.max_ply_penetration_mm = std::max(r.max_ply_penetration_mm, pair.contact.sums.penetration);
@@ -60,7 +60,7 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
   snapshot.boundaries = s.boundaries;
   snapshot.tool_displacement.clear();
   snapshot.tool_force.clear();
-  for (const ToolAndContacts& t : s.tools) {
+  for (const ToolState& t : s.tools) {
     snapshot.tool_displacement.push_back(t.body.displacement);
     snapshot.tool_force.push_back(t.force);
   }
@@ -86,15 +86,16 @@ void go_back(Scene& s, const Snapshot& snapshot) {
 /// hundredth of the stack's kinetic energy at the fastest driven tool's or grip's peak speed, and
 /// what each pushed tool's force and the weight do on a tenth of a millimetre.
 double balance_floor(const Scene& s) {
-  double mass = 0.0, pushed = 0.0;
-  for (const PlyBody& ply : s.plies)
+  double mass = 0.0, force_controlled = 0.0;
+  for (const PlyState& ply : s.plies)
     for (double m : ply.membrane.node_mass)
       mass += m;
-  for (const ToolAndContacts& t : s.tools)
-    pushed += 0.1 * std::abs(t.force_on);
-  pushed += 0.1 * mass * s.data.gravity.norm();
-  const double peak_speed = path_peak * longest_strokes(s.data).longest() / s.data.solver.duration;
-  return 1e-6 + pushed + 0.01 * 0.5 * mass * peak_speed * peak_speed;
+  for (const ToolState& t : s.tools)
+    force_controlled += 0.1 * std::abs(t.force_on);
+  force_controlled += 0.1 * mass * s.data.gravity.norm();
+  const double peak_speed =
+      peak_speed_ratio * longest_strokes(s.data).longest() / s.data.solver.duration;
+  return 1e-6 + force_controlled + 0.01 * 0.5 * mass * peak_speed * peak_speed;
 }
 
 std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floor) {
@@ -121,10 +122,10 @@ int outputs_due(const Scene& s) {
 
 /// The exact audit of the state in `s`, with the penetrations that belong to it.
 ContactReport audit(const Scene& s, ContactReport r) {
-  std::vector<SheetView> sheets;
-  for (const PlyBody& ply : s.plies)
+  std::vector<MeshView> sheets;
+  for (const PlyState& ply : s.plies)
     sheets.push_back({ply.x, ply.membrane.triangles});
-  const AuditResult found = audit_intersections(sheets);
+  const Intersections found = find_intersections(sheets);
   r.intersections_between_plies = static_cast<long>(found.between.size());
   r.intersections_within_plies = static_cast<long>(found.within.size());
   return r;
@@ -195,8 +196,8 @@ RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
 
 RunResult run_scene(Scene& s, int threads, const RunHooks& hooks) {
   const auto begin = Clock::now();
-  ThreadTeam team(threads);
-  start(s, team);
+  ThreadPool pool(threads);
+  start(s, pool);
   const double floor = balance_floor(s);
   RunResult result;
   Energies energy;
@@ -210,14 +211,14 @@ RunResult run_scene(Scene& s, int threads, const RunHooks& hooks) {
     if (hooks.frame) hooks.frame(result.last);
   };
   for (;;) {
-    stop = compute_forces(s, team);
+    stop = compute_forces(s, pool);
     if (stop) break;
     const bool interrupted = hooks.interrupt && hooks.interrupt->load();
     const bool last = interrupted || s.time >= s.data.solver.duration;
     const bool output = last || outputs_due(s) > written;
-    if (s.step == 0) s.start_energy = current_energies(s, team).surplus();
+    if (s.step == 0) s.start_energy = current_energies(s, pool).residual();
     if (output || s.step % check_every == 0) {
-      energy = current_energies(s, team);
+      energy = current_energies(s, pool);
       stop = check_balance(s, energy, floor);
       if (stop) break;
       keep(s, energy, good);
@@ -226,7 +227,7 @@ RunResult run_scene(Scene& s, int threads, const RunHooks& hooks) {
     if (output) write();
     if (interrupted && s.time < s.data.solver.duration) result.summary.status = "interrupted";
     if (last) break;
-    move_plies(s, team);
+    move_plies(s, pool);
   }
   if (stop) {
     result.summary.status = "stopped";

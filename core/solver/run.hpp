@@ -39,7 +39,7 @@ RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
                    const std::vector<BlankMesh>& meshes = {});
 
 /// The same from a scene of make_scene, whose plies may have been given another start: positions
-/// (PlyBody::x, and x0 where boundaries hold them) and velocities. The scene is left in the last
+/// (PlyState::x, and x0 where boundaries hold them) and velocities. The scene is left in the last
 /// good state, with its contacts as of the last step computed.
 RunResult run_scene(Scene& scene, int threads, const RunHooks& hooks);
 

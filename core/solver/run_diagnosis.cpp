@@ -19,7 +19,7 @@ constexpr double deep = 0.9; // of the depth at which contact has no limit (core
 constexpr double high_inertia = 0.05; // kinetic over shear energy at the end
 constexpr double long_strain = 0.005; // softened yarns; woven ones break at 0.02 to 0.04
 
-void add(PairReport& pair, const ContactSums& sums, const ContactTime& time) {
+void add(PairReport& pair, const ContactTotals& sums, const ContactTime& time) {
   pair.time_share += time.forces + time.search; // seconds, until all are known
   pair.deepest_mm = std::max(pair.deepest_mm, sums.deepest);
   pair.slip_mm = std::max(pair.slip_mm, sums.slip);
@@ -29,7 +29,7 @@ void add(PairReport& pair, const ContactSums& sums, const ContactTime& time) {
 /// Tools with plies, then plies with plies; time_share in seconds.
 std::vector<PairReport> pairs_of(const Scene& s) {
   std::vector<PairReport> pairs;
-  for (const ToolAndContacts& t : s.tools)
+  for (const ToolState& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p) {
       PairReport pair{.a = t.name, .b = s.plies[p].name};
       pair.friction_coefficient = t.contacts[p].law.friction;
@@ -62,17 +62,17 @@ struct Times {
 
 Times times_of(const Scene& s) {
   Times t;
-  for (const Block& b : s.patch_blocks)
+  for (const Block& b : s.group_blocks)
     t.elements += b.seconds;
   for (const Block& b : s.bending_blocks)
     t.elements += b.seconds;
   for (const Block& b : s.node_blocks)
     t.motion += b.seconds;
-  for (const PlyBody& ply : s.plies)
+  for (const PlyState& ply : s.plies)
     t.search += ply.search_seconds;
-  for (const ToolAndContacts& tool : s.tools) {
+  for (const ToolState& tool : s.tools) {
     t.contact += tool.seconds;
-    for (const ToolContact& c : tool.contacts)
+    for (const ToolPlyContact& c : tool.contacts)
       t.search += c.time.search;
   }
   for (const PlyContact& c : s.ply_contacts)
@@ -89,7 +89,7 @@ std::string named(const PairReport& pair) {
 std::vector<std::string> too_much(const Scene& s, const Energies& e, const WorkReport& w) {
   std::vector<std::string> found;
   const bool bending = std::any_of(s.plies.begin(), s.plies.end(),
-                                   [](const PlyBody& ply) { return ply.bending.has_value(); });
+                                   [](const PlyState& ply) { return ply.bending.has_value(); });
   const double deformation = e.shear + e.fibre;
   if (bending && e.bending < small_bending * deformation)
     found.push_back(fmt::format("bending: {:.2g} % of the deformation energy; without the fabric's "
@@ -103,9 +103,9 @@ std::vector<std::string> too_much(const Scene& s, const Energies& e, const WorkR
   if (!idle.empty())
     found.push_back(fmt::format("friction of {}: less than {:g} of the work done each",
                                 joined(idle), small_friction));
-  for (const ToolAndContacts& t : s.tools)
+  for (const ToolState& t : s.tools)
     if (std::none_of(t.contacts.begin(), t.contacts.end(),
-                     [](const ToolContact& c) { return c.sums.deepest > 0.0; }))
+                     [](const ToolPlyContact& c) { return c.sums.deepest > 0.0; }))
       found.push_back(fmt::format("tool {}: no ply ever touched it", t.name));
   if (s.data.contact.self &&
       std::none_of(w.pairs.begin(), w.pairs.end(),
@@ -127,7 +127,7 @@ std::pair<double, std::string> longest_yarn(const Frame& last) {
 /// What the yarns of a ply are divided by, the softer family's.
 double largest_softening(const Scene& s, const std::string& name) {
   double largest = 1.0;
-  for (const PlyBody& ply : s.plies)
+  for (const PlyState& ply : s.plies)
     if (ply.name == name)
       largest = std::max({largest, ply.membrane.softening[0], ply.membrane.softening[1]});
   return largest;
@@ -137,12 +137,12 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
   const Energies& e = last.energy;
   std::vector<std::string> found;
   std::map<std::pair<std::string, std::string>, std::pair<double, double>> deepest; // and the limit
-  const auto look = [&deepest](const std::string& a, const std::string& b, const ContactSums& sums,
-                               const ContactLaw& law) {
+  const auto look = [&deepest](const std::string& a, const std::string& b,
+                               const ContactTotals& sums, const ContactLaw& law) {
     auto& [depth, limit] = deepest[std::minmax(a, b)];
     if (sums.deepest >= depth) depth = sums.deepest, limit = law.max_depth;
   };
-  for (const ToolAndContacts& t : s.tools)
+  for (const ToolState& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
       look(t.name, s.plies[p].name, t.contacts[p].sums, t.contacts[p].law);
   for (const PlyContact& pair : s.ply_contacts) // both ways

@@ -32,8 +32,8 @@ BlankMesh mesh_ply(const Case& data, const Ply& ply) {
                     ply.angle + fabric.fibre_angle);
 }
 
-PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
-  PlyBody body;
+PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
+  PlyState body;
   const Fabric& fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
   body.name = ply.name;
   body.angle = ply.angle;
@@ -47,31 +47,31 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
                                 ply.angle + fabric.fibre_angle, body.membrane.node_mass);
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
-  if (body.bending) body.bending_lanes = make_bending_lanes(*body.bending, body.x0);
+  if (body.bending) body.bending_simd = make_bending_simd(*body.bending, body.x0);
   body.x = body.x_search = body.x0;
   body.velocity.assign(body.x.size(), Vec3::Zero());
   body.motion = body.velocity;
-  if (fits_lanes(body.membrane)) {
-    body.lanes = make_lanes(body.membrane, body.x);
+  if (fits_simd(body.membrane)) {
+    body.simd = make_membrane_simd(body.membrane, body.x);
     body.membrane.last_lambda = body.membrane.last_viscous = {}; // the lanes have their own
   } else {
     body.q.resize(mesh.triangles.size());
   }
   body.edges = sheet_edges(body.membrane.triangles);
-  body.on_rim = faces_on_rim(body.edges, body.membrane.triangles, body.x.size());
+  body.touches_boundary_edge = faces_on_rim(body.edges, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
-  body.bound = frequency_bound(body.membrane, body.x);
+  body.bound = eigenvalue_bound(body.membrane, body.x);
   const double omega = std::sqrt(body.bound.omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
   const Fabric& soft = body.membrane.fabric;
   body.membrane.viscosity = {2.0 * data.solver.fibre_damping * soft.warp.largest_slope() / omega,
                              2.0 * data.solver.fibre_damping * soft.weft.largest_slope() / omega};
-  body.bound = frequency_bound(body.membrane, body.x); // with viscosity
+  body.bound = eigenvalue_bound(body.membrane, body.x); // with viscosity
   return body;
 }
 
 /// mm^2, of two triangles on average: the square of the element size.
-double cell_area(const PlyBody& ply) {
+double cell_area(const PlyState& ply) {
   double area = 0.0;
   for (const double a : ply.membrane.node_area)
     area += a;
@@ -85,7 +85,7 @@ double cell_area(const PlyBody& ply) {
 ///
 /// In a stack it does not follow the yarns further than fibre_softening = 100 (`stack_softening`):
 /// what presses plies on each other does not get less with them.
-double penalty_per_area(const PlyBody& ply, double fraction, bool stack) {
+double penalty_per_area(const PlyState& ply, double fraction, bool stack) {
   constexpr double fine = 12.5, most = 2.5, stack_softening = 100.0;
   const auto& softening = ply.membrane.softening;
   if (stack) fraction *= std::max(1.0, std::max(softening[0], softening[1]) / stack_softening);
@@ -104,22 +104,22 @@ ContactLaw make_law(const ContactOptions& options, double penalty, double densit
   return {penalty, 2.0 * options.damping * std::sqrt(penalty * density), mu, max_depth};
 }
 
-ToolAndContacts make_tool(const Case& data, std::size_t index, const std::vector<PlyBody>& plies) {
+ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyState>& plies) {
   const Tool& tool = data.tools[index];
-  ToolAndContacts t;
+  ToolState t;
   t.name = tool.name;
   t.body.shape = tool.shape;
   t.body.position = tool.position;
   t.body.rotation = tool.rotation;
   t.body.direction = tool.direction;
-  t.body.pushed = tool.motion == Motion::force;
+  t.body.force_controlled = tool.motion == Motion::force;
   t.force_on = tool.force;
   t.body.mass = tool.mass;
   constexpr double closing_speed = 1000.0; // mm/s: that of a fast press
-  t.body.speed_limit = closing_speed;
+  t.body.max_approach_speed = closing_speed;
   t.stroke = tool.motion == Motion::driven ? tool.stroke : 0.0;
   for (std::size_t p = 0; p < plies.size(); ++p) {
-    ToolContact c;
+    ToolPlyContact c;
     const int body = static_cast<int>(plies.size() + index);
     c.law =
         make_law(data.contact, penalty_per_area(plies[p], data.contact.stiffness, plies.size() > 1),
@@ -132,9 +132,9 @@ ToolAndContacts make_tool(const Case& data, std::size_t index, const std::vector
   return t;
 }
 
-PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a, int b) {
-  const PlyBody& slave = plies[static_cast<std::size_t>(a)];
-  const PlyBody& master = plies[static_cast<std::size_t>(b)];
+PlyContact make_pair(const Case& data, const std::vector<PlyState>& plies, int a, int b) {
+  const PlyState& slave = plies[static_cast<std::size_t>(a)];
+  const PlyState& master = plies[static_cast<std::size_t>(b)];
   PlyContact pair;
   pair.slave = a;
   pair.master = b;
@@ -147,8 +147,8 @@ PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a,
                               deepest_in_ply * pair.contact.distance);
   // What a point sees late adds energy when it does, in proportion to `rest`: at h/50 a coarse
   // stack's ledger is off by 8 %, at h/500 by less than 1 %, which costs 4 % of the time.
-  pair.contact.rest = 0.002 * pair.contact.distance;
-  pair.contact.look_every = 0.025 * std::sqrt(cell_area(master));
+  pair.contact.slide_limit = 0.002 * pair.contact.distance;
+  pair.contact.full_search_interval = 0.025 * std::sqrt(cell_area(master));
   return pair;
 }
 
@@ -174,9 +174,9 @@ std::vector<PlyPair> make_pairs(const Scene& s) {
   return pairs;
 }
 
-double smallest_element(const std::vector<PlyBody>& plies) {
+double smallest_element(const std::vector<PlyState>& plies) {
   double smallest = std::numeric_limits<double>::max();
-  for (const PlyBody& ply : plies)
+  for (const PlyState& ply : plies)
     smallest = std::min(smallest, std::sqrt(cell_area(ply)));
   return smallest;
 }
@@ -209,23 +209,23 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
     }
   s.ply_pairs = make_pairs(s);
   for (int p = 0; p < n; ++p) {
-    const PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
-    if (ply.lanes)
-      add_blocks(s.patch_blocks, p, ply.lanes->blocks.size(), 1);
+    const PlyState& ply = s.plies[static_cast<std::size_t>(p)];
+    if (ply.simd)
+      add_blocks(s.group_blocks, p, ply.simd->blocks.size(), 1);
     else
-      add_blocks(s.patch_blocks, p, static_cast<std::size_t>(ply.membrane.patches()));
+      add_blocks(s.group_blocks, p, static_cast<std::size_t>(ply.membrane.groups()));
     add_blocks(s.node_blocks, p, ply.x.size());
-    add_blocks(s.bending_blocks, p, ply.bending_lanes.blocks.size(), 1);
+    add_blocks(s.bending_blocks, p, ply.bending_simd.blocks.size(), 1);
   }
   for (int p = 0; p < n; ++p) {
-    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
-    const std::vector<HeldNode> held = held_nodes(data.boundaries, p, ply.x0);
+    PlyState& ply = s.plies[static_cast<std::size_t>(p)];
+    const std::vector<PrescribedNode> held = prescribed_nodes(data.boundaries, p, ply.x0);
     if (!held.empty()) ply.reaction.assign(ply.x0.size(), Vec3::Zero());
     s.held.insert(s.held.end(), held.begin(), held.end());
   }
   s.boundaries.resize(data.boundaries.size());
-  s.patch_sums.assign(s.patch_blocks.size(), 0.0);
-  s.patch_collapsed.assign(s.patch_blocks.size(), 0);
+  s.group_sums.assign(s.group_blocks.size(), 0.0);
+  s.group_collapsed.assign(s.group_blocks.size(), 0);
   s.node_sums.assign(s.node_blocks.size(), {});
   return s;
 }

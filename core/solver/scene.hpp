@@ -20,49 +20,50 @@
 namespace plyform {
 
 /// A ply in motion. Arrays of n nodes.
-struct PlyBody {
+struct PlyState {
   std::string name;
   double angle = 0.0;     ///< rad, warp from x, before forming
   double thickness = 0.0; ///< mm
   Membrane membrane;
-  FrequencyBound bound;               ///< of the membrane, renewed now and then
-  double sharpness = 1.0;             ///< core/ply/membrane_eigenvalue.hpp, renewed more rarely
-  double stretch_contacts = 0.0;      ///< 1/s^2, bound of contacts when Scene::stretch was found
-  std::vector<Vec3> x0, x;            ///< mm
-  std::vector<Vec3> velocity;         ///< mm/s, half a step behind x
-  std::vector<Vec3> motion;           ///< mm, of the last step
-  std::vector<Vec3> x_search;         ///< mm, where the contact search was last done
-  double way = 0.0;                   ///< mm, furthest that any node has been from there
-  double path = 0.0;                  ///< mm, contact/search/active_list.hpp
-  std::optional<MembraneLanes> lanes; ///< forces, unless it has no yarns
-  std::vector<ElementForce> q;        ///< forces then, one a triangle
-  std::optional<Bending> bending;     ///< if the fabric has it
-  BendingLanes bending_lanes;         ///< its forces, or empty
+  EigenvalueBound bound;            ///< of the membrane, renewed now and then
+  double eigenvalue_ratio = 1.0;    ///< core/ply/membrane_eigenvalue.hpp, renewed more rarely
+  double stretch_contacts = 0.0;    ///< 1/s^2, bound of contacts when Scene::stretch was found
+  std::vector<Vec3> x0, x;          ///< mm
+  std::vector<Vec3> velocity;       ///< mm/s, half a step behind x
+  std::vector<Vec3> motion;         ///< mm, of the last step
+  std::vector<Vec3> x_search;       ///< mm, where the contact search was last done
+  double max_displacement = 0.0;    ///< mm, furthest that any node has been from there
+  double path_length = 0.0;         ///< mm, contact/search/active_list.hpp
+  std::optional<MembraneSimd> simd; ///< forces, unless it has no yarns
+  std::vector<ElementForce> q;      ///< forces then, one a triangle
+  std::optional<Bending> bending;   ///< if the fabric has it
+  BendingSimd bending_simd;         ///< its forces, or empty
   std::unique_ptr<SheetTree> tree;
   double search_seconds = 0.0; ///< refitting the tree, bounding folds
   std::vector<SheetEdge> edges;
-  std::vector<double> spread;               ///< contact/search/fold_bound.hpp, one a triangle
-  double spread_way = 0.0;                  ///< mm, way when it was last renewed
-  std::vector<char> on_rim;                 ///< triangles with a node on the rim
-  std::array<std::vector<char>, 2> covered; ///< nodes that the next ply below, above covers
+  std::vector<double> fold_bound;            ///< contact/search/fold_bound.hpp, one a triangle
+  double fold_bound_displacement = 0.0;      ///< mm, way when it was last renewed
+  std::vector<char> touches_boundary_edge;   ///< triangles with a node on the rim
+  std::array<std::vector<char>, 2> occluded; ///< nodes that the next ply below, above covers
   std::vector<Vec3> reaction; ///< N, that boundaries hold each node with; empty if none does
   std::vector<const std::vector<Vec3>*>
       nodal_forces; ///< reaction, contacts: those in use now, in order
 
-  SheetState state() const { return {x, motion, membrane.node_area, spread}; }
+  SurfaceKinematics state() const { return {x, motion, membrane.node_area, fold_bound}; }
 };
 
 /// One tool with its contacts: contacts[i] is with ply i.
-struct ToolAndContacts {
+struct ToolState {
   std::string name;
   ToolBody body;
   double stroke = 0.0;   ///< mm, 0 unless driven
   double force_on = 0.0; ///< N, 0 unless pushed
-  std::vector<ToolContact> contacts;
+  std::vector<ToolPlyContact> contacts;
   Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
   Vec3 displacement_search = Vec3::Zero();
-  double way = 0.0;  ///< mm, furthest from there, what it may still do in this step included
-  double path = 0.0; ///< mm, contact/search/active_list.hpp
+  double max_displacement =
+      0.0;                  ///< mm, furthest from there, what it may still do in this step included
+  double path_length = 0.0; ///< mm, contact/search/active_list.hpp
   std::vector<double> ply_paths; ///< mm, with each ply, what it may still do in this step included
   double work = 0.0;             ///< N mm, done by the tool on the plies since the start
   double seconds = 0.0;          ///< all of its forces
@@ -71,13 +72,13 @@ struct ToolAndContacts {
 /// One directed contact between two plies, or of a ply with itself.
 struct PlyContact {
   int slave = 0, master = 0;
-  SheetContact contact;
+  PlyPlyContact contact;
 };
 
 /// Edges of two plies, a < b.
 struct PlyEdgeContact {
   int a = 0, b = 0;
-  EdgeContact contact;
+  EdgeEdgeContact contact;
 };
 
 /// Two plies, a < b, or one with itself, and what their contacts do to their nodes.
@@ -101,7 +102,7 @@ struct BoundaryState {
 /// Nodes in a block: long enough to hide the hand-over, short enough to share out.
 constexpr int node_block = 512;
 
-/// A run of nodes or patches (or one of the ply's LaneBlocks): the unit of work of a thread. Fixed
+/// A run of nodes or groups (or one of the ply's SimdBlocks): the unit of work of a thread. Fixed
 /// size, so that sums come out the same whatever the number of threads.
 struct Block {
   int ply, begin, end;
@@ -118,30 +119,30 @@ struct NodeSums {
 
 struct Scene {
   Case data;
-  std::vector<PlyBody> plies;
-  std::vector<ToolAndContacts> tools;
+  std::vector<PlyState> plies;
+  std::vector<ToolState> tools;
   std::vector<PlyContact> ply_contacts;
   std::vector<PlyEdgeContact> edge_contacts;
   std::vector<PlyPair> ply_pairs;
-  std::vector<HeldNode> held;            ///< by ply and node
+  std::vector<PrescribedNode> held;      ///< by ply and node
   std::vector<BoundaryState> boundaries; ///< one each of Case::boundaries
-  std::vector<Block> patch_blocks, node_blocks, bending_blocks;
-  std::vector<SheetState> ply_states; ///< views of the plies, renewed every step
-  std::vector<double> patch_sums;     ///< viscous work, one a patch block
-  std::vector<char> patch_collapsed;  ///< whether a triangle has collapsed, one a patch block
-  std::vector<NodeSums> node_sums;    ///< one a node block
-  double start_energy = 0.0;          ///< N mm, that the plies were given to start with
-  double mass_damping_work = 0.0;     ///< N mm, since the start
-  double element_size = 0.0;          ///< mm, smallest mean of a ply
-  double skin = 0.0;                  ///< mm, Case's or by the element size
-  double time = 0.0;                  ///< s, of x
-  double dt = 0.0, next_dt = 0.0;     ///< s, the step that led to x and the one that leaves it
-  double stable_dt = 0.0;             ///< s, step_factor times the stable step when last renewed
-  double min_dt = 0.0, max_dt = 0.0;  ///< s, used so far
-  double bound_way = 0.0;             ///< mm, furthest way since the search at the last bound
-  double stretch = 1.0; ///< stable step over its bound, core/solver/stable_time_step.hpp
-  long step = 0, next_sharpening = 0; ///< the next step that renews stretch and sharpness
-  long searches = 0;                  ///< broad phases done
+  std::vector<Block> group_blocks, node_blocks, bending_blocks;
+  std::vector<SurfaceKinematics> ply_states; ///< views of the plies, renewed every step
+  std::vector<double> group_sums;            ///< viscous work, one a group block
+  std::vector<char> group_collapsed; ///< whether a triangle has collapsed, one a group block
+  std::vector<NodeSums> node_sums;   ///< one a node block
+  double start_energy = 0.0;         ///< N mm, that the plies were given to start with
+  double mass_damping_work = 0.0;    ///< N mm, since the start
+  double element_size = 0.0;         ///< mm, smallest mean of a ply
+  double skin = 0.0;                 ///< mm, Case's or by the element size
+  double time = 0.0;                 ///< s, of x
+  double dt = 0.0, next_dt = 0.0;    ///< s, the step that led to x and the one that leaves it
+  double stable_dt = 0.0;            ///< s, step_factor times the stable step when last renewed
+  double min_dt = 0.0, max_dt = 0.0; ///< s, used so far
+  double bound_displacement = 0.0;   ///< mm, furthest way since the search at the last bound
+  double time_step_gain = 1.0;     ///< stable step over its bound, core/solver/stable_time_step.hpp
+  long step = 0, next_lanczos = 0; ///< the next step that renews stretch and eigenvalue_ratio
+  long searches = 0;               ///< broad phases done
 };
 
 /// Places plies and tools, sets contact stiffness from the stable step. meshes: of the blanks, one

@@ -11,7 +11,7 @@
 namespace plyform {
 namespace {
 
-constexpr int sharpen_every = 1000; // steps: ratios change slower than bounds
+constexpr int lanczos_interval = 1000; // steps: ratios change slower than bounds
 
 /// Row sums of the contact matrices, of each ply's nodes.
 using ContactRows = std::vector<std::vector<ContactRow>>;
@@ -22,8 +22,8 @@ struct PairRows {
 };
 
 PairRows rows_of(const Scene& s, const PlyPair& pair) {
-  const PlyBody &a = s.plies[static_cast<std::size_t>(pair.a)],
-                &b = s.plies[static_cast<std::size_t>(pair.b)];
+  const PlyState &a = s.plies[static_cast<std::size_t>(pair.a)],
+                 &b = s.plies[static_cast<std::size_t>(pair.b)];
   PairRows rows;
   const auto begin = [&] {
     rows.a.resize(a.x.size());
@@ -34,12 +34,12 @@ PairRows rows_of(const Scene& s, const PlyPair& pair) {
     if (c.contact.points.empty()) continue;
     begin();
     const bool up = c.slave == pair.a;
-    const PlyBody& master = up ? b : a;
-    add_sheet_stiffness(c.contact, master.state(), master.membrane.triangles, bound_margin,
-                        up ? rows.a : rows.b, up ? rows.b : rows.a);
+    const PlyState& master = up ? b : a;
+    add_ply_ply_stiffness(c.contact, master.state(), master.membrane.triangles, bound_margin,
+                          up ? rows.a : rows.b, up ? rows.b : rows.a);
   }
   for (const int i : pair.edges) {
-    const EdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
+    const EdgeEdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
     if (contact.pairs.empty()) continue;
     begin();
     add_edge_stiffness(contact, edge_margin, rows.a, rows.b);
@@ -47,18 +47,18 @@ PairRows rows_of(const Scene& s, const PlyPair& pair) {
   return rows;
 }
 
-ContactRows contact_rows(const Scene& s, ThreadTeam& team) {
+ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
   std::vector<PairRows> of_pair(s.ply_pairs.size());
-  team.run(static_cast<int>(of_pair.size()), [&](int i) {
+  pool.run(static_cast<int>(of_pair.size()), [&](int i) {
     const auto pair = static_cast<std::size_t>(i);
     of_pair[pair] = rows_of(s, s.ply_pairs[pair]);
   });
   ContactRows c;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    const PlyBody& ply = s.plies[p];
+    const PlyState& ply = s.plies[p];
     std::vector<ContactRow>& rows = c.emplace_back(ply.x.size());
-    for (const ToolAndContacts& tool : s.tools)
-      add_tool_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
+    for (const ToolState& tool : s.tools)
+      add_tool_ply_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
   }
   const auto add = [&c](int ply, const std::vector<ContactRow>& rows) {
     std::vector<ContactRow>& to = c[static_cast<std::size_t>(ply)];
@@ -84,20 +84,22 @@ struct PlyBound {
   /// The step of the sum, whose part up to `known` (1/s^2) of contacts is `stretch` times as long
   /// as the sum says. What contacts have grown by since that was found counts in full: a single
   /// deep contact is as stiff as its row.
-  double sharpened_step(double stretch, double known) const {
+  double sharpened_step(double time_step_gain, double known) const {
     const double grown = std::max(contacts.omega2 - known, 0.0);
-    return Frequencies{(elements.omega2 + contacts.omega2 - grown) / (stretch * stretch) + grown,
-                       (elements.damping + contacts.damping) / stretch}
+    return Frequencies{
+        (elements.omega2 + contacts.omega2 - grown) / (time_step_gain * time_step_gain) + grown,
+        (elements.damping + contacts.damping) / time_step_gain}
         .step();
   }
 };
 
 PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
-  const PlyBody& ply = s.plies[p];
-  const FrequencyBound& b = ply.bound;
+  const PlyState& ply = s.plies[p];
+  const EigenvalueBound& b = ply.bound;
   PlyBound of;
-  of.elements = {highest_omega2(b, ply.sharpness) + (ply.bending ? ply.bending->omega2 : 0.0),
-                 b.guarded ? b.damping : std::min(b.damping, ply.sharpness * b.yarns * b.viscous)};
+  of.elements = {
+      highest_omega2(b, ply.eigenvalue_ratio) + (ply.bending ? ply.bending->omega2 : 0.0),
+      b.guarded ? b.damping : std::min(b.damping, ply.eigenvalue_ratio * b.yarns * b.viscous)};
   of.elements.damping += s.data.solver.mass_damping;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const ContactRow& row = touching[p][n];
@@ -109,24 +111,24 @@ PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
 }
 
 /// How much longer than `dt` the stable step is.
-double stretch_of(const Scene& s, double dt, ThreadTeam& team) {
-  SceneProduct product(s, dt);
+double stretch_of(const Scene& s, double dt, ThreadPool& pool) {
+  StiffnessOperator product(s, dt);
   const double left =
       ritz_margin *
-      largest_ritz_value([&](const Eigen::VectorXd& v) { return product.times(v, team); },
+      largest_ritz_value([&](const Eigen::VectorXd& v) { return product.apply(v, pool); },
                          product.start(), ritz_steps);
   return left <= 4.0 ? std::sqrt(4.0 / left) : 4.0 / left; // (S) is convex in dt
 }
 
 } // namespace
 
-StepBound stable_step(const Scene& s, ThreadTeam& team) {
-  const ContactRows touching = contact_rows(s, team);
+StepBound stable_step(const Scene& s, ThreadPool& pool) {
+  const ContactRows touching = contact_rows(s, pool);
   StepBound bound;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBound of = bound_of(s, touching, p);
-    double dt =
-        std::min(of.sharpened_step(s.stretch, s.plies[p].stretch_contacts), of.elements.step());
+    double dt = std::min(of.sharpened_step(s.time_step_gain, s.plies[p].stretch_contacts),
+                         of.elements.step());
     if (of.contacts.omega2 > 0.0) dt = std::min(dt, of.contacts.step());
     if (bound.ply < 0 || !(dt >= bound.dt))
       bound = {dt, of.elements.omega2 + of.contacts.omega2, static_cast<int>(p),
@@ -135,26 +137,26 @@ StepBound stable_step(const Scene& s, ThreadTeam& team) {
   return bound;
 }
 
-void renew_bounds(Scene& s, ThreadTeam& team) {
-  const bool sharpen = s.step >= s.next_sharpening;
-  team.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyBody& ply = s.plies[static_cast<std::size_t>(p)];
+void update_stable_step(Scene& s, ThreadPool& pool) {
+  const bool sharpen = s.step >= s.next_lanczos;
+  pool.run(static_cast<int>(s.plies.size()), [&](int p) {
+    PlyState& ply = s.plies[static_cast<std::size_t>(p)];
     const Stopwatch watch(ply.search_seconds);
-    ply.bound = frequency_bound(ply.membrane, ply.x);
-    if (sharpen) ply.sharpness = sharpness(ply.membrane, ply.x);
+    ply.bound = eigenvalue_bound(ply.membrane, ply.x);
+    if (sharpen) ply.eigenvalue_ratio = eigenvalue_ratio(ply.membrane, ply.x);
   });
   if (!sharpen) return;
-  s.next_sharpening = s.step + sharpen_every;
-  const ContactRows touching = contact_rows(s, team);
+  s.next_lanczos = s.step + lanczos_interval;
+  const ContactRows touching = contact_rows(s, pool);
   double dt = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBound of = bound_of(s, touching, p);
     s.plies[p].stretch_contacts = of.contacts.omega2;
     dt = std::min(dt, of.sum_step());
   }
-  const double stretch = s.stretch * stretch_of(s, s.stretch * dt, team);
+  const double time_step_gain = s.time_step_gain * stretch_of(s, s.time_step_gain * dt, pool);
   constexpr double grain = 1e-3; // so that what rounding does to the iteration goes no further
-  s.stretch = std::max(1.0, grain * std::floor(stretch / grain));
+  s.time_step_gain = std::max(1.0, grain * std::floor(time_step_gain / grain));
 }
 
 } // namespace plyform

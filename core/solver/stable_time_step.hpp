@@ -30,7 +30,7 @@ namespace plyform {
 struct Frequencies {
   double omega2 = 0.0, damping = 0.0;
 
-  double left_of_s(double dt) const { return dt * dt * omega2 + 2.0 * dt * damping; }
+  double stability_lhs(double dt) const { return dt * dt * omega2 + 2.0 * dt * damping; }
   double step() const { return (std::sqrt(damping * damping + 4.0 * omega2) - damping) / omega2; }
 };
 
@@ -42,14 +42,15 @@ struct StepBound {
 };
 /// Contacts count where they stand now, those too that are within bound_margin of closing; what
 /// slides until the next renewal is what step_factor leaves room for. The elements' part is
-/// PlyBody::bound.
-StepBound stable_step(const Scene& scene, ThreadTeam& team);
+/// PlyState::bound.
+StepBound stable_step(const Scene& scene, ThreadPool& pool);
 
 /// mm; by when anything has moved by half of it the bound is due again.
 constexpr double bound_margin = 0.5;
 constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same of edges
 
-/// Renews PlyBody::bound at the present shape, and if due PlyBody::sharpness and Scene::stretch.
-void renew_bounds(Scene& scene, ThreadTeam& team);
+/// Renews PlyState::bound at the present shape, and if due PlyState::eigenvalue_ratio and
+/// Scene::stretch.
+void update_stable_step(Scene& scene, ThreadPool& pool);
 
 } // namespace plyform

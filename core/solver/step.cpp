@@ -23,12 +23,12 @@ constexpr int elements_every = 200, contacts_every = 50;
 /// and get their force over the first twentieth of the time, so as not to strike the stack.
 void drive_tools(Scene& s) {
   constexpr double ramp = 0.05; // of the duration
-  for (ToolAndContacts& t : s.tools) {
-    if (t.body.pushed) {
-      t.body.force = smooth_path(t.force_on, s.time, ramp * s.data.solver.duration);
+  for (ToolState& t : s.tools) {
+    if (t.body.force_controlled) {
+      t.body.force = smooth_step(t.force_on, s.time, ramp * s.data.solver.duration);
       continue;
     }
-    const Vec3 to = smooth_path(t.stroke, s.time, s.data.solver.duration) * t.body.direction;
+    const Vec3 to = smooth_step(t.stroke, s.time, s.data.solver.duration) * t.body.direction;
     t.body.motion = to - t.body.displacement;
     t.body.displacement = to;
   }
@@ -39,13 +39,13 @@ void collect_forces(Scene& s) {
   const auto list = [&](int ply) -> auto& {
     return s.plies[static_cast<std::size_t>(ply)].nodal_forces;
   };
-  for (PlyBody& ply : s.plies) {
+  for (PlyState& ply : s.plies) {
     ply.nodal_forces.clear();
     if (!ply.reaction.empty()) ply.nodal_forces.push_back(&ply.reaction);
   }
-  for (const ToolAndContacts& t : s.tools)
+  for (const ToolState& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
-      if (!t.contacts[p].list.near.empty())
+      if (!t.contacts[p].list.active.empty())
         list(static_cast<int>(p)).push_back(&t.contacts[p].force);
   for (const PlyPair& pair : s.ply_pairs) {
     if (!pair.loaded) continue;
@@ -61,69 +61,69 @@ void pair_forces(Scene& s, PlyPair& pair) {
     std::fill(pair.force_b.begin(), pair.force_b.end(), Vec3::Zero());
   }
   pair.loaded = false;
-  const PlyBody &a = s.plies[static_cast<std::size_t>(pair.a)],
-                &b = s.plies[static_cast<std::size_t>(pair.b)];
+  const PlyState &a = s.plies[static_cast<std::size_t>(pair.a)],
+                 &b = s.plies[static_cast<std::size_t>(pair.b)];
   for (const int i : pair.contacts) {
     const bool up = s.ply_contacts[static_cast<std::size_t>(i)].slave == pair.a;
-    SheetContact& contact = s.ply_contacts[static_cast<std::size_t>(i)].contact;
-    const PlyBody &slave = up ? a : b, &master = up ? b : a;
-    sheet_forces(contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
-                 {a.way + b.way, a.path + b.path}, up ? pair.force_a : pair.force_b,
-                 up ? pair.force_b : pair.force_a);
+    PlyPlyContact& contact = s.ply_contacts[static_cast<std::size_t>(i)].contact;
+    const PlyState &slave = up ? a : b, &master = up ? b : a;
+    ply_ply_forces(contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
+                   {a.max_displacement + b.max_displacement, a.path_length + b.path_length},
+                   up ? pair.force_a : pair.force_b, up ? pair.force_b : pair.force_a);
     pair.loaded = pair.loaded || contact.sums.touching > 0;
   }
   for (const int i : pair.edges) {
-    EdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
-    edge_forces(contact, a.state(), a.edges, b.state(), b.edges, s.dt, a.path + b.path,
-                pair.force_a, pair.force_b);
+    EdgeEdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
+    edge_forces(contact, a.state(), a.edges, b.state(), b.edges, s.dt,
+                a.path_length + b.path_length, pair.force_a, pair.force_b);
     pair.loaded = pair.loaded || contact.sums.touching > 0;
   }
 }
 
 /// Element and contact forces, each task into arrays of its own: the order in which they are done
 /// does not matter.
-void add_up_forces(Scene& s, ThreadTeam& team) {
+void add_up_forces(Scene& s, ThreadPool& pool) {
   const auto tool_task = [&](int i) {
-    ToolAndContacts& t = s.tools[static_cast<std::size_t>(i)];
+    ToolState& t = s.tools[static_cast<std::size_t>(i)];
     const Stopwatch watch(t.seconds);
     const Vec3 before = t.force;
     for (std::size_t p = 0; p < s.plies.size(); ++p)
-      t.ply_paths[p] = path_ahead(s, t) + s.plies[p].path;
-    t.force = tool_forces(t.body, t.contacts, s.ply_states, t.ply_paths, s.dt);
+      t.ply_paths[p] = path_ahead(s, t) + s.plies[p].path_length;
+    t.force = tool_ply_forces(t.body, t.contacts, s.ply_states, t.ply_paths, s.dt);
     t.work -= 0.5 * (before + t.force).dot(t.body.motion);
   };
-  const auto patch_task = [&](int i) {
-    Block& block = s.patch_blocks[static_cast<std::size_t>(i)];
+  const auto group_task = [&](int i) {
+    Block& block = s.group_blocks[static_cast<std::size_t>(i)];
     const Stopwatch watch(block.seconds);
-    PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
-    const PatchReport report =
-        ply.lanes ? lane_forces(*ply.lanes, ply.membrane, ply.x, s.dt, block.begin)
-                  : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
-    s.patch_sums[static_cast<std::size_t>(i)] += report.viscous_work;
-    s.patch_collapsed[static_cast<std::size_t>(i)] = report.collapsed;
+    PlyState& ply = s.plies[static_cast<std::size_t>(block.ply)];
+    const GroupReport report =
+        ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, s.dt, block.begin)
+                 : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
+    s.group_sums[static_cast<std::size_t>(i)] += report.viscous_work;
+    s.group_collapsed[static_cast<std::size_t>(i)] = report.collapsed;
   };
   const auto bending_task = [&](int i) {
     Block& block = s.bending_blocks[static_cast<std::size_t>(i)];
     const Stopwatch watch(block.seconds);
-    PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
-    bending_forces(ply.bending_lanes, *ply.bending, ply.x, block.begin);
+    PlyState& ply = s.plies[static_cast<std::size_t>(block.ply)];
+    bending_forces(ply.bending_simd, *ply.bending, ply.x, block.begin);
   };
   const int pairs = static_cast<int>(s.ply_pairs.size());
   const int tools = pairs + static_cast<int>(s.tools.size());
   s.ply_states.clear();
-  for (const PlyBody& ply : s.plies)
+  for (const PlyState& ply : s.plies)
     s.ply_states.push_back(ply.state());
-  const int patches = tools + static_cast<int>(s.patch_blocks.size());
-  const int all = patches + static_cast<int>(s.bending_blocks.size());
-  team.run(all, [&](int i) { // longest tasks first
+  const int groups = tools + static_cast<int>(s.group_blocks.size());
+  const int all = groups + static_cast<int>(s.bending_blocks.size());
+  pool.run(all, [&](int i) { // longest tasks first
     if (i < pairs)
       pair_forces(s, s.ply_pairs[static_cast<std::size_t>(i)]);
     else if (i < tools)
       tool_task(i - pairs);
-    else if (i < patches)
-      patch_task(i - tools);
+    else if (i < groups)
+      group_task(i - tools);
     else
-      bending_task(i - patches);
+      bending_task(i - groups);
   });
   collect_forces(s);
 }
@@ -140,12 +140,12 @@ MassLoads mass_loads(const Scene& s) {
 
 /// N, of nodes begin .. end - 1 into f[0 ..): all forces of compute_forces. Array after array,
 /// which streams; a node's terms are added in the same order however its ply is cut up.
-void add_up(const PlyBody& ply, int begin, int end, Vec3* f) {
+void add_up(const PlyState& ply, int begin, int end, Vec3* f) {
   for (int n = begin; n < end; ++n) {
     Vec3& sum = f[n - begin];
-    sum = ply.lanes ? lane_force(*ply.lanes, static_cast<std::size_t>(n))
-                    : node_force(ply.membrane, ply.q, n);
-    if (ply.bending) sum += lane_force(ply.bending_lanes, static_cast<std::size_t>(n));
+    sum = ply.simd ? simd_force(*ply.simd, static_cast<std::size_t>(n))
+                   : node_force(ply.membrane, ply.q, n);
+    if (ply.bending) sum += simd_force(ply.bending_simd, static_cast<std::size_t>(n));
   }
   for (const std::vector<Vec3>* force : ply.nodal_forces) {
     const Vec3* from = force->data() + begin;
@@ -155,11 +155,11 @@ void add_up(const PlyBody& ply, int begin, int end, Vec3* f) {
 }
 
 /// (17), of the sum of a node's forces.
-Vec3 acceleration(const PlyBody& ply, std::size_t n, const Vec3& force, const MassLoads& loads) {
+Vec3 acceleration(const PlyState& ply, std::size_t n, const Vec3& force, const MassLoads& loads) {
   return force / ply.membrane.node_mass[n] + loads.gravity - loads.damping * ply.velocity[n];
 }
 
-Vec3 acceleration(const PlyBody& ply, int node, const MassLoads& loads) {
+Vec3 acceleration(const PlyState& ply, int node, const MassLoads& loads) {
   Vec3 force;
   add_up(ply, node, node + 1, &force);
   return acceleration(ply, static_cast<std::size_t>(node), force, loads);
@@ -167,14 +167,14 @@ Vec3 acceleration(const PlyBody& ply, int node, const MassLoads& loads) {
 
 /// (R) of core/model/boundary.hpp for one node: the velocity that takes it where its boundaries
 /// will be. Adds to their loads and work.
-void hold_node(Scene& s, const HeldNode& held) {
-  PlyBody& ply = s.plies[static_cast<std::size_t>(held.ply)];
+void hold_node(Scene& s, const PrescribedNode& held) {
+  PlyState& ply = s.plies[static_cast<std::size_t>(held.ply)];
   const auto n = static_cast<std::size_t>(held.node);
   const Vec3 before = ply.reaction[n];
   ply.reaction[n].setZero();
   const Vec3 free = acceleration(ply, held.node, mass_loads(s));
   const double span = 0.5 * (s.dt + s.next_dt);
-  Vec3 reaction = Vec3::Zero(), way = reaction, slope = reaction;
+  Vec3 reaction = Vec3::Zero(), displacement = reaction, slope = reaction;
   int last = -1; // most nodes are held along all axes by one boundary: placed once
   for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
     const Vec3& axis = held.axis[i];
@@ -182,11 +182,11 @@ void hold_node(Scene& s, const HeldNode& held) {
     BoundaryState& state = s.boundaries[b];
     if (held.boundary[i] != last) {
       const Boundary& boundary = s.data.boundaries[b];
-      way = held_place(boundary, ply.x0[n], state.next_displacement) - ply.x[n];
-      slope = held_slope(boundary, ply.x0[n], state.displacement);
+      displacement = prescribed_position(boundary, ply.x0[n], state.next_displacement) - ply.x[n];
+      slope = prescribed_slope(boundary, ply.x0[n], state.displacement);
       last = held.boundary[i];
     }
-    const double wanted = (axis.dot(way) / s.next_dt - axis.dot(ply.velocity[n])) / span;
+    const double wanted = (axis.dot(displacement) / s.next_dt - axis.dot(ply.velocity[n])) / span;
     const Vec3 r = ply.membrane.node_mass[n] * (wanted - axis.dot(free)) * axis;
     reaction += r;
     state.force += r;
@@ -197,22 +197,22 @@ void hold_node(Scene& s, const HeldNode& held) {
 }
 
 /// Forces of all boundaries, after all others are known.
-void hold_nodes(Scene& s) {
+void prescribe_nodes(Scene& s) {
   const double duration = s.data.solver.duration;
   for (std::size_t b = 0; b < s.boundaries.size(); ++b) {
     const double stroke = s.data.boundaries[b].stroke;
     BoundaryState& state = s.boundaries[b];
-    state.displacement = smooth_path(stroke, s.time, duration);
-    state.next_displacement = smooth_path(stroke, s.time + s.next_dt, duration);
+    state.displacement = smooth_step(stroke, s.time, duration);
+    state.next_displacement = smooth_step(stroke, s.time + s.next_dt, duration);
     state.load = 0.0;
     state.force.setZero();
   }
-  for (const HeldNode& held : s.held)
+  for (const PrescribedNode& held : s.held)
     hold_node(s, held);
 }
 
 /// (15)-(17) for one block of nodes.
-NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt,
+NodeSums move_nodes(PlyState& ply, const Block& block, double dt, double next_dt,
                     const MassLoads& loads) {
   NodeSums sums;
   std::array<Vec3, node_block> force;
@@ -234,7 +234,7 @@ NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt,
   return sums;
 }
 
-double kinetic_energy(const PlyBody& ply, double dt, double next_dt, const MassLoads& loads) {
+double kinetic_energy(const PlyState& ply, double dt, double next_dt, const MassLoads& loads) {
   double sum = 0.0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     // Between two half steps: the product of their velocities where steps are equal (it is what
@@ -247,7 +247,7 @@ double kinetic_energy(const PlyBody& ply, double dt, double next_dt, const MassL
   return sum;
 }
 
-double work_of_gravity(const PlyBody& ply, const Vec3& gravity) {
+double work_of_gravity(const PlyState& ply, const Vec3& gravity) {
   double sum = 0.0;
   if (gravity.isZero(0)) return sum;
   for (std::size_t n = 0; n < ply.x.size(); ++n)
@@ -255,7 +255,7 @@ double work_of_gravity(const PlyBody& ply, const Vec3& gravity) {
   return sum;
 }
 
-/// visit(contact) for every ToolContact, SheetContact and EdgeContact of the scene.
+/// visit(contact) for every ToolPlyContact, PlyPlyContact and EdgeEdgeContact of the scene.
 template <class SomeScene, class Visit>
 void visit_contacts(SomeScene& s, const Visit& visit) {
   for (auto& tool : s.tools)
@@ -267,9 +267,9 @@ void visit_contacts(SomeScene& s, const Visit& visit) {
     visit(pair.contact);
 }
 
-void renew_stable_step(Scene& s, ThreadTeam& team) {
-  s.stable_dt = s.data.solver.step_factor * stable_step(s, team).dt;
-  s.bound_way = furthest_way(s);
+void renew_stable_step(Scene& s, ThreadPool& pool) {
+  s.stable_dt = s.data.solver.step_factor * stable_step(s, pool).dt;
+  s.bound_displacement = furthest_way(s);
   visit_contacts(s, [](auto& contact) {
     contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
   });
@@ -295,54 +295,54 @@ void set_step(Scene& s) {
 
 } // namespace
 
-void start(Scene& s, ThreadTeam& team) {
-  search_contacts(s, team);
-  renew_bounds(s, team);
-  renew_stable_step(s, team);
+void start(Scene& s, ThreadPool& pool) {
+  search_contacts(s, pool);
+  update_stable_step(s, pool);
+  renew_stable_step(s, pool);
   set_step(s);
 }
 
-std::optional<Stop> compute_forces(Scene& s, ThreadTeam& team) {
+std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   drive_tools(s);
   const bool used_up = !follow_ways(s);
   if (used_up) {
     if (auto stop = find_not_finite(s)) return stop;
-    search_contacts(s, team);
+    search_contacts(s, pool);
   }
   const bool due = used_up || s.step % elements_every == 0;
-  if (due) renew_bounds(s, team);
-  if (!used_up) follow_spread(s, team);
-  add_up_forces(s, team);
+  if (due) update_stable_step(s, pool);
+  if (!used_up) follow_spread(s, pool);
+  add_up_forces(s, pool);
   if (due || s.step % contacts_every == 0 || contacts_deepened(s) ||
-      furthest_way(s) - s.bound_way > 0.5 * bound_margin)
-    renew_stable_step(s, team);
+      furthest_way(s) - s.bound_displacement > 0.5 * bound_margin)
+    renew_stable_step(s, pool);
   set_step(s);
   // at every step: small triangles turn over within a few
-  if (std::find(s.patch_collapsed.begin(), s.patch_collapsed.end(), 1) != s.patch_collapsed.end())
+  if (std::find(s.group_collapsed.begin(), s.group_collapsed.end(), 1) != s.group_collapsed.end())
     if (auto stop = find_collapsed(s)) return stop;
   if (auto stop = find_fault(s)) return stop;
-  if (auto stop = find_passed(s)) return stop;
+  if (auto stop = find_pass_through(s)) return stop;
   if (auto stop = find_squeezed(s)) return stop;
-  hold_nodes(s);
+  prescribe_nodes(s);
   return std::nullopt;
 }
 
-Energies current_energies(const Scene& s, ThreadTeam& team) {
+Energies current_energies(const Scene& s, ThreadPool& pool) {
   std::vector<Energies> of_ply(s.plies.size());
-  std::vector<MembraneEnergy> of_block(s.patch_blocks.size());
+  std::vector<MembraneEnergy> of_block(s.group_blocks.size());
   const int plies = static_cast<int>(s.plies.size());
-  team.run(plies + static_cast<int>(of_block.size()), [&](int i) {
+  pool.run(plies + static_cast<int>(of_block.size()), [&](int i) {
     if (i >= plies) {
-      const Block& block = s.patch_blocks[static_cast<std::size_t>(i - plies)];
-      const PlyBody& ply = s.plies[static_cast<std::size_t>(block.ply)];
-      if (ply.lanes)
+      const Block& block = s.group_blocks[static_cast<std::size_t>(i - plies)];
+      const PlyState& ply = s.plies[static_cast<std::size_t>(block.ply)];
+      if (ply.simd)
         of_block[static_cast<std::size_t>(i - plies)] =
-            lane_energy(*ply.lanes, ply.membrane, ply.x, block.begin);
+            simd_energy(*ply.simd, ply.membrane, ply.x, block.begin);
       return;
     }
-    const PlyBody& ply = s.plies[static_cast<std::size_t>(i)];
+    const PlyState& ply = s.plies[static_cast<std::size_t>(i)];
     Energies& e = of_ply[static_cast<std::size_t>(i)];
-    if (!ply.lanes) {
+    if (!ply.simd) {
       const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
       e.fibre = m.fibre, e.shear = m.shear;
     }
@@ -360,13 +360,13 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
     e.bending += ply.bending;
     e.external += ply.external;
   }
-  const auto add = [&e](const ContactSums& c) {
+  const auto add = [&e](const ContactTotals& c) {
     e.contact += c.elastic;
     e.friction += c.friction;
     e.damping += c.damping;
   };
-  for (const ToolAndContacts& t : s.tools) {
-    for (const ToolContact& c : t.contacts)
+  for (const ToolState& t : s.tools) {
+    for (const ToolPlyContact& c : t.contacts)
       add(c.sums);
     e.external += t.work;
   }
@@ -376,16 +376,16 @@ Energies current_energies(const Scene& s, ThreadTeam& team) {
     add(pair.contact.sums);
   for (const PlyEdgeContact& pair : s.edge_contacts)
     add(pair.contact.sums);
-  for (double viscous : s.patch_sums)
+  for (double viscous : s.group_sums)
     e.damping += viscous;
   e.damping += s.mass_damping_work;
   e.external += s.start_energy;
   return e;
 }
 
-void move_plies(Scene& s, ThreadTeam& team) {
+void move_plies(Scene& s, ThreadPool& pool) {
   const MassLoads loads = mass_loads(s);
-  team.run(static_cast<int>(s.node_blocks.size()), [&](int i) {
+  pool.run(static_cast<int>(s.node_blocks.size()), [&](int i) {
     const auto b = static_cast<std::size_t>(i);
     Block& block = s.node_blocks[b];
     const Stopwatch watch(block.seconds);

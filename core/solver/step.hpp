@@ -16,17 +16,17 @@
 namespace plyform {
 
 /// Prepares the first step: contact search, step size.
-void start(Scene& scene, ThreadTeam& team);
+void start(Scene& scene, ThreadPool& pool);
 
 /// Driven tools to scene.time, contact search if motion has used up the skin, step size if due, and
 /// all forces at the present positions.
-std::optional<Stop> compute_forces(Scene& scene, ThreadTeam& team);
+std::optional<Stop> compute_forces(Scene& scene, ThreadPool& pool);
 
 /// Energies and work at the present positions; after compute_forces. The kinetic energy is that of
 /// the velocities half a step before and after, 1/2 m v- . v+, which central differences conserve.
-Energies current_energies(const Scene& scene, ThreadTeam& team);
+Energies current_energies(const Scene& scene, ThreadPool& pool);
 
 /// (15)-(17): on to the next positions.
-void move_plies(Scene& scene, ThreadTeam& team);
+void move_plies(Scene& scene, ThreadPool& pool);
 
 } // namespace plyform

@@ -16,7 +16,7 @@ std::string when(const Scene& s) {
 } // namespace
 
 std::optional<Stop> find_not_finite(const Scene& s) {
-  for (const PlyBody& ply : s.plies)
+  for (const PlyState& ply : s.plies)
     for (std::size_t n = 0; n < ply.x.size(); ++n)
       if (!ply.x[n].allFinite())
         return Stop{fmt::format("{}: ply {}, node {}: position is not finite; a smaller "
@@ -45,7 +45,7 @@ std::optional<Stop> find_squeezed(const Scene& s) {
   if (s.next_dt > least * s.max_dt) return std::nullopt;
   std::string who = "plies";
   double ratio = std::numeric_limits<double>::infinity();
-  const auto first = [&ratio](const ContactSums& sums) {
+  const auto first = [&ratio](const ContactTotals& sums) {
     const bool closer = sums.step_ratio < ratio;
     if (closer) ratio = sums.step_ratio;
     return closer;
@@ -58,7 +58,7 @@ std::optional<Stop> find_squeezed(const Scene& s) {
   const auto ply = [&s](int p) -> const std::string& {
     return s.plies[static_cast<std::size_t>(p)].name;
   };
-  for (const ToolAndContacts& t : s.tools)
+  for (const ToolState& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
       if (first(t.contacts[p].sums))
         who = fmt::format("ply {}, node {}, and tool {}", s.plies[p].name,
@@ -77,7 +77,7 @@ std::optional<Stop> find_squeezed(const Scene& s) {
 }
 
 std::optional<Stop> find_collapsed(const Scene& s) {
-  for (const PlyBody& ply : s.plies)
+  for (const PlyState& ply : s.plies)
     for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e) {
       const FibreState f = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
       if (!collapsed(f)) continue;

@@ -8,15 +8,16 @@
 
 namespace plyform {
 
-SceneProduct::SceneProduct(const Scene& s, double dt) : s_(s), factors_{dt * dt, 2.0 * dt} {
-  for (const PlyBody& ply : s.plies)
+StiffnessOperator::StiffnessOperator(const Scene& s, double dt)
+    : s_(s), factors_{dt * dt, 2.0 * dt} {
+  for (const PlyState& ply : s.plies)
     add_ply(ply, dt);
   f_ = y_;
   for (const PlyPair& pair : s.ply_pairs)
     add_pair(pair);
 }
 
-void SceneProduct::add_ply(const PlyBody& ply, double dt) {
+void StiffnessOperator::add_ply(const PlyState& ply, double dt) {
   const std::size_t p = y_.size();
   first_.push_back(size_);
   size_ += static_cast<Eigen::Index>(3 * ply.x.size());
@@ -28,76 +29,76 @@ void SceneProduct::add_ply(const PlyBody& ply, double dt) {
     bounded.omega2 += ply.bound.yarns;
   else
     yarns_.back() =
-        std::make_unique<YarnProduct>(ply.membrane, ply.x, factors_.stiffness, factors_.damping);
-  bounded_.push_back(bounded.left_of_s(dt));
-  std::vector<ContactSpring>& on_ply = on_ply_.emplace_back();
-  for (const ToolAndContacts& tool : s_.tools)
-    append_springs(tool.contacts[p], ply.membrane.node_area, bound_margin, factors_, on_ply);
+        std::make_unique<YarnStiffness>(ply.membrane, ply.x, factors_.stiffness, factors_.damping);
+  bounded_.push_back(bounded.stability_lhs(dt));
+  std::vector<ContactTangent>& on_ply = on_ply_.emplace_back();
+  for (const ToolState& tool : s_.tools)
+    append_tangents(tool.contacts[p], ply.membrane.node_area, bound_margin, factors_, on_ply);
 }
 
-void SceneProduct::add_pair(const PlyPair& pair) {
+void StiffnessOperator::add_pair(const PlyPair& pair) {
   Pair to{static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b), {}, {}, {}, {}};
-  const PlyBody &a = s_.plies[to.a], &b = s_.plies[to.b];
+  const PlyState &a = s_.plies[to.a], &b = s_.plies[to.b];
   for (const int i : pair.contacts) {
     const PlyContact& c = s_.ply_contacts[static_cast<std::size_t>(i)];
     const bool up = c.slave == pair.a;
-    const PlyBody &slave = up ? a : b, &master = up ? b : a;
-    append_springs(c.contact, slave.state(), master.state(), master.membrane.triangles,
-                   bound_margin, factors_, up ? to.up : to.down);
+    const PlyState &slave = up ? a : b, &master = up ? b : a;
+    append_tangents(c.contact, slave.state(), master.state(), master.membrane.triangles,
+                    bound_margin, factors_, up ? to.up : to.down);
   }
   for (const int i : pair.edges)
-    append_springs(s_.edge_contacts[static_cast<std::size_t>(i)].contact, a.state(), b.state(),
-                   edge_margin, factors_, to.up);
+    append_tangents(s_.edge_contacts[static_cast<std::size_t>(i)].contact, a.state(), b.state(),
+                    edge_margin, factors_, to.up);
   if (to.up.empty() && to.down.empty()) return;
   to.force_a.resize(a.x.size());
   to.force_b.resize(b.x.size());
   pairs_.push_back(std::move(to));
 }
 
-Eigen::VectorXd SceneProduct::times(const Eigen::VectorXd& v, ThreadTeam& team) {
+Eigen::VectorXd StiffnessOperator::apply(const Eigen::VectorXd& v, ThreadPool& pool) {
   const int plies = static_cast<int>(y_.size());
-  team.run(plies, [&](int p) { scale(v, static_cast<std::size_t>(p)); });
-  team.run(plies + static_cast<int>(pairs_.size()), [&](int i) { // longest tasks first
+  pool.run(plies, [&](int p) { scale(v, static_cast<std::size_t>(p)); });
+  pool.run(plies + static_cast<int>(pairs_.size()), [&](int i) { // longest tasks first
     if (i < plies)
       on_ply(static_cast<std::size_t>(i));
     else
       on_pair(pairs_[static_cast<std::size_t>(i - plies)]);
   });
   Eigen::VectorXd w(size_);
-  team.run(plies, [&](int p) { gather(static_cast<std::size_t>(p), w); });
+  pool.run(plies, [&](int p) { gather(static_cast<std::size_t>(p), w); });
   return w;
 }
 
-Eigen::VectorXd SceneProduct::start() const {
+Eigen::VectorXd StiffnessOperator::start() const {
   Eigen::VectorXd v(size_);
   for (std::size_t p = 0; p < y_.size(); ++p)
     v.segment(first_[p], freedoms(p)) = scattered_motion(s_.plies[p].membrane, s_.plies[p].x);
   return v;
 }
 
-Eigen::Index SceneProduct::freedoms(std::size_t p) const {
+Eigen::Index StiffnessOperator::freedoms(std::size_t p) const {
   return static_cast<Eigen::Index>(3 * y_[p].size());
 }
 
-void SceneProduct::scale(const Eigen::VectorXd& v, std::size_t p) {
+void StiffnessOperator::scale(const Eigen::VectorXd& v, std::size_t p) {
   over_root_of_mass(s_.plies[p].membrane, v.segment(first_[p], freedoms(p)), y_[p]);
 }
 
-void SceneProduct::on_ply(std::size_t p) {
+void StiffnessOperator::on_ply(std::size_t p) {
   for (std::size_t n = 0; n < f_[p].size(); ++n)
     f_[p][n] = bounded_[p] * s_.plies[p].membrane.node_mass[n] * y_[p][n];
   if (yarns_[p]) yarns_[p]->add_to(y_[p], f_[p]);
-  add_spring_forces(on_ply_[p], y_[p], y_[p], f_[p], f_[p]);
+  add_tangent_forces(on_ply_[p], y_[p], y_[p], f_[p], f_[p]);
 }
 
-void SceneProduct::on_pair(Pair& pair) {
+void StiffnessOperator::on_pair(Pair& pair) {
   std::fill(pair.force_a.begin(), pair.force_a.end(), Vec3::Zero());
   std::fill(pair.force_b.begin(), pair.force_b.end(), Vec3::Zero());
-  add_spring_forces(pair.up, y_[pair.a], y_[pair.b], pair.force_a, pair.force_b);
-  add_spring_forces(pair.down, y_[pair.b], y_[pair.a], pair.force_b, pair.force_a);
+  add_tangent_forces(pair.up, y_[pair.a], y_[pair.b], pair.force_a, pair.force_b);
+  add_tangent_forces(pair.down, y_[pair.b], y_[pair.a], pair.force_b, pair.force_a);
 }
 
-void SceneProduct::gather(std::size_t p, Eigen::VectorXd& w) {
+void StiffnessOperator::gather(std::size_t p, Eigen::VectorXd& w) {
   const auto add = [this, p](const std::vector<Vec3>& force) {
     for (std::size_t n = 0; n < force.size(); ++n)
       f_[p][n] += force[n];

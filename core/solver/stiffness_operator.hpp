@@ -13,14 +13,14 @@
 
 namespace plyform {
 
-class SceneProduct {
+class StiffnessOperator {
 public:
   /// The scene must outlive it and stay as it is.
-  SceneProduct(const Scene& scene, double dt);
+  StiffnessOperator(const Scene& scene, double dt);
 
   /// M^-1/2 (dt^2 K + 2 dt C) M^-1/2 v, v: three freedoms of each node, the plies one after the
   /// other. The same bits for any number of threads.
-  Eigen::VectorXd times(const Eigen::VectorXd& v, ThreadTeam& team);
+  Eigen::VectorXd apply(const Eigen::VectorXd& v, ThreadPool& pool);
 
   /// A vector with a share of every mode.
   Eigen::VectorXd start() const;
@@ -29,11 +29,11 @@ private:
   /// Two directed contacts, and the edges.
   struct Pair {
     std::size_t a, b;
-    std::vector<ContactSpring> up, down; ///< own nodes are of a; of b
+    std::vector<ContactTangent> up, down; ///< own nodes are of a; of b
     std::vector<Vec3> force_a, force_b;
   };
 
-  void add_ply(const PlyBody& ply, double dt);
+  void add_ply(const PlyState& ply, double dt);
   void add_pair(const PlyPair& pair);
   Eigen::Index freedoms(std::size_t p) const; ///< of ply p, 3 a node
   void scale(const Eigen::VectorXd& v, std::size_t p);
@@ -42,12 +42,12 @@ private:
   void gather(std::size_t p, Eigen::VectorXd& w);
 
   const Scene& s_;
-  SpringFactors factors_;
+  TangentFactors factors_;
   Eigen::Index size_ = 0;
   std::vector<double> bounded_; ///< of each ply, its part of the left side of (S)
   std::vector<Eigen::Index> first_;
-  std::vector<std::unique_ptr<YarnProduct>> yarns_;
-  std::vector<std::vector<ContactSpring>> on_ply_;
+  std::vector<std::unique_ptr<YarnStiffness>> yarns_;
+  std::vector<std::vector<ContactTangent>> on_ply_;
   std::vector<Pair> pairs_;
   std::vector<std::vector<Vec3>> y_, f_;
 };

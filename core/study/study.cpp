@@ -16,21 +16,21 @@ namespace plyform {
 
 namespace {
 
-using Kind = Entry::Kind;
+using Kind = TomlNode::Kind;
 
 /// A table of the study file, its dotted path, and where mistakes go.
 struct Part {
-  const Entry& table;
+  const TomlNode& table;
   std::string item; ///< dial.1; empty at the top
-  Findings& findings;
+  Diagnostics& diagnostics;
 
   std::string path(const std::string& key) const { return item.empty() ? key : item + "." + key; }
-  void fail(const Entry& value, const std::string& key, const std::string& rule,
+  void fail(const TomlNode& value, const std::string& key, const std::string& rule,
             const std::string& remedy) const {
-    findings.error(value.at, path(key), value.written, rule, remedy);
+    diagnostics.error(value.at, path(key), value.source_text, rule, remedy);
   }
   void missing(const std::string& key, const std::string& remedy) const {
-    findings.error(table.at, path(key), "", "is missing", remedy);
+    diagnostics.error(table.at, path(key), "", "is missing", remedy);
   }
 };
 
@@ -66,19 +66,19 @@ void report_unknown(const Part& part, const StudyKey (&keys)[count], const char*
   std::vector<std::string> known;
   for (const StudyKey& key : keys)
     known.push_back(key.name);
-  for (const Entry& child : part.table.children) {
+  for (const TomlNode& child : part.table.children) {
     if (std::find(known.begin(), known.end(), child.key) != known.end()) continue;
     const std::string nearest = nearest_word(child.key, known);
-    part.findings.error(child.key_at, part.path(child.key), child.written,
-                        fmt::format("unknown key, {} has no {}", place, child.key),
-                        nearest.empty() ? "it has " + joined(known)
-                                        : fmt::format("did you mean {}?", nearest));
+    part.diagnostics.error(child.key_at, part.path(child.key), child.source_text,
+                           fmt::format("unknown key, {} has no {}", place, child.key),
+                           nearest.empty() ? "it has " + joined(known)
+                                           : fmt::format("did you mean {}?", nearest));
   }
 }
 
 /// A text that is not empty; empty if it is missing or wrong.
 std::string read_word(const Part& part, const char* key, const std::string& remedy, bool required) {
-  const Entry* value = part.table.find(key);
+  const TomlNode* value = part.table.find(key);
   if (!value) {
     if (required) part.missing(key, remedy);
   } else if (value->kind != Kind::string) {
@@ -94,11 +94,11 @@ std::string read_word(const Part& part, const char* key, const std::string& reme
 /// KEY=VALUE strings; a wrong one is reported and left out.
 std::vector<std::string> read_settings(const Part& part, const std::string& remedy) {
   std::vector<std::string> settings;
-  const Entry* list = part.table.find("settings");
+  const TomlNode* list = part.table.find("settings");
   if (list && list->kind != Kind::list) part.fail(*list, "settings", "must be a list", remedy);
   if (!list || list->kind != Kind::list) return settings;
   for (std::size_t i = 0; i < list->children.size(); ++i) {
-    const Entry& item = list->children[i];
+    const TomlNode& item = list->children[i];
     const std::string key = fmt::format("settings.{}", i);
     if (item.kind != Kind::string || !split_setting(item.text))
       part.fail(item, key, "must be a string KEY=VALUE",
@@ -111,14 +111,14 @@ std::vector<std::string> read_settings(const Part& part, const std::string& reme
 
 std::vector<std::string> read_presets(const Part& part) {
   static const std::vector<std::string> known = Study{}.presets;
-  const Entry* list = part.table.find("presets");
+  const TomlNode* list = part.table.find("presets");
   if (!list) return known;
   const std::string remedy = "give a list of " + joined(known) + ", or [] for none";
   std::vector<std::string> presets;
   if (list->kind != Kind::list) part.fail(*list, "presets", "must be a list", remedy);
   if (list->kind != Kind::list) return presets;
   for (std::size_t i = 0; i < list->children.size(); ++i) {
-    const Entry& item = list->children[i];
+    const TomlNode& item = list->children[i];
     const std::string key = fmt::format("presets.{}", i);
     if (std::find(known.begin(), known.end(), item.text) == known.end())
       part.fail(item, key, "must be one of " + joined(known), remedy);
@@ -131,7 +131,7 @@ std::vector<std::string> read_presets(const Part& part) {
 }
 
 void read_factor(const Part& part, const char* key, double& factor) {
-  const Entry* value = part.table.find(key);
+  const TomlNode* value = part.table.find(key);
   if (!value) return;
   if (!value->is_number() || !(value->number > 0.0) || !std::isfinite(value->number))
     part.fail(*value, key, "must be a number greater than 0", give(reference_keys, key));
@@ -141,13 +141,13 @@ void read_factor(const Part& part, const char* key, double& factor) {
 
 StudyReference read_reference(const Part& study) {
   StudyReference reference;
-  const Entry* table = study.table.find("reference");
+  const TomlNode* table = study.table.find("reference");
   if (!table) return reference;
   if (table->kind != Kind::table) {
     study.fail(*table, "reference", "must be a table", "write [reference] above its keys");
     return reference;
   }
-  const Part part{*table, "reference", study.findings};
+  const Part part{*table, "reference", study.diagnostics};
   report_unknown(part, reference_keys, "the reference");
   read_factor(part, "step", reference.step);
   read_factor(part, "duration", reference.duration);
@@ -157,13 +157,14 @@ StudyReference read_reference(const Part& study) {
 }
 
 /// A value as it stands behind KEY= in --set; empty and a report if it is none.
-std::string read_value(const Part& dial, const Entry& value, const std::string& key, bool factor) {
+std::string read_value(const Part& dial, const TomlNode& value, const std::string& key,
+                       bool factor) {
   const std::string remedy = factor ? "give a factor of the case's own element_size"
                                     : "give a number, or a word for keys that take one";
   const bool word = value.kind == Kind::string && !value.text.empty() &&
                     value.text.find_first_of("'\n\r") == std::string::npos;
   if (value.is_number() && std::isfinite(value.number) && (!factor || value.number > 0.0))
-    return value.written;
+    return value.source_text;
   if (word && !factor) return "'" + value.text + "'";
   dial.fail(value, key, factor ? "must be a number greater than 0" : "must be a number or a word",
             remedy);
@@ -171,7 +172,7 @@ std::string read_value(const Part& dial, const Entry& value, const std::string& 
 }
 
 void read_values(const Part& part, StudyDial& dial) {
-  const Entry* list = part.table.find("values");
+  const TomlNode* list = part.table.find("values");
   const std::string remedy = give(dial_keys, "values");
   if (!list) return part.missing("values", remedy);
   if (list->kind != Kind::list || list->children.empty())
@@ -179,7 +180,7 @@ void read_values(const Part& part, StudyDial& dial) {
   std::set<std::string> texts;
   std::set<double> numbers;
   for (std::size_t i = 0; i < list->children.size(); ++i) {
-    const Entry& item = list->children[i];
+    const TomlNode& item = list->children[i];
     const std::string key = fmt::format("values.{}", i);
     const std::string value = read_value(part, item, key, dial.key == element_size_key);
     if (value.empty()) continue;
@@ -193,9 +194,9 @@ void read_values(const Part& part, StudyDial& dial) {
 
 std::vector<StudyDial> read_dials(const Part& study) {
   std::vector<StudyDial> dials;
-  const Entry* list = study.table.find("dial");
+  const TomlNode* list = study.table.find("dial");
   if (!list) return dials;
-  const auto is_table = [](const Entry& entry) { return entry.kind == Kind::table; };
+  const auto is_table = [](const TomlNode& entry) { return entry.kind == Kind::table; };
   if (list->kind != Kind::list ||
       !std::all_of(list->children.begin(), list->children.end(), is_table)) {
     study.fail(*list, "dial", "must be a list of tables", "write each dial under [[dial]]");
@@ -203,7 +204,7 @@ std::vector<StudyDial> read_dials(const Part& study) {
   }
   std::set<std::string> names{"reference", "case", "preset"};
   for (std::size_t i = 0; i < list->children.size(); ++i) {
-    const Part part{list->children[i], fmt::format("dial.{}", i), study.findings};
+    const Part part{list->children[i], fmt::format("dial.{}", i), study.diagnostics};
     report_unknown(part, dial_keys, "a dial");
     StudyDial& dial = dials.emplace_back();
     dial.name = read_word(part, "name", give(dial_keys, "name"), true);
@@ -232,11 +233,11 @@ std::filesystem::path read_case_path(const Part& study, const std::filesystem::p
 
 /// What the case says against settings, told of the study's value that they come from.
 void report(const CaseError& error, const Place& at, const std::string& item,
-            const std::string& written, Findings& findings) {
+            const std::string& source_text, Diagnostics& diagnostics) {
   const std::string equals = error.value.empty() ? "" : " = " + error.value;
-  findings.error(at, item, written,
-                 fmt::format("does not fit the case: {}{} {}", error.item, equals, error.rule),
-                 error.remedy);
+  diagnostics.error(at, item, source_text,
+                    fmt::format("does not fit the case: {}{} {}", error.item, equals, error.rule),
+                    error.remedy);
 }
 
 /// Lists of settings item by item, so that a mistake is told at the one that brings it in. True if
@@ -247,9 +248,9 @@ bool check_settings(const std::filesystem::path& file, std::vector<std::string> 
     before.push_back(settings[i]);
     const PreparedCase reading = prepare_case(file, split_settings(before));
     if (reading.value) continue;
-    const Entry& item = part.table.find("settings")->children[i];
-    report(reading.errors.front(), item.at, part.path(fmt::format("settings.{}", i)), item.written,
-           part.findings);
+    const TomlNode& item = part.table.find("settings")->children[i];
+    report(reading.errors.front(), item.at, part.path(fmt::format("settings.{}", i)),
+           item.source_text, part.diagnostics);
     return false;
   }
   return true;
@@ -262,33 +263,33 @@ const char* factor_behind(const CaseError& error) {
 }
 
 void check_reference(const Study& study, const StudyRun& run, const Part& top) {
-  static const Entry none;
-  const Entry* table = top.table.find("reference");
-  const Part part{table ? *table : none, "reference", top.findings};
+  static const TomlNode none;
+  const TomlNode* table = top.table.find("reference");
+  const Part part{table ? *table : none, "reference", top.diagnostics};
   std::vector<std::string> before = study.settings;
   if (!check_settings(study.case_file, before, part, study.reference.settings)) return;
   const PreparedCase reading = prepare_case(study.case_file, split_settings(run.settings));
   if (reading.value) return;
   const char* factor = factor_behind(reading.errors.front());
-  const Entry* value = table ? table->find(factor) : nullptr;
+  const TomlNode* value = table ? table->find(factor) : nullptr;
   report(reading.errors.front(),
          value   ? value->at
          : table ? table->at
                  : top.table.at,
-         part.path(factor), value ? value->written : "", top.findings);
+         part.path(factor), value ? value->source_text : "", top.diagnostics);
 }
 
 /// One dial: a key that the case does not have is reported once, a value that it does not allow
 /// each time.
 void check_dial(const Study& study, const StudyPlan& plan, int index, const Part& top) {
   const StudyDial& dial = study.dials[static_cast<std::size_t>(index)];
-  const Entry& table = top.table.find("dial")->children[static_cast<std::size_t>(index)];
-  const Part part{table, fmt::format("dial.{}", index), top.findings};
+  const TomlNode& table = top.table.find("dial")->children[static_cast<std::size_t>(index)];
+  const Part part{table, fmt::format("dial.{}", index), top.diagnostics};
   std::size_t i = 0;
   for (const StudyPoint& point : plan.points) {
     if (point.dial != index) continue;
     const std::string item = fmt::format("values.{}", i);
-    const Entry& value = table.find("values")->children[i++];
+    const TomlNode& value = table.find("values")->children[i++];
     const StudyRun& run = plan.runs[point.run];
     if (dial.key == element_size_key && run.settings.size() == study.settings.size() &&
         point.value != 1.0)
@@ -299,18 +300,18 @@ void check_dial(const Study& study, const StudyPlan& plan, int index, const Part
     const CaseError& error = reading.errors.front();
     const bool of_key =
         error.file == override_file && error.column <= static_cast<int>(dial.key.size());
-    const Entry& wrong = of_key ? *table.find("key") : value;
-    report(error, wrong.at, part.path(of_key ? "key" : item), wrong.written, top.findings);
+    const TomlNode& wrong = of_key ? *table.find("key") : value;
+    report(error, wrong.at, part.path(of_key ? "key" : item), wrong.source_text, top.diagnostics);
     if (of_key) return;
   }
 }
 
 void check_runs(const Study& study, const Part& top) {
-  Findings& findings = top.findings;
+  Diagnostics& diagnostics = top.diagnostics;
   PreparedCase bare = prepare_case(study.case_file, split_settings(study.settings));
   if (!bare.value) {
     bare = prepare_case(study.case_file, {});
-    findings.errors.insert(findings.errors.end(), bare.errors.begin(), bare.errors.end());
+    diagnostics.errors.insert(diagnostics.errors.end(), bare.errors.begin(), bare.errors.end());
     if (bare.value) check_settings(study.case_file, {}, top, study.settings);
     return;
   }
@@ -336,16 +337,16 @@ std::vector<Override> split_settings(const std::vector<std::string>& settings) {
 }
 
 StudyReading read_study(const std::filesystem::path& file) {
-  Findings findings;
+  Diagnostics diagnostics;
   StudyReading reading;
   std::string reason;
   const std::string name = file.string();
   if (const std::optional<std::string> content = read_text(file, reason); !content) {
-    findings.error({name, 1, 1}, "", "", "the study file " + reason,
-                   "give the path of a study file");
-  } else if (std::optional<Entry> root = parse_entries(*content, name, findings)) {
+    diagnostics.error({name, 1, 1}, "", "", "the study file " + reason,
+                      "give the path of a study file");
+  } else if (std::optional<TomlNode> root = parse_entries(*content, name, diagnostics)) {
     root->at = {name, 1, 1};
-    const Part top{*root, "", findings};
+    const Part top{*root, "", diagnostics};
     Study study;
     report_unknown(top, study_keys, "the study");
     study.title = read_word(top, "title", give(study_keys, "title"), false);
@@ -355,14 +356,14 @@ StudyReading read_study(const std::filesystem::path& file) {
     study.reference = read_reference(top);
     study.dials = read_dials(top);
     if (study.title.empty()) study.title = file.stem().string();
-    if (findings.errors.empty()) check_runs(study, top);
-    if (findings.errors.empty()) reading.value = std::move(study);
+    if (diagnostics.errors.empty()) check_runs(study, top);
+    if (diagnostics.errors.empty()) reading.value = std::move(study);
   }
-  std::stable_sort(findings.errors.begin(), findings.errors.end(),
+  std::stable_sort(diagnostics.errors.begin(), diagnostics.errors.end(),
                    [](const CaseError& a, const CaseError& b) {
                      return std::pair(a.line, a.column) < std::pair(b.line, b.column);
                    });
-  reading.errors = std::move(findings.errors);
+  reading.errors = std::move(diagnostics.errors);
   return reading;
 }
 

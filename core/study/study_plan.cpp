@@ -28,26 +28,27 @@ struct Hash {
 };
 
 /// Adds every file that a text in the entry leads to: fabrics, meshes of tools and blanks.
-void add_files(const Entry& entry, const std::filesystem::path& folder, Hash& hash) {
-  for (const Entry& child : entry.children)
+void add_files(const TomlNode& entry, const std::filesystem::path& folder, Hash& hash) {
+  for (const TomlNode& child : entry.children)
     add_files(child, folder, hash);
-  if (entry.kind != Entry::Kind::string || entry.text.empty()) return;
+  if (entry.kind != TomlNode::Kind::string || entry.text.empty()) return;
   std::string reason;
   if (const auto content = read_text(resolve_path(entry, folder), reason)) hash.add(*content);
 }
 
-[[noreturn]] void unreadable(const Findings& findings) {
-  throw std::runtime_error(findings.errors.empty() ? "the case cannot be read"
-                                                   : findings.errors.front().text());
+[[noreturn]] void unreadable(const Diagnostics& diagnostics) {
+  throw std::runtime_error(diagnostics.errors.empty() ? "the case cannot be read"
+                                                      : diagnostics.errors.front().text());
 }
 
 /// The file's text parsed, settings done, files not yet loaded.
-std::optional<Entry> plain_entries(const std::filesystem::path& file, const std::string& content,
-                                   const std::vector<Override>& settings, Findings& findings) {
-  std::optional<Entry> root = parse_entries(content, file.string(), findings);
+std::optional<TomlNode> plain_entries(const std::filesystem::path& file, const std::string& content,
+                                      const std::vector<Override>& settings,
+                                      Diagnostics& diagnostics) {
+  std::optional<TomlNode> root = parse_entries(content, file.string(), diagnostics);
   if (!root) return std::nullopt;
   for (const Override& change : settings)
-    apply_override(*root, change, file.parent_path(), findings);
+    apply_override(*root, change, file.parent_path(), diagnostics);
   return root;
 }
 
@@ -56,10 +57,10 @@ std::string inputs_of(const Study& study, const StudyRun& run) {
   std::string reason;
   const std::optional<std::string> content = read_text(study.case_file, reason);
   if (!content) throw std::runtime_error(study.case_file.string() + " " + reason);
-  Findings findings;
+  Diagnostics diagnostics;
   const std::vector<Override> settings = split_settings(run.settings);
-  const auto root = plain_entries(study.case_file, *content, settings, findings);
-  if (!root) unreadable(findings);
+  const auto root = plain_entries(study.case_file, *content, settings, diagnostics);
+  if (!root) unreadable(diagnostics);
   Hash hash;
   hash.add(*content);
   add_files(*root, study.case_file.parent_path(), hash);
@@ -71,12 +72,12 @@ std::string inputs_of(const Study& study, const StudyRun& run) {
 }
 
 /// The number that stands under a dotted path; NaN if there is none.
-double number_at(const Entry& root, const std::string& path) {
-  const Entry* entry = &root;
+double number_at(const TomlNode& root, const std::string& path) {
+  const TomlNode* entry = &root;
   for (std::size_t from = 0; entry && from <= path.size();) {
     const std::size_t dot = std::min(path.find('.', from), path.size());
     const std::string step = path.substr(from, dot - from);
-    const bool list = entry->kind == Entry::Kind::list;
+    const bool list = entry->kind == TomlNode::Kind::list;
     const std::size_t index = static_cast<std::size_t>(std::atol(step.c_str()));
     if (list)
       entry = index < entry->children.size() ? &entry->children[index] : nullptr;
@@ -87,16 +88,17 @@ double number_at(const Entry& root, const std::string& path) {
   return entry && entry->is_number() ? entry->number : std::numeric_limits<double>::quiet_NaN();
 }
 
-Entry entries_or_throw(const Study& study, const std::vector<std::string>& settings) {
-  Findings findings;
-  std::optional<Entry> root = case_entries(study.case_file, split_settings(settings), findings);
-  if (!root) unreadable(findings);
+TomlNode entries_or_throw(const Study& study, const std::vector<std::string>& settings) {
+  Diagnostics diagnostics;
+  std::optional<TomlNode> root =
+      case_entries(study.case_file, split_settings(settings), diagnostics);
+  if (!root) unreadable(diagnostics);
   return std::move(*root);
 }
 
 double as_number(const std::string& value) {
   std::string reason;
-  const std::optional<Entry> entry = parse_value(value, "", 1, reason);
+  const std::optional<TomlNode> entry = parse_value(value, "", 1, reason);
   return entry && entry->is_number() ? entry->number : std::numeric_limits<double>::quiet_NaN();
 }
 
@@ -111,7 +113,7 @@ Settings together(Settings first, const Settings& more) {
 Settings reference_settings(const Study& study) {
   const StudyReference& reference = study.reference;
   Settings settings = together(study.settings, reference.settings);
-  const Entry root = entries_or_throw(study, settings);
+  const TomlNode root = entries_or_throw(study, settings);
   const auto times = [&](const char* key, double factor) {
     const double own = number_at(root, key);
     if (factor != 1.0) settings.push_back(fmt::format("{}={}", key, own * factor));
@@ -129,7 +131,7 @@ void add_run(const Study& study, StudyPlan& plan, StudyPoint point, StudyRun run
   plan.runs.push_back(std::move(run));
 }
 
-void add_dial(const Study& study, int index, const Entry& root, StudyPlan& plan) {
+void add_dial(const Study& study, int index, const TomlNode& root, StudyPlan& plan) {
   const StudyDial& dial = study.dials[static_cast<std::size_t>(index)];
   const bool sizes = dial.key == element_size_key;
   const double own = sizes ? 1.0 : number_at(root, dial.key);
@@ -163,27 +165,28 @@ std::string file_name_of(const std::string& text) {
   return name;
 }
 
-std::optional<Entry> case_entries(const std::filesystem::path& file,
-                                  const std::vector<Override>& settings, Findings& findings) {
+std::optional<TomlNode> case_entries(const std::filesystem::path& file,
+                                     const std::vector<Override>& settings,
+                                     Diagnostics& diagnostics) {
   std::string reason;
   const std::optional<std::string> content = read_text(file, reason);
   if (!content) {
-    findings.error({file.string(), 1, 1}, "", "", "the case file " + reason,
-                   "give the path of a case file");
+    diagnostics.error({file.string(), 1, 1}, "", "", "the case file " + reason,
+                      "give the path of a case file");
     return std::nullopt;
   }
-  std::optional<Entry> root = plain_entries(file, *content, settings, findings);
+  std::optional<TomlNode> root = plain_entries(file, *content, settings, diagnostics);
   if (!root) return std::nullopt;
-  load_fabrics(*root, file.parent_path(), findings);
-  check_section({&*root, "", ""}, findings);
+  load_fabrics(*root, file.parent_path(), diagnostics);
+  check_section({&*root, "", ""}, diagnostics);
   return root;
 }
 
-std::vector<std::string> element_size_settings(const Entry& root, double factor) {
+std::vector<std::string> element_size_settings(const TomlNode& root, double factor) {
   std::vector<std::string> settings;
-  if (const Entry* blanks = root.find("blanks"))
-    for (const Entry& blank : blanks->children)
-      if (const Entry* size = blank.find("element_size"); size && size->is_number())
+  if (const TomlNode* blanks = root.find("blanks"))
+    for (const TomlNode& blank : blanks->children)
+      if (const TomlNode* size = blank.find("element_size"); size && size->is_number())
         settings.push_back(
             fmt::format("blanks.{}.element_size={}", blank.key, size->number * factor));
   return settings;
@@ -203,7 +206,7 @@ StudyPlan plan_study(const Study& study) {
     add_run(study, plan,
             {.kind = PointKind::preset, .line = "preset", .setting = preset, .label = preset},
             {"preset=" + preset, study.settings, preset, ""});
-  const Entry root = entries_or_throw(study, study.settings);
+  const TomlNode root = entries_or_throw(study, study.settings);
   for (std::size_t i = 0; i < study.dials.size(); ++i)
     add_dial(study, static_cast<int>(i), root, plan);
   return plan;

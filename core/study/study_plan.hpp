@@ -48,11 +48,12 @@ StudyPlan plan_study(const Study& study);
 
 /// The case as it stands in its file, with settings done and defaults put in; nothing and reports
 /// if it cannot be read.
-std::optional<Entry> case_entries(const std::filesystem::path& file,
-                                  const std::vector<Override>& settings, Findings& findings);
+std::optional<TomlNode> case_entries(const std::filesystem::path& file,
+                                     const std::vector<Override>& settings,
+                                     Diagnostics& diagnostics);
 
 /// A setting for each blank that has an element_size: its own times `factor`.
-std::vector<std::string> element_size_settings(const Entry& root, double factor);
+std::vector<std::string> element_size_settings(const TomlNode& root, double factor);
 
 /// A name as a part of a file name: letters, digits, . + - _; everything else becomes _.
 std::string file_name_of(const std::string& text);

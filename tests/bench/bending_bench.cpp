@@ -12,7 +12,7 @@ namespace {
 
 struct BentSheet {
   Bending bending;
-  BendingLanes lanes;
+  BendingSimd simd;
   std::vector<Vec3> x, force;
   double triangles = 0.0;
 };
@@ -37,7 +37,7 @@ BentSheet bent_sheet(std::int64_t cells, std::int64_t mesh_kind, bool in_plane) 
     s.x.emplace_back(p.x() + 0.2 * p.y(), p.y() + 0.1 * p.x(),
                      std::sin(0.05 * p.x() + 0.07 * p.y()));
   }
-  s.lanes = make_bending_lanes(s.bending, x0);
+  s.simd = make_bending_simd(s.bending, x0);
   s.force.resize(s.x.size());
   s.triangles = static_cast<double>(mesh.triangles.size());
   return s;
@@ -58,10 +58,10 @@ void count_elements(benchmark::State& state, const BentSheet& s) {
 void BendingLanesForces(benchmark::State& state) {
   BentSheet s = bent_sheet(state.range(0), state.range(1), state.range(2) != 0);
   for (auto _ : state) {
-    for (int b = 0; b < static_cast<int>(s.lanes.blocks.size()); ++b)
-      bending_forces(s.lanes, s.bending, s.x, b);
+    for (int b = 0; b < static_cast<int>(s.simd.blocks.size()); ++b)
+      bending_forces(s.simd, s.bending, s.x, b);
     for (std::size_t n = 0; n < s.x.size(); ++n)
-      s.force[n] = lane_force(s.lanes, n);
+      s.force[n] = simd_force(s.simd, n);
     benchmark::DoNotOptimize(s.force.data());
   }
   count_elements(state, s);

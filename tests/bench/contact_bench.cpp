@@ -16,8 +16,8 @@ constexpr double width = 340.0; // mm, of the shipped hemispheres
 constexpr double skin = 0.5;    // mm, the default
 constexpr double askew = 0.25 * std::numbers::pi;
 
-SheetContact contact_law() {
-  SheetContact c;
+PlyPlyContact contact_law() {
+  PlyPlyContact c;
   c.law = {1.0, 1e-7, 0.2};
   c.distance = bench_thickness;
   return c;
@@ -27,7 +27,7 @@ SheetContact contact_law() {
 struct Pair {
   BenchSheet lower, upper;
   SheetTree lower_tree, upper_tree;
-  SheetContact up = contact_law(), down = contact_law(); ///< slave: the upper, the lower
+  PlyPlyContact up = contact_law(), down = contact_law(); ///< slave: the upper, the lower
 };
 
 /// Meshes turned against each other by `turn` (rad). Not turned, all nodes lie on nodes.
@@ -54,8 +54,8 @@ void search(Pair& p, SearchTimes& times) {
   p.lower_tree.candidates(p.upper.x, bench_thickness + skin, up);
   p.upper_tree.candidates(p.lower.x, bench_thickness + skin, down);
   const double listed = cpu_seconds();
-  find_sheet_points(p.up, up, p.upper.state(), p.lower.state(), p.lower.triangles, 0.0);
-  find_sheet_points(p.down, down, p.lower.state(), p.upper.state(), p.upper.triangles, 0.0);
+  find_ply_ply_points(p.up, up, p.upper.state(), p.lower.state(), p.lower.triangles, 0.0);
+  find_ply_ply_points(p.down, down, p.lower.state(), p.upper.state(), p.upper.triangles, 0.0);
   times.refit += refitted - begin;
   times.candidates += listed - refitted;
   times.points += cpu_seconds() - listed;
@@ -77,27 +77,27 @@ void ContactStep(benchmark::State& state) {
   for (Vec3& x : moved)
     x += way;
   const std::vector<Vec3> forth(moved.size(), way), back(moved.size(), -way);
-  const SheetState there{moved, forth, p.upper.area}, here{p.upper.x, back, p.upper.area};
+  const SurfaceKinematics there{moved, forth, p.upper.area}, here{p.upper.x, back, p.upper.area};
   const double dt = finer * 7e-6; // s
   std::vector<Vec3> on_upper(p.upper.x.size()), on_lower(p.lower.x.size());
-  const auto step = [&](bool odd) {
-    const SheetState& upper = odd ? there : here;
+  const auto step = [&](bool needs_penalty) {
+    const SurfaceKinematics& upper = needs_penalty ? there : here;
     std::fill(on_upper.begin(), on_upper.end(), Vec3::Zero());
     std::fill(on_lower.begin(), on_lower.end(), Vec3::Zero());
-    sheet_forces(p.up, upper, p.lower.state(), p.lower.triangles, dt, {way.norm(), way.norm()},
-                 on_upper, on_lower);
-    sheet_forces(p.down, p.lower.state(), upper, p.upper.triangles, dt, {way.norm(), way.norm()},
-                 on_lower, on_upper);
+    ply_ply_forces(p.up, upper, p.lower.state(), p.lower.triangles, dt, {way.norm(), way.norm()},
+                   on_upper, on_lower);
+    ply_ply_forces(p.down, p.lower.state(), upper, p.upper.triangles, dt, {way.norm(), way.norm()},
+                   on_lower, on_upper);
   };
-  bool odd = false;
+  bool needs_penalty = false;
   for (int i = 0; i < 4; ++i)
-    step(odd = !odd);
+    step(needs_penalty = !needs_penalty);
   for (auto _ : state)
-    step(odd = !odd);
+    step(needs_penalty = !needs_penalty);
   if (p.up.fault.node >= 0 || p.down.fault.node >= 0) state.SkipWithError("sheets too deep");
   const auto rate = Counter::kIsIterationInvariantRate;
   const double triangles = 2.0 * static_cast<double>(p.lower.triangles.size());
-  const double points = static_cast<double>(p.up.list.near.size() + p.down.list.near.size());
+  const double points = static_cast<double>(p.up.list.active.size() + p.down.list.active.size());
   Traffic t = sheet_traffic(p.up, p.upper.x.size(), p.lower.x.size());
   t += sheet_traffic(p.down, p.lower.x.size(), p.upper.x.size());
   state.SetLabel(state.range(1) != 0 ? "nodes on nodes" : "nodes over faces");
@@ -198,12 +198,12 @@ void Audit(benchmark::State& state) {
   std::vector<BenchSheet> plies;
   for (int k = 0; k < 5; ++k)
     plies.push_back(wavy_sheet(50, width / 50.0, askew * (k % 2), bench_thickness * k));
-  std::vector<SheetView> views;
+  std::vector<MeshView> views;
   for (const BenchSheet& ply : plies)
     views.push_back({ply.x, ply.triangles});
   std::size_t found = 0;
   for (auto _ : state) {
-    const AuditResult result = audit_intersections(views);
+    const Intersections result = find_intersections(views);
     found = result.between.size() + result.within.size();
   }
   const double triangles = 5.0 * double(plies[0].triangles.size());

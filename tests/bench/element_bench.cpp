@@ -59,18 +59,18 @@ void count_elements(benchmark::State& state, const Sheet& s) {
   state.counters["ns_an_element"] = benchmark::Counter(1e-9 * triangles, inverse_rate);
 }
 
-/// As the step does it: four patches side by side, block by block, then the sums at the nodes.
-void ElementLanes(benchmark::State& state) {
+/// As the step does it: four groups side by side, block by block, then the sums at the nodes.
+void ElementSimd(benchmark::State& state) {
   Sheet& s = sheet(state.range(0), state.range(1) != 0);
-  MembraneLanes lanes = make_lanes(s.m, s.x0);
-  Traffic t = lane_traffic(lanes, s.x.size());
+  MembraneSimd simd = make_membrane_simd(s.m, s.x0);
+  Traffic t = lane_traffic(simd, s.x.size());
   t += traffic(s.force.size(), sizeof(Vec3));
   const double seconds = stream_seconds(t), peak = peak_arithmetic();
   for (auto _ : state) {
-    for (int b = 0; b < static_cast<int>(lanes.blocks.size()); ++b)
-      lane_forces(lanes, s.m, s.x, 1e-6, b);
+    for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b)
+      simd_forces(simd, s.m, s.x, 1e-6, b);
     for (std::size_t n = 0; n < s.x.size(); ++n)
-      s.force[n] = lane_force(lanes, n);
+      s.force[n] = simd_force(simd, n);
     benchmark::DoNotOptimize(s.force.data());
   }
   count_elements(state, s);
@@ -83,7 +83,7 @@ void ElementLanes(benchmark::State& state) {
   state.counters["of_stream"] = Counter(seconds, rate | Counter::kInvert);
   state.counters["of_peak"] = Counter(element_operations(s.averaged) * triangles / peak, rate);
 }
-BENCHMARK(ElementLanes)
+BENCHMARK(ElementSimd)
     ->ArgNames({"cells", "averaged"})
     ->ArgsProduct({{50, 158, 500, 1581}, {0, 1}})
     ->Unit(benchmark::kMicrosecond);
@@ -93,7 +93,7 @@ void ElementForces(benchmark::State& state) {
   Sheet& s = sheet(state.range(0), state.range(1) != 0);
   std::vector<ElementForce> q(s.m.triangles.size());
   for (auto _ : state) {
-    element_forces(s.m, s.x, 1e-6, 0, s.m.patches(), q);
+    element_forces(s.m, s.x, 1e-6, 0, s.m.groups(), q);
     for (std::size_t n = 0; n < s.x.size(); ++n)
       s.force[n] = node_force(s.m, q, static_cast<int>(n));
     benchmark::DoNotOptimize(s.force.data());
@@ -108,11 +108,11 @@ BENCHMARK(ElementForces)
 /// Energies, as asked for now and then.
 void ElementEnergy(benchmark::State& state) {
   Sheet& s = sheet(state.range(0), state.range(1) != 0);
-  const MembraneLanes lanes = make_lanes(s.m, s.x0);
+  const MembraneSimd simd = make_membrane_simd(s.m, s.x0);
   for (auto _ : state) {
     MembraneEnergy sum;
-    for (int b = 0; b < static_cast<int>(lanes.blocks.size()); ++b) {
-      const MembraneEnergy e = lane_energy(lanes, s.m, s.x, b);
+    for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b) {
+      const MembraneEnergy e = simd_energy(simd, s.m, s.x, b);
       sum.fibre += e.fibre, sum.shear += e.shear;
     }
     benchmark::DoNotOptimize(sum);

@@ -17,7 +17,7 @@ struct BenchSheet {
   std::vector<Triangle> triangles;
   std::vector<double> area; ///< mm^2, a third of the triangles around a node
   std::vector<Vec3> still;  ///< no motion
-  SheetState state() const { return {x, still, area}; }
+  SurfaceKinematics state() const { return {x, still, area}; }
 };
 
 /// cells x cells squares of side `cell` (mm), turned by `turn` (rad), at `height` (mm) along the
@@ -45,11 +45,11 @@ inline BenchSheet wavy_sheet(int cells, double cell, double turn, double height)
   return s;
 }
 
-/// One pass of sheet_forces, each array once; faces of points whose foot is lost are not counted.
-inline Traffic sheet_traffic(const SheetContact& c, std::size_t slave_nodes,
+/// One pass of ply_ply_forces, each array once; faces of points whose foot is lost are not counted.
+inline Traffic sheet_traffic(const PlyPlyContact& c, std::size_t slave_nodes,
                              std::size_t master_nodes) {
-  Traffic t = traffic(c.list.near.size(), sizeof(SheetContactPoint), 2.0); // read and written
-  t += traffic(c.list.near.size(), sizeof(std::int32_t) + sizeof(Triangle));
+  Traffic t = traffic(c.list.active.size(), sizeof(PlyPlyPoint), 2.0); // read and written
+  t += traffic(c.list.active.size(), sizeof(std::int32_t) + sizeof(Triangle));
   const std::size_t nodes = slave_nodes + master_nodes;
   t += traffic(nodes, 2 * sizeof(Vec3));  // place, motion
   t += traffic(nodes, sizeof(Vec3), 3.0); // force: set to zero, then read and written

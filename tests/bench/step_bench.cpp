@@ -47,10 +47,10 @@ struct Stack {
   std::string trouble;
 };
 
-void go(Stack& s, std::int64_t steps, ThreadTeam& team) {
+void go(Stack& s, std::int64_t steps, ThreadPool& pool) {
   for (std::int64_t i = 0; i < steps && s.trouble.empty(); ++i) {
-    if (const auto stop = compute_forces(s.scene, team)) s.trouble = stop->message;
-    move_plies(s.scene, team);
+    if (const auto stop = compute_forces(s.scene, pool)) s.trouble = stop->message;
+    move_plies(s.scene, pool);
   }
 }
 
@@ -62,12 +62,12 @@ Stack& stack(std::int64_t size, std::int64_t steps) {
   const double before = resident_bytes();
   s.size = size, s.steps = steps;
   s.scene = five_plies(1e-3 * static_cast<double>(size));
-  ThreadTeam team(2);
-  start(s.scene, team);
-  go(s, steps, team);
+  ThreadPool pool(2);
+  start(s.scene, pool);
+  go(s, steps, pool);
   malloc_trim(0);
   s.bytes = resident_bytes() - before;
-  for (const PlyBody& ply : s.scene.plies)
+  for (const PlyState& ply : s.scene.plies)
     s.triangles += static_cast<double>(ply.membrane.triangles.size());
   return s;
 }
@@ -76,8 +76,8 @@ Stack& stack(std::int64_t size, std::int64_t steps) {
 Traffic step_traffic(const Scene& s) {
   Traffic t;
   const auto nodes = [&s](int ply) { return s.plies[static_cast<std::size_t>(ply)].x.size(); };
-  for (const PlyBody& ply : s.plies) {
-    if (ply.lanes) t += lane_traffic(*ply.lanes, ply.x.size());
+  for (const PlyState& ply : s.plies) {
+    if (ply.simd) t += lane_traffic(*ply.simd, ply.x.size());
     t += traffic(ply.x.size(), 2 * sizeof(Vec3), 2.0);             // place, velocity
     t += traffic(ply.x.size(), 2 * sizeof(Vec3) + sizeof(double)); // motion, x_search, mass
     t += traffic(ply.nodal_forces.size() * ply.x.size(), sizeof(Vec3));
@@ -85,10 +85,10 @@ Traffic step_traffic(const Scene& s) {
   for (const PlyContact& pair : s.ply_contacts)
     if (!pair.contact.points.empty())
       t += sheet_traffic(pair.contact, nodes(pair.slave), nodes(pair.master));
-  for (const ToolAndContacts& tool : s.tools)
-    for (const ToolContact& c : tool.contacts) {
+  for (const ToolState& tool : s.tools)
+    for (const ToolPlyContact& c : tool.contacts) {
       if (c.points.empty()) continue;
-      t += traffic(c.list.near.size(), sizeof(ToolContactPoint), 2.0);
+      t += traffic(c.list.active.size(), sizeof(ToolPlyPoint), 2.0);
       t += traffic(c.force.size(), sizeof(Vec3), 3.0);
     }
   return t;
@@ -107,7 +107,7 @@ double touching(const Scene& s) {
 /// Ranges: element size in um, steps gone before, steps measured, threads.
 void WholeStep(benchmark::State& state) {
   Stack& s = stack(state.range(0), state.range(1));
-  ThreadTeam team(static_cast<int>(state.range(3)));
+  ThreadPool pool(static_cast<int>(state.range(3)));
   const long searches = s.scene.searches;
   double cpu = 0.0, wall = 0.0;
   const auto now = [] {
@@ -116,7 +116,7 @@ void WholeStep(benchmark::State& state) {
   };
   for (auto _ : state) {
     const double cpu_begin = cpu_seconds(), begin = now();
-    go(s, state.range(2), team);
+    go(s, state.range(2), pool);
     cpu += cpu_seconds() - cpu_begin, wall += now() - begin;
   }
   if (!s.trouble.empty()) state.SkipWithError(s.trouble.c_str());

@@ -14,8 +14,8 @@ int main() {
 
   std::vector<Candidate> found;
   SheetTree(flat, one).candidates(upright, 1.5, found);
-  const std::vector<SheetView> sheets{{flat, one}, {upright, one}};
-  const std::size_t crossings = audit_intersections(sheets).between.size();
+  const std::vector<MeshView> sheets{{flat, one}, {upright, one}};
+  const std::size_t crossings = find_intersections(sheets).between.size();
   std::printf("%zu candidates, %zu crossings\n", found.size(), crossings);
   return found.size() == 2 && crossings == 1 ? 0 : 1; // two corners are 1 mm away, one is far off
 }

@@ -59,8 +59,8 @@ bool on_hull(const Point& p, const std::vector<Point>& shared) {
   return shared[0] == shared[1] ? p == shared[0] : Segment(shared[0], shared[1]).has_on(p);
 }
 
-bool pair_intersects(const SheetView& f, int i, const SheetView& g, int j, bool one_sheet) {
-  const auto point = [](const SheetView& s, int n) {
+bool pair_intersects(const MeshView& f, int i, const MeshView& g, int j, bool one_sheet) {
+  const auto point = [](const MeshView& s, int n) {
     return Point(s.x[n].x(), s.x[n].y(), s.x[n].z());
   };
   std::array<Point, 3> a, b;
@@ -82,8 +82,8 @@ bool pair_intersects(const SheetView& f, int i, const SheetView& g, int j, bool 
   return false;
 }
 
-AuditResult every_pair(const std::vector<SheetView>& sheets) {
-  AuditResult all;
+Intersections every_pair(const std::vector<MeshView>& sheets) {
+  Intersections all;
   for (int s = 0; s < int(sheets.size()); ++s)
     for (int t = s; t < int(sheets.size()); ++t)
       for (int i = 0; i < int(sheets[s].triangles.size()); ++i)
@@ -100,8 +100,8 @@ AuditResult every_pair(const std::vector<SheetView>& sheets) {
 using Map = std::function<Vec3(double, double)>;
 
 /// nx x ny cells of size h, two triangles a cell, node (x, y) put at map(x, y).
-Surface grid(int nx, int ny, double h, const Map& map) {
-  Surface sheet;
+TriMesh grid(int nx, int ny, double h, const Map& map) {
+  TriMesh sheet;
   for (int j = 0; j <= ny; ++j)
     for (int i = 0; i <= nx; ++i)
       sheet.x.push_back(map(i * h, j * h));
@@ -128,32 +128,32 @@ Map ball(double radius) {
   };
 }
 
-std::vector<SheetView> views(const std::vector<Surface>& sheets) {
-  std::vector<SheetView> all;
-  for (const Surface& s : sheets)
+std::vector<MeshView> views(const std::vector<TriMesh>& sheets) {
+  std::vector<MeshView> all;
+  for (const TriMesh& s : sheets)
     all.push_back({s.x, s.triangles});
   return all;
 }
 
-AuditResult audit(const std::vector<Surface>& sheets) {
-  return audit_intersections(views(sheets));
+Intersections audit(const std::vector<TriMesh>& sheets) {
+  return find_intersections(views(sheets));
 }
 
-void expect_every_pair(const std::vector<Surface>& sheets, const AuditResult& found) {
-  const AuditResult expected = every_pair(views(sheets));
+void expect_every_pair(const std::vector<TriMesh>& sheets, const Intersections& found) {
+  const Intersections expected = every_pair(views(sheets));
   EXPECT_EQ(found.between, expected.between);
   EXPECT_EQ(found.within, expected.within);
 }
 
-void expect_clean(const std::vector<Surface>& sheets) {
-  const AuditResult found = audit(sheets);
+void expect_clean(const std::vector<TriMesh>& sheets) {
+  const Intersections found = audit(sheets);
   EXPECT_TRUE(found.between.empty()) << found.between.size();
   EXPECT_TRUE(found.within.empty()) << found.within.size();
 }
 
 TEST(Audit, CleanStacksHaveNoIntersections) {
   expect_clean({});
-  expect_clean({Surface{}});
+  expect_clean({TriMesh{}});
   expect_clean({grid(20, 20, 1.0, flat(0.0)), grid(20, 20, 1.0, flat(0.3)),
                 grid(13, 13, 1.6, flat(1e-9 + 0.3))});
   // Same mesh lines on every ball, so that flat facets keep the radii's distance.
@@ -166,10 +166,10 @@ TEST(Audit, FindsPlantedIntersectionOfAnyDepth) {
   for (const double depth : {0.2, 1e-3, 1e-6, 1e-9}) {
     for (const double z : {0.0, 1e3}) { // at z = 1e3, 1e-9 is 9000 ulps
       SCOPED_TRACE(testing::Message() << depth << " at " << z);
-      std::vector<Surface> stack{grid(20, 20, 1.0, flat(z)), grid(20, 20, 1.0, flat(z + 0.3)),
+      std::vector<TriMesh> stack{grid(20, 20, 1.0, flat(z)), grid(20, 20, 1.0, flat(z + 0.3)),
                                  grid(8, 8, 2.5, flat(z + 0.6))};
       stack[1].x[10 * 21 + 10] = {10.4, 10.2, z + 0.6 + depth}; // pokes into cell (4, 4) of sheet 2
-      const AuditResult found = audit(stack);
+      const Intersections found = audit(stack);
       EXPECT_FALSE(found.between.empty());
       EXPECT_TRUE(found.within.empty());
       for (const Intersection& i : found.between)
@@ -184,34 +184,34 @@ TEST(Audit, FindsPlantedIntersectionOfAnyDepth) {
 }
 
 TEST(Audit, EqualsBruteForceOnCrossingSheets) {
-  const std::vector<Surface> sheets{grid(12, 12, 1.0, flat(0.0)),
+  const std::vector<TriMesh> sheets{grid(12, 12, 1.0, flat(0.0)),
                                     grid(10, 10, 1.3,
                                          [](double x, double y) {
                                            return Vec3(x + 0.1, y - 0.2,
                                                        0.5 * std::sin(x) * std::cos(0.7 * y));
                                          }),
                                     grid(5, 5, 2.0, flat(0.0))};
-  const AuditResult found = audit(sheets);
+  const Intersections found = audit(sheets);
   EXPECT_GT(found.between.size(), 300u);
   expect_every_pair(sheets, found);
 }
 
 TEST(Audit, FindsSheetCrossingItself) {
   // A ribbon along the curve (t^2, t^3 - 2 t), which crosses itself at t = +-sqrt 2.
-  const std::vector<Surface> loop{grid(33, 6, 0.11, [](double s, double y) {
+  const std::vector<TriMesh> loop{grid(33, 6, 0.11, [](double s, double y) {
     const double t = s - 1.8;
     return Vec3(t * t, y, t * t * t - 2.0 * t);
   })};
-  const AuditResult found = audit(loop);
+  const Intersections found = audit(loop);
   EXPECT_GE(found.within.size(), 12u);
   expect_every_pair(loop, found);
 }
 
 TEST(Audit, FindsFlatFold) {
   // Folded along a mesh line and laid exactly flat on itself: every overlap is coplanar.
-  const std::vector<Surface> folded{
+  const std::vector<TriMesh> folded{
       grid(8, 4, 1.0, [](double x, double y) { return Vec3(x <= 4.0 ? x : 8.0 - x, y, 0.0); })};
-  const AuditResult found = audit(folded);
+  const Intersections found = audit(folded);
   expect_every_pair(folded, found);
   // The pairs that share the edge of the fold are among them.
   for (int row = 0; row < 4; ++row) {
@@ -231,15 +231,15 @@ TEST(Audit, NeighboursAreNoIntersection) {
     return Vec3(x, y, 2.0 * std::sin(3.0 * x) * std::sin(2.0 * y));
   })});
   // Between sheets there are no neighbours: the same sheet twice touches everywhere.
-  const Surface sheet = grid(3, 3, 1.0, flat(0.0));
-  const AuditResult twice = audit({sheet, sheet});
+  const TriMesh sheet = grid(3, 3, 1.0, flat(0.0));
+  const Intersections twice = audit({sheet, sheet});
   EXPECT_TRUE(twice.within.empty());
   expect_every_pair({sheet, sheet}, twice);
 }
 
 TEST(Audit, NeighboursThatCrossBeyondTheSharedNodeAreFound) {
   // Two triangles share node 0; the second one's tip is moved through the first.
-  Surface pair{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0.5, 1}, {0.5, 1, 1}}, {{0, 1, 2}, {0, 3, 4}}};
+  TriMesh pair{{{0, 0, 0}, {2, 0, 0}, {0, 2, 0}, {1, 0.5, 1}, {0.5, 1, 1}}, {{0, 1, 2}, {0, 3, 4}}};
   expect_clean({pair});
   pair.x[4].z() = -1.0;
   EXPECT_EQ(audit({pair}).within, (std::vector<Intersection>{{0, 0, 0, 1}}));
@@ -250,25 +250,25 @@ TEST(Audit, NeighboursThatCrossBeyondTheSharedNodeAreFound) {
 }
 
 TEST(Audit, TouchingExactlyCounts) {
-  const Surface floor{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}};
+  const TriMesh floor{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}}, {{0, 1, 2}}};
   const Vec3 touches[] = {{1, 1, 0}, {2, 2, 0}, {0, 0, 0}, {2, 0, 0}}; // face, edges, vertex
   for (const Vec3& tip : touches) {
-    Surface above{{tip, {1, 1, 3}, {1, 2, 3}}, {{0, 1, 2}}};
+    TriMesh above{{tip, {1, 1, 3}, {1, 2, 3}}, {{0, 1, 2}}};
     EXPECT_EQ(audit({floor, above}).between, (std::vector<Intersection>{{0, 0, 1, 0}}));
     above.x[0].z() = std::numeric_limits<double>::denorm_min();
     expect_clean({floor, above});
   }
   // Within one sheet too, when the nodes are different ones.
-  const Surface one{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 0, 0}, {5, 5, 3}, {5, 1, 3}},
+  const TriMesh one{{{0, 0, 0}, {4, 0, 0}, {0, 4, 0}, {4, 0, 0}, {5, 5, 3}, {5, 1, 3}},
                     {{0, 1, 2}, {3, 4, 5}}};
   EXPECT_EQ(audit({one}).within, (std::vector<Intersection>{{0, 0, 0, 1}}));
 }
 
 /// Corners on a small integer lattice: coplanar, touching, coincident and degenerate triangles
 /// are all frequent.
-Surface lattice_soup(std::mt19937& random, int triangles, int nodes, int cells) {
+TriMesh lattice_soup(std::mt19937& random, int triangles, int nodes, int cells) {
   std::uniform_int_distribution<int> place(0, cells), node(0, nodes - 1);
-  Surface soup;
+  TriMesh soup;
   for (int i = 0; i < nodes; ++i)
     soup.x.push_back(Vec3(place(random), place(random), place(random)));
   for (int i = 0; i < triangles; ++i)
@@ -283,9 +283,9 @@ TEST(Audit, EqualsBruteForceOnLatticeSoups) {
     SCOPED_TRACE(round);
     // Few nodes: most pairs are neighbours, many triangles name a node twice.
     const int cells = 1 + round % 4, nodes = 6 + round % 9;
-    std::vector<Surface> soups{lattice_soup(random, 20, nodes, cells),
+    std::vector<TriMesh> soups{lattice_soup(random, 20, nodes, cells),
                                lattice_soup(random, 12, 30, cells)};
-    const AuditResult found = audit(soups);
+    const Intersections found = audit(soups);
     expect_every_pair(soups, found);
     within += found.within.size();
     between += found.between.size();
@@ -300,14 +300,14 @@ TEST(Audit, EqualsBruteForceOnRandomSoups) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   const auto vector = [&] { return Vec3(unit(random), unit(random), unit(random)); };
-  Surface soup;
+  TriMesh soup;
   for (int t = 0; t < 150; ++t) {
     const Vec3 centre = vector();
     for (int k = 0; k < 3; ++k)
       soup.x.push_back(centre + 0.4 * vector());
     soup.triangles.push_back({3 * t, 3 * t + 1, 3 * t + 2});
   }
-  const AuditResult found = audit({soup});
+  const Intersections found = audit({soup});
   EXPECT_GT(found.within.size(), 50u);
   expect_every_pair({soup}, found);
 }
@@ -323,9 +323,9 @@ TEST(Audit, CollapsedNeighboursMeetOnlyWhereTheyPointTheSameWay) {
                {{2, 0, 3}, {0, 2, 4}, true},  {{2, 3, 4}, {2, 3, 5}, false},
                {{3, 0, 2}, {0, 4, 4}, true},  {{2, 0, 0}, {0, 4, 4}, false}};
   for (const auto& [a, b, meet] : cases) {
-    const std::vector<Surface> sheet{{x, {a, b}}};
+    const std::vector<TriMesh> sheet{{x, {a, b}}};
     SCOPED_TRACE(testing::PrintToString(a) + " " + testing::PrintToString(b));
-    const AuditResult found = audit(sheet);
+    const Intersections found = audit(sheet);
     EXPECT_EQ(found.within.size(), meet ? 1u : 0u);
     expect_every_pair(sheet, found);
   }
@@ -333,11 +333,11 @@ TEST(Audit, CollapsedNeighboursMeetOnlyWhereTheyPointTheSameWay) {
 
 TEST(Audit, OrderOfTrianglesDoesNotChangeThePairs) {
   std::mt19937 random(13);
-  const Surface soup = lattice_soup(random, 60, 40, 4);
+  const TriMesh soup = lattice_soup(random, 60, 40, 4);
   std::vector<int> order(soup.triangles.size());
   std::iota(order.begin(), order.end(), 0);
   std::shuffle(order.begin(), order.end(), random);
-  Surface shuffled = soup;
+  TriMesh shuffled = soup;
   for (std::size_t i = 0; i < order.size(); ++i) {
     shuffled.triangles[i] = soup.triangles[order[i]];
     std::rotate(shuffled.triangles[i].begin(), shuffled.triangles[i].begin() + i % 3,
@@ -347,7 +347,7 @@ TEST(Audit, OrderOfTrianglesDoesNotChangeThePairs) {
   for (const Intersection& i : audit({shuffled}).within)
     back.push_back({0, std::min(order[i.a], order[i.b]), 0, std::max(order[i.a], order[i.b])});
   std::sort(back.begin(), back.end());
-  const AuditResult found = audit({soup});
+  const Intersections found = audit({soup});
   EXPECT_GT(found.within.size(), 100u);
   EXPECT_EQ(back, found.within);
 }
@@ -355,7 +355,7 @@ TEST(Audit, OrderOfTrianglesDoesNotChangeThePairs) {
 TEST(Audit, WrongInputIsRefusedNamingTheNode) {
   const double infinity = std::numeric_limits<double>::infinity();
   for (const double bad : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity}) {
-    std::vector<Surface> sheets{grid(2, 2, 1.0, flat(0.0)), grid(2, 2, 1.0, flat(1.0))};
+    std::vector<TriMesh> sheets{grid(2, 2, 1.0, flat(0.0)), grid(2, 2, 1.0, flat(1.0))};
     sheets[1].x[5].y() = bad;
     try {
       audit(sheets);
@@ -365,7 +365,7 @@ TEST(Audit, WrongInputIsRefusedNamingTheNode) {
           << error.what();
     }
   }
-  Surface sheet = grid(2, 2, 1.0, flat(0.0));
+  TriMesh sheet = grid(2, 2, 1.0, flat(0.0));
   sheet.triangles[3][1] = 9;
   EXPECT_THROW(audit({sheet}), std::runtime_error);
 }

@@ -55,14 +55,14 @@ Case strip(double angle, const Vec3& direction, double stroke, double size = 10.
   return data;
 }
 
-Vec3 momentum(const PlyBody& ply) {
+Vec3 momentum(const PlyState& ply) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = 0; n < ply.x.size(); ++n)
     sum += ply.membrane.node_mass[n] * ply.velocity[n];
   return sum;
 }
 
-double mass_of(const PlyBody& ply) {
+double mass_of(const PlyState& ply) {
   double sum = 0.0;
   for (const double m : ply.membrane.node_mass)
     sum += m;
@@ -72,13 +72,14 @@ double mass_of(const PlyBody& ply) {
 /// The largest way of a held node from where its boundary has it, along what that one holds.
 double largest_slip(const Scene& s) {
   double largest = 0.0;
-  for (const HeldNode& held : s.held) {
-    const PlyBody& ply = s.plies[static_cast<std::size_t>(held.ply)];
+  for (const PrescribedNode& held : s.held) {
+    const PlyState& ply = s.plies[static_cast<std::size_t>(held.ply)];
     const auto n = static_cast<std::size_t>(held.node);
     for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
       const Boundary& b = s.data.boundaries[static_cast<std::size_t>(held.boundary[i])];
-      const double d = smooth_path(b.stroke, s.time, s.data.solver.duration);
-      const double slip = std::abs(held.axis[i].dot(ply.x[n] - held_place(b, ply.x0[n], d)));
+      const double d = smooth_step(b.stroke, s.time, s.data.solver.duration);
+      const double slip =
+          std::abs(held.axis[i].dot(ply.x[n] - prescribed_position(b, ply.x0[n], d)));
       if (!(slip <= largest) && !std::isnan(largest)) largest = slip;
     }
   }
@@ -97,18 +98,18 @@ TEST(BoundaryScene, HeldNodesFollowTheirPathsAtEveryStep) {
     data.solver.fibre_softening = 1000.0;
     data.solver.duration = 0.02;
     Scene s = make_scene(data);
-    ThreadTeam team(1);
-    start(s, team);
+    ThreadPool pool(1);
+    start(s, pool);
     double slip = 0.0;
     while (s.time < data.solver.duration) {
-      ASSERT_FALSE(compute_forces(s, team));
-      move_plies(s, team);
+      ASSERT_FALSE(compute_forces(s, pool));
+      move_plies(s, pool);
       slip = std::max(slip, largest_slip(s));
       ASSERT_FALSE(std::isnan(largest_slip(s)));
     }
     EXPECT_LT(slip, 1e-9); // mm
     EXPECT_GT(s.step, 100);
-    ASSERT_FALSE(compute_forces(s, team));
+    ASSERT_FALSE(compute_forces(s, pool));
     EXPECT_EQ(s.boundaries.back().displacement, data.boundaries.back().stroke);
   }
 }
@@ -164,20 +165,20 @@ TEST(BoundaryScene, ImpulseOfReactionsAndGravityIsTheGainOfMomentum) {
   data.boundaries[0].held = {true, false, true};
   data.gravity = {0.0, 500.0, -9810.0};
   Scene s = make_scene(data);
-  ThreadTeam team(1);
-  start(s, team);
-  const PlyBody& ply = s.plies[0];
+  ThreadPool pool(1);
+  start(s, pool);
+  const PlyState& ply = s.plies[0];
   Vec3 impulse = Vec3::Zero();
   double scale = 0.0;
   while (s.time < 0.6 * data.solver.duration) { // in the middle of the motion
-    ASSERT_FALSE(compute_forces(s, team));
+    ASSERT_FALSE(compute_forces(s, pool));
     const double span = 0.5 * (s.dt + s.next_dt);
     Vec3 force = mass_of(ply) * data.gravity;
     for (const BoundaryState& b : s.boundaries)
       force += b.force;
     impulse += span * force;
     scale += span * force.norm();
-    move_plies(s, team);
+    move_plies(s, pool);
   }
   const Vec3 gain = momentum(ply);
   EXPECT_GT(gain.norm(), 1e-3 * scale);
@@ -294,17 +295,17 @@ Case pushed_square(double angle, MeshKind mesh, bool quarter) {
 /// the sharper one (core/ply/membrane_eigenvalue.hpp) differs by a per cent.
 Scene run_by_elements(const Case& data) {
   Scene s = make_scene(data);
-  s.plies[0].sharpness = 1.0;
-  s.next_sharpening = std::numeric_limits<long>::max();
-  ThreadTeam team(1);
-  start(s, team);
+  s.plies[0].eigenvalue_ratio = 1.0;
+  s.next_lanczos = std::numeric_limits<long>::max();
+  ThreadPool pool(1);
+  start(s, pool);
   while (s.time < data.solver.duration) {
-    const auto stop = compute_forces(s, team);
+    const auto stop = compute_forces(s, pool);
     EXPECT_FALSE(stop) << stop->message;
     if (stop) break;
-    move_plies(s, team);
+    move_plies(s, pool);
   }
-  EXPECT_FALSE(compute_forces(s, team));
+  EXPECT_FALSE(compute_forces(s, pool));
   return s;
 }
 
@@ -315,7 +316,7 @@ TEST(BoundaryScene, QuarterIsAQuarterOfTheWhole) {
        {std::pair(0.0, MeshKind::alternating), std::pair(0.25 * pi, MeshKind::crossed)}) {
     const Scene whole = run_by_elements(pushed_square(angle, mesh, false));
     const Scene quarter = run_by_elements(pushed_square(angle, mesh, true));
-    const PlyBody &all = whole.plies[0], &part = quarter.plies[0];
+    const PlyState &all = whole.plies[0], &part = quarter.plies[0];
     ASSERT_EQ(4 * part.membrane.triangles.size(), all.membrane.triangles.size());
     double largest = 0.0, deepest = 0.0;
     for (std::size_t n = 0; n < part.x.size(); ++n) {
@@ -332,9 +333,9 @@ TEST(BoundaryScene, QuarterIsAQuarterOfTheWhole) {
     const double force = whole.tools[0].force.norm();
     EXPECT_GT(force, 1.0);
     EXPECT_NEAR(4.0 * quarter.tools[0].force.z(), whole.tools[0].force.z(), 1e-6 * force);
-    ThreadTeam team(1);
-    const double external = current_energies(whole, team).external;
-    EXPECT_NEAR(4.0 * current_energies(quarter, team).external, external, 1e-6 * external);
+    ThreadPool pool(1);
+    const double external = current_energies(whole, pool).external;
+    EXPECT_NEAR(4.0 * current_energies(quarter, pool).external, external, 1e-6 * external);
   }
 }
 

@@ -53,7 +53,7 @@ double of_one_blow(const Scene& s) {
     const double half = 0.5 * law.max_depth, k = law.pressure(half) / half;
     worst = std::max(worst, 0.25 * k * s.max_dt * s.max_dt / density);
   };
-  for (const ToolAndContacts& tool : s.tools)
+  for (const ToolState& tool : s.tools)
     add(tool.contacts[0].law, s.plies[0].membrane.fabric.surface_density);
   for (const PlyContact& pair : s.ply_contacts) // both ways, against the mass of both in series
     add(pair.contact.law, 0.25 * s.plies[0].membrane.fabric.surface_density);
@@ -64,8 +64,8 @@ double of_one_blow(const Scene& s) {
 /// arrives, of which the ledger gives the plies half, F dx/2.
 double of_arriving_tools(const Scene& s) {
   double sum = 0.0;
-  for (const ToolAndContacts& tool : s.tools)
-    sum += 0.5 * tool.force_on * tool.body.speed_limit * s.max_dt;
+  for (const ToolState& tool : s.tools)
+    sum += 0.5 * tool.force_on * tool.body.max_approach_speed * s.max_dt;
   return sum;
 }
 
@@ -102,7 +102,7 @@ Case stack_in_the_air(int plies) {
 }
 
 /// Turns a flat ply about y through its middle and gives it a velocity.
-void throw_ply(PlyBody& ply, const Vec3& velocity, double tilt) {
+void throw_ply(PlyState& ply, const Vec3& velocity, double tilt) {
   const Eigen::AngleAxisd turn(tilt, Vec3::UnitY());
   const Vec3 middle = ply.x0.front().z() * Vec3::UnitZ();
   for (Vec3& x : ply.x)

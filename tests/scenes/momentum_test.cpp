@@ -69,11 +69,11 @@ struct Worst {
 
 Worst follow(const Case& data) {
   Scene s = make_scene(data);
-  ThreadTeam team(1);
-  start(s, team);
+  ThreadPool pool(1);
+  start(s, pool);
   Worst worst;
   for (;;) {
-    const auto stop = compute_forces(s, team);
+    const auto stop = compute_forces(s, pool);
     EXPECT_FALSE(stop) << stop->message;
     if (stop || s.time >= data.solver.duration) break;
     for (const Sums& sums : ply_forces(s)) {
@@ -86,15 +86,15 @@ Worst follow(const Case& data) {
     double friction = 0.0;
     for (const PlyContact& pair : s.ply_contacts)
       friction += pair.contact.sums.friction;
-    for (const ToolAndContacts& t : s.tools)
-      for (const ToolContact& c : t.contacts)
+    for (const ToolState& t : s.tools)
+      for (const ToolPlyContact& c : t.contacts)
         friction += c.sums.friction;
     worst.friction_fell = std::max(worst.friction_fell, worst.friction - friction);
     worst.friction = friction;
     if (s.step % 100 == 0)
-      worst.balance = std::max(worst.balance, imbalance(current_energies(s, team)));
+      worst.balance = std::max(worst.balance, imbalance(current_energies(s, pool)));
     ++worst.steps;
-    move_plies(s, team);
+    move_plies(s, pool);
   }
   fmt::print("force {:.1e}, moment {:.1e}, friction {:.3g} N mm, fell {:.1e}, balance {:.1e}, "
              "{} steps\n",

@@ -15,14 +15,14 @@ struct Placement {
 /// Everything that has a place or a direction, carried along. Boundaries hold along x, y and z, so
 /// only those that hold all three can be: their axes then do not matter.
 void carry(Scene& s, const Placement& to) {
-  for (PlyBody& ply : s.plies) {
+  for (PlyState& ply : s.plies) {
     for (std::vector<Vec3>* x : {&ply.x0, &ply.x, &ply.x_search})
       for (Vec3& p : *x)
         p = to.turn * p + to.way;
     for (Vec3& v : ply.velocity)
       v = to.turn * v;
   }
-  for (ToolAndContacts& t : s.tools) {
+  for (ToolState& t : s.tools) {
     t.body.position = to.turn * t.body.position + to.way;
     t.body.rotation = to.turn * t.body.rotation;
     t.body.direction = to.turn * t.body.direction;

@@ -81,12 +81,12 @@ double error_of_identified_law(const std::vector<Frame>& frames, const std::stri
     curve.y.push_back(boundary(f, name).force_N);
     curve.line.push_back(static_cast<int>(curve.line.size()) + 2);
   }
-  Findings findings;
+  Diagnostics diagnostics;
   FitOptions options;
   options.to = to / degrees;
-  const auto fit = identify_shear(curve, test, fabric, options, findings);
+  const auto fit = identify_shear(curve, test, fabric, options, diagnostics);
   if (!fit) {
-    ADD_FAILURE() << (findings.errors.empty() ? "no fit" : findings.errors[0].text());
+    ADD_FAILURE() << (diagnostics.errors.empty() ? "no fit" : diagnostics.errors[0].text());
     return 1.0;
   }
   double largest = 0.0;

@@ -50,13 +50,13 @@ std::vector<Vec3> contact_forces(const Scene& s) {
 }
 
 Way follow(Scene& s) {
-  ThreadTeam team(1);
-  start(s, team);
+  ThreadPool pool(1);
+  start(s, pool);
   Way way;
   std::vector<Vec3> last;
   std::vector<int> changes;
   for (;;) {
-    const auto stop = compute_forces(s, team);
+    const auto stop = compute_forces(s, pool);
     EXPECT_FALSE(stop) << stop->message;
     if (stop || s.time >= s.data.solver.duration) break;
     const std::vector<Vec3> now = contact_forces(s);
@@ -69,7 +69,7 @@ Way follow(Scene& s) {
       changes[n] += (now[n].norm() > 0.0) != (last[n].norm() > 0.0);
     }
     last = now;
-    move_plies(s, team);
+    move_plies(s, pool);
   }
   for (const int c : changes) {
     way.most_changes = std::max(way.most_changes, c);

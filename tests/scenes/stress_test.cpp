@@ -145,7 +145,7 @@ TEST(Stress, FinePlyDrawnOverCoarseOneFeelsItsFriction) {
       if (b.stroke_mm < 1.0 || b.stroke_mm > 3.5) return; // slides
       // less what moves the ply's mass and overcomes its damping: 0.2 N
       const double mass = 6e-10 * 1e4, h = 1e-5; // t, s
-      const auto at = [&](double t) { return smooth_path(4.0, t, data.solver.duration); };
+      const auto at = [&](double t) { return smooth_step(4.0, t, data.solver.duration); };
       const double before = at(f.time - h), now = at(f.time), after = at(f.time + h);
       const double force = b.force_N - mass * ((after - 2.0 * now + before) / (h * h) +
                                                100.0 * (after - before) / (2.0 * h));

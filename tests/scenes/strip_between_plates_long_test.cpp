@@ -156,7 +156,7 @@ Found press(const Pressed& pressed) {
   data.solver.duration = 0.03;       // s, 27 of their swings; N of 30 mm is the same in 0.06 s
 
   Scene scene = make_scene(data);
-  PlyBody& ply = scene.plies[0];
+  PlyState& ply = scene.plies[0];
   Random random(1);
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const long i = std::lround((ply.x[n].x() - row.front().x()) / size);

@@ -20,13 +20,15 @@ inline Vec3 random_vector(Random& random) {
   return {x, y, signed_unit(random)};
 }
 
-/// What a SheetState views.
+/// What a SurfaceKinematics views.
 struct OwnedSheet {
   std::vector<Vec3> x, motion;
   std::vector<double> area;
   std::vector<Triangle> triangles;
 
-  SheetState state() const { return {x, motion, area, {}}; } // no spread: every face is looked at
+  SurfaceKinematics state() const {
+    return {x, motion, area, {}};
+  } // no spread: every face is looked at
 
   /// To x + step.
   void move(const std::vector<Vec3>& step) {

@@ -12,8 +12,8 @@
 namespace plyform::example {
 
 /// A flat grid of `cells` x `cells` squares of 10 mm, two triangles each, at height z.
-inline Surface sheet(int cells, double z) {
-  Surface s;
+inline TriMesh sheet(int cells, double z) {
+  TriMesh s;
   for (int j = 0; j <= cells; ++j)
     for (int i = 0; i <= cells; ++i)
       s.x.emplace_back(10.0 * i, 10.0 * j, z);
@@ -29,7 +29,7 @@ inline Surface sheet(int cells, double z) {
 /// `index` tells plies apart, `time` in s drives everything.
 inline PlyFrame ply(const std::string& name, int cells, int index, double time) {
   PlyFrame p;
-  const Surface s = sheet(cells, index);
+  const TriMesh s = sheet(cells, index);
   p.name = name;
   p.angle_deg = 45.0 * index;
   p.x0 = p.x = s.x;

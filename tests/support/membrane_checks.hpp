@@ -77,7 +77,7 @@ inline std::vector<Vec3> random_state(const BlankMesh& mesh, double stretch, dou
 
 inline std::vector<Vec3> nodal_forces(Membrane& m, const std::vector<Vec3>& x, double dt = 0.0) {
   std::vector<ElementForce> q(m.triangles.size());
-  element_forces(m, x, dt, 0, m.patches(), q);
+  element_forces(m, x, dt, 0, m.groups(), q);
   std::vector<Vec3> f;
   for (std::size_t n = 0; n < x.size(); ++n)
     f.push_back(node_force(m, q, static_cast<int>(n)));

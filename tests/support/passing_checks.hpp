@@ -54,10 +54,10 @@ inline double least_gap(const Frame& f) {
 
 /// Pairs of triangles of different plies that cross.
 inline std::size_t crossings(const Frame& f) {
-  std::vector<SheetView> sheets;
+  std::vector<MeshView> sheets;
   for (const PlyFrame& ply : f.plies)
     sheets.push_back({ply.x, ply.triangles});
-  return audit_intersections(sheets).between.size();
+  return find_intersections(sheets).between.size();
 }
 
 } // namespace plyform

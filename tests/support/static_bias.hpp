@@ -107,7 +107,7 @@ private:
   void add_patch(const std::vector<Vec3>& x, int patch,
                  std::vector<Eigen::Triplet<double>>& entries) const {
     const auto p = static_cast<std::size_t>(patch);
-    const int begin = m.patch_begin[p], size = m.patch_begin[p + 1] - begin;
+    const int begin = m.group_begin[p], size = m.group_begin[p + 1] - begin;
     std::vector<PlaneState> t;
     double area = 0.0;
     std::array<double, 2> mean{};
@@ -245,7 +245,7 @@ private:
   Eigen::VectorXd newton(const std::vector<Vec3>& x, const Eigen::VectorXd& force,
                          double& damping) const {
     std::vector<Eigen::Triplet<double>> entries;
-    for (int p = 0; p < m.patches(); ++p)
+    for (int p = 0; p < m.groups(); ++p)
       add_patch(x, p, entries);
     if (bending) add_turns(x, entries);
     Eigen::SparseMatrix<double> stiffness(freedoms, freedoms), one(freedoms, freedoms);
@@ -280,7 +280,7 @@ inline double twice_area(const BlankMesh& mesh, int triangle) {
 }
 
 /// Moves inner nodes at random, less where a triangle would become a sliver.
-inline void shake(BlankMesh& mesh, double most, const std::vector<char>& on_rim) {
+inline void shake(BlankMesh& mesh, double most, const std::vector<char>& touches_boundary_edge) {
   Random random(7);
   std::vector<std::vector<int>> around(mesh.x.size());
   for (std::size_t e = 0; e < mesh.triangles.size(); ++e)
@@ -288,17 +288,17 @@ inline void shake(BlankMesh& mesh, double most, const std::vector<char>& on_rim)
       around[static_cast<std::size_t>(n)].push_back(static_cast<int>(e));
   for (std::size_t n = 0; n < mesh.x.size(); ++n) {
     const double dx = most * signed_unit(random), dy = most * signed_unit(random);
-    if (on_rim[n]) continue;
+    if (touches_boundary_edge[n]) continue;
     const Vec2 before = mesh.x[n];
     std::vector<double> area;
     for (const int e : around[n])
       area.push_back(twice_area(mesh, e));
     for (double share = 1.0; share > 0.1; share *= 0.5) {
       mesh.x[n] = before + share * Vec2(dx, dy);
-      bool sound = true;
+      bool valid = true;
       for (std::size_t i = 0; i < area.size(); ++i)
-        sound = sound && twice_area(mesh, around[n][i]) > 0.2 * area[i];
-      if (sound) break;
+        valid = valid && twice_area(mesh, around[n][i]) > 0.2 * area[i];
+      if (valid) break;
       mesh.x[n] = before;
     }
   }
@@ -312,13 +312,13 @@ inline BlankMesh strip_mesh(const StripMesh& spec, double length, double width) 
     for (Vec2& p : blank.outline.boundary)
       p = turn * p;
   BlankMesh mesh = mesh_blank(blank, spec.turn, spec.turn + 0.5 * std::numbers::pi);
-  std::vector<char> on_rim;
+  std::vector<char> touches_boundary_edge;
   for (Vec2& p : mesh.x) {
     if (free) p = turn.inverse() * p;
-    on_rim.push_back(std::abs(std::abs(p.x()) - 0.5 * length) < 1e-9 * length ||
-                     std::abs(std::abs(p.y()) - 0.5 * width) < 1e-9 * length);
+    touches_boundary_edge.push_back(std::abs(std::abs(p.x()) - 0.5 * length) < 1e-9 * length ||
+                                    std::abs(std::abs(p.y()) - 0.5 * width) < 1e-9 * length);
   }
-  shake(mesh, spec.noise * spec.size, on_rim);
+  shake(mesh, spec.noise * spec.size, touches_boundary_edge);
   return mesh;
 }
 

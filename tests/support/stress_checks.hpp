@@ -118,11 +118,12 @@ inline UniformAnswer uniform_answer(const Fabric& f, double warp_angle, const Ya
     const double lambda = i == 0 ? s.lambda1 : s.lambda2;
     const double at0 = warp_angle + i * f.fibre_angle, at = s.along + i * s.omega;
     const LawPoint yarn = law.at(lambda - 1.0);
-    const double folded = std::max(0.0, 0.5 - lambda), guard = 1e-3 * law.stiffness; // g_a of (E)
-    a.fibre += d * (yarn.energy + 0.5 * guard * folded * folded);
+    const double folded = std::max(0.0, 0.5 - lambda),
+                 collapse_penalty = 1e-3 * law.stiffness; // g_a of (E)
+    a.fibre += d * (yarn.energy + 0.5 * collapse_penalty * folded * folded);
     const Vec2 along(std::cos(at), std::sin(at)), across(-along.y(), along.x());
     before.col(i) = Vec2(std::cos(at0), std::sin(at0));
-    force.col(i) = d * (yarn.value - guard * folded) * along +
+    force.col(i) = d * (yarn.value - collapse_penalty * folded) * along +
                    (i == 0 ? 1.0 : -1.0) * cells * shear.value / lambda * across;
   }
   a.stress = force * before.transpose(); // dw = force_a . dk_a, k_a = F before_a

@@ -19,7 +19,7 @@ namespace plyform {
 namespace {
 
 /// "no bending", or with which stiffness.
-std::string bending_text(const PlyBody& ply) {
+std::string bending_text(const PlyState& ply) {
   if (!ply.bending) return "no bending";
   const Fabric& fabric = ply.membrane.fabric;
   const BendingLaw& law = ply.bending->law;
@@ -43,7 +43,7 @@ std::string bending_text(const PlyBody& ply) {
 
 /// Which element, and why.
 std::string element_text(const Membrane& m, ElementKind asked) {
-  const int triangles = static_cast<int>(m.triangles.size()), pairs = triangles - m.patches();
+  const int triangles = static_cast<int>(m.triangles.size()), pairs = triangles - m.groups();
   const char* name = pairs == 0 ? "plain element" : "averaged element";
   if (asked != ElementKind::automatic) return fmt::format("{}: as solver.element says", name);
   constexpr double few = 0.01; // a band along the rim, or stray triangles alone
@@ -58,7 +58,7 @@ std::string element_text(const Membrane& m, ElementKind asked) {
 }
 
 void print_plies(const Scene& s) {
-  for (const PlyBody& ply : s.plies) {
+  for (const PlyState& ply : s.plies) {
     const Membrane& m = ply.membrane;
     if (m.fabric.isotropic) {
       fmt::print("ply {}: {} nodes, {} triangles, isotropic sheet; {}\n", ply.name, ply.x.size(),
@@ -78,13 +78,13 @@ void print_fabrics(const Case& data) {
 }
 
 /// mm^2, before forming.
-double area_of(const PlyBody& ply) {
+double area_of(const PlyState& ply) {
   const std::vector<double>& areas = ply.membrane.node_area;
   return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 /// mm: side of a square of two triangles.
-double element_size(const PlyBody& ply) {
+double element_size(const PlyState& ply) {
   return std::sqrt(2.0 * area_of(ply) / static_cast<double>(ply.membrane.triangles.size()));
 }
 
@@ -95,7 +95,7 @@ void print_locking(const Scene& s) {
   std::set<std::pair<int, int>> seen;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const Membrane& m = s.plies[p].membrane;
-    const bool averaged = m.patches() < static_cast<int>(m.triangles.size());
+    const bool averaged = m.groups() < static_cast<int>(m.triangles.size());
     const bool push = m.fabric.warp.compression > 0.0 && m.fabric.weft.compression > 0.0;
     const Ply& ply = s.data.plies[p];
     if (!averaged || !push || !seen.emplace(ply.fabric, ply.blank).second) continue;
@@ -140,14 +140,14 @@ bool bends_both_ways(const ToolShape& shape) {
 }
 
 /// Says if a ply may be cut by more than half its thickness, for the one that is cut most.
-void print_cut(const Scene& s, const ToolAndContacts& tool) {
+void print_cut(const Scene& s, const ToolState& tool) {
   constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
   const double radius = smallest_radius(tool.body.shape);
   if (!std::isfinite(radius)) return;
   const double spread = bends_both_ways(tool.body.shape) ? 2.0 / std::sqrt(3.0) : 1.0;
-  const PlyBody* worst = nullptr;
+  const PlyState* worst = nullptr;
   double most = 0.5;
-  for (const PlyBody& ply : s.plies) {
+  for (const PlyState& ply : s.plies) {
     const double side = spread * longest_side(ply);
     const double cut = cut_between_nodes(side, radius, ply.thickness, half_turn) / ply.thickness;
     if (cut > most) most = cut, worst = &ply;
@@ -163,7 +163,7 @@ void print_cut(const Scene& s, const ToolAndContacts& tool) {
 
 void print_tools(const Scene& s) {
   for (std::size_t i = 0; i < s.tools.size(); ++i) {
-    const ToolAndContacts& t = s.tools[i];
+    const ToolState& t = s.tools[i];
     const Motion motion = s.data.tools[i].motion;
     fmt::print("tool {}: {}", t.name,
                motion == Motion::fixed    ? std::string("fixed")
@@ -180,7 +180,7 @@ void print_tools(const Scene& s) {
 /// that another boundary holds along all of them count for that one only.)
 std::string nodes_held(const Scene& s, int boundary) {
   std::vector<int> count(s.plies.size(), 0);
-  for (const HeldNode& held : s.held) {
+  for (const PrescribedNode& held : s.held) {
     const auto end = held.boundary.begin() + held.count;
     if (std::find(held.boundary.begin(), end, boundary) != end)
       ++count[static_cast<std::size_t>(held.ply)];
@@ -196,7 +196,7 @@ std::string nodes_held(const Scene& s, int boundary) {
 bool holds_bending_ply(const Scene& s, const Boundary& boundary) {
   if (boundary.ply >= 0) return s.plies[static_cast<std::size_t>(boundary.ply)].bending.has_value();
   return std::any_of(s.plies.begin(), s.plies.end(),
-                     [](const PlyBody& ply) { return ply.bending.has_value(); });
+                     [](const PlyState& ply) { return ply.bending.has_value(); });
 }
 
 void print_boundaries(const Scene& s) {
@@ -225,12 +225,12 @@ void print_boundaries(const Scene& s) {
 }
 
 /// Wall time of a step, s, from a few real ones; a Stop if they go wrong already.
-std::optional<Stop> time_a_step(Scene& s, ThreadTeam& team, double& seconds) {
+std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, double& seconds) {
   constexpr int steps = 40;
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < steps; ++i) {
-    if (auto stop = compute_forces(s, team)) return stop;
-    move_plies(s, team);
+    if (auto stop = compute_forces(s, pool)) return stop;
+    move_plies(s, pool);
   }
   seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / steps;
   return std::nullopt;
@@ -242,9 +242,9 @@ int check_command(const CaseArguments& arguments) {
   const PreparedCase prepared = load_case(arguments);
   if (!prepared.value) return exit_case_wrong;
   const Case& data = *prepared.value;
-  ThreadTeam team(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
+  ThreadPool pool(static_cast<int>(std::max(1u, std::thread::hardware_concurrency())));
   Scene s = make_scene(data, prepared.meshes);
-  start(s, team);
+  start(s, pool);
   fmt::print("{}\n", data.title);
   print_fabrics(s.data);
   print_plies(s);
@@ -252,7 +252,7 @@ int check_command(const CaseArguments& arguments) {
   print_wrinkles(s);
   print_tools(s);
   print_boundaries(s);
-  const StepBound bound = stable_step(s, team);
+  const StepBound bound = stable_step(s, pool);
   const double steps = data.solver.duration / s.next_dt;
   fmt::print("contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm\n",
              s.ply_contacts.size(), s.skin);
@@ -265,7 +265,7 @@ int check_command(const CaseArguments& arguments) {
   fmt::print("fibre stiffness divided by {:g}, {:g} s simulated: about {:.0f} steps\n",
              data.solver.fibre_softening, data.solver.duration, steps);
   double seconds = 0.0;
-  if (const auto stop = time_a_step(s, team, seconds)) {
+  if (const auto stop = time_a_step(s, pool, seconds)) {
     fmt::print(stderr, "plyform: {}\n", stop->message);
     return exit_stopped;
   }

@@ -18,17 +18,17 @@ namespace fs = std::filesystem;
 constexpr double deg = std::numbers::pi / 180.0;
 
 void option_error(const std::string& option, const std::string& value, const std::string& rule,
-                  const std::string& remedy, Findings& findings) {
-  findings.error({option, 1, 1}, option.substr(2), value, rule, remedy);
+                  const std::string& remedy, Diagnostics& diagnostics) {
+  diagnostics.error({option, 1, 1}, option.substr(2), value, rule, remedy);
 }
 
 /// Prints what was found, mistakes last; true if there are any.
-bool print(const Findings& findings) {
-  for (const std::string& warning : findings.warnings)
+bool print(const Diagnostics& diagnostics) {
+  for (const std::string& warning : diagnostics.warnings)
     fmt::print(stderr, "{}\n", warning);
-  for (const CaseError& error : findings.errors)
+  for (const CaseError& error : diagnostics.errors)
     fmt::print(stderr, "{}\n", error.text());
-  return !findings.errors.empty();
+  return !diagnostics.errors.empty();
 }
 
 bool same_file(const fs::path& a, const fs::path& b) {
@@ -40,50 +40,50 @@ bool same_file(const fs::path& a, const fs::path& b) {
 /// A file to write must be none that is read or written besides, nor end on one when it still has
 /// its temporary name.
 void check_output(const std::string& option, const fs::path& output,
-                  const std::vector<fs::path>& others, Findings& findings) {
+                  const std::vector<fs::path>& others, Diagnostics& diagnostics) {
   fs::path temporary = output;
   temporary += ".tmp";
   for (const fs::path& other : others)
     if (same_file(output, other) || same_file(temporary, other))
       option_error(option, output.string(), "would overwrite " + other.string(),
-                   "give another file", findings);
+                   "give another file", diagnostics);
 }
 
 /// The test of the arguments; nothing and a report if its sizes are wrong.
 std::optional<ShearTest> test_of(const std::string& name, const SpecimenArguments& sizes,
-                                 Findings& findings) {
+                                 Diagnostics& diagnostics) {
   const BiasSpecimen bias{sizes.length, sizes.width};
   const FrameSpecimen frame{sizes.side};
   const auto fault = name == "bias" ? fault_of(bias) : fault_of(frame);
   if (!fault) return name == "bias" ? shear_test(bias) : shear_test(frame);
   option_error("--" + fault->size, fmt::format("{:g}", fault->value), fault->rule, fault->remedy,
-               findings);
+               diagnostics);
   return std::nullopt;
 }
 
 /// The fabric; mistakes in it are added to the findings.
-FabricReading fabric_of(const std::string& file, bool for_shear, Findings& findings) {
+FabricReading fabric_of(const std::string& file, bool for_shear, Diagnostics& diagnostics) {
   FabricReading reading = read_fabric_file(file, true);
-  findings.errors.insert(findings.errors.end(), reading.errors.begin(), reading.errors.end());
+  diagnostics.errors.insert(diagnostics.errors.end(), reading.errors.begin(), reading.errors.end());
   if (reading.value && for_shear &&
       std::abs(reading.value->fibre_angle - 0.5 * std::numbers::pi) > 1e-6)
-    findings.error({file, 1, 1}, "fibre_angle",
-                   fmt::format("{:g}", reading.value->fibre_angle / deg),
-                   "must be 90 degrees: the theory of the shear tests is for such fabrics",
-                   "take the law from a test of your own evaluation and write it in by hand");
+    diagnostics.error({file, 1, 1}, "fibre_angle",
+                      fmt::format("{:g}", reading.value->fibre_angle / deg),
+                      "must be 90 degrees: the theory of the shear tests is for such fabrics",
+                      "take the law from a test of your own evaluation and write it in by hand");
   return reading;
 }
 
-void check_range(const IdentifyArguments& arguments, bool shear, Findings& findings) {
+void check_range(const IdentifyArguments& arguments, bool shear, Diagnostics& diagnostics) {
   const double most = shear ? 90.0 : std::numeric_limits<double>::infinity();
   if (!(arguments.from >= 0.0 && arguments.from < most))
     option_error("--from", fmt::format("{:g}", arguments.from),
                  shear ? "must be at least 0 and below 90" : "must be at least 0",
-                 shear ? "give a shear angle in degrees" : "give a strain", findings);
+                 shear ? "give a shear angle in degrees" : "give a strain", diagnostics);
   else if (!(arguments.to > arguments.from))
     option_error("--to", fmt::format("{:g}", arguments.to),
                  fmt::format("must be greater than --from, {:g}", arguments.from),
-                 shear ? "give a shear angle in degrees" : "give a strain", findings);
+                 shear ? "give a shear angle in degrees" : "give a strain", diagnostics);
 }
 
 /// What stands in the report and in the fabric file.
@@ -157,31 +157,31 @@ std::string test_words(const IdentifyArguments& a) {
 
 /// Everything that can be said before the curve is looked at.
 void check_arguments(const IdentifyArguments& a, const fs::path& fit, bool shear,
-                     Findings& findings) {
-  check_output("--output", a.output, {a.curve, a.fabric}, findings);
-  check_output("--fit", fit, {a.curve, a.fabric, a.output}, findings);
-  check_range(a, shear, findings);
+                     Diagnostics& diagnostics) {
+  check_output("--output", a.output, {a.curve, a.fabric}, diagnostics);
+  check_output("--fit", fit, {a.curve, a.fabric, a.output}, diagnostics);
+  check_range(a, shear, diagnostics);
   if (a.coefficients < 1 || a.coefficients > 6)
     option_error("--coefficients", fmt::format("{}", a.coefficients), "must be 1 to 6",
-                 "give the number of coefficients k1, k3, k5 ..., usually 3", findings);
+                 "give the number of coefficients k1, k3, k5 ..., usually 3", diagnostics);
   if (!(a.yarns > 0.0 && std::isfinite(a.yarns)))
     option_error("--yarns", fmt::format("{:g}", a.yarns), "must be greater than 0",
-                 "give the number of yarns that share the force", findings);
+                 "give the number of yarns that share the force", diagnostics);
   if (!(a.gauge_length > 0.0 && std::isfinite(a.gauge_length)))
     option_error("--gauge-length", fmt::format("{:g}", a.gauge_length), "must be greater than 0",
-                 "give the free length of the yarns, in mm", findings);
+                 "give the free length of the yarns, in mm", diagnostics);
 }
 
 std::optional<Identified> identify(const IdentifyArguments& a, const Fabric& fabric,
                                    const std::optional<ShearTest>& test, const Curve& curve,
-                                   Findings& findings) {
+                                   Diagnostics& diagnostics) {
   const double unit = test ? deg : 1.0;
   const FitOptions options{a.coefficients, a.from * unit, a.to * unit};
   if (test) {
-    const auto fit = identify_shear(curve, *test, fabric, options, findings);
+    const auto fit = identify_shear(curve, *test, fabric, options, diagnostics);
     return fit ? std::optional(shear_text(*fit)) : std::nullopt;
   }
-  const auto fit = identify_tension(curve, {a.yarns, a.gauge_length}, options, findings);
+  const auto fit = identify_tension(curve, {a.yarns, a.gauge_length}, options, diagnostics);
   return fit ? std::optional(tension_text(*fit, a.test)) : std::nullopt;
 }
 
@@ -224,34 +224,36 @@ int identify_command(const IdentifyArguments& arguments) {
   const fs::path fit = arguments.fit.empty()
                            ? output.parent_path() / (output.stem().string() + "_fit.csv")
                            : fs::path(arguments.fit);
-  Findings findings;
-  check_arguments(arguments, fit, shear, findings);
-  const auto test = shear ? test_of(arguments.test, arguments.specimen, findings) : std::nullopt;
-  const FabricReading base = fabric_of(arguments.fabric, shear, findings);
-  const auto curve = read_curve(arguments.curve, arguments.x_column, arguments.y_column, findings);
+  Diagnostics diagnostics;
+  check_arguments(arguments, fit, shear, diagnostics);
+  const auto test = shear ? test_of(arguments.test, arguments.specimen, diagnostics) : std::nullopt;
+  const FabricReading base = fabric_of(arguments.fabric, shear, diagnostics);
+  const auto curve =
+      read_curve(arguments.curve, arguments.x_column, arguments.y_column, diagnostics);
   std::optional<Identified> result;
-  if (findings.errors.empty()) result = identify(arguments, *base.value, test, *curve, findings);
-  if (print(findings)) return exit_case_wrong;
+  if (diagnostics.errors.empty())
+    result = identify(arguments, *base.value, test, *curve, diagnostics);
+  if (print(diagnostics)) return exit_case_wrong;
   write_and_report(arguments, fit, base, *result);
   return exit_done;
 }
 
 int theory_command(const TheoryArguments& arguments) {
-  Findings findings;
-  check_output("--output", arguments.output, {arguments.fabric}, findings);
-  const std::optional<ShearTest> test = test_of(arguments.test, arguments.specimen, findings);
-  const FabricReading fabric = fabric_of(arguments.fabric, true, findings);
+  Diagnostics diagnostics;
+  check_output("--output", arguments.output, {arguments.fabric}, diagnostics);
+  const std::optional<ShearTest> test = test_of(arguments.test, arguments.specimen, diagnostics);
+  const FabricReading fabric = fabric_of(arguments.fabric, true, diagnostics);
   for (const std::string& missing : fabric.missing)
     if (missing == "shear")
-      findings.error({arguments.fabric, 1, 1}, "shear", "", "is missing",
-                     "give the law of shear, or identify it from a measured curve");
+      diagnostics.error({arguments.fabric, 1, 1}, "shear", "", "is missing",
+                        "give the law of shear, or identify it from a measured curve");
   if (!(arguments.to > 0.0 && arguments.to < 90.0))
     option_error("--to", fmt::format("{:g}", arguments.to), "must be above 0 and below 90",
-                 "give the last shear angle, in degrees", findings);
+                 "give the last shear angle, in degrees", diagnostics);
   if (arguments.points < 1 || arguments.points > 1000000)
     option_error("--points", fmt::format("{}", arguments.points), "must be 1 to 1000000",
-                 "give the number of rows", findings);
-  if (print(findings)) return exit_case_wrong;
+                 "give the number of rows", diagnostics);
+  if (print(diagnostics)) return exit_case_wrong;
   std::string rows = "displacement_mm,shear_deg,force_N\n";
   const double end = extension_at(*test, arguments.to * deg);
   for (int i = 0; i <= arguments.points; ++i) {

@@ -56,8 +56,8 @@ TEST(ContactLaw, FrictionHeatIsNeverNegativeAndNeverMoreThanTheWork) {
   Random random(1);
   for (int trial = 0; trial < 200; ++trial) {
     const ContactLaw law{k, 0.0, 0.3};
-    ContactMemory memory;
-    ContactSums sums;
+    ContactHistory memory;
+    ContactTotals sums;
     const double normal = 1.0 + 0.5 * signed_unit(random);
     Vec3 direction = random_vector(random);
     direction.z() = 0.0;
@@ -79,8 +79,8 @@ TEST(ContactLaw, LedgerOfAnyPathIsExact) {
   // energy and the heat, whether it sticks or slides and whatever the normal force.
   Random random(2);
   const ContactLaw law{k, 0.0, 0.3};
-  ContactMemory memory;
-  ContactSums sums;
+  ContactHistory memory;
+  ContactTotals sums;
   double work = 0.0;
   Vec3 last = Vec3::Zero();
   for (int i = 0; i < 5000; ++i) {
@@ -97,8 +97,8 @@ TEST(ContactLaw, LedgerOfAnyPathIsExact) {
 
 TEST(ContactLaw, HistoryTurnsWithTheNormal) {
   const ContactLaw law{k, 0.0, 10.0}; // never slides
-  ContactMemory memory;
-  ContactSums sums;
+  ContactHistory memory;
+  ContactTotals sums;
   memory.s = {0.01, 0.004, 0.0};
   const double length = memory.s.norm();
   for (int i = 1; i <= 90; ++i) {
@@ -113,16 +113,16 @@ TEST(ContactLaw, HistoryTurnsWithTheNormal) {
 
 TEST(ContactLaw, NoFrictionNoHistory) {
   const ContactLaw law{k, 0.0, 0.0};
-  ContactMemory memory;
-  ContactSums sums;
+  ContactHistory memory;
+  ContactTotals sums;
   EXPECT_TRUE(friction_force(law, area, 1.0, Vec3::UnitZ(), {1, 0, 0}, memory, sums).isZero(0.0));
   EXPECT_TRUE(memory.s.isZero(0.0));
 }
 
 TEST(ContactLaw, ReleaseTurnsTheSpringIntoHeat) {
   const ContactLaw law{k, 0.0, 0.3};
-  ContactMemory memory{{0.02, 0.0, 0.0}, 0.1, 1.0};
-  ContactSums sums;
+  ContactHistory memory{{0.02, 0.0, 0.0}, 0.1, 1.0};
+  ContactTotals sums;
   release(law, area, memory, sums);
   EXPECT_DOUBLE_EQ(sums.friction, 0.5 * area * law.tangential() * 0.02 * 0.02);
   EXPECT_TRUE(memory.s.isZero(0.0));

@@ -37,7 +37,7 @@ std::vector<Vec3> random_motion(const OwnedSheet& sheet, Random& random) {
 /// Two sheets that press on each other by `depth`, or a little less.
 struct Pressed {
   OwnedSheet slave = square_sheet(5, 3.1, thickness - depth), master = square_sheet(4, 4.7, 0.0);
-  SheetContact contact;
+  PlyPlyContact contact;
   std::vector<Vec3> slave_force, master_force;
 
   explicit Pressed(const ContactLaw& law) {
@@ -46,19 +46,19 @@ struct Pressed {
     const SheetTree tree(master.x, master.triangles);
     std::vector<Candidate> candidates;
     tree.candidates(slave.x, contact.distance + margin, candidates);
-    find_sheet_points(contact, candidates, slave.state(), master.state(), master.triangles, 0.0);
+    find_ply_ply_points(contact, candidates, slave.state(), master.state(), master.triangles, 0.0);
   }
 
   void load(double dt) {
     slave_force.assign(slave.x.size(), Vec3::Zero());
     master_force.assign(master.x.size(), Vec3::Zero());
     constexpr double far = std::numeric_limits<double>::infinity();
-    sheet_forces(contact, slave.state(), master.state(), master.triangles, dt, {far, far},
-                 slave_force, master_force);
+    ply_ply_forces(contact, slave.state(), master.state(), master.triangles, dt, {far, far},
+                   slave_force, master_force);
   }
 };
 
-TEST(ContactSprings, AnswerAsNodesAndFacesDo) {
+TEST(ContactTangents, AnswerAsNodesAndFacesDo) {
   Random random(3);
   constexpr double dt = 1e-6; // s
   for (const double damping : {0.0, 2e-6})
@@ -68,15 +68,15 @@ TEST(ContactSprings, AnswerAsNodesAndFacesDo) {
       p.load(dt);
       ASSERT_EQ(p.contact.sums.touching, 36);
       const std::vector<Vec3> slave = p.slave_force, master = p.master_force;
-      std::vector<ContactSpring> springs;
-      append_springs(p.contact, p.slave.state(), p.master.state(), p.master.triangles, margin,
-                     {1.0, 1.0 / dt}, springs);
+      std::vector<ContactTangent> springs;
+      append_tangents(p.contact, p.slave.state(), p.master.state(), p.master.triangles, margin,
+                      {1.0, 1.0 / dt}, springs);
       ASSERT_EQ(springs.size(), 36u);
       const auto y_slave = random_motion(p.slave, random),
                  y_master = random_motion(p.master, random);
       std::vector<Vec3> on_slave(slave.size(), Vec3::Zero()),
           on_master(master.size(), Vec3::Zero());
-      add_spring_forces(springs, y_slave, y_master, on_slave, on_master);
+      add_tangent_forces(springs, y_slave, y_master, on_slave, on_master);
       p.slave.move(y_slave);
       p.master.move(y_master);
       p.load(dt);
@@ -88,53 +88,53 @@ TEST(ContactSprings, AnswerAsNodesAndFacesDo) {
     }
 }
 
-TEST(ContactSprings, LeaveOutWhatIsFurtherThanTheMargin) {
+TEST(ContactTangents, LeaveOutWhatIsFurtherThanTheMargin) {
   Pressed p({3.0, 0.0, 0.2});
   p.slave.move(std::vector<Vec3>(p.slave.x.size(), {0.0, 0.0, depth + 0.5 * margin}));
   p.load(0.0);
-  std::vector<ContactSpring> springs;
+  std::vector<ContactTangent> springs;
   const auto found = [&](double within) {
     springs.clear();
-    append_springs(p.contact, p.slave.state(), p.master.state(), p.master.triangles, within, {},
-                   springs);
+    append_tangents(p.contact, p.slave.state(), p.master.state(), p.master.triangles, within, {},
+                    springs);
     return springs.size();
   };
   EXPECT_EQ(found(0.4 * margin), 0u);
   EXPECT_EQ(found(0.6 * margin), 36u);
 }
 
-TEST(ContactSprings, AnswerAsToolsDo) {
+TEST(ContactTangents, AnswerAsToolsDo) {
   Random random(4);
   OwnedSheet sheet = square_sheet(5, 3.1, 0.5 * thickness - depth);
   ToolBody floor;
   floor.shape = Plane{};
-  std::vector<ToolContact> contact(1);
+  std::vector<ToolPlyContact> contact(1);
   contact[0].law = {3.0, 0.0, 1e6};
   contact[0].half_thickness = 0.5 * thickness;
-  find_tool_points(contact[0], floor, sheet.state(), margin, 0.0);
-  std::vector<ContactSpring> springs;
-  append_springs(contact[0], sheet.area, margin, {}, springs); // before any force is known
+  find_tool_ply_points(contact[0], floor, sheet.state(), margin, 0.0);
+  std::vector<ContactTangent> springs;
+  append_tangents(contact[0], sheet.area, margin, {}, springs); // before any force is known
   ASSERT_EQ(springs.size(), 36u);
-  const std::vector<SheetState> states{sheet.state()};
-  const std::vector<double> path{1.0}; // all may touch
-  tool_forces(floor, contact, states, path, 1e-6);
+  const std::vector<SurfaceKinematics> states{sheet.state()};
+  const std::vector<double> path_length{1.0}; // all may touch
+  tool_ply_forces(floor, contact, states, path_length, 1e-6);
   const std::vector<Vec3> before = contact[0].force;
   const auto y = random_motion(sheet, random);
   std::vector<Vec3> on_sheet(before.size(), Vec3::Zero());
-  add_spring_forces(springs, y, y, on_sheet, on_sheet);
+  add_tangent_forces(springs, y, y, on_sheet, on_sheet);
   sheet.move(y);
-  tool_forces(floor, contact, std::vector<SheetState>{sheet.state()}, path, 1e-6);
+  tool_ply_forces(floor, contact, std::vector<SurfaceKinematics>{sheet.state()}, path_length, 1e-6);
   EXPECT_LE(largest_difference(on_sheet, minus(before, contact[0].force)),
             1e-6 * largest_norm(on_sheet)); // rounding of ways of 1e-7 mm
 }
 
-TEST(ContactSprings, AnswerAsEdgesDo) {
+TEST(ContactTangents, AnswerAsEdgesDo) {
   // two sheets that are one triangle each, an edge of one across an edge of the other
   OwnedSheet a = points_only({Vec3(-5, 0, 0), Vec3(5, 0.5, 0), Vec3(0, -8, 4)}, 2.0);
   OwnedSheet b =
       points_only({Vec3(0.3, -5, 0.3 - depth), Vec3(0, 5, 0.3 - depth), Vec3(8, 0, 4.3)}, 2.0);
   a.triangles = b.triangles = {{0, 1, 2}};
-  EdgeContact contact;
+  EdgeEdgeContact contact;
   contact.law = {3.0, 0.0, 0.0};
   contact.distance = 0.3;
   const auto edges = sheet_edges(a.triangles);
@@ -148,12 +148,12 @@ TEST(ContactSprings, AnswerAsEdgesDo) {
   };
   const std::vector<Vec3> before = forces();
   ASSERT_EQ(contact.sums.touching, 1);
-  std::vector<ContactSpring> springs;
-  append_springs(contact, a.state(), b.state(), 0.0, {}, springs);
+  std::vector<ContactTangent> springs;
+  append_tangents(contact, a.state(), b.state(), 0.0, {}, springs);
   Random random(5);
   const auto y_a = random_motion(a, random), y_b = random_motion(b, random);
   std::vector<Vec3> f(6, Vec3::Zero());
-  add_spring_forces(springs, y_a, y_b, std::span(f).first(3), std::span(f).last(3));
+  add_tangent_forces(springs, y_a, y_b, std::span(f).first(3), std::span(f).last(3));
   a.move(y_a);
   b.move(y_b);
   EXPECT_LE(largest_difference(f, minus(before, forces())), 1e-3 * largest_norm(f));

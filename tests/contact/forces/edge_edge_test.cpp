@@ -39,12 +39,12 @@ struct AllEdges {
   EdgeSet set() const { return {edges, numbers}; }
 };
 
-void search(EdgeContact& contact, const OwnedSheet& a, const OwnedSheet& b, double skin) {
+void search(EdgeEdgeContact& contact, const OwnedSheet& a, const OwnedSheet& b, double skin) {
   find_edge_pairs(contact, a.state(), AllEdges(a).set(), b.state(), AllEdges(b).set(), skin, 0.0);
 }
 
 /// A contact with what it does to both sheets' nodes.
-struct Loaded : EdgeContact {
+struct Loaded : EdgeEdgeContact {
   std::vector<Vec3> force_a, force_b; ///< N
 };
 
@@ -73,7 +73,7 @@ struct Ridges {
   }
 };
 
-TEST(EdgeContact, ForceIsMinusEnergyGradient) {
+TEST(EdgeEdgeContact, ForceIsMinusEnergyGradient) {
   Random random(1);
   double worst = 0.0;
   for (int state = 0; state < 40; ++state) {
@@ -112,7 +112,7 @@ TEST(EdgeContact, ForceIsMinusEnergyGradient) {
   RecordProperty("worst", fmt::format("{:.2g}", worst));
 }
 
-TEST(EdgeContact, RemembersItsSideAcrossASearch) {
+TEST(EdgeEdgeContact, RemembersItsSideAcrossASearch) {
   Random random(2);
   Ridges r(random, 1.2, 0.2);
   Loaded contact = contact_of({3.0, 0.0, 0.0});
@@ -129,7 +129,7 @@ TEST(EdgeContact, RemembersItsSideAcrossASearch) {
     EXPECT_EQ((before[n] - contact.force_b[n]).norm(), 0.0);
 }
 
-TEST(EdgeContact, DampingTakesEnergyOnly) {
+TEST(EdgeEdgeContact, DampingTakesEnergyOnly) {
   Random random(3);
   Ridges r(random, 1.2, 0.25);
   Loaded contact = contact_of({3.0, 1e-6, 0.0});
@@ -146,14 +146,14 @@ TEST(EdgeContact, DampingTakesEnergyOnly) {
   EXPECT_GT(last, 0.0);
 }
 
-TEST(EdgeContact, EveryEdgeIsListedOnce) {
+TEST(EdgeEdgeContact, EveryEdgeIsListedOnce) {
   const auto edges = sheet_edges(square_sheet(4, 5.0, 0.0).triangles);
   EXPECT_EQ(edges.size(), 4u * 5 * 2 + 16); // sides of cells and diagonals
   for (std::size_t i = 1; i < edges.size(); ++i)
     EXPECT_LT(std::pair(edges[i - 1].a, edges[i - 1].b), std::pair(edges[i].a, edges[i].b));
 }
 
-TEST(EdgeContact, FindsEveryPairWithinReach) {
+TEST(EdgeEdgeContact, FindsEveryPairWithinReach) {
   Random random(4);
   for (int state = 0; state < 10; ++state) {
     OwnedSheet a = square_sheet(5, 4.0, 0.0), b = square_sheet(6, 3.3, 0.8);
@@ -191,7 +191,7 @@ TEST(EdgeContact, FindsEveryPairWithinReach) {
   }
 }
 
-TEST(EdgeContact, IsLinearWhileShallowAndHasNoEndBeforeItsLimit) {
+TEST(EdgeEdgeContact, IsLinearWhileShallowAndHasNoEndBeforeItsLimit) {
   constexpr double k = 3.0, limit = 0.5 * distance;
   const ContactLaw law{k, 0.0, 0.0, limit};
   const auto force_at = [&](double gap) {
@@ -205,7 +205,7 @@ TEST(EdgeContact, IsLinearWhileShallowAndHasNoEndBeforeItsLimit) {
   EXPECT_GT(force_at(distance - 0.999 * limit), 1e5 * k * limit);       // (1 - u^2)^2 = 4e-6
 }
 
-TEST(EdgeContact, TellsHowMuchLongerTheNextStepMayBe) {
+TEST(EdgeEdgeContact, TellsHowMuchLongerTheNextStepMayBe) {
   const ContactLaw law{3.0, 0.0, 0.0, 0.5 * distance};
   OwnedSheet a = roof(-1.0, 0.0, distance + 0.02), b = roof(1.0, 0.5 * std::numbers::pi, 0.0);
   Loaded contact = contact_of(law);

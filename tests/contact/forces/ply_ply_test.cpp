@@ -14,24 +14,25 @@ namespace {
 constexpr double thickness = 0.6; // h, mm
 
 /// A contact with what it does to both sheets' nodes.
-struct Loaded : SheetContact {
+struct Loaded : PlyPlyContact {
   std::vector<Vec3> slave_force, master_force; ///< N
 };
 
 /// Both sheets as the search sees them.
-void search(SheetContact& contact, const OwnedSheet& slave, const OwnedSheet& master, double skin) {
+void search(PlyPlyContact& contact, const OwnedSheet& slave, const OwnedSheet& master,
+            double skin) {
   const SheetTree tree(master.x, master.triangles);
   std::vector<Candidate> candidates;
   tree.candidates(slave.x, contact.distance + skin, candidates);
-  find_sheet_points(contact, candidates, slave.state(), master.state(), master.triangles, 0.0);
+  find_ply_ply_points(contact, candidates, slave.state(), master.state(), master.triangles, 0.0);
 }
 
 void forces(Loaded& contact, const OwnedSheet& slave, const OwnedSheet& master, double dt = 0.0,
             double way = std::numeric_limits<double>::infinity()) {
   contact.slave_force.assign(slave.x.size(), Vec3::Zero());
   contact.master_force.assign(master.x.size(), Vec3::Zero());
-  sheet_forces(contact, slave.state(), master.state(), master.triangles, dt, {way, way},
-               contact.slave_force, contact.master_force);
+  ply_ply_forces(contact, slave.state(), master.state(), master.triangles, dt, {way, way},
+                 contact.slave_force, contact.master_force);
 }
 
 Loaded contact_of(const ContactLaw& law) {
@@ -55,7 +56,7 @@ BumpyPair bumpy_pair(Random& random) {
   return pair;
 }
 
-TEST(SheetContact, ForceIsMinusEnergyGradient) {
+TEST(PlyPlyContact, ForceIsMinusEnergyGradient) {
   Random random(1);
   int touching = 0;
   double worst = 0.0;
@@ -83,7 +84,7 @@ TEST(SheetContact, ForceIsMinusEnergyGradient) {
   RecordProperty("worst", fmt::format("{:.2g}", worst));
 }
 
-TEST(SheetContact, ActionIsReaction) {
+TEST(PlyPlyContact, ActionIsReaction) {
   Random random(2);
   for (int state = 0; state < 10; ++state) {
     BumpyPair p = bumpy_pair(random);
@@ -132,7 +133,7 @@ struct OnePoint {
   }
 };
 
-TEST(SheetContact, SticksBelowTheConeAndGivesItsWayBack) {
+TEST(PlyPlyContact, SticksBelowTheConeAndGivesItsWayBack) {
   OnePoint c(0.04);
   const double k = 2.0 * 5.0, k_t = 0.5 * k, normal = k * 0.04, limit = 0.25 * normal;
   Vec3 f = c.step({0.005, 0.0, 0.0}); // 0.025 N of 0.1 N
@@ -147,7 +148,7 @@ TEST(SheetContact, SticksBelowTheConeAndGivesItsWayBack) {
   EXPECT_NEAR(f.z(), normal, 1e-12);
 }
 
-TEST(SheetContact, SlidesAtExactlyTheConeAndPaysForIt) {
+TEST(PlyPlyContact, SlidesAtExactlyTheConeAndPaysForIt) {
   OnePoint c(0.04);
   const double limit = 0.25 * 2.0 * 5.0 * 0.04;
   double work = 0.0, last = 0.0, heat = 0.0;
@@ -174,7 +175,7 @@ TEST(SheetContact, SlidesAtExactlyTheConeAndPaysForIt) {
   EXPECT_EQ(c.contact.slave_force[0].norm(), 0.0);
 }
 
-TEST(SheetContact, DampingNeverPullsAndItsWorkIsKept) {
+TEST(PlyPlyContact, DampingNeverPullsAndItsWorkIsKept) {
   OnePoint c(0.04);
   c.contact.law = {5.0, 1e-5, 0.0}; // 20 N s/mm at dt = 1e-6 a step of 0.01: more than the spring
   EXPECT_GT(c.step({0, 0, -0.001}).z(), 2.0 * 5.0 * 0.041);
@@ -182,7 +183,7 @@ TEST(SheetContact, DampingNeverPullsAndItsWorkIsKept) {
   EXPECT_GT(c.contact.sums.damping, 0.0);
 }
 
-TEST(SheetContact, KeepsItsMemoryAcrossASearch) {
+TEST(PlyPlyContact, KeepsItsMemoryAcrossASearch) {
   OnePoint c(0.04);
   c.step({0.005, 0.0, 0.0});
   const Vec3 before = c.contact.slave_force[0];
@@ -196,7 +197,7 @@ TEST(SheetContact, KeepsItsMemoryAcrossASearch) {
   }
 }
 
-TEST(SheetContact, NodeGoneThroughIsAFault) {
+TEST(PlyPlyContact, NodeGoneThroughIsAFault) {
   OnePoint c(0.04);
   EXPECT_LT(c.contact.fault.node, 0);
   c.step({0, 0, -0.2}); // 0.36 mm left of 0.6
@@ -215,7 +216,7 @@ double wave(double x, double y) {
   return 1.5 * std::sin(0.25 * x) * std::cos(0.2 * y);
 }
 
-TEST(SheetContact, NoPairIsMissedBetweenSearches) {
+TEST(PlyPlyContact, NoPairIsMissedBetweenSearches) {
   constexpr double skin = 0.5;
   OwnedSheet master = square_sheet(16, 2.5, 0.0), slave = square_sheet(12, 2.9, 0.0);
   for (Vec3& x : master.x)
@@ -258,7 +259,7 @@ TEST(SheetContact, NoPairIsMissedBetweenSearches) {
                                                master.x[static_cast<std::size_t>(t[2])])
                          .distance2);
     std::vector<double> found(slave.x.size(), 1e300);
-    for (const SheetContactPoint& c : contact.points) {
+    for (const PlyPlyPoint& c : contact.points) {
       double& gap = found[static_cast<std::size_t>(c.node)];
       gap = std::min(gap, c.gap + thickness);
     }

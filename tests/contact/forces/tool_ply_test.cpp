@@ -13,17 +13,17 @@ namespace {
 constexpr double half_thickness = 0.3; // mm
 constexpr double all_ways = std::numeric_limits<double>::infinity();
 
-ToolContact contact_of(const ContactLaw& law) {
-  ToolContact contact;
+ToolPlyContact contact_of(const ContactLaw& law) {
+  ToolPlyContact contact;
   contact.law = law;
   contact.half_thickness = half_thickness;
   return contact;
 }
 
 /// Forces on the nodes in contact.force; returns that on the tool.
-Vec3 forces(ToolBody& tool, ToolContact& contact, const OwnedSheet& nodes, double dt) {
-  const SheetState state = nodes.state();
-  return tool_forces(tool, {&contact, 1}, {&state, 1}, {&all_ways, 1}, dt);
+Vec3 forces(ToolBody& tool, ToolPlyContact& contact, const OwnedSheet& nodes, double dt) {
+  const SurfaceKinematics state = nodes.state();
+  return tool_ply_forces(tool, {&contact, 1}, {&state, 1}, {&all_ways, 1}, dt);
 }
 
 /// Die hole of radius 20 with a fillet of 5 and a flat top.
@@ -52,7 +52,7 @@ ToolBody placed(const ToolShape& shape, Random& random) {
   return tool;
 }
 
-TEST(ToolContact, ForceIsMinusEnergyGradient) {
+TEST(ToolPlyContact, ForceIsMinusEnergyGradient) {
   Random random(1);
   double worst = 0.0;
   for (const ToolShape& shape : {ToolShape(Sphere{25.0}), ToolShape(Plane{}), die()})
@@ -62,8 +62,8 @@ TEST(ToolContact, ForceIsMinusEnergyGradient) {
       for (int n = 0; n < 30; ++n) // some touch, some do not
         x.push_back(near_tool(tool, half_thickness - 0.2, half_thickness + 0.1, random));
       OwnedSheet nodes = points_only(x, 4.0);
-      ToolContact contact = contact_of({3.0, 0.0, 0.0, 0.25});
-      find_tool_points(contact, tool, nodes.state(), 0.5, all_ways);
+      ToolPlyContact contact = contact_of({3.0, 0.0, 0.0, 0.25});
+      find_tool_ply_points(contact, tool, nodes.state(), 0.5, all_ways);
       const Vec3 on_tool = forces(tool, contact, nodes, 0.0);
       EXPECT_GT(contact.sums.touching, 10);
       EXPECT_LT(contact.sums.touching, 30);
@@ -72,7 +72,7 @@ TEST(ToolContact, ForceIsMinusEnergyGradient) {
         sum += f;
       EXPECT_LE(sum.norm(), 1e-13 * largest_norm(contact.force)); // action is reaction
       const auto energy = [&] {
-        ToolContact copy = contact;
+        ToolPlyContact copy = contact;
         forces(tool, copy, nodes, 0.0);
         return copy.sums.elastic;
       };
@@ -89,10 +89,10 @@ TEST(ToolContact, ForceIsMinusEnergyGradient) {
 struct OnFloor {
   ToolBody floor;
   OwnedSheet node = points_only({{0.0, 0.0, half_thickness}}, 2.0);
-  ToolContact contact = contact_of({5.0, 0.0, 0.25});
+  ToolPlyContact contact = contact_of({5.0, 0.0, 0.25});
   OnFloor() {
     floor.shape = Plane{};
-    find_tool_points(contact, floor, node.state(), 0.5, all_ways);
+    find_tool_ply_points(contact, floor, node.state(), 0.5, all_ways);
     step({0, 0, -0.04});
   }
   Vec3 step(const Vec3& by) {
@@ -103,7 +103,7 @@ struct OnFloor {
   }
 };
 
-TEST(ToolContact, SticksBelowTheConeAndGivesItsWayBack) {
+TEST(ToolPlyContact, SticksBelowTheConeAndGivesItsWayBack) {
   OnFloor c;
   Vec3 f = c.step({0.005, 0.0, 0.0});
   EXPECT_NEAR(f.x(), -0.025, 1e-13);
@@ -114,7 +114,7 @@ TEST(ToolContact, SticksBelowTheConeAndGivesItsWayBack) {
   EXPECT_NEAR(c.step({-0.005, 0.0, 0.0}).x(), 0.0, 1e-13);
 }
 
-TEST(ToolContact, SlidesAtExactlyTheCone) {
+TEST(ToolPlyContact, SlidesAtExactlyTheCone) {
   OnFloor c;
   double heat = 0.0;
   for (int i = 0; i < 100; ++i) {
@@ -131,23 +131,23 @@ TEST(ToolContact, SlidesAtExactlyTheCone) {
   EXPECT_NEAR(c.contact.sums.friction, heat, 1e-13);
 }
 
-TEST(ToolContact, KeepsItsMemoryAcrossASearch) {
+TEST(ToolPlyContact, KeepsItsMemoryAcrossASearch) {
   OnFloor c;
   c.step({0.005, 0.0, 0.0});
   const Vec3 before = c.contact.force[0];
-  find_tool_points(c.contact, c.floor, c.node.state(), 0.5, all_ways);
+  find_tool_ply_points(c.contact, c.floor, c.node.state(), 0.5, all_ways);
   EXPECT_NEAR((c.step(Vec3::Zero()) - before).norm(), 0.0, 1e-14);
   const double stored = c.contact.sums.elastic, spring = 0.5 * 5.0 * 0.005 * 0.005;
   EXPECT_NEAR(stored, 0.5 * 10.0 * 0.04 * 0.04 + spring, 1e-14);
   c.node.move({{0, 0, 5.0}});
-  find_tool_points(c.contact, c.floor, c.node.state(), 0.5,
-                   all_ways); // out of reach: forgotten, paid
+  find_tool_ply_points(c.contact, c.floor, c.node.state(), 0.5,
+                       all_ways); // out of reach: forgotten, paid
   EXPECT_TRUE(c.contact.points.empty());
   EXPECT_TRUE(c.contact.force.empty());
   EXPECT_NEAR(c.contact.sums.friction, spring, 1e-15);
 }
 
-TEST(ToolContact, ListsEveryNodeWithinReach) {
+TEST(ToolPlyContact, ListsEveryNodeWithinReach) {
   Random random(2);
   for (int trial = 0; trial < 5; ++trial) {
     ToolBody tool = placed(die(), random);
@@ -155,8 +155,8 @@ TEST(ToolContact, ListsEveryNodeWithinReach) {
     for (int n = 0; n < 400; ++n)
       x.push_back(near_tool(tool, -2.0, 4.0, random));
     const OwnedSheet nodes = points_only(x, 1.0);
-    ToolContact contact = contact_of({1.0, 0.0, 0.0});
-    find_tool_points(contact, tool, nodes.state(), 0.5, all_ways);
+    ToolPlyContact contact = contact_of({1.0, 0.0, 0.0});
+    find_tool_ply_points(contact, tool, nodes.state(), 0.5, all_ways);
     std::size_t next = 0;
     for (std::size_t n = 0; n < x.size(); ++n) {
       int hint = -1;
@@ -171,34 +171,34 @@ TEST(ToolContact, ListsEveryNodeWithinReach) {
 }
 
 /// A tool pushed down on nodes at different heights.
-ToolBody pushed(const ToolShape& shape, const Vec3& position, double force) {
+ToolBody force_controlled(const ToolShape& shape, const Vec3& position, double force) {
   ToolBody tool;
   tool.shape = shape;
   tool.position = position;
-  tool.pushed = true;
+  tool.force_controlled = true;
   tool.direction = -Vec3::UnitZ();
   tool.force = force;
-  tool.speed_limit = 1000.0;
+  tool.max_approach_speed = 1000.0;
   return tool;
 }
 
-TEST(ToolContact, PushedToolFeelsItsForce) {
+TEST(ToolPlyContact, PushedToolFeelsItsForce) {
   Random random(3);
   const double dt = 1e-6;
   for (const bool ball : {false, true})
     for (const double mass : {0.0, 1e-6})
       for (int trial = 0; trial < 10; ++trial) {
-        ToolBody tool = ball ? pushed(Sphere{2500.0}, {0, 0, 2500.0}, 30.0)
-                             : pushed(Plane{}, Vec3::Zero(), 30.0);
+        ToolBody tool = ball ? force_controlled(Sphere{2500.0}, {0, 0, 2500.0}, 30.0)
+                             : force_controlled(Plane{}, Vec3::Zero(), 30.0);
         if (!ball) // material above
           tool.rotation = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
         tool.mass = mass;
         OwnedSheet nodes = square_sheet(6, 1.0, -half_thickness);
         for (Vec3& x : nodes.x)
           x.z() += 2e-4 * signed_unit(random); // gaps of some tenths of a step's way
-        ToolContact contact =
+        ToolPlyContact contact =
             contact_of({50.0, 5e-5, ball ? 0.0 : 0.2, 0.02}); // it is pressed to 0.6 of that
-        find_tool_points(contact, tool, nodes.state(), 1.0, all_ways);
+        find_tool_ply_points(contact, tool, nodes.state(), 1.0, all_ways);
         int free_steps = 0;
         for (int step = 0; step < 50; ++step) {
           const double speed = tool.speed;
@@ -223,12 +223,12 @@ TEST(ToolContact, PushedToolFeelsItsForce) {
       }
 }
 
-TEST(ToolContact, PushedToolClosesAtItsSpeedLimit) {
-  ToolBody tool = pushed(Sphere{25.0}, {0, 0, 60.0}, 30.0);
+TEST(ToolPlyContact, PushedToolClosesAtItsSpeedLimit) {
+  ToolBody tool = force_controlled(Sphere{25.0}, {0, 0, 60.0}, 30.0);
   OwnedSheet nodes = square_sheet(2, 1.0, 0.0);
-  ToolContact contact = contact_of({50.0, 0.0, 0.0});
+  ToolPlyContact contact = contact_of({50.0, 0.0, 0.0});
   for (int step = 1; step <= 20; ++step) {
-    find_tool_points(contact, tool, nodes.state(), 1.0, all_ways);
+    find_tool_ply_points(contact, tool, nodes.state(), 1.0, all_ways);
     EXPECT_TRUE(forces(tool, contact, nodes, 1e-6).isZero(0.0));
     EXPECT_NEAR(tool.displacement.z(), -1e-3 * step, 1e-15);
     EXPECT_NEAR(tool.motion.z(), -1e-3, 1e-15);

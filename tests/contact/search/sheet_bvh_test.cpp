@@ -20,8 +20,8 @@ static void PrintTo(const Candidate& c, std::ostream* out) {
 namespace {
 
 /// nx x ny cells of size h from the origin, two triangles a cell, lifted to z(x, y).
-Surface grid(int nx, int ny, double h, const std::function<double(double, double)>& z) {
-  Surface sheet;
+TriMesh grid(int nx, int ny, double h, const std::function<double(double, double)>& z) {
+  TriMesh sheet;
   for (int j = 0; j <= ny; ++j)
     for (int i = 0; i <= nx; ++i)
       sheet.x.push_back({i * h, j * h, z(i * h, j * h)});
@@ -43,7 +43,7 @@ auto dome(double top) {
   };
 }
 
-std::vector<Candidate> every_pair(const Surface& master, std::span<const Vec3> nodes,
+std::vector<Candidate> every_pair(const TriMesh& master, std::span<const Vec3> nodes,
                                   double reach) {
   std::vector<Candidate> all;
   for (int i = 0; i < int(nodes.size()); ++i)
@@ -63,7 +63,7 @@ std::vector<Candidate> candidates(const SheetTree& tree, std::span<const Vec3> n
   return found;
 }
 
-void expect_every_pair(const Surface& master, const Surface& slave, double reach,
+void expect_every_pair(const TriMesh& master, const TriMesh& slave, double reach,
                        bool some = true) {
   const std::vector<Candidate> expected = every_pair(master, slave.x, reach);
   EXPECT_EQ(!expected.empty(), some) << "the oracle must have something to say";
@@ -72,7 +72,7 @@ void expect_every_pair(const Surface& master, const Surface& slave, double reach
 }
 
 TEST(Candidates, EqualBruteForceOnFlatStack) {
-  const Surface lower = grid(20, 20, 1.0, flat(0.0)), upper = grid(20, 20, 1.0, flat(0.3));
+  const TriMesh lower = grid(20, 20, 1.0, flat(0.0)), upper = grid(20, 20, 1.0, flat(0.3));
   for (const double reach : {0.3, 0.31, 1.0, 2.5}) {
     expect_every_pair(lower, upper, reach);
     expect_every_pair(upper, lower, reach);
@@ -81,17 +81,17 @@ TEST(Candidates, EqualBruteForceOnFlatStack) {
 }
 
 TEST(Candidates, EqualBruteForceOnCurvedStack) {
-  const Surface lower = grid(20, 20, 1.0, dome(5.0)), upper = grid(17, 17, 1.2, dome(5.4));
+  const TriMesh lower = grid(20, 20, 1.0, dome(5.0)), upper = grid(17, 17, 1.2, dome(5.4));
   expect_every_pair(lower, upper, 0.5);
   expect_every_pair(lower, upper, 1.5);
   expect_every_pair(upper, lower, 1.0);
 }
 
 TEST(Candidates, EqualBruteForceOnTouchingCoplanarAndCrossingSheets) {
-  const Surface lower = grid(20, 20, 1.0, flat(0.0));
-  const Surface coplanar = grid(9, 9, 1.7, flat(0.0));
-  const Surface touching = grid(20, 20, 1.0, [](double x, double) { return std::abs(x - 7.0); });
-  const Surface crossing =
+  const TriMesh lower = grid(20, 20, 1.0, flat(0.0));
+  const TriMesh coplanar = grid(9, 9, 1.7, flat(0.0));
+  const TriMesh touching = grid(20, 20, 1.0, [](double x, double) { return std::abs(x - 7.0); });
+  const TriMesh crossing =
       grid(20, 20, 1.0, [](double x, double y) { return 0.21 * (x - 9.3) + 0.1 * (y - 8.1); });
   for (const double reach : {0.0, 0.4, 1.0}) {
     expect_every_pair(lower, coplanar, reach);
@@ -102,15 +102,15 @@ TEST(Candidates, EqualBruteForceOnTouchingCoplanarAndCrossingSheets) {
 }
 
 TEST(Candidates, EqualBruteForceForFineSheetOverCoarse) {
-  const Surface coarse = grid(3, 3, 7.0, dome(5.0)), fine = grid(60, 60, 0.34, dome(5.2));
+  const TriMesh coarse = grid(3, 3, 7.0, dome(5.0)), fine = grid(60, 60, 0.34, dome(5.2));
   expect_every_pair(coarse, fine, 0.6);
   expect_every_pair(fine, coarse, 0.6);
 }
 
 TEST(Candidates, EqualBruteForceAfterManyRefits) {
-  const Surface flat_sheet = grid(20, 20, 1.0, flat(0.0));
-  Surface lower = flat_sheet;
-  const Surface upper = grid(20, 20, 1.0, dome(4.5));
+  const TriMesh flat_sheet = grid(20, 20, 1.0, flat(0.0));
+  TriMesh lower = flat_sheet;
+  const TriMesh upper = grid(20, 20, 1.0, dome(4.5));
   SheetTree tree(lower.x, lower.triangles);
   std::mt19937 random(7);
   std::normal_distribution<double> shake(0.0, 0.2);
@@ -137,19 +137,19 @@ TEST(Candidates, EqualBruteForceAfterManyRefits) {
 }
 
 TEST(Candidates, RefittedTreeAnswersLikeANewOne) {
-  const Surface start = grid(15, 15, 1.0, flat(0.0)), end = grid(15, 15, 1.0, dome(6.0));
+  const TriMesh start = grid(15, 15, 1.0, flat(0.0)), end = grid(15, 15, 1.0, dome(6.0));
   SheetTree refitted(start.x, start.triangles);
   refitted.refit(end.x);
   const SheetTree fresh(end.x, end.triangles);
-  const Surface nodes = grid(15, 15, 1.0, dome(6.5));
+  const TriMesh nodes = grid(15, 15, 1.0, dome(6.5));
   const auto answer = candidates(fresh, nodes.x, 1.0);
   EXPECT_GT(answer.size(), 100u);
   EXPECT_EQ(candidates(refitted, nodes.x, 1.0), answer);
 }
 
 TEST(Candidates, SingleTriangleSheet) {
-  Surface master{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
-  const Surface slave{{{0.2, 0.2, 0.5}, {0.2, 0.2, 0.6}, {-0.5, 0, 0}, {-0.4, -0.4, 0}}, {}};
+  TriMesh master{{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}}, {{0, 1, 2}}};
+  const TriMesh slave{{{0.2, 0.2, 0.5}, {0.2, 0.2, 0.6}, {-0.5, 0, 0}, {-0.4, -0.4, 0}}, {}};
   const std::vector<Candidate> first{{0, 0}, {2, 0}}; // the corner node is 0.57 away
   EXPECT_EQ(candidates(SheetTree(master.x, master.triangles), slave.x, 0.5), first);
   SheetTree tree(master.x, master.triangles);
@@ -161,9 +161,9 @@ TEST(Candidates, SingleTriangleSheet) {
 }
 
 TEST(Candidates, DegenerateTrianglesAreTheirSegmentOrPoint) {
-  const Surface master{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}, {5, 5, 5}, {5, 5, 5}},
+  const TriMesh master{{{0, 0, 0}, {1, 0, 0}, {2, 0, 0}, {5, 5, 5}, {5, 5, 5}, {5, 5, 5}},
                        {{0, 1, 2}, {0, 2, 1}, {3, 4, 5}, {0, 0, 2}, {3, 3, 3}}};
-  const Surface slave{{{1.5, 0.5, 0}, {5, 5, 5.5}, {2.6, 0, 0}}, {}};
+  const TriMesh slave{{{1.5, 0.5, 0}, {5, 5, 5.5}, {2.6, 0, 0}}, {}};
   const std::vector<Candidate> expected{{0, 0}, {0, 1}, {0, 3}, {1, 2}, {1, 4}};
   EXPECT_EQ(candidates(SheetTree(master.x, master.triangles), slave.x, 0.5), expected);
   EXPECT_EQ(every_pair(master, slave.x, 0.5), expected);
@@ -171,7 +171,7 @@ TEST(Candidates, DegenerateTrianglesAreTheirSegmentOrPoint) {
 
 // Many triangles in one place give the tree's splitter nothing to separate.
 TEST(Candidates, EqualBruteForceForCoincidentTriangles) {
-  Surface master = grid(2, 2, 1.0, flat(0.0));
+  TriMesh master = grid(2, 2, 1.0, flat(0.0));
   const std::vector<Triangle> once = master.triangles;
   for (int k = 0; k < 200; ++k)
     master.triangles.insert(master.triangles.end(), once.begin(), once.end());
@@ -179,7 +179,7 @@ TEST(Candidates, EqualBruteForceForCoincidentTriangles) {
 }
 
 TEST(Candidates, ReachZeroFindsExactTouchOnly) {
-  const Surface master = grid(4, 4, 1.0, flat(0.0));
+  const TriMesh master = grid(4, 4, 1.0, flat(0.0));
   const SheetTree tree(master.x, master.triangles);
   const std::vector<Vec3> nodes{
       {1.5, 1.25, 0.0}, {1.5, 1.25, 1e-9}, {1.5, 1.5, 0.0}, {-1e-9, 1.5, 0.0}, {2.0, 2.0, 0.0}};
@@ -200,7 +200,7 @@ TEST(Candidates, EqualBruteForceAtTheEdgeOfReach) {
   int accepted = 0;
   for (int round = 0; round < 300; ++round) {
     const Vec3 far = 1e4 * vector();
-    Surface master;
+    TriMesh master;
     for (int k = 0; k < 12; ++k)
       master.x.push_back(far + vector());
     for (int k = 0; k < 12; k += 3)
@@ -228,7 +228,7 @@ TEST(Candidates, EqualBruteForceAtTheEdgeOfReach) {
 }
 
 TEST(Candidates, AppendAndKeepWhatIsThere) {
-  const Surface master = grid(2, 2, 1.0, flat(0.0));
+  const TriMesh master = grid(2, 2, 1.0, flat(0.0));
   const SheetTree tree(master.x, master.triangles);
   std::vector<Candidate> out{{7, 9}, {7, 8}};
   const std::vector<Vec3> nodes{{0.5, 0.25, 0.1}};
@@ -237,7 +237,7 @@ TEST(Candidates, AppendAndKeepWhatIsThere) {
 }
 
 TEST(Candidates, SeveralThreadsMayAskOneTree) {
-  const Surface lower = grid(30, 30, 0.7, dome(5.0)), upper = grid(30, 30, 0.7, dome(5.3));
+  const TriMesh lower = grid(30, 30, 0.7, dome(5.0)), upper = grid(30, 30, 0.7, dome(5.3));
   const SheetTree tree(lower.x, lower.triangles);
   const auto expected = every_pair(lower, upper.x, 0.8);
   ASSERT_GT(expected.size(), 1000u);
@@ -252,7 +252,7 @@ TEST(Candidates, SeveralThreadsMayAskOneTree) {
 }
 
 TEST(Candidates, WrongInputIsRefused) {
-  Surface sheet = grid(2, 2, 1.0, flat(0.0));
+  TriMesh sheet = grid(2, 2, 1.0, flat(0.0));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(SheetTree(sheet.x, {}), std::invalid_argument);
   EXPECT_THROW(SheetTree(sheet.x, std::vector<Triangle>{{0, 1, 9}}), std::invalid_argument);

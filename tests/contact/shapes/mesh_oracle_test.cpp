@@ -28,8 +28,8 @@ Kernel::Point_3 to_cgal(const Vec3& x) {
 }
 
 /// A ball whose nodes are pushed in and out: ridges, valleys, saddles and spikes.
-Surface urchin(unsigned seed) {
-  Surface s = tessellate(Sphere{1.0}, 0.5, 0.0);
+TriMesh urchin(unsigned seed) {
+  TriMesh s = tessellate(Sphere{1.0}, 0.5, 0.0);
   RandomPoints random(seed);
   for (Vec3& x : s.x)
     x *= random.in(6.0, 18.0);
@@ -41,7 +41,7 @@ struct Oracle {
   Tree tree;
   std::unique_ptr<CGAL::Side_of_triangle_mesh<Mesh, Kernel>> side;
 
-  explicit Oracle(const Surface& s) {
+  explicit Oracle(const TriMesh& s) {
     std::vector<Mesh::Vertex_index> nodes;
     for (const Vec3& x : s.x)
       nodes.push_back(mesh.add_vertex(to_cgal(x)));
@@ -75,7 +75,7 @@ bool expect_right(const ToolShape& shape, const Oracle& oracle, const Vec3& p) {
 
 TEST(MeshOracle, DistanceSideAndNormalAgreeWithCgal) {
   int points = 0, compared = 0, far = 0;
-  for (const Surface& s : {tessellate(Box{Vec3(20, 14, 10)}, 5.0, 0.0), urchin(1), urchin(2),
+  for (const TriMesh& s : {tessellate(Box{Vec3(20, 14, 10)}, 5.0, 0.0), urchin(1), urchin(2),
                            tessellate(Annulus{8, 20, 6, 2}, 3.0, 0.0)}) {
     const ToolShape shape = make_mesh_shape(s, nullptr);
     const Oracle oracle(s);

@@ -21,11 +21,11 @@ using testing::ask;
 using testing::RandomPoints;
 constexpr double pi = std::numbers::pi;
 
-const Vec3& corner(const Surface& s, const Triangle& t, std::size_t k) {
+const Vec3& corner(const TriMesh& s, const Triangle& t, std::size_t k) {
   return s.x[static_cast<std::size_t>(t[k])];
 }
 
-double brute_force_distance(const Surface& s, const Vec3& p) {
+double brute_force_distance(const TriMesh& s, const Vec3& p) {
   using K = CGAL::Simple_cartesian<double>;
   const auto to = [](const Vec3& x) { return K::Point_3(x.x(), x.y(), x.z()); };
   double best = std::numeric_limits<double>::infinity();
@@ -37,7 +37,7 @@ double brute_force_distance(const Surface& s, const Vec3& p) {
 }
 
 /// Turns of the surface about p: 1 inside, 0 outside.
-double winding(const Surface& s, const Vec3& p) {
+double winding(const TriMesh& s, const Vec3& p) {
   double angle = 0.0;
   for (const Triangle& t : s.triangles) {
     const Vec3 a = corner(s, t, 0) - p, b = corner(s, t, 1) - p, c = corner(s, t, 2) - p;
@@ -49,8 +49,8 @@ double winding(const Surface& s, const Vec3& p) {
 }
 
 /// A ball whose every node is pushed in or out: sharp ridges, valleys, saddles and spikes.
-Surface urchin(unsigned seed) {
-  Surface s = tessellate(Sphere{1.0}, 0.5, 0.0);
+TriMesh urchin(unsigned seed) {
+  TriMesh s = tessellate(Sphere{1.0}, 0.5, 0.0);
   RandomPoints random(seed);
   for (Vec3& x : s.x)
     x *= random.in(5.0, 20.0);
@@ -58,9 +58,9 @@ Surface urchin(unsigned seed) {
 }
 
 /// An L: inner edges and corners.
-Surface bracket() {
+TriMesh bracket() {
   const std::vector<Vec2> outline{{0, 0}, {30, 0}, {30, 10}, {10, 10}, {10, 30}, {0, 30}};
-  Surface s;
+  TriMesh s;
   for (const double z : {0.0, 10.0})
     for (const Vec2& q : outline)
       s.x.emplace_back(q.x(), q.y(), z);
@@ -76,7 +76,7 @@ Surface bracket() {
   return s;
 }
 
-std::vector<Surface> solids() {
+std::vector<TriMesh> solids() {
   return {tessellate(Box{Vec3(20, 14, 10)}, 5.0, 0.0), bracket(), urchin(1), urchin(2),
           tessellate(Annulus{8, 20, 6, 2}, 3.0, 0.0)};
 }
@@ -84,7 +84,7 @@ std::vector<Surface> solids() {
 const Box3 around(Vec3(-25, -25, -25), Vec3(35, 35, 25));
 
 /// Random points, those of the mesh's nodes, edges and faces, and near them.
-std::vector<Vec3> telling_points(const Surface& s, int count, unsigned seed) {
+std::vector<Vec3> telling_points(const TriMesh& s, int count, unsigned seed) {
   RandomPoints random(seed);
   std::vector<Vec3> points;
   for (int i = 0; i < count; ++i) {
@@ -106,7 +106,7 @@ TEST(MeshShape, BoxMeshEqualsClosedForm) {
   const Box box{Vec3(20, 14, 10)};
   for (const double size : {50.0, 5.0, 2.5}) {
     MeshReport report;
-    const Surface surface = tessellate(box, size, 0.0);
+    const TriMesh surface = tessellate(box, size, 0.0);
     const ToolShape mesh = make_mesh_shape(surface, &report);
     EXPECT_TRUE(report.closed);
     EXPECT_FALSE(report.flipped);
@@ -119,7 +119,7 @@ TEST(MeshShape, BoxMeshEqualsClosedForm) {
 
 TEST(MeshShape, AgreesWithBruteForce) {
   int negative = 0, positive = 0;
-  for (const Surface& surface : solids()) {
+  for (const TriMesh& surface : solids()) {
     const ToolShape mesh = make_mesh_shape(surface, nullptr);
     for (const Vec3& p : telling_points(surface, 1000, 2)) {
       const double s = ask(mesh, p).distance;
@@ -139,12 +139,12 @@ TEST(MeshShape, AgreesWithBruteForce) {
 }
 
 TEST(MeshShape, NormalIsGradient) {
-  for (const Surface& surface : solids())
+  for (const TriMesh& surface : solids())
     EXPECT_GT(testing::check_gradient(make_mesh_shape(surface, nullptr), around, 2000, 3), 1800);
 }
 
 TEST(MeshShape, NormalsAreUnitEverywhere) {
-  for (const Surface& surface : solids()) {
+  for (const TriMesh& surface : solids()) {
     const ToolShape mesh = make_mesh_shape(surface, nullptr);
     for (const Vec3& p : telling_points(surface, 1000, 4))
       ASSERT_NEAR(ask(mesh, p).normal.norm(), 1.0, 1e-12) << p.transpose();
@@ -152,7 +152,7 @@ TEST(MeshShape, NormalsAreUnitEverywhere) {
 }
 
 TEST(MeshShape, NormalsOfNodesAndFacesPointOut) {
-  for (const Surface& surface : solids()) {
+  for (const TriMesh& surface : solids()) {
     const ToolShape mesh = make_mesh_shape(surface, nullptr);
     std::vector<Vec3> points = surface.x;
     for (const Triangle& t : surface.triangles)
@@ -169,12 +169,12 @@ TEST(MeshShape, NormalsOfNodesAndFacesPointOut) {
 }
 
 TEST(MeshShape, DistanceChangesNoFasterThanTheWay) {
-  for (const Surface& surface : solids())
+  for (const TriMesh& surface : solids())
     testing::check_lipschitz(make_mesh_shape(surface, nullptr), around, 3000, 5);
 }
 
 TEST(MeshShape, LowerBoundIsBelowEveryPointOfTheBox) {
-  for (const Surface& surface : solids())
+  for (const TriMesh& surface : solids())
     testing::check_lower_bound(make_mesh_shape(surface, nullptr), around, 300, 6);
 }
 
@@ -183,7 +183,7 @@ bool same_bits(const SurfacePoint& a, const SurfacePoint& b) {
 }
 
 TEST(MeshShape, AnswerDoesNotDependOnHint) {
-  for (const Surface& surface : solids()) {
+  for (const TriMesh& surface : solids()) {
     const ToolShape mesh = make_mesh_shape(surface, nullptr);
     std::vector<Vec3> points = telling_points(surface, 500, 7);
     for (int i = -4; i <= 4; ++i) // equally far from several faces
@@ -205,7 +205,7 @@ TEST(MeshShape, AnswerDoesNotDependOnHint) {
 }
 
 TEST(MeshShape, ThreadsGetTheSameAnswers) {
-  const Surface surface = urchin(3);
+  const TriMesh surface = urchin(3);
   const ToolShape mesh = make_mesh_shape(surface, nullptr); // the threads are the first to ask
   const std::vector<Vec3> points = telling_points(surface, 2000, 9);
   std::vector<std::vector<SurfacePoint>> answers(4);
@@ -240,7 +240,7 @@ TEST(MeshShape, OpenMeshTakesTheSideOfItsTriangles) {
 }
 
 TEST(MeshShape, InwardMeshIsTurnedOutward) {
-  Surface inward = bracket();
+  TriMesh inward = bracket();
   for (Triangle& t : inward.triangles)
     std::swap(t[1], t[2]);
   MeshReport report;
@@ -251,8 +251,8 @@ TEST(MeshShape, InwardMeshIsTurnedOutward) {
 }
 
 TEST(MeshShape, MixedOrientationAndUnmergedCornersAreRepaired) {
-  const Surface good = urchin(4);
-  Surface soup; // every triangle with its own corners, every third turned over
+  const TriMesh good = urchin(4);
+  TriMesh soup; // every triangle with its own corners, every third turned over
   for (std::size_t f = 0; f < good.triangles.size(); ++f) {
     const auto n = static_cast<std::int32_t>(soup.x.size());
     for (std::size_t k = 0; k < 3; ++k)
@@ -271,8 +271,8 @@ TEST(MeshShape, MixedOrientationAndUnmergedCornersAreRepaired) {
 }
 
 TEST(MeshShape, AHollowPartIsEmptyInside) {
-  Surface both = tessellate(Box{Vec3(20, 20, 20)}, 50.0, 0.0);
-  const Surface hole = tessellate(Box{Vec3(10, 10, 10)}, 50.0, 0.0);
+  TriMesh both = tessellate(Box{Vec3(20, 20, 20)}, 50.0, 0.0);
+  const TriMesh hole = tessellate(Box{Vec3(10, 10, 10)}, 50.0, 0.0);
   const auto n = static_cast<std::int32_t>(both.x.size());
   both.x.insert(both.x.end(), hole.x.begin(), hole.x.end());
   for (const Triangle& t : hole.triangles)
@@ -284,7 +284,7 @@ TEST(MeshShape, AHollowPartIsEmptyInside) {
 }
 
 TEST(MeshShape, AFlatFaceInAClosedMeshLeavesItClosed) {
-  Surface s; // a tetrahedron with a node in the middle of one edge, used by one of its two faces
+  TriMesh s; // a tetrahedron with a node in the middle of one edge, used by one of its two faces
   s.x = {Vec3(0, 0, 0), Vec3(10, 0, 0), Vec3(0, 10, 0), Vec3(0, 0, 10), Vec3(5, 0, 0)};
   s.triangles = {{0, 2, 4}, {4, 2, 1}, {0, 1, 3}, {0, 4, 1}, {1, 2, 3}, {0, 3, 2}};
   MeshReport report;
@@ -295,7 +295,7 @@ TEST(MeshShape, AFlatFaceInAClosedMeshLeavesItClosed) {
   EXPECT_NEAR(ask(mesh, Vec3(5, -0.25, 1)).distance, 0.25, 1e-13);
 }
 
-void expect_rejected(const Surface& surface, const std::string& reason) {
+void expect_rejected(const TriMesh& surface, const std::string& reason) {
   try {
     make_mesh_shape(surface, nullptr);
     ADD_FAILURE() << "accepted, expected: " << reason;
@@ -305,7 +305,7 @@ void expect_rejected(const Surface& surface, const std::string& reason) {
 }
 
 TEST(MeshShape, MoebiusStripIsRejected) {
-  Surface strip;
+  TriMesh strip;
   constexpr int n = 24;
   for (int i = 0; i < n; ++i)
     for (const double w : {-3.0, 3.0}) {
@@ -322,13 +322,13 @@ TEST(MeshShape, MoebiusStripIsRejected) {
 }
 
 TEST(MeshShape, BrokenMeshesAreRejectedWithTheReason) {
-  Surface fin = bracket(); // a third face on one edge
+  TriMesh fin = bracket(); // a third face on one edge
   fin.x.emplace_back(-5, -5, -5);
   fin.triangles.push_back({0, 1, 12});
   expect_rejected(fin, "not orientable: 3 faces share the edge from (");
 
-  Surface crossing = bracket();
-  for (const Surface& other : {bracket()}) {
+  TriMesh crossing = bracket();
+  for (const TriMesh& other : {bracket()}) {
     for (const Vec3& x : other.x)
       crossing.x.push_back(x + Vec3(3, 4, 5));
     for (const Triangle& t : other.triangles)
@@ -336,20 +336,20 @@ TEST(MeshShape, BrokenMeshesAreRejectedWithTheReason) {
   }
   expect_rejected(crossing, "crosses or touches itself at");
 
-  Surface infinite = bracket();
+  TriMesh infinite = bracket();
   infinite.x[3].y() = std::numeric_limits<double>::quiet_NaN();
   expect_rejected(infinite, "a coordinate of point 3 is not a finite number");
 
-  Surface wrong = bracket();
+  TriMesh wrong = bracket();
   wrong.triangles[2][1] = 99;
   expect_rejected(wrong, "face 2 names point 99, but there are only 12");
   wrong.triangles[2][1] = -1;
   expect_rejected(wrong, "face 2 names point ");
 
-  expect_rejected(Surface{}, "it holds no faces");
-  expect_rejected(Surface{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)}, {{0, 1, 2}}},
+  expect_rejected(TriMesh{}, "it holds no faces");
+  expect_rejected(TriMesh{{Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(2, 0, 0)}, {{0, 1, 2}}},
                   "none of its faces has an area");
-  expect_rejected(Surface{{Vec3(0, 0, 0), Vec3(1, 0, 0)}, {{0, 1, 1}}},
+  expect_rejected(TriMesh{{Vec3(0, 0, 0), Vec3(1, 0, 0)}, {{0, 1, 1}}},
                   "none of its faces has an area");
 }
 

@@ -110,7 +110,7 @@ TEST(RoundedShape, WithoutRadiusIsThePlainSharpFormulaToTheBit) {
     EXPECT_EQ(ask(box, p).distance, face ? q.maxCoeff() : q.cwiseMax(0.0).norm());
   });
   const std::array<int, 3> n{24, 17, 10}; // pieces of at most 3 mm
-  const Surface surface = tessellate(box, 3.0, 0.0);
+  const TriMesh surface = tessellate(box, 3.0, 0.0);
   EXPECT_EQ(surface.triangles.size(), 4u * (24 * 17 + 17 * 10 + 10 * 24));
   for (const Vec3& x : surface.x)
     for (int k = 0; k < 3; ++k) {

@@ -20,7 +20,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Mesh = CGAL::Surface_mesh<Kernel::Point_3>;
 constexpr double pi = std::numbers::pi;
 
-Mesh to_cgal(const Surface& s) {
+Mesh to_cgal(const TriMesh& s) {
   std::vector<Kernel::Point_3> points;
   for (const Vec3& x : s.x)
     points.emplace_back(x.x(), x.y(), x.z());
@@ -98,7 +98,7 @@ TEST(Tessellate, SolidsAreClosedOutwardAndFreeOfSelfIntersections) {
 TEST(Tessellate, FacetsStayWithinTheSagitta) {
   for (const Solid& solid : solids()) {
     SCOPED_TRACE(solid.name);
-    const Surface s = tessellate(solid.shape, 2.0, 0.0);
+    const TriMesh s = tessellate(solid.shape, 2.0, 0.0);
     for (const Vec3& x : s.x)
       ASSERT_NEAR(testing::ask(solid.shape, x).distance, 0.0, 1e-12);
     for (const auto& [a, b, c] : s.triangles) {
@@ -120,7 +120,7 @@ TEST(Tessellate, FacetNormalsAgreeWithTheShape) {
     shapes.push_back(solid.shape);
   for (const ToolShape& shape : shapes) {
     SCOPED_TRACE(shape.index());
-    const Surface s = tessellate(shape, shape.index() > 2 ? 8.0 : 1.5, 50.0);
+    const TriMesh s = tessellate(shape, shape.index() > 2 ? 8.0 : 1.5, 50.0);
     ASSERT_FALSE(s.triangles.empty());
     for (const auto& [a, b, c] : s.triangles) {
       const Vec3 &x = s.x[size_t(a)], &y = s.x[size_t(b)], &z = s.x[size_t(c)];
@@ -132,7 +132,7 @@ TEST(Tessellate, FacetNormalsAgreeWithTheShape) {
 }
 
 TEST(Tessellate, PlaneIsCutToItsExtent) {
-  const Surface s = tessellate(Plane{}, 10.0, 35.0);
+  const TriMesh s = tessellate(Plane{}, 10.0, 35.0);
   Box3 box;
   for (const Vec3& x : s.x)
     box.extend(x);
@@ -141,7 +141,7 @@ TEST(Tessellate, PlaneIsCutToItsExtent) {
 }
 
 TEST(Tessellate, OpenProfileGivesAnOpenSurface) {
-  const Surface s = tessellate(make_profile({{80, -120, 0}, {80, 0, 10}, {400, 0, 0}}), 20.0, 0.0);
+  const TriMesh s = tessellate(make_profile({{80, -120, 0}, {80, 0, 10}, {400, 0, 0}}), 20.0, 0.0);
   const Mesh mesh = to_cgal(s);
   EXPECT_FALSE(CGAL::is_closed(mesh));
   EXPECT_FALSE(PMP::does_self_intersect(mesh));

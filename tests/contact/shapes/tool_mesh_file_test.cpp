@@ -45,11 +45,11 @@ protected:
 
 const Box box{Vec3(20, 14, 10)};
 
-Surface box_mesh() {
+TriMesh box_mesh() {
   return tessellate(box, 5.0, 0.0);
 }
 
-std::string ascii_stl(const Surface& s) {
+std::string ascii_stl(const TriMesh& s) {
   std::ostringstream out;
   out << "solid box\n";
   for (const Triangle& t : s.triangles) {
@@ -68,7 +68,7 @@ void append(std::string& bytes, T value) {
   bytes.append(reinterpret_cast<const char*>(&value), sizeof value);
 }
 
-std::string binary_stl(const Surface& s, const std::string& title = "box") {
+std::string binary_stl(const TriMesh& s, const std::string& title = "box") {
   std::string bytes = title;
   bytes.resize(80, ' ');
   append(bytes, static_cast<std::uint32_t>(s.triangles.size()));
@@ -83,7 +83,7 @@ std::string binary_stl(const Surface& s, const std::string& title = "box") {
   return bytes;
 }
 
-std::string obj(const Surface& s) {
+std::string obj(const TriMesh& s) {
   std::ostringstream out;
   out << "# box\n";
   for (const Vec3& x : s.x)
@@ -93,7 +93,7 @@ std::string obj(const Surface& s) {
   return out.str();
 }
 
-std::string faces_of(const Surface& s) {
+std::string faces_of(const TriMesh& s) {
   std::ostringstream out;
   for (const Vec3& x : s.x)
     out << x.transpose() << "\n";
@@ -102,23 +102,23 @@ std::string faces_of(const Surface& s) {
   return out.str();
 }
 
-std::string off(const Surface& s) {
+std::string off(const TriMesh& s) {
   return "OFF\n" + std::to_string(s.x.size()) + " " + std::to_string(s.triangles.size()) + " 0\n" +
          faces_of(s);
 }
 
-std::string ply_header(const Surface& s, const std::string& format) {
+std::string ply_header(const TriMesh& s, const std::string& format) {
   return "ply\nformat " + format + " 1.0\nelement vertex " + std::to_string(s.x.size()) +
          "\nproperty double x\nproperty double y\nproperty double z\nelement face " +
          std::to_string(s.triangles.size()) +
          "\nproperty list uchar int vertex_indices\nend_header\n";
 }
 
-std::string ascii_ply(const Surface& s) {
+std::string ascii_ply(const TriMesh& s) {
   return ply_header(s, "ascii") + faces_of(s);
 }
 
-std::string binary_ply(const Surface& s) {
+std::string binary_ply(const TriMesh& s) {
   std::string bytes = ply_header(s, "binary_little_endian");
   for (const Vec3& x : s.x)
     for (int k = 0; k < 3; ++k)
@@ -132,7 +132,7 @@ std::string binary_ply(const Surface& s) {
 }
 
 TEST_F(ToolMeshFile, EveryFormatGivesTheSameBox) {
-  const Surface s = box_mesh();
+  const TriMesh s = box_mesh();
   for (const auto& file :
        {write("ascii.stl", ascii_stl(s)), write("binary.stl", binary_stl(s)),
         write("liar.stl", binary_stl(s, "solid but binary")), write("UPPER.STL", binary_stl(s)),
@@ -176,7 +176,7 @@ TEST_F(ToolMeshFile, ScaleTurnsMetresIntoMillimetres) {
 }
 
 TEST_F(ToolMeshFile, InwardFileIsTurnedOutward) {
-  Surface s = box_mesh();
+  TriMesh s = box_mesh();
   for (Triangle& t : s.triangles)
     std::swap(t[0], t[1]);
   MeshReport report;
@@ -203,7 +203,7 @@ TEST_F(ToolMeshFile, MissingEmptyAndForeignFilesAreNamed) {
 }
 
 TEST_F(ToolMeshFile, TruncatedFilesAreRejectedWhereverTheyEnd) {
-  const Surface s = box_mesh();
+  const TriMesh s = box_mesh();
   const std::vector<std::pair<std::string, std::string>> files{{"a.stl", ascii_stl(s)},
                                                                {"b.stl", binary_stl(s)},
                                                                {"c.off", off(s)},
@@ -228,14 +228,14 @@ TEST_F(ToolMeshFile, NumbersThatAreNoneAreRejected) {
   const auto spoiled = [](std::string text, const std::string& number, const std::string& by) {
     return text.replace(text.find(number), number.size(), by);
   };
-  const Surface s{{Vec3(1, 2, 3), Vec3(4.5, 6, 7), Vec3(1, 9, 3)}, {{0, 1, 2}}};
+  const TriMesh s{{Vec3(1, 2, 3), Vec3(4.5, 6, 7), Vec3(1, 9, 3)}, {{0, 1, 2}}};
   for (const std::string bad : {"nan", "inf", "-NaN"}) {
     expect_rejected(write("a.stl", spoiled(ascii_stl(s), "4.5", bad)), reason);
     expect_rejected(write("a.obj", spoiled(obj(s), "4.5", bad)), reason);
     expect_rejected(write("a.off", spoiled(off(s), "4.5", bad)), reason);
     expect_rejected(write("a.ply", spoiled(ascii_ply(s), "4.5", bad)), reason);
   }
-  Surface nan = s;
+  TriMesh nan = s;
   nan.x[1].x() = std::numeric_limits<double>::quiet_NaN();
   expect_rejected(write("b.stl", binary_stl(nan)), reason);
   nan.x[1].x() = std::numeric_limits<double>::infinity();
@@ -246,7 +246,7 @@ TEST_F(ToolMeshFile, NumbersThatAreNoneAreRejected) {
 }
 
 TEST_F(ToolMeshFile, CrossingSolidsAreRejected) {
-  Surface s = box_mesh();
+  TriMesh s = box_mesh();
   const auto n = static_cast<std::int32_t>(s.x.size());
   const std::vector<Triangle> first = s.triangles;
   for (std::int32_t i = 0; i < n; ++i)

@@ -15,11 +15,11 @@ namespace {
 
 /// A step of contacts with random memories and gaps up to 0.05 mm either way; nodes are points.
 struct RandomStep {
-  std::vector<ToolKernelPoint> points;
+  std::vector<ToolPlyKernelPoint> points;
   std::vector<std::int32_t> near;
   OwnedSheet nodes;
   std::vector<Vec3> force;
-  ToolKernelContact contact{};
+  ToolPlyKernelContact contact{};
 
   RandomStep(int count, const ContactLaw& law, double dt, Random& random)
       : near(static_cast<std::size_t>(count)),
@@ -30,7 +30,7 @@ struct RandomStep {
       const auto i = static_cast<std::size_t>(n);
       nodes.area[i] = 2.0 + signed_unit(random);
       nodes.motion[i] = 0.01 * random_vector(random);
-      ToolKernelPoint p{};
+      ToolPlyKernelPoint p{};
       if (n % 3 != 0) { // it touched
         Eigen::Map<Vec3>(p.s) = 0.01 * random_vector(random);
         p.damping_force = 0.1 * signed_unit(random);
@@ -43,7 +43,7 @@ struct RandomStep {
       p.node = n;
       points.push_back(p);
     }
-    contact.near_count = count;
+    contact.active_count = count;
     Eigen::Map<Vec3>(contact.tool_motion) = 0.01 * random_vector(random);
     Eigen::Map<Vec3>(contact.advance) = 0.01 * random_vector(random);
     contact.stiffness = law.stiffness;
@@ -54,9 +54,9 @@ struct RandomStep {
     contact.damping_per_dt = dt > 0.0 ? law.damping / dt : 0.0;
   }
 
-  ToolKernelSums run(ToolKernelSums (*kernel)(const ToolKernelContact&)) {
+  ToolPlyKernelTotals run(ToolPlyKernelTotals (*kernel)(const ToolPlyKernelContact&)) {
     contact.points = points.data();
-    contact.near = near.data();
+    contact.active = near.data();
     contact.area = nodes.area.data();
     contact.motion = nodes.motion.data()->data();
     contact.force = force.data()->data();
@@ -66,7 +66,7 @@ struct RandomStep {
 
 /// The force (N) on the node of one point, whose memory is renewed.
 Vec3 force_by_law(const ContactLaw& law, double dt, const RandomStep& step,
-                  const ToolKernelPoint& p, ContactMemory& m, ContactSums& sums) {
+                  const ToolPlyKernelPoint& p, ContactHistory& m, ContactTotals& sums) {
   m.s = Eigen::Map<const Vec3>(p.s);
   m.damping_force = p.damping_force, m.normal_force = p.normal_force, m.slip = p.slip;
   const auto n = static_cast<std::size_t>(p.node);
@@ -86,7 +86,7 @@ Vec3 force_by_law(const ContactLaw& law, double dt, const RandomStep& step,
   const Vec3 slip = step.nodes.motion[n] - Eigen::Map<const Vec3>(step.contact.tool_motion);
   const Vec3 f =
       pressed.total * normal + friction_force(law, area, pressed.total, normal, slip, m, sums);
-  sums.elastic += spring_energy(law, area, depth, m);
+  sums.elastic += tangent_energy(law, area, depth, m);
   sums.penetration = std::max(sums.penetration, depth);
   ++sums.touching;
   return f;
@@ -99,14 +99,14 @@ TEST(ToolKernelOracle, FollowsTheLawOfOneContact) {
       const ContactLaw law{3.0, 1e-6, 0.2, 0.08}; // gaps of up to 0.07 mm
       RandomStep step(count, law, dt, random);
       const RandomStep before = step;
-      const ToolKernelSums sums = step.run(tool_kernel_generic);
-      ContactSums expected;
+      const ToolPlyKernelTotals sums = step.run(tool_ply_kernel_generic);
+      ContactTotals expected;
       Vec3 on_nodes = Vec3::Zero();
       for (std::size_t i = 0; i < before.points.size(); ++i) {
-        ContactMemory m;
+        ContactHistory m;
         const Vec3 f = force_by_law(law, dt, before, before.points[i], m, expected);
         on_nodes += f;
-        const ToolKernelPoint& p = step.points[i];
+        const ToolPlyKernelPoint& p = step.points[i];
         EXPECT_LE((step.force[i] - f).norm(), 1e-14) << i;
         EXPECT_LE((Eigen::Map<const Vec3>(p.s) - m.s).norm(), 1e-16) << i;
         EXPECT_NEAR(p.damping_force, m.damping_force, 1e-15) << i;
@@ -128,10 +128,11 @@ TEST(ToolKernelOracle, GivesTheSameBitsOnEveryProcessor) {
   Random random(4);
   for (int count = 1; count < 40; ++count) {
     RandomStep a(count, {3.0, 1e-6, 0.2, 0.08}, 1e-6, random), b = a;
-    const ToolKernelSums sums = a.run(tool_kernel_generic), other = b.run(tool_kernel_avx2);
+    const ToolPlyKernelTotals sums = a.run(tool_ply_kernel_generic),
+                              other = b.run(tool_ply_kernel_avx2);
     ASSERT_EQ(std::memcmp(a.force.data(), b.force.data(), a.force.size() * sizeof(Vec3)), 0);
     ASSERT_EQ(
-        std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(ToolKernelPoint)),
+        std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(ToolPlyKernelPoint)),
         0);
     ASSERT_EQ(sums.elastic, other.elastic);
     ASSERT_EQ(sums.friction, other.friction);

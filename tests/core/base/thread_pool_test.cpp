@@ -12,29 +12,29 @@
 namespace plyform {
 namespace {
 
-TEST(ThreadTeam, DoesEveryTaskOnce) {
+TEST(ThreadPool, DoesEveryTaskOnce) {
   for (const int threads : {1, 2, 3, 4, 7}) {
-    ThreadTeam team(threads);
-    EXPECT_EQ(team.size(), threads);
+    ThreadPool pool(threads);
+    EXPECT_EQ(pool.size(), threads);
     for (const int count : {0, 1, 2, 3, 7, 8, 100, 1000}) {
       std::vector<std::atomic<int>> done(static_cast<std::size_t>(count));
-      team.run(count, [&](int i) { ++done.at(static_cast<std::size_t>(i)); });
+      pool.run(count, [&](int i) { ++done.at(static_cast<std::size_t>(i)); });
       for (const auto& n : done)
         EXPECT_EQ(n.load(), 1) << threads << " threads, " << count << " tasks";
     }
   }
 }
 
-TEST(ThreadTeam, WhatARoundWroteIsSeenByTheNext) {
+TEST(ThreadPool, WhatARoundWroteIsSeenByTheNext) {
   // Plain integers: each round reads what other threads wrote in the one before. With the thread
   // sanitizer a missing hand-over is a failure by itself.
   constexpr int size = 37, rounds = 3000;
   for (const int threads : {2, 3}) {
-    ThreadTeam team(threads);
+    ThreadPool pool(threads);
     std::vector<long> now(size, 1), next(size, 0);
     std::vector<long> expected = now;
     for (int round = 0; round < rounds; ++round) {
-      team.run(size, [&](int i) {
+      pool.run(size, [&](int i) {
         const auto n = static_cast<std::size_t>(i);
         next[n] = (now[n] + now[(n + 1) % size] + i) % 1000003;
       });
@@ -48,20 +48,20 @@ TEST(ThreadTeam, WhatARoundWroteIsSeenByTheNext) {
   }
 }
 
-TEST(ThreadTeam, WakesAfterALongPause) {
-  ThreadTeam team(2);
+TEST(ThreadPool, WakesAfterALongPause) {
+  ThreadPool pool(2);
   std::atomic<int> sum{0};
   for (int round = 0; round < 5; ++round) {
-    team.run(10, [&](int i) { sum += i; });
+    pool.run(10, [&](int i) { sum += i; });
     std::this_thread::sleep_for(std::chrono::milliseconds(20)); // helpers have gone to sleep
   }
   EXPECT_EQ(sum.load(), 5 * 45);
 }
 
-TEST(ThreadTeam, ComesAndGoesWithoutWork) {
+TEST(ThreadPool, ComesAndGoesWithoutWork) {
   for (int i = 0; i < 50; ++i) {
-    const ThreadTeam team(3); // ends while its helpers may not have begun
-    EXPECT_EQ(team.size(), 3);
+    const ThreadPool pool(3); // ends while its helpers may not have begun
+    EXPECT_EQ(pool.size(), 3);
   }
 }
 

@@ -28,14 +28,14 @@ struct CurveFile {
 
 struct Reading {
   std::optional<Curve> curve;
-  Findings findings;
+  Diagnostics diagnostics;
   std::string file;
   /// Every message, the file's name as FILE.
   std::string texts() const {
     std::string all;
-    for (const std::string& warning : findings.warnings)
+    for (const std::string& warning : diagnostics.warnings)
       all += warning + "\n";
-    for (const CaseError& error : findings.errors)
+    for (const CaseError& error : diagnostics.errors)
       all += error.text() + "\n";
     for (std::size_t at; (at = all.find(file)) != std::string::npos;)
       all.replace(at, file.size(), "FILE");
@@ -47,14 +47,14 @@ Reading read(const std::string& text, const std::string& x = "", const std::stri
   const CurveFile file(text);
   Reading reading;
   reading.file = file.path.string();
-  reading.curve = read_curve(file.path, x, y, reading.findings);
+  reading.curve = read_curve(file.path, x, y, reading.diagnostics);
   return reading;
 }
 
 Reading checked(const std::string& text) {
   Reading reading = read(text);
   EXPECT_TRUE(reading.curve) << reading.texts();
-  if (reading.curve && !check_curve(*reading.curve, "extension", "load", reading.findings))
+  if (reading.curve && !check_curve(*reading.curve, "extension", "load", reading.diagnostics))
     reading.curve.reset();
   return reading;
 }
@@ -130,17 +130,17 @@ TEST(CurveFile, NamesEveryMistakeWithPlaceAndRemedy) {
     EXPECT_FALSE(reading.curve) << w.text;
     EXPECT_NE(reading.texts().find(w.message), std::string::npos)
         << w.text << "expected: " << w.message << "\nfound: " << reading.texts();
-    EXPECT_LE(reading.findings.errors.size(), 2u) << reading.texts();
+    EXPECT_LE(reading.diagnostics.errors.size(), 2u) << reading.texts();
   }
 }
 
 TEST(CurveFile, SaysWhatCannotBeRead) {
-  Findings findings;
-  EXPECT_FALSE(read_curve("nosuch.csv", "", "", findings));
-  EXPECT_FALSE(read_curve(::testing::TempDir(), "", "", findings));
-  ASSERT_EQ(findings.errors.size(), 2u);
-  EXPECT_NE(findings.errors[0].text().find("the curve cannot be opened"), std::string::npos);
-  EXPECT_NE(findings.errors[1].text().find("is a folder"), std::string::npos);
+  Diagnostics diagnostics;
+  EXPECT_FALSE(read_curve("nosuch.csv", "", "", diagnostics));
+  EXPECT_FALSE(read_curve(::testing::TempDir(), "", "", diagnostics));
+  ASSERT_EQ(diagnostics.errors.size(), 2u);
+  EXPECT_NE(diagnostics.errors[0].text().find("the curve cannot be opened"), std::string::npos);
+  EXPECT_NE(diagnostics.errors[1].text().find("is a folder"), std::string::npos);
   EXPECT_NE(read(std::string("\xFF\xFE\x31\0", 4)).texts().find("no plain text in UTF-8"),
             std::string::npos);
 }
@@ -151,7 +151,7 @@ TEST(CurveFile, ReportsTheFirstOfManyMistakes) {
     text += "x1,x2\n";
   const Reading reading = read(text);
   EXPECT_FALSE(reading.curve);
-  EXPECT_EQ(reading.findings.errors.size(), 6u);
+  EXPECT_EQ(reading.diagnostics.errors.size(), 6u);
   EXPECT_NE(reading.texts().find("195 more mistakes like these"), std::string::npos);
 }
 
@@ -197,7 +197,7 @@ TEST(CurveChecks, RefuseWhatIsNoLoading) {
   for (const Wrong& w : wrong) {
     const Reading reading = checked(w.text);
     EXPECT_FALSE(reading.curve) << w.text;
-    EXPECT_EQ(reading.findings.errors.size(), 1u) << reading.texts();
+    EXPECT_EQ(reading.diagnostics.errors.size(), 1u) << reading.texts();
     EXPECT_NE(reading.texts().find(w.message), std::string::npos)
         << w.text << "expected: " << w.message << "\nfound: " << reading.texts();
   }

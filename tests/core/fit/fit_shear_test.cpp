@@ -59,20 +59,20 @@ Curve noisy_curve(Curve curve, double of_load, double of_largest, unsigned seed)
   return curve;
 }
 
-std::string texts(const Findings& findings) {
+std::string texts(const Diagnostics& diagnostics) {
   std::string all;
-  for (const std::string& warning : findings.warnings)
+  for (const std::string& warning : diagnostics.warnings)
     all += warning + "\n";
-  for (const CaseError& error : findings.errors)
+  for (const CaseError& error : diagnostics.errors)
     all += error.text() + "\n";
   return all;
 }
 
 ShearFit found(const Curve& curve, const ShearTest& test, const FitOptions& options = {}) {
-  Findings findings;
-  const auto fit = identify_shear(curve, test, glass(), options, findings);
-  EXPECT_TRUE(fit) << texts(findings);
-  EXPECT_TRUE(findings.warnings.empty()) << texts(findings);
+  Diagnostics diagnostics;
+  const auto fit = identify_shear(curve, test, glass(), options, diagnostics);
+  EXPECT_TRUE(fit) << texts(diagnostics);
+  EXPECT_TRUE(diagnostics.warnings.empty()) << texts(diagnostics);
   return fit ? *fit : ShearFit{};
 }
 
@@ -119,10 +119,11 @@ TEST(IdentifyShear, NoiseDoesNotPullTheLawDown) {
   double mean = 0.0;
   constexpr int tests = 400;
   for (unsigned seed = 1; seed <= tests; ++seed) {
-    Findings findings;
-    const auto fit = identify_shear(noisy_curve(theory(strip, glass()), 0.05, 0.0, seed), strip,
-                                    glass(), {.coefficients = 3, .from = 0.0, .to = 1.0}, findings);
-    ASSERT_TRUE(fit) << texts(findings);
+    Diagnostics diagnostics;
+    const auto fit =
+        identify_shear(noisy_curve(theory(strip, glass()), 0.05, 0.0, seed), strip, glass(),
+                       {.coefficients = 3, .from = 0.0, .to = 1.0}, diagnostics);
+    ASSERT_TRUE(fit) << texts(diagnostics);
     mean += fit->law.at(30.0 * deg).value / glass().shear.at(30.0 * deg).value / tests;
   }
   EXPECT_NEAR(mean, 1.0, 0.002); // scatter of one about 1 %, of the mean 0.05 %
@@ -182,11 +183,11 @@ TEST(IdentifyShear, GivesTheRowsForPlotting) {
 /// One message, and no law.
 void expect_refused(const Curve& curve, const ShearTest& test, const FitOptions& options,
                     const std::string& message) {
-  Findings findings;
-  EXPECT_FALSE(identify_shear(curve, test, glass(), options, findings)) << message;
-  EXPECT_EQ(findings.errors.size(), 1u) << texts(findings);
-  EXPECT_NE(texts(findings).find(message), std::string::npos)
-      << "expected: " << message << "\nfound: " << texts(findings);
+  Diagnostics diagnostics;
+  EXPECT_FALSE(identify_shear(curve, test, glass(), options, diagnostics)) << message;
+  EXPECT_EQ(diagnostics.errors.size(), 1u) << texts(diagnostics);
+  EXPECT_NE(texts(diagnostics).find(message), std::string::npos)
+      << "expected: " << message << "\nfound: " << texts(diagnostics);
 }
 
 TEST(IdentifyShear, RefusesCurvesThatSayTooLittle) {
@@ -213,13 +214,13 @@ TEST(IdentifyShear, RefusesExtensionsBeyondLocking) {
 }
 
 TEST(IdentifyShear, RefusesAndWarnsOfNoiseWithItsSize) {
-  Findings findings;
+  Diagnostics diagnostics;
   ASSERT_TRUE(identify_shear(noisy_curve(theory(strip, glass()), 0.08, 0.0, 5), strip, glass(), {},
-                             findings));
+                             diagnostics));
   EXPECT_NE(
-      texts(findings).find("warning: noise, or a shape that the law does not have: residuals "),
+      texts(diagnostics).find("warning: noise, or a shape that the law does not have: residuals "),
       std::string::npos)
-      << texts(findings);
+      << texts(diagnostics);
   Curve scattered = theory(strip, glass());
   for (std::size_t i = 0; i < scattered.size(); i += 2)
     scattered.y[i] *= 0.5;
@@ -240,34 +241,34 @@ TEST(IdentifyShear, RefusesTorqueThatFallsOrIsNegative) {
 TEST(IdentifyShear, WarnsOfWhatLiesOutsideTheRange) {
   Fabric falling = glass();
   falling.shear.k = {1.0, -0.2}; // falls from 74 degrees on
-  Findings findings;
+  Diagnostics diagnostics;
   ASSERT_TRUE(
-      identify_shear(theory(strip, falling), strip, falling, {.coefficients = 2}, findings));
-  EXPECT_NE(texts(findings).find("beyond the range covered, from 74"), std::string::npos)
-      << texts(findings);
-  findings = {};
+      identify_shear(theory(strip, falling), strip, falling, {.coefficients = 2}, diagnostics));
+  EXPECT_NE(texts(diagnostics).find("beyond the range covered, from 74"), std::string::npos)
+      << texts(diagnostics);
+  diagnostics = {};
   ASSERT_TRUE(identify_shear(theory(strip, glass()), strip, glass(),
-                             {.coefficients = 3, .from = 10.0 * deg}, findings));
-  EXPECT_NE(texts(findings).find("below, the law is a guess"), std::string::npos);
-  findings = {};
+                             {.coefficients = 3, .from = 10.0 * deg}, diagnostics));
+  EXPECT_NE(texts(diagnostics).find("below, the law is a guess"), std::string::npos);
+  diagnostics = {};
   Curve preloaded = theory(strip, glass());
   for (double& y : preloaded.y)
     y += 2.0;
-  identify_shear(preloaded, strip, glass(), {.coefficients = 1}, findings);
-  EXPECT_NE(texts(findings).find("subtract a preload"), std::string::npos) << texts(findings);
+  identify_shear(preloaded, strip, glass(), {.coefficients = 1}, diagnostics);
+  EXPECT_NE(texts(diagnostics).find("subtract a preload"), std::string::npos) << texts(diagnostics);
 }
 
 TEST(IdentifyShear, ThrowsForOptionsOutOfRange) {
-  Findings findings;
+  Diagnostics diagnostics;
   const Curve curve = theory(strip, glass());
   Fabric oblique = glass();
   oblique.fibre_angle = 1.0;
-  EXPECT_THROW(identify_shear(curve, strip, glass(), {.coefficients = 0}, findings),
+  EXPECT_THROW(identify_shear(curve, strip, glass(), {.coefficients = 0}, diagnostics),
                std::invalid_argument);
-  EXPECT_THROW(
-      identify_shear(curve, strip, glass(), {.coefficients = 3, .from = 1.0, .to = 1.0}, findings),
-      std::invalid_argument);
-  EXPECT_THROW(identify_shear(curve, strip, oblique, {}, findings), std::invalid_argument);
+  EXPECT_THROW(identify_shear(curve, strip, glass(), {.coefficients = 3, .from = 1.0, .to = 1.0},
+                              diagnostics),
+               std::invalid_argument);
+  EXPECT_THROW(identify_shear(curve, strip, oblique, {}, diagnostics), std::invalid_argument);
 }
 
 // ---- tension ----
@@ -284,10 +285,10 @@ Curve tension_curve(const Law& law, double to, int rows) {
 }
 
 TensionFit tension(const Curve& curve, const Strip& scale = {}) {
-  Findings findings;
-  const auto fit = identify_tension(curve, scale, {}, findings);
-  EXPECT_TRUE(fit) << texts(findings);
-  EXPECT_TRUE(findings.warnings.empty()) << texts(findings);
+  Diagnostics diagnostics;
+  const auto fit = identify_tension(curve, scale, {}, diagnostics);
+  EXPECT_TRUE(fit) << texts(diagnostics);
+  EXPECT_TRUE(diagnostics.warnings.empty()) << texts(diagnostics);
   return fit ? *fit : TensionFit{};
 }
 
@@ -373,18 +374,18 @@ TEST(IdentifyTension, RefusesWithOneMessage) {
        "--gauge-length if the column is a displacement"},
       {tension_curve(line, 0.01, 1), {}, "yarn.csv:1:1: error: 1 row with a strain above 0"}};
   for (const Wrong& w : wrong) {
-    Findings findings;
-    EXPECT_FALSE(identify_tension(w.curve, w.scale, {}, findings)) << w.message;
-    EXPECT_EQ(findings.errors.size(), 1u) << texts(findings);
-    EXPECT_NE(texts(findings).find(w.message), std::string::npos)
-        << "expected: " << w.message << "\nfound: " << texts(findings);
+    Diagnostics diagnostics;
+    EXPECT_FALSE(identify_tension(w.curve, w.scale, {}, diagnostics)) << w.message;
+    EXPECT_EQ(diagnostics.errors.size(), 1u) << texts(diagnostics);
+    EXPECT_NE(texts(diagnostics).find(w.message), std::string::npos)
+        << "expected: " << w.message << "\nfound: " << texts(diagnostics);
   }
-  Findings findings;
+  Diagnostics diagnostics;
   EXPECT_TRUE(identify_tension(tension_curve(broken, 0.01, 40), {},
-                               {.coefficients = 3, .from = 0.0, .to = 0.0079}, findings));
-  EXPECT_TRUE(identify_tension(tension_curve(line, 0.2, 40), {}, {}, findings));
-  EXPECT_NE(texts(findings).find("a strain of 0.2 is much for a yarn"), std::string::npos);
-  EXPECT_THROW(identify_tension(tension_curve(line, 0.2, 40), {.yarns = 0.0}, {}, findings),
+                               {.coefficients = 3, .from = 0.0, .to = 0.0079}, diagnostics));
+  EXPECT_TRUE(identify_tension(tension_curve(line, 0.2, 40), {}, {}, diagnostics));
+  EXPECT_NE(texts(diagnostics).find("a strain of 0.2 is much for a yarn"), std::string::npos);
+  EXPECT_THROW(identify_tension(tension_curve(line, 0.2, 40), {.yarns = 0.0}, {}, diagnostics),
                std::invalid_argument);
 }
 

@@ -379,11 +379,11 @@ TEST(CaseFile, HasTheFabricsBending) {
 // ---- keys ----
 
 /// All patterns of keys that stand in a file.
-void collect_keys(const Entry& table, const std::string& pattern, std::set<std::string>& keys) {
-  for (const Entry& child : table.children) {
+void collect_keys(const TomlNode& table, const std::string& pattern, std::set<std::string>& keys) {
+  for (const TomlNode& child : table.children) {
     const std::string key =
-        table.kind == Entry::Kind::list ? pattern + "[]" : pattern_of(pattern, child.key);
-    if (table.kind == Entry::Kind::table) keys.insert(key);
+        table.kind == TomlNode::Kind::list ? pattern + "[]" : pattern_of(pattern, child.key);
+    if (table.kind == TomlNode::Kind::table) keys.insert(key);
     collect_keys(child, key, keys);
   }
 }
@@ -397,10 +397,10 @@ struct Keys {
   }
   void add(const fs::path& file, const std::string& pattern) {
     std::string reason;
-    Findings findings;
+    Diagnostics diagnostics;
     const auto content = read_text(file, reason);
     ASSERT_TRUE(content) << reason;
-    const auto entries = parse_entries(*content, file.string(), findings);
+    const auto entries = parse_entries(*content, file.string(), diagnostics);
     ASSERT_TRUE(entries) << file;
     collect_keys(*entries, pattern, used);
   }

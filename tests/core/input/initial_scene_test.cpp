@@ -67,7 +67,7 @@ TEST(SceneProbe, KnowsTheMeshFromItsHoles) {
 
 TEST(SceneProbe, VisitsEdgesThatPassAThinSlab) {
   // One tall triangle whose corners are far above and below the slab.
-  const Surface surface{{Vec3(0, 0, -50), Vec3(1, 0, 60), Vec3(2, 0, 55)}, {{0, 1, 2}}};
+  const TriMesh surface{{Vec3(0, 0, -50), Vec3(1, 0, 60), Vec3(2, 0, 55)}, {{0, 1, 2}}};
   int points = 0;
   visit_slab(surface, 0.0, 0.1, [&](const Vec3& p) {
     EXPECT_GE(p.z(), -1e-12);

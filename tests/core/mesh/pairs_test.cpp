@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Patches of triangles: each in one, small, in one piece, the halves of a square together.
+// StrainGroups of triangles: each in one, small, in one piece, the halves of a square together.
 #include "core/mesh/pairs.hpp"
 #include "support/membrane_checks.hpp"
 
@@ -24,10 +24,10 @@ bool share_a_side(const Triangle& s, const Triangle& t) {
                        [&](int n) { return std::find(t.begin(), t.end(), n) != t.end(); }) == 2;
 }
 
-TEST(Patches, HoldEveryTriangleOnce) {
+TEST(StrainGroups, HoldEveryTriangleOnce) {
   for (const MeshKind kind : kinds) {
     const BlankMesh mesh = meshed(kind);
-    for (const Patches& p : {pair_patches(mesh), single_patches(mesh.triangles.size())}) {
+    for (const StrainGroups& p : {pair_triangles(mesh), single_triangles(mesh.triangles.size())}) {
       std::vector<std::int32_t> sorted = p.triangles;
       std::sort(sorted.begin(), sorted.end());
       ASSERT_EQ(sorted.size(), mesh.triangles.size());
@@ -40,15 +40,15 @@ TEST(Patches, HoldEveryTriangleOnce) {
   }
 }
 
-TEST(Patches, AreSmallAndInOnePiece) {
+TEST(StrainGroups, AreSmallAndInOnePiece) {
   for (const MeshKind kind : kinds) {
     const BlankMesh mesh = meshed(kind);
-    const Patches p = pair_patches(mesh);
+    const StrainGroups p = pair_triangles(mesh);
     int alone = 0;
     for (std::size_t i = 0; i + 1 < p.begin.size(); ++i) {
       const int size = p.begin[i + 1] - p.begin[i];
       EXPECT_GE(size, 1);
-      EXPECT_LE(size, most_in_patch);
+      EXPECT_LE(size, most_in_group);
       alone += size == 1;
       // of three at most: in one piece if one of them touches all others
       bool in_one_piece = false;
@@ -64,14 +64,14 @@ TEST(Patches, AreSmallAndInOnePiece) {
       }
       EXPECT_TRUE(in_one_piece) << i;
     }
-    // one alone has only full patches around it: few. They stiffen the mesh.
+    // one alone has only full groups around it: few. They stiffen the mesh.
     EXPECT_LE(alone, 0.02 * static_cast<double>(mesh.triangles.size()));
   }
 }
 
-TEST(Patches, PairTheHalvesOfEverySquare) {
+TEST(StrainGroups, PairTheHalvesOfEverySquare) {
   const BlankMesh mesh = mesh_blank(rectangle(90.0, 60.0, 7.5), 0.0, 1.5);
-  const Patches p = pair_patches(mesh);
+  const StrainGroups p = pair_triangles(mesh);
   EXPECT_EQ(2 * (p.begin.size() - 1), mesh.triangles.size());
   for (std::size_t i = 0; i + 1 < p.begin.size(); ++i) {
     ASSERT_EQ(p.begin[i + 1] - p.begin[i], 2);
@@ -89,9 +89,9 @@ TEST(Patches, PairTheHalvesOfEverySquare) {
   }
 }
 
-TEST(Patches, AreTheSameEveryTime) {
+TEST(StrainGroups, AreTheSameEveryTime) {
   for (const MeshKind kind : kinds) {
-    const Patches p = pair_patches(meshed(kind)), q = pair_patches(meshed(kind));
+    const StrainGroups p = pair_triangles(meshed(kind)), q = pair_triangles(meshed(kind));
     EXPECT_EQ(p.begin, q.begin);
     EXPECT_EQ(p.triangles, q.triangles);
   }

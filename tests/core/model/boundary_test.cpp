@@ -44,7 +44,8 @@ TEST(Boundary, BarsOfAFrameKeepTheirLengths) {
         const Vec3 a = flat(frame.hinges[k], 4.0), b = flat(frame.hinges[(k + 1) % 4], 4.0);
         const double before = (b - a).norm();
         for (const double s : {0.25, 1.0}) { // from the hinge to a point of the bar
-          const Vec3 p = held_place(frame, a, d), q = held_place(frame, a + s * (b - a), d);
+          const Vec3 p = prescribed_position(frame, a, d),
+                     q = prescribed_position(frame, a + s * (b - a), d);
           EXPECT_NEAR((q - p).norm(), s * before, 1e-12 * 100) << d; // rounding of 100 mm
           EXPECT_EQ(p.z(), 4.0);
         }
@@ -55,9 +56,9 @@ TEST(Boundary, FirstHingeOfAFrameStaysAndTheThirdGoesAlongTheDiagonal) {
   for (const Boundary& frame : frames())
     for (const double d : strokes_of(frame)) {
       const Vec3 p0 = flat(frame.hinges[0], 0.0), p2 = flat(frame.hinges[2], 0.0);
-      EXPECT_NEAR((held_place(frame, p0, d) - p0).norm(), 0.0, 1e-12);
+      EXPECT_NEAR((prescribed_position(frame, p0, d) - p0).norm(), 0.0, 1e-12);
       const Vec3 wanted = p2 + d * (p2 - p0).normalized();
-      EXPECT_NEAR((held_place(frame, p2, d) - wanted).norm(), 0.0, 1e-12 * 100);
+      EXPECT_NEAR((prescribed_position(frame, p2, d) - wanted).norm(), 0.0, 1e-12 * 100);
     }
 }
 
@@ -74,9 +75,10 @@ TEST(Boundary, SlopeIsTheDerivativeOfThePlace) {
       const bool frame = b.kind == BoundaryKind::frame;
       const double d = share * (frame ? longest_stroke(b) : 10.0), h = 1e-4;
       for (const Vec3& X : {Vec3(7, 11, 3), Vec3(-20, 30, 0), flat(b.hinges[1], 0.0)}) {
-        const Vec3 difference = (held_place(b, X, d + h) - held_place(b, X, d - h)) / (2.0 * h);
+        const Vec3 difference =
+            (prescribed_position(b, X, d + h) - prescribed_position(b, X, d - h)) / (2.0 * h);
         // h^2 times the third derivative, and 1e-14 of 100 mm over h
-        EXPECT_NEAR((held_slope(b, X, d) - difference).norm(), 0.0, 1e-7) << share;
+        EXPECT_NEAR((prescribed_slope(b, X, d) - difference).norm(), 0.0, 1e-7) << share;
       }
     }
 }
@@ -87,9 +89,9 @@ TEST(Boundary, SquareFrameShearsByTheClosedForm) {
   for (const double degrees : {0.0, 5.0, 30.0, 50.0, 80.0}) {
     const double gamma = degrees * pi / 180.0;
     const double d = 2.0 * a * std::cos(0.5 * (0.5 * pi - gamma)) - a * std::numbers::sqrt2;
-    const Vec3 p0 = held_place(frame, {-50, -50, 0}, d);
-    const Vec3 u = held_place(frame, {50, -50, 0}, d) - p0,
-               v = held_place(frame, {-50, 50, 0}, d) - p0;
+    const Vec3 p0 = prescribed_position(frame, {-50, -50, 0}, d);
+    const Vec3 u = prescribed_position(frame, {50, -50, 0}, d) - p0,
+               v = prescribed_position(frame, {-50, 50, 0}, d) - p0;
     EXPECT_NEAR(std::asin(u.dot(v) / (a * a)), gamma, 1e-12) << degrees;
     EXPECT_GT(u.cross(v).z(), 0.0); // not turned over
   }
@@ -136,12 +138,12 @@ TEST(Boundary, HoldsWhatLiesInItsBoxOnItsEdgeOrOnItsPlane) {
 }
 
 /// The axes of the one node that is held; fails if they are not orthonormal.
-HeldNode only_node(const std::vector<Boundary>& boundaries) {
+PrescribedNode only_node(const std::vector<Boundary>& boundaries) {
   const std::vector<Vec3> x0{{0, 0, 5}, {1000, 700, 5}};
-  const std::vector<HeldNode> held = held_nodes(boundaries, 2, x0);
+  const std::vector<PrescribedNode> held = prescribed_nodes(boundaries, 2, x0);
   EXPECT_EQ(held.size(), 1u);
   if (held.size() != 1) return {};
-  const HeldNode& node = held[0];
+  const PrescribedNode& node = held[0];
   EXPECT_EQ(node.ply, 2);
   EXPECT_EQ(node.node, 0);
   for (int i = 0; i < node.count; ++i)
@@ -153,7 +155,7 @@ HeldNode only_node(const std::vector<Boundary>& boundaries) {
 }
 
 /// How much of a direction is held: 1 all, 0 none.
-double held_share(const HeldNode& node, const Vec3& direction) {
+double held_share(const PrescribedNode& node, const Vec3& direction) {
   double sum = 0.0;
   for (std::size_t i = 0; i < static_cast<std::size_t>(node.count); ++i)
     sum += std::pow(node.axis[i].dot(direction), 2);
@@ -164,7 +166,7 @@ TEST(Boundary, CornerOfGripAndPlaneIsHeldAlongEachAxisOnce) {
   const Boundary plane = plane_through({0, 0}, {1, 0});
   const Boundary whole = grip_on({0, 0}, {5, 0});
   // The grip has all three, also when the plane comes first.
-  HeldNode node = only_node({plane, whole});
+  PrescribedNode node = only_node({plane, whole});
   EXPECT_EQ(node.count, 3);
   for (const int boundary : node.boundary)
     EXPECT_EQ(boundary, 1);
@@ -181,7 +183,7 @@ TEST(Boundary, CornerOfGripAndPlaneIsHeldAlongEachAxisOnce) {
 
 TEST(Boundary, PlanesAtAnyAngleHoldTheirCornerAcrossBoth) {
   for (const double angle : {0.5 * pi, 0.25 * pi, 0.1}) {
-    const HeldNode node = only_node(
+    const PrescribedNode node = only_node(
         {plane_through({0, 0}, {0, 1}), plane_through({0, 0}, {std::sin(angle), std::cos(angle)})});
     EXPECT_EQ(node.count, 2) << angle;
     EXPECT_NEAR(held_share(node, Vec3::UnitX()), 1.0, 1e-14);
@@ -191,7 +193,7 @@ TEST(Boundary, PlanesAtAnyAngleHoldTheirCornerAcrossBoth) {
   // The same plane twice is one.
   EXPECT_EQ(only_node({plane_through({0, 0}, {3, 1}), plane_through({0, 0}, {-3, -1})}).count, 1);
   // A slanted plane beside a grip along x: both directions in the plane of the ply.
-  const HeldNode node =
+  const PrescribedNode node =
       only_node({plane_through({0, 0}, {1, 1}), grip_on({0, 0}, {5, 0}, {true, false, false})});
   EXPECT_EQ(node.count, 2);
   EXPECT_NEAR(held_share(node, Vec3(1, 1, 0)), 1.0, 1e-14);
@@ -201,8 +203,8 @@ TEST(Boundary, OfOtherPliesHoldsNothing) {
   Boundary grip = grip_on({0, 0}, {5, 0});
   grip.ply = 1;
   const std::vector<Vec3> x0{{0, 0, 0}};
-  EXPECT_TRUE(held_nodes({grip}, 0, x0).empty());
-  EXPECT_EQ(held_nodes({grip}, 1, x0).size(), 1u);
+  EXPECT_TRUE(prescribed_nodes({grip}, 0, x0).empty());
+  EXPECT_EQ(prescribed_nodes({grip}, 1, x0).size(), 1u);
 }
 
 } // namespace

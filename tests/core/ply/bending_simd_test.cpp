@@ -40,29 +40,29 @@ std::vector<Vec3> unformed(const BlankMesh& mesh) {
   return x;
 }
 
-std::vector<Vec3> by_lanes(BendingLanes& lanes, const Bending& b, const std::vector<Vec3>& x) {
-  for (int block = 0; block < static_cast<int>(lanes.blocks.size()); ++block)
-    bending_forces(lanes, b, x, block);
+std::vector<Vec3> by_simd(BendingSimd& simd, const Bending& b, const std::vector<Vec3>& x) {
+  for (int block = 0; block < static_cast<int>(simd.blocks.size()); ++block)
+    bending_forces(simd, b, x, block);
   std::vector<Vec3> force;
   for (std::size_t n = 0; n < x.size(); ++n)
-    force.push_back(lane_force(lanes, n));
+    force.push_back(simd_force(simd, n));
   return force;
 }
 
 void expect_same(const BlankMesh& mesh, const BendingLaw& law, const std::vector<Vec3>& x) {
   const std::vector<double> masses(mesh.x.size(), 1e-8);
   const Bending b = make_bending(mesh.x, mesh.triangles, law, warp, weft, masses);
-  BendingLanes lanes = make_bending_lanes(b, unformed(mesh));
-  for (const BendingBlock& block : lanes.blocks)
+  BendingSimd simd = make_bending_simd(b, unformed(mesh));
+  for (const BendingBlock& block : simd.blocks)
     EXPECT_LE(block.nodes, most_block_nodes);
-  const std::vector<Vec3> fast = by_lanes(lanes, b, x), slow = reference_bending_forces(b, x);
+  const std::vector<Vec3> fast = by_simd(simd, b, x), slow = reference_bending_forces(b, x);
   const double scale = largest_norm(slow);
   ASSERT_GT(scale, 0.0);
   for (std::size_t n = 0; n < x.size(); ++n) // second differences of places keep twelve digits
     ASSERT_LE((fast[n] - slow[n]).norm(), 1e-11 * scale) << n;
 }
 
-TEST(BendingLanes, AgreeWithBendingNodeByNode) {
+TEST(BendingSimd, AgreeWithBendingNodeByNode) {
   Random random(11);
   for (const BendingLaw& law : laws())
     for (int i = 0; i < 20; ++i) {
@@ -71,7 +71,7 @@ TEST(BendingLanes, AgreeWithBendingNodeByNode) {
     }
 }
 
-TEST(BendingLanes, ManyBlocksHoldEveryNodeOnceOnAnyMesh) {
+TEST(BendingSimd, ManyBlocksHoldEveryNodeOnceOnAnyMesh) {
   Random random(12);
   for (const MeshKind kind :
        {MeshKind::diagonal, MeshKind::alternating, MeshKind::crossed, MeshKind::free}) {
@@ -82,7 +82,7 @@ TEST(BendingLanes, ManyBlocksHoldEveryNodeOnceOnAnyMesh) {
   }
 }
 
-TEST(BendingLanes, KnowAHoleAndTrianglesThatOnlyShareANode) {
+TEST(BendingSimd, KnowAHoleAndTrianglesThatOnlyShareANode) {
   // Two squares of two triangles with a corner in common; a ring of eight around a hole.
   BlankMesh corner;
   corner.x = {{0, 0}, {10, 0}, {10, 10}, {0, 10}, {20, 10}, {20, 20}, {10, 20}};
@@ -102,43 +102,43 @@ TEST(BendingLanes, KnowAHoleAndTrianglesThatOnlyShareANode) {
   for (const BlankMesh& mesh : {corner, hole}) {
     const std::vector<double> masses(mesh.x.size(), 1e-8);
     const Bending b = make_bending(mesh.x, mesh.triangles, laws()[4], warp, weft, masses);
-    BendingLanes lanes = make_bending_lanes(b, unformed(mesh));
+    BendingSimd simd = make_bending_simd(b, unformed(mesh));
     const std::vector<Vec3> x = random_state(mesh, 1.0, 0.5, random);
-    const std::vector<Vec3> fast = by_lanes(lanes, b, x), slow = reference_bending_forces(b, x);
+    const std::vector<Vec3> fast = by_simd(simd, b, x), slow = reference_bending_forces(b, x);
     for (std::size_t n = 0; n < x.size(); ++n)
       EXPECT_LE((fast[n] - slow[n]).norm(), 1e-11 * largest_norm(slow) + 1e-15) << n;
   }
 }
 
 /// Both copies of the kernel: no processor answers differently.
-TEST(BendingLanes, GiveTheSameBitsOnEveryProcessor) {
+TEST(BendingSimd, GiveTheSameBitsOnEveryProcessor) {
   if (!has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
   Random random(8);
   constexpr std::size_t ring = 5, slots = 7, nodes = 8;
   for (int i = 0; i < 200; ++i) {
-    LanePatches patches{};
-    LaneNumbers constants[5 * slots];
-    std::uint16_t slot[lanes * slots];
-    LaneForce force[2][nodes];
+    SimdPatches stencils{};
+    SimdNumbers constants[5 * slots];
+    std::uint16_t slot[simd_width * slots];
+    SimdForce force[2][nodes];
     double x[3 * nodes];
     for (double& a : x)
       a = 3.0 * signed_unit(random);
-    for (std::size_t lane = 0; lane < lanes; ++lane) {
-      patches.area[lane] = 2.0 + signed_unit(random);
-      patches.in_plane[0][lane] = 8.0, patches.in_plane[1][lane] = 2.0;
-      patches.own[lane] = static_cast<std::uint16_t>(sizeof(LaneForce) * lane);
-      for (LaneNumbers& c : constants)
+    for (std::size_t lane = 0; lane < simd_width; ++lane) {
+      stencils.area[lane] = 2.0 + signed_unit(random);
+      stencils.in_plane[0][lane] = 8.0, stencils.in_plane[1][lane] = 2.0;
+      stencils.own[lane] = static_cast<std::uint16_t>(sizeof(SimdForce) * lane);
+      for (SimdNumbers& c : constants)
         c.of[lane] = signed_unit(random);
       for (std::size_t k = 0; k < slots; ++k)
-        slot[lanes * k + lane] =
-            static_cast<std::uint16_t>(sizeof(LaneForce) * ((k + lane + 1) % nodes));
+        slot[simd_width * k + lane] =
+            static_cast<std::uint16_t>(sizeof(SimdForce) * ((k + lane + 1) % nodes));
     }
-    patches.ring = ring, patches.slots = slots;
+    stencils.ring = ring, stencils.slots = slots;
     const std::int32_t list[nodes] = {0, 1, 2, 3, 4, 5, 6, 7};
     for (const bool in_plane : {false, true}) {
       const BendingKernelLaw law{{5.0, 0.5}, 0.2, 0.3, false, in_plane, nullptr, nullptr};
-      bending_kernel_generic({list, nodes, &patches, 1, constants, slot, force[0]}, law, x);
-      bending_kernel_avx2({list, nodes, &patches, 1, constants, slot, force[1]}, law, x);
+      bending_kernel_generic({list, nodes, &stencils, 1, constants, slot, force[0]}, law, x);
+      bending_kernel_avx2({list, nodes, &stencils, 1, constants, slot, force[1]}, law, x);
       ASSERT_TRUE(std::isfinite(force[0][0].x));
       ASSERT_EQ(std::memcmp(force[0], force[1], sizeof force[0]), 0) << i;
     }

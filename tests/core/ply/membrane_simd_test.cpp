@@ -39,21 +39,21 @@ struct Sums {
   bool collapsed = false;
 };
 
-Sums by_lanes(MembraneLanes& lanes, const Membrane& m, const std::vector<Vec3>& x, double dt) {
+Sums by_simd(MembraneSimd& simd, const Membrane& m, const std::vector<Vec3>& x, double dt) {
   Sums sums;
-  for (int b = 0; b < static_cast<int>(lanes.blocks.size()); ++b) {
-    const PatchReport report = lane_forces(lanes, m, x, dt, b);
+  for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b) {
+    const GroupReport report = simd_forces(simd, m, x, dt, b);
     sums.work += report.viscous_work;
     sums.collapsed |= report.collapsed;
   }
   for (std::size_t n = 0; n < x.size(); ++n)
-    sums.force.push_back(lane_force(lanes, n));
+    sums.force.push_back(simd_force(simd, n));
   return sums;
 }
 
 Sums one_by_one(Membrane& m, const std::vector<Vec3>& x, double dt) {
   std::vector<ElementForce> q(m.triangles.size());
-  const PatchReport report = element_forces(m, x, dt, 0, m.patches(), q);
+  const GroupReport report = element_forces(m, x, dt, 0, m.groups(), q);
   Sums sums{{}, report.viscous_work, report.collapsed};
   for (std::size_t n = 0; n < x.size(); ++n)
     sums.force.push_back(node_force(m, q, static_cast<int>(n)));
@@ -72,7 +72,7 @@ void expect_near(const Sums& fast, const Sums& slow) {
   EXPECT_EQ(fast.collapsed, slow.collapsed);
 }
 
-TEST(MembraneLanes, AgreeWithTheMembraneOneByOne) {
+TEST(MembraneSimd, AgreeWithTheMembraneOneByOne) {
   Random random(11);
   for (const Fabric& fabric :
        {glass_weave(), table_weave(), buckling_weave(false), buckling_weave(true)})
@@ -84,16 +84,16 @@ TEST(MembraneLanes, AgreeWithTheMembraneOneByOne) {
         std::vector<Vec3> x0;
         for (const Vec2& p : mesh.x)
           x0.emplace_back(p.x(), p.y(), 0.0);
-        MembraneLanes lanes = make_lanes(m, x0);
+        MembraneSimd simd = make_membrane_simd(m, x0);
         for (const double dt : {0.0, 1e-5, 2e-5}) { // the state of the viscosity goes along
           const double stretch = i % 3 == 2 ? 0.85 : i % 3 ? 1.0 : 1.1;
           const std::vector<Vec3> x = random_state(mesh, stretch, 0.3, random);
-          expect_near(by_lanes(lanes, m, x, dt), one_by_one(m, x, dt));
+          expect_near(by_simd(simd, m, x, dt), one_by_one(m, x, dt));
         }
       }
 }
 
-TEST(MembraneLanes, EnergyAgreesWithTheMembraneOneByOne) {
+TEST(MembraneSimd, EnergyAgreesWithTheMembraneOneByOne) {
   Random random(12);
   Fabric long_law = glass_weave(); // a polynomial longer than the kernel's own
   long_law.shear.k.assign(most_shear_terms + 1, 0.1);
@@ -105,10 +105,10 @@ TEST(MembraneLanes, EnergyAgreesWithTheMembraneOneByOne) {
         const Membrane m = make_membrane(mesh, fabric, 0.3, kind);
         // states of wide stretches: the guard acts in some
         const std::vector<Vec3> x = random_state(mesh, i % 2 ? 0.45 : 1.1, 0.3, random);
-        const MembraneLanes lanes = make_lanes(m, x);
+        const MembraneSimd simd = make_membrane_simd(m, x);
         MembraneEnergy sum;
-        for (int b = 0; b < static_cast<int>(lanes.blocks.size()); ++b) {
-          const MembraneEnergy e = lane_energy(lanes, m, x, b);
+        for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b) {
+          const MembraneEnergy e = simd_energy(simd, m, x, b);
           sum.fibre += e.fibre, sum.shear += e.shear;
         }
         const MembraneEnergy slow = membrane_energy(m, x);
@@ -119,7 +119,7 @@ TEST(MembraneLanes, EnergyAgreesWithTheMembraneOneByOne) {
       }
 }
 
-TEST(MembraneLanes, ManyBlocksHoldEveryTriangleOnce) {
+TEST(MembraneSimd, ManyBlocksHoldEveryTriangleOnce) {
   const BlankMesh mesh = mesh_blank(rectangle(300.0, 200.0, 4.0), 0.0, 1.5);
   BlankMesh half = mesh; // one half along the yarns: pairs and singles in the same block
   Random random(4);
@@ -130,56 +130,56 @@ TEST(MembraneLanes, ManyBlocksHoldEveryTriangleOnce) {
   std::vector<Vec3> x0, x;
   for (const Vec2& p : half.x)
     x0.emplace_back(p.x(), p.y(), 0.0);
-  MembraneLanes lanes = make_lanes(m, x0);
-  ASSERT_GT(lanes.blocks.size(), 8u);
+  MembraneSimd simd = make_membrane_simd(m, x0);
+  ASSERT_GT(simd.blocks.size(), 8u);
   int pairs = 0, singles = 0;
-  for (const LaneBlock& b : lanes.blocks) {
+  for (const SimdBlock& b : simd.blocks) {
     EXPECT_LE(b.nodes, most_block_nodes);
-    pairs += b.pair_groups, singles += b.single_groups;
+    pairs += b.pair_packs, singles += b.single_packs;
   }
   EXPECT_GT(pairs, 0);
   EXPECT_GT(singles, 0);
   for (const Vec3& p : x0)
     x.emplace_back(1.01 * p.x() + 0.3 * p.y(), 1.02 * p.y(), 0.01 * p.x() * p.y() / 100.0);
-  expect_near(by_lanes(lanes, m, x, 0.0), one_by_one(m, x, 0.0));
+  expect_near(by_simd(simd, m, x, 0.0), one_by_one(m, x, 0.0));
 }
 
-TEST(MembraneLanes, SeeTrianglesCollapse) {
+TEST(MembraneSimd, SeeTrianglesCollapse) {
   Random random(3);
   const BlankMesh mesh = irregular_mesh(random);
   Membrane m = make_membrane(mesh, glass_weave(), 0.3, ElementKind::plain);
   std::vector<Vec3> x;
   for (const Vec2& p : mesh.x)
     x.emplace_back(p.x(), p.y(), 0.0);
-  MembraneLanes lanes = make_lanes(m, x);
-  EXPECT_FALSE(by_lanes(lanes, m, x, 0.0).collapsed);
+  MembraneSimd simd = make_membrane_simd(m, x);
+  EXPECT_FALSE(by_simd(simd, m, x, 0.0).collapsed);
   std::vector<Vec3> flat = x, lost = x;
   for (Vec3& p : flat)
     p = Vec3(p.x(), p.x(), p.x() * 1e-3);
-  EXPECT_TRUE(by_lanes(lanes, m, flat, 0.0).collapsed);
+  EXPECT_TRUE(by_simd(simd, m, flat, 0.0).collapsed);
   lost[5].x() = std::nan("");
-  EXPECT_TRUE(by_lanes(lanes, m, lost, 0.0).collapsed);
+  EXPECT_TRUE(by_simd(simd, m, lost, 0.0).collapsed);
 }
 
 /// Both copies of the kernel: no processor answers differently.
-TEST(MembraneLanes, GiveTheSameBitsOnEveryProcessor) {
+TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
   if (!has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
   Random random(8);
-  alignas(32) LaneForce force[2][6];
+  alignas(32) SimdForce force[2][6];
   for (int i = 0; i < 200; ++i) {
-    LaneTriangles t[2];
-    LaneViscosity v[2];
+    SimdTriangles t[2];
+    SimdViscosity v[2];
     double x[18];
     for (double& a : x)
       a = 3.0 * signed_unit(random);
-    for (std::size_t lane = 0; lane < lanes; ++lane)
-      for (LaneTriangles& triangle : t) {
+    for (std::size_t lane = 0; lane < simd_width; ++lane)
+      for (SimdTriangles& triangle : t) {
         triangle.c11[lane] = signed_unit(random), triangle.c12[lane] = signed_unit(random);
         triangle.c21[lane] = signed_unit(random), triangle.c22[lane] = signed_unit(random);
         triangle.area[lane] = 1.0 + signed_unit(random);
         triangle.share[lane] = 0.5;
         for (std::size_t k = 0; k < 3; ++k)
-          triangle.node[k][lane] = static_cast<std::uint16_t>(sizeof(LaneForce) * ((k + lane) % 6));
+          triangle.node[k][lane] = static_cast<std::uint16_t>(sizeof(SimdForce) * ((k + lane) % 6));
         for (std::size_t k = 0; k < 2; ++k)
           v[0].lambda[k][lane] = v[1].lambda[k][lane] = 1.0,
           v[0].tension[k][lane] = v[1].tension[k][lane] = 0.1;

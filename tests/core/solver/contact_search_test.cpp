@@ -23,7 +23,7 @@ struct Touching {
 };
 
 /// Distance (mm) of every face of a ply to a point, by asking each.
-std::vector<double> distances(const PlyBody& master, const Vec3& p) {
+std::vector<double> distances(const PlyState& master, const Vec3& p) {
   std::vector<double> all;
   for (const Triangle& t : master.membrane.triangles)
     all.push_back(std::sqrt(closest_point_on_triangle(p, master.x[static_cast<std::size_t>(t[0])],
@@ -36,8 +36,8 @@ std::vector<double> distances(const PlyBody& master, const Vec3& p) {
 /// Every face within contact distance of a slave node belongs to one of its points, and the nearest
 /// one tells that node's gap, or one that is further by no more than `late` (mm).
 void expect_all_faces(const Scene& s, const PlyContact& pair, double late, Touching& touching) {
-  const PlyBody& slave = s.plies[static_cast<std::size_t>(pair.slave)];
-  const PlyBody& master = s.plies[static_cast<std::size_t>(pair.master)];
+  const PlyState& slave = s.plies[static_cast<std::size_t>(pair.slave)];
+  const PlyState& master = s.plies[static_cast<std::size_t>(pair.master)];
   const double h = 0.5 * (slave.thickness + master.thickness);
   auto point = pair.contact.points.begin();
   for (std::size_t n = 0; n < slave.x.size(); ++n) {
@@ -66,15 +66,16 @@ void expect_all_faces(const Scene& s, const PlyContact& pair, double late, Touch
 }
 
 /// The same for every node and a tool; distances are asked without a hint.
-void expect_all_nodes(const Scene& s, const ToolAndContacts& tool, Touching& touching) {
+void expect_all_nodes(const Scene& s, const ToolState& tool, Touching& touching) {
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    const ToolContact& contact = tool.contacts[p];
+    const ToolPlyContact& contact = tool.contacts[p];
     const double half = 0.5 * s.plies[p].thickness;
     // The gaps of a pushed tool, which moved last, are those of a straight line over its motion:
     // off by its square over twice the distance where an edge is met.
-    const double bend = rounding + (tool.body.pushed ? tool.body.motion.squaredNorm() / half : 0.0);
+    const double bend =
+        rounding + (tool.body.force_controlled ? tool.body.motion.squaredNorm() / half : 0.0);
     std::vector<double> gap(s.plies[p].x.size(), 1e300);
-    for (const ToolContactPoint& c : contact.points)
+    for (const ToolPlyPoint& c : contact.points)
       gap[static_cast<std::size_t>(c.node)] = c.gap;
     for (std::size_t n = 0; n < gap.size(); ++n) {
       int hint = -1;
@@ -91,20 +92,20 @@ void expect_all_nodes(const Scene& s, const ToolAndContacts& tool, Touching& tou
 /// point rests on its face.
 Touching follow(Scene& s, int every, double late = 0.0) {
   for (PlyContact& pair : s.ply_contacts)
-    if (late == 0.0) pair.contact.rest = 0.0;
-  ThreadTeam team(1);
-  start(s, team);
+    if (late == 0.0) pair.contact.slide_limit = 0.0;
+  ThreadPool pool(1);
+  start(s, pool);
   Touching touching;
   long looks = 0, searches = 0;
   for (;;) {
-    const auto stop = compute_forces(s, team);
+    const auto stop = compute_forces(s, pool);
     EXPECT_FALSE(stop) << stop->message;
     if (stop || s.time >= s.data.solver.duration) break;
     if (s.step % every == 0) {
       ++looks;
       for (const PlyContact& pair : s.ply_contacts)
         if (pair.slave != pair.master) expect_all_faces(s, pair, late, touching);
-      for (const ToolAndContacts& tool : s.tools)
+      for (const ToolState& tool : s.tools)
         expect_all_nodes(s, tool, touching);
       if (::testing::Test::HasFailure()) {
         ADD_FAILURE() << "at step " << s.step << ", time " << s.time;
@@ -112,7 +113,7 @@ Touching follow(Scene& s, int every, double late = 0.0) {
       }
     }
     searches = s.searches;
-    move_plies(s, team);
+    move_plies(s, pool);
   }
   EXPECT_GT(looks, 15);
   EXPECT_GT(searches, 10);         // it moves
@@ -144,13 +145,13 @@ TEST(ContactSearch, NoPairIsAbsentWhileAStackIsDrawn) {
 /// what the fold has changed since all looked.
 TEST(ContactSearch, RestingPointsAreHardlyLate) {
   Scene s = drawn_stack({0.0, 0.785});
-  const double rest = s.ply_contacts[0].contact.rest;
-  ASSERT_GT(rest, 0.0);
-  const Touching touching = follow(s, 61, rest);
+  const double slide_limit = s.ply_contacts[0].contact.slide_limit;
+  ASSERT_GT(slide_limit, 0.0);
+  const Touching touching = follow(s, 61, slide_limit);
   EXPECT_GT(touching.plies, 1000);
   EXPECT_GT(touching.late, 0.0); // some did rest
   RecordProperty("late_mm", fmt::format("{:.2g}", touching.late));
-  fmt::print("late by {:.2g} mm at most, of {:.2g} mm slid\n", touching.late, rest);
+  fmt::print("late by {:.2g} mm at most, of {:.2g} mm slid\n", touching.late, slide_limit);
 }
 
 /// A face seen late is closer than the one before, so that each such switch adds energy: little, in

@@ -9,9 +9,9 @@ namespace plyform {
 namespace {
 
 /// A pyramid whose tip is at `tip` and whose four sides fall by as much as they go out.
-Surface pyramid(const Vec3& tip) {
+TriMesh pyramid(const Vec3& tip) {
   constexpr double reach = 40.0; // mm
-  Surface s;
+  TriMesh s;
   s.x = {tip};
   for (const Vec2& corner : {Vec2(-1, -1), Vec2(1, -1), Vec2(1, 1), Vec2(-1, 1)})
     s.x.push_back(tip + reach * Vec3(corner.x(), corner.y(), -1.0));

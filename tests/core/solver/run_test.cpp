@@ -117,15 +117,15 @@ TEST(Run, CarriesAPlatesForceThroughEveryPlyOfAStack) {
   Case data = stack_of({0.0, 0.25 * std::numbers::pi, 0.0}, rectangle(100.0, 100.0, 12.5));
   press_by_plate(data);
   Scene s = make_scene(data);
-  ThreadTeam team(1);
-  start(s, team);
+  ThreadPool pool(1);
+  start(s, pool);
   for (;;) {
-    const auto stop = compute_forces(s, team);
+    const auto stop = compute_forces(s, pool);
     ASSERT_FALSE(stop) << stop->message;
     if (s.time >= data.solver.duration) break;
-    move_plies(s, team);
+    move_plies(s, pool);
   }
-  const double kinetic = current_energies(s, team).kinetic;
+  const double kinetic = current_energies(s, pool).kinetic;
   EXPECT_LT(kinetic, 1e-6); // N mm: a ply of 0.6 t at 0.1 mm/s
   EXPECT_NEAR(s.tools[0].force.z(), -30.0, 0.005 * 30.0);
   EXPECT_NEAR(s.tools[1].force.z(), 30.0, 1e-8 * 30.0); // solved for
