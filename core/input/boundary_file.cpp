@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Grips, frames and planes of symmetry.
 #include "core/input/case_parts.hpp"
+#include "core/input/choices.hpp"
 #include "core/model/boundary.hpp"
 
 #include <algorithm>
@@ -95,15 +96,11 @@ std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<P
         b.ply = static_cast<int>(it - plies.begin());
     }
     if (given(section, "stroke")) b.stroke = number(section, "stroke");
-    const std::string kind = text(section, "kind");
-    if (kind == "grip") read_grip(section, b, diagnostics);
-    if (kind == "frame") {
-      b.kind = BoundaryKind::frame;
-      read_frame(section, b, diagnostics);
-    }
-    if (kind == "symmetry") {
-      b.kind = BoundaryKind::symmetry;
-      read_plane(section, b, diagnostics);
+    if (const std::string kind = text(section, "kind"); !kind.empty()) {
+      b.kind = value_of(boundary_choices, kind);
+      if (b.kind == BoundaryKind::grip) read_grip(section, b, diagnostics);
+      if (b.kind == BoundaryKind::frame) read_frame(section, b, diagnostics);
+      if (b.kind == BoundaryKind::symmetry) read_plane(section, b, diagnostics);
     }
     boundaries.push_back(b);
   }

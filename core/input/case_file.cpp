@@ -4,6 +4,7 @@
 
 #include "core/base/text.hpp"
 #include "core/input/case_parts.hpp"
+#include "core/input/choices.hpp"
 #include "core/input/overrides.hpp"
 #include "core/model/fabric_estimates.hpp"
 
@@ -21,14 +22,9 @@ using Numbers = std::map<std::string, int>; ///< index by name
 
 BlankSpec read_blank(const TableView& section, const std::filesystem::path& folder,
                      Diagnostics& diagnostics) {
-  static const std::map<std::string, MeshKind> kinds{
-      {"diagonal", MeshKind::diagonal}, {"alternating", MeshKind::alternating},
-      {"crossed", MeshKind::crossed},   {"fibres", MeshKind::fibres},
-      {"free", MeshKind::free},         {"file", MeshKind::file}};
   BlankSpec blank;
-  const auto kind = kinds.find(text(section, "mesh"));
-  if (kind == kinds.end()) return blank;
-  blank.mesh = kind->second;
+  if (text(section, "mesh").empty()) return blank;
+  blank.mesh = value_of(mesh_choices, text(section, "mesh"));
   if (blank.mesh == MeshKind::file) {
     const TomlNode* file = given(section, "file");
     if (!file) return blank;
@@ -169,17 +165,12 @@ ContactOptions read_contact(const TableView& contact) {
   return {.stiffness = number(contact, "stiffness"),
           .damping = number(contact, "damping"),
           .skin = given(contact, "skin") ? number(contact, "skin") : 0.0,
-          .self = text(contact, "self") == "on"};
-}
-
-ElementKind element_kind(const std::string& word) {
-  if (word == "plain") return ElementKind::plain;
-  return word == "averaged" ? ElementKind::averaged : ElementKind::automatic;
+          .self = value_of(off_on_choices, text(contact, "self"))};
 }
 
 SolverOptions read_solver(const TableView& solver) {
   const double outputs = number(solver, "outputs");
-  return {.element = element_kind(text(solver, "element")),
+  return {.element = value_of(element_choices, text(solver, "element")),
           .duration = number(solver, "duration"),
           .step_factor = number(solver, "step_factor"),
           .fibre_softening = number(solver, "fibre_softening"),

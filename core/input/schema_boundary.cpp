@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys of grips, frames and planes of symmetry.
+#include "core/input/choices.hpp"
 #include "core/input/schema_case.hpp"
 
 namespace plyform {
@@ -31,7 +32,7 @@ Rows boundary_rows() {
              .meaning = "boundary's name, unlike those of plies, tools and other boundaries"},
             {.key = "boundary[].kind",
              .kind = K::choice,
-             .choices = {"grip", "frame", "symmetry"},
+             .choices = words_of(boundary_choices),
              .meaning = "kind of boundary: a rigid grip that moves (or stays) as one piece; four "
                         "hinged bars pulled along a diagonal; a vertical plane of symmetry"},
             {.key = "boundary[].ply",

@@ -2,6 +2,8 @@
 // The rows of the table of keys: what may stand in a case or fabric file.
 #include "core/input/schema_case.hpp"
 
+#include "core/input/choices.hpp"
+
 #include <fmt/format.h>
 
 namespace plyform {
@@ -120,7 +122,7 @@ Rows blank_rows() {
       {.key = "blanks.NAME.mesh",
        .kind = K::choice,
        .fallback = "\"diagonal\"",
-       .choices = {"diagonal", "alternating", "crossed", "fibres", "free", "file"},
+       .choices = words_of(mesh_choices),
        .meaning = "kind of mesh: squares with one diagonal (all the same way, or alternating) or "
                   "with both, cells along both fibre "
                   "directions, free triangles, or triangles from a file"},
@@ -291,7 +293,7 @@ Rows motion_rows() {
           {.key = "tool[].motion",
            .kind = K::choice,
            .fallback = "\"fixed\"",
-           .choices = {"fixed", "driven", "force"},
+           .choices = words_of(motion_choices),
            .meaning = "motion: none, a given stroke, or under a given force"},
           {.key = "tool[].direction",
            .kind = K::numbers,
@@ -359,7 +361,7 @@ Rows contact_rows() {
           {.key = "contact.self",
            .kind = K::choice,
            .fallback = "\"off\"",
-           .choices = {"off", "on"},
+           .choices = words_of(off_on_choices),
            .meaning = "contact of each ply with itself, where it folds over"}};
 }
 
@@ -377,7 +379,7 @@ Rows solver_rows() {
           {.key = "solver.element",
            .kind = K::choice,
            .fallback = "\"auto\"",
-           .choices = {"auto", "plain", "averaged"},
+           .choices = words_of(element_choices),
            .meaning =
                "plain: the paper's; averaged: does not lock; auto: plain where sides run along "
                "both fibre families"},

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tools: shapes, places and motions.
 #include "core/input/case_parts.hpp"
+#include "core/input/choices.hpp"
 #include "core/input/overrides.hpp"
 
 #include <algorithm>
@@ -190,15 +191,13 @@ Tool read_tool(const TableView& section, const std::filesystem::path& folder,
   tool.shape = read_shape(section, folder, diagnostics);
   tool.position = vector3(section, "position");
   tool.rotation = read_rotation(section, diagnostics);
-  const std::string motion = text(section, "motion");
-  if (motion == "fixed" || motion.empty()) return tool;
+  tool.motion = value_of(motion_choices, text(section, "motion"));
+  if (tool.motion == Motion::fixed) return tool;
   if (given(section, "direction"))
     tool.direction = read_direction(section, "direction", diagnostics);
-  if (motion == "driven") {
-    tool.motion = Motion::driven;
+  if (tool.motion == Motion::driven) {
     tool.stroke = number(section, "stroke");
   } else {
-    tool.motion = Motion::force;
     tool.force = number(section, "force");
     tool.mass = number(section, "mass");
   }

@@ -7,18 +7,30 @@
 namespace plyform {
 
 double Energies::residual() const {
-  return kinetic + fibre + shear + bending + contact + friction + damping - external;
+  double sum = 0.0;
+  for (const EnergyTerm& term : energy_terms)
+    sum += term.sign * this->*term.value;
+  return sum;
+}
+
+double Energies::largest() const {
+  double most = 0.0;
+  for (const EnergyTerm& term : energy_terms) {
+    if (std::isnan(this->*term.value)) return this->*term.value; // std::max would lose it
+    most = std::max(most, std::abs(this->*term.value));
+  }
+  return most;
 }
 
 double Energies::balance_error() const {
-  const double terms[] = {kinetic, fibre, shear, bending, contact, friction, damping, external};
-  double largest = 0;
-  for (const double term : terms) {
-    if (std::isnan(term)) return term; // std::max would lose it
-    largest = std::max(largest, std::abs(term));
-  }
-  if (largest == 0) return 0;
-  return residual() / largest;
+  const double most = largest();
+  return most == 0.0 ? 0.0 : residual() / most;
+}
+
+Energies& Energies::operator+=(const Energies& more) {
+  for (const EnergyTerm& term : energy_terms)
+    this->*term.value += more.*term.value;
+  return *this;
 }
 
 } // namespace plyform

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energies of a run and their balance.
+// The energies of a run and their balance. One table of terms: history.csv, summary.json, the
+// balance and the plots follow it.
 #pragma once
+
+#include <array>
 
 namespace plyform {
 
@@ -10,9 +13,28 @@ struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, bending = 0, contact = 0, friction = 0, damping = 0,
          external = 0;
   double residual() const; ///< all kept and lost, less what was put in
-  /// (kinetic + fibre + shear + bending + contact + friction + damping - external) over the largest
-  /// of them; 0 when all are 0.
+  double largest() const;  ///< magnitude of the largest term; NaN if any is
+  /// residual() over largest(); 0 when all are 0.
   double balance_error() const;
+  Energies& operator+=(const Energies& more);
 };
+
+/// A term: its name in files, and whether it is kept or lost (+1) or put in (-1).
+struct EnergyTerm {
+  const char* name;
+  double Energies::*value;
+  double sign;
+};
+
+inline constexpr std::array<EnergyTerm, 8> energy_terms = {{
+    {"kinetic", &Energies::kinetic, 1.0},
+    {"fibre", &Energies::fibre, 1.0},
+    {"shear", &Energies::shear, 1.0},
+    {"bending", &Energies::bending, 1.0},
+    {"contact", &Energies::contact, 1.0},
+    {"friction", &Energies::friction, 1.0},
+    {"damping", &Energies::damping, 1.0},
+    {"external", &Energies::external, -1.0},
+}};
 
 } // namespace plyform

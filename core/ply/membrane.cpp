@@ -3,6 +3,7 @@
 
 #include "core/mesh/incidence.hpp"
 #include "core/mesh/pairs.hpp"
+#include "core/ply/element_limits.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,10 +16,6 @@ constexpr double stabilisation = 1e-6;    // s_a over yarn stiffness, see (E)
 constexpr double most_of_shear = 0.1;     // s_a over what the shear holds deviations with, and
 constexpr double shear_scale_at = 0.5;    // rad: where that is taken; the law may start from zero
 constexpr double collapse_penalty = 1e-3; // g_a over yarn stiffness: far above the shear's scale
-constexpr double collapse_stretch = 0.5;
-
-/// Below this sine the two fibre families coincide and the shear angle has no meaning.
-constexpr double least_sine = 1e-9;
 
 /// s_a and g_a of a family of yarns softened by `softening`, see (E).
 SideStiffness side_stiffness(const Membrane& m, const TensionLaw& yarn, double density,
@@ -104,7 +101,6 @@ FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle)
 }
 
 bool collapsed(const FibreState& s) {
-  constexpr double least_stretch = 0.1, least_sine_between = 0.02;
   return !(s.lambda1 > least_stretch && s.lambda2 > least_stretch &&
            s.sin_omega > least_sine_between);
 }

@@ -2,6 +2,7 @@
 #include "core/ply/membrane_eigenvalue.hpp"
 
 #include "core/base/lanczos.hpp"
+#include "core/ply/element_limits.hpp"
 #include "core/ply/mass_normalise.hpp"
 
 #include <algorithm>
@@ -9,8 +10,6 @@
 
 namespace plyform {
 namespace {
-
-constexpr double collapse_reach = 0.55; // stretch: the guard acts below 0.5
 
 /// Whether some triangles share their yarns' strains.
 bool is_paired(const Membrane& m) {

@@ -4,6 +4,7 @@
 //   gamma = omega0 - pi/2 + arctan(d / J),  tau = A0 n_c p gamma / J
 // (Q) needs no unit vectors:
 //   q_1 = (A0 d_1 N_1 / lambda_1 - tau d / a) k_1 + tau k_2, and so with 1 and 2 exchanged     (Q')
+#include "core/ply/element_limits.hpp"
 #include "core/ply/membrane_simd_kernel.hpp"
 #include "core/ply/simd_kernel_body.hpp"
 
@@ -13,7 +14,6 @@ namespace {
 /// SimdTriangles that go through each step together, so that the processor finds work in the one
 /// while it waits for a root of the other. Even: pairs stay together.
 constexpr int batch = 8;
-constexpr double collapse_stretch = 0.5, least_sine_between = 0.02;
 
 /// KernelLaw, four times each.
 struct SimdYarns {
@@ -54,7 +54,7 @@ PLYFORM_INLINE void find_lengths(const SimdTriangles& t, const double* place, Si
   const Vector4 k1 = load(t.c11) * g1 + load(t.c12) * g2; // (11)
   const Vector4 k2 = load(t.c21) * g1 + load(t.c22) * g2;
   const Double4 a = dot(k1, k1), b = dot(k2, k2), d = dot(k1, k2), ab = a * b;
-  constexpr double least_sine2 = 1e-18;        // below, the shear angle has no meaning
+  constexpr double least_sine2 = least_sine * least_sine;
   s.k1.x = k1.x, s.k1.y = k1.y, s.k1.z = k1.z; // not at once: the compiler would copy in pieces
   s.k2.x = k2.x, s.k2.y = k2.y, s.k2.z = k2.z;
   s.a = a, s.b = b, s.d = d;
@@ -76,7 +76,6 @@ PLYFORM_INLINE Long4 find_angle(const SimdTriangles& t, const SimdLaw& law, Simd
 
 /// As collapsed() of core/ply/membrane.hpp; NaN counts.
 PLYFORM_INLINE Long4 lane_collapsed(const SimdState& s) {
-  constexpr double least_stretch = 0.1;
   const Long4 sound = (s.lambda1 > all(least_stretch)) & (s.lambda2 > all(least_stretch)) &
                       (s.j > least_sine_between * (s.lambda1 * s.lambda2));
   return ~sound;

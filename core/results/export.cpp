@@ -95,8 +95,10 @@ std::string vtu(const PlyFrame& ply) {
   put_cells(file, ply.triangles);
   file.xml += "<PointData>\n";
   file.vectors("x0", ply.x0);
-  file.scalars(contact_pressure_name, ply.contact_pressure);
-  if (!ply.reaction.empty()) file.vectors(reaction_name, ply.reaction);
+  for (const NodeScalar& field : node_scalars)
+    file.scalars(field.name, ply.*field.values);
+  for (const NodeVector& field : node_vectors)
+    if (!(ply.*field.values).empty()) file.vectors(field.name, ply.*field.values);
   file.xml += "</PointData>\n<CellData>\n";
   for (const CellVector& field : cell_vectors)
     file.vectors(field.name, ply.*field.values);

@@ -156,8 +156,10 @@ void write_constants(const Writer& out, const Frame& frame) {
 void write_ply(const Writer& out, const std::string& where, const PlyFrame& ply) {
   out.group(where);
   out.dataset(where + "/x", ply.x);
-  out.dataset(where + "/" + contact_pressure_name, ply.contact_pressure);
-  if (!ply.reaction.empty()) out.dataset(where + "/" + reaction_name, ply.reaction);
+  for (const NodeScalar& field : node_scalars)
+    out.dataset(where + "/" + field.name, ply.*field.values);
+  for (const NodeVector& field : node_vectors)
+    if (!(ply.*field.values).empty()) out.dataset(where + "/" + field.name, ply.*field.values);
   for (const CellVector& field : cell_vectors)
     out.dataset(where + "/" + field.name, ply.*field.values);
   for (const CellScalar& field : cell_scalars)
@@ -192,8 +194,12 @@ std::size_t bytes_needed(const Frame& frame, bool with_constants) {
   std::size_t bytes = slack;
   for (const PlyFrame& ply : frame.plies) {
     const std::size_t n = ply.x.size(), m = ply.triangles.size();
-    bytes += (4 + cell_vectors.size() + cell_scalars.size()) * object;
-    bytes += n * (point + number) + ply.reaction.size() * point;
+    bytes += (2 + node_scalars.size() + node_vectors.size() + cell_vectors.size() +
+              cell_scalars.size()) *
+             object;
+    bytes += n * (point + node_scalars.size() * number);
+    for (const NodeVector& field : node_vectors)
+      bytes += (ply.*field.values).size() * point;
     bytes += m * (cell_vectors.size() * point + cell_scalars.size() * number);
     if (with_constants) bytes += 3 * object + n * point + m * triangle;
   }

@@ -40,8 +40,25 @@ inline constexpr std::array<CellVector, 2> cell_vectors = {{
     {"weft", &PlyFrame::weft},
 }};
 
-inline constexpr const char* reaction_name = "reaction_N"; ///< of each node, where any is held
-inline constexpr const char* contact_pressure_name = "contact_pressure"; ///< of each node, N/mm^2
+/// A scalar of each node.
+struct NodeScalar {
+  const char* name;
+  std::vector<double> PlyFrame::*values;
+};
+
+inline constexpr std::array<NodeScalar, 1> node_scalars = {{
+    {"contact_pressure", &PlyFrame::contact_pressure},
+}};
+
+/// A vector of each node; empty, and then in no file, where a ply has none.
+struct NodeVector {
+  const char* name;
+  std::vector<Vec3> PlyFrame::*values;
+};
+
+inline constexpr std::array<NodeVector, 1> node_vectors = {{
+    {"reaction_N", &PlyFrame::reaction},
+}};
 
 /// Writes `content` to `path` + ".tmp" and renames it to `path` when it is whole. Throws
 /// std::runtime_error naming the path and the system's reason; the temporary file is then gone.

@@ -59,8 +59,11 @@ void check_name(const std::string& name, const char* kind) {
 
 void check_sizes(const PlyFrame& ply) {
   const std::size_t n = ply.x0.size(), m = ply.triangles.size();
-  bool fits = ply.x.size() == n && ply.contact_pressure.size() == n &&
-              (ply.reaction.empty() || ply.reaction.size() == n);
+  bool fits = ply.x.size() == n;
+  for (const NodeScalar& field : node_scalars)
+    fits = fits && (ply.*field.values).size() == n;
+  for (const NodeVector& field : node_vectors)
+    fits = fits && ((ply.*field.values).empty() || (ply.*field.values).size() == n);
   for (const CellScalar& field : cell_scalars)
     fits = fits && (ply.*field.values).size() == m;
   for (const CellVector& field : cell_vectors)
@@ -131,9 +134,9 @@ std::string history_header(const Frame& frame) {
   for (const BoundaryFrame& b : frame.boundaries)
     line +=
         fmt::format(",{},{}", heading(b.name + "_force_N"), heading(b.name + "_displacement_mm"));
-  return line +
-         ",kinetic_mJ,fibre_mJ,shear_mJ,bending_mJ,contact_mJ,friction_mJ,damping_mJ,external_mJ,"
-         "balance_error\n";
+  for (const EnergyTerm& term : energy_terms)
+    line += fmt::format(",{}_mJ", term.name);
+  return line + ",balance_error\n";
 }
 
 std::string history_row(const Frame& frame) {
@@ -148,10 +151,9 @@ std::string history_row(const Frame& frame) {
     put(out, b.force_N);
     put(out, b.stroke_mm);
   }
-  const Energies& e = frame.energy;
-  for (const double value : {e.kinetic, e.fibre, e.shear, e.bending, e.contact, e.friction,
-                             e.damping, e.external, e.balance_error()})
-    put(out, value);
+  for (const EnergyTerm& term : energy_terms)
+    put(out, frame.energy.*term.value);
+  put(out, frame.energy.balance_error());
   end_row(out);
   return fmt::to_string(out);
 }

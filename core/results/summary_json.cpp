@@ -217,12 +217,10 @@ std::string json_list(const std::vector<Item>& items, Text text) {
 }
 
 std::string energy_json(const Energies& e) {
-  return fmt::format(
-      "{{\"kinetic\": {}, \"fibre\": {}, \"shear\": {}, \"bending\": {}, \"contact\": {}, "
-      "\"friction\": {}, \"damping\": {}, \"external\": {}, \"balance_error\": {}}}",
-      json_number(e.kinetic), json_number(e.fibre), json_number(e.shear), json_number(e.bending),
-      json_number(e.contact), json_number(e.friction), json_number(e.damping),
-      json_number(e.external), json_number(e.balance_error()));
+  std::string out = "{";
+  for (const EnergyTerm& term : energy_terms)
+    out += fmt::format("\"{}\": {}, ", term.name, json_number(e.*term.value));
+  return out + fmt::format("\"balance_error\": {}}}", json_number(e.balance_error()));
 }
 
 std::string pair_json(const PairReport& pair) {

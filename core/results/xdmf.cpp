@@ -60,11 +60,12 @@ std::string ply_grid(const PlyFrame& ply, const std::string& group, double time)
     out += attribute(field.name, "Vector", "Cell", data_item(m, 3, "Float", 8, here + field.name));
   for (const CellScalar& field : cell_scalars)
     out += attribute(field.name, "Scalar", "Cell", data_item(m, 1, "Float", 8, here + field.name));
-  out += attribute(contact_pressure_name, "Scalar", "Node",
-                   data_item(n, 1, "Float", 8, here + contact_pressure_name));
-  if (!ply.reaction.empty())
-    out += attribute(reaction_name, "Vector", "Node",
-                     data_item(n, 3, "Float", 8, here + reaction_name));
+  for (const NodeScalar& field : node_scalars)
+    out += attribute(field.name, "Scalar", "Node", data_item(n, 1, "Float", 8, here + field.name));
+  for (const NodeVector& field : node_vectors)
+    if (!(ply.*field.values).empty())
+      out +=
+          attribute(field.name, "Vector", "Node", data_item(n, 3, "Float", 8, here + field.name));
   return out + "</Grid>\n";
 }
 

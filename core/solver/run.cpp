@@ -101,10 +101,8 @@ double balance_floor(const Scene& s) {
 std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floor) {
   const double error = e.balance_error();
   const double limit = s.data.solver.max_balance_error;
-  const double largest =
-      std::max({std::abs(e.kinetic), e.fibre, e.shear, e.bending, e.contact, std::abs(e.friction),
-                std::abs(e.damping), std::abs(e.external)});
-  if (std::isfinite(error) && (largest < floor || std::abs(error) <= limit)) return std::nullopt;
+  if (std::isfinite(error) && (e.largest() < floor || std::abs(error) <= limit))
+    return std::nullopt;
   return Stop{
       fmt::format("stopped at step {}, time {:.6g} s: energy balance error {:.3g} passes "
                   "solver.max_balance_error = {:.3g}; a smaller solver.step_factor may help",

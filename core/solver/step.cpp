@@ -353,13 +353,8 @@ Energies current_energies(const Scene& s, ThreadPool& pool) {
   Energies e;
   for (const MembraneEnergy& block : of_block)
     e.fibre += block.fibre, e.shear += block.shear;
-  for (const Energies& ply : of_ply) {
-    e.kinetic += ply.kinetic;
-    e.fibre += ply.fibre;
-    e.shear += ply.shear;
-    e.bending += ply.bending;
-    e.external += ply.external;
-  }
+  for (const Energies& ply : of_ply)
+    e += ply;
   const auto add = [&e](const ContactTotals& c) {
     e.contact += c.elastic;
     e.friction += c.friction;

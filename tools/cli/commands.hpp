@@ -65,7 +65,7 @@ PreparedCase load_case(const CaseArguments& arguments);
 int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);
 int chart_command(const ChartArguments& arguments);
-int keys_command();
+int keys_command(bool markdown);
 int identify_command(const IdentifyArguments& arguments);
 int theory_command(const TheoryArguments& arguments);
 

@@ -5,16 +5,56 @@
 #include <fmt/format.h>
 
 namespace plyform {
+namespace {
 
-int keys_command() {
-  for (const KeyInfo& k : case_keys()) {
-    fmt::print("{}\n    {}", k.key, k.type);
-    if (!k.unit.empty() && k.unit != "-") fmt::print(", {}", k.unit);
-    const bool required = k.fallback.rfind("required", 0) == 0;
-    if (!k.fallback.empty()) fmt::print("; {}{}", required ? "" : "default ", k.fallback);
-    if (!k.range.empty()) fmt::print("; {}", k.range);
-    fmt::print("\n    {}\n", k.meaning);
+/// A default is marked as one; what is required says so itself.
+std::string fallback_of(const KeyInfo& k) {
+  const bool required = k.fallback.rfind("required", 0) == 0;
+  return required || k.fallback.empty() ? k.fallback : "default " + k.fallback;
+}
+
+void print_text(const KeyInfo& k) {
+  fmt::print("{}\n    {}", k.key, k.type);
+  if (!k.unit.empty() && k.unit != "-") fmt::print(", {}", k.unit);
+  for (const std::string& part : {fallback_of(k), k.range})
+    if (!part.empty()) fmt::print("; {}", part);
+  fmt::print("\n    {}\n", k.meaning);
+}
+
+/// The text of a cell of a table in Markdown.
+std::string cell(std::string text) {
+  for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
+    text.insert(at, 1, '\\');
+  return text;
+}
+
+void print_markdown(const std::vector<KeyInfo>& keys) {
+  fmt::print("# Keys of case and fabric files\n\nMade by `plyform keys --markdown`. NAME stands "
+             "for a name of your choice, [] for an item of a list. A fabric file has the keys "
+             "below fabrics.NAME.\n");
+  std::string table = "none";
+  for (const KeyInfo& k : keys) {
+    if (const std::string of = k.key.substr(0, k.key.find_first_of(".[")); of != table) {
+      table = of;
+      fmt::print("\n## {}\n\n| key | type, unit | default | range | meaning |\n"
+                 "|---|---|---|---|---|\n",
+                 table);
+    }
+    const std::string unit = k.unit.empty() || k.unit == "-" ? "" : ", " + k.unit;
+    fmt::print("| `{}` | {} | {} | {} | {} |\n", k.key, cell(k.type + unit), cell(k.fallback),
+               cell(k.range), cell(k.meaning));
   }
+}
+
+} // namespace
+
+int keys_command(bool markdown) {
+  const std::vector<KeyInfo> keys = case_keys();
+  if (markdown)
+    print_markdown(keys);
+  else
+    for (const KeyInfo& k : keys)
+      print_text(k);
   return exit_done;
 }
 

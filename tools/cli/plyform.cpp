@@ -81,6 +81,8 @@ int main(int argc, char** argv) {
   add_theory_tests(*theory_app, theory);
 
   CLI::App* keys_app = app.add_subcommand("keys", "list every key of case and fabric files");
+  bool markdown = false;
+  keys_app->add_flag("--markdown", markdown, "as a page of tables");
   CLI::App* version_app = app.add_subcommand("version", "print the version");
 
   try {
@@ -95,7 +97,7 @@ int main(int argc, char** argv) {
     if (export_app->parsed()) return export_command(results);
     if (identify_app->parsed()) return identify_command(identify);
     if (theory_app->parsed()) return theory_command(theory);
-    if (keys_app->parsed()) return keys_command();
+    if (keys_app->parsed()) return keys_command(markdown);
     if (version_app->parsed()) fmt::print("plyform {}\n", version());
     return 0;
   } catch (const std::exception& e) {

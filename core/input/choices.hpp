@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Words of choice keys and what they stand for, one table each: the schema lists the words, the
+// reader looks them up.
+#pragma once
+
+#include "core/model/case.hpp"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace plyform {
+
+template <class Value>
+struct Choice {
+  const char* word;
+  Value value;
+};
+
+inline constexpr Choice<MeshKind> mesh_choices[] = {
+    {"diagonal", MeshKind::diagonal}, {"alternating", MeshKind::alternating},
+    {"crossed", MeshKind::crossed},   {"fibres", MeshKind::fibres},
+    {"free", MeshKind::free},         {"file", MeshKind::file}};
+
+inline constexpr Choice<ElementKind> element_choices[] = {{"auto", ElementKind::automatic},
+                                                          {"plain", ElementKind::plain},
+                                                          {"averaged", ElementKind::averaged}};
+
+inline constexpr Choice<Motion> motion_choices[] = {
+    {"fixed", Motion::fixed}, {"driven", Motion::driven}, {"force", Motion::force}};
+
+inline constexpr Choice<BoundaryKind> boundary_choices[] = {{"grip", BoundaryKind::grip},
+                                                            {"frame", BoundaryKind::frame},
+                                                            {"symmetry", BoundaryKind::symmetry}};
+
+inline constexpr Choice<bool> off_on_choices[] = {{"off", false}, {"on", true}};
+
+/// The words, in the order of the table.
+template <class Value, std::size_t count>
+std::vector<std::string> words_of(const Choice<Value> (&choices)[count]) {
+  std::vector<std::string> words;
+  for (const Choice<Value>& choice : choices)
+    words.emplace_back(choice.word);
+  return words;
+}
+
+/// What a word stands for; of one that is not there (reported by the schema) the first.
+template <class Value, std::size_t count>
+Value value_of(const Choice<Value> (&choices)[count], std::string_view word) {
+  for (const Choice<Value>& choice : choices)
+    if (word == choice.word) return choice.value;
+  return choices[0].value;
+}
+
+} // namespace plyform
