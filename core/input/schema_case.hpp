@@ -23,6 +23,13 @@ inline void append(Rows& all, Rows part) {
 Rows yarn_bending_rows(const std::string& yarn);
 Rows sheet_rows();
 
+/// core/input/schema_fabric.cpp: fabrics.NAME and fabric files.
+Rows fabric_rows();
+
+/// core/input/schema_tool.cpp: [[tool]], and its motion.
+Rows tool_rows();
+Rows motion_rows();
+
 /// core/input/schema_boundary.cpp: [[boundary]].
 Rows boundary_rows();
 

@@ -39,7 +39,7 @@ void search_tool(Scene& s, ToolState& t) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     find_tool_ply_points(t.contacts[p], t.body, s.plies[p].state(),
                          std::max(s.skin, step_displacement(s, static_cast<int>(p), t)),
-                         path_ahead(s, t) + s.plies[p].path_length);
+                         path_length_ahead(s, t) + s.plies[p].path_length);
   t.displacement_search = t.body.displacement;
 }
 
@@ -149,7 +149,7 @@ void renew_spread(const Scene& s, PlyState& ply) {
 
 } // namespace
 
-void follow_spread(Scene& s, ThreadPool& pool) {
+void update_fold_bounds(Scene& s, ThreadPool& pool) {
   // two nodes a side apart that move by `most` against each other turn it by half the margin
   const double most = 0.25 * fold_margin * s.element_size;
   const auto due = [most](const PlyState& ply) {
@@ -164,7 +164,7 @@ void follow_spread(Scene& s, ThreadPool& pool) {
   });
 }
 
-bool follow_ways(Scene& s) {
+bool track_displacements(Scene& s) {
   // Ways only grow between searches: what has once been looked at is looked at again.
   const auto grow = [](double& max_displacement, double now) {
     if (!(now <= max_displacement) && !std::isnan(max_displacement))
@@ -181,14 +181,14 @@ bool follow_ways(Scene& s) {
     t.path_length += t.body.motion.norm();
     grow(t.max_displacement, (t.body.displacement - t.displacement_search).norm() + ahead);
   }
-  return furthest_way(s) <= 0.5 * s.skin;
+  return largest_displacement(s) <= 0.5 * s.skin;
 }
 
-double path_ahead(const Scene& s, const ToolState& t) {
+double path_length_ahead(const Scene& s, const ToolState& t) {
   return t.path_length + (t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0);
 }
 
-double furthest_way(const Scene& s) {
+double largest_displacement(const Scene& s) {
   double furthest = 0.0;
   const auto grow = [&furthest](double max_displacement) {
     if (!(max_displacement <= furthest) && !std::isnan(furthest))

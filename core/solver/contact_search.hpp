@@ -10,16 +10,16 @@ namespace plyform {
 /// Brings ways and paths of plies and tools up to date, once a step. Returns whether the pairs of
 /// the last search still do: nothing has moved by half the skin. False too if a position is not
 /// finite.
-bool follow_ways(Scene& scene);
+bool track_displacements(Scene& scene);
 
 /// mm, ToolState::path with what a pushed tool may still go in this step.
-double path_ahead(const Scene& scene, const ToolState& tool);
+double path_length_ahead(const Scene& scene, const ToolState& tool);
 
 /// The largest of those ways, mm; NaN if a position is not finite.
-double furthest_way(const Scene& scene);
+double largest_displacement(const Scene& scene);
 
 /// Renews what has been used up of PlyState::spread.
-void follow_spread(Scene& scene, ThreadPool& pool);
+void update_fold_bounds(Scene& scene, ThreadPool& pool);
 
 /// Lists every pair within contact distance + skin. Until something has moved by half the skin no
 /// other pair can touch.

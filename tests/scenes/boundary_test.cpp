@@ -3,7 +3,7 @@
 #include "core/model/motion.hpp"
 #include "core/solver/run.hpp"
 #include "core/solver/step.hpp"
-#include "support/scene_checks.hpp"
+#include "support/boundary_scenes.hpp"
 #include "support/thread_checks.hpp"
 
 #include <cstring>
@@ -15,25 +15,6 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-Boundary grip(const std::string& name, const Vec2& a, const Vec2& b, const Vec3& direction,
-              double stroke) {
-  Boundary g;
-  g.name = name;
-  g.on_edge = true;
-  g.place = {a, b};
-  g.direction = direction;
-  g.stroke = stroke;
-  return g;
-}
-
-Boundary plane(const std::string& name, const Vec2& normal) {
-  Boundary p;
-  p.name = name;
-  p.kind = BoundaryKind::symmetry;
-  p.normal = normal;
-  return p;
-}
-
 Boundary square_frame(double side, double stroke) {
   Boundary f;
   f.name = "frame";
@@ -42,17 +23,6 @@ Boundary square_frame(double side, double stroke) {
   f.hinges = {Vec2(-a, -a), Vec2(a, -a), Vec2(a, a), Vec2(-a, a)};
   f.stroke = stroke;
   return f;
-}
-
-/// 100 x 20 mm between x = -50 and 50, held at the left, pulled at the right.
-Case strip(double angle, const Vec3& direction, double stroke, double size = 10.0) {
-  Case data = stack_of({angle}, rectangle(100.0, 20.0, size));
-  data.boundaries = {grip("left", {-50, -10}, {-50, 10}, Vec3::UnitX(), 0.0),
-                     grip("right", {50, -10}, {50, 10}, direction, stroke)};
-  set_friction(data, 0.0);
-  data.solver.fibre_softening = 100.0;
-  data.solver.duration = 0.02;
-  return data;
 }
 
 Vec3 momentum(const PlyState& ply) {
@@ -264,97 +234,6 @@ TEST(BoundaryScene, PictureFrameHasTheLoadOfTheCellsAndNoStrain) {
 }
 
 // ---- symmetry ----
-
-/// A square of 80 mm clamped all round, or the quarter of it beyond x = 0 and y = 0, under a ball.
-Case pushed_square(double angle, MeshKind mesh, bool quarter) {
-  Case data = stack_of({angle}, rectangle(80.0, 80.0, 10.0, mesh));
-  data.fabrics[0].weft = data.fabrics[0].warp; // balanced, for 45 degrees
-  if (quarter) {
-    data.blanks[0].outline.boundary = {{0, 0}, {40, 0}, {40, 40}, {0, 40}};
-    data.boundaries = {plane("x0", Vec2::UnitX()), plane("y0", Vec2::UnitY())};
-  }
-  const Vec2 corners[] = {{-40, -40}, {40, -40}, {40, 40}, {-40, 40}};
-  for (std::size_t k = quarter ? 1 : 0; k < (quarter ? 3u : 4u); ++k)
-    data.boundaries.push_back(
-        grip("side" + std::to_string(k), corners[k], corners[(k + 1) % 4], Vec3::UnitZ(), 0.0));
-  Tool ball;
-  ball.name = "ball";
-  ball.shape = Sphere{25.0};
-  ball.position = {0.0, 0.0, 25.6};
-  ball.motion = Motion::driven;
-  ball.stroke = 8.0;
-  data.tools = {ball};
-  set_friction(data, 0.2);
-  data.gravity = {0.0, 0.0, -9810.0};
-  data.solver.fibre_softening = 100.0;
-  data.solver.duration = 0.02;
-  return data;
-}
-
-/// A scene run to its end with the stable step of its stiffest element, which part and whole share;
-/// the sharper one (core/ply/membrane_eigenvalue.hpp) differs by a per cent.
-Scene run_by_elements(const Case& data) {
-  Scene s = make_scene(data);
-  s.plies[0].eigenvalue_ratio = 1.0;
-  s.next_lanczos = std::numeric_limits<long>::max();
-  ThreadPool pool(1);
-  start(s, pool);
-  while (s.time < data.solver.duration) {
-    const auto stop = compute_forces(s, pool);
-    EXPECT_FALSE(stop) << stop->message;
-    if (stop) break;
-    move_plies(s, pool);
-  }
-  EXPECT_FALSE(compute_forces(s, pool));
-  return s;
-}
-
-TEST(BoundaryScene, QuarterIsAQuarterOfTheWhole) {
-  // Meshes of which the quarter's is exactly a quarter, and which the plain element fits: with
-  // averaged strains pairs may lie across the planes.
-  for (const auto& [angle, mesh] :
-       {std::pair(0.0, MeshKind::alternating), std::pair(0.25 * pi, MeshKind::crossed)}) {
-    const Scene whole = run_by_elements(pushed_square(angle, mesh, false));
-    const Scene quarter = run_by_elements(pushed_square(angle, mesh, true));
-    const PlyState &all = whole.plies[0], &part = quarter.plies[0];
-    ASSERT_EQ(4 * part.membrane.triangles.size(), all.membrane.triangles.size());
-    double largest = 0.0, deepest = 0.0;
-    for (std::size_t n = 0; n < part.x.size(); ++n) {
-      std::size_t same = 0;
-      while (same < all.x.size() && (all.x0[same] - part.x0[n]).norm() > 1e-9)
-        ++same;
-      ASSERT_LT(same, all.x.size());
-      largest = std::max(largest, (all.x[same] - part.x[n]).norm());
-      deepest = std::max(deepest, part.x0[n].z() - part.x[n].z());
-      ASSERT_TRUE(part.x[n].allFinite());
-    }
-    EXPECT_GT(deepest, 7.0);
-    EXPECT_LE(largest, 1e-6) << angle; // mm: rounding, grown over the run
-    const double force = whole.tools[0].force.norm();
-    EXPECT_GT(force, 1.0);
-    EXPECT_NEAR(4.0 * quarter.tools[0].force.z(), whole.tools[0].force.z(), 1e-6 * force);
-    ThreadPool pool(1);
-    const double external = current_energies(whole, pool).external;
-    EXPECT_NEAR(4.0 * current_energies(quarter, pool).external, external, 1e-6 * external);
-  }
-}
-
-TEST(BoundaryScene, GripsOffThePlaneMayCrossIt) {
-  // Half of a strip that is pulled at both ends.
-  Case whole = strip(0.0, Vec3::UnitX(), 0.2);
-  whole.boundaries[0].direction = -Vec3::UnitX();
-  whole.boundaries[0].stroke = 0.2;
-  Case half = whole;
-  half.blanks[0].outline.boundary = {{0, -10}, {50, -10}, {50, 10}, {0, 10}};
-  half.boundaries[0] = plane("middle", Vec2::UnitX());
-  const RunResult a = run_case(whole, 1, {}), b = run_case(half, 1, {});
-  ASSERT_EQ(a.last.boundaries.size(), 2u);
-  ASSERT_EQ(b.last.boundaries.size(), 1u); // planes are not listed
-  EXPECT_EQ(b.last.boundaries[0].name, "right");
-  const double force = a.last.boundaries[1].force_N;
-  EXPECT_NEAR(force, 115.0 * 20.0 * 0.004, 0.02 * force);
-  EXPECT_NEAR(b.last.boundaries[0].force_N, force, 1e-6 * force);
-}
 
 // ---- runs ----
 

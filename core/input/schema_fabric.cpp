@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Keys of fabrics.NAME and of fabric files; those of bending are in schema_bending.cpp.
+#include "core/input/schema_case.hpp"
+
+namespace plyform {
+
+using K = KeyKind;
+
+Rows fabric_rows() {
+  Rows rows{
+      {.key = "fabrics", .kind = K::map, .meaning = "fabrics, each under a name of your choice"},
+      {.key = "fabrics.NAME", .kind = K::fabric, .meaning = "fabric file, or its keys in a table"},
+      {.key = "fabrics.NAME.name",
+       .kind = K::text,
+       .otherwise = "the NAME",
+       .meaning = "fabric's name in results"},
+      {.key = "fabrics.NAME.surface_density",
+       .unit = "g/m2",
+       .ranges = {positive},
+       .meaning = "mass per area of the unformed fabric"},
+      {.key = "fabrics.NAME.thickness",
+       .unit = "mm",
+       .ranges = {positive},
+       .meaning = "thickness of the unformed fabric"},
+      {.key = "fabrics.NAME.fibre_angle",
+       .unit = "deg",
+       .fallback = "90.0",
+       .ranges = {{.least = 0.0, .most = 180.0, .open_least = true, .open_most = true}},
+       .of = "law",
+       .with = {"woven"},
+       .meaning = "angle from warp to weft before forming"},
+      {.key = "fabrics.NAME.law",
+       .kind = K::choice,
+       .fallback = "\"woven\"",
+       .choices = {"woven", "isotropic"},
+       .meaning = "kind of sheet: yarns in two directions (woven or non-crimp), or a foil without"},
+      {.key = "fabrics.NAME.isotropic",
+       .kind = K::table,
+       .of = "law",
+       .with = {"isotropic"},
+       .meaning = "law of a sheet without yarns, which resists compression too"},
+      {.key = "fabrics.NAME.isotropic.youngs_modulus",
+       .unit = "N/mm2",
+       .ranges = {positive},
+       .meaning = "Young's modulus, multiplied by the thickness"},
+      {.key = "fabrics.NAME.isotropic.poissons_ratio",
+       .ranges = {{.least = 0.0, .most = 0.5}},
+       .meaning = "Poisson's ratio"},
+      {.key = "fabrics.NAME.isotropic.bending",
+       .kind = K::choice,
+       .fallback = "\"none\"",
+       .choices = {"none", "plate"},
+       .meaning = "bending stiffness: none, a membrane; or that of a plate of this thickness"}};
+  for (const std::string yarn : {"warp", "weft"}) {
+    const std::string table = "fabrics.NAME." + yarn;
+    append(rows, {{.key = table,
+                   .kind = K::table,
+                   .of = "law",
+                   .with = {"woven"},
+                   .meaning = yarn + " yarns"},
+                  {.key = table + ".density",
+                   .unit = "yarns/mm",
+                   .ranges = {positive},
+                   .meaning = "number of " + yarn + " yarns per mm across them"},
+                  {.key = table + ".stiffness",
+                   .unit = "N/yarn",
+                   .instead = "table",
+                   .ranges = {positive},
+                   .meaning = "tension of one yarn divided by its strain"},
+                  {.key = table + ".table",
+                   .kind = K::pairs,
+                   .unit = "-, N/yarn",
+                   .instead = "stiffness",
+                   .ranges = {not_negative, not_negative},
+                   .least_items = 2,
+                   .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}});
+    append(rows, yarn_bending_rows(yarn));
+  }
+  append(rows, {{.key = "fabrics.NAME.shear",
+                 .kind = K::table,
+                 .of = "law",
+                 .with = {"woven"},
+                 .meaning = "law of in-plane shear"},
+                {.key = "fabrics.NAME.shear.polynomial",
+                 .kind = K::numbers,
+                 .unit = "N mm",
+                 .instead = "table",
+                 .least_items = 1,
+                 .meaning = "coefficients k1, k3, k5 ... of the torque of one unit cell, "
+                            "k1 g + k3 g^3 + k5 g^5 ..., g the shear angle in rad"},
+                {.key = "fabrics.NAME.shear.table",
+                 .kind = K::pairs,
+                 .unit = "deg, N mm",
+                 .instead = "polynomial",
+                 .ranges = {{.least = 0.0, .most = 90.0, .open_most = true}, not_negative},
+                 .least_items = 2,
+                 .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
+                            "same with minus sign for negative angles"}});
+  append(rows, sheet_rows());
+  return rows;
+}
+
+} // namespace plyform

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/nodal_forces.hpp"
+
+#include "contact/stopwatch.hpp"
+#include "core/solver/contact_search.hpp"
+
+#include <algorithm>
+
+namespace plyform {
+namespace {
+
+/// Each ply's list of the force arrays that hold something in this step, in fixed order.
+void collect_forces(Scene& s) {
+  const auto list = [&](int ply) -> auto& {
+    return s.plies[static_cast<std::size_t>(ply)].nodal_forces;
+  };
+  for (PlyState& ply : s.plies) {
+    ply.nodal_forces.clear();
+    if (!ply.reaction.empty()) ply.nodal_forces.push_back(&ply.reaction);
+  }
+  for (const ToolState& t : s.tools)
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      if (!t.contacts[p].list.active.empty())
+        list(static_cast<int>(p)).push_back(&t.contacts[p].force);
+  for (const PlyPair& pair : s.ply_pairs) {
+    if (!pair.loaded) continue;
+    list(pair.a).push_back(&pair.force_a);
+    list(pair.b).push_back(&pair.force_b);
+  }
+}
+
+/// All that happens between two plies.
+void pair_forces(Scene& s, PlyPair& pair) {
+  if (pair.loaded) {
+    std::fill(pair.force_a.begin(), pair.force_a.end(), Vec3::Zero());
+    std::fill(pair.force_b.begin(), pair.force_b.end(), Vec3::Zero());
+  }
+  pair.loaded = false;
+  const PlyState &a = s.plies[static_cast<std::size_t>(pair.a)],
+                 &b = s.plies[static_cast<std::size_t>(pair.b)];
+  for (const int i : pair.contacts) {
+    const bool up = s.ply_contacts[static_cast<std::size_t>(i)].slave == pair.a;
+    PlyPlyContact& contact = s.ply_contacts[static_cast<std::size_t>(i)].contact;
+    const PlyState &slave = up ? a : b, &master = up ? b : a;
+    ply_ply_forces(contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
+                   {a.max_displacement + b.max_displacement, a.path_length + b.path_length},
+                   up ? pair.force_a : pair.force_b, up ? pair.force_b : pair.force_a);
+    pair.loaded = pair.loaded || contact.sums.touching > 0;
+  }
+  for (const int i : pair.edges) {
+    EdgeEdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
+    edge_forces(contact, a.state(), a.edges, b.state(), b.edges, s.dt,
+                a.path_length + b.path_length, pair.force_a, pair.force_b);
+    pair.loaded = pair.loaded || contact.sums.touching > 0;
+  }
+}
+
+} // namespace
+
+void element_and_contact_forces(Scene& s, ThreadPool& pool) {
+  const auto tool_task = [&](int i) {
+    ToolState& t = s.tools[static_cast<std::size_t>(i)];
+    const Stopwatch watch(t.seconds);
+    const Vec3 before = t.force;
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      t.ply_paths[p] = path_length_ahead(s, t) + s.plies[p].path_length;
+    t.force = tool_ply_forces(t.body, t.contacts, s.ply_states, t.ply_paths, s.dt);
+    t.work -= 0.5 * (before + t.force).dot(t.body.motion);
+  };
+  const auto group_task = [&](int i) {
+    Block& block = s.group_blocks[static_cast<std::size_t>(i)];
+    const Stopwatch watch(block.seconds);
+    PlyState& ply = s.plies[static_cast<std::size_t>(block.ply)];
+    const GroupReport report =
+        ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, s.dt, block.begin)
+                 : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
+    s.group_sums[static_cast<std::size_t>(i)] += report.viscous_work;
+    s.group_collapsed[static_cast<std::size_t>(i)] = report.collapsed;
+  };
+  const auto bending_task = [&](int i) {
+    Block& block = s.bending_blocks[static_cast<std::size_t>(i)];
+    const Stopwatch watch(block.seconds);
+    PlyState& ply = s.plies[static_cast<std::size_t>(block.ply)];
+    bending_forces(ply.bending_simd, *ply.bending, ply.x, block.begin);
+  };
+  const int pairs = static_cast<int>(s.ply_pairs.size());
+  const int tools = pairs + static_cast<int>(s.tools.size());
+  s.ply_states.clear();
+  for (const PlyState& ply : s.plies)
+    s.ply_states.push_back(ply.state());
+  const int groups = tools + static_cast<int>(s.group_blocks.size());
+  const int all = groups + static_cast<int>(s.bending_blocks.size());
+  pool.run(all, [&](int i) { // longest tasks first
+    if (i < pairs)
+      pair_forces(s, s.ply_pairs[static_cast<std::size_t>(i)]);
+    else if (i < tools)
+      tool_task(i - pairs);
+    else if (i < groups)
+      group_task(i - tools);
+    else
+      bending_task(i - groups);
+  });
+  collect_forces(s);
+}
+
+MassLoads mass_loads(const Scene& s) {
+  return {s.data.gravity, s.data.solver.mass_damping};
+}
+
+void sum_forces(const PlyState& ply, int begin, int end, Vec3* f) {
+  for (int n = begin; n < end; ++n) {
+    Vec3& sum = f[n - begin];
+    sum = ply.simd ? simd_force(*ply.simd, static_cast<std::size_t>(n))
+                   : node_force(ply.membrane, ply.q, n);
+    if (ply.bending) sum += simd_force(ply.bending_simd, static_cast<std::size_t>(n));
+  }
+  for (const std::vector<Vec3>* force : ply.nodal_forces) {
+    const Vec3* from = force->data() + begin;
+    for (int i = 0; i < end - begin; ++i)
+      f[i] += from[i];
+  }
+}
+
+Vec3 acceleration(const PlyState& ply, int node, const MassLoads& loads) {
+  Vec3 force;
+  sum_forces(ply, node, node + 1, &force);
+  return acceleration(ply, static_cast<std::size_t>(node), force, loads);
+}
+
+} // namespace plyform

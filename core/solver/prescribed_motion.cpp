@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/prescribed_motion.hpp"
+
+#include "core/model/motion.hpp"
+#include "core/solver/nodal_forces.hpp"
+
+namespace plyform {
+namespace {
+
+/// (R) of core/model/boundary.hpp for one node: the velocity that takes it where its boundaries
+/// will be. Adds to their loads and work.
+void hold_node(Scene& s, const PrescribedNode& held) {
+  PlyState& ply = s.plies[static_cast<std::size_t>(held.ply)];
+  const auto n = static_cast<std::size_t>(held.node);
+  const Vec3 before = ply.reaction[n];
+  ply.reaction[n].setZero();
+  const Vec3 free = acceleration(ply, held.node, mass_loads(s));
+  const double span = 0.5 * (s.dt + s.next_dt);
+  Vec3 reaction = Vec3::Zero(), displacement = reaction, slope = reaction;
+  int last = -1; // most nodes are held along all axes by one boundary: placed once
+  for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
+    const Vec3& axis = held.axis[i];
+    const auto b = static_cast<std::size_t>(held.boundary[i]);
+    BoundaryState& state = s.boundaries[b];
+    if (held.boundary[i] != last) {
+      const Boundary& boundary = s.data.boundaries[b];
+      displacement = prescribed_position(boundary, ply.x0[n], state.next_displacement) - ply.x[n];
+      slope = prescribed_slope(boundary, ply.x0[n], state.displacement);
+      last = held.boundary[i];
+    }
+    const double wanted = (axis.dot(displacement) / s.next_dt - axis.dot(ply.velocity[n])) / span;
+    const Vec3 r = ply.membrane.node_mass[n] * (wanted - axis.dot(free)) * axis;
+    reaction += r;
+    state.force += r;
+    state.load += r.dot(slope);
+    state.work += 0.5 * axis.dot(before + r) * axis.dot(ply.motion[n]);
+  }
+  ply.reaction[n] = reaction;
+}
+
+} // namespace
+
+void prescribe_nodes(Scene& s) {
+  const double duration = s.data.solver.duration;
+  for (std::size_t b = 0; b < s.boundaries.size(); ++b) {
+    const double stroke = s.data.boundaries[b].stroke;
+    BoundaryState& state = s.boundaries[b];
+    state.displacement = smooth_step(stroke, s.time, duration);
+    state.next_displacement = smooth_step(stroke, s.time + s.next_dt, duration);
+    state.load = 0.0;
+    state.force.setZero();
+  }
+  for (const PrescribedNode& held : s.held)
+    hold_node(s, held);
+}
+
+} // namespace plyform

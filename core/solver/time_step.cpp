@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/time_step.hpp"
+
+#include "core/solver/contact_search.hpp"
+#include "core/solver/stable_time_step.hpp"
+
+#include <algorithm>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+/// visit(contact) for every ToolPlyContact, PlyPlyContact and EdgeEdgeContact of the scene.
+template <class SomeScene, class Visit>
+void visit_contacts(SomeScene& s, const Visit& visit) {
+  for (auto& tool : s.tools)
+    for (auto& contact : tool.contacts)
+      visit(contact);
+  for (auto& pair : s.ply_contacts)
+    visit(pair.contact);
+  for (auto& pair : s.edge_contacts)
+    visit(pair.contact);
+}
+
+} // namespace
+
+void renew_stable_step(Scene& s, ThreadPool& pool) {
+  s.stable_dt = s.data.solver.step_factor * stable_step(s, pool).dt;
+  s.bound_displacement = largest_displacement(s);
+  visit_contacts(s, [](auto& contact) {
+    contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
+  });
+}
+
+bool contacts_deepened(const Scene& s) {
+  bool deepened = false;
+  visit_contacts(s, [&](const auto& contact) {
+    deepened = deepened || contact.sums.penetration > contact.renew_depth;
+  });
+  return deepened;
+}
+
+void set_step(Scene& s) {
+  double ratio = std::numeric_limits<double>::infinity();
+  visit_contacts(s, [&](const auto& contact) { ratio = std::min(ratio, contact.sums.step_ratio); });
+  s.next_dt = s.dt > 0.0 ? std::min(s.stable_dt, s.dt * ratio) : s.stable_dt;
+  s.min_dt = s.min_dt > 0.0 ? std::min(s.min_dt, s.next_dt) : s.next_dt;
+  s.max_dt = std::max(s.max_dt, s.next_dt);
+}
+
+} // namespace plyform

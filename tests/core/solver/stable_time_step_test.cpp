@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Where the step is stable: below its bound, alone and in a stack, and not above it.
+#include "core/solver/stable_time_step.hpp"
+#include "core/solver/step.hpp"
+#include "support/scene_checks.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+/// A ply held taut all round, without damping, its nodes set off at random. Returns why it stopped,
+/// or nothing if it did not; `growth`: largest energy over that at first.
+std::optional<Stop> let_a_taut_ply_vibrate(ElementKind element, double step_factor,
+                                           double& growth) {
+  Case data = stack_of({0.0}, rectangle(100.0, 100.0, 10.0));
+  data.solver.element = element;
+  set_friction(data, 0.0);
+  data.solver.fibre_damping = 0.0;
+  data.solver.step_factor = step_factor;
+  Scene s = make_scene(data);
+  PlyState& ply = s.plies[0];
+  Random random(2);
+  for (std::size_t n = 0; n < ply.x.size(); ++n) {
+    ply.x[n].head<2>() *= 1.005;
+    if (ply.x0[n].head<2>().lpNorm<Eigen::Infinity>() > 49.0)
+      ply.membrane.node_mass[n] = 1e9; // t: a frame
+    else
+      ply.velocity[n] = 1000.0 * random_vector(random); // keeps all fibres taut
+  }
+  ThreadPool pool(1);
+  start(s, pool);
+  const auto energy = [&] {
+    const Energies e = current_energies(s, pool);
+    return e.kinetic + e.fibre + e.shear;
+  };
+  double first = 0.0;
+  growth = 0.0;
+  for (int step = 0; step < 4000; ++step) {
+    if (auto stop = compute_forces(s, pool)) return stop;
+    if (step == 1) first = energy();
+    if (step > 0) growth = std::max(growth, energy() / first);
+    move_plies(s, pool);
+  }
+  return std::nullopt;
+}
+
+TEST(Step, IsStableBelowTheBoundAndStopsAboveIt) {
+  for (const ElementKind element : {ElementKind::plain, ElementKind::averaged}) {
+    for (const double step_factor : {0.5, 0.9, 0.99}) {
+      double growth = 0.0;
+      EXPECT_FALSE(let_a_taut_ply_vibrate(element, step_factor, growth)) << step_factor;
+      // near the bound the ledger's energy of the highest modes is 1/(1 - step_factor^2) of theirs
+      EXPECT_LT(growth, step_factor < 0.95 ? 1.1 : 1.6) << step_factor;
+      EXPECT_GT(growth, 0.0);
+    }
+    double growth = 0.0;
+    const auto stop = let_a_taut_ply_vibrate(element, 1.05, growth);
+    // yarns that go slack in turns hold the averaged element's energy at some hundred times the
+    // first: a whole run stops by its ledger then (Run.StopsWhenTheStepIsTooLarge)
+    EXPECT_TRUE(stop || growth > 100.0) << growth;
+    if (!stop) continue;
+    for (const char* part : {"stopped at step ", "time ", "ply ply1"})
+      EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
+  }
+}
+
+/// Three plies held taut all round and pressed between two plates, nodes set off at random,
+/// friction stuck. Returns the largest energy over that at first; infinite if it stopped.
+double let_a_pressed_stack_vibrate(double damping, double step_factor, double& stretch) {
+  Case data = stack_of({0.0, 0.8, 0.0}, rectangle(50.0, 50.0, 5.0));
+  press_by_plate(data);
+  const double top = 3.0 * data.fabrics[0].thickness;
+  data.tools[1].motion = Motion::fixed;
+  data.tools[1].position.z() = 0.97 * top + 5.0;
+  set_friction(data, 1e6);
+  data.solver.mass_damping = 0.0;
+  data.solver.fibre_damping = data.contact.damping = damping;
+  data.solver.step_factor = step_factor;
+  Scene s = make_scene(data);
+  Random random(2);
+  for (PlyState& ply : s.plies)
+    for (std::size_t n = 0; n < ply.x.size(); ++n) {
+      ply.x[n].head<2>() *= 1.005;
+      ply.x[n].z() *= 0.97;
+      if (ply.x0[n].head<2>().lpNorm<Eigen::Infinity>() > 24.0)
+        ply.membrane.node_mass[n] = 1e9; // t: a frame
+      else
+        ply.velocity[n] = 20.0 * random_vector(random);
+    }
+  ThreadPool pool(1);
+  start(s, pool);
+  stretch = s.time_step_gain;
+  const auto energy = [&] {
+    const Energies e = current_energies(s, pool);
+    return e.kinetic + e.fibre + e.shear + e.contact;
+  };
+  double first = 0.0, largest = 0.0;
+  for (int step = 0; step < 3000; ++step) {
+    if (compute_forces(s, pool)) return std::numeric_limits<double>::infinity();
+    if (step == 1) first = energy();
+    if (step > 0) largest = std::max(largest, energy() / first);
+    move_plies(s, pool);
+  }
+  return largest;
+}
+
+TEST(Step, OfAPressedStackIsLongerThanItsPartsSayAndStable) {
+  for (const double damping : {0.0, 0.05}) {
+    double stretch = 0.0;
+    // Without damping nodes that go over to other faces stir the highest modes a little, and
+    // contacts that stiffen with depth take them over the limit: after 2000 steps at 0.95 of it.
+    const double most = damping > 0.0 ? 1.01 : 1.1, part = damping > 0.0 ? 0.98 : 0.9;
+    EXPECT_LT(let_a_pressed_stack_vibrate(damping, part, stretch), most) << damping;
+    EXPECT_GT(stretch, 1.1) << damping; // elements and contacts add up to less than their bounds
+    EXPECT_GT(let_a_pressed_stack_vibrate(damping, 1.1, stretch), 5.0) << damping;
+  }
+}
+
+} // namespace
+} // namespace plyform
