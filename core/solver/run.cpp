@@ -30,8 +30,7 @@ double seconds_since(Clock::time_point t) {
 
 /// What is needed to go back to the last good state.
 struct Snapshot {
-  std::vector<std::vector<Vec3>> x;
-  std::vector<std::vector<Vec3>> reaction;
+  std::vector<PlyKinematics> plies;
   std::vector<Vec3> tool_displacement, tool_force;
   std::vector<BoundaryState> boundaries;
   Energies energy;
@@ -51,12 +50,9 @@ ContactReport penetrations(const Scene& s) {
 }
 
 void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
-  snapshot.x.resize(s.plies.size());
+  snapshot.plies.resize(s.plies.size());
   for (std::size_t p = 0; p < s.plies.size(); ++p)
-    snapshot.x[p] = s.plies[p].x;
-  snapshot.reaction.resize(s.plies.size());
-  for (std::size_t p = 0; p < s.plies.size(); ++p)
-    snapshot.reaction[p] = s.plies[p].reaction;
+    snapshot.plies[p] = s.plies[p]; // into the arrays that are there
   snapshot.boundaries = s.boundaries;
   snapshot.tool_displacement.clear();
   snapshot.tool_force.clear();
@@ -72,7 +68,7 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
 
 void go_back(Scene& s, const Snapshot& snapshot) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
-    s.plies[p].x = snapshot.x[p], s.plies[p].reaction = snapshot.reaction[p];
+    static_cast<PlyKinematics&>(s.plies[p]) = snapshot.plies[p];
   s.boundaries = snapshot.boundaries;
   for (std::size_t t = 0; t < s.tools.size(); ++t) {
     s.tools[t].body.displacement = snapshot.tool_displacement[t];
