@@ -5,7 +5,7 @@ namespace plyform {
 namespace {
 
 const Vec3& at(std::span<const Vec3> x, std::int32_t n) {
-  return x[static_cast<std::size_t>(n)];
+  return x[n];
 }
 
 /// Both stiffnesses of a contact `depth` mm deep that stands for `area` (mm^2).
@@ -26,8 +26,7 @@ void append_tangents(const ToolPlyContact& contact, std::span<const double> area
     spring.node = {c.node};
     spring.share = {1.0};
     spring.normal = c.normal;
-    set_stiffness(spring, contact.law, area[static_cast<std::size_t>(c.node)], -c.latest_gap(),
-                  factors);
+    set_stiffness(spring, contact.law, area[c.node], -c.latest_gap(), factors);
     springs.push_back(spring);
   }
 }
@@ -38,7 +37,7 @@ void append_tangents(const PlyPlyContact& contact, const SurfaceKinematics& slav
                      std::vector<ContactTangent>& springs) {
   for (const PlyPlyPoint& c : contact.points) {
     if (c.latest_gap() > margin) continue;
-    const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+    const Triangle& t = triangles[c.face];
     const std::array<double, 3> w = c.weights();
     ContactTangent spring;
     spring.node = {c.node, t[0], t[1], t[2]};
@@ -89,12 +88,11 @@ void add_tangent_forces(std::span<const ContactTangent> springs, std::span<const
     const Vec3 stuck = s.across * slip;
     const Vec3 force = s.along * s.normal.dot(displacement) * s.normal + stuck;
     for (std::size_t i = 0; i < nodes; ++i)
-      (i < own ? own_force : other_force)[static_cast<std::size_t>(s.node[i])] +=
-          s.share[i] * force;
+      (i < own ? own_force : other_force)[s.node[i]] += s.share[i] * force;
     if (!s.couple) continue;
     const auto turning = forces_of_couple(s.couple->face, -s.couple->arm.cross(stuck));
     for (std::size_t j = 0; j < 3; ++j)
-      other_force[static_cast<std::size_t>(s.node[j + 1])] += turning[j];
+      other_force[s.node[j + 1]] += turning[j];
   }
 }
 

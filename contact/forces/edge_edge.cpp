@@ -8,7 +8,7 @@ namespace plyform {
 namespace {
 
 const Vec3& at(std::span<const Vec3> x, int n) {
-  return x[static_cast<std::size_t>(n)];
+  return x[n];
 }
 
 /// Closest points of the lines' segments; inside: whether they lie inside both.
@@ -42,8 +42,7 @@ double distance_to_segment(const Vec3& p, const Vec3& from, const Vec3& to) {
 }
 
 double edge_area(const SurfaceKinematics& sheet, const EdgeNodes& e) {
-  return 0.5 *
-         (sheet.area[static_cast<std::size_t>(e.a)] + sheet.area[static_cast<std::size_t>(e.b)]);
+  return 0.5 * (sheet.area[e.a] + sheet.area[e.b]);
 }
 
 /// Brings a pair up to date, its distance to `far` (mm) while the closest points are not inside
@@ -81,15 +80,14 @@ void renew_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a,
   contact.pairs.clear();
   std::size_t known = 0;
   for (const std::int32_t i : contact.list.active) {
-    const auto& edge = contact.candidates[static_cast<std::size_t>(i)];
+    const auto& edge = contact.candidates[i];
     while (known < old.size() && old[known].edge < edge)
       ++known;
     if (known < old.size() && old[known].edge == edge) {
       contact.pairs.push_back(old[known]);
       continue;
     }
-    const SheetEdge &of_a = edges_a[static_cast<std::size_t>(edge[0])],
-                    &of_b = edges_b[static_cast<std::size_t>(edge[1])];
+    const SheetEdge &of_a = edges_a[edge[0]], &of_b = edges_b[edge[1]];
     EdgePair pair{edge, {of_a.a, of_a.b}, {of_b.a, of_b.b}};
     pair.area = std::min(edge_area(a, pair.a), edge_area(b, pair.b));
     measure(pair, a, b, far_of(contact));
@@ -128,7 +126,7 @@ void edge_forces(EdgeEdgeContact& contact, const SurfaceKinematics& a,
   clear_present(sums);
   for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
     EdgePair& pair = contact.pairs[i];
-    double& free_until = contact.list.free_until[static_cast<std::size_t>(contact.list.active[i])];
+    double& free_until = contact.list.free_until[contact.list.active[i]];
     if (free_until > path_length + contact.list.ahead) continue;
     const bool followed = pair.side != 0;
     const double last = pair.distance;
@@ -148,9 +146,7 @@ void edge_forces(EdgeEdgeContact& contact, const SurfaceKinematics& a,
         normal_force(contact.law, pair.area, p, last < contact.distance ? dp : 0.0, dt);
     sums.damping += force.damping * dp;
     const Vec3 f = force.total * n;
-    const auto add = [](std::span<Vec3> to, int node, const Vec3& share) {
-      to[static_cast<std::size_t>(node)] += share;
-    };
+    const auto add = [](std::span<Vec3> to, int node, const Vec3& share) { to[node] += share; };
     add(force_a, pair.a.a, (1.0 - pair.s) * f);
     add(force_a, pair.a.b, pair.s * f);
     add(force_b, pair.b.a, (pair.t - 1.0) * f);
@@ -167,10 +163,10 @@ void add_edge_stiffness(const EdgeEdgeContact& contact, double margin, std::span
   for (const EdgePair& pair : contact.pairs) {
     if (!within(contact, pair, margin)) continue;
     const ContactRow row = 2.0 * pair.area * row_of(contact.law, contact.distance - pair.distance);
-    rows_a[static_cast<std::size_t>(pair.a.a)] += (1.0 - pair.s) * row;
-    rows_a[static_cast<std::size_t>(pair.a.b)] += pair.s * row;
-    rows_b[static_cast<std::size_t>(pair.b.a)] += (1.0 - pair.t) * row;
-    rows_b[static_cast<std::size_t>(pair.b.b)] += pair.t * row;
+    rows_a[pair.a.a] += (1.0 - pair.s) * row;
+    rows_a[pair.a.b] += pair.s * row;
+    rows_b[pair.b.a] += (1.0 - pair.t) * row;
+    rows_b[pair.b.b] += pair.t * row;
   }
 }
 

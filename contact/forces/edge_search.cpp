@@ -9,7 +9,7 @@ namespace plyform {
 namespace {
 
 const Vec3& at(std::span<const Vec3> x, int n) {
-  return x[static_cast<std::size_t>(n)];
+  return x[n];
 }
 
 Box3 edge_box(const SheetEdge& e, std::span<const Vec3> x, double inflate) {
@@ -26,7 +26,7 @@ public:
   EdgeGrid(const EdgeSet& edges, std::span<const Vec3> x) {
     Box3 all;
     for (const std::int32_t e : edges.some) {
-      entries_.push_back({edge_box(edges.all[static_cast<std::size_t>(e)], x, 0.0), e});
+      entries_.push_back({edge_box(edges.all[e], x, 0.0), e});
       all.extend(entries_.back().box);
       widest_ = widest_.cwiseMax(entries_.back().box.sizes());
     }
@@ -36,8 +36,7 @@ public:
     constexpr double most_cells = 1000.0; // along an axis, whatever edges there are
     cell_ = std::max({widest_.maxCoeff(), all.sizes().maxCoeff() / most_cells, 1e-9});
     for (int axis = 0; axis < 3; ++axis)
-      count_[static_cast<std::size_t>(axis)] =
-          axis == flat_ ? 1 : place(all.max()[axis], axis, 1 << 20) + 1;
+      count_[axis] = axis == flat_ ? 1 : place(all.max()[axis], axis, 1 << 20) + 1;
     std::stable_sort(entries_.begin(), entries_.end(), [this](const Entry& a, const Entry& b) {
       return cell_of(a.box.min()) < cell_of(b.box.min());
     });
@@ -63,7 +62,7 @@ public:
         for (int k = from[2]; k <= to[2]; ++k) {
           const auto cell = static_cast<std::size_t>((i * count_[1] + j) * count_[2] + k);
           for (std::int32_t e = begin_[cell]; e < begin_[cell + 1]; ++e) {
-            const Entry& entry = entries_[static_cast<std::size_t>(e)];
+            const Entry& entry = entries_[e];
             if (box.intersects(entry.box)) found(entry.edge);
           }
         }
@@ -82,9 +81,7 @@ private:
   int cell_of(const Vec3& x) const {
     std::array<int, 3> i{};
     for (int axis = 0; axis < 3; ++axis)
-      if (axis != flat_)
-        i[static_cast<std::size_t>(axis)] =
-            place(x[axis], axis, count_[static_cast<std::size_t>(axis)] - 1);
+      if (axis != flat_) i[axis] = place(x[axis], axis, count_[axis] - 1);
     return (i[0] * count_[1] + i[1]) * count_[2] + i[2];
   }
 
@@ -130,13 +127,13 @@ void find_edge_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a, const
   const EdgeGrid grid(edges_b, b.x);
   std::vector<std::int32_t> near;
   for (const std::int32_t e : edges_a.some) {
-    const SheetEdge& edge = edges_a.all[static_cast<std::size_t>(e)];
+    const SheetEdge& edge = edges_a.all[e];
     near.clear();
     grid.visit(edge_box(edge, a.x, contact.distance + skin),
                [&near](std::int32_t other) { near.push_back(other); });
     std::sort(near.begin(), near.end());
     for (const std::int32_t other : near) {
-      const SheetEdge& of_b = edges_b.all[static_cast<std::size_t>(other)];
+      const SheetEdge& of_b = edges_b.all[other];
       const double gap =
           edge_distance({edge.a, edge.b}, a.x, {of_b.a, of_b.b}, b.x) - contact.distance;
       if (gap > skin) continue; // only its box was in reach

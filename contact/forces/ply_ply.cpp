@@ -13,15 +13,15 @@ namespace plyform {
 namespace {
 
 const Vec3& at(std::span<const Vec3> x, int n) {
-  return x[static_cast<std::size_t>(n)];
+  return x[n];
 }
 
 /// Whether one node is a corner of all these faces: they are then one patch.
 bool share_node(std::span<const Candidate> group, std::span<const Triangle> triangles) {
-  const Triangle& t = triangles[static_cast<std::size_t>(group.front().face)];
+  const Triangle& t = triangles[group.front().face];
   int a = 1, b = 1, c = 1;
   for (const Candidate& n : group) {
-    const auto [u, v, w] = triangles[static_cast<std::size_t>(n.face)];
+    const auto [u, v, w] = triangles[n.face];
     a &= int(t[0] == u) | int(t[0] == v) | int(t[0] == w);
     b &= int(t[1] == u) | int(t[1] == v) | int(t[1] == w);
     c &= int(t[2] == u) | int(t[2] == v) | int(t[2] == w);
@@ -39,7 +39,7 @@ bool one_patch(std::span<const Candidate> group, std::span<const Triangle> trian
   std::array<const Triangle*, most> outside;
   std::size_t met = 0, left = group.size();
   for (std::size_t i = 0; i < left; ++i)
-    outside[i] = &triangles[static_cast<std::size_t>(group[i].face)];
+    outside[i] = &triangles[group[i].face];
   const auto add = [&](const Triangle& t) {
     for (const std::int32_t n : t)
       corners[met++] = n;
@@ -66,7 +66,7 @@ void label_patches(std::span<const Candidate> group, std::span<const Triangle> t
   std::vector<std::pair<std::int32_t, int>> met; // nodes of the faces so far, and their patch
   for (std::size_t i = 0; i < group.size(); ++i) {
     label[i] = static_cast<int>(i);
-    const Triangle& t = triangles[static_cast<std::size_t>(group[i].face)];
+    const Triangle& t = triangles[group[i].face];
     for (const std::int32_t n : t)
       for (const auto& [node, patch] : met)
         if (node == n) label[i] = std::min(label[i], patch);
@@ -93,8 +93,8 @@ double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& mas
   const std::array<double, 3> w = c.weights();
   double there = 0.0;
   for (std::size_t j = 0; j < 3; ++j)
-    there += w[j] * master.area[static_cast<std::size_t>(face[j])];
-  return std::min(slave.area[static_cast<std::size_t>(c.node)], there);
+    there += w[j] * master.area[face[j]];
+  return std::min(slave.area[c.node], there);
 }
 
 /// Points as the kernel sees them.
@@ -201,9 +201,9 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
       for (std::size_t i = first; i < group.size(); ++i)
         if (label[i] == label[first]) near.push_back(group[i]);
       PlyPlyPoint c = add_faces(contact, near, triangles, path_length);
-      c.area = contact_area(slave, master, c, triangles[static_cast<std::size_t>(c.face)]);
+      c.area = contact_area(slave, master, c, triangles[c.face]);
       if (const PlyPlyPoint* before = find_old(old, next_old, c, contact.faces)) {
-        adopted[static_cast<std::size_t>(before - old.data())] = 1;
+        adopted[before - old.data()] = 1;
         c.memory = before->memory;
         c.side = before->side;
         c.area = before->area;
@@ -236,7 +236,7 @@ KernelSide& of(void* self) {
 }
 
 PlyPlyPoint& point_of(KernelSide& k, std::int32_t point) {
-  return k.contact.points[static_cast<std::size_t>(point)];
+  return k.contact.points[point];
 }
 
 void open_point(void* self, std::int32_t point, double last_gap) {
@@ -296,7 +296,7 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
                     std::span<Vec3> master_force) {
   const Stopwatch watch(contact.time.forces);
   update(contact.list, gone.path_length,
-         [&contact](std::int32_t i) { deactivate(contact.points[static_cast<std::size_t>(i)]); });
+         [&contact](std::int32_t i) { deactivate(contact.points[i]); });
   clear_present(contact.sums);
   if (contact.list.active.empty()) return;
   const bool look_all = gone.path_length - contact.last_full_search > contact.full_search_interval;
@@ -317,7 +317,7 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
 
 Vec3 contact_normal(const PlyPlyPoint& point, std::span<const Vec3> slave,
                     std::span<const Vec3> master, std::span<const Triangle> triangles) {
-  const Triangle& t = triangles[static_cast<std::size_t>(point.face)];
+  const Triangle& t = triangles[point.face];
   const std::array<double, 3> w = point.weights();
   return (at(slave, point.node) -
           (w[0] * at(master, t[0]) + w[1] * at(master, t[1]) + w[2] * at(master, t[2])))
@@ -332,9 +332,9 @@ void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics
   // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
   for (const PlyPlyPoint& c : contact.points) {
     if (c.latest_gap() > margin) continue;
-    const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+    const Triangle& t = triangles[c.face];
     const ContactRow normal = 2.0 * c.area * row_of(contact.law, -c.latest_gap());
-    slave_rows[static_cast<std::size_t>(c.node)] += normal;
+    slave_rows[c.node] += normal;
     if (contact.law.friction > 0.0) {
       std::array<double, 3> couple{};
       const FaceFrame f = face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]));
@@ -342,12 +342,11 @@ void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics
       for (std::size_t j = 0; j < 3; ++j)
         sum += couple[j] = contact.distance * f.gradient[j].norm();
       for (std::size_t j = 0; j < 3; ++j)
-        master_rows[static_cast<std::size_t>(t[j])].stiffness +=
-            2.0 * c.area * contact.law.tangential() * sum * couple[j];
+        master_rows[t[j]].stiffness += 2.0 * c.area * contact.law.tangential() * sum * couple[j];
     }
     const std::array<double, 3> w = c.weights();
     for (std::size_t j = 0; j < 3; ++j)
-      master_rows[static_cast<std::size_t>(t[j])] += w[j] * normal;
+      master_rows[t[j]] += w[j] * normal;
   }
 }
 

@@ -60,8 +60,7 @@ void in_parts(const ActiveList& list, const Work& work) {
 
 /// Lists the points that may touch.
 void update_active(ToolPlyContact& contact, double path_length) {
-  update(contact.list, path_length,
-         [&contact](std::int32_t i) { deactivate(contact.points[static_cast<std::size_t>(i)]); });
+  update(contact.list, path_length, [&contact](std::int32_t i) { deactivate(contact.points[i]); });
 }
 
 /// Gaps and normals where tool and ply stand now.
@@ -71,7 +70,7 @@ void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinemat
   const Vec3 tool_motion =
       tool.force_controlled ? Vec3(Vec3::Zero()) : tool.motion; // not yet moved
   for (const std::int32_t i : part) {
-    ToolPlyPoint& c = contact.points[static_cast<std::size_t>(i)];
+    ToolPlyPoint& c = contact.points[i];
     const auto n = static_cast<std::size_t>(c.node);
     const SurfacePoint s = distance(ply.x[n], c.hint);
     const bool gap_when_deactivated = std::isinf(c.gap);
@@ -79,7 +78,7 @@ void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinemat
     c.gap = s.distance - contact.half_thickness;
     c.normal = s.normal;
     if (gap_when_deactivated) c.last_gap = c.gap - c.normal.dot(ply.motion[n] - tool_motion);
-    if (c.gap > 0.0) contact.list.free_until[static_cast<std::size_t>(i)] = path_length + c.gap;
+    if (c.gap > 0.0) contact.list.free_until[i] = path_length + c.gap;
   }
 }
 
@@ -190,10 +189,10 @@ std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolPlyCont
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactLaw& law = contacts[i].law;
     for (const std::int32_t k : contacts[i].list.active) {
-      const ToolPlyPoint& c = contacts[i].points[static_cast<std::size_t>(k)];
+      const ToolPlyPoint& c = contacts[i].points[k];
       const double facing = c.normal.dot(tool.direction);
       if (!(std::abs(facing) * most > c.gap)) continue;
-      const double area = plies[i].area[static_cast<std::size_t>(c.node)];
+      const double area = plies[i].area[c.node];
       pressed.push_back({facing, c.gap, area * law.stiffness, area * law.damping / dt,
                          std::min(c.last_gap, 0.0), law.max_depth});
     }

@@ -42,7 +42,7 @@ bool update(ActiveList& list, double path_length, const Deactivate& deactivate) 
   if (path_length < list.until) return false;
   const double now = path_length + kept + list.ahead;
   for (const std::int32_t i : list.active)
-    if (list.free_until[static_cast<std::size_t>(i)] > now) deactivate(i);
+    if (list.free_until[i] > now) deactivate(i);
   list.active.clear();
   double next = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < list.free_until.size(); ++i)

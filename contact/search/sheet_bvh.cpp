@@ -78,7 +78,7 @@ void faces_near(const Vec3* x, std::span<const Triangle> triangles, const Vec3& 
   for (const fcl::BVNode<Box>* leaf : leaves) {
     if (squared_distance(p, leaf->bv) > reach.box2) continue;
     const int face = -1 - leaf->first_child; // primitiveId(), without a call
-    const Triangle& t = triangles[static_cast<std::size_t>(face)];
+    const Triangle& t = triangles[face];
     const ClosestPoint q = closest_point_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]);
     if (q.distance2 <= reach.distance * reach.distance)
       out.push_back({node, face, q.distance2, q.w});
@@ -127,7 +127,7 @@ SheetTree::SheetTree(std::span<const Vec3> x, std::span<const Triangle> triangle
   require_ok(tree.endModel(), "build the tree");
   impl_->triangles.assign(triangles.begin(), triangles.end());
   for (const Triangle& t : triangles) {
-    const auto at = [&](std::size_t k) -> const Vec3& { return x[static_cast<std::size_t>(t[k])]; };
+    const auto at = [&](std::size_t k) -> const Vec3& { return x[t[k]]; };
     impl_->area += 0.5 * (at(1) - at(0)).cross(at(2) - at(0)).norm();
   }
 }

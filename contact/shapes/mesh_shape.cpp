@@ -59,7 +59,7 @@ struct NearestFace {
   double reach2 = std::numeric_limits<double>::infinity(); ///< nothing further need be looked at
 
   void look_at(const Vec3& p, int candidate) {
-    const auto& [a, b, c] = corners[static_cast<std::size_t>(candidate)];
+    const auto& [a, b, c] = corners[candidate];
     const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     if ((low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm() > reach2)
       return; // cheap, frequent
@@ -89,9 +89,9 @@ Vec3 unit_normal(const std::array<Vec3, 3>& t) {
 }
 
 double angle_at(const std::array<Vec3, 3>& t, int corner) {
-  const Vec3& v = t[static_cast<std::size_t>(corner)];
-  const Vec3 e = t[static_cast<std::size_t>((corner + 1) % 3)] - v;
-  const Vec3 f = t[static_cast<std::size_t>((corner + 2) % 3)] - v;
+  const Vec3& v = t[corner];
+  const Vec3 e = t[(corner + 1) % 3] - v;
+  const Vec3 f = t[(corner + 2) % 3] - v;
   return std::atan2(e.cross(f).norm(), e.dot(f));
 }
 
@@ -106,8 +106,7 @@ std::vector<std::array<Vec3, 7>> pseudo_normals(const TriMesh& s,
   for (std::size_t f = 0; f < corners.size(); ++f) {
     const Vec3 n = unit_normal(corners[f]);
     for (std::size_t k = 0; k < 3; ++k) {
-      vertex[static_cast<std::size_t>(s.triangles[f][k])] +=
-          angle_at(corners[f], static_cast<int>(k)) * n;
+      vertex[s.triangles[f][k]] += angle_at(corners[f], static_cast<int>(k)) * n;
       edge.try_emplace(edge_of(s.triangles[f], k), Vec3::Zero()).first->second += n;
     }
   }
@@ -118,7 +117,7 @@ std::vector<std::array<Vec3, 7>> pseudo_normals(const TriMesh& s,
     const auto unit = [&](const Vec3& m) { return m.norm() > 1e-12 ? m.normalized() : n; };
     normals[f][0] = n;
     for (std::size_t k = 0; k < 3; ++k) {
-      normals[f][1 + k] = unit(vertex[static_cast<std::size_t>(s.triangles[f][k])]);
+      normals[f][1 + k] = unit(vertex[s.triangles[f][k]]);
       normals[f][4 + k] = unit(edge.at(edge_of(s.triangles[f], k)));
     }
   }
@@ -146,9 +145,7 @@ MeshShape::MeshShape(TriMesh surface) : surface_(std::move(surface)) {
     bounds_.extend(x);
   corners_.reserve(surface_.triangles.size());
   for (const Triangle& t : surface_.triangles)
-    corners_.push_back({surface_.x[static_cast<std::size_t>(t[0])],
-                        surface_.x[static_cast<std::size_t>(t[1])],
-                        surface_.x[static_cast<std::size_t>(t[2])]});
+    corners_.push_back({surface_.x[t[0]], surface_.x[t[1]], surface_.x[t[2]]});
   normals_ = pseudo_normals(surface_, corners_);
   tree_ = std::make_unique<const Tree>(corners_);
 }
@@ -167,7 +164,7 @@ SurfacePoint MeshShape::signed_distance(const Vec3& p, int& hint) const {
 
   const auto f = static_cast<std::size_t>(nearest.face);
   const auto& [a, b, c] = corners_[f];
-  const Vec3& m = normals_[f][static_cast<std::size_t>(nearest.closest.feature)];
+  const Vec3& m = normals_[f][nearest.closest.feature];
   if (nearest.closest.feature == 0) return {m.dot(p - a), m}; // (1)
   const auto& w = nearest.closest.w;
   const Vec3 d = p - (w[0] * a + w[1] * b + w[2] * c);

@@ -17,7 +17,6 @@ public:
   SurfacePoint signed_distance(const Vec3& p, int& hint) const;
 
   const TriMesh& surface() const { return surface_; }
-  const Box3& bounds() const { return bounds_; }
 
 private:
   struct Tree;

@@ -171,21 +171,4 @@ double sweep(const ProfileSegment& s) {
   return angle > 0.0 ? angle : angle + 2.0 * std::numbers::pi;
 }
 
-Box3 bounds(const RevolvedProfile& profile) {
-  Box3 box;
-  const auto add = [&](double r, double z) {
-    box.extend(Vec3(r, r, z));
-    box.extend(Vec3(-r, -r, z));
-  };
-  for (const ProfileSegment& s : profile.segments) {
-    add(s.a.x(), s.a.y());
-    add(s.b.x(), s.b.y());
-    if (s.kind == ProfileSegment::Kind::line) continue;
-    const double radius = (s.a - s.centre).norm();
-    add(s.centre.x() + radius, s.centre.y() + radius);
-    add(s.centre.x() + radius, s.centre.y() - radius);
-  }
-  return box;
-}
-
 } // namespace plyform

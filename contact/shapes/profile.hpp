@@ -55,7 +55,4 @@ Vec2 tangent(const ProfileSegment& segment, int end);
 /// Angle (rad, in (0, 2 pi]) an arc sweeps, in the direction of its turn.
 double sweep(const ProfileSegment& arc);
 
-/// A box around the surface of revolution, no larger than the full circles of its arcs.
-Box3 bounds(const RevolvedProfile& profile);
-
 } // namespace plyform

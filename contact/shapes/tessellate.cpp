@@ -159,7 +159,7 @@ std::int32_t BoxGrid::node(const std::array<int, 3>& i) {
 void BoxGrid::add_square(std::int32_t a, std::int32_t p, std::int32_t c, std::int32_t q) {
   constexpr double clearly = 1.0 - 1e-9; // far above rounding, far below what a rhomb differs by
   const auto length = [&](std::int32_t i, std::int32_t j) {
-    return (surface.x[static_cast<std::size_t>(i)] - surface.x[static_cast<std::size_t>(j)]).norm();
+    return (surface.x[i] - surface.x[j]).norm();
   };
   if (length(p, q) < clearly * length(a, c)) {
     surface.triangles.push_back({a, p, q});

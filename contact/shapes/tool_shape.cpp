@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds for every shape: its distance to a point or a box, and its tightest curve.
+// What holds for every shape: its distance to a point, and its tightest curve.
 #include "contact/shapes/tool_shape.hpp"
 
 #include "contact/shapes/shape_distance.hpp"
@@ -10,33 +10,6 @@ namespace plyform {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-Box3 upright(double r, double z0, double z1) {
-  return {Vec3(-r, -r, z0), Vec3(r, r, z1)};
-}
-
-Box3 bounds(const Sphere& s) {
-  return upright(s.radius, -s.radius, s.radius);
-}
-Box3 bounds(const Cylinder& c) {
-  return upright(c.radius, -0.5 * c.length, 0.5 * c.length);
-}
-Box3 bounds(const Box& b) {
-  return {-0.5 * b.size, 0.5 * b.size};
-}
-Box3 bounds(const Plane&) {
-  return {Vec3(-infinity, -infinity, -infinity), Vec3(infinity, infinity, 0.0)};
-}
-Box3 bounds(const Annulus& a) {
-  return upright(a.outer_radius, 0.0, a.thickness);
-}
-Box3 bounds(const MeshShapePtr& mesh) {
-  return mesh->bounds();
-}
-
-double gap_between(const Box3& a, const Box3& b) {
-  return (a.min() - b.max()).cwiseMax(b.min() - a.max()).cwiseMax(0.0).norm();
-}
 
 double smallest(const Sphere& s) {
   return s.radius;
@@ -84,16 +57,6 @@ SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint) {
   if (const auto* profile = std::get_if<RevolvedProfile>(&shape)) // one point: nothing to prepare
     return revolved(p, [&](const Vec2& q) { return section_distance(*profile, q); });
   return std::visit([&](const auto& s) { return distance_of(s)(p, hint); }, shape);
-}
-
-double distance_lower_bound(const ToolShape& shape, const Box3& box) {
-  int hint = -1;
-  // The distance changes by no more than the way.
-  const double at_centre = signed_distance(shape, box.center(), hint).distance;
-  const double bound = at_centre - 0.5 * box.diagonal().norm();
-  if (at_centre <= 0.0) return bound;
-  const double gap = std::visit([&](const auto& s) { return gap_between(bounds(s), box); }, shape);
-  return gap > 0.0 ? std::max(bound, gap) : bound;
 }
 
 double smallest_radius(const ToolShape& shape) {

@@ -76,12 +76,6 @@ struct SurfacePoint {
 /// does not depend on it. Never fails for finite p: on a medial axis any valid normal is returned.
 SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint);
 
-/// A lower bound (mm) of the signed distance of anything inside `box` (tool frame); cheap: one
-/// signed distance and a box. Past the ends of an open profile or the rim of an open mesh the sign
-/// changes without the surface being met: there a positive bound only says that the surface itself
-/// is no nearer.
-double distance_lower_bound(const ToolShape& shape, const Box3& box);
-
 /// Triangles of about `size` mm for pictures and the exact audit, in the tool frame. Unbounded
 /// shapes (plane) are cut to `extent` (mm from the origin). Nodes lie on the surface; arcs get
 /// pieces of at most 22.5 degrees. Solids give closed meshes, outward; normals of open ones point

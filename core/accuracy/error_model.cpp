@@ -61,7 +61,7 @@ void add_families(Numbers& n, const Fabric& f, double w) {
 double useful_softening(const Case& data) {
   double tension = 0.0, compression = 0.0; // N mm/t
   for (const Ply& ply : data.plies) {
-    const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
+    const Fabric& f = data.fabrics[ply.fabric];
     for (const auto& [law, density] :
          {std::pair(&f.warp, f.warp_density), std::pair(&f.weft, f.weft_density)}) {
       tension = std::max(tension, density * law->largest_slope() / f.surface_density);
@@ -87,8 +87,8 @@ Numbers numbers_of(const Case& data) {
   if (data.plies.size() > 1) n.softest = most_softening_of_stack;
   if (plies > 1.0) n.sliding += c_fewer * std::max(settled - plies, 0.0);
   for (const Ply& ply : data.plies) {
-    const Fabric& f = data.fabrics[static_cast<std::size_t>(ply.fabric)];
-    const double size = data.blanks[static_cast<std::size_t>(ply.blank)].element_size;
+    const Fabric& f = data.fabrics[ply.fabric];
+    const double size = data.blanks[ply.blank].element_size;
     n.mesh = std::max(n.mesh, size / stroke);
     const double w =
         f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.at(half_radian).energy;
@@ -215,8 +215,8 @@ bool may_coarsen(const Case& data, double by) {
     if (const double radius = smallest_radius(t.shape); radius > 0.0)
       longest = std::min(longest, radius);
   for (const Ply& ply : data.plies) {
-    const double thickness = data.fabrics[static_cast<std::size_t>(ply.fabric)].thickness;
-    BlankSpec blank = data.blanks[static_cast<std::size_t>(ply.blank)];
+    const double thickness = data.fabrics[ply.fabric].thickness;
+    BlankSpec blank = data.blanks[ply.blank];
     if (blank.mesh == MeshKind::file) return false;
     blank.element_size *= by;
     if (blank.element_size > std::min(longest, most_thicknesses * thickness)) return false;

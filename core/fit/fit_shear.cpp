@@ -81,7 +81,7 @@ std::vector<double> fit(const std::vector<Sample>& samples, int coefficients) {
   Eigen::MatrixXd a(rows, coefficients);
   Eigen::VectorXd load(rows);
   for (Eigen::Index r = 0; r < rows; ++r) {
-    const Sample& s = samples[static_cast<std::size_t>(r)];
+    const Sample& s = samples[r];
     for (int c = 0; c < coefficients; ++c)
       a(r, c) = s.weights.whole * std::pow(s.weights.angle / scale, 2 * c + 1) +
                 s.weights.half * std::pow(0.5 * s.weights.angle / scale, 2 * c + 1);

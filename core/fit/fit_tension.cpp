@@ -131,7 +131,7 @@ std::optional<TensionLaw> table_of(const Curve& curve, Diagnostics& diagnostics)
   if (const double change = make_rising(tension); change > noise_share * most) {
     diagnostics.error(
         place_of(curve, static_cast<std::size_t>(peak)), curve.y_name,
-        fmt::format("{:g}", curve.y[static_cast<std::size_t>(peak)]),
+        fmt::format("{:g}", curve.y[peak]),
         fmt::format("the tension falls with rising strain, by more than {:g} % of its "
                     "largest value: a yarn that softens is not modelled",
                     100.0 * noise_share),

@@ -38,8 +38,7 @@ void read_grip(const TableView& section, Boundary& b, Diagnostics& diagnostics) 
     b.held[k] = hold.find("xyz"[k]) != std::string::npos;
   b.direction = read_direction(section, "direction", diagnostics);
   for (int k = 0; k < 3; ++k)
-    if (b.stroke > 0.0 && !hold.empty() && !b.held[static_cast<std::size_t>(k)] &&
-        b.direction[k] != 0.0)
+    if (b.stroke > 0.0 && !hold.empty() && !b.held[k] && b.direction[k] != 0.0)
       return value_error(section, "direction",
                          fmt::format("has a part along {}, where hold = \"{}\" leaves the nodes "
                                      "free",

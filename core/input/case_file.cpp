@@ -155,8 +155,7 @@ FrictionTable read_friction(const TableView& contact, const Numbers& bodies, int
                   "name a ply, or plies for all of them", diagnostics);
     for (const int a : sides[0])
       for (const int b : sides[1])
-        table.mu[static_cast<std::size_t>(a * count + b)] =
-            table.mu[static_cast<std::size_t>(b * count + a)] = mu;
+        table.mu[a * count + b] = table.mu[b * count + a] = mu;
   }
   return table;
 }

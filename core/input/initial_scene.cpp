@@ -13,9 +13,7 @@ FlatPly make_flat_ply(BlankMesh mesh, double z, double thickness) {
     for (std::size_t i = 0; i < 3; ++i)
       ++uses[std::minmax(t[i], t[(i + 1) % 3])];
   for (const auto& [edge, count] : uses)
-    if (count == 1)
-      ply.border.emplace_back(ply.mesh.x[static_cast<std::size_t>(edge.first)],
-                              ply.mesh.x[static_cast<std::size_t>(edge.second)]);
+    if (count == 1) ply.border.emplace_back(ply.mesh.x[edge.first], ply.mesh.x[edge.second]);
   for (const Vec2& x : ply.mesh.x)
     ply.bounds.extend(x);
   return ply;
@@ -56,7 +54,7 @@ void visit_slab(const TriMesh& surface, double low, double high,
   for (const Triangle& t : surface.triangles) {
     std::array<Vec3, 3> x;
     for (std::size_t i = 0; i < 3; ++i)
-      x[i] = surface.x[static_cast<std::size_t>(t[i])];
+      x[i] = surface.x[t[i]];
     const auto [least, most] = std::minmax({x[0].z(), x[1].z(), x[2].z()});
     if (most < low || least > high) continue;
     const Vec3 middle = (x[0] + x[1] + x[2]) / 3.0;

@@ -45,9 +45,8 @@ std::string too_coarse(const Fabric& f, bool stack, double h) {
 double size_of(const BlankMesh& mesh) {
   double twice_area = 0.0;
   for (const Triangle& t : mesh.triangles) {
-    const Vec2 a = mesh.x[static_cast<std::size_t>(t[0])];
-    const Vec2 u = mesh.x[static_cast<std::size_t>(t[1])] - a,
-               v = mesh.x[static_cast<std::size_t>(t[2])] - a;
+    const Vec2 a = mesh.x[t[0]];
+    const Vec2 u = mesh.x[t[1]] - a, v = mesh.x[t[2]] - a;
     twice_area += std::abs(u.x() * v.y() - u.y() * v.x());
   }
   return std::sqrt(twice_area / static_cast<double>(mesh.triangles.size()));
@@ -61,7 +60,7 @@ void check_resolution(const Case& scene, const CaseParts& parts,
   for (std::size_t p = 0; p < scene.plies.size(); ++p) {
     const Ply& ply = scene.plies[p];
     if (!seen.emplace(ply.fabric, ply.blank).second) continue;
-    const Fabric& fabric = scene.fabrics[static_cast<std::size_t>(ply.fabric)];
+    const Fabric& fabric = scene.fabrics[ply.fabric];
     const auto number = static_cast<std::size_t>(ply.blank);
     const BlankSpec& spec = scene.blanks[number];
     const double h = spec.mesh == MeshKind::file ? size_of(meshes[p]) : spec.element_size;

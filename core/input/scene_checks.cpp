@@ -37,17 +37,17 @@ struct SceneCheck {
 };
 
 const Fabric& fabric_of(const Case& scene, const Ply& ply) {
-  return scene.fabrics[static_cast<std::size_t>(ply.fabric)];
+  return scene.fabrics[ply.fabric];
 }
 
 /// The blank's mesh, or nothing and a report, once a blank.
 std::optional<BlankMesh> mesh_ply(SceneCheck& check, const Ply& ply, std::set<int>& reported) {
-  const BlankSpec& blank = check.scene.blanks[static_cast<std::size_t>(ply.blank)];
+  const BlankSpec& blank = check.scene.blanks[ply.blank];
   try {
     return mesh_blank(blank, ply.angle, ply.angle + fabric_of(check.scene, ply).fibre_angle);
   } catch (const std::runtime_error& error) {
     if (!reported.insert(ply.blank).second) return std::nullopt;
-    const SourceLocation& place = check.parts.blanks[static_cast<std::size_t>(ply.blank)];
+    const SourceLocation& place = check.parts.blanks[ply.blank];
     check.diagnostics.error_from(place.at, place.item, "", "cannot be meshed: ", error.what());
     return std::nullopt;
   }
@@ -58,7 +58,7 @@ bool lay_plies(SceneCheck& check) {
   std::map<std::tuple<int, double, int>, BlankMesh> meshes; // only MeshKind::fibres has an angle
   std::set<int> reported;
   for (const Ply& ply : check.scene.plies) {
-    const BlankSpec& blank = check.scene.blanks[static_cast<std::size_t>(ply.blank)];
+    const BlankSpec& blank = check.scene.blanks[ply.blank];
     const bool by_angle = blank.mesh == MeshKind::fibres;
     const std::tuple key(ply.blank, by_angle ? ply.angle : 0.0, by_angle ? ply.fabric : 0);
     if (!meshes.contains(key)) {

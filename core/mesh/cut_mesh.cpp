@@ -64,17 +64,16 @@ struct Use {
 std::vector<char> nodes_inside(const Lattice& lattice, const Region& outline) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(lattice.nj));
   for (const Edge& e : outline.edges) {
-    Vec2 p = lattice.coordinates(outline.x[static_cast<std::size_t>(e[0])]);
-    Vec2 q = lattice.coordinates(outline.x[static_cast<std::size_t>(e[1])]);
+    Vec2 p = lattice.coordinates(outline.x[e[0]]);
+    Vec2 q = lattice.coordinates(outline.x[e[1]]);
     if (p.y() > q.y()) std::swap(p, q);
     for (int j = std::max(0, static_cast<int>(std::ceil(p.y()))); j < q.y() && j < lattice.nj; ++j)
-      crossings[static_cast<std::size_t>(j)].push_back(p.x() + (q.x() - p.x()) * (j - p.y()) /
-                                                                   (q.y() - p.y()));
+      crossings[j].push_back(p.x() + (q.x() - p.x()) * (j - p.y()) / (q.y() - p.y()));
   }
   std::vector<char> inside(lattice.index(0, lattice.nj), 0);
   for (int j = 0; j < lattice.nj; ++j)
     for (int i = 0; i < lattice.ni; ++i) {
-      const auto& row = crossings[static_cast<std::size_t>(j)];
+      const auto& row = crossings[j];
       inside[lattice.index(i, j)] =
           std::count_if(row.begin(), row.end(), [&](double u) { return u < i; }) % 2 != 0;
     }
@@ -106,8 +105,8 @@ double distance(const Lattice& lattice, int i, int j, const Vec2& p, const Vec2&
 void keep_away(const Lattice& lattice, const Region& outline, double least, Use& use) {
   const double reach = least * lattice.ha.norm() / cross(lattice.ha, lattice.hb); // in i and j
   for (const Edge& e : outline.edges) {
-    const Vec2 p = outline.x[static_cast<std::size_t>(e[0])];
-    const Vec2 q = outline.x[static_cast<std::size_t>(e[1])];
+    const Vec2 p = outline.x[e[0]];
+    const Vec2 q = outline.x[e[1]];
     const Vec2 up = lattice.coordinates(p), uq = lattice.coordinates(q);
     const Vec2 low = (up.cwiseMin(uq).array() - reach).floor();
     const Vec2 high = up.cwiseMax(uq).array() + reach;
@@ -235,7 +234,7 @@ BlankMesh cut_blank(const BlankSpec& spec, const CellDirections& directions) {
   }
 
   BlankMesh mesh{band.x, {}};
-  const auto x = [&](std::int32_t n) { return mesh.x[static_cast<std::size_t>(n)]; };
+  const auto x = [&](std::int32_t n) { return mesh.x[n]; };
   const Vec2 first = cells.corners.empty() ? Vec2(0, 0) : x(cells.corners.front()[0]);
   const auto odd = [&](const Vec2& corner) { // of the cell in the lattice, counted from the first
     const Vec2 d = (corner - first) / spec.element_size;

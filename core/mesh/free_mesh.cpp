@@ -43,7 +43,7 @@ Triangulation triangulate(const Region& region) {
     near = v.back()->face();
   }
   for (const Edge& e : region.edges)
-    t.insert_constraint(v[static_cast<std::size_t>(e[0])], v[static_cast<std::size_t>(e[1])]);
+    t.insert_constraint(v[e[0]], v[e[1]]);
   return t;
 }
 

@@ -25,8 +25,7 @@ inline Gather make_gather(std::span<const std::int32_t> node_of, std::size_t nod
   g.gather.resize(node_of.size());
   std::vector<std::int32_t> next(g.begin.begin(), g.begin.end() - 1);
   for (std::size_t i = 0; i < node_of.size(); ++i)
-    g.gather[static_cast<std::size_t>(next[static_cast<std::size_t>(node_of[i])]++)] =
-        static_cast<std::int32_t>(i);
+    g.gather[next[static_cast<std::size_t>(node_of[i])]++] = static_cast<std::int32_t>(i);
   return g;
 }
 

@@ -87,9 +87,9 @@ BlankMesh join(const Soup& soup) {
       if (added) mesh.x.emplace_back(p.x(), p.y());
       t[k] = entry->second;
     }
-    const Vec2 a = mesh.x[static_cast<std::size_t>(t[0])];
-    const Vec2 ab = mesh.x[static_cast<std::size_t>(t[1])] - a;
-    const Vec2 ac = mesh.x[static_cast<std::size_t>(t[2])] - a;
+    const Vec2 a = mesh.x[t[0]];
+    const Vec2 ab = mesh.x[t[1]] - a;
+    const Vec2 ac = mesh.x[t[2]] - a;
     const double longest = std::max({ab.squaredNorm(), ac.squaredNorm(), (ac - ab).squaredNorm()});
     if (!(std::abs(cross(ab, ac)) > thin * longest))
       throw std::runtime_error(fmt::format(
@@ -114,8 +114,7 @@ std::vector<Edge> checked_edges(const BlankMesh& mesh) {
         fmt::format("is not manifold, triangles overlap along the edge from {} to {}: it is shared "
                     "by more than "
                     "two triangles or two on the same side; remove the surplus ones",
-                    text(mesh.x[static_cast<std::size_t>((*twice)[0])]),
-                    text(mesh.x[static_cast<std::size_t>((*twice)[1])])));
+                    text(mesh.x[(*twice)[0]]), text(mesh.x[(*twice)[1]])));
   return edges;
 }
 
@@ -124,12 +123,12 @@ void check_nodes(const BlankMesh& mesh, const std::vector<Edge>& edges) {
   std::vector<char> touches_boundary_edge(mesh.x.size(), 0);
   for (const Edge& e : edges) {
     if (std::binary_search(edges.begin(), edges.end(), Edge{e[1], e[0]})) continue;
-    char& seen = touches_boundary_edge[static_cast<std::size_t>(e[0])];
+    char& seen = touches_boundary_edge[e[0]];
     if (seen)
       throw std::runtime_error(fmt::format(
           "is not manifold, parts of it meet only in the node at {}; join them along an "
           "edge or part them",
-          text(mesh.x[static_cast<std::size_t>(e[0])])));
+          text(mesh.x[e[0]])));
     seen = 1;
   }
 }
@@ -138,19 +137,18 @@ void check_one_piece(const BlankMesh& mesh, const std::vector<Edge>& edges) {
   std::vector<std::int32_t> root(mesh.x.size());
   std::iota(root.begin(), root.end(), 0);
   const auto find = [&](std::int32_t n) {
-    while (root[static_cast<std::size_t>(n)] != n)
-      n = root[static_cast<std::size_t>(n)] =
-          root[static_cast<std::size_t>(root[static_cast<std::size_t>(n)])];
+    while (root[n] != n)
+      n = root[n] = root[root[static_cast<std::size_t>(n)]];
     return n;
   };
   for (const Edge& e : edges)
-    root[static_cast<std::size_t>(find(e[0]))] = find(e[1]);
+    root[find(e[0])] = find(e[1]);
   for (std::int32_t n = 0; n < static_cast<std::int32_t>(mesh.x.size()); ++n)
     if (find(n) != find(0))
       throw std::runtime_error(
           fmt::format("falls into separate pieces, one at {}, one at {}; join nodes that should be "
                       "one, or give each piece as a blank of its own",
-                      text(mesh.x[0]), text(mesh.x[static_cast<std::size_t>(n)])));
+                      text(mesh.x[0]), text(mesh.x[n])));
 }
 
 } // namespace

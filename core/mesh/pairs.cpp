@@ -31,8 +31,7 @@ std::vector<SharedSide> shared_sides(const BlankMesh& mesh) {
   std::vector<SharedSide> shared;
   for (std::size_t i = 1; i < sides.size(); ++i) {
     if (sides[i].low != sides[i - 1].low || sides[i].high != sides[i - 1].high) continue;
-    const Vec2 d = mesh.x[static_cast<std::size_t>(sides[i].high)] -
-                   mesh.x[static_cast<std::size_t>(sides[i].low)];
+    const Vec2 d = mesh.x[sides[i].high] - mesh.x[sides[i].low];
     shared.push_back({d.squaredNorm(), sides[i - 1].triangle, sides[i].triangle});
   }
   // Longest first. Lengths that agree to rounding count as equal, or a uniform mesh would be paired
@@ -49,7 +48,7 @@ using Neighbours = std::vector<std::array<std::int32_t, 3>>;
 Neighbours neighbours_of(std::size_t triangles, const std::vector<SharedSide>& sides) {
   Neighbours beside(triangles, {-1, -1, -1});
   const auto add = [&beside](std::int32_t to, std::int32_t from) {
-    auto& list = beside[static_cast<std::size_t>(from)];
+    auto& list = beside[from];
     *std::find(list.begin(), list.end() - 1, -1) = to;
   };
   for (const SharedSide& s : sides)
@@ -118,8 +117,7 @@ std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double 
   const auto along = [&](const Triangle& t, double angle) {
     const Vec2 f(std::cos(angle), std::sin(angle));
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2 side =
-          mesh.x[static_cast<std::size_t>(t[(k + 1) % 3])] - mesh.x[static_cast<std::size_t>(t[k])];
+      const Vec2 side = mesh.x[t[(k + 1) % 3]] - mesh.x[t[k]];
       if (std::abs(side.x() * f.y() - side.y() * f.x()) <= parallel * side.norm()) return true;
     }
     return false;
@@ -136,22 +134,20 @@ std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double 
   std::vector<char> near(mesh.x.size(), 0);
   for (std::size_t e = 0; e < inside.size(); ++e)
     for (const int n : mesh.triangles[e])
-      if (inside[e]) near[static_cast<std::size_t>(n)] = 1;
+      if (inside[e]) near[n] = 1;
   for (std::size_t e = 0; e < inside.size(); ++e)
     for (const int n : mesh.triangles[e])
-      if (near[static_cast<std::size_t>(n)]) inside[e] = 1;
+      if (near[n]) inside[e] = 1;
   return inside;
 }
 
 StrainGroups pair_triangles(const BlankMesh& mesh, const std::vector<char>& alone) {
   std::vector<SharedSide> sides = shared_sides(mesh);
   if (!alone.empty())
-    std::erase_if(sides, [&alone](const SharedSide& s) {
-      return alone[static_cast<std::size_t>(s.a)] || alone[static_cast<std::size_t>(s.b)];
-    });
+    std::erase_if(sides, [&alone](const SharedSide& s) { return alone[s.a] || alone[s.b]; });
   std::vector<std::int32_t> mate(mesh.triangles.size(), -1);
   for (const SharedSide& s : sides) {
-    auto &a = mate[static_cast<std::size_t>(s.a)], &b = mate[static_cast<std::size_t>(s.b)];
+    auto &a = mate[s.a], &b = mate[s.b];
     if (a < 0 && b < 0) a = s.b, b = s.a;
   }
   const Neighbours beside = neighbours_of(mate.size(), sides);

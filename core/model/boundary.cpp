@@ -51,20 +51,20 @@ Vec2 frame_coordinates(const Boundary& frame, const Vec2& X) {
 /// Adds what is new of `axis` to those already held.
 void hold_axis(PrescribedNode& node, Vec3 axis, int boundary) {
   for (int i = 0; i < node.count; ++i) {
-    const Vec3& taken = node.axis[static_cast<std::size_t>(i)];
+    const Vec3& taken = node.axis[i];
     axis -= axis.dot(taken) * taken;
   }
   constexpr double nothing_new = 1e-9;
   if (node.count == 3 || axis.norm() < nothing_new) return;
-  node.axis[static_cast<std::size_t>(node.count)] = axis.normalized();
-  node.boundary[static_cast<std::size_t>(node.count++)] = boundary;
+  node.axis[node.count] = axis.normalized();
+  node.boundary[node.count++] = boundary;
 }
 
 void hold_by(PrescribedNode& node, const Boundary& boundary, int index) {
   if (boundary.kind == BoundaryKind::symmetry)
     return hold_axis(node, {boundary.normal.x(), boundary.normal.y(), 0.0}, index);
   for (int k = 0; k < 3; ++k)
-    if (boundary.kind == BoundaryKind::frame || boundary.held[static_cast<std::size_t>(k)])
+    if (boundary.kind == BoundaryKind::frame || boundary.held[k])
       hold_axis(node, Vec3::Unit(k), index);
 }
 

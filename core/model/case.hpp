@@ -97,7 +97,7 @@ struct AccuracyOptions {
 struct FrictionTable {
   int bodies = 0;
   std::vector<double> mu; ///< bodies x bodies, symmetric
-  double operator()(int a, int b) const { return mu[static_cast<std::size_t>(a * bodies + b)]; }
+  double operator()(int a, int b) const { return mu[a * bodies + b]; }
 };
 
 struct Case {

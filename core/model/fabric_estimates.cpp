@@ -127,7 +127,7 @@ void estimate_missing(Case& data) {
   for (const Ply& ply : data.plies)
     used.insert(ply.fabric);
   for (const int index : used) {
-    Fabric& fabric = data.fabrics[static_cast<std::size_t>(index)];
+    Fabric& fabric = data.fabrics[index];
     if (fabric.isotropic) continue;
     if (data.plies.size() > 1)
       estimate_for_stack(fabric);

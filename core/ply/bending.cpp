@@ -19,7 +19,7 @@ double bound(const Bending& b, std::span<const double> node_mass) {
                        b.law.twist};
   std::vector<int> stencils(b.area.size(), 0); // that a node belongs to
   for (const std::int32_t n : b.node)
-    ++stencils[static_cast<std::size_t>(n)];
+    ++stencils[n];
   double largest = 0.0;
   for (std::size_t e = 0; e < b.area.size(); ++e) {
     double across = 0.0, in_plane = 0.0;
@@ -56,9 +56,7 @@ struct YarnTurn {
 
 PatchShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t stencil) {
   const auto first = static_cast<std::size_t>(b.begin[stencil]);
-  const auto at = [&](std::size_t place) -> const Vec3& {
-    return x[static_cast<std::size_t>(b.node[first + place])];
-  };
+  const auto at = [&](std::size_t place) -> const Vec3& { return x[b.node[first + place]]; };
   PatchShape s;
   s.normal.setZero();
   for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
@@ -88,7 +86,7 @@ YarnTurn turn_of(const Bending& b, std::span<const Vec3> x, std::size_t stencil,
   YarnTurn t;
   t.along.setZero();
   for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
-    t.along += b.a[i][family] * (x[static_cast<std::size_t>(b.node[i])] - own);
+    t.along += b.a[i][family] * (x[b.node[i]] - own);
   const Vec3 c = s.normal.cross(t.along);
   constexpr double least = 1e-12; // l^2; with less, a yarn has no direction
   const double l2 = std::max(least, c.squaredNorm());
@@ -112,7 +110,7 @@ Vec3 add_in_plane(const Bending& b, const YarnTurn& t, std::size_t stencil, std:
   const Vec3 turned = t.slope.cross(normal);
   for (auto i = static_cast<std::size_t>(b.begin[stencil]);
        i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
-    force[static_cast<std::size_t>(b.node[i])] -=
+    force[b.node[i]] -=
         b.area[stencil] * t.moment * (b.b[i][family] * t.across + b.a[i][family] * turned);
   return t.moment * t.along.cross(t.slope);
 }
@@ -124,8 +122,7 @@ void turn_normal(const Bending& b, std::span<const Vec3> x, std::size_t stencil,
        i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
     std::array<std::size_t, 3> n;
     for (std::size_t k = 0; k < 3; ++k)
-      n[k] = static_cast<std::size_t>(
-          b.node[static_cast<std::size_t>(b.begin[stencil] + b.fan[i][k])]);
+      n[k] = static_cast<std::size_t>(b.node[b.begin[stencil] + b.fan[i][k]]);
     const Vec3 turn1 = (x[n[2]] - x[n[0]]).cross(along), turn2 = along.cross(x[n[1]] - x[n[0]]);
     force[n[0]] += turn1 + turn2;
     force[n[1]] -= turn1;
@@ -161,7 +158,7 @@ std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec
     const std::array<double, 3> m = moments(b.law, s.kappa);
     for (auto i = static_cast<std::size_t>(b.begin[n]);
          i < static_cast<std::size_t>(b.begin[n + 1]); ++i)
-      force[static_cast<std::size_t>(b.node[i])] -=
+      force[b.node[i]] -=
           b.area[n] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal; // (F)
     Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
     for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)

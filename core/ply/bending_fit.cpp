@@ -30,8 +30,8 @@ struct StencilFit {
 void grow(std::vector<int>& nodes, const Sheet& sheet) {
   const std::vector<int> inner = nodes;
   for (const int n : inner)
-    for (const int e : sheet.around[static_cast<std::size_t>(n)])
-      for (const int other : sheet.triangles[static_cast<std::size_t>(e)])
+    for (const int e : sheet.around[n])
+      for (const int other : sheet.triangles[e])
         if (std::find(nodes.begin(), nodes.end(), other) == nodes.end()) nodes.push_back(other);
 }
 
@@ -44,9 +44,9 @@ double across(const Vec2& a, const Vec2& b) {
 Matrix monomials(std::span<const Vec2> x, const std::vector<int>& nodes, double size,
                  const Vec2& e1) {
   Matrix p(static_cast<Eigen::Index>(nodes.size()), 6);
-  const Vec2& middle = x[static_cast<std::size_t>(nodes[0])];
+  const Vec2& middle = x[nodes[0]];
   for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vec2 d = (x[static_cast<std::size_t>(nodes[i])] - middle) / size;
+    const Vec2 d = (x[nodes[i]] - middle) / size;
     const double r = d.dot(e1), s = across(e1, d);
     p.row(static_cast<Eigen::Index>(i)) << 1.0, r, s, 0.5 * r * r, 0.5 * s * s, r * s;
   }
@@ -56,9 +56,7 @@ Matrix monomials(std::span<const Vec2> x, const std::vector<int>& nodes, double 
 /// Of an inner node; lengths in units of `size`. May add to `nodes`.
 StencilFit interior_fit(const Sheet& sheet, std::vector<int>& nodes, double size) {
   constexpr double sound = 0.002; // ratio of singular values; a regular stencil has 0.01 to 0.1
-  const auto place = [&](std::size_t i) -> const Vec2& {
-    return sheet.x[static_cast<std::size_t>(nodes[i])];
-  };
+  const auto place = [&](std::size_t i) -> const Vec2& { return sheet.x[nodes[i]]; };
   for (int more = 0;; ++more) {
     // Nearer nodes decide: averages over rows of nodes would let the rows bend in turns, and a
     // strip of alternating diagonals sagged by 1.3 to 1.8 times theory without weights.
@@ -83,11 +81,11 @@ StencilFit interior_fit(const Sheet& sheet, std::vector<int>& nodes, double size
 
 /// The two neighbours of a node along the rim, or none for an inner node.
 std::vector<int> rim_neighbours(const Sheet& sheet, const std::vector<int>& nodes) {
-  const std::vector<int>& around = sheet.around[static_cast<std::size_t>(nodes[0])];
+  const std::vector<int>& around = sheet.around[nodes[0]];
   std::vector<int> rim;
   for (const int n : nodes) {
     const auto has = [&](int e) {
-      const Triangle& t = sheet.triangles[static_cast<std::size_t>(e)];
+      const Triangle& t = sheet.triangles[e];
       return std::find(t.begin(), t.end(), n) != t.end();
     };
     if (n != nodes[0] && std::count_if(around.begin(), around.end(), has) == 1) rim.push_back(n);
@@ -103,9 +101,9 @@ StencilFit rim_fit(const Sheet& sheet, const std::vector<int>& nodes, double siz
                    const std::vector<int>& rim) {
   StencilFit fit{Matrix::Zero(5, static_cast<Eigen::Index>(nodes.size())), {false, false}};
   if (rim.size() != 2) return fit;
-  const Vec2& middle = sheet.x[static_cast<std::size_t>(nodes[0])];
-  const Vec2 a = sheet.x[static_cast<std::size_t>(rim[0])] - middle;
-  const Vec2 b = sheet.x[static_cast<std::size_t>(rim[1])] - middle;
+  const Vec2& middle = sheet.x[nodes[0]];
+  const Vec2 a = sheet.x[rim[0]] - middle;
+  const Vec2 b = sheet.x[rim[1]] - middle;
   constexpr double straight = 0.9; // cosine: the rim turns by less than 26 degrees here
   if (a.dot(b) > -straight * a.norm() * b.norm()) return fit;
   const Vec2 along = (b - a).normalized();
@@ -168,8 +166,7 @@ void fit_stencil(Bending& b, const Sheet& sheet, int node) {
     Triangle places;
     for (std::size_t k = 0; k < 3; ++k)
       places[k] = static_cast<std::int32_t>(
-          std::find(nodes.begin(), nodes.end(), sheet.triangles[static_cast<std::size_t>(e)][k]) -
-          nodes.begin());
+          std::find(nodes.begin(), nodes.end(), sheet.triangles[e][k]) - nodes.begin());
     b.fan.push_back(places);
   }
   b.fan_begin.push_back(static_cast<std::int32_t>(b.fan.size()));
@@ -191,11 +188,11 @@ void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangl
   if (b.law.in_plane[0] > 0.0 || b.law.in_plane[1] > 0.0) b.in_plane.assign(x.size(), {0.0, 0.0});
   for (std::size_t e = 0; e < triangles.size(); ++e) {
     const Triangle& t = triangles[e];
-    const Vec2 g1 = x[static_cast<std::size_t>(t[1])] - x[static_cast<std::size_t>(t[0])];
-    const Vec2 g2 = x[static_cast<std::size_t>(t[2])] - x[static_cast<std::size_t>(t[0])];
+    const Vec2 g1 = x[t[1]] - x[t[0]];
+    const Vec2 g2 = x[t[2]] - x[t[0]];
     for (const int n : t) {
-      sheet.around[static_cast<std::size_t>(n)].push_back(static_cast<int>(e));
-      b.area[static_cast<std::size_t>(n)] += across(g1, g2) / 6.0;
+      sheet.around[n].push_back(static_cast<int>(e));
+      b.area[n] += across(g1, g2) / 6.0;
     }
   }
   for (std::size_t n = 0; n < x.size(); ++n)

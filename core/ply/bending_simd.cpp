@@ -69,11 +69,11 @@ public:
     const auto p = static_cast<std::size_t>(stencil);
     const std::span<const std::int32_t> nodes(b.node.data() + b.begin[p],
                                               b.node.data() + b.begin[p + 1]);
-    const auto fresh = std::count_if(nodes.begin(), nodes.end(),
-                                     [&](int n) { return local[static_cast<std::size_t>(n)] < 0; });
+    const auto fresh =
+        std::count_if(nodes.begin(), nodes.end(), [&](int n) { return local[n] < 0; });
     if (static_cast<int>(list.size()) + static_cast<int>(fresh) > most_block_nodes) close();
     for (const int n : nodes) {
-      std::int32_t& number = local[static_cast<std::size_t>(n)];
+      std::int32_t& number = local[n];
       if (number < 0) number = static_cast<std::int32_t>(list.size()), list.push_back(n);
     }
     stencils.push_back(slots_of(b, stencil));
@@ -91,7 +91,7 @@ public:
     out.blocks.push_back(block);
     out.nodes.insert(out.nodes.end(), list.begin(), list.end());
     for (const int n : list)
-      local[static_cast<std::size_t>(n)] = -1;
+      local[n] = -1;
     list.clear(), stencils.clear();
   }
 
@@ -153,7 +153,7 @@ private:
       std::vector<char> done(static_cast<std::size_t>(b.begin[n + 1] - b.begin[n]), 0);
       for (std::size_t i = 0; i < padded.size(); ++i) {
         out.slots[first + simd_width * i + lane] = at(p, padded[i]);
-        char& before = done[static_cast<std::size_t>(padded[i])];
+        char& before = done[padded[i]];
         if (padded[i] != 0 && !before) set_constants(first / simd_width + i, lane, p, padded[i]);
         before = 1;
       }
@@ -163,7 +163,7 @@ private:
   std::size_t slot_numbers() const { return b.in_plane.empty() ? 3 : 5; }
 
   std::size_t index(const StencilSlots& p, int place) const {
-    return static_cast<std::size_t>(b.begin[static_cast<std::size_t>(p.stencil)] + place);
+    return static_cast<std::size_t>(b.begin[p.stencil] + place);
   }
 
   std::uint16_t at(const StencilSlots& p, int place) const {
@@ -220,7 +220,7 @@ BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
 }
 
 void bending_forces(BendingSimd& l, const Bending& b, std::span<const Vec3> x, int block) {
-  const BendingBlock& of = l.blocks[static_cast<std::size_t>(block)];
+  const BendingBlock& of = l.blocks[block];
   const BendingKernelLaw law = kernel_law(b);
   const std::size_t slot_numbers = law.in_plane ? 5 : 3;
   const BendingKernelBlock kernel{l.nodes.data() + of.first_node,

@@ -33,14 +33,14 @@ void find_node_forces(BlockForces& b, std::size_t count);
 /// N, on a node of the ply from all blocks.
 inline Vec3 simd_force(const BlockForces& b, std::size_t node) {
   const auto force = [&b](std::int32_t i) {
-    const SimdForce& f = b.force[static_cast<std::size_t>(i)];
+    const SimdForce& f = b.force[i];
     return Vec3(f.x, f.y, f.z);
   };
   const NodeForces of = b.force_of[node];
   if (of.second >= 0) [[likely]]
     return force(of.first) + force(of.second);
   Vec3 sum = force(of.first);
-  const std::int32_t* more = &b.more[static_cast<std::size_t>(~of.second)];
+  const std::int32_t* more = &b.more[~of.second];
   for (std::int32_t i = 1; i <= more[0]; ++i)
     sum += force(more[i]);
   return sum;

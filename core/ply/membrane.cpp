@@ -50,13 +50,13 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
                                                          : pair_triangles(mesh, alone);
   m.group_begin = groups.begin;
   for (std::int32_t e : groups.triangles)
-    m.triangles.push_back(mesh.triangles[static_cast<std::size_t>(e)]);
+    m.triangles.push_back(mesh.triangles[e]);
   m.node_area.assign(mesh.x.size(), 0.0);
   const Vec2 e1(std::cos(warp_angle), std::sin(warp_angle));
   const Vec2 e2(std::cos(warp_angle + m.omega0), std::sin(warp_angle + m.omega0));
   for (const Triangle& t : m.triangles) {
-    const Vec2 g1 = mesh.x[static_cast<std::size_t>(t[1])] - mesh.x[static_cast<std::size_t>(t[0])];
-    const Vec2 g2 = mesh.x[static_cast<std::size_t>(t[2])] - mesh.x[static_cast<std::size_t>(t[0])];
+    const Vec2 g1 = mesh.x[t[1]] - mesh.x[t[0]];
+    const Vec2 g2 = mesh.x[t[2]] - mesh.x[t[0]];
     const double det = g1.x() * g2.y() - g1.y() * g2.x();
     if (!(det > 0.0)) throw std::invalid_argument("triangle of zero or negative area in a blank");
     // grad N_1 = (g2.y, -g2.x) / det, grad N_2 = (-g1.y, g1.x) / det
@@ -65,7 +65,7 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
          (g2.y() * e2.x() - g2.x() * e2.y()) / det, (g1.x() * e2.y() - g1.y() * e2.x()) / det});
     m.area.push_back(0.5 * det);
     for (int n : t)
-      m.node_area[static_cast<std::size_t>(n)] += det / 6.0;
+      m.node_area[n] += det / 6.0;
   }
   for (double a : m.node_area)
     m.node_mass.push_back(fabric.surface_density * a);
@@ -84,9 +84,9 @@ FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle)
   const auto e = static_cast<std::size_t>(triangle);
   const Triangle& t = m.triangles[e];
   const FibreGradients& c = m.c[e];
-  const Vec3& x0 = x[static_cast<std::size_t>(t[0])];
-  const Vec3 g1 = x[static_cast<std::size_t>(t[1])] - x0;
-  const Vec3 g2 = x[static_cast<std::size_t>(t[2])] - x0;
+  const Vec3& x0 = x[t[0]];
+  const Vec3 g1 = x[t[1]] - x0;
+  const Vec3 g2 = x[t[2]] - x0;
   FibreState s;
   s.f1 = c.c11 * g1 + c.c12 * g2; // k_1 (11), made a unit vector below
   s.f2 = c.c21 * g1 + c.c22 * g2;
@@ -140,8 +140,8 @@ GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group) {
   s.begin = m.group_begin[p];
   s.size = m.group_begin[p + 1] - s.begin;
   for (int i = 0; i < s.size; ++i) {
-    const double area = m.area[static_cast<std::size_t>(s.begin + i)];
-    FibreState& t = s.triangle[static_cast<std::size_t>(i)];
+    const double area = m.area[s.begin + i];
+    FibreState& t = s.triangle[i];
     t = fibre_state(m, x, s.begin + i);
     s.area += area;
     s.mean1 += area * t.lambda1;
@@ -221,7 +221,7 @@ std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<con
   for (int p = 0; p < m.groups(); ++p) {
     const GroupState s = group_state(m, x, p);
     for (int i = 0; i < s.size; ++i)
-      strains[static_cast<std::size_t>(s.begin + i)] = {s.mean1 - 1.0, s.mean2 - 1.0};
+      strains[s.begin + i] = {s.mean1 - 1.0, s.mean2 - 1.0};
   }
   return strains;
 }
@@ -251,7 +251,7 @@ std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<co
       for (std::size_t a = 0; a < 2; ++a) {
         tensions[e][a] = 0.0;
         for (const int n : m.triangles[e])
-          tensions[e][a] += at_node[static_cast<std::size_t>(n)][a] / 3.0;
+          tensions[e][a] += at_node[n][a] / 3.0;
       }
   }
   return tensions;
@@ -268,8 +268,8 @@ GroupReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int 
     double n1 = m.fabric.warp.at(s.mean1 - 1.0).value;
     double n2 = m.fabric.weft.at(s.mean2 - 1.0).value;
     // viscosity of taut fibres; its work by the trapezoidal rule over the step that led here
-    auto& last = m.last_lambda[static_cast<std::size_t>(p)];
-    auto& viscous = m.last_viscous[static_cast<std::size_t>(p)];
+    auto& last = m.last_lambda[p];
+    auto& viscous = m.last_viscous[p];
     const double dl1 = s.mean1 - last[0], dl2 = s.mean2 - last[1];
     const double v1 = n1 > 0.0 ? m.viscosity.warp * dl1 * per_dt : 0.0;
     const double v2 = n2 > 0.0 ? m.viscosity.weft * dl2 * per_dt : 0.0;
@@ -317,8 +317,8 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
     sum.fibre += s.area * (d1 * m.fabric.warp.at(s.mean1 - 1.0).energy +
                            d2 * m.fabric.weft.at(s.mean2 - 1.0).energy);
     for (int i = 0; i < s.size; ++i) {
-      const FibreState& t = s.triangle[static_cast<std::size_t>(i)];
-      const double area = m.area[static_cast<std::size_t>(s.begin + i)];
+      const FibreState& t = s.triangle[i];
+      const double area = m.area[s.begin + i];
       sum.fibre += area * (d1 * side_energy(m.side[0], t.lambda1, s.mean1) +
                            d2 * side_energy(m.side[1], t.lambda2, s.mean2));
       if (m.fabric.isotropic) sum.shear += area * isotropic_energy(isotropic_state(m, t));

@@ -143,9 +143,8 @@ void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
   for (std::size_t e = begin; e < end; ++e) {
     const FibreGradients& c = m_.c[e];
     const Triangle& t = m_.triangles[e];
-    const Vec3& y0 = y[static_cast<std::size_t>(t[0])];
-    const Vec3 g1 = y[static_cast<std::size_t>(t[1])] - y0,
-               g2 = y[static_cast<std::size_t>(t[2])] - y0;
+    const Vec3& y0 = y[t[0]];
+    const Vec3 g1 = y[t[1]] - y0, g2 = y[t[2]] - y0;
     strain[e - begin] = {rows_[e].f1.dot(c.c11 * g1 + c.c12 * g2),
                          rows_[e].f2.dot(c.c21 * g1 + c.c22 * g2)};
     area += m_.area[e];
@@ -177,7 +176,7 @@ Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x) {
   Eigen::VectorXd v(static_cast<Eigen::Index>(3 * x.size()));
   Scatter scatter;
   for (std::size_t n = 0; n < x.size(); ++n) {
-    const int triangle = m.gather[static_cast<std::size_t>(m.gather_begin[n])] / 3;
+    const int triangle = m.gather[m.gather_begin[n]] / 3;
     const FibreState s = fibre_state(m, x, triangle);
     const double along1 = scatter.next(), along2 = scatter.next(), across = scatter.next();
     v.segment<3>(static_cast<Eigen::Index>(3 * n)) =

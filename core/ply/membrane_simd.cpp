@@ -18,11 +18,10 @@ std::vector<int> ordered_patches(const Membrane& m, std::span<const Vec3> x) {
     box.extend(p);
   std::vector<Vec3> centres;
   for (int p = 0; p < m.groups(); ++p) {
-    const Triangle& t =
-        m.triangles[static_cast<std::size_t>(m.group_begin[static_cast<std::size_t>(p)])];
+    const Triangle& t = m.triangles[m.group_begin[static_cast<std::size_t>(p)]];
     Vec3& centre = centres.emplace_back(Vec3::Zero());
     for (const int n : t)
-      centre += x[static_cast<std::size_t>(n)] / 3.0;
+      centre += x[n] / 3.0;
   }
   return morton_order(centres, box);
 }
@@ -39,8 +38,8 @@ public:
       close();
     (size(group) == 2 ? pairs : singles).push_back(group);
     for (int e = first(group); e < first(group) + size(group); ++e)
-      for (const int n : m.triangles[static_cast<std::size_t>(e)]) {
-        std::int32_t& number = local[static_cast<std::size_t>(n)];
+      for (const int n : m.triangles[e]) {
+        std::int32_t& number = local[n];
         if (number < 0) number = static_cast<std::int32_t>(list.size()), list.push_back(n);
       }
   }
@@ -57,12 +56,12 @@ public:
     out.blocks.push_back(block);
     out.nodes.insert(out.nodes.end(), list.begin(), list.end());
     for (const int n : list)
-      local[static_cast<std::size_t>(n)] = -1;
+      local[n] = -1;
     list.clear(), pairs.clear(), singles.clear();
   }
 
 private:
-  int first(int group) const { return m.group_begin[static_cast<std::size_t>(group)]; }
+  int first(int group) const { return m.group_begin[group]; }
   int size(int group) const {
     return m.group_begin[static_cast<std::size_t>(group) + 1] - first(group);
   }
@@ -96,12 +95,11 @@ private:
     t.c11[lane] = c.c11, t.c12[lane] = c.c12, t.c21[lane] = c.c21, t.c22[lane] = c.c22;
     double patch_area = 0.0;
     for (int i = first(group); i < first(group) + size(group); ++i)
-      patch_area += m.area[static_cast<std::size_t>(i)];
+      patch_area += m.area[i];
     t.area[lane] = filler ? 0.0 : m.area[e];
     t.share[lane] = m.area[e] / patch_area;
     for (std::size_t corner = 0; corner < 3; ++corner)
-      t.node[corner][lane] =
-          static_cast<std::uint16_t>(local[static_cast<std::size_t>(m.triangles[e][corner])] * 32);
+      t.node[corner][lane] = static_cast<std::uint16_t>(local[m.triangles[e][corner]] * 32);
   }
 
   const Membrane& m;
@@ -209,7 +207,7 @@ MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {
 
 GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block) {
-  const SimdBlock& b = l.blocks[static_cast<std::size_t>(block)];
+  const SimdBlock& b = l.blocks[block];
   const KernelBlock kernel = kernel_block(l, b, l.viscosity.data(), l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = has_avx2() ? membrane_kernel_avx2 : membrane_kernel_generic;
@@ -219,7 +217,7 @@ GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3
 
 MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
                            int block) {
-  const SimdBlock& b = l.blocks[static_cast<std::size_t>(block)];
+  const SimdBlock& b = l.blocks[block];
   const KernelBlock kernel = kernel_block(l, b, nullptr, nullptr);
   const auto run = has_avx2() ? membrane_energy_avx2 : membrane_energy_generic;
   const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data());

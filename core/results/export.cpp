@@ -33,9 +33,9 @@ std::string stl(const std::vector<Vec3>& x, const std::vector<Triangle>& triangl
   const auto count = static_cast<std::uint32_t>(triangles.size());
   put_bytes(out, &count, 1);
   for (const Triangle& t : triangles) {
-    const Vec3& a = x[static_cast<std::size_t>(t[0])];
-    const Vec3& b = x[static_cast<std::size_t>(t[1])];
-    const Vec3& c = x[static_cast<std::size_t>(t[2])];
+    const Vec3& a = x[t[0]];
+    const Vec3& b = x[t[1]];
+    const Vec3& c = x[t[2]];
     const Vec3 normal = (b - a).cross(c - a).stableNormalized(); // zero stays zero
     for (const Vec3& v : {normal, a, b, c}) {
       const Eigen::Vector3f single = v.cast<float>();

@@ -116,9 +116,7 @@ void end_row(Buffer& out) {
 } // in place of the last comma
 
 Vec3 centroid(const std::vector<Vec3>& x, const Triangle& t) {
-  return (x[static_cast<std::size_t>(t[0])] + x[static_cast<std::size_t>(t[1])] +
-          x[static_cast<std::size_t>(t[2])]) /
-         3;
+  return (x[t[0]] + x[t[1]] + x[t[2]]) / 3;
 }
 
 /// A column heading; one with a comma in quotes (names hold no quotes, see check_name).

@@ -166,8 +166,8 @@ void search_along(const Grid& grid, int di, int dj, const std::vector<const Tool
       Line line{};
       bool whole = true;
       for (int k = -2; k <= 2 && whole; ++k) {
-        line[static_cast<std::size_t>(k + 2)] = grid.find(i + k * di, j + k * dj);
-        whole = line[static_cast<std::size_t>(k + 2)] != nullptr;
+        line[k + 2] = grid.find(i + k * di, j + k * dj);
+        whole = line[k + 2] != nullptr;
       }
       if (!whole) continue;
       double found = height_of_shape(line);

@@ -26,9 +26,9 @@ bool may_meet(Box3 a, const Box3& b, double reach) {
 void leave_out_neighbours(std::vector<Candidate>& candidates, std::span<const Vec3> x0,
                           std::span<const Triangle> triangles, double reach) {
   const auto neighbour = [&](const Candidate& c) {
-    const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+    const Triangle& t = triangles[c.face];
     if (std::find(t.begin(), t.end(), c.node) != t.end()) return true;
-    const auto at = [&](std::int32_t n) -> const Vec3& { return x0[static_cast<std::size_t>(n)]; };
+    const auto at = [&](std::int32_t n) -> const Vec3& { return x0[n]; };
     return closest_point_on_triangle(at(c.node), at(t[0]), at(t[1]), at(t[2])).distance2 <
            reach * reach;
   };
@@ -62,25 +62,24 @@ void mark_covered(PlyState& slave, const PlyContact& pair, const PlyState& maste
     const PlyPlyPoint& c = pair.contact.points[p];
     char inside = pair.contact.list.free_until[p] - path_length < 0.5 * pair.contact.distance;
     for (int i = c.first_face; i < c.end_face; ++i)
-      inside &= !master.touches_boundary_edge[static_cast<std::size_t>(
-          pair.contact.faces[static_cast<std::size_t>(i)])];
-    occluded[static_cast<std::size_t>(c.node)] |= inside;
+      inside &= !master.touches_boundary_edge[pair.contact.faces[static_cast<std::size_t>(i)]];
+    occluded[c.node] |= inside;
   }
 }
 
 /// The slave's nodes that another ply keeps from the master; empty: none.
 std::span<const char> covered_nodes(const Scene& s, int slave_ply, int master_ply, double reach) {
   if (slave_ply == master_ply || next_ply(slave_ply, master_ply) == master_ply) return {};
-  const PlyState& slave = s.plies[static_cast<std::size_t>(slave_ply)];
-  const PlyState& between = s.plies[static_cast<std::size_t>(next_ply(slave_ply, master_ply))];
+  const PlyState& slave = s.plies[slave_ply];
+  const PlyState& between = s.plies[next_ply(slave_ply, master_ply)];
   // what covers was looked for within that distance only
   if (reach > 0.5 * (slave.thickness + between.thickness) + s.skin) return {};
   return slave.occluded[master_ply > slave_ply];
 }
 
 void search_plies(Scene& s, PlyContact& pair) {
-  const PlyState& slave = s.plies[static_cast<std::size_t>(pair.slave)];
-  const PlyState& master = s.plies[static_cast<std::size_t>(pair.master)];
+  const PlyState& slave = s.plies[pair.slave];
+  const PlyState& master = s.plies[pair.master];
   const Stopwatch watch(pair.contact.time.search);
   // also what has come through within the step: find_pass_through looks at it
   const double reach = std::max(pair.contact.distance + s.skin, step_displacement(s, pair));
@@ -93,26 +92,25 @@ void search_plies(Scene& s, PlyContact& pair) {
                          neighbourhood * pair.contact.distance);
   find_ply_ply_points(pair.contact, candidates, slave.state(), master.state(),
                       master.membrane.triangles, slave.path_length + master.path_length);
-  if (neighbours(pair)) mark_covered(s.plies[static_cast<std::size_t>(pair.slave)], pair, master);
+  if (neighbours(pair)) mark_covered(s.plies[pair.slave], pair, master);
 }
 
 /// Edges of a ply that may meet another: without those both of whose nodes a ply in between covers.
 std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double reach) {
-  const PlyState& body = s.plies[static_cast<std::size_t>(ply)];
+  const PlyState& body = s.plies[ply];
   const std::span<const char> occluded = covered_nodes(s, ply, other, reach);
   std::vector<std::int32_t> open;
   for (std::size_t i = 0; i < body.edges.size(); ++i) {
     const SheetEdge& e = body.edges[i];
-    if (occluded.empty() || !occluded[static_cast<std::size_t>(e.a)] ||
-        !occluded[static_cast<std::size_t>(e.b)])
+    if (occluded.empty() || !occluded[e.a] || !occluded[e.b])
       open.push_back(static_cast<std::int32_t>(i));
   }
   return open;
 }
 
 void search_edges(Scene& s, PlyEdgeContact& pair) {
-  const PlyState& a = s.plies[static_cast<std::size_t>(pair.a)];
-  const PlyState& b = s.plies[static_cast<std::size_t>(pair.b)];
+  const PlyState& a = s.plies[pair.a];
+  const PlyState& b = s.plies[pair.b];
   const Stopwatch watch(pair.contact.time.search);
   const double skin = std::max(s.skin, step_displacement(s, pair.a) + step_displacement(s, pair.b));
   const double reach = pair.contact.distance + skin;
@@ -127,18 +125,14 @@ void search_edges(Scene& s, PlyEdgeContact& pair) {
 
 /// Room for the forces of two plies of which something may touch: most pairs of a stack never do.
 void make_room(const Scene& s, PlyPair& pair) {
-  const auto may_touch = [&s](int i) {
-    return !s.ply_contacts[static_cast<std::size_t>(i)].contact.points.empty();
-  };
-  const auto may_cross = [&s](int i) {
-    return !s.edge_contacts[static_cast<std::size_t>(i)].contact.candidates.empty();
-  };
+  const auto may_touch = [&s](int i) { return !s.ply_contacts[i].contact.points.empty(); };
+  const auto may_cross = [&s](int i) { return !s.edge_contacts[i].contact.candidates.empty(); };
   if (!pair.force_a.empty() ||
       !(std::any_of(pair.contacts.begin(), pair.contacts.end(), may_touch) ||
         std::any_of(pair.edges.begin(), pair.edges.end(), may_cross)))
     return;
-  pair.force_a.assign(s.plies[static_cast<std::size_t>(pair.a)].x.size(), Vec3::Zero());
-  pair.force_b.assign(s.plies[static_cast<std::size_t>(pair.b)].x.size(), Vec3::Zero());
+  pair.force_a.assign(s.plies[pair.a].x.size(), Vec3::Zero());
+  pair.force_b.assign(s.plies[pair.b].x.size(), Vec3::Zero());
 }
 
 void renew_spread(const Scene& s, PlyState& ply) {
@@ -157,7 +151,7 @@ void update_fold_bounds(Scene& s, ThreadPool& pool) {
   };
   if (s.ply_contacts.empty() || std::none_of(s.plies.begin(), s.plies.end(), due)) return;
   pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyState& ply = s.plies[static_cast<std::size_t>(p)];
+    PlyState& ply = s.plies[p];
     if (!due(ply)) return;
     const Stopwatch watch(ply.search_seconds);
     renew_spread(s, ply);
@@ -171,8 +165,7 @@ bool track_displacements(Scene& s) {
       max_displacement = now; // NaN stays
   };
   for (std::size_t i = 0; i < s.node_blocks.size(); ++i)
-    grow(s.plies[static_cast<std::size_t>(s.node_blocks[i].ply)].max_displacement,
-         std::sqrt(s.node_sums[i].moved2));
+    grow(s.plies[s.node_blocks[i].ply].max_displacement, std::sqrt(s.node_sums[i].moved2));
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     s.plies[p].path_length += step_displacement(s, static_cast<int>(p));
   for (ToolState& t : s.tools) {
@@ -203,7 +196,7 @@ double largest_displacement(const Scene& s) {
 
 void search_contacts(Scene& s, ThreadPool& pool) {
   pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyState& ply = s.plies[static_cast<std::size_t>(p)];
+    PlyState& ply = s.plies[p];
     const Stopwatch watch(ply.search_seconds);
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
@@ -216,16 +209,16 @@ void search_contacts(Scene& s, ThreadPool& pool) {
   const int near = static_cast<int>(pairs[0].size());
   pool.run(near + static_cast<int>(s.tools.size()), [&](int i) {
     if (i < near)
-      search_plies(s, *pairs[0][static_cast<std::size_t>(i)]);
+      search_plies(s, *pairs[0][i]);
     else
-      search_tool(s, s.tools[static_cast<std::size_t>(i - near)]);
+      search_tool(s, s.tools[i - near]);
   });
   const int far = static_cast<int>(pairs[1].size());
   pool.run(far + static_cast<int>(s.edge_contacts.size()), [&](int i) {
     if (i < far)
-      search_plies(s, *pairs[1][static_cast<std::size_t>(i)]);
+      search_plies(s, *pairs[1][i]);
     else
-      search_edges(s, s.edge_contacts[static_cast<std::size_t>(i - far)]);
+      search_edges(s, s.edge_contacts[i - far]);
   });
   for (PlyPair& pair : s.ply_pairs)
     make_room(s, pair);

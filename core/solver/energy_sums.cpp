@@ -36,15 +36,13 @@ Energies current_energies(const Scene& s, ThreadPool& pool) {
   const int plies = static_cast<int>(s.plies.size());
   pool.run(plies + static_cast<int>(of_block.size()), [&](int i) {
     if (i >= plies) {
-      const Block& block = s.group_blocks[static_cast<std::size_t>(i - plies)];
-      const PlyState& ply = s.plies[static_cast<std::size_t>(block.ply)];
-      if (ply.simd)
-        of_block[static_cast<std::size_t>(i - plies)] =
-            simd_energy(*ply.simd, ply.membrane, ply.x, block.begin);
+      const Block& block = s.group_blocks[i - plies];
+      const PlyState& ply = s.plies[block.ply];
+      if (ply.simd) of_block[i - plies] = simd_energy(*ply.simd, ply.membrane, ply.x, block.begin);
       return;
     }
-    const PlyState& ply = s.plies[static_cast<std::size_t>(i)];
-    Energies& e = of_ply[static_cast<std::size_t>(i)];
+    const PlyState& ply = s.plies[i];
+    Energies& e = of_ply[i];
     if (!ply.simd) {
       const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
       e.fibre = m.fibre, e.shear = m.shear;

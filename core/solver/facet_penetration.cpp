@@ -95,9 +95,7 @@ private:
 double longest_side(const PlyState& ply) {
   double longest = 0.0;
   for (const SheetEdge& e : ply.edges)
-    longest = std::max(
-        longest,
-        (ply.x[static_cast<std::size_t>(e.a)] - ply.x[static_cast<std::size_t>(e.b)]).norm());
+    longest = std::max(longest, (ply.x[e.a] - ply.x[e.b]).norm());
   return longest;
 }
 

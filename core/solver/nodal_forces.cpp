@@ -12,7 +12,7 @@ namespace {
 /// Each ply's list of the force arrays that hold something in this step, in fixed order.
 void collect_forces(Scene& s) {
   const auto list = [&](int ply) -> auto& {
-    return s.plies[static_cast<std::size_t>(ply)].nodal_forces;
+    return s.plies[ply].nodal_forces;
   };
   for (PlyState& ply : s.plies) {
     ply.nodal_forces.clear();
@@ -36,11 +36,10 @@ void pair_forces(Scene& s, PlyPair& pair) {
     std::fill(pair.force_b.begin(), pair.force_b.end(), Vec3::Zero());
   }
   pair.loaded = false;
-  const PlyState &a = s.plies[static_cast<std::size_t>(pair.a)],
-                 &b = s.plies[static_cast<std::size_t>(pair.b)];
+  const PlyState &a = s.plies[pair.a], &b = s.plies[pair.b];
   for (const int i : pair.contacts) {
-    const bool up = s.ply_contacts[static_cast<std::size_t>(i)].slave == pair.a;
-    PlyPlyContact& contact = s.ply_contacts[static_cast<std::size_t>(i)].contact;
+    const bool up = s.ply_contacts[i].slave == pair.a;
+    PlyPlyContact& contact = s.ply_contacts[i].contact;
     const PlyState &slave = up ? a : b, &master = up ? b : a;
     ply_ply_forces(contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
                    {a.max_displacement + b.max_displacement, a.path_length + b.path_length},
@@ -48,7 +47,7 @@ void pair_forces(Scene& s, PlyPair& pair) {
     pair.loaded = pair.loaded || contact.sums.touching > 0;
   }
   for (const int i : pair.edges) {
-    EdgeEdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
+    EdgeEdgeContact& contact = s.edge_contacts[i].contact;
     edge_forces(contact, a.state(), a.edges, b.state(), b.edges, s.dt,
                 a.path_length + b.path_length, pair.force_a, pair.force_b);
     pair.loaded = pair.loaded || contact.sums.touching > 0;
@@ -59,7 +58,7 @@ void pair_forces(Scene& s, PlyPair& pair) {
 
 void element_and_contact_forces(Scene& s, ThreadPool& pool) {
   const auto tool_task = [&](int i) {
-    ToolState& t = s.tools[static_cast<std::size_t>(i)];
+    ToolState& t = s.tools[i];
     const Stopwatch watch(t.seconds);
     const Vec3 before = t.force;
     for (std::size_t p = 0; p < s.plies.size(); ++p)
@@ -68,19 +67,19 @@ void element_and_contact_forces(Scene& s, ThreadPool& pool) {
     t.work -= 0.5 * (before + t.force).dot(t.body.motion);
   };
   const auto group_task = [&](int i) {
-    Block& block = s.group_blocks[static_cast<std::size_t>(i)];
+    Block& block = s.group_blocks[i];
     const Stopwatch watch(block.seconds);
-    PlyState& ply = s.plies[static_cast<std::size_t>(block.ply)];
+    PlyState& ply = s.plies[block.ply];
     const GroupReport report =
         ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, s.dt, block.begin)
                  : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
-    s.group_sums[static_cast<std::size_t>(i)] += report.viscous_work;
-    s.group_collapsed[static_cast<std::size_t>(i)] = report.collapsed;
+    s.group_sums[i] += report.viscous_work;
+    s.group_collapsed[i] = report.collapsed;
   };
   const auto bending_task = [&](int i) {
-    Block& block = s.bending_blocks[static_cast<std::size_t>(i)];
+    Block& block = s.bending_blocks[i];
     const Stopwatch watch(block.seconds);
-    PlyState& ply = s.plies[static_cast<std::size_t>(block.ply)];
+    PlyState& ply = s.plies[block.ply];
     bending_forces(ply.bending_simd, *ply.bending, ply.x, block.begin);
   };
   const int pairs = static_cast<int>(s.ply_pairs.size());
@@ -92,7 +91,7 @@ void element_and_contact_forces(Scene& s, ThreadPool& pool) {
   const int all = groups + static_cast<int>(s.bending_blocks.size());
   pool.run(all, [&](int i) { // longest tasks first
     if (i < pairs)
-      pair_forces(s, s.ply_pairs[static_cast<std::size_t>(i)]);
+      pair_forces(s, s.ply_pairs[i]);
     else if (i < tools)
       tool_task(i - pairs);
     else if (i < groups)

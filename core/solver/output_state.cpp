@@ -15,11 +15,10 @@ constexpr double degrees = 180.0 / std::numbers::pi;
 std::vector<Vec3> node_normals(const PlyState& ply) {
   std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
   for (const Triangle& t : ply.membrane.triangles) {
-    const Vec3& a = ply.x[static_cast<std::size_t>(t[0])];
-    const Vec3 n = (ply.x[static_cast<std::size_t>(t[1])] - a)
-                       .cross(ply.x[static_cast<std::size_t>(t[2])] - a);
+    const Vec3& a = ply.x[t[0]];
+    const Vec3 n = (ply.x[t[1]] - a).cross(ply.x[t[2]] - a);
     for (int k : t)
-      normals[static_cast<std::size_t>(k)] += n;
+      normals[k] += n;
   }
   return normals;
 }
@@ -35,7 +34,7 @@ struct SideForces {
 };
 
 PlyFrame make_ply_frame(const Scene& scene, int index) {
-  const PlyState& ply = scene.plies[static_cast<std::size_t>(index)];
+  const PlyState& ply = scene.plies[index];
   PlyFrame f;
   f.name = ply.name;
   f.angle_deg = ply.angle * degrees;
@@ -94,13 +93,12 @@ std::vector<double> contact_pressure(const Scene& scene, int index) {
   for (const PlyContact& pair : scene.ply_contacts)
     for (const PlyPlyPoint& c : pair.contact.points) {
       if (c.memory.normal_force == 0.0 || (pair.slave != index && pair.master != index)) continue;
-      const PlyState& master = scene.plies[static_cast<std::size_t>(pair.master)];
+      const PlyState& master = scene.plies[pair.master];
       const std::vector<Triangle>& triangles = master.membrane.triangles;
-      const Vec3 normal = contact_normal(c, scene.plies[static_cast<std::size_t>(pair.slave)].x,
-                                         master.x, triangles);
+      const Vec3 normal = contact_normal(c, scene.plies[pair.slave].x, master.x, triangles);
       if (pair.slave == index) sides.add(c.node, normal, c.memory.normal_force);
       if (pair.master != index) continue;
-      const Triangle& t = triangles[static_cast<std::size_t>(c.face)];
+      const Triangle& t = triangles[c.face];
       const std::array<double, 3> w = c.weights();
       for (std::size_t j = 0; j < 3; ++j)
         sides.add(t[j], -normal, w[j] * c.memory.normal_force);

@@ -9,7 +9,7 @@ namespace plyform {
 namespace {
 
 const Vec3& at(const std::vector<Vec3>& v, int n) {
-  return v[static_cast<std::size_t>(n)];
+  return v[n];
 }
 
 } // namespace
@@ -31,10 +31,10 @@ std::string when_and_who(const Scene& s, std::size_t ply, int node) {
 std::optional<Stop> find_pass_through(const Scene& s, const PlyContact& pair) {
   // the two start more than h/2 apart: contact leaves three quarters of h at least
   if (!(step_displacement(s, pair) > 0.5 * pair.contact.distance)) return std::nullopt;
-  const PlyState& slave = s.plies[static_cast<std::size_t>(pair.slave)];
-  const PlyState& master = s.plies[static_cast<std::size_t>(pair.master)];
+  const PlyState& slave = s.plies[pair.slave];
+  const PlyState& master = s.plies[pair.master];
   for (const PlyPlyPoint& c : pair.contact.points) {
-    const Triangle& t = master.membrane.triangles[static_cast<std::size_t>(c.face)];
+    const Triangle& t = master.membrane.triangles[c.face];
     Vec3 u = at(slave.x, c.node), r = at(slave.motion, c.node);
     const std::array<double, 3> w = c.weights();
     for (std::size_t j = 0; j < 3; ++j) {

@@ -10,7 +10,7 @@ namespace {
 /// (R) of core/model/boundary.hpp for one node: the velocity that takes it where its boundaries
 /// will be. Adds to their loads and work.
 void hold_node(Scene& s, const PrescribedNode& held) {
-  PlyState& ply = s.plies[static_cast<std::size_t>(held.ply)];
+  PlyState& ply = s.plies[held.ply];
   const auto n = static_cast<std::size_t>(held.node);
   const Vec3 before = ply.reaction[n];
   ply.reaction[n].setZero();

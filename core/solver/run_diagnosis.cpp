@@ -37,8 +37,7 @@ std::vector<PairReport> pairs_of(const Scene& s) {
       pairs.push_back(pair);
     }
   const auto of_plies = [&](int a, int b) -> PairReport& {
-    const std::string &low = s.plies[static_cast<std::size_t>(std::min(a, b))].name,
-                      &high = s.plies[static_cast<std::size_t>(std::max(a, b))].name;
+    const std::string &low = s.plies[std::min(a, b)].name, &high = s.plies[std::max(a, b)].name;
     for (PairReport& pair : pairs)
       if (pair.a == low && pair.b == high) return pair;
     pairs.push_back({.a = low, .b = high});
@@ -110,7 +109,7 @@ std::vector<std::string> too_much(const Scene& s, const Energies& e, const WorkR
   if (s.data.contact.self &&
       std::none_of(w.pairs.begin(), w.pairs.end(),
                    [](const PairReport& pair) { return pair.a == pair.b && pair.touched(); }))
-    found.push_back("contact.self: no ply ever touched itself");
+    found.push_back(fmt::format("contact.self: no ply ever touched itself"));
   return found;
 }
 
@@ -146,8 +145,7 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
     for (std::size_t p = 0; p < s.plies.size(); ++p)
       look(t.name, s.plies[p].name, t.contacts[p].sums, t.contacts[p].law);
   for (const PlyContact& pair : s.ply_contacts) // both ways
-    look(s.plies[static_cast<std::size_t>(pair.slave)].name,
-         s.plies[static_cast<std::size_t>(pair.master)].name, pair.contact.sums, pair.contact.law);
+    look(s.plies[pair.slave].name, s.plies[pair.master].name, pair.contact.sums, pair.contact.law);
   for (const auto& [names, depth] : deepest)
     if (depth.first > deep * depth.second)
       found.push_back(fmt::format("{} with {}: {:.3f} mm deep at some time, of {:.3g} mm that "

@@ -19,22 +19,21 @@ std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
                                std::span<const Triangle> triangles, std::size_t nodes) {
   std::vector<char> node(nodes, 0), face;
   for (const SheetEdge& e : edges)
-    if (e.rim) node[static_cast<std::size_t>(e.a)] = node[static_cast<std::size_t>(e.b)] = 1;
+    if (e.rim) node[e.a] = node[e.b] = 1;
   for (const Triangle& t : triangles)
-    face.push_back(static_cast<char>(std::any_of(
-        t.begin(), t.end(), [&](int n) { return node[static_cast<std::size_t>(n)] != 0; })));
+    face.push_back(
+        static_cast<char>(std::any_of(t.begin(), t.end(), [&](int n) { return node[n] != 0; })));
   return face;
 }
 
 BlankMesh mesh_ply(const Case& data, const Ply& ply) {
-  const Fabric& fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
-  return mesh_blank(data.blanks[static_cast<std::size_t>(ply.blank)], ply.angle,
-                    ply.angle + fabric.fibre_angle);
+  const Fabric& fabric = data.fabrics[ply.fabric];
+  return mesh_blank(data.blanks[ply.blank], ply.angle, ply.angle + fabric.fibre_angle);
 }
 
 PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
   PlyState body;
-  const Fabric& fabric = data.fabrics[static_cast<std::size_t>(ply.fabric)];
+  const Fabric& fabric = data.fabrics[ply.fabric];
   body.name = ply.name;
   body.angle = ply.angle;
   body.thickness = fabric.thickness;
@@ -133,8 +132,8 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlySt
 }
 
 PlyContact make_pair(const Case& data, const std::vector<PlyState>& plies, int a, int b) {
-  const PlyState& slave = plies[static_cast<std::size_t>(a)];
-  const PlyState& master = plies[static_cast<std::size_t>(b)];
+  const PlyState& slave = plies[a];
+  const PlyState& master = plies[b];
   PlyContact pair;
   pair.slave = a;
   pair.master = b;
@@ -209,7 +208,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
     }
   s.ply_pairs = make_pairs(s);
   for (int p = 0; p < n; ++p) {
-    const PlyState& ply = s.plies[static_cast<std::size_t>(p)];
+    const PlyState& ply = s.plies[p];
     if (ply.simd)
       add_blocks(s.group_blocks, p, ply.simd->blocks.size(), 1);
     else
@@ -218,7 +217,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
     add_blocks(s.bending_blocks, p, ply.bending_simd.blocks.size(), 1);
   }
   for (int p = 0; p < n; ++p) {
-    PlyState& ply = s.plies[static_cast<std::size_t>(p)];
+    PlyState& ply = s.plies[p];
     const std::vector<PrescribedNode> held = prescribed_nodes(data.boundaries, p, ply.x0);
     if (!held.empty()) ply.reaction.assign(ply.x0.size(), Vec3::Zero());
     s.held.insert(s.held.end(), held.begin(), held.end());

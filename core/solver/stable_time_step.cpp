@@ -22,15 +22,14 @@ struct PairRows {
 };
 
 PairRows rows_of(const Scene& s, const PlyPair& pair) {
-  const PlyState &a = s.plies[static_cast<std::size_t>(pair.a)],
-                 &b = s.plies[static_cast<std::size_t>(pair.b)];
+  const PlyState &a = s.plies[pair.a], &b = s.plies[pair.b];
   PairRows rows;
   const auto begin = [&] {
     rows.a.resize(a.x.size());
     rows.b.resize(b.x.size());
   };
   for (const int i : pair.contacts) {
-    const PlyContact& c = s.ply_contacts[static_cast<std::size_t>(i)];
+    const PlyContact& c = s.ply_contacts[i];
     if (c.contact.points.empty()) continue;
     begin();
     const bool up = c.slave == pair.a;
@@ -39,7 +38,7 @@ PairRows rows_of(const Scene& s, const PlyPair& pair) {
                           up ? rows.a : rows.b, up ? rows.b : rows.a);
   }
   for (const int i : pair.edges) {
-    const EdgeEdgeContact& contact = s.edge_contacts[static_cast<std::size_t>(i)].contact;
+    const EdgeEdgeContact& contact = s.edge_contacts[i].contact;
     if (contact.pairs.empty()) continue;
     begin();
     add_edge_stiffness(contact, edge_margin, rows.a, rows.b);
@@ -61,7 +60,7 @@ ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
       add_tool_ply_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
   }
   const auto add = [&c](int ply, const std::vector<ContactRow>& rows) {
-    std::vector<ContactRow>& to = c[static_cast<std::size_t>(ply)];
+    std::vector<ContactRow>& to = c[ply];
     for (std::size_t n = 0; n < rows.size(); ++n)
       to[n] += rows[n];
   };
@@ -140,7 +139,7 @@ StepBound stable_step(const Scene& s, ThreadPool& pool) {
 void update_stable_step(Scene& s, ThreadPool& pool) {
   const bool sharpen = s.step >= s.next_lanczos;
   pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyState& ply = s.plies[static_cast<std::size_t>(p)];
+    PlyState& ply = s.plies[p];
     const Stopwatch watch(ply.search_seconds);
     ply.bound = eigenvalue_bound(ply.membrane, ply.x);
     if (sharpen) ply.eigenvalue_ratio = eigenvalue_ratio(ply.membrane, ply.x);

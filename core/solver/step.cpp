@@ -63,7 +63,7 @@ NodeSums move_nodes(PlyState& ply, const Block& block, double dt, double next_dt
   for (int i = block.begin; i < block.end; ++i) {
     const auto n = static_cast<std::size_t>(i);
     const Vec3 old = ply.velocity[n];
-    const Vec3& f = force[static_cast<std::size_t>(i - block.begin)];
+    const Vec3& f = force[i - block.begin];
     const Vec3 now = old + 0.5 * (dt + next_dt) * acceleration(ply, n, f, loads); // (16)
     ply.velocity[n] = now;
     ply.motion[n] = now * next_dt;
@@ -109,8 +109,7 @@ void move_plies(Scene& s, ThreadPool& pool) {
     const auto b = static_cast<std::size_t>(i);
     Block& block = s.node_blocks[b];
     const Stopwatch watch(block.seconds);
-    s.node_sums[b] =
-        move_nodes(s.plies[static_cast<std::size_t>(block.ply)], block, s.dt, s.next_dt, loads);
+    s.node_sums[b] = move_nodes(s.plies[block.ply], block, s.dt, s.next_dt, loads);
   });
   for (const NodeSums& n : s.node_sums)
     s.mass_damping_work += n.damping;

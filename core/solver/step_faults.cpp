@@ -33,9 +33,9 @@ std::optional<Stop> find_fault(const Scene& s) {
                             "apart, thickness {:.3g} "
                             "mm; give the stack more room between the tools, a slower stroke, or a "
                             "smaller solver.step_factor",
-                            when(s), s.plies[static_cast<std::size_t>(pair.slave)].name, fault.node,
-                            s.plies[static_cast<std::size_t>(pair.master)].name, fault.face,
-                            fault.distance, pair.contact.distance)};
+                            when(s), s.plies[pair.slave].name, fault.node,
+                            s.plies[pair.master].name, fault.face, fault.distance,
+                            pair.contact.distance)};
   }
   return std::nullopt;
 }
@@ -55,9 +55,7 @@ std::optional<Stop> find_squeezed(const Scene& s) {
                             [](const auto& a, const auto& b) { return a.gap < b.gap; })
         ->node;
   };
-  const auto ply = [&s](int p) -> const std::string& {
-    return s.plies[static_cast<std::size_t>(p)].name;
-  };
+  const auto ply = [&s](int p) -> const std::string& { return s.plies[p].name; };
   for (const ToolState& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
       if (first(t.contacts[p].sums))

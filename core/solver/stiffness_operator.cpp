@@ -40,15 +40,15 @@ void StiffnessOperator::add_pair(const PlyPair& pair) {
   Pair to{static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b), {}, {}, {}, {}};
   const PlyState &a = s_.plies[to.a], &b = s_.plies[to.b];
   for (const int i : pair.contacts) {
-    const PlyContact& c = s_.ply_contacts[static_cast<std::size_t>(i)];
+    const PlyContact& c = s_.ply_contacts[i];
     const bool up = c.slave == pair.a;
     const PlyState &slave = up ? a : b, &master = up ? b : a;
     append_tangents(c.contact, slave.state(), master.state(), master.membrane.triangles,
                     bound_margin, factors_, up ? to.up : to.down);
   }
   for (const int i : pair.edges)
-    append_tangents(s_.edge_contacts[static_cast<std::size_t>(i)].contact, a.state(), b.state(),
-                    edge_margin, factors_, to.up);
+    append_tangents(s_.edge_contacts[i].contact, a.state(), b.state(), edge_margin, factors_,
+                    to.up);
   if (to.up.empty() && to.down.empty()) return;
   to.force_a.resize(a.x.size());
   to.force_b.resize(b.x.size());
@@ -62,7 +62,7 @@ Eigen::VectorXd StiffnessOperator::apply(const Eigen::VectorXd& v, ThreadPool& p
     if (i < plies)
       on_ply(static_cast<std::size_t>(i));
     else
-      on_pair(pairs_[static_cast<std::size_t>(i - plies)]);
+      on_pair(pairs_[i - plies]);
   });
   Eigen::VectorXd w(size_);
   pool.run(plies, [&](int p) { gather(static_cast<std::size_t>(p), w); });

@@ -282,8 +282,8 @@ void check_reference(const Study& study, const StudyRun& run, const Part& top) {
 /// One dial: a key that the case does not have is reported once, a value that it does not allow
 /// each time.
 void check_dial(const Study& study, const StudyPlan& plan, int index, const Part& top) {
-  const StudyDial& dial = study.dials[static_cast<std::size_t>(index)];
-  const TomlNode& table = top.table.find("dial")->children[static_cast<std::size_t>(index)];
+  const StudyDial& dial = study.dials[index];
+  const TomlNode& table = top.table.find("dial")->children[index];
   const Part part{table, fmt::format("dial.{}", index), top.diagnostics};
   std::size_t i = 0;
   for (const StudyPoint& point : plan.points) {

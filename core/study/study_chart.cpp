@@ -64,7 +64,7 @@ ChartPoint chart_point(const StudyPoint& point, const std::vector<RunOutcome>& o
 ChartLine chart_line(const StudyPlan& plan, const std::vector<RunOutcome>& outcomes, int dial,
                      const std::string& name) {
   std::vector<StudyPoint> points;
-  bool numbers = !std::isnan(plan.own[static_cast<std::size_t>(dial)]);
+  bool numbers = !std::isnan(plan.own[dial]);
   const StudyPoint* own = nullptr;
   for (const StudyPoint& point : plan.points) {
     if (point.kind == PointKind::plain) own = &point;
@@ -75,7 +75,7 @@ ChartLine chart_line(const StudyPlan& plan, const std::vector<RunOutcome>& outco
   if (own && numbers) {
     std::erase_if(points, [&](const StudyPoint& point) { return point.run == own->run; });
     points.push_back(*own);
-    points.back().value = plan.own[static_cast<std::size_t>(dial)];
+    points.back().value = plan.own[dial];
     std::stable_sort(points.begin(), points.end(),
                      [](const StudyPoint& a, const StudyPoint& b) { return a.value < b.value; });
   }

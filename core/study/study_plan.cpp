@@ -132,7 +132,7 @@ void add_run(const Study& study, StudyPlan& plan, StudyPoint point, StudyRun run
 }
 
 void add_dial(const Study& study, int index, const TomlNode& root, StudyPlan& plan) {
-  const StudyDial& dial = study.dials[static_cast<std::size_t>(index)];
+  const StudyDial& dial = study.dials[index];
   const bool sizes = dial.key == element_size_key;
   const double own = sizes ? 1.0 : number_at(root, dial.key);
   plan.own.push_back(own);

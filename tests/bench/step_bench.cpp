@@ -75,7 +75,7 @@ Stack& stack(std::int64_t size, std::int64_t steps) {
 /// One step without searches and edges, each array once.
 Traffic step_traffic(const Scene& s) {
   Traffic t;
-  const auto nodes = [&s](int ply) { return s.plies[static_cast<std::size_t>(ply)].x.size(); };
+  const auto nodes = [&s](int ply) { return s.plies[ply].x.size(); };
   for (const PlyState& ply : s.plies) {
     if (ply.simd) t += lane_traffic(*ply.simd, ply.x.size());
     t += traffic(ply.x.size(), 2 * sizeof(Vec3), 2.0);             // place, velocity

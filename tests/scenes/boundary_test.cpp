@@ -43,10 +43,10 @@ double mass_of(const PlyState& ply) {
 double largest_slip(const Scene& s) {
   double largest = 0.0;
   for (const PrescribedNode& held : s.held) {
-    const PlyState& ply = s.plies[static_cast<std::size_t>(held.ply)];
+    const PlyState& ply = s.plies[held.ply];
     const auto n = static_cast<std::size_t>(held.node);
     for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
-      const Boundary& b = s.data.boundaries[static_cast<std::size_t>(held.boundary[i])];
+      const Boundary& b = s.data.boundaries[held.boundary[i]];
       const double d = smooth_step(b.stroke, s.time, s.data.solver.duration);
       const double slip =
           std::abs(held.axis[i].dot(ply.x[n] - prescribed_position(b, ply.x0[n], d)));

@@ -38,7 +38,7 @@ double quarter_turn_change(const PlyFrame& ply) {
   for (std::size_t e = 0; e < ply.triangles.size(); ++e) {
     Vec3 c = Vec3::Zero();
     for (const int n : ply.triangles[e])
-      c += ply.x0[static_cast<std::size_t>(n)] / 3.0;
+      c += ply.x0[n] / 3.0;
     centroids.push_back(c);
     shear[place(c)] = ply.shear_deg[e];
   }

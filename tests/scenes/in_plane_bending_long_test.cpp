@@ -32,8 +32,8 @@ TEST(InPlaneBendingLong, ShearComesUpFromAClampOverTheWidthOfItsLayer) {
     for (std::size_t e = 0; e < ply.triangles.size(); ++e) {
       double low = 1e9, high = -1e9;
       for (const int n : ply.triangles[e]) {
-        low = std::min(low, ply.x0[static_cast<std::size_t>(n)].x());
-        high = std::max(high, ply.x0[static_cast<std::size_t>(n)].x());
+        low = std::min(low, ply.x0[n].x());
+        high = std::max(high, ply.x0[n].x());
       }
       const double x = 0.5 * (low + high); // constant over a column of squares
       if (std::abs(x) > 0.5 * strip.free_length) continue;

@@ -52,8 +52,8 @@ std::vector<Sums> ply_forces(const Scene& s) {
   std::vector<Sums> all;
   const auto add = [&](int a, const std::vector<Vec3>& on_a, int b, const std::vector<Vec3>& on_b) {
     Sums sums;
-    sums.add(on_a, s.plies[static_cast<std::size_t>(a)].x);
-    sums.add(on_b, s.plies[static_cast<std::size_t>(b)].x);
+    sums.add(on_a, s.plies[a].x);
+    sums.add(on_b, s.plies[b].x);
     all.push_back(sums);
   };
   for (const PlyPair& pair : s.ply_pairs)

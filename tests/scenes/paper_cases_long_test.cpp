@@ -103,7 +103,7 @@ double mean_shear(const PlyFrame& ply, const auto& inside) {
   for (std::size_t e = 0; e < ply.triangles.size(); ++e) {
     Vec3 c = Vec3::Zero();
     for (const int n : ply.triangles[e])
-      c += ply.x0[static_cast<std::size_t>(n)] / 3.0;
+      c += ply.x0[n] / 3.0;
     if (!inside(c)) continue;
     sum += std::abs(ply.shear_deg[e]);
     ++count;
@@ -211,8 +211,8 @@ TEST(PaperLong, LimpPlyOnASphereIsAChebyshevNet) {
   for (std::size_t e = 0; e < ply.triangles.size(); ++e) {
     Vec3 before = Vec3::Zero(), now = -centre;
     for (const int n : ply.triangles[e]) {
-      before += ply.x0[static_cast<std::size_t>(n)] / 3.0;
-      now += ply.x[static_cast<std::size_t>(n)] / 3.0;
+      before += ply.x0[n] / 3.0;
+      now += ply.x[n] / 3.0;
     }
     if (std::acos(now.normalized().z()) * degrees > 75.0) continue;
     const double z = std::abs(before.x() * before.y()) / (radius * radius);
@@ -234,8 +234,8 @@ std::vector<double> nodal_shear(const PlyFrame& ply) {
   std::vector<double> sum(ply.x0.size(), 0.0), count(ply.x0.size(), 0.0);
   for (std::size_t e = 0; e < ply.triangles.size(); ++e)
     for (const int n : ply.triangles[e]) {
-      sum[static_cast<std::size_t>(n)] += std::abs(ply.shear_deg[e]);
-      count[static_cast<std::size_t>(n)] += 1.0;
+      sum[n] += std::abs(ply.shear_deg[e]);
+      count[n] += 1.0;
     }
   for (std::size_t n = 0; n < sum.size(); ++n)
     sum[n] /= count[n];
@@ -247,14 +247,13 @@ double value_at(const PlyFrame& ply, const std::vector<double>& values, const Ve
   for (const Triangle& t : ply.triangles) {
     std::array<double, 3> w{}; // twice the areas of the triangles that p makes with the sides
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec3 &a = ply.x0[static_cast<std::size_t>(t[(k + 1) % 3])],
-                 &b = ply.x0[static_cast<std::size_t>(t[(k + 2) % 3])];
+      const Vec3 &a = ply.x0[t[(k + 1) % 3]], &b = ply.x0[t[(k + 2) % 3]];
       w[k] = (b.x() - a.x()) * (p.y() - a.y()) - (b.y() - a.y()) * (p.x() - a.x());
     }
     if (*std::min_element(w.begin(), w.end()) < -1e-6) continue;
     double value = 0.0;
     for (std::size_t k = 0; k < 3; ++k)
-      value += w[k] * values[static_cast<std::size_t>(t[k])];
+      value += w[k] * values[t[k]];
     return value / (w[0] + w[1] + w[2]);
   }
   return std::numeric_limits<double>::quiet_NaN();

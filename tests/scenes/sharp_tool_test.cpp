@@ -42,7 +42,7 @@ double sampled_depth(const Scene& s) {
         Vec3 x = Vec3::Zero();
         const double w[] = {double(i) / parts, double(j) / parts, double(parts - i - j) / parts};
         for (std::size_t k = 0; k < 3; ++k)
-          x += w[k] * s.plies[0].x[static_cast<std::size_t>(t[k])];
+          x += w[k] * s.plies[0].x[t[k]];
         int hint = -1;
         depth = std::max(depth, 0.3 - distance_to_tool(s.tools[0].body, x, hint).distance);
       }

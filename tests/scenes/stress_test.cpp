@@ -35,7 +35,7 @@ TEST(Stress, PulledObliquelyEveryFabricKeepsItsLedger) {
 
 /// Twice the area of a triangle in the plane z = 0, mm^2: negative when turned over.
 double twice_area(const PlyFrame& ply, const Triangle& t) {
-  const auto at = [&](std::size_t k) { return ply.x[static_cast<std::size_t>(t[k])]; };
+  const auto at = [&](std::size_t k) { return ply.x[t[k]]; };
   return (at(1) - at(0)).cross(at(2) - at(0)).z();
 }
 

@@ -119,7 +119,7 @@ std::vector<Vec2> first_row(const Pressed& pressed) {
   const double scale = rough > 0.0 ? std::sqrt(pressed.start / rough) : 0.0;
   std::vector<Vec2> row{{-0.5 * squares * size, 0.0}};
   for (int i = 1; i <= squares; ++i) { // no square is strained
-    const double z = scale * heights[static_cast<std::size_t>(i)], rise = z - row.back().y();
+    const double z = scale * heights[i], rise = z - row.back().y();
     row.emplace_back(row.back().x() + std::sqrt(size * size - rise * rise), z);
   }
   return row;
@@ -161,7 +161,7 @@ Found press(const Pressed& pressed) {
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const long i = std::lround((ply.x[n].x() - row.front().x()) / size);
     const long last = static_cast<long>(row.size()) - 1;
-    const Vec2 at = row[static_cast<std::size_t>(std::clamp(i, 0L, last))];
+    const Vec2 at = row[std::clamp(i, 0L, last)];
     if (i > 0 && i < last)
       ply.x[n] = {at.x(), ply.x[n].y(),
                   ply.x[n].z() + at.y() + 0.5 * pressed.noise * (1.0 + signed_unit(random))};

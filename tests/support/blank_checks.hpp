@@ -112,10 +112,8 @@ inline Measures measure(const BlankMesh& mesh) {
   m.unused_nodes = static_cast<std::size_t>(std::count(uses.begin(), uses.end(), 0));
   for (const auto& [edge, count] : edges) {
     m.most_triangles_on_edge = std::max(m.most_triangles_on_edge, count);
-    m.mean_edge += (mesh.x[static_cast<std::size_t>(edge.first)] -
-                    mesh.x[static_cast<std::size_t>(edge.second)])
-                       .norm() /
-                   static_cast<double>(edges.size());
+    m.mean_edge +=
+        (mesh.x[edge.first] - mesh.x[edge.second]).norm() / static_cast<double>(edges.size());
   }
   std::map<int, std::vector<int>> rim;
   for (const Triangle& t : mesh.triangles)

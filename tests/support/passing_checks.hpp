@@ -18,9 +18,9 @@ inline double height_over(const std::vector<Vec3>& x, const PlyFrame& ground) {
   double least = std::numeric_limits<double>::infinity();
   const auto across = [](const Vec3& u, const Vec3& v) { return u.x() * v.y() - u.y() * v.x(); };
   for (const Triangle& t : ground.triangles) {
-    const Vec3& a = ground.x[static_cast<std::size_t>(t[0])];
-    const Vec3 u = ground.x[static_cast<std::size_t>(t[1])] - a;
-    const Vec3 v = ground.x[static_cast<std::size_t>(t[2])] - a;
+    const Vec3& a = ground.x[t[0]];
+    const Vec3 u = ground.x[t[1]] - a;
+    const Vec3 v = ground.x[t[2]] - a;
     const double area = across(u, v);
     for (const Vec3& p : x) {
       const Vec3 r = p - a;

@@ -51,7 +51,7 @@ inline Vec3 flat(const Vec2& p) {
 inline Vec2 centre(const PlyFrame& ply, std::size_t t) {
   Vec3 sum = Vec3::Zero();
   for (const std::int32_t k : ply.triangles[t])
-    sum += ply.x0[static_cast<std::size_t>(k)];
+    sum += ply.x0[k];
   return sum.head<2>() / 3.0;
 }
 

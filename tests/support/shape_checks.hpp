@@ -69,18 +69,4 @@ inline void check_lipschitz(const ToolShape& shape, const Box3& box, int count, 
   }
 }
 
-/// No point of a box is nearer than the bound of the box.
-inline void check_lower_bound(const ToolShape& shape, const Box3& space, int count, unsigned seed) {
-  RandomPoints random(seed);
-  for (int i = 0; i < count; ++i) {
-    Box3 box(random.in(space));
-    box.extend(i % 2 ? random.in(space) : Vec3(box.min() + 5.0 * Vec3::Random()));
-    const double bound = distance_lower_bound(shape, box);
-    for (int k = 0; k < 20; ++k) {
-      const Vec3 p = k < 8 ? box.corner(static_cast<Box3::CornerType>(k)) : random.in(box);
-      ASSERT_TRUE(bound <= ask(shape, p).distance + 1e-10) << p.transpose();
-    }
-  }
-}
-
 } // namespace plyform::testing

@@ -125,7 +125,7 @@ private:
       const LawPoint yarn = (a == 0 ? m.fabric.warp : m.fabric.weft).at(mean[a] - 1.0);
       Eigen::VectorXd g = Eigen::VectorXd::Zero(6 * size);
       for (int i = 0; i < size; ++i) {
-        const PlaneState& s = t[static_cast<std::size_t>(i)];
+        const PlaneState& s = t[i];
         g.segment<6>(6 * i) += s.area / area * s.by_lambda[a];
         k.block<6, 6>(6 * i, 6 * i) += s.area * d * yarn.value * s.bend_lambda[a];
       }
@@ -176,8 +176,8 @@ private:
   /// Unknown that column c of a patch's stiffness belongs to: triangles in turn, corners, x and y.
   int unknown(int begin, int c) const {
     const auto e = static_cast<std::size_t>(begin + c / 6);
-    const int n = m.triangles[e][static_cast<std::size_t>(c % 6 / 2)];
-    const int first = freedom[static_cast<std::size_t>(n)];
+    const int n = m.triangles[e][c % 6 / 2];
+    const int first = freedom[n];
     return first < 0 ? -1 : first + c % 2;
   }
 
@@ -223,15 +223,14 @@ private:
         if (stiffness == 0.0) continue;
         Vec2 d = Vec2::Zero(), s = d;
         for (std::size_t i = begin; i < end; ++i) {
-          const Vec2 at = x[static_cast<std::size_t>(b.node[i])].head<2>();
+          const Vec2 at = x[b.node[i]].head<2>();
           d += b.a[i][k] * at, s += b.b[i][k] * at;
         }
         const Vec2 across = Vec2(-d.y(), d.x()) / d.squaredNorm();
         const Vec2 q = s / d.squaredNorm() - 2.0 * s.dot(across) * across, turned(q.y(), -q.x());
         for (std::size_t i = begin; i < end; ++i)
           for (std::size_t j = begin; j < end; ++j) {
-            const int row = freedom[static_cast<std::size_t>(b.node[i])],
-                      column = freedom[static_cast<std::size_t>(b.node[j])];
+            const int row = freedom[b.node[i]], column = freedom[b.node[j]];
             if (row < 0 || column < 0) continue;
             const Vec2 gi = b.b[i][k] * across + b.a[i][k] * turned,
                        gj = b.b[j][k] * across + b.a[j][k] * turned;
@@ -273,8 +272,8 @@ struct StripMesh {
 };
 
 inline double twice_area(const BlankMesh& mesh, int triangle) {
-  const Triangle& t = mesh.triangles[static_cast<std::size_t>(triangle)];
-  const auto at = [&](std::size_t k) { return mesh.x[static_cast<std::size_t>(t[k])]; };
+  const Triangle& t = mesh.triangles[triangle];
+  const auto at = [&](std::size_t k) { return mesh.x[t[k]]; };
   const Vec2 a = at(1) - at(0), b = at(2) - at(0);
   return a.x() * b.y() - a.y() * b.x();
 }
@@ -285,7 +284,7 @@ inline void shake(BlankMesh& mesh, double most, const std::vector<char>& touches
   std::vector<std::vector<int>> around(mesh.x.size());
   for (std::size_t e = 0; e < mesh.triangles.size(); ++e)
     for (const int n : mesh.triangles[e])
-      around[static_cast<std::size_t>(n)].push_back(static_cast<int>(e));
+      around[n].push_back(static_cast<int>(e));
   for (std::size_t n = 0; n < mesh.x.size(); ++n) {
     const double dx = most * signed_unit(random), dy = most * signed_unit(random);
     if (touches_boundary_edge[n]) continue;

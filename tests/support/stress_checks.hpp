@@ -63,9 +63,9 @@ inline double smallest_angle(const BlankMesh& mesh) {
   double smallest = 180.0;
   for (const Triangle& t : mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
-      const Vec2& a = mesh.x[static_cast<std::size_t>(t[k])];
-      const Vec2 u = (mesh.x[static_cast<std::size_t>(t[(k + 1) % 3])] - a).normalized();
-      const Vec2 v = (mesh.x[static_cast<std::size_t>(t[(k + 2) % 3])] - a).normalized();
+      const Vec2& a = mesh.x[t[k]];
+      const Vec2 u = (mesh.x[t[(k + 1) % 3]] - a).normalized();
+      const Vec2 v = (mesh.x[t[(k + 2) % 3]] - a).normalized();
       smallest = std::min(smallest, std::acos(u.dot(v)) / degree);
     }
   return smallest;

@@ -182,8 +182,7 @@ std::string nodes_held(const Scene& s, int boundary) {
   std::vector<int> count(s.plies.size(), 0);
   for (const PrescribedNode& held : s.held) {
     const auto end = held.boundary.begin() + held.count;
-    if (std::find(held.boundary.begin(), end, boundary) != end)
-      ++count[static_cast<std::size_t>(held.ply)];
+    if (std::find(held.boundary.begin(), end, boundary) != end) ++count[held.ply];
   }
   std::string text;
   for (std::size_t p = 0; p < count.size(); ++p)
@@ -194,7 +193,7 @@ std::string nodes_held(const Scene& s, int boundary) {
 }
 
 bool holds_bending_ply(const Scene& s, const Boundary& boundary) {
-  if (boundary.ply >= 0) return s.plies[static_cast<std::size_t>(boundary.ply)].bending.has_value();
+  if (boundary.ply >= 0) return s.plies[boundary.ply].bending.has_value();
   return std::any_of(s.plies.begin(), s.plies.end(),
                      [](const PlyState& ply) { return ply.bending.has_value(); });
 }
@@ -257,7 +256,7 @@ int check_command(const CaseArguments& arguments) {
   fmt::print("contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm\n",
              s.ply_contacts.size(), s.skin);
   fmt::print("stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s\n", bound.dt,
-             s.plies[static_cast<std::size_t>(bound.ply)].name, bound.triangle, s.next_dt);
+             s.plies[bound.ply].name, bound.triangle, s.next_dt);
   const PredictedError error = predicted_error(data);
   fmt::print("{}\n", describe_accuracy(error, error.promised(data), prepared.coarsening));
   for (const std::string& note : prepared.notes)

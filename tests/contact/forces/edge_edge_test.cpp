@@ -170,16 +170,12 @@ TEST(EdgeEdgeContact, FindsEveryPairWithinReach) {
     int near = 0;
     for (const std::int32_t i : edges_a.numbers)
       for (const std::int32_t j : edges_b.numbers) {
-        const SheetEdge &e = edges_a.edges[static_cast<std::size_t>(i)],
-                        &g = edges_b.edges[static_cast<std::size_t>(j)];
+        const SheetEdge &e = edges_a.edges[i], &g = edges_b.edges[j];
         double nearest = 1e300; // by points along both: never below the true distance
         for (int s = 0; s <= 30; ++s)
           for (int t = 0; t <= 30; ++t) {
             const auto on = [](const OwnedSheet& sheet, const SheetEdge& edge, int part) -> Vec3 {
-              return sheet.x[static_cast<std::size_t>(edge.a)] +
-                     part / 30.0 *
-                         (sheet.x[static_cast<std::size_t>(edge.b)] -
-                          sheet.x[static_cast<std::size_t>(edge.a)]);
+              return sheet.x[edge.a] + part / 30.0 * (sheet.x[edge.b] - sheet.x[edge.a]);
             };
             nearest = std::min(nearest, (on(a, e, s) - on(b, g, t)).norm());
           }

@@ -252,15 +252,12 @@ TEST(PlyPlyContact, NoPairIsMissedBetweenSearches) {
     std::vector<double> nearest(slave.x.size(), 1e300);
     for (std::size_t n = 0; n < slave.x.size(); ++n)
       for (const Triangle& t : master.triangles)
-        nearest[n] =
-            std::min(nearest[n],
-                     closest_point_on_triangle(slave.x[n], master.x[static_cast<std::size_t>(t[0])],
-                                               master.x[static_cast<std::size_t>(t[1])],
-                                               master.x[static_cast<std::size_t>(t[2])])
-                         .distance2);
+        nearest[n] = std::min(nearest[n], closest_point_on_triangle(slave.x[n], master.x[t[0]],
+                                                                    master.x[t[1]], master.x[t[2]])
+                                              .distance2);
     std::vector<double> found(slave.x.size(), 1e300);
     for (const PlyPlyPoint& c : contact.points) {
-      double& gap = found[static_cast<std::size_t>(c.node)];
+      double& gap = found[c.node];
       gap = std::min(gap, c.gap + thickness);
     }
     for (std::size_t n = 0; n < slave.x.size(); ++n) {

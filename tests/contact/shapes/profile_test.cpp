@@ -137,13 +137,6 @@ TEST(Profile, DistanceChangesNoFasterThanTheWay) {
   }
 }
 
-TEST(Profile, LowerBoundIsBelowEveryPointOfTheBox) {
-  for (const auto& [name, profile] : closed_profiles()) {
-    SCOPED_TRACE(name);
-    testing::check_lower_bound(profile, around, 1000, 4);
-  }
-}
-
 TEST(Profile, DieAgreesWithSampling) {
   expect_sampling_agrees(die(), Box3(Vec3(-300, -300, -110), Vec3(300, 300, 100)), 500);
 }

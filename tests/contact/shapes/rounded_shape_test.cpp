@@ -114,7 +114,7 @@ TEST(RoundedShape, WithoutRadiusIsThePlainSharpFormulaToTheBit) {
   EXPECT_EQ(surface.triangles.size(), 4u * (24 * 17 + 17 * 10 + 10 * 24));
   for (const Vec3& x : surface.x)
     for (int k = 0; k < 3; ++k) {
-      const int cells = n[static_cast<std::size_t>(k)];
+      const int cells = n[k];
       const double i = std::round((x[k] / size[k] + 0.5) * cells);
       ASSERT_EQ(x[k], size[k] * (i / cells - 0.5));
     }

@@ -154,22 +154,6 @@ TEST(ToolShape, DistanceChangesNoFasterThanTheWay) {
   }
 }
 
-TEST(ToolShape, LowerBoundIsBelowEveryPointOfTheBox) {
-  for (const ToolShape& shape : closed_forms()) {
-    SCOPED_TRACE(shape.index());
-    testing::check_lower_bound(shape, space, 2000, 6);
-  }
-}
-
-TEST(ToolShape, LowerBoundIsTightForAFlatSheetAboveAFlatTool) {
-  const Box3 sheet(Vec3(-170, -170, 10.5), Vec3(170, 170, 10.5));
-  EXPECT_DOUBLE_EQ(distance_lower_bound(Annulus{92, 300, 10, 2}, sheet), 0.5);
-  EXPECT_DOUBLE_EQ(distance_lower_bound(Plane{}, sheet), 10.5);
-  EXPECT_DOUBLE_EQ(distance_lower_bound(Sphere{10}, sheet), 0.5);
-  EXPECT_DOUBLE_EQ(
-      distance_lower_bound(make_profile({{80, -120, 0}, {80, 0, 10}, {400, 0, 0}}), sheet), 10.5);
-}
-
 TEST(ToolShape, CentresAxesCornersAndEdgesHaveUnitNormals) {
   for (const ToolShape& shape : closed_forms())
     for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0, 0, 10), Vec3(0, 0, 25), Vec3(0, 0, -7),

@@ -69,7 +69,7 @@ TEST(Override, MakesTablesThatAreNotThere) {
                                                        {"ply.0.blank", "new"}});
   EXPECT_EQ(c.friction(0, 0), 0.4);
   ASSERT_EQ(c.blanks.size(), 2u);
-  EXPECT_EQ(c.blanks[static_cast<std::size_t>(c.plies[0].blank)].outline.boundary[2], Vec2(2, 3));
+  EXPECT_EQ(c.blanks[c.plies[0].blank].outline.boundary[2], Vec2(2, 3));
 }
 
 TEST(Override, ReachesIntoFabricFilesAndExchangesThem) {

@@ -30,8 +30,7 @@ double aligned_fraction(const BlankMesh& mesh, double h, double warp, double wef
   for (const Triangle& t : mesh.triangles) {
     std::array<Vec2, 3> side;
     for (std::size_t k = 0; k < 3; ++k)
-      side[k] =
-          mesh.x[static_cast<std::size_t>(t[(k + 1) % 3])] - mesh.x[static_cast<std::size_t>(t[k])];
+      side[k] = mesh.x[t[(k + 1) % 3]] - mesh.x[t[k]];
     const double area = turn(side[0], side[1]) / 2;
     total += area;
     const auto any_on = [&](double angle) {
@@ -56,7 +55,7 @@ TEST(Blank, DiagonalSquareHasExactCounts) {
   for (int j = 0; j <= 50; ++j)
     for (int i = 0; i <= 50; ++i) {
       const Vec2 expected(-170 + 6.8 * i, -170 + 6.8 * j);
-      EXPECT_LE((mesh.x[static_cast<std::size_t>(51 * j + i)] - expected).norm(), 1e-12 * 340);
+      EXPECT_LE((mesh.x[51 * j + i] - expected).norm(), 1e-12 * 340);
     }
 }
 
@@ -182,7 +181,7 @@ TEST(Blank, CutCellsAreWholeSquaresOfTheAskedSide) {
   const BlankMesh crossed = mesh_of(pierced_l(), MeshKind::crossed, h);
   double quarters = 0;
   for (const Triangle& t : crossed.triangles) {
-    const auto x = [&](std::size_t k) { return crossed.x[static_cast<std::size_t>(t[k])]; };
+    const auto x = [&](std::size_t k) { return crossed.x[t[k]]; };
     const double area = turn(x(1) - x(0), x(2) - x(0)) / 2;
     const Vec2 apex = x(2) - (x(0) + x(1)) / 2;
     if (std::abs(area - h * h / 4) < 1e-9 && std::abs(apex.norm() - h / 2) < 1e-9) quarters += area;

@@ -73,7 +73,7 @@ std::string as_ascii_stl(const BlankMesh& mesh, double z) {
   for (std::size_t f = 0; f < mesh.triangles.size(); ++f) {
     text += "facet normal 0 0 1\nouter loop\n";
     for (const std::size_t k : {0u, f % 2 ? 1u : 2u, f % 2 ? 2u : 1u}) {
-      const Vec2& p = mesh.x[static_cast<std::size_t>(mesh.triangles[f][k])];
+      const Vec2& p = mesh.x[mesh.triangles[f][k]];
       text += fmt::format("vertex {} {} {}\n", p.x(), p.y(), z);
     }
     text += "endloop\nendfacet\n";
@@ -91,7 +91,7 @@ std::string as_binary_stl(const BlankMesh& mesh, double z) {
     for (const float n : {0.0f, 0.0f, 1.0f})
       add(n);
     for (const std::int32_t n : t) {
-      const Vec2& p = mesh.x[static_cast<std::size_t>(n)];
+      const Vec2& p = mesh.x[n];
       for (const double c : {p.x(), p.y(), z})
         add(static_cast<float>(c));
     }

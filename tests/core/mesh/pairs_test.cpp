@@ -55,11 +55,10 @@ TEST(StrainGroups, AreSmallAndInOnePiece) {
       for (int a = p.begin[i]; a < p.begin[i + 1]; ++a) {
         bool touches_all = true;
         for (int b = p.begin[i]; b < p.begin[i + 1]; ++b)
-          touches_all = touches_all &&
-                        (a == b || share_a_side(mesh.triangles[static_cast<std::size_t>(
-                                                    p.triangles[static_cast<std::size_t>(a)])],
-                                                mesh.triangles[static_cast<std::size_t>(
-                                                    p.triangles[static_cast<std::size_t>(b)])]));
+          touches_all =
+              touches_all &&
+              (a == b || share_a_side(mesh.triangles[p.triangles[static_cast<std::size_t>(a)]],
+                                      mesh.triangles[p.triangles[static_cast<std::size_t>(b)]]));
         in_one_piece = in_one_piece || touches_all;
       }
       EXPECT_TRUE(in_one_piece) << i;
@@ -78,10 +77,9 @@ TEST(StrainGroups, PairTheHalvesOfEverySquare) {
     std::set<int> nodes;
     Eigen::AlignedBox2d box;
     for (int k = p.begin[i]; k < p.begin[i + 1]; ++k)
-      for (const int n :
-           mesh.triangles[static_cast<std::size_t>(p.triangles[static_cast<std::size_t>(k)])]) {
+      for (const int n : mesh.triangles[p.triangles[static_cast<std::size_t>(k)]]) {
         nodes.insert(n);
-        box.extend(mesh.x[static_cast<std::size_t>(n)]);
+        box.extend(mesh.x[n]);
       }
     EXPECT_EQ(nodes.size(), 4u);
     EXPECT_NEAR(box.sizes().x(), 7.5, 1e-9);

@@ -148,9 +148,7 @@ PrescribedNode only_node(const std::vector<Boundary>& boundaries) {
   EXPECT_EQ(node.node, 0);
   for (int i = 0; i < node.count; ++i)
     for (int j = 0; j < node.count; ++j)
-      EXPECT_NEAR(
-          node.axis[static_cast<std::size_t>(i)].dot(node.axis[static_cast<std::size_t>(j)]),
-          i == j ? 1.0 : 0.0, 1e-14);
+      EXPECT_NEAR(node.axis[i].dot(node.axis[j]), i == j ? 1.0 : 0.0, 1e-14);
   return node;
 }
 

@@ -126,7 +126,7 @@ double largest_omega2(Membrane& m, std::vector<Vec3> x) {
   const double h = 1e-5; // mm
   Eigen::MatrixXd k(size, size);
   for (Eigen::Index j = 0; j < size; ++j) {
-    double& place = x[static_cast<std::size_t>(j / 3)][static_cast<int>(j % 3)];
+    double& place = x[j / 3][static_cast<int>(j % 3)];
     const double before = place;
     place = before + h;
     const std::vector<Vec3> up = nodal_forces(m, x);
@@ -135,7 +135,7 @@ double largest_omega2(Membrane& m, std::vector<Vec3> x) {
     place = before;
     for (Eigen::Index i = 0; i < size; ++i) {
       const auto n = static_cast<std::size_t>(i / 3);
-      const double mass = std::sqrt(m.node_mass[n] * m.node_mass[static_cast<std::size_t>(j / 3)]);
+      const double mass = std::sqrt(m.node_mass[n] * m.node_mass[j / 3]);
       const int axis = static_cast<int>(i % 3);
       k(i, j) = -(up[n][axis] - down[n][axis]) / (2.0 * h) / mass;
     }

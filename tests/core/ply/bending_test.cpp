@@ -54,9 +54,7 @@ TEST(Bending, FindsTheSecondDerivativesOfAnyQuadraticInsideAnyMesh) {
     std::vector<Vec3> normal(x.size(), Vec3::Zero());
     for (const Triangle& t : mesh.triangles)
       for (const int n : t)
-        normal[static_cast<std::size_t>(n)] +=
-            (x[static_cast<std::size_t>(t[1])] - x[static_cast<std::size_t>(t[0])])
-                .cross(x[static_cast<std::size_t>(t[2])] - x[static_cast<std::size_t>(t[0])]);
+        normal[n] += (x[t[1]] - x[t[0]]).cross(x[t[2]] - x[t[0]]);
     for (std::size_t n = 0; n < x.size(); ++n) {
       if (mesh.x[n].cwiseAbs().maxCoeff() > 29.999) continue; // the rim
       const double up = normal[n].normalized().z();
@@ -124,11 +122,11 @@ Eigen::VectorXd flat_modes(Bending& b, const BlankMesh& mesh, double mass) {
   Eigen::MatrixXd k(n, n); // of deflections: linear, so a unit step is exact but for its square
   const double step = 1e-6;
   for (Eigen::Index j = 0; j < n; ++j) {
-    x[static_cast<std::size_t>(j)].z() = step;
+    x[j].z() = step;
     const std::vector<Vec3> f = reference_bending_forces(b, x);
-    x[static_cast<std::size_t>(j)].z() = 0.0;
+    x[j].z() = 0.0;
     for (Eigen::Index i = 0; i < n; ++i)
-      k(i, j) = -f[static_cast<std::size_t>(i)].z() / step;
+      k(i, j) = -f[i].z() / step;
   }
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(0.5 * (k + k.transpose())).eigenvalues() /
          mass;

@@ -176,7 +176,7 @@ double largest_omega2(Bending& b, std::vector<Vec3> x, double mass) {
   const double step = 1e-5; // mm; central differences: linear but for its square
   Eigen::MatrixXd k(n, n);
   for (Eigen::Index j = 0; j < n; ++j) {
-    double& place = x[static_cast<std::size_t>(j / 3)][j % 3];
+    double& place = x[j / 3][j % 3];
     const double before = place;
     place = before + step;
     const std::vector<Vec3> up = reference_bending_forces(b, x);
@@ -184,9 +184,7 @@ double largest_omega2(Bending& b, std::vector<Vec3> x, double mass) {
     const std::vector<Vec3> down = reference_bending_forces(b, x);
     place = before;
     for (Eigen::Index i = 0; i < n; ++i)
-      k(i, j) = (down[static_cast<std::size_t>(i / 3)][i % 3] -
-                 up[static_cast<std::size_t>(i / 3)][i % 3]) /
-                (2.0 * step);
+      k(i, j) = (down[i / 3][i % 3] - up[i / 3][i % 3]) / (2.0 * step);
   }
   const Eigen::MatrixXd symmetric = 0.5 * (k + k.transpose());
   return Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(symmetric).eigenvalues()[n - 1] / mass;

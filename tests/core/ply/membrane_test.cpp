@@ -143,7 +143,7 @@ TEST(Membrane, IsThePapersElement) {
     const Triangle t = mesh.triangles[static_cast<std::size_t>(trial) % mesh.triangles.size()];
     BlankMesh one;
     for (const int n : t)
-      one.x.push_back(mesh.x[static_cast<std::size_t>(n)]);
+      one.x.push_back(mesh.x[n]);
     one.triangles = {{0, 1, 2}};
     Membrane m = make_membrane(one, fabric, angle, ElementKind::plain);
     const std::vector<Vec3> x = random_state(one, 1.5, 0.2, random); // both families in tension
@@ -274,13 +274,13 @@ TEST(Membrane, YarnStrainsAreThePatchesMeans) {
     double area = 0.0, sum1 = 0.0, sum2 = 0.0;
     for (int e = m.group_begin[p]; e < m.group_begin[p + 1]; ++e) {
       const FibreState s = fibre_state(m, x, e);
-      area += m.area[static_cast<std::size_t>(e)];
-      sum1 += m.area[static_cast<std::size_t>(e)] * (s.lambda1 - 1.0);
-      sum2 += m.area[static_cast<std::size_t>(e)] * (s.lambda2 - 1.0);
+      area += m.area[e];
+      sum1 += m.area[e] * (s.lambda1 - 1.0);
+      sum2 += m.area[e] * (s.lambda2 - 1.0);
     }
     for (int e = m.group_begin[p]; e < m.group_begin[p + 1]; ++e) {
-      EXPECT_NEAR(strains[static_cast<std::size_t>(e)][0], sum1 / area, 1e-14);
-      EXPECT_NEAR(strains[static_cast<std::size_t>(e)][1], sum2 / area, 1e-14);
+      EXPECT_NEAR(strains[e][0], sum1 / area, 1e-14);
+      EXPECT_NEAR(strains[e][1], sum2 / area, 1e-14);
     }
   }
 }
@@ -364,8 +364,8 @@ TEST(Membrane, PicksTheElementThatSuitsTheMesh) {
   for (std::size_t p = 0; p < static_cast<std::size_t>(m.groups()); ++p) {
     const bool alone = m.group_begin[p + 1] - m.group_begin[p] == 1;
     double x = 0.0; // of the group's first triangle
-    for (const int n : m.triangles[static_cast<std::size_t>(m.group_begin[p])])
-      x += half.x[static_cast<std::size_t>(n)].x() / 3.0;
+    for (const int n : m.triangles[m.group_begin[p]])
+      x += half.x[n].x() / 3.0;
     EXPECT_TRUE(alone || x > 0.0) << x;
     strays += alone && x > 20.0;
   }

@@ -85,8 +85,8 @@ TEST_F(Results, PlyTableHasOneRowATriangleInTheNamedColumns) {
     };
     Vec3 before = Vec3::Zero(), now = Vec3::Zero();
     for (const int node : ply.triangles[i]) {
-      before += ply.x0[static_cast<std::size_t>(node)] / 3;
-      now += ply.x[static_cast<std::size_t>(node)] / 3;
+      before += ply.x0[node] / 3;
+      now += ply.x[node] / 3;
     }
     for (int k = 0; k < 3; ++k) {
       const std::string axis(1, "xyz"[k]);

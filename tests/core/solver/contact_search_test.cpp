@@ -26,18 +26,16 @@ struct Touching {
 std::vector<double> distances(const PlyState& master, const Vec3& p) {
   std::vector<double> all;
   for (const Triangle& t : master.membrane.triangles)
-    all.push_back(std::sqrt(closest_point_on_triangle(p, master.x[static_cast<std::size_t>(t[0])],
-                                                      master.x[static_cast<std::size_t>(t[1])],
-                                                      master.x[static_cast<std::size_t>(t[2])])
-                                .distance2));
+    all.push_back(std::sqrt(
+        closest_point_on_triangle(p, master.x[t[0]], master.x[t[1]], master.x[t[2]]).distance2));
   return all;
 }
 
 /// Every face within contact distance of a slave node belongs to one of its points, and the nearest
 /// one tells that node's gap, or one that is further by no more than `late` (mm).
 void expect_all_faces(const Scene& s, const PlyContact& pair, double late, Touching& touching) {
-  const PlyState& slave = s.plies[static_cast<std::size_t>(pair.slave)];
-  const PlyState& master = s.plies[static_cast<std::size_t>(pair.master)];
+  const PlyState& slave = s.plies[pair.slave];
+  const PlyState& master = s.plies[pair.master];
   const double h = 0.5 * (slave.thickness + master.thickness);
   auto point = pair.contact.points.begin();
   for (std::size_t n = 0; n < slave.x.size(); ++n) {
@@ -46,7 +44,7 @@ void expect_all_faces(const Scene& s, const PlyContact& pair, double late, Touch
     for (; point != pair.contact.points.end() && point->node == static_cast<int>(n); ++point) {
       gap = std::min(gap, point->gap);
       for (int i = point->first_face; i < point->end_face; ++i)
-        listed[static_cast<std::size_t>(pair.contact.faces[static_cast<std::size_t>(i)])] = 1;
+        listed[pair.contact.faces[static_cast<std::size_t>(i)]] = 1;
     }
     double nearest = 1e300;
     const std::vector<double> to = distances(master, slave.x[n]);
@@ -76,7 +74,7 @@ void expect_all_nodes(const Scene& s, const ToolState& tool, Touching& touching)
         rounding + (tool.body.force_controlled ? tool.body.motion.squaredNorm() / half : 0.0);
     std::vector<double> gap(s.plies[p].x.size(), 1e300);
     for (const ToolPlyPoint& c : contact.points)
-      gap[static_cast<std::size_t>(c.node)] = c.gap;
+      gap[c.node] = c.gap;
     for (std::size_t n = 0; n < gap.size(); ++n) {
       int hint = -1;
       const double expected = distance_to_tool(tool.body, s.plies[p].x[n], hint).distance - half;

@@ -39,7 +39,7 @@ PlyFrame with_shear(PlyFrame ply, const Field& field) {
   for (const Triangle& t : ply.triangles) {
     Vec3 centre = Vec3::Zero();
     for (const std::int32_t node : t)
-      centre += ply.x0[static_cast<std::size_t>(node)] / 3.0;
+      centre += ply.x0[node] / 3.0;
     ply.shear_deg.push_back(field(centre.x(), centre.y()));
   }
   return ply;
