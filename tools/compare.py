@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Tables of result folders of plyform side by side, in Markdown (keys: docs/results.md).
+"""Tables of result folders of plyform side by side, in Markdown (keys: docs/users/results.md).
 
     compare.py DIR... [--against DIR] [--json FILE]
 
@@ -9,7 +9,7 @@ of another folder, whatever the meshes: at 60 x 60 points of the unformed ply, b
 
 One row a ply and folder with shear angles, tension, strains, what says whether cloth can be so, and
 draw-in: of the four walks along the yarns, and of the four along the lines that halve the angles
-between them, the mean, and in brackets the largest less the smallest (docs/results.md). Then one
+between them, the mean, and in brackets the largest less the smallest (docs/users/results.md). Then one
 row a folder with forces, and one with what a run is judged by.
 
 Exit codes: 0 done, 1 something is missing or cannot be read, 2 wrong arguments.

@@ -2,17 +2,18 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Makes every picture of the texts anew: builds plyform, runs the cases that have no finished
 # results in results/CASE, and draws:
-#   tools/make_pictures.sh [--run always] [PICTURE]...     e.g. tools/make_pictures.sh docs/five_ply.png
+#   tools/make_pictures.sh [--run always] [PICTURE]...     e.g. tools/make_pictures.sh docs/users/five_ply.png
 # --run always runs every case that a picture needs, once.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # PICTURE | CASES it shows, of cases/ (folders, or files in them) | ARGUMENTS of tools/plot.py, without -o. A line each.
 pictures=(
-  "docs/five_ply.png | hemisphere_five_ply | plies results/hemisphere_five_ply --tools --gap 45 --limit 50 --dpi 75"
-  "docs/bias_extension.png | bias_extension | load results/bias_extension --curve results/bias_theory.csv --against shear --limit 5 --dpi 75"
-  "docs/picture_frame.png | picture_frame | load results/picture_frame --curve results/frame_theory.csv --against shear --limit 5 --dpi 75"
-  "docs/circular_table.png | circular_table circular_table/circular_table_no_shear.toml circular_table/circular_table_isotropic.toml | plies results/circular_table results/circular_table_no_shear results/circular_table_isotropic --only 3d --dpi 60"
+  "docs/users/setup.png | | setup cases/hemisphere_0/case.toml --dpi 90"
+  "docs/users/five_ply.png | hemisphere_five_ply | plies results/hemisphere_five_ply --tools --gap 45 --limit 50 --dpi 75"
+  "docs/verification/bias_extension.png | bias_extension | load results/bias_extension --curve results/bias_theory.csv --against shear --limit 5 --dpi 75"
+  "docs/verification/picture_frame.png | picture_frame | load results/picture_frame --curve results/frame_theory.csv --against shear --limit 5 --dpi 75"
+  "docs/verification/circular_table.png | circular_table circular_table/circular_table_no_shear.toml circular_table/circular_table_isotropic.toml | plies results/circular_table results/circular_table_no_shear results/circular_table_isotropic --only 3d --dpi 60"
 )
 
 always=

@@ -1,6 +1,6 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Draws result folders of plyform (their layout, and an example of each: docs/results.md).
+"""Draws result folders of plyform (their layout, and an example of each: docs/users/results.md).
 
     plot.py plies   DIR... -o FILE   each ply from above, coloured by a field, and the stack
     plot.py history DIR... -o FILE   forces and energies over the stroke
@@ -9,6 +9,7 @@
     plot.py section DIR... -o FILE   a field along a straight cut, and the formed profile
     plot.py folds   DIR... -o FILE   folds of a hanging edge, counted
     plot.py fit     FIT.csv -o FILE  measured against fitted forces
+    plot.py setup   CASE.toml -o FILE  the section of a case, with the names of its keys
 
 Exit codes: 0 drawn, 1 something is missing or cannot be read, 2 wrong arguments.
 """
@@ -18,7 +19,7 @@ import sys
 from pathlib import Path
 
 try:
-    from plotting import draw_fit, draw_folds, draw_history, draw_plies, draw_section
+    from plotting import draw_fit, draw_folds, draw_history, draw_plies, draw_section, draw_setup
     from plotting.reading import FIELDS, Trouble
 except ImportError as error:
     sys.exit(f"plot.py: error: {error}; install python3-h5py and python3-matplotlib")
@@ -98,6 +99,14 @@ def add_fit(commands) -> argparse.ArgumentParser:
     return fit
 
 
+def add_setup(commands) -> argparse.ArgumentParser:
+    setup = commands.add_parser("setup", help="the section of a case, with the names of its keys")
+    setup.add_argument("case", type=Path, metavar="CASE.toml",
+                       help="of a sphere, a profile and an annulus")
+    setup.set_defaults(draw=draw_setup.draw)
+    return setup
+
+
 def add_percent_limit(command: argparse.ArgumentParser) -> None:
     command.add_argument("--limit", type=positive, default=50.0, metavar="PERCENT",
                          help="where the lower axes end at the latest, default 50")
@@ -124,7 +133,7 @@ def arguments() -> argparse.Namespace:
         command.add_argument("--frame", type=int, default=-1, help="output state, default the last")
     for command in of_folders:
         command.add_argument("folders", nargs="+", type=Path, metavar="DIR", help="result folder")
-    for command in (*of_folders, add_fit(commands)):
+    for command in (*of_folders, add_fit(commands), add_setup(commands)):
         command.add_argument("-o", "--output", required=True, type=Path, metavar="FILE",
                              help=".png, .svg or .pdf")
         command.add_argument("--dpi", type=int, default=110, help="of a PNG")

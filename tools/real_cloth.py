@@ -5,7 +5,7 @@
     real_cloth.py SET... [--only PATTERN] [--jobs N] [--program PLYFORM] [-o FOLDER] [--again]
                   [--set KEY=VALUE]
     real_cloth.py SET... --report        tables of what is there, nothing is run
-    real_cloth.py --tables TEXT          into a text (docs/real_cloth.md), nothing is run
+    real_cloth.py --tables TEXT          into a text, docs/verification/real_cloth.md; nothing is run
 
 Each set goes on where it stopped: a run that has ended (done, doubtful, or stopped by plyform) is
 not repeated unless --again; one that was killed starts anew. FOLDER/runs/NAME has the results of

@@ -13,7 +13,7 @@ namespace plyform {
 namespace {
 
 // (E): degrees, and exponents. Set on the hemispheres of one (at 0 degrees), two, three and five
-// plies and on bias_extension (docs/accuracy.md).
+// plies and on bias_extension (docs/users/accuracy.md).
 constexpr double c_inertia = 0.52, c_stack = 33.7, p_inertia = 1.5;
 constexpr double c_softening = 1580.0, p_softening = 0.84, p_shared = -0.25;
 constexpr double c_mesh = 40.0, p_mesh = 1.6, c_fewer = 0.6, settled = 5.0;

@@ -2,8 +2,8 @@
 // What a run's dials cost in accuracy, and which dials to take for a wanted accuracy.
 //
 // Error: root mean square, over all plies, of the difference in shear angle to a run that has
-// converged (docs/accuracy.md: how it was measured, on which cases the rule was set and on which it
-// was checked). Three causes, each a power of a number without unit:
+// converged (docs/users/accuracy.md: how it was measured, on which cases the rule was set and on
+// which it was checked). Three causes, each a power of a number without unit:
 //   inertia    I = 1/2 rho v^2 / w       rho t/mm^2, v = stroke / duration, w N/mm
 //   softening  S = s w / (d k)           s effective_softening, k N a yarn, d yarns per mm
 //   mesh       M = h / L                 element size over stroke, mm

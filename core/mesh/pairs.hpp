@@ -22,8 +22,8 @@ StrainGroups single_triangles(std::size_t triangles);
 
 /// Pairs across shared sides: longest sides first (the two halves of a square find each other),
 /// then re-paired along chains of neighbours until hardly a triangle is alone. Triangles alone
-/// stiffen the mesh, groups of three soften it: see the table in docs/locking.md. Those marked in
-/// `alone` (one a triangle, or empty) stay so.
+/// stiffen the mesh, groups of three soften it: see the table in docs/developers.md. Those marked
+/// in `alone` (one a triangle, or empty) stay so.
 StrainGroups pair_triangles(const BlankMesh& mesh, const std::vector<char>& alone = {});
 
 /// Triangles (1, else 0) that the plain element suits: with a side along warp and one along weft,

@@ -29,7 +29,7 @@ namespace plyform {
 double usual_compression(const TensionLaw& law);
 
 /// D_t, N mm, of a fabric whose file says nothing of twist: the root of the product of both bending
-/// stiffnesses at small curvature, half of Huber's estimate for plates (docs/method.md).
+/// stiffnesses at small curvature, half of Huber's estimate for plates (docs/theory/bending.md).
 double usual_twist(const BendingLaw& law);
 
 /// B, N mm.

@@ -19,8 +19,8 @@ Strokes longest_strokes(const Case& data);
 /// Smooth way from 0 to `end` over `duration`: the speed rises over the first quarter of the time
 /// by w^2 (3 - 2 w), stays, and falls in the same way over the last, so that the acceleration has
 /// no jump. Against a polynomial over all of the time, with its higher peak of speed, stacks come
-/// out as near to a slow run in a tenth less time (docs/accuracy.md). Displacement of a driven tool
-/// (mm), force of a pushed one (N).
+/// out as near to a slow run in a tenth less time (docs/developers.md). Displacement of a driven
+/// tool (mm), force of a pushed one (N).
 double smooth_step(double end, double t, double duration);
 constexpr double ramp_share = 0.25;                           ///< of the duration, each
 constexpr double peak_speed_ratio = 1.0 / (1.0 - ramp_share); ///< largest speed over the mean

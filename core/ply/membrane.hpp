@@ -41,7 +41,7 @@
 // as the node has freedoms in the plane; the mesh locks unless sides run along both families. One
 // mean strain a pair of triangles leaves two a node. The mean is convex, so a pair is never stiffer
 // than its triangles. Why deviations count as shear: what a pair is free to do must cost as much as
-// the shear that it could replace, at any shear angle, and no more: measured in docs/locking.md.
+// the shear that it could replace, at any shear angle, and no more: docs/developers.md has figures.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -127,7 +127,7 @@ std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<con
 /// Tensions {warp, weft} (N per yarn) of all m triangles. Of triangles alone W_a' at their
 /// strain. Those of pairs scatter about their mean from pair to pair, as do the multipliers of any
 /// element with as many constraints as freedoms: they are evened out by two passes of means at the
-/// nodes, as is done with the pressures of such elements (docs/locking.md has what it changes).
+/// nodes, as is done with the pressures of such elements (docs/verification/locking.md).
 std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
 
 /// Whether a triangle has no meaning any more: shrunk to a tenth along a yarn, or its yarns within

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the last whole frame of results.h5. The layout is described in docs/results.md.
+// Reads the last whole frame of results.h5. The layout is described in docs/users/results.md.
 //
 // The file may come from anywhere: sizes and node numbers are checked before they are used.
 #include "core/results/hdf5_writer.ipp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes results.h5. The layout is described in docs/results.md.
+// Writes results.h5. The layout is described in docs/users/results.md.
 //
 // Every return code is checked, that of closing a dataset too: HDF5 holds small writes back until
 // then, so a full disk may show only there.

@@ -29,8 +29,9 @@ public:
   /// or the first frame.
   void write_frame(const Frame& frame);
 
-  /// plies/NAME.csv of the last frame, and summary.json with the keys of docs/results.md. Writes
-  /// `last` as a frame too if the last one written has another time or step. No frame may follow.
+  /// plies/NAME.csv of the last frame, and summary.json with the keys of docs/users/results.md.
+  /// Writes `last` as a frame too if the last one written has another time or step. No frame may
+  /// follow.
   void write_final(const Frame& last, const Summary& summary);
 
 private:

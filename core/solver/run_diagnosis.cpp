@@ -12,7 +12,7 @@ namespace plyform {
 namespace {
 
 // Below these shares of the deformation energy, or of the work done, leaving something out changes
-// the plies by less than the dials of a run do (docs/method.md).
+// the plies by less than the cost parameters of a run do (docs/users/accuracy.md).
 constexpr double small_bending = 0.01, small_friction = 1e-3;
 
 constexpr double deep = 0.9; // of the depth at which contact has no limit (core/solver/scene.cpp)

@@ -80,7 +80,7 @@ double cell_area(const PlyState& ply) {
 /// Contact stiffness per area that moves a free node at `fraction` of the elements' omega^2. That
 /// falls with the square of the element size, while a ply may not sink in deeper for being meshed
 /// coarsely: so no less than what elements of 12.5 thicknesses would have, within a factor of 2.5,
-/// beyond which crossed plies chatter over a fillet (docs/contact.md).
+/// beyond which crossed plies chatter over a fillet (docs/verification/contact.md).
 ///
 /// In a stack it does not follow the yarns further than fibre_softening = 100 (`stack_softening`):
 /// what presses plies on each other does not get less with them.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A study: one case over settings of its dials, for `plyform chart`. From its file to plain data,
-// with every mistake found at once; docs/chart.md describes the file.
+// with every mistake found at once; docs/users/chart.md describes the file.
 #pragma once
 
 #include "core/input/case_file.hpp"

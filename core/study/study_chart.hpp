@@ -30,7 +30,7 @@ RunOutcome read_outcome(const std::string& summary_json);
 /// reference, and better in one of the two. Never the reference, which is the measure.
 std::vector<bool> on_front(const StudyPlan& plan, const std::vector<RunOutcome>& outcomes);
 
-/// One row a point of the plan; `outcomes` by run. Columns: docs/chart.md.
+/// One row a point of the plan; `outcomes` by run. Columns: docs/users/chart.md.
 std::string chart_csv(const StudyPlan& plan, const std::vector<RunOutcome>& outcomes);
 
 /// `note`: in small letters below the title.

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-3.0-or-later
 """One table (Markdown) of what plyform_bench measures, with the limits of the machine and of the
-design beside it. docs/speed.md says what each figure means.
+design beside it. docs/verification/speed.md says what each figure means.
 
     report.py PROGRAM [-r REPETITIONS] [--filter REGEX] [--json FILE]
     report.py FILE.json

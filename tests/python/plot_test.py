@@ -196,6 +196,16 @@ def check_fit(folder):
               "shear", "-o", folder / "n.png")
 
 
+def check_setup(folder):
+    cases = Path(sys.argv[2]).resolve().parents[1] / "cases"
+    image = picture(folder / "setup.png", "setup", cases / "hemisphere_0" / "case.toml")
+    ply = np.ptp(pixels(image, ORANGE)[:, 1]) / image.shape[1]
+    assert abs(ply - 340.0 / 380.0) < 0.03, ply  # its size over the width that is drawn
+    complains("no tool of shape sphere", 1, "setup", cases / "square_box" / "case.toml",
+              "-o", folder / "n.png")
+    complains("nothing.toml", 1, "setup", folder / "nothing.toml", "-o", folder / "n.png")
+
+
 def check_messages(run, folder):
     for command in (["plies"], ["history"], ["energy"], ["load"], ["folds"],
                     ["section", "--through", 0, 0, "--direction", 0]):
@@ -234,6 +244,7 @@ def main():
             check_section(folder)
             check_folds(folder)
             check_fit(folder)
+            check_setup(folder)
             check_messages(run, folder)
 
 

@@ -96,7 +96,8 @@ TEST(BendingLong, StripHangsAsTheHeavyElastica) {
 }
 
 /// How near to theory: 3 % for 20 elements along the strip; but free meshes are too soft, by up to
-/// 9 % on finer ones too, most where the yarns across are limp (docs/method.md).
+/// 9 % on finer ones too, most where the yarns across are limp (docs/verification/
+/// closed_forms.md).
 double tolerance(MeshKind mesh) {
   return mesh == MeshKind::free ? 0.1 : 0.03;
 }

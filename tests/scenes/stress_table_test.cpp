@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The stress table: where methods fail, the element and the step are right or stop with a clear
-// message. Longer rows: stress_long_test.cpp. The figures stand in docs/method.md.
+// message. Longer rows: stress_long_test.cpp. The figures stand in
+// docs/verification/closed_forms.md.
 #include "core/fit/shear_tests.hpp"
 #include "support/stress_scenes.hpp"
 

@@ -89,7 +89,7 @@ double element_size(const PlyState& ply) {
 }
 
 /// Says which plies lock a little: averaged elements of yarns that push, too few across a narrow
-/// ply (docs/method.md, YarnsThatBearCompressionNeedAFinerMesh).
+/// ply (docs/verification/closed_forms.md, YarnsThatBearCompressionNeedAFinerMesh).
 void print_locking(const Scene& s) {
   constexpr double enough = 20.0; // elements across: load of the bias test at most 5 % too high
   std::set<std::pair<int, int>> seen;

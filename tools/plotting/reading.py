@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Readers of result folders (their layout: docs/results.md) and of tables with named columns."""
+"""Readers of result folders (layout: docs/users/results.md) and of tables with named columns."""
 
 import csv
 import json
