@@ -3,7 +3,7 @@
 # The command line as a user meets it: exit codes, messages, where results go.
 #   tests/cli/cli_test.sh PROGRAM CASES_FOLDER
 set -euo pipefail
-program=$1 cases=$2
+program=$1 cases=$2 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
 cd "$folder"
@@ -69,6 +69,13 @@ expect 0 'die cuts into it between nodes' \
   run cases/hemisphere_0 --accuracy draft --set blanks.square.element_size=9 -o doubtful
 if ! grep -q '"status": "doubtful"' doubtful/summary.json; then
   echo "the summary of a doubtful run does not say so"
+  failures=$((failures + 1))
+fi
+
+# The page of keys is what the program says.
+page=$tests/../../docs/users/keys.md
+if ! "$program" keys --markdown | cmp -s - "$page"; then
+  echo "docs/users/keys.md is stale: make it anew with plyform keys --markdown"
   failures=$((failures + 1))
 fi
 
