@@ -76,11 +76,16 @@ def fabric_run(c: float, b: float, d: float, friction: float) -> Run:
                settings=(f"contact.friction={friction:g}",))
 
 
+def folds(name: str) -> bool:
+    """Whether the cloth of a run of this set is so limp that it folds on itself."""
+    return "_0.5_2_" in name or "_2_2_0.4" in name
+
+
 def fabric_set() -> Set:
     entries = [Entry(fabric_run(c, b, d, mu), REFERENCE, x=mu) for mu in (0.2, 0.1, 0.4, 0.05)
                for c in (460, 46) for d in (8, 2) for b in (2, 0.5)]
     # cloth this limp folds on itself: again with contact of a ply with itself
-    limp = [entry for entry in entries if "_0.5_2_" in entry.run.name]
+    limp = [entry for entry in entries if folds(entry.run.name)]
     entries += [replace(entry, run=replace(
         entry.run, name=f"{entry.run.name}_self", label=f"{entry.run.label}, contact.self on",
         settings=(*entry.run.settings, 'contact.self="on"'))) for entry in limp]
@@ -93,7 +98,7 @@ def fabric_set() -> Set:
              lambda row, _: row["crossing_between"], 0),
         Must("no pair of triangles of one ply crosses where the cloth does not fold on itself or "
              "contact.self is on", lambda row, _: row["crossing_within"], 0,
-             lambda row: "_0.5_2_" not in row["run"].name or row["run"].name.endswith("_self"))]
+             lambda row: not folds(row["run"].name) or row["run"].name.endswith("_self"))]
     return Set("fabric", "Compression C (N per yarn), bending B, in-plane bending D_g (N mm) and "
                "friction", entries, [FULL_STROKE, *crossing, BALANCE, *DEPTHS, pressed],
                "C 460, B 2, D_g 8, friction 0.2")
