@@ -31,11 +31,14 @@ std::optional<Stop> find_fault(const Scene& s) {
     if (fault.node < 0) continue;
     return Stop{fmt::format("{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm "
                             "apart, thickness {:.3g} "
-                            "mm; give the stack more room between the tools, a slower stroke, or a "
-                            "smaller solver.step_factor",
+                            "mm; {}give the stack more room between the tools, a slower stroke, or "
+                            "a smaller solver.step_factor",
                             when(s), s.plies[pair.slave].name, fault.node,
                             s.plies[pair.master].name, fault.face, fault.distance,
-                            pair.contact.distance)};
+                            pair.contact.distance,
+                            s.data.contact.self ? ""
+                                                : "set contact.self = \"on\" if that ply "
+                                                  "folds on itself, or ")};
   }
   return std::nullopt;
 }
