@@ -40,7 +40,7 @@ BendingLengths bending_lengths(const Fabric& f, double pressure) {
                  2.0 * M_PI * std::sqrt(2.0 * yarn.in_plane / (force - rigidity)));
     if (yarn.bending > 0.0 && pressure > 0.0)
       keep_least(lengths.upwards,
-                 2.0 * M_PI * std::cbrt(yarn.bending * std::sqrt(excess_length) / pressure));
+                 2.0 * M_PI * std::cbrt(0.5 * yarn.bending * std::sqrt(excess_length) / pressure));
   }
   return lengths;
 }

@@ -9,8 +9,9 @@
 //                                                   another, at small shear
 //   sideways lambda = 2 pi sqrt(2 D_g / (N - R))    fastest growing wave of yarns that are pressed
 //                                                   with N > R and give way in the plane
-//   upwards  lambda = 2 pi (B sqrt(eps) / p)^(1/3)  wave of yarns that are too long by eps and lift
-//                                                   the cloth against a pressure p
+//   upwards  lambda = 2 pi (B sqrt(eps) / 2p)^(1/3) wave of yarns that are too long by eps and lift
+//                                                   a rigid plate, by their whole height, against a
+//                                                   pressure p
 // N = 0.2 N/mm is what friction of neighbouring plies passes on to a family; less where it buckles.
 // Needed: l of 2.5 elements and waves of six. Five plies over a hemisphere twice, one ply turned by
 // 1e-6 degrees: with l of 1.4 elements the shear angle differs by 0.8 to 4.8 degrees rms, of 2.7 by

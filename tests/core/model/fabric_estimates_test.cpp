@@ -145,7 +145,7 @@ TEST(Resolution, LengthsAreThoseOfTheirFormulas) {
   const double rigidity = 0.0625 * 0.37044;
   EXPECT_NEAR(lengths.layer.value(), std::sqrt(2.0 / rigidity), 1e-12); // 9.3 mm
   EXPECT_NEAR(lengths.sideways.value(), 2.0 * M_PI * std::sqrt(4.0 / (0.2 - rigidity)), 1e-12);
-  EXPECT_NEAR(lengths.upwards.value(), 2.0 * M_PI * std::cbrt(0.2 / 0.0034), 1e-12);
+  EXPECT_NEAR(lengths.upwards.value(), 2.0 * M_PI * std::cbrt(0.1 / 0.0034), 1e-12);
   EXPECT_NEAR(element_size_needed(lengths), lengths.layer.value() / 2.5, 1e-12);
   f.warp.buckling_force = f.weft.buckling_force = 0.05; // less than shear holds: straight
   EXPECT_FALSE(bending_lengths(f, 0.0).sideways);
