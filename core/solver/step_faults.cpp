@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/step_faults.hpp"
 
+#include "contact/intersections.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -11,6 +13,14 @@ namespace {
 
 std::string when(const Scene& s) {
   return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
+}
+
+/// Whether triangles of a ply cross each other: no side of it is then a side.
+bool crosses_itself(const PlyState& ply) {
+  if (!std::all_of(ply.x.begin(), ply.x.end(), [](const Vec3& x) { return x.allFinite(); }))
+    return false;
+  const std::vector<MeshView> sheet{{ply.x, ply.membrane.triangles}};
+  return !find_intersections(sheet).within.empty();
 }
 
 } // namespace
@@ -29,16 +39,16 @@ std::optional<Stop> find_fault(const Scene& s) {
   for (const PlyContact& pair : s.ply_contacts) {
     const ContactFault& fault = pair.contact.fault;
     if (fault.node < 0) continue;
-    return Stop{fmt::format("{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm "
-                            "apart, thickness {:.3g} "
-                            "mm; {}give the stack more room between the tools, a slower stroke, or "
-                            "a smaller solver.step_factor",
-                            when(s), s.plies[pair.slave].name, fault.node,
-                            s.plies[pair.master].name, fault.face, fault.distance,
-                            pair.contact.distance,
-                            s.data.contact.self ? ""
-                                                : "set contact.self = \"on\" if that ply "
-                                                  "folds on itself, or ")};
+    const PlyState &slave = s.plies[pair.slave], &master = s.plies[pair.master];
+    const bool folded = !s.data.contact.self && (crosses_itself(slave) || crosses_itself(master));
+    return Stop{fmt::format(
+        "{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm apart, thickness "
+        "{:.3g} mm; {}",
+        when(s), slave.name, fault.node, master.name, fault.face, fault.distance,
+        pair.contact.distance,
+        folded ? "one of them has folded through itself: set contact.self = \"on\""
+               : "give the stack more room between the tools, a slower stroke, or a smaller "
+                 "solver.step_factor")};
   }
   return std::nullopt;
 }
