@@ -78,7 +78,7 @@ def fabric_run(c: float, b: float, d: float, friction: float) -> Run:
 
 def folds(name: str) -> bool:
     """Whether the cloth of a run of this set is so limp that it folds on itself."""
-    return "_0.5_2_" in name or "_2_2_0.4" in name
+    return any(limp in name for limp in ("_0.5_2_0.2", "_0.5_2_0.4", "_2_2_0.4"))
 
 
 def fabric_set() -> Set:
