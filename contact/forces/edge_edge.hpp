@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The edges of two plies against each other.
+// The edges of two plies against each other, or of a ply against its own.
 //
 // Node-to-face contact keeps every node no less than h - delta_n from the other sheet (delta_n: its
 // depth limit, h/4). Between its nodes a straight edge can still come closer, but only where both
@@ -66,11 +66,18 @@ struct EdgeEdgeContact {
   ContactTime time;
 };
 
+/// A sheet with itself: edges that are nearer than `apart` (mm) in the unformed sheet, with nodes
+/// at x0, are neighbours in any fold and no pair; and each pair is listed once.
+struct SelfEdges {
+  std::span<const Vec3> x0; ///< empty: two sheets
+  double apart = 0.0;
+};
+
 /// Renews the candidates: pairs of edges within distance + skin. path: mm,
 /// as of contact/search/active_list.hpp.
 void find_edge_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a, const EdgeSet& edges_a,
                      const SurfaceKinematics& b, const EdgeSet& edges_b, double skin,
-                     double path_length);
+                     double path_length, const SelfEdges& self = {});
 
 /// mm, of two edges wherever their closest points are.
 double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const EdgeNodes& edge_b,

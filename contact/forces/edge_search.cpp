@@ -93,6 +93,11 @@ private:
   std::array<int, 3> count_{1, 1, 1};
 };
 
+bool neighbours(const SheetEdge& e, const SheetEdge& g, const SelfEdges& self) {
+  if (e.a == g.a || e.a == g.b || e.b == g.a || e.b == g.b) return true;
+  return edge_distance({e.a, e.b}, self.x0, {g.a, g.b}, self.x0) < self.apart;
+}
+
 } // namespace
 
 std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles) {
@@ -121,7 +126,7 @@ std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles) {
 
 void find_edge_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a, const EdgeSet& edges_a,
                      const SurfaceKinematics& b, const EdgeSet& edges_b, double skin,
-                     double path_length) {
+                     double path_length, const SelfEdges& self) {
   contact.candidates.clear();
   clear(contact.list);
   const EdgeGrid grid(edges_b, b.x);
@@ -134,6 +139,7 @@ void find_edge_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a, const
     std::sort(near.begin(), near.end());
     for (const std::int32_t other : near) {
       const SheetEdge& of_b = edges_b.all[other];
+      if (!self.x0.empty() && (other <= e || neighbours(edge, of_b, self))) continue;
       const double gap =
           edge_distance({edge.a, edge.b}, a.x, {of_b.a, of_b.b}, b.x) - contact.distance;
       if (gap > skin) continue; // only its box was in reach

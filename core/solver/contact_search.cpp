@@ -119,8 +119,10 @@ void search_edges(Scene& s, PlyEdgeContact& pair) {
     open_a = open_edges(s, pair.a, pair.b, reach);
     open_b = open_edges(s, pair.b, pair.a, reach);
   }
+  SelfEdges self; // the contact distance of edges is half that of nodes
+  if (pair.a == pair.b) self = {a.x0, neighbourhood * 2.0 * pair.contact.distance};
   find_edge_pairs(pair.contact, a.state(), {a.edges, open_a}, b.state(), {b.edges, open_b}, skin,
-                  a.path_length + b.path_length);
+                  a.path_length + b.path_length, self);
 }
 
 /// Room for the forces of two plies of which something may touch: most pairs of a stack never do.

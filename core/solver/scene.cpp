@@ -199,7 +199,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
     for (int b = 0; b < n; ++b)
       if (a != b || data.contact.self) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
   for (const PlyContact& pair : s.ply_contacts)
-    if (pair.slave < pair.master) {
+    if (pair.slave <= pair.master) {
       PlyEdgeContact edges{pair.slave, pair.master, {}};
       edges.contact.law = pair.contact.law;
       edges.contact.law.max_depth = deepest_of_edges * pair.contact.distance;

@@ -97,7 +97,7 @@ struct PlyContact {
   PlyPlyContact contact;
 };
 
-/// Edges of two plies, a < b.
+/// Edges of two plies, a < b, or of one with itself.
 struct PlyEdgeContact {
   int a = 0, b = 0;
   EdgeEdgeContact contact;

@@ -214,5 +214,50 @@ TEST(EdgeEdgeContact, TellsHowMuchLongerTheNextStepMayBe) {
   EXPECT_NEAR(contact.sums.step_ratio, (0.01 + 0.25 * distance) / 0.01, 1e-9);
 }
 
+/// A strip of two columns of cells of 10 mm along x, bent back over itself at x = 20: its two
+/// halves lie `gap` mm apart.
+OwnedSheet folded_strip(double gap) {
+  std::vector<Vec3> x;
+  for (int i = 0; i <= 4; ++i)
+    for (int j = 0; j <= 1; ++j)
+      x.emplace_back(i <= 2 ? 10.0 * i : 10.0 * (4 - i) + 3.0, 10.0 * j, i <= 2 ? 0.0 : gap);
+  OwnedSheet sheet = points_only(x, 4.0);
+  for (int i = 0; i < 4; ++i) {
+    const int n = 2 * i;
+    sheet.triangles.push_back({n, n + 2, n + 1});
+    sheet.triangles.push_back({n + 1, n + 2, n + 3});
+  }
+  return sheet;
+}
+
+TEST(EdgeEdgeContact, OfASheetWithItselfLeavesOutNeighboursAndGivesEachPairOnce) {
+  const OwnedSheet sheet = folded_strip(0.2);
+  std::vector<Vec3> x0;
+  for (int i = 0; i <= 4; ++i)
+    for (int j = 0; j <= 1; ++j)
+      x0.emplace_back(10.0 * i, 10.0 * j, 0.0);
+  const AllEdges all(sheet);
+  EdgeEdgeContact contact;
+  contact.distance = distance;
+  for (const double apart : {1.8, 12.0}) {
+    find_edge_pairs(contact, sheet.state(), all.set(), sheet.state(), all.set(), 0.3, 0.0,
+                    {x0, apart});
+    std::set<std::array<std::int32_t, 2>> found(contact.candidates.begin(),
+                                                contact.candidates.end()),
+        expected;
+    for (std::size_t e = 0; e < all.edges.size(); ++e)
+      for (std::size_t g = e + 1; g < all.edges.size(); ++g) { // every pair, by brute force
+        const SheetEdge &a = all.edges[e], &b = all.edges[g];
+        const bool share = a.a == b.a || a.a == b.b || a.b == b.a || a.b == b.b;
+        if (!share && edge_distance({a.a, a.b}, x0, {b.a, b.b}, x0) >= apart &&
+            edge_distance({a.a, a.b}, sheet.x, {b.a, b.b}, sheet.x) <= distance + 0.3)
+          expected.insert({static_cast<std::int32_t>(e), static_cast<std::int32_t>(g)});
+      }
+    EXPECT_EQ(found, expected);
+    EXPECT_EQ(found.size(), contact.candidates.size()); // none twice
+    EXPECT_FALSE(found.empty());
+  }
+}
+
 } // namespace
 } // namespace plyform
