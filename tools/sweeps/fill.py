@@ -13,7 +13,7 @@ from plotting.draw_real_cloth import DRAWN
 from plotting.reading import Trouble
 from sweeps import report
 
-MARK = re.compile(r"<!-- (table|picture): ([a-z]+) -->\n(?:(?:(?!<!--).)*?<!-- end -->\n)?", re.S)
+MARK = re.compile(r"<!-- (table|picture): ([a-z_]+) -->\n(?:(?:(?!<!--).)*?<!-- end -->\n)?", re.S)
 ALT = {"fabric": "How far the shear of each ply moves with friction, compression and bending",
        "buckling": "How far the shear of each ply moves with a plateau along pressed yarns"}
 
