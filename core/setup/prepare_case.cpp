@@ -14,11 +14,13 @@ std::pair<FixedDials, std::vector<std::string>> dials_set(const std::set<std::st
   FixedDials fixed;
   std::vector<std::string> keys;
   for (const std::string& key : overridden) {
-    const bool blank = key.starts_with("blanks.") && key.ends_with(".element_size");
-    fixed.duration |= key == "solver.duration";
-    fixed.softening |= key == "solver.fibre_softening";
-    fixed.element_size |= blank;
-    if (blank || key == "solver.duration" || key == "solver.fibre_softening") keys.push_back(key);
+    bool* dial = nullptr;
+    if (key == "solver.duration") dial = &fixed.duration;
+    if (key == "solver.fibre_softening") dial = &fixed.softening;
+    if (key.starts_with("blanks.") && key.ends_with(".element_size")) dial = &fixed.element_size;
+    if (!dial) continue;
+    *dial = true;
+    keys.push_back(key);
   }
   return {fixed, keys};
 }

@@ -6,20 +6,8 @@ set -euo pipefail
 program=$1 cases=$2 tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 folder=$(mktemp -d)
 trap 'rm -rf "$folder"' EXIT
+. "$tests/expect.sh"
 cd "$folder"
-failures=0
-
-# expect CODE TEXT ARGUMENT...: the exit code, and a text in what is printed.
-expect() {
-  local code=$1 text=$2 found=0 output
-  shift 2
-  output=$("$program" "$@" 2>&1) || found=$?
-  if [ "$found" != "$code" ] || ! grep -qF -- "$text" <<<"$output"; then
-    printf 'plyform %s: exit code %s, expected %s and "%s"; printed:\n%s\n' \
-      "$*" "$found" "$code" "$text" "$output"
-    failures=$((failures + 1))
-  fi
-}
 
 cp -r "$cases" cases
 short=(--set blanks.square.element_size=34 --set solver.duration=0.002 --set tool.0.stroke=0.5)

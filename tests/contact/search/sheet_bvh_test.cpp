@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/point_triangle.hpp"
 #include "contact/search/sheet_bvh.hpp"
+#include "support/sheet_grid.hpp"
 
 #include <cmath>
 #include <functional>
@@ -19,19 +20,9 @@ static void PrintTo(const Candidate& c, std::ostream* out) {
 
 namespace {
 
-/// nx x ny cells of size h from the origin, two triangles a cell, lifted to z(x, y).
-TriMesh grid(int nx, int ny, double h, const std::function<double(double, double)>& z) {
-  TriMesh sheet;
-  for (int j = 0; j <= ny; ++j)
-    for (int i = 0; i <= nx; ++i)
-      sheet.x.push_back({i * h, j * h, z(i * h, j * h)});
-  for (int j = 0; j < ny; ++j)
-    for (int i = 0; i < nx; ++i) {
-      const int a = j * (nx + 1) + i, b = a + 1, d = a + nx + 1, c = d + 1;
-      sheet.triangles.push_back({a, b, c});
-      sheet.triangles.push_back({a, c, d});
-    }
-  return sheet;
+/// nx x ny cells of size h from the origin, lifted to z(x, y).
+TriMesh lifted(int nx, int ny, double h, const std::function<double(double, double)>& z) {
+  return grid(nx, ny, h, [&](double x, double y) { return Vec3(x, y, z(x, y)); });
 }
 
 auto flat(double z) {
@@ -72,7 +63,7 @@ void expect_every_pair(const TriMesh& master, const TriMesh& slave, double reach
 }
 
 TEST(Candidates, EqualBruteForceOnFlatStack) {
-  const TriMesh lower = grid(20, 20, 1.0, flat(0.0)), upper = grid(20, 20, 1.0, flat(0.3));
+  const TriMesh lower = lifted(20, 20, 1.0, flat(0.0)), upper = lifted(20, 20, 1.0, flat(0.3));
   for (const double reach : {0.3, 0.31, 1.0, 2.5}) {
     expect_every_pair(lower, upper, reach);
     expect_every_pair(upper, lower, reach);
@@ -81,18 +72,18 @@ TEST(Candidates, EqualBruteForceOnFlatStack) {
 }
 
 TEST(Candidates, EqualBruteForceOnCurvedStack) {
-  const TriMesh lower = grid(20, 20, 1.0, dome(5.0)), upper = grid(17, 17, 1.2, dome(5.4));
+  const TriMesh lower = lifted(20, 20, 1.0, dome(5.0)), upper = lifted(17, 17, 1.2, dome(5.4));
   expect_every_pair(lower, upper, 0.5);
   expect_every_pair(lower, upper, 1.5);
   expect_every_pair(upper, lower, 1.0);
 }
 
 TEST(Candidates, EqualBruteForceOnTouchingCoplanarAndCrossingSheets) {
-  const TriMesh lower = grid(20, 20, 1.0, flat(0.0));
-  const TriMesh coplanar = grid(9, 9, 1.7, flat(0.0));
-  const TriMesh touching = grid(20, 20, 1.0, [](double x, double) { return std::abs(x - 7.0); });
+  const TriMesh lower = lifted(20, 20, 1.0, flat(0.0));
+  const TriMesh coplanar = lifted(9, 9, 1.7, flat(0.0));
+  const TriMesh touching = lifted(20, 20, 1.0, [](double x, double) { return std::abs(x - 7.0); });
   const TriMesh crossing =
-      grid(20, 20, 1.0, [](double x, double y) { return 0.21 * (x - 9.3) + 0.1 * (y - 8.1); });
+      lifted(20, 20, 1.0, [](double x, double y) { return 0.21 * (x - 9.3) + 0.1 * (y - 8.1); });
   for (const double reach : {0.0, 0.4, 1.0}) {
     expect_every_pair(lower, coplanar, reach);
     expect_every_pair(lower, touching, reach);
@@ -102,15 +93,15 @@ TEST(Candidates, EqualBruteForceOnTouchingCoplanarAndCrossingSheets) {
 }
 
 TEST(Candidates, EqualBruteForceForFineSheetOverCoarse) {
-  const TriMesh coarse = grid(3, 3, 7.0, dome(5.0)), fine = grid(60, 60, 0.34, dome(5.2));
+  const TriMesh coarse = lifted(3, 3, 7.0, dome(5.0)), fine = lifted(60, 60, 0.34, dome(5.2));
   expect_every_pair(coarse, fine, 0.6);
   expect_every_pair(fine, coarse, 0.6);
 }
 
 TEST(Candidates, EqualBruteForceAfterManyRefits) {
-  const TriMesh flat_sheet = grid(20, 20, 1.0, flat(0.0));
+  const TriMesh flat_sheet = lifted(20, 20, 1.0, flat(0.0));
   TriMesh lower = flat_sheet;
-  const TriMesh upper = grid(20, 20, 1.0, dome(4.5));
+  const TriMesh upper = lifted(20, 20, 1.0, dome(4.5));
   SheetTree tree(lower.x, lower.triangles);
   std::mt19937 random(7);
   std::normal_distribution<double> shake(0.0, 0.2);
@@ -137,11 +128,11 @@ TEST(Candidates, EqualBruteForceAfterManyRefits) {
 }
 
 TEST(Candidates, RefittedTreeAnswersLikeANewOne) {
-  const TriMesh start = grid(15, 15, 1.0, flat(0.0)), end = grid(15, 15, 1.0, dome(6.0));
+  const TriMesh start = lifted(15, 15, 1.0, flat(0.0)), end = lifted(15, 15, 1.0, dome(6.0));
   SheetTree refitted(start.x, start.triangles);
   refitted.refit(end.x);
   const SheetTree fresh(end.x, end.triangles);
-  const TriMesh nodes = grid(15, 15, 1.0, dome(6.5));
+  const TriMesh nodes = lifted(15, 15, 1.0, dome(6.5));
   const auto answer = candidates(fresh, nodes.x, 1.0);
   EXPECT_GT(answer.size(), 100u);
   EXPECT_EQ(candidates(refitted, nodes.x, 1.0), answer);
@@ -171,15 +162,15 @@ TEST(Candidates, DegenerateTrianglesAreTheirSegmentOrPoint) {
 
 // Many triangles in one place give the tree's splitter nothing to separate.
 TEST(Candidates, EqualBruteForceForCoincidentTriangles) {
-  TriMesh master = grid(2, 2, 1.0, flat(0.0));
+  TriMesh master = lifted(2, 2, 1.0, flat(0.0));
   const std::vector<Triangle> once = master.triangles;
   for (int k = 0; k < 200; ++k)
     master.triangles.insert(master.triangles.end(), once.begin(), once.end());
-  expect_every_pair(master, grid(3, 3, 0.7, flat(0.1)), 0.2);
+  expect_every_pair(master, lifted(3, 3, 0.7, flat(0.1)), 0.2);
 }
 
 TEST(Candidates, ReachZeroFindsExactTouchOnly) {
-  const TriMesh master = grid(4, 4, 1.0, flat(0.0));
+  const TriMesh master = lifted(4, 4, 1.0, flat(0.0));
   const SheetTree tree(master.x, master.triangles);
   const std::vector<Vec3> nodes{
       {1.5, 1.25, 0.0}, {1.5, 1.25, 1e-9}, {1.5, 1.5, 0.0}, {-1e-9, 1.5, 0.0}, {2.0, 2.0, 0.0}};
@@ -228,7 +219,7 @@ TEST(Candidates, EqualBruteForceAtTheEdgeOfReach) {
 }
 
 TEST(Candidates, AppendAndKeepWhatIsThere) {
-  const TriMesh master = grid(2, 2, 1.0, flat(0.0));
+  const TriMesh master = lifted(2, 2, 1.0, flat(0.0));
   const SheetTree tree(master.x, master.triangles);
   std::vector<Candidate> out{{7, 9}, {7, 8}};
   const std::vector<Vec3> nodes{{0.5, 0.25, 0.1}};
@@ -237,7 +228,7 @@ TEST(Candidates, AppendAndKeepWhatIsThere) {
 }
 
 TEST(Candidates, SeveralThreadsMayAskOneTree) {
-  const TriMesh lower = grid(30, 30, 0.7, dome(5.0)), upper = grid(30, 30, 0.7, dome(5.3));
+  const TriMesh lower = lifted(30, 30, 0.7, dome(5.0)), upper = lifted(30, 30, 0.7, dome(5.3));
   const SheetTree tree(lower.x, lower.triangles);
   const auto expected = every_pair(lower, upper.x, 0.8);
   ASSERT_GT(expected.size(), 1000u);
@@ -252,7 +243,7 @@ TEST(Candidates, SeveralThreadsMayAskOneTree) {
 }
 
 TEST(Candidates, WrongInputIsRefused) {
-  TriMesh sheet = grid(2, 2, 1.0, flat(0.0));
+  TriMesh sheet = lifted(2, 2, 1.0, flat(0.0));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(SheetTree(sheet.x, {}), std::invalid_argument);
   EXPECT_THROW(SheetTree(sheet.x, std::vector<Triangle>{{0, 1, 9}}), std::invalid_argument);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bending: curvatures of known surfaces, forces from energy, momentum, the step's bound.
 #include "core/ply/bending.hpp"
+#include "support/gradient_check.hpp"
 #include "support/scene_checks.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -76,18 +77,10 @@ TEST(Bending, ForceIsMinusEnergyGradient) {
     Bending b = bend(mesh, law, 0.3);
     std::vector<Vec3> x = wavy(mesh);
     const std::vector<Vec3> f = reference_bending_forces(b, x);
-    const double scale = largest_norm(f), h = 1e-4; // mm
+    const double scale = largest_norm(f);
     ASSERT_GT(scale, 1e-4);
-    for (std::size_t n = 0; n < x.size(); n += 7)
-      for (int k = 0; k < 3; ++k) {
-        const double place = x[n][k];
-        x[n][k] = place + h;
-        const double up = bending_energy(b, x);
-        x[n][k] = place - h;
-        const double down = bending_energy(b, x);
-        x[n][k] = place;
-        EXPECT_NEAR(f[n][k], -(up - down) / (2.0 * h), 1e-6 * scale) << n << ' ' << k;
-      }
+    expect_minus_gradient(x, f, scale, 7,
+                          [&](const std::vector<Vec3>& at) { return bending_energy(b, at); });
   }
 }
 

@@ -2,6 +2,7 @@
 // Bending of yarns in their plane: curvature of known shapes, forces from energy, momentum, what
 // must not cost anything, the step's bound.
 #include "core/ply/bending.hpp"
+#include "support/gradient_check.hpp"
 #include "support/scene_checks.hpp"
 
 #include <Eigen/Eigenvalues>
@@ -61,18 +62,10 @@ TEST(InPlaneBending, ForceIsMinusEnergyGradientAtEveryNode) {
         Bending b = bend(mesh, law, warp);
         std::vector<Vec3> x = crumpled(mesh);
         const std::vector<Vec3> f = reference_bending_forces(b, x);
-        const double scale = largest_norm(f), h = 1e-4; // mm
+        const double scale = largest_norm(f);
         ASSERT_GT(scale, 1e-2);
-        for (std::size_t n = 0; n < x.size(); n += 3)
-          for (int k = 0; k < 3; ++k) {
-            const double place = x[n][k];
-            x[n][k] = place + h;
-            const double up = bending_energy(b, x);
-            x[n][k] = place - h;
-            const double down = bending_energy(b, x);
-            x[n][k] = place;
-            EXPECT_NEAR(f[n][k], -(up - down) / (2.0 * h), 1e-6 * scale) << n << ' ' << k;
-          }
+        expect_minus_gradient(x, f, scale, 3,
+                              [&](const std::vector<Vec3>& at) { return bending_energy(b, at); });
       }
 }
 
