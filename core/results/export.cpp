@@ -95,14 +95,14 @@ std::string vtu(const PlyFrame& ply) {
   put_cells(file, ply.triangles);
   file.xml += "<PointData>\n";
   file.vectors("x0", ply.x0);
-  for (const NodeScalar& field : node_scalars)
+  for (const auto& field : node_scalars)
     file.scalars(field.name, ply.*field.values);
-  for (const NodeVector& field : node_vectors)
+  for (const auto& field : node_vectors)
     if (!(ply.*field.values).empty()) file.vectors(field.name, ply.*field.values);
   file.xml += "</PointData>\n<CellData>\n";
-  for (const CellVector& field : cell_vectors)
+  for (const auto& field : cell_vectors)
     file.vectors(field.name, ply.*field.values);
-  for (const CellScalar& field : cell_scalars)
+  for (const auto& field : cell_scalars)
     file.scalars(field.name, ply.*field.values);
   return file.xml + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }

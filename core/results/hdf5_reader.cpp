@@ -117,13 +117,13 @@ PlyFrame read_ply(const Reader& in, const std::string& group, const std::string&
   ply.triangles = in.triangles(fixed + "/triangles", n);
   const std::size_t m = ply.triangles.size();
   ply.x = in.dataset<Vec3>(now + "x", n);
-  for (const NodeScalar& field : node_scalars)
+  for (const auto& field : node_scalars)
     ply.*field.values = in.dataset<double>(now + field.name, n);
-  for (const NodeVector& field : node_vectors)
+  for (const auto& field : node_vectors)
     if (in.has(now + field.name)) ply.*field.values = in.dataset<Vec3>(now + field.name, n);
-  for (const CellVector& field : cell_vectors)
+  for (const auto& field : cell_vectors)
     ply.*field.values = in.dataset<Vec3>(now + field.name, m);
-  for (const CellScalar& field : cell_scalars)
+  for (const auto& field : cell_scalars)
     ply.*field.values = in.dataset<double>(now + field.name, m);
   return ply;
 }

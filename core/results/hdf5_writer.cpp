@@ -156,13 +156,13 @@ void write_constants(const Writer& out, const Frame& frame) {
 void write_ply(const Writer& out, const std::string& where, const PlyFrame& ply) {
   out.group(where);
   out.dataset(where + "/x", ply.x);
-  for (const NodeScalar& field : node_scalars)
+  for (const auto& field : node_scalars)
     out.dataset(where + "/" + field.name, ply.*field.values);
-  for (const NodeVector& field : node_vectors)
+  for (const auto& field : node_vectors)
     if (!(ply.*field.values).empty()) out.dataset(where + "/" + field.name, ply.*field.values);
-  for (const CellVector& field : cell_vectors)
+  for (const auto& field : cell_vectors)
     out.dataset(where + "/" + field.name, ply.*field.values);
-  for (const CellScalar& field : cell_scalars)
+  for (const auto& field : cell_scalars)
     out.dataset(where + "/" + field.name, ply.*field.values);
 }
 
@@ -198,7 +198,7 @@ std::size_t bytes_needed(const Frame& frame, bool with_constants) {
               cell_scalars.size()) *
              object;
     bytes += n * (point + node_scalars.size() * number);
-    for (const NodeVector& field : node_vectors)
+    for (const auto& field : node_vectors)
       bytes += (ply.*field.values).size() * point;
     bytes += m * (cell_vectors.size() * point + cell_scalars.size() * number);
     if (with_constants) bytes += 3 * object + n * point + m * triangle;

@@ -4,6 +4,7 @@
 
 #include "contact/geometry.hpp"
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -23,6 +24,34 @@ struct PlyFrame {
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
   std::vector<Vec3> reaction; ///< n, N, of grips, frames and symmetry; empty if none holds the ply
 };
+
+/// A column of the results: its name in every file, and its member of PlyFrame.
+template <class Value>
+struct Column {
+  const char* name;
+  std::vector<Value> PlyFrame::*values;
+};
+
+// What files carry of a ply beside positions and triangles; a new column needs its line here.
+inline constexpr std::array<Column<double>, 6> cell_scalars = {{
+    {"shear_angle_deg", &PlyFrame::shear_deg},
+    {"warp_strain", &PlyFrame::warp_strain},
+    {"weft_strain", &PlyFrame::weft_strain},
+    {"warp_tension_N", &PlyFrame::warp_tension},
+    {"weft_tension_N", &PlyFrame::weft_tension},
+    {"thickness_mm", &PlyFrame::thickness},
+}};
+inline constexpr std::array<Column<Vec3>, 2> cell_vectors = {{
+    {"warp", &PlyFrame::warp},
+    {"weft", &PlyFrame::weft},
+}};
+inline constexpr std::array<Column<double>, 1> node_scalars = {{
+    {"contact_pressure", &PlyFrame::contact_pressure},
+}};
+/// In no file of a ply for which they are empty.
+inline constexpr std::array<Column<Vec3>, 1> node_vectors = {{
+    {"reaction_N", &PlyFrame::reaction},
+}};
 
 /// Area of each triangle before forming, mm^2; m of them.
 std::vector<double> areas_before(const PlyFrame& ply);

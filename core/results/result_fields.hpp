@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The parts behind result_writer.hpp: one table of the fields that every format carries, files that
-// appear whole or not at all, and results.h5. For results*.cpp and their tests only.
+// The parts behind result_writer.hpp: files that appear whole or not at all, and results.h5. For
+// the .cpp files of this folder and their tests only.
 #pragma once
 
 #include "core/results/result_writer.hpp"
 
-#include <array>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -13,52 +12,6 @@
 #include <vector>
 
 namespace plyform {
-
-/// A scalar of each triangle: its name in every file, and where it stands in PlyFrame.
-struct CellScalar {
-  const char* name;
-  std::vector<double> PlyFrame::*values;
-};
-
-inline constexpr std::array<CellScalar, 6> cell_scalars = {{
-    {"shear_angle_deg", &PlyFrame::shear_deg},
-    {"warp_strain", &PlyFrame::warp_strain},
-    {"weft_strain", &PlyFrame::weft_strain},
-    {"warp_tension_N", &PlyFrame::warp_tension},
-    {"weft_tension_N", &PlyFrame::weft_tension},
-    {"thickness_mm", &PlyFrame::thickness},
-}};
-
-/// A vector of each triangle.
-struct CellVector {
-  const char* name;
-  std::vector<Vec3> PlyFrame::*values;
-};
-
-inline constexpr std::array<CellVector, 2> cell_vectors = {{
-    {"warp", &PlyFrame::warp},
-    {"weft", &PlyFrame::weft},
-}};
-
-/// A scalar of each node.
-struct NodeScalar {
-  const char* name;
-  std::vector<double> PlyFrame::*values;
-};
-
-inline constexpr std::array<NodeScalar, 1> node_scalars = {{
-    {"contact_pressure", &PlyFrame::contact_pressure},
-}};
-
-/// A vector of each node; empty, and then in no file, where a ply has none.
-struct NodeVector {
-  const char* name;
-  std::vector<Vec3> PlyFrame::*values;
-};
-
-inline constexpr std::array<NodeVector, 1> node_vectors = {{
-    {"reaction_N", &PlyFrame::reaction},
-}};
 
 /// Writes `content` to `path` + ".tmp" and renames it to `path` when it is whole. Throws
 /// std::runtime_error naming the path and the system's reason; the temporary file is then gone.

@@ -60,13 +60,13 @@ void check_name(const std::string& name, const char* kind) {
 void check_sizes(const PlyFrame& ply) {
   const std::size_t n = ply.x0.size(), m = ply.triangles.size();
   bool fits = ply.x.size() == n;
-  for (const NodeScalar& field : node_scalars)
+  for (const auto& field : node_scalars)
     fits = fits && (ply.*field.values).size() == n;
-  for (const NodeVector& field : node_vectors)
+  for (const auto& field : node_vectors)
     fits = fits && ((ply.*field.values).empty() || (ply.*field.values).size() == n);
-  for (const CellScalar& field : cell_scalars)
+  for (const auto& field : cell_scalars)
     fits = fits && (ply.*field.values).size() == m;
-  for (const CellVector& field : cell_vectors)
+  for (const auto& field : cell_vectors)
     fits = fits && (ply.*field.values).size() == m;
   if (!fits)
     throw std::logic_error(fmt::format(
@@ -161,15 +161,15 @@ std::string history_row(const Frame& frame) {
 std::string ply_table(const PlyFrame& ply) {
   Buffer out;
   out.append(std::string_view("x0,y0,z0,x,y,z,warp_x,warp_y,warp_z,weft_x,weft_y,weft_z,"));
-  for (const CellScalar& field : cell_scalars)
+  for (const auto& field : cell_scalars)
     fmt::format_to(std::back_inserter(out), "{},", field.name);
   end_row(out);
   for (std::size_t i = 0; i < ply.triangles.size(); ++i) {
     put(out, centroid(ply.x0, ply.triangles[i]));
     put(out, centroid(ply.x, ply.triangles[i]));
-    for (const CellVector& field : cell_vectors)
+    for (const auto& field : cell_vectors)
       put(out, (ply.*field.values)[i]);
-    for (const CellScalar& field : cell_scalars)
+    for (const auto& field : cell_scalars)
       put(out, (ply.*field.values)[i]);
     end_row(out);
   }

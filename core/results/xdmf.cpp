@@ -56,13 +56,13 @@ std::string ply_grid(const PlyFrame& ply, const std::string& group, double time)
   const std::string here = group + "/plies/" + ply.name + "/";
   std::string out =
       grid_start(ply.name, time) + mesh(n, here + "x", m, "/plies/" + ply.name + "/triangles");
-  for (const CellVector& field : cell_vectors)
+  for (const auto& field : cell_vectors)
     out += attribute(field.name, "Vector", "Cell", data_item(m, 3, "Float", 8, here + field.name));
-  for (const CellScalar& field : cell_scalars)
+  for (const auto& field : cell_scalars)
     out += attribute(field.name, "Scalar", "Cell", data_item(m, 1, "Float", 8, here + field.name));
-  for (const NodeScalar& field : node_scalars)
+  for (const auto& field : node_scalars)
     out += attribute(field.name, "Scalar", "Node", data_item(n, 1, "Float", 8, here + field.name));
-  for (const NodeVector& field : node_vectors)
+  for (const auto& field : node_vectors)
     if (!(ply.*field.values).empty())
       out +=
           attribute(field.name, "Vector", "Node", data_item(n, 3, "Float", 8, here + field.name));

@@ -95,9 +95,9 @@ inline void expect_same(const PlyFrame& a, const PlyFrame& b) {
   EXPECT_EQ(a.triangles, b.triangles);
   EXPECT_EQ(a.contact_pressure, b.contact_pressure);
   EXPECT_EQ(a.reaction, b.reaction);
-  for (const CellVector& field : cell_vectors)
+  for (const auto& field : cell_vectors)
     EXPECT_EQ(a.*field.values, b.*field.values) << field.name;
-  for (const CellScalar& field : cell_scalars)
+  for (const auto& field : cell_scalars)
     EXPECT_EQ(a.*field.values, b.*field.values) << field.name;
 }
 
