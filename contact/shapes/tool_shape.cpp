@@ -51,12 +51,27 @@ double smallest(const RevolvedProfile& profile) {
   return radius;
 }
 
+bool both_ways(const Sphere&) {
+  return true;
+}
+bool both_ways(const Box& b) {
+  return b.edge_radius > 0.0;
+}
+template <class Shape>
+bool both_ways(const Shape&) {
+  return false;
+}
+
 } // namespace
 
 SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint) {
   if (const auto* profile = std::get_if<RevolvedProfile>(&shape)) // one point: nothing to prepare
     return revolved(p, [&](const Vec2& q) { return section_distance(*profile, q); });
   return std::visit([&](const auto& s) { return distance_of(s)(p, hint); }, shape);
+}
+
+bool curves_both_ways(const ToolShape& shape) {
+  return std::visit([](const auto& s) { return both_ways(s); }, shape);
 }
 
 double smallest_radius(const ToolShape& shape) {

@@ -86,6 +86,10 @@ TriMesh tessellate(const ToolShape& shape, double size, double extent);
 /// infinity for a plane. For meshes: infinity (unknown). Inner corners of a profile do not count.
 double smallest_radius(const ToolShape& shape);
 
+/// Whether what smallest_radius is of curves along both of its directions, as a ball or a rounded
+/// corner does: a flat triangle then cuts in deeper.
+bool curves_both_ways(const ToolShape& shape);
+
 /// The profile through points {r, z, fillet radius}: straight lines, each corner rounded by its
 /// fillet. The last point may be the first again: a closed ring, that corner sharp. Throws
 /// std::invalid_argument (saying which corner and why) if a fillet does not fit or stands at an

@@ -26,7 +26,7 @@ void keep_least(std::optional<double>& least, double value) {
 
 BendingLengths bending_lengths(const Fabric& f, double pressure) {
   BendingLengths lengths;
-  if (f.isotropic) return lengths;
+  if (!f.has_yarns()) return lengths;
   const double rigidity = shear_rigidity(f);
   for (const FamilyLaw& yarn :
        {FamilyLaw{f.warp, f.warp_density, f.bending.warp.at(0.0).slope, f.bending.in_plane[0]},

@@ -93,7 +93,7 @@ void check_fibres(BoundaryCheck& check, std::size_t index) {
     if (plane.ply >= 0 && plane.ply != static_cast<int>(p)) continue;
     const Ply& ply = check.scene.plies[p];
     const Fabric& fabric = check.scene.fabrics[ply.fabric];
-    if (fabric.isotropic) continue;
+    if (!fabric.has_yarns()) continue;
     const double warp = ply.angle, weft = ply.angle + fabric.fibre_angle;
     if (same_line(2.0 * along - warp, warp) && same_line(2.0 * along - weft, weft)) continue;
     const bool exchanged =

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Grips, frames and planes of symmetry.
 #include "core/input/case_parts.hpp"
-#include "core/input/choices.hpp"
+#include "core/input/key_member.hpp"
 #include "core/model/boundary.hpp"
 
 #include <algorithm>
@@ -83,7 +83,7 @@ std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<P
   std::vector<Boundary> boundaries;
   for (const TableView& section : subsections(root, "boundary")) {
     Boundary b;
-    b.name = text(section, "name");
+    read_members(section, b);
     if (given(section, "ply")) {
       const auto it = std::find_if(plies.begin(), plies.end(), [&](const Ply& ply) {
         return ply.name == text(section, "ply");
@@ -94,9 +94,7 @@ std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<P
       else
         b.ply = static_cast<int>(it - plies.begin());
     }
-    if (given(section, "stroke")) b.stroke = number(section, "stroke");
-    if (const std::string kind = text(section, "kind"); !kind.empty()) {
-      b.kind = value_of(boundary_choices, kind);
+    if (given(section, "kind")) {
       if (b.kind == BoundaryKind::grip) read_grip(section, b, diagnostics);
       if (b.kind == BoundaryKind::frame) read_frame(section, b, diagnostics);
       if (b.kind == BoundaryKind::symmetry) read_plane(section, b, diagnostics);

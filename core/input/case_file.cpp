@@ -4,7 +4,7 @@
 
 #include "core/base/text.hpp"
 #include "core/input/case_parts.hpp"
-#include "core/input/choices.hpp"
+#include "core/input/key_member.hpp"
 #include "core/input/overrides.hpp"
 #include "core/model/fabric_estimates.hpp"
 
@@ -23,8 +23,8 @@ using Numbers = std::map<std::string, int>; ///< index by name
 BlankSpec read_blank(const TableView& section, const std::filesystem::path& folder,
                      Diagnostics& diagnostics) {
   BlankSpec blank;
+  read_members(section, blank);
   if (text(section, "mesh").empty()) return blank;
-  blank.mesh = value_of(mesh_choices, text(section, "mesh"));
   if (blank.mesh == MeshKind::file) {
     const TomlNode* file = given(section, "file");
     if (!file) return blank;
@@ -34,7 +34,6 @@ BlankSpec read_blank(const TableView& section, const std::filesystem::path& fold
                   "give the path of a blank's mesh, seen from the file that names it", diagnostics);
     return blank;
   }
-  blank.element_size = number(section, "element_size");
   const Vec2 centre = vector2(section, "centre"), half = 0.5 * vector2(section, "size");
   blank.outline.boundary = pairs(section, "outline");
   if (given(section, "size"))
@@ -86,10 +85,9 @@ std::vector<Ply> read_plies(const TableView& root, const std::vector<Fabric>& fa
   std::vector<Ply> plies;
   for (const TableView& section : subsections(root, "ply")) {
     Ply ply;
-    ply.name = text(section, "name");
+    read_members(section, ply);
     ply.fabric = named_part(section, "fabric", fabric_names, diagnostics);
     ply.blank = named_part(section, "blank", blank_names, diagnostics);
-    ply.angle = number(section, "angle");
     const std::size_t fabric = static_cast<std::size_t>(ply.fabric);
     const double thickness = fabric < fabrics.size() ? fabrics[fabric].thickness : 0.0;
     ply.z = given(section, "z") ? number(section, "z") : top + 0.5 * thickness;
@@ -160,46 +158,25 @@ FrictionTable read_friction(const TableView& contact, const Numbers& bodies, int
   return table;
 }
 
-ContactOptions read_contact(const TableView& contact) {
-  return {.stiffness = number(contact, "stiffness"),
-          .damping = number(contact, "damping"),
-          .skin = given(contact, "skin") ? number(contact, "skin") : 0.0,
-          .self = value_of(off_on_choices, text(contact, "self"))};
-}
-
-SolverOptions read_solver(const TableView& solver) {
-  const double outputs = number(solver, "outputs");
-  return {.element = value_of(element_choices, text(solver, "element")),
-          .duration = number(solver, "duration"),
-          .step_factor = number(solver, "step_factor"),
-          .fibre_softening = number(solver, "fibre_softening"),
-          .fibre_damping = number(solver, "fibre_damping"),
-          .mass_damping = number(solver, "mass_damping"),
-          .max_balance_error = number(solver, "max_balance_error"),
-          .outputs = outputs > 0.0 ? static_cast<int>(outputs) : 0};
-}
-
 Case build_case(const TableView& root, const std::filesystem::path& folder,
                 Diagnostics& diagnostics) {
   Case built;
-  built.title = text(root, "title");
+  read_members(root, built);
   built.fabrics = read_fabrics(root, diagnostics);
   for (const TableView& section : subsections(root, "blanks"))
     built.blanks.push_back(read_blank(section, folder, diagnostics));
   built.plies = read_plies(root, built.fabrics, diagnostics);
   built.tools = read_tools(root, folder, diagnostics);
   built.boundaries = read_boundaries(root, built.plies, diagnostics);
-  built.gravity = vector3(root, "gravity");
   Numbers bodies = number_bodies(root, diagnostics);
   const TableView contact = subsection(root, "contact");
   const int plies = static_cast<int>(built.plies.size());
   const int count = plies + static_cast<int>(built.tools.size());
   std::erase_if(bodies, [&](const auto& body) { return body.second >= count; }); // touch nothing
   built.friction = read_friction(contact, bodies, plies, count, diagnostics);
-  built.contact = read_contact(contact);
-  built.solver = read_solver(subsection(root, "solver"));
-  const TableView accuracy = subsection(root, "accuracy");
-  if (given(accuracy, "shear_deg")) built.accuracy.shear_error = number(accuracy, "shear_deg");
+  read_members(contact, built.contact);
+  read_members(subsection(root, "solver"), built.solver);
+  read_members(subsection(root, "accuracy"), built.accuracy);
   return built;
 }
 

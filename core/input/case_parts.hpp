@@ -21,6 +21,10 @@ std::vector<Fabric> read_fabrics(const TableView& root, Diagnostics& diagnostics
 std::vector<Tool> read_tools(const TableView& root, const std::filesystem::path& folder,
                              Diagnostics& diagnostics);
 
+/// core/input/tool_shapes.cpp: the shape of one [[tool]].
+ToolShape read_shape(const TableView& tool, const std::filesystem::path& folder,
+                     Diagnostics& diagnostics);
+
 /// A direction of the section made a unit vector; the zero vector is reported.
 Vec3 read_direction(const TableView& section, const std::string& key, Diagnostics& diagnostics);
 

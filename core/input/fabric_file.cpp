@@ -4,6 +4,8 @@
 
 #include "core/base/text.hpp"
 #include "core/input/case_parts.hpp"
+#include "core/input/key_member.hpp"
+#include "core/input/sheet_laws.hpp"
 #include "core/model/fabric_estimates.hpp"
 
 #include <cmath>
@@ -53,17 +55,15 @@ bool tension_only(const TableView& yarn, const TensionLaw& law) {
 
 TensionLaw read_tension(const TableView& yarn, Diagnostics& diagnostics) {
   TensionLaw law;
+  read_members(yarn, law);
   const std::vector<Vec2> points = pairs(yarn, "table");
   check_law(yarn, "table", points, "tension", diagnostics);
   split(points, law.strain, law.tension);
-  if (points.empty()) law.stiffness = number(yarn, "stiffness");
-  if (given(yarn, "compression_stiffness")) law.compression = number(yarn, "compression_stiffness");
   if (const double most = law.largest_slope(); law.compression > most)
     value_error(yarn, "compression_stiffness",
                 fmt::format("must be at most the largest stiffness in tension, {:g}", most),
                 fmt::format("give {:g}, a hundredth of that, or so", usual_compression(law)),
                 diagnostics);
-  if (given(yarn, "buckling_force")) law.buckling_force = number(yarn, "buckling_force");
   if (std::isfinite(law.buckling_force) && tension_only(yarn, law))
     value_error(yarn, "buckling_force",
                 "needs a compression_stiffness of the same yarns above 0: yarns that carry tension "
@@ -78,10 +78,10 @@ TensionLaw read_tension(const TableView& yarn, Diagnostics& diagnostics) {
 /// `tension`: of the same yarns. A bending moment shortens yarns that nothing holds against it.
 MomentLaw read_moments(const TableView& yarn, const TensionLaw& tension, Diagnostics& diagnostics) {
   MomentLaw law;
+  read_members(yarn, law);
   const std::vector<Vec2> points = pairs(yarn, "bending_table");
   check_law(yarn, "bending_table", points, "moment", diagnostics);
   split(points, law.curvature, law.moment);
-  if (given(yarn, "bending_stiffness")) law.stiffness = number(yarn, "bending_stiffness");
   if (law.largest_slope() > 0.0 && tension_only(yarn, tension))
     value_error(yarn, points.empty() ? "bending_stiffness" : "bending_table",
                 "needs a compression_stiffness of the same yarns, or they shorten instead of "
@@ -132,35 +132,14 @@ ShearLaw read_shear(const TableView& shear, Diagnostics& diagnostics) {
   return law;
 }
 
-/// Bending of an isotropic plate: core/ply/bending.hpp.
-BendingLaw plate_bending(const IsotropicLaw& law, double thickness) {
-  const double nu = law.poissons_ratio;
-  const double d = law.modulus * thickness * thickness / (12.0 * (1.0 - nu * nu));
-  BendingLaw bending;
-  bending.warp.stiffness = bending.weft.stiffness = d;
-  bending.coupling = nu * d;
-  bending.twist = 2.0 * (1.0 - nu) * d;
-  return bending;
-}
-
 Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics& diagnostics) {
   Fabric fabric;
-  fabric.name = given(section, "name") ? text(section, "name") : key;
-  fabric.surface_density = number(section, "surface_density");
-  fabric.thickness = number(section, "thickness");
-  if (given(section, "fibre_angle")) fabric.fibre_angle = number(section, "fibre_angle");
-  if (given(section, "locking_angle")) fabric.locking_angle = number(section, "locking_angle");
-  if (text(section, "law") == "isotropic") {
-    const TableView law = subsection(section, "isotropic");
-    fabric.isotropic = {number(law, "youngs_modulus") * fabric.thickness,
-                        number(law, "poissons_ratio")};
-    if (text(law, "bending") == "plate")
-      fabric.bending = plate_bending(*fabric.isotropic, fabric.thickness);
-    return fabric;
-  }
+  fabric.name = key;
+  read_members(section, fabric);
+  if (read_sheet(section, fabric)) return fabric;
   const TableView warp = subsection(section, "warp"), weft = subsection(section, "weft");
-  fabric.warp_density = number(warp, "density");
-  fabric.weft_density = number(weft, "density");
+  read_members(warp, fabric);
+  read_members(weft, fabric);
   fabric.warp = read_tension(warp, diagnostics);
   fabric.weft = read_tension(weft, diagnostics);
   fabric.shear = read_shear(subsection(section, "shear"), diagnostics);

@@ -6,8 +6,10 @@
 // blanks.NAME.size, tool[].radius. Fabric files have the keys below fabrics.NAME.
 #pragma once
 
+#include <functional>
 #include <limits>
 #include <string>
+#include <typeindex>
 #include <vector>
 
 namespace plyform {
@@ -40,6 +42,16 @@ struct Range {
   std::string rule() const; ///< "must be greater than 0"
 };
 
+struct KeyRow;
+struct TomlNode;
+
+/// The member that takes a key's value when its table is read into a struct (key_member.hpp).
+struct KeyMember {
+  std::type_index of; ///< the struct
+  /// node: the value; null if it is missing or wrong, which has been reported.
+  std::function<void(void* object, const KeyRow& row, const TomlNode* node)> set;
+};
+
 /// A key. Required unless it has a fallback, an `otherwise` or a key that may stand in its place.
 struct KeyRow {
   std::string key; ///< pattern
@@ -56,6 +68,7 @@ struct KeyRow {
   std::string of{};                   ///< neighbouring choice key that this key depends on ...
   std::vector<std::string> with{};    ///< ... and its values that have this key
   std::string meaning{};              ///< noun phrase, completes "give the ..."
+  std::vector<KeyMember> members{};   ///< of different structs
 
   bool required() const { return fallback.empty() && otherwise.empty() && instead.empty(); }
   const Range& range_of(std::size_t column) const;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of the table of keys: what yarns answer to compression and bending.
+#include "core/input/key_member.hpp"
 #include "core/input/schema_case.hpp"
 
 namespace plyform {
@@ -15,19 +16,22 @@ Rows yarn_bending_rows(const std::string& yarn) {
            .meaning = "compressive force of one yarn divided by its shortening, at most its "
                       "stiffness in tension; 0: yarns carry tension only, and nothing is "
                       "estimated. A yarn that bends needs it. solver.fibre_softening leaves it as "
-                      "it is, and softens tension no further than that"},
+                      "it is, and softens tension no further than that",
+           .members = {to(&TensionLaw::compression)}},
           {.key = table + ".buckling_force",
            .unit = "N/yarn",
            .otherwise = "yarns do not buckle",
            .ranges = {not_negative},
            .meaning = "compressive force of one yarn above which it gives way: shortening further "
-                      "it takes 0.01 of its compression stiffness"},
+                      "it takes 0.01 of its compression stiffness",
+           .members = {to(&TensionLaw::buckling_force)}},
           {.key = table + ".bending_stiffness",
            .unit = "N mm",
            .otherwise = bending,
            .instead = "bending_table",
            .ranges = {not_negative},
-           .meaning = "moment per width divided by curvature along the " + yarn + " (N mm2/mm)"},
+           .meaning = "moment per width divided by curvature along the " + yarn + " (N mm2/mm)",
+           .members = {to(&MomentLaw::stiffness)}},
           {.key = table + ".bending_table",
            .kind = KeyKind::pairs,
            .unit = "1/mm, N",
@@ -56,7 +60,8 @@ Rows sheet_rows() {
            .of = "law",
            .with = {"woven"},
            .meaning = "shear angle beyond which the fabric wrinkles; results say where it is "
-                      "exceeded, forces do not depend on it"},
+                      "exceeded, forces do not depend on it",
+           .members = {to(&Fabric::locking_angle)}},
           {.key = "fabrics.NAME.twist_stiffness",
            .unit = "N mm",
            .otherwise = "root of the product of both bending stiffnesses (at small curvature)",

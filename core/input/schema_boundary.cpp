@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys of grips, frames and planes of symmetry.
-#include "core/input/choices.hpp"
+#include "core/input/key_member.hpp"
 #include "core/input/schema_case.hpp"
 
 namespace plyform {
@@ -29,12 +29,14 @@ Rows boundary_rows() {
              .meaning = "boundaries, one [[boundary]] each: nodes whose motion is given"},
             {.key = "boundary[].name",
              .kind = K::name,
-             .meaning = "boundary's name, unlike those of plies, tools and other boundaries"},
+             .meaning = "boundary's name, unlike those of plies, tools and other boundaries",
+             .members = {to(&Boundary::name)}},
             {.key = "boundary[].kind",
              .kind = K::choice,
              .choices = words_of(boundary_choices),
              .meaning = "kind of boundary: a rigid grip that moves (or stays) as one piece; four "
-                        "hinged bars pulled along a diagonal; a vertical plane of symmetry"},
+                        "hinged bars pulled along a diagonal; a vertical plane of symmetry",
+             .members = {to(&Boundary::kind, boundary_choices)}},
             {.key = "boundary[].ply",
              .kind = K::text,
              .otherwise = "all plies",
@@ -67,7 +69,8 @@ Rows boundary_rows() {
              .of = "kind",
              .with = {"grip", "frame"},
              .meaning = "stroke over the duration; of a grip along its direction, of a frame along "
-                        "the diagonal from the first hinge to the third"},
+                        "the diagonal from the first hinge to the third",
+             .members = {to(&Boundary::stroke)}},
             {.key = "boundary[].point",
              .kind = K::numbers,
              .unit = "mm",

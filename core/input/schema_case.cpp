@@ -2,7 +2,7 @@
 // The rows of the table of keys: what may stand in a case or fabric file.
 #include "core/input/schema_case.hpp"
 
-#include "core/input/choices.hpp"
+#include "core/input/key_member.hpp"
 
 #include <fmt/format.h>
 
@@ -31,7 +31,8 @@ Rows blank_rows() {
        .choices = words_of(mesh_choices),
        .meaning = "kind of mesh: squares with one diagonal (all the same way, or alternating) or "
                   "with both, cells along both fibre "
-                  "directions, free triangles, or triangles from a file"},
+                  "directions, free triangles, or triangles from a file",
+       .members = {to(&BlankSpec::mesh, mesh_choices)}},
       {.key = "blanks.NAME.size",
        .kind = K::numbers,
        .unit = "mm",
@@ -70,7 +71,8 @@ Rows blank_rows() {
        .ranges = {positive},
        .of = "mesh",
        .with = meshed,
-       .meaning = "side of a square or cell, mean edge of a free mesh"},
+       .meaning = "side of a square or cell, mean edge of a free mesh",
+       .members = {to(&BlankSpec::element_size)}},
       {.key = "blanks.NAME.file",
        .kind = K::path,
        .of = "mesh",
@@ -90,13 +92,15 @@ Rows ply_rows() {
            .meaning = "plies, one [[ply]] each, from the bottom up"},
           {.key = "ply[].name",
            .kind = K::name,
-           .meaning = "ply's name, unlike all others; names its result file"},
+           .meaning = "ply's name, unlike all others; names its result file",
+           .members = {to(&Ply::name)}},
           {.key = "ply[].fabric", .kind = K::text, .meaning = "name of one of the fabrics"},
           {.key = "ply[].blank", .kind = K::text, .meaning = "name of one of the blanks"},
           {.key = "ply[].angle",
            .unit = "deg",
            .ranges = {{.least = -360.0, .most = 360.0}},
-           .meaning = "angle from x to the warp yarns, about z; the outline stays as it is"},
+           .meaning = "angle from x to the warp yarns, about z; the outline stays as it is",
+           .members = {to(&Ply::angle)}},
           {.key = "ply[].z",
            .unit = "mm",
            .otherwise = "on top of the ply below",
@@ -128,21 +132,25 @@ Rows contact_rows() {
           {.key = "contact.stiffness",
            .fallback = toml(contact.stiffness),
            .ranges = {positive_share},
-           .meaning = "contact stiffness as a fraction of the largest stable one"},
+           .meaning = "contact stiffness as a fraction of the largest stable one",
+           .members = {to(&ContactOptions::stiffness)}},
           {.key = "contact.damping",
            .fallback = toml(contact.damping),
            .ranges = {share},
-           .meaning = "damping of contacts as a fraction of critical"},
+           .meaning = "damping of contacts as a fraction of critical",
+           .members = {to(&ContactOptions::damping)}},
           {.key = "contact.skin",
            .unit = "mm",
            .otherwise = "0.3 of the smallest mean element size",
            .ranges = {positive},
-           .meaning = "search distance beyond contact"},
+           .meaning = "search distance beyond contact",
+           .members = {to(&ContactOptions::skin)}},
           {.key = "contact.self",
            .kind = K::choice,
            .fallback = "\"off\"",
            .choices = words_of(off_on_choices),
-           .meaning = "contact of each ply with itself, where it folds over"}};
+           .meaning = "contact of each ply with itself, where it folds over",
+           .members = {to(&ContactOptions::self, off_on_choices)}}};
 }
 
 Rows solver_rows() {
@@ -155,40 +163,48 @@ Rows solver_rows() {
            .unit = "s",
            .fallback = toml(solver.duration),
            .ranges = {positive},
-           .meaning = "simulated time of the stroke"},
+           .meaning = "simulated time of the stroke",
+           .members = {to(&SolverOptions::duration)}},
           {.key = "solver.element",
            .kind = K::choice,
            .fallback = "\"auto\"",
            .choices = words_of(element_choices),
            .meaning =
                "plain: the paper's; averaged: does not lock; auto: plain where sides run along "
-               "both fibre families"},
+               "both fibre families",
+           .members = {to(&SolverOptions::element, element_choices)}},
           {.key = "solver.step_factor",
            .fallback = toml(solver.step_factor),
            .ranges = {positive_share},
-           .meaning = "time step as a fraction of the stable one"},
+           .meaning = "time step as a fraction of the stable one",
+           .members = {to(&SolverOptions::step_factor)}},
           {.key = "solver.fibre_softening",
            .fallback = toml(solver.fibre_softening),
            .ranges = {{.least = 1.0}},
-           .meaning = "number that divides the fibre stiffness, for larger steps"},
+           .meaning = "number that divides the fibre stiffness, for larger steps",
+           .members = {to(&SolverOptions::fibre_softening)}},
           {.key = "solver.fibre_damping",
            .fallback = toml(solver.fibre_damping),
            .ranges = {share},
-           .meaning = "damping of fibres as a fraction of critical of the stiffest mode"},
+           .meaning = "damping of fibres as a fraction of critical of the stiffest mode",
+           .members = {to(&SolverOptions::fibre_damping)}},
           {.key = "solver.mass_damping",
            .unit = "1/s",
            .fallback = toml(solver.mass_damping),
            .ranges = {not_negative},
-           .meaning = "deceleration per velocity of all nodes"},
+           .meaning = "deceleration per velocity of all nodes",
+           .members = {to(&SolverOptions::mass_damping)}},
           {.key = "solver.max_balance_error",
            .fallback = toml(solver.max_balance_error),
            .ranges = {positive},
-           .meaning = "relative error of the energy balance above which the run stops"},
+           .meaning = "relative error of the energy balance above which the run stops",
+           .members = {to(&SolverOptions::max_balance_error)}},
           {.key = "solver.outputs",
            .kind = K::integer,
            .fallback = fmt::format("{}", solver.outputs),
            .ranges = {{.least = 1.0, .most = 100000.0}},
-           .meaning = "number of states written, evenly over the stroke"}};
+           .meaning = "number of states written, evenly over the stroke",
+           .members = {to(&SolverOptions::outputs)}}};
 }
 
 Rows accuracy_rows() {
@@ -202,24 +218,28 @@ Rows accuracy_rows() {
            .otherwise = "as the solver's dials have it",
            .ranges = {{.least = 0.05, .most = 20.0}},
            .meaning = "root mean square error of the shear angle that is allowed; `plyform run "
-                      "--accuracy draft` is 3, standard 1, reference 0.3"}};
+                      "--accuracy draft` is 3, standard 1, reference 0.3",
+           .members = {to(&AccuracyOptions::shear_error)}}};
 }
 
 Rows all_rows() {
   Rows rows{{.key = "title",
              .kind = K::text,
              .fallback = "\"\"",
-             .meaning = "title of the case in results"},
+             .meaning = "title of the case in results",
+             .members = {to(&Case::title)}},
             {.key = "gravity",
              .kind = K::numbers,
              .unit = "mm/s2",
              .fallback = "[0.0, 0.0, 0.0]",
              .count = 3,
-             .meaning = "acceleration by gravity, [0, 0, -9810] for plies that lie flat on earth"}};
+             .meaning = "acceleration by gravity, [0, 0, -9810] for plies that lie flat on earth",
+             .members = {to(&Case::gravity)}}};
   append(rows, fabric_rows());
   append(rows, blank_rows());
   append(rows, ply_rows());
   append(rows, tool_rows());
+  append(rows, shape_rows());
   append(rows, motion_rows());
   append(rows, boundary_rows());
   append(rows, contact_rows());

@@ -26,8 +26,9 @@ Rows sheet_rows();
 /// core/input/schema_fabric.cpp: fabrics.NAME and fabric files.
 Rows fabric_rows();
 
-/// core/input/schema_tool.cpp: [[tool]], and its motion.
+/// core/input/schema_tool.cpp: [[tool]], and its motion. Shapes: core/input/tool_shapes.cpp.
 Rows tool_rows();
+Rows shape_rows();
 Rows motion_rows();
 
 /// core/input/schema_boundary.cpp: [[boundary]].

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys of fabrics.NAME and of fabric files; those of bending are in schema_bending.cpp.
+#include "core/input/key_member.hpp"
 #include "core/input/schema_case.hpp"
+#include "core/input/sheet_laws.hpp"
 
 namespace plyform {
 
@@ -13,44 +15,33 @@ Rows fabric_rows() {
       {.key = "fabrics.NAME.name",
        .kind = K::text,
        .otherwise = "the NAME",
-       .meaning = "fabric's name in results"},
+       .meaning = "fabric's name in results",
+       .members = {to(&Fabric::name)}},
       {.key = "fabrics.NAME.surface_density",
        .unit = "g/m2",
        .ranges = {positive},
-       .meaning = "mass per area of the unformed fabric"},
+       .meaning = "mass per area of the unformed fabric",
+       .members = {to(&Fabric::surface_density)}},
       {.key = "fabrics.NAME.thickness",
        .unit = "mm",
        .ranges = {positive},
-       .meaning = "thickness of the unformed fabric"},
+       .meaning = "thickness of the unformed fabric",
+       .members = {to(&Fabric::thickness)}},
       {.key = "fabrics.NAME.fibre_angle",
        .unit = "deg",
        .fallback = "90.0",
        .ranges = {{.least = 0.0, .most = 180.0, .open_least = true, .open_most = true}},
        .of = "law",
        .with = {"woven"},
-       .meaning = "angle from warp to weft before forming"},
+       .meaning = "angle from warp to weft before forming",
+       .members = {to(&Fabric::fibre_angle)}},
       {.key = "fabrics.NAME.law",
        .kind = K::choice,
        .fallback = "\"woven\"",
-       .choices = {"woven", "isotropic"},
-       .meaning = "kind of sheet: yarns in two directions (woven or non-crimp), or a foil without"},
-      {.key = "fabrics.NAME.isotropic",
-       .kind = K::table,
-       .of = "law",
-       .with = {"isotropic"},
-       .meaning = "law of a sheet without yarns, which resists compression too"},
-      {.key = "fabrics.NAME.isotropic.youngs_modulus",
-       .unit = "N/mm2",
-       .ranges = {positive},
-       .meaning = "Young's modulus, multiplied by the thickness"},
-      {.key = "fabrics.NAME.isotropic.poissons_ratio",
-       .ranges = {{.least = 0.0, .most = 0.5}},
-       .meaning = "Poisson's ratio"},
-      {.key = "fabrics.NAME.isotropic.bending",
-       .kind = K::choice,
-       .fallback = "\"none\"",
-       .choices = {"none", "plate"},
-       .meaning = "bending stiffness: none, a membrane; or that of a plate of this thickness"}};
+       .choices = fabric_laws(),
+       .meaning =
+           "kind of sheet: yarns in two directions (woven or non-crimp), or a foil without"}};
+  append(rows, sheet_law_rows());
   for (const std::string yarn : {"warp", "weft"}) {
     const std::string table = "fabrics.NAME." + yarn;
     append(rows, {{.key = table,
@@ -61,12 +52,14 @@ Rows fabric_rows() {
                   {.key = table + ".density",
                    .unit = "yarns/mm",
                    .ranges = {positive},
-                   .meaning = "number of " + yarn + " yarns per mm across them"},
+                   .meaning = "number of " + yarn + " yarns per mm across them",
+                   .members = {to(yarn == "warp" ? &Fabric::warp_density : &Fabric::weft_density)}},
                   {.key = table + ".stiffness",
                    .unit = "N/yarn",
                    .instead = "table",
                    .ranges = {positive},
-                   .meaning = "tension of one yarn divided by its strain"},
+                   .meaning = "tension of one yarn divided by its strain",
+                   .members = {to(&TensionLaw::stiffness)}},
                   {.key = table + ".table",
                    .kind = K::pairs,
                    .unit = "-, N/yarn",

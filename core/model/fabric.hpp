@@ -5,7 +5,7 @@
 // Boisse 2008, section 3.5 and table 1.
 #pragma once
 
-#include "core/model/isotropic.hpp"
+#include "core/model/sheet_law.hpp"
 
 #include <array>
 #include <cmath>
@@ -37,6 +37,8 @@ struct TensionLaw {
   /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
   LawPoint at(double eps) const;
   double largest_slope() const; ///< N, in tension
+  /// Whether stiffness, compression and buckling_force are all there is to it.
+  bool linear() const { return strain.empty(); }
   bool buckles() const { return compression > 0.0 && std::isfinite(buckling_force); }
   double buckling_strain() const { return buckling_force / compression; } ///< of one that buckles
 };
@@ -101,9 +103,11 @@ struct Fabric {
   std::optional<double> locking_angle;     ///< rad of shear, beyond which it wrinkles
   std::array<YarnSources, 2> sources;      ///< of warp and weft
   bool twist_given = true;                 ///< else it follows both bending stiffnesses
-  /// A sheet without yarns: then the laws and densities above are all zero, and the directions of
-  /// warp and weft, at right angles, only mark the material.
-  std::optional<IsotropicLaw> isotropic;
+  /// Of a sheet without yarns: then the laws and densities above are all zero, and the directions
+  /// of warp and weft, at right angles, only mark the material.
+  std::optional<SheetLaw> sheet;
+
+  bool has_yarns() const { return !sheet; }
 };
 
 /// Whether warp and weft are the same yarn at the same distance.

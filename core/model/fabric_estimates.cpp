@@ -128,7 +128,7 @@ void estimate_missing(Case& data) {
     used.insert(ply.fabric);
   for (const int index : used) {
     Fabric& fabric = data.fabrics[index];
-    if (fabric.isotropic) continue;
+    if (!fabric.has_yarns()) continue;
     if (data.plies.size() > 1)
       estimate_for_stack(fabric);
     else

@@ -78,8 +78,9 @@ struct SideStiffness {
 /// One ply's membrane; nodes and triangles are numbered within the ply. Constant topology, and the
 /// little state that viscosity needs. Sizes: n nodes, m triangles.
 struct Membrane {
-  Fabric fabric;                             ///< its yarns already softened if the case asks for it
-  std::array<double, 2> softening{1.0, 1.0}; ///< by which warp and weft are: effective_softening
+  Fabric fabric;                             ///< the true one, as its file has it
+  std::array<TensionLaw, 2> yarn;            ///< W_a of warp and weft: those of `fabric`, softened
+  std::array<double, 2> softening{1.0, 1.0}; ///< by so much: effective_softening
   double omega0 = 0.0;                       ///< rad
   double cells_per_area = 0.0;               ///< n_c, 1/mm^2
   FibreViscosity viscosity;

@@ -3,6 +3,7 @@
 
 #include "core/base/lanczos.hpp"
 #include "core/ply/element_limits.hpp"
+#include "core/ply/in_plane_law.hpp"
 #include "core/ply/mass_normalise.hpp"
 
 #include <algorithm>
@@ -26,8 +27,8 @@ std::array<double, 2> yarn_stiffness(const Membrane& m) {
   const auto slope = [](const TensionLaw& yarn, const SideStiffness& side) {
     return std::max(yarn.largest_slope(), yarn.compression + side.collapse_penalty);
   };
-  return {m.fabric.warp_density * slope(m.fabric.warp, m.side[0]),
-          m.fabric.weft_density * slope(m.fabric.weft, m.side[1])};
+  return {m.fabric.warp_density * slope(m.yarn[0], m.side[0]),
+          m.fabric.weft_density * slope(m.yarn[1], m.side[1])};
 }
 
 /// Stiffness per area against deviations within a group, N/mm.
@@ -36,11 +37,6 @@ std::array<double, 2> deviation_stiffness(const Membrane& m, const FibreState& s
   return {m.fabric.warp_density * m.side[0].stabilisation + shear,
           m.fabric.weft_density * m.side[1].stabilisation + shear};
 }
-
-/// G_ab = c_a . c_b of one triangle, 1/mm^2.
-struct Gram {
-  double g11, g22, g12;
-};
 
 Gram gram(const FibreGradients& c) {
   const double c10 = -c.c11 - c.c12, c20 = -c.c21 - c.c22;
@@ -53,8 +49,8 @@ Gram gram(const FibreGradients& c) {
 double soft_stiffness(const Membrane& m, const FibreState& s) {
   const LawPoint shear = m.fabric.shear.at(s.gamma);
   const double inv2 = 1.0 / (s.lambda1 * s.lambda1) + 1.0 / (s.lambda2 * s.lambda2);
-  const double n1 = m.fabric.warp_density * m.fabric.warp.at(s.lambda1 - 1.0).value / s.lambda1;
-  const double n2 = m.fabric.weft_density * m.fabric.weft.at(s.lambda2 - 1.0).value / s.lambda2;
+  const double n1 = m.fabric.warp_density * m.yarn[0].at(s.lambda1 - 1.0).value / s.lambda1;
+  const double n2 = m.fabric.weft_density * m.yarn[1].at(s.lambda2 - 1.0).value / s.lambda2;
   return std::max({0.0, n1, n2}) +
          m.cells_per_area * inv2 *
              (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
@@ -65,8 +61,9 @@ double soft_stiffness(const Membrane& m, const FibreState& s) {
 EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
   // K_e = A0 B^T H B with B = [c_1; c_2] x I. Its non-zero eigenvalues are those of H (G x I),
   // and every node carries at least rho A0 / 3: so omega^2 <= 3/rho * them. Fibre part of H: exact,
-  // a 2 x 2 problem. A sheet without yarns has only its own (core/model/isotropic.hpp).
+  // a 2 x 2 problem. A sheet without yarns has only its own (core/model/sheet_law.hpp).
   EigenvalueBound bound;
+  const InPlaneLaw& law = in_plane_law(m.fabric);
   const auto [s1, s2] = yarn_stiffness(m);
   const double v1 = m.fabric.warp_density * m.viscosity.warp;
   const double v2 = m.fabric.weft_density * m.viscosity.weft;
@@ -86,20 +83,13 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
     const double fibre = largest(k1 * g.g11, k2 * g.g22, std::sqrt(k1 * k2) * g.g12 * s.cos_omega);
     const double viscous =
         largest(v1 * g.g11, v2 * g.g22, std::sqrt(v1 * v2) * g.g12 * s.cos_omega);
-    const double sheet =
-        m.fabric.isotropic
-            ? isotropic_stiffness(
-                  *m.fabric.isotropic,
-                  isotropic_state(*m.fabric.isotropic, s.lambda1 * s.f1, s.lambda2 * s.f2), g.g11,
-                  g.g22, g.g12)
-            : 0.0;
+    const double sheet = law.stiffness ? law.stiffness(m, s, g) : 0.0;
     const double soft = soft_stiffness(m, s) * largest(g.g11, g.g22, g.g12);
     for (std::size_t a = 0; a < 2; ++a) {
-      const TensionLaw& yarn = a == 0 ? m.fabric.warp : m.fabric.weft;
       const double lambda = a == 0 ? s.lambda1 : s.lambda2;
       bound.guarded =
           bound.guarded || (lambda < collapse_reach &&
-                            m.side[a].collapse_penalty > considerable * yarn.largest_slope());
+                            m.side[a].collapse_penalty > considerable * m.yarn[a].largest_slope());
     }
     bound.yarns = std::max(bound.yarns, per_mass * (fibre + sheet));
     bound.soft = std::max(bound.soft, per_mass * soft);
@@ -186,7 +176,7 @@ Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x) {
 }
 
 double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x) {
-  if (m.fabric.isotropic) return 1.0;
+  if (!in_plane_law(m.fabric).yarns) return 1.0;
   YarnStiffness stiffness(m, x, 1.0, 0.0);
   std::vector<Vec3> y(x.size()), f(x.size());
   const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2

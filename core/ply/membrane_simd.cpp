@@ -2,6 +2,7 @@
 #include "core/ply/membrane_simd.hpp"
 
 #include "contact/simd/cpu_features.hpp"
+#include "core/ply/in_plane_law.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -110,11 +111,11 @@ private:
 };
 
 LawPoint on_yarn(const KernelLaw& law, int family, double strain) {
-  return (family == 0 ? law.fabric->warp : law.fabric->weft).at(strain);
+  return law.membrane->yarn[static_cast<std::size_t>(family)].at(strain);
 }
 
 double density(const KernelLaw& law, int family) {
-  return family == 0 ? law.fabric->warp_density : law.fabric->weft_density;
+  return family == 0 ? law.membrane->fabric.warp_density : law.membrane->fabric.weft_density;
 }
 
 void tension_of_table(const KernelLaw& law, int family, const double* strain, double* n) {
@@ -129,12 +130,12 @@ void tension_energy_of_table(const KernelLaw& law, int family, const double* str
 
 void secant_of_table(const KernelLaw& law, const double* measure2, double* p) {
   for (int i = 0; i < simd_width; ++i)
-    p[i] = law.cells * law.fabric->shear.secant(std::sqrt(measure2[i]));
+    p[i] = law.cells * law.membrane->fabric.shear.secant(std::sqrt(measure2[i]));
 }
 
 void shear_energy_of_table(const KernelLaw& law, const double* measure2, double* e) {
   for (int i = 0; i < simd_width; ++i)
-    e[i] = law.cells * law.fabric->shear.at(std::sqrt(measure2[i])).energy;
+    e[i] = law.cells * law.membrane->fabric.shear.at(std::sqrt(measure2[i])).energy;
 }
 
 KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosity,
@@ -145,7 +146,7 @@ KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosit
   k.viscosity = density * viscosity;
   k.stabilisation = density * side.stabilisation;
   k.collapse_penalty = density * side.collapse_penalty;
-  k.table = !yarn.strain.empty();
+  k.table = !yarn.linear();
   k.buckles = yarn.buckles();
   if (k.buckles) {
     k.buckling_strain = yarn.buckling_strain();
@@ -157,8 +158,8 @@ KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosit
 KernelLaw kernel_law(const Membrane& m) {
   const Fabric& f = m.fabric;
   KernelLaw law{};
-  law.yarns[0] = kernel_yarns(f.warp, f.warp_density, m.viscosity.warp, m.side[0]);
-  law.yarns[1] = kernel_yarns(f.weft, f.weft_density, m.viscosity.weft, m.side[1]);
+  law.yarns[0] = kernel_yarns(m.yarn[0], f.warp_density, m.viscosity.warp, m.side[0]);
+  law.yarns[1] = kernel_yarns(m.yarn[1], f.weft_density, m.viscosity.weft, m.side[1]);
   law.angle = m.omega0 - 0.5 * M_PI;
   law.cells = m.cells_per_area;
   law.beta = deviation_weight;
@@ -167,7 +168,7 @@ KernelLaw kernel_law(const Membrane& m) {
     for (std::size_t i = 0; i < f.shear.k.size(); ++i)
       law.shear[i] = law.cells * f.shear.k[i];
   }
-  law.fabric = &f;
+  law.membrane = &m;
   law.tension = tension_of_table;
   law.secant = secant_of_table;
   law.tension_energy = tension_energy_of_table;
@@ -192,7 +193,7 @@ KernelBlock kernel_block(const MembraneSimd& l, const SimdBlock& b, SimdViscosit
 } // namespace
 
 bool fits_simd(const Membrane& m) {
-  return !m.fabric.isotropic;
+  return in_plane_law(m.fabric).yarns;
 }
 
 MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {

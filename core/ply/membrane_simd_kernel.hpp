@@ -7,7 +7,7 @@
 
 namespace plyform {
 
-struct Fabric;
+struct Membrane;
 
 constexpr int most_shear_terms = 8; ///< longer polynomials are asked for like tables
 
@@ -28,7 +28,7 @@ struct alignas(32) SimdViscosity {
 /// Constants of (N) for one family of yarns, each times their density d_a: per mm, not per yarn.
 struct KernelYarns {
   double stiffness, compression, viscosity, stabilisation, collapse_penalty;
-  bool table;             ///< ask KernelLaw::tension
+  bool table;             ///< ask KernelLaw::tension: the law is not TensionLaw::linear
   bool buckles;           ///< if not by table: the two below hold
   double buckling_strain; ///< -, above 0: pressed beyond it, the slope is less ...
   double buckling_drop;   ///< N/mm: ... by this
@@ -40,8 +40,8 @@ struct KernelLaw {
   double beta;
   double shear[most_shear_terms]; ///< N/mm, n_c times the coefficients of g, g^3 ..., 0 beyond
   int shear_terms;                ///< 0: a table, ask `secant`
-  const Fabric* fabric;
-  double cells; ///< n_c
+  const Membrane* membrane;       ///< whose laws are asked where they are tables
+  double cells;                   ///< n_c
   /// d_a N (N/mm) of four strains of a family; n_c p (N/mm) of four squared shear measures g^2.
   void (*tension)(const KernelLaw&, int family, const double* strain, double* n);
   void (*secant)(const KernelLaw&, const double* measure2, double* p);

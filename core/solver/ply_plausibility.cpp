@@ -184,7 +184,7 @@ std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
   std::vector<PlyReport> told;
   for (std::size_t p = 0; p < last.plies.size(); ++p) {
     const Fabric& fabric = s.data.fabrics[s.data.plies[p].fabric];
-    PlyNature nature{fabric.fibre_angle * degrees, !fabric.isotropic, std::nullopt};
+    PlyNature nature{fabric.fibre_angle * degrees, fabric.has_yarns(), std::nullopt};
     if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle * degrees;
     told.push_back(report_ply(last.plies[p], nature, tools));
   }

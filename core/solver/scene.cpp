@@ -40,7 +40,7 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
   body.membrane =
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
   BendingLaw bending = fabric.bending;
-  if (fabric.isotropic) bending.in_plane = {}; // no yarns that could bend in its plane
+  if (!fabric.has_yarns()) bending.in_plane = {}; // no yarns that could bend in its plane
   if (bending.any())
     body.bending = make_bending(mesh.x, body.membrane.triangles, bending, ply.angle,
                                 ply.angle + fabric.fibre_angle, body.membrane.node_mass);
@@ -62,9 +62,9 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
   body.bound = eigenvalue_bound(body.membrane, body.x);
   const double omega = std::sqrt(body.bound.omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
-  const Fabric& soft = body.membrane.fabric;
-  body.membrane.viscosity = {2.0 * data.solver.fibre_damping * soft.warp.largest_slope() / omega,
-                             2.0 * data.solver.fibre_damping * soft.weft.largest_slope() / omega};
+  const auto& [warp, weft] = body.membrane.yarn;
+  body.membrane.viscosity = {2.0 * data.solver.fibre_damping * warp.largest_slope() / omega,
+                             2.0 * data.solver.fibre_damping * weft.largest_slope() / omega};
   body.bound = eigenvalue_bound(body.membrane, body.x); // with viscosity
   return body;
 }

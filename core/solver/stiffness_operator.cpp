@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/stiffness_operator.hpp"
 
+#include "core/ply/in_plane_law.hpp"
 #include "core/ply/mass_normalise.hpp"
 #include "core/solver/stable_time_step.hpp"
 
@@ -25,11 +26,11 @@ void StiffnessOperator::add_ply(const PlyState& ply, double dt) {
   Frequencies bounded{ply.bound.soft, s_.data.solver.mass_damping};
   if (ply.bending) bounded.omega2 += ply.bending->omega2;
   yarns_.emplace_back();
-  if (ply.membrane.fabric.isotropic)
-    bounded.omega2 += ply.bound.yarns;
-  else
+  if (in_plane_law(ply.membrane.fabric).yarns)
     yarns_.back() =
         std::make_unique<YarnStiffness>(ply.membrane, ply.x, factors_.stiffness, factors_.damping);
+  else
+    bounded.omega2 += ply.bound.yarns;
   bounded_.push_back(bounded.stability_lhs(dt));
   std::vector<ContactTangent>& on_ply = on_ply_.emplace_back();
   for (const ToolState& tool : s_.tools)

@@ -62,7 +62,7 @@ Fabric plate(double stiffness) {
   Fabric fabric;
   fabric.surface_density = glass_weave().surface_density;
   fabric.thickness = glass_weave().thickness;
-  fabric.isotropic = IsotropicLaw{12.0 * stiffness / (fabric.thickness * fabric.thickness), 0.0};
+  fabric.sheet = IsotropicLaw{12.0 * stiffness / (fabric.thickness * fabric.thickness), 0.0};
   fabric.bending.warp.stiffness = fabric.bending.weft.stiffness = stiffness;
   fabric.bending.twist = 2.0 * stiffness;
   return fabric;

@@ -122,7 +122,7 @@ private:
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6 * size, 6 * size);
     for (std::size_t a = 0; a < 2; ++a) {
       const double d = a == 0 ? m.fabric.warp_density : m.fabric.weft_density;
-      const LawPoint yarn = (a == 0 ? m.fabric.warp : m.fabric.weft).at(mean[a] - 1.0);
+      const LawPoint yarn = m.yarn[a].at(mean[a] - 1.0);
       Eigen::VectorXd g = Eigen::VectorXd::Zero(6 * size);
       for (int i = 0; i < size; ++i) {
         const PlaneState& s = t[i];

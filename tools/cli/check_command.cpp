@@ -23,7 +23,7 @@ std::string bending_text(const PlyState& ply) {
   if (!ply.bending) return "no bending";
   const Fabric& fabric = ply.membrane.fabric;
   const BendingLaw& law = ply.bending->law;
-  if (fabric.isotropic) return fmt::format("bends as a plate, {:.3g} N mm", law.warp.stiffness);
+  if (!fabric.has_yarns()) return fmt::format("bends as a plate, {:.3g} N mm", law.warp.stiffness);
   const auto along = [](const MomentLaw& moments) {
     return moments.curvature.empty() ? fmt::format("{:.3g}", moments.stiffness)
                                      : fmt::format("{:.3g} by table", moments.at(0.0).slope);
@@ -60,9 +60,9 @@ std::string element_text(const Membrane& m, ElementKind asked) {
 void print_plies(const Scene& s) {
   for (const PlyState& ply : s.plies) {
     const Membrane& m = ply.membrane;
-    if (m.fabric.isotropic) {
-      fmt::print("ply {}: {} nodes, {} triangles, isotropic sheet; {}\n", ply.name, ply.x.size(),
-                 m.triangles.size(), bending_text(ply));
+    if (!m.fabric.has_yarns()) {
+      fmt::print("ply {}: {} nodes, {} triangles, sheet without yarns; {}\n", ply.name,
+                 ply.x.size(), m.triangles.size(), bending_text(ply));
       continue;
     }
     fmt::print("ply {}: {} nodes, {} triangles, warp at {:g} degrees; {}; {}\n", ply.name,
@@ -133,18 +133,12 @@ void print_wrinkles(const Scene& s) {
   }
 }
 
-/// Whether the tightest curve of a shape bends both ways: a ball, and a box at its rounded corners.
-bool bends_both_ways(const ToolShape& shape) {
-  const auto* box = std::get_if<Box>(&shape);
-  return std::holds_alternative<Sphere>(shape) || (box && box->edge_radius > 0.0);
-}
-
 /// Says if a ply may be cut by more than half its thickness, for the one that is cut most.
 void print_cut(const Scene& s, const ToolState& tool) {
   constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
   const double radius = smallest_radius(tool.body.shape);
   if (!std::isfinite(radius)) return;
-  const double spread = bends_both_ways(tool.body.shape) ? 2.0 / std::sqrt(3.0) : 1.0;
+  const double spread = curves_both_ways(tool.body.shape) ? 2.0 / std::sqrt(3.0) : 1.0;
   const PlyState* worst = nullptr;
   double most = 0.5;
   for (const PlyState& ply : s.plies) {

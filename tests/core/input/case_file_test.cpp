@@ -296,10 +296,11 @@ TEST(CaseFile, ReadsGravityAndIsotropicSheets) {
     return c.fabrics.at(static_cast<std::size_t>(c.plies.at(ply).fabric));
   };
   const Fabric cloth = fabric_of(0), foil = fabric_of(1);
-  EXPECT_FALSE(cloth.isotropic);
-  ASSERT_TRUE(foil.isotropic);
-  EXPECT_DOUBLE_EQ(foil.isotropic->modulus, 3000.0 * 0.2); // N/mm: times the thickness
-  EXPECT_DOUBLE_EQ(foil.isotropic->poissons_ratio, 0.3);
+  EXPECT_TRUE(cloth.has_yarns());
+  ASSERT_TRUE(foil.sheet);
+  const auto& law = std::get<IsotropicLaw>(*foil.sheet);
+  EXPECT_DOUBLE_EQ(law.modulus, 3000.0 * 0.2); // N/mm: times the thickness
+  EXPECT_DOUBLE_EQ(law.poissons_ratio, 0.3);
   EXPECT_DOUBLE_EQ(foil.fibre_angle, pi / 2.0);
   EXPECT_EQ(foil.warp.largest_slope(), 0.0);
   EXPECT_TRUE(good_case(data / "good/inline.toml").gravity.isZero(0.0)); // the default

@@ -120,7 +120,7 @@ TEST(Doubtful, IsNotASheetWithoutYarns) {
   film.warp = film.weft = TensionLaw{};
   film.shear = ShearLaw{};
   film.warp_density = film.weft_density = 0.0;
-  film.isotropic = IsotropicLaw{10.0, 0.3}; // N/mm
+  film.sheet = IsotropicLaw{10.0, 0.3}; // N/mm
   const RunResult run = run_case(data, 1, {});
   EXPECT_EQ(run.summary.status, "done") << run.summary.message;
   EXPECT_FALSE(run.summary.plies.at(0).pressed);

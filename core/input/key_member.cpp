@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/input/key_member.hpp"
+
+#include <limits>
+
+namespace plyform {
+
+namespace {
+
+constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
+
+/// Whether a member is set to nothing where its key is not given.
+bool is_missed(const TableView& section, const KeyRow& row) {
+  if (!row.otherwise.empty() || !row.goes_with(text(section, row.of))) return false;
+  return row.instead.empty() || !given(section, row.instead);
+}
+
+} // namespace
+
+void assign(double& member, const KeyRow& row, const TomlNode* node) {
+  member = node ? node->number * unit_factor(row, 0) : nothing;
+}
+
+void assign(int& member, const KeyRow&, const TomlNode* node) {
+  if (node) member = static_cast<int>(node->number);
+}
+
+void assign(std::string& member, const KeyRow&, const TomlNode* node) {
+  if (node) member = node->text;
+}
+
+void assign(Vec3& member, const KeyRow& row, const TomlNode* node) {
+  for (std::size_t i = 0; i < 3; ++i)
+    assign(member[static_cast<int>(i)], row, node ? &node->children[i] : nullptr);
+}
+
+void assign(std::optional<double>& member, const KeyRow& row, const TomlNode* node) {
+  if (node) assign(member.emplace(), row, node);
+}
+
+void read_members(const TableView& section, std::type_index type, void* object) {
+  for (const KeyRow* row : keys_below(section.pattern))
+    for (const KeyMember& member : row->members) {
+      if (member.of != type) continue;
+      const TomlNode* node = given(section, last_part(row->key));
+      if (node || is_missed(section, *row)) member.set(object, *row, node);
+    }
+}
+
+} // namespace plyform

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws of sheets without yarns. Each is a file of its own with two functions:
+//   SheetResponse at(k1, k2)                      stresses and energy
+//   double stiffness_bound(k1, k2, gram)          of the largest eigenvalue, for the stable step
+#pragma once
+
+#include "core/model/isotropic.hpp"
+
+#include <variant>
+
+namespace plyform {
+
+using SheetLaw = std::variant<IsotropicLaw>;
+
+} // namespace plyform
