@@ -1,20 +1,54 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake --install: the program, both libraries with their headers, the cases, and the package that
-# find_package(plyform) finds. Headers go to include/plyform/, so that #include "core/model/case.hpp"
-# reads the same in other projects as here.
+# cmake --install: the program, both libraries with their public headers, the cases, and the package
+# that find_package(plyform) finds. Headers go to include/plyform/, so that
+# #include "core/model/case.hpp" reads the same in other projects as here.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/plyform)
 
 install(TARGETS plyform)
 install(TARGETS plyform_contact plyform_core EXPORT plyform)
 install(EXPORT plyform FILE plyformTargets.cmake NAMESPACE plyform:: DESTINATION ${package_dir})
-install(DIRECTORY contact core DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plyform
-        FILES_MATCHING PATTERN "*.hpp")
+
+# From a case to its results, shapes of tools, exact intersections, fits of measured curves; all
+# other headers may change at any time. Each includes public ones only, which tests/consumer shows.
+set(public_headers
+  contact/geometry.hpp
+  contact/intersections.hpp
+  contact/search/sheet_bvh.hpp
+  contact/shapes/tool_shape.hpp
+  core/base/diagnostics.hpp
+  core/base/version.hpp
+  core/fit/curve_file.hpp
+  core/fit/fit_shear.hpp
+  core/fit/shear_tests.hpp
+  core/input/case_file.hpp
+  core/mesh/mesh_blank.hpp
+  core/model/blank_spec.hpp
+  core/model/case.hpp
+  core/model/energies.hpp
+  core/model/fabric.hpp
+  core/model/isotropic.hpp
+  core/model/sheet_law.hpp
+  core/model/sheet_response.hpp
+  core/results/draw_in.hpp
+  core/results/export.hpp
+  core/results/frame.hpp
+  core/results/ply_frame.hpp
+  core/results/result_writer.hpp
+  core/results/summary.hpp
+  core/results/wrinkles.hpp
+  core/setup/prepare_case.hpp
+  core/solver/run.hpp)
+foreach(header ${public_headers})
+  cmake_path(GET header PARENT_PATH folder)
+  install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plyform/${folder})
+endforeach()
+
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(cmake/plyformConfig.cmake.in plyformConfig.cmake
-  INSTALL_DESTINATION ${package_dir} PATH_VARS CMAKE_INSTALL_DATADIR)
+  INSTALL_DESTINATION ${package_dir} PATH_VARS CMAKE_INSTALL_DATADIR CMAKE_INSTALL_INCLUDEDIR)
 # Before 1.0 any minor version may change the interface.
 write_basic_package_version_file(plyformConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/plyformConfig.cmake

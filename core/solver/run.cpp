@@ -10,6 +10,7 @@
 #include "core/solver/output_state.hpp"
 #include "core/solver/ply_plausibility.hpp"
 #include "core/solver/run_diagnosis.hpp"
+#include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 
 #include <algorithm>

@@ -2,14 +2,16 @@
 // A whole simulation: from a case to its last state, with outputs on the way.
 #pragma once
 
+#include "core/mesh/mesh_blank.hpp"
 #include "core/model/case.hpp"
 #include "core/results/result_writer.hpp"
-#include "core/solver/scene.hpp"
 
 #include <atomic>
 #include <functional>
 
 namespace plyform {
+
+struct Scene; // core/solver/scene.hpp
 
 /// Where a run stands, for a progress line.
 struct Progress {

@@ -2,6 +2,7 @@
 // Boundaries and gravity in whole scenes: paths, forces, momentum, energy, symmetry.
 #include "core/model/motion.hpp"
 #include "core/solver/run.hpp"
+#include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 #include "support/boundary_scenes.hpp"
 #include "support/thread_checks.hpp"

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/solver/run.hpp"
+#include "core/solver/scene.hpp"
 
 #include <cstring>
 #include <functional>

@@ -5,6 +5,7 @@
 #include "core/setup/prepare_case.hpp"
 #include "core/solver/contact_search.hpp"
 #include "core/solver/run.hpp"
+#include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 #include "support/scene_checks.hpp"
 

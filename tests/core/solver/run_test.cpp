@@ -2,6 +2,7 @@
 // Whole runs of small cases: same bits on any number of threads, early ends, forces through a
 // stack.
 #include "core/solver/run.hpp"
+#include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 #include "support/scene_checks.hpp"
 #include "support/thread_checks.hpp"
