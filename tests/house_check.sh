@@ -56,6 +56,20 @@ breach "more than 400 lines" "$(
   done
 )"
 
+# A function begins and ends at the left margin. Tables are long: functions that return rows of
+# keys, and arrays.
+breach "function of more than 60 lines" "$(
+  awk '
+    FNR == 1 { start = 0 }
+    /^[A-Za-z].*\{$/ && !/^(namespace|struct|class|enum|union|extern)/ && !/rows\(\) \{$|\] = \{$/ { start = FNR }
+    /^[A-Za-z].*\($|^[A-Za-z].*,$/ && !start { start = FNR }
+    /^[};]/ {
+      if (start && FNR - start + 1 > 60 && /^\}/) print FILENAME ":" start ": " FNR - start + 1 " lines"
+      start = 0
+    }
+  ' "${cpp[@]}"
+)"
+
 # Arrows between rooms run one way: tests/rooms.txt.
 breach "includes a file of a room that its own must not know (tests/rooms.txt)" "$(
   awk '

@@ -125,74 +125,104 @@ std::vector<Vec2> first_row(const Pressed& pressed) {
   return row;
 }
 
-/// Clamped at both ends of `length`, free along x only, on a rigid floor and under a rigid plate.
-Found press(const Pressed& pressed) {
-  const double size = pressed.size;
+/// A strip on its way between the plates: its scene and what is measured against.
+struct Press {
+  Strip strip;
+  std::vector<Vec2> row; ///< as first_row
+  double nearer;         ///< mm, by which the row is shorter than the strip
+  double top;            ///< mm, its highest place
+};
+
+Press make_press(const Pressed& pressed) {
   // Rims are softer than what is between them: with 12 squares across N is lower than with 24 by
   // 0.1 %.
-  const Strip strip{pressed.length - size, 12.0 * size, size, 0.0, bending, yarn};
-  const std::vector<Vec2> row = first_row(pressed);
-  const double nearer = strip.free_length - (row.back().x() - row.front().x());
-  double top = pressed.noise;
-  for (const Vec2& at : row)
-    top = std::max(top, at.y() + pressed.noise);
+  const Strip strip{
+      pressed.length - pressed.size, 12.0 * pressed.size, pressed.size, 0.0, bending, yarn};
+  Press press{strip, first_row(pressed), 0.0, pressed.noise};
+  press.nearer = strip.free_length - (press.row.back().x() - press.row.front().x());
+  for (const Vec2& at : press.row)
+    press.top = std::max(press.top, at.y() + pressed.noise);
+  return press;
+}
 
-  Case data = strip_case(strip);
+/// Clamped at both ends of `length`, free along x only, on a rigid floor and under a rigid plate.
+Case press_case(const Pressed& pressed, const Press& press) {
+  Case data = strip_case(press.strip);
   hold_all(data, {false, true, false});
-  data.boundaries[1].stroke = nearer - pressed.shortening * pressed.length;
-  const double thickness = data.fabrics[0].thickness;
+  data.boundaries[1].stroke = press.nearer - pressed.shortening * pressed.length;
   Tool floor;
   floor.name = "floor";
-  floor.shape = Box{{2.0 * pressed.length, 2.0 * strip.width, 10.0}};
+  floor.shape = Box{{2.0 * pressed.length, 2.0 * press.strip.width, 10.0}};
   floor.position = {0.0, 0.0, -5.0};
   Tool plate = floor;
   plate.name = "plate";
-  plate.position.z() = thickness + top + 5.0;
+  plate.position.z() = data.fabrics[0].thickness + press.top + 5.0;
   plate.motion = Motion::force;
-  plate.force = pressure * strip.width * pressed.length;
+  plate.force = pressure * press.strip.width * pressed.length;
   data.tools = {floor, plate};
   set_friction(data, 0.0);
   data.solver.mass_damping = 2000.0; // 1/s, 0.2 of critical for free waves of 20 mm
   data.solver.duration = 0.03;       // s, 27 of their swings; N of 30 mm is the same in 0.06 s
+  return data;
+}
 
-  Scene scene = make_scene(data);
-  PlyState& ply = scene.plies[0];
+/// Puts the nodes into the waves of the row, with noise.
+void set_waves(PlyState& ply, const Pressed& pressed, const Press& press) {
   Random random(1);
+  const std::vector<Vec2>& row = press.row;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
-    const long i = std::lround((ply.x[n].x() - row.front().x()) / size);
+    const long i = std::lround((ply.x[n].x() - row.front().x()) / pressed.size);
     const long last = static_cast<long>(row.size()) - 1;
     const Vec2 at = row[std::clamp(i, 0L, last)];
     if (i > 0 && i < last)
       ply.x[n] = {at.x(), ply.x[n].y(),
                   ply.x[n].z() + at.y() + 0.5 * pressed.noise * (1.0 + signed_unit(random))};
-    if (i >= last) ply.x0[n].x() -= nearer, ply.x[n] = ply.x0[n]; // the right clamp
+    if (i >= last) ply.x0[n].x() -= press.nearer, ply.x[n] = ply.x0[n]; // the right clamp
   }
+}
+
+/// Height (mm) of the highest node of the middle row over the floor, and the count of waves that
+/// rise above half of `height` or 0.05 mm, below which a strip is flat.
+std::pair<double, int> count_waves(const PlyFrame& ply, double size, double thickness,
+                                   double height) {
+  std::vector<Vec2> middle; // x, z
+  for (std::size_t n = 0; n < ply.x.size(); ++n)
+    if (std::abs(ply.x0[n].y()) < 0.25 * size)
+      middle.emplace_back(ply.x[n].x(), ply.x[n].z() - 0.5 * thickness);
+  std::sort(middle.begin(), middle.end(),
+            [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
+  double highest = 0.0;
+  int count = 0;
+  const double half = std::max(0.5 * height, 0.05);
+  for (std::size_t i = 1; i < middle.size(); ++i) {
+    highest = std::max(highest, middle[i].y());
+    if (middle[i - 1].y() < half && middle[i].y() >= half) ++count;
+  }
+  return {highest, count};
+}
+
+Found press(const Pressed& pressed) {
+  const Press start = make_press(pressed);
+  const Case data = press_case(pressed, start);
+  Scene scene = make_scene(data);
+  set_waves(scene.plies[0], pressed, start);
   const RunResult run = run_scene(scene, 1, {});
   EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
   const Energies& energy = run.last.energy;
   EXPECT_LE(energy.kinetic, 1e-4 * energy.fibre);
   EXPECT_LE(std::abs(energy.balance_error()), 0.01);
-  const double area = strip.width * pressed.length;
+  const double area = start.strip.width * pressed.length;
   EXPECT_NEAR(run.last.tools[1].force_N, pressure * area, 1e-3 * pressure * area);
 
   Found found;
-  found.force = -right_load(run) / strip.width;
-  found.height = top + run.last.tools[1].displacement.z();
+  found.force = -right_load(run) / start.strip.width;
+  found.height = start.top + run.last.tools[1].displacement.z();
   found.energy = energy.bending / area + pressure * found.height;
-  found.excess = pressed.shortening - found.force / along * strip.free_length / pressed.length;
-  std::vector<Vec2> middle; // x, z
-  const PlyFrame& last = run.last.plies[0];
-  for (std::size_t n = 0; n < last.x.size(); ++n)
-    if (std::abs(last.x0[n].y()) < 0.25 * size)
-      middle.emplace_back(last.x[n].x(), last.x[n].z() - 0.5 * thickness);
-  std::sort(middle.begin(), middle.end(),
-            [](const Vec2& a, const Vec2& b) { return a.x() < b.x(); });
-  double highest = 0.0;
-  for (std::size_t i = 1; i < middle.size(); ++i) {
-    highest = std::max(highest, middle[i].y());
-    const double half = std::max(0.5 * found.height, 0.05); // mm; lower is flat
-    if (middle[i - 1].y() < half && middle[i].y() >= half) ++found.count;
-  }
+  found.excess =
+      pressed.shortening - found.force / along * start.strip.free_length / pressed.length;
+  const auto [highest, count] =
+      count_waves(run.last.plies[0], pressed.size, data.fabrics[0].thickness, found.height);
+  found.count = count;
   EXPECT_NEAR(highest, found.height, 0.0005); // nodes go 0.0002 mm into floor and plate
   return found;
 }

@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <exception>
 #include <fmt/format.h>
+#include <functional>
 
 using namespace plyform;
 
@@ -34,6 +35,75 @@ int export_command(const std::string& directory) {
   return 0;
 }
 
+/// What the commands are given.
+struct Arguments {
+  RunArguments run;
+  CaseArguments check;
+  ChartArguments chart;
+  std::string results; ///< folder to export
+  IdentifyArguments identify;
+  TheoryArguments theory;
+  bool markdown = false; ///< keys as a page
+};
+
+/// A command and what it does once its arguments are there; the exit code.
+struct Command {
+  CLI::App* app;
+  std::function<int()> act;
+};
+
+void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& commands) {
+  CLI::App* run = app.add_subcommand("run", "form the plies of a case and write the results");
+  add_case_options(*run, to.run.input);
+  run->add_option("-o,--output", to.run.output, "folder for the results [results/NAME]");
+  run->add_option("--threads", to.run.threads, "threads; the results do not depend on it")
+      ->check(CLI::Range(1, 256));
+  add_accuracy(*run, to.run.input);
+  commands.push_back({run, [&to] { return run_command(to.run); }});
+
+  CLI::App* check =
+      app.add_subcommand("check", "say what will be modelled, or every mistake in the case");
+  add_case_options(*check, to.check);
+  add_accuracy(*check, to.check);
+  commands.push_back({check, [&to] { return check_command(to.check); }});
+
+  CLI::App* chart =
+      app.add_subcommand("chart", "run a case over its dials, draw wall time against error");
+  chart->add_option("study", to.chart.study, "study file")->required();
+  chart->add_option("-o,--output", to.chart.output, "folder for chart and runs [results/STUDY]");
+  chart->add_option("--jobs", to.chart.jobs, "runs at a time [cores / threads]")
+      ->check(CLI::Range(1, 256));
+  chart->add_option("--threads", to.chart.threads, "threads of each run [1]")
+      ->check(CLI::Range(1, 256));
+  commands.push_back({chart, [&to] { return chart_command(to.chart); }});
+}
+
+void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& commands) {
+  CLI::App* results = app.add_subcommand("export", "write the last state in other formats");
+  results->add_option("results", to.results, "folder of a run")->required();
+  commands.push_back({results, [&to] { return export_command(to.results); }});
+
+  CLI::App* identify =
+      app.add_subcommand("identify", "turn a measured curve into a law of the fabric");
+  add_identify_tests(*identify, to.identify);
+  commands.push_back({identify, [&to] { return identify_command(to.identify); }});
+
+  CLI::App* theory =
+      app.add_subcommand("theory", "write the curve that a shear test of a fabric should give");
+  add_theory_tests(*theory, to.theory);
+  commands.push_back({theory, [&to] { return theory_command(to.theory); }});
+
+  CLI::App* keys = app.add_subcommand("keys", "list every key of case and fabric files");
+  keys->add_flag("--markdown", to.markdown, "as a page of tables");
+  commands.push_back({keys, [&to] { return keys_command(to.markdown); }});
+
+  CLI::App* print_version = app.add_subcommand("version", "print the version");
+  commands.push_back({print_version, [] {
+                        fmt::print("plyform {}\n", version());
+                        return 0;
+                      }});
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
@@ -41,67 +111,20 @@ int main(int argc, char** argv) {
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 done, 2 the case or curve is wrong, 3 the simulation stopped itself, 1 else.");
-
-  RunArguments run;
-  CLI::App* run_app = app.add_subcommand("run", "form the plies of a case and write the results");
-  add_case_options(*run_app, run.input);
-  run_app->add_option("-o,--output", run.output, "folder for the results [results/NAME]");
-  run_app->add_option("--threads", run.threads, "threads; the results do not depend on it")
-      ->check(CLI::Range(1, 256));
-  add_accuracy(*run_app, run.input);
-
-  CaseArguments check;
-  CLI::App* check_app =
-      app.add_subcommand("check", "say what will be modelled, or every mistake in the case");
-  add_case_options(*check_app, check);
-  add_accuracy(*check_app, check);
-
-  ChartArguments chart;
-  CLI::App* chart_app =
-      app.add_subcommand("chart", "run a case over its dials, draw wall time against error");
-  chart_app->add_option("study", chart.study, "study file")->required();
-  chart_app->add_option("-o,--output", chart.output, "folder for chart and runs [results/STUDY]");
-  chart_app->add_option("--jobs", chart.jobs, "runs at a time [cores / threads]")
-      ->check(CLI::Range(1, 256));
-  chart_app->add_option("--threads", chart.threads, "threads of each run [1]")
-      ->check(CLI::Range(1, 256));
-
-  std::string results;
-  CLI::App* export_app = app.add_subcommand("export", "write the last state in other formats");
-  export_app->add_option("results", results, "folder of a run")->required();
-
-  IdentifyArguments identify;
-  CLI::App* identify_app =
-      app.add_subcommand("identify", "turn a measured curve into a law of the fabric");
-  add_identify_tests(*identify_app, identify);
-
-  TheoryArguments theory;
-  CLI::App* theory_app =
-      app.add_subcommand("theory", "write the curve that a shear test of a fabric should give");
-  add_theory_tests(*theory_app, theory);
-
-  CLI::App* keys_app = app.add_subcommand("keys", "list every key of case and fabric files");
-  bool markdown = false;
-  keys_app->add_flag("--markdown", markdown, "as a page of tables");
-  CLI::App* version_app = app.add_subcommand("version", "print the version");
-
+  Arguments arguments;
+  std::vector<Command> commands;
+  add_case_commands(app, arguments, commands);
+  add_other_commands(app, arguments, commands);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
     return app.exit(e) == 0 ? exit_done : exit_other;
   }
   try {
-    if (run_app->parsed()) return run_command(run);
-    if (check_app->parsed()) return check_command(check);
-    if (chart_app->parsed()) return chart_command(chart);
-    if (export_app->parsed()) return export_command(results);
-    if (identify_app->parsed()) return identify_command(identify);
-    if (theory_app->parsed()) return theory_command(theory);
-    if (keys_app->parsed()) return keys_command(markdown);
-    if (version_app->parsed()) fmt::print("plyform {}\n", version());
-    return 0;
+    for (const Command& command : commands)
+      if (command.app->parsed()) return command.act();
   } catch (const std::exception& e) {
     fmt::print(stderr, "plyform: error: {}\n", e.what());
-    return 1;
   }
+  return exit_other;
 }
