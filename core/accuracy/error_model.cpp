@@ -16,13 +16,13 @@ namespace {
 // plies and on bias_extension (docs/users/accuracy.md).
 constexpr double c_inertia = 0.52, c_stack = 33.7, p_inertia = 1.5;
 constexpr double c_softening = 1580.0, p_softening = 0.84, p_shared = -0.25;
-constexpr double c_mesh = 40.0, p_mesh = 1.6, c_fewer = 0.6, settled = 5.0;
+constexpr double c_mesh = 40.0, p_mesh = 1.6, c_fewer = 0.6, many_plies = 5.0;
 
 constexpr double half_radian = 0.5;
 // The rule was not measured beyond:
-constexpr double most_softening = 1000.0, most_inertia = 2.8;
+constexpr double measured_max_softening = 1000.0, measured_max_inertia = 2.8;
 // Set on stacks of yarns that carry tension only, and not checked on real cloth.
-constexpr double most_softening_of_stack = 300.0;
+constexpr double measured_max_softening_of_stack = 300.0;
 
 double degrees(double radians) {
   return radians * 180.0 / M_PI;
@@ -36,12 +36,13 @@ struct Family {
 /// Numbers of (E) for duration 1 s, softening 1.
 struct Numbers {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
-  std::vector<Family> families{};  ///< `softening` is that of the softest
-  double swinging = 0.0;           ///< c_inertia or c_stack; 0: nothing has a stroke
-  double shared = 1.0;             ///< n^p_shared: plies hold each other's softened yarns
-  double softest = most_softening; ///< softening at most
-  double sliding = 1.0; ///< of few plies: which slide and which stick depends on the mesh
-  double load = 1.0;    ///< on softened yarns, times that under tools
+  std::vector<Family> families{};      ///< `softening` is that of the softest
+  double inertia_factor = 0.0;         ///< c_inertia or c_stack; 0: nothing has a stroke
+  double stack_softening_factor = 1.0; ///< n^p_shared: plies hold each other's softened yarns
+  double max_softening = measured_max_softening; ///< softening at most
+  /// Above 1 in a stack of few plies: which of them slide and which stick depends on the mesh.
+  double few_ply_mesh_factor = 1.0;
+  double clamp_load_factor = 1.0; ///< on softened yarns, times that under tools
 };
 
 /// w: energy of shear per area, N/mm.
@@ -81,11 +82,11 @@ Numbers numbers_of(const Case& data) {
   const bool pulled = strokes.boundary > strokes.tool;
   constexpr double in_grips = 5.5;
   const auto plies = static_cast<double>(data.plies.size());
-  n.swinging = pulled || plies > 1.0 ? c_stack : c_inertia;
-  n.load = pulled ? in_grips : 1.0;
-  n.shared = std::pow(plies, p_shared);
-  if (data.plies.size() > 1) n.softest = most_softening_of_stack;
-  if (plies > 1.0) n.sliding += c_fewer * std::max(settled - plies, 0.0);
+  n.inertia_factor = pulled || plies > 1.0 ? c_stack : c_inertia;
+  n.clamp_load_factor = pulled ? in_grips : 1.0;
+  n.stack_softening_factor = std::pow(plies, p_shared);
+  if (data.plies.size() > 1) n.max_softening = measured_max_softening_of_stack;
+  if (plies > 1.0) n.few_ply_mesh_factor += c_fewer * std::max(many_plies - plies, 0.0);
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[ply.fabric];
     const double size = data.blanks[ply.blank].element_size;
@@ -96,23 +97,24 @@ Numbers numbers_of(const Case& data) {
     n.inertia = std::max(n.inertia, 0.5 * f.surface_density * stroke * stroke / w);
     add_families(n, f, w);
   }
-  n.softest = std::min(n.softest, useful_softening(data));
+  n.max_softening = std::min(n.max_softening, useful_softening(data));
   return n;
 }
 
 double inertia_error(const Numbers& n, double duration) {
-  return n.swinging * std::pow(n.inertia / (duration * duration), p_inertia);
+  return n.inertia_factor * std::pow(n.inertia / (duration * duration), p_inertia);
 }
 
 double softening_error(const Numbers& n, double softening) {
   double worst = 0.0; // S of (E)
   for (const Family& f : n.families)
     worst = std::max(worst, f.softening * std::min(softening, f.most));
-  return c_softening * n.load * n.shared * std::pow(worst, p_softening);
+  return c_softening * n.clamp_load_factor * n.stack_softening_factor *
+         std::pow(worst, p_softening);
 }
 
 double mesh_error(const Numbers& n) {
-  return c_mesh * n.sliding * std::pow(n.mesh, p_mesh);
+  return c_mesh * n.few_ply_mesh_factor * std::pow(n.mesh, p_mesh);
 }
 
 } // namespace
@@ -129,7 +131,7 @@ double PredictedError::promised(const Case& data) const {
 
 PredictedError predicted_error(const Case& data) {
   const Numbers n = numbers_of(data);
-  if (n.swinging == 0.0) {
+  if (n.inertia_factor == 0.0) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     return {unknown, unknown, unknown};
   }
@@ -154,8 +156,9 @@ double preset_error(const std::string& word) {
 
 namespace {
 
-/// Dials, and what they cost: CPU time over that of the case's own mesh for 1 s and softening 1.
-struct Dials {
+/// Parameters, and what they cost: CPU time over that of the case's own mesh for 1 s and
+/// softening 1.
+struct CostParameters {
   double coarsening = 1.0, duration = 0.0, softening = 1.0;
   double cost = std::numeric_limits<double>::max();
   double excess = std::numeric_limits<double>::max(); ///< degrees, of the error over what is wanted
@@ -163,20 +166,22 @@ struct Dials {
 
 /// The largest softening whose error is `error` at most.
 double softening_for(const Numbers& n, double error) {
-  if (!(n.softening > 0.0)) return n.softest;
-  const double most = std::pow(error / (c_softening * n.load * n.shared), 1.0 / p_softening);
-  return std::clamp(most / n.softening, 1.0, n.softest);
+  if (!(n.softening > 0.0)) return n.max_softening;
+  const double most = std::pow(
+      error / (c_softening * n.clamp_load_factor * n.stack_softening_factor), 1.0 / p_softening);
+  return std::clamp(most / n.softening, 1.0, n.max_softening);
 }
 
 /// s, the shortest duration whose error is `error` at most.
 double duration_for(const Numbers& n, double error) {
-  const double inertia = std::min(most_inertia, std::pow(error / n.swinging, 1.0 / p_inertia));
+  const double inertia =
+      std::min(measured_max_inertia, std::pow(error / n.inertia_factor, 1.0 / p_inertia));
   return std::sqrt(n.inertia / inertia);
 }
 
 /// The cheapest duration and softening whose errors, squared, add up to `left2` at most.
-Dials cheapest(const Numbers& n, double left2) {
-  Dials best;
+CostParameters cheapest(const Numbers& n, double left2) {
+  CostParameters best;
   constexpr int shares = 200; // that of softening is walked through; inertia takes the rest
   for (int i = 1; i < shares; ++i) {
     const double share = static_cast<double>(i) / shares;
@@ -192,18 +197,19 @@ Dials cheapest(const Numbers& n, double left2) {
 }
 
 /// The same where one of the two, or both, are as the case has them.
-Dials cheapest(const Numbers& n, double left2, const SolverOptions& now, const FixedDials& fixed) {
+CostParameters cheapest(const Numbers& n, double left2, const SolverOptions& now,
+                        const FixedParameters& fixed) {
   if (!fixed.duration && !fixed.softening) return cheapest(n, left2);
   const auto left_by = [&](double error) {
     return std::sqrt(std::max(left2 - error * error, 0.25 * left2));
   };
-  Dials dials{1.0, now.duration, now.fibre_softening, 0.0, 0.0};
+  CostParameters parameters{1.0, now.duration, now.fibre_softening, 0.0, 0.0};
   if (!fixed.duration)
-    dials.duration = duration_for(n, left_by(softening_error(n, dials.softening)));
+    parameters.duration = duration_for(n, left_by(softening_error(n, parameters.softening)));
   if (!fixed.softening)
-    dials.softening = softening_for(n, left_by(inertia_error(n, dials.duration)));
-  dials.cost = dials.duration / std::sqrt(dials.softening);
-  return dials;
+    parameters.softening = softening_for(n, left_by(inertia_error(n, parameters.duration)));
+  parameters.cost = parameters.duration / std::sqrt(parameters.softening);
+  return parameters;
 }
 
 /// Whether every blank of a ply may have elements so many times as large: no longer than the
@@ -227,29 +233,30 @@ bool may_coarsen(const Case& data, double by) {
 
 } // namespace
 
-double pick_dials(Case& data, const FixedDials& fixed) {
+double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
   const Numbers n = numbers_of(data);
   const double wanted = degrees(data.accuracy.shear_error);
   if (!(wanted > 0.0) || n.inertia == 0.0) return 1.0;
-  Dials best;
+  CostParameters best;
   for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4}) { // the rule was not measured beyond
-    if (by > 1.0 && (fixed.element_size || n.sliding > 1.0 || !may_coarsen(data, by))) break;
+    if (by > 1.0 && (fixed.element_size || n.few_ply_mesh_factor > 1.0 || !may_coarsen(data, by)))
+      break;
     const double mesh = mesh_error(n) * std::pow(by, p_mesh);
     double left2 = wanted * wanted - mesh * mesh;
     const double least2 = 0.25 * wanted * wanted;
     if (left2 < least2 && by > 1.0) break;
     left2 = std::max(left2, least2);
-    Dials dials = cheapest(n, left2, data.solver, fixed);
-    dials.coarsening = by;
+    CostParameters parameters = cheapest(n, left2, data.solver, fixed);
+    parameters.coarsening = by;
     // elements, and the step, which contacts that are as stiff as before hold below h
-    dials.cost /= by * by * std::pow(by, 0.7);
-    dials.excess = std::max(
-        std::hypot(mesh, inertia_error(n, dials.duration), softening_error(n, dials.softening)) -
-            wanted * (1.0 + 1e-9),
-        0.0);
-    // where dials are fixed, what keeps the promise goes before what is cheap
-    const bool nearer = (fixed.duration || fixed.softening) && dials.excess != best.excess;
-    if (nearer ? dials.excess < best.excess : dials.cost < best.cost) best = dials;
+    parameters.cost /= by * by * std::pow(by, 0.7);
+    parameters.excess = std::max(std::hypot(mesh, inertia_error(n, parameters.duration),
+                                            softening_error(n, parameters.softening)) -
+                                     wanted * (1.0 + 1e-9),
+                                 0.0);
+    // where some are fixed, what keeps the promise goes before what is cheap
+    const bool nearer = (fixed.duration || fixed.softening) && parameters.excess != best.excess;
+    if (nearer ? parameters.excess < best.excess : parameters.cost < best.cost) best = parameters;
   }
   data.solver.duration = best.duration;
   data.solver.fibre_softening = best.softening;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run's dials cost in accuracy, and which dials to take for a wanted accuracy.
+// Error of the cost parameters of a run (duration, fibre softening, element size), and which of
+// them to take for a wanted accuracy.
 //
 // Error: root mean square, over all plies, of the difference in shear angle to a run that has
 // converged (docs/users/accuracy.md: how it was measured, on which cases the rule was set and on
@@ -35,14 +36,14 @@ struct PredictedError {
 /// and blanks the worst counts.
 PredictedError predicted_error(const Case& data);
 
-/// One line for the user; promised: degrees; coarsening: as pick_dials returned it.
+/// One line for the user; promised: degrees; coarsening: as pick_cost_parameters returned it.
 std::string describe_accuracy(const PredictedError& error, double promised, double coarsening);
 
 /// Presets of --accuracy, and their promise in degrees. 0 for a word that is none.
 double preset_error(const std::string& word);
 
-/// Dials that the user has set by hand.
-struct FixedDials {
+/// Cost parameters that the user has set by hand.
+struct FixedParameters {
   bool duration = false, softening = false, element_size = false;
 };
 
@@ -53,6 +54,6 @@ struct FixedDials {
 /// mesh leaves less than half of the error, inertia and softening get half. Nothing is done without
 /// accuracy.shear_deg or a stroke. What is fixed stays; the others then make up for it as far as
 /// they can, with half of the wanted error at least. Returns the element sizes over those before.
-double pick_dials(Case& data, const FixedDials& fixed = {});
+double pick_cost_parameters(Case& data, const FixedParameters& fixed = {});
 
 } // namespace plyform

@@ -42,8 +42,8 @@ using Override = std::pair<std::string, std::string>;
 /// Reads, overrides, checks against the table of keys; files are sought relative to the file that
 /// names them. An error in an override is reported with file "--set", line 1, and the column within
 /// KEY=VALUE. Never throws for anything that stands in the files. The case is as it is written, but
-/// for fabrics whose missing numbers are estimated (core/model/fabric_estimates.hpp): dials that an
-/// accuracy asks for, and the scene as a whole, are for whoever calls
+/// for fabrics whose missing numbers are estimated (core/model/fabric_estimates.hpp): an accuracy
+/// that it asks for, and the check of the whole scene, are left to the caller
 /// (core/setup/prepare_case.hpp).
 CaseReading read_case(const std::filesystem::path& file, const std::vector<Override>& overrides);
 

@@ -215,7 +215,7 @@ Rows accuracy_rows() {
                       "and up to 1.4 times larger elements"},
           {.key = "accuracy.shear_deg",
            .unit = "deg",
-           .otherwise = "as the solver's dials have it",
+           .otherwise = "as [solver] and element sizes have it",
            .ranges = {{.least = 0.05, .most = 20.0}},
            .meaning = "root mean square error of the shear angle that is allowed; `plyform run "
                       "--accuracy draft` is 3, standard 1, reference 0.3",

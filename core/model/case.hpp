@@ -90,7 +90,7 @@ struct ContactOptions {
 
 /// How near a run is to come to a converged one (core/accuracy/error_model.hpp).
 struct AccuracyOptions {
-  double shear_error = 0.0; ///< rad, rms; 0: not asked for, the solver's dials hold
+  double shear_error = 0.0; ///< rad, rms; 0: not asked for, solver and element sizes hold
 };
 
 /// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.

@@ -9,17 +9,19 @@
 namespace plyform {
 namespace {
 
-/// The dials that overrides have set, and their keys.
-std::pair<FixedDials, std::vector<std::string>> dials_set(const std::set<std::string>& overridden) {
-  FixedDials fixed;
+/// The cost parameters that overrides have set, and their keys.
+std::pair<FixedParameters, std::vector<std::string>>
+parameters_set(const std::set<std::string>& overridden) {
+  FixedParameters fixed;
   std::vector<std::string> keys;
   for (const std::string& key : overridden) {
-    bool* dial = nullptr;
-    if (key == "solver.duration") dial = &fixed.duration;
-    if (key == "solver.fibre_softening") dial = &fixed.softening;
-    if (key.starts_with("blanks.") && key.ends_with(".element_size")) dial = &fixed.element_size;
-    if (!dial) continue;
-    *dial = true;
+    bool* parameter = nullptr;
+    if (key == "solver.duration") parameter = &fixed.duration;
+    if (key == "solver.fibre_softening") parameter = &fixed.softening;
+    if (key.starts_with("blanks.") && key.ends_with(".element_size"))
+      parameter = &fixed.element_size;
+    if (!parameter) continue;
+    *parameter = true;
     keys.push_back(key);
   }
   return {fixed, keys};
@@ -32,11 +34,11 @@ PreparedCase prepare_case(const std::filesystem::path& file,
   CaseReading reading = read_case(file, overrides);
   PreparedCase prepared;
   if (reading.value) {
-    const auto [fixed, keys] = dials_set(reading.overridden);
-    prepared.coarsening = pick_dials(*reading.value, fixed);
+    const auto [fixed, keys] = parameters_set(reading.overridden);
+    prepared.coarsening = pick_cost_parameters(*reading.value, fixed);
     if (reading.value->accuracy.shear_error > 0.0 && !keys.empty())
       prepared.notes.push_back(
-          fmt::format("accuracy asked for: {} as set by hand, the other dials picked around {}",
+          fmt::format("accuracy asked for: {} as set by hand, the others picked around {}",
                       joined(keys), keys.size() == 1 ? "it" : "them"));
     prepared.meshes = check_case(reading);
   }

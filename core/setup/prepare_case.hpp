@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From a case file to the scene that will run: read as it is, the dials of the accuracy asked for,
-// checked as a whole and meshed, once.
+// From a case file to the scene that will run: read as it is, the cost parameters for the accuracy
+// asked for, checked as a whole and meshed, once.
 #pragma once
 
 #include "core/input/case_file.hpp"
@@ -16,8 +16,8 @@ struct PreparedCase {
   std::vector<std::string> notes; ///< what the accuracy asked for did not change, a sentence each
 };
 
-/// read_case, pick_dials, check_case. Dials that an override sets stay as they are where an
-/// accuracy is asked for: the others are picked around them, and a note says so.
+/// read_case, pick_cost_parameters, check_case. What an override sets stays as it is where an
+/// accuracy is asked for: the others are picked around it, and a note says so.
 PreparedCase prepare_case(const std::filesystem::path& file,
                           const std::vector<Override>& overrides);
 

@@ -144,8 +144,9 @@ PlyContact make_pair(const Case& data, const std::vector<PlyState>& plies, int a
   pair.contact.distance = 0.5 * (slave.thickness + master.thickness);
   pair.contact.law = make_law(data.contact, penalty, density, data.friction(a, b),
                               deepest_in_ply * pair.contact.distance);
-  // What a point sees late adds energy when it does, in proportion to `rest`: at h/50 a coarse
-  // stack's ledger is off by 8 %, at h/500 by less than 1 %, which costs 4 % of the time.
+  // A point that changes its face late gains energy in proportion to slide_limit: at 1/50 of the
+  // distance the balance of a coarse stack is off by 8 %, at 1/500 by less than 1 %, which costs
+  // 4 % of the time.
   pair.contact.slide_limit = 0.002 * pair.contact.distance;
   pair.contact.full_search_interval = 0.025 * std::sqrt(cell_area(master));
   return pair;

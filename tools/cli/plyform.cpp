@@ -68,7 +68,7 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   commands.push_back({check, [&to] { return check_command(to.check); }});
 
   CLI::App* chart =
-      app.add_subcommand("chart", "run a case over its dials, draw wall time against error");
+      app.add_subcommand("chart", "run a case over its settings, draw wall time against error");
   chart->add_option("study", to.chart.study, "study file")->required();
   chart->add_option("-o,--output", to.chart.output, "folder for chart and runs [results/STUDY]");
   chart->add_option("--jobs", to.chart.jobs, "runs at a time [cores / threads]")

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rule that picks dials: against a search by hand, on real cases. Whether what it promises
-// holds is measured by `plyform chart` (docs/users/accuracy.md).
+// The rule that picks cost parameters: against a search by hand, on real cases. Whether what it
+// promises holds is measured by `plyform chart` (docs/users/accuracy.md).
 #include "core/accuracy/error_model.hpp"
 #include "core/setup/prepare_case.hpp"
 
@@ -42,7 +42,7 @@ TEST(Accuracy, PicksTheLeastWorkOfAllDialsThatKeepThePromise) {
     Case data = case_at(five);
     const double own_size = data.blanks[0].element_size;
     data.accuracy.shear_error = wanted * std::numbers::pi / 180.0;
-    pick_dials(data);
+    pick_cost_parameters(data);
     const PredictedError error = predicted_error(data);
     EXPECT_LE(error.total(), 1.0001 * wanted);
     EXPECT_NEAR(error.promised(data), wanted, 1e-9);
@@ -72,22 +72,22 @@ TEST(Accuracy, SoftensNoFurtherThanCompressionAllows) {
   EXPECT_NEAR(predicted_error(cloth).softening, error, 1e-12 * error);
   EXPECT_EQ(error, predicted_error(case_at(five)).softening);
   cloth.accuracy.shear_error = 3.0 * std::numbers::pi / 180.0;
-  pick_dials(cloth);
+  pick_cost_parameters(cloth);
   EXPECT_NEAR(cloth.solver.fibre_softening, 48000.0 / 480.0, 1e-9);
   Case paper = case_at(five);
   paper.accuracy.shear_error = cloth.accuracy.shear_error;
-  pick_dials(paper);
+  pick_cost_parameters(paper);
   EXPECT_GT(paper.solver.fibre_softening, 200.0);
 }
 
 TEST(Accuracy, WorksAroundDialsThatAreFixed) {
   const double wanted = 2.0;
-  const auto picked = [&](const FixedDials& fixed, double duration, double softening) {
+  const auto picked = [&](const FixedParameters& fixed, double duration, double softening) {
     Case data = case_at(five);
     data.solver.duration = duration;
     data.solver.fibre_softening = softening;
     data.accuracy.shear_error = wanted * std::numbers::pi / 180.0;
-    const double by = pick_dials(data, fixed);
+    const double by = pick_cost_parameters(data, fixed);
     EXPECT_NEAR(data.blanks[0].element_size, by * case_at(five).blanks[0].element_size, 1e-12);
     return data;
   };
@@ -125,7 +125,7 @@ TEST(Accuracy, KeepsWhatOverridesSetAndSaysSo) {
   EXPECT_EQ(kept.coarsening, 1.0);
   ASSERT_EQ(kept.notes.size(), 1u);
   EXPECT_EQ(kept.notes[0], "accuracy asked for: blanks.square.element_size, solver.duration as set "
-                           "by hand, the other dials picked around them");
+                           "by hand, the others picked around them");
   EXPECT_EQ(kept.meshes.size(), 5u);
 }
 
@@ -134,7 +134,7 @@ double size_for(const std::string& case_file, double wanted,
                 const std::vector<Override>& overrides = {}) {
   Case data = case_at(case_file, overrides);
   data.accuracy.shear_error = wanted * std::numbers::pi / 180.0;
-  pick_dials(data);
+  pick_cost_parameters(data);
   return data.blanks[0].element_size;
 }
 
@@ -153,14 +153,14 @@ TEST(Accuracy, StaysWhereTheRuleWasMeasured) {
   Case data = case_at(PLYFORM_CASES "/hemisphere_0/case.toml");
   const double at_tenth = predicted_error(data).inertia; // one ply: small
   data.accuracy.shear_error = 15.0 * std::numbers::pi / 180.0;
-  pick_dials(data);
+  pick_cost_parameters(data);
   EXPECT_LE(data.solver.fibre_softening, 1000.0);
   EXPECT_GT(data.solver.duration, 0.012); // I = 2.8 is at 0.0125 s
   EXPECT_GT(predicted_error(data).inertia, at_tenth);
   Case lying = case_at(PLYFORM_CASES "/circular_table/case.toml"); // gravity only
   const double duration = lying.solver.duration;
   lying.accuracy.shear_error = 0.02;
-  pick_dials(lying);
+  pick_cost_parameters(lying);
   EXPECT_EQ(lying.solver.duration, duration);
   EXPECT_TRUE(std::isnan(predicted_error(lying).promised(lying)));
   EXPECT_EQ(describe_accuracy(predicted_error(lying), predicted_error(lying).promised(lying), 1.0),
@@ -170,7 +170,7 @@ TEST(Accuracy, StaysWhereTheRuleWasMeasured) {
 TEST(Accuracy, AMeshTooCoarseLeavesHalfToTheOtherDials) {
   Case data = case_at(five, {{"blanks.square.element_size", "40"}});
   data.accuracy.shear_error = 1.0 * std::numbers::pi / 180.0;
-  pick_dials(data);
+  pick_cost_parameters(data);
   const PredictedError error = predicted_error(data);
   ASSERT_GT(error.mesh, 1.0);
   EXPECT_NEAR(std::hypot(error.inertia, error.softening), 0.5, 0.001);
