@@ -1,22 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // summary.json: the few numbers of each ply and tool that a sweep or a report needs.
-//
-// A percentile or a mean over triangles is weighted by their area before forming, so that a fine
-// mesh in one corner does not decide it.
 #include "core/results/result_fields.hpp"
+#include "core/results/statistics.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
-#include <numeric>
 
 namespace plyform {
 
 namespace {
-
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 /// Bytes of the well-formed UTF-8 sequence that begins at text[i]; 0 when there is none
 /// (Unicode 15, table 3-7).
@@ -67,64 +61,10 @@ std::string json_number(double value) {
   return std::isfinite(value) ? fmt::format("{:.9g}", value) : "null";
 }
 
-/// The largest of |values|, 0 for none; NaN if any is.
-double largest_magnitude(const std::vector<double>& values) {
-  double largest = 0;
-  for (const double value : values) {
-    if (std::isnan(value)) return nan_value;
-    largest = std::max(largest, std::abs(value));
-  }
-  return largest;
-}
-
-/// The largest of the values themselves; NaN if any is, or if there is none.
-double largest_value(const std::vector<double>& values) {
-  double largest = values.empty() ? nan_value : values.front();
-  for (const double value : values) {
-    if (std::isnan(value)) return nan_value;
-    largest = std::max(largest, value);
-  }
-  return largest;
-}
-
-/// The smallest |value| that is not exceeded on `share` of the area.
-double percentile(const std::vector<double>& values, const std::vector<double>& areas,
-                  double share) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), 0u);
-  for (const double value : values)
-    if (std::isnan(value)) return nan_value; // no order to sort by
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(values[a]) < std::abs(values[b]);
-  });
-  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
-  double below = 0;
-  for (const std::size_t i : order) {
-    below += areas[i];
-    // The sum's rounding must not push an exact share to the next triangle.
-    if (below >= share * total * (1 - 1e-12)) return std::abs(values[i]);
-  }
-  return values.empty() ? 0 : std::abs(values[order.back()]);
-}
-
-double root_mean_square(const std::vector<double>& values, const std::vector<double>& areas) {
-  double sum = 0, total = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    sum += areas[i] * values[i] * values[i];
-    total += areas[i];
-  }
-  return values.empty() ? 0 : std::sqrt(sum / total);
-}
-
-/// std::max would drop a NaN on its right.
-double larger(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? nan_value : std::max(a, b);
-}
-
-std::vector<double> negative(std::vector<double> values) {
-  for (double& v : values)
-    v = -v;
-  return values;
+/// Values of both families of yarns in one list.
+std::vector<double> of_both(std::vector<double> warp, const std::vector<double>& weft) {
+  warp.insert(warp.end(), weft.begin(), weft.end());
+  return warp;
 }
 
 /// A place, mm.
@@ -181,6 +121,8 @@ std::string report_json(const PlyReport& report) {
 /// `report`: null where nothing but the fields is known.
 std::string ply_json(const PlyFrame& ply, const PlyReport* report) {
   const std::vector<double> areas = areas_before(ply);
+  const std::vector<double> strains = of_both(ply.warp_strain, ply.weft_strain);
+  const std::vector<double> tensions = of_both(ply.warp_tension, ply.weft_tension);
   return fmt::format(
       "{{\"name\": {}, \"angle_deg\": {}, \"max_shear_deg\": {}, \"p99_shear_deg\": {}, "
       "\"rms_shear_deg\": {}, \"max_fibre_strain\": {}, \"min_fibre_strain\": {}, "
@@ -188,11 +130,8 @@ std::string ply_json(const PlyFrame& ply, const PlyReport* report) {
       json_string(ply.name), json_number(ply.angle_deg),
       json_number(largest_magnitude(ply.shear_deg)),
       json_number(percentile(ply.shear_deg, areas, 0.99)),
-      json_number(root_mean_square(ply.shear_deg, areas)),
-      json_number(larger(largest_value(ply.warp_strain), largest_value(ply.weft_strain))),
-      json_number(-larger(largest_value(negative(ply.warp_strain)),
-                          largest_value(negative(ply.weft_strain)))),
-      json_number(larger(largest_value(ply.warp_tension), largest_value(ply.weft_tension))),
+      json_number(root_mean_square(ply.shear_deg, areas)), json_number(largest(strains)),
+      json_number(smallest(strains)), json_number(largest(tensions)),
       report ? report_json(*report) : "");
 }
 
