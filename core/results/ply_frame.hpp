@@ -56,9 +56,4 @@ inline constexpr std::array<Column<Vec3>, 1> node_vectors = {{
 /// Area of each triangle before forming, mm^2; m of them.
 std::vector<double> areas_before(const PlyFrame& ply);
 
-/// Area of the triangles whose value passes the limit over the area of all; 0 for a ply without
-/// area. NaN if a value is. Sizes: m values, m areas.
-double area_share_above(const std::vector<double>& values, double limit,
-                        const std::vector<double>& areas);
-
 } // namespace plyform

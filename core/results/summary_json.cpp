@@ -1,262 +1,193 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// summary.json: the few numbers of each ply and tool that a sweep or a report needs.
-//
-// A percentile or a mean over triangles is weighted by their area before forming, so that a fine
-// mesh in one corner does not decide it.
+// summary.json: the few numbers of each ply and tool that a sweep or a report needs. Keys stand in
+// the order in which they are named here; docs/users/results.md says what they mean.
 #include "core/results/result_fields.hpp"
+#include "core/results/statistics.hpp"
 
 #include <algorithm>
 #include <array>
+#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <limits>
-#include <numeric>
+#include <nlohmann/json.hpp>
 
 namespace plyform {
 
 namespace {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
+using Json = nlohmann::ordered_json;
 
-/// Bytes of the well-formed UTF-8 sequence that begins at text[i]; 0 when there is none
-/// (Unicode 15, table 3-7).
-std::size_t utf8_length(std::string_view text, std::size_t i) {
-  const auto byte = [&](std::size_t k) {
-    return k < text.size() ? static_cast<unsigned char>(text[k]) : 0u;
-  };
-  const unsigned first = byte(i), second = byte(i + 1);
-  if (first < 0x80) return 1;
-  std::size_t length = 0;
-  unsigned low = 0x80, high = 0xBF; // of the second byte
-  if (first >= 0xC2 && first <= 0xDF) {
-    length = 2;
-  } else if (first >= 0xE0 && first <= 0xEF) {
-    length = 3;
-    if (first == 0xE0) low = 0xA0;  // overlong
-    if (first == 0xED) high = 0x9F; // surrogates
-  } else if (first >= 0xF0 && first <= 0xF4) {
-    length = 4;
-    if (first == 0xF0) low = 0x90;  // overlong
-    if (first == 0xF4) high = 0x8F; // beyond U+10FFFF
-  }
-  if (length == 0 || second < low || second > high) return 0;
-  for (std::size_t k = 2; k < length; ++k)
-    if (byte(i + k) < 0x80 || byte(i + k) > 0xBF) return 0;
-  return length;
+/// Nine digits are more than any result is good for; all seventeen would be hard to read. What is
+/// not finite stays so: the library writes null for it.
+double rounded(double value) {
+  if (!std::isfinite(value)) return value;
+  const std::string digits = fmt::format("{:.9g}", value);
+  std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  return value;
 }
 
-std::string json_string(std::string_view text) {
-  std::string out = "\"";
-  for (std::size_t i = 0; i < text.size();) {
-    const std::size_t length = utf8_length(text, i);
-    const auto c = static_cast<unsigned char>(text[i]);
-    if (length == 0)
-      out += "\\ufffd"; // the replacement character: a reader would refuse the byte itself
-    else if (c == '"' || c == '\\')
-      (out += '\\') += text[i];
-    else if (c < 0x20 || c == 0x7f)
-      out += fmt::format("\\u{:04x}", static_cast<unsigned>(c));
-    else
-      out += text.substr(i, length);
-    i += std::max<std::size_t>(length, 1);
-  }
-  return out + '"';
+/// A share of the computing time, to four decimals: it differs from run to run.
+double rounded_share(double value) {
+  return std::round(value * 1e4) / 1e4;
 }
 
-std::string json_number(double value) {
-  return std::isfinite(value) ? fmt::format("{:.9g}", value) : "null";
-}
-
-/// The largest of |values|, 0 for none; NaN if any is.
-double largest_magnitude(const std::vector<double>& values) {
-  double largest = 0;
-  for (const double value : values) {
-    if (std::isnan(value)) return nan_value;
-    largest = std::max(largest, std::abs(value));
-  }
-  return largest;
-}
-
-/// The largest of the values themselves; NaN if any is, or if there is none.
-double largest_value(const std::vector<double>& values) {
-  double largest = values.empty() ? nan_value : values.front();
-  for (const double value : values) {
-    if (std::isnan(value)) return nan_value;
-    largest = std::max(largest, value);
-  }
-  return largest;
-}
-
-/// The smallest |value| that is not exceeded on `share` of the area.
-double percentile(const std::vector<double>& values, const std::vector<double>& areas,
-                  double share) {
-  std::vector<std::size_t> order(values.size());
-  std::iota(order.begin(), order.end(), 0u);
-  for (const double value : values)
-    if (std::isnan(value)) return nan_value; // no order to sort by
-  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
-    return std::abs(values[a]) < std::abs(values[b]);
-  });
-  const double total = std::accumulate(areas.begin(), areas.end(), 0.0);
-  double below = 0;
-  for (const std::size_t i : order) {
-    below += areas[i];
-    // The sum's rounding must not push an exact share to the next triangle.
-    if (below >= share * total * (1 - 1e-12)) return std::abs(values[i]);
-  }
-  return values.empty() ? 0 : std::abs(values[order.back()]);
-}
-
-double root_mean_square(const std::vector<double>& values, const std::vector<double>& areas) {
-  double sum = 0, total = 0;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    sum += areas[i] * values[i] * values[i];
-    total += areas[i];
-  }
-  return values.empty() ? 0 : std::sqrt(sum / total);
-}
-
-/// std::max would drop a NaN on its right.
-double larger(double a, double b) {
-  return std::isnan(a) || std::isnan(b) ? nan_value : std::max(a, b);
-}
-
-std::vector<double> negative(std::vector<double> values) {
-  for (double& v : values)
-    v = -v;
-  return values;
+template <class Item>
+Json list_of(const std::vector<Item>& items, Json (*object)(const Item&)) {
+  Json list = Json::array();
+  for (const Item& item : items)
+    list.push_back(object(item));
+  return list;
 }
 
 /// A place, mm.
-std::string json_place(const Vec3& x) {
-  return fmt::format("[{}, {}, {}]", json_number(x.x()), json_number(x.y()), json_number(x.z()));
+Json place(const Vec3& x) {
+  return Json::array({rounded(x.x()), rounded(x.y()), rounded(x.z())});
 }
 
-std::string json_numbers(const std::array<double, 4>& values) {
-  return fmt::format("[{}, {}, {}, {}]", json_number(values[0]), json_number(values[1]),
-                     json_number(values[2]), json_number(values[3]));
+// Plies.
+
+Json four_numbers(const std::array<double, 4>& values) {
+  return Json::array(
+      {rounded(values[0]), rounded(values[1]), rounded(values[2]), rounded(values[3])});
 }
 
 /// Four walks of core/results/draw_in.hpp.
-std::string walks_json(std::array<double, 4> directions, const std::array<double, 4>& each) {
+Json four_walks(std::array<double, 4> directions, const std::array<double, 4>& each) {
   double mean = 0.0;
   for (std::size_t k = 0; k < 4; ++k) {
     mean += each[k] / 4.0;
     directions[k] -= 360.0 * std::floor(directions[k] / 360.0);
   }
   const auto [least, most] = std::minmax_element(each.begin(), each.end());
-  return fmt::format("{{\"mean\": {}, \"spread\": {}, \"directions_deg\": {}, \"each\": {}}}",
-                     json_number(mean), json_number(*most - *least), json_numbers(directions),
-                     json_numbers(each));
+  return {{"mean", rounded(mean)},
+          {"spread", rounded(*most - *least)},
+          {"directions_deg", four_numbers(directions)},
+          {"each", four_numbers(each)}};
 }
 
-std::string draw_in_json(const DrawIn& d) {
-  if (!d.unknown.empty()) return fmt::format("\"no_draw_in\": {}", json_string(d.unknown));
-  return fmt::format("\"draw_in_mm\": {{\"mean\": {}, \"largest\": {}}}, "
-                     "\"draw_in_yarns_mm\": {}, \"draw_in_bisectors_mm\": {}",
-                     json_number(d.mean()), json_number(d.largest()),
-                     walks_json(d.yarns_deg, d.yarns), walks_json(d.bisectors_deg, d.bisectors));
+Json draw_in_keys(const DrawIn& d) {
+  if (!d.unknown.empty()) return {{"no_draw_in", d.unknown}};
+  return {{"draw_in_mm", {{"mean", rounded(d.mean())}, {"largest", rounded(d.largest())}}},
+          {"draw_in_yarns_mm", four_walks(d.yarns_deg, d.yarns)},
+          {"draw_in_bisectors_mm", four_walks(d.bisectors_deg, d.bisectors)}};
 }
 
-/// The keys of a ply's report, each with a comma before it.
-std::string report_json(const PlyReport& report) {
-  std::string out;
-  if (const auto& pressed = report.pressed)
-    out += fmt::format(", \"max_pressed_strain\": {}, \"area_share_pressed_over_2_percent\": {}, "
-                       "\"area_share_pressed_over_5_percent\": {}, \"excess_length_mm\": {}, "
-                       "\"excess_length_at_mm\": {}",
-                       json_number(pressed->largest), json_number(pressed->share_above_2),
-                       json_number(pressed->share_above_5), json_number(pressed->excess_mm),
-                       json_place(pressed->excess_at));
-  out += fmt::format(", \"wrinkle_height_mm\": {}, \"wrinkle_length_mm\": {}, "
-                     "\"wrinkle_at_mm\": {}",
-                     json_number(report.wrinkle.height), json_number(report.wrinkle.wavelength),
-                     json_place(report.wrinkle.at));
+Json pressed_keys(const PressedYarns& pressed) {
+  return {{"max_pressed_strain", rounded(pressed.largest)},
+          {"area_share_pressed_over_2_percent", rounded(pressed.share_above_2)},
+          {"area_share_pressed_over_5_percent", rounded(pressed.share_above_5)},
+          {"excess_length_mm", rounded(pressed.excess_mm)},
+          {"excess_length_at_mm", place(pressed.excess_at)}};
+}
+
+Json wrinkle_keys(const Wrinkle& wrinkle) {
+  return {{"wrinkle_height_mm", rounded(wrinkle.height)},
+          {"wrinkle_length_mm", rounded(wrinkle.wavelength)},
+          {"wrinkle_at_mm", place(wrinkle.at)}};
+}
+
+/// The keys of a ply that its report adds to those of its fields.
+Json report_keys(const PlyReport& report) {
+  Json keys = Json::object();
+  if (report.pressed) keys.update(pressed_keys(*report.pressed));
+  keys.update(wrinkle_keys(report.wrinkle));
   if (report.beyond_locking_share)
-    out += fmt::format(", \"area_share_beyond_locking_angle\": {}",
-                       json_number(*report.beyond_locking_share));
-  return out + ", " + draw_in_json(report.draw_in);
+    keys["area_share_beyond_locking_angle"] = rounded(*report.beyond_locking_share);
+  keys.update(draw_in_keys(report.draw_in));
+  return keys;
 }
 
-/// `report`: null where nothing but the fields is known.
-std::string ply_json(const PlyFrame& ply, const PlyReport* report) {
+/// Values of both families of yarns in one list.
+std::vector<double> of_both(std::vector<double> warp, const std::vector<double>& weft) {
+  warp.insert(warp.end(), weft.begin(), weft.end());
+  return warp;
+}
+
+Json ply_object(const PlyFrame& ply) {
   const std::vector<double> areas = areas_before(ply);
-  return fmt::format(
-      "{{\"name\": {}, \"angle_deg\": {}, \"max_shear_deg\": {}, \"p99_shear_deg\": {}, "
-      "\"rms_shear_deg\": {}, \"max_fibre_strain\": {}, \"min_fibre_strain\": {}, "
-      "\"max_tension_N_per_yarn\": {}{}}}",
-      json_string(ply.name), json_number(ply.angle_deg),
-      json_number(largest_magnitude(ply.shear_deg)),
-      json_number(percentile(ply.shear_deg, areas, 0.99)),
-      json_number(root_mean_square(ply.shear_deg, areas)),
-      json_number(larger(largest_value(ply.warp_strain), largest_value(ply.weft_strain))),
-      json_number(-larger(largest_value(negative(ply.warp_strain)),
-                          largest_value(negative(ply.weft_strain)))),
-      json_number(larger(largest_value(ply.warp_tension), largest_value(ply.weft_tension))),
-      report ? report_json(*report) : "");
+  const std::vector<double> strains = of_both(ply.warp_strain, ply.weft_strain);
+  const std::vector<double> tensions = of_both(ply.warp_tension, ply.weft_tension);
+  return {{"name", ply.name},
+          {"angle_deg", rounded(ply.angle_deg)},
+          {"max_shear_deg", rounded(largest_magnitude(ply.shear_deg))},
+          {"p99_shear_deg", rounded(percentile(ply.shear_deg, areas, 0.99))},
+          {"rms_shear_deg", rounded(root_mean_square(ply.shear_deg, areas))},
+          {"max_fibre_strain", rounded(largest(strains))},
+          {"min_fibre_strain", rounded(smallest(strains))},
+          {"max_tension_N_per_yarn", rounded(largest(tensions))}};
 }
 
-std::string tool_json(const ToolFrame& tool) {
-  return fmt::format("{{\"name\": {}, \"force_N\": {}, \"displacement_mm\": {}}}",
-                     json_string(tool.name), json_number(tool.force_N),
-                     json_number(tool.stroke_mm));
+/// `reports`: one a ply, or none where nothing but the fields is known.
+Json plies_list(const std::vector<PlyFrame>& plies, const std::vector<PlyReport>& reports) {
+  Json list = list_of(plies, ply_object);
+  if (!reports.empty())
+    for (std::size_t i = 0; i < plies.size(); ++i)
+      list[i].update(report_keys(reports.at(i)));
+  return list;
 }
 
-std::string boundary_json(const BoundaryFrame& boundary) {
-  return fmt::format("{{\"name\": {}, \"force_N\": {}, \"displacement_mm\": {}}}",
-                     json_string(boundary.name), json_number(boundary.force_N),
-                     json_number(boundary.stroke_mm));
+// Tools, boundaries, pairs.
+
+Json tool_object(const ToolFrame& tool) {
+  return {{"name", tool.name},
+          {"force_N", rounded(tool.force_N)},
+          {"displacement_mm", rounded(tool.stroke_mm)}};
 }
 
-template <class Item, class Text>
-std::string json_list(const std::vector<Item>& items, Text text) {
-  std::string out = "[";
-  for (const Item& item : items)
-    out += (out.size() > 1 ? ",\n    " : "\n    ") + text(item);
-  return out + (items.empty() ? "]" : "\n  ]");
+Json boundary_object(const BoundaryFrame& boundary) {
+  return {{"name", boundary.name},
+          {"force_N", rounded(boundary.force_N)},
+          {"displacement_mm", rounded(boundary.stroke_mm)}};
 }
 
-std::string energy_json(const Energies& e) {
-  std::string out = "{";
+Json pair_object(const PairReport& pair) {
+  return {{"a", pair.a},
+          {"b", pair.b},
+          {"time_share", rounded_share(pair.time_share)},
+          {"deepest_mm", rounded(pair.deepest_mm)},
+          {"slip_mm", rounded(pair.slip_mm)},
+          {"friction_coefficient", rounded(pair.friction_coefficient)},
+          {"friction_mJ", rounded(pair.friction_mJ)}};
+}
+
+// The run as a whole.
+
+Json energy_object(const Energies& e) {
+  Json energy;
   for (const EnergyTerm& term : energy_terms)
-    out += fmt::format("\"{}\": {}, ", term.name, json_number(e.*term.value));
-  return out + fmt::format("\"balance_error\": {}}}", json_number(e.balance_error()));
+    energy[term.name] = rounded(e.*term.value);
+  energy["balance_error"] = rounded(e.balance_error());
+  return energy;
 }
 
-std::string pair_json(const PairReport& pair) {
-  return fmt::format(
-      "{{\"a\": {}, \"b\": {}, \"time_share\": {:.4f}, \"deepest_mm\": {}, \"slip_mm\": {}, "
-      "\"friction_coefficient\": {}, \"friction_mJ\": {}}}",
-      json_string(pair.a), json_string(pair.b), pair.time_share, json_number(pair.deepest_mm),
-      json_number(pair.slip_mm), json_number(pair.friction_coefficient),
-      json_number(pair.friction_mJ));
+Json accuracy_object(const AccuracyReport& a) {
+  return {{"promised_shear_error_deg", rounded(a.promised_deg)},
+          {"inertia_deg", rounded(a.inertia_deg)},
+          {"softening_deg", rounded(a.softening_deg)},
+          {"mesh_deg", rounded(a.mesh_deg)},
+          {"element_size_factor", rounded(a.coarsening)}};
 }
 
-std::string time_json(const WorkReport& w) {
-  return fmt::format("{{\"elements\": {:.4f}, \"contact\": {:.4f}, \"search\": {:.4f}}}",
-                     w.elements_share, w.contact_share, w.search_share);
+Json contact_object(const ContactReport& c) {
+  return {
+      {"max_tool_penetration_mm", rounded(c.max_tool_penetration_mm)},
+      {"max_tool_penetration_between_nodes_mm", rounded(c.max_tool_penetration_between_nodes_mm)},
+      {"max_ply_penetration_mm", rounded(c.max_ply_penetration_mm)},
+      {"intersections_between_plies", c.intersections_between_plies},
+      {"intersections_within_plies", c.intersections_within_plies}};
 }
 
-std::string contact_json(const ContactReport& c) {
-  return fmt::format("{{\"max_tool_penetration_mm\": {}, "
-                     "\"max_tool_penetration_between_nodes_mm\": {}, "
-                     "\"max_ply_penetration_mm\": {}, "
-                     "\"intersections_between_plies\": {}, \"intersections_within_plies\": {}}}",
-                     json_number(c.max_tool_penetration_mm),
-                     json_number(c.max_tool_penetration_between_nodes_mm),
-                     json_number(c.max_ply_penetration_mm), c.intersections_between_plies,
-                     c.intersections_within_plies);
+Json time_step_object(const Summary& summary) {
+  return {{"min", rounded(summary.min_step_s)}, {"max", rounded(summary.max_step_s)}};
+}
+
+Json time_shares_object(const WorkReport& w) {
+  return {{"elements", rounded_share(w.elements_share)},
+          {"contact", rounded_share(w.contact_share)},
+          {"search", rounded_share(w.search_share)}};
 }
 
 } // namespace
-
-std::string accuracy_json(const AccuracyReport& a) {
-  return fmt::format("{{\"promised_shear_error_deg\": {}, \"inertia_deg\": {}, "
-                     "\"softening_deg\": {}, \"mesh_deg\": {}, \"element_size_factor\": {}}}",
-                     json_number(a.promised_deg), json_number(a.inertia_deg),
-                     json_number(a.softening_deg), json_number(a.mesh_deg),
-                     json_number(a.coarsening));
-}
 
 std::string summary_json(const Frame& last, const Summary& summary) {
   std::size_t elements = 0, nodes = 0;
@@ -264,39 +195,32 @@ std::string summary_json(const Frame& last, const Summary& summary) {
     elements += ply.triangles.size();
     nodes += ply.x0.size();
   }
-  std::string out = "{\n";
-  const auto entry = [&](const char* key, const std::string& value) {
-    out += fmt::format("{}  \"{}\": {}", out.size() > 2 ? ",\n" : "", key, value);
-  };
-  entry("title", json_string(summary.title));
-  entry("version", json_string(summary.version));
-  entry("status", json_string(summary.status));
-  entry("message", json_string(summary.message));
-  entry("time_s", json_number(last.time));
-  entry("stroke_mm", json_number(last.stroke_mm));
-  entry("wall_time_s", json_number(summary.wall_time_s));
-  entry("steps", fmt::to_string(summary.steps));
-  entry("time_step_s", fmt::format("{{\"min\": {}, \"max\": {}}}", json_number(summary.min_step_s),
-                                   json_number(summary.max_step_s)));
-  entry("threads", fmt::to_string(summary.threads));
-  entry("elements", fmt::to_string(elements));
-  entry("nodes", fmt::to_string(nodes));
-  entry("plies", json_list(last.plies, [&](const PlyFrame& ply) {
-          const auto index = static_cast<std::size_t>(&ply - last.plies.data());
-          return ply_json(ply, summary.plies.empty() ? nullptr : &summary.plies.at(index));
-        }));
-  entry("tools", json_list(last.tools, tool_json));
-  entry("boundaries", json_list(last.boundaries, boundary_json));
-  entry("energy", energy_json(last.energy));
-  entry("accuracy", accuracy_json(summary.accuracy));
-  entry("contact", contact_json(summary.contact));
-  entry("searches", fmt::to_string(summary.work.searches));
-  entry("time_shares", time_json(summary.work));
-  entry("pairs", json_list(summary.work.pairs, pair_json));
-  entry("assumed", json_list(summary.assumed, json_string));
-  entry("could_be_left_out", json_list(summary.work.could_be_left_out, json_string));
-  entry("missing", json_list(summary.work.missing, json_string));
-  return out + "\n}\n";
+  const Json all = {{"title", summary.title},
+                    {"version", summary.version},
+                    {"status", summary.status},
+                    {"message", summary.message},
+                    {"time_s", rounded(last.time)},
+                    {"stroke_mm", rounded(last.stroke_mm)},
+                    {"wall_time_s", rounded(summary.wall_time_s)},
+                    {"steps", summary.steps},
+                    {"time_step_s", time_step_object(summary)},
+                    {"threads", summary.threads},
+                    {"elements", elements},
+                    {"nodes", nodes},
+                    {"plies", plies_list(last.plies, summary.plies)},
+                    {"tools", list_of(last.tools, tool_object)},
+                    {"boundaries", list_of(last.boundaries, boundary_object)},
+                    {"energy", energy_object(last.energy)},
+                    {"accuracy", accuracy_object(summary.accuracy)},
+                    {"contact", contact_object(summary.contact)},
+                    {"searches", summary.work.searches},
+                    {"time_shares", time_shares_object(summary.work)},
+                    {"pairs", list_of(summary.work.pairs, pair_object)},
+                    {"assumed", summary.assumed},
+                    {"could_be_left_out", summary.work.could_be_left_out},
+                    {"missing", summary.work.missing}};
+  // Names and messages may hold any bytes: those that are no UTF-8 become U+FFFD.
+  return all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 
 } // namespace plyform

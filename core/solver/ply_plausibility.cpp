@@ -2,6 +2,7 @@
 #include "core/solver/ply_plausibility.hpp"
 
 #include "core/base/text.hpp"
+#include "core/results/statistics.hpp"
 
 #include <algorithm>
 #include <array>

@@ -7,18 +7,17 @@
 //   rms^2 = sum_i w_i d_i^2 / sum_i w_i                                                       (3)
 #include "core/study/field_difference.hpp"
 
+#include "core/results/statistics.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numeric>
 #include <stdexcept>
 
 namespace plyform {
 
 namespace {
-
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
 std::size_t at(std::int32_t index) {
   return static_cast<std::size_t>(index);
@@ -144,22 +143,6 @@ std::vector<double> node_areas(const PlyFrame& ply) {
   return areas;
 }
 
-/// The smallest magnitude that is not exceeded on `share` of the weight; `d` has no NaN.
-double percentile(const std::vector<double>& d, const std::vector<double>& w, double share) {
-  std::vector<std::size_t> order(d.size());
-  std::iota(order.begin(), order.end(), 0u);
-  std::sort(order.begin(), order.end(),
-            [&](std::size_t a, std::size_t b) { return std::abs(d[a]) < std::abs(d[b]); });
-  const double total = std::accumulate(w.begin(), w.end(), 0.0);
-  double below = 0.0;
-  for (const std::size_t i : order) {
-    below += w[i];
-    // The sum's rounding must not push an exact share to the next node.
-    if (below >= share * total * (1.0 - 1e-12)) return std::abs(d[i]);
-  }
-  return std::abs(d[order.back()]);
-}
-
 } // namespace
 
 std::vector<double> nodal_means(const PlyFrame& ply, const std::vector<double>& values) {
@@ -206,15 +189,7 @@ FieldError shear_error(const Frame& run, const Frame& reference) {
       w.push_back(areas[i]);
     }
   }
-  double squares = 0.0, largest = 0.0;
-  for (std::size_t i = 0; i < d.size(); ++i) {
-    if (std::isnan(d[i])) return {nan_value, nan_value, nan_value};
-    squares += w[i] * d[i] * d[i];
-    largest = std::max(largest, std::abs(d[i]));
-  }
-  if (d.empty()) return {};
-  const double total = std::accumulate(w.begin(), w.end(), 0.0);
-  return {std::sqrt(squares / total), percentile(d, w, 0.99), largest}; // (3)
+  return {root_mean_square(d, w), percentile(d, w, 0.99), largest_magnitude(d)}; // (3)
 }
 
 } // namespace plyform

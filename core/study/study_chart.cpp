@@ -3,41 +3,36 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 namespace plyform {
 
 namespace {
 
-/// What stands behind a key at the top of a summary.json, up to the next one. Texts in it have no
-/// line ends of their own, so that none of them can look like a key.
-std::string value_of(const std::string& json, const std::string& key) {
-  const std::string start = "\n  \"" + key + "\": ";
-  const std::size_t from = json.find(start);
-  if (from == std::string::npos) return "";
-  const std::size_t begin = from + start.size(), next = json.find("\n  \"", begin);
-  std::string value = json.substr(begin, (next == std::string::npos ? json.size() : next) - begin);
-  while (!value.empty() && std::string(",}\n ").find(value.back()) != std::string::npos)
-    value.pop_back();
-  return value;
+using Json = nlohmann::json;
+
+/// NaN without the key, and for null, which summary.json has in the place of what is not finite.
+double number_at(const Json& object, const char* key) {
+  const Json value = object.value(key, Json());
+  return value.is_null() ? std::numeric_limits<double>::quiet_NaN() : value.get<double>();
 }
 
-double number_of(const std::string& value) {
-  char* end = nullptr;
-  const double number = std::strtod(value.c_str(), &end);
-  return end == value.c_str() ? std::numeric_limits<double>::quiet_NaN() : number;
+/// A whole number; 0 without the key.
+long count_at(const Json& object, const char* key) {
+  return object.value(key, Json(0)).get_ref<const Json::number_integer_t&>();
 }
 
-long count_of(const std::string& value) {
-  return std::strtol(value.c_str(), nullptr, 10);
-}
-
-double promised(const std::string& json) {
-  const std::string accuracy = value_of(json, "accuracy"), key = "\"promised_shear_error_deg\": ";
-  const std::size_t from = accuracy.find(key);
-  return from == std::string::npos ? std::numeric_limits<double>::quiet_NaN()
-                                   : number_of(accuracy.substr(from + key.size()));
+/// The exceptions of the library tell of other types than summary.json has.
+RunOutcome outcome_of(const Json& summary) {
+  RunOutcome outcome;
+  outcome.status = summary.at("status").get<std::string>();
+  outcome.wall_time_s = number_at(summary, "wall_time_s");
+  outcome.steps = count_at(summary, "steps");
+  outcome.elements = count_at(summary, "elements");
+  outcome.promised_deg =
+      number_at(summary.value("accuracy", Json::object()), "promised_shear_error_deg");
+  return outcome;
 }
 
 /// A field of a CSV row.
@@ -90,17 +85,14 @@ ChartLine chart_line(const StudyPlan& plan, const std::vector<RunOutcome>& outco
 } // namespace
 
 RunOutcome read_outcome(const std::string& summary_json) {
-  RunOutcome outcome;
-  const std::string status = value_of(summary_json, "status");
-  outcome.status = "failed";
-  for (const char* known : {"done", "doubtful", "stopped"})
-    if (status == fmt::format("\"{}\"", known)) outcome.status = known;
-  if (outcome.status == "failed") return outcome;
-  outcome.wall_time_s = number_of(value_of(summary_json, "wall_time_s"));
-  outcome.steps = count_of(value_of(summary_json, "steps"));
-  outcome.elements = count_of(value_of(summary_json, "elements"));
-  outcome.promised_deg = promised(summary_json);
-  return outcome;
+  RunOutcome failed;
+  failed.status = "failed";
+  try {
+    const RunOutcome outcome = outcome_of(Json::parse(summary_json));
+    return ended(outcome.status) || outcome.status == "stopped" ? outcome : failed;
+  } catch (const Json::exception&) {
+    return failed;
+  }
 }
 
 std::vector<bool> on_front(const StudyPlan& plan, const std::vector<RunOutcome>& outcomes) {

@@ -23,7 +23,9 @@ struct RunOutcome {
                    std::numeric_limits<double>::quiet_NaN()}; ///< NaN if it did not end
 };
 
-/// All but cpu_s and error, from the content of a summary.json. Status "failed" if it has none.
+/// All but cpu_s and error, from the content of a summary.json. Status "failed", and nothing else,
+/// if it is no such content: empty, cut off, no JSON, or something else where a number should
+/// stand.
 RunOutcome read_outcome(const std::string& summary_json);
 
 /// By run: whether it is done (or doubtful) and no other run is as fast and as near to the

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 #include <limits>
+#include <nlohmann/json.hpp>
 
 namespace plyform {
 namespace {
@@ -122,8 +123,47 @@ TEST(StudyChart, ReadsOutcomesFromWhatRunsWrite) {
   EXPECT_EQ(read_outcome(summary_json(results_test::frame(1.0), summary)).status, "stopped");
   summary.status = "doubtful";
   EXPECT_EQ(read_outcome(summary_json(results_test::frame(1.0), summary)).status, "doubtful");
-  EXPECT_EQ(read_outcome("").status, "failed");
   EXPECT_TRUE(std::isnan(read_outcome("{\n  \"status\": \"done\"\n}\n").promised_deg));
+  // what is not finite is null in the file
+  summary.wall_time_s = summary.accuracy.promised_deg = nan_value;
+  const RunOutcome unknown = read_outcome(summary_json(results_test::frame(1.0), summary));
+  EXPECT_EQ(unknown.status, "doubtful");
+  EXPECT_TRUE(std::isnan(unknown.wall_time_s) && std::isnan(unknown.promised_deg));
+}
+
+TEST(StudyChart, TakesWhatIsNoSummaryForAFailedRun) {
+  for (const char* text :
+       {"", " ", "done", "\"done\"", "null", "3", "[]", "{}", "[{\"status\": \"done\"}]",
+        "{\"status\": \"done\"} more", "{\"status\": \"done\", \"title\": \"\xe9\"}",
+        "{\"status\": \"done\", \"wall_time_s\": 1e999}", "{\"status\": \"interrupted\"}",
+        "\xff\xfe\x01"})
+    EXPECT_EQ(read_outcome(text).status, "failed") << text;
+  EXPECT_EQ(read_outcome(std::string(1000, '\0')).status, "failed");
+  EXPECT_EQ(read_outcome(std::string(1000000, '[')).status, "failed");
+  const std::string whole = summary_json(results_test::frame(1.0), {});
+  EXPECT_EQ(read_outcome(whole).status, "done");
+  for (std::size_t size = 0; size + 1 < whole.size(); ++size) // the last byte is a line end
+    EXPECT_EQ(read_outcome(whole.substr(0, size)).status, "failed") << size;
+}
+
+TEST(StudyChart, TakesASummaryWithOtherTypesForAFailedRun) {
+  using nlohmann::json;
+  const json whole = json::parse(summary_json(results_test::frame(1.0), {}));
+  EXPECT_EQ(read_outcome(whole.dump()).status, "done");
+  const std::vector<std::pair<const char*, json>> others = {
+      {"status", 3},          {"status", json::array()},
+      {"status", nullptr},    {"wall_time_s", "long"},
+      {"wall_time_s", true},  {"steps", "many"},
+      {"steps", 1.5},         {"steps", 1e30},
+      {"elements", nullptr},  {"elements", json::object()},
+      {"accuracy", "little"}, {"accuracy", {{"promised_shear_error_deg", "3"}}}};
+  for (const auto& [key, value] : others) {
+    json other = whole;
+    other[key] = value;
+    const RunOutcome read = read_outcome(other.dump());
+    EXPECT_EQ(read.status, "failed") << key << ": " << value;
+    EXPECT_EQ(read.steps, 0) << "half a summary: " << key << ": " << value;
+  }
 }
 
 /// Whether every element of a document is closed in its turn and attributes are in quotes: enough
