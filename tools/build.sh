@@ -1,19 +1,41 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing, configures build/PRESET if that has not been done, and builds:
-#   tools/build.sh PRESET [TARGET]
+#   tools/build.sh PRESET           all, with the tests
+#   tools/build.sh PRESET TARGET    one target; plyform needs the packages of the tests only if the
+#                                   folder is set up for them
 # Done again, it does nothing that is not needed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 root=$(pwd -P)
 cd "$root"
-preset=$1
+preset=$1 target=${2:-all}
+cache=build/$preset/CMakeCache.txt
 
-tools/install_packages.sh
+step() { printf '== %s\n' "$*"; }
 
-# Configure anew also when the presets have changed, or the folder was copied or moved.
-if ! grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "build/$preset/CMakeCache.txt" ||
-  ! [ "build/$preset/build.ninja" -nt CMakePresets.json ]; then
-  cmake --fresh --preset "$preset"
+# Set up anew also when the presets have changed, or the folder was copied or moved.
+fresh=yes
+if grep -qsxF "CMAKE_HOME_DIRECTORY:INTERNAL=$root" "$cache" &&
+  [ "build/$preset/build.ninja" -nt CMakePresets.json ]; then
+  fresh=no
 fi
-cmake --build "build/$preset" --target "${2:-all}"
+# A folder set up for the program alone gets its tests when they are asked for first.
+tests=yes options=()
+if [ "$target" = plyform ] && { [ $fresh = yes ] || grep -qsxF PLYFORM_TESTS:BOOL=OFF "$cache"; }; then
+  tests=no options=(-D PLYFORM_TESTS=OFF)
+elif [ "$target" = all ] && [ "$preset" != bench ] && grep -qsxF PLYFORM_TESTS:BOOL=OFF "$cache"; then
+  fresh=add options=(-D PLYFORM_TESTS=ON)
+fi
+
+step "Packages (two minutes where all are missing, with the tests' four)"
+groups=(build)
+[ $tests = no ] || groups+=(test)
+tools/install_packages.sh "${groups[@]}"
+
+step "Build in build/$preset (two cores: plyform three minutes, with the tests eight)"
+case $fresh in
+  yes) cmake --fresh --preset "$preset" "${options[@]}" ;;
+  add) cmake --preset "$preset" "${options[@]}" ;;
+esac
+cmake --build "build/$preset" --target "$target"

@@ -67,7 +67,7 @@ struct Boundary {
 enum class ElementKind {
   automatic, ///< plain where sides run along both fibre families, averaged elsewhere
   plain,     ///< the paper's element
-  averaged,  ///< fibre strains averaged over small patches of triangles: does not lock
+  averaged,  ///< fibre strains averaged over pairs of triangles: does not lock
 };
 
 struct SolverOptions {

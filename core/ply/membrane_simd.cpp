@@ -10,10 +10,10 @@
 namespace plyform {
 namespace {
 
-constexpr int block_patches = 512; // long enough to hide the hand-over, short enough to share out
+constexpr int block_groups = 512; // long enough to hide the hand-over, short enough to share out
 
 /// StrainGroups in an order in which neighbours are near each other.
-std::vector<int> ordered_patches(const Membrane& m, std::span<const Vec3> x) {
+std::vector<int> ordered_groups(const Membrane& m, std::span<const Vec3> x) {
   Box3 box;
   for (const Vec3& p : x)
     box.extend(p);
@@ -34,7 +34,7 @@ public:
       : m(membrane), out(lanes_), local(nodes, -1) {}
 
   void add(int group) {
-    if (static_cast<int>(pairs.size() + singles.size()) == block_patches ||
+    if (static_cast<int>(pairs.size() + singles.size()) == block_groups ||
         static_cast<int>(list.size()) + 4 > most_block_nodes)
       close();
     (size(group) == 2 ? pairs : singles).push_back(group);
@@ -94,11 +94,11 @@ private:
     const auto e = static_cast<std::size_t>(triangle);
     const FibreGradients& c = m.c[e];
     t.c11[lane] = c.c11, t.c12[lane] = c.c12, t.c21[lane] = c.c21, t.c22[lane] = c.c22;
-    double patch_area = 0.0;
+    double group_area = 0.0;
     for (int i = first(group); i < first(group) + size(group); ++i)
-      patch_area += m.area[i];
+      group_area += m.area[i];
     t.area[lane] = filler ? 0.0 : m.area[e];
-    t.share[lane] = m.area[e] / patch_area;
+    t.share[lane] = m.area[e] / group_area;
     for (std::size_t corner = 0; corner < 3; ++corner)
       t.node[corner][lane] = static_cast<std::uint16_t>(local[m.triangles[e][corner]] * 32);
   }
@@ -199,7 +199,7 @@ bool fits_simd(const Membrane& m) {
 MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {
   MembraneSimd out;
   BlockMaker maker(m, x.size(), out);
-  for (const int group : ordered_patches(m, x))
+  for (const int group : ordered_groups(m, x))
     maker.add(group);
   maker.close();
   find_node_forces(out, x.size());
