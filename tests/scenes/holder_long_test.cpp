@@ -36,16 +36,16 @@ Formed form(const std::vector<double>& angles, double size, double mass) {
     formed.mean += force;
     outputs += 1.0;
   };
-  const EndedRun run = run_on_any_threads([&] { return make_scene(data); }, hooks);
-  EXPECT_TRUE(ended(run.result.summary.status)) << run.result.summary.message;
-  EXPECT_NEAR(run.result.last.stroke_mm, 75.0, 1e-6);
-  EXPECT_LE(imbalance(run.result.last.energy), 0.02);
-  formed.last = run.result.last;
+  const RunResult run = run_case(data, 1, hooks);
+  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+  EXPECT_NEAR(run.last.stroke_mm, 75.0, 1e-6);
+  EXPECT_LE(imbalance(run.last.energy), 0.02);
+  formed.last = run.last;
   formed.mean /= outputs;
   fmt::print("{} plies, cells of {} mm, {} kg: {:.1f} to {:.1f} N, mean {:.1f}, {:.5f} mm down, "
              "{:.2f} s\n",
              angles.size(), size, 1e3 * mass, formed.least, formed.most, formed.mean,
-             formed.last.tools[2].stroke_mm, run.result.summary.wall_time_s);
+             formed.last.tools[2].stroke_mm, run.summary.wall_time_s);
   return formed;
 }
 
