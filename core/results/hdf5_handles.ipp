@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What writing and reading results.h5 share, with HDF5 in it: included by results_hdf5.cpp and
-// results_hdf5_read.cpp only, and no .hpp, so that it is not installed with the headers.
+// What writing and reading results.h5 share, with HDF5 in it: for hdf5_writer.cpp and
+// hdf5_reader.cpp only.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -101,9 +101,14 @@ hid_t file_type() {
 template <class T>
 constexpr hsize_t columns = std::is_same_v<T, Vec3> || std::is_same_v<T, Triangle> ? 3 : 1;
 
-inline Handle utf8_type() {
+/// Of the layout that docs/users/results.md describes.
+constexpr std::int64_t layout_version = 2;
+
+/// Strings of `length` bytes, shorter ones filled up with zeros.
+inline Handle utf8_type(std::size_t length) {
   Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
-  H5Tset_size(type.id(), H5T_VARIABLE);
+  H5Tset_size(type.id(), length);
+  H5Tset_strpad(type.id(), H5T_STR_NULLPAD);
   H5Tset_cset(type.id(), H5T_CSET_UTF8);
   return type;
 }

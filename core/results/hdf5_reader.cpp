@@ -2,7 +2,7 @@
 // Reads the last whole frame of results.h5. The layout is described in docs/users/results.md.
 //
 // The file may come from anywhere: sizes and node numbers are checked before they are used.
-#include "core/results/hdf5_writer.ipp"
+#include "core/results/hdf5_handles.ipp"
 #include "core/results/result_fields.hpp"
 
 #include <algorithm>
@@ -93,16 +93,24 @@ struct Reader {
     const Handle found(H5Aopen_by_name(file, where.c_str(), name, H5P_DEFAULT, H5P_DEFAULT),
                        H5Aclose);
     if (!found.valid()) broken(where + ":" + name, "is missing");
-    const Handle space(H5Aget_space(found.id()), H5Sclose);
+    const Handle space(H5Aget_space(found.id()), H5Sclose),
+        filed(H5Aget_type(found.id()), H5Tclose);
+    const std::size_t length = H5Tget_size(filed.id());
     const hssize_t entries = H5Sget_simple_extent_npoints(space.id());
-    std::vector<char*> raw(static_cast<std::size_t>(std::max<hssize_t>(entries, 0)), nullptr);
-    const Handle type = utf8_type();
-    if (!raw.empty() && H5Aread(found.id(), type.id(), raw.data()) < 0)
+    constexpr std::size_t longest = 4096; // bytes: no name is as long
+    constexpr hssize_t most = 100000;     // names
+    if (H5Tget_class(filed.id()) != H5T_STRING || H5Tis_variable_str(filed.id()) != 0 ||
+        length == 0 || length > longest || entries < 0 || entries > most)
+      broken(where + ":" + name, "is no list of names");
+    std::string padded(length * static_cast<std::size_t>(entries), '\0');
+    const Handle type = utf8_type(length);
+    if (H5Aread(found.id(), type.id(), padded.data()) < 0)
       broken(where + ":" + name, "cannot be read");
     std::vector<std::string> values;
-    for (const char* text : raw)
-      values.emplace_back(text ? text : "");
-    if (!raw.empty()) H5Dvlen_reclaim(type.id(), space.id(), H5P_DEFAULT, raw.data());
+    for (std::size_t at = 0; at < padded.size(); at += length) {
+      const std::string text = padded.substr(at, length);
+      values.push_back(text.substr(0, text.find('\0')));
+    }
     return values;
   }
 };
@@ -163,6 +171,14 @@ Frame read_last_frame(const fs::path& path) {
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file.valid()) fail(path, "cannot be opened as results of a run");
   const Reader in{path, file.id()};
+  if (H5Aexists(file.id(), "format_version") <= 0) in.broken("format_version", "is missing");
+  std::int64_t version = 0;
+  in.number("/", "format_version", version);
+  if (version != layout_version)
+    throw std::runtime_error(
+        fmt::format("{}: its layout is version {}, this plyform reads version {}: run the case "
+                    "again, or read it with h5py",
+                    path.string(), version, layout_version));
   if (!in.has("/time_s") || !in.has("/frames")) in.broken("/frames or /time_s", "is missing");
   const std::vector<double> times = in.dataset<double>("/time_s");
   if (times.empty()) in.broken("/time_s", "is empty: the run was stopped before its first state");
@@ -177,9 +193,8 @@ Frame read_last_frame(const fs::path& path) {
     frame.plies.push_back(read_ply(in, group, name));
   for (const std::string& name : in.texts("/", "tools"))
     frame.tools.push_back(read_tool(in, group, name));
-  if (H5Aexists(file.id(), "boundaries") > 0) // not in files of earlier versions
-    for (const std::string& name : in.texts("/", "boundaries"))
-      frame.boundaries.push_back(read_boundary(in, group, name));
+  for (const std::string& name : in.texts("/", "boundaries"))
+    frame.boundaries.push_back(read_boundary(in, group, name));
   return frame;
 }
 

@@ -3,10 +3,10 @@
 //
 // Every return code is checked, that of closing a dataset too: HDF5 holds small writes back until
 // then, so a full disk may show only there.
-#include "core/results/hdf5_writer.ipp"
-
+#include "core/results/hdf5_handles.ipp"
 #include "core/results/result_fields.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <fcntl.h>
 #include <stdexcept>
@@ -100,20 +100,22 @@ struct Writer {
 
   void texts(const std::string& where, const char* name,
              const std::vector<std::string>& values) const {
-    std::vector<const char*> pointers;
+    std::size_t length = 1; // bytes of the longest
     for (const std::string& value : values)
-      pointers.push_back(value.c_str());
-    const hsize_t size = pointers.size();
-    pointers.push_back(nullptr); // HDF5 wants an address even for no values
-    const Handle type = utf8_type();
+      length = std::max(length, value.size());
+    std::string padded;
+    for (const std::string& value : values)
+      padded += value + std::string(length - value.size(), '\0');
+    const hsize_t size = values.size();
+    const Handle type = utf8_type(length);
     const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    attribute(where, name, type.id(), type.id(), space, pointers.data());
+    attribute(where, name, type.id(), type.id(), space, padded.data());
   }
 
-  void text(const std::string& where, const char* name, const char* value) const {
-    const Handle type = utf8_type();
+  void text(const std::string& where, const char* name, const std::string& value) const {
+    const Handle type = utf8_type(value.size());
     const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    attribute(where, name, type.id(), type.id(), space, &value);
+    attribute(where, name, type.id(), type.id(), space, value.data());
   }
 };
 
@@ -128,7 +130,7 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
 /// What stays the same through the run.
 void write_constants(const Writer& out, const Frame& frame) {
   out.text("/", "format", "plyform results");
-  out.number<std::int64_t>("/", "format_version", 1);
+  out.number<std::int64_t>("/", "format_version", layout_version);
   out.text("/", "units", "mm, N, s, degrees, N per yarn, N/mm^2");
   out.texts("/", "plies", names_of(frame.plies));
   out.texts("/", "tools", names_of(frame.tools));
@@ -172,11 +174,6 @@ void write_tool(const Writer& out, const std::string& where, const ToolFrame& to
   out.vector(where, "force_vector_N", tool.force);
   out.number(where, "stroke_mm", tool.stroke_mm);
   out.number(where, "force_N", tool.force_N);
-  if (tool.displacement.isZero(0)) return; // it stands at x0, see xdmf.cpp
-  std::vector<Vec3> x = tool.surface.x;
-  for (Vec3& point : x)
-    point += tool.displacement;
-  out.dataset(where + "/x", x);
 }
 
 void write_boundary(const Writer& out, const std::string& where, const BoundaryFrame& boundary) {
@@ -205,7 +202,7 @@ std::size_t bytes_needed(const Frame& frame, bool with_constants) {
   }
   bytes += frame.boundaries.size() * object;
   for (const ToolFrame& tool : frame.tools) {
-    bytes += 2 * object + tool.surface.x.size() * point;
+    bytes += object;
     if (with_constants)
       bytes +=
           3 * object + tool.surface.x.size() * point + tool.surface.triangles.size() * triangle;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // results.xdmf: tells ParaView which dataset of results.h5 is what. Version 2 of the format, which
-// the readers of XDMF 2 and of XDMF 3 both take: one time series for each ply and each tool, side
+// the readers of XDMF 2 and of XDMF 3 both take, but for the functions that move tools: those of
+// XDMF 3 in VTK leave such geometries empty. One time series for each ply and each tool, side
 // by side in one collection. The other way round, a collection for each time, the XDMF 2 reader
 // calls the blocks NAME, NAME[1], NAME[2] from one time to the next.
 #include "core/results/result_fields.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace plyform {
@@ -39,11 +41,31 @@ std::string attribute(const char* name, const char* type, const char* centre,
                      name, type, centre, item);
 }
 
-/// `x` and `triangles` are datasets of n x 3 and m x 3.
-std::string mesh(std::size_t n, const std::string& x, std::size_t m, const std::string& triangles) {
-  return fmt::format("<Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n"
-                     "<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
-                     m, data_item(m, 3, "Int", 4, triangles), data_item(n, 3, "Float", 8, x));
+/// Of m triangles in a dataset.
+std::string topology(std::size_t m, const std::string& triangles) {
+  return fmt::format("<Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n",
+                     m, data_item(m, 3, "Int", 4, triangles));
+}
+
+/// Of n points in a dataset.
+std::string geometry(std::size_t n, const std::string& x) {
+  return fmt::format("<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
+                     data_item(n, 3, "Float", 8, x));
+}
+
+/// The same, moved: each coordinate is a column of the dataset and what it has moved by.
+std::string moved_geometry(std::size_t n, const std::string& x, const Vec3& by) {
+  std::string columns;
+  for (int k = 0; k < 3; ++k)
+    columns += fmt::format(
+        "<DataItem ItemType=\"Function\" Function=\"$0 {} {:.12f}\" Dimensions=\"{} 1\" "
+        "NumberType=\"Float\" Precision=\"8\">\n"
+        "<DataItem ItemType=\"HyperSlab\" Type=\"HyperSlab\" Dimensions=\"{} 1\" "
+        "NumberType=\"Float\" Precision=\"8\">\n"
+        "<DataItem Dimensions=\"3 2\" NumberType=\"Int\" Format=\"XML\">0 {} 1 1 {} 1</DataItem>\n"
+        "{}</DataItem>\n</DataItem>\n",
+        by[k] < 0.0 ? '-' : '+', std::abs(by[k]), n, n, k, n, data_item(n, 3, "Float", 8, x));
+  return fmt::format("<Geometry GeometryType=\"X_Y_Z\">\n{}</Geometry>\n", columns);
 }
 
 std::string grid_start(const std::string& name, double time) {
@@ -54,8 +76,8 @@ std::string grid_start(const std::string& name, double time) {
 std::string ply_grid(const PlyFrame& ply, const std::string& group, double time) {
   const std::size_t n = ply.x.size(), m = ply.triangles.size();
   const std::string here = group + "/plies/" + ply.name + "/";
-  std::string out =
-      grid_start(ply.name, time) + mesh(n, here + "x", m, "/plies/" + ply.name + "/triangles");
+  std::string out = grid_start(ply.name, time) + topology(m, "/plies/" + ply.name + "/triangles") +
+                    geometry(n, here + "x");
   for (const auto& field : cell_vectors)
     out += attribute(field.name, "Vector", "Cell", data_item(m, 3, "Float", 8, here + field.name));
   for (const auto& field : cell_scalars)
@@ -69,12 +91,14 @@ std::string ply_grid(const PlyFrame& ply, const std::string& group, double time)
   return out + "</Grid>\n";
 }
 
-std::string tool_grid(const ToolFrame& tool, const std::string& group, double time) {
-  const std::string fixed = "/tools/" + tool.name + "/";
-  // A tool where it started has no positions of its own in the frame (StateFile::append).
-  const std::string x = tool.displacement.isZero(0) ? fixed + "x0" : group + fixed + "x";
+/// The file has the tool once, where it started.
+std::string tool_grid(const ToolFrame& tool, double time) {
+  const std::string fixed = "/tools/" + tool.name + "/", x0 = fixed + "x0";
+  const std::size_t n = tool.surface.x.size();
   return grid_start(tool.name, time) +
-         mesh(tool.surface.x.size(), x, tool.surface.triangles.size(), fixed + "triangles") +
+         topology(tool.surface.triangles.size(), fixed + "triangles") +
+         (tool.displacement.isZero(0) ? geometry(n, x0)
+                                      : moved_geometry(n, x0, tool.displacement)) +
          "</Grid>\n";
 }
 
@@ -97,7 +121,7 @@ void XdmfText::add(const Frame& frame, std::size_t index) {
   for (const PlyFrame& ply : frame.plies)
     grids[part++] += ply_grid(ply, group, frame.time);
   for (const ToolFrame& tool : frame.tools)
-    grids[part++] += tool_grid(tool, group, frame.time);
+    grids[part++] += tool_grid(tool, frame.time);
 }
 
 std::string XdmfText::document() const {

@@ -52,8 +52,9 @@ def write(folder, plies, history=None):
     """`plies`: name -> (x0, x, triangles, shear angles in degrees); `history`: columns by name."""
     folder.mkdir(parents=True)
     with h5py.File(folder / "results.h5", "w") as file:
-        file.attrs["plies"] = np.array(list(plies), dtype=h5py.string_dtype())
-        file.attrs["tools"] = np.array([], dtype=h5py.string_dtype())
+        file.attrs["plies"] = np.array([name.encode() for name in plies],
+                                       dtype=h5py.string_dtype("utf-8", 40))
+        file.attrs["tools"] = np.array([], dtype=h5py.string_dtype("utf-8", 1))
         file["time_s"] = [1.0]
         now = file.create_group("frames/000000")
         now.attrs["stroke_mm"] = 12.0

@@ -95,6 +95,11 @@ def read_state(folder: Path, field: Field, frame: int = -1, tools: bool = False)
         raise Trouble(f"{path} cannot be read as results of plyform: {problem}") from problem
 
 
+def names(file: h5py.File, bodies: str) -> list[str]:
+    """Of "plies", from the bottom of the stack, "tools" or "boundaries"."""
+    return [name.decode() for name in file.attrs[bodies]]
+
+
 def state_of(file: h5py.File, folder: Path, field: Field, frame: int, tools: bool) -> State:
     frames = len(file["time_s"])
     number = frame if frame >= 0 else frames + frame
@@ -102,14 +107,14 @@ def state_of(file: h5py.File, folder: Path, field: Field, frame: int, tools: boo
         raise Trouble(f"{folder} has no frame {frame}: it has frames 0 to {frames - 1}")
     now = file[f"frames/{number:06}"]
     plies = []
-    for name in file.attrs["plies"]:
+    for name in names(file, "plies"):
         fixed, ply = file["plies"][name], now["plies"][name]
         plies.append(Ply(name, float(fixed.attrs["angle_deg"]), fixed["x0"][:], ply["x"][:],
                          fixed["triangles"][:], field.factor * ply[field.dataset][:]))
         if not (np.isfinite(plies[-1].value).all() and np.isfinite(plies[-1].x).all()):
             raise Trouble(f"{folder}: a {field.label} or a position of ply {name} is not finite")
     bodies = []
-    for name in file.attrs["tools"] if tools else []:
+    for name in names(file, "tools") if tools else []:
         tool = file["tools"][name]
         shift = np.asarray(now["tools"][name].attrs["displacement_mm"])
         bodies.append(Tool(name, tool["x0"][:] + shift, tool["triangles"][:]))

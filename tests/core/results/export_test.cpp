@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <functional>
 #include <gtest/gtest.h>
 #include <hdf5.h>
 
@@ -67,6 +68,44 @@ TEST_F(ResultsExport, ExportChecksWhatItReadsBeforeItUsesIt) {
   }
 }
 
+TEST_F(ResultsExport, ExportSaysWhatItCannotReadOfOtherLayouts) {
+  const auto change = [&](const char* name, const char* rule,
+                          const std::function<void(hid_t)>& put) {
+    write_run(directory, {0.5});
+    const hid_t file = H5Fopen((directory / "results.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+    ASSERT_GE(H5Adelete(file, name), 0);
+    put(file);
+    H5Fclose(file);
+    const std::string error = error_of([&] { export_results(directory); });
+    EXPECT_TRUE(contains(error, rule)) << error;
+    EXPECT_FALSE(fs::exists(directory / "export"));
+  };
+  const auto make = [](hid_t file, const char* name, hid_t type, hsize_t size, const void* values) {
+    const hid_t space = H5Screate_simple(1, &size, nullptr);
+    const hid_t made = H5Acreate2(file, name, type, space, H5P_DEFAULT, H5P_DEFAULT);
+    ASSERT_GE(H5Awrite(made, type, values), 0);
+    H5Aclose(made);
+    H5Sclose(space);
+  };
+  change("format_version", "format_version is missing", [](hid_t) {});
+  change("format_version", "version 1, this plyform reads version 2: run the case again",
+         [&](hid_t file) {
+           const std::int64_t before = 1;
+           make(file, "format_version", H5T_NATIVE_INT64, 1, &before);
+         });
+  change("tools", "/:tools is no list of names", [&](hid_t file) { // as version 1 had them
+    const hid_t type = H5Tcopy(H5T_C_S1);
+    H5Tset_size(type, H5T_VARIABLE);
+    const char* names[] = {"punch", "die"};
+    make(file, "tools", type, 2, names);
+    H5Tclose(type);
+  });
+  change("plies", "/:plies is no list of names", [&](hid_t file) {
+    const double numbers[] = {1.0, 2.0};
+    make(file, "plies", H5T_NATIVE_DOUBLE, 2, numbers);
+  });
+}
+
 TEST_F(ResultsExport, ExportWritesNowhereButInItsFolder) {
   write_run(directory, {0.5});
   const hid_t file = H5Fopen((directory / "results.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
@@ -76,12 +115,12 @@ TEST_F(ResultsExport, ExportWritesNowhereButInItsFolder) {
     ASSERT_GE(H5Lmove(file, (group + "lower").c_str(), file, (group + "../../out").c_str(), links,
                       H5P_DEFAULT),
               0);
-  const hid_t type = H5Tcopy(H5T_C_S1);
-  H5Tset_size(type, H5T_VARIABLE);
-  H5Tset_cset(type, H5T_CSET_UTF8);
   const hid_t names = H5Aopen(file, "plies", H5P_DEFAULT);
-  const char* outside[] = {"../../out", "90\u00b0 ply & co"};
-  ASSERT_GE(H5Awrite(names, type, outside), 0);
+  const hid_t type = H5Aget_type(names);
+  const std::size_t length = H5Tget_size(type); // of the longer name
+  std::string outside = "../../out" + std::string(length - 9, '\0') + "90\u00b0 ply & co";
+  ASSERT_EQ(outside.size(), 2 * length);
+  ASSERT_GE(H5Awrite(names, type, outside.data()), 0);
   H5Aclose(names);
   H5Tclose(type);
   H5Pclose(links);
