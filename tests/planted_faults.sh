@@ -11,7 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 # NAME | FILE | what sed does to it. Each must change its file.
 faults=(
-  "normals of tools point inward | contact/forces/tool_ply.cpp | s/c.normal = s.normal;/c.normal = -s.normal;/"
+  "normals of tools point inward | contact/forces/tool_ply.cpp | s/normal_of(c) = s.normal;/normal_of(c) = -s.normal;/"
   "normals beside edges of profiles point to the edge, inside as outside | contact/shapes/profile.cpp | s/d \* (sign \/ length)}/d \/ length}/"
   "normals beside edges of mesh tools point to the edge, inside as outside | contact/shapes/mesh_shape.cpp | s/d \* (sign \/ length)}/d \/ length}/"
   "normal force between plies pulls | contact/simd/ply_ply_body.hpp | s/SimdForces f{p.memory.normal_force \* normal/SimdForces f{-p.memory.normal_force * normal/"

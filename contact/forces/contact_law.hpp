@@ -34,6 +34,7 @@
 #pragma once
 
 #include "contact/geometry.hpp"
+#include "contact/simd/contact_points.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -131,13 +132,13 @@ inline ContactRow row_of(const ContactLaw& law, double depth) {
   return {law.tangent(depth_ahead(law, depth)), law.damping};
 }
 
-/// What one contact remembers from step to step.
-struct ContactHistory {
-  Vec3 s = Vec3::Zero();    ///< mm
-  double damping_force = 0; ///< N, of the last step, for the trapezoidal work sum
-  double normal_force = 0;  ///< N
-  double slip = 0;          ///< mm, way slid since it touched
-};
+/// s of (T) as a vector of Eigen, which the memory itself must not know.
+inline Eigen::Map<Vec3> s_of(ContactHistory& memory) {
+  return Eigen::Map<Vec3>(memory.s);
+}
+inline Eigen::Map<const Vec3> s_of(const ContactHistory& memory) {
+  return Eigen::Map<const Vec3>(memory.s);
+}
 
 /// Normal force (N) and its share that is damping; p > 0. dp: change of p in this step, mm.
 struct NormalForce {
@@ -157,7 +158,8 @@ inline Vec3 friction_force(const ContactLaw& law, double area, double n_force, c
                            const Vec3& motion, ContactHistory& memory, ContactTotals& sums) {
   if (law.friction == 0.0) return Vec3::Zero();
   const double k = area * law.tangential();
-  Vec3 old = memory.s;
+  Eigen::Map<Vec3> s = s_of(memory);
+  Vec3 old = s;
   const double length = old.norm();
   if (length > 0.0) { // turn the history into the present tangent plane, its length kept
     old -= n.dot(old) * n;
@@ -167,24 +169,24 @@ inline Vec3 friction_force(const ContactLaw& law, double area, double n_force, c
   const Vec3 trial = old + motion - n.dot(motion) * n;
   const double limit = law.friction * n_force / k;
   const double stretch = trial.norm();
-  memory.s = stretch > limit ? Vec3(trial * (limit / stretch)) : trial;
+  s = stretch > limit ? Vec3(trial * (limit / stretch)) : trial;
   memory.slip += std::max(stretch - limit, 0.0);
   sums.slip = std::max(sums.slip, memory.slip);
-  sums.friction += 0.5 * k * (old + memory.s).dot(trial - memory.s);
-  return -k * memory.s;
+  sums.friction += 0.5 * k * (old + s).dot(trial - s);
+  return -k * s;
 }
 
 /// Energy (N mm) that the springs of a contact hold, p mm deep.
 inline double tangent_energy(const ContactLaw& law, double area, double p,
                              const ContactHistory& memory) {
-  return area * (law.energy(p) + 0.5 * law.tangential() * memory.s.squaredNorm());
+  return area * (law.energy(p) + 0.5 * law.tangential() * s_of(memory).squaredNorm());
 }
 
 /// The contact has opened: what its spring still holds is given up as heat.
 inline void release(const ContactLaw& law, double area, ContactHistory& memory,
                     ContactTotals& sums) {
-  if (memory.normal_force == 0.0 && memory.s.isZero(0.0)) return;
-  sums.friction += 0.5 * area * law.tangential() * memory.s.squaredNorm();
+  if (memory.normal_force == 0.0 && s_of(memory).isZero(0.0)) return;
+  sums.friction += 0.5 * area * law.tangential() * s_of(memory).squaredNorm();
   memory = {};
 }
 

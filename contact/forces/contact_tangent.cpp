@@ -21,12 +21,12 @@ void set_stiffness(ContactTangent& spring, const ContactLaw& law, double area, d
 void append_tangents(const ToolPlyContact& contact, std::span<const double> area, double margin,
                      const TangentFactors& factors, std::vector<ContactTangent>& springs) {
   for (const ToolPlyPoint& c : contact.points) {
-    if (c.latest_gap() > margin) continue;
+    if (latest_gap(c) > margin) continue;
     ContactTangent spring;
     spring.node = {c.node};
     spring.share = {1.0};
-    spring.normal = c.normal;
-    set_stiffness(spring, contact.law, area[c.node], -c.latest_gap(), factors);
+    spring.normal = normal_of(c);
+    set_stiffness(spring, contact.law, area[c.node], -latest_gap(c), factors);
     springs.push_back(spring);
   }
 }
@@ -36,15 +36,15 @@ void append_tangents(const PlyPlyContact& contact, const SurfaceKinematics& slav
                      double margin, const TangentFactors& factors,
                      std::vector<ContactTangent>& springs) {
   for (const PlyPlyPoint& c : contact.points) {
-    if (c.latest_gap() > margin) continue;
+    if (latest_gap(c) > margin) continue;
     const Triangle& t = triangles[c.face];
-    const std::array<double, 3> w = c.weights();
+    const std::array<double, 3> w = weights_of(c);
     ContactTangent spring;
     spring.node = {c.node, t[0], t[1], t[2]};
     spring.share = {1.0, -w[0], -w[1], -w[2]};
     spring.nodes = 4;
     spring.normal = contact_normal(c, slave.x, master.x, triangles);
-    set_stiffness(spring, contact.law, c.area, -c.latest_gap(), factors);
+    set_stiffness(spring, contact.law, c.area, -latest_gap(c), factors);
     if (spring.across > 0.0)
       spring.couple = {contact.distance * spring.normal,
                        face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]))};

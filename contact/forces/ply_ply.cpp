@@ -7,7 +7,6 @@
 
 #include <cstddef>
 #include <limits>
-#include <numeric>
 
 namespace plyform {
 namespace {
@@ -90,31 +89,14 @@ void label_patches(std::span<const Candidate> group, std::span<const Triangle> t
 /// closest point: where faces meet, rounding says which of them is closest, and must not count.
 double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& master,
                     const PlyPlyPoint& c, const Triangle& face) {
-  const std::array<double, 3> w = c.weights();
+  const std::array<double, 3> w = weights_of(c);
   double there = 0.0;
   for (std::size_t j = 0; j < 3; ++j)
     there += w[j] * master.area[face[j]];
   return std::min(slave.area[c.node], there);
 }
 
-/// Points as the kernel sees them.
-PlyPlyKernelPoint* kernel_points(PlyPlyPoint* points) {
-  using P = PlyPlyPoint;
-  using Q = PlyPlyKernelPoint;
-  static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
-                offsetof(ContactHistory, damping_force) == offsetof(Q, damping_force) &&
-                offsetof(ContactHistory, normal_force) == offsetof(Q, normal_force) &&
-                offsetof(ContactHistory, slip) == offsetof(Q, slip) &&
-                offsetof(P, area) == offsetof(Q, area) && offsetof(P, gap) == offsetof(Q, gap) &&
-                offsetof(P, w) == offsetof(Q, w) &&
-                offsetof(P, last_search_foot) == offsetof(Q, last_search_foot) &&
-                offsetof(P, other) == offsetof(Q, other) &&
-                offsetof(P, gap_when_deactivated) == offsetof(Q, gap_when_deactivated) &&
-                offsetof(P, node) == offsetof(Q, node) && offsetof(P, side) == offsetof(Q, side));
-  return reinterpret_cast<Q*>(points);
-}
-
-/// Lays a point that has opened to rest: where it is on either side does not matter meanwhile.
+/// Deactivates a point that does not touch. Which side it is on does not matter meanwhile.
 void deactivate(PlyPlyPoint& c) {
   c.gap_when_deactivated = static_cast<float>(c.gap);
   c.gap = std::numeric_limits<double>::infinity();
@@ -140,13 +122,13 @@ PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
   for (const Candidate& n : near)
     if (n.distance2 <= tied && n.face < first->face) first = &n;
   c.face = first->face;
-  c.w = {first->w[1], first->w[2]};
-  c.other = distance_of_others(*kernel_points(&c), triangles.data()->data(), contact.faces.data(),
+  c.w[0] = first->w[1], c.w[1] = first->w[2];
+  c.other = distance_of_others(c, triangles.data()->data(), contact.faces.data(),
                                contact.face_distance.data());
   c.gap = std::sqrt(near.front().distance2) - contact.distance;
   contact.list.free_until.push_back(path_length + c.gap);
   deactivate(c);
-  c.last_search_foot.fill(std::numeric_limits<double>::quiet_NaN());
+  c.last_search_foot[0] = c.last_search_foot[1] = std::numeric_limits<double>::quiet_NaN();
   return c;
 }
 
@@ -164,7 +146,7 @@ const PlyPlyPoint* find_old(std::span<const PlyPlyPoint> old, std::size_t& begin
 
 } // namespace
 
-double distance_of_others(const PlyPlyKernelPoint& point, const std::int32_t* triangles,
+double distance_of_others(const PlyPlyPoint& point, const std::int32_t* triangles,
                           const std::int32_t* faces, const double* face_distance) {
   const auto corners = [triangles](std::int32_t face) {
     return triangles + 3 * std::ptrdiff_t(face);
@@ -180,7 +162,7 @@ double distance_of_others(const PlyPlyKernelPoint& point, const std::int32_t* tr
 void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> candidates,
                          const SurfaceKinematics& slave, const SurfaceKinematics& master,
                          std::span<const Triangle> triangles, double path_length) {
-  const std::vector<PlyPlyPoint> old = std::move(contact.points);
+  std::vector<PlyPlyPoint> old = std::move(contact.points);
   contact.points.clear();
   contact.faces.clear();
   contact.face_distance.clear();
@@ -213,10 +195,8 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
       contact.points.push_back(c);
     }
   }
-  for (std::size_t i = 0; i < old.size(); ++i) {
-    ContactHistory memory = old[i].memory;
-    if (!adopted[i]) release(contact.law, old[i].area, memory, contact.sums);
-  }
+  for (std::size_t i = 0; i < old.size(); ++i)
+    if (!adopted[i]) release(contact.law, old[i].area, old[i].memory, contact.sums);
 }
 
 namespace {
@@ -258,7 +238,7 @@ PlyPlyKernelContact kernel_view(KernelSide& k, double dt) {
   PlyPlyContact& c = k.contact;
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::int32_t));
   PlyPlyKernelContact view{};
-  view.points = kernel_points(c.points.data());
+  view.points = c.points.data();
   view.active = c.list.active.data();
   view.active_count = static_cast<int>(c.list.active.size());
   view.free_until = c.list.free_until.data();
@@ -318,7 +298,7 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
 Vec3 contact_normal(const PlyPlyPoint& point, std::span<const Vec3> slave,
                     std::span<const Vec3> master, std::span<const Triangle> triangles) {
   const Triangle& t = triangles[point.face];
-  const std::array<double, 3> w = point.weights();
+  const std::array<double, 3> w = weights_of(point);
   return (at(slave, point.node) -
           (w[0] * at(master, t[0]) + w[1] * at(master, t[1]) + w[2] * at(master, t[2])))
       .normalized();
@@ -331,9 +311,9 @@ void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics
   // half of k, along the face the same, and across it the couple's g_j = d |gradient_j|: with
   // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
   for (const PlyPlyPoint& c : contact.points) {
-    if (c.latest_gap() > margin) continue;
+    if (latest_gap(c) > margin) continue;
     const Triangle& t = triangles[c.face];
-    const ContactRow normal = 2.0 * c.area * row_of(contact.law, -c.latest_gap());
+    const ContactRow normal = 2.0 * c.area * row_of(contact.law, -latest_gap(c));
     slave_rows[c.node] += normal;
     if (contact.law.friction > 0.0) {
       std::array<double, 3> couple{};
@@ -344,7 +324,7 @@ void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics
       for (std::size_t j = 0; j < 3; ++j)
         master_rows[t[j]].stiffness += 2.0 * c.area * contact.law.tangential() * sum * couple[j];
     }
-    const std::array<double, 3> w = c.weights();
+    const std::array<double, 3> w = weights_of(c);
     for (std::size_t j = 0; j < 3; ++j)
       master_rows[t[j]] += w[j] * normal;
   }

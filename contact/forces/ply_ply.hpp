@@ -19,10 +19,11 @@
 // turn and the couple's forces: face_rotation.hpp. (M) does the work of T on (P); its moments
 // cancel, and two sheets that move as one rigid body do not slip.
 //
-// A point rests on its face until it has slid by `rest` since it looked around, and meanwhile takes
-// the closest point of that face alone, so that (S) and (M) stay exact for it. A face across an
-// edge that has become closer is seen late, by no more than `rest` times the fold between the two.
-// All look around again when the sheets have gone `look_every`, for folds change too.
+// A point keeps its face until it has slid by slide_limit since all its faces were searched, and
+// meanwhile takes the closest point of that face alone, so that (S) and (M) stay exact for it. A
+// face across an edge that has become closer is seen late, by no more than slide_limit times the
+// fold between the two. The faces of all points are searched again when the sheets have gone
+// full_search_interval, for folds change too.
 #pragma once
 
 #include "contact/forces/contact_law.hpp"
@@ -35,27 +36,15 @@
 
 namespace plyform {
 
-/// One slave node and one connected patch of master faces near it (two patches: a fold). Laid out
-/// in rows of 32 bytes, PlyPlyKernelPoint (contact/simd/ply_ply_kernel.hpp).
-struct alignas(32) PlyPlyPoint {
-  ContactHistory memory;
-  double area = 0.0;         ///< mm^2 that the contact stands for
-  double gap = 0.0;          ///< mm, d - h of the last step; infinite: it rested
-  std::array<double, 2> w{}; ///< weights of corners b and c at the closest point
-  std::array<double, 2>
-      last_search_foot{}; ///< of its foot on the face's plane when it last looked around
-  double other = 0.0;     ///< mm, at the search, to the next face that shares no node with it
-  float gap_when_deactivated = 0.0F; ///< mm, gap when it went to rest
-  std::int32_t node, face = 0;       ///< closest face; of those that tie the first
-  std::int32_t first_face, end_face; ///< range in PlyPlyContact::faces
-  int side = 0; ///< +1: on the side of the face normal, -1: other, 0: not known
+/// Weights of all three corners at the closest point.
+inline std::array<double, 3> weights_of(const PlyPlyPoint& point) {
+  return {1.0 - point.w[0] - point.w[1], point.w[0], point.w[1]};
+}
 
-  /// Of the closest point.
-  std::array<double, 3> weights() const { return {1.0 - w[0] - w[1], w[0], w[1]}; }
-  double latest_gap() const {
-    return std::isinf(gap) ? double{gap_when_deactivated} : gap;
-  } ///< mm, last seen
-};
+/// mm, gap of the last step; of an inactive point: when it was deactivated.
+inline double latest_gap(const PlyPlyPoint& point) {
+  return std::isinf(point.gap) ? double{point.gap_when_deactivated} : point.gap;
+}
 
 /// A node that got to the wrong side or as deep as contact has room: it cannot be resolved.
 struct ContactFault {
@@ -70,23 +59,24 @@ struct PlyPlyContact {
   std::vector<std::int32_t> faces;   ///< of each point, nearest first
   std::vector<double> face_distance; ///< mm, when the search was done
   ActiveList list;                   ///< of the points
-  double slide_limit = 0.0; ///< mm, sliding by which a point keeps its face unseen; 0: none
-  double full_search_interval = 0.0; ///< mm of path, at which all points look around
-  double last_full_search = 0.0;     ///< mm, when they last did
+  double slide_limit = 0.0;          ///< mm, sliding up to which a point keeps its face; 0: none
+  double full_search_interval = 0.0; ///< mm of path length between searches of all faces
+  double last_full_search = 0.0;     ///< mm, path length at the last one
   double renew_depth = 0.0;          ///< mm, penetration at which the stable step is due again
   ContactTotals sums;
   ContactFault fault;
   ContactTime time;
 };
 
-/// How far two sheets have gone relative to each other, mm: no node of one further than `way`
-/// relative to any of the other since the search; `path` as of contact/search/active_list.hpp.
+/// How far two sheets have gone relative to each other, mm: since the search no node of one further
+/// than max_displacement relative to any of the other; path_length as of
+/// contact/search/active_list.hpp.
 struct RelativeMotion {
   double max_displacement = 0.0, path_length = 0.0;
 };
 
-/// Renews the points from the broad phase's candidates (sorted by node and face). Contacts keep
-/// their memory. path: mm, as of RelativeMotion.
+/// Updates the points from the broad phase's candidates (sorted by node and face). Contacts keep
+/// their memory. path_length: mm, as of RelativeMotion.
 void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> candidates,
                          const SurfaceKinematics& slave, const SurfaceKinematics& master,
                          std::span<const Triangle> master_triangles, double path_length);

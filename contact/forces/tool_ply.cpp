@@ -5,7 +5,6 @@
 #include "contact/simd/cpu_features.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
 
-#include <cstddef>
 #include <limits>
 
 namespace plyform {
@@ -46,10 +45,10 @@ void with_distance(const ToolBody& tool, const Use& use) {
   std::visit([&](const auto& shape) { use(Placed(tool, distance_of(shape))); }, tool.shape);
 }
 
-/// Points of a list, done one after another.
+/// Numbers of some of the points.
 using Part = std::span<const std::int32_t>;
 
-/// work(part) of all points in order. One part stays in the fastest cache.
+/// Calls work(part) for all active points in order, few enough at a time for the fastest cache.
 template <class Work>
 void in_parts(const ActiveList& list, const Work& work) {
   constexpr std::size_t most = 128;
@@ -58,7 +57,7 @@ void in_parts(const ActiveList& list, const Work& work) {
     work(all.subspan(first, std::min(most, all.size() - first)));
 }
 
-/// Lists the points that may touch.
+/// Activates the points that may touch, and deactivates the others.
 void update_active(ToolPlyContact& contact, double path_length) {
   update(contact.list, path_length, [&contact](std::int32_t i) { deactivate(contact.points[i]); });
 }
@@ -67,22 +66,22 @@ void update_active(ToolPlyContact& contact, double path_length) {
 template <class Distance>
 void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
              double path_length, Part part, const Distance& distance) {
-  const Vec3 tool_motion =
-      tool.force_controlled ? Vec3(Vec3::Zero()) : tool.motion; // not yet moved
+  // a pushed tool has not moved yet: its motion is that of the step before
+  const Vec3 tool_motion = tool.force_controlled ? Vec3(Vec3::Zero()) : tool.motion;
   for (const std::int32_t i : part) {
     ToolPlyPoint& c = contact.points[i];
     const auto n = static_cast<std::size_t>(c.node);
     const SurfacePoint s = distance(ply.x[n], c.hint);
-    const bool gap_when_deactivated = std::isinf(c.gap);
+    const bool was_inactive = std::isinf(c.gap);
     c.last_gap = c.gap;
     c.gap = s.distance - contact.half_thickness;
-    c.normal = s.normal;
-    if (gap_when_deactivated) c.last_gap = c.gap - c.normal.dot(ply.motion[n] - tool_motion);
+    normal_of(c) = s.normal;
+    if (was_inactive) c.last_gap = c.gap - s.normal.dot(ply.motion[n] - tool_motion);
     if (c.gap > 0.0) contact.list.free_until[i] = path_length + c.gap;
   }
 }
 
-/// All near points of a pushed tool, which (B) needs before it presses.
+/// All active points of a pushed tool: (B) needs them before any is pressed.
 void measure_all(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
                  double path_length) {
   const Stopwatch watch(contact.time.forces);
@@ -93,27 +92,13 @@ void measure_all(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKin
   });
 }
 
-/// Points as the kernel sees them.
-ToolPlyKernelPoint* kernel_points(ToolPlyPoint* points) {
-  using P = ToolPlyPoint;
-  using Q = ToolPlyKernelPoint;
-  static_assert(sizeof(P) == sizeof(Q) && offsetof(P, memory) == offsetof(Q, s) &&
-                offsetof(ContactHistory, damping_force) == offsetof(Q, damping_force) &&
-                offsetof(ContactHistory, normal_force) == offsetof(Q, normal_force) &&
-                offsetof(ContactHistory, slip) == offsetof(Q, slip) &&
-                offsetof(P, gap) == offsetof(Q, gap) &&
-                offsetof(P, last_gap) == offsetof(Q, last_gap) &&
-                offsetof(P, normal) == offsetof(Q, normal) &&
-                offsetof(P, node) == offsetof(Q, node) && offsetof(P, hint) == offsetof(Q, hint));
-  return reinterpret_cast<ToolPlyKernelPoint*>(points);
-}
-
-/// Forces of measured points; advance: mm, of the tool since. Returns the force on the tool, N.
+/// Forces of measured points; advance: mm, of the tool since they were measured. Returns the force
+/// on the tool, N.
 Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& tool_motion,
            const Vec3& advance, double dt, Part part) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   ToolPlyKernelContact k{};
-  k.points = kernel_points(contact.points.data());
+  k.points = contact.points.data();
   k.active = part.data();
   k.active_count = static_cast<int>(part.size());
   k.area = ply.area.data();
@@ -164,7 +149,7 @@ struct Pressed {
   double gap;       ///< mm, before the motion
   double stiffness; ///< N/mm, A k
   double viscous;   ///< N/mm, A c / dt
-  double opened;    ///< mm, of last_gap, what was penetrated before: -p then, at most 0
+  double opened;    ///< mm, -p of the step before if it was penetrated then, else 0
   double max_depth; ///< mm, delta
 
   /// (N) at depth p, and its slope (K), N and N/mm.
@@ -178,7 +163,7 @@ struct Pressed {
   }
 };
 
-/// Those that a motion of no more than `most` (mm) may press.
+/// The points that a motion of no more than `most` (mm) may press.
 std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolPlyContact> contacts,
                                std::span<const SurfaceKinematics> plies, double most, double dt) {
   std::vector<Pressed> pressed;
@@ -190,7 +175,7 @@ std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolPlyCont
     const ContactLaw& law = contacts[i].law;
     for (const std::int32_t k : contacts[i].list.active) {
       const ToolPlyPoint& c = contacts[i].points[k];
-      const double facing = c.normal.dot(tool.direction);
+      const double facing = normal_of(c).dot(tool.direction);
       if (!(std::abs(facing) * most > c.gap)) continue;
       const double area = plies[i].area[c.node];
       pressed.push_back({facing, c.gap, area * law.stiffness, area * law.damping / dt,
@@ -238,7 +223,7 @@ double equilibrium_motion(const ToolBody& tool, std::span<const ToolPlyContact> 
   const std::vector<Pressed> pressed = may_press(tool, contacts, plies, fastest, dt);
   double high = within_room(pressed, fastest), low = within_room(pressed, -fastest);
   double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
-  bool high_known = false, low_known = false; // that the solution lies this side of them
+  bool high_known = false, low_known = false; // that the solution lies below, above it
   constexpr int most_rounds = 60; // the bracket is then at rounding; 3 to 6 rounds are usual
   for (int round = 0; round < most_rounds; ++round) {
     const Residual r = residual_of(tool, pressed, delta, dt);
@@ -292,14 +277,15 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
                           const SurfaceKinematics& ply, double reach, double path_length) {
   const Stopwatch watch(contact.time.search);
   std::vector<ToolPlyPoint> old = std::move(contact.points);
-  const std::vector<double> old_wake = std::move(contact.list.free_until);
+  const std::vector<double> old_free_until = std::move(contact.list.free_until);
   contact.points.clear();
   clear(contact.list);
   contact.free.resize(ply.x.size(), -std::numeric_limits<float>::infinity());
   std::size_t next_old = 0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const bool known = next_old < old.size() && old[next_old].node == static_cast<int>(n);
-    double gap = (known ? old_wake[next_old] : static_cast<double>(contact.free[n])) - path_length;
+    const double free_until = known ? old_free_until[next_old] : double{contact.free[n]};
+    double gap = free_until - path_length;
     ToolPlyPoint point{};
     point.node = static_cast<int>(n);
     if (known) point = old[next_old++];
@@ -307,9 +293,9 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
     if (touched || (!known && gap <= reach)) {
       const SurfacePoint at = distance_to_tool(tool, ply.x[n], point.hint);
       gap = at.distance - contact.half_thickness;
-      point.normal = at.normal;
+      normal_of(point) = at.normal;
     }
-    constexpr double below = 1.0 - 1e-6; // that rounding does not raise it
+    constexpr double below = 1.0 - 1e-6; // rounding to a float must not raise the path length
     contact.free[n] = static_cast<float>(below * (path_length + gap));
     if (gap > reach) {
       if (touched) release(contact.law, ply.area[n], point.memory, contact.sums);
@@ -341,9 +327,9 @@ Vec3 tool_ply_forces(ToolBody& tool, std::span<ToolPlyContact> contacts,
 void add_tool_ply_stiffness(const ToolPlyContact& contact, std::span<const double> area,
                             double margin, std::span<ContactRow> rows) {
   for (const ToolPlyPoint& c : contact.points) {
-    if (c.latest_gap() > margin) continue;
+    if (latest_gap(c) > margin) continue;
     const auto n = static_cast<std::size_t>(c.node);
-    rows[n] += area[n] * row_of(contact.law, -c.latest_gap());
+    rows[n] += area[n] * row_of(contact.law, -latest_gap(c));
   }
 }
 

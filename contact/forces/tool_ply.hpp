@@ -38,17 +38,18 @@ struct ToolBody {
   double max_approach_speed = 0.0; ///< mm/s, closing speed while it meets no resistance
 };
 
-/// One node of a ply near the tool. Laid out in rows of 32 bytes, ToolPlyKernelPoint
-/// (contact/simd/tool_ply_kernel.hpp).
-struct alignas(32) ToolPlyPoint {
-  ContactHistory memory;
-  double gap = 0.0;             ///< mm, distance minus half thickness; infinite: it rests
-  double last_gap = 0.0;        ///< mm, of the step before; while it rests: when it went to rest
-  Vec3 normal = Vec3::Zero();   ///< in space, of this step or when it was last measured
-  std::int32_t node, hint = -1; ///< hint: memory of signed_distance
+/// Its normal as a vector of Eigen, which the point itself must not know.
+inline Eigen::Map<Vec3> normal_of(ToolPlyPoint& point) {
+  return Eigen::Map<Vec3>(point.normal);
+}
+inline Eigen::Map<const Vec3> normal_of(const ToolPlyPoint& point) {
+  return Eigen::Map<const Vec3>(point.normal);
+}
 
-  double latest_gap() const { return std::isinf(gap) ? last_gap : gap; } ///< mm, last seen
-};
+/// mm, gap of this step; of an inactive point: when it was deactivated.
+inline double latest_gap(const ToolPlyPoint& point) {
+  return std::isinf(point.gap) ? point.last_gap : point.gap;
+}
 
 /// A tool against one ply. `points` hold the nodes within reach, ascending.
 struct ToolPlyContact {
@@ -75,17 +76,17 @@ struct SurfaceKinematics {
 /// Signed distance (mm) and normal, in space, of a tool where it stands now.
 SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint);
 
-/// Renews the points: every node that may have a gap <= reach (mm). Contacts keep their memory.
-/// path: as paths[i] of tool_ply_forces; nodes that were too far off, when last measured, to be
-/// near by now are not measured again.
+/// Updates the points: every node that may have a gap <= reach (mm). Contacts keep their memory.
+/// path_length: as paths[i] of tool_ply_forces; nodes that were too far off, when last measured, to
+/// be near by now are not measured again.
 void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
                           const SurfaceKinematics& ply, double reach, double path_length);
 
 /// Forces of one step of one tool on all its plies; contacts[i] is with plies[i]. dt: the step
 /// that led to these positions, s. paths[i]: mm, of ply i and the tool
 /// (contact/search/active_list.hpp), the tool's own motion in this call included. For a pushed tool
-/// also moves it by (B), limited to dt * speed_limit. Returns the force (N) of the plies on the
-/// tool.
+/// also moves it by (B), limited to dt * max_approach_speed. Returns the force (N) of the plies on
+/// the tool.
 Vec3 tool_ply_forces(ToolBody& tool, std::span<ToolPlyContact> contacts,
                      std::span<const SurfaceKinematics> plies, std::span<const double> paths,
                      double dt);

@@ -5,6 +5,8 @@
 
 #include "contact/simd/simd.hpp"
 
+#include <cstddef>
+
 namespace plyform {
 namespace {
 
@@ -34,6 +36,44 @@ PLYFORM_INLINE Rows turned(const Rows& r) {
   const Double4 d = __builtin_shufflevector(r.row[2], r.row[3], 1, 5, 3, 7);
   return {{__builtin_shufflevector(a, c, 0, 1, 4, 5), __builtin_shufflevector(b, d, 0, 1, 4, 5),
            __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
+}
+
+/// Whether four numbers of a contact point lie side by side, in a row: a, b, c, d bytes from its
+/// start.
+consteval bool is_row(std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
+  constexpr std::size_t next = sizeof(double);
+  return a % sizeof(Double4) == 0 && b == a + next && c == b + next && d == c + next;
+}
+
+/// The row of a contact point that begins `row` bytes from its start. InMemory4 may alias its
+/// members.
+template <class Point>
+PLYFORM_INLINE Double4 load_row(const Point* point, std::size_t row) {
+  static_assert(alignof(Point) == sizeof(Double4));
+  return *reinterpret_cast<const InMemory4*>(reinterpret_cast<const char*>(point) + row);
+}
+
+/// Stores four numbers to the row that begins `row` bytes from the start of the point.
+template <class Point>
+PLYFORM_INLINE void store_row(Point* point, std::size_t row, Double4 a) {
+  static_assert(alignof(Point) == sizeof(Double4));
+  *reinterpret_cast<InMemory4*>(reinterpret_cast<char*>(point) + row) = a;
+}
+
+/// One row of four points, by columns.
+template <class Point>
+PLYFORM_INLINE Rows load_columns(Point* const* point, std::size_t row) {
+  return turned({{load_row(point[0], row), load_row(point[1], row), load_row(point[2], row),
+                  load_row(point[3], row)}});
+}
+
+/// Columns, as of load_columns, back into that row of the first `count` of four points.
+template <class Point>
+PLYFORM_INLINE void store_columns(Point* const* point, int count, std::size_t row,
+                                  const Rows& columns) {
+  const Rows r = turned(columns);
+  for (int i = 0; i < count; ++i)
+    store_row(point[i], row, r.row[i]);
 }
 
 PLYFORM_INLINE double smallest(Double4 a) {

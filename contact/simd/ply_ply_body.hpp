@@ -74,7 +74,7 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
 }
 
 /// Forces on the nodes and corners of the points in `touch`.
-PLYFORM_INLINE void add_forces(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
+PLYFORM_INLINE void add_forces(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
                                const SimdFoot& foot, const SimdForces& f, Long4 touch) {
   const Rows on_node = rows(f.on_node);
   const Rows on_b = rows(f.couple1 - foot.wb * f.on_node);
@@ -92,7 +92,7 @@ PLYFORM_INLINE void add_forces(const PlyPlyKernelContact& k, PlyPlyKernelPoint* 
 
 /// Up to four points; those from `count` on are fillers, the same as the first.
 struct Group {
-  PlyPlyKernelPoint* point[four];
+  PlyPlyPoint* point[four];
   std::int32_t index[four];
   int count;
   Long4 real;
@@ -117,13 +117,13 @@ PLYFORM_INLINE Long4 remembered(const Group& g) {
 PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const SimdFaces& x,
                           const SimdFoot& foot, SimdTotals& sums) {
   const SimdFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
-  const Rows held = load_rows(g.point, held_row), force = load_rows(g.point, force_row);
+  const Rows held = load_columns(g.point, memory_row), last = load_columns(g.point, gap_row);
   SimdPoints p;
   SimdHistory& m = p.memory;
   m.s = {held.row[0], held.row[1], held.row[2]};
   m.damping_force = held.row[3];
-  m.normal_force = force.row[0], m.slip = force.row[1], p.area = force.row[2];
-  p.last_gap = force.row[3];
+  m.normal_force = last.row[0], m.slip = last.row[1], p.area = last.row[2];
+  p.last_gap = last.row[3];
   p.gap = foot.distance - k.distance;
   const SimdForces f = forces_of(k, x, u, foot, g.real, p, sums);
   add_forces(k, g.point, foot, f, g.real);
@@ -135,11 +135,11 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const Si
   const Rows s = turned({{m.s.x, m.s.y, m.s.z, m.damping_force}});
   const Rows b = turned({{m.normal_force, m.slip, p.area, p.gap}});
   for (int i = 0; i < g.count; ++i) {
-    PlyPlyKernelPoint& at = *g.point[i];
+    PlyPlyPoint& at = *g.point[i];
     if (at.side * side[i] < 0 || deep[i]) k.fault(k.self, g.index[i], foot.distance[i]);
     at.side = static_cast<std::int32_t>(side[i]);
-    store(row_of(&at, held_row), s.row[i]);
-    store(row_of(&at, force_row), b.row[i]);
+    store_row(&at, memory_row, s.row[i]);
+    store_row(&at, gap_row, b.row[i]);
   }
   sums.touching += g.count;
 }
@@ -147,7 +147,7 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const Si
 /// A point that does not touch.
 PLYFORM_INLINE void pass_by(const PlyPlyKernelContact& k, std::int32_t index, double distance,
                             bool inside, SimdTotals& sums) {
-  PlyPlyKernelPoint& at = k.points[index];
+  PlyPlyPoint& at = k.points[index];
   const double last_gap = at.gap;
   at.gap = distance - k.distance;
   if (last_gap < 1e300) // else it was inactive
@@ -167,7 +167,8 @@ PLYFORM_INLINE void pass_by(const PlyPlyKernelContact& k, std::int32_t index, do
     }
     at.side = height >= 0.0 ? 1 : -1;
   }
-  if (at.normal_force != 0.0 || at.damping_force != 0.0) k.open(k.self, index, last_gap);
+  if (at.memory.normal_force != 0.0 || at.memory.damping_force != 0.0)
+    k.open(k.self, index, last_gap);
   k.free_until[index] = k.path_length + at.gap;
 }
 
@@ -245,7 +246,7 @@ PLYFORM_INLINE void press_later(const PlyPlyKernelContact& k, const std::int32_t
     inside[i] = chunk.inside[from] ? -1 : 0;
   }
   const Group g = group_of(k, index, count);
-  const Rows w = load_rows(g.point, weight_row);
+  const Rows w = load_columns(g.point, weight_row);
   press(k, g, load_faces(k, g.point, remembered(g), k.slave_x, k.master_x),
         {w.row[0], w.row[1], distance, inside}, sums);
 }

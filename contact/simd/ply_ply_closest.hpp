@@ -12,25 +12,27 @@ namespace {
 constexpr double sliver_sine2 = 0.01; // as in contact/point_triangle.hpp
 constexpr double far2 = 1e300;        // mm^2
 
-/// Rows of a PlyPlyKernelPoint: s and damping_force; normal_force, slip, area, gap; w and looked.
-enum PointRow { held_row, force_row, weight_row };
-
-PLYFORM_INLINE double* row_of(PlyPlyKernelPoint* p, PointRow row) {
-  return reinterpret_cast<double*>(p) + 4 * row;
-}
-
-/// One row of four points, by columns.
-PLYFORM_INLINE Rows load_rows(PlyPlyKernelPoint* const* p, PointRow row) {
-  return turned({{load(row_of(p[0], row)), load(row_of(p[1], row)), load(row_of(p[2], row)),
-                  load(row_of(p[3], row))}});
-}
+/// Rows of a PlyPlyPoint.
+enum PlyRow : std::size_t {
+  memory_row = offsetof(PlyPlyPoint, memory.s),
+  gap_row = offsetof(PlyPlyPoint, memory.normal_force),
+  weight_row = offsetof(PlyPlyPoint, w)
+};
+static_assert(is_row(memory_row, offsetof(PlyPlyPoint, memory.s[1]),
+                     offsetof(PlyPlyPoint, memory.s[2]),
+                     offsetof(PlyPlyPoint, memory.damping_force)));
+static_assert(is_row(gap_row, offsetof(PlyPlyPoint, memory.slip), offsetof(PlyPlyPoint, area),
+                     offsetof(PlyPlyPoint, gap)));
+static_assert(is_row(weight_row, offsetof(PlyPlyPoint, w[1]),
+                     offsetof(PlyPlyPoint, last_search_foot[0]),
+                     offsetof(PlyPlyPoint, last_search_foot[1])));
 
 /// Places or motions of four nodes and of the corners of their faces, relative to a.
 struct SimdFaces {
   Vector4 p, b, c;
 };
 
-PLYFORM_INLINE SimdFaces load_faces(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
+PLYFORM_INLINE SimdFaces load_faces(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
                                     Long4 face, const double* slave, const double* master) {
   Double4 p[four], b[four], c[four];
   for (int i = 0; i < four; ++i) {
@@ -94,7 +96,7 @@ PLYFORM_INLINE SimdClosest closest_of(const SimdFaces& x, const SimdPlanes& plan
 /// What is closest of four nodes, on the faces that they remember.
 struct SimdFoot {
   Double4 wb, wc, distance;
-  Long4 inside; ///< the foot on the plane is
+  Long4 inside; ///< whether the foot on the plane lies inside the face
 };
 
 /// Whether a foot inside is clear of where other faces begin, and what the point remembers.
@@ -105,13 +107,13 @@ struct SimdRoom {
 };
 
 /// mm, by contact/search/fold_bound.hpp: how far from a side a foot must be.
-PLYFORM_INLINE Double4 clearance(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point) {
+PLYFORM_INLINE Double4 clearance(const PlyPlyKernelContact& k, PlyPlyPoint* const* point) {
   if (!k.fold_bound) return all(far2);
   return k.distance * Double4{k.fold_bound[point[0]->face], k.fold_bound[point[1]->face],
                               k.fold_bound[point[2]->face], k.fold_bound[point[3]->face]};
 }
 
-PLYFORM_INLINE SimdFoot foot_of(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
+PLYFORM_INLINE SimdFoot foot_of(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
                                 const SimdFaces& x, SimdRoom& room) {
   const SimdPlanes q = planes_of(x);
   // w_i times the height over side i, which is sqrt(det) / |side|, against the clearance
@@ -120,7 +122,7 @@ PLYFORM_INLINE SimdFoot foot_of(const PlyPlyKernelContact& k, PlyPlyKernelPoint*
   const Long4 b = q.wb * q.wb * q.det > keep2 * q.cc, c = q.wc * q.wc * q.det > keep2 * q.bb;
   room.of_sides = a & b & c;
   room.of_corners = (a & b) | (b & c) | (c & a);
-  const Rows last = load_rows(point, weight_row);
+  const Rows last = load_columns(point, weight_row);
   room.looked_b = last.row[2], room.looked_c = last.row[3];
   const Double4 db = q.wb - room.looked_b, dc = q.wc - room.looked_c;
   room.slid2 = db * db * q.bb + 2.0 * (db * dc) * q.bc + dc * dc * q.cc;
@@ -128,17 +130,15 @@ PLYFORM_INLINE SimdFoot foot_of(const PlyPlyKernelContact& k, PlyPlyKernelPoint*
   return {closest.wb, closest.wc, root(closest.distance2), closest.inside};
 }
 
-PLYFORM_INLINE void keep_weights(PlyPlyKernelPoint* const* point, int count, const SimdFoot& foot,
+PLYFORM_INLINE void keep_weights(PlyPlyPoint* const* point, int count, const SimdFoot& foot,
                                  Double4 looked_b, Double4 looked_c) {
-  const Rows w = turned({{foot.wb, foot.wc, looked_b, looked_c}});
-  for (int i = 0; i < count; ++i)
-    store(row_of(point[i], weight_row), w.row[i]);
+  store_columns(point, count, weight_row, {{foot.wb, foot.wc, looked_b, looked_c}});
 }
 
-/// Closest points of the `count` first of four points over all of their faces that can be closest:
-/// face and other of each; returns where. Points near one edge
-/// only, inside their face, need no `sides`: the edge that both share is further than the foot.
-PLYFORM_INLINE SimdFoot look_at_all(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
+/// Closest points of the first `count` of four points on any of their faces. Updates the face and
+/// other of each. Points near one edge only, inside their face, need no `sides`: the edge that both
+/// faces share is further than the foot.
+PLYFORM_INLINE SimdFoot look_at_all(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
                                     int count, bool sides) {
   Double4 best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
   Double4 plane_b = all(0.0), plane_c = all(0.0);
@@ -180,16 +180,16 @@ PLYFORM_INLINE SimdFoot look_at_all(const PlyPlyKernelContact& k, PlyPlyKernelPo
 }
 
 /// Which feet need no look around. No other face can be closer: none of those that share a node
-/// with it by contact/search/fold_bound.hpp, none of the rest since the search. Or hardly: the
-/// point has not slid by `rest` since it looked, and one across an edge can be closer by no more
-/// than that times their fold (contact/forces/ply_ply.hpp). mild: only one across an edge may be
-/// closer, with its inside.
-PLYFORM_INLINE Long4 sure_of(const PlyPlyKernelContact& k, PlyPlyKernelPoint* const* point,
+/// with it by contact/search/fold_bound.hpp, and none of the others since the search. Or hardly:
+/// the point has not slid by slide_limit since it looked around, and a face across an edge can be
+/// closer by no more than that times their fold (contact/forces/ply_ply.hpp). mild: only a face
+/// across an edge may be closer, and only with its inside.
+PLYFORM_INLINE Long4 sure_of(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
                              const SimdFoot& foot, const SimdRoom& room, Long4& mild) {
   const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
-  const Long4 active = other - k.max_displacement > foot.distance;
-  mild = active & foot.inside & room.of_corners;
-  return (mild & room.of_sides) | (active & (room.slid2 < k.slide_limit * k.slide_limit));
+  const Long4 others_further = other - k.max_displacement > foot.distance;
+  mild = others_further & foot.inside & room.of_corners;
+  return (mild & room.of_sides) | (others_further & (room.slid2 < k.slide_limit * k.slide_limit));
 }
 
 } // namespace

@@ -3,23 +3,13 @@
 // pointers, nothing inline (contact/simd/simd.hpp says why).
 #pragma once
 
-#include <cstdint>
+#include "contact/simd/contact_points.hpp"
 
 namespace plyform {
 
-/// A PlyPlyPoint, member for member, in rows of 32 bytes.
-struct alignas(32) PlyPlyKernelPoint {
-  double s[3], damping_force;
-  double normal_force, slip, area, gap;
-  double w[2], last_search_foot[2];
-  double other;
-  float gap_when_deactivated;
-  std::int32_t node, face, first_face, end_face, side;
-};
-
 /// What the kernel reads and writes of a contact. Positions, motions and forces: 3 a node.
 struct PlyPlyKernelContact {
-  PlyPlyKernelPoint* points;
+  PlyPlyPoint* points;
   const std::int32_t* active; ///< points to look at
   int active_count;
   double* free_until; ///< mm, of the points (contact/search/active_list.hpp)
@@ -31,7 +21,7 @@ struct PlyPlyKernelContact {
   double *slave_force, *master_force;
   double max_displacement; ///< mm, of anything relative to anything since the search
   double path_length;      ///< mm (contact/search/active_list.hpp)
-  double slide_limit;      ///< mm, sliding since it looked around by which a point need not again
+  double slide_limit;      ///< mm, as of PlyPlyContact, or 0 in steps of a full search
   double distance, stiffness, tangential,
       friction;                 ///< h, k, k_t, mu of contact/forces/contact_law.hpp
   double max_depth, per_depth2; ///< delta and 1/delta^2 of it; finite
@@ -49,7 +39,7 @@ constexpr double same_distance = 1e-10;
 
 /// `other` of a point whose closest face is point.face: the distance at the search of the nearest
 /// of its faces that shares no node with that one. triangles, faces, face_distance: as above.
-double distance_of_others(const PlyPlyKernelPoint& point, const std::int32_t* triangles,
+double distance_of_others(const PlyPlyPoint& point, const std::int32_t* triangles,
                           const std::int32_t* faces, const double* face_distance);
 
 /// Added up over the points that touch.

@@ -8,7 +8,7 @@ namespace {
 
 /// Up to four points; those from `count` on are fillers, the same as the first.
 struct ToolGroup {
-  ToolPlyKernelPoint* point[four];
+  ToolPlyPoint* point[four];
   int count;
   Long4 real;
 };
@@ -22,25 +22,19 @@ PLYFORM_INLINE ToolGroup group_of(const ToolPlyKernelContact& k, int first) {
   return g;
 }
 
-/// Rows of a ToolPlyKernelPoint: s and damping_force; normal_force, slip and gaps; normal and
-/// numbers.
-enum ToolRow { memory_row, gap_row, normal_row };
-
-PLYFORM_INLINE double* row_of(ToolPlyKernelPoint* p, ToolRow row) {
-  return reinterpret_cast<double*>(p) + 4 * row;
-}
-
-/// One row of four points, by columns.
-PLYFORM_INLINE Rows load_rows(const ToolGroup& g, ToolRow row) {
-  return turned({{load(row_of(g.point[0], row)), load(row_of(g.point[1], row)),
-                  load(row_of(g.point[2], row)), load(row_of(g.point[3], row))}});
-}
-
-PLYFORM_INLINE void store_rows(const ToolGroup& g, ToolRow row, const Rows& columns) {
-  const Rows r = turned(columns);
-  for (int i = 0; i < g.count; ++i)
-    store(row_of(g.point[i], row), r.row[i]);
-}
+/// Rows of a ToolPlyPoint. Node and hint, the last column of the third, are no number to load.
+enum ToolRow : std::size_t {
+  memory_row = offsetof(ToolPlyPoint, memory.s),
+  gap_row = offsetof(ToolPlyPoint, memory.normal_force),
+  normal_row = offsetof(ToolPlyPoint, normal)
+};
+static_assert(is_row(memory_row, offsetof(ToolPlyPoint, memory.s[1]),
+                     offsetof(ToolPlyPoint, memory.s[2]),
+                     offsetof(ToolPlyPoint, memory.damping_force)));
+static_assert(is_row(gap_row, offsetof(ToolPlyPoint, memory.slip), offsetof(ToolPlyPoint, gap),
+                     offsetof(ToolPlyPoint, last_gap)));
+static_assert(is_row(normal_row, offsetof(ToolPlyPoint, normal[1]),
+                     offsetof(ToolPlyPoint, normal[2]), offsetof(ToolPlyPoint, node)));
 
 PLYFORM_INLINE Double4 areas(const ToolPlyKernelContact& k, const ToolGroup& g) {
   return Double4{k.area[g.point[0]->node], k.area[g.point[1]->node], k.area[g.point[2]->node],
@@ -94,8 +88,8 @@ PLYFORM_INLINE Vector4 forces_of(const ToolPlyKernelContact& k, const ToolGroup&
 
 PLYFORM_INLINE void press_four(const ToolPlyKernelContact& k, const ToolGroup& g, SimdTotals& sums,
                                Vector4& on_nodes) {
-  const Rows n = load_rows(g, normal_row), held = load_rows(g, memory_row);
-  const Rows gaps = load_rows(g, gap_row);
+  const Rows n = load_columns(g.point, normal_row), held = load_columns(g.point, memory_row);
+  const Rows gaps = load_columns(g.point, gap_row);
   const Vector4 normal{n.row[0], n.row[1], n.row[2]};
   const Double4 last_gap = gaps.row[3], gap = gaps.row[2] - dot(normal, everywhere(k.advance));
   SimdHistory m{held.row[3], gaps.row[0], gaps.row[1], {held.row[0], held.row[1], held.row[2]}};
@@ -106,9 +100,9 @@ PLYFORM_INLINE void press_four(const ToolPlyKernelContact& k, const ToolGroup& g
     set_forces(k, g, f);
     on_nodes = on_nodes +
                Vector4{g.real ? f.x : all(0.0), g.real ? f.y : all(0.0), g.real ? f.z : all(0.0)};
-    store_rows(g, memory_row, {{m.s.x, m.s.y, m.s.z, m.damping_force}});
+    store_columns(g.point, g.count, memory_row, {{m.s.x, m.s.y, m.s.z, m.damping_force}});
   }
-  store_rows(g, gap_row, {{m.normal_force, m.slip, gap, last_gap}});
+  store_columns(g.point, g.count, gap_row, {{m.normal_force, m.slip, gap, last_gap}});
 }
 
 PLYFORM_INLINE ToolPlyKernelTotals tool_kernel(const ToolPlyKernelContact& k) {

@@ -3,22 +3,13 @@
 // pointers, nothing inline (contact/simd/simd.hpp says why).
 #pragma once
 
-#include <cstdint>
+#include "contact/simd/contact_points.hpp"
 
 namespace plyform {
 
-/// A ToolPlyPoint, member for member, in rows of 32 bytes.
-struct alignas(32) ToolPlyKernelPoint {
-  double s[3], damping_force;
-  double normal_force, slip, gap, last_gap;
-  double normal[3];
-  std::int32_t node, hint;
-};
-
 /// What the kernel reads and writes of a contact. Motions and forces: 3 a node.
 struct ToolPlyKernelContact {
-  ToolPlyKernelPoint*
-      points; ///< gaps and normals are those of this step, before the tool's advance
+  ToolPlyPoint* points; ///< gaps and normals are those of this step, before the tool's advance
   const std::int32_t* active; ///< points to look at
   int active_count;
   const double* area;                     ///< mm^2, of the nodes

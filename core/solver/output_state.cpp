@@ -89,7 +89,7 @@ std::vector<double> contact_pressure(const Scene& scene, int index) {
   sides.below = sides.above;
   for (const ToolState& tool : scene.tools)
     for (const ToolPlyPoint& c : tool.contacts[p].points)
-      sides.add(c.node, c.normal, c.memory.normal_force);
+      sides.add(c.node, normal_of(c), c.memory.normal_force);
   for (const PlyContact& pair : scene.ply_contacts)
     for (const PlyPlyPoint& c : pair.contact.points) {
       if (c.memory.normal_force == 0.0 || (pair.slave != index && pair.master != index)) continue;
@@ -99,7 +99,7 @@ std::vector<double> contact_pressure(const Scene& scene, int index) {
       if (pair.slave == index) sides.add(c.node, normal, c.memory.normal_force);
       if (pair.master != index) continue;
       const Triangle& t = triangles[c.face];
-      const std::array<double, 3> w = c.weights();
+      const std::array<double, 3> w = weights_of(c);
       for (std::size_t j = 0; j < 3; ++j)
         sides.add(t[j], -normal, w[j] * c.memory.normal_force);
     }

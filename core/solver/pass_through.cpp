@@ -36,7 +36,7 @@ std::optional<Stop> find_pass_through(const Scene& s, const PlyContact& pair) {
   for (const PlyPlyPoint& c : pair.contact.points) {
     const Triangle& t = master.membrane.triangles[c.face];
     Vec3 u = at(slave.x, c.node), r = at(slave.motion, c.node);
-    const std::array<double, 3> w = c.weights();
+    const std::array<double, 3> w = weights_of(c);
     for (std::size_t j = 0; j < 3; ++j) {
       u -= w[j] * at(master.x, t[j]);
       r -= w[j] * at(master.motion, t[j]);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernel of contacts with tools against the law one contact after the other, and its two
 // compiled copies against each other.
-#include "contact/forces/contact_law.hpp"
+#include "contact/forces/tool_ply.hpp"
 #include "contact/simd/cpu_features.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
 #include "support/contact_checks.hpp"
@@ -15,7 +15,7 @@ namespace {
 
 /// A step of contacts with random memories and gaps up to 0.05 mm either way; nodes are points.
 struct RandomStep {
-  std::vector<ToolPlyKernelPoint> points;
+  std::vector<ToolPlyPoint> points;
   std::vector<std::int32_t> near;
   OwnedSheet nodes;
   std::vector<Vec3> force;
@@ -30,14 +30,14 @@ struct RandomStep {
       const auto i = static_cast<std::size_t>(n);
       nodes.area[i] = 2.0 + signed_unit(random);
       nodes.motion[i] = 0.01 * random_vector(random);
-      ToolPlyKernelPoint p{};
+      ToolPlyPoint p{};
       if (n % 3 != 0) { // it touched
-        Eigen::Map<Vec3>(p.s) = 0.01 * random_vector(random);
-        p.damping_force = 0.1 * signed_unit(random);
-        p.normal_force = 1.0 + signed_unit(random);
-        p.slip = 0.01 * (1.0 + signed_unit(random));
+        s_of(p.memory) = 0.01 * random_vector(random);
+        p.memory.damping_force = 0.1 * signed_unit(random);
+        p.memory.normal_force = 1.0 + signed_unit(random);
+        p.memory.slip = 0.01 * (1.0 + signed_unit(random));
       }
-      Eigen::Map<Vec3>(p.normal) = random_vector(random).normalized();
+      normal_of(p) = random_vector(random).normalized();
       p.gap = 0.05 * signed_unit(random);
       p.last_gap = p.gap + 0.01 * signed_unit(random);
       p.node = n;
@@ -64,13 +64,11 @@ struct RandomStep {
   }
 };
 
-/// The force (N) on the node of one point, whose memory is renewed.
-Vec3 force_by_law(const ContactLaw& law, double dt, const RandomStep& step,
-                  const ToolPlyKernelPoint& p, ContactHistory& m, ContactTotals& sums) {
-  m.s = Eigen::Map<const Vec3>(p.s);
-  m.damping_force = p.damping_force, m.normal_force = p.normal_force, m.slip = p.slip;
+/// The force (N) on the node of one point; m: its memory, which is updated.
+Vec3 force_by_law(const ContactLaw& law, double dt, const RandomStep& step, const ToolPlyPoint& p,
+                  ContactHistory& m, ContactTotals& sums) {
   const auto n = static_cast<std::size_t>(p.node);
-  const Vec3 normal = Eigen::Map<const Vec3>(p.normal);
+  const Vec3 normal = normal_of(p);
   const double area = step.nodes.area[n];
   const double depth = -p.gap + normal.dot(Eigen::Map<const Vec3>(step.contact.advance));
   const double dp = p.last_gap + depth;
@@ -103,15 +101,15 @@ TEST(ToolKernelOracle, FollowsTheLawOfOneContact) {
       ContactTotals expected;
       Vec3 on_nodes = Vec3::Zero();
       for (std::size_t i = 0; i < before.points.size(); ++i) {
-        ContactHistory m;
+        ContactHistory m = before.points[i].memory;
         const Vec3 f = force_by_law(law, dt, before, before.points[i], m, expected);
         on_nodes += f;
-        const ToolPlyKernelPoint& p = step.points[i];
+        const ContactHistory& found = step.points[i].memory;
         EXPECT_LE((step.force[i] - f).norm(), 1e-14) << i;
-        EXPECT_LE((Eigen::Map<const Vec3>(p.s) - m.s).norm(), 1e-16) << i;
-        EXPECT_NEAR(p.damping_force, m.damping_force, 1e-15) << i;
-        EXPECT_NEAR(p.normal_force, m.normal_force, 1e-15) << i;
-        EXPECT_NEAR(p.slip, m.slip, 1e-16) << i;
+        EXPECT_LE((s_of(found) - s_of(m)).norm(), 1e-16) << i;
+        EXPECT_NEAR(found.damping_force, m.damping_force, 1e-15) << i;
+        EXPECT_NEAR(found.normal_force, m.normal_force, 1e-15) << i;
+        EXPECT_NEAR(found.slip, m.slip, 1e-16) << i;
       }
       EXPECT_EQ(sums.touching, expected.touching);
       EXPECT_NEAR(sums.elastic, expected.elastic, 1e-13 * expected.elastic);
@@ -131,9 +129,8 @@ TEST(ToolKernelOracle, GivesTheSameBitsOnEveryProcessor) {
     const ToolPlyKernelTotals sums = a.run(tool_ply_kernel_generic),
                               other = b.run(tool_ply_kernel_avx2);
     ASSERT_EQ(std::memcmp(a.force.data(), b.force.data(), a.force.size() * sizeof(Vec3)), 0);
-    ASSERT_EQ(
-        std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(ToolPlyKernelPoint)),
-        0);
+    ASSERT_EQ(std::memcmp(a.points.data(), b.points.data(), a.points.size() * sizeof(ToolPlyPoint)),
+              0);
     ASSERT_EQ(sums.elastic, other.elastic);
     ASSERT_EQ(sums.friction, other.friction);
     ASSERT_EQ(sums.damping, other.damping);
