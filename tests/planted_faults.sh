@@ -3,6 +3,7 @@
 # Do the tests see a fault of contact? Copies the sources, plants one fault after the other, builds
 # the short tests and runs those of contact:
 #   tests/planted_faults.sh [SCRATCH_FOLDER [REGEX]]
+#   tests/planted_faults.sh --places      only whether each fault has its place: a second
 # A folder that is given is kept, and the next call builds only what has changed; with REGEX only
 # faults whose names match. Prints a table of faults and the tests that fail; answers 1 if a fault
 # makes no test fail, or if one fails without.
@@ -37,6 +38,21 @@ faults=(
   "friction takes tools to move the other way | contact/simd/tool_ply_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
 )
 filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeEdgeContact*'
+
+# plant LINE: the fault's file with the fault in it, on standard output.
+plant() {
+  local rest=${1#* | }
+  sed "${rest#* | }" "${rest%% | *}"
+}
+
+if [ "${1:-}" = --places ]; then
+  lost=0
+  for line in "${faults[@]}"; do
+    rest=${line#* | }
+    ! plant "$line" | cmp -s - "${rest%% | *}" || { echo "${rest%% | *}: no place for: ${line%% | *}"; lost=1; }
+  done
+  exit $lost
+fi
 
 if [ $# -gt 0 ]; then
   mkdir -p "$1"
@@ -87,9 +103,9 @@ unseen=0
 printf '| fault | tests that fail |\n|---|---|\n'
 for line in "${faults[@]}"; do
   name=${line%% | *} rest=${line#* | }
-  file=${rest%% | *} change=${rest#* | }
+  file=${rest%% | *}
   [[ $name =~ ${2:-.} ]] || continue
-  sed "$change" "$file" >"$planted"
+  plant "$line" >"$planted"
   if cmp -s "$planted" "$file"; then
     echo "planted_faults.sh: error: $file has no place for the fault: $name" >&2
     exit 1
