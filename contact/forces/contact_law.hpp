@@ -42,10 +42,6 @@
 
 namespace plyform {
 
-/// q of (E) at least, and the depth over delta where that is: what is deeper is a fault, whose
-/// force need not be right, only finite.
-constexpr double least_room = 1e-3, deepest_sound = 0.9995;
-
 struct ContactLaw {
   double stiffness = 0.0;                                     ///< k, N/mm^3
   double damping = 0.0;                                       ///< c, N s/mm^3; normal only

@@ -3,6 +3,7 @@
 // of contacts with tools and plies share. As contact/simd/simd.hpp: only for those kernels.
 #pragma once
 
+#include "contact/simd/contact_points.hpp"
 #include "contact/simd/simd.hpp"
 
 #include <cstddef>
@@ -11,8 +12,6 @@ namespace plyform {
 namespace {
 
 constexpr int four = 4;
-/// least_room and deepest_sound of contact/forces/contact_law.hpp, which kernels cannot include.
-constexpr double kernel_least_room = 1e-3, kernel_deepest_sound = 0.9995;
 
 PLYFORM_INLINE Double4 square(const Vector4& a) {
   return dot(a, a);
@@ -111,7 +110,7 @@ PLYFORM_INLINE Vector4 into_plane(const Vector4& s, const Vector4& n) {
 /// q of contact/forces/contact_law.hpp.
 template <class Contact>
 PLYFORM_INLINE Double4 room_of(const Contact& k, Double4 depth) {
-  return larger(1.0 - depth * depth * k.per_depth2, all(kernel_least_room));
+  return larger(1.0 - depth * depth * k.per_depth2, all(least_room));
 }
 
 /// ContactTotals::step_ratio of four contacts at `depth` that closed by `dp` (mm) in the last step.

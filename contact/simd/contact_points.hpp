@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The points of contact, as search, forces and kernels share them: plain numbers and no functions,
-// since the kernels include this file (contact/simd/simd.hpp says why).
+// Points and constants of contact, as search, forces and kernels share them: plain numbers and no
+// functions, since the kernels include this file (contact/simd/simd.hpp says why).
 //
 // A kernel loads four numbers of a point at once. Points therefore consist of rows of 32 bytes,
 // told apart by the empty lines below; the kernels assert what they take for a row.
@@ -9,6 +9,10 @@
 #include <cstdint>
 
 namespace plyform {
+
+/// q of (E), contact/forces/contact_law.hpp, at least, and the depth over delta where that is: what
+/// is deeper is a fault, whose force need not be right, only finite.
+constexpr double least_room = 1e-3, deepest_sound = 0.9995;
 
 /// What one contact remembers from step to step.
 struct ContactHistory {

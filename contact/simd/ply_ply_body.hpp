@@ -131,7 +131,7 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const Si
   // forgotten on edges: a node may slide round the rim to the other side
   const Long4 side = foot.inside & (height >= 0.0 ? Long4{1, 1, 1, 1} : Long4{-1, -1, -1, -1});
   const Long4 deep = (foot.distance < 0.5 * k.distance) | // where depth has no limit
-                     (k.distance - foot.distance >= kernel_deepest_sound * k.max_depth);
+                     (k.distance - foot.distance >= deepest_sound * k.max_depth);
   const Rows s = turned({{m.s.x, m.s.y, m.s.z, m.damping_force}});
   const Rows b = turned({{m.normal_force, m.slip, p.area, p.gap}});
   for (int i = 0; i < g.count; ++i) {
