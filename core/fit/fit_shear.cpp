@@ -74,8 +74,9 @@ bool enough(const Curve& curve, const std::vector<Sample>& samples, const FitOpt
   return false;
 }
 
-/// Coefficients of g, g^3 ... by weighted linear least squares; the weights follow the fit.
-std::vector<double> fit(const std::vector<Sample>& samples, int coefficients) {
+/// Coefficients of g, g^3 ... by weighted linear least squares; the weights follow the fit. Loads
+/// are divided by `factor`.
+std::vector<double> fit(const std::vector<Sample>& samples, int coefficients, double factor) {
   const auto rows = static_cast<Eigen::Index>(samples.size());
   const double scale = samples.back().weights.angle; // columns of about one size
   Eigen::MatrixXd a(rows, coefficients);
@@ -85,7 +86,7 @@ std::vector<double> fit(const std::vector<Sample>& samples, int coefficients) {
     for (int c = 0; c < coefficients; ++c)
       a(r, c) = s.weights.whole * std::pow(s.weights.angle / scale, 2 * c + 1) +
                 s.weights.half * std::pow(0.5 * s.weights.angle / scale, 2 * c + 1);
-    load[r] = s.load;
+    load[r] = s.load / factor;
   }
   const Eigen::VectorXd k = weighted_least_squares(a, load);
   std::vector<double> law;
@@ -151,6 +152,16 @@ void warn_of_start(const Curve& curve, const Sample& first, Diagnostics& diagnos
                     first.load, first.extension));
 }
 
+void warn_of_layers(const Curve& curve, const BendingShare& share, Diagnostics& diagnostics) {
+  constexpr double large = 0.4; // of the load: half of it is not known
+  if (share.most <= large) return;
+  diagnostics.warning(
+      place_of(curve),
+      fmt::format("in-plane bending of the yarns adds {:.0f} to {:.0f} % to the load of shear: the "
+                  "law is as uncertain; test a longer specimen",
+                  100.0 * share.least, 100.0 * share.most));
+}
+
 void check_options(const Fabric& fabric, const FitOptions& options) {
   if (options.coefficients < 1 || options.coefficients > 6)
     throw std::invalid_argument("coefficients: there can be 1 to 6");
@@ -206,15 +217,23 @@ std::optional<ShearFit> identify_shear(Curve curve, const ShearTest& test, const
   if (!samples || !enough(curve, *samples, options, diagnostics)) return std::nullopt;
   warn_of_start(curve, samples->front(), diagnostics);
   ShearFit result;
-  result.law.k = fit(*samples, options.coefficients);
-  clear_rounding(result.law, samples->back().weights.angle);
   Fabric fitted = fabric;
-  fitted.shear = result.law;
+  constexpr int repetitions =
+      20; // the share goes by the root of k1: each takes a tenth of the rest
+  for (int i = 0; i < repetitions; ++i) {
+    const double before = result.in_plane.mean();
+    result.law.k = fit(*samples, options.coefficients, 1.0 + before);
+    clear_rounding(result.law, samples->back().weights.angle);
+    fitted.shear = result.law;
+    result.in_plane = in_plane_bending_share(test, fitted);
+    if (std::abs(result.in_plane.mean() - before) <= 1e-9) break;
+  }
+  warn_of_layers(curve, result.in_plane, diagnostics);
   for (const Sample& s : *samples) {
     result.extension.push_back(s.extension);
     result.angle.push_back(s.weights.angle);
     result.measured.push_back(s.load);
-    result.fitted.push_back(test_load(test, fitted, s.extension));
+    result.fitted.push_back((1.0 + result.in_plane.mean()) * test_load(test, fitted, s.extension));
   }
   result.quality = quality_of(result.angle, result.measured, result.fitted);
   const bool good = check_quality(

@@ -57,6 +57,7 @@ struct ShearFit {
   ShearLaw law;
   FitQuality quality;
   std::vector<double> extension, angle, measured, fitted; ///< mm, rad, N, N of each row
+  BendingShare in_plane; ///< of in-plane bending: its mean is in the fitted load
 };
 
 struct TensionFit {
@@ -66,10 +67,12 @@ struct TensionFit {
 };
 
 /// Law of shear from extension (mm) and load (N) of a test. Uses the fabric's densities and fibre
-/// angle, which must be 90 degrees. Nothing, and a report, when the curve breaks a rule of
-/// check_curve, reaches 90 degrees, covers too little (two rows a coefficient, 5 degrees), is not
-/// followed to within 20 %, or gives a torque that is negative or falls within the range covered.
-/// Throws std::invalid_argument for options out of range.
+/// angle, which must be 90 degrees, and its in-plane bending, whose share of the load of a
+/// bias-extension test is taken off (it follows the law found: by repetition). Nothing, and a
+/// report, when the curve breaks a rule of check_curve, reaches 90 degrees, covers too little (two
+/// rows a coefficient, 5 degrees), is not followed to within 20 %, or gives a torque that is
+/// negative or falls within the range covered. Throws std::invalid_argument for options out of
+/// range.
 std::optional<ShearFit> identify_shear(Curve curve, const ShearTest& test, const Fabric& fabric,
                                        const FitOptions& options, Diagnostics& diagnostics);
 

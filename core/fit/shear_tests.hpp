@@ -79,4 +79,21 @@ TorqueWeights torque_weights(const ShearTest& test, const Fabric& fabric, double
 /// F (N) by (40, 41), from the fabric's densities and shear law.
 double test_load(const ShearTest& test, const Fabric& fabric, double extension);
 
+/// What bending of the yarns in their plane adds to F of a bias-extension test, over F by (40).
+///
+/// A net of inextensible yarns shears by phi(s) + phi(t) along its two families, with phi = 0 where
+/// a clamp holds the yarns. Bending (core/ply/bending.hpp) lets phi come up like 1 - exp(-s/l),
+/// l^2 = D_g / (n_c Cs'(0)), at both ends of the D / sqrt(2) of each yarn between the clamps: the
+/// same extension needs phi larger by the share 2 sqrt(2) l / D, and so the load. Slack yarns
+/// shorten in the corners at the clamps, which take half of the step, at half of the energy. What
+/// a specimen adds lies in between, by what its yarns bear when pressed: docs/users/identify.md has
+/// both ends beside simulated tests. First order in l / D.
+struct BendingShare {
+  double least = 0.0, most = 0.0; ///< of slack yarns, of yarns of constant length
+  double mean() const { return 0.5 * (least + most); }
+};
+
+/// Mean of warp and weft; 0 in a picture frame, whose clamps turn with the yarns, and without D_g.
+BendingShare in_plane_bending_share(const ShearTest& test, const Fabric& fabric);
+
 } // namespace plyform

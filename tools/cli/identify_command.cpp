@@ -112,6 +112,10 @@ Identified shear_text(const ShearFit& fit) {
   result.figures = {fmt::format("{} rows, shear angle {:.3g} to {:.3g} degrees", q.rows,
                                 q.from / deg, q.to / deg),
                     figure_of_residuals(q, fmt::format("{:.3g} degrees", q.largest_at / deg))};
+  if (fit.in_plane.most > 0.0)
+    result.figures.push_back(fmt::format(
+        "in-plane bending adds {:.2g} to {:.2g} % to the load of shear: {:.2g} % taken off",
+        100.0 * fit.in_plane.least, 100.0 * fit.in_plane.most, 100.0 * fit.in_plane.mean()));
   result.fit = "displacement_mm,shear_deg,measured_N,fitted_N\n";
   for (std::size_t i = 0; i < fit.angle.size(); ++i)
     result.fit += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", fit.extension[i], fit.angle[i] / deg,
@@ -256,11 +260,14 @@ int theory_command(const TheoryArguments& arguments) {
   if (print(diagnostics)) return exit_case_wrong;
   std::string rows = "displacement_mm,shear_deg,force_N\n";
   const double end = extension_at(*test, arguments.to * deg);
+  const double bending = in_plane_bending_share(*test, *fabric.value).mean();
   for (int i = 0; i <= arguments.points; ++i) {
     const double d = end * i / arguments.points;
     rows += fmt::format("{:.9g},{:.9g},{:.9g}\n", d, shear_angle(*test, d) / deg,
-                        test_load(*test, *fabric.value, d));
+                        (1.0 + bending) * test_load(*test, *fabric.value, d));
   }
+  if (bending > 0.0)
+    fmt::print("in-plane bending adds {:.2g} % to the load by (40)\n", 100.0 * bending);
   write_whole(arguments.output, rows);
   fmt::print("written: {}, {} rows\n", arguments.output, arguments.points + 1);
   return exit_done;
