@@ -3,6 +3,7 @@
 #include "core/accuracy/error_model.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/setup/key_value.hpp"
+#include "core/setup/outlook.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "python/bindings.hpp"
 
@@ -72,6 +73,27 @@ void bind_mistakes(py::module_& m) {
       .def("__repr__", [](const KeyInfo& k) { return "<Key " + k.key + ">"; });
 }
 
+void bind_outlook(py::module_& m) {
+  py::class_<Outlook>(m, "Outlook", "What will be modelled, and how long it takes.")
+      .def_readonly("lines", &Outlook::lines,
+                    "What plyform check prints; lines that need a look start with warning or note, "
+                    "after four spaces.")
+      .def_readonly("stable_step_s", &Outlook::stable_step, "s, the stable step at the start.")
+      .def_readonly("step_s", &Outlook::step, "s, the step used at the start.")
+      .def_readonly("steps", &Outlook::steps, "About how many steps the run takes.")
+      .def_readonly("estimated_s", &Outlook::seconds, "About how long it takes, s of wall time.")
+      .def_readonly("stop", &Outlook::stop, "Why the first steps went wrong; else empty.");
+  m.def(
+      "look_ahead",
+      [](const PreparedCase& prepared, int threads) {
+        if (!prepared.value) raise_mistakes(prepared.errors);
+        const py::gil_scoped_release others;
+        return look_ahead(prepared, threads_or_cores(threads));
+      },
+      py::arg("prepared"), py::arg("threads"),
+      "Outlook of a case; takes some steps of it. Raises CaseError if there are mistakes.");
+}
+
 } // namespace
 
 void bind_case(py::module_& m) {
@@ -102,6 +124,7 @@ void bind_case(py::module_& m) {
             return predicted_error(*c.value);
           },
           "PredictedError. Raises CaseError if there are mistakes.");
+  bind_outlook(m);
   m.def("prepare", &prepare_case, py::arg("file"), py::arg("overrides"),
         py::call_guard<py::gil_scoped_release>(),
         "Reads, meshes and checks a case file; overrides as (key, TOML text).");

@@ -9,7 +9,6 @@
 
 #include <numbers>
 #include <stdexcept>
-#include <thread>
 
 namespace plyform {
 namespace {
@@ -47,8 +46,7 @@ public:
 class Simulation {
 public:
   Simulation(PreparedCase prepared, int threads) : prepared_(std::move(prepared)) {
-    const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-    threads_ = threads > 0 ? threads : cores;
+    threads_ = threads_or_cores(threads);
     const py::gil_scoped_release others;
     scene_ = std::make_shared<Scene>(make_scene(*prepared_.value, prepared_.meshes));
   }

@@ -5,10 +5,12 @@
 #include "contact/geometry.hpp"
 #include "core/base/diagnostics.hpp"
 
+#include <algorithm>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+#include <thread>
 #include <vector>
 
 namespace plyform {
@@ -23,6 +25,12 @@ void bind_fit(py::module_& m);        ///< python/bind_fit.cpp: laws from curves
 
 /// Raises plyform.CaseError with these mistakes.
 [[noreturn]] void raise_mistakes(const std::vector<CaseError>& mistakes);
+
+/// As many threads as there are cores for 0.
+inline int threads_or_cores(int threads) {
+  return threads > 0 ? threads
+                     : static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+}
 
 /// A Sequence that takes names besides numbers (python/plyform/_parts.py).
 inline py::object parts(const py::list& items) {

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Mapping, Union
 
 from . import _plyform
-from ._plyform import Mistake, PredictedError
+from ._plyform import Mistake, Outlook, PredictedError
 
 #: What a key can be set to: numbers, texts, lists of them, tables; NumPy's numbers and arrays too.
 Value = Any
@@ -111,6 +111,12 @@ class Case:
         """Checks the case and the scene that it makes. Raises nothing for what is wrong in it."""
         found = self._prepare()
         return Check(found.mistakes, found.warnings, found.notes, found.assumed)
+
+    def outlook(self, threads: int | None = None) -> Outlook:
+        """What will be modelled, the stable step, and about how long a run takes, from some steps
+        of it; threads: as many as there are cores unless given. Raises CaseError.
+        """
+        return _plyform.look_ahead(self._prepare(), threads or 0)
 
     def _overrides(self) -> list[tuple[str, str]]:
         accuracy = [] if self._accuracy is None else [("accuracy.shear_deg", _toml(self._accuracy))]

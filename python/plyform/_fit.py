@@ -42,8 +42,8 @@ class Fit:
     def _write(self, table: str, fabric: AnyPath, output: AnyPath) -> None:
         key, value = self._law()
         comment = [f"Identified by plyform {_plyform.version}: {self.rows} rows,",
-                   f"residuals {100 * self.rms:.2g} % of the load rms, {100 * self.largest:.2g} % at "
-                   f"most, at {self.largest_at:.3g}."]
+                   f"residuals {100 * self.rms:.2g} % of the load rms, {100 * self.largest:.2g} % "
+                   f"at most, at {self.largest_at:.3g}."]
         text = _plyform.fabric_with_law(Path(fabric), table, key, value, comment)
         Path(output).write_text(text, encoding="utf-8")
 
@@ -88,8 +88,9 @@ class TensionFit(Fit):
         return "table", f"[{rows}\n]"
 
     def write(self, yarns: str, fabric: AnyPath, output: AnyPath) -> None:
-        """Writes the fabric file `output`: `fabric` with this law for its `yarns`, "warp" or "weft".
-        Raises CaseError for mistakes in the fabric, OSError for a file that cannot be written.
+        """Writes the fabric file `output`: `fabric` with this law for its `yarns`, "warp" or
+        "weft". Raises CaseError for mistakes in the fabric, OSError for a file that cannot be
+        written.
         """
         if yarns not in ("warp", "weft"):
             raise ValueError(f"yarns: {yarns!r} is neither warp nor weft")

@@ -13,6 +13,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import traceback
 import warnings
 from pathlib import Path
 
@@ -54,12 +55,15 @@ def check_values(_):
     assert case.get("fabrics.glass.warp.stiffness") == 46000.0  # of the file that is named there
     assert case.get("tool.0.position.2") == 75.6 and case.get("ply")[0]["blank"] == "square"
     assert case.get("fabrics.glass.warp.compression_stiffness") is None
-    for key, value in {"contact.friction": np.float64(0.25), "title": 'a "b" \\ ü\n', "ply.0.angle":
-                       30, "tool.1.points": np.array([[80.0, -99.0], [80.0, 0.0], [400.0, 0.0]]),
-                       "contact.pair": [{"between": ("punch", "plies"), "friction": 0.1}]}.items():
+    for key, value in {"contact.friction": np.float64(0.25), "title": 'a "b" \\ ü\n',
+                       "ply.0.angle": 30, "tool.0.position": np.array([0.0, 0.0, 80.0]),
+                       "tool.1.points": ((80.0, -99.0), (80.0, 0.0, 12.0), (400.0, 0.0))}.items():
         case.set(key, value)
-        assert np.all(np.asarray(case.get(key)) == np.asarray(value)) or case.get(key) == [
-            {"between": ["punch", "plies"], "friction": 0.1}], key
+        told = case.get(key)
+        assert told == (value if np.isscalar(value) else [
+            list(item) if isinstance(item, tuple) else item for item in value]), (key, told)
+    case.set("contact.pair", [{"between": ("punch", "plies"), "friction": 0.1}])
+    assert case.get("contact.pair.0") == {"between": ["punch", "plies"], "friction": 0.1}
     case.set("ply.0.angle", 45.0)
     assert case.get("ply.0.angle") == 45.0 and case.check().sound, case.check()
     draft = plyform.Case(HEMISPHERE, {"solver.duration": 0.05}, accuracy="draft")
@@ -71,6 +75,13 @@ def check_values(_):
     assert "numbered from 0 to 2" in str(raised(KeyError, case.get, "tool.3.name"))
     raised(TypeError, case.set, "title", None)
     raised(ValueError, plyform.Case, HEMISPHERE, accuracy="rough")
+    outlook = plyform.Case(HEMISPHERE, {"ply.0.angle": 45.0}).outlook(threads=1)
+    told = subprocess.run([program, "check", HEMISPHERE, "--set", "ply.0.angle=45"], check=True,
+                          capture_output=True, text=True).stdout.splitlines()
+    assert outlook.lines[:-1] == told[:-2] and "time" in outlook.lines[-1]
+    assert any(line.startswith("    warning: tool die") for line in outlook.lines), outlook.lines
+    assert 0.0 < outlook.step_s < outlook.stable_step_s and outlook.stop == ""
+    assert np.isclose(outlook.steps * outlook.step_s, 0.1) and outlook.estimated_s > 0.0
     keys = {key.key: key for key in plyform.keys()}
     assert keys["tool[].radius"].unit == "mm" and keys["contact.friction"].range
 
@@ -94,6 +105,7 @@ def check_mistakes(folder):
     assert isinstance(error, plyform.Error) and plyform.Error.exit_code == 1
     assert plyform.Case(folder / "none.toml").check().mistakes[0].remedy
     assert raised(plyform.CaseError, plyform.predicted_error, case).mistakes
+    assert raised(plyform.CaseError, case.outlook).mistakes
 
 
 def check_run(folder):
@@ -219,7 +231,7 @@ def check_stops(folder):
     simulation = plyform.Simulation(coarse())
     error = raised(ZeroDivisionError, simulation.run, folder / "raised", frame=wrong)
     assert str(error) == "mine" and error.__traceback__ is not None
-    assert "wrong" in {frame.name for frame in inspect_stack(error)}
+    assert "wrong" in {frame.name for frame in traceback.extract_tb(error.__traceback__)}
     assert whole(folder / "raised", "interrupted").summary == simulation.result.summary
 
     signal.signal(signal.SIGINT, signal.default_int_handler)
@@ -238,11 +250,6 @@ def check_stops(folder):
     (folder / "file").write_text("")
     error = raised(plyform.Error, plyform.run, coarse(), output=folder / "file/below")
     assert error.exit_code == 1 and "file" in str(error)
-
-
-def inspect_stack(error):
-    import traceback
-    return traceback.extract_tb(error.__traceback__)
 
 
 def check_difference(folder, result):
@@ -265,7 +272,7 @@ def check_fits(folder):
     fit = plyform.identify_shear(curve, FABRIC, bias=(200, 100))
     assert np.allclose(fit.coefficients, [0.37044, 0.84105, 1.03113], rtol=1e-6) and fit.rms < 1e-6
     table = folder / "curve.csv"
-    np.savetxt(table, np.stack(curve, axis=1), delimiter=",", header="d,F", comments="", fmt="%.12g")
+    np.savetxt(table, np.stack(curve, axis=1), delimiter=",", header="d,F", comments="")
     again = plyform.identify_shear(table, FABRIC, bias=(200, 100), x_column="d", y_column=2)
     assert np.allclose(again.coefficients, fit.coefficients, rtol=1e-6)
     fit.write(FABRIC, folder / "fabric.toml")
