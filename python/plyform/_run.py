@@ -117,7 +117,7 @@ class Simulation:
         """Runs to the end.
 
         output: folder for the files of docs/users/results.md; nothing is written without one.
-        progress: called every hundred steps.
+        progress: called every hundred steps, and at each output.
         frame: called with each output state.
 
         A callback that returns False ends the run as "interrupted", with the state reached as its
