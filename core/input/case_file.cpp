@@ -4,6 +4,7 @@
 
 #include "core/base/text.hpp"
 #include "core/input/case_parts.hpp"
+#include "core/input/entries.hpp"
 #include "core/input/key_member.hpp"
 #include "core/input/overrides.hpp"
 #include "core/model/fabric_estimates.hpp"
@@ -211,20 +212,11 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
   Diagnostics diagnostics;
   CaseReading reading;
   reading.file = file;
-  std::string reason;
-  const std::string name = file.string();
-  if (const std::optional<std::string> content = read_text(file, reason); !content) {
-    diagnostics.error({name, 1, 1}, "", "", "the case file " + reason,
-                      "give the path of a case file");
-  } else if (std::optional<TomlNode> entries = parse_entries(*content, name, diagnostics)) {
+  for (const Override& change : overrides)
+    reading.overridden.insert(change.first);
+  if (std::optional<TomlNode> entries = read_entries(file, overrides, diagnostics)) {
     const std::filesystem::path folder = file.parent_path();
-    for (const Override& change : overrides) {
-      apply_override(*entries, change, folder, diagnostics);
-      reading.overridden.insert(change.first);
-    }
-    load_fabrics(*entries, folder, diagnostics);
     const TableView root{&*entries, "", ""};
-    check_section(root, diagnostics);
     Case built = build_case(root, folder, diagnostics);
     if (diagnostics.errors.empty()) {
       estimate_missing(built);
@@ -232,7 +224,7 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
       reading.value = std::move(built);
     }
   }
-  put_in_order(diagnostics.errors, name);
+  put_in_order(diagnostics.errors, file.string());
   reading.errors = std::move(diagnostics.errors);
   reading.warnings = std::move(diagnostics.warnings);
   return reading;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the last whole frame of results.h5. The layout is described in docs/users/results.md.
+// Reads a whole frame of results.h5. The layout is described in docs/users/results.md.
 //
 // The file may come from anywhere: sizes and node numbers are checked before they are used.
 #include "core/results/hdf5_handles.ipp"
@@ -161,7 +161,7 @@ BoundaryFrame read_boundary(const Reader& in, const std::string& group, const st
 
 } // namespace
 
-Frame read_last_frame(const fs::path& path) {
+Frame read_frame(const fs::path& path, long index) {
   const QuietErrors quiet;
   std::error_code error;
   if (!fs::exists(path, error))
@@ -182,9 +182,14 @@ Frame read_last_frame(const fs::path& path) {
   if (!in.has("/time_s") || !in.has("/frames")) in.broken("/frames or /time_s", "is missing");
   const std::vector<double> times = in.dataset<double>("/time_s");
   if (times.empty()) in.broken("/time_s", "is empty: the run was stopped before its first state");
-  const std::string group = frame_group(times.size() - 1);
+  const long count = static_cast<long>(times.size()),
+             from_first = index < 0 ? count + index : index;
+  if (from_first < 0 || from_first >= count)
+    throw std::runtime_error(
+        fmt::format("{}: has no frame {}, but {} from 0", path.string(), index, count));
+  const std::string group = frame_group(static_cast<std::size_t>(from_first));
   Frame frame;
-  frame.time = times.back();
+  frame.time = times[static_cast<std::size_t>(from_first)];
   in.number(group, "stroke_mm", frame.stroke_mm);
   std::int64_t step = 0;
   in.number(group, "step", step);

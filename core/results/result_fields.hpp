@@ -59,8 +59,11 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// The last whole frame of a results.h5. The energies are not stored and stay 0. Throws
-/// std::runtime_error naming the path and what is wrong with it.
-Frame read_last_frame(const std::filesystem::path& path);
+/// A whole frame of a results.h5: from 0, or -1 for the last, -2 for the one before. The energies
+/// are not stored and stay 0. Throws std::runtime_error naming the path and what is wrong with it.
+Frame read_frame(const std::filesystem::path& path, long index);
+inline Frame read_last_frame(const std::filesystem::path& path) {
+  return read_frame(path, -1);
+}
 
 } // namespace plyform

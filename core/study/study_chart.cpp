@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/study/study_chart.hpp"
 
+#include "core/results/summary.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>

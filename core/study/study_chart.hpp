@@ -2,8 +2,8 @@
 // What came of a study's runs: chart.csv, and the content of chart.svg.
 #pragma once
 
+#include "core/results/field_difference.hpp"
 #include "core/study/chart_svg.hpp"
-#include "core/study/field_difference.hpp"
 #include "core/study/study_plan.hpp"
 
 #include <limits>
