@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From corner points with fillet radii to a chain of lines and arcs.
+// Makes a chain of lines and arcs from corner points with fillet radii.
 //
 // At a corner with unit directions u in, v out and the angle phi between them, a fillet of radius R
-// starts and ends R tan(phi/2) from the corner; its centre lies R to the side to which it turns.
+// starts and ends R tan(phi/2) from the corner; its centre lies R away from its start, to the side
+// to which the profile turns.
 #include "contact/shapes/tool_shape.hpp"
 
 #include <cmath>
@@ -12,7 +13,7 @@
 namespace plyform {
 namespace {
 
-// Two fillets may share the whole of a side; relative rounding of their lengths.
+// Relative rounding of lengths: two fillets may together take up a whole side.
 constexpr double rounding = 1e-12;
 
 struct Corner {

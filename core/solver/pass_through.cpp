@@ -81,7 +81,7 @@ bool passed(const ToolBody& tool, const Vec3& x, const Vec3& displacement, int h
 std::optional<Stop> find_pass_through(const Scene& s, const ToolState& tool, std::size_t p) {
   const ToolPlyContact& contact = tool.contacts[p];
   const double thickness = 2.0 * contact.half_thickness;
-  const double deepest = std::min(deepest_sound * contact.law.max_depth, thickness);
+  const double deepest = std::min(deepest_valid * contact.law.max_depth, thickness);
   if (contact.sums.penetration > deepest)
     for (const ToolPlyPoint& c : contact.points)
       if (-c.gap > deepest)
