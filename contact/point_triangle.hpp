@@ -5,7 +5,7 @@
 // B = b - a, C = c - a, P = p - a. With q = a + w_b B + w_c C, the foot of p on the plane has
 //   u_b = C.C P.B - B.C P.C,  u_c = B.B P.C - B.C P.B,  u_a = det - u_b - u_c                 (1)
 //   det = B.B C.C - (B.C)^2,  w_i = u_i / (u_a + u_b + u_c)                                   (2)
-// and is q if all u_i > 0. Else the signs of u and of p's projections on the sides tell the vertex
+// and is q if all u_i > 0. Else the signs of u and of p's projections on the sides give the vertex
 // or edge (Ericson, Real-Time Collision Detection, 5.1.5: the Voronoi regions), on an edge e from s
 //   t = (p - s).e / e.e                                                                       (3)
 //

@@ -4,7 +4,7 @@
 //
 //   h    mm      distance at which bodies touch;  d  mm  distance now;  p = h - d  penetration
 //   delta mm     depth at which the force becomes infinite;  u = p / delta;  q = 1 - u^2, the room
-//   A    mm^2    area that the contact stands for
+//   A    mm^2    tributary area of the contact
 //   k    N/mm^3  penalty stiffness per area, c  N s/mm^3  damping per area
 //   k_t  N/mm^3  tangential stiffness per area: k / 2, of the order of what bodies in contact show
 //                (2 (1 - nu) / (2 - nu) of the normal one: Mindlin, J. Appl. Mech. 16, 1949), and

@@ -49,7 +49,7 @@ bool overlap(const Box& a, const Box& b) {
           int(r.y() <= q.y()) & int(r.z() <= q.z())) != 0;
 }
 
-/// Leaves whose box meets `asked`.
+/// Collects the leaves whose box overlaps the box `asked`.
 void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
                std::vector<const fcl::BVNode<Box>*>& leaves) {
   leaves.clear();

@@ -66,7 +66,7 @@ Corner round_corner(const Points& points, std::size_t i) {
   const Vec2 u = (p - point(points, i - 1)).normalized();
   const Vec2 v = (point(points, i + 1) - p).normalized();
   const double sine = u.x() * v.y() - u.y() * v.x(), cosine = u.dot(v);
-  if (std::abs(sine) < rounding && cosine > 0.0) return corner; // straight on: nothing to round
+  if (std::abs(sine) < rounding && cosine > 0.0) return corner; // no corner
   if (std::abs(sine) < rounding)
     throw std::invalid_argument(named(points, i) +
                                 ": the profile turns straight back, no fillet fits there");

@@ -2,7 +2,7 @@
 // Signed distance to a triangle mesh: closest triangle by CGAL's AABB tree, sign by pseudo-normals.
 //
 // Symbols: p point, c closest point of the mesh, n unit normal of a triangle, alpha its angle
-// at a vertex. Pseudo-normal m of the feature that holds c (Baerentzen and Aanaes, IEEE TVCG 11,
+// at a vertex. Pseudo-normal m of the feature that contains c (Baerentzen and Aanaes, IEEE TVCG 11,
 // 2005): of a face n, of an edge the sum of both faces' n, of a vertex the sum of alpha n.
 //   face:          s = n . (p - a)                    gradient n                       (1)
 //   edge, vertex:  s = sign(m . (p - c)) |p - c|      gradient (p - c)/s               (2)

@@ -20,8 +20,8 @@ namespace plyform {
 namespace {
 
 using Double4 = double __attribute__((vector_size(32)));
-using Long4 = std::int64_t __attribute__((
-    vector_size(32))); ///< mask, as comparisons give it: 0 (false) or -1 (true) per lane
+/// mask, as comparisons give it: 0 (false) or -1 (true) per lane
+using Long4 = std::int64_t __attribute__((vector_size(32)));
 
 /// Four vectors, by components.
 struct Vector4 {

@@ -39,8 +39,8 @@ struct ThreadPool::Impl {
   void help() {
     unsigned seen = 0;
     for (;;) {
-      constexpr int spins =
-          20000; // about 20 microseconds: longer than the pause between two calls of run
+      // about 20 microseconds: longer than the pause between two calls of run
+      constexpr int spins = 20000;
       for (int s = 0; s < spins && round.load(std::memory_order_acquire) == seen; ++s) {
       }
       round.wait(seen, std::memory_order_acquire);

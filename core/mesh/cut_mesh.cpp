@@ -61,7 +61,7 @@ struct Use {
 };
 
 /// Nodes inside the outline: in each row an odd number of sides lies to the left of them. Nodes
-/// within rounding of a side may go either way.
+/// within rounding of a side may count as inside or outside.
 std::vector<char> nodes_inside(const Lattice& lattice, const Region& outline) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(lattice.nj));
   for (const Edge& e : outline.edges) {

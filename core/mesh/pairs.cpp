@@ -66,8 +66,8 @@ public:
       : beside(neighbours), mate(mates), seen(mates.size(), -1), from(mates.size(), -1) {}
 
   void pair_up(std::int32_t single) {
-    constexpr std::size_t farthest =
-        2000; // triangles visited at most, to limit the time of a search without result
+    // triangles visited at most, to limit the time of a search without result
+    constexpr std::size_t farthest = 2000;
     std::vector<std::int32_t> ends{single};
     seen[at(single)] = single;
     for (std::size_t i = 0; i < ends.size() && i < farthest; ++i)

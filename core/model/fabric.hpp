@@ -32,8 +32,8 @@ constexpr double buckled_share = 0.01;
 struct TensionLaw {
   double stiffness = 0.0;              ///< N per yarn; used when the table is empty
   std::vector<double> strain, tension; ///< ascending from (0, 0), linear between, last slope beyond
-  double compression =
-      0.0; ///< N per yarn; at most largest_slope(), on which the stable step relies
+  /// N per yarn; at most largest_slope(), on which the stable step relies
+  double compression = 0.0;
   double buckling_force = std::numeric_limits<double>::infinity(); ///< N, at least 0
   /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
   LawPoint at(double eps) const;
@@ -49,7 +49,8 @@ struct TensionLaw {
 /// softened. More would not lengthen the stable time step, which the stiffer of the two determines.
 double effective_softening(const TensionLaw& law, double asked);
 
-/// The law of a yarn effective_softening(law, asked) times as soft in tension. Compression stays.
+/// The law of a yarn effective_softening(law, asked) times as soft in tension. Compression is not
+/// changed.
 TensionLaw softened(TensionLaw law, double asked);
 
 /// Torque that warp and weft exert on each other in one unit cell against the shear angle: odd

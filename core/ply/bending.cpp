@@ -71,8 +71,8 @@ StencilShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t ste
   s.normal /= s.size;
   s.second.fill(Vec3::Zero());
   for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i) {
-    const Vec3 from =
-        at(i - first) - at(0); // differences, so that rounding is relative to the stencil's size
+    // differences, so that rounding is relative to the stencil's size
+    const Vec3 from = at(i - first) - at(0);
     for (std::size_t k = 0; k < 3; ++k)
       s.second[k] += b.b[i][k] * from;
   }

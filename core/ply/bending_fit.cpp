@@ -55,8 +55,7 @@ Matrix monomials(std::span<const Vec2> x, const std::vector<int>& nodes, double 
 
 /// The fit of an inner node; lengths in units of `size`. May extend `nodes`.
 StencilFit interior_fit(const Sheet& sheet, std::vector<int>& nodes, double size) {
-  constexpr double least_ratio =
-      0.002; // ratio of singular values; a regular stencil has 0.01 to 0.1
+  constexpr double least_ratio = 0.002; // of singular values; a regular stencil has 0.01 to 0.1
   const auto place = [&](std::size_t i) -> const Vec2& { return sheet.x[nodes[i]]; };
   for (int more = 0;; ++more) {
     // Near nodes get more weight: averages over rows of nodes would let single rows bend

@@ -98,8 +98,8 @@ public:
   }
 
 private:
-  using Group =
-      std::array<const StencilSlots*, simd_width>; ///< null: a SIMD lane without a stencil
+  /// Stencils of one group; null for a SIMD lane without a stencil.
+  using Group = std::array<const StencilSlots*, simd_width>;
 
   static auto size_of(const StencilSlots& p) { return std::pair(p.ring.size(), p.others.size()); }
 
@@ -150,8 +150,8 @@ private:
       for (std::size_t k = 0; k < 2; ++k)
         group.in_plane[k][lane] = b.in_plane.empty() ? 0.0 : b.in_plane[n][k];
       group.own[lane] = at(p, 0);
-      std::vector<int> padded =
-          p.ring; // padded by repeating the last node: its triangle is degenerate
+      // padded by repeating the last node: its triangle is degenerate
+      std::vector<int> padded = p.ring;
       padded.resize(ring, p.ring.back());
       padded.insert(padded.end(), p.others.begin(), p.others.end());
       padded.resize(ring + others, 0);

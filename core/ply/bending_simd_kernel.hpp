@@ -10,9 +10,8 @@ namespace plyform {
 struct BendingLaw;
 
 constexpr int most_stencil_slots = 512; ///< limit of nodes in a stencil besides its centre node
-constexpr int most_bending_nodes =
-    most_stencil_slots + 1; ///< limit of nodes in a block; exceeds
-                            ///< most_block_nodes only for one such stencil
+/// Limit of nodes in a block; a block exceeds most_block_nodes only for one such stencil.
+constexpr int most_bending_nodes = most_stencil_slots + 1;
 
 /// The stencils of four nodes. A slot holds one node of each stencil other than its centre node.
 /// The slots of the ring come first: the triangles around the centre node consist of it and two

@@ -21,8 +21,8 @@ struct EigenvalueBound {
   double omega2 = 0.0; ///< 1/s^2
   double yarns = 0.0;  ///< 1/s^2, largest with the yarns' stiffness alone
   double soft = 0.0;   ///< 1/s^2, largest with shear and geometric stiffness alone
-  bool penalty_acts =
-      false; ///< whether a collapse penalty of at least 0.2 yarn stiffness acts somewhere
+  /// Whether a collapse penalty of more than 0.2 yarn stiffness acts on any triangle.
+  bool penalty_acts = false;
   double damping = 0.0; ///< 1/s, of M^-1 C
   double viscous = 0.0; ///< s, C <= viscous * K of the yarns
   int triangle = -1;    ///< the triangle with the largest omega2

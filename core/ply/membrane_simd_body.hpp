@@ -55,8 +55,8 @@ PLYFORM_INLINE void find_lengths(const SimdTriangles& t, const double* place, Si
   const Vector4 k2 = load(t.c21) * g1 + load(t.c22) * g2;
   const Double4 a = dot(k1, k1), b = dot(k2, k2), d = dot(k1, k2), ab = a * b;
   constexpr double least_sine2 = least_sine * least_sine;
-  s.k1.x = k1.x, s.k1.y = k1.y,
-  s.k1.z = k1.z; // by component: whole vectors compile to slower copies
+  // by component: whole vectors compile to slower copies
+  s.k1.x = k1.x, s.k1.y = k1.y, s.k1.z = k1.z;
   s.k2.x = k2.x, s.k2.y = k2.y, s.k2.z = k2.z;
   s.a = a, s.b = b, s.d = d;
   s.j = root(larger(ab - d * d, least_sine2 * ab));

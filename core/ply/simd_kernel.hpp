@@ -8,8 +8,8 @@
 namespace plyform {
 
 constexpr int simd_width = 4; ///< triangles or nodes computed at a time, one per SIMD lane
-constexpr int most_block_nodes =
-    384; ///< nodes of a block: their positions and forces, 24 kB, fit into a 32 kB cache
+/// Limit of nodes in a block: their positions and forces, 24 kB, fit into a 32 kB cache.
+constexpr int most_block_nodes = 384;
 
 /// One number per SIMD lane.
 struct alignas(32) SimdNumbers {

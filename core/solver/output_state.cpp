@@ -29,8 +29,8 @@ struct SideForces {
   std::vector<double> above, below;
   void add(int node, const Vec3& direction, double force) {
     const auto n = static_cast<std::size_t>(node);
-    (direction.dot(normals[n]) < 0.0 ? above : below)[n] +=
-        force; // a downward force acts on the upper side
+    // a downward force acts on the upper side
+    (direction.dot(normals[n]) < 0.0 ? above : below)[n] += force;
   }
 };
 

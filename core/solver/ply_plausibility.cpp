@@ -82,8 +82,8 @@ YarnLine worst_line(const PlyFrame& ply, const std::vector<double>& strain,
 PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas,
                            double fibre_angle_deg) {
   PressedYarns result;
-  std::vector<double> pressed(
-      ply.triangles.size()); // compressive strain of the family that is compressed more
+  // compressive strain of the family that is compressed more
+  std::vector<double> pressed(ply.triangles.size());
   for (std::size_t t = 0; t < pressed.size(); ++t) {
     pressed[t] = std::max({0.0, -ply.warp_strain[t], -ply.weft_strain[t]});
     if (std::isnan(ply.warp_strain[t] + ply.weft_strain[t]))

@@ -136,8 +136,8 @@ double largest_softening(const Scene& s, const std::string& name) {
 std::vector<std::string> too_little(const Scene& s, const Frame& last, const ContactReport& c) {
   const Energies& e = last.energy;
   std::vector<std::string> found;
-  std::map<std::pair<std::string, std::string>, std::pair<double, double>>
-      deepest; // depth and limit, mm
+  // depth and limit, mm
+  std::map<std::pair<std::string, std::string>, std::pair<double, double>> deepest;
   const auto add_depth = [&deepest](const std::string& a, const std::string& b,
                                     const ContactTotals& sums, const ContactLaw& law) {
     auto& [depth, limit] = deepest[std::minmax(a, b)];

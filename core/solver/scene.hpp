@@ -165,10 +165,10 @@ struct SceneProgress {
   double stable_dt = 0.0;            ///< s, step_factor times the stable time step
   double min_dt = 0.0, max_dt = 0.0; ///< s, used so far
   double bound_displacement = 0.0;   ///< mm, largest_displacement when stable_dt was computed
-  double time_step_gain =
-      1.0;               ///< of the stable step over its bound: core/solver/stable_time_step.hpp
-  long next_lanczos = 0; ///< the next step that updates time_step_gain and eigenvalue_ratio
-  double start_energy = 0.0;      ///< N mm, energy of the plies at the start
+  /// Ratio of the stable step to its bound: core/solver/stable_time_step.hpp.
+  double time_step_gain = 1.0;
+  long next_lanczos = 0;     ///< the next step that updates time_step_gain and eigenvalue_ratio
+  double start_energy = 0.0; ///< N mm, energy of the plies at the start
   double mass_damping_work = 0.0; ///< N mm, since the start
   std::vector<double> group_sums; ///< N mm, viscous work since the start, one per group block
   long searches = 0;              ///< number of contact searches so far

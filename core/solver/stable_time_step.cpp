@@ -156,8 +156,8 @@ void update_stable_step(Scene& s, ThreadPool& pool) {
   }
   const double time_step_gain =
       s.time_step_gain * time_step_gain_of(s, s.time_step_gain * dt, pool);
-  constexpr double grain =
-      1e-3; // the gain is rounded down, so that rounding errors of the iteration have no effect
+  // the gain is rounded down, so that rounding errors of the iteration have no effect
+  constexpr double grain = 1e-3;
   s.time_step_gain = std::max(1.0, grain * std::floor(time_step_gain / grain));
 }
 

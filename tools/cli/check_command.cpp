@@ -18,7 +18,7 @@
 namespace plyform {
 namespace {
 
-/// "no bending", or with which stiffness.
+/// The bending stiffness of a ply as text, or "no bending".
 std::string bending_text(const PlyState& ply) {
   if (!ply.bending) return "no bending";
   const Fabric& fabric = ply.membrane.fabric;
@@ -41,12 +41,12 @@ std::string bending_text(const PlyState& ply) {
   return text;
 }
 
-/// Which element, and why.
+/// The element of a ply as text, and the reason for it.
 std::string element_text(const Membrane& m, ElementKind asked) {
   const int triangles = static_cast<int>(m.triangles.size()), pairs = triangles - m.groups();
   const char* name = pairs == 0 ? "plain element" : "averaged element";
   if (asked != ElementKind::automatic) return fmt::format("{}: as solver.element says", name);
-  constexpr double few = 0.01; // a band along the rim, or stray triangles alone
+  constexpr double few = 0.01; // fraction of a band along the edge, or of single triangles
   const double plain = static_cast<double>(triangles - 2 * pairs) / triangles;
   if (plain > 1.0 - few) return "plain element: sides run along both fibre families";
   if (plain < few)
@@ -71,25 +71,26 @@ void print_plies(const Scene& s) {
   }
 }
 
-/// Numbers that the case does not have, and what of it is not taken as it stands.
+/// Prints estimates of values that the case does not give, and values that were limited.
 void print_fabrics(const Case& data) {
   for (const std::string& line : assumptions(data))
     fmt::print("fabric {}\n", line);
 }
 
-/// mm^2, before forming.
+/// Area of a ply before forming, mm^2.
 double area_of(const PlyState& ply) {
   const std::vector<double>& areas = ply.membrane.node_area;
   return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
-/// mm: side of a square of two triangles.
+/// Mean element size (mm): side of a square of two triangles.
 double element_size(const PlyState& ply) {
   return std::sqrt(2.0 * area_of(ply) / static_cast<double>(ply.membrane.triangles.size()));
 }
 
-/// Says which plies lock a little: averaged elements of yarns that push, too few across a narrow
-/// ply (docs/verification/closed_forms.md, YarnsThatBearCompressionNeedAFinerMesh).
+/// Prints which plies lock slightly: those of averaged elements whose yarns bear compression, with
+/// too few elements across a narrow ply (docs/verification/closed_forms.md,
+/// YarnsThatBearCompressionNeedAFinerMesh).
 void print_locking(const Scene& s) {
   constexpr double enough = 20.0; // elements across: load of the bias test at most 5 % too high
   std::set<std::pair<int, int>> seen;
@@ -113,8 +114,8 @@ void print_locking(const Scene& s) {
   }
 }
 
-/// Says how long the waves are in which pressed plies would wrinkle under tools that are pushed,
-/// once for each fabric and blank.
+/// Prints the wavelengths of wrinkles of compressed plies under tools that are pushed, once for
+/// each fabric and blank.
 void print_wrinkles(const Scene& s) {
   double force = 0.0; // N, of the tool that is pushed hardest
   for (const Tool& tool : s.data.tools)
@@ -133,7 +134,8 @@ void print_wrinkles(const Scene& s) {
   }
 }
 
-/// Says if a ply may be cut by more than half its thickness, for the one that is cut most.
+/// Prints a warning if facets may penetrate a tool between nodes by more than half the ply's
+/// thickness, for the ply with the deepest penetration.
 void print_cut(const Scene& s, const ToolState& tool) {
   constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
   const double radius = smallest_radius(tool.body.shape);
@@ -170,8 +172,8 @@ void print_tools(const Scene& s) {
   }
 }
 
-/// "77 nodes of ply lower, 12 of ply upper": those that a boundary holds along some axis. (Nodes
-/// that another boundary holds along all of them count for that one only.)
+/// "77 nodes of ply lower, 12 of ply upper": the nodes that a boundary prescribes along some axis.
+/// (Nodes that an earlier boundary prescribes along all those axes are not counted.)
 std::string nodes_held(const Scene& s, int boundary) {
   std::vector<int> count(s.plies.size(), 0);
   for (const PrescribedNode& held : s.held) {
@@ -217,7 +219,7 @@ void print_boundaries(const Scene& s) {
         "it as on a hinge\n");
 }
 
-/// Wall time of a step, s, from a few real ones; a Stop if they go wrong already.
+/// Measures the wall time of a step, s, over a few steps. Returns a Stop if the simulation fails.
 std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, double& seconds) {
   constexpr int steps = 40;
   const auto begin = std::chrono::steady_clock::now();
