@@ -83,9 +83,8 @@ double cell_area(const PlyState& ply) {
 /// thicknesses, but increased by a factor of 2.5 at most, beyond which crossed plies chatter over a
 /// fillet (docs/verification/contact.md).
 ///
-/// In a stack the penalty falls with the stiffness of softened yarns only down to fibre_softening =
-/// 100
-/// (`stack_softening`), as the pressure between plies does not decrease with softening.
+/// In a stack the penalty falls with the stiffness of softened yarns only down to a softening of
+/// 100 (`stack_softening`), as the pressure between plies does not decrease with softening.
 double penalty_per_area(const PlyState& ply, double fraction, bool stack) {
   constexpr double fine = 12.5, most = 2.5, stack_softening = 100.0;
   const auto& softening = ply.membrane.softening;
