@@ -26,7 +26,7 @@ void say(Lines& lines, fmt::format_string<Arguments...> text, Arguments&&... arg
   lines.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
 }
 
-/// "no bending", or with which stiffness.
+/// The bending stiffness of a ply as text, or "no bending".
 std::string bending_text(const PlyState& ply) {
   if (!ply.bending) return "no bending";
   const Fabric& fabric = ply.membrane.fabric;
@@ -49,12 +49,12 @@ std::string bending_text(const PlyState& ply) {
   return text;
 }
 
-/// Which element, and why.
+/// The element of a ply as text, and the reason for it.
 std::string element_text(const Membrane& m, ElementKind asked) {
   const int triangles = static_cast<int>(m.triangles.size()), pairs = triangles - m.groups();
   const char* name = pairs == 0 ? "plain element" : "averaged element";
   if (asked != ElementKind::automatic) return fmt::format("{}: as solver.element says", name);
-  constexpr double few = 0.01; // a band along the rim, or stray triangles alone
+  constexpr double few = 0.01; // fraction of a band along the edge, or of single triangles
   const double plain = static_cast<double>(triangles - 2 * pairs) / triangles;
   if (plain > 1.0 - few) return "plain element: sides run along both fibre families";
   if (plain < few)
@@ -79,25 +79,26 @@ void describe_plies(const Scene& s, Lines& lines) {
   }
 }
 
-/// Numbers that the case does not have, and what of it is not taken as it stands.
+/// Estimates of values that the case does not give, and values that were limited.
 void describe_fabrics(const Case& data, Lines& lines) {
   for (const std::string& line : assumptions(data))
     say(lines, "fabric {}", line);
 }
 
-/// mm^2, before forming.
+/// Area of a ply before forming, mm^2.
 double area_of(const PlyState& ply) {
   const std::vector<double>& areas = ply.membrane.node_area;
   return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
-/// mm: side of a square of two triangles.
+/// Mean element size (mm): side of a square of two triangles.
 double element_size(const PlyState& ply) {
   return std::sqrt(2.0 * area_of(ply) / static_cast<double>(ply.membrane.triangles.size()));
 }
 
-/// Says which plies lock a little: averaged elements of yarns that push, too few across a narrow
-/// ply (docs/verification/closed_forms.md, YarnsThatBearCompressionNeedAFinerMesh).
+/// Warns of plies that lock slightly: those of averaged elements whose yarns bear compression, with
+/// too few elements across a narrow ply (docs/verification/closed_forms.md,
+/// YarnsThatBearCompressionNeedAFinerMesh).
 void describe_locking(const Scene& s, Lines& lines) {
   constexpr double enough = 20.0; // elements across: load of the bias test at most 5 % too high
   std::set<std::pair<int, int>> seen;
@@ -121,8 +122,8 @@ void describe_locking(const Scene& s, Lines& lines) {
   }
 }
 
-/// Says how long the waves are in which pressed plies would wrinkle under tools that are pushed,
-/// once for each fabric and blank.
+/// Gives the wavelengths of wrinkles of compressed plies under tools that are pushed, once for each
+/// fabric and blank.
 void describe_wrinkles(const Scene& s, Lines& lines) {
   double force = 0.0; // N, of the tool that is pushed hardest
   for (const Tool& tool : s.data.tools)
@@ -142,7 +143,8 @@ void describe_wrinkles(const Scene& s, Lines& lines) {
   }
 }
 
-/// Says if a ply may be cut by more than half its thickness, for the one that is cut most.
+/// Warns if facets may penetrate a tool between nodes by more than half the ply's thickness, for the
+/// ply with the deepest penetration.
 void describe_cut(const Scene& s, const ToolState& tool, Lines& lines) {
   constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
   const double radius = smallest_radius(tool.body.shape);
@@ -179,8 +181,8 @@ void describe_tools(const Scene& s, Lines& lines) {
   }
 }
 
-/// "77 nodes of ply lower, 12 of ply upper": those that a boundary holds along some axis. (Nodes
-/// that another boundary holds along all of them count for that one only.)
+/// "77 nodes of ply lower, 12 of ply upper": the nodes that a boundary prescribes along some axis.
+/// (Nodes that an earlier boundary prescribes along all those axes are not counted.)
 std::string nodes_held(const Scene& s, int boundary) {
   std::vector<int> count(s.plies.size(), 0);
   for (const PrescribedNode& held : s.held) {
@@ -226,7 +228,7 @@ void describe_boundaries(const Scene& s, Lines& lines) {
         "it as on a hinge");
 }
 
-/// Wall time of a step, s, from a few real ones; a Stop if they go wrong already.
+/// Measures the wall time of a step, s, over a few steps. Returns a Stop if the simulation fails.
 std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, double& seconds) {
   constexpr int steps = 40;
   const auto begin = std::chrono::steady_clock::now();

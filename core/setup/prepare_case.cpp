@@ -9,7 +9,7 @@
 namespace plyform {
 namespace {
 
-/// The cost parameters that overrides have set, and their keys.
+/// Which cost parameters overrides have set, and the keys of these overrides.
 std::pair<FixedParameters, std::vector<std::string>>
 parameters_set(const std::set<std::string>& overridden) {
   FixedParameters fixed;

@@ -15,7 +15,8 @@ std::string when(const Scene& s) {
   return fmt::format("stopped at step {}, time {:.6g} s", s.step, s.time);
 }
 
-/// Whether triangles of a ply cross each other: no side of it is then a side.
+/// Whether triangles of a ply intersect each other: the side of its faces on which a node is then
+/// has no meaning.
 bool crosses_itself(const PlyState& ply) {
   if (!std::all_of(ply.x.begin(), ply.x.end(), [](const Vec3& x) { return x.allFinite(); }))
     return false;
@@ -62,7 +63,7 @@ std::optional<Stop> find_fault(const Scene& s) {
 }
 
 std::optional<Stop> find_squeezed(const Scene& s) {
-  constexpr double least = 1e-4; // of the longest step: the run would not come to an end
+  constexpr double least = 1e-4; // of the longest step: with less the run would practically not end
   if (s.next_dt > least * s.max_dt) return std::nullopt;
   std::string who = "plies";
   int one = -1, other = -1; // the plies among them

@@ -18,7 +18,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// results/NAME: NAME is the study file's, or its folder's if it is called study.toml.
+/// Output folder results/NAME. NAME is that of the study file, or of its folder if it is
+/// study.toml.
 fs::path output_folder(const ChartArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   const fs::path file = fs::absolute(arguments.study).lexically_normal();
@@ -26,7 +27,8 @@ fs::path output_folder(const ChartArguments& arguments) {
          (file.filename() == "study.toml" ? file.parent_path().filename() : file.stem());
 }
 
-/// Both not given: a run a core, so that times are of one core. One given: the other fills up.
+/// Jobs and threads. If neither is given: one run per core, so that times are those of one core. If
+/// one is given, the other is chosen to use all cores.
 RunOptions run_options(const ChartArguments& arguments, const fs::path& folder) {
   const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
   const int threads = std::max(1, arguments.threads);
@@ -34,7 +36,7 @@ RunOptions run_options(const ChartArguments& arguments, const fs::path& folder) 
   return {folder / "runs", jobs, threads};
 }
 
-/// As the system calls it; "processor" where it does not say.
+/// Name of the processor from /proc/cpuinfo; "processor" if it has none.
 std::string processor_name() {
   std::ifstream in("/proc/cpuinfo");
   for (std::string line; std::getline(in, line);)
@@ -48,7 +50,7 @@ std::string plural(int count, const std::string& what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
 }
 
-/// By run: its numbers, and its error against the reference's last state.
+/// Per run: its numbers, and its error relative to the last state of the reference.
 std::vector<RunOutcome> read_outcomes(const StudyPlan& plan, const RunsEnd& end,
                                       const fs::path& folder) {
   std::vector<RunOutcome> outcomes;

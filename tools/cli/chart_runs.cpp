@@ -62,8 +62,8 @@ std::string end_of_log(const fs::path& folder) {
   return log.size() > most ? "... " + log.substr(log.size() - most) : log;
 }
 
-/// Runs done of all and the time since the start: one line that is drawn over itself on a terminal,
-/// one a finished run elsewhere.
+/// Progress display: number of finished runs and elapsed time. On a terminal one line that is
+/// overwritten, elsewhere one line per finished run.
 class ProgressBar {
 public:
   ProgressBar(std::size_t done, std::size_t all) : done_(done), before_(done), all_(all) {}
@@ -100,11 +100,11 @@ private:
   Clock::time_point begin_ = Clock::now(), drawn_{};
 };
 
-/// plyform run CASE ..., its output in log.txt.
+/// Starts a process `plyform run CASE ...` with its output in log.txt.
 pid_t start_run(const StudyRun& run, const fs::path& case_file, const RunOptions& options) {
   const fs::path folder = options.folder / run.name;
   fs::create_directories(folder);
-  fs::remove(folder / "settings.txt"); // what stands there is not done any more
+  fs::remove(folder / "settings.txt"); // results in this folder no longer count as done
   fs::remove(folder / "summary.json");
   std::vector<std::string> words{"plyform",
                                  "run",
@@ -145,7 +145,7 @@ double seconds(const timeval& time) {
   return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
 }
 
-/// All that a study's runs need while they go on.
+/// State of the runs of a study in progress.
 struct StudyRuns {
   const StudyPlan& plan;
   const RunOptions& options;
@@ -178,7 +178,7 @@ struct StudyRuns {
     }
   }
 
-  /// Takes the processes that have ended.
+  /// Collects the processes that have ended.
   void collect() {
     for (std::size_t i = 0; i < running.size();) {
       int status = 0;
@@ -209,13 +209,14 @@ struct StudyRuns {
 
 RunsEnd run_all(const StudyPlan& plan, const fs::path& case_file, const RunOptions& options) {
   RunsEnd begin;
-  std::vector<std::size_t> waiting; // in the plan's order: the reference, the longest, first
+  // in the order of the plan: first the reference, which takes longest
+  std::vector<std::size_t> waiting;
   for (std::size_t i = 0; i < plan.runs.size(); ++i) {
     begin.done.push_back(is_done(plan.runs[i], options));
     if (!begin.done.back()) waiting.push_back(i);
   }
   StudyRuns runs{plan, options, begin, {plan.runs.size() - waiting.size(), plan.runs.size()}};
-  std::signal(SIGCHLD, SIG_DFL); // a parent may have it ignored: exit codes would be lost
+  std::signal(SIGCHLD, SIG_DFL); // if inherited as ignored, exit codes would be lost
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
   try {

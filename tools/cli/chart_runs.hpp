@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The runs of a study, each a process of its own.
+// Runs the simulations of a study, each in a process of its own.
 #pragma once
 
 #include "core/study/study_plan.hpp"
@@ -10,23 +10,23 @@
 namespace plyform {
 
 struct RunOptions {
-  std::filesystem::path folder; ///< of all runs; each has one of its own in it
-  int jobs = 1;                 ///< runs at a time
-  int threads = 1;              ///< of each
+  std::filesystem::path folder; ///< of the study; each run has a folder of its own in it
+  int jobs = 1;                 ///< number of simultaneous runs
+  int threads = 1;              ///< threads per run
 };
 
 /// How the runs ended.
 struct RunsEnd {
   int code = 0;                        ///< exit code for the study, 0 if it can go on
-  std::vector<bool> done;              ///< by run: exit code 0, now or at an earlier time
-  std::vector<std::string> troubles{}; ///< what the user should hear of, a line or more each
+  std::vector<bool> done;              ///< per run: exit code 0, now or at an earlier time
+  std::vector<std::string> troubles{}; ///< messages for the user, one or more lines each
 };
 
-/// Runs whatever the plan has that is not done yet: a run is done if its folder has a summary.json
-/// with status "done" or "doubtful" and a settings.txt that says the same inputs and threads. The
-/// first run that is refused (exit code 2), the reference stopping, and Ctrl-C end all others; what
-/// was finished stays. Throws std::runtime_error or std::filesystem::filesystem_error where the
-/// folder cannot be written or no process be started.
+/// Runs all runs of the plan that are not done yet: a run is done if its folder has a summary.json
+/// with status "done" or "doubtful" and a settings.txt with the same inputs and threads. The first
+/// run whose case is rejected (exit code 2), a reference that stops, and Ctrl-C end all others;
+/// finished runs are kept. Throws std::runtime_error or std::filesystem::filesystem_error if the
+/// folder cannot be written or a process cannot be started.
 RunsEnd run_all(const StudyPlan& plan, const std::filesystem::path& case_file,
                 const RunOptions& options);
 
