@@ -116,10 +116,12 @@ class Reader:
 
     def __init__(self, table: dict, item: str, kind: str, mistakes: Mistakes):
         self.table, self.item, self.mistakes = table, item, mistakes
+        self.meant: set[str] = set()  # keys that are there, but misspelt
         known = KNOWN[kind]
         for key in table:
             if key not in known:
                 near = difflib.get_close_matches(key, known, 1)
+                self.meant.update(near)
                 self.fail(key, "unknown key",
                           f"did you mean {near[0]}?" if near else f"there are {', '.join(known)}")
 
@@ -127,6 +129,8 @@ class Reader:
         return f"{self.item}.{key}" if self.item else key
 
     def fail(self, key: str, rule: str, remedy: str, value=None) -> None:
+        if rule == "is missing" and key in self.meant:
+            return
         self.mistakes.add(self.path(key), rule, remedy, value)
 
     def get(self, key: str, right, rule: str, remedy: str, default=None, required=False):
@@ -224,7 +228,7 @@ def read_vary(table: dict, number: int, study: Study) -> Vary:
     if len(given) != 1:
         reader.fail("key", "is missing" if not given else f"stands beside {given[-1]}",
                     "give one of key, keys (several together) and each (several, each its own)")
-    keys = reader.items("keys", is_word, "must be a key of the case", "as in --set") \
+    keys = reader.items("keys", is_word, "must be a key of the case", "as in --set") or ["?"] \
         if given == ["keys"] else [reader.word((given or ["key"])[0], "as in --set", "?")]
     one = Vary(reader.word("name", "give a name for the column", " ".join(keys)), reader.item, keys,
                given == ["each"])
