@@ -18,6 +18,10 @@ if grep -rnF "$(dirname "$tests")" "$prefix/lib" --include='*.cmake'; then
   exit 1
 fi
 "$prefix/bin/plyform" version
+if /usr/bin/python3 -c 'import h5py' 2>/dev/null; then
+  "$prefix/bin/plyform" chart "$prefix/share/plyform/cases/studies/bias_extension.toml" --check \
+    -o "$work/study"
+fi
 
 cmake -S "$tests/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_PREFIX_PATH="$prefix"

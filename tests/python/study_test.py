@@ -159,6 +159,8 @@ def check_plyform(folder: Path) -> None:
     again = call(program, *words)
     assert again.code == 0 and again.out == told.out and "5/5 runs" in again.err, again
     assert times == {path: path.stat().st_mtime_ns for path in results.glob("runs/*/ended.json")}
+    other = subprocess.run([PLYFORM, "chart", *words, "--table"], capture_output=True, text=True)
+    assert other.returncode == 0 and other.stdout == told.out, other
     study.write_text(TINY.replace("[100,", "[0.1,"), encoding="utf-8")
     told = call(program, *words)
     assert told.code == 2 and "tiny.toml:11: error: vary.0.values.0: does not fit the case: " \

@@ -19,7 +19,7 @@ from studies.run_job import ENDED, die_with_parent, read_json
 
 HERE = Path(__file__).resolve().parent
 JOB_S = 10.0           # a job of this machine takes as many runs as fill this time
-CLUSTER_JOB_S = 300.0  # a job of a cluster costs seconds of its own
+CLUSTER_JOB_S = 60.0   # a job of a cluster costs seconds of its own
 LOOK_S = 0.5           # between looks at what has ended
 
 
@@ -27,7 +27,7 @@ LOOK_S = 0.5           # between looks at what has ended
 class Options:
     program: Path
     folder: Path
-    jobs: int               # runs at a time
+    jobs: int               # at a time; 0: as the profile says
     threads: int            # of each
     profile: str = ""       # of Snakemake; empty: this machine
     runs_per_job: int = 0   # 0: by their time
@@ -92,10 +92,10 @@ class Engine:
 
     def batches(self, missing: list[Run]) -> dict[str, list[str]]:
         """Names of runs by job."""
-        aim = CLUSTER_JOB_S if self.options.profile else JOB_S
-        size = self.options.runs_per_job or \
-            max(1, min(int(aim / max(self.time_of_run(), 0.01)),
-                       math.ceil(len(missing) / (4 * self.options.jobs))))
+        options, time_s = self.options, max(self.time_of_run(), 0.01)
+        size = int(CLUSTER_JOB_S / time_s) if options.profile else \
+            min(int(JOB_S / time_s), math.ceil(len(missing) / (4 * options.jobs)))
+        size = options.runs_per_job or max(1, size)
         first = [run.name for run in missing if run.name == self.options.first]
         rest = [run.name for run in missing if run.name != self.options.first]
         jobs = {f"first_{i}": [name] for i, name in enumerate(first)}
@@ -115,14 +115,14 @@ class Engine:
         (folder / "jobs.json").write_text(text, encoding="utf-8")
 
     def command(self) -> list[str]:
-        jobs = self.options.jobs
+        jobs, threads = self.options.jobs, self.options.threads
         words = ["snakemake", "--snakefile", str(HERE / "Snakefile"), "--directory",
                  str(self.options.folder), "--keep-going", "--nolock", "--rerun-incomplete",
                  "--rerun-triggers", "mtime", "--scheduler", "greedy"]
         if self.options.profile:
-            return [*words, "--profile", profile_of(self.options.profile), "--jobs", str(jobs)]
-        return [*words, "--cores", str(jobs * self.options.threads), "--drop-metadata",
-                "--quiet", "all"]
+            return [*words, "--profile", profile_of(self.options.profile),
+                    *(["--jobs", str(jobs)] if jobs else [])]
+        return [*words, "--cores", str(jobs * threads), "--drop-metadata", "--quiet", "all"]
 
     def run_all(self) -> None:
         """Until nothing is missing, or Snakemake has given up."""

@@ -179,7 +179,8 @@ class Planner:
                  if not path.name.endswith(".running")}
         kept = {}
         for run in runs:
-            start = f"{run.line} {run.label}" if run.line != run.label else run.line
+            start = run.label if run.line in (run.label, "grid", "list", "run") else \
+                f"{run.line} {run.label}"
             ident = self.hash.of(run.case, run.settings, f"{self.rest}accuracy {run.accuracy}\n")
             run.name = there.get(ident, f"{file_name(start)[:60]}-{ident}")
             if ident not in kept or kept[ident].line == "reference":
