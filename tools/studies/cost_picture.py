@@ -5,6 +5,7 @@ the reference's time on the lower edge, stopped runs as crosses on the upper one
 
 import matplotlib.pyplot as plt
 import numpy as np
+from matplotlib.ticker import LogFormatter
 from matplotlib.transforms import Bbox
 from plotting.looks import colour, finish
 from plotting.reading import Field
@@ -50,6 +51,9 @@ def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict]
     figure, axes = plt.subplots(figsize=(8.0, 5.6), layout="constrained")
     axes.set_xscale("log")
     axes.set_yscale("log")
+    for axis in (axes.xaxis, axes.yaxis):  # 3, not 3 x 10^0
+        axis.set_major_formatter(LogFormatter(labelOnlyBase=False))
+        axis.set_minor_formatter(LogFormatter(labelOnlyBase=False, minor_thresholds=(2, 0.5)))
     good = [row for row in rows if is_number(row.get(error)) and row[error] > 0]
     labels = []
 
