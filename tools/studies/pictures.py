@@ -26,6 +26,11 @@ def places(rows: list[dict], name: str) -> tuple[np.ndarray, list[str] | None]:
     return np.array([names.index(str(value)) for value in values], dtype=float), names
 
 
+def short(value: float) -> str:
+    """Three digits, without an exponent for what is not tiny or huge."""
+    return f"{value:.0f}" if 100 <= abs(value) < 1e6 else f"{value:.3g}"
+
+
 def set_axis(axis, values: np.ndarray, names: list[str] | None, label: str, wide: bool) -> None:
     axis.set_label_text(label)
     if names:
@@ -34,7 +39,7 @@ def set_axis(axis, values: np.ndarray, names: list[str] | None, label: str, wide
         axis._set_axes_scale("log")
         ticks = np.unique(values)
         if len(ticks) <= 8:
-            axis.set_ticks(ticks, [f"{tick:g}" for tick in ticks])
+            axis.set_ticks(ticks, list(map(short, ticks)))
             axis.set_ticks([], minor=True)
 
 
@@ -95,7 +100,7 @@ def draw_map(study: Study, picture: Picture, rows: list[dict]):
         shown = plane.axes.pcolormesh(*grid, cmap="viridis")
         for x, y, value in zip(plane.x, plane.y, values):
             if np.isfinite(value):
-                plane.axes.annotate(f"{value:.3g}", (x, y), ha="center", va="center", fontsize=8,
+                plane.axes.annotate(short(value), (x, y), ha="center", va="center", fontsize=8,
                                     bbox={"boxstyle": "round,pad=0.1", "fc": "white", "ec": "none",
                                           "alpha": 0.7})
     else:
