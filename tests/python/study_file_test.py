@@ -122,7 +122,7 @@ def state(cells: int, field) -> State:
 
 
 def check_difference(_folder: Path) -> None:
-    """A constant is told on any meshes; a slope, which rounds off at the rim, goes away with them."""
+    """A constant is told on any meshes; a slope, wrong at the rim only, on fine ones."""
     flat = difference(state(7, lambda at: 0 * at[:, 0] + 3.0), state(10, lambda at: 0 * at[:, 0]))
     assert all(abs(value - 3.0) < 1e-12 for value in flat.values()), flat
 

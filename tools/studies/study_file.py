@@ -112,7 +112,7 @@ def is_word(value) -> bool:
 
 
 class Reader:
-    """One table of the file; whatever is wrong goes to the mistakes, and a usable value comes out."""
+    """One table of the file; whatever is wrong goes to the mistakes, a usable value comes out."""
 
     def __init__(self, table: dict, item: str, kind: str, mistakes: Mistakes):
         self.table, self.item, self.mistakes = table, item, mistakes
@@ -263,8 +263,8 @@ def read_reference(table, study: Study) -> Reference | None:
         if not (is_number(value) and value > 0):
             reader.fail("factors", f"{key} must be a number above 0",
                         "give a factor of the case's own value")
-    fields = reader.items("fields", lambda one: one in FIELDS, f"must be one of {', '.join(FIELDS)}",
-                          "name fields of results.h5 to compare")
+    fields = reader.items("fields", lambda one: one in FIELDS,
+                          f"must be one of {', '.join(FIELDS)}", "name fields to compare")
     right = {key: value for key, value in factors.items() if is_number(value)}
     return Reference(reader.settings(), right, reader.choice("accuracy", PRESETS),
                      fields if "fields" in table else ["shear"])
@@ -277,8 +277,8 @@ def read_figures(table, study: Study) -> dict[str, str]:
         return {}
     for name, path in table.items():
         if not (is_word(path) and (" " not in path or path.split(" ", 1)[0] in TAKE)):
-            study.mistakes.add(f"figures.{name}", "must be a path in summary.json, before it one of "
-                               f"{', '.join(TAKE)} where a * stands for several",
+            study.mistakes.add(f"figures.{name}", "must be a path in summary.json, before it one "
+                               f"of {', '.join(TAKE)} where a * stands for several",
                                'write for example "max plies.*.max_shear_deg"')
     return {name: path for name, path in table.items() if isinstance(path, str)}
 
@@ -349,7 +349,7 @@ def read_study(file: Path) -> Study:
     try:
         text = file.read_text(encoding="utf-8")
     except (OSError, UnicodeDecodeError) as problem:
-        raise Trouble(f"{file} cannot be read: {problem}; give the path of a study file") from problem
+        raise Trouble(f"{file} cannot be read: {problem}; give a study file") from problem
     mistakes = Mistakes(file, lines_of(text))
     try:
         root = tomllib.loads(text)
