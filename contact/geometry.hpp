@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The few types that everything in contact/ and core/ shares. Lengths in mm.
+// Geometric types that contact/ and core/ share. Lengths in mm.
 #pragma once
 
 #include <Eigen/Core>

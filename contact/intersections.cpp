@@ -18,8 +18,8 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_3;
 using Segment = Kernel::Segment_3;
-/// A triangle as the set of points that it is: CGAL's triangle predicates need three corners that
-/// are not in line.
+/// A possibly degenerate triangle as point, segment or triangle: CGAL's triangle predicates need
+/// three corners that are not collinear.
 using Shape = std::variant<Point, Segment, Kernel::Triangle_3>;
 
 struct Face {
@@ -42,14 +42,14 @@ Shape make_shape(const Point& a, const Point& b) {
 
 Shape make_shape(const std::array<Point, 3>& x) {
   if (!CGAL::collinear(x[0], x[1], x[2])) return Kernel::Triangle_3(x[0], x[1], x[2]);
-  // The order of points in line is that of their coordinates.
+  // Collinear points are ordered along their line as by their coordinates.
   const auto [low, high] = std::minmax_element(x.begin(), x.end());
   return make_shape(*low, *high);
 }
 
-/// `face` cut into pieces that are fans from its corner k: the piece and its side opposite to the
-/// corner, which does not hold the corner. One piece for a true triangle; a segment through the
-/// corner has one on either side; a point has none.
+/// A piece of a face that is star-shaped about its corner k, and the side of the piece opposite to
+/// that corner. A triangle is one such piece; a segment that has the corner in its interior gives
+/// two; a point gives none.
 struct Piece {
   Shape fan, opposite;
 };
@@ -62,8 +62,9 @@ std::vector<Piece> fans(const Face& face, int k) {
   return pieces;
 }
 
-/// Faces that share one node, at corners k and l. From a common point walk away from the node: the
-/// walk leaves one of the two fans first, through its opposite side, still inside the other.
+/// Whether two faces that share one node, at corners k and l, meet beyond it. A ray from the node
+/// through a common point leaves one of the two pieces first, through its opposite side and still
+/// inside the other: so it is enough to test opposite sides against pieces.
 bool meet_beyond_corner(const Face& f, int k, const Face& g, int l) {
   if (f.shape.index() == 2 && g.shape.index() == 2) { // the usual case, without allocation
     return meet(Segment(f.x[(k + 1) % 3], f.x[(k + 2) % 3]), g.shape) ||
@@ -75,14 +76,14 @@ bool meet_beyond_corner(const Face& f, int k, const Face& g, int l) {
   return false;
 }
 
-/// Faces p q r and p q s that share the edge p q: they meet beyond it only when folded flat onto
-/// each other, or, being segments or points, when both stick out of the same end.
+/// Whether faces p q r and p q s, which share the edge p q, meet beyond it: only if they are folded
+/// flat onto each other, or, if degenerate, if both extend beyond the same end of p q.
 bool meet_beyond_edge(const Face& f, const Face& g, const Point& p, const Point& q, const Point& r,
                       const Point& s) {
   const bool f_flat = f.shape.index() != 2, g_flat = g.shape.index() != 2;
   if (!f_flat && !g_flat)
     return CGAL::coplanar(p, q, r, s) && CGAL::coplanar_orientation(p, q, r, s) == CGAL::POSITIVE;
-  if (!f_flat || !g_flat) return false; // the flat one lies along p q, the other touches only p q
+  if (!f_flat || !g_flat) return false; // the degenerate one lies along p q, where they may touch
   if (p == q)
     return p != r && p != s && CGAL::collinear(p, r, s) &&
            !CGAL::collinear_are_ordered_along_line(r, p, s);
@@ -116,7 +117,7 @@ bool intersect(const Face& f, const Face& g) {
   if (count == 1) return meet_beyond_corner(f, shared[0], g, *corner_at(g, f.node[shared[0]]));
   if (count == 3) return true; // the same triangle twice
   const auto r = corner_not_in(f, g), s = corner_not_in(g, f);
-  if (!r || !s) return false; // one names a node twice: it is the shared edge
+  if (!r || !s) return false; // one face names a node twice and so is the shared edge itself
   return meet_beyond_edge(f, g, f.x[shared[0]], f.x[shared[1]], f.x[*r], g.x[*s]);
 }
 
@@ -163,7 +164,7 @@ Intersections find_intersections(std::span<const MeshView> sheets) {
   Intersections result;
   CGAL::box_self_intersection_d(
       boxes.begin(), boxes.end(), [&result](const FaceBox& left, const FaceBox& right) {
-        const Face* f = left.handle(); // faces lie in memory by sheet, then triangle
+        const Face* f = left.handle(); // addresses ascend by sheet, then by triangle
         const Face* g = right.handle();
         if (g < f) std::swap(f, g);
         if (!intersect(*f, *g)) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exact check of a finished state (CGAL, exact predicates): what crosses what.
+// Exact check for intersecting triangles of sheets in a given state (CGAL, exact predicates).
 #pragma once
 
 #include "contact/geometry.hpp"

@@ -5,7 +5,7 @@
 // B = b - a, C = c - a, P = p - a. With q = a + w_b B + w_c C, the foot of p on the plane has
 //   u_b = C.C P.B - B.C P.C,  u_c = B.B P.C - B.C P.B,  u_a = det - u_b - u_c                 (1)
 //   det = B.B C.C - (B.C)^2,  w_i = u_i / (u_a + u_b + u_c)                                   (2)
-// and is q if all u_i > 0. Else the signs of u and of p's projections on the sides tell the vertex
+// and is q if all u_i > 0. Else the signs of u and of p's projections on the sides give the vertex
 // or edge (Ericson, Real-Time Collision Detection, 5.1.5: the Voronoi regions), on an edge e from s
 //   t = (p - s).e / e.e                                                                       (3)
 //
@@ -70,10 +70,11 @@ inline ClosestPoint closest_point_on_sliver(const Vec3& p, const Vec3& a, const 
 
 } // namespace detail
 
-/// p and the triangle's corners in mm. Degenerate triangles are answered as the segment or point
-/// that they are; never NaN for coordinates below 1e75 mm (the squares of areas overflow beyond).
-/// The distance is right to 2e-15 of the distance to the furthest corner; for slivers, to 2e-16
-/// length / height of it besides, and never worse than the height.
+/// The point of triangle a, b, c closest to p, all in mm, by (1) to (4). A degenerate triangle is
+/// treated as the segment or point that it is; the result is never NaN for coordinates below 1e75
+/// mm (beyond, the squares of areas overflow). The error of the distance is at most 2e-15 of the
+/// distance to the furthest corner; for slivers 2e-16 length / height of it in addition, but no
+/// more than the height.
 inline ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, const Vec3& b,
                                               const Vec3& c) {
   const Vec3 ab = b - a, ac = c - a, ap = p - a;

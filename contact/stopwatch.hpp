@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where the computing time goes: for the report at the end of a run, never for results.
+// Measures computing time for the report at the end of a run; results never depend on it.
 #pragma once
 
 #include <chrono>
@@ -11,7 +11,7 @@ struct ContactTime {
   double forces = 0.0, search = 0.0;
 };
 
-/// Adds the seconds of its life to a total.
+/// Adds the seconds from its construction to its destruction to a total.
 class Stopwatch {
 public:
   explicit Stopwatch(double& total) : total_(total) {}

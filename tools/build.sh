@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing, configures build/PRESET if that has not been done, and builds:
 #   tools/build.sh PRESET           all, with the tests
-#   tools/build.sh PRESET TARGET    one target; plyform needs the packages of the tests only if the
-#                                   folder is set up for them
+#   tools/build.sh PRESET TARGET    one target: plyform, the program, needs the packages of the tests
+#                                   only if the folder is set up for them; _plyform, the Python
+#                                   module, does
 # Done again, it does nothing that is not needed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -24,7 +25,7 @@ fi
 tests=yes options=()
 if [ "$target" = plyform ] && { [ $fresh = yes ] || grep -qsxF PLYFORM_TESTS:BOOL=OFF "$cache"; }; then
   tests=no options=(-D PLYFORM_TESTS=OFF)
-elif [ "$target" = all ] && [ "$preset" != bench ] && grep -qsxF PLYFORM_TESTS:BOOL=OFF "$cache"; then
+elif [ "$target" != plyform ] && [ "$preset" != bench ] && grep -qsxF PLYFORM_TESTS:BOOL=OFF "$cache"; then
   fresh=add options=(-D PLYFORM_TESTS=ON)
 fi
 

@@ -1,36 +1,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The force law of one contact: normal penalty that no force can overcome, with damping, and
-// Coulomb friction with true stick.
+// The force law of one contact: a barrier penalty in the normal direction, which no finite force
+// overcomes, with viscous damping, and Coulomb friction with elastic stick.
 //
 //   h    mm      distance at which bodies touch;  d  mm  distance now;  p = h - d  penetration
-//   delta mm     depth at which the force has no limit;  u = p / delta;  q = 1 - u^2
-//   A    mm^2    area that the contact stands for
+//   delta mm     depth at which the force becomes infinite;  u = p / delta;  q = 1 - u^2, the room
+//   A    mm^2    tributary area of the contact
 //   k    N/mm^3  penalty stiffness per area, c  N s/mm^3  damping per area
 //   k_t  N/mm^3  tangential stiffness per area: k / 2, of the order of what bodies in contact show
 //                (2 (1 - nu) / (2 - nu) of the normal one: Mindlin, J. Appl. Mech. 16, 1949), and
 //                the couples of friction (ply_ply.hpp) then hardly lower the stable step
-//   s    mm      elastic tangential displacement remembered by the contact (its history)
+//   s    mm      elastic tangential displacement (history variable of the contact)
 //   mu   -       coefficient of friction
 //
 //   E = 1/2 A k p^2 / q                                                                     (E)
-//   N = max(0, A (k p / q^2 + c dp/dt)), p >= 0: in the step that closes a gap dp is what is
-//       penetrated, not the way, so that N has no jump where p = 0                          (N)
+//   N = max(0, A (k p / q^2 + c dp/dt)), p >= 0; in the step that closes a gap dp is the depth
+//       reached, without the gap closed before, so that N has no jump at p = 0              (N)
 //   dN/dp = A k (1 + 3 u^2) / q^3                                                           (K)
 //
-// (N) is the linear penalty while u is small (1.2 times it at u = 0.3). (E) grows without limit
-// before delta is reached: no finite energy drives a contact through, which a penalty of finite
-// stiffness only makes rarer. It needs steps in which no contact closes by more than half of the
-// room that it has left at its present speed, and that follow (K):
-// core/solver/stable_time_step.hpp. Barriers of this kind, there logarithmic: Li et al.,
-// Incremental Potential Contact, ACM Trans. Graph. 39(4), 2020; a rational one needs no logarithm,
-// and its energy has a pole, not only its force.
+// (N) approximates the linear penalty while u is small (1.2 times it at u = 0.3). (E) has a pole at
+// p = delta: no finite energy drives a contact through, whereas a penalty of finite stiffness only
+// makes that rarer. In return the time step must be such that no contact, at its present closing
+// speed, uses more than half of its remaining depth delta - p in a step, and it must be stable for
+// the stiffness (K): core/solver/stable_time_step.hpp. Logarithmic barriers of this kind: Li et
+// al., Incremental Potential Contact, ACM Trans. Graph. 39(4), 2020; the rational one needs no
+// logarithm, and not only its force but also its energy has a pole.
 //
 //   s_trial = rotate(s) + tangential part of the relative motion of this step
 //   T = -A k_t s,  |T| <= mu N, s shortened to fit when it slides                             (T)
 //
 // (T) is the elastic-predictor, return-mapping form of Coulomb's law (Wriggers, Computational
-// Contact Mechanics, 2nd ed., section 5.2.4): below the cone the contact sticks and gives its
-// displacement back, it does not creep.
+// Contact Mechanics, 2nd ed., section 5.2.4): inside the friction cone the contact sticks, its
+// tangential displacement is elastic and recovered on unloading, and it does not creep.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -41,10 +41,6 @@
 #include <limits>
 
 namespace plyform {
-
-/// q of (E) at least, and the depth over delta where that is: what is deeper is a fault, whose
-/// force need not be right, only finite.
-constexpr double least_room = 1e-3, deepest_sound = 0.9995;
 
 struct ContactLaw {
   double stiffness = 0.0;                                     ///< k, N/mm^3
@@ -73,28 +69,29 @@ struct ContactLaw {
   double energy(double p) const { return 0.5 * stiffness * p * p / room(p); }
 };
 
-/// Sums over contacts since the last reset or, for the energies, at present. N mm, N, mm.
+/// Sums, maxima and minima over the points of one contact.
 struct ContactTotals {
-  double elastic = 0.0;     ///< energy stored now in normal and tangential springs
-  double friction = 0.0;    ///< work turned to heat by sliding, since the start
-  double damping = 0.0;     ///< work of normal damping, since the start
+  double elastic = 0.0;     ///< N mm, energy stored now in normal and tangential springs
+  double friction = 0.0;    ///< N mm, work dissipated by sliding, since the start
+  double damping = 0.0;     ///< N mm, work of normal damping, since the start
   double penetration = 0.0; ///< deepest now, mm
   double deepest = 0.0;     ///< deepest since the start, mm
-  double slip = 0.0;        ///< longest way slid by one contact while it lasted, mm
-  int touching = 0;         ///< contacts that carry force now
-  /// By how much the next step may be longer than the last one, for no contact to close by more
-  /// than half of the room that it has left.
+  double slip = 0.0;        ///< largest sliding distance of one contact while it was closed, mm
+  int touching = 0;         ///< number of closed contacts
+  /// Largest ratio of the next time step to the last one with which, at its present closing speed,
+  /// no contact uses more than half of its remaining depth.
   double step_ratio = std::numeric_limits<double>::infinity();
 };
 
-/// Nothing touches, before the contacts of a step are gone through.
+/// Resets the sums that describe the present state, at the begin of the force loop of a step.
 inline void clear_present(ContactTotals& sums) {
   sums.elastic = sums.penetration = 0.0;
   sums.touching = 0;
   sums.step_ratio = std::numeric_limits<double>::infinity();
 }
 
-/// A row of the contact matrices in absolute values, or what a contact adds to it per area.
+/// Sum of absolute values of a node's row in the contact stiffness and damping matrices (a bound of
+/// their eigenvalues: Gershgorin). row_of gives it per area, then in N/mm^3 and N s/mm^3.
 struct ContactRow {
   double stiffness = 0.0; ///< N/mm
   double damping = 0.0;   ///< N s/mm
@@ -109,30 +106,32 @@ inline ContactRow operator*(double by, const ContactRow& row) {
 }
 
 /// ContactTotals::step_ratio of one contact at depth p (mm, below 0: open) that closed by dp (mm)
-/// in the last step. While it is open it may close, and then use half of the whole depth.
+/// in the last step: half of the remaining depth over dp. An open contact may close its gap and
+/// then use half of delta. Infinite if the contact does not close.
 inline double step_ratio(const ContactLaw& law, double p, double dp) {
   if (!(dp > 0.0)) return std::numeric_limits<double>::infinity();
   const double inside = std::max(p, 0.0);
   return std::max((inside - p) + 0.5 * (law.max_depth - inside), 0.0) / dp;
 }
 
-/// By how much of its room a contact may get deeper before the stable step is renewed.
+/// Fraction of its remaining depth by which a contact may deepen before the stable time step is
+/// computed again.
 constexpr double deepening = 0.03;
 
-/// mm: depth for which the stable step must do when a contact is `depth` mm deep now.
+/// Depth (mm) for which the stable time step is computed if a contact is `depth` mm deep now.
 inline double depth_ahead(const ContactLaw& law, double depth) {
   if (std::isinf(law.max_depth)) return depth;
   const double inside = std::max(depth, 0.0);
   return inside + deepening * (law.max_depth - inside);
 }
 
-/// Tangent and damping per area of a contact `depth` mm deep, as far as it may get until the stable
-/// step is renewed.
+/// Tangent stiffness (K), N/mm^3, and damping, N s/mm^3, of a contact `depth` mm deep now, taken at
+/// the depth that it may reach until the stable time step is computed again.
 inline ContactRow row_of(const ContactLaw& law, double depth) {
   return {law.tangent(depth_ahead(law, depth)), law.damping};
 }
 
-/// s of (T) as a vector of Eigen, which the memory itself must not know.
+/// s of (T), mm, as an Eigen vector; ContactHistory itself must not depend on Eigen.
 inline Eigen::Map<Vec3> s_of(ContactHistory& memory) {
   return Eigen::Map<Vec3>(memory.s);
 }
@@ -140,10 +139,11 @@ inline Eigen::Map<const Vec3> s_of(const ContactHistory& memory) {
   return Eigen::Map<const Vec3>(memory.s);
 }
 
-/// Normal force (N) and its share that is damping; p > 0. dp: change of p in this step, mm.
+/// Normal force and the part of it that is damping, N.
 struct NormalForce {
   double total, damping;
 };
+/// (N) at depth p > 0 (mm). area: mm^2; dp: change of p in this step, mm; dt: s, 0 for no damping.
 inline NormalForce normal_force(const ContactLaw& law, double area, double p, double dp,
                                 double dt) {
   const double elastic = area * law.pressure(p);
@@ -152,8 +152,9 @@ inline NormalForce normal_force(const ContactLaw& law, double area, double p, do
   return {elastic + viscous, viscous};
 }
 
-/// (T): updates memory.s and returns the tangential force on the body whose motion relative to the
-/// other one, this step, is `motion` (mm). n: unit normal. Adds the heat of sliding to sums.
+/// (T): updates memory.s and memory.slip and returns the tangential force (N) on the body whose
+/// displacement relative to the other one in this step is `motion` (mm). area: mm^2; n_force: N; n:
+/// unit normal. Adds the work dissipated by sliding to sums.friction.
 inline Vec3 friction_force(const ContactLaw& law, double area, double n_force, const Vec3& n,
                            const Vec3& motion, ContactHistory& memory, ContactTotals& sums) {
   if (law.friction == 0.0) return Vec3::Zero();
@@ -161,7 +162,7 @@ inline Vec3 friction_force(const ContactLaw& law, double area, double n_force, c
   Eigen::Map<Vec3> s = s_of(memory);
   Vec3 old = s;
   const double length = old.norm();
-  if (length > 0.0) { // turn the history into the present tangent plane, its length kept
+  if (length > 0.0) { // rotates s into the present tangent plane, with its length preserved
     old -= n.dot(old) * n;
     const double flat = old.norm();
     old = flat > 0.0 ? Vec3(old * (length / flat)) : Vec3(Vec3::Zero());
@@ -176,13 +177,15 @@ inline Vec3 friction_force(const ContactLaw& law, double area, double n_force, c
   return -k * s;
 }
 
-/// Energy (N mm) that the springs of a contact hold, p mm deep.
+/// Elastic energy (N mm) of the normal and tangential springs of a contact at depth p > 0 (mm) with
+/// area mm^2: (E) + 1/2 A k_t s.s.
 inline double tangent_energy(const ContactLaw& law, double area, double p,
                              const ContactHistory& memory) {
   return area * (law.energy(p) + 0.5 * law.tangential() * s_of(memory).squaredNorm());
 }
 
-/// The contact has opened: what its spring still holds is given up as heat.
+/// Ends a contact that has opened: counts the energy left in its tangential spring as frictional
+/// dissipation and resets its history. area: mm^2.
 inline void release(const ContactLaw& law, double area, ContactHistory& memory,
                     ContactTotals& sums) {
   if (memory.normal_force == 0.0 && s_of(memory).isZero(0.0)) return;

@@ -8,7 +8,8 @@ const Vec3& at(std::span<const Vec3> x, std::int32_t n) {
   return x[n];
 }
 
-/// Both stiffnesses of a contact `depth` mm deep that stands for `area` (mm^2).
+/// Sets the normal and tangential stiffness of a contact `depth` mm deep with tributary `area`
+/// (mm^2).
 void set_stiffness(ContactTangent& spring, const ContactLaw& law, double area, double depth,
                    const TangentFactors& factors) {
   const ContactRow row = row_of(law, depth);
@@ -66,7 +67,7 @@ void append_tangents(const EdgeEdgeContact& contact, const SurfaceKinematics& a,
         (at(a.x, pair.a.b) - at(a.x, pair.a.a)).cross(at(b.x, pair.b.b) - at(b.x, pair.b.a));
     spring.normal.normalize();
     set_stiffness(spring, contact.law, pair.area, contact.distance - pair.distance, factors);
-    spring.across = 0.0; // edges meet without friction
+    spring.across = 0.0; // edge-edge contact has no friction
     springs.push_back(spring);
   }
 }

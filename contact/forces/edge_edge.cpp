@@ -11,7 +11,7 @@ const Vec3& at(std::span<const Vec3> x, int n) {
   return x[n];
 }
 
-/// Closest points of the lines' segments; inside: whether they lie inside both.
+/// Closest points of the lines through two segments; inside: whether they lie inside both segments.
 struct SegmentDistance {
   double s, t;
   bool inside;
@@ -26,7 +26,7 @@ SegmentDistance segment_distance(const Vec3& x1, const Vec3& x2, const Vec3& x3,
   const double det = uu * vv - uv * uv;
   SegmentDistance d{};
   d.normal = u.cross(v);
-  d.parallel = !(det > 1e-4 * uu * vv); // within half a degree: the nodes see each other
+  d.parallel = !(det > 1e-4 * uu * vv); // within 0.6 degrees; node-to-face contact resolves these
   if (d.parallel) return d;
   d.s = (uv * v.dot(w) - vv * u.dot(w)) / det;
   d.t = (uu * v.dot(w) - uv * u.dot(w)) / det;
@@ -45,15 +45,16 @@ double edge_area(const SurfaceKinematics& sheet, const EdgeNodes& e) {
   return 0.5 * (sheet.area[e.a] + sheet.area[e.b]);
 }
 
-/// Brings a pair up to date, its distance to `far` (mm) while the closest points are not inside
-/// both edges; returns the unit vector from b to a across the gap, or zero then.
+/// Updates side, s, t and distance of a pair. Returns the unit normal from b to a; if the closest
+/// points are not inside both edges, sets the distance to `far` (mm) and returns zero.
 Vec3 measure(EdgePair& pair, const SurfaceKinematics& a, const SurfaceKinematics& b, double far) {
   const SegmentDistance d =
       segment_distance(at(a.x, pair.a.a), at(a.x, pair.a.b), at(b.x, pair.b.a), at(b.x, pair.b.b));
   pair.distance = far;
   if (d.parallel || !d.inside) {
-    // Edges can only cross while both closest points are inside; outside, the ends may swap sides
-    // freely (and the cross product turns over when edges pass through parallel).
+    // Edges can only cross while both closest points are interior. Otherwise they may pass each
+    // other's ends, and the cross product changes sign when they pass through parallel: the side is
+    // reset.
     pair.side = 0;
     return Vec3::Zero();
   }
@@ -71,7 +72,7 @@ double far_of(const EdgeEdgeContact& contact) {
   return 2.0 * contact.distance;
 }
 
-/// Lists the pairs that may touch now. Those that were listed keep what they know.
+/// Updates the active pairs. Pairs that stay active keep their state.
 void renew_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a,
                  std::span<const SheetEdge> edges_a, const SurfaceKinematics& b,
                  std::span<const SheetEdge> edges_b, double path_length) {
@@ -106,8 +107,8 @@ double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const Edg
     return std::min({distance_to_segment(x1, x3, x4), distance_to_segment(x2, x3, x4),
                      distance_to_segment(x3, x1, x2), distance_to_segment(x4, x1, x2)});
   if (d.inside) return d.across.norm();
-  // Where the lines are closest is outside one segment or both. The closest points are then an end
-  // of a segment that is passed and what is closest to it on the other (Ericson, Real-Time
+  // The closest points of the lines lie outside one segment or both. Those of the segments are then
+  // an end of such a segment and the point of the other segment closest to it (Ericson, Real-Time
   // Collision Detection, 5.1.9).
   double distance = std::numeric_limits<double>::max();
   if (d.s <= 0.0 || d.s >= 1.0) distance = distance_to_segment(d.s <= 0.0 ? x1 : x2, x3, x4);
@@ -136,10 +137,10 @@ void edge_forces(EdgeEdgeContact& contact, const SurfaceKinematics& a,
       sums.step_ratio = std::min(sums.step_ratio, step_ratio(contact.law, p, dp));
     if (!(p > 0.0)) {
       if (last < contact.distance) continue;
-      // until then it cannot touch
+      // path length before which the pair cannot touch
       free_until = path_length + edge_distance(pair.a, a.x, pair.b, b.x) - contact.distance;
       if (free_until > path_length + contact.list.ahead)
-        pair.side = 0; // edges may turn past each other
+        pair.side = 0; // unmeasured until then, the edges may pass each other
       continue;
     }
     const NormalForce force =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which edges of two sheets may come close to each other.
+// Search for pairs of edges of two sheets that are close to each other.
 #include "contact/forces/edge_edge.hpp"
 
 #include <cmath>
@@ -19,8 +19,8 @@ Box3 edge_box(const SheetEdge& e, std::span<const Vec3> x, double inflate) {
   return box;
 }
 
-/// The boxes of some edges, sorted into square cells of a grid across the two axes along which they
-/// spread furthest; each edge in the cell of the lower corner of its box.
+/// The bounding boxes of some edges, sorted into the square cells of a grid in the plane of the two
+/// axes of largest extent; each edge is in the cell of the lower corner of its box.
 class EdgeGrid {
 public:
   EdgeGrid(const EdgeSet& edges, std::span<const Vec3> x) {
@@ -33,7 +33,7 @@ public:
     if (entries_.empty()) return;
     all.sizes().minCoeff(&flat_);
     low_ = all.min();
-    constexpr double most_cells = 1000.0; // along an axis, whatever edges there are
+    constexpr double most_cells = 1000.0; // upper limit of the cells along an axis
     cell_ = std::max({widest_.maxCoeff(), all.sizes().maxCoeff() / most_cells, 1e-9});
     for (int axis = 0; axis < 3; ++axis)
       count_[axis] = axis == flat_ ? 1 : place(all.max()[axis], axis, 1 << 20) + 1;
@@ -47,7 +47,7 @@ public:
       begin_[i] += begin_[i - 1];
   }
 
-  /// found(edge) for each whose box meets this one.
+  /// Calls found(edge) for each edge whose box intersects this one.
   template <class Found>
   void visit(const Box3& box, const Found& found) const {
     if (entries_.empty()) return;
@@ -142,7 +142,7 @@ void find_edge_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a, const
       if (!self.x0.empty() && (other <= e || neighbours(edge, of_b, self))) continue;
       const double gap =
           edge_distance({edge.a, edge.b}, a.x, {of_b.a, of_b.b}, b.x) - contact.distance;
-      if (gap > skin) continue; // only its box was in reach
+      if (gap > skin) continue; // the boxes intersect, the edges are further apart
       contact.candidates.push_back({e, other});
       contact.list.free_until.push_back(path_length + gap);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How a face turns, and the forces that load it with a couple.
+// Rotation of a triangular face in a step, and the nodal forces equivalent to a couple on it.
 //
 //   n      -     unit normal of the face;  g_j  1/mm  gradient of the shape function of corner j
 //   u_j    mm    motions of the corners in a step
@@ -28,7 +28,7 @@ inline FaceFrame face_frame(const Vec3& a, const Vec3& b, const Vec3& c) {
   return {n, {n.cross(c - b) / twice, n.cross(a - c) / twice, n.cross(b - a) / twice}};
 }
 
-/// (W), rad. u: motions of the corners, mm.
+/// Rotation (W), rad, of a face. u: displacements of its corners in the step, mm.
 inline Vec3 face_turn(const FaceFrame& f, const std::array<Vec3, 3>& u) {
   Vec3 dn = Vec3::Zero();
   double spin = 0.0;
@@ -39,7 +39,7 @@ inline Vec3 face_turn(const FaceFrame& f, const std::array<Vec3, 3>& u) {
   return f.normal.cross(dn) + spin * f.normal;
 }
 
-/// (C), N, for a couple in N mm.
+/// Forces (C) on the corners, N, for a couple in N mm.
 inline std::array<Vec3, 3> forces_of_couple(const FaceFrame& f, const Vec3& couple) {
   const Vec3 across = couple.cross(f.normal);
   const double spin = 0.5 * couple.dot(f.normal);

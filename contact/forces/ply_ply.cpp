@@ -15,7 +15,7 @@ const Vec3& at(std::span<const Vec3> x, int n) {
   return x[n];
 }
 
-/// Whether one node is a corner of all these faces: they are then one patch.
+/// Whether one node is a corner of all these faces, which are then connected.
 bool share_node(std::span<const Candidate> group, std::span<const Triangle> triangles) {
   const Triangle& t = triangles[group.front().face];
   int a = 1, b = 1, c = 1;
@@ -28,13 +28,13 @@ bool share_node(std::span<const Candidate> group, std::span<const Triangle> tria
   return (a | b | c) != 0;
 }
 
-/// Whether all these faces hang together, found by growing the patch of the first. No more than
-/// 64 faces; of more: false, label_patches will tell.
-bool one_patch(std::span<const Candidate> group, std::span<const Triangle> triangles) {
+/// Whether all these faces are connected by shared nodes, found by growing the connected component
+/// of one of them. For more than 64 faces false is returned, and label_components decides.
+bool one_component(std::span<const Candidate> group, std::span<const Triangle> triangles) {
   if (share_node(group, triangles)) return true;
   constexpr std::size_t most = 64;
   if (group.size() > most) return false;
-  std::array<std::int32_t, 3 * most> corners; // of the patch
+  std::array<std::int32_t, 3 * most> corners; // of the component
   std::array<const Triangle*, most> outside;
   std::size_t met = 0, left = group.size();
   for (std::size_t i = 0; i < left; ++i)
@@ -56,25 +56,25 @@ bool one_patch(std::span<const Candidate> group, std::span<const Triangle> trian
   return left == 0;
 }
 
-/// Numbers the connected patches among a node's candidate faces: label[i] = smallest index of its
-/// patch.
-void label_patches(std::span<const Candidate> group, std::span<const Triangle> triangles,
-                   std::vector<int>& label) {
+/// Labels the connected components of a node's candidate faces: label[i] = smallest index in the
+/// component of face i.
+void label_components(std::span<const Candidate> group, std::span<const Triangle> triangles,
+                      std::vector<int>& label) {
   label.assign(group.size(), 0);
-  if (one_patch(group, triangles)) return;
-  std::vector<std::pair<std::int32_t, int>> met; // nodes of the faces so far, and their patch
+  if (one_component(group, triangles)) return;
+  std::vector<std::pair<std::int32_t, int>> met; // nodes of the faces so far, and their component
   for (std::size_t i = 0; i < group.size(); ++i) {
     label[i] = static_cast<int>(i);
     const Triangle& t = triangles[group[i].face];
     for (const std::int32_t n : t)
-      for (const auto& [node, patch] : met)
-        if (node == n) label[i] = std::min(label[i], patch);
+      for (const auto& [node, component] : met)
+        if (node == n) label[i] = std::min(label[i], component);
     for (const std::int32_t n : t) {
       const auto known =
           std::find_if(met.begin(), met.end(), [n](const auto& m) { return m.first == n; });
       if (known == met.end()) {
         met.emplace_back(n, label[i]);
-      } else if (const int joined = known->second; joined != label[i]) { // two patches meet here
+      } else if (const int joined = known->second; joined != label[i]) { // joins two components
         for (auto& m : met)
           if (m.second == joined) m.second = label[i];
         for (std::size_t j = 0; j < i; ++j)
@@ -84,26 +84,26 @@ void label_patches(std::span<const Candidate> group, std::span<const Triangle> t
   }
 }
 
-/// Area that one contact stands for: no more than the smaller of both sheets' node areas, so that
-/// a coarse node does not overload the small nodes of a fine sheet. The master's is that at the
-/// closest point: where faces meet, rounding says which of them is closest, and must not count.
+/// Tributary area of a contact: the smaller of both sheets' nodal areas, so that a node of a coarse
+/// sheet does not overload the small nodes of a fine one. The master's is interpolated at the
+/// closest point, so that it does not depend on which of two equally close faces is taken.
 double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& master,
                     const PlyPlyPoint& c, const Triangle& face) {
   const std::array<double, 3> w = weights_of(c);
-  double there = 0.0;
+  double master_area = 0.0;
   for (std::size_t j = 0; j < 3; ++j)
-    there += w[j] * master.area[face[j]];
-  return std::min(slave.area[c.node], there);
+    master_area += w[j] * master.area[face[j]];
+  return std::min(slave.area[c.node], master_area);
 }
 
-/// Deactivates a point that does not touch. Which side it is on does not matter meanwhile.
+/// Deactivates a point that does not touch, and resets the side that it is on.
 void deactivate(PlyPlyPoint& c) {
   c.gap_when_deactivated = static_cast<float>(c.gap);
   c.gap = std::numeric_limits<double>::infinity();
   c.side = 0;
 }
 
-/// A contact of these candidates' node, not touched yet.
+/// A new, open contact point of a node with the faces of these candidates, which are sorted here.
 PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
                       std::span<const Triangle> triangles, double path_length) {
   std::sort(near.begin(), near.end(), [](const Candidate& a, const Candidate& b) {
@@ -132,7 +132,7 @@ PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
   return c;
 }
 
-/// The old contact of this node whose last face is in the new patch, or null.
+/// The old contact point of this node whose last face is among the faces of the new one, or null.
 const PlyPlyPoint* find_old(std::span<const PlyPlyPoint> old, std::size_t& begin,
                             const PlyPlyPoint& now, std::span<const std::int32_t> faces) {
   while (begin < old.size() && old[begin].node < now.node)
@@ -156,7 +156,7 @@ double distance_of_others(const PlyPlyPoint& point, const std::int32_t* triangle
     const std::int32_t* u = corners(faces[i]);
     if (std::find_first_of(t, t + 3, u, u + 3) == t + 3) return face_distance[i];
   }
-  return std::numeric_limits<double>::max(); // what is not listed cannot touch
+  return std::numeric_limits<double>::max(); // faces that are not listed cannot touch
 }
 
 void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> candidates,
@@ -176,7 +176,7 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
     while (end < candidates.size() && candidates[end].node == candidates[begin].node)
       ++end;
     const auto group = candidates.subspan(begin, end - begin);
-    label_patches(group, triangles, label);
+    label_components(group, triangles, label);
     for (std::size_t first = 0; first < group.size(); ++first) {
       if (label[first] != static_cast<int>(first)) continue;
       near.clear();
@@ -201,40 +201,40 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
 
 namespace {
 
-/// What the kernel asks back, of one contact in one step.
-struct KernelSide {
+/// Contact, sheets and motion of one call of the kernel, which its callbacks get as `self`.
+struct KernelContext {
   PlyPlyContact& contact;
   const SurfaceKinematics &slave, &master;
   std::span<const Triangle> triangles;
-  RelativeMotion gone;
-  bool look_all;
+  RelativeMotion moved;
+  bool full_search;
   std::span<Vec3> slave_force, master_force;
 };
 
-KernelSide& of(void* self) {
-  return *static_cast<KernelSide*>(self);
+KernelContext& of(void* self) {
+  return *static_cast<KernelContext*>(self);
 }
 
-PlyPlyPoint& point_of(KernelSide& k, std::int32_t point) {
+PlyPlyPoint& point_of(KernelContext& k, std::int32_t point) {
   return k.contact.points[point];
 }
 
 void open_point(void* self, std::int32_t point, double last_gap) {
-  KernelSide& k = of(self);
+  KernelContext& k = of(self);
   PlyPlyPoint& c = point_of(k, point);
-  if (c.memory.damping_force != 0.0) // the trapezoid's last half
+  if (c.memory.damping_force != 0.0) // last half step of the trapezoidal rule for its work
     k.contact.sums.damping += 0.5 * c.memory.damping_force * (last_gap - c.gap);
   c.memory.damping_force = 0.0;
   release(k.contact.law, c.area, c.memory, k.contact.sums);
 }
 
 void fault_at(void* self, std::int32_t point, double distance) {
-  KernelSide& k = of(self);
+  KernelContext& k = of(self);
   const PlyPlyPoint& c = point_of(k, point);
   k.contact.fault = {c.node, c.face, distance};
 }
 
-PlyPlyKernelContact kernel_view(KernelSide& k, double dt) {
+PlyPlyKernelContact kernel_view(KernelContext& k, double dt) {
   PlyPlyContact& c = k.contact;
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::int32_t));
   PlyPlyKernelContact view{};
@@ -249,9 +249,9 @@ PlyPlyKernelContact kernel_view(KernelSide& k, double dt) {
   view.faces = c.faces.data();
   view.face_distance = c.face_distance.data();
   view.fold_bound = k.master.fold_bound.empty() ? nullptr : k.master.fold_bound.data();
-  view.max_displacement = k.gone.max_displacement;
-  view.path_length = k.gone.path_length;
-  view.slide_limit = k.look_all ? 0.0 : c.slide_limit;
+  view.max_displacement = k.moved.max_displacement;
+  view.path_length = k.moved.path_length;
+  view.slide_limit = k.full_search ? 0.0 : c.slide_limit;
   view.triangles = k.triangles.data()->data();
   view.slave_force = k.slave_force.data()->data();
   view.master_force = k.master_force.data()->data();
@@ -272,16 +272,18 @@ PlyPlyKernelContact kernel_view(KernelSide& k, double dt) {
 
 void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
                     const SurfaceKinematics& master, std::span<const Triangle> triangles, double dt,
-                    const RelativeMotion& gone, std::span<Vec3> slave_force,
+                    const RelativeMotion& moved, std::span<Vec3> slave_force,
                     std::span<Vec3> master_force) {
   const Stopwatch watch(contact.time.forces);
-  update(contact.list, gone.path_length,
+  update(contact.list, moved.path_length,
          [&contact](std::int32_t i) { deactivate(contact.points[i]); });
   clear_present(contact.sums);
   if (contact.list.active.empty()) return;
-  const bool look_all = gone.path_length - contact.last_full_search > contact.full_search_interval;
-  if (look_all) contact.last_full_search = gone.path_length;
-  KernelSide side{contact, slave, master, triangles, gone, look_all, slave_force, master_force};
+  const bool full_search =
+      moved.path_length - contact.last_full_search > contact.full_search_interval;
+  if (full_search) contact.last_full_search = moved.path_length;
+  KernelContext side{contact, slave,       master,      triangles,
+                     moved,   full_search, slave_force, master_force};
   const auto run = has_avx2() ? ply_ply_kernel_avx2 : ply_ply_kernel_generic;
   const PlyPlyKernelTotals added = run(kernel_view(side, dt));
   ContactTotals& sums = contact.sums;
@@ -307,9 +309,10 @@ Vec3 contact_normal(const PlyPlyPoint& point, std::span<const Vec3> slave,
 void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics& master,
                            std::span<const Triangle> triangles, double margin,
                            std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows) {
-  // Normal: k G G^T with G = (1, -w), whose row i is |G_i| sum_j |G_j| = 2 |G_i|. Friction, with
-  // half of k, along the face the same, and across it the couple's g_j = d |gradient_j|: with
-  // G = G_w + G_g, G G^T <= 2 G_w G_w^T + 2 G_g G_g^T.
+  // Normal stiffness: k G G^T with G = (1, -w), whose row i has the absolute sum
+  // |G_i| sum_j |G_j| = 2 |G_i|. Tangential stiffness k_t = k / 2: G = G_w + G_g, with G_w = (1,
+  // -w) and the couple's G_g of entries h |gradient_j|; as G G^T <= 2 G_w G_w^T + 2 G_g G_g^T, its
+  // G_w part is bounded by the normal one and the G_g part is added here.
   for (const PlyPlyPoint& c : contact.points) {
     if (latest_gap(c) > margin) continue;
     const Triangle& t = triangles[c.face];

@@ -16,7 +16,8 @@ void deactivate(ToolPlyPoint& c) {
   c.gap = std::numeric_limits<double>::infinity();
 }
 
-/// Distances of a tool where it stands now; to_shape: of its shape, in its own frame.
+/// Signed distance to a tool in its present position; to_shape(p, hint): to its shape, in the tool
+/// frame.
 template <class ToShape>
 class Placed {
 public:
@@ -39,16 +40,17 @@ private:
   bool turned_;
 };
 
-/// Calls use(distance), distance(x, hint) as distance_to_tool: for many points of one tool.
+/// Calls use(distance), where distance(x, hint) is distance_to_tool with all that does not depend
+/// on x computed once.
 template <class Use>
 void with_distance(const ToolBody& tool, const Use& use) {
   std::visit([&](const auto& shape) { use(Placed(tool, distance_of(shape))); }, tool.shape);
 }
 
-/// Numbers of some of the points.
+/// Numbers of some of a contact's points.
 using Part = std::span<const std::int32_t>;
 
-/// Calls work(part) for all active points in order, few enough at a time for the fastest cache.
+/// Calls work(part) for all active points in order, in parts that fit into the first-level cache.
 template <class Work>
 void in_parts(const ActiveList& list, const Work& work) {
   constexpr std::size_t most = 128;
@@ -62,11 +64,11 @@ void update_active(ToolPlyContact& contact, double path_length) {
   update(contact.list, path_length, [&contact](std::int32_t i) { deactivate(contact.points[i]); });
 }
 
-/// Gaps and normals where tool and ply stand now.
+/// Measures gaps and normals of the points in `part` at the present positions of tool and ply.
 template <class Distance>
 void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
              double path_length, Part part, const Distance& distance) {
-  // a pushed tool has not moved yet: its motion is that of the step before
+  // A pushed tool has not moved yet in this step; tool.motion still is that of the step before.
   const Vec3 tool_motion = tool.force_controlled ? Vec3(Vec3::Zero()) : tool.motion;
   for (const std::int32_t i : part) {
     ToolPlyPoint& c = contact.points[i];
@@ -81,7 +83,7 @@ void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinemat
   }
 }
 
-/// All active points of a pushed tool: (B) needs them before any is pressed.
+/// Measures all active points of a pushed tool, which (B) needs before any force is computed.
 void measure_all(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
                  double path_length) {
   const Stopwatch watch(contact.time.forces);
@@ -92,8 +94,8 @@ void measure_all(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKin
   });
 }
 
-/// Forces of measured points; advance: mm, of the tool since they were measured. Returns the force
-/// on the tool, N.
+/// Computes the forces of measured points. advance: displacement of the tool since they were
+/// measured, mm. Returns the force on the tool, N.
 Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& tool_motion,
            const Vec3& advance, double dt, Part part) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
@@ -126,7 +128,8 @@ Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& to
   return -Vec3(added.on_nodes[0], added.on_nodes[1], added.on_nodes[2]);
 }
 
-/// Forces of a tool that does not move by (B), each part measured and pressed at once.
+/// Measures all points and computes their forces, part by part, for a tool that does not move by
+/// (B). Returns the force on the tool, N.
 Vec3 measure_and_press(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
                        double path_length, double dt) {
   const Stopwatch watch(contact.time.forces);
@@ -143,13 +146,14 @@ Vec3 measure_and_press(ToolPlyContact& contact, const ToolBody& tool, const Surf
   return on_tool;
 }
 
-/// A point that the motion of (B) may press, to a depth p = facing delta - gap.
+/// A point that may be closed by the displacement delta of (B), then at depth p = facing delta -
+/// gap.
 struct Pressed {
-  double facing;    ///< of the normal along the motion
+  double facing;    ///< normal . direction of the tool
   double gap;       ///< mm, before the motion
   double stiffness; ///< N/mm, A k
   double viscous;   ///< N/mm, A c / dt
-  double opened;    ///< mm, -p of the step before if it was penetrated then, else 0
+  double opened;    ///< mm, -p of the step before if it was closed then, else 0
   double max_depth; ///< mm, delta
 
   /// (N) at depth p, and its slope (K), N and N/mm.
@@ -163,7 +167,7 @@ struct Pressed {
   }
 };
 
-/// The points that a motion of no more than `most` (mm) may press.
+/// The points that a displacement of the tool of no more than `most` (mm) may close.
 std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolPlyContact> contacts,
                                std::span<const SurfaceKinematics> plies, double most, double dt) {
   std::vector<Pressed> pressed;
@@ -185,8 +189,7 @@ std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolPlyCont
   return pressed;
 }
 
-/// Left side minus right side of (B) for a motion `delta`, N, and its slope, N/mm (both fall with
-/// delta).
+/// Residual of (B), F - R(delta) - M (delta/dt - v) / dt, N, and its slope, N/mm (not positive).
 struct Residual {
   double value, slope;
 };
@@ -203,7 +206,8 @@ Residual residual_of(const ToolBody& tool, std::span<const Pressed> pressed, dou
   return r;
 }
 
-/// mm: the furthest motion towards `high` in which every point keeps half of its room.
+/// Largest displacement (mm) towards `high` with which no point uses more than half of its
+/// remaining depth.
 double within_room(std::span<const Pressed> pressed, double high) {
   constexpr double share = 0.5;
   for (const Pressed& c : pressed) {
@@ -214,17 +218,17 @@ double within_room(std::span<const Pressed> pressed, double high) {
   return high;
 }
 
-/// Solves (B) for delta within what the closing speed and the room of the contacts allow: Newton's
-/// method inside a bracket, halved where a step would leave it (contacts that begin make the
-/// residual jump).
+/// Solves (B) for delta (mm) within the limits of the approach speed and of the remaining depth of
+/// the contacts: Newton's method inside a bracket, with bisection where a Newton step would leave
+/// it (contacts that close change the slope abruptly).
 double equilibrium_motion(const ToolBody& tool, std::span<const ToolPlyContact> contacts,
                           std::span<const SurfaceKinematics> plies, double dt) {
   const double fastest = tool.max_approach_speed * dt;
   const std::vector<Pressed> pressed = may_press(tool, contacts, plies, fastest, dt);
   double high = within_room(pressed, fastest), low = within_room(pressed, -fastest);
   double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
-  bool high_known = false, low_known = false; // that the solution lies below, above it
-  constexpr int most_rounds = 60; // the bracket is then at rounding; 3 to 6 rounds are usual
+  bool high_known = false, low_known = false; // whether the root is known to lie below, above it
+  constexpr int most_rounds = 60; // bisections down to rounding; 3 to 6 iterations are usual
   for (int round = 0; round < most_rounds; ++round) {
     const Residual r = residual_of(tool, pressed, delta, dt);
     if (std::abs(r.value) <= 1e-9 * std::abs(tool.force)) break;
@@ -246,7 +250,8 @@ double equilibrium_motion(const ToolBody& tool, std::span<const ToolPlyContact> 
   return delta;
 }
 
-/// Moves a pushed tool by (B), its contacts measured, and presses.
+/// Moves a pushed tool, whose contacts have been measured, by (B) and computes the forces. Returns
+/// the force on the tool, N.
 Vec3 push_and_press(ToolBody& tool, std::span<ToolPlyContact> contacts,
                     std::span<const SurfaceKinematics> plies, double dt) {
   Vec3 advance = Vec3::Zero();
@@ -289,13 +294,13 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
     ToolPlyPoint point{};
     point.node = static_cast<int>(n);
     if (known) point = old[next_old++];
-    const bool touched = known && point.gap < 0.0; // it may have a spring to give back
+    const bool touched = known && point.gap < 0.0; // its tangential spring may store energy
     if (touched || (!known && gap <= reach)) {
       const SurfacePoint at = distance_to_tool(tool, ply.x[n], point.hint);
       gap = at.distance - contact.half_thickness;
       normal_of(point) = at.normal;
     }
-    constexpr double below = 1.0 - 1e-6; // rounding to a float must not raise the path length
+    constexpr double below = 1.0 - 1e-6; // rounding to float must not increase the path length
     contact.free[n] = static_cast<float>(below * (path_length + gap));
     if (gap > reach) {
       if (touched) release(contact.law, ply.area[n], point.memory, contact.sums);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which of the pairs that a contact search has listed may touch by now. A pair is inactive, and
-// costs nothing, until the bodies have moved far enough to close its gap.
+// The active ones among the pairs that a contact search has listed: those that may touch. A pair is
+// inactive, and costs nothing, until the bodies have moved far enough to close its gap.
 //
 // The path length of a body is the sum over the steps of the largest displacement of any of its
 // nodes in a step; that of a pair of bodies the sum of both. A pair with a gap g when the path
@@ -15,28 +15,28 @@
 namespace plyform {
 
 struct ActiveList {
-  std::vector<double> free_until;   ///< mm, one a pair: path length before which it cannot touch
+  std::vector<double> free_until;   ///< mm, per pair: path length before which it cannot touch
   std::vector<std::int32_t> active; ///< pairs that may touch
   double until = -1.0;              ///< mm, path length at which the list is updated next
   double last_path = 0.0;           ///< mm, path length at the step before
   double ahead = 0.0;               ///< mm, path length of two steps like the last one
 };
 
-/// Forgets all pairs: a search begins.
+/// Removes all pairs, before a search lists them anew.
 inline void clear(ActiveList& list) {
   list.free_until.clear();
   list.active.clear();
   list.until = -1.0;
 }
 
-/// Activates the pairs that may touch at this path length (mm). deactivate(i) is called for each
-/// that was active and no longer is. The list holds a little longer than one step, so that it is
-/// not updated at every step, and not for long, so that pairs that have opened become inactive.
-/// Called at every step; returns whether the list was updated.
+/// Activates the pairs that may touch at this path length (mm) and calls deactivate(i) for each
+/// pair that was active and no longer is. To be called at every step; returns whether it updated
+/// the list. An update serves for `kept` of path length, so that most steps need none, and while
+/// any pair is active for no more than `longest`, so that pairs that have opened become inactive.
 template <class Deactivate>
 bool update(ActiveList& list, double path_length, const Deactivate& deactivate) {
   constexpr double kept = 0.05, longest = 0.2; // mm
-  // two steps before it may touch: how fast a pair closes is known by then
+  // A pair is activated two steps before it may touch, so that its closing speed is known by then.
   list.ahead = 2.0 * std::max(path_length - list.last_path, 0.0);
   list.last_path = path_length;
   if (path_length < list.until) return false;

@@ -7,8 +7,9 @@
 
 namespace plyform {
 
-// Each node gets the sum of the normals around it, and the largest square of the difference from
-// its direction; two faces of a node then differ by no more than both together.
+// For each node: the mean direction of the normals around it, and the largest squared deviation
+// `off` of a normal from it. By the triangle inequality the normals of two faces that share the
+// node differ by no more than the sum of their deviations.
 void fold_bounds(std::span<const Vec3> x, std::span<const Triangle> triangles,
                  std::vector<double>& fold_bound) {
   const auto at = [](int n) { return static_cast<std::size_t>(n); };
@@ -33,7 +34,8 @@ void fold_bounds(std::span<const Vec3> x, std::span<const Triangle> triangles,
     double chord = 0.0;
     for (const int n : triangles[f])
       chord = std::max(chord, (normal[f] - mean[at(n)]).norm() + std::sqrt(off[at(n)]));
-    // An arc is less than 1.1 chords up to a right angle, and tan(a) < a / (1 - a^2 / 2) below 1.2.
+    // An angle is less than 1.1 times its chord (the difference of unit normals) up to a right
+    // angle, and tan(a) < a / (1 - a^2 / 2) below a = 1.2.
     const double a = 0.5 * (1.1 * chord + fold_margin);
     fold_bound[f] =
         a < most ? 1.2 * a / (1.0 - 0.5 * a * a) : std::numeric_limits<double>::infinity();

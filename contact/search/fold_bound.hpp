@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How much a sheet is bent from each triangle to those around it: what tells a contact that the
-// face which it remembers is still the closest.
+// Bound on the fold angle of a sheet around each face. With it a contact point proves, without a
+// search, that the face on which it last found its closest point still holds the closest point.
 //
 //   phi  rad  largest angle between a face's normal and those of the faces that share a node
-// A point at distance d over the inside of a face is closer to that face than to one turned by phi
-// against it if its foot is further than d tan(phi/2) from the edge that they share. `margin` is
-// added to phi for what the sheet turns until the next renewal, and a fifth to the tangent for
-// faces that share just a node.
+// A point at distance d over the interior of a face is closer to that face than to one folded
+// against it by phi if its foot is further than d tan(phi/2) from the edge that they share.
+// fold_margin is added to phi for the rotation of the faces until the bounds are computed again,
+// and a fifth to the tangent for faces that share only a node.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -18,8 +18,10 @@ namespace plyform {
 
 constexpr double fold_margin = 0.2; ///< rad
 
-/// At least 1.2 tan((phi + margin) / 2) of each triangle, infinite where phi + margin is more than
-/// 0.8; phi is taken for up to twice as large as it is. x: mm.
+/// fold_bound[i] (dimensionless, resized to triangles.size()): an upper bound of
+/// 1.2 tan((phi + fold_margin) / 2) of triangle i; infinite where the estimate of phi + fold_margin
+/// exceeds 0.8 rad. The estimate of phi is an upper bound of up to twice phi. x: positions of the
+/// nodes, mm. Degenerate triangles give infinite bounds; nothing is thrown.
 void fold_bounds(std::span<const Vec3> x, std::span<const Triangle> triangles,
                  std::vector<double>& fold_bound);
 

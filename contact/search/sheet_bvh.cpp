@@ -16,8 +16,9 @@ namespace {
 
 using Tree = fcl::BVHModel<fcl::AABB<double>>;
 
-/// Boxes are asked with this much more reach, relative to the size of sheet and reach: rounding
-/// of the point-triangle distance (some 1e-15 of the triangle's size) must not prune a pair.
+/// By this much, relative to the size of sheet and reach, boxes are enlarged beyond the reach:
+/// rounding of the point-triangle distance (some 1e-15 of the triangle's size) must not prune a
+/// pair.
 constexpr double rounding_margin = 1e-12;
 
 void require_finite(std::span<const Vec3> x, const char* what) {
@@ -40,14 +41,15 @@ double squared_distance(const Vec3& p, const Box& box) {
   return (box.min_ - p).cwiseMax(p - box.max_).cwiseMax(0.0).squaredNorm();
 }
 
-/// All six at once: the branches of a test that ends early are hard to foresee.
+/// Whether two boxes overlap. All six comparisons are evaluated without a branch: branches of a
+/// test that ends early would often be mispredicted.
 bool overlap(const Box& a, const Box& b) {
   const Vec3 &p = a.min_, &q = a.max_, &r = b.min_, &s = b.max_;
   return (int(p.x() <= s.x()) & int(p.y() <= s.y()) & int(p.z() <= s.z()) & int(r.x() <= q.x()) &
           int(r.y() <= q.y()) & int(r.z() <= q.z())) != 0;
 }
 
-/// Leaves whose box meets `asked`.
+/// Collects the leaves whose box overlaps the box `asked`.
 void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
                std::vector<const fcl::BVNode<Box>*>& leaves) {
   leaves.clear();
@@ -66,9 +68,10 @@ void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
   }
 }
 
-/// Asked distances, and what asking needs.
+/// Search distances.
 struct Reach {
-  double distance, box2; ///< mm; mm^2 to boxes, with the margin
+  double distance; ///< mm, to triangles
+  double box2;     ///< mm^2, square of that to boxes, which includes rounding_margin
 };
 
 /// Appends the triangles of `leaves` (nodes at x, mm) within reach of p, in no particular order.
@@ -85,8 +88,9 @@ void faces_near(const Vec3* x, std::span<const Triangle> triangles, const Vec3& 
   }
 }
 
-/// The nodes from `first` that are asked together: few, and close to each other, as nodes of
-/// neighbouring numbers are on most meshes. `box`: around them.
+/// Groups nodes for one traversal of the tree: returns the end of the group that begins at `first`,
+/// and its box. A group has at most 16 nodes within a cube of `size` mm; on most meshes nodes of
+/// neighbouring numbers are close to each other.
 std::size_t group_end(std::span<const Vec3> nodes, std::size_t first, double size, Box& box) {
   constexpr std::size_t most = 16;
   box = Box(nodes[first]);
@@ -104,7 +108,7 @@ std::size_t group_end(std::span<const Vec3> nodes, std::size_t first, double siz
 
 struct SheetTree::Impl {
   Tree tree;
-  std::vector<Triangle> triangles; ///< a second time: what FCL keeps of them is behind a call
+  std::vector<Triangle> triangles; ///< a copy: reading those of FCL costs a function call each
   double area = 0.0;               ///< mm^2, as built
 };
 
@@ -162,7 +166,7 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
   require_finite(nodes, "asked node");
   const Tree& tree = impl_->tree;
   const double box_reach = reach + rounding_margin * (bounds().diagonal().norm() + reach);
-  // a side of a group: some eight triangles of this sheet
+  // mm, largest extent of a group: four times the square root of the mean triangle area
   const double size = 4.0 * std::sqrt(impl_->area / static_cast<double>(tree.num_tris));
   std::vector<int> stack;
   std::vector<const fcl::BVNode<Box>*> leaves;

@@ -10,7 +10,7 @@
 
 namespace plyform {
 
-/// Node `node` of the slave sheet is within the asked distance of triangle `face` of the master.
+/// Node `node` of the slave sheet is within the search distance of triangle `face` of the master.
 struct Candidate {
   std::int32_t node, face;
   double distance2 = 0.0;    ///< mm^2
@@ -21,7 +21,7 @@ struct Candidate {
 /// One sheet's AABB tree (FCL), refitted to new positions without being rebuilt.
 class SheetTree {
 public:
-  /// x: positions (mm), one a node; triangles: constant for the life of the tree. Throws
+  /// x: positions (mm), one per node; triangles: constant for the life of the tree. Throws
   /// std::invalid_argument if there is no triangle, one names a node that does not exist, or a
   /// position is not finite.
   SheetTree(std::span<const Vec3> x, std::span<const Triangle> triangles);
@@ -37,12 +37,12 @@ public:
   Box3 bounds() const;
 
   /// Appends every (node, face) with distance(nodes[i], face) <= reach (mm), sorted by node and
-  /// then by face, nothing else. `nodes` are positions of another sheet (or of this one: then the
-  /// node's own triangles come too; the caller leaves them out). The distance is that of
-  /// closest_point_on_triangle, compared as distance2 <= reach * reach: the list is, bit for bit,
-  /// what asking all pairs gives. Several threads may ask one tree at once, while none refits it.
-  /// Nodes with `skip` not 0 are left out (none if it is empty). Throws std::invalid_argument if
-  /// reach is negative or it or a node is not finite.
+  /// then by face, and no other pair. `nodes` (mm) are positions of another sheet, or of this one:
+  /// then the node's own triangles are listed too, and the caller must remove them. The distance is
+  /// that of closest_point_on_triangle, compared as distance2 <= reach * reach, so the list is, bit
+  /// for bit, that of a test of all pairs. Const calls from several threads are safe while no
+  /// thread refits. Nodes i with skip[i] != 0 are left out (an empty `skip` skips none). Throws
+  /// std::invalid_argument if reach is negative or it or a node is not finite.
   void candidates(std::span<const Vec3> nodes, double reach, std::vector<Candidate>& out,
                   std::span<const char> skip = {}) const;
 

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From corner points with fillet radii to a chain of lines and arcs.
+// Makes a chain of lines and arcs from corner points with fillet radii.
 //
 // At a corner with unit directions u in, v out and the angle phi between them, a fillet of radius R
-// starts and ends R tan(phi/2) from the corner; its centre lies R to the side to which it turns.
+// starts and ends R tan(phi/2) from the corner; its centre lies R away from its start, to the side
+// to which the profile turns.
 #include "contact/shapes/tool_shape.hpp"
 
 #include <cmath>
@@ -12,7 +13,7 @@
 namespace plyform {
 namespace {
 
-// Two fillets may share the whole of a side; relative rounding of their lengths.
+// Relative rounding of lengths: two fillets may together take up a whole side.
 constexpr double rounding = 1e-12;
 
 struct Corner {
@@ -65,7 +66,7 @@ Corner round_corner(const Points& points, std::size_t i) {
   const Vec2 u = (p - point(points, i - 1)).normalized();
   const Vec2 v = (point(points, i + 1) - p).normalized();
   const double sine = u.x() * v.y() - u.y() * v.x(), cosine = u.dot(v);
-  if (std::abs(sine) < rounding && cosine > 0.0) return corner; // straight on: nothing to round
+  if (std::abs(sine) < rounding && cosine > 0.0) return corner; // no corner
   if (std::abs(sine) < rounding)
     throw std::invalid_argument(named(points, i) +
                                 ": the profile turns straight back, no fillet fits there");

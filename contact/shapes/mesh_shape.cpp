@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Signed distance to a triangle mesh: closest triangle by CGAL's AABB tree, sign by pseudo-normals.
 //
-// Symbols: p asked point, c closest point of the mesh, n unit normal of a triangle, alpha its angle
-// at a vertex. Pseudo-normal m of the feature that holds c (Baerentzen and Aanaes, IEEE TVCG 11,
+// Symbols: p point, c closest point of the mesh, n unit normal of a triangle, alpha its angle
+// at a vertex. Pseudo-normal m of the feature that contains c (Baerentzen and Aanaes, IEEE TVCG 11,
 // 2005): of a face n, of an edge the sum of both faces' n, of a vertex the sum of alpha n.
 //   face:          s = n . (p - a)                    gradient n                       (1)
 //   edge, vertex:  s = sign(m . (p - c)) |p - c|      gradient (p - c)/s               (2)
 //
-// The answer must not depend on the hint. So the search is ours (a traversal of CGAL's tree): it
-// finds the triangle with the least pair (computed distance, number), whatever bound it starts
-// from.
+// The result must not depend on the hint. Therefore CGAL's tree is traversed with a visitor of our
+// own, which finds the triangle with the smallest pair (computed distance, number) whatever the
+// bound it starts from.
 #include "contact/shapes/mesh_shape.hpp"
 
 #include "contact/point_triangle.hpp"
@@ -33,8 +33,8 @@ using Traits = CGAL::AABB_traits<Kernel, Primitive>;
 using CgalTree = CGAL::AABB_tree<Traits>;
 using Node = CGAL::AABB_node<Traits>;
 
-// A computed distance is wrong by a few ulp of the coordinates: boxes this much further than the
-// best distance so far (relative to the largest coordinate) are still looked into.
+// A computed distance is wrong by a few ulp of the coordinates: boxes further than the smallest
+// distance so far by no more than this (relative to the largest coordinate) are still searched.
 constexpr double search_slack = 1e-13;
 // Nearer to an edge or vertex than this (relative to the largest coordinate) the direction to it is
 // mostly rounding, and the pseudo-normal serves as normal.
@@ -56,13 +56,13 @@ struct NearestFace {
   double slack; ///< mm
   ClosestPoint closest{{1.0, 0.0, 0.0}, std::numeric_limits<double>::infinity(), 0};
   int face = -1;
-  double reach2 = std::numeric_limits<double>::infinity(); ///< nothing further need be looked at
+  double reach2 = std::numeric_limits<double>::infinity(); ///< mm^2: what is further is skipped
 
-  void look_at(const Vec3& p, int candidate) {
+  void test_face(const Vec3& p, int candidate) {
     const auto& [a, b, c] = corners[candidate];
     const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
     if ((low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm() > reach2)
-      return; // cheap, frequent
+      return; // the box of the triangle already excludes it
     const ClosestPoint found = closest_point_on_triangle(p, a, b, c);
     if (found.distance2 > closest.distance2) return;
     if (found.distance2 == closest.distance2 && candidate >= face && face >= 0) return;
@@ -73,7 +73,7 @@ struct NearestFace {
   }
   bool go_further() const { return true; }
   void intersection(const Vec3& p, const Primitive& primitive) {
-    look_at(p, static_cast<int>(primitive.id() - first));
+    test_face(p, static_cast<int>(primitive.id() - first));
   }
   bool do_intersect(const Vec3& p, const Node& node) const {
     return distance2_to(node.bbox(), p) <= reach2;
@@ -113,7 +113,7 @@ std::vector<std::array<Vec3, 7>> pseudo_normals(const TriMesh& s,
   std::vector<std::array<Vec3, 7>> normals(corners.size());
   for (std::size_t f = 0; f < corners.size(); ++f) {
     const Vec3 n = unit_normal(corners[f]);
-    // Faces folded onto each other cancel: any of their normals is as good.
+    // The normals of faces folded flat onto each other cancel: any of them will do.
     const auto unit = [&](const Vec3& m) { return m.norm() > 1e-12 ? m.normalized() : n; };
     normals[f][0] = n;
     for (std::size_t k = 0; k < 3; ++k) {
@@ -136,7 +136,7 @@ struct MeshShape::Tree {
     for (const auto& [a, b, c] : corners)
       facets.emplace_back(to_cgal(a), to_cgal(b), to_cgal(c));
     search.insert(facets.cbegin(), facets.cend());
-    search.build(); // now, not at the first question: that would be a race between threads
+    search.build(); // CGAL would else build at the first query: a race between threads
   }
 };
 
@@ -156,7 +156,7 @@ SurfacePoint MeshShape::signed_distance(const Vec3& p, int& hint) const {
   const double scale = std::max({bounds_.min().cwiseAbs().maxCoeff(),
                                  bounds_.max().cwiseAbs().maxCoeff(), p.cwiseAbs().maxCoeff()});
   NearestFace nearest{corners_, tree_->facets.cbegin(), search_slack * scale};
-  if (hint >= 0 && hint < static_cast<int>(corners_.size())) nearest.look_at(p, hint);
+  if (hint >= 0 && hint < static_cast<int>(corners_.size())) nearest.test_face(p, hint);
   tree_->search.traversal_with_priority(p, nearest);
   if (nearest.face < 0)
     return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitZ()}; // p is NaN

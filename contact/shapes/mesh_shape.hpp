@@ -9,11 +9,12 @@ namespace plyform {
 class MeshShape {
 public:
   /// surface: consistently oriented, manifold, no zero-area triangles; closed ones outward and free
-  /// of self-intersections (make_mesh_shape and load_tool_mesh see to that). Builds the tree.
+  /// of self-intersections (as make_mesh_shape and load_tool_mesh make them). Builds the tree.
   explicit MeshShape(TriMesh surface);
   ~MeshShape();
 
-  /// As plyform::signed_distance. Thread-safe; allocates nothing.
+  /// Signed distance (mm) and normal at p (mm, tool frame), as plyform::signed_distance. `hint`:
+  /// triangle to begin with, or -1; becomes the closest triangle. Thread-safe; allocates nothing.
   SurfacePoint signed_distance(const Vec3& p, int& hint) const;
 
   const TriMesh& surface() const { return surface_; }
@@ -22,7 +23,7 @@ private:
   struct Tree;
   TriMesh surface_;
   Box3 bounds_;
-  std::vector<std::array<Vec3, 3>> corners_; ///< of each triangle, side by side for the search
+  std::vector<std::array<Vec3, 3>> corners_; ///< mm, of each triangle, contiguous for the search
   std::vector<std::array<Vec3, 7>> normals_; ///< unit pseudo-normals by ClosestPoint::feature
   std::unique_ptr<const Tree> tree_;
 };

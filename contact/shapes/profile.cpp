@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Signed distance to a chain of lines and arcs in the (r, z) half-plane.
 //
-// Symbols: q asked point, a b ends of a segment, c centre and R radius of an arc (mm), t unit
+// Symbols: q point, a b ends of a segment, c centre and R radius of an arc (mm), t unit
 // tangent in walking direction, n = (-t_z, t_r) its left normal, which points to the free side.
 //   inside a line:   s = n . (q - a)                                              (1)
 //   inside an arc:   s = turn (R - |q - c|)                                       (2)
 //   at a vertex v:   s = sign(m . (q - v)) |q - v|,  m = n_before + n_after       (3)
 // (3) is the pseudo-normal of Baerentzen and Aanaes (IEEE TVCG 11, 2005) in two dimensions: both
 // segments that share v give the same answer. At an end m is the only normal there is; that is also
-// right at a tip on the axis, as no point with r < 0 is ever asked.
+// right at a tip on the axis, as every point has r >= 0.
 #include "contact/shapes/profile.hpp"
 
 #include <cmath>
@@ -87,7 +87,8 @@ Vec2 pseudo_normal(const RevolvedProfile& profile, std::size_t i, Feature featur
   else if (is_ring(profile))
     (at_start ? before : after) = at_start ? tangent(s.back(), 1) : tangent(s.front(), 0);
   const Vec2 m = left(before) + left(after);
-  // A blade: the profile turns straight back. All that is nearest to its edge lies before it.
+  // A blade, where the profile turns straight back and the normals cancel: every point that is
+  // nearest to this vertex lies ahead of it.
   return m.squaredNorm() > 1e-12 ? m : Vec2(before - after);
 }
 
@@ -101,7 +102,7 @@ SectionPoint at_vertex(const RevolvedProfile& profile, std::size_t i, Feature fe
   return {sign * length, d * (sign / length)};
 }
 
-/// form_of(i): of segment i.
+/// section_distance, with form_of(i) the SegmentForm of segment i.
 template <class FormOf>
 SectionPoint distance_to_section(const RevolvedProfile& profile, const FormOf& form_of,
                                  const Vec2& q) {

@@ -13,11 +13,12 @@ struct SectionPoint {
   Vec2 normal;
 };
 
-/// Distance of q to the profile. Past an open end the sign is the side of the end's tangent.
-/// The profile has at least one segment.
+/// Signed distance (mm) of q (mm) to the profile, and its gradient: (1) to (3) of profile.cpp. Past
+/// an open end the sign is that of the side of the end's tangent on which q lies. The profile must
+/// have at least one segment.
 SectionPoint section_distance(const RevolvedProfile& profile, const Vec2& q);
 
-/// A segment with what its distance to a point needs.
+/// A segment and the quantities derived from it that its distance to a point needs.
 struct SegmentForm {
   explicit SegmentForm(const ProfileSegment& segment);
 
@@ -32,7 +33,8 @@ struct SegmentForm {
   Vec2 to_a, to_b;     ///< of an arc, mm: from its centre, times turn
 };
 
-/// section_distance for many points. The profile outlives it.
+/// section_distance for many points of one profile. Keeps a reference to the profile, which must
+/// outlive it.
 class SectionField {
 public:
   explicit SectionField(const RevolvedProfile& profile);

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Internal to contact/: signed distances of all shapes, one overload a shape. What does not change
-// from point to point is worked out once: distance_of(shape) is a function of the point (tool
-// frame) and its hint.
+// Internal to contact/: signed distances of all shapes, one overload per shape. distance_of(shape)
+// returns a function of the point (mm, tool frame) and its hint; what does not depend on the point
+// is computed once, when that function is made.
 //
 // A box of half edges h (in two dimensions: the section of a cylinder or ring) with edges rounded
-// by radius e, asked at u = |p| componentwise, q = u - (h - e):
+// by radius e, at u = |p| componentwise, q = u - (h - e):
 //   s = |max(q, 0)| + min(max_i q_i, 0) - e                                        (1)
 // Gradient: max(q, 0) normalised outside of the inner box, the axis of the largest q_i inside.
-// (1) is exact inside too. All that lies within e of the inner box is rounded, so a point beyond
-// the inner box is as deep as it is short of e from it; inside of the inner box the nearest place
-// of the surface is on a flat face, as far as that of the sharp box.
+// (1) is exact inside too. The rounded box is the set of points within e of the inner box h - e:
+// a point at distance r <= e from the inner box therefore lies e - r below the surface, and from a
+// point in the inner box the nearest point of the surface is on a flat face, as for a sharp box.
 #pragma once
 
 #include "contact/shapes/mesh_shape.hpp"
@@ -63,7 +63,8 @@ template <class Section>
   return {s, Vec3(by * p.x(), by * p.y(), n.y())};
 }
 
-/// Centre, half edges and edge radius of a ring's section. A disc's goes on through the axis.
+/// Centre, half edges and edge radius (mm) of a ring's section. That of a disc extends through the
+/// axis to r < 0.
 struct RingSection {
   Vec2 centre, half;
   double edge;
@@ -76,7 +77,7 @@ inline RingSection section_of(const Annulus& a) {
   return {centre, half, std::min(a.edge_radius, half.minCoeff())};
 }
 
-/// The roundings (mm) of a cylinder's rims and of a box's edges: no more than fits.
+/// Edge radius (mm) of a cylinder's rims and of a box's edges, limited to what fits.
 inline double edge_of(const Cylinder& c) {
   return std::min({c.edge_radius, c.radius, 0.5 * c.length});
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Triangles of a tool, for pictures and the exact audit. Nodes lie on the surface, so curved parts
-// are inscribed: a chord of length l on a circle of radius R misses it by l^2/(8 R).
+// Triangles of a tool, for pictures and the exact check of intersections. Nodes lie on the surface,
+// so curved parts are inscribed: a chord of length l deviates from a circle of radius R by
+// l^2/(8 R).
 #include "contact/shapes/shape_distance.hpp"
 
 #include <cmath>
@@ -13,7 +14,8 @@
 namespace plyform {
 namespace {
 
-// Small fillets keep their shape however coarse the rest is: 22.5 degrees a piece at most.
+// rad: arcs are divided into pieces of at most 22.5 degrees, so that small fillets keep their shape
+// however coarse the mesh is.
 constexpr double largest_turn = std::numbers::pi / 8.0;
 
 int pieces(double length, double size) {
@@ -101,15 +103,15 @@ TriMesh triangles_of(const Annulus& a, double size, double extent) {
   if (ri <= 0.0)
     return triangles_of(make_profile({{0.0, h, 0.0}, {ro, h, e}, {ro, 0.0, e}, {0.0, 0.0, 0.0}}),
                         size, extent);
-  const double middle = 0.5 * (ri + ro); // the ring starts and ends between two corners
+  const double middle = 0.5 * (ri + ro); // the ring's section starts and ends between two corners
   std::vector<std::array<double, 3>> ring{{middle, h, 0.0}, {ro, h, e}, {ro, 0.0, e},
                                           {ri, 0.0, e},     {ri, h, e}, {middle, h, 0.0}};
   return triangles_of(make_profile(ring), size, extent);
 }
 
 /// Nodes on the surface of a box, numbered as those of a grid of n[0] x n[1] x n[2] cells. The
-/// first and last `rounded` cells along each axis lie on half a quarter turn, between an edge and
-/// its middle; tangents of equal steps of the angle make them equally long. A sharp box has none.
+/// first and last `rounded` cells along each axis lie on the rounded edge: on 45 degrees, from the
+/// flat face to the middle of the rounding, in equal steps of the angle. A sharp box has none.
 struct BoxGrid {
   Vec3 flat; ///< mm, edge lengths of the box that lies inside by the edge radius
   double edge;
@@ -135,11 +137,11 @@ BoxGrid::BoxGrid(const Box& box, double size)
 }
 
 Vec3 BoxGrid::point(const std::array<int, 3>& i) const {
-  Vec3 share, way; // place in the flat part, from 0 to 1; direction from there to the surface
+  Vec3 share, way; // position in the flat part, from 0 to 1; direction from there to the surface
   for (std::size_t k = 0; k < 3; ++k) {
     const int cells = n[k] - 2 * rounded, at = std::clamp(i[k] - rounded, 0, cells);
     const auto axis = static_cast<Eigen::Index>(k);
-    const int beyond = i[k] - rounded - at; // steps of the angle, to either side
+    const int beyond = i[k] - rounded - at; // steps of the angle, negative at the low side
     share[axis] = double(at) / cells;
     way[axis] = beyond == 0 ? 0.0 : std::tan(std::numbers::pi / 4.0 * beyond / rounded);
   }
@@ -157,7 +159,7 @@ std::int32_t BoxGrid::node(const std::array<int, 3>& i) {
 /// rhombs: halved along the shorter diagonal. Flat ones are halved from a to c, also where rounding
 /// makes p q the shorter one.
 void BoxGrid::add_square(std::int32_t a, std::int32_t p, std::int32_t c, std::int32_t q) {
-  constexpr double clearly = 1.0 - 1e-9; // far above rounding, far below what a rhomb differs by
+  constexpr double clearly = 1.0 - 1e-9; // beyond rounding; the diagonals of a rhomb differ by more
   const auto length = [&](std::int32_t i, std::int32_t j) {
     return (surface.x[i] - surface.x[j]).norm();
   };
@@ -185,7 +187,7 @@ TriMesh triangles_of(const Box& b, double size, double) {
             return grid.node(k);
           };
           const std::int32_t a = at(0, 0), c = at(1, 1);
-          // At the low side u and v change places, so that the normal points outwards.
+          // At the low side u and v are swapped, so that the normal points outwards.
           const std::int32_t p = side == 1 ? at(1, 0) : at(0, 1);
           const std::int32_t q = side == 1 ? at(0, 1) : at(1, 0);
           grid.add_square(a, p, c, q);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From polygons as a file holds them to a clean tool mesh: merged, manifold, oriented, closed ones
+// Makes a clean tool mesh from the polygons of a file: merged, manifold, oriented; closed meshes
 // outward and free of self-intersections. Signs by pseudo-normals are only right on such meshes.
 #include "contact/shapes/tool_mesh.hpp"
 
@@ -56,7 +56,7 @@ void check(const PolygonSoup& soup, const std::string& name) {
                                f, i, soup.points.size()));
 }
 
-/// A corner named twice, running on to the other: nothing is left of such a face.
+/// Removes faces that name a corner twice or have fewer than three corners; returns their number.
 std::size_t drop_collapsed(Polygons& polygons) {
   return std::erase_if(polygons, [](const std::vector<std::size_t>& polygon) {
     std::vector<std::size_t> corners = polygon;
@@ -79,7 +79,7 @@ std::size_t count_borders(const EdgeCount& edges) {
       std::count_if(edges.begin(), edges.end(), [](const auto& e) { return e.second == 1; }));
 }
 
-/// Neighbours agree on which side is out, or it throws.
+/// Orients neighbouring faces consistently. Throws std::runtime_error if that is impossible.
 void orient(std::vector<Point>& points, Polygons& polygons, const std::string& name) {
   const EdgeCount edges = count_edges(polygons);
   for (const auto& [edge, faces] : edges)
@@ -110,7 +110,7 @@ std::size_t remove_flat_faces(Mesh& mesh, const std::string& name) {
   return flat.size();
 }
 
-/// Turns a closed mesh outward (inner shells inward); whether that changed anything.
+/// Orients a closed mesh outward (inner shells inward); returns whether that changed anything.
 bool turn_outward(Mesh& mesh, const std::string& name) {
   std::vector<std::pair<Mesh::Face_index, Mesh::Face_index>> crossing;
   PMP::self_intersections(mesh, std::back_inserter(crossing));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Internal to contact/: polygons as a mesh file holds them, before they are made a tool.
+// Internal to contact/: polygons of a mesh file, before they are cleaned and become a tool.
 #pragma once
 
 #include "contact/shapes/tool_shape.hpp"
@@ -14,12 +14,14 @@ struct PolygonSoup {
   std::vector<std::vector<std::size_t>> polygons;
 };
 
-/// The points and polygons of an STL, OBJ, PLY or OFF file, as they stand there. Throws
-/// std::runtime_error: file missing, extension unknown, empty, truncated, unreadable, or a number
-/// that is none.
+/// The points (in the file's unit) and polygons of an STL, OBJ, PLY or OFF file, unchanged. Throws
+/// std::runtime_error: file missing, extension unknown, empty, truncated, unreadable, or a
+/// coordinate is not finite.
 PolygonSoup read_polygons(const std::filesystem::path& file);
 
-/// Merges, orients, checks and builds; errors begin with `name`.
+/// Makes a tool of polygons (mm): merges duplicates, drops degenerate faces, triangulates, orients
+/// and checks them, and builds the search tree. `report`, if not null, receives what was changed.
+/// Throws std::runtime_error, whose text begins with `name`, as load_tool_mesh.
 MeshShapePtr make_mesh_shape(PolygonSoup soup, const std::string& name, MeshReport* report);
 
 } // namespace plyform

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reading tool meshes. CGAL's readers answer "ok" to some broken files (a truncated STL gives no
-// faces, or the first few), so what a file promises is compared with what came of it.
+// Reads tool meshes. CGAL's readers report success for some broken files (a truncated STL gives no
+// faces, or the first few), so the number of faces read is compared with that which an STL
+// declares.
 #include "contact/shapes/tool_mesh.hpp"
 
 #include <CGAL/IO/OBJ.h>
@@ -45,8 +46,8 @@ bool is_non_finite_word(std::string word) {
   return word.starts_with("nan") || word == "inf" || word == "infinity";
 }
 
-/// What an ASCII STL says about itself, facet normals left out (nobody reads them, and exporters
-/// write nan there).
+/// What a scan of an ASCII STL finds. Facet normals are ignored: they are not used, and some
+/// exporters write nan there.
 struct AsciiStl {
   std::size_t facets = 0;
   bool ended = false, non_finite = false;
@@ -68,7 +69,7 @@ AsciiStl scan_ascii_stl(const std::string& text) {
 constexpr const char* non_finite =
     "a coordinate is not a finite number (nan or inf); export the mesh again";
 
-/// Throws if the STL does not hold the facets that it promises; else their number.
+/// Number of facets that an STL declares. Throws std::runtime_error if it does not hold that many.
 std::size_t check_stl(const std::filesystem::path& file, const std::string& bytes) {
   constexpr std::size_t header = 84, record = 50; // bytes: title and count; one facet
   std::uint32_t count = 0;
@@ -96,7 +97,7 @@ std::size_t check_stl(const std::filesystem::path& file, const std::string& byte
   return count;
 }
 
-/// Only used to say why a text file could not be read.
+/// Whether a text file holds a word that reads as nan or inf. Used for the error message only.
 bool has_non_finite_word(const std::string& text) {
   std::istringstream in(text);
   for (std::string word; in >> word;)
@@ -106,7 +107,7 @@ bool has_non_finite_word(const std::string& text) {
 
 bool read_as(const std::string& extension, const std::string& name, std::vector<Point>& points,
              std::vector<std::vector<std::size_t>>& polygons) {
-  const auto quiet = CGAL::parameters::verbose(false); // what goes wrong is said once, by us
+  const auto quiet = CGAL::parameters::verbose(false); // errors are reported once, by the caller
   if (extension == ".stl") return CGAL::IO::read_STL(name, points, polygons, quiet);
   if (extension == ".obj") return CGAL::IO::read_OBJ(name, points, polygons, quiet);
   if (extension == ".ply") return CGAL::IO::read_PLY(name, points, polygons, quiet);
@@ -133,7 +134,7 @@ PolygonSoup read_polygons(const std::filesystem::path& file) {
   try {
     read = read_as(extension, file.string(), points, soup.polygons);
   } catch (const std::exception&) {
-    read = false; // said below, with the file's name
+    read = false; // reported below, with the file's name
   }
   const bool partial = extension == ".stl" && soup.polygons.size() != promised;
   if (!read || partial) {

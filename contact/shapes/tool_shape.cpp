@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What holds for every shape: its distance to a point, and its tightest curve.
+// Signed distance and smallest radius of curvature of any tool shape.
 #include "contact/shapes/tool_shape.hpp"
 
 #include "contact/shapes/shape_distance.hpp"
@@ -30,8 +30,8 @@ double smallest(const MeshShapePtr&) {
   return infinity;
 }
 
-/// Arcs, and 0 where the material ends in an edge: a turn to the right, or a tip on the axis.
-/// Inner corners do not count: a sheet bridges them.
+/// The smallest arc radius, or 0 if the material has a sharp edge: a corner at which the profile
+/// turns to the right, or a tip on the axis. Inner corners do not count: a sheet bridges them.
 double smallest(const RevolvedProfile& profile) {
   constexpr double straight = 1e-6; // rad, above the rounding of tangents
   const auto& s = profile.segments;
@@ -44,7 +44,7 @@ double smallest(const RevolvedProfile& profile) {
     if (t.x() * next.y() - t.y() * next.x() < -straight) return 0.0;
   }
   if (is_ring(profile)) return radius;
-  // Walking away from the axis downwards, or towards it downwards: a cone's tip.
+  // A profile that leaves the axis downwards, or reaches it downwards, has the tip of a cone there.
   const Vec2 t0 = tangent(s.front(), 0), t1 = tangent(s.back(), 1);
   if (s.front().a.x() <= 0.0 && t0.x() * t0.y() < -straight) return 0.0;
   if (s.back().b.x() <= 0.0 && t1.x() * t1.y() > straight) return 0.0;

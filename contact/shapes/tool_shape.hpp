@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shapes of rigid tools in their own frame, and where a point stands to them.
+// Shapes of rigid tools in their own frame, and the signed distance of a point to them.
 //
 // Every shape is a solid (or, for an open mesh and an open profile, the side of a surface). The
 // signed distance is positive outside. Lengths in mm, angles in rad. Tool frame: origin at the
@@ -19,14 +19,13 @@ namespace plyform {
 struct Sphere {
   double radius;
 };
-/// Solid cylinder along z, from z = -length/2 to +length/2, its rims rounded with edge_radius (no
-/// more than fits): all that lies within edge_radius of the cylinder that is smaller by it on every
-/// side, so that radius and length stay those of the whole.
+/// Solid cylinder along z, from z = -length/2 to +length/2, its rims rounded with edge_radius
+/// (limited to what fits). radius and length are those of the rounded solid.
 struct Cylinder {
   double radius, length, edge_radius = 0.0;
 };
-/// Solid box centred on the origin, full edge lengths `size`, its edges and corners rounded with
-/// edge_radius as a cylinder's.
+/// Solid box centred on the origin, full edge lengths `size` (of the rounded solid), its edges and
+/// corners rounded with edge_radius (limited to what fits).
 struct Box {
   Vec3 size;
   double edge_radius = 0.0;
@@ -48,59 +47,63 @@ struct ProfileSegment {
   Vec2 centre{0.0, 0.0};
   int turn = 0;
 };
-/// Surface of revolution about z. Walking along the segments in order, the free side is on the
-/// left and the tool's material on the right. A hole with a fillet: up the wall, round, outwards.
-/// Each segment starts exactly where the one before ended. It bounds a solid when it ends where it
-/// began (a ring) or begins and ends on the axis; else it is open, and past its ends the side is
-/// that of the end's tangent. An arc with a = b is a full circle. At least one segment.
+/// Surface of revolution about z. Along the segments in order the free side is on the left and the
+/// tool's material on the right: the profile of a hole with a fillet goes up the wall, round the
+/// fillet and outwards. Each segment starts exactly where the one before ended. The profile bounds
+/// a solid if it ends where it began (a ring) or begins and ends on the axis; else it is open, and
+/// past its ends the sign is that of the side of the end's tangent. An arc with a = b is a full
+/// circle. At least one segment.
 struct RevolvedProfile {
   std::vector<ProfileSegment> segments;
 };
 
-/// Triangle mesh with its CGAL search tree, built by load_tool_mesh or make_mesh_shape. Immutable
-/// and safe to ask from several threads.
+/// Triangle mesh with its CGAL search tree, built by load_tool_mesh or make_mesh_shape. Immutable;
+/// several threads may use it at once.
 class MeshShape;
 using MeshShapePtr = std::shared_ptr<const MeshShape>;
 
 using ToolShape =
     std::variant<Sphere, Cylinder, Box, Plane, Annulus, RevolvedProfile, MeshShapePtr>;
 
-/// Signed distance (mm, positive outside) and its unit gradient at the asked point.
+/// Signed distance (mm, positive outside) of a point and its unit gradient there.
 struct SurfacePoint {
   double distance;
   Vec3 normal;
 };
 
-/// Where p (tool frame) stands to the shape. `hint` is the caller's memory for this point (start
-/// with -1); only meshes use it (the last closest triangle), to speed up the search: the answer
-/// does not depend on it. Never fails for finite p: on a medial axis any valid normal is returned.
+/// Signed distance (mm) and normal at p (mm, tool frame): shape_distance.hpp, profile.cpp,
+/// mesh_shape.cpp. `hint` is state that the caller keeps per point (initially -1); only meshes use
+/// it (the last closest triangle), to speed up the search, and the result does not depend on it.
+/// Defined for every finite p: on the medial axis one of the valid normals is returned.
 SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint);
 
-/// Triangles of about `size` mm for pictures and the exact audit, in the tool frame. Unbounded
-/// shapes (plane) are cut to `extent` (mm from the origin). Nodes lie on the surface; arcs get
-/// pieces of at most 22.5 degrees. Solids give closed meshes, outward; normals of open ones point
-/// to the free side. A mesh is returned as it is. Throws std::invalid_argument unless size > 0.
+/// Triangles of about `size` mm for pictures and the exact check of intersections, in the tool
+/// frame. Unbounded shapes (plane) are cut at `extent` (mm from the origin). Nodes lie on the
+/// surface; arcs are divided into pieces of at most 22.5 degrees. Solids give closed meshes with
+/// outward normals; normals of open meshes point to the free side. A mesh tool is returned
+/// unchanged. Throws std::invalid_argument unless size > 0.
 TriMesh tessellate(const ToolShape& shape, double size, double extent);
 
-/// Radius (mm) of the tightest curve of the shape that a sheet has to follow; 0 for a sharp edge,
-/// infinity for a plane. For meshes: infinity (unknown). Inner corners of a profile do not count.
+/// Smallest radius of curvature (mm) of the shape that a sheet has to follow; 0 for a sharp edge,
+/// infinity for a plane and for meshes (unknown). Inner corners of a profile do not count: a sheet
+/// bridges them.
 double smallest_radius(const ToolShape& shape);
 
-/// Whether what smallest_radius is of curves along both of its directions, as a ball or a rounded
-/// corner does: a flat triangle then cuts in deeper.
+/// Whether the surface at smallest_radius is doubly curved (a sphere, the rounded corner of a box):
+/// a flat triangle then penetrates deeper than on a singly curved one.
 bool curves_both_ways(const ToolShape& shape);
 
-/// The profile through points {r, z, fillet radius}: straight lines, each corner rounded by its
-/// fillet. The last point may be the first again: a closed ring, that corner sharp. Throws
-/// std::invalid_argument (saying which corner and why) if a fillet does not fit or stands at an
-/// end, a point repeats the one before, r < 0, a number is not finite, or fewer than two points.
+/// The profile through points {r, z, fillet radius} (mm): straight lines, each corner rounded by
+/// its fillet. If the last point repeats the first the profile is a ring, with that corner sharp.
+/// Throws std::invalid_argument (saying which corner and why) if a fillet does not fit or stands at
+/// an end, a point repeats the one before, r < 0, a number is not finite, or fewer than two points.
 RevolvedProfile make_profile(const std::vector<std::array<double, 3>>& points);
 
-/// What reading a mesh did to it.
+/// Size of a tool mesh, and what was changed when it was read.
 struct MeshReport {
   std::size_t vertices = 0, faces = 0;
   bool closed = false;
-  bool flipped = false;               ///< a closed mesh came inward and was turned round
+  bool flipped = false;               ///< a closed mesh was oriented inward and has been reversed
   std::size_t removed_degenerate = 0; ///< zero-area faces dropped
 };
 
@@ -111,7 +114,7 @@ struct MeshReport {
 /// coordinates, self-intersecting closed mesh.
 MeshShapePtr load_tool_mesh(const std::filesystem::path& file, double scale, MeshReport* report);
 
-/// The same from triangles in memory (tests, generated tools).
+/// As load_tool_mesh, from triangles in memory (mm), for tests and generated tools.
 MeshShapePtr make_mesh_shape(const TriMesh& surface, MeshReport* report);
 
 } // namespace plyform

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// (N) and (T) of contact/forces/contact_law.hpp for four contacts at a time, and what the kernels
-// of contacts with tools and plies share. As contact/simd/simd.hpp: only for those kernels.
+// (N) and (T) of contact/forces/contact_law.hpp for four contacts at a time, and other functions
+// that the contact kernels share. Only those kernels may include this file, as
+// contact/simd/simd.hpp.
 #pragma once
 
+#include "contact/simd/contact_points.hpp"
 #include "contact/simd/simd.hpp"
 
 #include <cstddef>
@@ -10,15 +12,13 @@
 namespace plyform {
 namespace {
 
-constexpr int four = 4;
-/// least_room and deepest_sound of contact/forces/contact_law.hpp, which kernels cannot include.
-constexpr double kernel_least_room = 1e-3, kernel_deepest_sound = 0.9995;
+constexpr int simd_width = 4;
 
 PLYFORM_INLINE Double4 square(const Vector4& a) {
   return dot(a, a);
 }
 
-/// (x, y, z) of an array of 3 a node.
+/// Loads (x, y, z, 0) of one node from an array of 3 numbers per node.
 PLYFORM_INLINE Double4 load3(const double* at) {
 #if defined(__AVX__)
   const Long4 three{-1, -1, -1, 0};
@@ -28,8 +28,8 @@ PLYFORM_INLINE Double4 load3(const double* at) {
 #endif
 }
 
-/// A 4 x 4 matrix and its transpose: four rows to four columns and back.
-PLYFORM_INLINE Rows turned(const Rows& r) {
+/// The transpose of a 4 x 4 matrix.
+PLYFORM_INLINE Rows transposed(const Rows& r) {
   const Double4 a = __builtin_shufflevector(r.row[0], r.row[1], 0, 4, 2, 6);
   const Double4 b = __builtin_shufflevector(r.row[0], r.row[1], 1, 5, 3, 7);
   const Double4 c = __builtin_shufflevector(r.row[2], r.row[3], 0, 4, 2, 6);
@@ -38,15 +38,15 @@ PLYFORM_INLINE Rows turned(const Rows& r) {
            __builtin_shufflevector(a, c, 2, 3, 6, 7), __builtin_shufflevector(b, d, 2, 3, 6, 7)}};
 }
 
-/// Whether four numbers of a contact point lie side by side, in a row: a, b, c, d bytes from its
-/// start.
+/// Whether four numbers of a contact point, at offsets of a, b, c, d bytes, are contiguous and
+/// aligned to 32 bytes: a row.
 consteval bool is_row(std::size_t a, std::size_t b, std::size_t c, std::size_t d) {
   constexpr std::size_t next = sizeof(double);
   return a % sizeof(Double4) == 0 && b == a + next && c == b + next && d == c + next;
 }
 
-/// The row of a contact point that begins `row` bytes from its start. InMemory4 may alias its
-/// members.
+/// Loads the row of a contact point that begins `row` bytes from its start (InMemory4 may alias its
+/// members).
 template <class Point>
 PLYFORM_INLINE Double4 load_row(const Point* point, std::size_t row) {
   static_assert(alignof(Point) == sizeof(Double4));
@@ -60,18 +60,18 @@ PLYFORM_INLINE void store_row(Point* point, std::size_t row, Double4 a) {
   *reinterpret_cast<InMemory4*>(reinterpret_cast<char*>(point) + row) = a;
 }
 
-/// One row of four points, by columns.
+/// Loads one row of four points, transposed: row[i] of the result is column i, of all four points.
 template <class Point>
 PLYFORM_INLINE Rows load_columns(Point* const* point, std::size_t row) {
-  return turned({{load_row(point[0], row), load_row(point[1], row), load_row(point[2], row),
-                  load_row(point[3], row)}});
+  return transposed({{load_row(point[0], row), load_row(point[1], row), load_row(point[2], row),
+                      load_row(point[3], row)}});
 }
 
-/// Columns, as of load_columns, back into that row of the first `count` of four points.
+/// Stores columns, as load_columns returns them, to that row of the first `count` of four points.
 template <class Point>
 PLYFORM_INLINE void store_columns(Point* const* point, int count, std::size_t row,
                                   const Rows& columns) {
-  const Rows r = turned(columns);
+  const Rows r = transposed(columns);
   for (int i = 0; i < count; ++i)
     store_row(point[i], row, r.row[i]);
 }
@@ -86,7 +86,7 @@ PLYFORM_INLINE double largest(Double4 a) {
   return low > high ? low : high;
 }
 
-/// Sums of four contacts each, as of ContactTotals.
+/// ContactTotals of the kernels: sums, maxima and minima per SIMD lane, over every fourth contact.
 struct SimdTotals {
   Double4 elastic = all(0.0), friction = all(0.0), damping = all(0.0);
   Double4 penetration = all(0.0), slip = all(0.0);
@@ -94,13 +94,13 @@ struct SimdTotals {
   int touching = 0;
 };
 
-/// The memory of four contacts.
+/// ContactHistory of four contacts.
 struct SimdHistory {
   Double4 damping_force, normal_force, slip;
   Vector4 s;
 };
 
-/// s turned into the plane across n, its length kept.
+/// s rotated into the plane normal to n, with its length preserved.
 PLYFORM_INLINE Vector4 into_plane(const Vector4& s, const Vector4& n) {
   const Vector4 flat = s - dot(n, s) * n;
   const Double4 length2 = square(s), flat2 = square(flat);
@@ -108,14 +108,14 @@ PLYFORM_INLINE Vector4 into_plane(const Vector4& s, const Vector4& n) {
   return by * flat;
 }
 
-/// q of contact/forces/contact_law.hpp.
+/// q of contact/forces/contact_law.hpp at `depth` (mm).
 template <class Contact>
 PLYFORM_INLINE Double4 room_of(const Contact& k, Double4 depth) {
-  return larger(1.0 - depth * depth * k.per_depth2, all(kernel_least_room));
+  return larger(1.0 - depth * depth * k.per_depth2, all(least_room));
 }
 
 /// ContactTotals::step_ratio of four contacts at `depth` that closed by `dp` (mm) in the last step.
-/// A contact that is still open may close, and then use half of the whole depth.
+/// A contact that is still open may close its gap and then use half of the depth limit.
 template <class Contact>
 PLYFORM_INLINE Double4 step_ratio_of(const Contact& k, Double4 depth, Double4 dp) {
   const Double4 inside = larger(depth, all(0.0)), open = inside - depth;
@@ -123,8 +123,10 @@ PLYFORM_INLINE Double4 step_ratio_of(const Contact& k, Double4 depth, Double4 dp
   return dp > 0.0 ? larger(way, all(0.0)) / dp : all(1e300);
 }
 
-/// (N): normal pressure, N/mm^2, of contacts `depth` mm deep that had opened by `opened` <= 0. The
-/// work of damping is summed where `counted`; dp: mm, way of closing. k: stiffness, damping_per_dt.
+/// (N) per area: normal pressure, N/mm^2, of contacts `depth` mm deep. opened: mm, minus their
+/// depth in the step before, 0 if they were open then; dp: mm, change of depth in this step
+/// (negative depths included). Sets the forces in m (N) and adds the work of damping where
+/// `counted`. Uses k.stiffness, k.damping_per_dt, k.per_depth2.
 template <class Contact>
 PLYFORM_INLINE Double4 normal_pressure(const Contact& k, Double4 area, Double4 depth,
                                        Double4 opened, Double4 dp, Long4 counted, SimdHistory& m,
@@ -139,8 +141,9 @@ PLYFORM_INLINE Double4 normal_pressure(const Contact& k, Double4 area, Double4 d
   return pressure + resistance;
 }
 
-/// (T): friction force, N, under `pressure` (N/mm^2). n: normals; remembered: s, turned with the
-/// body; slip: mm, relative motion of the step. k: friction, tangential.
+/// (T): friction force, N, under `pressure` (N/mm^2). n: normals; remembered: s (mm) of the step
+/// before, rotated with the body; slip: relative displacement in this step, mm. Uses k.friction and
+/// k.tangential.
 template <class Contact>
 PLYFORM_INLINE Vector4 friction_of(const Contact& k, Double4 area, Double4 pressure,
                                    const Vector4& n, const Vector4& remembered, const Vector4& slip,

@@ -1,50 +1,55 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The points of contact, as search, forces and kernels share them: plain numbers and no functions,
-// since the kernels include this file (contact/simd/simd.hpp says why).
+// Contact points and constants of contact, as search, forces and kernels share them: plain numbers
+// and no functions, since the kernels include this file (reason: contact/simd/simd.hpp).
 //
 // A kernel loads four numbers of a point at once. Points therefore consist of rows of 32 bytes,
-// told apart by the empty lines below; the kernels assert what they take for a row.
+// separated by the empty lines below; the kernels assert the offsets of the rows that they load.
 #pragma once
 
 #include <cstdint>
 
 namespace plyform {
 
-/// What one contact remembers from step to step.
+/// Lower limit of q in (E), (N) and (K) of contact/forces/contact_law.hpp, and the ratio
+/// u = p / delta at which q reaches it. A contact deeper than that is a fault that ends the run;
+/// the limit only keeps its force finite.
+constexpr double least_room = 1e-3, deepest_valid = 0.9995;
+
+/// History variables of one contact.
 struct ContactHistory {
   double s[3] = {};         ///< mm, (T) of contact/forces/contact_law.hpp
   double damping_force = 0; ///< N, of the last step, for the trapezoidal work sum
 
   double normal_force = 0; ///< N
-  double slip = 0;         ///< mm, way slid since it touched
+  double slip = 0;         ///< mm, sliding distance since it closed
 };
 
 /// One node of a ply near a tool.
 struct alignas(32) ToolPlyPoint {
   ContactHistory memory; ///< a row and a half
   double gap = 0.0;      ///< mm, distance minus half thickness; infinite: inactive
-  double last_gap = 0.0; ///< mm, gap of the step before; of an inactive point: when deactivated
+  double last_gap = 0.0; ///< mm, gap of the step before; if inactive, that when deactivated
 
-  double normal[3] = {};        ///< in space, of this step or when it was last measured
-  std::int32_t node, hint = -1; ///< hint: memory of signed_distance
+  double normal[3] = {};        ///< unit normal in the global frame, when last measured
+  std::int32_t node, hint = -1; ///< hint: as of signed_distance
 };
 
-/// One slave node and one connected patch of master faces near it (two patches: a fold); h:
-/// contact/forces/ply_ply.hpp.
+/// One slave node and one connected component of the master faces near it (a fold of the master has
+/// two components, and so two points). h: contact/forces/ply_ply.hpp.
 struct alignas(32) PlyPlyPoint {
   ContactHistory memory; ///< a row and a half
-  double area = 0.0;     ///< mm^2 that the contact stands for
+  double area = 0.0;     ///< mm^2, tributary area
   double gap = 0.0;      ///< mm, distance minus h, of the last step; infinite: inactive
 
-  double w[2] = {};                ///< weights of corners b and c at the closest point
-  double last_search_foot[2] = {}; ///< weights of b and c at its foot on the face's plane, when all
-                                   ///< its faces were last searched
+  double w[2] = {};                ///< barycentric weights of corners b, c at the closest point
+  double last_search_foot[2] = {}; ///< weights of b, c at the foot of the node on the face's plane
+                                   ///< when all its faces were last searched
 
-  double other = 0.0; ///< mm, at the search, to the next face that shares no node with `face`
+  double other = 0.0; ///< mm, distance at the search of the nearest face without a node of `face`
   float gap_when_deactivated = 0.0F; ///< mm
-  std::int32_t node, face = 0;       ///< closest face; of those that tie the first
+  std::int32_t node, face = 0;       ///< face: the closest; among equally close ones the lowest
   std::int32_t first_face, end_face; ///< range in PlyPlyContact::faces
-  std::int32_t side = 0; ///< +1: on the side of the face normal, -1: other, 0: not known
+  std::int32_t side = 0; ///< +1: on the side of the face normal, -1: opposite, 0: not known
 };
 
 } // namespace plyform

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the processor at hand can do, for the choice between the copies of a kernel.
+// Detection of the processor's instruction sets, to choose between the copies of a kernel.
 #pragma once
 
 namespace plyform {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // (S), (P) and (M) of contact/forces/ply_ply.hpp for four points at a time, with the law of
-// contact/forces/contact_law.hpp. A point stays with the face it remembers while its foot is inside
-// that face and no other can have come closer; else all its faces are looked at that may be
-// closest.
+// contact/forces/contact_law.hpp. A point keeps its face (PlyPlyPoint::face) while its foot is
+// inside that face and no other face can have come closer; else those of its faces that may be
+// closest are searched.
 //
 // With B = b - a, C = c - a, N = B x C of the face, n = N / |N|, v_1 = u_b - u_a, v_2 = u_c - u_a,
 // and the edges opposite to the corners E_1 = -C, E_2 = B, (W) and (C) of
@@ -22,7 +22,7 @@ PLYFORM_INLINE void add3(double* at, Double4 row) {
   at[2] += row[2];
 }
 
-/// The state of four points that changes with their forces.
+/// The state of four points that the computation of their forces changes.
 struct SimdPoints {
   Double4 area, gap, last_gap;
   SimdHistory memory;
@@ -73,13 +73,13 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
   return f;
 }
 
-/// Forces on the nodes and corners of the points in `touch`.
+/// Adds the forces of the points in `touch` to their nodes and to the corners of their faces.
 PLYFORM_INLINE void add_forces(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
                                const SimdFoot& foot, const SimdForces& f, Long4 touch) {
   const Rows on_node = rows(f.on_node);
   const Rows on_b = rows(f.couple1 - foot.wb * f.on_node);
   const Rows on_c = rows(f.couple2 - foot.wc * f.on_node);
-  for (int i = 0; i < four; ++i) {
+  for (int i = 0; i < simd_width; ++i) {
     if (!touch[i]) continue;
     const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(point[i]->face);
     add3(k.slave_force + 3 * static_cast<std::int64_t>(point[i]->node), on_node.row[i]);
@@ -90,18 +90,19 @@ PLYFORM_INLINE void add_forces(const PlyPlyKernelContact& k, PlyPlyPoint* const*
   }
 }
 
-/// Up to four points; those from `count` on are fillers, the same as the first.
+/// Up to four points. Those from `count` on are copies of the first, to fill the SIMD lanes; `real`
+/// is their mask.
 struct Group {
-  PlyPlyPoint* point[four];
-  std::int32_t index[four];
+  PlyPlyPoint* point[simd_width];
+  std::int32_t index[simd_width];
   int count;
   Long4 real;
 };
 
 PLYFORM_INLINE Group group_of(const PlyPlyKernelContact& k, const std::int32_t* index, int left) {
   Group g;
-  g.count = left < four ? left : four;
-  for (int i = 0; i < four; ++i) {
+  g.count = left < simd_width ? left : simd_width;
+  for (int i = 0; i < simd_width; ++i) {
     g.index[i] = index[i < g.count ? i : 0];
     g.point[i] = k.points + g.index[i];
   }
@@ -113,7 +114,8 @@ PLYFORM_INLINE Long4 remembered(const Group& g) {
   return Long4{g.point[0]->face, g.point[1]->face, g.point[2]->face, g.point[3]->face};
 }
 
-/// Forces of up to four points that touch, x their places and foot their closest points.
+/// Computes the forces of up to four points that touch, x their positions and foot their closest
+/// points.
 PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const SimdFaces& x,
                           const SimdFoot& foot, SimdTotals& sums) {
   const SimdFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
@@ -128,12 +130,12 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const Si
   const SimdForces f = forces_of(k, x, u, foot, g.real, p, sums);
   add_forces(k, g.point, foot, f, g.real);
   const Double4 height = dot(cross(x.b, x.c), x.p);
-  // forgotten on edges: a node may slide round the rim to the other side
+  // 0 on edges: a node may slide round the free edge of the sheet to the other side
   const Long4 side = foot.inside & (height >= 0.0 ? Long4{1, 1, 1, 1} : Long4{-1, -1, -1, -1});
-  const Long4 deep = (foot.distance < 0.5 * k.distance) | // where depth has no limit
-                     (k.distance - foot.distance >= kernel_deepest_sound * k.max_depth);
-  const Rows s = turned({{m.s.x, m.s.y, m.s.z, m.damping_force}});
-  const Rows b = turned({{m.normal_force, m.slip, p.area, p.gap}});
+  const Long4 deep = (foot.distance < 0.5 * k.distance) | // for a law without a depth limit
+                     (k.distance - foot.distance >= deepest_valid * k.max_depth);
+  const Rows s = transposed({{m.s.x, m.s.y, m.s.z, m.damping_force}});
+  const Rows b = transposed({{m.normal_force, m.slip, p.area, p.gap}});
   for (int i = 0; i < g.count; ++i) {
     PlyPlyPoint& at = *g.point[i];
     if (at.side * side[i] < 0 || deep[i]) k.fault(k.self, g.index[i], foot.distance[i]);
@@ -144,17 +146,17 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const Si
   sums.touching += g.count;
 }
 
-/// A point that does not touch.
-PLYFORM_INLINE void pass_by(const PlyPlyKernelContact& k, std::int32_t index, double distance,
-                            bool inside, SimdTotals& sums) {
+/// Updates gap, side and path length of a point that does not touch.
+PLYFORM_INLINE void update_open_point(const PlyPlyKernelContact& k, std::int32_t index,
+                                      double distance, bool inside, SimdTotals& sums) {
   PlyPlyPoint& at = k.points[index];
   const double last_gap = at.gap;
   at.gap = distance - k.distance;
-  if (last_gap < 1e300) // else it was inactive
+  if (last_gap < 1e300) // it was active in the step before
     sums.step_ratio =
         smaller(sums.step_ratio, step_ratio_of(k, all(-at.gap), all(last_gap - at.gap)));
   at.side = 0;
-  if (inside) { // it may come down on this side later
+  if (inside) { // it may close on this side later
     const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(at.face);
     const double* a = k.master_x + 3 * static_cast<std::int64_t>(t[0]);
     const double* b = k.master_x + 3 * static_cast<std::int64_t>(t[1]);
@@ -172,74 +174,77 @@ PLYFORM_INLINE void pass_by(const PlyPlyKernelContact& k, std::int32_t index, do
   k.free_until[index] = k.path_length + at.gap;
 }
 
-/// Points of a chunk that were not done in one go: they look around, or their fours are mixed.
+/// State of up to 64 points between the three passes: those whose forces the first pass could not
+/// compute, because their faces must be searched or because not all four of their group touch.
+/// Points are numbered within the chunk.
 struct Chunk {
   static constexpr int most = 64;
   alignas(32) double distance[most]; ///< mm
   bool inside[most];                 ///< the foot is inside the face
-  std::int32_t look[2][most];        ///< those that must look at all faces; [1]: at their sides too
-  int looks[2] = {0, 0};
-  std::int32_t later[most]; ///< those whose forces are still to come, in the order of the points
-  int laters = 0;
+  std::int32_t to_search[2][most];   ///< points whose faces must be searched; [1]: with edges
+  int search_count[2] = {0, 0};
+  std::int32_t pending[most]; ///< points whose forces are not yet computed, ascending
+  int pending_count = 0;
 };
 
-PLYFORM_INLINE void keep_foot(Chunk& chunk, const std::int32_t* number, int count,
-                              const SimdFoot& foot) {
+PLYFORM_INLINE void store_foot(Chunk& chunk, const std::int32_t* number, int count,
+                               const SimdFoot& foot) {
   for (int i = 0; i < count; ++i) {
     chunk.distance[number[i]] = foot.distance[i];
     chunk.inside[number[i]] = foot.inside[i] != 0;
   }
 }
 
-/// First pass: closest points on the faces remembered; forces where four that touch are settled.
-PLYFORM_INLINE void follow(const PlyPlyKernelContact& k, const std::int32_t* active, int count,
-                           Chunk& chunk, SimdTotals& sums) {
-  for (int first = 0; first < count; first += four) {
+/// First pass: closest points on the faces that the points keep, and the forces of those groups of
+/// four in which every point touches and certainly has its closest point on that face (is settled).
+PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                           int count, Chunk& chunk, SimdTotals& sums) {
+  for (int first = 0; first < count; first += simd_width) {
     const Group g = group_of(k, active + first, count - first);
     const SimdFaces x = load_faces(k, g.point, remembered(g), k.slave_x, k.master_x);
-    SimdRoom room;
-    const SimdFoot foot = foot_of(k, g.point, x, room);
-    Long4 mild;
-    const Long4 sure = sure_of(k, g.point, foot, room, mild);
-    keep_weights(g.point, g.count, foot, room.looked_b, room.looked_c);
-    if (!any(~(sure & (foot.distance < k.distance)))) {
+    SimdClearance clear;
+    const SimdFoot foot = foot_of(k, g.point, x, clear);
+    Long4 interiors_only;
+    const Long4 settled = settled_of(k, g.point, foot, clear, interiors_only);
+    store_weights(g.point, g.count, foot, clear.searched_b, clear.searched_c);
+    if (!any(~(settled & (foot.distance < k.distance)))) {
       press(k, g, x, foot, sums);
       continue;
     }
-    const std::int32_t number[four] = {first, first + 1, first + 2, first + 3};
-    keep_foot(chunk, number, g.count, foot);
+    const std::int32_t number[simd_width] = {first, first + 1, first + 2, first + 3};
+    store_foot(chunk, number, g.count, foot);
     for (int i = 0; i < g.count; ++i) {
-      chunk.later[chunk.laters++] = first + i;
-      if (sure[i]) continue;
-      const int sides = mild[i] ? 0 : 1;
-      chunk.look[sides][chunk.looks[sides]++] = first + i;
+      chunk.pending[chunk.pending_count++] = first + i;
+      if (settled[i]) continue;
+      const int edges = interiors_only[i] ? 0 : 1;
+      chunk.to_search[edges][chunk.search_count[edges]++] = first + i;
     }
   }
 }
 
-/// Second pass: closest points of those that had to look.
-PLYFORM_INLINE void look_around(const PlyPlyKernelContact& k, const std::int32_t* active,
-                                bool sides, Chunk& chunk) {
-  for (int first = 0; first < chunk.looks[sides]; first += four) {
-    const int left = chunk.looks[sides] - first;
-    std::int32_t number[four], index[four];
-    for (int i = 0; i < four; ++i) {
-      number[i] = chunk.look[sides][first + (i < left ? i : 0)];
+/// Second pass: closest points of the points whose faces must be searched.
+PLYFORM_INLINE void search_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                 bool edges, Chunk& chunk) {
+  for (int first = 0; first < chunk.search_count[edges]; first += simd_width) {
+    const int left = chunk.search_count[edges] - first;
+    std::int32_t number[simd_width], index[simd_width];
+    for (int i = 0; i < simd_width; ++i) {
+      number[i] = chunk.to_search[edges][first + (i < left ? i : 0)];
       index[i] = active[number[i]];
     }
     const Group g = group_of(k, index, left);
-    keep_foot(chunk, number, g.count, look_at_all(k, g.point, g.count, sides));
+    store_foot(chunk, number, g.count, closest_on_any_face(k, g.point, g.count, edges));
   }
 }
 
-/// Third pass: forces of up to four points whose closest points are known.
-PLYFORM_INLINE void press_later(const PlyPlyKernelContact& k, const std::int32_t* active,
-                                const std::int32_t* number, int count, const Chunk& chunk,
-                                SimdTotals& sums) {
-  std::int32_t index[four];
+/// Third pass: forces of up to four touching points whose closest points are now known.
+PLYFORM_INLINE void press_pending(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                  const std::int32_t* number, int count, const Chunk& chunk,
+                                  SimdTotals& sums) {
+  std::int32_t index[simd_width];
   Double4 distance;
   Long4 inside;
-  for (int i = 0; i < four; ++i) {
+  for (int i = 0; i < simd_width; ++i) {
     const std::int32_t from = number[i < count ? i : 0];
     index[i] = active[from];
     distance[i] = chunk.distance[from];
@@ -251,30 +256,30 @@ PLYFORM_INLINE void press_later(const PlyPlyKernelContact& k, const std::int32_t
         {w.row[0], w.row[1], distance, inside}, sums);
 }
 
-PLYFORM_INLINE void do_some(const PlyPlyKernelContact& k, const std::int32_t* active, int count,
-                            SimdTotals& sums) {
+PLYFORM_INLINE void process_chunk(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                  int count, SimdTotals& sums) {
   Chunk chunk;
-  follow(k, active, count, chunk, sums);
-  look_around(k, active, false, chunk);
-  look_around(k, active, true, chunk);
+  project_on_known_faces(k, active, count, chunk, sums);
+  search_faces(k, active, false, chunk);
+  search_faces(k, active, true, chunk);
   std::int32_t touching[Chunk::most];
-  int touches = 0;
-  for (int i = 0; i < chunk.laters; ++i) {
-    const std::int32_t n = chunk.later[i];
+  int touching_count = 0;
+  for (int i = 0; i < chunk.pending_count; ++i) {
+    const std::int32_t n = chunk.pending[i];
     if (chunk.distance[n] < k.distance)
-      touching[touches++] = n;
+      touching[touching_count++] = n;
     else
-      pass_by(k, active[n], chunk.distance[n], chunk.inside[n], sums);
+      update_open_point(k, active[n], chunk.distance[n], chunk.inside[n], sums);
   }
-  for (int i = 0; i < touches; i += four)
-    press_later(k, active, touching + i, touches - i, chunk, sums);
+  for (int i = 0; i < touching_count; i += simd_width)
+    press_pending(k, active, touching + i, touching_count - i, chunk, sums);
 }
 
 PLYFORM_INLINE PlyPlyKernelTotals sheet_kernel(const PlyPlyKernelContact& k) {
   SimdTotals sums;
   for (int i = 0; i < k.active_count; i += Chunk::most)
-    do_some(k, k.active + i, k.active_count - i < Chunk::most ? k.active_count - i : Chunk::most,
-            sums);
+    process_chunk(k, k.active + i,
+                  k.active_count - i < Chunk::most ? k.active_count - i : Chunk::most, sums);
   return {
       sum(sums.elastic),  sum(sums.friction),        sum(sums.damping), largest(sums.penetration),
       largest(sums.slip), smallest(sums.step_ratio), sums.touching};

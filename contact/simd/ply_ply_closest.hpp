@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The closest points of ply_ply_body.hpp, four at a time: feet on the faces remembered,
-// whether they are sure to be closest, and the closest of all faces where they are not.
+// The closest points of ply_ply_body.hpp, four at a time: those on the faces that the points keep,
+// a test whether no other face can be closer, and the closest of all their faces where one can.
 #pragma once
 
 #include "contact/simd/contact_law_simd.hpp"
@@ -27,15 +27,16 @@ static_assert(is_row(weight_row, offsetof(PlyPlyPoint, w[1]),
                      offsetof(PlyPlyPoint, last_search_foot[0]),
                      offsetof(PlyPlyPoint, last_search_foot[1])));
 
-/// Places or motions of four nodes and of the corners of their faces, relative to a.
+/// Positions or displacements of four nodes p and of the corners b, c of their faces, relative to
+/// corner a.
 struct SimdFaces {
   Vector4 p, b, c;
 };
 
 PLYFORM_INLINE SimdFaces load_faces(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
                                     Long4 face, const double* slave, const double* master) {
-  Double4 p[four], b[four], c[four];
-  for (int i = 0; i < four; ++i) {
+  Double4 p[simd_width], b[simd_width], c[simd_width];
+  for (int i = 0; i < simd_width; ++i) {
     const std::int32_t* t = k.triangles + 3 * face[i];
     const Double4 a = load3(master + 3 * static_cast<std::int64_t>(t[0]));
     p[i] = load3(slave + 3 * static_cast<std::int64_t>(point[i]->node)) - a;
@@ -46,7 +47,7 @@ PLYFORM_INLINE SimdFaces load_faces(const PlyPlyKernelContact& k, PlyPlyPoint* c
           components(c[0], c[1], c[2], c[3])};
 }
 
-/// Where four nodes stand over the planes of their faces: (1), (2) of contact/point_triangle.hpp.
+/// Feet of four nodes on the planes of their faces: (1), (2) of contact/point_triangle.hpp.
 struct SimdPlanes {
   Double4 bb, cc, bc, pb, pc, det, wa, wb, wc;
   Long4 inside;
@@ -64,49 +65,51 @@ PLYFORM_INLINE SimdPlanes planes_of(const SimdFaces& x) {
   return q;
 }
 
-PLYFORM_INLINE Double4 share_of_side(Double4 t) {
-  t = t > 0.0 ? t : all(0.0); // the NaN of a side without length becomes 0
+PLYFORM_INLINE Double4 share_of_edge(Double4 t) {
+  t = t > 0.0 ? t : all(0.0); // the NaN of an edge without length becomes 0
   return smaller(t, all(1.0));
 }
 
-/// The closest points of four faces: the foot if it is inside, else, if `sides` are asked for, the
-/// closest of the points on them, as closest_point_on_sliver of contact/point_triangle.hpp.
+/// The closest points of four faces: the foot if it is inside, else, if `edges` is set, the closest
+/// of the points on the edges, as closest_point_on_sliver of contact/point_triangle.hpp.
 struct SimdClosest {
   Double4 wb, wc, distance2;
   Long4 inside;
 };
 
-PLYFORM_INLINE SimdClosest closest_of(const SimdFaces& x, const SimdPlanes& plane, bool sides) {
+PLYFORM_INLINE SimdClosest closest_of(const SimdFaces& x, const SimdPlanes& plane, bool edges) {
   SimdClosest q{plane.wb, plane.wc, all(far2), plane.inside};
   q.distance2 = q.inside ? square(x.p - q.wb * x.b - q.wc * x.c) : q.distance2;
-  if (!sides || !any(~q.inside)) return q;
+  if (!edges || !any(~q.inside)) return q;
   const Double4 bb = plane.bb, cc = plane.cc, bc = plane.bc, pb = plane.pb, pc = plane.pc;
-  const Double4 t[3] = {share_of_side(pb / bb), share_of_side(pc / cc),
-                        share_of_side((pc - pb + bb - bc) / (bb + cc - 2.0 * bc))};
+  const Double4 t[3] = {share_of_edge(pb / bb), share_of_edge(pc / cc),
+                        share_of_edge((pc - pb + bb - bc) / (bb + cc - 2.0 * bc))};
   const Double4 wb[3] = {t[0], all(0.0), 1.0 - t[2]}, wc[3] = {all(0.0), t[1], t[2]};
-  for (int side = 0; side < 3; ++side) {
-    const Double4 d2 = square(x.p - wb[side] * x.b - wc[side] * x.c);
+  for (int edge = 0; edge < 3; ++edge) {
+    const Double4 d2 = square(x.p - wb[edge] * x.b - wc[edge] * x.c);
     const Long4 closer = d2 < q.distance2;
-    q.wb = closer ? wb[side] : q.wb, q.wc = closer ? wc[side] : q.wc;
+    q.wb = closer ? wb[edge] : q.wb, q.wc = closer ? wc[edge] : q.wc;
     q.distance2 = closer ? d2 : q.distance2;
   }
   return q;
 }
 
-/// What is closest of four nodes, on the faces that they remember.
+/// Closest points of four nodes on one face each.
 struct SimdFoot {
   Double4 wb, wc, distance;
   Long4 inside; ///< whether the foot on the plane lies inside the face
 };
 
-/// Whether a foot inside is clear of where other faces begin, and what the point remembers.
-struct SimdRoom {
-  Long4 of_sides, of_corners; ///< clear of all sides; of all but one
-  Double4 slid2;              ///< mm^2, along the face, since the point looked around
-  Double4 looked_b, looked_c;
+/// Whether the feet of four points are so far inside their faces that no face across an edge or
+/// corner can be closer, and how far they have slid.
+struct SimdClearance {
+  Long4 of_edges, of_corners; ///< far enough from all edges; from two edges at least
+  Double4 slid2;              ///< mm^2, along the face, since all faces were searched
+  Double4 searched_b, searched_c;
 };
 
-/// mm, by contact/search/fold_bound.hpp: how far from a side a foot must be.
+/// Distance (mm) from an edge beyond which a foot is closer to its own face than to that across the
+/// edge: contact/search/fold_bound.hpp.
 PLYFORM_INLINE Double4 clearance(const PlyPlyKernelContact& k, PlyPlyPoint* const* point) {
   if (!k.fold_bound) return all(far2);
   return k.distance * Double4{k.fold_bound[point[0]->face], k.fold_bound[point[1]->face],
@@ -114,32 +117,33 @@ PLYFORM_INLINE Double4 clearance(const PlyPlyKernelContact& k, PlyPlyPoint* cons
 }
 
 PLYFORM_INLINE SimdFoot foot_of(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
-                                const SimdFaces& x, SimdRoom& room) {
+                                const SimdFaces& x, SimdClearance& clear) {
   const SimdPlanes q = planes_of(x);
-  // w_i times the height over side i, which is sqrt(det) / |side|, against the clearance
-  const Double4 keep = clearance(k, point), keep2 = keep * keep;
-  const Long4 a = q.wa * q.wa * q.det > keep2 * (q.bb + q.cc - 2.0 * q.bc);
-  const Long4 b = q.wb * q.wb * q.det > keep2 * q.cc, c = q.wc * q.wc * q.det > keep2 * q.bb;
-  room.of_sides = a & b & c;
-  room.of_corners = (a & b) | (b & c) | (c & a);
+  // the distance from edge i, w_i times the height sqrt(det) / |edge|, against the clearance
+  const Double4 margin = clearance(k, point), margin2 = margin * margin;
+  const Long4 a = q.wa * q.wa * q.det > margin2 * (q.bb + q.cc - 2.0 * q.bc);
+  const Long4 b = q.wb * q.wb * q.det > margin2 * q.cc, c = q.wc * q.wc * q.det > margin2 * q.bb;
+  clear.of_edges = a & b & c;
+  clear.of_corners = (a & b) | (b & c) | (c & a);
   const Rows last = load_columns(point, weight_row);
-  room.looked_b = last.row[2], room.looked_c = last.row[3];
-  const Double4 db = q.wb - room.looked_b, dc = q.wc - room.looked_c;
-  room.slid2 = db * db * q.bb + 2.0 * (db * dc) * q.bc + dc * dc * q.cc;
+  clear.searched_b = last.row[2], clear.searched_c = last.row[3];
+  const Double4 db = q.wb - clear.searched_b, dc = q.wc - clear.searched_c;
+  clear.slid2 = db * db * q.bb + 2.0 * (db * dc) * q.bc + dc * dc * q.cc;
   const SimdClosest closest = closest_of(x, q, k.slide_limit > 0.0);
   return {closest.wb, closest.wc, root(closest.distance2), closest.inside};
 }
 
-PLYFORM_INLINE void keep_weights(PlyPlyPoint* const* point, int count, const SimdFoot& foot,
-                                 Double4 looked_b, Double4 looked_c) {
-  store_columns(point, count, weight_row, {{foot.wb, foot.wc, looked_b, looked_c}});
+PLYFORM_INLINE void store_weights(PlyPlyPoint* const* point, int count, const SimdFoot& foot,
+                                  Double4 searched_b, Double4 searched_c) {
+  store_columns(point, count, weight_row, {{foot.wb, foot.wc, searched_b, searched_c}});
 }
 
-/// Closest points of the first `count` of four points on any of their faces. Updates the face and
-/// other of each. Points near one edge only, inside their face, need no `sides`: the edge that both
-/// faces share is further than the foot.
-PLYFORM_INLINE SimdFoot look_at_all(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
-                                    int count, bool sides) {
+/// Closest points of the first `count` of four points on any of their faces. Updates the members
+/// face, other and the weights of each. Without `edges` only feet inside faces are compared: enough
+/// for a point that is inside its face and near one edge only, as the foot is closer than that
+/// edge.
+PLYFORM_INLINE SimdFoot closest_on_any_face(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
+                                            int count, bool edges) {
   Double4 best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
   Double4 plane_b = all(0.0), plane_c = all(0.0);
   Long4 face{-1, -1, -1, -1};
@@ -150,26 +154,26 @@ PLYFORM_INLINE SimdFoot look_at_all(const PlyPlyKernelContact& k, PlyPlyPoint* c
     for (int lane = 0; lane < count; ++lane) {
       const std::int32_t f = point[lane]->first_face + i;
       if (f >= point[lane]->end_face) continue;
-      if (k.face_distance[f] > limit[lane]) continue; // in ascending order
+      if (k.face_distance[f] > limit[lane]) continue; // faces are in ascending order of distance
       at[lane] = k.faces[f];
       more[lane] = -1;
     }
     if (!any(more)) break;
     const SimdFaces x = load_faces(k, point, at, k.slave_x, k.master_x);
     const SimdPlanes plane = planes_of(x);
-    const SimdClosest q = closest_of(x, plane, sides);
+    const SimdClosest q = closest_of(x, plane, edges);
     const Long4 tied = magnitude(q.distance2 - best2) <= same_distance * best2;
     const Long4 chosen = more & (tied ? at < face : q.distance2 < best2);
     const Long4 closer = more & (q.distance2 < best2);
     best2 = closer ? q.distance2 : best2;
-    limit = (1.0 + same_distance) * root(best2) + k.max_displacement; // with those that tie
+    limit = (1.0 + same_distance) * root(best2) + k.max_displacement; // with equally close faces
     wb = chosen ? q.wb : wb, wc = chosen ? q.wc : wc;
     plane_b = chosen ? plane.wb : plane_b, plane_c = chosen ? plane.wc : plane_c;
     face = chosen ? at : face;
     inside = chosen ? q.inside : inside;
   }
   const SimdFoot foot{wb, wc, root(best2), inside};
-  keep_weights(point, count, foot, plane_b, plane_c);
+  store_weights(point, count, foot, plane_b, plane_c);
   for (int lane = 0; lane < count; ++lane) {
     if (face[lane] >= 0 && point[lane]->face != face[lane]) {
       point[lane]->face = static_cast<std::int32_t>(face[lane]);
@@ -179,17 +183,20 @@ PLYFORM_INLINE SimdFoot look_at_all(const PlyPlyKernelContact& k, PlyPlyPoint* c
   return foot;
 }
 
-/// Which feet need no look around. No other face can be closer: none of those that share a node
-/// with it by contact/search/fold_bound.hpp, and none of the others since the search. Or hardly:
-/// the point has not slid by slide_limit since it looked around, and a face across an edge can be
-/// closer by no more than that times their fold (contact/forces/ply_ply.hpp). mild: only a face
-/// across an edge may be closer, and only with its inside.
-PLYFORM_INLINE Long4 sure_of(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
-                             const SimdFoot& foot, const SimdRoom& room, Long4& mild) {
+/// Mask of the points whose faces need no search. Either no other face can be closer: those that
+/// share a node with the point's face by contact/search/fold_bound.hpp, the others because of their
+/// distance at the search and the relative motion since. Or the point has slid by less than
+/// slide_limit since its faces were searched: a face across an edge can then be closer by no more
+/// than slide_limit times the fold angle (contact/forces/ply_ply.hpp). interiors_only: mask of the
+/// points for which only a face across one edge may be closer, and only with its interior.
+PLYFORM_INLINE Long4 settled_of(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
+                                const SimdFoot& foot, const SimdClearance& clear,
+                                Long4& interiors_only) {
   const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
   const Long4 others_further = other - k.max_displacement > foot.distance;
-  mild = others_further & foot.inside & room.of_corners;
-  return (mild & room.of_sides) | (others_further & (room.slid2 < k.slide_limit * k.slide_limit));
+  interiors_only = others_further & foot.inside & clear.of_corners;
+  return (interiors_only & clear.of_edges) |
+         (others_further & (clear.slid2 < k.slide_limit * k.slide_limit));
 }
 
 } // namespace

@@ -1,48 +1,51 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The kernel of contact/forces/ply_ply.hpp as its two compiled copies see it: plain numbers and
-// pointers, nothing inline (contact/simd/simd.hpp says why).
+// Interface of the two compiled copies of the kernel of contact/forces/ply_ply.hpp: plain numbers
+// and pointers, nothing inline (reason: contact/simd/simd.hpp).
 #pragma once
 
 #include "contact/simd/contact_points.hpp"
 
 namespace plyform {
 
-/// What the kernel reads and writes of a contact. Positions, motions and forces: 3 a node.
+/// Input and output of the kernel. Positions (mm), motions (mm, in this step) and forces (N): 3
+/// numbers per node.
 struct PlyPlyKernelContact {
   PlyPlyPoint* points;
-  const std::int32_t* active; ///< points to look at
+  const std::int32_t* active; ///< numbers of the active points
   int active_count;
   double* free_until; ///< mm, of the points (contact/search/active_list.hpp)
   const double *slave_x, *slave_motion, *master_x, *master_motion;
   const double* fold_bound;      ///< of the master's faces (contact/search/fold_bound.hpp), or null
-  const std::int32_t* triangles; ///< 3 a face of the master
-  const std::int32_t* faces;     ///< of the points, nearest first
-  const double* face_distance;   ///< mm, when the search was done
+  const std::int32_t* triangles; ///< 3 nodes per face of the master
+  const std::int32_t* faces;     ///< of PlyPlyContact
+  const double* face_distance;   ///< mm, of PlyPlyContact
   double *slave_force, *master_force;
-  double max_displacement; ///< mm, of anything relative to anything since the search
+  double max_displacement; ///< mm, RelativeMotion::max_displacement
   double path_length;      ///< mm (contact/search/active_list.hpp)
   double slide_limit;      ///< mm, as of PlyPlyContact, or 0 in steps of a full search
   double distance, stiffness, tangential,
       friction;                 ///< h, k, k_t, mu of contact/forces/contact_law.hpp
   double max_depth, per_depth2; ///< delta and 1/delta^2 of it; finite
   double damping_per_dt;        ///< c / dt, or 0
-  void* self;
-  /// A point that held something has opened; last_gap: mm, of the step before.
+  void* self;                   ///< first argument of the callbacks
+  /// Called if a point that carried force has opened; last_gap: mm, of the step before.
   void (*open)(void* self, std::int32_t point, double last_gap);
-  /// A point may be on the wrong side or too deep; `distance`: mm.
+  /// Called if a point is on the other side of its face or too deep; `distance`: mm.
   void (*fault)(void* self, std::int32_t point, double distance);
 };
 
-/// Where faces meet they are as close as each other; the friction's couple goes to one of them, and
-/// it must not be rounding that says which. Of the square of the distance.
+/// Relative difference of squared distances below which two faces count as equally close. On a
+/// common edge or corner they are; the couple of friction acts on one of them, and which one must
+/// not depend on rounding.
 constexpr double same_distance = 1e-10;
 
-/// `other` of a point whose closest face is point.face: the distance at the search of the nearest
-/// of its faces that shares no node with that one. triangles, faces, face_distance: as above.
+/// PlyPlyPoint::other (mm) of a point whose closest face is point.face: the distance at the search
+/// of the nearest of its faces that shares no node with point.face; the largest double if there is
+/// none. triangles, faces, face_distance: as of PlyPlyKernelContact.
 double distance_of_others(const PlyPlyPoint& point, const std::int32_t* triangles,
                           const std::int32_t* faces, const double* face_distance);
 
-/// Added up over the points that touch.
+/// ContactTotals of this step over the points: sums, maxima and minima.
 struct PlyPlyKernelTotals {
   double elastic, friction, damping, penetration, slip, step_ratio;
   int touching;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Four numbers side by side, for the kernels that do four elements or contacts at a time.
+// SIMD vectors of four numbers, for the kernels that process four elements or contacts at a time,
+// one per SIMD lane.
 //
-// Only for the files that hold such a kernel. Each is compiled twice, for any processor and with
-// AVX2 (cmake/simd.cmake), and the faster one is chosen when the program runs. So that the linker
-// cannot take a function compiled with AVX2 for all, everything here has internal linkage and such
-// files use nothing else that is inline: no Eigen, no containers. Neither copy contracts a * b + c,
-// and both do the same operations: the same bits on any processor.
+// Only kernel files may include it. Each kernel is compiled twice, for any processor and with AVX2
+// (cmake/simd.cmake), and the program selects the faster one that the processor supports when it
+// runs. If both copies contained the same inline function the linker could keep the AVX2 version
+// for all callers: therefore everything here has internal linkage, and kernel files use nothing
+// else that is inline: no Eigen, no containers. Neither copy contracts a * b + c, and both perform
+// the same operations, so results are the same bits on any processor.
 #pragma once
 
 #include <cmath>
@@ -18,9 +20,10 @@ namespace plyform {
 namespace {
 
 using Double4 = double __attribute__((vector_size(32)));
-using Long4 = std::int64_t __attribute__((vector_size(32))); ///< of a comparison: 0 or -1
+/// mask, as comparisons give it: 0 (false) or -1 (true) per lane
+using Long4 = std::int64_t __attribute__((vector_size(32)));
 
-/// Three components of four vectors.
+/// Four vectors, by components.
 struct Vector4 {
   Double4 x, y, z;
 };
@@ -33,7 +36,7 @@ PLYFORM_INLINE Double4 all(double a) {
 
 using InMemory4 = double __attribute__((vector_size(32), may_alias));
 
-/// Aligned to 32 bytes.
+/// Loads four numbers; the address must be aligned to 32 bytes, as for store.
 PLYFORM_INLINE Double4 load(const double* at) {
   return *reinterpret_cast<const InMemory4*>(at);
 }
@@ -96,7 +99,7 @@ PLYFORM_INLINE Vector4 cross(const Vector4& a, const Vector4& b) {
   return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
 }
 
-/// Four vectors (x, y, z, anything) to their components.
+/// The components of four vectors (x, y, z, ignored).
 PLYFORM_INLINE Vector4 components(Double4 a, Double4 b, Double4 c, Double4 d) {
   const Double4 xz_ab = __builtin_shufflevector(a, b, 0, 4, 2, 6);
   const Double4 xz_cd = __builtin_shufflevector(c, d, 0, 4, 2, 6);
@@ -124,8 +127,8 @@ PLYFORM_INLINE Rows rows(const Vector4& v) {
            __builtin_shufflevector(xy_13, z_13, 2, 3, 6, 7)}};
 }
 
-/// arctan(a / b) for b >= 0 and c = sqrt(a^2 + b^2), in -pi/2 .. pi/2, to 1e-15. Of half the angle,
-/// whose tangent is a / (c + b), 30 degrees are taken off where it is above 15. The polynomial is
+/// arctan(a / b) for b >= 0 and c = sqrt(a^2 + b^2), in -pi/2 .. pi/2, to 1e-15. Half the angle has
+/// the tangent a / (c + b); if it exceeds 15 degrees it is reduced by 30 degrees. The polynomial is
 /// minimax for the relative error (by Remez' exchange), which is 1.0e-15 up to tan(15 degrees).
 PLYFORM_INLINE Double4 arctan(Double4 a, Double4 b, Double4 c) {
   constexpr double tan15 = 0.26794919243112270647, tan30 = 0.57735026918962576451;
@@ -139,7 +142,7 @@ PLYFORM_INLINE Double4 arctan(Double4 a, Double4 b, Double4 c) {
   const Double4 p2 = z * 0.11110814826967305 - 0.1428570914925909;
   const Double4 p4 = z * 0.075343042160564311 - 0.09081725273026571;
   const Double4 p = (p0 + z2 * p2) + z4 * (p4 - z2 * 0.052221523715879417);
-  const Double4 half = t + (t * z) * p; // t stands alone: small angles keep all their digits
+  const Double4 half = t + (t * z) * p; // t as a term of its own keeps all digits of small angles
   return with_sign(magnitude((half + half) + (far ? all(pi / 3) : all(0.0))), a);
 }
 

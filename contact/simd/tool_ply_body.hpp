@@ -1,28 +1,30 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces between a tool and four nodes at a time, their gaps and normals known.
+// Forces between a tool and four nodes at a time, whose gaps and normals have been measured.
 #include "contact/simd/contact_law_simd.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
 
 namespace plyform {
 namespace {
 
-/// Up to four points; those from `count` on are fillers, the same as the first.
+/// Up to four points. Those from `count` on are copies of the first, to fill the SIMD lanes; `real`
+/// is their mask.
 struct ToolGroup {
-  ToolPlyPoint* point[four];
+  ToolPlyPoint* point[simd_width];
   int count;
   Long4 real;
 };
 
 PLYFORM_INLINE ToolGroup group_of(const ToolPlyKernelContact& k, int first) {
   ToolGroup g;
-  g.count = k.active_count - first < four ? k.active_count - first : four;
-  for (int i = 0; i < four; ++i)
+  g.count = k.active_count - first < simd_width ? k.active_count - first : simd_width;
+  for (int i = 0; i < simd_width; ++i)
     g.point[i] = k.points + k.active[first + (i < g.count ? i : 0)];
   g.real = Long4{0, 1, 2, 3} < static_cast<std::int64_t>(g.count);
   return g;
 }
 
-/// Rows of a ToolPlyPoint. Node and hint, the last column of the third, are no number to load.
+/// Rows of a ToolPlyPoint. The last column of the third holds node and hint, which are integers: it
+/// is not used as a number.
 enum ToolRow : std::size_t {
   memory_row = offsetof(ToolPlyPoint, memory.s),
   gap_row = offsetof(ToolPlyPoint, memory.normal_force),
@@ -42,8 +44,8 @@ PLYFORM_INLINE Double4 areas(const ToolPlyKernelContact& k, const ToolGroup& g) 
 }
 
 PLYFORM_INLINE Vector4 motions(const ToolPlyKernelContact& k, const ToolGroup& g) {
-  Double4 u[four];
-  for (int i = 0; i < four; ++i)
+  Double4 u[simd_width];
+  for (int i = 0; i < simd_width; ++i)
     u[i] = load3(k.motion + 3 * static_cast<std::int64_t>(g.point[i]->node));
   return components(u[0], u[1], u[2], u[3]);
 }
@@ -61,8 +63,9 @@ PLYFORM_INLINE Vector4 everywhere(const double* v) {
   return {all(v[0]), all(v[1]), all(v[2])};
 }
 
-/// Forces on four nodes. Those that have opened give up what they hold: without an area the law
-/// leaves nothing of it but the slip.
+/// Forces (N) on four nodes. For a point that has opened the energy of its tangential spring is
+/// counted as frictional dissipation; with area 0 the law then resets its history but for the slip,
+/// which is reset here.
 PLYFORM_INLINE Vector4 forces_of(const ToolPlyKernelContact& k, const ToolGroup& g,
                                  const Vector4& normal, Double4 gap, Double4 last_gap, Long4 touch,
                                  SimdHistory& m, SimdTotals& sums) {
@@ -86,8 +89,8 @@ PLYFORM_INLINE Vector4 forces_of(const ToolPlyKernelContact& k, const ToolGroup&
   return f;
 }
 
-PLYFORM_INLINE void press_four(const ToolPlyKernelContact& k, const ToolGroup& g, SimdTotals& sums,
-                               Vector4& on_nodes) {
+PLYFORM_INLINE void press_group(const ToolPlyKernelContact& k, const ToolGroup& g, SimdTotals& sums,
+                                Vector4& on_nodes) {
   const Rows n = load_columns(g.point, normal_row), held = load_columns(g.point, memory_row);
   const Rows gaps = load_columns(g.point, gap_row);
   const Vector4 normal{n.row[0], n.row[1], n.row[2]};
@@ -108,8 +111,8 @@ PLYFORM_INLINE void press_four(const ToolPlyKernelContact& k, const ToolGroup& g
 PLYFORM_INLINE ToolPlyKernelTotals tool_kernel(const ToolPlyKernelContact& k) {
   SimdTotals sums;
   Vector4 f{all(0.0), all(0.0), all(0.0)};
-  for (int first = 0; first < k.active_count; first += four)
-    press_four(k, group_of(k, first), sums, f);
+  for (int first = 0; first < k.active_count; first += simd_width)
+    press_group(k, group_of(k, first), sums, f);
   return {sum(sums.elastic),  sum(sums.friction),
           sum(sums.damping),  largest(sums.penetration),
           largest(sums.slip), smallest(sums.step_ratio),

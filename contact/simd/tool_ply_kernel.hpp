@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The force law of contact/forces/tool_ply.hpp as its two compiled copies see it: plain numbers and
-// pointers, nothing inline (contact/simd/simd.hpp says why).
+// Interface of the two compiled copies of the kernel of contact/forces/tool_ply.hpp: plain numbers
+// and pointers, nothing inline (reason: contact/simd/simd.hpp).
 #pragma once
 
 #include "contact/simd/contact_points.hpp"
 
 namespace plyform {
 
-/// What the kernel reads and writes of a contact. Motions and forces: 3 a node.
+/// Input and output of the kernel. Motions and forces: 3 numbers per node.
 struct ToolPlyKernelContact {
   ToolPlyPoint* points; ///< gaps and normals are those of this step, before the tool's advance
-  const std::int32_t* active; ///< points to look at
+  const std::int32_t* active; ///< numbers of the active points
   int active_count;
   const double* area;                     ///< mm^2, of the nodes
   const double* motion;                   ///< mm, of the nodes in this step
@@ -22,7 +22,8 @@ struct ToolPlyKernelContact {
   double damping_per_dt;                  ///< c / dt, or 0
 };
 
-/// Added up over the points that touch; `on_nodes`: their forces.
+/// ContactTotals of this step over the points: sums, maxima and minima. on_nodes: sum of the forces
+/// on the nodes, N.
 struct ToolPlyKernelTotals {
   double elastic, friction, damping, penetration, slip, step_ratio;
   int touching;

@@ -12,23 +12,23 @@
 namespace plyform {
 namespace {
 
-// (E): degrees, and exponents. Set on the hemispheres of one (at 0 degrees), two, three and five
-// plies and on bias_extension (docs/users/accuracy.md).
+// Coefficients (degrees) and exponents of (E), fitted to the hemispheres of one (at 0 degrees),
+// two, three and five plies and to bias_extension (docs/users/accuracy.md).
 constexpr double c_inertia = 0.52, c_stack = 33.7, p_inertia = 1.5;
 constexpr double c_softening = 1580.0, p_softening = 0.84, p_shared = -0.25;
 constexpr double c_mesh = 40.0, p_mesh = 1.6, c_fewer = 0.6, many_plies = 5.0;
 
 constexpr double half_radian = 0.5;
-// The rule was not measured beyond:
+// Limits of the measurements that (E) was fitted to:
 constexpr double measured_max_softening = 1000.0, measured_max_inertia = 2.8;
-// Set on stacks of yarns that carry tension only, and not checked on real cloth.
+// Limit for stacks, from stacks of yarns that carry tension only; not checked on real cloth.
 constexpr double measured_max_softening_of_stack = 300.0;
 
 double degrees(double radians) {
   return radians * 180.0 / M_PI;
 }
 
-/// A family of yarns: S of (E) for softening 1, and what it can be softened by.
+/// A family of yarns: S of (E) for softening 1, and its largest effective softening.
 struct Family {
   double softening, most;
 };
@@ -36,13 +36,14 @@ struct Family {
 /// Numbers of (E) for duration 1 s, softening 1.
 struct Numbers {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
-  std::vector<Family> families{};      ///< `softening` is that of the softest
+  std::vector<Family> families{};      ///< S of each; `softening` above is the largest of them
   double inertia_factor = 0.0;         ///< c_inertia or c_stack; 0: nothing has a stroke
-  double stack_softening_factor = 1.0; ///< n^p_shared: plies hold each other's softened yarns
+  double stack_softening_factor = 1.0; ///< n^u of (E): plies support each other's softened yarns
   double max_softening = measured_max_softening; ///< softening at most
-  /// Above 1 in a stack of few plies: which of them slide and which stick depends on the mesh.
+  /// Factor of c_M, above 1 in a stack of few plies: which of them slide or stick depends on the
+  /// mesh.
   double few_ply_mesh_factor = 1.0;
-  double clamp_load_factor = 1.0; ///< on softened yarns, times that under tools
+  double clamp_load_factor = 1.0; ///< load of softened yarns in grips over that under tools
 };
 
 /// w: energy of shear per area, N/mm.
@@ -57,8 +58,9 @@ void add_families(Numbers& n, const Fabric& f, double w) {
   }
 }
 
-/// Softening beyond which steps get no longer: all yarns of the case are then as soft in tension as
-/// the stiffest are in compression, per mass. Infinite where none bears compression.
+/// Softening beyond which the stable time step does not increase: per mass, all yarns of the case
+/// are then as soft in tension as the stiffest ones in compression. Infinite if none bears
+/// compression.
 double useful_softening(const Case& data) {
   double tension = 0.0, compression = 0.0; // N mm/t
   for (const Ply& ply : data.plies) {
@@ -77,8 +79,8 @@ Numbers numbers_of(const Case& data) {
   const Strokes strokes = longest_strokes(data);
   const double stroke = strokes.longest();
   if (stroke == 0.0) return n;
-  // A ply that is pulled by its edge swings like the outer ones of a stack, and the yarns in the
-  // grips bear the whole load: bias_extension.
+  // A ply that is pulled at its edge (bias_extension) vibrates like the outer plies of a stack, and
+  // the yarns in the grips bear the whole load.
   const bool pulled = strokes.boundary > strokes.tool;
   constexpr double in_grips = 5.5;
   const auto plies = static_cast<double>(data.plies.size());
@@ -161,7 +163,7 @@ namespace {
 struct CostParameters {
   double coarsening = 1.0, duration = 0.0, softening = 1.0;
   double cost = std::numeric_limits<double>::max();
-  double excess = std::numeric_limits<double>::max(); ///< degrees, of the error over what is wanted
+  double excess = std::numeric_limits<double>::max(); ///< degrees, error beyond the requested one
 };
 
 /// The largest softening whose error is `error` at most.
@@ -179,10 +181,10 @@ double duration_for(const Numbers& n, double error) {
   return std::sqrt(n.inertia / inertia);
 }
 
-/// The cheapest duration and softening whose errors, squared, add up to `left2` at most.
+/// The cheapest duration and softening whose squared errors sum to `left2` (degrees^2) at most.
 CostParameters cheapest(const Numbers& n, double left2) {
   CostParameters best;
-  constexpr int shares = 200; // that of softening is walked through; inertia takes the rest
+  constexpr int shares = 200; // values tried for the share of softening; inertia gets the rest
   for (int i = 1; i < shares; ++i) {
     const double share = static_cast<double>(i) / shares;
     const double softening = softening_for(n, std::sqrt(share * left2));
@@ -196,7 +198,7 @@ CostParameters cheapest(const Numbers& n, double left2) {
   return best;
 }
 
-/// The same where one of the two, or both, are as the case has them.
+/// The same if one of the two, or both, are fixed at the case's values.
 CostParameters cheapest(const Numbers& n, double left2, const SolverOptions& now,
                         const FixedParameters& fixed) {
   if (!fixed.duration && !fixed.softening) return cheapest(n, left2);
@@ -212,8 +214,8 @@ CostParameters cheapest(const Numbers& n, double left2, const SolverOptions& now
   return parameters;
 }
 
-/// Whether every blank of a ply may have elements so many times as large: no longer than the
-/// tightest fillet, nor than contact was measured with, and its outline still takes them.
+/// Whether every blank may have elements larger by the factor `by`: not longer than the smallest
+/// tool radius, nor than in the measurements of contact, and its outline can be meshed with them.
 bool may_coarsen(const Case& data, double by) {
   constexpr double most_thicknesses = 16.0;
   double longest = std::numeric_limits<double>::max();
@@ -228,7 +230,7 @@ bool may_coarsen(const Case& data, double by) {
     if (blank.element_size > std::min(longest, most_thicknesses * thickness)) return false;
     if (!takes_elements(blank)) return false;
   }
-  return data.boundaries.empty(); // which nodes they hold goes by the mesh
+  return data.boundaries.empty(); // the nodes that they prescribe depend on the mesh
 }
 
 } // namespace
@@ -238,7 +240,7 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
   const double wanted = degrees(data.accuracy.shear_error);
   if (!(wanted > 0.0) || n.inertia == 0.0) return 1.0;
   CostParameters best;
-  for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4}) { // the rule was not measured beyond
+  for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4}) { // (E) was not measured beyond
     if (by > 1.0 && (fixed.element_size || n.few_ply_mesh_factor > 1.0 || !may_coarsen(data, by)))
       break;
     const double mesh = mesh_error(n) * std::pow(by, p_mesh);
@@ -248,13 +250,13 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
     left2 = std::max(left2, least2);
     CostParameters parameters = cheapest(n, left2, data.solver, fixed);
     parameters.coarsening = by;
-    // elements, and the step, which contacts that are as stiff as before hold below h
+    // Number of elements, and time step: that grows less than h, as contacts keep their stiffness.
     parameters.cost /= by * by * std::pow(by, 0.7);
     parameters.excess = std::max(std::hypot(mesh, inertia_error(n, parameters.duration),
                                             softening_error(n, parameters.softening)) -
                                      wanted * (1.0 + 1e-9),
                                  0.0);
-    // where some are fixed, what keeps the promise goes before what is cheap
+    // If some parameters are fixed, a smaller error has priority over a lower cost.
     const bool nearer = (fixed.duration || fixed.softening) && parameters.excess != best.excess;
     if (nearer ? parameters.excess < best.excess : parameters.cost < best.cost) best = parameters;
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mistakes and warnings found in files, each with its place.
+// Errors and warnings found in files, each with its position there.
 #pragma once
 
 #include <string>
@@ -13,7 +13,7 @@ struct Place {
   int line = 1, column = 1;
 };
 
-/// One mistake: where, what stands there, which rule it breaks and what to do about it.
+/// One error: its position, the value found, the rule that it breaks and the remedy.
 struct CaseError {
   std::string file; ///< as the user named it, or relative to the case
   int line = 0, column = 0;
@@ -25,13 +25,14 @@ struct CaseError {
   std::string text() const;
 };
 
-/// Every mistake and warning found so far.
+/// All errors and warnings found so far.
 struct Diagnostics {
   std::vector<CaseError> errors;
   std::vector<std::string> warnings;
   void error(const Place& at, const std::string& item, const std::string& value,
              const std::string& rule, const std::string& remedy);
-  /// From the message of a part that has its own rules and ends in "; remedy".
+  /// Adds an error from `message`, "rule; remedy", of a module with its own checks; `what` is put
+  /// before the rule. Without "; " a general remedy is used.
   void error_from(const Place& at, const std::string& item, const std::string& value,
                   const std::string& what, const std::string& message);
   /// file:line:column: warning: text

@@ -24,7 +24,8 @@ double largest_ritz_value(const std::function<Eigen::VectorXd(const Eigen::Vecto
     w -= diagonal[found] * v;
     last = w.norm();
     ++found;
-    if (found == steps || !(last > 1e-12 * std::abs(diagonal[0]))) break; // all there is
+    // the Krylov space is exhausted
+    if (found == steps || !(last > 1e-12 * std::abs(diagonal[0]))) break;
     beside[found - 1] = last;
     before = v;
     v = w / last;

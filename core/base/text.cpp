@@ -11,7 +11,7 @@
 namespace plyform {
 namespace {
 
-/// Levenshtein's distance, letters in upper and lower case alike.
+/// Levenshtein distance, case-insensitive.
 std::size_t edit_distance(const std::string& a, const std::string& b) {
   std::vector<std::size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), std::size_t{0});
@@ -32,7 +32,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
   std::string nearest;
-  std::size_t least = 2 + word.size() / 4; // further away it is another word, not a slip
+  std::size_t least = 2 + word.size() / 4; // beyond this distance it is not a misspelling
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(word, candidate);
     if (distance < least && distance < candidate.size()) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Small helpers for text: whole files, lists in words, the word that was meant.
+// Text functions: reading a file, joining words, suggesting a word for a misspelt one.
 #pragma once
 
 #include <filesystem>
@@ -9,13 +9,13 @@
 
 namespace plyform {
 
-/// The word of `known` nearest to `word` by edit distance, empty if none is near.
+/// The word of `known` nearest to `word` by edit distance; empty if that exceeds 1 + length / 4.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& words);
 
-/// The whole of a file, or nothing and the reason ("cannot be opened: ...").
+/// The content of a file, or nothing and the reason ("cannot be opened: ...").
 std::optional<std::string> read_text(const std::filesystem::path& file, std::string& reason);
 
 } // namespace plyform

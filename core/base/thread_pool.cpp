@@ -10,9 +10,10 @@
 
 namespace plyform {
 
-// One round: the caller publishes the task, raises `round`, works too, and waits until every
-// helper has left the round. Helpers spin for a while, then sleep on `round`: a step is a fraction
-// of a millisecond, so waking through the kernel each time would cost more than it saves.
+// One round: the calling thread publishes the task, increments `round`, works too, and waits until
+// every helper thread has left the round. Helpers spin for a while, then sleep on `round`: a time
+// step takes a fraction of a millisecond, so waking threads through the kernel each time would be
+// too slow.
 struct ThreadPool::Impl {
   std::vector<std::thread> helpers;
   const std::function<void(int)>* task = nullptr;
@@ -38,7 +39,8 @@ struct ThreadPool::Impl {
   void help() {
     unsigned seen = 0;
     for (;;) {
-      constexpr int spins = 20000; // about 20 microseconds: longer than the gap between phases
+      // about 20 microseconds: longer than the pause between two calls of run
+      constexpr int spins = 20000;
       for (int s = 0; s < spins && round.load(std::memory_order_acquire) == seen; ++s) {
       }
       round.wait(seen, std::memory_order_acquire);

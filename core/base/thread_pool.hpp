@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A few threads that share out numbered tasks. What a task computes may not depend on which thread
-// runs it or when: then the results are the same bits for any number of threads.
+// A pool of threads for numbered tasks. What a task computes must not depend on which thread runs
+// it or when: then results are the same bits for any number of threads.
 #pragma once
 
 #include <functional>
@@ -17,7 +17,7 @@ public:
   ThreadPool& operator=(const ThreadPool&) = delete;
 
   /// Calls task(0) .. task(count - 1), each once, and returns when all are done. If tasks throw,
-  /// the rest is still done and the first exception seen is thrown again here.
+  /// the others are still done, and the first exception seen is rethrown.
   void run(int count, const std::function<void(int)>& task);
 
   int size() const;

@@ -65,7 +65,7 @@ char separator_of(std::string_view line) {
   return ',';
 }
 
-/// The number that the text is from end to end, else nothing. Independent of the locale.
+/// The number, if the whole text is one, else nothing. Independent of the locale.
 std::optional<double> number_in(std::string_view text) {
   if (!text.empty() && text[0] == '+') text.remove_prefix(1);
   double value = 0.0;
@@ -96,7 +96,8 @@ bool has_number(const Row& row) {
                      [](const Field& field) { return number_in(field.text).has_value(); });
 }
 
-/// Something that is neither empty nor a number and starts like none: "1,5" is no header.
+/// Whether a row is a header: it has no number and no field that starts like one ("1,5" is an
+/// error).
 bool is_header(const Row& row) {
   return !has_number(row) &&
          std::any_of(row.fields.begin(), row.fields.end(), [](const Field& field) {
@@ -105,7 +106,8 @@ bool is_header(const Row& row) {
          });
 }
 
-/// Column of a name or number, from 0; nothing and a report if there is none.
+/// Index (from 0) of the column with a name or number; reports an error and returns nothing if
+/// there is none.
 std::optional<std::size_t> find_column(const std::string& wanted, const char* option,
                                        const std::vector<Field>& header, Diagnostics& diagnostics) {
   std::vector<std::string> names;
@@ -138,8 +140,8 @@ std::optional<std::size_t> find_column(const std::string& wanted, const char* op
   return std::nullopt;
 }
 
-/// The column of an option, or of `otherwise` if that is empty. A number beyond what the first row
-/// of numbers (`first`) has is the option's mistake, unless it was not given.
+/// The column of an option, or of `otherwise` if the option is empty. A column number larger than
+/// the first row of numbers (`first`) has is an error of the option, if that was given.
 std::optional<std::size_t> chosen_column(const std::string& wanted, const char* otherwise,
                                          const char* option, const std::vector<Row>& rows,
                                          std::size_t first, Diagnostics& diagnostics) {
@@ -154,7 +156,7 @@ std::optional<std::size_t> chosen_column(const std::string& wanted, const char* 
   return std::nullopt;
 }
 
-/// What is wrong with a row's field, as rule and remedy; its number if nothing is.
+/// The number in a field, or, if it is not valid, the rule that it breaks and the remedy.
 struct Cell {
   double value = 0.0;
   std::string rule, remedy;
@@ -173,7 +175,7 @@ Cell read_cell(const std::string& text) {
   return {*number, "", ""};
 }
 
-/// Collects the numbers; reports the first mistakes and how many more there are.
+/// Collects the numbers; reports the first five errors and the number of further ones.
 bool read_cells(const std::vector<Row>& rows, std::size_t first, const std::size_t columns[2],
                 Curve& curve, Diagnostics& diagnostics) {
   constexpr int shown = 5;
@@ -215,7 +217,7 @@ std::string name_of(const std::vector<Field>& header, std::size_t column) {
   return column < header.size() && !header[column].text.empty() ? header[column].text : number;
 }
 
-/// Rows that step back by more than noise: the test was unloaded, or the column has another sign.
+/// Reports rows whose x decreases by more than noise: the test was unloaded, or the sign is wrong.
 void report_falling(const Curve& curve, const std::string& word, std::size_t row, double peak,
                     int peak_line, Diagnostics& diagnostics) {
   const Place at{curve.file, curve.line[row], 1};
@@ -236,7 +238,7 @@ void report_falling(const Curve& curve, const std::string& word, std::size_t row
                     curve.line[row]));
 }
 
-/// Sorts small steps back; false if there are large ones.
+/// Sorts the rows if x decreases by noise only; reports and returns false if by more.
 bool sort_rows(Curve& curve, const std::string& word, Diagnostics& diagnostics) {
   const auto [least, most] = std::minmax_element(curve.x.begin(), curve.x.end());
   const double span = *most - *least;
@@ -278,7 +280,7 @@ bool sort_rows(Curve& curve, const std::string& word, Diagnostics& diagnostics) 
   return true;
 }
 
-/// Takes out rows below 0 in x; false if they are more than noise.
+/// Removes rows with x below 0; reports and returns false if x is below by more than noise.
 bool cut_below_zero(Curve& curve, const std::string& word, Diagnostics& diagnostics) {
   const auto below = std::lower_bound(curve.x.begin(), curve.x.end(), 0.0) - curve.x.begin();
   if (below == 0) return true;

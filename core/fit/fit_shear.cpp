@@ -14,7 +14,7 @@ namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
 
-/// A row of the curve as (40, 41) sees it.
+/// A row of the curve with the weights of the torque in (40, 41).
 struct Sample {
   double extension, load;
   TorqueWeights weights;
@@ -24,7 +24,8 @@ Place place_of(const Curve& curve, std::size_t row = 0) {
   return {curve.file, curve.line[row], 1};
 }
 
-/// The rows between `from` and `to`; nothing and a report if one is beyond the test's geometry.
+/// The rows between `from` and `to`; reports an error and returns nothing if a row is beyond the
+/// extension that the geometry of the test allows.
 std::optional<std::vector<Sample>> samples_of(const Curve& curve, const ShearTest& test,
                                               const Fabric& fabric, const FitOptions& options,
                                               Diagnostics& diagnostics) {
@@ -32,7 +33,8 @@ std::optional<std::vector<Sample>> samples_of(const Curve& curve, const ShearTes
   const double locking = locking_extension(test);
   for (std::size_t i = 0; i < curve.size(); ++i) {
     if (curve.x[i] >= locking) {
-      if (options.to < 0.5 * std::numbers::pi) break; // rows rise: all others are beyond it too
+      // x increases: the remaining rows are beyond it too
+      if (options.to < 0.5 * std::numbers::pi) break;
       diagnostics.error(place_of(curve, i), curve.x_name, fmt::format("{:g}", curve.x[i]),
                         fmt::format("the extension must be less than {:.4g} mm, where the specimen "
                                     "would shear by 90 degrees",
@@ -74,10 +76,11 @@ bool enough(const Curve& curve, const std::vector<Sample>& samples, const FitOpt
   return false;
 }
 
-/// Coefficients of g, g^3 ... by weighted linear least squares; the weights follow the fit.
-std::vector<double> fit(const std::vector<Sample>& samples, int coefficients) {
+/// Coefficients of g, g^3 ... by weighted linear least squares; the weights follow the fit. Loads
+/// are divided by `factor`.
+std::vector<double> fit(const std::vector<Sample>& samples, int coefficients, double factor) {
   const auto rows = static_cast<Eigen::Index>(samples.size());
-  const double scale = samples.back().weights.angle; // columns of about one size
+  const double scale = samples.back().weights.angle; // scales the columns to similar magnitude
   Eigen::MatrixXd a(rows, coefficients);
   Eigen::VectorXd load(rows);
   for (Eigen::Index r = 0; r < rows; ++r) {
@@ -85,7 +88,7 @@ std::vector<double> fit(const std::vector<Sample>& samples, int coefficients) {
     for (int c = 0; c < coefficients; ++c)
       a(r, c) = s.weights.whole * std::pow(s.weights.angle / scale, 2 * c + 1) +
                 s.weights.half * std::pow(0.5 * s.weights.angle / scale, 2 * c + 1);
-    load[r] = s.load;
+    load[r] = s.load / factor;
   }
   const Eigen::VectorXd k = weighted_least_squares(a, load);
   std::vector<double> law;
@@ -94,13 +97,14 @@ std::vector<double> fit(const std::vector<Sample>& samples, int coefficients) {
   return law;
 }
 
-/// A k1 that rounding alone has put below 0 (the law begins with a higher power) is 0.
+/// Sets k1 to 0 if it is negative by rounding only (the law begins with a higher power).
 void clear_rounding(ShearLaw& law, double to) {
   if (law.k[0] < 0.0 && -law.k[0] * to < 1e-9 * law.at(to).value) law.k[0] = 0.0;
 }
 
-/// The least shear angle up to `to` at which the law falls or is negative; beyond `to` if none.
-double unsound_at(const ShearLaw& law, double from, double to) {
+/// The smallest shear angle (rad) in [from, to] at which the law decreases or is negative; a larger
+/// angle than `to` if there is none.
+double invalid_at(const ShearLaw& law, double from, double to) {
   constexpr int steps = 400;
   for (int i = 0; i <= steps; ++i) {
     const double g = from + (to - from) * i / steps;
@@ -112,7 +116,7 @@ double unsound_at(const ShearLaw& law, double from, double to) {
 
 bool valid(const Curve& curve, const ShearLaw& law, const FitQuality& quality,
            Diagnostics& diagnostics) {
-  const double at = unsound_at(law, 0.0, quality.to);
+  const double at = invalid_at(law, 0.0, quality.to);
   if (at <= quality.to) {
     const LawPoint p = law.at(at);
     diagnostics.error(
@@ -127,7 +131,7 @@ bool valid(const Curve& curve, const ShearLaw& law, const FitQuality& quality,
     return false;
   }
   constexpr double end = 0.5 * std::numbers::pi;
-  if (const double beyond = unsound_at(law, quality.to, end); beyond <= end)
+  if (const double beyond = invalid_at(law, quality.to, end); beyond <= end)
     diagnostics.warning(place_of(curve),
                         fmt::format("beyond the range covered, from {:.3g} degrees on, the torque "
                                     "falls: do not form to larger angles with it, or take fewer "
@@ -149,6 +153,16 @@ void warn_of_start(const Curve& curve, const Sample& first, Diagnostics& diagnos
         fmt::format("{:.3g} N at an extension of {:.3g} mm, where the theory has next "
                     "to none: subtract a preload or an offset, or start with --from",
                     first.load, first.extension));
+}
+
+void warn_of_layers(const Curve& curve, const BendingShare& share, Diagnostics& diagnostics) {
+  constexpr double large = 0.4; // of the load: half of it is not known
+  if (share.most <= large) return;
+  diagnostics.warning(
+      place_of(curve),
+      fmt::format("in-plane bending of the yarns adds {:.0f} to {:.0f} % to the load of shear: the "
+                  "law is as uncertain; test a longer specimen",
+                  100.0 * share.least, 100.0 * share.most));
 }
 
 void check_options(const Fabric& fabric, const FitOptions& options) {
@@ -206,15 +220,23 @@ std::optional<ShearFit> identify_shear(Curve curve, const ShearTest& test, const
   if (!samples || !enough(curve, *samples, options, diagnostics)) return std::nullopt;
   warn_of_start(curve, samples->front(), diagnostics);
   ShearFit result;
-  result.law.k = fit(*samples, options.coefficients);
-  clear_rounding(result.law, samples->back().weights.angle);
   Fabric fitted = fabric;
-  fitted.shear = result.law;
+  constexpr int repetitions =
+      20; // the share goes by the root of k1: each takes a tenth of the rest
+  for (int i = 0; i < repetitions; ++i) {
+    const double before = result.in_plane.mean();
+    result.law.k = fit(*samples, options.coefficients, 1.0 + before);
+    clear_rounding(result.law, samples->back().weights.angle);
+    fitted.shear = result.law;
+    result.in_plane = in_plane_bending_share(test, fitted);
+    if (std::abs(result.in_plane.mean() - before) <= 1e-9) break;
+  }
+  warn_of_layers(curve, result.in_plane, diagnostics);
   for (const Sample& s : *samples) {
     result.extension.push_back(s.extension);
     result.angle.push_back(s.weights.angle);
     result.measured.push_back(s.load);
-    result.fitted.push_back(test_load(test, fitted, s.extension));
+    result.fitted.push_back((1.0 + result.in_plane.mean()) * test_load(test, fitted, s.extension));
   }
   result.quality = quality_of(result.angle, result.measured, result.fitted);
   const bool good = check_quality(

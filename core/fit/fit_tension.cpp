@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A yarn's tension against its strain, from a strip or yarn test.
+// Identifies a yarn's law of tension against strain from a strip or yarn test.
 #include "core/fit/fit_shear.hpp"
 #include "core/fit/weighted_fit.hpp"
 
@@ -17,7 +17,7 @@ Place place_of(const Curve& curve, std::size_t row = 0) {
   return {curve.file, curve.line[row], 1};
 }
 
-/// Strain and tension of one yarn in place of x and y, the rows of the range only.
+/// Converts x and y to strain and tension (N) of one yarn, and keeps only the rows in the range.
 void scale_curve(Curve& curve, const Strip& strip, const FitOptions& options) {
   Curve scaled = curve;
   scaled.x.clear();
@@ -65,8 +65,9 @@ Eigen::VectorXd vector_of(const std::vector<double>& values) {
   return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
 }
 
-/// Strains of the table after 0, up to the last: those of the curve if they are few, else evenly
-/// picked from them. None closer than 1/200 of the largest: noise would make a huge slope there.
+/// Strains of the table after 0, up to the last: those of the curve if they are few, else a
+/// selection at even distances. None closer than 1/200 of the largest, where noise would give large
+/// slopes.
 std::vector<double> knots_of(const Curve& curve) {
   const double last = curve.x.back(), apart = 0.005 * last;
   std::vector<double> strains;
@@ -80,7 +81,7 @@ std::vector<double> knots_of(const Curve& curve) {
   return knots;
 }
 
-/// Tensions at the knots that follow the rows best, linear between them and from 0.
+/// Tensions at the knots of the piecewise linear law from 0 that fits the rows best.
 std::vector<double> tensions_at(const std::vector<double>& knots, const Curve& curve) {
   Eigen::MatrixXd a = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(curve.size()),
                                             static_cast<Eigen::Index>(knots.size()));
@@ -96,7 +97,8 @@ std::vector<double> tensions_at(const std::vector<double>& knots, const Curve& c
   return {k.begin(), k.end()};
 }
 
-/// Nearest tensions that never fall (pools neighbours that do); the answer is the largest change.
+/// Replaces the tensions by the nearest non-decreasing ones (pool adjacent violators); returns the
+/// largest change.
 double make_rising(std::vector<double>& tension) {
   struct Pool {
     double sum;
@@ -123,7 +125,7 @@ double make_rising(std::vector<double>& tension) {
   return change;
 }
 
-/// The table, or nothing and a report if the curve softens.
+/// The table; reports an error and returns nothing if the curve softens.
 std::optional<TensionLaw> table_of(const Curve& curve, Diagnostics& diagnostics) {
   std::vector<double> knots = knots_of(curve), tension = tensions_at(knots, curve);
   const double most = *std::max_element(tension.begin(), tension.end());
@@ -139,7 +141,7 @@ std::optional<TensionLaw> table_of(const Curve& curve, Diagnostics& diagnostics)
     return std::nullopt;
   }
   while (knots.size() > 1 && tension[tension.size() - 2] == tension.back()) {
-    knots.pop_back(); // the last slope goes on: noise must not make it 0
+    knots.pop_back(); // the last slope is used beyond the table: noise must not make it 0
     tension.pop_back();
   }
   TensionLaw law{.strain = {0.0}, .tension = {0.0}};

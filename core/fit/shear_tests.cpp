@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fit/shear_tests.hpp"
 
+#include "core/model/fabric_estimates.hpp"
+
 #include <cmath>
 #include <fmt/format.h>
 #include <numbers>
@@ -78,6 +80,16 @@ double test_load(const ShearTest& test, const Fabric& fabric, double extension) 
   const TorqueWeights weights = torque_weights(test, fabric, extension);
   return weights.whole * fabric.shear.at(weights.angle).value +
          weights.half * fabric.shear.at(0.5 * weights.angle).value; // (40, 41)
+}
+
+BendingShare in_plane_bending_share(const ShearTest& test, const Fabric& fabric) {
+  const double rigidity = shear_rigidity(fabric);
+  if (test.half_area == 0.0 || !(rigidity > 0.0)) return {};
+  double length = 0.0; // l, mm
+  for (const double stiffness : fabric.bending.in_plane)
+    length += 0.5 * std::sqrt(stiffness / rigidity);
+  const double most = 2.0 * sqrt2 * length / test.diagonal;
+  return {0.5 * most, most};
 }
 
 } // namespace plyform

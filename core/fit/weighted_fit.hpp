@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The fit of core/fit: linear least squares whose weights follow the fit.
+// Iteratively reweighted linear least squares: the weights depend on the fitted values.
 #pragma once
 
 #include "core/fit/fit_shear.hpp"
@@ -8,16 +8,17 @@
 
 namespace plyform {
 
-/// 1 / max(fitted, floor): see the top of fit_shear.hpp.
+/// Weights 1 / max(fitted, floor): see the head of fit_shear.hpp.
 inline Eigen::ArrayXd fit_weights(const Eigen::VectorXd& fitted, const Eigen::VectorXd& measured) {
   return fitted.array().max(load_floor * measured.maxCoeff()).inverse();
 }
 
-/// Coefficients of the columns of `a`.
+/// Coefficients k of the columns of `a` that fit a k to `measured`, of as many rows, by
+/// fit_weights.
 inline Eigen::VectorXd weighted_least_squares(const Eigen::MatrixXd& a,
                                               const Eigen::VectorXd& measured) {
   Eigen::VectorXd k, fitted = measured;
-  constexpr int repeats = 20; // from weights of the measured load it settles in three or four
+  constexpr int repeats = 20; // converges in three or four iterations
   for (int i = 0; i < repeats; ++i) {
     const Eigen::ArrayXd weight = fit_weights(fitted, measured);
     k = (weight.matrix().asDiagonal() * a)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mistakes in boundaries that only show when the plies are meshed.
+// Checks of boundaries that need the meshes of the plies.
 #include "core/input/case_parts.hpp"
 #include "core/model/boundary.hpp"
 
@@ -41,7 +41,7 @@ bool share_an_axis(const Boundary& a, const Boundary& b) {
   return false;
 }
 
-/// Two that hold one node along the same axis must agree: both stay.
+/// Two boundaries that prescribe one node along the same axis must agree: both must be at rest.
 void check_no_conflict(BoundaryCheck& check, std::size_t a, std::size_t b) {
   const Boundary &first = check.scene.boundaries[a], &second = check.scene.boundaries[b];
   if (first.kind == BoundaryKind::symmetry || second.kind == BoundaryKind::symmetry) return;
@@ -60,7 +60,7 @@ Vec3 normal_of(const Boundary& plane) {
   return {plane.normal.x(), plane.normal.y(), 0.0};
 }
 
-/// Blank on one side of the plane, with nodes on it.
+/// The blanks must lie on one side of the plane of symmetry and have nodes on it.
 void check_half_blank(BoundaryCheck& check, std::size_t index) {
   const Boundary& plane = check.scene.boundaries[index];
   for (std::size_t p = 0; p < check.plies.size(); ++p) {
@@ -85,7 +85,7 @@ bool same_line(double a, double b) {
   return std::abs(std::sin(a - b)) < 1e-6;
 }
 
-/// The mirror image of each ply must be the ply itself.
+/// The fibre directions of each ply must be symmetric to the plane.
 void check_fibres(BoundaryCheck& check, std::size_t index) {
   const Boundary& plane = check.scene.boundaries[index];
   const double along = std::atan2(plane.normal.x(), -plane.normal.y());
@@ -112,7 +112,7 @@ void check_fibres(BoundaryCheck& check, std::size_t index) {
   }
 }
 
-/// Tools must be their own mirror images and stay so.
+/// Tools must be symmetric to the plane and remain so when they move.
 void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
                           const std::vector<TriMesh>& surfaces) {
   const Boundary& plane = check.scene.boundaries[index];
@@ -140,8 +140,8 @@ void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
   }
 }
 
-/// Whether a boundary takes a node of the plane away from it. (Off the plane grips and frames may
-/// move as they like: the other half has their mirror images.)
+/// Whether a boundary moves a node of the plane of symmetry out of it. (Grips and frames away from
+/// the plane may move in any direction: the other half has their mirror images.)
 bool crosses(const BoundaryCheck& check, const Boundary& plane, const Boundary& other) {
   const Vec3 normal = normal_of(plane);
   for (std::size_t p = 0; p < check.plies.size(); ++p)

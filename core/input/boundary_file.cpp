@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Grips, frames and planes of symmetry.
+// Reads boundaries: grips, frames and planes of symmetry.
 #include "core/input/case_parts.hpp"
 #include "core/input/key_member.hpp"
 #include "core/model/boundary.hpp"
@@ -12,7 +12,8 @@ namespace plyform {
 
 namespace {
 
-/// Reads a fixed number of points; more of them are a mistake (fewer are reported by the table).
+/// Reads a fixed number of points; reports an error if there are more (check_section has reported
+/// if there are fewer).
 template <std::size_t count>
 std::array<Vec2, count> read_points(const TableView& section, const std::string& key,
                                     Diagnostics& diagnostics) {
@@ -68,7 +69,7 @@ void read_plane(const TableView& section, Boundary& b, Diagnostics& diagnostics)
   b.point = vector2(section, "point");
   const Vec2 normal = vector2(section, "normal");
   const double length = normal.norm();
-  if (!std::isfinite(length)) return; // missing or wrong, and reported
+  if (!std::isfinite(length)) return; // missing or invalid; has been reported
   if (length > 0.0)
     b.normal = normal / length;
   else

@@ -4,6 +4,7 @@
 
 #include "core/base/text.hpp"
 #include "core/input/case_parts.hpp"
+#include "core/input/entries.hpp"
 #include "core/input/key_member.hpp"
 #include "core/input/overrides.hpp"
 #include "core/model/fabric_estimates.hpp"
@@ -53,7 +54,7 @@ BlankSpec read_blank(const TableView& section, const std::filesystem::path& fold
   return blank;
 }
 
-/// Names of the tables of a map, in order.
+/// Names of the tables of a map, with their numbers in the order of the file.
 Numbers names_of(const TableView& root, const std::string& key) {
   Numbers names;
   for (const TableView& section : subsections(root, key))
@@ -68,7 +69,7 @@ std::string known_names(const Numbers& names) {
   return words.empty() ? "there are none" : "there are " + joined(words);
 }
 
-/// The number of the part that a key names; 0 and a report if there is none.
+/// The number of the part that a key names; reports an error and returns 0 if there is none.
 int named_part(const TableView& section, const std::string& key, const Numbers& names,
                Diagnostics& diagnostics) {
   const auto it = names.find(text(section, key));
@@ -91,15 +92,16 @@ std::vector<Ply> read_plies(const TableView& root, const std::vector<Fabric>& fa
     const std::size_t fabric = static_cast<std::size_t>(ply.fabric);
     const double thickness = fabric < fabrics.size() ? fabrics[fabric].thickness : 0.0;
     ply.z = given(section, "z") ? number(section, "z") : top + 0.5 * thickness;
-    // Not z + t/2: sums of thicknesses, so that n equal plies are n t high to the last bit or so.
+    // A sum of thicknesses, not z + t/2: n equal plies then are n t high up to very little
+    // rounding.
     top = given(section, "z") ? ply.z + 0.5 * thickness : top + thickness;
     plies.push_back(ply);
   }
   return plies;
 }
 
-/// Numbers of the bodies by name: plies, then tools, then boundaries (which touch nothing). Names
-/// used twice are reported.
+/// Numbers of the bodies by name: plies, then tools, then boundaries (which have no contact).
+/// Reports names that are used twice.
 Numbers number_bodies(const TableView& root, Diagnostics& diagnostics) {
   Numbers bodies;
   int count = 0;
@@ -117,7 +119,7 @@ Numbers number_bodies(const TableView& root, Diagnostics& diagnostics) {
   return bodies;
 }
 
-/// The bodies that one name of a pair means.
+/// The bodies that one name of a contact pair denotes.
 std::vector<int> bodies_named(const TomlNode& name, const std::string& item, const Numbers& bodies,
                               int plies, int count, Diagnostics& diagnostics) {
   std::vector<int> found;
@@ -172,7 +174,8 @@ Case build_case(const TableView& root, const std::filesystem::path& folder,
   const TableView contact = subsection(root, "contact");
   const int plies = static_cast<int>(built.plies.size());
   const int count = plies + static_cast<int>(built.tools.size());
-  std::erase_if(bodies, [&](const auto& body) { return body.second >= count; }); // touch nothing
+  // boundaries have no contact
+  std::erase_if(bodies, [&](const auto& body) { return body.second >= count; });
   built.friction = read_friction(contact, bodies, plies, count, diagnostics);
   read_members(contact, built.contact);
   read_members(subsection(root, "solver"), built.solver);
@@ -190,8 +193,8 @@ CaseParts locate_parts(const TableView& root) {
   return {locate("blanks"), locate("ply"), locate("tool"), locate("boundary")};
 }
 
-/// The case file's mistakes first, then those of the files it names, overrides last; by line and
-/// column; none twice (a fabric file may stand under two names).
+/// Sorts errors: those of the case file first, then of the files that it names, then of overrides,
+/// each by line and column. Removes duplicates (a fabric file may be used under two names).
 void put_in_order(std::vector<CaseError>& errors, const std::string& case_name) {
   const auto rank = [&](const CaseError& error) {
     const int file = error.file == case_name ? 0 : error.file == override_file ? 2 : 1;
@@ -211,20 +214,11 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
   Diagnostics diagnostics;
   CaseReading reading;
   reading.file = file;
-  std::string reason;
-  const std::string name = file.string();
-  if (const std::optional<std::string> content = read_text(file, reason); !content) {
-    diagnostics.error({name, 1, 1}, "", "", "the case file " + reason,
-                      "give the path of a case file");
-  } else if (std::optional<TomlNode> entries = parse_entries(*content, name, diagnostics)) {
+  for (const Override& change : overrides)
+    reading.overridden.insert(change.first);
+  if (std::optional<TomlNode> entries = read_entries(file, overrides, diagnostics)) {
     const std::filesystem::path folder = file.parent_path();
-    for (const Override& change : overrides) {
-      apply_override(*entries, change, folder, diagnostics);
-      reading.overridden.insert(change.first);
-    }
-    load_fabrics(*entries, folder, diagnostics);
     const TableView root{&*entries, "", ""};
-    check_section(root, diagnostics);
     Case built = build_case(root, folder, diagnostics);
     if (diagnostics.errors.empty()) {
       estimate_missing(built);
@@ -232,7 +226,7 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
       reading.value = std::move(built);
     }
   }
-  put_in_order(diagnostics.errors, name);
+  put_in_order(diagnostics.errors, file.string());
   reading.errors = std::move(diagnostics.errors);
   reading.warnings = std::move(diagnostics.warnings);
   return reading;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From case.toml (and the fabric files it names) to a Case, with every mistake found at once.
+// Reads case.toml (and the fabric files that it names) into a Case, and reports all errors at once.
 #pragma once
 
 #include "core/base/diagnostics.hpp"
@@ -15,7 +15,7 @@
 
 namespace plyform {
 
-/// Where a part of the case stands in the file, for mistakes found in the scene as a whole.
+/// Position of a part of the case in the file, for errors that are found in the scene as a whole.
 struct SourceLocation {
   Place at;
   std::string item;
@@ -25,32 +25,32 @@ struct CaseParts {
   std::vector<SourceLocation> blanks, plies, tools, boundaries;
 };
 
-/// What a case file and the overrides say, before anything is made of it.
+/// Result of reading a case file with overrides.
 struct CaseReading {
   std::filesystem::path file;
   std::optional<Case> value;        ///< only when there is no error
-  CaseParts parts;                  ///< where they stand
-  std::set<std::string> overridden; ///< keys that overrides gave, as dotted paths
+  CaseParts parts;                  ///< positions in the file
+  std::set<std::string> overridden; ///< keys set by overrides, as dotted paths
   std::vector<CaseError> errors;
   std::vector<std::string> warnings;
 };
 
-/// One --set KEY=VALUE: dotted path with list items by number from 0 (ply.2.angle), TOML value
-/// (a bare word that is no TOML value is taken as a string).
+/// One --set KEY=VALUE: dotted path with list items by number from 0 (ply.2.angle), and TOML value
+/// (a bare word that is not a TOML value is read as a string).
 using Override = std::pair<std::string, std::string>;
 
-/// Reads, overrides, checks against the table of keys; files are sought relative to the file that
-/// names them. An error in an override is reported with file "--set", line 1, and the column within
-/// KEY=VALUE. Never throws for anything that stands in the files. The case is as it is written, but
-/// for fabrics whose missing numbers are estimated (core/model/fabric_estimates.hpp): an accuracy
-/// that it asks for, and the check of the whole scene, are left to the caller
-/// (core/setup/prepare_case.hpp).
+/// Reads a case file, applies overrides and checks keys and values against the table of keys. Paths
+/// are relative to the file that contains them. An error in an override is reported with file
+/// "--set", line 1, and the column within KEY=VALUE. Never throws because of the content of the
+/// files. Missing values of fabrics are estimated (core/model/fabric_estimates.hpp); a requested
+/// accuracy is not applied, and the scene as a whole not checked: core/setup/prepare_case.hpp does
+/// both.
 CaseReading read_case(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
 /// Checks the scene that will run, reading.value: blanks that cannot be meshed, plies overlapping
 /// at the start, a tool inside a ply, tool clearance less than the stack, meshes too coarse. Adds
-/// to the mistakes and warnings; with a mistake there is no value any more. Returns the meshes of
-/// the plies, one each.
+/// to errors and warnings; if there is an error, reading.value is reset. Returns the meshes of the
+/// plies, one per ply.
 std::vector<BlankMesh> check_case(CaseReading& reading);
 
 /// One row of `plyform keys`.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// From checked entries to the parts of a Case. Each function reports what the table of keys cannot
-// know (names, files, numbers that do not fit together) and fills in what it can: the case is only
-// used when no mistake was found.
+// Reads the parts of a Case from entries that were checked against the table of keys. Each function
+// reports errors that the table cannot express (names, files, inconsistent numbers) and fills in
+// what is valid: the case is used only if there was no error at all.
 #pragma once
 
 #include "core/input/case_file.hpp"
@@ -25,26 +25,27 @@ std::vector<Tool> read_tools(const TableView& root, const std::filesystem::path&
 ToolShape read_shape(const TableView& tool, const std::filesystem::path& folder,
                      Diagnostics& diagnostics);
 
-/// A direction of the section made a unit vector; the zero vector is reported.
+/// A direction of the section as a unit vector; reports an error for the zero vector.
 Vec3 read_direction(const TableView& section, const std::string& key, Diagnostics& diagnostics);
 
 /// core/input/boundary_file.cpp: grips, frames, planes of symmetry.
 std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<Ply>& plies,
                                       Diagnostics& diagnostics);
 
-/// core/input/boundary_checks.cpp: boundaries that hold nothing or contradict each other, and
-/// planes of symmetry that blank, fabric or tools do not have. `surfaces`: of the tools, in space.
+/// core/input/boundary_checks.cpp: reports boundaries that prescribe no node or contradict each
+/// other, and planes to which blank, fabric or tools are not symmetric. surfaces: of the tools, mm,
+/// in space.
 void check_boundaries(const Case& scene, const CaseParts& parts, const std::vector<FlatPly>& plies,
                       const std::vector<TriMesh>& surfaces, Diagnostics& diagnostics);
 
-/// core/input/scene_checks.cpp: mistakes that only the whole scene shows: blanks that cannot be
+/// core/input/scene_checks.cpp: checks of the whole scene: blanks that cannot be
 /// meshed, plies overlapping at the start, tools inside plies, tools closer together than the
-/// stack. Returns the meshes, one a ply; none if one of them cannot be.
+/// stack. Returns the meshes, one per ply; none if one of them cannot be.
 std::vector<BlankMesh> check_scene(const Case& scene, const CaseParts& parts,
                                    Diagnostics& diagnostics);
 
-/// core/input/resolution_checks.cpp: meshes too coarse for what yarns' bending decides; warnings.
-/// meshes: of the plies, one each.
+/// core/input/resolution_checks.cpp: warns of meshes that do not resolve the lengths of
+/// bending_resolution.hpp. meshes: one per ply.
 void check_resolution(const Case& scene, const CaseParts& parts,
                       const std::vector<BlankMesh>& meshes, Diagnostics& diagnostics);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Words of choice keys and what they stand for, one table each: the schema lists the words, the
-// reader looks them up.
+// Words of choice keys and their values, one table per key, which both the schema and the reader
+// use.
 #pragma once
 
 #include "core/model/case.hpp"
@@ -45,7 +45,7 @@ std::vector<std::string> words_of(const Choice<Value> (&choices)[count]) {
   return words;
 }
 
-/// What a word stands for; of one that is not there (reported by the schema) the first.
+/// The value of a word; that of the first word for an unknown one (which the schema check reports).
 template <class Value, std::size_t count>
 Value value_of(const Choice<Value> (&choices)[count], std::string_view word) {
   for (const Choice<Value>& choice : choices)

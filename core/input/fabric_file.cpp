@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fabrics: a yarn's tension and a cell's torque as constants or tables.
+// Reads fabrics: laws of tension, shear and bending, as constants or tables.
 #include "core/input/fabric_file.hpp"
 
 #include "core/base/text.hpp"
@@ -16,8 +16,8 @@ namespace plyform {
 
 namespace {
 
-/// Tables of laws start in the origin and go on to the right; `rising`: and what is in the second
-/// column never goes down (empty: it may).
+/// Checks the table of a law: it must start at the origin with increasing first column; the second
+/// column must not decrease if `rising`, its name in the message, is not empty.
 void check_law(const TableView& law, const std::string& key, const std::vector<Vec2>& points,
                const std::string& rising, Diagnostics& diagnostics) {
   const TomlNode* table = given(law, key);
@@ -47,8 +47,8 @@ void split(const std::vector<Vec2>& points, std::vector<double>& first,
   }
 }
 
-/// Whether the file says that yarns do not bear compression; where it says nothing of it they are
-/// given an estimate if they need it (core/model/fabric_estimates.hpp).
+/// Whether the file gives a compression stiffness of 0. A missing one is estimated if it is needed
+/// (core/model/fabric_estimates.hpp).
 bool tension_only(const TableView& yarn, const TensionLaw& law) {
   return given(yarn, "compression_stiffness") && law.compression == 0.0;
 }
@@ -75,7 +75,8 @@ TensionLaw read_tension(const TableView& yarn, Diagnostics& diagnostics) {
   return law;
 }
 
-/// `tension`: of the same yarns. A bending moment shortens yarns that nothing holds against it.
+/// Reads the bending law of yarns whose law of tension is `tension`: bending needs yarns that bear
+/// compression, as a moment shortens yarns that do not.
 MomentLaw read_moments(const TableView& yarn, const TensionLaw& tension, Diagnostics& diagnostics) {
   MomentLaw law;
   read_members(yarn, law);
@@ -149,7 +150,7 @@ Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics
   return fabric;
 }
 
-/// Puts a law that is sound into a table that has none; true if it did.
+/// Inserts a valid law into a table that has none; returns whether it did.
 bool stand_in(TomlNode& root, const std::string& table, const std::string& key, const char* value) {
   TomlNode* section = root.find(table);
   if (section &&
@@ -196,8 +197,9 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
     root->at.file = name;
     for (const char* table : {"warp", "weft", "shear"}) {
       const bool shear = std::string_view(table) == "shear";
-      if (laws_may_miss && stand_in(*root, table, shear ? "polynomial" : "stiffness",
-                                    shear ? "[1.0]" : "1e9")) // more than any compression_stiffness
+      if (laws_may_miss &&
+          stand_in(*root, table, shear ? "polynomial" : "stiffness",
+                   shear ? "[1.0]" : "1e9")) // larger than any compression_stiffness
         reading.missing.push_back(table);
     }
     const TableView section{&*root, "fabrics.NAME", ""};

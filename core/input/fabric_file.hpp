@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Fabric files on their own, outside a case: reading one, and putting an identified law into one.
+// Fabric files outside a case: reading one, and inserting an identified law into one.
 #pragma once
 
 #include "core/input/case_file.hpp"
@@ -15,16 +15,16 @@ namespace plyform {
 struct FabricReading {
   std::optional<Fabric> value; ///< only when there is no error
   std::vector<CaseError> errors;
-  std::vector<std::string> missing; ///< of "warp", "weft", "shear": without a law
+  std::vector<std::string> missing; ///< those of "warp", "weft", "shear" that have no law
   std::string text;                 ///< of the file
 };
 
 /// Reads and checks a fabric file by the rules of case files. With `laws_may_miss` the laws of
 /// warp, weft and shear (not the densities) may be missing; they are then empty in the fabric and
-/// named in `missing`. Never throws for anything that stands in the file.
+/// named in `missing`. Never throws because of the content of the file.
 FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_miss);
 
-/// A law as it shall stand in a fabric file.
+/// A law as text for a fabric file.
 struct LawText {
   std::string table;                ///< "warp", "weft" or "shear"
   std::string key;                  ///< "stiffness", "polynomial" or "table"
@@ -32,10 +32,10 @@ struct LawText {
   std::vector<std::string> comment; ///< lines above the key; control characters become spaces
 };
 
-/// The fabric file `text` (which must be TOML, or std::invalid_argument is thrown) with the law in
-/// place of the table's own, if it has one. All other keys and values stay as they are, with the
-/// comments at the top of the file, directly above a key or table and behind a value; other
-/// comments and those above the law replaced are lost, and inline tables get a header.
+/// The text of a fabric file with the law inserted, in place of the table's law if it has one. All
+/// other keys and values are kept, and so are comments at the top of the file, directly above a key
+/// or table and after a value; other comments and those above the replaced law are lost, and inline
+/// tables get a header. Throws std::invalid_argument if `text` is not TOML.
 std::string with_law(const std::string& text, const LawText& law);
 
 } // namespace plyform

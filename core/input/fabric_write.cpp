@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A fabric file with another law in it. Written anew from its entries rather than patched, because
-// a law may stand in a table, an inline table or under dotted keys.
+// Writes a fabric file with another law. It is generated from its entries, not edited as text,
+// because a law may be in a table, an inline table or under dotted keys.
 #include "core/input/fabric_file.hpp"
 #include "core/input/toml_tree.hpp"
 
@@ -35,7 +35,7 @@ std::string key_text(const std::string& key) {
   return key.empty() || key.find_first_not_of(bare) != std::string::npos ? quoted(key) : key;
 }
 
-/// A value on one line, but pairs each on a line of their own.
+/// A value as text on one line; lists of pairs have one pair per line.
 std::string value_text(const TomlNode& entry) {
   std::string items;
   switch (entry.kind) {
@@ -80,7 +80,7 @@ void put_comment_above(FabricText& to, int line) {
     to.put(to.lines[static_cast<std::size_t>(first) - 1]);
 }
 
-/// The comment that follows a value on its line, with the blanks before it; else nothing.
+/// The comment after a value on its line, with the blanks before it; empty if there is none.
 std::string comment_behind(const FabricText& from, const TomlNode& entry) {
   const auto index = static_cast<std::size_t>(entry.at.line) - 1;
   if (entry.at.line < 1 || index >= from.lines.size() || entry.source_text.empty()) return "";
@@ -103,7 +103,7 @@ void put_law(FabricText& to) {
   to.put(to.law.key + " = " + to.law.value);
 }
 
-/// `path`: dotted, empty for the file as a whole.
+/// Writes a table. path: dotted, empty for the file as a whole.
 void put_table(FabricText& to, const TomlNode& table, const std::string& path) {
   bool law_due = path == to.law.table;
   for (const TomlNode& child : table.children) {
@@ -139,7 +139,7 @@ std::string with_law(const std::string& text, const LawText& law) {
     if (to.lines.back().ends_with('\r')) to.lines.back().pop_back();
     at = end + 1;
   }
-  int top = 1; // the comment at the top, unless it belongs to what follows it directly
+  int top = 1; // the comment at the top, unless a key or table follows directly
   while (to.is_comment(top))
     ++top;
   const bool alone =

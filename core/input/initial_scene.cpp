@@ -78,12 +78,12 @@ void visit_slab(const TriMesh& surface, double low, double high,
 
 std::vector<std::pair<double, double>> occupied(const Tool& tool, const Vec2& xy, double low,
                                                 double high) {
-  constexpr double shortest_step = 1e-3; // mm; thinner parts of a tool may be stepped over
+  constexpr double shortest_step = 1e-3; // mm; thinner parts of a tool may be missed
   int hint = -1;
   const auto distance = [&](double z) {
     return tool_distance(tool, Vec3::Zero(), Vec3(xy.x(), xy.y(), z), hint);
   };
-  // Where the sign changes between a and b, to 2^-30 of a step.
+  // Bisection for the change of sign between a and b, to 2^-30 of their distance.
   const auto crossing = [&](double a, double b, bool inside_at_a) {
     for (int i = 0; i < 30; ++i) {
       const double middle = 0.5 * (a + b);
@@ -94,7 +94,7 @@ std::vector<std::pair<double, double>> occupied(const Tool& tool, const Vec2& xy
   std::vector<std::pair<double, double>> parts;
   double z = low, d = distance(z), start = low;
   bool inside = d <= 0.0;
-  while (z < high) { // the surface is at least |d| away: steps of that length miss nothing
+  while (z < high) { // sphere tracing: the surface is at least |d| away
     const double next = std::min(high, z + std::max(std::abs(d), shortest_step));
     d = distance(next);
     if ((d <= 0.0) != inside) {

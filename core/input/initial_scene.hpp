@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Flat plies and tools before anything moves, and simple questions about where they stand.
+// Flat plies and tools in their initial positions, and geometric queries for checks.
 #pragma once
 
 #include "core/mesh/mesh_blank.hpp"
@@ -11,7 +11,7 @@
 
 namespace plyform {
 
-/// A ply as it lies before forming: all nodes at height z.
+/// A ply before forming: all nodes at height z.
 struct FlatPly {
   BlankMesh mesh;
   std::vector<std::pair<Vec2, Vec2>> border; ///< edges with one triangle
@@ -21,23 +21,23 @@ struct FlatPly {
 
 FlatPly make_flat_ply(BlankMesh mesh, double z, double thickness);
 
-/// Whether a point of the plane lies in the ply's mesh (even number of border edges to its right:
-/// outside).
+/// Whether p (mm) lies inside the ply's mesh: an odd number of border edges is to its right.
 bool covers(const FlatPly& ply, const Vec2& p);
 
 /// Signed distance (mm) of p (space) to the tool moved by `shift`; `hint` as for signed_distance.
 double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, int& hint);
 
-/// The tool's surface in space as triangles small enough to show its form: between 1/300 and 1/60
-/// of its diagonal, in between `size` (mm). Planes reach `extent` mm from the tool's origin.
+/// The tool's surface in space as triangles of `size` (mm), but between 1/300 and 1/60 of its
+/// diagonal. Planes extend `extent` mm from the tool's origin.
 TriMesh tool_surface(const Tool& tool, double size, double extent);
 
-/// Calls `visit` with points of the surface whose height is from `low` to `high`: corners, middles
-/// of triangles, and the ends and middle of every edge's part in between.
+/// Calls visit(p) for points p of the surface with heights between `low` and `high` (mm): corners,
+/// middles of triangles, and the ends and middle of the part of every edge in between.
 void visit_slab(const TriMesh& surface, double low, double high,
                 const std::function<void(const Vec3&)>& visit);
 
-/// The parts of the vertical line through (x, y), from z = low to high, that lie in the tool.
+/// Intervals of z (mm), between low and high, in which the vertical line through xy lies in the
+/// tool.
 std::vector<std::pair<double, double>> occupied(const Tool& tool, const Vec2& xy, double low,
                                                 double high);
 

@@ -9,7 +9,7 @@ namespace {
 
 constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 
-/// Whether a member is set to nothing where its key is not given.
+/// Whether a key that is not given is missing, so that its member is set to `nothing`.
 bool is_missed(const TableView& section, const KeyRow& row) {
   if (!row.otherwise.empty() || !row.goes_with(text(section, row.of))) return false;
   return row.instead.empty() || !given(section, row.instead);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of the table of keys bound to the members that they fill, and tables of a file read into
-// structs by them: no key is named twice.
+// Binds rows of the table of keys to members of structs, and reads tables of a file into structs by
+// these bindings, so that each key is named in one place only.
 #pragma once
 
 #include "core/input/choices.hpp"
@@ -10,8 +10,9 @@
 
 namespace plyform {
 
-// A value in the program's units. Without one (null) numbers become NaN, so that comparisons fail
-// and no second mistake is reported for the same value; the others stay as they are.
+// Assigns a value in the program's units to a member. For null numbers become NaN, so that
+// comparisons fail and no second error is reported for the same value; other members are not
+// changed.
 void assign(double& member, const KeyRow& row, const TomlNode* node);
 void assign(int& member, const KeyRow& row, const TomlNode* node);
 void assign(std::string& member, const KeyRow& row, const TomlNode* node);
@@ -25,7 +26,7 @@ KeyMember to(Value Struct::*member) {
           }};
 }
 
-/// A choice: `choices` must outlive the row.
+/// Binding of a choice key; `choices` must outlive the row.
 template <class Struct, class Value, std::size_t count>
 KeyMember to(Value Struct::*member, const Choice<Value> (&choices)[count]) {
   return {typeid(Struct), [member, &choices](void* object, const KeyRow&, const TomlNode* node) {
@@ -33,11 +34,11 @@ KeyMember to(Value Struct::*member, const Choice<Value> (&choices)[count]) {
           }};
 }
 
-/// Fills what `section` has for a struct of this type.
+/// Fills the members of `object`, a struct of this type, as the template below.
 void read_members(const TableView& section, std::type_index type, void* object);
 
-/// Fills the members of `object` to which keys of `section` are bound. Keys that are not given and
-/// need not be, and those of another choice, leave their member as it is.
+/// Fills the members of `object` to which keys of `section` are bound. Members of optional keys
+/// that are not given, and of keys of another choice, are not changed.
 template <class Struct>
 void read_members(const TableView& section, Struct& object) {
   read_members(section, typeid(Struct), &object);

@@ -29,7 +29,7 @@ std::vector<Step> split_path(const std::string& path) {
   }
 }
 
-/// The value of an override; a bare word that is no TOML value is a string.
+/// The value of an override; a bare word that is not a TOML value is read as a string.
 std::optional<TomlNode> override_value(const Override& change, Diagnostics& diagnostics) {
   const auto& [key, source_text] = change;
   const int column = static_cast<int>(key.size()) + 2;
@@ -53,13 +53,13 @@ std::optional<TomlNode> override_value(const Override& change, Diagnostics& diag
   return word;
 }
 
-/// Walks along the path; where it stands is the entry, its pattern and its dotted path so far.
+/// Position during the descent along a path: the entry, its pattern and its dotted path so far.
 struct Walk {
   TomlNode* entry;
   std::string pattern, item;
 };
 
-/// The list's item that a step names, or null and a report.
+/// The list item that a step names; reports an error and returns null if there is none.
 TomlNode* list_item(const Walk& walk, const Step& step, const std::string& key,
                     Diagnostics& diagnostics) {
   const bool digits = !step.name.empty() && step.name.size() < 9 &&
@@ -74,8 +74,8 @@ TomlNode* list_item(const Walk& walk, const Step& step, const std::string& key,
   return nullptr;
 }
 
-/// The member of a table that a step names, made if it is not there; null and a report if the
-/// table of keys does not know it.
+/// The member of a table that a step names, created if it does not exist; reports an error and
+/// returns null if the table of keys does not have it.
 TomlNode* member(const Walk& walk, const Step& step, const std::string& pattern,
                  Diagnostics& diagnostics) {
   const Place at{override_file, 1, step.column};
@@ -94,7 +94,7 @@ TomlNode* member(const Walk& walk, const Step& step, const std::string& pattern,
   return &walk.entry->children.back();
 }
 
-/// One step down; false (and a report) if there is no way.
+/// Descends by one step; reports an error and returns false if that is impossible.
 bool descend(Walk& walk, const Step& step, const std::string& key, Diagnostics& diagnostics) {
   std::string pattern;
   TomlNode* next = nullptr;
@@ -120,11 +120,11 @@ void apply_override(TomlNode& root, const Override& change, const std::filesyste
   std::optional<TomlNode> value = override_value(change, diagnostics);
   if (!value) return;
   const std::vector<Step> steps = split_path(change.first);
-  TomlNode changed = root; // a path that leads nowhere leaves no half-made tables behind
+  TomlNode changed = root; // a copy, so that an invalid path leaves the tree unchanged
   Walk walk{&changed, "", ""};
   for (const Step& step : steps) {
     if (walk.pattern == "fabrics.NAME") load_fabric(*walk.entry, walk.item, folder, diagnostics);
-    if (!walk.entry->valid) return; // the fabric's file cannot be read, and that is reported
+    if (!walk.entry->valid) return; // the fabric's file cannot be read; has been reported
     if (!descend(walk, step, change.first, diagnostics)) return;
   }
   value->key = walk.entry->key;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Warnings of meshes that are too coarse for what the bending of yarns decides.
+// Warnings of meshes that are too coarse for the lengths of bending_resolution.hpp.
 #include "core/input/bending_resolution.hpp"
 #include "core/input/case_parts.hpp"
 #include "core/model/fabric_estimates.hpp"
@@ -13,11 +13,11 @@
 namespace plyform {
 namespace {
 
-/// What does not fit a mesh of elements of size h (mm), and what would; empty if it fits.
+/// What a mesh of element size h (mm) does not resolve, and the size that would; empty if nothing.
 std::string too_coarse(const Fabric& f, bool stack, double h) {
   const BendingLengths lengths = bending_lengths(f, 0.0);
   if (lengths.sideways == 0.0) {
-    if (!stack) return ""; // hardly pressed, and no mesh would do
+    if (!stack) return ""; // hardly compressed, and no mesh would be fine enough
     return fmt::format(
         "yarns of {} bear compression but do not resist bending in their plane: where they are "
         "pressed they give way sideways at the size of the mesh, whatever it is; give warp and "
@@ -41,7 +41,7 @@ std::string too_coarse(const Fabric& f, bool stack, double h) {
                      f.name, what, std::floor(10.0 * element_size_needed(lengths)) / 10.0);
 }
 
-/// mm: side of a square of two triangles, on average.
+/// Mean element size (mm): side of a square of two triangles.
 double size_of(const BlankMesh& mesh) {
   double twice_area = 0.0;
   for (const Triangle& t : mesh.triangles) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Mistakes that only the whole scene shows.
+// Checks of the scene as a whole.
 #include "core/input/case_parts.hpp"
 #include "core/input/initial_scene.hpp"
 
@@ -40,7 +40,7 @@ const Fabric& fabric_of(const Case& scene, const Ply& ply) {
   return scene.fabrics[ply.fabric];
 }
 
-/// The blank's mesh, or nothing and a report, once a blank.
+/// The mesh of a ply's blank; reports an error, once per blank, and returns nothing if that fails.
 std::optional<BlankMesh> mesh_ply(SceneCheck& check, const Ply& ply, std::set<int>& reported) {
   const BlankSpec& blank = check.scene.blanks[ply.blank];
   try {
@@ -53,9 +53,10 @@ std::optional<BlankMesh> mesh_ply(SceneCheck& check, const Ply& ply, std::set<in
   }
 }
 
-/// Meshes all plies; false if one cannot be.
+/// Meshes all plies; false if one cannot be meshed.
 bool lay_plies(SceneCheck& check) {
-  std::map<std::tuple<int, double, int>, BlankMesh> meshes; // only MeshKind::fibres has an angle
+  // the angle matters for MeshKind::fibres only
+  std::map<std::tuple<int, double, int>, BlankMesh> meshes;
   std::set<int> reported;
   for (const Ply& ply : check.scene.plies) {
     const BlankSpec& blank = check.scene.blanks[ply.blank];
@@ -80,7 +81,8 @@ bool lay_plies(SceneCheck& check) {
   return reported.empty();
 }
 
-/// Plies whose bounding rectangles overlap are at least half of both thicknesses apart.
+/// Reports plies whose bounding rectangles overlap and whose distance is less than half the sum of
+/// their thicknesses.
 void check_plies_apart(SceneCheck& check) {
   for (std::size_t b = 0; b < check.plies.size(); ++b)
     for (std::size_t a = 0; a < b; ++a) {
@@ -93,11 +95,11 @@ void check_plies_apart(SceneCheck& check) {
                       "{:.4g} mm",
                       check.scene.plies[a].name, apart, needed),
           "change z of one of them, or leave z out to lay each ply on the one below");
-      break; // one report a ply
+      break; // one report per ply
     }
 }
 
-/// Where a tool lies deepest inside a ply, and all ply points that are inside it.
+/// Greatest depth of a tool inside a ply, and all points of plies that are inside the tool.
 struct Intrusion {
   double depth = 0.0;
   std::size_t ply = 0;
@@ -113,8 +115,8 @@ struct Intrusion {
   }
 };
 
-/// Nodes against the tool's distance, and the tool's surface against the flat ply: that finds
-/// tools that pass between the nodes.
+/// Tests nodes by their distance to the tool, and points of the tool's surface by their distance to
+/// the flat ply, which finds tools that penetrate between nodes.
 Intrusion find_intrusion(const SceneCheck& check, std::size_t tool_number) {
   const Tool& tool = check.scene.tools[tool_number];
   Intrusion found;
@@ -128,7 +130,7 @@ Intrusion find_intrusion(const SceneCheck& check, std::size_t tool_number) {
     visit_slab(check.surfaces[tool_number], ply.z - ply.half + touching,
                ply.z + ply.half - touching, [&](const Vec3& p) {
                  const double depth = ply.half - std::abs(p.z() - ply.z);
-                 // Chords across a hole are not in the tool: only points that are count.
+                 // Facets may span a hole: only points that really are in the tool count.
                  if (depth > touching && covers(ply, p.head<2>()) &&
                      tool_distance(tool, Vec3::Zero(), p, hint) <= touching)
                    found.add(depth, i, p);
@@ -137,7 +139,7 @@ Intrusion find_intrusion(const SceneCheck& check, std::size_t tool_number) {
   return found;
 }
 
-/// The least room that two tools leave along one of the vertical lines where plies lie.
+/// The smallest clearance (mm) of two tools along any of the vertical lines through plies.
 struct Clearance {
   double room = std::numeric_limits<double>::infinity(), needed = 0.0;
   std::size_t other = 0;
@@ -167,14 +169,14 @@ void clearance_on_line(const SceneCheck& check, std::size_t tool, const Vec2& xy
   }
 }
 
-/// Tools inside plies; if another tool stands opposite, it is the clearance that is too small.
+/// Reports tools inside plies, or, if another tool is opposite, that their clearance is too small.
 void check_tools_outside(SceneCheck& check) {
   std::set<std::pair<std::size_t, std::size_t>> reported;
   for (std::size_t tool = 0; tool < check.scene.tools.size(); ++tool) {
     const Intrusion found = find_intrusion(check, tool);
     if (!(found.depth > touching)) continue;
     Clearance least;
-    // Some hundred lines show the least room as well as thousands.
+    // About 300 lines are enough to find the smallest clearance.
     const std::size_t stride = std::max<std::size_t>(1, found.lines.size() / 300);
     for (std::size_t i = 0; i < found.lines.size(); i += stride)
       clearance_on_line(check, tool, found.lines[i], least);
@@ -203,7 +205,8 @@ Vec3 stroke_of(const Tool& tool) {
   return tool.motion == Motion::driven ? Vec3(tool.stroke * tool.direction) : Vec3(Vec3::Zero());
 }
 
-/// The least distance (mm) of a's surface to b, both at the end of their strokes, where plies were.
+/// The smallest distance (mm) of a's surface to b, both at the end of their strokes, in the area of
+/// the plies.
 double approach(const SceneCheck& check, std::size_t a, std::size_t b) {
   const Tool &ta = check.scene.tools[a], &tb = check.scene.tools[b];
   const Vec3 shift_a = stroke_of(ta), shift_b = stroke_of(tb);
@@ -212,15 +215,15 @@ double approach(const SceneCheck& check, std::size_t a, std::size_t b) {
   for (const Vec3& x : check.surfaces[a].x) {
     const Vec3 p = x + shift_a;
     if (!check.bounds.contains(p.head<2>())) continue;
-    // Corners of the tessellation are up to a sag off the true surface: taken off again.
+    // Corrected by the distance of the tessellation's corner from the true surface.
     const double off = tool_distance(ta, shift_a, p, hint_a);
     least = std::min(least, tool_distance(tb, shift_b, p, hint_b) + off);
   }
   return least;
 }
 
-/// What a driven tool comes to at the end of its stroke. A tool under a force is taken where it
-/// stands at the start: it may give way, so that is a warning only.
+/// Checks the distance of each driven tool to the other tools at the end of its stroke. A tool
+/// under a force is assumed at its initial position; as it can move, the result is a warning only.
 void check_end_of_stroke(SceneCheck& check) {
   const std::vector<Tool>& tools = check.scene.tools;
   for (std::size_t a = 0; a < tools.size(); ++a) {

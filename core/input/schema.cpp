@@ -60,12 +60,13 @@ std::string pattern_of(const std::string& pattern, const std::string& name) {
   const std::string prefix = pattern.empty() ? "" : pattern + ".";
   const KeyRow* table = find_key(pattern);
   if (table && table->kind == KeyKind::map) return prefix + "NAME";
-  if (name.find_first_of(".[") != std::string::npos) return ""; // "a.b" in quotes is one name
+  // a quoted name with dots or brackets matches no pattern
+  if (name.find_first_of(".[") != std::string::npos) return "";
   return find_key(prefix + name) ? prefix + name : "";
 }
 
 std::string last_part(const std::string& pattern) {
-  return pattern.substr(pattern.rfind('.') + 1); // npos + 1 = 0: all of it
+  return pattern.substr(pattern.rfind('.') + 1); // npos + 1 = 0: the whole pattern
 }
 
 namespace {

@@ -2,7 +2,7 @@
 // The one table of all keys of case and fabric files. The reader checks files against it and
 // `plyform keys` prints it, so that the two cannot disagree.
 //
-// Key patterns: NAME stands for a name of the user's choice, [] for an item of a list:
+// Key patterns: NAME stands for a user-defined name, [] for an item of a list:
 // blanks.NAME.size, tool[].radius. Fabric files have the keys below fabrics.NAME.
 #pragma once
 
@@ -21,7 +21,7 @@ enum class KeyKind {
   fabric, ///< path of a fabric file, or its table
   text,   ///< any string
   name,   ///< string of letters, digits, _ and -
-  path,   ///< string, sought from the file that it stands in
+  path,   ///< string, relative to the file that contains it
   choice, ///< one of `choices`
   number,
   integer,
@@ -32,7 +32,7 @@ enum class KeyKind {
   profile,  ///< list of [r, z], [r, z, fillet] and tables
 };
 
-/// Allowed numbers; the ends belong to it unless open.
+/// Range of allowed numbers; the ends belong to it unless open.
 struct Range {
   double least = -std::numeric_limits<double>::infinity();
   double most = std::numeric_limits<double>::infinity();
@@ -45,30 +45,31 @@ struct Range {
 struct KeyRow;
 struct TomlNode;
 
-/// The member that takes a key's value when its table is read into a struct (key_member.hpp).
+/// The member that a key's value is assigned to when its table is read into a struct
+/// (key_member.hpp).
 struct KeyMember {
   std::type_index of; ///< the struct
-  /// node: the value; null if it is missing or wrong, which has been reported.
+  /// node: the value; null if it is missing or invalid, which has been reported.
   std::function<void(void* object, const KeyRow& row, const TomlNode* node)> set;
 };
 
-/// A key. Required unless it has a fallback, an `otherwise` or a key that may stand in its place.
+/// A key. It is required unless it has a fallback, an `otherwise` or an alternative key `instead`.
 struct KeyRow {
   std::string key; ///< pattern
   KeyKind kind = KeyKind::number;
   std::string unit = "-";      ///< of each column: "deg, N mm"
   std::string fallback{};      ///< TOML value taken when the key is not given
-  std::string otherwise{};     ///< in words, for what is not given and has no such value
-  std::string instead{};       ///< the key that may stand in its place, never beside it; one of
-                               ///< the two is required unless they have an `otherwise`
-  std::vector<Range> ranges{}; ///< of each column; the last for all further ones
+  std::string otherwise{};     ///< default in words, if it is not a value
+  std::string instead{};       ///< alternative key; both must not be given, and one of the two
+                               ///< must be unless they have an `otherwise`
+  std::vector<Range> ranges{}; ///< per column; the last one applies to all further columns
   std::vector<std::string> choices{}; ///< for KeyKind::choice
-  std::size_t count = 0;              ///< items of numbers and names; 0 = any
-  std::size_t least_items = 0;        ///< of lists of any length
-  std::string of{};                   ///< neighbouring choice key that this key depends on ...
-  std::vector<std::string> with{};    ///< ... and its values that have this key
+  std::size_t count = 0;              ///< number of items of numbers and names; 0 = any
+  std::size_t least_items = 0;        ///< smallest number of items of lists of any length
+  std::string of{};                   ///< choice key of the same table that this key depends on
+  std::vector<std::string> with{};    ///< values of that choice key for which this key is allowed
   std::string meaning{};              ///< noun phrase, completes "give the ..."
-  std::vector<KeyMember> members{};   ///< of different structs
+  std::vector<KeyMember> members{};   ///< members that it fills, of different structs
 
   bool required() const { return fallback.empty() && otherwise.empty() && instead.empty(); }
   const Range& range_of(std::size_t column) const;
@@ -89,7 +90,7 @@ std::string pattern_of(const std::string& pattern, const std::string& name);
 /// The last part of a pattern: radius for tool[].radius.
 std::string last_part(const std::string& pattern);
 
-/// What one unit is inside the program (mm, N, s, t, rad), by column: g/m2 -> 1e-12 t/mm2.
+/// Factor from the unit of a column to the program's units (mm, N, s, t, rad): 1e-12 for g/m2.
 double unit_factor(const KeyRow& row, std::size_t column);
 
 } // namespace plyform

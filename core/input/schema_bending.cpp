@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Rows of the table of keys: what yarns answer to compression and bending.
+// Rows of the table of keys: compression and bending of yarns.
 #include "core/input/key_member.hpp"
 #include "core/input/schema_case.hpp"
 

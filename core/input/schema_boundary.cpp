@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys of grips, frames and planes of symmetry.
+// Rows of the table of keys: grips, frames and planes of symmetry.
 #include "core/input/key_member.hpp"
 #include "core/input/schema_case.hpp"
 
@@ -9,7 +9,7 @@ namespace {
 
 using K = KeyKind;
 
-/// A pair of points that belongs to one kind of boundary.
+/// Row of a list of `count` points that one kind of boundary has.
 KeyRow points(const char* name, const char* kind, std::size_t count, const char* meaning) {
   return {.key = std::string("boundary[].") + name,
           .kind = K::pairs,

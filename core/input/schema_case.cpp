@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The rows of the table of keys: what may stand in a case or fabric file.
+// The table of keys of case and fabric files, and its rows for cases.
 #include "core/input/schema_case.hpp"
 
 #include "core/input/key_member.hpp"
@@ -15,7 +15,7 @@ using K = KeyKind;
 const Range share{.least = 0.0, .most = 1.0};
 const Range positive_share{.least = 0.0, .most = 1.0, .open_least = true};
 
-/// A default that the program's own options already have.
+/// Text of a default value of the program's option structs.
 std::string toml(double number) {
   return fmt::format("{}", number);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Parts of the table of keys (core/input/schema.hpp), for the schema_*.cpp of this folder only.
+// Parts of the table of keys (core/input/schema.hpp). Internal to core/input.
 #pragma once
 
 #include "core/input/schema.hpp"

@@ -19,11 +19,11 @@ std::string give(const KeyRow& row) {
   return "give the " + meaning + (row.unit == "-" ? "" : ", in " + row.unit);
 }
 
-/// What is being checked: a value, its row and its dotted path.
+/// Context of the check of a value.
 struct Check {
   const KeyRow& row;
   Diagnostics& diagnostics;
-  /// Reports and marks the value as wrong. Always false, to be handed on.
+  /// Reports an error and marks the value as invalid. Returns false, for the caller to return.
   bool fail(TomlNode& value, const std::string& item, const std::string& rule) const {
     diagnostics.error(value.at, item, value.source_text, rule, give(row));
     return value.valid = false;
@@ -49,7 +49,7 @@ bool check_list(const Check& check, TomlNode& value, const std::string& item, co
   return true;
 }
 
-/// Numbers of a list; `least` to `most` of them.
+/// Checks a list of `least` to `most` numbers.
 bool check_numbers(const Check& check, TomlNode& value, const std::string& item, std::size_t least,
                    std::size_t most) {
   const std::string wanted =
@@ -153,7 +153,7 @@ bool check_table(const Check& check, TomlNode& value, const std::string& item) {
 }
 
 bool check_value(const Check& check, TomlNode& value, const std::string& item) {
-  if (!value.valid) return false; // reported before: a fabric file that cannot be read
+  if (!value.valid) return false; // has been reported: a fabric file that cannot be read
   switch (check.row.kind) {
   case KeyKind::table:
   case KeyKind::map:
@@ -207,12 +207,12 @@ void add_default(TomlNode& table, const KeyRow& row) {
   table.children.push_back(std::move(*value));
 }
 
-/// The pattern of the key that may stand in this one's place.
+/// The pattern of the alternative key (KeyRow::instead).
 std::string pattern_beside(const KeyRow& row) {
   return row.key.substr(0, row.key.size() - last_part(row.key).size()) + row.instead;
 }
 
-/// One row of the table against what is given for it.
+/// Checks the value of one key of the table, or that it is missing.
 void check_row(const TableView& section, const KeyRow& row, Diagnostics& diagnostics) {
   const std::string key = last_part(row.key);
   TomlNode& table = *section.entry;
@@ -225,8 +225,8 @@ void check_row(const TableView& section, const KeyRow& row, Diagnostics& diagnos
   }
   if (applies && !row.fallback.empty() && !table.find(key)) add_default(table, row);
   const std::string item = item_of(section, key);
-  // Of two keys that stand for each other, the first in the table is missed and the second is too
-  // much, so that neither mistake is reported twice.
+  // Of two alternative keys, the row that comes first in the table reports that both are missing,
+  // the other one that both are given, so that no error is reported twice.
   const KeyRow* other = row.instead.empty() ? nullptr : find_key(pattern_beside(row));
   const bool first = other && &row < other;
   if (TomlNode* value = table.find(key)) {
@@ -247,7 +247,7 @@ void check_row(const TableView& section, const KeyRow& row, Diagnostics& diagnos
 
 void report_unknown_key(const TableView& section, const Place& at, const std::string& key,
                         const std::string& value, Diagnostics& diagnostics) {
-  std::vector<std::string> known; // without those of other shapes and kinds
+  std::vector<std::string> known; // keys of this section, without those of other choices
   for (const KeyRow* row : keys_below(section.pattern)) {
     const TomlNode* choice = row->of.empty() ? nullptr : given(section, row->of);
     if (!choice || row->goes_with(choice->text)) known.push_back(last_part(row->key));
@@ -262,14 +262,14 @@ void report_unknown_key(const TableView& section, const Place& at, const std::st
 void check_section(const TableView& section, Diagnostics& diagnostics) {
   TomlNode& table = *section.entry;
   const KeyRow* own = find_key(section.pattern);
-  if (own && own->kind == KeyKind::map) { // every key is a name of the user's choice
+  if (own && own->kind == KeyKind::map) { // every key is a user-defined name
     for (TomlNode& child : table.children)
       check_value({*find_key(section.pattern + ".NAME"), diagnostics}, child,
                   item_of(section, child.key));
     return;
   }
   const std::vector<const KeyRow*> rows = keys_below(section.pattern);
-  for (const KeyRow* row : rows) // the choices first: other keys depend on them
+  for (const KeyRow* row : rows) // choice keys first, as others depend on them
     if (row->of.empty()) check_row(section, *row, diagnostics);
   for (const KeyRow* row : rows)
     if (!row->of.empty()) check_row(section, *row, diagnostics);

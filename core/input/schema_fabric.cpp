@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys of fabrics.NAME and of fabric files; those of bending are in schema_bending.cpp.
+// Rows of the table of keys: fabrics.NAME and fabric files; those of bending are in
+// schema_bending.cpp.
 #include "core/input/key_member.hpp"
 #include "core/input/schema_case.hpp"
 #include "core/input/sheet_laws.hpp"

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Keys of [[tool]]: places and motions; those of shapes are in tool_shapes.cpp.
+// Rows of the table of keys: position and motion of [[tool]]; those of shapes are in
+// tool_shapes.cpp.
 #include "core/input/key_member.hpp"
 #include "core/input/schema_case.hpp"
 

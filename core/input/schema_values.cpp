@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Values of keys that passed the check, in the program's units.
+// Values of keys that check_section found valid, in the program's units.
 #include "core/input/schema_check.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sheets without yarns in a fabric file: for each law its word under `law`, its keys, its reader.
+// Laws of sheets without yarns in a fabric file: for each the word of the key `law`, its keys and
+// its reader.
 #pragma once
 
 #include "core/input/schema_case.hpp"
@@ -13,8 +14,8 @@ std::vector<std::string> fabric_laws();
 /// Rows below fabrics.NAME.
 Rows sheet_law_rows();
 
-/// Reads the law of a sheet and its bending into a fabric whose thickness is known; false if the
-/// section is one with yarns.
+/// Reads the law of a sheet and its bending into a fabric whose thickness has been read; false if
+/// the fabric has yarns.
 bool read_sheet(const TableView& section, Fabric& fabric);
 
 } // namespace plyform

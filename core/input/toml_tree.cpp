@@ -24,7 +24,7 @@ const TomlNode* TomlNode::find(const std::string& name) const {
 
 namespace {
 
-/// The text that is parsed, in lines, to quote values as they were written.
+/// The parsed text, in lines, to quote values as written.
 struct Source {
   std::string name;
   std::vector<std::string_view> lines;
@@ -51,7 +51,7 @@ std::size_t byte_of_column(std::string_view line, std::size_t column) {
   return byte;
 }
 
-/// The first line of what stands in the region, at most 60 characters.
+/// The first line of a region of the text, at most 60 characters.
 std::string quote(const Source& source, const toml::source_region& region) {
   constexpr std::size_t longest = 60;
   if (region.begin.line == 0 || region.begin.line > source.lines.size()) return "";
@@ -78,7 +78,7 @@ void convert_members(const toml::table& table, const Source& source, TomlNode& e
     child.key_at = place_of(source, key.source().begin);
     entry.children.push_back(std::move(child));
   }
-  // toml++ sorts keys by name; mistakes read better in the order of the file.
+  // toml++ sorts keys by name; errors are reported in the order of the file.
   std::stable_sort(entry.children.begin(), entry.children.end(),
                    [](const TomlNode& a, const TomlNode& b) {
                      return std::pair(a.key_at.line, a.key_at.column) <
@@ -133,7 +133,7 @@ std::optional<TomlNode> parse_value(const std::string& text, const std::string& 
     reason = "it has more than one line";
     return std::nullopt;
   }
-  // A key padded with spaces puts the value into its column.
+  // The value is parsed after a key padded with spaces, so that errors have the right column.
   const std::string line = fmt::format("v{:{}}={}", "", std::max(column, 3) - 3, text);
   Diagnostics diagnostics;
   std::optional<TomlNode> table = parse_entries(line, name, diagnostics);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stands in a TOML file, with the place of every value: the parser's types end here, so that
-// the rest of the reader knows nothing of them.
+// The entries of a TOML file with the position of every value. Types of the parser (toml++) are
+// used in toml_tree.cpp only.
 #pragma once
 
 #include "core/base/diagnostics.hpp"
@@ -11,33 +11,33 @@
 
 namespace plyform {
 
-/// A value and, for tables and lists, what is in it.
+/// A value and, for tables and lists, its entries.
 struct TomlNode {
   enum class Kind { table, list, string, integer, number, boolean, date };
   Kind kind = Kind::table;
   Place at;                       ///< of the value; of the header for [tables]
   Place key_at;                   ///< of its key; the same as `at` in a list
   std::string key;                ///< in its table; empty in a list
-  std::string source_text;        ///< as it stands in the file, shortened
+  std::string source_text;        ///< as written in the file, shortened
   std::string text;               ///< of a string
   double number = 0.0;            ///< of an integer or number
   std::vector<TomlNode> children; ///< of a table in the order of the file, of a list
-  bool valid = true;              ///< false once a mistake in it has been reported
+  bool valid = true;              ///< false once an error in it has been reported
 
   TomlNode* find(const std::string& name);
   const TomlNode* find(const std::string& name) const;
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
 };
 
-/// The file name of errors in overrides.
+/// File name in errors of overrides.
 inline constexpr const char* override_file = "--set";
 
-/// Parses TOML text; a syntax error is reported with its place in `name` and answered with nothing.
+/// Parses TOML text; reports a syntax error with its position in `name` and returns nothing then.
 std::optional<TomlNode> parse_entries(const std::string& text, const std::string& name,
                                       Diagnostics& diagnostics);
 
-/// One value as TOML, without its key. Nothing if it is no TOML value; `reason` then says why.
-/// `column` (from 1) is where it starts in the text the places shall refer to.
+/// Parses one value as TOML, without its key. If it is not a TOML value, returns nothing and sets
+/// `reason`. column: of its first character (from 1) in the text that positions refer to.
 std::optional<TomlNode> parse_value(const std::string& text, const std::string& name, int column,
                                     std::string& reason);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Tools: places and motions; their shapes are in tool_shapes.cpp.
+// Reads tools: position and motion; their shapes are in tool_shapes.cpp.
 #include "core/input/case_parts.hpp"
 #include "core/input/key_member.hpp"
 
@@ -18,15 +18,15 @@ Vec3 read_direction(const TableView& tool, const std::string& key, Diagnostics& 
 
 namespace {
 
-/// Turn about z first, then the shortest rotation that brings z to the axis.
+/// Rotation of a tool: first by `turn` about z, then the shortest rotation from z to the axis.
 Eigen::Matrix3d read_rotation(const TableView& tool, Diagnostics& diagnostics) {
   const double turn = number(tool, "turn");
   const Eigen::Matrix3d turned = Eigen::AngleAxisd(turn, Vec3::UnitZ()).toRotationMatrix();
   if (!given(tool, "axis")) return turned;
   const Vec3 axis = read_direction(tool, "axis", diagnostics);
-  if (axis.z() > 1.0 - 1e-14) return turned; // no rounding for tools that stand upright
+  if (axis.z() > 1.0 - 1e-14) return turned; // no rounding errors for vertical tools
   Eigen::Quaterniond tilt = Eigen::Quaterniond::FromTwoVectors(Vec3::UnitZ(), axis);
-  // Half a turn has no shortest way: about x.
+  // For the axis -z the shortest rotation is not unique: half a turn about x.
   if (axis.z() < -1.0 + 1e-12) tilt = Eigen::Quaterniond(0.0, 1.0, 0.0, 0.0);
   return tilt.toRotationMatrix() * turned;
 }

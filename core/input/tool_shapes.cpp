@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Shapes of tools in a case file: for each its word, its keys under tool[], and its reader.
+// Shapes of tools in a case file: for each the word of the key `shape`, its keys under tool[], and
+// its reader.
 #include "core/input/case_parts.hpp"
 #include "core/input/key_member.hpp"
 #include "core/input/overrides.hpp"
@@ -15,7 +16,7 @@ namespace {
 
 using K = KeyKind;
 
-/// What readers of shapes get.
+/// Arguments of the readers of shapes.
 struct ShapeSection {
   const TableView& tool;
   const std::filesystem::path& folder; ///< of the case file
@@ -28,8 +29,8 @@ ToolShape read_sphere(const ShapeSection& s) {
   return sphere;
 }
 
-/// The rounding of all edges stays below half the smallest dimension, so that something flat is
-/// left on every side.
+/// Checks that the edge radius is below half the smallest dimension, so that every side keeps a
+/// flat part.
 void check_edge(const ShapeSection& s, double edge, double smallest) {
   const std::string shape = text(s.tool, "shape");
   if (smallest > 0.0 && edge >= 0.5 * smallest)
@@ -66,7 +67,7 @@ ToolShape read_ring(const ShapeSection& s) {
                 "exchange the two, or use shape disc for a ring without a hole", s.diagnostics);
   const bool disc = ring.inner_radius == 0.0;
   const double width = disc ? ring.outer_radius : (ring.outer_radius - ring.inner_radius) / 2.0;
-  const double room = std::min(ring.thickness / 2.0, width); // that one rounding may take
+  const double room = std::min(ring.thickness / 2.0, width); // largest edge radius
   if (room > 0.0 && ring.edge_radius > room)
     value_error(s.tool, "edge_radius",
                 fmt::format("must be at most {:g}, for the roundings to fit the section", room),
@@ -74,13 +75,13 @@ ToolShape read_ring(const ShapeSection& s) {
   return ring;
 }
 
-/// Straight points with fillets and arcs, put together into one profile.
+/// Assembles a profile from points with fillets and arcs.
 struct ProfileReader {
   const TableView& tool;
   Diagnostics& diagnostics;
   RevolvedProfile profile{};
-  std::vector<std::array<double, 3>> run{};   ///< points joined by straight lines so far
-  std::vector<const TomlNode*> run_entries{}; ///< and where they stand
+  std::vector<std::array<double, 3>> run{};   ///< points of the current polyline
+  std::vector<const TomlNode*> run_entries{}; ///< their entries in the file
 
   void fail(const TomlNode& at, std::size_t index, const std::string& rule,
             const std::string& remedy) {
@@ -98,7 +99,7 @@ void ProfileReader::straight(const TomlNode& entry) {
   run_entries.push_back(&entry);
 }
 
-/// Hands the straight points over; a fillet needs a line on both sides.
+/// Appends the current polyline to the profile; a fillet needs a line on both sides.
 void ProfileReader::finish_run() {
   for (const std::size_t end : {std::size_t{0}, run.size() - 1}) {
     if (run[end][2] == 0.0) continue;
@@ -119,7 +120,7 @@ void ProfileReader::finish_run() {
   }
 }
 
-/// {to = [r, z], centre = [r, z], turn = "left" or "right"}, from the point before.
+/// Appends an arc {to = [r, z], centre = [r, z], turn = "left" or "right"} from the last point.
 void ProfileReader::arc(const TomlNode& entry, std::size_t index) {
   const auto point = [&](const char* key) {
     const TomlNode* list = entry.find(key);
@@ -189,7 +190,7 @@ std::vector<std::string> shape_words() {
   return words;
 }
 
-/// A length of some shapes.
+/// Row of a length that the shapes `of` have.
 KeyRow length(const char* name, std::vector<std::string> of, Range range, const char* meaning,
               std::vector<KeyMember> members) {
   return {.key = std::string("tool[].") + name,
@@ -275,7 +276,7 @@ ToolShape read_shape(const TableView& tool, const std::filesystem::path& folder,
                      Diagnostics& diagnostics) {
   for (const ShapeInput& shape : shapes)
     if (text(tool, "shape") == shape.word) return shape.read({tool, folder, diagnostics});
-  return Plane{}; // a word that is not there has been reported
+  return Plane{}; // an unknown word has been reported
 }
 
 } // namespace plyform

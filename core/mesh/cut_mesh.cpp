@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Cells wholly inside any outline stay as they are; a band of triangles joins them to it.
+// Mesh of an arbitrary outline: regular cells wholly inside it, joined to it by a band of
+// triangles.
 //
 // The cells come from a lattice of sides h along the directions a and b, through the middle of the
 // outline's bounding box. The band is meshed by Delaunay refinement between the outline, cut into
-// pieces of about h, and the steps that the outermost cells form; lattice nodes in the band are
-// used as well. Where refinement had to split a side of a cell, that cell is given to the band and
-// the band meshed anew, so that every cell left is whole.
+// pieces of about h, and the stepped boundary of the cells; lattice nodes in the band are used as
+// well. Where refinement has split a side of a cell, that cell is removed, its area is added to the
+// band, and the band is meshed again, until no cell has a split side.
 #include "core/mesh/mesher_parts.hpp"
 
 #include <algorithm>
@@ -16,12 +17,12 @@
 namespace plyform {
 namespace {
 
-/// Distance of lattice nodes and cells from the outline, over h. Half a piece of the outline: no
-/// node then lies in the circle over a piece, which would have the mesher split it. Measured with
-/// 0.4, 0.45, 0.5, 0.55: smallest height over h 0.23, 0.26, 0.31, 0.34 (grid: 0.71); with 0.5 no
-/// piece of h is split.
+/// Smallest distance of lattice nodes and cells from the outline, over h. With half a piece of the
+/// outline no node lies in the diametral circle of a piece, where the mesher would split it.
+/// Measured with 0.4, 0.45, 0.5, 0.55: smallest height over h 0.23, 0.26, 0.31, 0.34 (grid: 0.71);
+/// with 0.5 no piece of h is split.
 constexpr double margin = 0.5;
-/// Degrees; the mesher is sure to end up to 20.7.
+/// Degrees; up to 20.7 the termination of the mesher is proven.
 constexpr double min_angle = 20.0;
 
 /// Node (i, j) at origin + i ha + j hb for 0 <= i < ni, 0 <= j < nj; cell (i, j) has it as its p00.
@@ -60,7 +61,7 @@ struct Use {
 };
 
 /// Nodes inside the outline: in each row an odd number of sides lies to the left of them. Nodes
-/// within rounding of a side may go either way.
+/// within rounding of a side may count as inside or outside.
 std::vector<char> nodes_inside(const Lattice& lattice, const Region& outline) {
   std::vector<std::vector<double>> crossings(static_cast<std::size_t>(lattice.nj));
   for (const Edge& e : outline.edges) {
@@ -101,7 +102,7 @@ double distance(const Lattice& lattice, int i, int j, const Vec2& p, const Vec2&
                    distance(c[2], c[3], p, q), distance(c[3], c[0], p, q)});
 }
 
-/// Takes nodes and cells closer than `least` (mm) to the outline out of use.
+/// Marks nodes and cells closer than `least` (mm) to the outline as not used.
 void keep_away(const Lattice& lattice, const Region& outline, double least, Use& use) {
   const double reach = least * lattice.ha.norm() / cross(lattice.ha, lattice.hb); // in i and j
   for (const Edge& e : outline.edges) {
@@ -181,7 +182,8 @@ std::vector<Step> steps_of(const Cells& cells) {
   return steps;
 }
 
-/// Takes cells out of use whose steps the band has split. False if there are none.
+/// Marks cells with a step that the mesh of the band has split as not used. False if there are
+/// none.
 bool drop_split_cells(const std::vector<Step>& steps, const Cells& cells, const BlankMesh& band,
                       Use& use) {
   std::vector<Edge> edges;
@@ -223,7 +225,7 @@ BlankMesh cut_blank(const BlankSpec& spec, const CellDirections& directions) {
 
   Cells cells;
   BlankMesh band;
-  for (bool whole = false; !whole;) { // ends: each round has fewer cells
+  for (bool whole = false; !whole;) { // terminates: each round has fewer cells
     cells = cells_in_use(lattice, use, number);
     const std::vector<Step> steps = steps_of(cells);
     Region region = unstepped;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The only place that knows CGAL's Delaunay mesher.
+// Delaunay refinement by CGAL Mesh_2, which only this file includes.
 #include "core/mesh/mesher_parts.hpp"
 
 #include <CGAL/Constrained_Delaunay_triangulation_2.h>
@@ -47,7 +47,8 @@ Triangulation triangulate(const Region& region) {
   return t;
 }
 
-/// Marks the faces that an odd number of constraints shields from infinity.
+/// Marks the faces inside the region: those separated from infinity by an odd number of
+/// constraints.
 void mark_region(Triangulation& t) {
   std::map<Face, bool> inside{{t.infinite_face(), false}};
   std::queue<Face> todo;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Which entries of an array of contributions belong to each node, so that a node's sum is done by
-// one thread and in one order.
+// Inverse of a node numbering: for each node the entries of an array of contributions that belong
+// to it, so that one thread sums them in a fixed order.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@ struct Gather {
   std::vector<std::int32_t> begin, gather;
 };
 
-/// `node_of`: the node that each entry contributes to, below `nodes`.
+/// node_of: the node, in [0, nodes), that each entry contributes to.
 inline Gather make_gather(std::span<const std::int32_t> node_of, std::size_t nodes) {
   Gather g;
   g.begin.assign(nodes + 1, 0);

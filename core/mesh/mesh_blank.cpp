@@ -19,8 +19,8 @@ CellDirections cell_directions(MeshKind mesh, double warp, double weft) {
     a = b;
     b = turned;
   }
-  // Degrees. The band is refined until its angles are 20 degrees; cells near that are slivers
-  // themselves and get eaten up (measured: from 22 degrees on none is).
+  // Degrees. The band is refined until its angles are at least 20 degrees; cells with an angle near
+  // that would all be split and removed (measured: none is from 22 degrees on).
   constexpr double least = 25.0;
   const double angle = std::asin(std::min(1.0, cross(a, b))) * 180 / std::numbers::pi;
   if (!(angle >= least))
@@ -35,7 +35,7 @@ BlankMesh free_blank(const BlankSpec& spec) {
   // The mesher bounds the longest edge; measured on squares, circles and pierced polygons, 1.42 h
   // gives a mean edge within 2 % of h.
   constexpr double longest = 1.42;
-  constexpr double min_angle = 20.5; // degrees; the mesher is sure to end up to 20.7
+  constexpr double min_angle = 20.5; // degrees; up to 20.7 the termination of the mesher is proven
   return refine(sample_outline(spec.outline, spec.element_size), min_angle * std::numbers::pi / 180,
                 longest * spec.element_size);
 }

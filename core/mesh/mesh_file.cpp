@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A blank meshed elsewhere: STL, OBJ, PLY or OFF, read by CGAL as loose triangles. Triangles are
-// turned anticlockwise and equal nodes joined (STL repeats them); anything else wrong is an error.
+// Reads the mesh of a blank from STL, OBJ, PLY or OFF (CGAL), as a triangle soup. Triangles are
+// oriented anticlockwise and equal nodes merged (STL repeats them); any other defect is an error.
 #include "core/mesh/mesher_parts.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
@@ -19,7 +19,7 @@
 namespace plyform {
 namespace {
 
-/// Of the blank's size; a binary STL rounds to 6e-8.
+/// Largest deviation from a plane over the blank's size; a binary STL rounds to 6e-8.
 constexpr double flat = 1e-6;
 /// Height over longest side below which a triangle counts as having no area.
 constexpr double thin = 1e-6;
@@ -74,7 +74,7 @@ void check_soup(const Soup& soup) {
                     box.min().z(), box.max().z()));
 }
 
-/// Joins equal nodes, drops unused ones (order of first use) and turns triangles anticlockwise.
+/// Merges equal nodes, numbers used ones in order of first use and orients triangles anticlockwise.
 BlankMesh join(const Soup& soup) {
   BlankMesh mesh;
   std::map<std::pair<double, double>, std::int32_t> node;
@@ -101,7 +101,8 @@ BlankMesh join(const Soup& soup) {
   return mesh;
 }
 
-/// Directed edges, sorted: each may occur once, its reverse once at most.
+/// The directed edges, sorted. Throws unless each, and each reverse, occurs at most once
+/// (manifold).
 std::vector<Edge> checked_edges(const BlankMesh& mesh) {
   std::vector<Edge> edges;
   for (const Triangle& t : mesh.triangles)
@@ -118,7 +119,7 @@ std::vector<Edge> checked_edges(const BlankMesh& mesh) {
   return edges;
 }
 
-/// At each node at most one edge of the rim leaves; two mean that parts meet in the node only.
+/// Throws if more than one boundary edge starts at a node: parts of the mesh then meet at it only.
 void check_nodes(const BlankMesh& mesh, const std::vector<Edge>& edges) {
   std::vector<char> touches_boundary_edge(mesh.x.size(), 0);
   for (const Edge& e : edges) {

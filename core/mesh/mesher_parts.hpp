@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the blank mesher is made of; only files of core/mesh include this. mm throughout.
+// Internal to core/mesh: functions that its files share. Lengths in mm.
 #pragma once
 
 #include "core/mesh/mesh_blank.hpp"
@@ -17,7 +17,8 @@ inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// Points joined by edges; the region to mesh is what an odd number of edges shields from infinity.
+/// Points joined by edges. The region to mesh is the set of points separated from infinity by an
+/// odd number of edges.
 struct Region {
   std::vector<Vec2> x;
   std::vector<Edge> edges;
@@ -28,8 +29,8 @@ struct CellDirections {
   Vec2 a = Vec2::UnitX(), b = Vec2::UnitY();
 };
 
-/// x and y, or for MeshKind::fibres the fibre directions (rad), so turned or swapped that the angle
-/// from a to b is at most 90 degrees. Throws if they are nearly parallel.
+/// x and y, or for MeshKind::fibres the fibre directions (rad), reversed or swapped so that the
+/// angle from a to b is at most 90 degrees. Throws std::runtime_error if it is below 25 degrees.
 CellDirections cell_directions(MeshKind mesh, double warp, double weft);
 
 /// Cells that are not squares: the angle from a to b differs from 90 degrees.
@@ -40,29 +41,32 @@ inline bool is_skew(const CellDirections& d) {
 /// Throws std::runtime_error unless the outline can be meshed with elements of this size.
 void check_outline(const Outline& outline, double element_size);
 
-/// The loops of the outline cut into pieces of about `spacing`, evenly between corners; every
-/// corner stays.
+/// The loops of the outline divided into pieces of about `spacing` (mm), equal between two corners;
+/// every corner is a point.
 Region sample_outline(const Outline& outline, double spacing);
 
-/// The one or two diagonals of the cell p00 p10 p11 p01 (node numbers); `centre` is the node in
-/// the middle, for MeshKind::crossed. The diagonal is p00-p11, or the other one, p10-p01: the
-/// shorter one of a skew cell (angle at p00 below 90 degrees).
+/// Appends the two or four triangles of the cell p00 p10 p11 p01 (node numbers); `centre` is the
+/// node in its middle, for MeshKind::crossed. The diagonal is p00-p11, or with other_diagonal
+/// p10-p01, which is the shorter one of a skew cell (angle at p00 below 90 degrees).
 void append_cell(const std::array<std::int32_t, 4>& cell, std::int32_t centre, MeshKind mesh,
                  bool other_diagonal, std::vector<Triangle>& triangles);
 
-/// Exact grid if the outline is a parallelogram without holes with sides along the cells.
+/// Exact grid if the outline is a parallelogram without holes with sides parallel to those of the
+/// cells, else nothing (structured_mesh.cpp).
 std::optional<BlankMesh> structured_blank(const BlankSpec& spec, const CellDirections& directions);
 
-/// Whole cells inside, a band of triangles along the outline.
+/// Whole cells inside, a band of triangles along the outline (cut_mesh.cpp).
 BlankMesh cut_blank(const BlankSpec& spec, const CellDirections& directions);
 
+/// Delaunay mesh of the whole outline, with a mean edge of about element_size.
 BlankMesh free_blank(const BlankSpec& spec);
 
+/// Mesh from an STL, OBJ, PLY or OFF file. Throws std::runtime_error as mesh_blank.
 BlankMesh blank_from_file(const std::filesystem::path& file);
 
 /// Delaunay refinement (CGAL Mesh_2) of a region. The nodes of the region come first and keep their
-/// numbers; edges may be split. `min_angle` in rad, at most 20.7 degrees (else it need not end);
-/// angles of the region's own that are smaller stay. `max_edge` 0: no bound.
+/// numbers; edges may be split. min_angle: rad, at most 20.7 degrees (beyond, termination is not
+/// proven); smaller angles of the region itself remain. max_edge: mm, 0 for no bound.
 BlankMesh refine(const Region& region, double min_angle, double max_edge);
 
 } // namespace plyform

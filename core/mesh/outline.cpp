@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What an outline must be before it is meshed. Points, sides and holes are numbered from 0 in the
+// Checks of an outline before it is meshed. Points, sides and holes are numbered from 0 in the
 // messages, as in dotted paths of case-file keys; side k runs from point k to the next.
 #include "core/mesh/mesher_parts.hpp"
 
@@ -19,9 +19,10 @@ namespace {
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Loop = std::vector<Kernel::Point_2>;
 
-/// More triangles are taken for a slip in element_size: their step alone would take seconds.
+/// More triangles are rejected as a probable mistake in element_size: one time step of them would
+/// take seconds.
 constexpr double most_triangles = 1e7;
-/// Points within this fraction of the loop's length of one line enclose no area.
+/// A loop whose width is below this fraction of its length counts as a line without area.
 constexpr double line = 1e-9;
 
 [[noreturn]] void fail(const std::string& message) {
@@ -40,7 +41,7 @@ std::string text(const Loop& loop, std::size_t k) {
   return fmt::format("side {} from {} to {}", k, text(loop[k]), text(loop[(k + 1) % loop.size()]));
 }
 
-/// Finite points, at least three, no neighbours equal.
+/// The loop, checked: finite points, at least three, no two successive ones equal.
 Loop checked_points(const std::vector<Vec2>& points, const std::string& name) {
   if (points.size() < 3)
     fail(fmt::format("{} has {} points, at least 3 are needed; add its missing corners", name,
@@ -120,7 +121,8 @@ void check_apart(const Loop& a, const std::string& a_name, const Loop& b,
                          text(a, k), a_name, text(b, l), b_name));
 }
 
-/// For loops whose sides do not meet: one point tells for all.
+/// Whether loop a lies inside loop b, for loops whose sides do not meet: one point is
+/// representative.
 bool lies_in(const Loop& a, const Loop& b) {
   return CGAL::bounded_side_2(b.begin(), b.end(), a.front()) == CGAL::ON_BOUNDED_SIDE;
 }
@@ -147,7 +149,7 @@ void check_size(const Loop& boundary, double element_size) {
     fail(fmt::format("element_size {:g} mm must be greater than 0", element_size));
   double length = 0.0;
   const double width = smallest_width(boundary, length);
-  // Rounding of a width computed across a slanted side must not refuse one cell across.
+  // Tolerance for rounding of the width across an inclined side, so that one cell is accepted.
   if (element_size > width * (1 + 1e-9))
     fail(fmt::format("element_size {:g} mm is larger than the blank's smallest width {:g} mm; "
                      "choose less, usually a twentieth of it",

@@ -34,15 +34,15 @@ std::vector<SharedSide> shared_sides(const BlankMesh& mesh) {
     const Vec2 d = mesh.x[sides[i].high] - mesh.x[sides[i].low];
     shared.push_back({d.squaredNorm(), sides[i - 1].triangle, sides[i].triangle});
   }
-  // Longest first. Lengths that agree to rounding count as equal, or a uniform mesh would be paired
-  // at random.
+  // Longest first. Lengths are compared as floats, so that those equal up to rounding keep the
+  // order of the mesh; else a uniform mesh would be paired irregularly.
   std::stable_sort(shared.begin(), shared.end(), [](const SharedSide& s, const SharedSide& t) {
     return static_cast<float>(s.length2) > static_cast<float>(t.length2);
   });
   return shared;
 }
 
-/// The up to three triangles beside each triangle, -1 where there is none.
+/// The neighbours of each triangle across its sides, -1 if there is none.
 using Neighbours = std::vector<std::array<std::int32_t, 3>>;
 
 Neighbours neighbours_of(std::size_t triangles, const std::vector<SharedSide>& sides) {
@@ -56,17 +56,18 @@ Neighbours neighbours_of(std::size_t triangles, const std::vector<SharedSide>& s
   return beside;
 }
 
-/// Pairs two single triangles by shifting the pairs on a chain between them. Breadth first from
-/// `single`: a neighbour v of the chain's end gives up its mate w, which becomes the new end. (An
-/// augmenting path of matching theory; odd rings of triangles, through which a chain may fail to be
-/// found, are left out, and with them very few pairs.)
+/// Pairs two single triangles by re-pairing the triangles on a chain between them: an augmenting
+/// path of matching theory, by breadth-first search from `single`, in which a neighbour v of the
+/// end of the chain is separated from its mate w, and w becomes the new end. Odd cycles of
+/// triangles (blossoms) are not treated, so that very few possible pairs are missed.
 class ChainSearch {
 public:
   ChainSearch(const Neighbours& neighbours, std::vector<std::int32_t>& mates)
       : beside(neighbours), mate(mates), seen(mates.size(), -1), from(mates.size(), -1) {}
 
   void pair_up(std::int32_t single) {
-    constexpr std::size_t farthest = 2000; // triangles looked at: bounds the time of hopeless ones
+    // triangles visited at most, to limit the time of a search without result
+    constexpr std::size_t farthest = 2000;
     std::vector<std::int32_t> ends{single};
     seen[at(single)] = single;
     for (std::size_t i = 0; i < ends.size() && i < farthest; ++i)
@@ -85,7 +86,8 @@ public:
 private:
   static std::size_t at(std::int32_t e) { return static_cast<std::size_t>(e); }
 
-  /// Joins v to the end it was reached from, that end's mate to the one before, and so on.
+  /// Re-pairs the chain: v with the end it was reached from, that end's former mate with the end
+  /// before it, and so on to `single`.
   void shift(std::int32_t v, std::int32_t single) {
     for (;;) {
       const std::int32_t end = from[at(v)], next = mate[at(end)];
@@ -98,7 +100,8 @@ private:
 
   const Neighbours& beside;
   std::vector<std::int32_t>& mate;
-  std::vector<std::int32_t> seen, from; ///< by which search; the end that reached it
+  std::vector<std::int32_t> seen, from; ///< per triangle: search that visited it last; end of the
+                                        ///< chain that it was reached from
 };
 
 } // namespace

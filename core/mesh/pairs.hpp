@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Pairs of triangles that share one mean strain for each fibre family (core/ply/membrane.hpp).
+// Strain groups: pairs of triangles that share one mean strain for each fibre family, or single
+// triangles (core/ply/membrane.hpp).
 #pragma once
 
 #include "core/mesh/mesh_blank.hpp"
@@ -11,25 +12,25 @@ namespace plyform {
 
 constexpr int most_in_group = 2;
 
-/// Patch p holds triangles[begin[p]] .. triangles[begin[p + 1] - 1] of the mesh.
+/// Group p holds triangles[begin[p]] .. triangles[begin[p + 1] - 1] of the mesh.
 struct StrainGroups {
   std::vector<std::int32_t> triangles;
   std::vector<std::int32_t> begin; ///< groups + 1
 };
 
-/// Every triangle alone, in the order of the mesh.
+/// Groups of one triangle each, in the order of the mesh.
 StrainGroups single_triangles(std::size_t triangles);
 
-/// Pairs across shared sides: longest sides first (the two halves of a square find each other),
-/// then re-paired along chains of neighbours until hardly a triangle is alone. Triangles alone
-/// stiffen the mesh, groups of three soften it: see the table in docs/developers.md. Those marked
-/// in `alone` (one a triangle, or empty) stay so.
+/// Pairs triangles across shared sides: longest sides first, which pairs the two halves of a
+/// square, then by re-pairing along chains of neighbours until hardly a triangle is single. Single
+/// triangles stiffen the mesh, groups of three would soften it: see the table in
+/// docs/developers.md. Triangles marked in `alone` (one per triangle, or empty) stay single.
 StrainGroups pair_triangles(const BlankMesh& mesh, const std::vector<char>& alone = {});
 
-/// Triangles (1, else 0) that the plain element suits: with a side along warp and one along weft,
-/// to a thousandth of a radian, as have their neighbours, so that they share their constraints; and
-/// those that touch such a triangle, since the band between whole cells and a rim is too narrow to
-/// lock.
+/// Marks (1, else 0) the triangles for which the plain element does not lock: those that have, as
+/// all their neighbours, a side along the warp and one along the weft (to 1e-3 rad), so that
+/// neighbours share their constraints; and those that touch such a triangle, since the band between
+/// whole cells and the boundary edge is too narrow to lock. warp_angle, weft_angle: rad from x.
 std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle);
 
 } // namespace plyform

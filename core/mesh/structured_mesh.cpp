@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Exact grids on rectangles (and parallelograms) whose sides run along the cells.
+// Exact grids on rectangles (and parallelograms) with sides parallel to those of the cells.
 #include "core/mesh/mesher_parts.hpp"
 
 #include <algorithm>
@@ -9,20 +9,22 @@
 namespace plyform {
 namespace {
 
-/// Sides count as parallel to the cells below this angle (rad): coordinates given to nine digits.
+/// rad: tolerance of parallel sides, for coordinates given to nine digits.
 constexpr double parallel = 1e-8;
 
 bool along(const Vec2& side, const Vec2& direction) {
   return std::abs(cross(side, direction)) <= parallel * side.norm();
 }
 
-/// Corner from which the sides `u` and `v` start, turning left from u to v by 90 degrees or less.
+/// A corner and the sides `u` and `v` that start there; the anticlockwise angle from u to v is at
+/// most 90 degrees.
 struct Parallelogram {
   Vec2 corner, u, v;
 };
 
-/// Of the corners that serve, the one whose u points most towards +x: a rectangle has the same grid
-/// whichever point comes first and whichever fibre family is called warp.
+/// The outline as a parallelogram along the cells, if it is one. Among the corners that qualify the
+/// one whose u points most towards +x is taken, so that a rectangle has the same grid whichever of
+/// its points comes first and whichever fibre family is the warp.
 std::optional<Parallelogram> as_parallelogram(const Outline& outline,
                                               const CellDirections& directions) {
   const std::vector<Vec2>& p = outline.boundary;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a blank is asked to be: its outline, and the mesh that is wanted.
+// Specification of a blank: its outline and its mesh.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -16,8 +16,8 @@ struct Outline {
 };
 
 enum class MeshKind {
-  diagonal,    ///< squares with one diagonal, all the same way
-  alternating, ///< squares with one diagonal, turned from square to square: favours no direction
+  diagonal,    ///< squares with one diagonal, all parallel
+  alternating, ///< squares with one diagonal, its direction alternating: no preferred direction
   crossed,     ///< squares with both diagonals (a node in the middle)
   fibres,      ///< cells with sides along both fibre directions, one diagonal
   free,        ///< Delaunay refinement (CGAL Mesh_2)

@@ -48,7 +48,7 @@ Vec2 frame_coordinates(const Boundary& frame, const Vec2& X) {
   return sides.inverse() * (X - frame.hinges[0]);
 }
 
-/// Adds what is new of `axis` to those already held.
+/// Adds the part of `axis` that is orthogonal to the axes already prescribed.
 void hold_axis(PrescribedNode& node, Vec3 axis, int boundary) {
   for (int i = 0; i < node.count; ++i) {
     const Vec3& taken = node.axis[i];

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A case as plain data: what is formed, by which tools, how it is computed. Units inside: mm, N,
-// s, t, rad. Filled by read_case (core/input/case_file.hpp), turned into a Scene by make_scene.
+// A case as plain data: plies, tools, boundaries and solver options. Units: mm, N, s, t, rad.
+// Filled by read_case (core/input/case_file.hpp), turned into a Scene by make_scene
+// (core/solver/scene.hpp).
 #pragma once
 
 #include "contact/shapes/tool_shape.hpp"
@@ -24,7 +25,7 @@ struct Ply {
 
 enum class Motion {
   fixed,  ///< stays
-  driven, ///< moves `stroke` along `direction`, smoothly, over the duration
+  driven, ///< moves by `stroke` along `direction` over the duration: smooth_step
   force,  ///< pushed by `force` along `direction`, free to move along it only
 };
 
@@ -43,10 +44,10 @@ struct Tool {
 enum class BoundaryKind {
   grip,     ///< rigid: all its nodes move by one displacement
   frame,    ///< four bars hinged at their ends, pulled along a diagonal
-  symmetry, ///< a vertical plane that the plies do not leave
+  symmetry, ///< a vertical plane of symmetry
 };
 
-/// Nodes whose motion is given (core/model/boundary.hpp). Places are those of the unformed plies.
+/// Nodes whose motion is prescribed (core/model/boundary.hpp), selected in the undeformed plies.
 struct Boundary {
   std::string name;
   BoundaryKind kind = BoundaryKind::grip;
@@ -55,9 +56,9 @@ struct Boundary {
   bool on_edge = false; ///< nodes on a line, else in a box
   /// mm, ends of the line, corners of the box
   std::array<Vec2, 2> place = {Vec2::Zero(), Vec2::Zero()};
-  std::array<bool, 3> held = {{true, true, true}}; ///< along x, y, z; the rest is free
+  std::array<bool, 3> held = {{true, true, true}}; ///< prescribed along x, y, z; else free
   Vec3 direction = Vec3::UnitX();                  ///< unit vector, of the stroke
-  // frame: hinges in order; the first stays, the third moves away from it
+  // frame: hinges in order; the first is fixed, the third moves away from it
   std::array<Vec2, 4> hinges = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()}; ///< mm
   // symmetry
   Vec2 point = Vec2::Zero(), normal = Vec2::UnitX(); ///< mm; unit vector
@@ -67,13 +68,13 @@ struct Boundary {
 enum class ElementKind {
   automatic, ///< plain where sides run along both fibre families, averaged elsewhere
   plain,     ///< the paper's element
-  averaged,  ///< fibre strains averaged over pairs of triangles: does not lock
+  averaged,  ///< fibre strains averaged over strain groups of two triangles: does not lock
 };
 
 struct SolverOptions {
   ElementKind element = ElementKind::automatic;
   double duration = 0.1;          ///< s simulated
-  double step_factor = 0.5;       ///< fraction of the stable step
+  double step_factor = 0.5;       ///< fraction of the stable time step
   double fibre_softening = 1.0;   ///< fibre stiffness is divided by this
   double fibre_damping = 0.05;    ///< fraction of critical of the stiffest element mode
   double mass_damping = 0.0;      ///< 1/s, acceleration -mass_damping * velocity
@@ -82,15 +83,15 @@ struct SolverOptions {
 };
 
 struct ContactOptions {
-  double stiffness = 0.1; ///< fraction of the stable limit
+  double stiffness = 0.1; ///< omega^2 of a free node on it over that of the elements
   double damping = 0.2;   ///< fraction of critical
-  double skin = 0.0;      ///< mm, search distance beyond contact; 0: by the element size
-  bool self = false;      ///< plies may touch themselves
+  double skin = 0.0;      ///< mm, search distance beyond contact; 0: from the element size
+  bool self = false;      ///< self-contact of plies
 };
 
-/// How near a run is to come to a converged one (core/accuracy/error_model.hpp).
+/// Requested accuracy relative to a converged run (core/accuracy/error_model.hpp).
 struct AccuracyOptions {
-  double shear_error = 0.0; ///< rad, rms; 0: not asked for, solver and element sizes hold
+  double shear_error = 0.0; ///< rad, rms; 0: not requested, solver options and element sizes apply
 };
 
 /// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.

@@ -16,7 +16,7 @@ double Energies::residual() const {
 double Energies::largest() const {
   double most = 0.0;
   for (const EnergyTerm& term : energy_terms) {
-    if (std::isnan(this->*term.value)) return this->*term.value; // std::max would lose it
+    if (std::isnan(this->*term.value)) return this->*term.value; // std::max would drop NaN
     most = std::max(most, std::abs(this->*term.value));
   }
   return most;

@@ -1,25 +1,26 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The energies of a run and their balance. One table of terms: history.csv, summary.json, the
-// balance and the plots follow it.
+// The energies of a run and their balance. The table energy_terms defines the terms for
+// history.csv, summary.json, the balance and the plots.
 #pragma once
 
 #include <array>
 
 namespace plyform {
 
-/// Energies and work done since the start, N mm (mJ). external: work of tools, boundaries and
-/// gravity on the plies, and what those held when the run began.
+/// Energies, and work done since the start, N mm (mJ). external: work of tools, boundaries and
+/// gravity on the plies, and the energy of the plies at the start.
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, bending = 0, contact = 0, friction = 0, damping = 0,
          external = 0;
-  double residual() const; ///< all kept and lost, less what was put in
+  double residual() const; ///< stored and dissipated energy minus external work, N mm
   double largest() const;  ///< magnitude of the largest term; NaN if any is
   /// residual() over largest(); 0 when all are 0.
   double balance_error() const;
   Energies& operator+=(const Energies& more);
 };
 
-/// A term: its name in files, and whether it is kept or lost (+1) or put in (-1).
+/// A term: its name in files, and its sign in the balance: stored or dissipated +1, external work
+/// -1.
 struct EnergyTerm {
   const char* name;
   double Energies::*value;

@@ -43,7 +43,7 @@ LawPoint TensionLaw::at(double eps) const {
     const LawPoint straight{compression * eps, compression, 0.5 * compression * eps * eps};
     if (!buckles()) return straight;
     const double beyond = std::max(0.0, -buckling_strain() - eps);
-    const double less = (1.0 - buckled_share) * compression; // of the slope, beyond
+    const double less = (1.0 - buckled_share) * compression; // decrease of the slope there
     return {straight.value + less * beyond, beyond > 0.0 ? compression - less : compression,
             straight.energy - 0.5 * less * beyond * beyond};
   }
@@ -83,7 +83,7 @@ LawPoint ShearLaw::at(double g) const {
 }
 
 double ShearLaw::secant(double g) const {
-  constexpr double small = 1e-9; // rad: Cs there is its slope times g to rounding
+  constexpr double small = 1e-9; // rad: below it Cs(g) / g equals the slope at 0 to rounding
   const LawPoint law = at(g);
   return std::abs(g) > small ? law.value / g : law.slope;
 }

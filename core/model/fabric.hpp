@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A woven or biaxial non-crimp fabric: what its yarns and cells answer to stretch and shear.
+// A woven or biaxial non-crimp fabric: its laws of tension, shear and bending.
 //
 // Units inside the program: mm, N, s, t (1 t = 1 N s^2/mm). Source of the law's form: Hamila and
 // Boisse 2008, section 3.5 and table 1.
@@ -21,34 +21,36 @@ struct LawPoint {
   double value, slope, energy;
 };
 
-/// Slope of a yarn that has buckled, over its compression stiffness: as little as may be without
-/// all further shortening gathering in one row of elements.
+/// Tangent stiffness of a buckled yarn over its compression stiffness: small, but large enough that
+/// further shortening does not localise in one row of elements.
 constexpr double buckled_share = 0.01;
 
 /// Tension of one yarn against its strain: N = stiffness * strain, or a table. For strain <= 0
-/// N = compression * strain; with compression 0, the paper's law, exactly zero. Pressed with more
-/// than buckling_force, at strains below -buckling_force / compression, it goes on with
-/// buckled_share of that slope; unloading goes the same way back.
+/// N = compression * strain; with compression 0, the paper's law, exactly zero. Compressed by more
+/// than buckling_force, i.e. at strains below -buckling_force / compression, the slope is
+/// buckled_share times that; unloading follows the same path (nonlinear elastic).
 struct TensionLaw {
   double stiffness = 0.0;              ///< N per yarn; used when the table is empty
   std::vector<double> strain, tension; ///< ascending from (0, 0), linear between, last slope beyond
-  double compression = 0.0; ///< N per yarn; no more than largest_slope(), or steps are not stable
+  /// N per yarn; at most largest_slope(), on which the stable step relies
+  double compression = 0.0;
   double buckling_force = std::numeric_limits<double>::infinity(); ///< N, at least 0
   /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
   LawPoint at(double eps) const;
   double largest_slope() const; ///< N, in tension
-  /// Whether stiffness, compression and buckling_force are all there is to it.
+  /// Whether the law has no table: stiffness, compression and buckling_force define it.
   bool linear() const { return strain.empty(); }
   bool buckles() const { return compression > 0.0 && std::isfinite(buckling_force); }
   double buckling_strain() const { return buckling_force / compression; } ///< of one that buckles
 };
 
-/// What a yarn's tension is divided by where `asked` (at least 1) is wanted: no more than leaves it
-/// as stiff as its compression, which is never softened. So the cloth stays the same, and the step,
-/// which the stiffest sets, would not get longer by more.
+/// Factor by which a yarn's tension is actually divided if a softening of `asked` (at least 1) is
+/// requested: limited so that the yarn stays as stiff in tension as in compression, which is never
+/// softened. More would not lengthen the stable time step, which the stiffer of the two determines.
 double effective_softening(const TensionLaw& law, double asked);
 
-/// The law of a yarn effective_softening(law, asked) times as soft in tension. Compression stays.
+/// The law of a yarn effective_softening(law, asked) times as soft in tension. Compression is not
+/// changed.
 TensionLaw softened(TensionLaw law, double asked);
 
 /// Torque that warp and weft exert on each other in one unit cell against the shear angle: odd
@@ -80,12 +82,12 @@ struct BendingLaw {
 
 /// Where a number of a fabric comes from.
 enum class ValueSource {
-  given,     ///< by whoever made the fabric
-  missing,   ///< in its file: the fabric is without it
-  estimated, ///< was missing; core/model/fabric_estimates.hpp
+  given,     ///< in the fabric file, or by the code that made the fabric
+  missing,   ///< not in the fabric file; the property is then zero
+  estimated, ///< was missing and has been estimated: core/model/fabric_estimates.hpp
 };
 
-/// Numbers of one family of yarns that a file may leave out.
+/// Sources of those properties of one family of yarns that a file may leave out.
 struct YarnSources {
   ValueSource compression = ValueSource::given, bending = ValueSource::given,
               in_plane_bending = ValueSource::given;
@@ -100,17 +102,17 @@ struct Fabric {
   double surface_density = 0.0;            ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
   double thickness = 0.0;                  ///< mm
   double fibre_angle = 1.5707963267948966; ///< rad from warp to weft before forming, in (0, pi)
-  std::optional<double> locking_angle;     ///< rad of shear, beyond which it wrinkles
+  std::optional<double> locking_angle;     ///< rad, shear angle beyond which the fabric wrinkles
   std::array<YarnSources, 2> sources;      ///< of warp and weft
-  bool twist_given = true;                 ///< else it follows both bending stiffnesses
-  /// Of a sheet without yarns: then the laws and densities above are all zero, and the directions
-  /// of warp and weft, at right angles, only mark the material.
+  bool twist_given = true;                 ///< else bending.twist is usual_twist
+  /// Law of a sheet without yarns: then the laws and densities above are all zero, and warp and
+  /// weft are two orthogonal material directions without mechanical meaning.
   std::optional<SheetLaw> sheet;
 
   bool has_yarns() const { return !sheet; }
 };
 
-/// Whether warp and weft are the same yarn at the same distance.
+/// Whether warp and weft have the same yarns at the same density.
 bool balanced(const Fabric& fabric);
 
 } // namespace plyform

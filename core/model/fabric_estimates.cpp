@@ -26,7 +26,7 @@ MomentLaw& moments_of(Fabric& f, std::size_t family) {
   return family == 0 ? f.bending.warp : f.bending.weft;
 }
 
-/// C of a family, if its file says nothing of it.
+/// Estimates C of a family whose file does not give it.
 void estimate_compression(Fabric& f, std::size_t family) {
   ValueSource& source = f.sources[family].compression;
   if (source != ValueSource::missing) return;

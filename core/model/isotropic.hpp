@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// An isotropic elastic membrane (St. Venant-Kirchhoff, plane stress): what a sheet of paper or foil
-// does in the place of a fabric. It resists compression.
+// An isotropic elastic membrane (St. Venant-Kirchhoff, plane stress), for sheets of paper or foil.
+// It resists compression.
 //
 //   k_1, k_2  -     images of two unit vectors at right angles, as in core/ply/membrane.hpp
 //   C = E t   N/mm  modulus times thickness;  nu  Poisson's ratio

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far and how smoothly the tools and boundaries of a case move.
+// Strokes of the tools and boundaries of a case, and the time function of their motion.
 #pragma once
 
 #include "core/model/case.hpp"
@@ -16,11 +16,11 @@ struct Strokes {
 };
 Strokes longest_strokes(const Case& data);
 
-/// Smooth way from 0 to `end` over `duration`: the speed rises over the first quarter of the time
-/// by w^2 (3 - 2 w), stays, and falls in the same way over the last, so that the acceleration has
-/// no jump. Against a polynomial over all of the time, with its higher peak of speed, stacks come
-/// out as near to a slow run in a tenth less time (docs/developers.md). Displacement of a driven
-/// tool (mm), force of a pushed one (N).
+/// Smooth ramp from 0 to `end` at time t (s) of `duration` (s), for the displacement of a driven
+/// tool (mm) or the force of a pushed one (N). The rate rises over the first quarter of the time as
+/// w^2 (3 - 2 w), is constant, and falls likewise over the last quarter, so that the acceleration
+/// is continuous. Compared with a polynomial over the whole time, whose peak speed is higher,
+/// stacks come as close to the result of a slow run in a tenth less time (docs/developers.md).
 double smooth_step(double end, double t, double duration);
 constexpr double ramp_share = 0.25;                           ///< of the duration, each
 constexpr double peak_speed_ratio = 1.0 / (1.0 - ramp_share); ///< largest speed over the mean

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of sheets without yarns. Each is a file of its own with two functions:
+// Laws of sheets without yarns. Each law is a struct in a file of its own, with two member
+// functions:
 //   SheetResponse at(k1, k2)                      stresses and energy
 //   double stiffness_bound(k1, k2, gram)          of the largest eigenvalue, for the stable step
 #pragma once

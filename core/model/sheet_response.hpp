@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a sheet without yarns answers to a stretch in its plane: common to all of its laws.
+// Stress response of a sheet without yarns, and the geometry that its laws need: shared by all
+// laws.
 #pragma once
 
 #include "contact/geometry.hpp"

@@ -9,15 +9,17 @@
 namespace plyform {
 namespace {
 
-/// (G) with each node's mass shared out evenly among its stencils (Irons): the mesh does not exceed
-/// the largest eigenvalue of any stencil, which is at most the trace of M_e^-1 K_e. Motions across
-/// the flat sheet and in it do not mix, so the larger of their two traces is enough. In the plane
-/// warp and weft are added up: sheared they come near each other, and then do mix.
+/// Bound of the largest eigenvalue of M^-1 K, 1/s^2, of (E) + (G). With each node's mass shared
+/// equally among its stencils, no eigenvalue of the mesh exceeds the largest of any stencil
+/// (Irons), and that is at most the trace of M_e^-1 K_e. In a flat sheet out-of-plane and in-plane
+/// motions are not coupled, so the larger of their two traces is enough. In the plane the traces of
+/// warp and weft are added: in a sheared ply the two directions approach each other and are
+/// coupled.
 double bound(const Bending& b, std::span<const double> node_mass) {
   const double coupling = std::abs(b.law.coupling);
   const double d[3] = {b.law.warp.largest_slope() + coupling, b.law.weft.largest_slope() + coupling,
                        b.law.twist};
-  std::vector<int> stencils(b.area.size(), 0); // that a node belongs to
+  std::vector<int> stencils(b.area.size(), 0); // number of them that each node belongs to
   for (const std::int32_t n : b.node)
     ++stencils[n];
   double largest = 0.0;
@@ -38,15 +40,15 @@ double bound(const Bending& b, std::span<const double> node_mass) {
 }
 
 /// Normal and second derivatives at one node.
-struct PatchShape {
+struct StencilShape {
   Vec3 normal;
   double size;                ///< |N|
   std::array<Vec3, 3> second; ///< s_11, s_22, s_12, 1/mm
   std::array<double, 3> kappa;
 };
 
-/// How one family of yarns turns in the surface at one node.
-struct YarnTurn {
+/// In-plane curvature of one family of yarns at one node.
+struct YarnCurvature {
   Vec3 along;          ///< d
   Vec3 across;         ///< c / l^2
   Vec3 slope;          ///< q, 1/mm
@@ -54,10 +56,10 @@ struct YarnTurn {
   double moment = 0.0; ///< M_g, N
 };
 
-PatchShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t stencil) {
+StencilShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t stencil) {
   const auto first = static_cast<std::size_t>(b.begin[stencil]);
   const auto at = [&](std::size_t place) -> const Vec3& { return x[b.node[first + place]]; };
-  PatchShape s;
+  StencilShape s;
   s.normal.setZero();
   for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
        i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
@@ -69,7 +71,8 @@ PatchShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t stenc
   s.normal /= s.size;
   s.second.fill(Vec3::Zero());
   for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i) {
-    const Vec3 from = at(i - first) - at(0); // small numbers: less rounding
+    // differences, so that rounding is relative to the stencil's size
+    const Vec3 from = at(i - first) - at(0);
     for (std::size_t k = 0; k < 3; ++k)
       s.second[k] += b.b[i][k] * from;
   }
@@ -79,16 +82,16 @@ PatchShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t stenc
 }
 
 /// (T); `family` 0 the warp, 1 the weft.
-YarnTurn turn_of(const Bending& b, std::span<const Vec3> x, std::size_t stencil, std::size_t family,
-                 const PatchShape& s) {
+YarnCurvature yarn_curvature(const Bending& b, std::span<const Vec3> x, std::size_t stencil,
+                             std::size_t family, const StencilShape& s) {
   const auto first = static_cast<std::size_t>(b.begin[stencil]);
   const Vec3& own = x[stencil];
-  YarnTurn t;
+  YarnCurvature t;
   t.along.setZero();
   for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
     t.along += b.a[i][family] * (x[b.node[i]] - own);
   const Vec3 c = s.normal.cross(t.along);
-  constexpr double least = 1e-12; // l^2; with less, a yarn has no direction
+  constexpr double least = 1e-12; // lower limit of l^2, below which a yarn has no direction
   const double l2 = std::max(least, c.squaredNorm());
   t.across = c / l2;
   t.kappa = s.second[family].dot(t.across);
@@ -103,9 +106,9 @@ std::array<double, 3> moments(const BendingLaw& law, const std::array<double, 3>
           law.weft.at(kappa[1]).value + law.coupling * kappa[0], law.twist * kappa[2]};
 }
 
-/// (I) of one family on the nodes of a stencil, but for the turning of the normal. Returns what
-/// that adds to h, N/mm.
-Vec3 add_in_plane(const Bending& b, const YarnTurn& t, std::size_t stencil, std::size_t family,
+/// Adds (I) of one family to the forces on the nodes of a stencil, except for the term of the
+/// rotation of the normal: its contribution to h, N/mm, is returned.
+Vec3 add_in_plane(const Bending& b, const YarnCurvature& t, std::size_t stencil, std::size_t family,
                   const Vec3& normal, std::vector<Vec3>& force) {
   const Vec3 turned = t.slope.cross(normal);
   for (auto i = static_cast<std::size_t>(b.begin[stencil]);
@@ -115,9 +118,10 @@ Vec3 add_in_plane(const Bending& b, const YarnTurn& t, std::size_t stencil, std:
   return t.moment * t.along.cross(t.slope);
 }
 
-/// - dN/dx_i . `along` on the nodes of a stencil, the last term of (F); `along` is A0 h_t / |N|.
-void turn_normal(const Bending& b, std::span<const Vec3> x, std::size_t stencil, const Vec3& along,
-                 std::vector<Vec3>& force) {
+/// Adds the last term of (F), - dN/dx_i . `along`, to the forces on the nodes of a stencil; `along`
+/// is A0 h_t / |N|.
+void add_normal_rotation(const Bending& b, std::span<const Vec3> x, std::size_t stencil,
+                         const Vec3& along, std::vector<Vec3>& force) {
   for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
        i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
     std::array<std::size_t, 3> n;
@@ -148,13 +152,13 @@ std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int 
 
 double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family) {
   const auto n = static_cast<std::size_t>(node);
-  return turn_of(b, x, n, static_cast<std::size_t>(family), shape_of(b, x, n)).kappa;
+  return yarn_curvature(b, x, n, static_cast<std::size_t>(family), shape_of(b, x, n)).kappa;
 }
 
 std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x) {
   std::vector<Vec3> force(x.size(), Vec3::Zero());
   for (std::size_t n = 0; n < x.size(); ++n) {
-    const PatchShape s = shape_of(b, x, n);
+    const StencilShape s = shape_of(b, x, n);
     const std::array<double, 3> m = moments(b.law, s.kappa);
     for (auto i = static_cast<std::size_t>(b.begin[n]);
          i < static_cast<std::size_t>(b.begin[n + 1]); ++i)
@@ -162,8 +166,8 @@ std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec
           b.area[n] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal; // (F)
     Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
     for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
-      h += add_in_plane(b, turn_of(b, x, n, k, s), n, k, s.normal, force);
-    turn_normal(b, x, n, (b.area[n] / s.size) * (h - h.dot(s.normal) * s.normal), force);
+      h += add_in_plane(b, yarn_curvature(b, x, n, k, s), n, k, s.normal, force);
+    add_normal_rotation(b, x, n, (b.area[n] / s.size) * (h - h.dot(s.normal) * s.normal), force);
   }
   return force;
 }
@@ -171,12 +175,12 @@ std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec
 double bending_energy(const Bending& b, std::span<const Vec3> x) {
   double sum = 0.0;
   for (std::size_t n = 0; n < b.area.size(); ++n) {
-    const PatchShape s = shape_of(b, x, n);
+    const StencilShape s = shape_of(b, x, n);
     const std::array<double, 3>& k = s.kappa;
     sum += b.area[n] * (b.law.warp.at(k[0]).energy + b.law.weft.at(k[1]).energy +
                         b.law.coupling * k[0] * k[1] + 0.5 * b.law.twist * k[2] * k[2]); // (E)
     for (std::size_t f = 0; f < 2 && !b.in_plane.empty(); ++f) {
-      const YarnTurn t = turn_of(b, x, n, f, s);
+      const YarnCurvature t = yarn_curvature(b, x, n, f, s);
       sum += 0.5 * b.area[n] * t.moment * t.kappa; // (G)
     }
   }

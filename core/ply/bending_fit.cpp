@@ -10,7 +10,7 @@ namespace {
 
 using Matrix = Eigen::MatrixXd;
 
-/// What all stencils are fitted in.
+/// The undeformed ply in which all stencils are fitted.
 struct Sheet {
   std::span<const Vec2> x;
   const std::vector<Triangle>& triangles;
@@ -19,11 +19,11 @@ struct Sheet {
   double fibre_angle;                   ///< rad, from warp to weft
 };
 
-/// Derivatives per value at each node of a stencil: rows d/d1, d/d2 (1/mm), d2/d11, d2/d22, d2/d12
-/// (1/mm^2); 1 along the warp, 2 at right angles to it.
+/// Weights of each node of a stencil (columns) in the derivatives at its centre: rows d/d1, d/d2,
+/// d2/d11, d2/d22, d2/d12, with 1 along the warp, 2 normal to it, lengths in units of `size`.
 struct StencilFit {
   Matrix rows;
-  std::array<bool, 2> follows_yarn; ///< whether they say how warp and weft turn
+  std::array<bool, 2> follows_yarn; ///< whether (T) is defined for warp, weft
 };
 
 /// Adds the nodes that share a triangle with those of `nodes`.
@@ -39,8 +39,8 @@ double across(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
-/// 1, r, s, r^2/2, s^2/2, r s at each node, r and s from the stencil's own node in units of `size`,
-/// along e1 and at right angles to it.
+/// Rows 1, r, s, r^2/2, s^2/2, r s of each node, with r and s its coordinates from the centre node
+/// in units of `size`, along e1 and normal to it.
 Matrix monomials(std::span<const Vec2> x, const std::vector<int>& nodes, double size,
                  const Vec2& e1) {
   Matrix p(static_cast<Eigen::Index>(nodes.size()), 6);
@@ -53,13 +53,14 @@ Matrix monomials(std::span<const Vec2> x, const std::vector<int>& nodes, double 
   return p;
 }
 
-/// Of an inner node; lengths in units of `size`. May add to `nodes`.
+/// The fit of an inner node; lengths in units of `size`. May extend `nodes`.
 StencilFit interior_fit(const Sheet& sheet, std::vector<int>& nodes, double size) {
-  constexpr double sound = 0.002; // ratio of singular values; a regular stencil has 0.01 to 0.1
+  constexpr double least_ratio = 0.002; // of singular values; a regular stencil has 0.01 to 0.1
   const auto place = [&](std::size_t i) -> const Vec2& { return sheet.x[nodes[i]]; };
   for (int more = 0;; ++more) {
-    // Nearer nodes decide: averages over rows of nodes would let the rows bend in turns, and a
-    // strip of alternating diagonals sagged by 1.3 to 1.8 times theory without weights.
+    // Near nodes get more weight: averages over rows of nodes would let single rows bend
+    // alternately without energy; a strip of alternating diagonals sagged by 1.3 to 1.8 times
+    // theory without weights.
     Eigen::VectorXd weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(nodes.size()));
     for (std::size_t i = 1; i < nodes.size(); ++i) {
       const Vec2 d = place(i) - place(0);
@@ -70,16 +71,16 @@ StencilFit interior_fit(const Sheet& sheet, std::vector<int>& nodes, double size
                                      monomials(sheet.x, nodes, size, sheet.yarn[0]),
                                  Eigen::ComputeThinU | Eigen::ComputeThinV);
     const auto& s = svd.singularValues();
-    if ((s.size() < 6 || s[5] < sound * s[0]) && more < 2) {
+    if ((s.size() < 6 || s[5] < least_ratio * s[0]) && more < 2) {
       grow(nodes, sheet);
       continue;
     }
-    svd.setThreshold(1e-6); // what the nodes of a tiny mesh do not fix is taken as flat
+    svd.setThreshold(1e-6); // derivatives that a tiny mesh does not determine become 0
     return {svd.solve(Matrix(weight.asDiagonal())).bottomRows(5), {true, true}};
   }
 }
 
-/// The two neighbours of a node along the rim, or none for an inner node.
+/// The two neighbours of a node along the free edge of the ply, or none for an inner node.
 std::vector<int> rim_neighbours(const Sheet& sheet, const std::vector<int>& nodes) {
   const std::vector<int>& around = sheet.around[nodes[0]];
   std::vector<int> rim;
@@ -93,10 +94,10 @@ std::vector<int> rim_neighbours(const Sheet& sheet, const std::vector<int>& node
   return rim;
 }
 
-/// On the rim only the curvature along it is known; across it the moment of a free edge is zero, so
-/// that it takes no part in the energy. So a yarn that lies along the rim is followed; one that
-/// ends there has a free end, without moment, and what is known there, the turn of the rim, would
-/// charge it for being stretched unevenly while straight. At corners there is nothing.
+/// The fit of a node on the free edge. Only derivatives along the edge are determined; across it
+/// the moment is zero, so that it adds nothing to the energy. (T) is defined only for a yarn along
+/// the edge: a yarn that ends at the edge has no moment there, and the curvature of the edge would
+/// give even a straight yarn a moment if it is stretched unevenly. At corners the fit is zero.
 StencilFit rim_fit(const Sheet& sheet, const std::vector<int>& nodes, double size,
                    const std::vector<int>& rim) {
   StencilFit fit{Matrix::Zero(5, static_cast<Eigen::Index>(nodes.size())), {false, false}};
@@ -104,7 +105,7 @@ StencilFit rim_fit(const Sheet& sheet, const std::vector<int>& nodes, double siz
   const Vec2& middle = sheet.x[nodes[0]];
   const Vec2 a = sheet.x[rim[0]] - middle;
   const Vec2 b = sheet.x[rim[1]] - middle;
-  constexpr double straight = 0.9; // cosine: the rim turns by less than 26 degrees here
+  constexpr double straight = 0.9; // cosine: the edge turns by less than 26 degrees at this node
   if (a.dot(b) > -straight * a.norm() * b.norm()) return fit;
   const Vec2 along = (b - a).normalized();
   Eigen::JacobiSVD<Matrix> svd(monomials(sheet.x, nodes, size, along).leftCols(4),
@@ -114,13 +115,14 @@ StencilFit rim_fit(const Sheet& sheet, const std::vector<int>& nodes, double siz
   const Matrix slope = all.row(1), curvature = all.bottomRows(1);
   const double c = along.dot(sheet.yarn[0]), s = across(sheet.yarn[0], along);
   fit.rows << c * slope, s * slope, c * c * curvature, s * s * curvature, c * s * curvature;
-  constexpr double same = 0.02; // sine: yarn and rim within 1 degree
+  constexpr double same = 0.02; // sine: yarn and edge within 1 degree
   for (std::size_t k = 0; k < 2; ++k)
     fit.follows_yarn[k] = std::abs(across(along, sheet.yarn[k])) < same;
   return fit;
 }
 
-/// The own node's constant, so that a shift has no force to the last bit.
+/// Sets the constants of the centre node to minus the sum of the others, so that a rigid
+/// translation gives exactly zero force.
 template <std::size_t size>
 void balance(std::vector<std::array<double, size>>& constants, std::size_t first) {
   for (std::size_t k = 0; k < size; ++k) {
@@ -131,7 +133,7 @@ void balance(std::vector<std::array<double, size>>& constants, std::size_t first
   }
 }
 
-/// The fit as derivatives along the yarns, in mm, of the last stencil of `b`.
+/// Appends a fit, as derivatives along the yarns in mm, to the constants of `b`.
 void append_constants(Bending& b, const Sheet& sheet, const StencilFit& fit, double size) {
   const double c = std::cos(sheet.fibre_angle), s = std::sin(sheet.fibre_angle);
   const Matrix second = fit.rows.bottomRows(3) / (size * size);
@@ -149,7 +151,7 @@ void append_constants(Bending& b, const Sheet& sheet, const StencilFit& fit, dou
   balance(b.a, first);
 }
 
-/// Nodes and constants of one node's stencil, added to `b`.
+/// Appends nodes and constants of one node's stencil to `b`.
 void fit_stencil(Bending& b, const Sheet& sheet, int node) {
   std::vector<int> nodes{node};
   const auto own = static_cast<std::size_t>(node);

@@ -9,14 +9,16 @@
 namespace plyform {
 namespace {
 
-/// The slots of one stencil: places of its nodes within the stencil (0: its own), the ring first.
+/// The slots of one stencil: indices of its nodes within the stencil (0: its centre), the ring
+/// first.
 struct StencilSlots {
   int stencil = 0;
   std::vector<int> ring, others;
 };
 
-/// The nodes around, in the order of the triangles. Where these do not close to a ring, the own
-/// node, whose difference is zero, stands between the last and the first.
+/// The nodes around the centre, in the order of the triangles. If the triangles do not form a
+/// closed ring, the centre node, whose difference is zero, is inserted between the last and the
+/// first.
 std::vector<int> ring_of(const Bending& b, std::size_t stencil) {
   std::vector<std::array<int, 2>> links; // the two other nodes of each triangle
   for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
@@ -42,7 +44,7 @@ std::vector<int> ring_of(const Bending& b, std::size_t stencil) {
                           [&](const auto& link) { return link[0] == ring.back(); });
     }
     if (links.empty() && ring.front() == start && ring.back() == start)
-      ring.pop_back(); // all of it: the last follows the first anyway
+      ring.pop_back(); // closed: the first node is not repeated
     else
       ring.push_back(0);
   }
@@ -59,7 +61,7 @@ StencilSlots slots_of(const Bending& b, int stencil) {
   return s;
 }
 
-/// Builds one block after the other.
+/// Builds the blocks one after the other.
 class BlockMaker {
 public:
   BlockMaker(const Bending& bending, BendingSimd& lanes_)
@@ -96,13 +98,15 @@ public:
   }
 
 private:
-  using Four = std::array<const StencilSlots*, simd_width>; ///< null: a lane that only fills up
+  /// Stencils of one group; null for a SIMD lane without a stencil.
+  using Group = std::array<const StencilSlots*, simd_width>;
 
   static auto size_of(const StencilSlots& p) { return std::pair(p.ring.size(), p.others.size()); }
 
-  /// StrainGroups of one size side by side; what is left of each size then likewise, padded. Each
-  /// lane goes through a quarter of a size: neighbours follow each other in a lane, where the one's
-  /// force is added to their nodes long before the other's.
+  /// Groups stencils of equal size by four; the remainders of all sizes are grouped with padding.
+  /// Within a size each SIMD lane takes one contiguous quarter of the stencils, so that
+  /// neighbouring stencils are computed in successive groups of one lane, not in one group, where
+  /// they would add forces to the same nodes at once.
   void add_groups() {
     std::stable_sort(
         stencils.begin(), stencils.end(),
@@ -113,7 +117,7 @@ private:
         ++end;
       const std::size_t groups = (end - begin) / simd_width;
       for (std::size_t g = 0; g < groups; ++g) {
-        Four four;
+        Group four;
         for (std::size_t lane = 0; lane < simd_width; ++lane)
           four[lane] = &stencils[begin + lane * groups + g];
         add_group(four);
@@ -122,15 +126,15 @@ private:
         left.push_back(&stencils[i]);
     }
     for (std::size_t i = 0; i < left.size(); i += simd_width) {
-      Four four{};
+      Group four{};
       for (std::size_t lane = 0; lane < simd_width && i + lane < left.size(); ++lane)
         four[lane] = left[i + lane];
       add_group(four);
     }
   }
 
-  void add_group(const Four& four) {
-    SimdPatches& group = out.stencils.emplace_back();
+  void add_group(const Group& four) {
+    SimdStencils& group = out.stencils.emplace_back();
     std::size_t ring = 0, others = 0;
     for (const StencilSlots* p : four)
       if (p) ring = std::max(ring, p->ring.size()), others = std::max(others, p->others.size());
@@ -146,7 +150,8 @@ private:
       for (std::size_t k = 0; k < 2; ++k)
         group.in_plane[k][lane] = b.in_plane.empty() ? 0.0 : b.in_plane[n][k];
       group.own[lane] = at(p, 0);
-      std::vector<int> padded = p.ring; // the last again: no triangle between it and itself
+      // padded by repeating the last node: its triangle is degenerate
+      std::vector<int> padded = p.ring;
       padded.resize(ring, p.ring.back());
       padded.insert(padded.end(), p.others.begin(), p.others.end());
       padded.resize(ring + others, 0);
@@ -182,9 +187,9 @@ private:
 
   const Bending& b;
   BendingSimd& out;
-  std::vector<std::int32_t> local;    ///< number of a node of the ply in the open block, or -1
-  std::vector<std::int32_t> list;     ///< nodes of the open block
-  std::vector<StencilSlots> stencils; ///< of the open block
+  std::vector<std::int32_t> local; ///< per node of the ply: its index in the current block, or -1
+  std::vector<std::int32_t> list;  ///< nodes of the current block
+  std::vector<StencilSlots> stencils; ///< of the current block
 };
 
 void moment_of_table(const BendingKernelLaw& law, int family, const double* kappa, double* m) {

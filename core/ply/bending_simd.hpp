@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Bending of core/ply/bending.hpp laid out for speed: four nodes side by side, in blocks whose
-// nodes stay in a core's cache. reference_bending_forces there is the oracle of its test.
+// Bending of core/ply/bending.hpp, optimised: stencils of four nodes at a time (SIMD), in blocks
+// whose nodes stay in a core's cache. Its test compares it with reference_bending_forces.
 //
-// A block gathers the places of its nodes, does its stencils, and adds their forces up at its own
-// nodes. Blocks go by the mesh alone: the same bits for any number of threads.
+// A block gathers the positions of its nodes, computes its stencils, and sums their forces in its
+// own list of nodes. Blocks depend on the mesh only: results are the same bits for any number of
+// threads.
 #pragma once
 
 #include "core/ply/bending.hpp"
@@ -21,17 +22,17 @@ struct BendingBlock {
 
 struct BendingSimd : BlockForces {
   std::vector<BendingBlock> blocks;
-  std::vector<SimdPatches> stencils;
+  std::vector<SimdStencils> stencils;
   std::vector<SimdNumbers> constants; ///< of `slots`, as in BendingKernelBlock
-  std::vector<std::uint16_t> slots;   ///< of `stencils`, four each
+  std::vector<std::uint16_t> slots;   ///< of `stencils`, four nodes each
 };
 
-/// x: the unformed ply; only says which nodes are neighbours. Throws std::length_error where more
-/// than most_stencil_slots nodes lie around one.
+/// x: undeformed positions, used only to put neighbouring nodes into the same block. Throws
+/// std::length_error if a stencil has more than most_stencil_slots nodes besides its centre.
 BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x);
 
-/// (F) + (I) of a block's stencils on its nodes; simd_force (core/ply/block_forces.hpp) then has
-/// the sum on a node.
+/// Computes (F) + (I), N, of a block's stencils, stored in l.force; once all blocks are done
+/// simd_force (core/ply/block_forces.hpp) sums them on a node. x: mm, one per node of the ply.
 void bending_forces(BendingSimd& l, const Bending& b, std::span<const Vec3> x, int block);
 
 } // namespace plyform

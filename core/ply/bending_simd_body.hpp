@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// (F) and (I) of core/ply/bending.hpp for four nodes at a time. Constants of a stencil add up to
-// zero, so only differences d_i = x_i - x_own matter, and the own node gets minus the forces on the
-// others:
+// (F) and (I) of core/ply/bending.hpp for the stencils of four nodes at a time. The constants of a
+// stencil sum to zero, so only differences d_i = x_i - x_own from its centre node matter, and the
+// centre node gets minus the sum of the forces on the others:
 //   N = sum_k d_k x d_{k+1}            over the ring, from its last back to its first
 //   F_i = sum_ab B_ab,i V_ab + sum_a A_a,i U_a + (d_{i-1} - d_{i+1}) x v
 //   V_aa = -A0 (m_aa n + M_g c/l^2),  V_12 = -A0 m_12 n,  U_a = -A0 M_g (q x n),  v = A0 h_t / |N|
@@ -11,7 +11,7 @@
 namespace plyform {
 namespace {
 
-/// What four stencils become.
+/// First and second derivatives and area vectors of four stencils.
 struct SimdShape {
   Vector4 sum;       ///< N
   Vector4 second[3]; ///< s_11, s_22, s_12
@@ -22,7 +22,7 @@ struct SimdShape {
 struct SimdFactors {
   Vector4 second[3]; ///< V_11, V_22, V_12
   Vector4 first[2];  ///< U_1, U_2
-  Vector4 turn;      ///< v
+  Vector4 turn;      ///< v, from the rotation of the normal
 };
 
 PLYFORM_INLINE Vector4 none() {
@@ -41,9 +41,9 @@ PLYFORM_INLINE void add_to(Vector4& sum, Double4 factor, const Vector4& a) {
   sum.x += factor * a.x, sum.y += factor * a.y, sum.z += factor * a.z;
 }
 
-/// d_i of all slots, and the derivatives that they give.
+/// Computes d_i of all slots, mm, and from them the derivatives.
 template <bool in_plane>
-PLYFORM_INLINE SimdShape find_shape(const SimdPatches& p, const std::uint16_t* slots,
+PLYFORM_INLINE SimdShape find_shape(const SimdStencils& p, const std::uint16_t* slots,
                                     const SimdNumbers* constants, const double* place, Vector4* d) {
   const Vector4 own = places(place, p.own);
   SimdShape s{none(), {none(), none(), none()}, {none(), none()}};
@@ -63,7 +63,7 @@ PLYFORM_INLINE SimdShape find_shape(const SimdPatches& p, const std::uint16_t* s
   return s;
 }
 
-/// M_1 or M_2 of four curvatures, N.
+/// M_1 or M_2, N, of four curvatures (1/mm).
 template <bool tables>
 PLYFORM_INLINE Double4 yarn_moment(const BendingKernelLaw& law, int family, Double4 kappa) {
   if (!tables) return law.stiffness[family] * kappa;
@@ -76,7 +76,7 @@ PLYFORM_INLINE Double4 yarn_moment(const BendingKernelLaw& law, int family, Doub
 /// (I) of one family: adds to the factors, and to h.
 PLYFORM_INLINE void add_in_plane(const SimdShape& s, const Vector4& normal, Double4 area,
                                  Double4 stiffness, int family, SimdFactors& f, Vector4& h) {
-  constexpr double least = 1e-12; // l^2; with less, a yarn has no direction
+  constexpr double least = 1e-12; // lower limit of l^2, below which a yarn has no direction
   const Vector4 &along = s.first[family], &second = s.second[family];
   const Vector4 c = cross(normal, along);
   const Double4 per_l2 = 1.0 / larger(all(least), dot(c, c));
@@ -90,7 +90,7 @@ PLYFORM_INLINE void add_in_plane(const SimdShape& s, const Vector4& normal, Doub
 }
 
 template <bool in_plane, bool tables>
-PLYFORM_INLINE SimdFactors find_factors(const SimdPatches& p, const SimdShape& s,
+PLYFORM_INLINE SimdFactors find_factors(const SimdStencils& p, const SimdShape& s,
                                         const BendingKernelLaw& law) {
   const Double4 area = load(p.area), per_size = 1.0 / root(dot(s.sum, s.sum));
   const Vector4 normal = per_size * s.sum;
@@ -118,7 +118,7 @@ PLYFORM_INLINE void add_rows(const Vector4& f, const std::uint16_t* at, double* 
 }
 
 template <bool in_plane>
-PLYFORM_INLINE void add_forces(const SimdPatches& p, const SimdFactors& f,
+PLYFORM_INLINE void add_forces(const SimdStencils& p, const SimdFactors& f,
                                const std::uint16_t* slots, const SimdNumbers* constants,
                                const Vector4* d, double* force) {
   Vector4 sum = none(), before = d[p.ring - 1];
@@ -149,7 +149,7 @@ PLYFORM_INLINE void block_forces(const BendingKernelBlock& block, const BendingK
   const SimdNumbers* constants = block.constants;
   const std::uint16_t* slots = block.slots;
   for (int group = 0; group < block.groups; ++group) {
-    const SimdPatches& p = block.stencils[group];
+    const SimdStencils& p = block.stencils[group];
     const SimdShape s = find_shape<in_plane>(p, slots, constants, place, d);
     const SimdFactors f = find_factors<in_plane, tables>(p, s, law);
     add_forces<in_plane>(p, f, slots, constants, d, force);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The kernel of core/ply/bending_simd.hpp as its two compiled copies see it: plain numbers and
-// pointers, nothing inline (contact/simd/simd.hpp says why).
+// Interface of the two compiled copies of the kernel of core/ply/bending_simd.hpp: plain numbers
+// and pointers, nothing inline (reason: contact/simd/simd.hpp).
 #pragma once
 
 #include "core/ply/simd_kernel.hpp"
@@ -9,43 +9,43 @@ namespace plyform {
 
 struct BendingLaw;
 
-constexpr int most_stencil_slots = 512; ///< their differences, 48 kB, are mostly not used
-constexpr int most_bending_nodes =
-    most_stencil_slots + 1; ///< of a block, more than most_block_nodes
-                            ///< only if one stencil has so many
+constexpr int most_stencil_slots = 512; ///< limit of nodes in a stencil besides its centre node
+/// Limit of nodes in a block; a block exceeds most_block_nodes only for one such stencil.
+constexpr int most_bending_nodes = most_stencil_slots + 1;
 
-/// Four stencils of four nodes. A slot is a node of each, around its own. The slots of the ring
-/// come first: each stencil's triangles are its own node and two slots that follow each other, the
-/// last and the first slot included.
-struct alignas(32) SimdPatches {
-  double area[simd_width];        ///< mm^2, A0; 0 where a lane only fills up the group
+/// The stencils of four nodes. A slot holds one node of each stencil other than its centre node.
+/// The slots of the ring come first: the triangles around the centre node consist of it and two
+/// successive ring slots, cyclically.
+struct alignas(32) SimdStencils {
+  double area[simd_width];        ///< mm^2, A0; 0 in SIMD lanes without a stencil
   double in_plane[2][simd_width]; ///< N mm, D_g of warp and weft at the stencil's node
-  std::uint16_t own[simd_width];  ///< bytes: 32 times the number in the block's list
-  std::int32_t ring, slots;       ///< slots of the ring, of all; at most most_stencil_slots
+  std::uint16_t own[simd_width];  ///< centre node as byte offset: 32 times its index in the block
+  std::int32_t ring, slots;       ///< number of slots in the ring, in all (<= most_stencil_slots)
 };
 
-/// Constants of (M), N mm.
+/// Constants of (M), N mm, or the callback for tabulated laws.
 struct BendingKernelLaw {
   double stiffness[2], coupling, twist;
-  bool table; ///< ask `moment`
+  bool table; ///< call `moment` instead of using `stiffness`
   bool in_plane;
   const BendingLaw* law;
-  /// M_1 or M_2 (N) of four curvatures.
+  /// M_1 or M_2 (N) of four curvatures (1/mm).
   void (*moment)(const BendingKernelLaw&, int family, const double* kappa, double* m);
 };
 
-/// StrainGroups that share a list of nodes. All arrays are the block's own.
+/// Stencils that share a list of nodes. All arrays are those of the block.
 struct BendingKernelBlock {
-  const std::int32_t* nodes; ///< in the ply
+  const std::int32_t* nodes; ///< node numbers in the ply
   int node_count;
-  const SimdPatches* stencils;
+  const SimdStencils* stencils;
   int groups;
-  const SimdNumbers* constants; ///< a slot: B_11, B_22, B_12; with in_plane A_1, A_2 more
-  const std::uint16_t* slots;   ///< a slot: four nodes, as SimdPatches::own
-  SimdForce* force;             ///< one a node
+  const SimdNumbers* constants; ///< per slot: B_11, B_22, B_12 and, with in_plane, A_1, A_2
+  const std::uint16_t* slots;   ///< per slot: four nodes, as SimdStencils::own
+  SimdForce* force;             ///< N, one per node of the block
 };
 
-/// (F) + (I) of a block's stencils, added up at its nodes. x: 3 a node of the ply, mm.
+/// (F) + (I), N, of a block's stencils, summed in block.force. x: mm, 3 numbers per node of the
+/// ply.
 void bending_kernel_generic(const BendingKernelBlock& block, const BendingKernelLaw& law,
                             const double* x);
 void bending_kernel_avx2(const BendingKernelBlock& block, const BendingKernelLaw& law,

@@ -8,7 +8,7 @@
 namespace plyform {
 namespace {
 
-/// Bits of a and b in turn: near in the plane is near along this number.
+/// Morton code of (a, b): their bits interleaved. Points near in the plane mostly have near codes.
 std::uint64_t interleaved(std::uint32_t a, std::uint32_t b) {
   const auto spread = [](std::uint64_t v) {
     v = (v | (v << 16)) & 0x0000FFFF0000FFFF;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces that kernels add up block by block, each at the block's own list of nodes, and where a
-// node of the ply finds its own in them. A node on the border of blocks has a force from each; they
-// are added in the order of the blocks, by whoever moves the node: the same bits for any number of
-// threads.
+// Forces that kernels sum block by block, each in the block's own list of nodes, and the map from a
+// node of the ply to its entries there. A node on the border of blocks has an entry in each; they
+// are added in the order of the blocks when the node is moved, so results are the same bits for any
+// number of threads.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -13,24 +13,25 @@
 
 namespace plyform {
 
-/// Where a node's forces are in BlockForces::force. Most nodes belong to one block; then the second
-/// is the zero at its end, so that reading it is a matter of no branch.
+/// Indices of a node's forces in BlockForces::force. Most nodes belong to one block; `second` is
+/// then that of the zero at its end, so that summing two forces needs no branch.
 struct NodeForces {
   std::int32_t first = 0;
-  std::int32_t second = 0; ///< below 0: there are more, from ~second in BlockForces::more
+  std::int32_t second = 0; ///< below 0: the further ones are listed from BlockForces::more[~second]
 };
 
 struct BlockForces {
-  std::vector<std::int32_t> nodes;  ///< of the blocks, in the ply
-  std::vector<SimdForce> force;     ///< one each of `nodes`, and a zero
-  std::vector<NodeForces> force_of; ///< one a node of the ply, ascending
-  std::vector<std::int32_t> more;   ///< how many, then these, of nodes with more than two
+  std::vector<std::int32_t> nodes;  ///< node lists of all blocks, numbers in the ply
+  std::vector<SimdForce> force;     ///< N, one per entry of `nodes`, and a zero at the end
+  std::vector<NodeForces> force_of; ///< one per node of the ply
+  std::vector<std::int32_t> more;   ///< for nodes in more than two blocks: count, then indices
 };
 
-/// Fills the rest by `nodes`, whose blocks are complete; `count`: nodes of the ply.
+/// Fills force (zero), force_of and more from b.nodes, which must be complete; `count`: number of
+/// nodes of the ply.
 void find_node_forces(BlockForces& b, std::size_t count);
 
-/// N, on a node of the ply from all blocks.
+/// Sum of the forces of all blocks on a node of the ply, N.
 inline Vec3 simd_force(const BlockForces& b, std::size_t node) {
   const auto force = [&b](std::int32_t i) {
     const SimdForce& f = b.force[i];
@@ -46,8 +47,8 @@ inline Vec3 simd_force(const BlockForces& b, std::size_t node) {
   return sum;
 }
 
-/// Numbers of the points in an order in which neighbours in x and y are near each other (Morton's);
-/// `box` holds the points.
+/// Numbers of the points in Morton order (Z-curve) of their x and y, in which neighbours are near
+/// each other. `box` must contain all points.
 std::vector<int> morton_order(std::span<const Vec3> points, const Box3& box);
 
 } // namespace plyform

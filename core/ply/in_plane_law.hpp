@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a ply answers to stretch and shear in its plane, and the one place that chooses between
-// yarns (yarns_in_plane.cpp; four at a time in membrane_simd.hpp) and a sheet without them
+// In-plane law of a ply as a table of functions, and the one place that selects it: yarns
+// (yarns_in_plane.cpp; SIMD version in membrane_simd.hpp) or a sheet without yarns
 // (sheet_in_plane.cpp).
 #pragma once
 
@@ -8,17 +8,17 @@
 
 namespace plyform {
 
-/// A law as functions of a membrane m and the places x (mm) of its nodes.
+/// A law as functions of a membrane m and the positions x (mm) of its nodes.
 struct InPlaneLaw {
-  bool yarns; ///< then pairs of triangles may share strains, and the kernel computes four at a time
+  bool yarns; ///< whether strain groups may be pairs and the SIMD kernel can be used
 
   /// q of (Q) for groups [begin, end), as element_forces (core/ply/membrane.hpp).
   GroupReport (*forces)(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                         std::span<ElementForce> q);
-  /// Of all triangles.
+  /// (E) summed over all triangles.
   MembraneEnergy (*energy)(const Membrane& m, std::span<const Vec3> x);
-  /// Bound of a triangle's largest eigenvalue of H (G x I), N/mm^3, of what is not yarns; null if
-  /// yarns and their shear are all.
+  /// Bound of the largest eigenvalue of H (G x I), N/mm^3, of a triangle of a sheet without yarns;
+  /// null for yarns, whose bound is in membrane_eigenvalue.cpp.
   double (*stiffness)(const Membrane& m, const FibreState& s, const Gram& g);
 };
 

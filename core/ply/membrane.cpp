@@ -14,9 +14,9 @@ namespace plyform {
 namespace {
 
 constexpr double stabilisation = 1e-6;    // s_a over yarn stiffness, see (E)
-constexpr double most_of_shear = 0.1;     // s_a over what the shear holds deviations with, and
-constexpr double shear_scale_at = 0.5;    // rad: where that is taken; the law may start from zero
-constexpr double collapse_penalty = 1e-3; // g_a over yarn stiffness: far above the shear's scale
+constexpr double most_of_shear = 0.1;     // s_a over the stiffness that shear gives deviations,
+constexpr double shear_scale_at = 0.5;    // rad: at this angle, as the law may start from zero
+constexpr double collapse_penalty = 1e-3; // g_a over yarn stiffness: far above that of shear
 
 /// s_a and g_a of a family of yarns softened by `softening`, see (E).
 SideStiffness side_stiffness(const Membrane& m, const TensionLaw& yarn, double density,
@@ -43,8 +43,8 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   m.cells_per_area = fabric.warp_density * fabric.weft_density * std::sin(m.omega0);
   m.side = {side_stiffness(m, m.yarn[0], fabric.warp_density, m.softening[0]),
             side_stiffness(m, m.yarn[1], fabric.weft_density, m.softening[1])};
-  if (!in_plane_law(fabric).yarns) kind = ElementKind::plain; // there is no yarn to lock
-  std::vector<char> alone; // the paper's element where it does not lock
+  if (!in_plane_law(fabric).yarns) kind = ElementKind::plain; // without yarns nothing locks
+  std::vector<char> alone; // triangles of the plain element: where it does not lock
   if (kind == ElementKind::automatic) alone = along_fibres(mesh, warp_angle, warp_angle + m.omega0);
   const StrainGroups groups = kind == ElementKind::plain ? single_triangles(mesh.triangles.size())
                                                          : pair_triangles(mesh, alone);
@@ -88,7 +88,7 @@ FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle)
   const Vec3 g1 = x[t[1]] - x0;
   const Vec3 g2 = x[t[2]] - x0;
   FibreState s;
-  s.f1 = c.c11 * g1 + c.c12 * g2; // k_1 (11), made a unit vector below
+  s.f1 = c.c11 * g1 + c.c12 * g2; // k_1 (11), normalised below
   s.f2 = c.c21 * g1 + c.c22 * g2;
   s.lambda1 = s.f1.norm();
   s.lambda2 = s.f2.norm();

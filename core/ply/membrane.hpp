@@ -1,6 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The semi-discrete three-node membrane of Hamila and Boisse (2008), in energy form.
 //
+//               2
+//              / \               0 1 2  nodes, anticlockwise seen from the upper side
+//             /   \              f_1    unit vector along the warp yarns
+//            /     \             f_2    unit vector along the weft yarns
+//           /   ^   \            omega  angle from f_1 to f_2
+//          /   / f_2 \           f_1, f_2 and omega are constant in a triangle and
+//         /   / ) omega          change as it deforms. Before forming warp and weft
+//        /   +----> f_1\         may lie at any angle to its sides and to each
+//       /               \        other.
+//      0-----------------1
+//
 //   x_n      mm      positions of the triangle's nodes, n = 0 1 2
 //   c_a,n    1/mm    gradient of N_n along fibre family a (1 warp, 2 weft), sums to 0 over n
 //   k_a      -       k_a = sum_n c_a,n x_n                                              (1)(11)
@@ -11,16 +22,17 @@
 //   A0       mm^2    initial area
 //
 //   P        -       group: a pair of triangles that share a mean strain, or one alone
-//   A        mm^2    sum of A0 over the group; mean: average over the group by area
+//   A        mm^2    sum of A0 over the group; mean: average over the group weighted by area
 //   delta_a  -       eps_a - mean eps_a, zero for a triangle alone
 //   g        rad     sqrt(gamma^2 + beta (delta_1^2 + delta_2^2)): deviations count as shear
 //   beta     -       8
-//   s_a      N       holds deviations of a fabric without shear stiffness: 1e-6 of the yarn's own;
-//                    with it no more than a tenth of what the shear itself holds them with at half
-//                    a radian, n_c beta p / d_a, or very stiff yarns would lock
-//   g_a      N       guard against folding a triangle flat, acts below a stretch of one half: 1e-3
-//                    of the yarn stiffness, and no more than the (softened) yarn's own, which
-//                    is slack there unless the yarn bears compression or its pair is taut
+//   s_a      N       stabilisation of the deviations, for fabrics without shear stiffness: 1e-6 of
+//                    the yarn stiffness, and, if there is shear stiffness, no more than a tenth of
+//                    the stiffness n_c beta p / d_a that it gives the deviations at half a radian;
+//                    else very stiff yarns would lock
+//   g_a      N       collapse penalty, against folding a triangle flat, acts below a stretch of one
+//                    half: 1e-3 of the yarn stiffness, and no more than the (softened) yarn's own,
+//                    which is slack there unless it bears compression or its group is taut
 //
 // clang-format off
 //   E_P = A [ d_1 W_1(mean eps_1) + d_2 W_2(mean eps_2) ]
@@ -32,16 +44,17 @@
 //   F_n = -( c_1,n q_1 + c_2,n q_2 )                                            (31)(32)(39)(F)
 // clang-format on
 //
-// Numbers in brackets: the paper's equations, cleaned. With groups of one triangle this is the
-// paper's element exactly (the guard apart, which no sound result reaches); for omega0 = 90 degrees
-// (Q) is then the sum of (31), (32) and (39). The element only needs k_1 and k_2, so the fibres may
-// lie at any angle to the sides and to each other.
+// Numbers in brackets: the corresponding equations of the paper. With groups of one triangle this
+// is the paper's element exactly, except for the collapse penalty, which acts only where no result
+// is valid; for omega0 = 90 degrees (Q) is then the sum of (31), (32) and (39). The element only
+// needs k_1 and k_2, so the fibres may lie at any angle to the sides and to each other.
 //
-// Why pairs: two stiff fibre strains a triangle are about four constraints a node, twice as many
-// as the node has freedoms in the plane; the mesh locks unless sides run along both families. One
-// mean strain a pair of triangles leaves two a node. The mean is convex, so a pair is never stiffer
-// than its triangles. Why deviations count as shear: what a pair is free to do must cost as much as
-// the shear that it could replace, at any shear angle, and no more: docs/developers.md has figures.
+// Why pairs: two stiff fibre strains per triangle are about four constraints per node, twice the
+// number of its in-plane degrees of freedom; the mesh locks unless sides run along both families.
+// One mean strain per family and pair of triangles leaves two constraints per node. By convexity a
+// pair is never stiffer than its triangles. Why deviations count as shear: the modes that a pair
+// leaves unconstrained (hourglass-like) must cost as much energy as the shear that they could
+// replace, at any shear angle, and no more: docs/developers.md has figures.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -60,7 +73,7 @@ struct FibreGradients {
   double c11, c12, c21, c22;
 };
 
-/// What a triangle answers: q_1, q_2 of (Q), N mm.
+/// Internal force of a triangle: q_1, q_2 of (Q), N mm, conjugate to k_1, k_2.
 struct ElementForce {
   Vec3 q1, q2;
 };
@@ -70,31 +83,31 @@ struct FibreViscosity {
   double warp = 0.0, weft = 0.0;
 };
 
-/// s_a and g_a of one family, N.
+/// Stiffnesses of one family besides that of the yarn: s_a and g_a, N.
 struct SideStiffness {
   double stabilisation = 0.0, collapse_penalty = 0.0;
 };
 
-/// One ply's membrane; nodes and triangles are numbered within the ply. Constant topology, and the
-/// little state that viscosity needs. Sizes: n nodes, m triangles.
+/// One ply's membrane; nodes and triangles are numbered within the ply. Constant but for the state
+/// variables of the viscosity. Sizes: n nodes, m triangles.
 struct Membrane {
-  Fabric fabric;                             ///< the true one, as its file has it
+  Fabric fabric;                             ///< as given, not softened
   std::array<TensionLaw, 2> yarn;            ///< W_a of warp and weft: those of `fabric`, softened
-  std::array<double, 2> softening{1.0, 1.0}; ///< by so much: effective_softening
+  std::array<double, 2> softening{1.0, 1.0}; ///< factors of that: effective_softening
   double omega0 = 0.0;                       ///< rad
   double cells_per_area = 0.0;               ///< n_c, 1/mm^2
   FibreViscosity viscosity;
   std::array<SideStiffness, 2> side{};    ///< warp, weft
-  std::vector<Triangle> triangles;        ///< m, those of a group next to each other
+  std::vector<Triangle> triangles;        ///< m, those of a strain group successive
   std::vector<std::int32_t> group_begin;  ///< groups + 1, into triangles
   std::vector<FibreGradients> c;          ///< m
   std::vector<double> area;               ///< m, A0
-  std::vector<double> node_area;          ///< n, a third of the triangles around it
+  std::vector<double> node_area;          ///< n, mm^2, a third of the triangles around the node
   std::vector<double> node_mass;          ///< n, t
   std::vector<std::int32_t> gather_begin; ///< n + 1, into gather
-  std::vector<std::int32_t> gather;       ///< 3 * triangle + corner, ascending
-  // state of the viscosity: mean stretches and viscous tensions of the last step, one a group;
-  // empty where core/ply/membrane_simd.hpp computes the forces
+  std::vector<std::int32_t> gather;       ///< per node: 3 * triangle + corner, ascending
+  // State variables of the viscosity, per group: mean stretches and viscous tensions (N) of the
+  // last step; empty if core/ply/membrane_simd.hpp computes the forces.
   std::vector<std::array<double, 2>> last_lambda, last_viscous;
 
   int groups() const { return static_cast<int>(group_begin.size()) - 1; }
@@ -107,53 +120,57 @@ struct FibreState {
   double cos_omega, sin_omega, gamma;
 };
 
-/// `warp_angle` in rad from x. `fabric`: the true one; its yarns are softened by `softening`, as
-/// far as effective_softening allows; s_a and g_a go by the true stiffness. With `kind` automatic
-/// the triangles that along_fibres (core/mesh/pairs.hpp) marks are plain, the others averaged.
-/// Triangles are put in the order of their groups. Throws std::invalid_argument for a triangle of
-/// zero or inverted area.
+/// Builds the membrane of a ply. warp_angle: rad from x. The yarns of `fabric` are softened by
+/// `softening` as far as effective_softening allows; s_a and g_a follow the stiffness before
+/// softening. With `kind` automatic the triangles that along_fibres (core/mesh/pairs.hpp) marks are
+/// plain, the others averaged. Triangles are reordered by strain group. Throws
+/// std::invalid_argument for a triangle of zero or negative area.
 Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
                        ElementKind kind, double softening = 1.0);
 
+/// (1), (11): strains and directions of a triangle. x: positions, mm, n.
 FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle);
 
-/// beta n_c times the larger of Cs'(gamma) and Cs(gamma)/gamma, N/mm: what holds the deviations of
-/// (E) at shear angle gamma (rad).
+/// Stiffness per area, N/mm, of the deviations in (E) at shear angle gamma (rad): beta n_c times
+/// the larger of Cs'(gamma) and Cs(gamma)/gamma.
 double deviation_stiffness(const Membrane& m, double gamma);
 
-/// Mean strains {warp, weft} of the group that a triangle belongs to, for all m triangles: those
-/// that its yarns are stretched by.
+/// Yarn strains {warp, weft} of all m triangles: mean eps_a of the strain group of each. x: mm, n.
 std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x);
 
-/// Tensions {warp, weft} (N per yarn) of all m triangles. Of triangles alone W_a' at their
-/// strain. Those of pairs scatter about their mean from pair to pair, as do the multipliers of any
-/// element with as many constraints as freedoms: they are evened out by two passes of means at the
-/// nodes, as is done with the pressures of such elements (docs/verification/locking.md).
+/// Tensions {warp, weft} (N per yarn) of all m triangles, for output. For triangles alone W_a' at
+/// their strain. Those of pairs oscillate from pair to pair, as do the multipliers of any element
+/// with as many constraints as degrees of freedom: they are smoothed by two passes of nodal
+/// averages, as is usual for the pressures of such elements (docs/verification/locking.md). x: mm,
+/// n.
 std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
 
-/// Whether a triangle has no meaning any more: shrunk to a tenth along a yarn, or its yarns within
-/// 1.1 degrees of lying on each other. One that turns over in its plane goes through this.
+/// Whether a triangle has collapsed: shrunk to a tenth along a yarn, or the yarns within 1.1
+/// degrees of parallel, which a triangle that inverts in its plane passes through. Limits:
+/// element_limits.hpp.
 bool collapsed(const FibreState& state);
 
-/// What came up with the forces of some groups.
+/// Report of a force computation over some groups.
 struct GroupReport {
-  double viscous_work = 0.0; ///< N mm, done against viscosity in the step that led here
-  bool collapsed = false;    ///< a triangle is
+  double viscous_work = 0.0; ///< N mm, dissipated by viscosity in the step that led to x
+  bool collapsed = false;    ///< whether a triangle has collapsed
 };
 
-/// (Q) for groups [begin, end) at positions x, viscous forces included (dt: the step that led to
-/// x, s; 0 leaves the viscosity out). q: one a triangle.
+/// (Q) for groups [begin, end) at positions x (mm, n), viscous forces included. dt: s, the time
+/// step that led to x; 0 leaves the viscosity out. q: N mm, m, of which those of the groups are
+/// written.
 GroupReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                            std::span<ElementForce> q);
 
 /// (F): internal force on a node, N, from all its triangles in fixed order.
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);
 
-/// All of an isotropic sheet's energy counts as shear: it has no fibres.
+/// Energy of the fibres (with stabilisation and collapse penalty) and of shear. All energy of a
+/// sheet without yarns counts as shear.
 struct MembraneEnergy {
   double fibre = 0.0, shear = 0.0; ///< N mm
 };
-/// (E) over all triangles.
+/// (E) summed over all triangles. x: mm, n.
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x);
 
 } // namespace plyform

@@ -12,7 +12,7 @@
 namespace plyform {
 namespace {
 
-/// Whether some triangles share their yarns' strains.
+/// Whether some strain groups are pairs of triangles.
 bool is_paired(const Membrane& m) {
   return static_cast<std::size_t>(m.groups()) < m.triangles.size();
 }
@@ -22,7 +22,7 @@ double largest(double a, double b, double off) {
   return 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + off * off);
 }
 
-/// Stiffness of both families per area, N/mm, yarns taut or pressed flat.
+/// Stiffness of both families per area, N/mm, in tension or in compression, whichever is stiffer.
 std::array<double, 2> yarn_stiffness(const Membrane& m) {
   const auto slope = [](const TensionLaw& yarn, const SideStiffness& side) {
     return std::max(yarn.largest_slope(), yarn.compression + side.collapse_penalty);
@@ -31,7 +31,7 @@ std::array<double, 2> yarn_stiffness(const Membrane& m) {
           m.fabric.weft_density * slope(m.yarn[1], m.side[1])};
 }
 
-/// Stiffness per area against deviations within a group, N/mm.
+/// Stiffness per area of the deviations within a group, N/mm.
 std::array<double, 2> deviation_stiffness(const Membrane& m, const FibreState& s) {
   const double shear = deviation_stiffness(m, s.gamma);
   return {m.fabric.warp_density * m.side[0].stabilisation + shear,
@@ -44,8 +44,8 @@ Gram gram(const FibreGradients& c) {
           c10 * c20 + c.c11 * c.c21 + c.c12 * c.c22};
 }
 
-/// Shear and geometric part of H below, N/mm, bounded by norms; the second derivative of the angle
-/// is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2).
+/// Shear and geometric part of H (see eigenvalue_bound), N/mm, bounded by norms; the second
+/// derivative of the angle is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2).
 double soft_stiffness(const Membrane& m, const FibreState& s) {
   const LawPoint shear = m.fabric.shear.at(s.gamma);
   const double inv2 = 1.0 / (s.lambda1 * s.lambda1) + 1.0 / (s.lambda2 * s.lambda2);
@@ -60,8 +60,9 @@ double soft_stiffness(const Membrane& m, const FibreState& s) {
 
 EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
   // K_e = A0 B^T H B with B = [c_1; c_2] x I. Its non-zero eigenvalues are those of H (G x I),
-  // and every node carries at least rho A0 / 3: so omega^2 <= 3/rho * them. Fibre part of H: exact,
-  // a 2 x 2 problem. A sheet without yarns has only its own (core/model/sheet_law.hpp).
+  // and each node has a mass of at least rho A0 / 3: so omega^2 <= 3/rho times the largest of them.
+  // The fibre part of H is exact, a 2 x 2 problem. A sheet without yarns has only the part of its
+  // own law (core/model/sheet_law.hpp).
   EigenvalueBound bound;
   const InPlaneLaw& law = in_plane_law(m.fabric);
   const auto [s1, s2] = yarn_stiffness(m);
@@ -69,11 +70,11 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
   const double v2 = m.fabric.weft_density * m.viscosity.weft;
   bound.viscous = std::max(s1 > 0.0 ? v1 / s1 : 0.0, s2 > 0.0 ? v2 / s2 : 0.0);
   const double per_mass = 3.0 / m.fabric.surface_density;
-  // a triangle's guard adds to the stiffness of its pair's taut yarns
+  // the collapse penalty of a triangle adds to the stiffness of the taut yarns of its pair
   const bool paired = is_paired(m);
   const double g1 = m.fabric.warp_density * m.side[0].collapse_penalty;
   const double g2 = m.fabric.weft_density * m.side[1].collapse_penalty;
-  constexpr double considerable = 0.2; // of the yarn's stiffness: less is covered by step factors
+  constexpr double considerable = 0.2; // of the yarn stiffness: step_factor covers less
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const Gram g = gram(m.c[e]);
     const FibreState s = fibre_state(m, x, static_cast<int>(e));
@@ -87,8 +88,8 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
     const double soft = soft_stiffness(m, s) * largest(g.g11, g.g22, g.g12);
     for (std::size_t a = 0; a < 2; ++a) {
       const double lambda = a == 0 ? s.lambda1 : s.lambda2;
-      bound.guarded =
-          bound.guarded || (lambda < collapse_reach &&
+      bound.penalty_acts = bound.penalty_acts ||
+                           (lambda < collapse_reach &&
                             m.side[a].collapse_penalty > considerable * m.yarn[a].largest_slope());
     }
     bound.yarns = std::max(bound.yarns, per_mass * (fibre + sheet));
@@ -192,7 +193,7 @@ double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x) {
 }
 
 double highest_omega2(const EigenvalueBound& bound, double eigenvalue_ratio) {
-  if (bound.guarded) return bound.omega2;
+  if (bound.penalty_acts) return bound.omega2;
   return std::min(bound.omega2, eigenvalue_ratio * bound.yarns + bound.soft);
 }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Highest frequency of a membrane, which limits the stable step of explicit integration.
+// Highest frequency of a membrane, which limits the stable time step of explicit integration.
 //
-//   omega_e  1/s   largest of one element's M_e^-1 K_e: a bound of the mesh (Irons)
-//   omega    1/s   largest of M^-1 K, found by Lanczos' iteration; up to a quarter below omega_e
-//   M        t     lumped masses;  K  N/mm  tangent stiffness, all yarns taken as taut (or pressed
-//                  flat, where that is stiffer)
+//   omega_e  1/s   root of the largest eigenvalue of any element's M_e^-1 K_e: a bound of omega
+//                  (Irons)
+//   omega    1/s   root of the largest eigenvalue of M^-1 K, by Lanczos' iteration; up to a quarter
+//                  below omega_e
+//   M        t     lumped masses;  K  N/mm  tangent stiffness with all yarns in tension (or in
+//                  compression, if that is stiffer)
 //   y        mm    K y = - sum of (F) of core/ply/membrane.hpp with N_a of the small strains that y
 //                  makes: eps_a = f_a . sum_n c_a,n y_n                                        (K)
 #pragma once
@@ -14,24 +16,29 @@
 
 namespace plyform {
 
-/// Bounds of one ply at its present shape, by Irons.
+/// Element bounds (Irons) of the eigenvalues of one ply's membrane at its present shape.
 struct EigenvalueBound {
-  double omega2 = 0.0;            ///< 1/s^2
-  double yarns = 0.0, soft = 0.0; ///< 1/s^2, largest of yarns alone; of shear and tension
-  bool guarded = false; ///< whether a guard about as stiff as its yarns acts on a triangle
+  double omega2 = 0.0; ///< 1/s^2
+  double yarns = 0.0;  ///< 1/s^2, largest with the yarns' stiffness alone
+  double soft = 0.0;   ///< 1/s^2, largest with shear and geometric stiffness alone
+  /// Whether a collapse penalty of more than 0.2 yarn stiffness acts on any triangle.
+  bool penalty_acts = false;
   double damping = 0.0; ///< 1/s, of M^-1 C
-  double viscous = 0.0; ///< s, C is at most so many times the yarns' K
-  int triangle = -1;    ///< where
+  double viscous = 0.0; ///< s, C <= viscous * K of the yarns
+  int triangle = -1;    ///< the triangle with the largest omega2
 };
+
+/// Element bounds at positions x (mm, n).
 EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x);
 
-/// Products with (stiffness K + damping C) of taut yarns, guards that act included, at one shape;
-/// not for a sheet without yarns. The membrane must outlive it.
+/// Products of vectors with (stiffness K + damping C) of taut yarns at one shape x (mm), active
+/// collapse penalties included. stiffness, damping: factors (damping in 1/s). Not for a sheet
+/// without yarns. Keeps a reference to the membrane, which must outlive it.
 class YarnStiffness {
 public:
   YarnStiffness(const Membrane& m, std::span<const Vec3> x, double stiffness, double damping);
 
-  /// Adds the product with y (mm), (K), to f, both n nodes.
+  /// Adds the product with y (mm, n nodes), (K), to f (N, n nodes).
   void add_to(std::span<const Vec3> y, std::span<Vec3> f);
 
 private:
@@ -43,24 +50,25 @@ private:
 
   const Membrane& m_;
   std::array<double, 2> taut_; ///< N/mm
-  std::vector<Row> rows_;      ///< one a triangle
+  std::vector<Row> rows_;      ///< one per triangle
   std::vector<ElementForce> q_;
 };
 
-/// A motion (3 n) with a share of every mode, always the same: numbers without pattern along the
-/// yarns and across the sheet, so that it turns with it.
+/// Start vector (3 n) of Lanczos' iteration with a component along every mode: the same
+/// pseudo-random numbers every time, along the yarns and the normal, so that the vector rotates
+/// with the ply.
 Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x);
 
-constexpr int ritz_steps = 30;       ///< leaves 1 % to find on meshes of 1e6 triangles
-constexpr double ritz_margin = 1.03; ///< for that, three times
+constexpr int ritz_steps = 30; ///< iterations; the Ritz value is 1 % low on meshes of 1e6 triangles
+constexpr double ritz_margin = 1.03; ///< factor of the Ritz value: three times that error
 
-/// omega^2 of the yarns' stiffness alone at shape x (mm) over EigenvalueBound::yarns, at most 1:
-/// the largest Ritz value with a margin of 3 % for what the iteration has not found. 1 for a sheet
+/// Ratio (at most 1) of omega^2 with the yarns' stiffness alone at shape x (mm, n) to its element
+/// bound EigenvalueBound::yarns. omega^2 is the largest Ritz value times ritz_margin. 1 for a sheet
 /// without yarns.
 double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x);
 
-/// Largest omega^2 (1/s^2) of a bound whose part of the yarns is sharpened; Irons' where guards
-/// act.
+/// Bound of omega^2 (1/s^2) with the yarns' part multiplied by eigenvalue_ratio; the element bound
+/// itself where stiff collapse penalties act.
 double highest_omega2(const EigenvalueBound& bound, double eigenvalue_ratio);
 
 } // namespace plyform

@@ -10,9 +10,9 @@
 namespace plyform {
 namespace {
 
-constexpr int block_groups = 512; // long enough to hide the hand-over, short enough to share out
+constexpr int block_groups = 512; // groups per block: outweighs scheduling, still balances threads
 
-/// StrainGroups in an order in which neighbours are near each other.
+/// Numbers of the strain groups in an order in which neighbours are near each other (Morton).
 std::vector<int> ordered_groups(const Membrane& m, std::span<const Vec3> x) {
   Box3 box;
   for (const Vec3& p : x)
@@ -27,7 +27,7 @@ std::vector<int> ordered_groups(const Membrane& m, std::span<const Vec3> x) {
   return morton_order(centres, box);
 }
 
-/// Builds one block after the other.
+/// Builds the blocks one after the other.
 class BlockMaker {
 public:
   BlockMaker(const Membrane& membrane, std::size_t nodes, MembraneSimd& lanes_)
@@ -68,8 +68,9 @@ private:
   }
 
   int add_groups(const std::vector<int>& groups, int of) {
-    // each lane goes through a quarter of its own: neighbours follow each other in a lane, where
-    // the one's force is added to their nodes long before the other's
+    // Each SIMD lane takes one contiguous quarter of the groups, so that neighbouring groups are
+    // computed in successive packs of one lane, not in one pack, where they would add forces to the
+    // same nodes at once.
     const std::size_t packs = (groups.size() + simd_width - 1) / simd_width;
     for (std::size_t pack = 0; pack < packs; ++pack) {
       for (int i = 0; i < of; ++i) {
@@ -105,8 +106,8 @@ private:
 
   const Membrane& m;
   MembraneSimd& out;
-  std::vector<std::int32_t> local; ///< number of a node of the ply in the open block, or -1
-  std::vector<std::int32_t> list;  ///< nodes of the open block
+  std::vector<std::int32_t> local; ///< per node of the ply: its index in the current block, or -1
+  std::vector<std::int32_t> list;  ///< nodes of the current block
   std::vector<int> pairs, singles;
 };
 
@@ -176,9 +177,9 @@ KernelLaw kernel_law(const Membrane& m) {
   return law;
 }
 
-static_assert(sizeof(Vec3) == 3 * sizeof(double)); // as the kernel takes it
+static_assert(sizeof(Vec3) == 3 * sizeof(double)); // the kernel reads positions as doubles
 
-/// viscosity, force: of all blocks, or null where they are not asked for.
+/// The kernel's view of block b. viscosity, force: arrays of all blocks, or null if not needed.
 KernelBlock kernel_block(const MembraneSimd& l, const SimdBlock& b, SimdViscosity* viscosity,
                          SimdForce* force) {
   return {l.nodes.data() + b.first_node,

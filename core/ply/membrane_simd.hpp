@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The membrane of core/ply/membrane.hpp laid out for speed: four groups side by side, in blocks
-// whose nodes stay in a core's cache. What membrane.hpp computes one triangle after the other is
-// the oracle of its test.
+// The membrane of core/ply/membrane.hpp, optimised: four strain groups at a time (SIMD), in blocks
+// whose nodes stay in a core's cache. Its test compares it with the scalar implementation of
+// membrane.hpp.
 //
-// A block gathers the places of its nodes, does its groups, and adds their forces up at its own
-// nodes: no triangle's force goes to memory. core/ply/block_forces.hpp says how a node finds its
-// sum.
+// A block gathers the positions of its nodes, computes its groups, and sums their forces in its own
+// list of nodes, so that no element force is written to memory. core/ply/block_forces.hpp sums the
+// blocks on a node.
+//
+// A pack is the unit of the kernel: four single triangles, or four pairs of triangles.
 #pragma once
 
 #include "core/ply/block_forces.hpp"
@@ -24,21 +26,23 @@ struct SimdBlock {
 struct MembraneSimd : BlockForces {
   std::vector<SimdBlock> blocks;
   std::vector<SimdTriangles> triangles; ///< of the blocks, pairs first
-  std::vector<SimdViscosity> viscosity; ///< one a pack of four groups
+  std::vector<SimdViscosity> viscosity; ///< one per pack
 };
 
-/// Whether the kernel knows this membrane: it has yarns.
+/// Whether the kernel can compute this membrane: only if it has yarns.
 bool fits_simd(const Membrane& m);
 
-/// x: the unformed ply, 2 or 3 coordinates alike in order; only says which groups are neighbours.
+/// x: undeformed positions (mm, n), used only to put neighbouring groups into the same block.
+/// Requires fits_simd(m).
 MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x);
 
-/// Internal forces of a block's groups on its nodes, viscous ones included; dt and the report as
-/// element_forces (core/ply/membrane.hpp).
+/// Internal forces (F), N, of a block's groups, viscous ones included, stored in simd.force;
+/// simd_force (core/ply/block_forces.hpp) sums them. x: mm, n; dt and report: as of element_forces
+/// (core/ply/membrane.hpp).
 GroupReport simd_forces(MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block);
 
-/// Energies of a block's groups; membrane_energy is their sum.
+/// (E) of a block's groups, N mm; summed over the blocks it is membrane_energy. x: mm, n.
 MembraneEnergy simd_energy(const MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x,
                            int block);
 

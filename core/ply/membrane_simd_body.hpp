@@ -2,7 +2,7 @@
 // (N), (Q) and (F) of core/ply/membrane.hpp for four groups at a time. With
 //   a = k_1.k_1,  b = k_2.k_2,  d = k_1.k_2,  J = sqrt(a b - d^2) = lambda_1 lambda_2 sin(omega)
 //   gamma = omega0 - pi/2 + arctan(d / J),  tau = A0 n_c p gamma / J
-// (Q) needs no unit vectors:
+// (Q) can be written without unit vectors:
 //   q_1 = (A0 d_1 N_1 / lambda_1 - tau d / a) k_1 + tau k_2, and so with 1 and 2 exchanged     (Q')
 #include "core/ply/element_limits.hpp"
 #include "core/ply/membrane_simd_kernel.hpp"
@@ -11,11 +11,11 @@
 namespace plyform {
 namespace {
 
-/// SimdTriangles that go through each step together, so that the processor finds work in the one
-/// while it waits for a root of the other. Even: pairs stay together.
+/// Number of SimdTriangles that pass through each stage of the computation together, so that the
+/// processor overlaps the latency of their square roots. Even, so that pairs are not separated.
 constexpr int batch = 8;
 
-/// KernelLaw, four times each.
+/// KernelLaw with each number copied to all SIMD lanes.
 struct SimdYarns {
   Double4 stiffness, compression, viscosity, stabilisation, collapse_penalty; ///< viscosity: N/mm
 };
@@ -25,7 +25,7 @@ struct SimdLaw {
   Double4 angle, beta, shear[most_shear_terms];
 };
 
-PLYFORM_INLINE SimdLaw lane_law(const KernelLaw& law, double per_dt) {
+PLYFORM_INLINE SimdLaw simd_law(const KernelLaw& law, double per_dt) {
   SimdLaw l;
   for (int a = 0; a < 2; ++a) {
     const KernelYarns& y = law.yarns[a];
@@ -38,7 +38,7 @@ PLYFORM_INLINE SimdLaw lane_law(const KernelLaw& law, double per_dt) {
   return l;
 }
 
-/// Four triangles and what they become.
+/// Kinematics of four triangles: the symbols at the head of this file.
 struct SimdState {
   Vector4 k1, k2;
   Double4 a, b, d, lambda1, lambda2, j;
@@ -55,33 +55,35 @@ PLYFORM_INLINE void find_lengths(const SimdTriangles& t, const double* place, Si
   const Vector4 k2 = load(t.c21) * g1 + load(t.c22) * g2;
   const Double4 a = dot(k1, k1), b = dot(k2, k2), d = dot(k1, k2), ab = a * b;
   constexpr double least_sine2 = least_sine * least_sine;
-  s.k1.x = k1.x, s.k1.y = k1.y, s.k1.z = k1.z; // not at once: the compiler would copy in pieces
+  // by component: whole vectors compile to slower copies
+  s.k1.x = k1.x, s.k1.y = k1.y, s.k1.z = k1.z;
   s.k2.x = k2.x, s.k2.y = k2.y, s.k2.z = k2.z;
   s.a = a, s.b = b, s.d = d;
   s.j = root(larger(ab - d * d, least_sine2 * ab));
   s.lambda1 = root(a), s.lambda2 = root(b);
 }
 
-/// Returns where a triangle is odd: collapsed, guarded, or not a number.
+/// Computes the shear angles. Returns the mask of triangles that have collapsed, have an active
+/// collapse penalty, or are not finite.
 PLYFORM_INLINE Long4 find_angle(const SimdTriangles& t, const SimdLaw& law, SimdState& s) {
   const Double4 length2 = s.lambda1 * s.lambda2;
   const Double4 ab = s.a * s.b, aj = s.a * s.j, bj = s.b * s.j;
   const Double4 inverse = 1.0 / (ab * s.j), area = load(t.area) * inverse;
   s.area_a = area * bj, s.area_b = area * aj, s.per_j = inverse * ab;
   s.gamma = law.angle + arctan(s.d, s.j, length2);
-  const Long4 sound = (s.lambda1 > all(collapse_stretch)) & (s.lambda2 > all(collapse_stretch)) &
+  const Long4 valid = (s.lambda1 > all(collapse_stretch)) & (s.lambda2 > all(collapse_stretch)) &
                       (s.j > least_sine_between * length2);
-  return ~sound;
+  return ~valid;
 }
 
-/// As collapsed() of core/ply/membrane.hpp; NaN counts.
-PLYFORM_INLINE Long4 lane_collapsed(const SimdState& s) {
-  const Long4 sound = (s.lambda1 > all(least_stretch)) & (s.lambda2 > all(least_stretch)) &
+/// Mask of collapsed triangles, as collapsed() of core/ply/membrane.hpp; NaN counts as collapsed.
+PLYFORM_INLINE Long4 simd_collapsed(const SimdState& s) {
+  const Long4 valid = (s.lambda1 > all(least_stretch)) & (s.lambda2 > all(least_stretch)) &
                       (s.j > least_sine_between * (s.lambda1 * s.lambda2));
-  return ~sound;
+  return ~valid;
 }
 
-/// What a block's packs share.
+/// Data that all packs of a block share.
 struct SimdBlockWork {
   const KernelLaw& law;
   const SimdLaw& lane;
@@ -89,12 +91,12 @@ struct SimdBlockWork {
   Double4 work;
 };
 
-/// Of yarns pressed beyond their buckling strain: how far. 0 for others.
+/// Compressive strain beyond the buckling strain; 0 for yarns that have not buckled.
 PLYFORM_INLINE Double4 buckled_by(const KernelYarns& yarns, Double4 strain) {
   return larger(all(0.0), -yarns.buckling_strain - strain);
 }
 
-/// d_a W_a', N/mm. `general`: some law of the fabric is a table, or has yarns that buckle.
+/// d_a W_a', N/mm. `general`: some law of the fabric is a table, or its yarns can buckle.
 template <bool general>
 PLYFORM_INLINE Double4 yarn_tension(const SimdBlockWork& w, int family, Double4 strain) {
   const SimdYarns& yarns = w.lane.yarns[family];
@@ -111,7 +113,7 @@ PLYFORM_INLINE Double4 yarn_tension(const SimdBlockWork& w, int family, Double4 
 
 /// n_c p, N/mm, for four g^2.
 template <bool general>
-PLYFORM_INLINE Double4 lane_secant(const SimdBlockWork& w, Double4 measure2) {
+PLYFORM_INLINE Double4 simd_secant(const SimdBlockWork& w, Double4 measure2) {
   const int terms = w.law.shear_terms;
   if (!general || terms > 0) {
     const Double4* k = w.lane.shear;
@@ -129,19 +131,20 @@ PLYFORM_INLINE Double4 lane_secant(const SimdBlockWork& w, Double4 measure2) {
   return load(p);
 }
 
-/// Adds the viscous tension of four groups to n1 and n2; its work is added up.
+/// Adds the viscous tensions of four groups to n1 and n2 (N/mm), and twice their work (N mm) to
+/// w.work.
 PLYFORM_INLINE void add_viscosity(SimdBlockWork& w, SimdViscosity& v, Double4 mean1, Double4 mean2,
                                   Double4 area, Double4& n1, Double4& n2) {
-  const Double4 way1 = mean1 - load(v.lambda[0]), way2 = mean2 - load(v.lambda[1]);
-  const Double4 now1 = n1 > 0.0 ? w.lane.yarns[0].viscosity * way1 : all(0.0);
-  const Double4 now2 = n2 > 0.0 ? w.lane.yarns[1].viscosity * way2 : all(0.0);
-  w.work += area * ((now1 + load(v.tension[0])) * way1 + (now2 + load(v.tension[1])) * way2);
+  const Double4 change1 = mean1 - load(v.lambda[0]), change2 = mean2 - load(v.lambda[1]);
+  const Double4 now1 = n1 > 0.0 ? w.lane.yarns[0].viscosity * change1 : all(0.0);
+  const Double4 now2 = n2 > 0.0 ? w.lane.yarns[1].viscosity * change2 : all(0.0);
+  w.work += area * ((now1 + load(v.tension[0])) * change1 + (now2 + load(v.tension[1])) * change2);
   store(v.lambda[0], mean1), store(v.lambda[1], mean2);
   store(v.tension[0], now1), store(v.tension[1], now2);
   n1 += now1, n2 += now2;
 }
 
-/// (Q') and (F) of four triangles; n1, n2: d_a N_a; secant: n_c p.
+/// Adds (Q') and (F) of four triangles to their nodes. n1, n2: d_a N_a, N/mm; secant: n_c p, N/mm.
 PLYFORM_INLINE void add_forces(const SimdTriangles& t, const SimdState& s, Double4 n1, Double4 n2,
                                Double4 secant, double* force) {
   const Double4 shear = secant * s.gamma * s.per_j, tau = shear * load(t.area);
@@ -161,7 +164,7 @@ PLYFORM_INLINE void add_forces(const SimdTriangles& t, const SimdState& s, Doubl
   }
 }
 
-/// Guard of (N).
+/// Subtracts the collapse penalty of (N) from n1 and n2.
 PLYFORM_INLINE void add_collapse_penalty(const SimdLaw& law, const SimdState& s, Double4& n1,
                                          Double4& n2) {
   n1 -= law.yarns[0].collapse_penalty * larger(all(0.0), collapse_stretch - s.lambda1);
@@ -175,7 +178,7 @@ PLYFORM_INLINE void single_pack(SimdBlockWork& w, const SimdTriangles& t, const 
   Double4 n2 = yarn_tension<general>(w, 1, s.lambda2 - 1.0);
   add_viscosity(w, v, s.lambda1, s.lambda2, load(t.area), n1, n2);
   if (needs_penalty) add_collapse_penalty(w.lane, s, n1, n2);
-  add_forces(t, s, n1, n2, lane_secant<general>(w, s.gamma * s.gamma), w.force);
+  add_forces(t, s, n1, n2, simd_secant<general>(w, s.gamma * s.gamma), w.force);
 }
 
 template <bool general>
@@ -192,7 +195,7 @@ PLYFORM_INLINE void pair_pack(SimdBlockWork& w, const SimdTriangles* t, const Si
   for (int i = 0; i < 2; ++i) {
     delta1[i] = s[i].lambda1 - mean1, delta2[i] = s[i].lambda2 - mean2;
     const Double4 deviation2 = delta1[i] * delta1[i] + delta2[i] * delta2[i];
-    secant[i] = lane_secant<general>(w, s[i].gamma * s[i].gamma + w.lane.beta * deviation2);
+    secant[i] = simd_secant<general>(w, s[i].gamma * s[i].gamma + w.lane.beta * deviation2);
     held1[i] = secant[i] * delta1[i], held2[i] = secant[i] * delta2[i];
   }
   const Double4 mean_held1 = share[0] * held1[0] + share[1] * held1[1];
@@ -206,7 +209,8 @@ PLYFORM_INLINE void pair_pack(SimdBlockWork& w, const SimdTriangles* t, const Si
   }
 }
 
-/// States of some SimdTriangles; whether one of them is odd.
+/// Kinematics of `count` SimdTriangles; returns whether any triangle needs the test for collapse
+/// and the collapse penalty.
 PLYFORM_INLINE bool find_states(const SimdTriangles* t, int count, const SimdLaw& law,
                                 const double* place, SimdState* s) {
   for (int i = 0; i < count; ++i)
@@ -217,7 +221,7 @@ PLYFORM_INLINE bool find_states(const SimdTriangles* t, int count, const SimdLaw
   return any(needs_penalty);
 }
 
-/// A number that the compiler knows.
+/// A compile-time integer, passed as an argument.
 template <int n>
 struct Count {
   constexpr operator int() const { return n; }
@@ -227,7 +231,8 @@ PLYFORM_INLINE int at_most(int a, int b) {
   return a < b ? a : b;
 }
 
-/// Goes through a block's packs, pairs first: each(pack, triangles, states, pair, odd).
+/// Calls each(pack, triangles, states, size, needs_penalty) for all packs of a block, pairs (size
+/// 2) first, then single triangles (size 1).
 template <class Each>
 PLYFORM_INLINE void for_packs(const KernelBlock& block, const SimdLaw& law, const double* place,
                               Each&& each) {
@@ -255,13 +260,13 @@ PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelL
   double* force = &block.force->x;
   for (int i = 0; i < block.node_count; ++i)
     store(force + 4 * i, all(0.0));
-  const SimdLaw lane = lane_law(law, per_dt);
+  const SimdLaw lane = simd_law(law, per_dt);
   SimdBlockWork w{law, lane, force, all(0.0)};
   Long4 collapsed{0, 0, 0, 0};
   for_packs(block, lane, place,
             [&](int pack, const auto* t, const auto* s, auto of, bool needs_penalty) {
               for (int i = 0; needs_penalty && i < of; ++i)
-                collapsed |= lane_collapsed(s[i]);
+                collapsed |= simd_collapsed(s[i]);
               if constexpr (of == 2)
                 pair_pack<general>(w, t, s, needs_penalty, block.viscosity[pack]);
               else
@@ -302,7 +307,7 @@ PLYFORM_INLINE Double4 shear_energy(const SimdBlockWork& w, Double4 measure2) {
   return load(energy);
 }
 
-/// Stabilisation and guard of (E), d_a times.
+/// Stabilisation and collapse penalty of (E) times d_a, N/mm.
 PLYFORM_INLINE Double4 side_energy(const SimdYarns& yarns, Double4 lambda, Double4 delta) {
   const Double4 folded = larger(all(0.0), collapse_stretch - lambda);
   return 0.5 * (yarns.stabilisation * delta * delta + yarns.collapse_penalty * folded * folded);
@@ -313,7 +318,7 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
                                          const double* x) {
   alignas(32) double place[4 * most_block_nodes];
   gather_places(block.nodes, block.node_count, x, place);
-  const SimdLaw lane = lane_law(law, 0.0);
+  const SimdLaw lane = simd_law(law, 0.0);
   const SimdBlockWork w{law, lane, nullptr, all(0.0)};
   const SimdYarns &warp = lane.yarns[0], &weft = lane.yarns[1];
   Double4 fibre = all(0.0), shear = all(0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The kernel of core/ply/membrane_simd.hpp as its two compiled copies see it: plain numbers and
-// pointers, nothing inline (contact/simd/simd.hpp says why).
+// Interface of the two compiled copies of the kernel of core/ply/membrane_simd.hpp: plain numbers
+// and pointers, nothing inline (reason: contact/simd/simd.hpp).
 #pragma once
 
 #include "core/ply/simd_kernel.hpp"
@@ -9,18 +9,19 @@ namespace plyform {
 
 struct Membrane;
 
-constexpr int most_shear_terms = 8; ///< longer polynomials are asked for like tables
+constexpr int most_shear_terms = 8; ///< longer polynomials are evaluated by callback, as tables
 
-/// One triangle of each of four groups.
+/// One triangle of each of four strain groups.
 struct alignas(32) SimdTriangles {
   double c11[simd_width], c12[simd_width], c21[simd_width],
       c22[simd_width];               ///< 1/mm, FibreGradients
-  double area[simd_width];           ///< mm^2, A0; 0 where a lane only fills up the pack
+  double area[simd_width];           ///< mm^2, A0; 0 in SIMD lanes without a triangle
   double share[simd_width];          ///< A0 / A of the group
-  std::uint16_t node[3][simd_width]; ///< bytes: 32 times the number in the block's list
+  std::uint16_t node[3][simd_width]; ///< byte offsets: 32 times the index in the block's list
 };
 
-/// Viscosity of four groups: mean stretches and viscous tensions of the last step.
+/// State variables of the viscosity of four groups: mean stretches and viscous tensions (times d_a,
+/// N/mm) of the last step.
 struct alignas(32) SimdViscosity {
   double lambda[2][simd_width], tension[2][simd_width];
 };
@@ -28,10 +29,10 @@ struct alignas(32) SimdViscosity {
 /// Constants of (N) for one family of yarns, each times their density d_a: per mm, not per yarn.
 struct KernelYarns {
   double stiffness, compression, viscosity, stabilisation, collapse_penalty;
-  bool table;             ///< ask KernelLaw::tension: the law is not TensionLaw::linear
-  bool buckles;           ///< if not by table: the two below hold
-  double buckling_strain; ///< -, above 0: pressed beyond it, the slope is less ...
-  double buckling_drop;   ///< N/mm: ... by this
+  bool table;             ///< call KernelLaw::tension: the law is not TensionLaw::linear
+  bool buckles;           ///< if not by table: the next two members apply
+  double buckling_strain; ///< -, above 0: compressive strain at which the yarn buckles
+  double buckling_drop;   ///< N/mm, decrease of the slope there
 };
 
 struct KernelLaw {
@@ -39,8 +40,8 @@ struct KernelLaw {
   double angle; ///< rad, omega0 - pi/2
   double beta;
   double shear[most_shear_terms]; ///< N/mm, n_c times the coefficients of g, g^3 ..., 0 beyond
-  int shear_terms;                ///< 0: a table, ask `secant`
-  const Membrane* membrane;       ///< whose laws are asked where they are tables
+  int shear_terms;                ///< 0: a table, call `secant`
+  const Membrane* membrane;       ///< whose laws the callbacks evaluate
   double cells;                   ///< n_c
   /// d_a N (N/mm) of four strains of a family; n_c p (N/mm) of four squared shear measures g^2.
   void (*tension)(const KernelLaw&, int family, const double* strain, double* n);
@@ -50,14 +51,14 @@ struct KernelLaw {
   void (*shear_energy)(const KernelLaw&, const double* measure2, double* energy);
 };
 
-/// StrainGroups that share a list of nodes; pairs first. All arrays are the block's own.
+/// Strain groups that share a list of nodes; pairs first. All arrays are those of the block.
 struct KernelBlock {
-  const std::int32_t* nodes; ///< in the ply
+  const std::int32_t* nodes; ///< node numbers in the ply
   int node_count;            ///< at most most_block_nodes
   const SimdTriangles* triangles;
-  SimdViscosity* viscosity; ///< one a pack
+  SimdViscosity* viscosity; ///< one per pack
   int pair_packs, single_packs;
-  SimdForce* force; ///< one a node
+  SimdForce* force; ///< N, one per node of the block
 };
 
 struct KernelReport {
@@ -65,19 +66,19 @@ struct KernelReport {
   bool collapsed;
 };
 
-/// N mm, sums of (E).
+/// Sums of (E), N mm.
 struct KernelEnergy {
   double fibre, shear;
 };
 
-/// Forces (F) of a block's groups on its nodes. x: 3 a node of the ply, mm; per_dt: 1/s, of the
-/// step that led to x, or 0.
+/// Forces (F), N, of a block's groups on its nodes, stored in block.force; updates block.viscosity.
+/// x: mm, 3 numbers per node of the ply; per_dt: 1/s, inverse of the time step that led to x, or 0.
 KernelReport membrane_kernel_generic(const KernelBlock& block, const KernelLaw& law,
                                      const double* x, double per_dt);
 KernelReport membrane_kernel_avx2(const KernelBlock& block, const KernelLaw& law, const double* x,
                                   double per_dt);
 
-/// Their energy; viscosity and forces are left alone.
+/// (E) of a block's groups; block.viscosity and block.force are not used.
 KernelEnergy membrane_energy_generic(const KernelBlock& block, const KernelLaw& law,
                                      const double* x);
 KernelEnergy membrane_energy_avx2(const KernelBlock& block, const KernelLaw& law, const double* x);

@@ -10,7 +10,7 @@ SheetResponse response(const Membrane& m, const Vec3& k1, const Vec3& k2) {
   return std::visit([&](const auto& law) { return law.at(k1, k2); }, *m.fabric.sheet);
 }
 
-/// (q) of triangles [begin, end): each is a group.
+/// (q) of triangles [begin, end); each triangle is a strain group of its own.
 GroupReport forces(Membrane& m, std::span<const Vec3> x, double, int begin, int end,
                    std::span<ElementForce> q) {
   GroupReport report;
@@ -24,7 +24,7 @@ GroupReport forces(Membrane& m, std::span<const Vec3> x, double, int begin, int 
   return report;
 }
 
-/// All of it counts as shear.
+/// Energy of the sheet; all of it counts as shear.
 MembraneEnergy energy(const Membrane& m, std::span<const Vec3> x) {
   MembraneEnergy sum;
   for (int e = 0; e < m.groups(); ++e) {

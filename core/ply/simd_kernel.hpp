@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the kernels that go through blocks of a ply have in common, as their two compiled copies see
-// it: plain numbers (contact/simd/simd.hpp says why).
+// Types that the kernels of membrane and bending share: plain numbers, nothing inline (reason:
+// contact/simd/simd.hpp).
 #pragma once
 
 #include <cstdint>
 
 namespace plyform {
 
-constexpr int simd_width = 4; ///< triangles or nodes side by side
-constexpr int most_block_nodes =
-    384; ///< their places and forces, 24 kB, leave a 32 kB cache some room
+constexpr int simd_width = 4; ///< triangles or nodes computed at a time, one per SIMD lane
+/// Limit of nodes in a block: their positions and forces, 24 kB, fit into a 32 kB cache.
+constexpr int most_block_nodes = 384;
 
-/// One number of each lane.
+/// One number per SIMD lane.
 struct alignas(32) SimdNumbers {
   double of[simd_width];
 };
 
-/// N, on a node of a block.
+/// Force on a node of a block, N.
 struct alignas(32) SimdForce {
   double x, y, z, unused;
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How the kernels that go through blocks of a ply read and write at the block's nodes. Numbers of
-// nodes come as bytes, 32 times the number in the block's list.
+// Access of the kernels to data of a block's nodes: four doubles per node, addressed by byte
+// offsets of 32 times the node's index in the block's list.
 #pragma once
 
 #include "contact/simd/simd.hpp"
@@ -16,7 +16,8 @@ PLYFORM_INLINE double* of_node(double* first, std::uint16_t at) {
   return reinterpret_cast<double*>(reinterpret_cast<char*>(first) + at);
 }
 
-/// Places of a block's nodes, 4 numbers each; x: 3 a node of the ply.
+/// Copies the positions of a block's nodes, 4 numbers each, to `place`. x: 3 numbers per node of
+/// the ply.
 PLYFORM_INLINE void gather_places(const std::int32_t* nodes, int count, const double* x,
                                   double* place) {
   for (int i = 0; i < count; ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// (E), (N) and (Q) of core/ply/membrane.hpp, one group after the other.
+// (E), (N) and (Q) of core/ply/membrane.hpp, one strain group after the other.
 #include "core/mesh/pairs.hpp"
 #include "core/ply/element_limits.hpp"
 #include "core/ply/in_plane_law.hpp"
@@ -35,13 +35,13 @@ GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group) {
   return s;
 }
 
-/// Stabilisation and guard of (N) for one family.
+/// Stabilisation and collapse penalty of (N) for one family, N.
 double side_tension(const SideStiffness& side, double lambda, double mean) {
   return side.stabilisation * (lambda - mean) -
          side.collapse_penalty * std::max(0.0, collapse_stretch - lambda);
 }
 
-/// Their energy per yarn length, N.
+/// Energy of stabilisation and collapse penalty per yarn length, N.
 double side_energy(const SideStiffness& side, double lambda, double mean) {
   const double deviation = lambda - mean, folded = std::max(0.0, collapse_stretch - lambda);
   return 0.5 *
@@ -68,7 +68,7 @@ ElementForce triangle_force(const Membrane& m, const FibreState& s, double area,
           (area * m.fabric.weft_density * n2 - t2 * s.cos_omega) * s.f2 + t2 * s.f1};
 }
 
-/// (Q) of all triangles of a group whose yarns pull with n1 and n2 on the mean.
+/// (Q) of all triangles of a group. n1, n2: W_a'(mean eps_a) of (N) with the viscous tension, N.
 void group_forces(const Membrane& m, const GroupState& s, double n1, double n2,
                   std::span<ElementForce> q) {
   std::array<double, most_in_group> secant{};
@@ -102,7 +102,7 @@ GroupReport forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, i
     const GroupState s = group_state(m, x, p);
     double n1 = m.yarn[0].at(s.mean1 - 1.0).value;
     double n2 = m.yarn[1].at(s.mean2 - 1.0).value;
-    // viscosity of taut fibres; its work by the trapezoidal rule over the step that led here
+    // Viscosity of taut fibres; its work by the trapezoidal rule over the step that led to x.
     auto& last = m.last_lambda[p];
     auto& viscous = m.last_viscous[p];
     const double dl1 = s.mean1 - last[0], dl2 = s.mean2 - last[1];

@@ -21,7 +21,7 @@ std::size_t at(std::int32_t index) {
 
 using Loop = std::vector<std::int32_t>;
 
-/// The two nodes beside each node of the border: the border's edges belong to one triangle each.
+/// The two neighbours of each node along the border, whose edges belong to one triangle each.
 /// Nothing if the border meets itself at a node.
 std::optional<std::map<std::int32_t, std::pair<std::int32_t, std::int32_t>>>
 border_neighbours(const std::vector<Triangle>& triangles) {
@@ -52,7 +52,7 @@ double enclosed_area(const PlyFrame& ply, const Loop& loop) {
   return 0.5 * std::abs(twice);
 }
 
-/// Nodes of the outer border in order: of the closed loops of edges the one round the largest area.
+/// Nodes of the outer border in order: of the closed loops of edges that with the largest area.
 std::optional<Loop> outer_border(const PlyFrame& ply) {
   auto beside = border_neighbours(ply.triangles);
   if (!beside || beside->empty()) return std::nullopt;
@@ -76,7 +76,7 @@ std::optional<Loop> outer_border(const PlyFrame& ply) {
   return best;
 }
 
-/// mm; NaN where the middle is not inside the border.
+/// Draw-in (mm) of one walk; NaN if the middle is not inside the border.
 double draw_in_of_walk(const PlyFrame& ply, const Loop& loop, const Vec2& middle, double angle) {
   const Vec2 u(std::cos(angle), std::sin(angle)), side(-u.y(), u.x());
   double nearest = std::numeric_limits<double>::infinity(), formed = nan_value;

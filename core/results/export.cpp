@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-// Binary STL is written as numbers lie in memory.
+// Binary STL is little-endian: numbers are copied from memory.
 static_assert(std::endian::native == std::endian::little);
 
 template <class T>
@@ -36,7 +36,8 @@ std::string stl(const std::vector<Vec3>& x, const std::vector<Triangle>& triangl
     const Vec3& a = x[t[0]];
     const Vec3& b = x[t[1]];
     const Vec3& c = x[t[2]];
-    const Vec3 normal = (b - a).cross(c - a).stableNormalized(); // zero stays zero
+    // the zero vector is returned unchanged
+    const Vec3 normal = (b - a).cross(c - a).stableNormalized();
     for (const Vec3& v : {normal, a, b, c}) {
       const Eigen::Vector3f single = v.cast<float>();
       put_bytes(out, single.data(), 3);
@@ -46,9 +47,10 @@ std::string stl(const std::vector<Vec3>& x, const std::vector<Triangle>& triangl
   return out;
 }
 
-/// A .vtu file in the making. Arrays stand in the text, numbers in the shortest form that gives the
-/// same bits back: raw bytes appended behind the XML are shorter, but VTK 9 cannot read them with
-/// the expat of Debian's security updates (2.5.0-1+deb12u5), which looks further ahead.
+/// Text of a .vtu file under construction. Arrays are written as text, numbers in the shortest form
+/// that reads back to the same bits: raw bytes appended after the XML would be shorter, but VTK 9
+/// cannot read them with the expat of Debian's security updates (2.5.0-1+deb12u5), which reads
+/// further ahead.
 struct VtuFile {
   std::string xml;
 
@@ -113,7 +115,7 @@ std::vector<fs::path> export_results(const fs::path& directory) {
   const fs::path states = directory / "results.h5";
   const Frame last = read_last_frame(states);
   try {
-    check_frame(last); // the names become file names: none may lead out of the folder
+    check_frame(last); // names become file names and must not lead out of the folder
   } catch (const std::exception& error) {
     throw std::runtime_error(states.string() + ": " + error.what());
   }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The last state of a run for other programs.
+// Exports the last state of a run to VTK, STL and CSV.
 #pragma once
 
 #include <filesystem>
@@ -7,7 +7,7 @@
 
 namespace plyform {
 
-/// Reads the last state of DIR/results.h5 back and writes DIR/export/NAME.vtu, .stl and .csv for
+/// Reads the last state of DIR/results.h5 and writes DIR/export/NAME.vtu, .stl and .csv for
 /// each ply and .stl for each tool. Returns the files written. Throws std::runtime_error naming
 /// results.h5 and what is wrong with it, before anything is written.
 std::vector<std::filesystem::path> export_results(const std::filesystem::path& directory);

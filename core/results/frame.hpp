@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One state of a run, as results show it. Units at this border: mm, N, s, degrees, N per yarn.
+// One state of a run, as it is output. Units of output: mm, N, s, degrees, N per yarn.
 #pragma once
 
 #include "core/model/energies.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the last whole frame of results.h5. The layout is described in docs/users/results.md.
+// Reads a whole frame of results.h5. The layout is described in docs/users/results.md.
 //
-// The file may come from anywhere: sizes and node numbers are checked before they are used.
+// The file is not trusted: sizes and node numbers are checked before they are used.
 #include "core/results/hdf5_handles.ipp"
 #include "core/results/result_fields.hpp"
 
@@ -14,7 +14,7 @@ using namespace hdf5;
 
 namespace {
 
-/// Where things come from: `where` below is a path inside the file.
+/// Reads datasets of a file; `where` in its functions is a path inside the file.
 struct Reader {
   const fs::path& path; ///< of the file, for messages
   hid_t file;
@@ -39,7 +39,7 @@ struct Reader {
     if (dimensions != (columns<T> == 1 ? 1 : 2)) broken(where, "has a wrong shape");
     H5Sget_simple_extent_dims(space.id(), size, nullptr);
     if (size[1] != columns<T>) broken(where, "has a wrong shape");
-    // A damaged header must not make us ask for more memory than the file has bytes.
+    // With a damaged header no more memory must be allocated than the file has bytes.
     const Handle layout(H5Dget_create_plist(set.id()), H5Pclose);
     if (H5Pget_layout(layout.id()) == H5D_CONTIGUOUS && size[0] > fs::file_size(path) / sizeof(T))
       broken(where, "is larger than the file");
@@ -49,7 +49,7 @@ struct Reader {
     return values;
   }
 
-  /// One number an entry: `rows` of them, else the file is broken.
+  /// A dataset of `rows` entries of one number each. Throws if it has another size.
   template <class T>
   std::vector<T> dataset(const std::string& where, std::size_t rows) const {
     std::vector<T> values = dataset<T>(where);
@@ -161,7 +161,7 @@ BoundaryFrame read_boundary(const Reader& in, const std::string& group, const st
 
 } // namespace
 
-Frame read_last_frame(const fs::path& path) {
+Frame read_frame(const fs::path& path, long index) {
   const QuietErrors quiet;
   std::error_code error;
   if (!fs::exists(path, error))
@@ -182,9 +182,14 @@ Frame read_last_frame(const fs::path& path) {
   if (!in.has("/time_s") || !in.has("/frames")) in.broken("/frames or /time_s", "is missing");
   const std::vector<double> times = in.dataset<double>("/time_s");
   if (times.empty()) in.broken("/time_s", "is empty: the run was stopped before its first state");
-  const std::string group = frame_group(times.size() - 1);
+  const long count = static_cast<long>(times.size()),
+             from_first = index < 0 ? count + index : index;
+  if (from_first < 0 || from_first >= count)
+    throw std::runtime_error(
+        fmt::format("{}: has no frame {}, but {} from 0", path.string(), index, count));
+  const std::string group = frame_group(static_cast<std::size_t>(from_first));
   Frame frame;
-  frame.time = times.back();
+  frame.time = times[static_cast<std::size_t>(from_first)];
   in.number(group, "stroke_mm", frame.stroke_mm);
   std::int64_t step = 0;
   in.number(group, "step", step);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes results.h5. The layout is described in docs/users/results.md.
 //
-// Every return code is checked, that of closing a dataset too: HDF5 holds small writes back until
-// then, so a full disk may show only there.
+// Every return code is checked, also that of closing a dataset: HDF5 delays small writes until
+// then, so that an error of a full disk may appear only there.
 #include "core/results/hdf5_handles.ipp"
 #include "core/results/result_fields.hpp"
 
@@ -21,7 +21,7 @@ using namespace hdf5;
 
 namespace {
 
-/// Where things go: `where` below is a path inside the file.
+/// Writes datasets to a file; `where` in its functions is a path inside the file.
 struct Writer {
   const fs::path& path; ///< of the file, for messages
   hid_t file;
@@ -50,7 +50,7 @@ struct Writer {
     require(set.close() && ok, where);
   }
 
-  /// An array of one entry a frame, that grows by append_to.
+  /// Creates an array of one entry per frame, which append_to extends.
   template <class T>
   void history(const std::string& where) const {
     const hsize_t none = 0, unlimited = H5S_UNLIMITED, chunk = 256;
@@ -127,7 +127,7 @@ std::vector<std::string> names_of(const std::vector<Item>& items) {
   return names;
 }
 
-/// What stays the same through the run.
+/// Writes the data that do not change during the run.
 void write_constants(const Writer& out, const Frame& frame) {
   out.text("/", "format", "plyform results");
   out.number<std::int64_t>("/", "format_version", layout_version);
@@ -183,9 +183,9 @@ void write_boundary(const Writer& out, const std::string& where, const BoundaryF
   out.number(where, "force_N", boundary.force_N);
 }
 
-/// At least the bytes that a frame adds to the file.
+/// Upper estimate of the bytes that a frame adds to the file.
 std::size_t bytes_needed(const Frame& frame, bool with_constants) {
-  // Headers, symbol tables and names: measured 0.6 kB a dataset or group, taken as 2 kB.
+  // Headers, symbol tables and names: measured 0.6 kB per dataset or group, taken as 2 kB.
   constexpr std::size_t object = 2048, slack = 65536;
   const std::size_t point = sizeof(Vec3), triangle = sizeof(Triangle), number = sizeof(double);
   std::size_t bytes = slack;
@@ -210,20 +210,21 @@ std::size_t bytes_needed(const Frame& frame, bool with_constants) {
   return bytes;
 }
 
-/// The descriptor HDF5 writes to; -1 if it does not tell.
+/// The file descriptor that HDF5 writes to; -1 if it is not available.
 int descriptor(hid_t file) {
   void* found = nullptr;
   return H5Fget_vfd_handle(file, H5P_DEFAULT, &found) < 0 ? -1 : *static_cast<int*>(found);
 }
 
-/// Bytes of the file as HDF5 knows it; the file itself may be longer by what was reserved.
+/// Size (bytes) of the file according to HDF5; the file on disk may be longer by the reserved
+/// space.
 off_t size_of(hid_t file) {
   hsize_t size = 0;
   H5Fget_filesize(file, &size);
   return static_cast<off_t>(size);
 }
 
-/// Name and mesh size of each ply and tool: must not change during a run.
+/// Names and mesh sizes of plies and tools as text, to check that they do not change during a run.
 std::string shape_of(const Frame& frame) {
   std::string shape;
   for (const PlyFrame& ply : frame.plies)
@@ -242,7 +243,7 @@ std::string shape_of(const Frame& frame) {
 
 struct StateFile::Impl {
   fs::path path;
-  fs::path temporary; ///< where the file stands until its first frame is whole
+  fs::path temporary; ///< path of the file until its first frame is complete
   Handle file;
   std::size_t frames = 0;
   std::string shape; ///< shape_of the first frame
@@ -272,20 +273,21 @@ std::size_t StateFile::frames() const {
 
 void StateFile::Impl::create(const Frame& frame) {
   const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // Without the lock, ParaView and h5py can look at the run while it goes on.
+  // Without the file lock ParaView and h5py can read the results during the run.
   H5Pset_file_locking(access.id(), false, true);
   file = Handle(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
   if (!file.valid()) fail(path, "cannot create the file");
   shape = shape_of(frame);
 }
 
-/// Asks the disk for the room of a frame before HDF5 writes any of it. When a write fails inside
-/// HDF5, it can neither close the file nor end the process in order (h5py issue 914, and seen here
-/// with 1.10.8); when it fails here, the file stays as the last frame left it.
+/// Reserves disk space for a frame before HDF5 writes any of it. If a write fails inside HDF5, the
+/// file can neither be closed nor the process ended regularly (h5py issue 914, also observed
+/// with 1.10.8); if the reservation fails, the file keeps the frames that it has.
 void StateFile::Impl::reserve(std::size_t bytes) const {
   const int error =
       posix_fallocate(descriptor(file.id()), size_of(file.id()), static_cast<off_t>(bytes));
-  if (error == EINVAL || error == EOPNOTSUPP || error == ENODEV) return; // not that kind of disk
+  // not supported by this file system
+  if (error == EINVAL || error == EOPNOTSUPP || error == ENODEV) return;
   if (error != 0)
     throw std::runtime_error(fmt::format("{}: cannot write the next state ({} bytes): {}",
                                          path.string(), bytes,
@@ -306,7 +308,7 @@ void StateFile::Impl::write(const Frame& frame) const {
     write_tool(out, where + "/tools/" + tool.name, tool);
   for (const BoundaryFrame& boundary : frame.boundaries)
     write_boundary(out, where + "/boundaries/" + boundary.name, boundary);
-  // Last, as their length is what says how many frames are whole.
+  // Written last, as readers take their length as the number of complete frames.
   out.append_to("/step", frames, static_cast<std::int64_t>(frame.step));
   out.append_to("/stroke_mm", frames, frame.stroke_mm);
   out.append_to("/time_s", frames, frame.time);
@@ -314,7 +316,7 @@ void StateFile::Impl::write(const Frame& frame) const {
 
 void StateFile::Impl::flush() const {
   if (H5Fflush(file.id(), H5F_SCOPE_GLOBAL) < 0) fail(path, "cannot write");
-  // Gives back what was reserved too much.
+  // Releases reserved space that was not used.
   if (ftruncate(descriptor(file.id()), size_of(file.id())) != 0)
     throw std::runtime_error(
         fmt::format("{}: cannot write: {}", path.string(), std::generic_category().message(errno)));

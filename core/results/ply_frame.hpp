@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// One ply at one time, as results hold it. Units: mm, N, degrees, N per yarn.
+// The state of one ply at one time, as it is output. Units: mm, N, degrees, N per yarn.
 #pragma once
 
 #include "contact/geometry.hpp"
@@ -22,7 +22,7 @@ struct PlyFrame {
   std::vector<double> warp_tension, weft_tension; ///< m, N per yarn
   std::vector<double> thickness;                  ///< m, mm, from constant volume
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
-  std::vector<Vec3> reaction; ///< n, N, of grips, frames and symmetry; empty if none holds the ply
+  std::vector<Vec3> reaction;           ///< n, N, of grips, frames and symmetry; empty without any
 };
 
 /// A column of the results: its name in every file, and its member of PlyFrame.
@@ -32,7 +32,8 @@ struct Column {
   std::vector<Value> PlyFrame::*values;
 };
 
-// What files carry of a ply beside positions and triangles; a new column needs its line here.
+// Fields of a ply that files contain besides positions and triangles; a new field needs an entry
+// here.
 inline constexpr std::array<Column<double>, 6> cell_scalars = {{
     {"shear_angle_deg", &PlyFrame::shear_deg},
     {"warp_strain", &PlyFrame::warp_strain},
@@ -48,7 +49,7 @@ inline constexpr std::array<Column<Vec3>, 2> cell_vectors = {{
 inline constexpr std::array<Column<double>, 1> node_scalars = {{
     {"contact_pressure", &PlyFrame::contact_pressure},
 }};
-/// In no file of a ply for which they are empty.
+/// Columns that are left out of the files of plies for which they are empty.
 inline constexpr std::array<Column<Vec3>, 1> node_vectors = {{
     {"reaction_N", &PlyFrame::reaction},
 }};

@@ -33,7 +33,7 @@ void write_whole(const fs::path& path, std::string_view content) {
   if (!file) fail("create the file", errno);
   int error = 0;
   if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) error = errno;
-  if (std::fclose(file) != 0 && error == 0) error = errno; // the buffer's last bytes go out here
+  if (std::fclose(file) != 0 && error == 0) error = errno; // fclose writes the rest of the buffer
   if (error != 0) fail("write", error);
   std::error_code renamed;
   fs::rename(temporary, path, renamed);
@@ -77,7 +77,8 @@ void check_sizes(const PlyFrame& ply) {
 } // namespace
 
 void check_frame(const Frame& frame) {
-  std::set<std::string> names; // also across plies and tools: blocks and files are named by them
+  // unique among plies and tools, as files and blocks are named after them
+  std::set<std::string> names;
   const auto take = [&](const std::string& name, const char* kind) {
     check_name(name, kind);
     if (!names.insert(name).second)
@@ -113,7 +114,7 @@ void put(Buffer& out, const Vec3& v) {
 
 void end_row(Buffer& out) {
   out.data()[out.size() - 1] = '\n';
-} // in place of the last comma
+} // replaces the last comma
 
 Vec3 centroid(const std::vector<Vec3>& x, const Triangle& t) {
   return (x[t[0]] + x[t[1]] + x[t[2]]) / 3;
@@ -188,8 +189,8 @@ void remove_file(const fs::path& path) {
                                          path.string(), error.message()));
 }
 
-/// Takes away what a former run left and this one may not overwrite, so that a folder never shows
-/// one run's states beside another's summary. Only files that a run itself writes.
+/// Removes results of a former run that this one might not overwrite, so that a folder never has
+/// the states of one run and the summary of another. Removes only files that runs write.
 void remove_former_run(const fs::path& directory) {
   remove_file(directory / "summary.json");
   remove_file(directory / "history.csv");
@@ -248,12 +249,13 @@ void ResultWriter::write_frame(const Frame& frame) {
 void ResultWriter::write_final(const Frame& last, const Summary& summary) {
   const bool written =
       impl_->states.frames() > 0 && last.time == impl_->last_time && last.step == impl_->last_step;
-  // A run that stops between two outputs: results.h5 must end with the state of the tables.
+  // If the run stopped between two outputs: results.h5 must end with the same state as the tables.
   if (!written) write_frame(last);
   for (const PlyFrame& ply : last.plies)
     write_whole(impl_->directory / "plies" / (ply.name + ".csv"), ply_table(ply));
   impl_->states.close();
-  write_whole(impl_->directory / "summary.json", summary_json(last, summary)); // last: all is there
+  // written last, when all other files are complete
+  write_whole(impl_->directory / "summary.json", summary_json(last, summary));
 }
 
 } // namespace plyform

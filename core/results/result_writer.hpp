@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run leaves behind: summary.json, history.csv, plies/NAME.csv, results.h5 and results.xdmf.
+// Writes the results of a run: summary.json, history.csv, plies/NAME.csv, results.h5 and
+// results.xdmf.
 //
-// The simulation fills Frame and Summary; the writers here know nothing of how they came about.
-// HDF5 types stay inside results_hdf5.cpp. Units at this border: mm, N, s, degrees, N per yarn.
+// The writers depend on Frame and Summary only, not on the simulation that fills them. HDF5 is used
+// in hdf5_writer.cpp and hdf5_reader.cpp only. Units of output: mm, N, s, degrees, N per yarn.
 #pragma once
 
 #include "core/results/frame.hpp"
@@ -13,20 +14,21 @@
 
 namespace plyform {
 
-/// Writes a run's folder as it goes. Everything it writes goes to a temporary name first and is
-/// renamed when whole, so that a crash never leaves a half file under a final name; results.h5 is
-/// flushed after each frame, so that it opens even if the run is killed.
+/// Writes the folder of a run while it is in progress. Every file is written under a temporary name
+/// first and renamed when complete, so that a crash never leaves an incomplete file under its final
+/// name; results.h5 is flushed after each frame, so that it can be opened even if the run is
+/// killed.
 class ResultWriter {
 public:
-  /// Creates `directory` (and parents). What a former run left there stays until the first frame.
+  /// Creates `directory` (and parents). Results of a former run remain there until the first frame.
   /// Throws std::runtime_error naming the path and the reason.
   explicit ResultWriter(const std::filesystem::path& directory);
   ~ResultWriter();
 
   /// One row of history.csv and one time of results.h5/.xdmf. The first one removes the results of
   /// a former run. Throws std::runtime_error naming the path and the reason (a full disk, names
-  /// that stand twice or cannot be file names), std::logic_error when sizes do not fit each other
-  /// or the first frame.
+  /// that occur twice or cannot be file names), std::logic_error if array sizes do not match each
+  /// other or the first frame.
   void write_frame(const Frame& frame);
 
   /// plies/NAME.csv of the last frame, and summary.json with the keys of docs/users/results.md.

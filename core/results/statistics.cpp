@@ -12,7 +12,7 @@ namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
 
-/// Comparisons pass NaN by: extremes and orders have to ask for it.
+/// Whether a value is NaN, which comparisons of extremes and sorting would ignore.
 bool has_nan(const std::vector<double>& values) {
   return std::any_of(values.begin(), values.end(), [](double value) { return std::isnan(value); });
 }
@@ -47,7 +47,8 @@ double percentile(const std::vector<double>& values, const std::vector<double>& 
   double below = 0.0;
   for (const std::size_t i : order) {
     below += areas[i];
-    // The sum's rounding must not push an exact share to the next value.
+    // Tolerance, so that rounding of the sum does not move an exactly reached share to the next
+    // value.
     if (below >= share * total * (1.0 - 1e-12)) return std::abs(values[i]);
   }
   return std::abs(values[order.back()]);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Sums and extremes of fields. What is weighted by area counts the areas before forming, so that a
-// fine mesh in one corner does not decide it. A NaN among the values makes every result NaN.
+// Sums and extremes of fields. Area-weighted quantities use the areas before forming, so that they
+// do not depend on local mesh refinement. A NaN among the values makes every result NaN.
 #pragma once
 
 #include <vector>
@@ -24,8 +24,8 @@ double percentile(const std::vector<double>& values, const std::vector<double>& 
 /// sqrt(sum A v^2 / sum A); 0 for none. Sizes: m values, m areas.
 double root_mean_square(const std::vector<double>& values, const std::vector<double>& areas);
 
-/// The area where the value passes the limit over all of the area; 0 without area. Sizes: m values,
-/// m areas.
+/// Fraction of the area where the value exceeds the limit; 0 without area. Sizes: m values, m
+/// areas.
 double area_share_above(const std::vector<double>& values, double limit,
                         const std::vector<double>& areas);
 

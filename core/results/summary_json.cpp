@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// summary.json: the few numbers of each ply and tool that a sweep or a report needs. Keys stand in
-// the order in which they are named here; docs/users/results.md says what they mean.
+// summary.json: the main numbers of each ply and tool, for sweeps and reports. Keys are written in
+// the order in which they appear here; docs/users/results.md describes them.
 #include "core/results/result_fields.hpp"
 #include "core/results/statistics.hpp"
 
@@ -17,8 +17,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Nine digits are more than any result is good for; all seventeen would be hard to read. What is
-/// not finite stays so: the library writes null for it.
+/// The value rounded to nine digits: more than any result is accurate to, and shorter than all
+/// seventeen. Values that are not finite are returned unchanged; the library writes null for them.
 double rounded(double value) {
   if (!std::isfinite(value)) return value;
   const std::string digits = fmt::format("{:.9g}", value);
@@ -26,7 +26,7 @@ double rounded(double value) {
   return value;
 }
 
-/// A share of the computing time, to four decimals: it differs from run to run.
+/// A fraction of the computing time, rounded to four decimals, as it differs from run to run.
 double rounded_share(double value) {
   return std::round(value * 1e4) / 1e4;
 }
@@ -39,7 +39,7 @@ Json list_of(const std::vector<Item>& items, Json (*object)(const Item&)) {
   return list;
 }
 
-/// A place, mm.
+/// A position, mm.
 Json place(const Vec3& x) {
   return Json::array({rounded(x.x()), rounded(x.y()), rounded(x.z())});
 }
@@ -117,7 +117,7 @@ Json ply_object(const PlyFrame& ply) {
           {"max_tension_N_per_yarn", rounded(largest(tensions))}};
 }
 
-/// `reports`: one a ply, or none where nothing but the fields is known.
+/// `reports`: one per ply, or empty if only the fields are known.
 Json plies_list(const std::vector<PlyFrame>& plies, const std::vector<PlyReport>& reports) {
   Json list = list_of(plies, ply_object);
   if (!reports.empty())
@@ -219,7 +219,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
                     {"assumed", summary.assumed},
                     {"could_be_left_out", summary.work.could_be_left_out},
                     {"missing", summary.work.missing}};
-  // Names and messages may hold any bytes: those that are no UTF-8 become U+FFFD.
+  // Names and messages may contain any bytes: those that are not UTF-8 become U+FFFD.
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }
 

@@ -11,8 +11,8 @@
 namespace plyform {
 namespace {
 
-constexpr double shortest_half = 1.5; // elements: three to a wave, fewer is the mesh's own zigzag
-constexpr double longest_half = 4.0;  // elements, so that coarse meshes are looked at too
+constexpr double shortest_half = 1.5; // elements: three per wave; shorter waves are mesh artefacts
+constexpr double longest_half = 4.0;  // elements, at least, for coarse meshes
 constexpr double longest_half_mm = 30.0; // waves of dry cloth under a holder are 20 to 60 mm long
 constexpr double half_growth = 1.2;      // from one s to the next; between them H loses 3 % at most
 constexpr double facing = std::numbers::sqrt2 / 2.0; // cosine of 45 degrees
@@ -42,13 +42,13 @@ std::vector<Vec3> node_normals(const PlyFrame& ply) {
   return normals;
 }
 
-/// A place of the formed ply, found by where it was.
+/// A point of the formed ply, located by its position in the undeformed one.
 struct Place {
   Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
-  bool inside = false; ///< else there is no ply here
+  bool inside = false; ///< whether the ply covers this point
 };
 
-/// Places on a square grid of the unformed ply whose rows run along the warp.
+/// Places on a square grid of the undeformed ply whose rows run along the warp.
 class Grid {
 public:
   Grid(const PlyFrame& ply, double step) : step_(step), ply_(ply), normals_(node_normals(ply)) {
@@ -61,7 +61,7 @@ public:
       low_ = low_.cwiseMin(x), high = high.cwiseMax(x);
     columns_ = static_cast<int>((high.x() - low_.x()) / step) + 1;
     rows_ = static_cast<int>((high.y() - low_.y()) / step) + 1;
-    // Half of what is left over on each side, so that no column lies on the border by rounding.
+    // The remainder is divided between both sides, so that rounding puts no column onto the border.
     low_ += 0.5 * (high - low_ - step * Vec2(columns_ - 1, rows_ - 1));
     places_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     for (const Triangle& t : ply.triangles)
@@ -71,7 +71,7 @@ public:
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   double step() const { return step_; }
-  /// Null off the grid and where there is no ply.
+  /// Null outside the grid and where the ply does not cover it.
   const Place* find(int i, int j) const {
     if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return nullptr;
     const Place& p = places_[index(i, j)];
@@ -108,7 +108,8 @@ private:
            ++i) {
         const Vec2 p = low_ + step_ * Vec2(i, j);
         const double wb = cross(p - a, c - a) / whole, wc = cross(b - a, p - a) / whole;
-        constexpr double rounding = 1e-9; // of a share, so that no place on a side is lost
+        // tolerance of a weight, so that points on a side are found
+        constexpr double rounding = 1e-9;
         if (std::min({1.0 - wb - wc, wb, wc}) < -rounding) continue;
         places_[index(i, j)] = place(t, {1.0 - wb - wc, wb, wc});
       }
@@ -138,7 +139,7 @@ double height_of_shape(const Line& line) {
   return height(d[0], d[1], d[2]);
 }
 
-/// The least H of the distances from the tools that face the ply; infinite if none does.
+/// The smallest H of the distances from the tools that face the ply; infinite if none does.
 double height_above_tools(const Line& line, const std::vector<const ToolBody*>& tools,
                           double half_wave) {
   double least = std::numeric_limits<double>::infinity();
@@ -157,7 +158,7 @@ double height_above_tools(const Line& line, const std::vector<const ToolBody*>& 
   return least;
 }
 
-/// Takes the highest wrinkle of all lines with places (di, dj) of the grid apart into `best`.
+/// Updates `best` with the highest wrinkle of all lines whose points are (di, dj) grid steps apart.
 void search_along(const Grid& grid, int di, int dj, const std::vector<const ToolBody*>& tools,
                   Wrinkle& best) {
   const double half_wave = grid.step() * std::hypot(di, dj);
@@ -200,9 +201,9 @@ Wrinkle highest_wrinkle(const PlyFrame& ply, const std::vector<const ToolBody*>&
   const double side = mean_side(ply);
   const Grid grid(ply, 0.5 * side);
   const double longest = std::max(longest_half * side, longest_half_mm);
-  // A wave is nearly as high along lines that cross it aslant or a little off its length: the
-  // length told is the shortest at which it has all but a twentieth of its height.
-  double length_of = 0.0; // mm, the height that the length and the place were found with
+  // A wave is nearly as high along oblique lines or with a slightly wrong wavelength: the
+  // wavelength reported is the shortest one at which it has at least 95 % of its height.
+  double length_of = 0.0; // mm, height at which the wavelength and the position were found
   for (double half = shortest_half * side; half <= longest; half *= half_growth) {
     const Wrinkle found = search_at(grid, half, tools, best);
     best.height = found.height;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// results.xdmf: tells ParaView which dataset of results.h5 is what. Version 2 of the format, which
-// the readers of XDMF 2 and of XDMF 3 both take, but for the functions that move tools: those of
-// XDMF 3 in VTK leave such geometries empty. One time series for each ply and each tool, side
-// by side in one collection. The other way round, a collection for each time, the XDMF 2 reader
-// calls the blocks NAME, NAME[1], NAME[2] from one time to the next.
+// results.xdmf: describes the datasets of results.h5 for ParaView. Version 2 of the format, which
+// the readers of XDMF 2 and of XDMF 3 both read, except for the functions that move tools: the XDMF
+// 3 reader of VTK leaves such geometries empty. The file has one time series for each ply and each
+// tool in one collection. With one collection per time instead, the XDMF 2 reader would name the
+// blocks NAME, NAME[1], NAME[2] at successive times.
 #include "core/results/result_fields.hpp"
 
 #include <cmath>
@@ -41,19 +41,20 @@ std::string attribute(const char* name, const char* type, const char* centre,
                      name, type, centre, item);
 }
 
-/// Of m triangles in a dataset.
+/// Topology element of m triangles in a dataset.
 std::string topology(std::size_t m, const std::string& triangles) {
   return fmt::format("<Topology TopologyType=\"Triangle\" NumberOfElements=\"{}\">{}</Topology>\n",
                      m, data_item(m, 3, "Int", 4, triangles));
 }
 
-/// Of n points in a dataset.
+/// Geometry element of n points in a dataset.
 std::string geometry(std::size_t n, const std::string& x) {
   return fmt::format("<Geometry GeometryType=\"XYZ\">{}</Geometry>\n",
                      data_item(n, 3, "Float", 8, x));
 }
 
-/// The same, moved: each coordinate is a column of the dataset and what it has moved by.
+/// Geometry element of points that are displaced by a vector: each coordinate is the sum of a
+/// column of the dataset and a constant.
 std::string moved_geometry(std::size_t n, const std::string& x, const Vec3& by) {
   std::string columns;
   for (int k = 0; k < 3; ++k)
@@ -91,7 +92,7 @@ std::string ply_grid(const PlyFrame& ply, const std::string& group, double time)
   return out + "</Grid>\n";
 }
 
-/// The file has the tool once, where it started.
+/// Grid of a tool. results.h5 contains its surface once, in the initial position.
 std::string tool_grid(const ToolFrame& tool, double time) {
   const std::string fixed = "/tools/" + tool.name + "/", x0 = fixed + "x0";
   const std::size_t n = tool.surface.x.size();

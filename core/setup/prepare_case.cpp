@@ -9,7 +9,7 @@
 namespace plyform {
 namespace {
 
-/// The cost parameters that overrides have set, and their keys.
+/// Which cost parameters overrides have set, and the keys of these overrides.
 std::pair<FixedParameters, std::vector<std::string>>
 parameters_set(const std::set<std::string>& overridden) {
   FixedParameters fixed;
@@ -29,22 +29,29 @@ parameters_set(const std::set<std::string>& overridden) {
 
 } // namespace
 
+PickedCase pick_case(const std::filesystem::path& file, const std::vector<Override>& overrides) {
+  PickedCase picked;
+  picked.reading = read_case(file, overrides);
+  if (!picked.reading.value) return picked;
+  const auto [fixed, keys] = parameters_set(picked.reading.overridden);
+  picked.coarsening = pick_cost_parameters(*picked.reading.value, fixed);
+  if (picked.reading.value->accuracy.shear_error > 0.0 && !keys.empty())
+    picked.notes.push_back(
+        fmt::format("accuracy asked for: {} as set by hand, the others picked around {}",
+                    joined(keys), keys.size() == 1 ? "it" : "them"));
+  return picked;
+}
+
 PreparedCase prepare_case(const std::filesystem::path& file,
                           const std::vector<Override>& overrides) {
-  CaseReading reading = read_case(file, overrides);
+  PickedCase picked = pick_case(file, overrides);
   PreparedCase prepared;
-  if (reading.value) {
-    const auto [fixed, keys] = parameters_set(reading.overridden);
-    prepared.coarsening = pick_cost_parameters(*reading.value, fixed);
-    if (reading.value->accuracy.shear_error > 0.0 && !keys.empty())
-      prepared.notes.push_back(
-          fmt::format("accuracy asked for: {} as set by hand, the others picked around {}",
-                      joined(keys), keys.size() == 1 ? "it" : "them"));
-    prepared.meshes = check_case(reading);
-  }
-  prepared.value = std::move(reading.value);
-  prepared.errors = std::move(reading.errors);
-  prepared.warnings = std::move(reading.warnings);
+  if (picked.reading.value) prepared.meshes = check_case(picked.reading);
+  prepared.value = std::move(picked.reading.value);
+  prepared.coarsening = picked.coarsening;
+  prepared.errors = std::move(picked.reading.errors);
+  prepared.warnings = std::move(picked.reading.warnings);
+  prepared.notes = std::move(picked.notes);
   return prepared;
 }
 

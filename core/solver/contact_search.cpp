@@ -10,9 +10,9 @@
 namespace plyform {
 namespace {
 
-/// Of a ply that touches itself, faces within this many thicknesses of a node along the unformed
-/// ply are its neighbours, whatever shape it takes: the nose of a hairpin fold is pi / 2 long, and
-/// shear by 60 degrees, which brings nodes together to 0.37, is no contact yet.
+/// Self-contact: faces within this many thicknesses of a node in the undeformed ply are its
+/// neighbours and form no contact. The nose of a hairpin fold is pi / 2 thicknesses long, and shear
+/// by 60 degrees, which brings nodes together to 0.37 of their distance, must not count as contact.
 constexpr double neighbourhood = 3.0;
 
 bool may_meet(Box3 a, const Box3& b, double reach) {
@@ -21,10 +21,10 @@ bool may_meet(Box3 a, const Box3& b, double reach) {
   return a.intersects(b);
 }
 
-/// Drops the candidates that are neighbours of their own node: within `reach` (mm) of it along the
-/// unformed ply x0.
-void leave_out_neighbours(std::vector<Candidate>& candidates, std::span<const Vec3> x0,
-                          std::span<const Triangle> triangles, double reach) {
+/// Removes candidates whose face is a neighbour of their node: contains it, or is within `reach`
+/// (mm) of it in the undeformed ply x0.
+void remove_neighbours(std::vector<Candidate>& candidates, std::span<const Vec3> x0,
+                       std::span<const Triangle> triangles, double reach) {
   const auto neighbour = [&](const Candidate& c) {
     const Triangle& t = triangles[c.face];
     if (std::find(t.begin(), t.end(), c.node) != t.end()) return true;
@@ -43,7 +43,7 @@ void search_tool(Scene& s, ToolState& t) {
   t.displacement_search = t.body.displacement;
 }
 
-/// The ply next to one on the way to another lies between them, or is the other.
+/// The ply adjacent to `from` in the stack in the direction of `to`.
 int next_ply(int from, int to) {
   return from + (to > from) - (to < from);
 }
@@ -52,9 +52,10 @@ bool neighbours(const PlyContact& pair) {
   return pair.master == next_ply(pair.slave, pair.master);
 }
 
-/// Marks the slave's nodes that are so close to the master, away from its rim, that no ply beyond
-/// it can be near them: a third ply does not fit in between.
-void mark_covered(PlyState& slave, const PlyContact& pair, const PlyState& master) {
+/// Marks the slave's nodes that the master occludes from the plies beyond it: their gap to it is
+/// less than half the contact distance and none of their faces is at its boundary edge, so that no
+/// third ply fits in between.
+void mark_occluded(PlyState& slave, const PlyContact& pair, const PlyState& master) {
   const double path_length = slave.path_length + master.path_length;
   std::vector<char>& occluded = slave.occluded[pair.master > pair.slave];
   occluded.assign(slave.x.size(), 0);
@@ -67,12 +68,13 @@ void mark_covered(PlyState& slave, const PlyContact& pair, const PlyState& maste
   }
 }
 
-/// The slave's nodes that another ply keeps from the master; empty: none.
-std::span<const char> covered_nodes(const Scene& s, int slave_ply, int master_ply, double reach) {
+/// Per node of the slave whether an adjacent ply occludes it from the master; empty: none is.
+std::span<const char> occluded_nodes(const Scene& s, int slave_ply, int master_ply, double reach) {
   if (slave_ply == master_ply || next_ply(slave_ply, master_ply) == master_ply) return {};
   const PlyState& slave = s.plies[slave_ply];
   const PlyState& between = s.plies[next_ply(slave_ply, master_ply)];
-  // what covers was looked for within that distance only
+  // Occluding plies were searched within contact distance + skin only: not valid for a larger
+  // reach.
   if (reach > 0.5 * (slave.thickness + between.thickness) + s.skin) return {};
   return slave.occluded[master_ply > slave_ply];
 }
@@ -81,24 +83,25 @@ void search_plies(Scene& s, PlyContact& pair) {
   const PlyState& slave = s.plies[pair.slave];
   const PlyState& master = s.plies[pair.master];
   const Stopwatch watch(pair.contact.time.search);
-  // also what has come through within the step: find_pass_through looks at it
+  // also nodes that have passed through within the step, which find_pass_through then detects
   const double reach = std::max(pair.contact.distance + s.skin, step_displacement(s, pair));
   std::vector<Candidate> candidates;
   if (may_meet(slave.tree->bounds(), master.tree->bounds(), reach))
     master.tree->candidates(slave.x, reach, candidates,
-                            covered_nodes(s, pair.slave, pair.master, reach));
+                            occluded_nodes(s, pair.slave, pair.master, reach));
   if (pair.slave == pair.master)
-    leave_out_neighbours(candidates, slave.x0, slave.membrane.triangles,
-                         neighbourhood * pair.contact.distance);
+    remove_neighbours(candidates, slave.x0, slave.membrane.triangles,
+                      neighbourhood * pair.contact.distance);
   find_ply_ply_points(pair.contact, candidates, slave.state(), master.state(),
                       master.membrane.triangles, slave.path_length + master.path_length);
-  if (neighbours(pair)) mark_covered(s.plies[pair.slave], pair, master);
+  if (neighbours(pair)) mark_occluded(s.plies[pair.slave], pair, master);
 }
 
-/// Edges of a ply that may meet another: without those both of whose nodes a ply in between covers.
+/// Numbers of the edges of a ply that may touch the ply `other`: all but those with both nodes
+/// occluded by a ply in between.
 std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double reach) {
   const PlyState& body = s.plies[ply];
-  const std::span<const char> occluded = covered_nodes(s, ply, other, reach);
+  const std::span<const char> occluded = occluded_nodes(s, ply, other, reach);
   std::vector<std::int32_t> open;
   for (std::size_t i = 0; i < body.edges.size(); ++i) {
     const SheetEdge& e = body.edges[i];
@@ -125,8 +128,9 @@ void search_edges(Scene& s, PlyEdgeContact& pair) {
                   a.path_length + b.path_length, self);
 }
 
-/// Room for the forces of two plies of which something may touch: most pairs of a stack never do.
-void make_room(const Scene& s, PlyPair& pair) {
+/// Allocates the force arrays of two plies as soon as anything of them may touch: most pairs of a
+/// stack never do.
+void allocate_forces(const Scene& s, PlyPair& pair) {
   const auto may_touch = [&s](int i) { return !s.ply_contacts[i].contact.points.empty(); };
   const auto may_cross = [&s](int i) { return !s.edge_contacts[i].contact.candidates.empty(); };
   if (!pair.force_a.empty() ||
@@ -137,8 +141,8 @@ void make_room(const Scene& s, PlyPair& pair) {
   pair.force_b.assign(s.plies[pair.b].x.size(), Vec3::Zero());
 }
 
-void renew_spread(const Scene& s, PlyState& ply) {
-  if (s.ply_contacts.empty()) return; // nobody asks for it
+void update_ply_fold_bounds(const Scene& s, PlyState& ply) {
+  if (s.ply_contacts.empty()) return; // only contacts between plies use the bounds
   fold_bounds(ply.x, ply.membrane.triangles, ply.fold_bound);
   ply.fold_bound_displacement = ply.max_displacement;
 }
@@ -146,7 +150,7 @@ void renew_spread(const Scene& s, PlyState& ply) {
 } // namespace
 
 void update_fold_bounds(Scene& s, ThreadPool& pool) {
-  // two nodes a side apart that move by `most` against each other turn it by half the margin
+  // If the two nodes of a side move by `most` each, the side rotates by up to half of fold_margin.
   const double most = 0.25 * fold_margin * s.element_size;
   const auto due = [most](const PlyState& ply) {
     return ply.max_displacement - ply.fold_bound_displacement > most;
@@ -156,12 +160,12 @@ void update_fold_bounds(Scene& s, ThreadPool& pool) {
     PlyState& ply = s.plies[p];
     if (!due(ply)) return;
     const Stopwatch watch(ply.search_seconds);
-    renew_spread(s, ply);
+    update_ply_fold_bounds(s, ply);
   });
 }
 
 bool track_displacements(Scene& s) {
-  // Ways only grow between searches: what has once been looked at is looked at again.
+  // Between searches the maxima never decrease, also if a body moves back.
   const auto grow = [](double& max_displacement, double now) {
     if (!(now <= max_displacement) && !std::isnan(max_displacement))
       max_displacement = now; // NaN stays
@@ -171,7 +175,7 @@ bool track_displacements(Scene& s) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     s.plies[p].path_length += step_displacement(s, static_cast<int>(p));
   for (ToolState& t : s.tools) {
-    // A pushed tool still moves after this, with the forces of the step.
+    // A pushed tool moves later in this step, when its forces are computed.
     const double ahead = t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0;
     t.path_length += t.body.motion.norm();
     grow(t.max_displacement, (t.body.displacement - t.displacement_search).norm() + ahead);
@@ -202,9 +206,9 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     const Stopwatch watch(ply.search_seconds);
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
-    renew_spread(s, ply);
+    update_ply_fold_bounds(s, ply);
   });
-  // plies next to each other first: what they cover need not be asked for those beyond
+  // Adjacent plies first: the nodes that they occlude are skipped for the plies beyond.
   std::array<std::vector<PlyContact*>, 2> pairs;
   for (PlyContact& pair : s.ply_contacts)
     pairs[neighbours(pair) ? 0 : 1].push_back(&pair);
@@ -223,12 +227,12 @@ void search_contacts(Scene& s, ThreadPool& pool) {
       search_edges(s, s.edge_contacts[i - far]);
   });
   for (PlyPair& pair : s.ply_pairs)
-    make_room(s, pair);
+    allocate_forces(s, pair);
   for (NodeSums& n : s.node_sums)
     n.moved2 = 0.0;
   for (PlyState& ply : s.plies)
     ply.max_displacement = ply.fold_bound_displacement = 0.0;
-  for (ToolState& t : s.tools) // the way it may still go in this step
+  for (ToolState& t : s.tools) // what it may still move in this step
     t.max_displacement = t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0;
   ++s.searches;
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Who may touch whom: the contact search that the step loop calls when motion has used up the skin.
+// The contact search (broad phase), which the step loop calls when motion has used up the skin.
 #pragma once
 
 #include "core/base/thread_pool.hpp"
@@ -7,22 +7,23 @@
 
 namespace plyform {
 
-/// Brings ways and paths of plies and tools up to date, once a step. Returns whether the pairs of
-/// the last search still do: nothing has moved by half the skin. False too if a position is not
-/// finite.
+/// Updates displacements since the last search and path lengths of plies and tools; to be called
+/// once per step. Returns whether the pairs of the last search are still valid: nothing has moved
+/// by more than half the skin. False also if a position is not finite.
 bool track_displacements(Scene& scene);
 
-/// mm, ToolState::path with what a pushed tool may still go in this step.
+/// ToolState::path_length (mm) plus what a pushed tool may still move in this step.
 double path_length_ahead(const Scene& scene, const ToolState& tool);
 
-/// The largest of those ways, mm; NaN if a position is not finite.
+/// Largest displacement (mm) of any ply or tool since the last search; NaN if a position is not
+/// finite.
 double largest_displacement(const Scene& scene);
 
-/// Renews what has been used up of PlyState::spread.
+/// Computes PlySearch::fold_bound anew for plies that have moved by more than its margin allows.
 void update_fold_bounds(Scene& scene, ThreadPool& pool);
 
-/// Lists every pair within contact distance + skin. Until something has moved by half the skin no
-/// other pair can touch.
+/// Lists every pair of nodes and tools, nodes and faces, and edges within contact distance + skin.
+/// Until something has moved by half the skin no other pair can touch.
 void search_contacts(Scene& scene, ThreadPool& pool);
 
 } // namespace plyform

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Energies and work of a scene: those of the state are added up anew, the rest was summed up step
-// by step.
+// Energies and work of a scene: stored energies are computed from the present state, work and
+// dissipation have been accumulated step by step.
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/step.hpp"
 
@@ -10,8 +10,9 @@ namespace {
 double kinetic_energy(const PlyState& ply, double dt, double next_dt, const MassLoads& loads) {
   double sum = 0.0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
-    // Between two half steps: the product of their velocities where steps are equal (it is what
-    // central differences conserve), and without their difference where they are not.
+    // From the velocities half a step before and after: their product if both steps are equal,
+    // which central differences conserve; if not, without the part that is due to the difference of
+    // steps.
     const Vec3 a = acceleration(ply, static_cast<int>(n), loads);
     const Vec3 now = ply.velocity[n] + 0.5 * dt * a;
     sum += 0.5 * ply.membrane.node_mass[n] *

@@ -8,14 +8,14 @@
 namespace plyform {
 namespace {
 
-constexpr double resolution = 0.01; // thicknesses: a hundredth of what makes a result doubtful
+constexpr double resolution = 0.01; // thicknesses; a cut of one thickness makes a result doubtful
 constexpr int most_halvings = 8;    // of a quarter of a side: 0.01 mm where a side has 10 mm
 
 std::size_t at(std::int32_t index) {
   return static_cast<std::size_t>(index);
 }
 
-/// A search for the deepest place of one ply in one tool.
+/// Search for the deepest point of one ply in one tool.
 class Search {
 public:
   Search(const PlyState& ply, const ToolBody& tool)
@@ -39,17 +39,17 @@ public:
   }
 
 private:
-  static constexpr int parts = 4; // of a side
+  static constexpr int parts = 4; // into which a side is divided
 
   const Vec3& corner(const Triangle& t, std::size_t k) const { return ply_.x[at(t[k])]; }
 
-  SurfacePoint ask(const Vec3& p) {
+  SurfacePoint evaluate(const Vec3& p) {
     const SurfacePoint found = distance_to_tool(tool_, p, hint_);
     depth_ = std::max(depth_, half_ - found.distance);
     return found;
   }
 
-  /// The 15 points of a triangle; false if it is too far off to touch the tool.
+  /// Evaluates the 15 points of a triangle; false if it is too far away to touch the tool.
   bool sample(const Triangle& t) {
     const Vec3 &a = corner(t, 0), u = (corner(t, 1) - a) / parts, v = (corner(t, 2) - a) / parts;
     const Vec3 middle = a + (u + v) * parts / 3.0;
@@ -59,15 +59,16 @@ private:
     if (distance_to_tool(tool_, middle, hint_).distance > half_ + size) return false;
     for (int i = 0; i <= parts; ++i)
       for (int j = 0; i + j <= parts; ++j)
-        ask(a + i * u + j * v);
+        evaluate(a + i * u + j * v);
     return true;
   }
 
-  /// Asks a piece at its middle. The tangent plane there bounds the depth of a convex tool, the
-  /// piece's corners that of a hollow one; they are asked when a piece is divided.
+  /// Evaluates a piece at its middle, and divides it if it may be deeper than depth_. For a convex
+  /// tool the tangent plane at the middle bounds the depth of the piece, for a concave one the
+  /// depth of its corners does, which have been evaluated when the piece was made.
   void divide(const std::array<Vec3, 3>& piece, int halvings) {
     const Vec3 middle = (piece[0] + piece[1] + piece[2]) / 3.0;
-    const SurfacePoint found = ask(middle);
+    const SurfacePoint found = evaluate(middle);
     double rise = 0.0;
     for (const Vec3& x : piece)
       rise = std::max(rise, -found.normal.dot(x - middle));
@@ -76,7 +77,7 @@ private:
     std::array<Vec3, 3> side;
     for (std::size_t k = 0; k < 3; ++k) {
       side[k] = 0.5 * (piece[k] + piece[(k + 1) % 3]);
-      ask(side[k]);
+      evaluate(side[k]);
     }
     divide(side, halvings - 1);
     for (std::size_t k = 0; k < 3; ++k)
@@ -87,7 +88,7 @@ private:
   const ToolBody& tool_;
   double half_;
   double depth_ = 0.0;
-  int hint_ = -1; // neighbours in number are mostly neighbours in space
+  int hint_ = -1; // of the last point: successive points are mostly near each other
 };
 
 } // namespace

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How deep flat triangles cut into tools between their nodes: contact with tools is at nodes only.
+// Penetration of tools by flat triangles between their nodes, as contact with tools acts at nodes
+// only.
 //
 //   L  mm  side of a triangle;  t  mm  thickness of the ply;  r  mm  radius of the tool's curve
-//   R = r + t/2, on which the mid-surface would lie;  2a  rad  turn of the ply round that curve
-// A chord of the circle, or from one straight flank to the other where the arc is shorter, passes
-// nearer to the tool than the mid-surface should by
+//   R = r + t/2, on which the mid-surface would lie;  2a  rad  wrap angle of the ply round it
+// A chord of the circle, or from one straight flank to the other if the arc is shorter, passes
+// closer to the tool than the mid-surface should by
 //   c = R - sqrt(R^2 - L^2/4)             while L <= 2 R sin a;  L^2/(8 R) for L << R         (1)
 //   c = L/2 tan a - R (1/cos a - 1)       beyond: the arc's middle lies that far above it     (2)
-// and a sharp edge is r = 0, so R = t/2. (2) is worst where the chord is symmetric to the edge, and
-// is measured down from the edge; the nearest surface, a flank, is nearer by cos a. On a surface
-// curved both ways the middle of a triangle can lie L/sqrt(3) from all its nodes (Jung's circle),
-// so that 2 L/sqrt(3) takes the place of L. c > t/2: the mid-surface itself goes inside.
+// and a sharp edge is r = 0, so R = t/2. (2) is for the worst case, a chord symmetric to the edge,
+// and measured from the edge; the distance to the closest surface, a flank, is cos a times that. On
+// a doubly curved surface the middle of a triangle can lie L/sqrt(3) from all its nodes (Jung's
+// circle), so that 2 L/sqrt(3) replaces L. With c > t/2 the mid-surface itself penetrates the tool.
 #pragma once
 
 #include "core/solver/scene.hpp"
@@ -29,7 +30,7 @@ double cut_between_nodes(double side, double radius, double thickness, double ha
 /// The longest side (mm) whose cut is half a thickness.
 double side_of_half_cut(double radius, double thickness, double half_turn);
 
-/// How deep one ply is in one tool, as they stand now, by the measure of contact: half the
+/// Depth of one ply in one tool at their present positions, defined as in contact: half the
 /// thickness minus the distance of the mid-surface.
 struct ToolCut {
   std::string tool, ply;
@@ -37,14 +38,14 @@ struct ToolCut {
   double thickness = 0.0; ///< mm, of the ply
 };
 
-/// Every tool, meshes included, with every ply. Each triangle is asked at the 15 points whose
-/// weights are multiples of 1/4 and then, where its tangent plane to the tool lets it be deeper
-/// than the deepest point so far, divided until that is known to a hundredth of a thickness. This
-/// is exact for tools that are convex where the ply meets them, and where they are hollow; what can
-/// be missed is a spike of a tool with hollows round it that is narrower than a quarter of a side.
+/// Depths of every ply in every tool, mesh tools included. Each triangle is evaluated at the 15
+/// points whose weights are multiples of 1/4; then, where the tangent plane of the tool allows it
+/// to be deeper than the deepest point so far, it is divided until that is decided to a hundredth
+/// of a thickness. This is exact where the tool is convex, and where it is concave; it can miss a
+/// spike with hollows around it that is narrower than a quarter of a side.
 std::vector<ToolCut> cuts_between_nodes(const Scene& scene);
 
-/// The largest depth (mm) of them, 0 if there is none.
+/// The largest depth (mm) of all cuts, 0 if there is none.
 double deepest(const std::vector<ToolCut>& cuts);
 
 } // namespace plyform

@@ -9,7 +9,7 @@
 namespace plyform {
 namespace {
 
-/// Each ply's list of the force arrays that hold something in this step, in fixed order.
+/// Lists for each ply the force arrays that are not zero in this step, in fixed order.
 void collect_forces(Scene& s) {
   const auto list = [&](int ply) -> auto& {
     return s.plies[ply].nodal_forces;
@@ -29,7 +29,7 @@ void collect_forces(Scene& s) {
   }
 }
 
-/// All that happens between two plies.
+/// Contact forces between two plies, of nodes and edges.
 void pair_forces(Scene& s, PlyPair& pair) {
   if (pair.loaded) {
     std::fill(pair.force_a.begin(), pair.force_a.end(), Vec3::Zero());

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces on the nodes: what elements, tools and other plies do to them, and the acceleration that
-// comes of their sum.
+// Nodal forces of elements, bending and contact, and the acceleration from their sum.
 #pragma once
 
 #include "core/base/thread_pool.hpp"
@@ -8,11 +7,11 @@
 
 namespace plyform {
 
-/// Forces of elements, bending, tools and contacts at the present positions, each into arrays of
-/// its own. Force-controlled tools find their place.
+/// Computes the forces of elements, bending, tools and contacts (N) at the present positions, each
+/// into arrays of its own. Moves force-controlled tools into equilibrium.
 void element_and_contact_forces(Scene& scene, ThreadPool& pool);
 
-/// What acts on every mass: gravity (mm/s^2) and damping (1/s).
+/// Loads in proportion to mass: gravity (mm/s^2) and mass damping (1/s).
 struct MassLoads {
   Vec3 gravity;
   double damping;
@@ -20,17 +19,18 @@ struct MassLoads {
 
 MassLoads mass_loads(const Scene& scene);
 
-/// N, of nodes begin .. end - 1 into f[0 ..): the sum of all forces. Array after array, which
-/// streams; a node's terms are added in the same order however its ply is cut up.
+/// Sum of all forces (N) on nodes begin .. end - 1, stored in f[0 ..]. The arrays are added one
+/// after the other; a node's terms are added in the same order however its ply is divided into
+/// blocks.
 void sum_forces(const PlyState& ply, int begin, int end, Vec3* f);
 
-/// mm/s^2, (17) of core/solver/step.hpp, of the sum of a node's forces.
+/// Acceleration (mm/s^2) of a node by (17) of core/solver/step.hpp. force: sum of its forces, N.
 inline Vec3 acceleration(const PlyState& ply, std::size_t n, const Vec3& force,
                          const MassLoads& loads) {
   return force / ply.membrane.node_mass[n] + loads.gravity - loads.damping * ply.velocity[n];
 }
 
-/// The same, of the forces as they are now.
+/// The same, with the sum of the present forces.
 Vec3 acceleration(const PlyState& ply, int node, const MassLoads& loads);
 
 } // namespace plyform

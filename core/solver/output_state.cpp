@@ -23,13 +23,14 @@ std::vector<Vec3> node_normals(const PlyState& ply) {
   return normals;
 }
 
-/// Normal forces on one ply, above and below, N.
+/// Normal contact forces on the nodes of one ply, N, on its upper and lower side separately.
 struct SideForces {
   std::vector<Vec3> normals;
   std::vector<double> above, below;
   void add(int node, const Vec3& direction, double force) {
     const auto n = static_cast<std::size_t>(node);
-    (direction.dot(normals[n]) < 0.0 ? above : below)[n] += force; // pushed down: from above
+    // a downward force acts on the upper side
+    (direction.dot(normals[n]) < 0.0 ? above : below)[n] += force;
   }
 };
 
@@ -65,7 +66,7 @@ ToolFrame make_tool_frame(const Scene& scene, const ToolState& tool) {
   ToolFrame f;
   f.name = tool.name;
   const ToolBody& body = tool.body;
-  double extent = 0.0; // from the tool, wherever the case has its origin
+  double extent = 0.0; // mm, largest distance of a ply's node from the tool
   for (const PlyState& ply : scene.plies)
     for (const Vec3& x : ply.x0)
       extent = std::max(extent, (x - body.position).norm());

@@ -29,7 +29,7 @@ std::string when_and_who(const Scene& s, std::size_t ply, int node) {
 }
 
 std::optional<Stop> find_pass_through(const Scene& s, const PlyContact& pair) {
-  // the two start more than h/2 apart: contact leaves three quarters of h at least
+  // A node cannot pass unless it moves by more than h/2: the contact law keeps 3/4 of h at least.
   if (!(step_displacement(s, pair) > 0.5 * pair.contact.distance)) return std::nullopt;
   const PlyState& slave = s.plies[pair.slave];
   const PlyState& master = s.plies[pair.master];
@@ -50,10 +50,10 @@ std::optional<Stop> find_pass_through(const Scene& s, const PlyContact& pair) {
   return std::nullopt;
 }
 
-/// Whether a way met the tool: walks along it by the distance that is free all round, so that a
-/// thin tool is not stepped over.
+/// Whether the straight path from `from` by `displacement` meets the tool. Marches along the path
+/// by the signed distance at each point (sphere tracing), so that a thin tool is not missed.
 bool meets_tool(const ToolBody& tool, const Vec3& from, const Vec3& displacement) {
-  constexpr int most = 1000;      // walks that only graze end sooner
+  constexpr int most = 1000;      // limit of the number of steps
   constexpr double nearly = 1e-3; // mm
   const double length = displacement.norm();
   int hint = -1;
@@ -66,11 +66,11 @@ bool meets_tool(const ToolBody& tool, const Vec3& from, const Vec3& displacement
   return false;
 }
 
-/// Whether a node left or is about to leave the tool on another side than it came from: its normal
-/// has turned round. Over the edge of a solid it turns by less.
+/// Whether a node left, or is about to leave, the tool on the side opposite to that on which it
+/// entered: the normal has reversed. Around an edge of a solid it rotates by less.
 bool passed(const ToolBody& tool, const Vec3& x, const Vec3& displacement, int hint) {
   const SurfacePoint now = distance_to_tool(tool, x, hint);
-  if (now.distance >= displacement.norm()) return false; // no room for a tool
+  if (now.distance >= displacement.norm()) return false; // the tool is not on its path
   const SurfacePoint before = distance_to_tool(tool, x - displacement, hint);
   const double turn = before.normal.dot(now.normal);
   if (before.distance > 0.0 && now.distance > 0.0)
@@ -81,7 +81,7 @@ bool passed(const ToolBody& tool, const Vec3& x, const Vec3& displacement, int h
 std::optional<Stop> find_pass_through(const Scene& s, const ToolState& tool, std::size_t p) {
   const ToolPlyContact& contact = tool.contacts[p];
   const double thickness = 2.0 * contact.half_thickness;
-  const double deepest = std::min(deepest_sound * contact.law.max_depth, thickness);
+  const double deepest = std::min(deepest_valid * contact.law.max_depth, thickness);
   if (contact.sums.penetration > deepest)
     for (const ToolPlyPoint& c : contact.points)
       if (-c.gap > deepest)

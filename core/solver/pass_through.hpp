@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What moves so fast, or lies so deep, that contact forces cannot keep it apart.
+// Detection of nodes that have passed through a ply or tool, or have penetrated beyond recovery.
 //
-// Forces act on what overlaps at the end of a step. A node that goes further than that in one step
-// can come out on the other side; it has then no force and looks sound.
+// Contact forces act on the overlap at the end of a step. A node that moves by more than the
+// contact distance in one step can come out on the other side, where it has no contact force.
 //
 //   r    mm  motion of a node in this step relative to the point it is closest to now
 //   u    mm  from that point to the node now;  n = u / |u|
@@ -13,15 +13,17 @@
 
 namespace plyform {
 
-/// Longest way (mm) that a node of the slave and one of the master went together in this step.
+/// Upper bound of the relative displacement (mm) of a node of the slave and one of the master in
+/// this step: the sum of the largest displacements of both.
 double step_displacement(const Scene& scene, const PlyContact& pair);
 
-/// Longest way (mm) of a node of a ply in this step; the same of a ply and a tool.
+/// Largest displacement (mm) of any node of a ply in this step; the second one relative to a tool.
 double step_displacement(const Scene& scene, int ply);
 double step_displacement(const Scene& scene, int ply, const ToolState& tool);
 
-/// A node that went through another ply or a tool within the last step, or lies deeper than half a
-/// thickness below a tool's surface. After contact search and forces.
+/// A node that passed through another ply or a tool within the last step, by (P) or the reversal of
+/// the tool's normal, or lies deeper in a tool than its contact law is valid. To be called after
+/// contact search and forces.
 std::optional<Stop> find_pass_through(const Scene& scene);
 
 } // namespace plyform

@@ -15,7 +15,7 @@
 namespace plyform {
 namespace {
 
-constexpr double line_spacing = 2.0; // mm, (1): about a yarn, finer than any mesh of use
+constexpr double line_spacing = 2.0; // mm, of the lines of (1): about a yarn, finer than any mesh
 constexpr double degrees = 180.0 / std::numbers::pi;
 
 std::size_t at(std::int32_t index) {
@@ -30,18 +30,20 @@ Vec3 formed_centroid(const PlyFrame& ply, std::size_t t) {
 /// A straight line along one yarn.
 struct YarnLine {
   double excess = 0.0;      ///< mm
-  double most = 0.0;        ///< strain, where it is pressed most
-  std::size_t triangle = 0; ///< there
+  double most = 0.0;        ///< largest compressive strain
+  std::size_t triangle = 0; ///< where that is
 };
 
-/// Adds what one triangle presses to the lines that cross it. across: mm, of its corners, in units
-/// of the spacing from line 0.
+/// Adds the compression of one triangle (`pressed`, strain) to (1) of the lines that cross it.
+/// across: coordinates of its corners normal to the lines, from line 0, in units of the spacing;
+/// area: mm^2.
 void add_chords(std::array<double, 3> across, double area, double pressed, std::size_t triangle,
                 std::vector<YarnLine>& lines) {
   std::sort(across.begin(), across.end());
   const auto [low, middle, high] = across;
   if (!(high > low)) return;
-  // Chords are longest through the middle corner, and shrink in proportion to either side.
+  // The chord through the corner with the middle coordinate is the longest; from it the length of
+  // chords decreases linearly to both sides.
   const double longest = 2.0 * area / ((high - low) * line_spacing);
   for (auto k = static_cast<std::size_t>(std::ceil(std::max(low, 0.0)));
        static_cast<double>(k) < high && k < lines.size(); ++k) {
@@ -62,7 +64,7 @@ YarnLine worst_line(const PlyFrame& ply, const std::vector<double>& strain,
     const double v = across.dot(x - ply.x0.front());
     low = std::min(low, v), high = std::max(high, v);
   }
-  // The first line lies half a spacing inside, so that none lies on the rim.
+  // The first line lies half a spacing inside, so that none lies on the edge of the ply.
   const Vec3 start = ply.x0.front() + (low + 0.5 * line_spacing) * across;
   std::vector<YarnLine> lines(1 + static_cast<std::size_t>((high - low) / line_spacing));
   for (std::size_t t = 0; t < ply.triangles.size(); ++t) {
@@ -79,50 +81,51 @@ YarnLine worst_line(const PlyFrame& ply, const std::vector<double>& strain,
 
 PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas,
                            double fibre_angle_deg) {
-  PressedYarns told;
-  std::vector<double> pressed(ply.triangles.size()); // of the family that is pressed more
+  PressedYarns result;
+  // compressive strain of the family that is compressed more
+  std::vector<double> pressed(ply.triangles.size());
   for (std::size_t t = 0; t < pressed.size(); ++t) {
     pressed[t] = std::max({0.0, -ply.warp_strain[t], -ply.weft_strain[t]});
     if (std::isnan(ply.warp_strain[t] + ply.weft_strain[t]))
       pressed[t] = std::numeric_limits<double>::quiet_NaN();
-    told.largest = std::isnan(told.largest) || std::isnan(pressed[t])
-                       ? std::numeric_limits<double>::quiet_NaN()
-                       : std::max(told.largest, pressed[t]);
+    result.largest = std::isnan(result.largest) || std::isnan(pressed[t])
+                         ? std::numeric_limits<double>::quiet_NaN()
+                         : std::max(result.largest, pressed[t]);
   }
-  told.share_above_2 = area_share_above(pressed, 0.02, areas);
-  told.share_above_5 = area_share_above(pressed, 0.05, areas);
+  result.share_above_2 = area_share_above(pressed, 0.02, areas);
+  result.share_above_5 = area_share_above(pressed, 0.05, areas);
   const double warp = ply.angle_deg / degrees, weft = warp + fibre_angle_deg / degrees;
   for (const YarnLine& line : {worst_line(ply, ply.warp_strain, areas, warp),
                                worst_line(ply, ply.weft_strain, areas, weft)})
-    if (line.excess > told.excess_mm) {
-      told.excess_mm = line.excess;
-      told.excess_at = formed_centroid(ply, line.triangle);
+    if (line.excess > result.excess_mm) {
+      result.excess_mm = line.excess;
+      result.excess_at = formed_centroid(ply, line.triangle);
     }
-  return told;
+  return result;
 }
 
 bool bears_compression(const Fabric& fabric) {
   return fabric.warp.compression > 0.0 && fabric.weft.compression > 0.0;
 }
 
-/// Where the excess of pressed yarns stands in reality, and what to do.
+/// What the excess length of compressed yarns would be in reality, and what to do about it.
 std::string remedy(const Fabric& fabric) {
   if (!bears_compression(fabric))
     return "this fabric's yarns carry tension only: give it compression_stiffness, and bending "
            "that "
            "makes wrinkles of it";
-  std::string told;
+  std::string result;
   if (std::isfinite(fabric.warp.buckling_force) || std::isfinite(fabric.weft.buckling_force))
-    told = "they gave way at buckling_force, in wrinkles that the mesh does not show, and whose "
-           "place it does not know; ";
-  return told +
+    result = "they gave way at buckling_force, in wrinkles that the mesh does not show, and whose "
+             "place it does not know; ";
+  return result +
          "less friction or a wider gap below the blank-holder presses them less, a finer mesh "
          "can show them as wrinkles";
 }
 
-/// How many times smaller elements have to be for a cut of no more than a thickness: by (1) and (2)
-/// of core/solver/facet_penetration.hpp curves cut by the square of a side, sharp edges in
-/// proportion to it, as meshes may.
+/// Factor by which elements must be smaller for a penetration between nodes of at most a thickness:
+/// by (1) and (2) of core/solver/facet_penetration.hpp it grows with the square of a side on curved
+/// surfaces, and linearly on sharp edges, which mesh tools may have.
 double refinement(const ToolState& tool, const ToolCut& cut) {
   const double radius = smallest_radius(tool.body.shape), excess = cut.depth / cut.thickness;
   const bool curved = std::isfinite(radius) && radius > cut.thickness;
@@ -164,32 +167,32 @@ std::vector<std::string> doubts_of_yarns(const Scene& s, const Frame& last,
 
 PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
                      const std::vector<const ToolBody*>& tools) {
-  PlyReport told;
+  PlyReport result;
   const std::vector<double> areas = areas_before(ply);
-  if (nature.woven) told.pressed = pressed_yarns(ply, areas, nature.fibre_angle_deg);
-  told.wrinkle = highest_wrinkle(ply, tools);
+  if (nature.woven) result.pressed = pressed_yarns(ply, areas, nature.fibre_angle_deg);
+  result.wrinkle = highest_wrinkle(ply, tools);
   if (nature.locking_angle_deg) {
     std::vector<double> shear = ply.shear_deg;
     for (double& angle : shear)
       angle = std::abs(angle);
-    told.beyond_locking_share = area_share_above(shear, *nature.locking_angle_deg, areas);
+    result.beyond_locking_share = area_share_above(shear, *nature.locking_angle_deg, areas);
   }
-  told.draw_in = draw_in(ply, nature.fibre_angle_deg);
-  return told;
+  result.draw_in = draw_in(ply, nature.fibre_angle_deg);
+  return result;
 }
 
 std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
   std::vector<const ToolBody*> tools;
   for (const ToolState& tool : s.tools)
     tools.push_back(&tool.body);
-  std::vector<PlyReport> told;
+  std::vector<PlyReport> result;
   for (std::size_t p = 0; p < last.plies.size(); ++p) {
     const Fabric& fabric = s.data.fabrics[s.data.plies[p].fabric];
     PlyNature nature{fabric.fibre_angle * degrees, fabric.has_yarns(), std::nullopt};
     if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle * degrees;
-    told.push_back(report_ply(last.plies[p], nature, tools));
+    result.push_back(report_ply(last.plies[p], nature, tools));
   }
-  return told;
+  return result;
 }
 
 std::vector<std::string> doubts(const Scene& s, const Frame& last,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What each ply has come to, and which results no real cloth would give.
+// Report on each ply, and checks whether the results are plausible for cloth.
 //
-// Woven yarns cannot be pressed: they buckle, and what the mesh is too coarse to show of it stands
-// in the results as a yarn that has become shorter. The excess length of a ply is the largest, over
-// straight lines of the unformed ply along warp and weft, 2 mm apart, of
+// Woven yarns hardly bear compression: they buckle. Buckling that the mesh is too coarse to resolve
+// appears in the results as shortening of the yarn. The excess length of a ply is the largest, over
+// straight lines of the undeformed ply along warp and weft, 2 mm apart, of
 //   e = integral of max(0, -strain) ds,  mm                                                     (1)
-// that is, by how much that yarn is longer than the way that the mesh gives it. Put into one
-// wrinkle of wavelength w it would have the height (2/pi) sqrt(w e).
+// that is, by how much that yarn is longer than its path in the mesh. Gathered in one wrinkle of
+// wavelength w (mm) it would have the height (2/pi) sqrt(w e).
 #pragma once
 
 #include "core/results/result_writer.hpp"
@@ -18,14 +18,14 @@
 
 namespace plyform {
 
-/// Of woven plies: more than 5 % shorter (PressedYarns::share_above_5) on more than this share of
-/// the area is no longer a spot but the answer.
+/// Woven plies with yarns shortened by more than 5 % (PressedYarns::share_above_5) on more than
+/// this share of their area are doubtful; on less it is a local effect.
 constexpr double doubtful_pressed_share = 0.02;
 
-/// Energy balance error of a run beyond which its forces are not to be trusted.
+/// Relative energy balance error of a run beyond which its forces are doubtful.
 constexpr double doubtful_balance_error = 0.01;
 
-/// What has to be known of a ply beside its frame.
+/// Properties of a ply that report_ply needs besides its frame.
 struct PlyNature {
   double fibre_angle_deg = 90.0; ///< from warp to weft before forming
   bool woven = true;             ///< has yarns
@@ -35,11 +35,11 @@ struct PlyNature {
 PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
                      const std::vector<const ToolBody*>& tools);
 
-/// One for each ply of `last`, the frame of the scene as it stands.
+/// The reports of all plies of `last`, the frame of the scene in its present state.
 std::vector<PlyReport> report_plies(const Scene& s, const Frame& last);
 
-/// What in the result is not to be trusted, and why, and what to do: a sentence each; empty if
-/// there is no reason to doubt.
+/// Reasons to doubt the result and what to do about each, one sentence each; empty if there is
+/// none. cuts: those of facet_penetration.hpp in the same state.
 std::vector<std::string> doubts(const Scene& s, const Frame& last,
                                 const std::vector<PlyReport>& plies,
                                 const std::vector<ToolCut>& cuts);

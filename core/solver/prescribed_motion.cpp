@@ -7,8 +7,8 @@
 namespace plyform {
 namespace {
 
-/// (R) of core/model/boundary.hpp for one node: the velocity that takes it where its boundaries
-/// will be. Adds to their loads and work.
+/// (R) of core/model/boundary.hpp for one node: the reaction that moves it to its prescribed
+/// position at the end of the step. Adds to force, load and work of its boundaries.
 void hold_node(Scene& s, const PrescribedNode& held) {
   PlyState& ply = s.plies[held.ply];
   const auto n = static_cast<std::size_t>(held.node);
@@ -17,7 +17,7 @@ void hold_node(Scene& s, const PrescribedNode& held) {
   const Vec3 free = acceleration(ply, held.node, mass_loads(s));
   const double span = 0.5 * (s.dt + s.next_dt);
   Vec3 reaction = Vec3::Zero(), displacement = reaction, slope = reaction;
-  int last = -1; // most nodes are held along all axes by one boundary: placed once
+  int last = -1; // boundary of the axis before: mostly the same, its position is then reused
   for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
     const Vec3& axis = held.axis[i];
     const auto b = static_cast<std::size_t>(held.boundary[i]);

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The forces that hold nodes where boundaries want them.
+// Reaction forces of nodes with prescribed motion.
 #pragma once
 
 #include "core/solver/scene.hpp"
 
 namespace plyform {
 
-/// (R) and (L) of core/model/boundary.hpp for all boundaries, after all other forces are known.
+/// Computes (R) and (L) of core/model/boundary.hpp for all boundaries. To be called after all other
+/// forces.
 void prescribe_nodes(Scene& scene);
 
 } // namespace plyform

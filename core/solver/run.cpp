@@ -21,7 +21,7 @@
 namespace plyform {
 namespace {
 
-constexpr int check_every = 100; // steps between looks at energies, balance and the clock
+constexpr int check_every = 100; // steps between checks of the energy balance and progress reports
 
 using Clock = std::chrono::steady_clock;
 
@@ -29,7 +29,7 @@ double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
 }
 
-/// What is needed to go back to the last good state.
+/// The state needed to return to the last good one.
 struct Snapshot {
   std::vector<PlyKinematics> plies;
   std::vector<Vec3> tool_displacement, tool_force;
@@ -53,7 +53,7 @@ ContactReport penetrations(const Scene& s) {
 void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
   snapshot.plies.resize(s.plies.size());
   for (std::size_t p = 0; p < s.plies.size(); ++p)
-    snapshot.plies[p] = s.plies[p]; // into the arrays that are there
+    snapshot.plies[p] = s.plies[p]; // copies into existing arrays
   snapshot.boundaries = s.boundaries;
   snapshot.tool_displacement.clear();
   snapshot.tool_force.clear();
@@ -67,7 +67,7 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
   snapshot.step = s.step;
 }
 
-void go_back(Scene& s, const Snapshot& snapshot) {
+void restore(Scene& s, const Snapshot& snapshot) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     static_cast<PlyKinematics&>(s.plies[p]) = snapshot.plies[p];
   s.boundaries = snapshot.boundaries;
@@ -79,9 +79,10 @@ void go_back(Scene& s, const Snapshot& snapshot) {
   s.step = snapshot.step;
 }
 
-/// Energy (N mm) below which the balance is not judged, since it is then a ratio of roundings: a
-/// hundredth of the stack's kinetic energy at the fastest driven tool's or grip's peak speed, and
-/// what each pushed tool's force and the weight do on a tenth of a millimetre.
+/// Energy (N mm) below which the balance is not checked, since its error is then a ratio of
+/// rounding errors: a hundredth of the stack's kinetic energy at the peak speed of the fastest
+/// driven tool or grip, plus the work of each pushed tool's force and of the weight over a tenth of
+/// a millimetre.
 double balance_floor(const Scene& s) {
   double mass = 0.0, force_controlled = 0.0;
   for (const PlyState& ply : s.plies)
@@ -106,16 +107,16 @@ std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floo
                   s.step, s.time, error, limit)};
 }
 
-/// The state number that is due next: outputs are spread evenly over the stroke, or over the time
-/// where nothing is driven.
+/// Number of the latest output state that is due: outputs are spaced evenly over the stroke, or
+/// over the time if nothing is driven.
 int outputs_due(const Scene& s) {
   const double stroke = whole_stroke(s.data);
   const double done = stroke != 0.0 ? current_stroke(s) / stroke : s.time / s.data.solver.duration;
   const int due = static_cast<int>(std::floor(done * s.data.solver.outputs + 1e-9));
-  return std::min(due, s.data.solver.outputs - 1); // the last one comes when the time is up
+  return std::min(due, s.data.solver.outputs - 1); // the last one is due at the end
 }
 
-/// The exact audit of the state in `s`, with the penetrations that belong to it.
+/// Contact report of the state in `s`: r with the exact count of intersections.
 ContactReport audit(const Scene& s, ContactReport r) {
   std::vector<MeshView> sheets;
   for (const PlyState& ply : s.plies)
@@ -138,8 +139,8 @@ Progress progress_of(const Scene& s, const Energies& e, double elapsed) {
   return p;
 }
 
-/// Puts reasons to doubt a result first among what is missing; a run that was done is then
-/// doubtful.
+/// Inserts reasons to doubt a result at the begin of WorkReport::missing, and changes the status
+/// "done" to "doubtful".
 void doubt_if(const std::vector<std::string>& reasons, Summary& sum) {
   sum.work.missing.insert(sum.work.missing.begin(), reasons.begin(), reasons.end());
   if (reasons.empty() || sum.status != "done") return;
@@ -227,7 +228,7 @@ RunResult run_scene(Scene& s, int threads, const RunHooks& hooks) {
   if (stop) {
     result.summary.status = "stopped";
     result.summary.message = stop->message;
-    go_back(s, good);
+    restore(s, good);
     energy = good.energy;
     if (s.step != result.last.step || written < 0) write();
   }

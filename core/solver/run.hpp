@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A whole simulation: from a case to its last state, with outputs on the way.
+// A whole simulation: from a case to its last state, with output of states in between.
 #pragma once
 
 #include "core/mesh/mesh_blank.hpp"
@@ -13,7 +13,7 @@ namespace plyform {
 
 struct Scene; // core/solver/scene.hpp
 
-/// Where a run stands, for a progress line.
+/// Progress of a run, for display.
 struct Progress {
   double fraction = 0.0; ///< of the simulated time
   double stroke_mm = 0.0;
@@ -34,15 +34,15 @@ struct RunResult {
   Summary summary; ///< status: done, doubtful, interrupted, stopped
 };
 
-/// Forms the plies. Stops early, with the last good state, when a value is not finite, an element
-/// collapses, a ply goes through another or the energy balance error passes its limit. meshes: as
-/// of make_scene.
+/// Runs a case. Stops early, with the last good state, if a value is not finite, an element
+/// collapses, a ply passes through another or a tool, or the energy balance error exceeds its
+/// limit. threads >= 1. meshes: as of make_scene. Throws std::runtime_error as make_scene.
 RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
                    const std::vector<BlankMesh>& meshes = {});
 
-/// The same from a scene of make_scene, whose plies may have been given another start: positions
-/// (PlyState::x, and x0 where boundaries hold them) and velocities. The scene is left in the last
-/// good state, with its contacts as of the last step computed.
+/// The same from a scene of make_scene, whose plies may have been given other initial positions
+/// (PlyState::x, and x0 where boundaries prescribe them) and velocities. The scene is left in the
+/// last good state, but its contacts in that of the last step computed.
 RunResult run_scene(Scene& scene, int threads, const RunHooks& hooks);
 
 } // namespace plyform

@@ -11,16 +11,17 @@
 namespace plyform {
 namespace {
 
-// Below these shares of the deformation energy, or of the work done, leaving something out changes
-// the plies by less than the cost parameters of a run do (docs/users/accuracy.md).
+// If bending, or friction, has less than this share of the deformation energy, or of the external
+// work, leaving it out changes the plies by less than the cost parameters of a run do
+// (docs/users/accuracy.md).
 constexpr double small_bending = 0.01, small_friction = 1e-3;
 
-constexpr double deep = 0.9; // of the depth at which contact has no limit (core/solver/scene.cpp)
+constexpr double deep = 0.9;          // of the depth limit of a contact (core/solver/scene.cpp)
 constexpr double high_inertia = 0.05; // kinetic over shear energy at the end
 constexpr double long_strain = 0.005; // softened yarns; woven ones break at 0.02 to 0.04
 
 void add(PairReport& pair, const ContactTotals& sums, const ContactTime& time) {
-  pair.time_share += time.forces + time.search; // seconds, until all are known
+  pair.time_share += time.forces + time.search; // in seconds here, divided by the total later
   pair.deepest_mm = std::max(pair.deepest_mm, sums.deepest);
   pair.slip_mm = std::max(pair.slip_mm, sums.slip);
   pair.friction_mJ += sums.friction;
@@ -53,7 +54,7 @@ std::vector<PairReport> pairs_of(const Scene& s) {
   return pairs;
 }
 
-/// Seconds of all threads by kind of work.
+/// Computing time (s) of all threads by kind of work.
 struct Times {
   double elements = 0.0, contact = 0.0, search = 0.0, motion = 0.0;
   double sum() const { return elements + contact + search + motion; }
@@ -123,7 +124,7 @@ std::pair<double, std::string> longest_yarn(const Frame& last) {
   return found;
 }
 
-/// What the yarns of a ply are divided by, the softer family's.
+/// Effective softening factor of a ply's yarns, that of the softer family.
 double largest_softening(const Scene& s, const std::string& name) {
   double largest = 1.0;
   for (const PlyState& ply : s.plies)
@@ -135,17 +136,19 @@ double largest_softening(const Scene& s, const std::string& name) {
 std::vector<std::string> too_little(const Scene& s, const Frame& last, const ContactReport& c) {
   const Energies& e = last.energy;
   std::vector<std::string> found;
-  std::map<std::pair<std::string, std::string>, std::pair<double, double>> deepest; // and the limit
-  const auto look = [&deepest](const std::string& a, const std::string& b,
-                               const ContactTotals& sums, const ContactLaw& law) {
+  // depth and limit, mm
+  std::map<std::pair<std::string, std::string>, std::pair<double, double>> deepest;
+  const auto add_depth = [&deepest](const std::string& a, const std::string& b,
+                                    const ContactTotals& sums, const ContactLaw& law) {
     auto& [depth, limit] = deepest[std::minmax(a, b)];
     if (sums.deepest >= depth) depth = sums.deepest, limit = law.max_depth;
   };
   for (const ToolState& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
-      look(t.name, s.plies[p].name, t.contacts[p].sums, t.contacts[p].law);
-  for (const PlyContact& pair : s.ply_contacts) // both ways
-    look(s.plies[pair.slave].name, s.plies[pair.master].name, pair.contact.sums, pair.contact.law);
+      add_depth(t.name, s.plies[p].name, t.contacts[p].sums, t.contacts[p].law);
+  for (const PlyContact& pair : s.ply_contacts) // both directions
+    add_depth(s.plies[pair.slave].name, s.plies[pair.master].name, pair.contact.sums,
+              pair.contact.law);
   for (const auto& [names, depth] : deepest)
     if (depth.first > deep * depth.second)
       found.push_back(fmt::format("{} with {}: {:.3f} mm deep at some time, of {:.3g} mm that "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What a run did with its time, pair by pair, and what it modelled too much or too little.
+// Diagnosis of a run: computing time by kind of work and pair of bodies, and which effects its
+// model could leave out or lacks.
 #pragma once
 
 #include "core/results/result_writer.hpp"
@@ -7,7 +8,8 @@
 
 namespace plyform {
 
-/// Of a scene at its end and its last frame. `contact`: the audit's counts.
+/// The report on a scene in its last state and its last frame. contact: with the exact count of
+/// intersections.
 WorkReport report_work(const Scene& scene, const Frame& last, const ContactReport& contact);
 
 } // namespace plyform

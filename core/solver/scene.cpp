@@ -14,7 +14,7 @@ void add_blocks(std::vector<Block>& blocks, int ply, std::size_t count, int size
     blocks.push_back({ply, begin, std::min(n, begin + size), 0.0});
 }
 
-/// Which triangles have a node on the ply's rim.
+/// Per triangle whether it has a node on the ply's boundary edge.
 std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
                                std::span<const Triangle> triangles, std::size_t nodes) {
   std::vector<char> node(nodes, 0), face;
@@ -52,7 +52,7 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
   body.motion = body.velocity;
   if (fits_simd(body.membrane)) {
     body.simd = make_membrane_simd(body.membrane, body.x);
-    body.membrane.last_lambda = body.membrane.last_viscous = {}; // the lanes have their own
+    body.membrane.last_lambda = body.membrane.last_viscous = {}; // body.simd has its own
   } else {
     body.q.resize(mesh.triangles.size());
   }
@@ -69,7 +69,7 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
   return body;
 }
 
-/// mm^2, of two triangles on average: the square of the element size.
+/// Mean area (mm^2) of two triangles, the square of the element size.
 double cell_area(const PlyState& ply) {
   double area = 0.0;
   for (const double a : ply.membrane.node_area)
@@ -77,13 +77,14 @@ double cell_area(const PlyState& ply) {
   return 2.0 * area / static_cast<double>(ply.membrane.triangles.size());
 }
 
-/// Contact stiffness per area that moves a free node at `fraction` of the elements' omega^2. That
-/// falls with the square of the element size, while a ply may not sink in deeper for being meshed
-/// coarsely: so no less than what elements of 12.5 thicknesses would have, within a factor of 2.5,
-/// beyond which crossed plies chatter over a fillet (docs/verification/contact.md).
+/// Penalty stiffness per area, N/mm^3, with which omega^2 of a free node in contact is `fraction`
+/// of that of the elements. The latter falls with the square of the element size, while penetration
+/// should not grow on a coarse mesh: therefore the penalty is at least that for elements of 12.5
+/// thicknesses, but increased by a factor of 2.5 at most, beyond which crossed plies chatter over a
+/// fillet (docs/verification/contact.md).
 ///
-/// In a stack it does not follow the yarns further than fibre_softening = 100 (`stack_softening`):
-/// what presses plies on each other does not get less with them.
+/// In a stack the penalty falls with the stiffness of softened yarns only down to a softening of
+/// 100 (`stack_softening`), as the pressure between plies does not decrease with softening.
 double penalty_per_area(const PlyState& ply, double fraction, bool stack) {
   constexpr double fine = 12.5, most = 2.5, stack_softening = 100.0;
   const auto& softening = ply.membrane.softening;
@@ -93,8 +94,9 @@ double penalty_per_area(const PlyState& ply, double fraction, bool stack) {
          ply.bound.omega2;
 }
 
-// Depth limits, of a ply's thickness. Between plies a quarter: edges that cross each other then
-// keep apart too (contact/forces/edge_edge.hpp). Into tools a sixth: 0.1 mm of a ply of 0.6 mm.
+// Depth limits of contact over a ply's thickness. Between plies a quarter, with which edge-edge
+// contact begins before edges can cross (contact/forces/edge_edge.hpp). In tools a sixth: 0.1 mm
+// for a ply of 0.6 mm.
 constexpr double deepest_in_ply = 0.25, deepest_in_tool = 1.0 / 6.0, deepest_of_edges = 0.25;
 
 ContactLaw make_law(const ContactOptions& options, double penalty, double density, double mu,
@@ -114,7 +116,7 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlySt
   t.body.force_controlled = tool.motion == Motion::force;
   t.force_on = tool.force;
   t.body.mass = tool.mass;
-  constexpr double closing_speed = 1000.0; // mm/s: that of a fast press
+  constexpr double closing_speed = 1000.0; // mm/s: a fast press
   t.body.max_approach_speed = closing_speed;
   t.stroke = tool.motion == Motion::driven ? tool.stroke : 0.0;
   for (std::size_t p = 0; p < plies.size(); ++p) {
@@ -144,21 +146,21 @@ PlyContact make_pair(const Case& data, const std::vector<PlyState>& plies, int a
   pair.contact.distance = 0.5 * (slave.thickness + master.thickness);
   pair.contact.law = make_law(data.contact, penalty, density, data.friction(a, b),
                               deepest_in_ply * pair.contact.distance);
-  // A point that changes its face late gains energy in proportion to slide_limit: at 1/50 of the
-  // distance the balance of a coarse stack is off by 8 %, at 1/500 by less than 1 %, which costs
-  // 4 % of the time.
+  // A point that changes its face late gains energy in proportion to slide_limit: with 1/50 of the
+  // distance the energy balance error of a coarse stack is 8 %, with 1/500 less than 1 %, for 4 %
+  // more computing time.
   pair.contact.slide_limit = 0.002 * pair.contact.distance;
   pair.contact.full_search_interval = 0.025 * std::sqrt(cell_area(master));
   return pair;
 }
 
-/// Pairs of plies next to each other first: they have the most to do.
+/// The pairs of plies, adjacent ones first, which take longest to compute.
 std::vector<PlyPair> make_pairs(const Scene& s) {
   std::vector<PlyPair> pairs;
   const int n = static_cast<int>(s.plies.size());
   for (int apart = 1; apart <= n; ++apart)
     for (int a = 0; a < n; ++a) {
-      const int b = a + apart % n; // with itself last
+      const int b = a + apart % n; // pairs of a ply with itself last
       if (b >= n) continue;
       PlyPair pair;
       pair.a = a, pair.b = b;
@@ -192,8 +194,8 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
   s.element_size = smallest_element(s.plies);
-  // Motion uses a skin up, points and faces in reach grow with its square: at a third of an element
-  // neither counts for much.
+  // A small skin makes searches frequent, a large one increases the number of points and faces
+  // within reach (with its square): with a third of an element both costs are small.
   s.skin = data.contact.skin > 0.0 ? data.contact.skin : 0.3 * s.element_size;
   const int n = static_cast<int>(s.plies.size());
   for (int a = 0; a < n; ++a)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Everything a running simulation holds: plies, tools, contacts between them, sums. Topology is
+// The state of a running simulation: plies, tools, contacts between them, sums. Topology is
 // constant; the arrays change step by step (core/solver/step.hpp).
 #pragma once
 
@@ -21,55 +21,55 @@ namespace plyform {
 
 // A ply is made of parts, each with one purpose. Arrays of n nodes.
 
-/// What a ply is: constant from the first step on, but for the viscous memory of its yarns.
+/// Model of a ply: constant from the first step on, except for the state variables of viscosity.
 struct PlyModel {
   std::string name;
   double angle = 0.0;     ///< rad, warp from x, before forming
   double thickness = 0.0; ///< mm
   std::vector<Vec3> x0;   ///< mm, before forming
   Membrane membrane;
-  std::optional<MembraneSimd> simd; ///< its forces four at a time, unless it has no yarns
-  std::optional<Bending> bending;   ///< if the fabric has it
-  BendingSimd bending_simd;         ///< its forces, or empty
+  std::optional<MembraneSimd> simd; ///< SIMD version of the membrane; none without yarns
+  std::optional<Bending> bending;   ///< none without bending stiffness
+  BendingSimd bending_simd;         ///< SIMD version of the bending, or empty
   std::vector<SheetEdge> edges;
   std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
 };
 
-/// Where it is and how it moves: what a restart must keep.
+/// Position and velocity of a ply: the state that a restart must keep.
 struct PlyKinematics {
   std::vector<Vec3> x;        ///< mm
-  std::vector<Vec3> velocity; ///< mm/s, half a step behind x
-  std::vector<Vec3> motion;   ///< mm, of the last step
-  std::vector<Vec3> reaction; ///< N, that boundaries hold each node with; empty if none does
+  std::vector<Vec3> velocity; ///< mm/s, half a step before the time of x
+  std::vector<Vec3> motion;   ///< mm, displacement in the last step
+  std::vector<Vec3> reaction; ///< N, of boundaries on each node; empty if none prescribes any
 };
 
-/// What the last contact search knew, and how far the ply has gone since.
+/// Data of the last contact search, and the displacements since.
 struct PlySearch {
-  std::vector<Vec3> x_search;    ///< mm, where the contact search was last done
-  double max_displacement = 0.0; ///< mm, furthest that any node has been from there
+  std::vector<Vec3> x_search;    ///< mm, x at the last contact search
+  double max_displacement = 0.0; ///< mm, largest distance of any node from x_search since then
   double path_length = 0.0;      ///< mm, contact/search/active_list.hpp
   std::unique_ptr<SheetTree> tree;
-  std::vector<double> fold_bound;            ///< contact/search/fold_bound.hpp, one a triangle
-  double fold_bound_displacement = 0.0;      ///< mm, max_displacement when it was last renewed
-  std::array<std::vector<char>, 2> occluded; ///< nodes that the next ply below, above covers
-  double search_seconds = 0.0;               ///< refitting the tree, bounding folds
+  std::vector<double> fold_bound;            ///< contact/search/fold_bound.hpp, one per triangle
+  double fold_bound_displacement = 0.0;      ///< mm, max_displacement when it was last computed
+  std::array<std::vector<char>, 2> occluded; ///< per node, by the adjacent ply below [0], above [1]
+  double search_seconds = 0.0;               ///< s, refitting the tree, computing fold bounds
 };
 
-/// What its own elements and contacts allow of the time step.
+/// Bounds that limit the stable time step (core/solver/stable_time_step.hpp).
 struct PlyStability {
-  EigenvalueBound bound;         ///< of the membrane, renewed now and then
-  double eigenvalue_ratio = 1.0; ///< core/ply/membrane_eigenvalue.hpp, renewed more rarely
-  double stretch_contacts = 0.0; ///< 1/s^2, bound of contacts when Scene::time_step_gain was found
+  EigenvalueBound bound;         ///< of the membrane, updated at least every 200 steps
+  double eigenvalue_ratio = 1.0; ///< core/ply/membrane_eigenvalue.hpp, updated every 1000 steps
+  double lanczos_contacts = 0.0; ///< 1/s^2, bound of contacts when time_step_gain was computed
 };
 
-/// Scratch of one step.
+/// Temporary data of one step.
 struct PlyWorkspace {
-  std::vector<ElementForce> q; ///< forces without simd, one a triangle
-  /// Reaction and contacts: those in use now, in order.
+  std::vector<ElementForce> q; ///< forces without simd, one per triangle
+  /// Arrays of reaction and contact forces that are not zero in this step, in fixed order.
   std::vector<const std::vector<Vec3>*> nodal_forces;
 };
 
-/// A ply in motion.
+/// A ply and its state.
 struct PlyState : PlyModel, PlyKinematics, PlySearch, PlyStability, PlyWorkspace {
   SurfaceKinematics state() const { return {x, motion, membrane.node_area, fold_bound}; }
 };
@@ -79,111 +79,113 @@ struct ToolState {
   std::string name;
   ToolBody body;
   double stroke = 0.0;   ///< mm, 0 unless driven
-  double force_on = 0.0; ///< N, 0 unless pushed
+  double force_on = 0.0; ///< N, prescribed force at full load, 0 unless pushed
   std::vector<ToolPlyContact> contacts;
   Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
   Vec3 displacement_search = Vec3::Zero();
-  double max_displacement =
-      0.0;                  ///< mm, furthest from there, what it may still do in this step included
-  double path_length = 0.0; ///< mm, contact/search/active_list.hpp
-  std::vector<double> ply_paths; ///< mm, with each ply, what it may still do in this step included
+  double max_displacement = 0.0; ///< mm, largest distance from displacement_search, with what it
+                                 ///< may still move in this step
+  double path_length = 0.0;      ///< mm, contact/search/active_list.hpp
+  std::vector<double> ply_paths; ///< mm, with each ply, with what it may still move in this step
   double work = 0.0;             ///< N mm, done by the tool on the plies since the start
-  double seconds = 0.0;          ///< all of its forces
+  double seconds = 0.0;          ///< s, computing time of its forces
 };
 
-/// One directed contact between two plies, or of a ply with itself.
+/// One pass of the node-to-face contact between two plies, or of a ply with itself.
 struct PlyContact {
   int slave = 0, master = 0;
   PlyPlyContact contact;
 };
 
-/// Edges of two plies, a < b, or of one with itself.
+/// Edge-edge contact of two plies, a < b, or of one with itself.
 struct PlyEdgeContact {
   int a = 0, b = 0;
   EdgeEdgeContact contact;
 };
 
-/// Two plies, a < b, or one with itself, and what their contacts do to their nodes.
+/// All contacts of two plies, a < b, or of one with itself, and their forces on the nodes.
 struct PlyPair {
   int a = 0, b = 0;
   std::vector<int> contacts;          ///< in Scene::ply_contacts
   std::vector<int> edges;             ///< in Scene::edge_contacts
-  std::vector<Vec3> force_a, force_b; ///< N, of all of them; empty while none may touch
-  bool loaded = false;                ///< something touches now; else the forces are zero
+  std::vector<Vec3> force_a, force_b; ///< N, sums over the contacts; empty until anything may touch
+  bool loaded = false;                ///< whether any contact is closed; else the forces are zero
 };
 
-/// What a boundary (Case::boundaries) is doing.
+/// State of a boundary (Case::boundaries).
 struct BoundaryState {
-  double displacement = 0.0;      ///< mm, d, now
+  double displacement = 0.0;      ///< mm, d at the present time
   double next_displacement = 0.0; ///< mm, d at the end of the coming step
-  double load = 0.0;              ///< N, (L): + when it pulls along its stroke
-  Vec3 force = Vec3::Zero();      ///< N, sum of what it holds its nodes with
+  double load = 0.0;              ///< N, (L): positive if it pulls along its stroke
+  Vec3 force = Vec3::Zero();      ///< N, sum of its reaction forces on the nodes
   double work = 0.0;              ///< N mm, done on the plies since the start
 };
 
-/// Nodes in a block: long enough to hide the hand-over, short enough to share out.
+/// Nodes per block: enough to outweigh the scheduling, few enough to balance the threads.
 constexpr int node_block = 512;
 
-/// A run of nodes or groups (or one of the ply's SimdBlocks): the unit of work of a thread. Fixed
-/// size, so that sums come out the same whatever the number of threads.
+/// A range of nodes or strain groups (or one of the ply's SimdBlocks): the unit of work of a
+/// thread. Its size is fixed, so that sums do not depend on the number of threads.
 struct Block {
   int ply, begin, end;
-  double seconds = 0.0; ///< computing time since the start
+  double seconds = 0.0; ///< s, computing time since the start
 };
 
-/// What a block of nodes reports of one step.
+/// Sums and maxima over a block of nodes in one step.
 struct NodeSums {
   double damping = 0.0; ///< N mm, work of mass damping in this step
-  double moved2 = 0.0;  ///< mm^2, largest squared way since the last contact search
-  double step2 = 0.0;   ///< mm^2, largest squared way of this step
+  double moved2 = 0.0;  ///< mm^2, largest squared displacement since the last contact search
+  double step2 = 0.0;   ///< mm^2, largest squared displacement in this step
 };
 
-/// What a scene is: constant from the first step on.
+/// Model of a scene: constant from the first step on.
 struct SceneModel {
   Case data;
-  std::vector<PrescribedNode> held; ///< by ply and node
+  std::vector<PrescribedNode> held; ///< ascending by ply and node
   std::vector<Block> group_blocks, node_blocks, bending_blocks;
-  double element_size = 0.0; ///< mm, smallest mean of a ply
-  double skin = 0.0;         ///< mm, Case's or by the element size
+  double element_size = 0.0; ///< mm, the smallest of the mean element sizes of all plies
+  double skin = 0.0;         ///< mm, that of the case, or from the element size
 };
 
 /// Plies, tools, boundaries and the contacts between them.
 struct SceneBodies {
   std::vector<PlyState> plies;
   std::vector<ToolState> tools;
-  std::vector<BoundaryState> boundaries; ///< one each of Case::boundaries
+  std::vector<BoundaryState> boundaries; ///< one per entry of Case::boundaries
   std::vector<PlyContact> ply_contacts;
   std::vector<PlyEdgeContact> edge_contacts;
   std::vector<PlyPair> ply_pairs;
 };
 
-/// How far the run has come, and what was summed up on the way: a restart must keep it.
+/// Time, step sizes and accumulated sums of the run: a restart must keep them.
 struct SceneProgress {
-  double time = 0.0;                 ///< s, of x
+  double time = 0.0;                 ///< s, time of x
   long step = 0;                     ///< steps taken
-  double dt = 0.0, next_dt = 0.0;    ///< s, the step that led to x and the one that leaves it
-  double stable_dt = 0.0;            ///< s, step_factor times the stable step when last renewed
+  double dt = 0.0, next_dt = 0.0;    ///< s, the time step that led to x and the next one
+  double stable_dt = 0.0;            ///< s, step_factor times the stable time step
   double min_dt = 0.0, max_dt = 0.0; ///< s, used so far
-  double bound_displacement = 0.0; ///< mm, largest displacement since the search at the last bound
-  double time_step_gain = 1.0;    ///< stable step over its bound (core/solver/stable_time_step.hpp)
-  long next_lanczos = 0;          ///< the next step that renews time_step_gain and eigenvalue_ratio
-  double start_energy = 0.0;      ///< N mm, that the plies were given to start with
+  double bound_displacement = 0.0;   ///< mm, largest_displacement when stable_dt was computed
+  /// Ratio of the stable step to its bound: core/solver/stable_time_step.hpp.
+  double time_step_gain = 1.0;
+  long next_lanczos = 0;     ///< the next step that updates time_step_gain and eigenvalue_ratio
+  double start_energy = 0.0; ///< N mm, energy of the plies at the start
   double mass_damping_work = 0.0; ///< N mm, since the start
-  std::vector<double> group_sums; ///< N mm, viscous work since the start, one a group block
-  long searches = 0;              ///< broad phases done
+  std::vector<double> group_sums; ///< N mm, viscous work since the start, one per group block
+  long searches = 0;              ///< number of contact searches so far
 };
 
-/// Scratch of one step.
+/// Temporary data of one step.
 struct SceneWorkspace {
   std::vector<SurfaceKinematics> ply_states; ///< views of the plies
-  std::vector<char> group_collapsed; ///< whether a triangle has collapsed, one a group block
-  std::vector<NodeSums> node_sums;   ///< one a node block
+  std::vector<char> group_collapsed; ///< whether a triangle has collapsed, one per group block
+  std::vector<NodeSums> node_sums;   ///< one per node block
 };
 
 struct Scene : SceneModel, SceneBodies, SceneProgress, SceneWorkspace {};
 
-/// Places plies and tools, sets contact stiffness from the stable step. meshes: of the blanks, one
-/// a ply; none: they are meshed here. Throws std::runtime_error if a blank cannot be meshed.
+/// Builds the scene of a case: meshes, membranes, bending, contacts with their stiffnesses, and the
+/// initial positions. meshes: one per ply; if empty, the blanks are meshed here. Throws
+/// std::runtime_error if a blank cannot be meshed.
 Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes = {});
 
 } // namespace plyform

@@ -11,12 +11,12 @@
 namespace plyform {
 namespace {
 
-constexpr int lanczos_interval = 1000; // steps: ratios change slower than bounds
+constexpr int lanczos_interval = 1000; // steps; eigenvalue ratios change more slowly than bounds
 
-/// Row sums of the contact matrices, of each ply's nodes.
+/// Row sums of the contact matrices, per ply and node.
 using ContactRows = std::vector<std::vector<ContactRow>>;
 
-/// What the contacts between two plies add to the rows of both.
+/// Row sums of the contacts between two plies, per node of each.
 struct PairRows {
   std::vector<ContactRow> a, b;
 };
@@ -71,7 +71,7 @@ ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
   return c;
 }
 
-/// Bounds of one ply: of its elements, yarns sharpened, and of contacts on it.
+/// Bounds of one ply: of its elements, with the eigenvalue ratio applied, and of its contacts.
 struct PlyBound {
   Frequencies elements, contacts;
 
@@ -80,10 +80,11 @@ struct PlyBound {
         .step();
   }
 
-  /// The step of the sum, whose part up to `known` (1/s^2) of contacts is `stretch` times as long
-  /// as the sum says. What contacts have grown by since that was found counts in full: a single
-  /// deep contact is as stiff as its row.
-  double sharpened_step(double time_step_gain, double known) const {
+  /// Stable time step (s) of the sum of both bounds, with the gain applied to the elements and to
+  /// the bound of contacts up to `known` (1/s^2), its value when the gain was computed. The
+  /// increase of contact stiffness since then counts in full: a single deep contact is as stiff as
+  /// its row sum.
+  double step_with_gain(double time_step_gain, double known) const {
     const double grown = std::max(contacts.omega2 - known, 0.0);
     return Frequencies{
         (elements.omega2 + contacts.omega2 - grown) / (time_step_gain * time_step_gain) + grown,
@@ -98,7 +99,7 @@ PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
   PlyBound of;
   of.elements = {
       highest_omega2(b, ply.eigenvalue_ratio) + (ply.bending ? ply.bending->omega2 : 0.0),
-      b.guarded ? b.damping : std::min(b.damping, ply.eigenvalue_ratio * b.yarns * b.viscous)};
+      b.penalty_acts ? b.damping : std::min(b.damping, ply.eigenvalue_ratio * b.yarns * b.viscous)};
   of.elements.damping += s.data.solver.mass_damping;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const ContactRow& row = touching[p][n];
@@ -109,14 +110,14 @@ PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
   return of;
 }
 
-/// How much longer than `dt` the stable step is.
-double stretch_of(const Scene& s, double dt, ThreadPool& pool) {
+/// Ratio of the stable time step of the whole scene, by Lanczos' iteration, to `dt` (s).
+double time_step_gain_of(const Scene& s, double dt, ThreadPool& pool) {
   StiffnessOperator product(s, dt);
-  const double left =
+  const double lhs =
       ritz_margin *
       largest_ritz_value([&](const Eigen::VectorXd& v) { return product.apply(v, pool); },
                          product.start(), ritz_steps);
-  return left <= 4.0 ? std::sqrt(4.0 / left) : 4.0 / left; // (S) is convex in dt
+  return lhs <= 4.0 ? std::sqrt(4.0 / lhs) : 4.0 / lhs; // (S) is convex in dt
 }
 
 } // namespace
@@ -126,7 +127,7 @@ StepBound stable_step(const Scene& s, ThreadPool& pool) {
   StepBound bound;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBound of = bound_of(s, touching, p);
-    double dt = std::min(of.sharpened_step(s.time_step_gain, s.plies[p].stretch_contacts),
+    double dt = std::min(of.step_with_gain(s.time_step_gain, s.plies[p].lanczos_contacts),
                          of.elements.step());
     if (of.contacts.omega2 > 0.0) dt = std::min(dt, of.contacts.step());
     if (bound.ply < 0 || !(dt >= bound.dt))
@@ -137,24 +138,26 @@ StepBound stable_step(const Scene& s, ThreadPool& pool) {
 }
 
 void update_stable_step(Scene& s, ThreadPool& pool) {
-  const bool sharpen = s.step >= s.next_lanczos;
+  const bool lanczos_due = s.step >= s.next_lanczos;
   pool.run(static_cast<int>(s.plies.size()), [&](int p) {
     PlyState& ply = s.plies[p];
     const Stopwatch watch(ply.search_seconds);
     ply.bound = eigenvalue_bound(ply.membrane, ply.x);
-    if (sharpen) ply.eigenvalue_ratio = eigenvalue_ratio(ply.membrane, ply.x);
+    if (lanczos_due) ply.eigenvalue_ratio = eigenvalue_ratio(ply.membrane, ply.x);
   });
-  if (!sharpen) return;
+  if (!lanczos_due) return;
   s.next_lanczos = s.step + lanczos_interval;
   const ContactRows touching = contact_rows(s, pool);
   double dt = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBound of = bound_of(s, touching, p);
-    s.plies[p].stretch_contacts = of.contacts.omega2;
+    s.plies[p].lanczos_contacts = of.contacts.omega2;
     dt = std::min(dt, of.sum_step());
   }
-  const double time_step_gain = s.time_step_gain * stretch_of(s, s.time_step_gain * dt, pool);
-  constexpr double grain = 1e-3; // so that what rounding does to the iteration goes no further
+  const double time_step_gain =
+      s.time_step_gain * time_step_gain_of(s, s.time_step_gain * dt, pool);
+  // the gain is rounded down, so that rounding errors of the iteration have no effect
+  constexpr double grain = 1e-3;
   s.time_step_gain = std::max(1.0, grain * std::floor(time_step_gain / grain));
 }
 

@@ -6,17 +6,20 @@
 //   largest eigenvalue of  M^-1 (dt^2 K + 2 dt C)  <=  4                                  (S)
 //
 // since each mode z^n v obeys the scalar equation with k = v*Kv/v*Mv and c = v*Cv/v*Mv, whose roots
-// lie in the unit circle for dt^2 k + 2 dt c <= 4. Two answers to it:
+// lie in the unit circle for dt^2 k + 2 dt c <= 4. Two estimates of that eigenvalue:
 //
-//   bound   per ply, that of its elements plus the largest row sum of contact stiffness over mass
-//           of any node: holds without doubt, and is cheap, but adds up what does not act together:
-//           elements in the plane, contacts across it, the stiffest of each anywhere
-//   stretch how much longer the step may be: K and C of all plies, contacts and friction at the
-//           present shape, yarns taut and contacts stuck, by Lanczos' iteration; costs as much as
-//           30 steps and is renewed every 1000
+//   bound   per ply, the bound of its elements plus the largest row sum of contact stiffness over
+//           mass of any node (Gershgorin): always safe and cheap, but it adds up terms that do not
+//           act on the same mode: elements in the plane, contacts normal to it, each at the node
+//           where it is stiffest
+//   gain    factor by which the step may be longer than the bound allows, from K and C of all
+//   plies,
+//           contacts and friction at the present shape, with yarns taut and contacts sticking, by
+//           Lanczos' iteration; it costs as much as 30 steps and is updated every 1000
 //
-// Between renewals the bound times stretch holds as far as elements and contacts change alike: what
-// contacts have grown by counts in full, and neither may be more than its own bound allows.
+// Between updates bound times gain is used. It is valid as long as elements and contacts change in
+// proportion; therefore any increase of contact stiffness since the update counts in full, and the
+// step never exceeds that of the elements' or the contacts' bound alone.
 #pragma once
 
 #include "core/base/thread_pool.hpp"
@@ -26,7 +29,7 @@
 
 namespace plyform {
 
-/// k and c of (S), 1/s^2 and 1/s.
+/// k and c of (S), 1/s^2 and 1/s; stability_lhs is the left side of (S), step the largest dt, s.
 struct Frequencies {
   double omega2 = 0.0, damping = 0.0;
 
@@ -34,23 +37,24 @@ struct Frequencies {
   double step() const { return (std::sqrt(damping * damping + 4.0 * omega2) - damping) / omega2; }
 };
 
-/// What limits the step now, from the elements and the contacts.
+/// The stable time step, and where it is limited.
 struct StepBound {
-  double dt = 0.0;     ///< s, stable step without the case's factor
-  double omega2 = 0.0; ///< 1/s^2, of the bound
+  double dt = 0.0;     ///< s, stable time step without the case's step_factor
+  double omega2 = 0.0; ///< 1/s^2, of the bound of that ply
   int ply = -1, triangle = -1;
 };
-/// Contacts count where they stand now, those too that are within bound_margin of closing; what
-/// slides until the next renewal is what step_factor leaves room for. The elements' part is
-/// PlyState::bound.
+/// The stable time step from PlyStability::bound, the gain, and the contacts at their present
+/// positions: those that are closed or within bound_margin of closing. step_factor covers their
+/// sliding until the next update.
 StepBound stable_step(const Scene& scene, ThreadPool& pool);
 
-/// mm; by when anything has moved by half of it the bound is due again.
+/// mm: gap up to which open contacts count. The stable time step is computed again when anything
+/// has moved by half of it.
 constexpr double bound_margin = 0.5;
-constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same of edges
+constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same for edge-edge contact
 
-/// Renews PlyState::bound at the present shape, and if due PlyState::eigenvalue_ratio and
-/// Scene::stretch.
+/// Updates PlyStability::bound at the present shape, and if due PlyStability::eigenvalue_ratio and
+/// SceneProgress::time_step_gain.
 void update_stable_step(Scene& scene, ThreadPool& pool);
 
 } // namespace plyform

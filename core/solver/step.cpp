@@ -16,13 +16,14 @@
 namespace plyform {
 namespace {
 
-// Steps between renewals of the stable step at most. Of elements: geometry changes by far less than
-// the case's step factor leaves room for. Of contacts: each may get deeper in that time, though
-// none beyond the deepest of its pair (renew_depth).
+// Largest number of steps between updates of the stable time step. Elements: their geometry changes
+// by far less in that time than step_factor covers. Contacts: single ones may deepen in that time,
+// but none beyond renew_depth of its pair, which triggers an update.
 constexpr int elements_every = 200, contacts_every = 50;
 
-/// Driven tools go to where they are at scene.time; pushed ones find their place with the forces,
-/// and get their force over the first twentieth of the time, so as not to strike the stack.
+/// Moves driven tools to their positions at scene.time. Pushed tools are moved when their forces
+/// are computed; here their force is set, which rises over the first twentieth of the time to avoid
+/// an impact on the stack.
 void move_tools(Scene& s) {
   constexpr double ramp = 0.05; // of the duration
   for (ToolState& t : s.tools) {
@@ -37,7 +38,7 @@ void move_tools(Scene& s) {
 }
 
 /// Searches for contacts if bodies have moved by more than the skin allows for; `searched` says so.
-std::optional<Stop> search_if_used_up(Scene& s, ThreadPool& pool, bool& searched) {
+std::optional<Stop> search_if_due(Scene& s, ThreadPool& pool, bool& searched) {
   searched = !track_displacements(s);
   if (!searched) return std::nullopt;
   if (auto stop = find_not_finite(s)) return stop;
@@ -46,7 +47,7 @@ std::optional<Stop> search_if_used_up(Scene& s, ThreadPool& pool, bool& searched
 }
 
 std::optional<Stop> find_faults(const Scene& s) {
-  // at every step: small triangles turn over within a few
+  // at every step, as small triangles can invert within a few
   if (std::find(s.group_collapsed.begin(), s.group_collapsed.end(), 1) != s.group_collapsed.end())
     if (auto stop = find_collapsed(s)) return stop;
   if (auto stop = find_fault(s)) return stop;
@@ -68,7 +69,8 @@ NodeSums move_nodes(PlyState& ply, const Block& block, double dt, double next_dt
     ply.velocity[n] = now;
     ply.motion[n] = now * next_dt;
     ply.x[n] += ply.motion[n]; // (15)
-    // trapezoidal rule over the step that begins; at its end the damping force goes by `now`
+    // trapezoidal rule over the step that begins: the damping force follows `old` at its start and
+    // `now` at its end
     sums.damping += 0.5 * loads.damping * ply.membrane.node_mass[n] * now.dot(old + now) * next_dt;
     sums.step2 = std::max(sums.step2, ply.motion[n].squaredNorm());
     const double moved2 = (ply.x[n] - ply.x_search[n]).squaredNorm();
@@ -89,7 +91,7 @@ void start(Scene& s, ThreadPool& pool) {
 std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   bool searched = false;
   move_tools(s);
-  if (auto stop = search_if_used_up(s, pool, searched)) return stop;
+  if (auto stop = search_if_due(s, pool, searched)) return stop;
   const bool due = searched || s.step % elements_every == 0;
   if (due) update_stable_step(s, pool);
   if (!searched) update_fold_bounds(s, pool);

@@ -18,15 +18,16 @@ namespace plyform {
 /// Prepares the first step: contact search, step size.
 void start(Scene& scene, ThreadPool& pool);
 
-/// Driven tools to scene.time, contact search if motion has used up the skin, step size if due, and
-/// all forces at the present positions.
+/// Moves driven tools to scene.time, searches contacts if motion has used up the skin, updates the
+/// stable time step if due, and computes all forces at the present positions. Returns the reason if
+/// the simulation cannot go on.
 std::optional<Stop> compute_forces(Scene& scene, ThreadPool& pool);
 
 /// Energies and work at the present positions; after compute_forces. The kinetic energy is that of
 /// the velocities half a step before and after, 1/2 m v- . v+, which central differences conserve.
 Energies current_energies(const Scene& scene, ThreadPool& pool);
 
-/// (15)-(17): on to the next positions.
+/// (15)-(17): moves all nodes to their next positions and advances scene.time.
 void move_plies(Scene& scene, ThreadPool& pool);
 
 } // namespace plyform

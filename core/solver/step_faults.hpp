@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What stops a simulation: each names step, time, place and value, and what would help. Nodes that
-// go through something within one step: core/solver/pass_through.hpp.
+// Faults that stop a simulation. Each message names step, time, position and value, and a remedy.
+// Nodes that pass through a body within one step: core/solver/pass_through.hpp.
 #pragma once
 
 #include "core/solver/step.hpp"
@@ -9,16 +9,17 @@
 
 namespace plyform {
 
-/// A position that is no number.
+/// A position that is not finite.
 std::optional<Stop> find_not_finite(const Scene& s);
 
-/// A node of a ply on the wrong side of another, or with no room left to it.
+/// A node of a ply on the other side of another ply, or beyond the depth limit of contact.
 std::optional<Stop> find_fault(const Scene& s);
 
-/// Bodies that close however short the step: something is driven into what cannot give way.
+/// Contacts that close so fast that they reduce the time step below 1e-4 of the longest one: a body
+/// is driven into something that cannot yield.
 std::optional<Stop> find_squeezed(const Scene& s);
 
-/// A triangle that has no meaning any more (core/ply/membrane.hpp, collapsed).
+/// A triangle that has collapsed (core/ply/membrane.hpp, collapsed).
 std::optional<Stop> find_collapsed(const Scene& s);
 
 } // namespace plyform

@@ -73,16 +73,17 @@ Eigen::VectorXd StiffnessOperator::apply(const Eigen::VectorXd& v, ThreadPool& p
 Eigen::VectorXd StiffnessOperator::start() const {
   Eigen::VectorXd v(size_);
   for (std::size_t p = 0; p < y_.size(); ++p)
-    v.segment(first_[p], freedoms(p)) = scattered_motion(s_.plies[p].membrane, s_.plies[p].x);
+    v.segment(first_[p], degrees_of_freedom(p)) =
+        scattered_motion(s_.plies[p].membrane, s_.plies[p].x);
   return v;
 }
 
-Eigen::Index StiffnessOperator::freedoms(std::size_t p) const {
+Eigen::Index StiffnessOperator::degrees_of_freedom(std::size_t p) const {
   return static_cast<Eigen::Index>(3 * y_[p].size());
 }
 
 void StiffnessOperator::scale(const Eigen::VectorXd& v, std::size_t p) {
-  over_root_of_mass(s_.plies[p].membrane, v.segment(first_[p], freedoms(p)), y_[p]);
+  over_root_of_mass(s_.plies[p].membrane, v.segment(first_[p], degrees_of_freedom(p)), y_[p]);
 }
 
 void StiffnessOperator::on_ply(std::size_t p) {
@@ -109,7 +110,7 @@ void StiffnessOperator::gather(std::size_t p, Eigen::VectorXd& w) {
     if (pair.b == p) add(pair.force_b);
   }
   over_root_of_mass(s_.plies[p].membrane, std::span<const Vec3>(f_[p]),
-                    w.segment(first_[p], freedoms(p)));
+                    w.segment(first_[p], degrees_of_freedom(p)));
 }
 
 } // namespace plyform

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Products of vectors with dt^2 K + 2 dt C of a whole scene, for (S) of
-// core/solver/stable_time_step.hpp: yarns taut, contacts stuck, as they stand now. What is small in
-// it, or not known, takes part by its bound: shear, tension and bending; sheets without yarns.
+// core/solver/stable_time_step.hpp: yarns taut, contacts sticking, at the present positions. Small
+// or unassembled parts are represented by their bounds: shear, geometric stiffness and bending;
+// sheets without yarns.
 #pragma once
 
 #include "contact/forces/contact_tangent.hpp"
@@ -15,18 +16,18 @@ namespace plyform {
 
 class StiffnessOperator {
 public:
-  /// The scene must outlive it and stay as it is.
+  /// dt: s. The scene must outlive the operator and not change.
   StiffnessOperator(const Scene& scene, double dt);
 
-  /// M^-1/2 (dt^2 K + 2 dt C) M^-1/2 v, v: three freedoms of each node, the plies one after the
-  /// other. The same bits for any number of threads.
+  /// M^-1/2 (dt^2 K + 2 dt C) M^-1/2 v, with three degrees of freedom per node, ply by ply. Results
+  /// are the same bits for any number of threads.
   Eigen::VectorXd apply(const Eigen::VectorXd& v, ThreadPool& pool);
 
-  /// A vector with a share of every mode.
+  /// Start vector of Lanczos' iteration: scattered_motion of all plies.
   Eigen::VectorXd start() const;
 
 private:
-  /// Two directed contacts, and the edges.
+  /// Linearised contacts of two plies: both passes of node-to-face contact, and edge-edge contact.
   struct Pair {
     std::size_t a, b;
     std::vector<ContactTangent> up, down; ///< own nodes are of a; of b
@@ -35,7 +36,7 @@ private:
 
   void add_ply(const PlyState& ply, double dt);
   void add_pair(const PlyPair& pair);
-  Eigen::Index freedoms(std::size_t p) const; ///< of ply p, 3 a node
+  Eigen::Index degrees_of_freedom(std::size_t p) const; ///< of ply p, 3 per node
   void scale(const Eigen::VectorXd& v, std::size_t p);
   void on_ply(std::size_t p);
   void on_pair(Pair& pair);
@@ -44,7 +45,7 @@ private:
   const Scene& s_;
   TangentFactors factors_;
   Eigen::Index size_ = 0;
-  std::vector<double> bounded_; ///< of each ply, its part of the left side of (S)
+  std::vector<double> bounded_; ///< per ply, the bounded parts' share of the left side of (S)
   std::vector<Eigen::Index> first_;
   std::vector<std::unique_ptr<YarnStiffness>> yarns_;
   std::vector<std::vector<ContactTangent>> on_ply_;

@@ -5,7 +5,7 @@
 
 namespace plyform {
 
-/// A simulation that cannot go on: says step, time, ply, element or node and value.
+/// Reason why a simulation cannot go on: names step, time, ply, element or node and value.
 struct Stop {
   std::string message;
 };

@@ -10,7 +10,7 @@
 namespace plyform {
 namespace {
 
-/// visit(contact) for every ToolPlyContact, PlyPlyContact and EdgeEdgeContact of the scene.
+/// Calls visit(contact) for every ToolPlyContact, PlyPlyContact and EdgeEdgeContact of the scene.
 template <class SomeScene, class Visit>
 void visit_contacts(SomeScene& s, const Visit& visit) {
   for (auto& tool : s.tools)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The step that is taken: the stable one, or a shorter one where contacts close.
+// The time step that is taken: the stable one, or a shorter one while contacts close.
 #pragma once
 
 #include "core/base/thread_pool.hpp"
@@ -7,14 +7,15 @@
 
 namespace plyform {
 
-/// The stable step anew: core/solver/stable_time_step.hpp.
+/// Updates SceneProgress::stable_dt (core/solver/stable_time_step.hpp) and the contacts'
+/// renew_depth.
 void renew_stable_step(Scene& scene, ThreadPool& pool);
 
-/// Whether a contact is deeper than the stable step counts with.
+/// Whether a contact is deeper than the depth that the stable time step was computed for.
 bool contacts_deepened(const Scene& scene);
 
-/// The next step: the stable one, or a shorter one in which no contact closes by more than half of
-/// the room that it has left.
+/// Sets SceneProgress::next_dt: the stable time step, or a shorter one in which, at its present
+/// speed, no contact uses more than half of its remaining depth (ContactTotals::step_ratio).
 void set_step(Scene& scene);
 
 } // namespace plyform

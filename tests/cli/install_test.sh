@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs a finished build into a fresh prefix, runs the program from there, and builds and runs
-# another project (tests/consumer) that knows nothing but that prefix.
+# Installs a finished build into a fresh prefix, runs the program and the Python module from there,
+# and builds and runs another project (tests/consumer) that knows nothing but that prefix.
 #   tests/cli/install_test.sh TESTS_FOLDER BUILD_FOLDER
 set -euo pipefail
 tests=$1 build=$2
@@ -21,6 +21,12 @@ fi
 if /usr/bin/python3 -c 'import h5py' 2>/dev/null; then
   "$prefix/bin/plyform" chart "$prefix/share/plyform/cases/studies/bias_extension.toml" --check \
     -o "$work/study"
+fi
+package=$prefix/lib/python3/dist-packages
+if [ -d "$package" ]; then # the module, if it was built
+  PYTHONPATH=$package /usr/bin/python3 -c \
+    'import plyform, sys; assert plyform.Case(sys.argv[1]).check().sound; print(plyform.__file__)' \
+    "$prefix/share/plyform/cases/hemisphere_0"
 fi
 
 cmake -S "$tests/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The commands of plyform, one file each. Each returns the exit code.
+// The commands of plyform, one source file each. Each function NAME_command returns the exit code.
 #pragma once
 
 #include "core/setup/prepare_case.hpp"
@@ -16,17 +16,17 @@ namespace plyform {
 
 enum ExitCode { exit_done = 0, exit_other = 1, exit_case_wrong = 2, exit_stopped = 3 };
 
-/// What names a case on the command line.
+/// Command-line arguments that specify a case.
 struct CaseArguments {
   std::string file;                  ///< case.toml, or its folder
   std::vector<std::string> settings; ///< KEY=VALUE
-  std::string accuracy;              ///< draft, standard, reference or empty: as the case says
+  std::string accuracy;              ///< draft, standard, reference, or empty: that of the case
 };
 
 struct RunArguments {
   CaseArguments input;
   std::string output;
-  int threads = 0; ///< 0: as many as there are cores
+  int threads = 0; ///< 0: the number of cores
 };
 
 /// A shear test: bias or frame; NaN where not given.
@@ -54,7 +54,7 @@ struct TheoryArguments {
   int points = 100;
 };
 
-/// Prepares the case; prints every mistake to standard error, and then has no value.
+/// prepare_case; prints warnings and errors to standard error. Has no value if there was an error.
 PreparedCase load_case(const CaseArguments& arguments);
 
 int run_command(const RunArguments& arguments);
@@ -65,8 +65,8 @@ int keys_command(bool markdown);
 int identify_command(const IdentifyArguments& arguments);
 int theory_command(const TheoryArguments& arguments);
 
-/// tools/cli/identify_options.cpp: a command for each test, with its options; the arguments must
-/// live as long as the apps.
+/// tools/cli/identify_options.cpp: adds a subcommand for each test, with its options, which store
+/// to `to`; that must live as long as the apps.
 void add_identify_tests(CLI::App& command, IdentifyArguments& to);
 void add_theory_tests(CLI::App& command, TheoryArguments& to);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plyform identify: measured curve -> law -> fabric file. plyform theory: the other way round.
+// plyform identify: measured curve -> law -> fabric file. plyform theory: fabric file -> curve.
 #include "core/base/version.hpp"
 #include "core/fit/fit_shear.hpp"
 #include "core/input/fabric_file.hpp"
@@ -22,7 +22,7 @@ void option_error(const std::string& option, const std::string& value, const std
   diagnostics.error({option, 1, 1}, option.substr(2), value, rule, remedy);
 }
 
-/// Prints what was found, mistakes last; true if there are any.
+/// Prints warnings, then errors; returns whether there are errors.
 bool print(const Diagnostics& diagnostics) {
   for (const std::string& warning : diagnostics.warnings)
     fmt::print(stderr, "{}\n", warning);
@@ -37,8 +37,8 @@ bool same_file(const fs::path& a, const fs::path& b) {
          fs::equivalent(a, b, ignored);
 }
 
-/// A file to write must be none that is read or written besides, nor end on one when it still has
-/// its temporary name.
+/// Reports an error if an output file is one of the other files read or written, or if its
+/// temporary name is.
 void check_output(const std::string& option, const fs::path& output,
                   const std::vector<fs::path>& others, Diagnostics& diagnostics) {
   fs::path temporary = output;
@@ -49,7 +49,7 @@ void check_output(const std::string& option, const fs::path& output,
                    "give another file", diagnostics);
 }
 
-/// The test of the arguments; nothing and a report if its sizes are wrong.
+/// The test of the arguments; reports errors and returns nothing if its sizes are invalid.
 std::optional<ShearTest> test_of(const std::string& name, const SpecimenArguments& sizes,
                                  Diagnostics& diagnostics) {
   const BiasSpecimen bias{sizes.length, sizes.width};
@@ -61,7 +61,7 @@ std::optional<ShearTest> test_of(const std::string& name, const SpecimenArgument
   return std::nullopt;
 }
 
-/// The fabric; mistakes in it are added to the findings.
+/// Reads the fabric; its errors are added to `diagnostics`.
 FabricReading fabric_of(const std::string& file, bool for_shear, Diagnostics& diagnostics) {
   FabricReading reading = read_fabric_file(file, true);
   diagnostics.errors.insert(diagnostics.errors.end(), reading.errors.begin(), reading.errors.end());
@@ -86,7 +86,7 @@ void check_range(const IdentifyArguments& arguments, bool shear, Diagnostics& di
                  shear ? "give a shear angle in degrees" : "give a strain", diagnostics);
 }
 
-/// What stands in the report and in the fabric file.
+/// An identified law as text for the report and the fabric file.
 struct Identified {
   LawText law;
   std::string fit;                  ///< CSV
@@ -112,6 +112,10 @@ Identified shear_text(const ShearFit& fit) {
   result.figures = {fmt::format("{} rows, shear angle {:.3g} to {:.3g} degrees", q.rows,
                                 q.from / deg, q.to / deg),
                     figure_of_residuals(q, fmt::format("{:.3g} degrees", q.largest_at / deg))};
+  if (fit.in_plane.most > 0.0)
+    result.figures.push_back(fmt::format(
+        "in-plane bending adds {:.2g} to {:.2g} % to the load of shear: {:.2g} % taken off",
+        100.0 * fit.in_plane.least, 100.0 * fit.in_plane.most, 100.0 * fit.in_plane.mean()));
   result.fit = "displacement_mm,shear_deg,measured_N,fitted_N\n";
   for (std::size_t i = 0; i < fit.angle.size(); ++i)
     result.fit += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", fit.extension[i], fit.angle[i] / deg,
@@ -155,7 +159,7 @@ std::string test_words(const IdentifyArguments& a) {
   return words;
 }
 
-/// Everything that can be said before the curve is looked at.
+/// Checks the arguments before the curve is read.
 void check_arguments(const IdentifyArguments& a, const fs::path& fit, bool shear,
                      Diagnostics& diagnostics) {
   check_output("--output", a.output, {a.curve, a.fabric}, diagnostics);
@@ -256,11 +260,14 @@ int theory_command(const TheoryArguments& arguments) {
   if (print(diagnostics)) return exit_case_wrong;
   std::string rows = "displacement_mm,shear_deg,force_N\n";
   const double end = extension_at(*test, arguments.to * deg);
+  const double bending = in_plane_bending_share(*test, *fabric.value).mean();
   for (int i = 0; i <= arguments.points; ++i) {
     const double d = end * i / arguments.points;
     rows += fmt::format("{:.9g},{:.9g},{:.9g}\n", d, shear_angle(*test, d) / deg,
-                        test_load(*test, *fabric.value, d));
+                        (1.0 + bending) * test_load(*test, *fabric.value, d));
   }
+  if (bending > 0.0)
+    fmt::print("in-plane bending adds {:.2g} % to the load by (40)\n", 100.0 * bending);
   write_whole(arguments.output, rows);
   fmt::print("written: {}, {} rows\n", arguments.output, arguments.points + 1);
   return exit_done;

@@ -7,7 +7,7 @@
 namespace plyform {
 namespace {
 
-/// A default is marked as one; what is required says so itself.
+/// Text of a key's default: "default ..." or "required ...".
 std::string fallback_of(const KeyInfo& k) {
   const bool required = k.fallback.rfind("required", 0) == 0;
   return required || k.fallback.empty() ? k.fallback : "default " + k.fallback;
@@ -21,7 +21,7 @@ void print_text(const KeyInfo& k) {
   fmt::print("\n    {}\n", k.meaning);
 }
 
-/// The text of a cell of a table in Markdown.
+/// Text of a Markdown table cell, with | escaped.
 std::string cell(std::string text) {
   for (std::size_t at = 0; (at = text.find('|', at)) != std::string::npos; at += 2)
     text.insert(at, 1, '\\');

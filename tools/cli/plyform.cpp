@@ -35,7 +35,7 @@ int export_command(const std::string& directory) {
   return 0;
 }
 
-/// What the commands are given.
+/// Arguments of all commands.
 struct Arguments {
   RunArguments run;
   CaseArguments check;
@@ -45,7 +45,8 @@ struct Arguments {
   bool markdown = false; ///< keys as a page
 };
 
-/// A command and what it does once its arguments are there; the exit code.
+/// A command, and the function that runs it after its arguments were parsed and returns the exit
+/// code.
 struct Command {
   CLI::App* app;
   std::function<int()> act;

@@ -23,7 +23,8 @@ void on_interrupt(int) {
   interrupted = true;
 }
 
-/// One line that is drawn over itself on a terminal; a new line every few seconds elsewhere.
+/// Progress display: on a terminal one line that is overwritten, elsewhere a new line every few
+/// seconds.
 class ProgressLine {
 public:
   void show(const Progress& p) {
@@ -49,7 +50,8 @@ private:
   std::chrono::steady_clock::time_point last_{};
 };
 
-/// results/NAME: NAME is the case's folder, or the file's name if it is not called case.toml.
+/// Output folder results/NAME. NAME is that of the case's folder, or of its file if it is not
+/// case.toml.
 std::filesystem::path output_folder(const RunArguments& arguments) {
   if (!arguments.output.empty()) return arguments.output;
   std::filesystem::path file = std::filesystem::absolute(arguments.input.file).lexically_normal();
@@ -61,7 +63,7 @@ std::filesystem::path output_folder(const RunArguments& arguments) {
   return std::filesystem::path("results") / file.stem();
 }
 
-/// What was modelled, what it did, and what that says.
+/// Prints shares of computing time, contact of each pair of bodies, and the diagnosis of the model.
 void print_work(const WorkReport& w, long steps) {
   fmt::print("  computing time: elements {:.0f} %, contact {:.0f} %, search {:.0f} % ({} times, "
              "every {} steps)\n",
@@ -83,7 +85,7 @@ void print_work(const WorkReport& w, long steps) {
     fmt::print("  missing: {}\n", what);
 }
 
-/// One line a ply: what of it cloth would not do, wrinkles and draw-in.
+/// Prints one line per ply: compressed yarns, shear beyond locking, wrinkles and draw-in.
 void print_plausibility(const std::string& name, const PlyReport& ply) {
   fmt::print("  {:16} ", name);
   if (const auto& pressed = ply.pressed)

@@ -116,7 +116,7 @@ TEST(BendingSimd, GiveTheSameBitsOnEveryProcessor) {
   Random random(8);
   constexpr std::size_t ring = 5, slots = 7, nodes = 8;
   for (int i = 0; i < 200; ++i) {
-    SimdPatches stencils{};
+    SimdStencils stencils{};
     SimdNumbers constants[5 * slots];
     std::uint16_t slot[simd_width * slots];
     SimdForce force[2][nodes];

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// How far the shear angles of one run are from those of another, on whatever meshes.
+// How far a field of one run is from that of another, on whatever meshes: differences at places of
+// the material, over the area before forming.
 #pragma once
 
-#include "core/results/result_writer.hpp"
+#include "core/results/frame.hpp"
 
 #include <vector>
 
@@ -13,7 +14,21 @@ struct FieldError {
   double rms = 0; ///< root of the mean square
   double p99 = 0; ///< 99 % of the area has at most this magnitude
   double max = 0;
+  double p95 = 0;  ///< as p99, of 95 % of the area
+  double mean = 0; ///< of the magnitudes
 };
+
+struct FieldDifference {
+  FieldError error;
+  std::vector<std::vector<double>> at_nodes; ///< of each ply, one a node of the reference
+};
+
+/// A value a triangle: the run's less the reference's, each evened out by nodal_means, at all nodes
+/// of all plies of the reference before forming, weighted by the area of each node there. Errors
+/// are NaN if any of them is. Throws std::runtime_error if the two have not the same number of
+/// plies.
+FieldDifference field_difference(const Frame& run, const Frame& reference,
+                                 std::vector<double> PlyFrame::*field);
 
 /// A value of each triangle made one of each node: the mean over the triangles around it, weighted
 /// by their areas before forming. On the rim this is the value a third of a side or so inside.
@@ -27,9 +42,7 @@ std::vector<double> nodal_means(const PlyFrame& ply, const std::vector<double>& 
 std::vector<double> interpolate(const PlyFrame& ply, const std::vector<double>& nodal,
                                 const std::vector<Vec3>& points);
 
-/// Shear angles of the run less those of the reference, degrees, at all nodes of all plies of the
-/// reference before forming, weighted by the area of each node there. NaN if any of them is. Throws
-/// std::runtime_error if the two have not the same number of plies.
+/// The error of field_difference, of the shear angle, degrees.
 FieldError shear_error(const Frame& run, const Frame& reference);
 
 } // namespace plyform

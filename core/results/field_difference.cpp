@@ -5,7 +5,7 @@
 //   w_i    area of node i:    w_i = 1/3 sum_t A_t over the same                               (2)
 //   d_i    difference at node i of the reference, the run's field interpolated there
 //   rms^2 = sum_i w_i d_i^2 / sum_i w_i                                                       (3)
-#include "core/study/field_difference.hpp"
+#include "core/results/field_difference.hpp"
 
 #include "core/results/statistics.hpp"
 
@@ -174,22 +174,36 @@ std::vector<double> interpolate(const PlyFrame& ply, const std::vector<double>& 
   return values;
 }
 
-FieldError shear_error(const Frame& run, const Frame& reference) {
+FieldDifference field_difference(const Frame& run, const Frame& reference,
+                                 std::vector<double> PlyFrame::*field) {
   if (run.plies.size() != reference.plies.size())
     throw std::runtime_error(fmt::format("a run of {} plies cannot be compared with one of {}",
                                          run.plies.size(), reference.plies.size()));
+  FieldDifference result;
   std::vector<double> d, w;
   for (std::size_t p = 0; p < run.plies.size(); ++p) {
     const PlyFrame &ply = run.plies[p], &other = reference.plies[p];
-    const std::vector<double> wanted = nodal_means(other, other.shear_deg);
-    const std::vector<double> found = interpolate(ply, nodal_means(ply, ply.shear_deg), other.x0);
+    const std::vector<double> wanted = nodal_means(other, other.*field);
+    std::vector<double> found = interpolate(ply, nodal_means(ply, ply.*field), other.x0);
     const std::vector<double> areas = node_areas(other);
-    for (std::size_t i = 0; i < wanted.size(); ++i) {
-      d.push_back(found[i] - wanted[i]);
-      w.push_back(areas[i]);
-    }
+    for (std::size_t i = 0; i < wanted.size(); ++i)
+      found[i] -= wanted[i];
+    d.insert(d.end(), found.begin(), found.end());
+    w.insert(w.end(), areas.begin(), areas.end());
+    result.at_nodes.push_back(std::move(found));
   }
-  return {root_mean_square(d, w), percentile(d, w, 0.99), largest_magnitude(d)}; // (3)
+  double area = 0.0, sum = 0.0;
+  for (std::size_t i = 0; i < d.size(); ++i) {
+    area += w[i];
+    sum += w[i] * std::abs(d[i]);
+  }
+  result.error = {root_mean_square(d, w), percentile(d, w, 0.99), largest_magnitude(d),
+                  percentile(d, w, 0.95), area > 0.0 ? sum / area : 0.0}; // (3)
+  return result;
+}
+
+FieldError shear_error(const Frame& run, const Frame& reference) {
+  return field_difference(run, reference, &PlyFrame::shear_deg).error;
 }
 
 } // namespace plyform

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Differences of fields between meshes, against fields whose difference is known.
-#include "core/study/field_difference.hpp"
+#include "core/results/field_difference.hpp"
 
 #include <cmath>
 #include <functional>
@@ -111,6 +111,20 @@ TEST(FieldError, WeighsByTheReferencesArea) {
   const FieldError error = shear_error(run, reference);
   EXPECT_NEAR(error.rms, 3.0 / std::sqrt(2.0), rounding);
   EXPECT_NEAR(error.p99, 3.0, rounding);
+  EXPECT_NEAR(error.p95, 3.0, rounding);
+  EXPECT_NEAR(error.mean, 1.5, rounding);
+}
+
+TEST(FieldError, GivesTheDifferenceAtTheNodesOfTheReference) {
+  const auto two = [](double, double) { return 2.0; };
+  const auto five = [](double, double) { return 5.0; };
+  const Frame run = frame_of({with_shear(rectangle(7, 3, 0.3), two)});
+  const Frame reference = frame_of({with_shear(rectangle(5, 2, 0.2), five)});
+  const FieldDifference found = field_difference(run, reference, &PlyFrame::shear_deg);
+  ASSERT_EQ(found.at_nodes.size(), 1u);
+  ASSERT_EQ(found.at_nodes[0].size(), reference.plies[0].x0.size());
+  for (const double difference : found.at_nodes[0])
+    EXPECT_NEAR(difference, -3.0, rounding);
 }
 
 TEST(FieldError, FallsWithTheSizeOfTheElementsOfASmoothField) {

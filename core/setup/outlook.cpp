@@ -1,0 +1,282 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/setup/outlook.hpp"
+
+#include "core/accuracy/error_model.hpp"
+#include "core/input/bending_resolution.hpp"
+#include "core/model/fabric_estimates.hpp"
+#include "core/solver/facet_penetration.hpp"
+#include "core/solver/stable_time_step.hpp"
+#include "core/solver/step.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+#include <set>
+#include <string>
+
+namespace plyform {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+template <class... Arguments>
+void say(Lines& lines, fmt::format_string<Arguments...> text, Arguments&&... arguments) {
+  lines.push_back(fmt::format(text, std::forward<Arguments>(arguments)...));
+}
+
+/// The bending stiffness of a ply as text, or "no bending".
+std::string bending_text(const PlyState& ply) {
+  if (!ply.bending) return "no bending";
+  const Fabric& fabric = ply.membrane.fabric;
+  const BendingLaw& law = ply.bending->law;
+  if (!fabric.has_yarns()) return fmt::format("bends as a plate, {:.3g} N mm", law.warp.stiffness);
+  const auto along = [](const MomentLaw& moments) {
+    return moments.curvature.empty() ? fmt::format("{:.3g}", moments.stiffness)
+                                     : fmt::format("{:.3g} by table", moments.at(0.0).slope);
+  };
+  std::string text = fmt::format(
+      "bending {} N mm along warp, {} along weft, {:.3g} in twist, {:.3g} and {:.3g} in "
+      "their plane, yarns compressed by {:.3g} and {:.3g} N per strain",
+      along(law.warp), along(law.weft), law.twist, law.in_plane[0], law.in_plane[1],
+      fabric.warp.compression, fabric.weft.compression);
+  const auto force = [](const TensionLaw& yarn) {
+    return yarn.buckles() ? fmt::format("{:.3g} N", yarn.buckling_force) : std::string("no force");
+  };
+  if (fabric.warp.buckles() || fabric.weft.buckles())
+    text += fmt::format(", buckling at {} and {}", force(fabric.warp), force(fabric.weft));
+  return text;
+}
+
+/// The element of a ply as text, and the reason for it.
+std::string element_text(const Membrane& m, ElementKind asked) {
+  const int triangles = static_cast<int>(m.triangles.size()), pairs = triangles - m.groups();
+  const char* name = pairs == 0 ? "plain element" : "averaged element";
+  if (asked != ElementKind::automatic) return fmt::format("{}: as solver.element says", name);
+  constexpr double few = 0.01; // fraction of a band along the edge, or of single triangles
+  const double plain = static_cast<double>(triangles - 2 * pairs) / triangles;
+  if (plain > 1.0 - few) return "plain element: sides run along both fibre families";
+  if (plain < few)
+    return "averaged element: sides do not run along both fibre families, the plain element would "
+           "lock";
+  return fmt::format("plain element where sides run along both fibre families ({:.0f} % of the "
+                     "triangles), averaged element elsewhere, where it would lock",
+                     100.0 * plain);
+}
+
+void describe_plies(const Scene& s, Lines& lines) {
+  for (const PlyState& ply : s.plies) {
+    const Membrane& m = ply.membrane;
+    if (!m.fabric.has_yarns()) {
+      say(lines, "ply {}: {} nodes, {} triangles, sheet without yarns; {}", ply.name, ply.x.size(),
+          m.triangles.size(), bending_text(ply));
+      continue;
+    }
+    say(lines, "ply {}: {} nodes, {} triangles, warp at {:g} degrees; {}; {}", ply.name,
+        ply.x.size(), m.triangles.size(), ply.angle * 180.0 / M_PI,
+        element_text(m, s.data.solver.element), bending_text(ply));
+  }
+}
+
+/// Estimates of values that the case does not give, and values that were limited.
+void describe_fabrics(const Case& data, Lines& lines) {
+  for (const std::string& line : assumptions(data))
+    say(lines, "fabric {}", line);
+}
+
+/// Area of a ply before forming, mm^2.
+double area_of(const PlyState& ply) {
+  const std::vector<double>& areas = ply.membrane.node_area;
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
+/// Mean element size (mm): side of a square of two triangles.
+double element_size(const PlyState& ply) {
+  return std::sqrt(2.0 * area_of(ply) / static_cast<double>(ply.membrane.triangles.size()));
+}
+
+/// Warns of plies that lock slightly: those of averaged elements whose yarns bear compression, with
+/// too few elements across a narrow ply (docs/verification/closed_forms.md,
+/// YarnsThatBearCompressionNeedAFinerMesh).
+void describe_locking(const Scene& s, Lines& lines) {
+  constexpr double enough = 20.0; // elements across: load of the bias test at most 5 % too high
+  std::set<std::pair<int, int>> seen;
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const Membrane& m = s.plies[p].membrane;
+    const bool averaged = m.groups() < static_cast<int>(m.triangles.size());
+    const bool push = m.fabric.warp.compression > 0.0 && m.fabric.weft.compression > 0.0;
+    const Ply& ply = s.data.plies[p];
+    if (!averaged || !push || !seen.emplace(ply.fabric, ply.blank).second) continue;
+    Eigen::AlignedBox3d box;
+    for (const Vec3& x : s.plies[p].x0)
+      box.extend(x);
+    const double width = box.sizes().head<2>().minCoeff();
+    const double h = element_size(s.plies[p]);
+    if (width >= enough * h) continue;
+    say(lines,
+        "    warning: ply {} has {:.3g} elements across and yarns that bear compression: its "
+        "shear forces may come out too high, by 10 % or so with ten; elements of {:.2g} mm "
+        "keep that below 5 %",
+        ply.name, width / h, width / enough);
+  }
+}
+
+/// Gives the wavelengths of wrinkles of compressed plies under tools that are pushed, once for each
+/// fabric and blank.
+void describe_wrinkles(const Scene& s, Lines& lines) {
+  double force = 0.0; // N, of the tool that is pushed hardest
+  for (const Tool& tool : s.data.tools)
+    if (tool.motion == Motion::force) force = std::max(force, tool.force);
+  std::set<std::pair<int, int>> seen;
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const Ply& ply = s.data.plies[p];
+    if (!seen.emplace(ply.fabric, ply.blank).second) continue;
+    const double area = area_of(s.plies[p]), h = element_size(s.plies[p]);
+    const auto wave = bending_lengths(s.plies[p].membrane.fabric, force / area).upwards;
+    if (!wave || *wave >= elements_in_wave * h) continue;
+    say(lines,
+        "    note: under {:g} N of a tool the yarns of ply {} would wrinkle in waves of "
+        "{:.3g} mm, {:.2g} elements: the mesh shows how much length is too much, not the "
+        "wrinkles; they would take elements of {:.2g} mm",
+        force, ply.name, *wave, *wave / h, *wave / elements_in_wave);
+  }
+}
+
+/// Warns if facets may penetrate a tool between nodes by more than half the ply's thickness, for the
+/// ply with the deepest penetration.
+void describe_cut(const Scene& s, const ToolState& tool, Lines& lines) {
+  constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
+  const double radius = smallest_radius(tool.body.shape);
+  if (!std::isfinite(radius)) return;
+  const double spread = curves_both_ways(tool.body.shape) ? 2.0 / std::sqrt(3.0) : 1.0;
+  const PlyState* worst = nullptr;
+  double most = 0.5;
+  for (const PlyState& ply : s.plies) {
+    const double side = spread * longest_side(ply);
+    const double cut = cut_between_nodes(side, radius, ply.thickness, half_turn) / ply.thickness;
+    if (cut > most) most = cut, worst = &ply;
+  }
+  if (!worst) return;
+  say(lines,
+      "    warning: tool {}, {}: triangles have sides up to {:.3g} mm and touch at nodes "
+      "only, so that ply {} drawn over it by 90 degrees may be cut {:.2g} mm deep between "
+      "them; sides up to {:.2g} mm keep that below half its thickness",
+      tool.name, radius > 0.0 ? fmt::format("radius {:g} mm", radius) : "sharp edge",
+      longest_side(*worst), worst->name, most * worst->thickness,
+      side_of_half_cut(radius, worst->thickness, half_turn) / spread);
+}
+
+void describe_tools(const Scene& s, Lines& lines) {
+  for (std::size_t i = 0; i < s.tools.size(); ++i) {
+    const ToolState& t = s.tools[i];
+    const Motion motion = s.data.tools[i].motion;
+    const double radius = smallest_radius(t.body.shape);
+    say(lines, "tool {}: {}{}", t.name,
+        motion == Motion::fixed    ? std::string("fixed")
+        : motion == Motion::driven ? fmt::format("driven {:g} mm", t.stroke)
+                                   : fmt::format("pushed by {:g} N", t.force_on),
+        std::isfinite(radius) ? fmt::format(", smallest radius {:g} mm", radius) : std::string());
+    describe_cut(s, t, lines);
+  }
+}
+
+/// "77 nodes of ply lower, 12 of ply upper": the nodes that a boundary prescribes along some axis.
+/// (Nodes that an earlier boundary prescribes along all those axes are not counted.)
+std::string nodes_held(const Scene& s, int boundary) {
+  std::vector<int> count(s.plies.size(), 0);
+  for (const PrescribedNode& held : s.held) {
+    const auto end = held.boundary.begin() + held.count;
+    if (std::find(held.boundary.begin(), end, boundary) != end) ++count[held.ply];
+  }
+  std::string text;
+  for (std::size_t p = 0; p < count.size(); ++p)
+    if (count[p] > 0)
+      text += fmt::format("{}{}{} of ply {}", text.empty() ? "" : ", ", count[p],
+                          text.empty() ? " nodes" : "", s.plies[p].name);
+  return text.empty() ? "no nodes that others do not hold" : text;
+}
+
+bool holds_bending_ply(const Scene& s, const Boundary& boundary) {
+  if (boundary.ply >= 0) return s.plies[boundary.ply].bending.has_value();
+  return std::any_of(s.plies.begin(), s.plies.end(),
+                     [](const PlyState& ply) { return ply.bending.has_value(); });
+}
+
+void describe_boundaries(const Scene& s, Lines& lines) {
+  bool part = false, hinge = false;
+  for (std::size_t b = 0; b < s.data.boundaries.size(); ++b) {
+    const Boundary& boundary = s.data.boundaries[b];
+    const bool plane = boundary.kind == BoundaryKind::symmetry;
+    part = part || plane;
+    hinge = hinge || (plane && holds_bending_ply(s, boundary));
+    say(lines, "boundary {}: {}, holds {}{}", boundary.name,
+        plane                                  ? "plane of symmetry"
+        : boundary.kind == BoundaryKind::frame ? "frame"
+                                               : "grip",
+        nodes_held(s, static_cast<int>(b)),
+        plane                   ? std::string()
+        : boundary.stroke > 0.0 ? fmt::format(", moves {:g} mm", boundary.stroke)
+                                : ", stays");
+  }
+  if (part)
+    say(lines, "symmetry: forces and energies, of tools too, are those of the part modelled; a "
+               "tool's given force acts on that part");
+  if (hinge)
+    say(lines,
+        "    note: bending takes a plane of symmetry for a free edge: the ply can fold along "
+        "it as on a hinge");
+}
+
+/// Measures the wall time of a step, s, over a few steps. Returns a Stop if the simulation fails.
+std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, double& seconds) {
+  constexpr int steps = 40;
+  const auto begin = std::chrono::steady_clock::now();
+  for (int i = 0; i < steps; ++i) {
+    if (auto stop = compute_forces(s, pool)) return stop;
+    move_plies(s, pool);
+  }
+  seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count() / steps;
+  return std::nullopt;
+}
+
+} // namespace
+
+Outlook look_ahead(const PreparedCase& prepared, int threads) {
+  const Case& data = *prepared.value;
+  ThreadPool pool(threads);
+  Scene s = make_scene(data, prepared.meshes);
+  start(s, pool);
+  Outlook outlook;
+  Lines& lines = outlook.lines;
+  lines.push_back(data.title);
+  describe_fabrics(s.data, lines);
+  describe_plies(s, lines);
+  describe_locking(s, lines);
+  describe_wrinkles(s, lines);
+  describe_tools(s, lines);
+  describe_boundaries(s, lines);
+  const StepBound bound = stable_step(s, pool);
+  outlook.stable_step = bound.dt;
+  outlook.step = s.next_dt;
+  outlook.steps = data.solver.duration / s.next_dt;
+  say(lines, "contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm",
+      s.ply_contacts.size(), s.skin);
+  say(lines, "stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s", bound.dt,
+      s.plies[bound.ply].name, bound.triangle, s.next_dt);
+  const PredictedError error = predicted_error(data);
+  lines.push_back(describe_accuracy(error, error.promised(data), prepared.coarsening));
+  lines.insert(lines.end(), prepared.notes.begin(), prepared.notes.end());
+  say(lines, "fibre stiffness divided by {:g}, {:g} s simulated: about {:.0f} steps",
+      data.solver.fibre_softening, data.solver.duration, outlook.steps);
+  double seconds = 0.0;
+  if (const auto stop = time_a_step(s, pool, seconds)) {
+    outlook.stop = stop->message;
+    return outlook;
+  }
+  outlook.seconds = outlook.steps * seconds;
+  say(lines, "estimated time {:.0f} s", outlook.seconds);
+  return outlook;
+}
+
+} // namespace plyform

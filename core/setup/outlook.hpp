@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What will be modelled, what to look at before, and how long it takes.
+#pragma once
+
+#include "core/setup/prepare_case.hpp"
+
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+struct Outlook {
+  /// As `plyform check` prints them; those of a part that need a look start with "    warning: "
+  /// or "    note: ".
+  std::vector<std::string> lines;
+  double stable_step = 0.0, step = 0.0; ///< s, at the start: stable, and used
+  double steps = 0.0;                   ///< about, in the whole run
+  double seconds = 0.0;                 ///< about, wall time of it
+  std::string stop;                     ///< why the first steps went wrong; else empty
+};
+
+/// Makes the scene of a case without mistakes and times some steps of it.
+Outlook look_ahead(const PreparedCase& prepared, int threads);
+
+} // namespace plyform

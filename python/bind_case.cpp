@@ -1,0 +1,138 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Keys, mistakes, and cases as they were checked.
+#include "core/accuracy/error_model.hpp"
+#include "core/model/fabric_estimates.hpp"
+#include "core/setup/key_value.hpp"
+#include "core/setup/outlook.hpp"
+#include "core/setup/prepare_case.hpp"
+#include "python/bindings.hpp"
+
+#include <cmath>
+
+namespace plyform {
+namespace {
+
+using Kind = TomlNode::Kind;
+
+py::object to_python(const TomlNode& node) {
+  switch (node.kind) {
+  case Kind::table: {
+    py::dict table;
+    for (const TomlNode& child : node.children)
+      table[py::str(child.key)] = to_python(child);
+    return table;
+  }
+  case Kind::list: {
+    py::list list;
+    for (const TomlNode& child : node.children)
+      list.append(to_python(child));
+    return list;
+  }
+  case Kind::integer:
+    return py::int_(std::llround(node.number));
+  case Kind::number:
+    return py::float_(node.number);
+  case Kind::string:
+    return py::str(node.text);
+  case Kind::boolean:
+  case Kind::date:
+    break; // values of no key
+  }
+  return py::str(node.source_text);
+}
+
+py::object value_of(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                    const std::string& key) {
+  Diagnostics unknown;
+  const std::optional<TomlNode> value = value_of_key(file, overrides, key, unknown);
+  if (!unknown.errors.empty())
+    throw py::key_error(unknown.errors.front().item + ": " + unknown.errors.front().rule + "; " +
+                        unknown.errors.front().remedy);
+  return value ? to_python(*value) : py::none();
+}
+
+void bind_mistakes(py::module_& m) {
+  py::class_<CaseError>(m, "Mistake", "One mistake in a file: where, what, which rule, what to do.")
+      .def_readonly("file", &CaseError::file,
+                    "File, as it was named; --set for a value set from Python.")
+      .def_readonly("line", &CaseError::line, "Line, from 1.")
+      .def_readonly("column", &CaseError::column, "Column, from 1, in characters.")
+      .def_readonly("item", &CaseError::item, "Key as a dotted path: ply.2.angle.")
+      .def_readonly("value", &CaseError::value, "Value as written; empty where it is missing.")
+      .def_readonly("rule", &CaseError::rule, "The rule that is broken: must be at least 0.")
+      .def_readonly("remedy", &CaseError::remedy, "What to do about it.")
+      .def("__str__", &CaseError::text)
+      .def("__repr__", [](const CaseError& e) { return "<Mistake " + e.text() + ">"; });
+  py::class_<KeyInfo>(m, "Key", "A key of case and fabric files.")
+      .def_readonly("key", &KeyInfo::key, "Dotted path: tool[].radius, fabrics.NAME.thickness.")
+      .def_readonly("type", &KeyInfo::type, "number, integer, string, list of 3 numbers ...")
+      .def_readonly("unit", &KeyInfo::unit, "mm, N, s, deg ...; - for none.")
+      .def_readonly("default", &KeyInfo::fallback, "Default as TOML, or in words, or required.")
+      .def_readonly("range", &KeyInfo::range, "Allowed values: > 0, [0, 1], one of ...")
+      .def_readonly("meaning", &KeyInfo::meaning, "What it means.")
+      .def("__repr__", [](const KeyInfo& k) { return "<Key " + k.key + ">"; });
+}
+
+void bind_outlook(py::module_& m) {
+  py::class_<Outlook>(m, "Outlook", "What will be modelled, and how long it takes.")
+      .def_readonly("lines", &Outlook::lines,
+                    "What plyform check prints; lines that need a look start with warning or note, "
+                    "after four spaces.")
+      .def_readonly("stable_step_s", &Outlook::stable_step, "s, the stable step at the start.")
+      .def_readonly("step_s", &Outlook::step, "s, the step used at the start.")
+      .def_readonly("steps", &Outlook::steps, "About how many steps the run takes.")
+      .def_readonly("estimated_s", &Outlook::seconds, "About how long it takes, s of wall time.")
+      .def_readonly("stop", &Outlook::stop, "Why the first steps went wrong; else empty.");
+  m.def(
+      "look_ahead",
+      [](const PreparedCase& prepared, int threads) {
+        if (!prepared.value) raise_mistakes(prepared.errors);
+        const py::gil_scoped_release others;
+        return look_ahead(prepared, threads_or_cores(threads));
+      },
+      py::arg("prepared"), py::arg("threads"),
+      "Outlook of a case; takes some steps of it. Raises CaseError if there are mistakes.");
+}
+
+} // namespace
+
+void bind_case(py::module_& m) {
+  bind_mistakes(m);
+  py::class_<PredictedError>(m, "PredictedError",
+                             "Predicted error of the shear angle, rms over all plies, by cause.")
+      .def_readonly("inertia_deg", &PredictedError::inertia, "Degrees, from the duration.")
+      .def_readonly("softening_deg", &PredictedError::softening, "Degrees, from softened fibres.")
+      .def_readonly("mesh_deg", &PredictedError::mesh, "Degrees, from the element size.")
+      .def_property_readonly("total_deg", &PredictedError::total,
+                             "Degrees, of all three together.");
+  py::class_<PreparedCase>(m, "Prepared", "A case as it was read and checked.")
+      .def_readonly("mistakes", &PreparedCase::errors, "List of Mistake; empty if it can run.")
+      .def_readonly("warnings", &PreparedCase::warnings, "Sentences with places.")
+      .def_readonly("notes", &PreparedCase::notes, "What an accuracy asked for did not change.")
+      .def_readonly("element_size_factor", &PreparedCase::coarsening,
+                    "Element sizes over those of the file.")
+      .def_property_readonly(
+          "assumed",
+          [](const PreparedCase& c) {
+            return c.value ? assumptions(*c.value) : std::vector<std::string>{};
+          },
+          "Estimates for what the fabrics do not say.")
+      .def_property_readonly(
+          "predicted_error",
+          [](const PreparedCase& c) {
+            if (!c.value) raise_mistakes(c.errors);
+            return predicted_error(*c.value);
+          },
+          "PredictedError. Raises CaseError if there are mistakes.");
+  bind_outlook(m);
+  m.def("prepare", &prepare_case, py::arg("file"), py::arg("overrides"),
+        py::call_guard<py::gil_scoped_release>(),
+        "Reads, meshes and checks a case file; overrides as (key, TOML text).");
+  m.def("value_of", &value_of, py::arg("file"), py::arg("overrides"), py::arg("key"),
+        "The value of a key after overrides, None without one. Raises KeyError.");
+  m.def("keys", &case_keys, "Every key of case and fabric files, as Key.");
+  m.def("preset_error", &preset_error, py::arg("word"),
+        "Degrees that an accuracy promises; 0 for a word that is none.");
+}
+
+} // namespace plyform

@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The compiled part of `import plyform`. What its users see, and how it is to be called, is in
+// python/plyform: __init__.py and, for this part, _plyform.pyi.
+#include "core/base/version.hpp"
+#include "core/results/export.hpp"
+#include "python/bindings.hpp"
+
+#include <stdexcept>
+
+namespace plyform {
+namespace {
+
+py::object error_class(const char* name) {
+  return py::module_::import("plyform._errors").attr(name);
+}
+
+/// What the program ends with exit code 1 for is plyform.Error; the rest is left to pybind11.
+void translate(std::exception_ptr thrown) {
+  try {
+    std::rethrow_exception(thrown);
+  } catch (const py::builtin_exception&) {
+    throw;
+  } catch (const std::runtime_error& error) {
+    PyErr_SetString(error_class("Error").ptr(), error.what());
+  }
+}
+
+} // namespace
+
+void raise_mistakes(const std::vector<CaseError>& mistakes) {
+  const py::object type = error_class("CaseError");
+  PyErr_SetObject(type.ptr(), type(mistakes).ptr());
+  throw py::error_already_set();
+}
+
+} // namespace plyform
+
+PYBIND11_MODULE(_plyform, m) {
+  using namespace plyform;
+  py::register_local_exception_translator(translate);
+  m.doc() = "The compiled part of plyform.";
+  m.attr("version") = version();
+  bind_case(m);
+  bind_frames(m);
+  bind_simulation(m);
+  bind_fit(m);
+  m.def("export_results", &export_results, py::arg("folder"),
+        "Writes FOLDER/export/NAME.vtu, .stl and .csv of the last state; the files written.");
+}

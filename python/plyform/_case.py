@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cases: read, changed, checked."""
+
+from __future__ import annotations
+
+import json
+import os
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Mapping, Union
+
+from . import _plyform
+from ._plyform import Mistake, Outlook, PredictedError
+
+#: What a key can be set to: numbers, texts, lists of them, tables; NumPy's numbers and arrays too.
+Value = Any
+
+
+def _toml(value: Value) -> str:
+    """`value` as TOML in one line."""
+    if hasattr(value, "tolist"):  # NumPy
+        value = value.tolist()
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return repr(value)  # inf and nan are the same words in TOML
+    if isinstance(value, (str, os.PathLike)):
+        return json.dumps(os.fspath(value), ensure_ascii=False).replace("\x7f", "\\u007f")
+    if isinstance(value, Mapping):
+        inside = (f"{_toml(str(key))} = {_toml(item)}" for key, item in value.items())
+        return "{" + ", ".join(inside) + "}"
+    if isinstance(value, (list, tuple)):
+        return "[" + ", ".join(map(_toml, value)) + "]"
+    raise TypeError(f"a key cannot be set to {value!r}: give a number, text, list or table")
+
+
+@dataclass(frozen=True)
+class Check:
+    """What a check found."""
+
+    #: All mistakes; none if the case can run.
+    mistakes: list[Mistake]
+    #: What can run but should be looked at, each with its place.
+    warnings: list[str]
+    #: What the accuracy asked for left as it was.
+    notes: list[str]
+    #: Estimates in the place of what the fabrics do not say.
+    assumed: list[str]
+
+    @property
+    def sound(self) -> bool:
+        """Whether the case can run."""
+        return not self.mistakes
+
+
+class Case:
+    """A case file with the values that were changed from Python; the file stays as it is.
+
+    file: a case file, or the folder of a `case.toml`.
+    settings: values by key, as of `set`.
+    accuracy: "draft", "standard", "reference", or an rms error of the shear angle in degrees: picks
+        the cost parameters that `settings` do not give, as `--accuracy` does. Raises ValueError
+        for another word.
+
+    The file is read when its contents are asked for, and then again if asked once more.
+    """
+
+    def __init__(self, file: Union[str, os.PathLike[str]],
+                 settings: Union[Mapping[str, Value], None] = None,
+                 accuracy: Union[str, float, None] = None):
+        path = Path(file)
+        #: The case file.
+        self.file: Path = path / "case.toml" if path.is_dir() else path
+        self._settings: dict[str, str] = {}
+        self._accuracy: float | None = None
+        for key, value in (settings or {}).items():
+            self.set(key, value)
+        if isinstance(accuracy, str):
+            self._accuracy = _plyform.preset_error(accuracy)
+            if self._accuracy <= 0.0:
+                raise ValueError(f"accuracy {accuracy!r} is none of draft, standard, reference")
+        elif accuracy is not None:
+            self._accuracy = float(accuracy)
+
+    def set(self, key: str, value: Value) -> None:
+        """Changes a key, a dotted path with list items by number: `ply.0.angle`; units of the file.
+
+        What cannot be is found by `check`. Raises TypeError for values that TOML does not have.
+        """
+        text = _toml(value)
+        self._settings.pop(key, None)  # the last one counts
+        self._settings[key] = text
+
+    def get(self, key: str) -> Value:
+        """The value that the case has for a key, as `set` takes it: the file's, one that was set,
+        the default, or as picked for the accuracy asked for. Tables are dicts.
+
+        None if a key that has no default is not given: `keys()` says what holds then. Raises
+        KeyError for a key that does not exist.
+        """
+        return _plyform.value_of(self.file, self._overrides(), key)
+
+    @property
+    def settings(self) -> dict[str, str]:
+        """What was set, by key, as TOML."""
+        return dict(self._settings)
+
+    def check(self) -> Check:
+        """Checks the case and the scene that it makes. Raises nothing for what is wrong in it."""
+        found = self._prepare()
+        return Check(found.mistakes, found.warnings, found.notes, found.assumed)
+
+    def outlook(self, threads: int | None = None) -> Outlook:
+        """What will be modelled, the stable step, and about how long a run takes, from some steps
+        of it; threads: as many as there are cores unless given. Raises CaseError.
+        """
+        return _plyform.look_ahead(self._prepare(), threads or 0)
+
+    def _overrides(self) -> list[tuple[str, str]]:
+        accuracy = [] if self._accuracy is None else [("accuracy.shear_deg", _toml(self._accuracy))]
+        return [*self._settings.items(), *accuracy]
+
+    def _prepare(self) -> _plyform.Prepared:
+        return _plyform.prepare(self.file, self._overrides())
+
+    def __repr__(self) -> str:
+        return f"<Case {self.file}>"
+
+
+def predicted_error(case: Case) -> PredictedError:
+    """How far the shear angles will be from those of a converged run, as predicted from the cost
+    parameters: degrees, rms over all plies, by cause. NaN without a stroke. Raises CaseError.
+    """
+    return case._prepare().predicted_error

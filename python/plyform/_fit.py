@@ -1,0 +1,160 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Laws of a fabric from measured curves, and the curves that a fabric should give."""
+
+from __future__ import annotations
+
+import os
+import warnings
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any, Sequence, Tuple, Union
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _plyform
+
+Array = NDArray[np.float64]
+AnyPath = Union[str, "os.PathLike[str]"]
+#: A CSV file, or places and values as two sequences.
+AnyCurve = Union[AnyPath, Tuple[ArrayLike, ArrayLike]]
+
+
+@dataclass(frozen=True)
+class Fit:
+    """How well a law follows the rows that it was fitted to."""
+
+    #: Rows that count.
+    rows: int
+    #: Residuals over the load, root of their mean square, and the largest.
+    rms: float
+    largest: float
+    #: Where the largest one is: shear angle in degrees, or strain.
+    largest_at: float
+    #: N, of each row; of tension per yarn.
+    measured_N: Array
+    fitted_N: Array
+
+    def _law(self) -> tuple[str, str]:
+        """Key of the law in its table of a fabric file, and its value as TOML."""
+        raise NotImplementedError
+
+    def _write(self, table: str, fabric: AnyPath, output: AnyPath) -> None:
+        key, value = self._law()
+        comment = [f"Identified by plyform {_plyform.version}: {self.rows} rows,",
+                   f"residuals {100 * self.rms:.2g} % of the load rms, {100 * self.largest:.2g} % "
+                   f"at most, at {self.largest_at:.3g}."]
+        text = _plyform.fabric_with_law(Path(fabric), table, key, value, comment)
+        Path(output).write_text(text, encoding="utf-8")
+
+
+@dataclass(frozen=True)
+class ShearFit(Fit):
+    """Law of shear: torque of one unit cell = k1 g + k3 g^3 + ..., g in rad."""
+
+    #: k1, k3, k5 ..., N mm.
+    coefficients: list[float]
+    #: Of each row: mm, degrees.
+    extension_mm: Array
+    shear_deg: Array
+
+    def _law(self) -> tuple[str, str]:
+        return "polynomial", "[" + ", ".join(f"{k:.7g}" for k in self.coefficients) + "]"
+
+    def write(self, fabric: AnyPath, output: AnyPath) -> None:
+        """Writes the fabric file `output`: `fabric` with this law of shear. Raises CaseError for
+        mistakes in the fabric, OSError for a file that cannot be written.
+        """
+        self._write("shear", fabric, output)
+
+
+@dataclass(frozen=True)
+class TensionFit(Fit):
+    """Law of tension of a yarn: a stiffness, or a table where no line fits."""
+
+    #: N per yarn, tension over strain; None if the law is a table.
+    stiffness: float | None
+    #: The table: strains, and N per yarn; empty if the law is a stiffness.
+    table_strain: Array
+    table_tension_N: Array
+    #: Of each row.
+    strain: Array
+
+    def _law(self) -> tuple[str, str]:
+        if self.stiffness is not None:
+            return "stiffness", f"{self.stiffness:.7g}"
+        rows = "".join(f"\n    [{strain:.9g}, {tension:.7g}],"
+                       for strain, tension in zip(self.table_strain, self.table_tension_N))
+        return "table", f"[{rows}\n]"
+
+    def write(self, yarns: str, fabric: AnyPath, output: AnyPath) -> None:
+        """Writes the fabric file `output`: `fabric` with this law for its `yarns`, "warp" or
+        "weft". Raises CaseError for mistakes in the fabric, OSError for a file that cannot be
+        written.
+        """
+        if yarns not in ("warp", "weft"):
+            raise ValueError(f"yarns: {yarns!r} is neither warp nor weft")
+        self._write(yarns, fabric, output)
+
+
+def _curve(curve: AnyCurve, x_column: str | int, y_column: str | int) -> _plyform.Curve:
+    if isinstance(curve, (str, os.PathLike)):
+        return _plyform.read_curve(Path(curve), str(x_column), str(y_column))
+    x, y = (np.asarray(values, dtype=float).ravel() for values in curve)
+    return _plyform.Curve(x, y)
+
+
+def _test(bias: Sequence[float] | None, frame: float | None) -> _plyform.ShearTest:
+    if (bias is None) == (frame is None):
+        raise ValueError("give bias=(length, width) or frame=side, mm")
+    if frame is not None:
+        return _plyform.frame_test(frame)
+    length, width = bias  # type: ignore[misc]
+    return _plyform.bias_test(length, width)
+
+
+def _warn(found: dict[str, Any]) -> dict[str, Any]:
+    for text in found.pop("warnings"):
+        warnings.warn(text, stacklevel=3)
+    return found
+
+
+def identify_shear(curve: AnyCurve, fabric: AnyPath, *, bias: Sequence[float] | None = None,
+                   frame: float | None = None, coefficients: int = 3, from_deg: float = 0.0,
+                   to_deg: float = np.inf, x_column: str | int = "",
+                   y_column: str | int = "") -> ShearFit:
+    """Law of shear from extension (mm) and load (N) of a shear test.
+
+    bias: free length and width of a bias-extension specimen, mm; or
+    frame: side of a picture frame, from hinge to hinge, mm.
+    fabric: file with all but the law of shear.
+    coefficients: how many, 1 to 6. from_deg, to_deg: shear angles of the rows that count.
+    x_column, y_column: columns of a CSV file by name or number from 1; the first two unless given.
+
+    Warns of doubtful rows. Raises CaseError for what is wrong in curve, fabric or specimen,
+    ValueError for other arguments.
+    """
+    return ShearFit(**_warn(_plyform.identify_shear(_curve(curve, x_column, y_column),
+                                                    _test(bias, frame), Path(fabric), coefficients,
+                                                    from_deg, to_deg)))
+
+
+def identify_tension(curve: AnyCurve, *, yarns: float = 1.0, gauge_length: float = 1.0,
+                     from_strain: float = 0.0, to_strain: float = np.inf, x_column: str | int = "",
+                     y_column: str | int = "") -> TensionFit:
+    """Law of tension from strain and force (N) of a yarn or strip test.
+
+    yarns: that share the force. gauge_length: mm, if the curve has displacements in mm.
+    from_strain, to_strain: of the rows that count. Columns, warnings and errors: as of
+    identify_shear.
+    """
+    return TensionFit(**_warn(_plyform.identify_tension(_curve(curve, x_column, y_column), yarns,
+                                                        gauge_length, from_strain, to_strain)))
+
+
+def theory_shear(fabric: AnyPath, *, bias: Sequence[float] | None = None,
+                 frame: float | None = None, to_deg: float, points: int = 100) -> dict[str, Array]:
+    """The curve that a fabric should give in a shear test, `points` + 1 rows from 0 to `to_deg`:
+    displacement_mm, shear_deg, force_N. Sizes and errors: as of identify_shear.
+    """
+    return _plyform.theory_shear(_test(bias, frame), Path(fabric), to_deg, points)

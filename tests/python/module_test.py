@@ -1,0 +1,366 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The module `plyform` from the build tree: cases, runs, arrays without copies, stops, errors.
+
+    module_test.py PACKAGE_FOLDER PROGRAM SOURCE_FOLDER
+"""
+
+import ast
+import inspect
+import os
+import re
+import signal
+import subprocess
+import sys
+import tempfile
+import threading
+import traceback
+import warnings
+from pathlib import Path
+
+sys.path.insert(0, sys.argv[1])
+program, source = Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
+
+import numpy as np  # noqa: E402
+import h5py  # noqa: E402
+import plyform  # noqa: E402
+
+HEMISPHERE = source / "cases/hemisphere_0"
+FABRIC = source / "cases/fabrics/glass_plain_weave.toml"
+COARSE = {"blanks.square.element_size": 17.0, "solver.outputs": 4, "contact.friction": 0.3}
+
+
+def coarse(**more):
+    return plyform.Case(HEMISPHERE, {**COARSE, **more})
+
+
+def address(array):
+    return array.__array_interface__["data"][0]
+
+
+def raised(kind, call, *arguments, **options):
+    """The exception, which has to be of that very kind."""
+    try:
+        call(*arguments, **options)
+    except BaseException as error:
+        assert type(error) is kind, f"{type(error)}: {error}"
+        return error
+    raise AssertionError(f"{kind.__name__} was not raised")
+
+
+def check_values(_):
+    """A key's value is the file's, a default, one that was set, or picked."""
+    case = plyform.Case(HEMISPHERE / "case.toml")
+    assert case.get("contact.friction") == 0.2 and case.get("solver.outputs") == 20
+    assert case.get("contact.self") == "off" and case.get("stack.bottom") == 0.0  # defaults
+    assert case.get("fabrics.glass.warp.stiffness") == 46000.0  # of the file that is named there
+    assert case.get("tool.0.position.2") == 75.6 and case.get("ply")[0]["blank"] == "square"
+    assert case.get("fabrics.glass.warp.compression_stiffness") is None
+    for key, value in {"contact.friction": np.float64(0.25), "title": 'a "b" \\ ü\n',
+                       "ply.0.angle": 30, "tool.0.position": np.array([0.0, 0.0, 80.0]),
+                       "tool.1.points": ((80.0, -99.0), (80.0, 0.0, 12.0), (400.0, 0.0))}.items():
+        case.set(key, value)
+        told = case.get(key)
+        assert told == (value if np.isscalar(value) else [
+            list(item) if isinstance(item, tuple) else item for item in value]), (key, told)
+    case.set("contact.pair", [{"between": ("punch", "plies"), "friction": 0.1}])
+    assert case.get("contact.pair.0") == {"between": ["punch", "plies"], "friction": 0.1}
+    case.set("ply.0.angle", 45.0)
+    assert case.get("ply.0.angle") == 45.0 and case.check().sound, case.check()
+    draft = plyform.Case(HEMISPHERE, {"solver.duration": 0.05}, accuracy="draft")
+    assert draft.get("solver.duration") == 0.05 and "solver.duration" in draft.check().notes[0]
+    assert draft.get("accuracy.shear_deg") == 3.0
+    assert draft.get("solver.fibre_softening") != case.get("solver.fibre_softening")
+    assert 0.0 < plyform.predicted_error(draft).total_deg <= 3.0
+    assert "did you mean friction?" in str(raised(KeyError, case.get, "contact.frction"))
+    assert "numbered from 0 to 2" in str(raised(KeyError, case.get, "tool.3.name"))
+    raised(TypeError, case.set, "title", None)
+    raised(ValueError, plyform.Case, HEMISPHERE, accuracy="rough")
+    outlook = plyform.Case(HEMISPHERE, {"ply.0.angle": 45.0}).outlook(threads=1)
+    told = subprocess.run([program, "check", HEMISPHERE, "--set", "ply.0.angle=45"], check=True,
+                          capture_output=True, text=True).stdout.splitlines()
+    assert outlook.lines[:-1] == told[:-2] and "time" in outlook.lines[-1]
+    assert any(line.startswith("    warning: tool die") for line in outlook.lines), outlook.lines
+    assert 0.0 < outlook.step_s < outlook.stable_step_s and outlook.stop == ""
+    assert np.isclose(outlook.steps * outlook.step_s, 0.1) and outlook.estimated_s > 0.0
+    keys = {key.key: key for key in plyform.keys()}
+    assert keys["tool[].radius"].unit == "mm" and keys["contact.friction"].range
+
+
+def check_mistakes(folder):
+    """Every mistake has place and remedy; check raises nothing, runs raise CaseError."""
+    text = (HEMISPHERE / "case.toml").read_text(encoding="utf-8").replace("../fabrics", str(
+        FABRIC.parent)).replace('angle = 0.0', 'angel = 0.0')
+    file = folder / "case.toml"
+    file.write_text(text, encoding="utf-8")
+    case = plyform.Case(folder, {"contact.friction": -0.1})
+    first, second = [m for m in case.check().mistakes if "missing" not in m.rule]
+    line = text.splitlines().index("angel = 0.0") + 1
+    assert (first.file, first.line, first.column) == (str(file), line, 1)
+    assert (first.item, first.remedy) == ("ply.0.angel", "did you mean angle?"), str(first)
+    assert (second.file, second.item, second.value) == ("--set", "contact.friction", "-0.1")
+    assert second.rule == "must be at least 0" and second.remedy
+    error = raised(plyform.CaseError, plyform.run, case)
+    assert error.exit_code == 2 and str(first) in str(error)
+    assert len(error.mistakes) == len(case.check().mistakes)
+    assert isinstance(error, plyform.Error) and plyform.Error.exit_code == 1
+    assert plyform.Case(folder / "none.toml").check().mistakes[0].remedy
+    assert raised(plyform.CaseError, plyform.predicted_error, case).mistakes
+    assert raised(plyform.CaseError, case.outlook).mistakes
+
+
+def check_run(folder):
+    """Callbacks, arrays, files of one run, and the program's: all say the same, to the last bit."""
+    settings = [word for key, value in COARSE.items() for word in ("--set", f"{key}={value}")]
+    subprocess.run([program, "run", HEMISPHERE, "-o", folder / "program", "--threads", "1",
+                    *settings], check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    results = []
+    for threads in (1, 2):
+        places, frames = [], []
+        out = folder / f"threads{threads}"
+        result = plyform.run(coarse(), threads=threads, output=out,
+                             progress=lambda p: places.append((p.fraction, p.stroke_mm, p.step)),
+                             frame=frames.append)
+        results.append(result)
+        assert result.status in ("done", "doubtful") and result.exit_code == 0
+        assert len(frames) == 5 and len(places) > 10 and places == sorted(places)
+        assert places[-1][:2] == (1.0, 75.0) and result.summary["threads"] == threads
+        ply = result.plies["ply"]
+        assert result.plies.names == ["ply"] and result.plies[-1].name == "ply"
+        assert ply.x.shape == ply.x0.shape == (441, 3) and ply.triangles.shape == (800, 3)
+        assert np.array_equal(frames[-1].plies[0].x, ply.x)
+        assert frames[0].step == 0 and np.array_equal(frames[0].plies[0].x, ply.x0)
+        table = np.genfromtxt(out / "plies/ply.csv", delimiter=",", names=True)
+        assert np.allclose(ply.x[ply.triangles].mean(axis=1)[:, 2], table["z"], rtol=1e-8)
+        for name in ply.cell_fields:
+            field = getattr(ply, name)
+            told = (table[name] if field.ndim == 1 else
+                    np.stack([table[f"{name}_{axis}"] for axis in "xyz"], axis=1))
+            assert len(field) == 800 and np.allclose(field, told, rtol=1e-8, atol=1e-12), name
+        with h5py.File(folder / "program/results.h5") as file:
+            last = file["frames/000004/plies/ply"]
+            for name in ("x", *ply.cell_fields, "contact_pressure"):
+                assert np.array_equal(last[name][:], getattr(ply, name)), (name, threads)
+        for file in ("plies/ply.csv", "history.csv"):
+            assert (folder / "program" / file).read_bytes() == (out / file).read_bytes(), file
+    assert set(result.tools.names) == {"punch", "die", "blank_holder"}
+    told = {tool["name"]: tool["force_N"] for tool in result.summary["tools"]}
+    assert np.isclose(result.tools["punch"].force_N, told["punch"], rtol=1e-8)
+    assert np.isclose(result.energies["shear"], result.frame.energies["shear"], rtol=1e-8)
+    assert ply.reaction_N is None and not len(result.boundaries)
+    raised(KeyError, lambda: result.plies["plie"])
+    read_back(folder, result)
+    return results[0]
+
+
+def read_back(folder, result):
+    """Folders of runs: states, summary, history, export."""
+    last, second = plyform.read(folder / "threads2"), plyform.read(str(folder / "program"), 1)
+    assert last.summary == result.summary and np.array_equal(last.plies[0].x, result.plies[0].x)
+    assert np.isnan(last.frame.energies["shear"]) and last.energies == result.energies
+    assert 0.0 < second.frame.stroke_mm < 75.0
+    history = plyform.history(folder / "threads2")
+    assert np.isclose(history["punch_force_N"][-1], result.tools["punch"].force_N, rtol=1e-8)
+    assert {file.name for file in plyform.export(folder / "program")} >= {"ply.vtu", "punch.stl"}
+    assert "no frame 5" in str(raised(plyform.Error, plyform.read, folder / "program", 5))
+    assert "result folder" in str(raised(plyform.Error, plyform.read, folder / "nothing"))
+
+
+def check_memory(_):
+    """Positions and velocities are the arrays computed on; results keep theirs alive."""
+    simulation = plyform.Simulation(coarse(), threads=2)
+    ply = simulation.plies["ply"]
+    x, v = ply.positions, ply.velocities
+    before, seen = x.copy(), []
+    assert np.array_equal(before, ply.x0) and v.shape == x.shape == (441, 3)
+    assert x.dtype == v.dtype == np.float64 and not x.flags.owndata and x.flags.c_contiguous
+
+    def look(progress):
+        now = simulation.plies[0]
+        seen.append((address(now.positions), address(now.velocities), x[:, 2].min(), abs(v).max(),
+                     progress.step == simulation.step))
+
+    last = {}
+    result = simulation.run(progress=look,
+                            frame=lambda f: last.update(same=np.array_equal(f.plies[0].x, x)))
+    assert {row[:2] for row in seen} == {(address(x), address(v))} and len(seen) > 10
+    assert all(row[4] for row in seen) and last["same"]
+    assert seen[-1][2] < seen[len(seen) // 2][2] < -10.0 and max(row[3] for row in seen) > 100.0
+    assert np.array_equal(result.plies[0].x, x) and result is simulation.result
+    assert simulation.stroke_mm == 75.0 and np.isclose(simulation.time_s, 0.1, rtol=1e-3)
+    assert "has run" in str(raised(plyform.Error, simulation.run))
+    one, two = result.plies[0].x, result.frame.plies[0].x
+    assert address(one) == address(two) and not one.flags.writeable
+    shear = result.plies[0].shear_angle_deg
+    largest = abs(shear).max()
+    del simulation, result, ply, one, two, look, last
+    assert np.isfinite(x).all() and abs(shear).max() == largest  # still there
+
+
+def check_start():
+    """What is written to positions before the run is where it starts."""
+    simulation = plyform.Simulation(coarse(), threads=1)
+    simulation.plies[0].positions[:, 0] += 1e-3
+    starts = []
+    simulation.run(frame=lambda f: starts.append(f.plies[0].x) or False)
+    assert np.allclose(starts[0][:, 0] - simulation.plies[0].x0[:, 0], 1e-3)
+
+
+def whole(folder, status):
+    """The folder of a run that ended early: readable, and says so."""
+    result = plyform.read(folder)
+    assert result.status == status, result.summary["status"]
+    with h5py.File(folder / "results.h5") as file:
+        frames = len(file["time_s"])
+        assert frames >= 2 and f"frames/{frames - 1:06}/plies/ply/x" in file
+        assert np.isclose(file["stroke_mm"][-1], result.summary["stroke_mm"])
+    assert (folder / "plies/ply.csv").is_file() and (folder / "results.xdmf").is_file()
+    return result
+
+
+def check_stops(folder):
+    """False, an exception, Ctrl-C and the run itself."""
+    result = plyform.run(coarse(), output=folder / "false", progress=lambda p: p.stroke_mm < 30.0)
+    assert result.status == "interrupted" and result.exit_code == 1
+    assert 30.0 <= result.frame.stroke_mm < 40.0 and result.summary["stroke_mm"] < 40.0
+    assert np.array_equal(whole(folder / "false", "interrupted").plies[0].x, result.plies[0].x)
+
+    def wrong(frame):
+        if frame.stroke_mm > 20.0:
+            raise ZeroDivisionError("mine")
+
+    simulation = plyform.Simulation(coarse())
+    error = raised(ZeroDivisionError, simulation.run, folder / "raised", frame=wrong)
+    assert str(error) == "mine" and error.__traceback__ is not None
+    assert "wrong" in {frame.name for frame in traceback.extract_tb(error.__traceback__)}
+    assert whole(folder / "raised", "interrupted").summary == simulation.result.summary
+
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    ticks = []
+    timer = threading.Timer(0.1, lambda: (ticks.append(1), os.kill(os.getpid(), signal.SIGINT)))
+    # It only comes while the run computes if that leaves Python to other threads.
+    raised(KeyboardInterrupt, plyform.run, coarse(**{"blanks.square.element_size": 6.8}),
+           output=folder / "ctrl_c", frame=lambda f: timer.start() if f.step == 0 else None)
+    assert ticks and whole(folder / "ctrl_c", "interrupted").frame.stroke_mm < 75.0
+
+    error = raised(plyform.Stopped, plyform.run, coarse(**{"solver.max_balance_error": 1e-9}),
+                   output=folder / "stopped")
+    assert error.exit_code == 3 and "max_balance_error" in str(error)
+    assert error.result.status == "stopped" and error.result.exit_code == 3
+    whole(folder / "stopped", "stopped")
+    (folder / "file").write_text("")
+    error = raised(plyform.Error, plyform.run, coarse(), output=folder / "file/below")
+    assert error.exit_code == 1 and "file" in str(error)
+
+
+def check_difference(folder, result):
+    none = plyform.difference(result, folder / "program")
+    assert none.rms == none.mean == none.p95 == none.p99 == none.largest == 0.0
+    finer = plyform.run(coarse(**{"blanks.square.element_size": 12.0}))
+    found = plyform.difference(result, finer.frame)
+    assert 0.1 < found.mean < found.rms < found.p95 < found.p99 < found.largest < 30.0
+    assert len(found.at_nodes) == 1 and found.at_nodes[0].shape == (len(finer.plies[0].x),)
+    assert np.isclose(abs(found.at_nodes[0]).max(), found.largest)
+    assert plyform.difference(result, finer, "thickness_mm").largest < 0.5
+    assert "thickness_mm" in str(raised(ValueError, plyform.difference, result, finer, "shear"))
+
+
+def check_fits(folder):
+    """A curve of theory gives its own law back."""
+    theory = plyform.theory_shear(FABRIC, bias=(200, 100), to_deg=45.0, points=60)
+    assert len(theory["force_N"]) == 61 and np.isclose(theory["shear_deg"][-1], 45.0)
+    curve = theory["displacement_mm"], theory["force_N"]
+    fit = plyform.identify_shear(curve, FABRIC, bias=(200, 100))
+    assert np.allclose(fit.coefficients, [0.37044, 0.84105, 1.03113], rtol=1e-6) and fit.rms < 1e-6
+    table = folder / "curve.csv"
+    np.savetxt(table, np.stack(curve, axis=1), delimiter=",", header="d,F", comments="")
+    again = plyform.identify_shear(table, FABRIC, bias=(200, 100), x_column="d", y_column=2)
+    assert np.allclose(again.coefficients, fit.coefficients, rtol=1e-6)
+    fit.write(FABRIC, folder / "fabric.toml")
+    case = coarse(**{"fabrics.glass": folder / "fabric.toml"})
+    assert np.allclose(case.get("fabrics.glass.shear.polynomial"), fit.coefficients, rtol=1e-6)
+    strain = np.linspace(0.0, 0.01, 20)
+    line = plyform.identify_tension((strain, 4.0 * 46000.0 * strain), yarns=4)
+    assert np.isclose(line.stiffness, 46000.0) and len(line.table_strain) == 0
+    curved = plyform.identify_tension((strain, 5e6 * strain**2))
+    assert curved.stiffness is None and len(curved.table_strain) <= 20
+    curved.write("weft", folder / "fabric.toml", folder / "fabric2.toml")
+    case.set("fabrics.glass", folder / "fabric2.toml")
+    assert len(case.get("fabrics.glass.weft.table")) == len(curved.table_strain)
+    assert case.get("fabrics.glass.weft.stiffness") is None
+    error = raised(plyform.CaseError, plyform.identify_shear, curve, FABRIC, bias=(150, 100))
+    assert error.mistakes[0].item == "length" and error.mistakes[0].remedy
+    raised(ValueError, plyform.identify_shear, curve, FABRIC)
+    with warnings.catch_warnings(record=True) as told:
+        warnings.simplefilter("always")
+        noise = 1.0 + 0.05 * (-1.0) ** np.arange(61)
+        plyform.identify_shear((curve[0], curve[1] * noise), FABRIC, bias=(200, 100))
+    assert len(told) == 1 and "noise" in str(told[0].message)
+
+
+def check_page(folder):
+    """The Python of docs/users/python.md, block after block, where a user would type it."""
+    text = (source / "docs/users/python.md").read_text(encoding="utf-8")
+    blocks = re.findall(r"```python\n(.*?)```", text, re.S)
+    assert len(blocks) == 3 and len(re.findall(r"^\S", blocks[0], re.M)) <= 10, blocks[0]
+    (folder / "cases").symlink_to(source / "cases")
+    names, here = {"print": lambda *words: None}, Path.cwd()
+    os.chdir(folder)
+    try:
+        for block in blocks:
+            exec(compile(block, "docs/users/python.md", "exec"), names)
+    finally:
+        os.chdir(here)
+    assert names["result"].status and (folder / "results/rough/summary.json").is_file()
+
+
+def check_types():
+    """The stub and the compiled part have the same names; everything has a docstring."""
+    compiled = plyform._plyform
+    stub = ast.parse((Path(plyform.__file__).parent / "_plyform.pyi").read_text(encoding="utf-8"))
+    columns = {*plyform.PlyFrame.cell_fields, *plyform.PlyFrame.node_fields}  # new ones go unsaid
+    told = set()
+    for item in stub.body:
+        if not isinstance(item, (ast.ClassDef, ast.FunctionDef)):
+            continue
+        told.add(item.name)
+        there = getattr(compiled, item.name)
+        assert there.__doc__.strip() and (isinstance(item, ast.ClassDef)
+                                          or "\n\n" in there.__doc__), item.name
+        if isinstance(item, ast.ClassDef):
+            parts = {part.name for part in item.body if isinstance(part, ast.FunctionDef)}
+            for name in parts:
+                assert inspect.getdoc(getattr(there, name)), f"{item.name}.{name}"
+            missing = {name for name in vars(there) if not name.startswith("_")} - parts - columns
+            assert missing <= {"cell_fields", "node_fields"}, f"not in the stub: {missing}"
+    assert told == {name for name in vars(compiled) if not name.startswith("_")} - {"version"}
+    for name in plyform.__all__:
+        thing = getattr(plyform, name)
+        assert thing.__doc__, name
+        if inspect.isfunction(thing):
+            assert "return" in thing.__annotations__, name
+        elif inspect.isclass(thing) and thing.__module__ != compiled.__name__:
+            for part, value in vars(thing).items():
+                if not part.startswith("_") and (callable(value) or isinstance(value, property)):
+                    assert value.__doc__, f"{name}.{part}"
+    assert (Path(plyform.__file__).parent / "py.typed").is_file()
+    told = subprocess.run([program, "version"], check=True, capture_output=True, text=True).stdout
+    assert told.split() == ["plyform", plyform.version] and plyform.__version__ == plyform.version
+
+
+with tempfile.TemporaryDirectory() as name:
+    root = Path(name)
+    folders = {}
+    for part in ("values", "mistakes", "run", "memory", "stops", "fits", "page"):
+        folders[part] = root / part
+        folders[part].mkdir()
+    check_types()
+    check_values(folders["values"])
+    check_mistakes(folders["mistakes"])
+    first = check_run(folders["run"])
+    check_difference(folders["run"], first)
+    check_memory(folders["memory"])
+    check_start()
+    check_stops(folders["stops"])
+    check_fits(folders["fits"])
+    check_page(folders["page"])
+print("all of the module's tests passed")
