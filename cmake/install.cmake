@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake --install: the program, both libraries with their public headers, the cases, and the package
+# cmake --install: the program, both libraries with their public headers, the cases, studies, and the package
 # that find_package(plyform) finds. Headers go to include/plyform/, so that
 # #include "core/model/case.hpp" reads the same in other projects as here.
 include(CMakePackageConfigHelpers)
@@ -45,6 +45,10 @@ foreach(header ${public_headers})
 endforeach()
 
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform)
+# plyform chart calls tools/study.
+install(PROGRAMS tools/study DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
+install(DIRECTORY tools/studies tools/plotting DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools
+        USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
 configure_package_config_file(cmake/plyformConfig.cmake.in plyformConfig.cmake

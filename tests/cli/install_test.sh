@@ -18,6 +18,10 @@ if grep -rnF "$(dirname "$tests")" "$prefix/lib" --include='*.cmake'; then
   exit 1
 fi
 "$prefix/bin/plyform" version
+if /usr/bin/python3 -c 'import h5py' 2>/dev/null; then
+  "$prefix/bin/plyform" chart "$prefix/share/plyform/cases/studies/bias_extension.toml" --check \
+    -o "$work/study"
+fi
 package=$prefix/lib/python3/dist-packages
 if [ -d "$package" ]; then # the module, if it was built
   PYTHONPATH=$package /usr/bin/python3 -c \

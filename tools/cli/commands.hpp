@@ -29,11 +29,6 @@ struct RunArguments {
   int threads = 0; ///< 0: the number of cores
 };
 
-struct ChartArguments {
-  std::string study, output;
-  int jobs = 0, threads = 0; ///< 0: not given
-};
-
 /// A shear test: bias or frame; NaN where not given.
 struct SpecimenArguments {
   double length = std::numeric_limits<double>::quiet_NaN(); ///< mm, bias
@@ -64,7 +59,8 @@ PreparedCase load_case(const CaseArguments& arguments);
 
 int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);
-int chart_command(const ChartArguments& arguments);
+/// Returns only if the script cannot be called.
+int chart_command(const std::vector<std::string>& arguments);
 int keys_command(bool markdown);
 int identify_command(const IdentifyArguments& arguments);
 int theory_command(const TheoryArguments& arguments);

@@ -39,7 +39,6 @@ int export_command(const std::string& directory) {
 struct Arguments {
   RunArguments run;
   CaseArguments check;
-  ChartArguments chart;
   std::string results; ///< folder to export
   IdentifyArguments identify;
   TheoryArguments theory;
@@ -68,15 +67,10 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   add_accuracy(*check, to.check);
   commands.push_back({check, [&to] { return check_command(to.check); }});
 
-  CLI::App* chart =
-      app.add_subcommand("chart", "run a case over its settings, draw wall time against error");
-  chart->add_option("study", to.chart.study, "study file")->required();
-  chart->add_option("-o,--output", to.chart.output, "folder for chart and runs [results/STUDY]");
-  chart->add_option("--jobs", to.chart.jobs, "runs at a time [cores / threads]")
-      ->check(CLI::Range(1, 256));
-  chart->add_option("--threads", to.chart.threads, "threads of each run [1]")
-      ->check(CLI::Range(1, 256));
-  commands.push_back({chart, [&to] { return chart_command(to.chart); }});
+  CLI::App* chart = app.add_subcommand("chart", "run a study of a case, as tools/study does");
+  chart->prefix_command();
+  chart->set_help_flag(); // the script has its own
+  commands.push_back({chart, [chart] { return chart_command(chart->remaining()); }});
 }
 
 void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& commands) {

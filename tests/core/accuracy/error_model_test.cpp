@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rule that picks cost parameters: against a search by hand, on real cases. Whether what it
-// promises holds is measured by `plyform chart` (docs/users/accuracy.md).
+// promises holds is measured by `tools/study` (docs/users/accuracy.md).
 #include "core/accuracy/error_model.hpp"
 #include "core/setup/prepare_case.hpp"
 

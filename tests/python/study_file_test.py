@@ -1,0 +1,142 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Of tools/study what runs nothing: study files and their mistakes, plans, differences of fields.
+
+    study_file_test.py TOOLS_FOLDER CASES_FOLDER PLYFORM
+
+Leaves with 77 when a package is missing.
+"""
+
+from pathlib import Path
+
+from study_scene import CASE, FRICTION, Scene, call, check_all, program  # puts tools/ on the path
+
+import numpy as np
+import plot_folders
+from plotting.reading import Ply, State
+from studies import plan, study_file
+from studies.difference import difference
+
+
+def planned(scene: Scene, study: str) -> list:
+    scene.write(study)
+    read = study_file.read_study(scene.folder / "study.toml")
+    assert not read.mistakes.told, read.mistakes.texts()
+    return plan.Planner(read, scene.program, "version", 1).runs(scene.results)
+
+
+DRAWN = """case = "case.toml"
+method = "METHOD"
+runs = 8
+[[vary]]
+name = "angle"
+each = "ply.*.angle"
+range = [-90, 90]
+[[vary]]
+key = "solver.duration"
+range = [0.01, 1.0]
+scale = "log"
+"""
+
+LIST = """case = "case.toml"
+method = "list"
+presets = ["draft"]
+[[vary]]
+name = "angles"
+keys = ["ply.0.angle", "ply.1.angle"]
+values = [[0, 90], [0, 45]]
+[[vary]]
+key = "blanks.*.element_size"
+factors = [0.5, 1.0]
+[[run]]
+name = "odd one"
+set = ["contact.friction=0.0"]
+"""
+
+
+def check_plans(folder: Path) -> None:
+    """What is run, without running it."""
+    scene = Scene(folder / "plans")
+    for method in ("sobol", "latin hypercube"):
+        runs = planned(scene, DRAWN.replace("METHOD", method))
+        drawn = np.array([list(run.values.values()) for run in runs])
+        assert drawn.shape == (8, 3) and list(runs[0].values) == ["angle 1", "angle 2",
+                                                                  "solver.duration"]
+        for column, low, high in zip(drawn.T, (-90, -90, -2), (90, 90, 0)):
+            column = np.log10(column) if low == -2 else column
+            strata = np.floor((column - low) / (high - low) * 8 - 1e-6)
+            assert sorted(strata) == list(range(8)), (method, strata)  # one in each eighth
+        assert runs[0].settings[0].startswith("ply.0.angle=")
+    few = planned(scene, DRAWN.replace("METHOD", "sobol"))
+    more = planned(scene, DRAWN.replace("METHOD", "sobol").replace("runs = 8", "runs = 9"))
+    assert [run.name for run in more[:8]] == [run.name for run in few]  # one run more
+    runs = planned(scene, LIST)
+    assert [run.settings for run in runs] == [
+        (), ("ply.1.angle=90", "blanks.square.element_size=5.0"), (),
+        ("contact.friction=0.0",)], runs
+    assert runs[0].accuracy == "draft" and runs[0].values["angles"] == [0.0, 45.0]
+    (scene.folder / "case.toml").write_text(CASE + "# changed\n", encoding="utf-8")
+    assert not {run.name for run in planned(scene, LIST)} & {run.name for run in runs}
+
+
+WRONG = {  # what is put in the place of what, and the one message that comes
+    ('case = "case.toml"', 'case = "none.toml"'): "study.toml:1: error: case = 'none.toml': there",
+    ('case = "case.toml"\n', ""): "study.toml:1: error: case: is missing; give the case file",
+    ("values", "valeus"): "study.toml:8: error: vary.0.valeus: unknown key; did you mean values?",
+    ("[0.1, 0.2", "[0.2, 0.2"): "study.toml:8: error: vary.0.values.1 = 0.2: stands twice",
+    ("values = [", "range = ["): "study.toml:8: error: vary.0.range: must be [LOW, HIGH]",
+    ("values = [0.1, 0.2, 0.3, 0.4]", "range = [0.1, 0.4]"): "vary.0.count: is missing; say",
+    ("values = [0.1, 0.2, 0.3, 0.4]", "values = []"): "vary.0.values: must have at least one",
+    ("[figures]", "[figurs]"): "figurs: unknown key; did you mean figures?",
+    ('"tools.', '"most tools.'): "study.toml:3: error: figures.punch_N: must be a path",
+    ("[[vary]]", "[limits]\nforce = 3\n[[vary]]"): "limits.force: there is no force; there are",
+    ("[[vary]]", "[[picture]]\nkind = 'cost'\n[[vary]]"): "picture.0.kind = 'cost': needs errors",
+    ("[figures]", "method = 'gird'\n[figures]"): "study.toml:2: error: method = 'gird': must be",
+    ("[figures]", "set = ['3']\n[figures]"): "study.toml:2: error: set.0: must be a text KEY=VALUE",
+    ('key = "contact', 'keys = "contact'): "vary.0.keys = 'contact.friction': must be a list",
+    ("values = [0.1", "values = [9, 0.1"): "study.toml:8: error: vary.0.values.0: does not fit "
+    "the case: contact.friction = 9: must not be that; give less",
+    ('"contact.friction"', '"tools.*.force"'): "vary.0.key = 'tools.*.force': fits no key",
+    ("values = ", "values = = "): "study.toml:8: error: ",
+}
+
+
+def check_mistakes(folder: Path) -> None:
+    scene = Scene(folder / "mistakes")
+    scene.order({"contact.friction=9": "refuse"})
+    for (before, after), message in WRONG.items():
+        assert before in FRICTION, before
+        scene.write(FRICTION.replace(before, after, 1))
+        told = scene.call()
+        lines = told.err.strip().splitlines()
+        assert told.code == 2 and message in lines[0], (before, after, told)
+        assert len(lines) == 1, lines
+    assert not scene.calls() and not scene.results.exists()
+    told = call(program, scene.folder / "nothing.toml", "--program", scene.program)
+    assert told.code == 1 and told.err.count("\n") <= 1 and "nothing.toml" in told.err, told
+
+
+def state(cells: int, field) -> State:
+    x0, triangles = plot_folders.grid(cells, 100.0)
+    place = x0[triangles].mean(axis=1)
+    return State(Path(), 1.0, [Ply("ply", 0.0, x0, x0, triangles, field(place))], [])
+
+
+def check_difference(_folder: Path) -> None:
+    """A constant is told on any meshes; a slope, wrong at the rim only, on fine ones."""
+    flat = difference(state(7, lambda at: 0 * at[:, 0] + 3.0), state(10, lambda at: 0 * at[:, 0]))
+    assert all(abs(value - 3.0) < 1e-12 for value in flat.values()), flat
+
+    def slope(at):
+        return 0.1 * at[:, 0]
+    assert difference(state(8, slope), state(8, slope))["max"] == 0.0
+    coarse, fine = (difference(state(n, slope), state(3 * n, slope)) for n in (10, 40))
+    assert fine["max"] < 0.3 * coarse["max"] and fine["rms"] <= fine["p99"] <= fine["max"]
+    outside = state(6, slope)  # a smaller sheet: beyond its rim, what its rim has
+    outside.plies[0].x0 = 0.9 * outside.plies[0].x0
+    beyond = difference(outside, state(6, lambda at: 0 * at[:, 0]))
+    rim = abs(outside.plies[0].value).max()
+    assert 0.5 * rim < beyond["max"] <= rim, (beyond, rim)
+
+
+if __name__ == "__main__":
+    check_all(check_difference, check_plans, check_mistakes)

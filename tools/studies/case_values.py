@@ -1,0 +1,136 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What stands in a case: values of its keys, and a hash of it with all files that it names."""
+
+import fnmatch
+import functools
+import hashlib
+import subprocess
+import tomllib
+from pathlib import Path
+
+from studies.toml_place import toml_text, toml_value
+
+
+def split_setting(setting: str) -> tuple[str, str]:
+    key, _, value = setting.partition("=")
+    return key.strip(), value.strip()
+
+
+@functools.lru_cache(maxsize=None)
+def defaults(program: Path) -> dict[str, object]:
+    """Of the keys that have one, as `plyform keys` tells them; lists are KEY[]."""
+    told, key = {}, ""
+    out = subprocess.run([program, "keys"], capture_output=True, text=True, check=True).stdout
+    for line in out.splitlines():
+        if not line.startswith(" "):
+            key = line.strip()
+        elif key not in told and "; default " in line:
+            told[key] = toml_value(line.split("; default ", 1)[1].split("; ")[0].strip())
+    return told
+
+
+class CaseValues:
+    """The case file's tables with settings put in; plyform itself says whether they are right."""
+
+    def __init__(self, file: Path, settings: tuple[str, ...], program: Path):
+        self.program = program
+        self.tables = tomllib.loads(file.read_text(encoding="utf-8"))
+        for setting in settings:
+            self.put(*split_setting(setting))
+
+    def put(self, key: str, text: str) -> None:
+        *path, last = key.split(".")
+        at = self.tables
+        for step in path:
+            if isinstance(at, list) and step.isdigit() and int(step) < len(at):
+                at = at[int(step)]
+            elif isinstance(at, dict):
+                at = at.setdefault(step, {})
+            else:
+                return
+        if isinstance(at, dict):
+            at[last] = toml_value(text)
+        elif isinstance(at, list) and last.isdigit() and int(last) < len(at):
+            at[int(last)] = toml_value(text)
+
+    def keys(self, pattern: str) -> list[str]:
+        """Keys of the case that fit a pattern with * for any name or number: blanks.*.element_size.
+        A pattern without * is itself, whether or not the case gives it."""
+        if "*" not in pattern:
+            return [pattern]
+        found = []
+
+        def walk(at, path: list[str]) -> None:
+            steps = pattern.split(".")
+            if len(path) == len(steps):
+                found.append(".".join(path))
+                return
+            inner = enumerate(at) if isinstance(at, list) else \
+                at.items() if isinstance(at, dict) else ()
+            for name, value in inner:
+                if fnmatch.fnmatchcase(str(name), steps[len(path)]):
+                    walk(value, [*path, str(name)])
+        walk(self.tables, [])
+        return found
+
+    def own(self, key: str):
+        """The value of a key, its default where the case has none; None if there is no such."""
+        at = self.tables
+        for step in key.split("."):
+            if isinstance(at, list) and step.isdigit() and int(step) < len(at):
+                at = at[int(step)]
+            elif isinstance(at, dict) and step in at:
+                at = at[step]
+            else:
+                general = ".".join("[]" if part.isdigit() else part for part in key.split("."))
+                return defaults(self.program).get(general.replace(".[]", "[]"))
+        return at
+
+
+def texts_in(value) -> list[str]:
+    if isinstance(value, str):
+        return [value]
+    inner = value.values() if isinstance(value, dict) else value if isinstance(value, list) else ()
+    return [text for one in inner for text in texts_in(one)]
+
+
+class FileHash:
+    """Hash of files and of all that they name: fabrics, their tables, meshes. Each is read once."""
+
+    def __init__(self):
+        self.content: dict[Path, bytes] = {}
+        self.named: dict[Path, list[str]] = {}
+
+    def add(self, file: Path, into, seen: set[Path]) -> None:
+        file = file.resolve()
+        if file in seen:
+            return
+        seen.add(file)
+        if file not in self.content:
+            self.content[file] = file.read_bytes()
+            try:
+                tables = tomllib.loads(self.content[file].decode()) if file.suffix == ".toml" \
+                    else {}
+            except (tomllib.TOMLDecodeError, UnicodeDecodeError):
+                tables = {}
+            self.named[file] = texts_in(tables)
+        into.update(self.content[file])
+        for text in self.named[file]:
+            self.add_named(text, file.parent, into, seen)
+
+    def add_named(self, text: str, folder: Path, into, seen: set[Path]) -> None:
+        if text and len(text) < 1000 and "\n" not in text and (folder / text).is_file():
+            self.add(folder / text, into, seen)
+
+    def of(self, case: Path, settings: tuple[str, ...], rest: str) -> str:
+        """Of a run: its case, its settings, the files both name, and `rest`."""
+        into, seen = hashlib.sha256(rest.encode()), set()
+        self.add(case, into, seen)
+        for setting in settings:
+            key, text = split_setting(setting)
+            value = toml_value(text)
+            into.update(f"\n{key}={toml_text(value) if not isinstance(value, dict) else text}"
+                        .encode())
+            for name in texts_in(value):
+                self.add_named(name, case.parent, into, seen)
+        return into.hexdigest()[:12]

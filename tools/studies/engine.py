@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Has Snakemake do the runs of a study that are missing, and says how far it is."""
+
+import fcntl
+import json
+import math
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from dataclasses import dataclass
+from pathlib import Path
+
+from plotting.reading import Trouble
+from studies.plan import Run
+from studies.run_job import ENDED, die_with_parent, read_json
+
+HERE = Path(__file__).resolve().parent
+JOB_S = 10.0           # a job of this machine takes as many runs as fill this time
+CLUSTER_JOB_S = 60.0   # a job of a cluster costs seconds of its own
+LOOK_S = 0.5           # between looks at what has ended
+
+
+@dataclass
+class Options:
+    program: Path
+    folder: Path
+    jobs: int               # at a time; 0: as the profile says
+    threads: int            # of each
+    profile: str = ""       # of Snakemake; empty: this machine
+    runs_per_job: int = 0   # 0: by their time
+    again: bool = False     # failed runs too
+    first: str = ""         # name of the longest run, which begins first
+
+
+def ended(folder: Path, run: Run) -> dict:
+    """What the run left; empty if it has not ended."""
+    return read_json(folder / "runs" / run.name / ENDED)
+
+
+def profile_of(name: str) -> str:
+    """A profile of one's own goes before the one beside this file; paths as seen from here."""
+    own = Path(os.environ.get("XDG_CONFIG_HOME", "~/.config")).expanduser() / "snakemake" / name
+    if own.is_dir():
+        return name
+    for place in (Path(name), HERE / "profiles" / name):
+        if (place / "config.yaml").is_file():
+            return str(place.resolve())
+    return name
+
+
+def clock(seconds: float) -> str:
+    whole = int(seconds)
+    return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
+
+
+class Progress:
+    """Runs ended of all and the time left: one line drawn over itself on a terminal, elsewhere one
+    line whenever a tenth more of the runs has ended."""
+
+    def __init__(self, all_runs: int, missing: int):
+        self.all, self.missing, self.begin = all_runs, missing, time.monotonic()
+        self.terminal, self.told = sys.stderr.isatty(), -1
+
+    def tell(self, left: int, last: bool = False) -> None:
+        tenth = 10 * (self.missing - left) // max(self.missing, 1)
+        if not (self.terminal or last or tenth > self.told):
+            return
+        self.told = tenth
+        passed = time.monotonic() - self.begin
+        new = self.missing - left
+        words = f"{self.all - left}/{self.all} runs, {clock(passed)}"
+        if left and new:
+            words += f", about {clock(passed / new * left)} left"
+        print(f"\r{words}\033[K" if self.terminal else words, file=sys.stderr, flush=True,
+              end="\n" if last or not self.terminal else "")
+
+
+class Engine:
+    def __init__(self, options: Options, runs: list[Run], estimate_s: float):
+        self.options, self.runs, self.estimate_s = options, runs, estimate_s
+
+    def missing(self) -> list[Run]:
+        return [run for run in self.runs if not ended(self.options.folder, run)]
+
+    def time_of_run(self) -> float:
+        """Measured, where some have ended."""
+        times = [told["cpu_s"] for run in self.runs if (told := ended(self.options.folder, run))]
+        return sum(times) / len(times) if times else self.estimate_s
+
+    def batches(self, missing: list[Run]) -> dict[str, list[str]]:
+        """Names of runs by job."""
+        options, time_s = self.options, max(self.time_of_run(), 0.01)
+        size = int(CLUSTER_JOB_S / time_s) if options.profile else \
+            min(int(JOB_S / time_s), math.ceil(len(missing) / (4 * options.jobs)))
+        size = options.runs_per_job or max(1, size)
+        first = [run.name for run in missing if run.name == self.options.first]
+        rest = [run.name for run in missing if run.name != self.options.first]
+        jobs = {f"first_{i}": [name] for i, name in enumerate(first)}
+        return jobs | {f"runs_{i}": rest[i * size:(i + 1) * size]
+                       for i in range(math.ceil(len(rest) / size))}
+
+    def write_jobs(self, missing: list[Run]) -> None:
+        folder = self.options.folder
+        shutil.rmtree(folder / "jobs", ignore_errors=True)
+        python = sys.executable or "python3"
+        told = {"program": str(self.options.program), "threads": self.options.threads,
+                "call": f'"{python}" -S "{HERE / "run_job.py"}"',
+                "jobs": self.batches(missing),
+                "runs": {run.name: {"words": run.words(), "line": run.line, "label": run.label}
+                         for run in missing}}
+        text = json.dumps(told, indent=1, ensure_ascii=False)
+        (folder / "jobs.json").write_text(text, encoding="utf-8")
+
+    def command(self) -> list[str]:
+        jobs, threads = self.options.jobs, self.options.threads
+        words = ["snakemake", "--snakefile", str(HERE / "Snakefile"), "--directory",
+                 str(self.options.folder), "--keep-going", "--nolock", "--rerun-incomplete",
+                 "--rerun-triggers", "mtime", "--scheduler", "greedy"]
+        if self.options.profile:
+            return [*words, "--profile", profile_of(self.options.profile),
+                    *(["--jobs", str(jobs)] if jobs else [])]
+        return [*words, "--cores", str(jobs * threads), "--drop-metadata", "--quiet", "all"]
+
+    def run_all(self) -> None:
+        """Until nothing is missing, or Snakemake has given up."""
+        folder = self.options.folder
+        (folder / "runs").mkdir(parents=True, exist_ok=True)
+        with open(folder / ".lock", "w", encoding="utf-8") as lock:
+            try:
+                fcntl.flock(lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
+            except OSError as problem:
+                raise Trouble(f"another command runs into {folder}; wait for it, or give -o") \
+                    from problem
+            self.run_locked()
+
+    def run_locked(self) -> None:
+        folder = self.options.folder
+        if self.options.again:
+            for run in self.runs:
+                if ended(folder, run).get("status") in ("failed", "refused"):
+                    shutil.rmtree(folder / "runs" / run.name)
+        missing = self.missing()
+        progress = Progress(len(self.runs), len(missing))
+        progress.tell(len(missing), last=not missing)
+        if not missing:
+            return
+        if shutil.which("snakemake") is None:
+            raise Trouble("there is no snakemake; install the package snakemake")
+        self.write_jobs(missing)
+        with open(folder / "snakemake.log", "w", encoding="utf-8") as log:
+            process = subprocess.Popen(self.command(), stdin=subprocess.DEVNULL, stdout=log,
+                                       stderr=subprocess.STDOUT, preexec_fn=die_with_parent,
+                                       start_new_session=True)
+        try:
+            left = missing
+            while process.poll() is None:
+                try:
+                    process.wait(LOOK_S)
+                except subprocess.TimeoutExpired:
+                    pass
+                left = [run for run in left if not (folder / "runs" / run.name / ENDED).is_file()]
+                progress.tell(len(left))
+        except BaseException:
+            self.leave(process)
+            print(f"\nstudy: {len(left)} runs are missing; the same command goes on",
+                  file=sys.stderr)
+            raise
+        progress.tell(len(left), last=True)
+        if len(left) == len(missing):
+            lines = (folder / "snakemake.log").read_text(encoding="utf-8").split("\n")
+            raise Trouble("no run has ended: " + " / ".join(filter(None, lines[-6:])) +
+                          f"; see {folder / 'snakemake.log'}")
+
+    def leave(self, process: subprocess.Popen) -> None:
+        """Ends the jobs of this machine with Snakemake; of a cluster, has it cancel them."""
+        if self.options.profile:
+            process.send_signal(signal.SIGINT)
+        else:
+            process.kill()
+        process.wait()

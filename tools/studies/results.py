@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The table of a study, a row a run, and what is made of it."""
+
+import csv
+import json
+import math
+from pathlib import Path
+
+from plotting.reading import FIELDS, Trouble, read_state
+from studies.engine import ended
+from studies.figures import figures_of
+from studies.plan import Planner, Run
+from studies.ranking import is_number, rank, ranking_lines
+from studies.run_job import read_json
+from studies.study_file import Study
+
+SOUND = ("done", "doubtful")
+UNITS = {"degrees": "deg", "%": "percent", "N per yarn": "N_per_yarn", "mm": "mm"}
+FRONT = "wall_time_s"
+
+
+def error_columns(field: str) -> dict[str, str]:
+    """Column of each number that a difference has."""
+    return {kind: f"{kind}_{field.replace('-', '_')}_error_{UNITS[FIELDS[field].unit]}"
+            for kind in ("rms", "p99", "max")}
+
+
+def main_error(study: Study) -> str:
+    """Column of the error that pictures show; empty without a reference."""
+    fields = study.reference.fields if study.reference else []
+    return error_columns(fields[0])["rms"] if fields else ""
+
+
+def check_columns(study: Study, planner: Planner) -> None:
+    """Whether limits and pictures name what the table will have."""
+    keys = [one.name for one in planner.vary]
+    errors = [name for field in (study.reference.fields if study.reference else [])
+              for name in error_columns(field).values()]
+    figures = ["wall_time_s", "cpu_s", *study.figures, *errors]
+    asked = [(f"limits.{name}", name, figures) for name in study.limits]
+    for i, one in enumerate(study.pictures):
+        for key in ("x", "y", "figure"):
+            allowed = figures if key == "figure" else keys if one.kind in ("map", "window") else \
+                keys + figures
+            if getattr(one, key):
+                asked.append((f"picture.{i}.{key}", getattr(one, key), allowed))
+    for item, name, allowed in asked:
+        if name not in allowed and not any(name.startswith(f"{f}_") for f in study.figures):
+            study.mistakes.add(item, f"there is no {name}", f"there are {', '.join(allowed)}")
+
+
+def differences(study: Study, runs: list[Run], reference: Run | None, folder: Path) -> dict:
+    """Columns of errors by run's name; kept beside the run's results, by the reference's id."""
+    fields = study.reference.fields if study.reference else []
+    if not fields or ended(folder, reference).get("status") not in SOUND:
+        return {}
+    from studies.difference import difference
+    told, states = {}, {}
+    for run in runs:
+        if run.line == "reference" or ended(folder, run).get("status") not in SOUND:
+            continue
+        place = folder / "runs" / run.name
+        memory = place / f"difference-{reference.name.rpartition('-')[2]}.json"
+        row = read_json(memory)
+        for field in fields:
+            columns = error_columns(field)
+            if columns["rms"] in row:
+                continue
+            if field not in states:
+                states[field] = read_state(folder / "runs" / reference.name, FIELDS[field])
+            found = difference(read_state(place, FIELDS[field]), states[field])
+            row |= {columns[kind]: value for kind, value in found.items()}
+            memory.write_text(json.dumps(row), encoding="utf-8")
+        told[run.name] = row
+    return told
+
+
+def breaks(study: Study, row: dict) -> str:
+    """The first limit that a run does not keep, or how it ended; empty: it keeps all."""
+    if row["status"] not in SOUND:
+        return row["status"]
+    for name, limit in study.limits.items():
+        values = [value for column, value in row.items()
+                  if column == name or column.startswith(f"{name}_")]
+        if not values or not all(isinstance(value, (int, float)) and
+                                 limit.at_least <= value <= limit.at_most for value in values):
+            return name
+    return ""
+
+
+def mark_front(rows: list[dict], error: str) -> None:
+    """1 where no other run is as fast and as near to the reference, and better in one of both."""
+    points = [row for row in rows if row["status"] in SOUND and is_number(row.get(error))]
+    for row in rows:
+        row["on_front"] = int(any(row is one for one in points) and not any(
+            one[FRONT] <= row[FRONT] and one[error] <= row[error] and
+            (one[FRONT] < row[FRONT] or one[error] < row[error]) for one in points))
+
+
+def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path) -> list[dict]:
+    reference = next((run for run in runs if run.name == planner.reference_name), None)
+    errors, rows = differences(study, runs, reference, folder), []
+    for run in runs:
+        told = ended(folder, run)
+        row = {"line": run.line, "setting": run.label,
+               **{one.name: run.values[one.name] for one in planner.vary},
+               "status": told.get("status", "missing"), "wall_time_s": told.get("wall_time_s", ""),
+               "cpu_s": told.get("cpu_s", "")}
+        row |= figures_of(study.figures, read_json(folder / "runs" / run.name / "summary.json"))
+        row |= errors.get(run.name, {})
+        if study.limits:
+            row["breaks"] = breaks(study, row)
+            row["within_limits"] = int(not row["breaks"])
+        rows.append(row | {"message": told.get("message", ""), "folder": f"runs/{run.name}"})
+    if main_error(study):
+        mark_front(rows, main_error(study))
+    return rows
+
+
+def columns_of(rows: list[dict]) -> list[str]:
+    """Those that any row has, message and folder last."""
+    names = list(dict.fromkeys(name for row in rows for name in row))
+    return [name for name in names if name not in ("message", "folder")] + ["message", "folder"]
+
+
+def cell(value) -> str:
+    if isinstance(value, bool) or not isinstance(value, float):
+        return json.dumps(value) if isinstance(value, list) else str(value)
+    return f"{value:.9g}" if math.isfinite(value) else ""
+
+
+def write_csv(rows: list[dict], columns: list[str], file: Path) -> None:
+    part = file.with_suffix(".part")
+    with open(part, "w", newline="", encoding="utf-8") as out:
+        writer = csv.DictWriter(out, columns, restval="", lineterminator="\n")
+        writer.writeheader()
+        writer.writerows({name: cell(value) for name, value in row.items()} for row in rows)
+    part.rename(file)
+
+
+def screen(rows: list[dict], study: Study) -> str:
+    """The table's most telling columns."""
+    third = main_error(study) or "largest_shear_deg"
+    lines = [f"{'':44} {'wall, s':>9} {third:>24}"]
+    for row in rows:
+        value = row.get(third)
+        last = f"{value:24.3g}" if isinstance(value, (int, float)) else f"{'':24}"
+        time = f"{row['wall_time_s']:9.3g}" if row["wall_time_s"] != "" else " " * 9
+        name = row["line"] if row["line"] == row["setting"] else f"{row['line']} {row['setting']}"
+        note = "" if row["status"] == "done" else f"  {row['status']}"
+        lines.append(f"{name:44} {time} {last}{note}"
+                     f"{'  best for its time' if row.get('on_front') else ''}")
+    return "\n".join(lines)
+
+
+def tell(study: Study, planner: Planner, runs: list[Run], folder: Path) -> int:
+    """Writes table, ranking and pictures; the exit code."""
+    rows = rows_of(study, planner, runs, folder)
+    write_csv(rows, columns_of(rows), folder / "table.csv")
+    ranks = rank(study, [one.name for one in planner.vary], rows)
+    write_csv(ranks, ["figure", "key", "effect", "standardised", "explained", "runs"],
+              folder / "ranking.csv")
+    if study.pictures:
+        from studies.pictures import draw_all
+        draw_all(study, planner, rows, folder)
+    print(screen(rows, study))
+    print("\n".join(ranking_lines(ranks, main_error(study) or "largest_shear_deg")))
+    print(f"table, ranking and pictures are in {folder}")
+    lost = [row for row in rows if row["status"] in ("failed", "refused", "missing")]
+    for row in rows:
+        if row["folder"] == f"runs/{planner.reference_name}" and row["status"] not in SOUND:
+            raise Trouble(f"the reference is {row['status']}: {row['message']}; without it there "
+                          "are no errors")
+    if lost:
+        first = lost[0]
+        raise Trouble(f"{len(lost)} of {len(rows)} runs {'is' if len(lost) == 1 else 'are'} "
+                      f"without results; the first, {first['folder']}, {first['status']} "
+                      f"{first['message']}".rstrip())
+    return 0
