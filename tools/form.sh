@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # From a bare Debian 12 to five formed plies: installs what is missing, builds plyform in release
-# mode and runs cases/hemisphere_five_ply into results/hemisphere_five_ply. Six minutes on two cores
-# where nothing is there.
+# mode and runs cases/hemisphere_five_ply into results/hemisphere_five_ply. Four minutes on two
+# idle cores where nothing is there.
 #   tools/form.sh [ARGUMENT OF plyform run]...      e.g. tools/form.sh --accuracy draft
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -128,7 +128,6 @@ PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
   c.gap = std::sqrt(near.front().distance2) - contact.distance;
   contact.list.free_until.push_back(path_length + c.gap);
   deactivate(c);
-  c.last_search_foot[0] = c.last_search_foot[1] = std::numeric_limits<double>::quiet_NaN();
   return c;
 }
 
@@ -167,7 +166,6 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
   contact.faces.clear();
   contact.face_distance.clear();
   clear(contact.list);
-  contact.last_full_search = path_length;
   std::vector<int> label;
   std::vector<Candidate> near;
   std::vector<char> adopted(old.size(), 0);
@@ -207,7 +205,6 @@ struct KernelContext {
   const SurfaceKinematics &slave, &master;
   std::span<const Triangle> triangles;
   RelativeMotion moved;
-  bool full_search;
   std::span<Vec3> slave_force, master_force;
 };
 
@@ -251,7 +248,6 @@ PlyPlyKernelContact kernel_view(KernelContext& k, double dt) {
   view.fold_bound = k.master.fold_bound.empty() ? nullptr : k.master.fold_bound.data();
   view.max_displacement = k.moved.max_displacement;
   view.path_length = k.moved.path_length;
-  view.slide_limit = k.full_search ? 0.0 : c.slide_limit;
   view.triangles = k.triangles.data()->data();
   view.slave_force = k.slave_force.data()->data();
   view.master_force = k.master_force.data()->data();
@@ -279,11 +275,7 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
          [&contact](std::int32_t i) { deactivate(contact.points[i]); });
   clear_present(contact.sums);
   if (contact.list.active.empty()) return;
-  const bool full_search =
-      moved.path_length - contact.last_full_search > contact.full_search_interval;
-  if (full_search) contact.last_full_search = moved.path_length;
-  KernelContext side{contact, slave,       master,      triangles,
-                     moved,   full_search, slave_force, master_force};
+  KernelContext side{contact, slave, master, triangles, moved, slave_force, master_force};
   const auto run = has_avx2() ? ply_ply_kernel_avx2 : ply_ply_kernel_generic;
   const PlyPlyKernelTotals added = run(kernel_view(side, dt));
   ContactTotals& sums = contact.sums;

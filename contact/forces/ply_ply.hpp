@@ -21,11 +21,8 @@
 // The rotation `turn` and the nodal forces of a couple: face_rotation.hpp. (M) is work-conjugate to
 // (P), its moments cancel, and two sheets that move as one rigid body do not slip.
 //
-// A point keeps its face until it has slid by slide_limit since all its faces were last searched,
-// and meanwhile uses the closest point of that face alone, for which (S) and (M) are exact. A face
-// across an edge that has become closer is found late; the error of the distance is no more than
-// slide_limit times the fold angle between the two faces. As fold angles change too, the faces of
-// all points are searched again after a path length of full_search_interval.
+// A point keeps its face, without a search of the others, as long as none of them can be closer. A
+// face found late would be closer than the one before, and each such change would add energy.
 #pragma once
 
 #include "contact/forces/contact_law.hpp"
@@ -62,9 +59,6 @@ struct PlyPlyContact {
   std::vector<std::int32_t> faces;   ///< faces of each point in turn, in ascending distance
   std::vector<double> face_distance; ///< mm, of faces[i] from the node at the last search
   ActiveList list;                   ///< of the points
-  double slide_limit = 0.0;          ///< mm, sliding up to which a point keeps its face; 0: none
-  double full_search_interval = 0.0; ///< mm, path length between searches of all faces
-  double last_full_search = 0.0;     ///< mm, path length at the last search of all faces
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again
   ContactTotals sums;
   ContactFault fault;

@@ -115,11 +115,11 @@ PLYFORM_INLINE Double4 room_of(const Contact& k, Double4 depth) {
 }
 
 /// ContactTotals::step_ratio of four contacts at `depth` that closed by `dp` (mm) in the last step.
-/// A contact that is still open may close its gap and then use half of the depth limit.
+/// A contact that is still open may close its gap and then use step_share of the depth limit.
 template <class Contact>
 PLYFORM_INLINE Double4 step_ratio_of(const Contact& k, Double4 depth, Double4 dp) {
   const Double4 inside = larger(depth, all(0.0)), open = inside - depth;
-  const Double4 way = open + 0.5 * (k.max_depth - inside);
+  const Double4 way = open + step_share * (k.max_depth - inside);
   return dp > 0.0 ? larger(way, all(0.0)) / dp : all(1e300);
 }
 

@@ -15,6 +15,10 @@ namespace plyform {
 /// the limit only keeps its force finite.
 constexpr double least_room = 1e-3, deepest_valid = 0.9995;
 
+/// Share of its remaining depth by which a contact may deepen in a step: the stiffness (K) then
+/// grows by 2.4 times at most, and with it energy is kept; half of the depth is 8 times.
+constexpr double step_share = 0.25;
+
 /// History variables of one contact.
 struct ContactHistory {
   double s[3] = {};         ///< mm, (T) of contact/forces/contact_law.hpp
@@ -41,10 +45,7 @@ struct alignas(32) PlyPlyPoint {
   double area = 0.0;     ///< mm^2, tributary area
   double gap = 0.0;      ///< mm, distance minus h, of the last step; infinite: inactive
 
-  double w[2] = {};                ///< barycentric weights of corners b, c at the closest point
-  double last_search_foot[2] = {}; ///< weights of b, c at the foot of the node on the face's plane
-                                   ///< when all its faces were last searched
-
+  double w[2] = {};   ///< barycentric weights of corners b, c at the closest point
   double other = 0.0; ///< mm, distance at the search of the nearest face without a node of `face`
   float gap_when_deactivated = 0.0F; ///< mm
   std::int32_t node, face = 0;       ///< face: the closest; among equally close ones the lowest

@@ -206,7 +206,7 @@ PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const s
     const SimdFoot foot = foot_of(k, g.point, x, clear);
     Long4 interiors_only;
     const Long4 settled = settled_of(k, g.point, foot, clear, interiors_only);
-    store_weights(g.point, g.count, foot, clear.searched_b, clear.searched_c);
+    store_weights(g.point, g.count, foot);
     if (!any(~(settled & (foot.distance < k.distance)))) {
       press(k, g, x, foot, sums);
       continue;
@@ -251,9 +251,11 @@ PLYFORM_INLINE void press_pending(const PlyPlyKernelContact& k, const std::int32
     inside[i] = chunk.inside[from] ? -1 : 0;
   }
   const Group g = group_of(k, index, count);
-  const Rows w = load_columns(g.point, weight_row);
-  press(k, g, load_faces(k, g.point, remembered(g), k.slave_x, k.master_x),
-        {w.row[0], w.row[1], distance, inside}, sums);
+  PlyPlyPoint* const* p = g.point;
+  const Double4 wb{p[0]->w[0], p[1]->w[0], p[2]->w[0], p[3]->w[0]};
+  const Double4 wc{p[0]->w[1], p[1]->w[1], p[2]->w[1], p[3]->w[1]};
+  press(k, g, load_faces(k, p, remembered(g), k.slave_x, k.master_x), {wb, wc, distance, inside},
+        sums);
 }
 
 PLYFORM_INLINE void process_chunk(const PlyPlyKernelContact& k, const std::int32_t* active,

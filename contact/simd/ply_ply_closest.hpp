@@ -15,17 +15,13 @@ constexpr double far2 = 1e300;        // mm^2
 /// Rows of a PlyPlyPoint.
 enum PlyRow : std::size_t {
   memory_row = offsetof(PlyPlyPoint, memory.s),
-  gap_row = offsetof(PlyPlyPoint, memory.normal_force),
-  weight_row = offsetof(PlyPlyPoint, w)
+  gap_row = offsetof(PlyPlyPoint, memory.normal_force)
 };
 static_assert(is_row(memory_row, offsetof(PlyPlyPoint, memory.s[1]),
                      offsetof(PlyPlyPoint, memory.s[2]),
                      offsetof(PlyPlyPoint, memory.damping_force)));
 static_assert(is_row(gap_row, offsetof(PlyPlyPoint, memory.slip), offsetof(PlyPlyPoint, area),
                      offsetof(PlyPlyPoint, gap)));
-static_assert(is_row(weight_row, offsetof(PlyPlyPoint, w[1]),
-                     offsetof(PlyPlyPoint, last_search_foot[0]),
-                     offsetof(PlyPlyPoint, last_search_foot[1])));
 
 /// Positions or displacements of four nodes p and of the corners b, c of their faces, relative to
 /// corner a.
@@ -101,11 +97,9 @@ struct SimdFoot {
 };
 
 /// Whether the feet of four points are so far inside their faces that no face across an edge or
-/// corner can be closer, and how far they have slid.
+/// corner can be closer.
 struct SimdClearance {
   Long4 of_edges, of_corners; ///< far enough from all edges; from two edges at least
-  Double4 slid2;              ///< mm^2, along the face, since all faces were searched
-  Double4 searched_b, searched_c;
 };
 
 /// Distance (mm) from an edge beyond which a foot is closer to its own face than to that across the
@@ -125,17 +119,13 @@ PLYFORM_INLINE SimdFoot foot_of(const PlyPlyKernelContact& k, PlyPlyPoint* const
   const Long4 b = q.wb * q.wb * q.det > margin2 * q.cc, c = q.wc * q.wc * q.det > margin2 * q.bb;
   clear.of_edges = a & b & c;
   clear.of_corners = (a & b) | (b & c) | (c & a);
-  const Rows last = load_columns(point, weight_row);
-  clear.searched_b = last.row[2], clear.searched_c = last.row[3];
-  const Double4 db = q.wb - clear.searched_b, dc = q.wc - clear.searched_c;
-  clear.slid2 = db * db * q.bb + 2.0 * (db * dc) * q.bc + dc * dc * q.cc;
-  const SimdClosest closest = closest_of(x, q, k.slide_limit > 0.0);
+  const SimdClosest closest = closest_of(x, q, false);
   return {closest.wb, closest.wc, root(closest.distance2), closest.inside};
 }
 
-PLYFORM_INLINE void store_weights(PlyPlyPoint* const* point, int count, const SimdFoot& foot,
-                                  Double4 searched_b, Double4 searched_c) {
-  store_columns(point, count, weight_row, {{foot.wb, foot.wc, searched_b, searched_c}});
+PLYFORM_INLINE void store_weights(PlyPlyPoint* const* point, int count, const SimdFoot& foot) {
+  for (int i = 0; i < count; ++i)
+    point[i]->w[0] = foot.wb[i], point[i]->w[1] = foot.wc[i];
 }
 
 /// Closest points of the first `count` of four points on any of their faces. Updates the members
@@ -145,7 +135,6 @@ PLYFORM_INLINE void store_weights(PlyPlyPoint* const* point, int count, const Si
 PLYFORM_INLINE SimdFoot closest_on_any_face(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
                                             int count, bool edges) {
   Double4 best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
-  Double4 plane_b = all(0.0), plane_c = all(0.0);
   Long4 face{-1, -1, -1, -1};
   Long4 inside{0, 0, 0, 0};
   for (int i = 0;; ++i) {
@@ -168,12 +157,11 @@ PLYFORM_INLINE SimdFoot closest_on_any_face(const PlyPlyKernelContact& k, PlyPly
     best2 = closer ? q.distance2 : best2;
     limit = (1.0 + same_distance) * root(best2) + k.max_displacement; // with equally close faces
     wb = chosen ? q.wb : wb, wc = chosen ? q.wc : wc;
-    plane_b = chosen ? plane.wb : plane_b, plane_c = chosen ? plane.wc : plane_c;
     face = chosen ? at : face;
     inside = chosen ? q.inside : inside;
   }
   const SimdFoot foot{wb, wc, root(best2), inside};
-  store_weights(point, count, foot, plane_b, plane_c);
+  store_weights(point, count, foot);
   for (int lane = 0; lane < count; ++lane) {
     if (face[lane] >= 0 && point[lane]->face != face[lane]) {
       point[lane]->face = static_cast<std::int32_t>(face[lane]);
@@ -183,20 +171,17 @@ PLYFORM_INLINE SimdFoot closest_on_any_face(const PlyPlyKernelContact& k, PlyPly
   return foot;
 }
 
-/// Mask of the points whose faces need no search. Either no other face can be closer: those that
-/// share a node with the point's face by contact/search/fold_bound.hpp, the others because of their
-/// distance at the search and the relative motion since. Or the point has slid by less than
-/// slide_limit since its faces were searched: a face across an edge can then be closer by no more
-/// than slide_limit times the fold angle (contact/forces/ply_ply.hpp). interiors_only: mask of the
-/// points for which only a face across one edge may be closer, and only with its interior.
+/// Mask of the points whose faces need no search, as no other face can be closer: those that share
+/// a node with the point's face by contact/search/fold_bound.hpp, the others because of their
+/// distance at the search and the relative motion since. interiors_only: mask of the points for
+/// which only a face across one edge may be closer, and only with its interior.
 PLYFORM_INLINE Long4 settled_of(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
                                 const SimdFoot& foot, const SimdClearance& clear,
                                 Long4& interiors_only) {
   const Double4 other{point[0]->other, point[1]->other, point[2]->other, point[3]->other};
   const Long4 others_further = other - k.max_displacement > foot.distance;
   interiors_only = others_further & foot.inside & clear.of_corners;
-  return (interiors_only & clear.of_edges) |
-         (others_further & (clear.slid2 < k.slide_limit * k.slide_limit));
+  return interiors_only & clear.of_edges;
 }
 
 } // namespace

@@ -22,7 +22,6 @@ struct PlyPlyKernelContact {
   double *slave_force, *master_force;
   double max_displacement; ///< mm, RelativeMotion::max_displacement
   double path_length;      ///< mm (contact/search/active_list.hpp)
-  double slide_limit;      ///< mm, as of PlyPlyContact, or 0 in steps of a full search
   double distance, stiffness, tangential,
       friction;                 ///< h, k, k_t, mu of contact/forces/contact_law.hpp
   double max_depth, per_depth2; ///< delta and 1/delta^2 of it; finite

@@ -69,9 +69,10 @@ struct TensionFit {
 /// Law of shear from extension (mm) and load (N) of a test. Uses the fabric's densities and fibre
 /// angle, which must be 90 degrees, and its in-plane bending, whose share of the load of a
 /// bias-extension test is subtracted (it depends on the law found, by iteration). Reports an error
-/// and returns nothing if the curve violates check_curve, reaches 90 degrees, covers too little (two
-/// rows per coefficient, 5 degrees), cannot be fitted to within 20 %, or gives a torque that is
-/// negative or decreases within its range. Throws std::invalid_argument for options out of range.
+/// and returns nothing if the curve violates check_curve, reaches 90 degrees, covers too little
+/// (two rows per coefficient, 5 degrees), cannot be fitted to within 20 %, or gives a torque that
+/// is negative or decreases within its range. Throws std::invalid_argument for options out of
+/// range.
 std::optional<ShearFit> identify_shear(Curve curve, const ShearTest& test, const Fabric& fabric,
                                        const FitOptions& options, Diagnostics& diagnostics);
 

@@ -143,8 +143,8 @@ void describe_wrinkles(const Scene& s, Lines& lines) {
   }
 }
 
-/// Warns if facets may penetrate a tool between nodes by more than half the ply's thickness, for the
-/// ply with the deepest penetration.
+/// Warns if facets may penetrate a tool between nodes by more than half the ply's thickness, for
+/// the ply with the deepest penetration.
 void describe_cut(const Scene& s, const ToolState& tool, Lines& lines) {
   constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
   const double radius = smallest_radius(tool.body.shape);

@@ -15,7 +15,7 @@ void renew_stable_step(Scene& scene, ThreadPool& pool);
 bool contacts_deepened(const Scene& scene);
 
 /// Sets SceneProgress::next_dt: the stable time step, or a shorter one in which, at its present
-/// speed, no contact uses more than half of its remaining depth (ContactTotals::step_ratio).
+/// speed, no contact uses more than step_share of its remaining depth (ContactTotals::step_ratio).
 void set_step(Scene& scene);
 
 } // namespace plyform

@@ -86,6 +86,8 @@ def case_text(count: int, seed: int, size: float, fabric=FABRIC.name,
 
 
 def stack_run(count: int, seed: int, size: float, friction: float | str,
-              yarns: tuple[tuple[str, float], ...] = ()) -> Run:
-    return Run(f"stack_{count}_{seed}", f"{count} {'ply' if count == 1 else 'plies'}, seed {seed}",
-               text=case_text(count, seed, size, friction=friction), yarns=yarns, stroke_mm=PUNCH)
+              yarns: tuple[tuple[str, float], ...] = (), self_contact: bool = False) -> Run:
+    label = f"{count} {'ply' if count == 1 else 'plies'}, seed {seed}"
+    return Run(f"stack_{count}_{seed}", label + (", contact.self on" if self_contact else ""),
+               text=case_text(count, seed, size, friction=friction), yarns=yarns, stroke_mm=PUNCH,
+               settings=('contact.self="on"',) if self_contact else ())

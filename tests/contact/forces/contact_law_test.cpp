@@ -43,11 +43,11 @@ TEST(ContactLaw, PressureIsTheSlopeOfTheEnergyAndHasNoEndBeforeItsLimit) {
   EXPECT_EQ(law.tangent(-0.1), k);
 }
 
-TEST(ContactLaw, NextStepLeavesHalfOfTheRoom) {
+TEST(ContactLaw, NextStepUsesItsShareOfTheRoom) {
   constexpr double limit = 0.1;
   const ContactLaw law{k, 0.0, 0.0, limit};
-  EXPECT_DOUBLE_EQ(step_ratio(law, 0.06, 0.01), 0.5 * 0.04 / 0.01);
-  EXPECT_DOUBLE_EQ(step_ratio(law, -0.02, 0.01), (0.02 + 0.5 * limit) / 0.01);
+  EXPECT_DOUBLE_EQ(step_ratio(law, 0.06, 0.01), step_share * 0.04 / 0.01);
+  EXPECT_DOUBLE_EQ(step_ratio(law, -0.02, 0.01), (0.02 + step_share * limit) / 0.01);
   EXPECT_TRUE(std::isinf(step_ratio(law, 0.06, -0.01))); // it opens
   EXPECT_EQ(step_ratio(law, 2.0 * limit, 0.01), 0.0);
 }

@@ -210,8 +210,8 @@ TEST(EdgeEdgeContact, TellsHowMuchLongerTheNextStepMayBe) {
   for (Vec3& x : a.x)
     x.z() -= 0.01;
   press(contact, a, b, 0.0);
-  // 0.01 mm from touching, closing by 0.01 mm a step: to half of the depth limit
-  EXPECT_NEAR(contact.sums.step_ratio, (0.01 + 0.25 * distance) / 0.01, 1e-9);
+  // 0.01 mm from touching, closing by 0.01 mm a step: to the share of the depth limit
+  EXPECT_NEAR(contact.sums.step_ratio, (0.01 + step_share * law.max_depth) / 0.01, 1e-9);
 }
 
 /// A strip of two columns of cells of 10 mm along x, bent back over itself at x = 20: its two

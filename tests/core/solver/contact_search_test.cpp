@@ -20,7 +20,6 @@ constexpr double rounding = 1e-11; // mm, of two ways to a distance at 100 mm fr
 /// Pairs looked at that touch.
 struct Touching {
   long plies = 0, tools = 0;
-  double late = 0.0; ///< mm, furthest that a gap was above that of the nearest face
 };
 
 /// Distance (mm) of every face of a ply to a point, by asking each.
@@ -33,8 +32,8 @@ std::vector<double> distances(const PlyState& master, const Vec3& p) {
 }
 
 /// Every face within contact distance of a slave node belongs to one of its points, and the nearest
-/// one tells that node's gap, or one that is further by no more than `late` (mm).
-void expect_all_faces(const Scene& s, const PlyContact& pair, double late, Touching& touching) {
+/// one tells that node's gap.
+void expect_all_faces(const Scene& s, const PlyContact& pair, Touching& touching) {
   const PlyState& slave = s.plies[pair.slave];
   const PlyState& master = s.plies[pair.master];
   const double h = 0.5 * (slave.thickness + master.thickness);
@@ -58,9 +57,7 @@ void expect_all_faces(const Scene& s, const PlyContact& pair, double late, Touch
     }
     if (nearest > h) continue;
     ++touching.plies;
-    ASSERT_GE(gap, nearest - h - rounding) << slave.name << " node " << n;
-    ASSERT_LE(gap, nearest - h + late + rounding) << slave.name << " node " << n;
-    touching.late = std::max(touching.late, gap - (nearest - h));
+    ASSERT_NEAR(gap, nearest - h, rounding) << slave.name << " node " << n;
   }
 }
 
@@ -87,11 +84,8 @@ void expect_all_nodes(const Scene& s, const ToolState& tool, Touching& touching)
   }
 }
 
-/// Steps the scene to its end and looks at it every so often. late: as of expect_all_faces; 0: no
-/// point rests on its face.
-Touching follow(Scene& s, int every, double late = 0.0) {
-  for (PlyContact& pair : s.ply_contacts)
-    if (late == 0.0) pair.contact.slide_limit = 0.0;
+/// Steps the scene to its end and looks at it every so often.
+Touching follow(Scene& s, int every) {
   ThreadPool pool(1);
   start(s, pool);
   Touching touching;
@@ -103,7 +97,7 @@ Touching follow(Scene& s, int every, double late = 0.0) {
     if (s.step % every == 0) {
       ++looks;
       for (const PlyContact& pair : s.ply_contacts)
-        if (pair.slave != pair.master) expect_all_faces(s, pair, late, touching);
+        if (pair.slave != pair.master) expect_all_faces(s, pair, touching);
       for (const ToolState& tool : s.tools)
         expect_all_nodes(s, tool, touching);
       if (::testing::Test::HasFailure()) {
@@ -139,30 +133,17 @@ TEST(ContactSearch, NoPairIsAbsentWhileAStackIsDrawn) {
   }
 }
 
-/// Points that rest on their face see the next one late: slid by `rest` past an edge, by that times
-/// the fold, of up to some 0.5 rad where 20 mm elements go over the die, and once more that for
-/// what the fold has changed since all looked.
-TEST(ContactSearch, RestingPointsAreHardlyLate) {
-  Scene s = drawn_stack({0.0, 0.785});
-  const double slide_limit = s.ply_contacts[0].contact.slide_limit;
-  ASSERT_GT(slide_limit, 0.0);
-  const Touching touching = follow(s, 61, slide_limit);
-  EXPECT_GT(touching.plies, 1000);
-  EXPECT_GT(touching.late, 0.0); // some did rest
-  RecordProperty("late_mm", fmt::format("{:.2g}", touching.late));
-  fmt::print("late by {:.2g} mm at most, of {:.2g} mm slid\n", touching.late, slide_limit);
-}
-
-/// A face seen late is closer than the one before, so that each such switch adds energy: little, in
-/// a stack of coarse plies drawn over small radii.
-TEST(ContactSearch, RestingPointsKeepTheLedger) {
+/// A face seen late is closer than the one before, and each such change adds energy. Coarse plies
+/// drawn over small radii show it most: 0.24 % of the balance, and 0.75 % if points near a side
+/// kept their face until they have slid by 1/500 of the contact distance.
+TEST(ContactSearch, FacesSeenInTimeKeepTheEnergy) {
   const PreparedCase reading = prepare_case(
       PLYFORM_CASES "/stability/five_plies.toml", // yarns that carry tension only are held least
       {{"fabrics.glass", "../fabrics/glass_plain_weave_paper.toml"}});
   ASSERT_TRUE(reading.value);
   const RunResult run = run_case(*reading.value, 1, {});
   ASSERT_TRUE(ended(run.summary.status)) << run.summary.message;
-  EXPECT_LE(std::abs(run.last.energy.balance_error()), 0.02);
+  EXPECT_LE(std::abs(run.last.energy.balance_error()), 0.005);
 }
 
 /// The second ply is of the second blank; all lie on a floor, of little friction.
