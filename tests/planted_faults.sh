@@ -28,7 +28,7 @@ faults=(
   "plies touch each other at half their thickness | core/solver/scene.cpp | s/0.5 \* (slave.thickness + master.thickness)/0.25 * (slave.thickness + master.thickness)/"
   "plies touch tools at half their half thickness | core/solver/scene.cpp | s/half_thickness = 0.5 \* plies\[p\].thickness/half_thickness = 0.25 * plies[p].thickness/"
   "depth between plies has no limit | core/solver/scene.cpp | s/deepest_in_ply \* pair.contact.distance/1e9/"
-  "contacts close by any way in a step | core/solver/time_step.cpp | s/std::min(s.stable_dt, s.dt \* ratio)/s.stable_dt/"
+  "contacts close by any way in a step | core/solver/time_step.cpp | s/std::min(ratio, largest_growth)/largest_growth/"
   "the stable step takes contacts for as soft as shallow ones | contact/forces/contact_law.hpp | s/return {law.tangent(depth_ahead(law, depth)), law.damping};/return {law.stiffness, law.damping};/"
   "every other edge is not looked at | contact/forces/edge_search.cpp | s/for (const std::int32_t other : near) {/for (const std::int32_t other : near) { if (other % 2 == 1) continue;/"
   "edges push towards each other | contact/forces/edge_edge.cpp | s/return pair.side \* d.normal.normalized();/return -pair.side * d.normal.normalized();/"
