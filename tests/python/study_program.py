@@ -29,7 +29,7 @@ def run(words: list[str], settings: list[str]) -> int:
     while "hang" in order:
         time.sleep(0.02)
     if "fail" in order:
-        print("made-up trouble")
+        print("made-up trouble", flush=True)
         os.abort()
     numbers = {key: float(value) for key, value in (one.split("=", 1) for one in settings)
                if value.replace(".", "").isdigit()}
