@@ -97,7 +97,8 @@ def read_state(folder: Path, field: Field, frame: int = -1, tools: bool = False)
 
 def names(file: h5py.File, bodies: str) -> list[str]:
     """Of "plies", from the bottom of the stack, "tools" or "boundaries"."""
-    return [name.decode() for name in file.attrs[bodies]]
+    # texts of any length in files of layout 1
+    return [name if isinstance(name, str) else name.decode() for name in file.attrs[bodies]]
 
 
 def state_of(file: h5py.File, folder: Path, field: Field, frame: int, tools: bool) -> State:
