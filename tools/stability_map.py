@@ -52,7 +52,7 @@ DEFAULTS = {STEP: 0.5, STIFFNESS: 0.1, DAMPING: 0.2, FRICTION: 0.2, SKIN: 0.5}
 CASES = {"one_ply.toml": "1 ply", "case.toml": "2 plies", "five_plies.toml": "5 plies"}
 LARGEST_JUMP = 0.1  # of the blank-holder's force
 REASONS = {"gone through": "P", "went through": "P", "below the surface": "P", "balance": "B",
-           "not finite": "N", "overlap": "X", "collapsed": "C"}
+           "not finite": "N", "overlap": "X", "collapsed": "C", "squeezed": "S"}
 
 
 @dataclass

@@ -11,8 +11,8 @@ from plotting import looks  # noqa: F401  chooses the backend
 
 COLOURS = {"stable": "#A6DBC8", "chatters": "#E69F00", "stopped": "#D55E00", "refused": "#C8C8C8"}
 STATES = list(COLOURS)
-LETTERS = ("P: a node went half through a ply   X: plies cross at the end   "
-           "B: energy balance   N: not finite   C: a triangle collapsed   T: took too long")
+LETTERS = ("P: a node half through a ply   X: plies cross   S: squeezed   B: energy balance   "
+           "N: not finite   C: a triangle collapsed   T: took too long")
 
 
 def place(values: list[float], value: float) -> float:
