@@ -118,15 +118,6 @@ SharedFrame read_state(const std::filesystem::path& file, long index) {
   return frame;
 }
 
-FieldDifference difference_of(const Frame& run, const Frame& reference, const std::string& field) {
-  for (const auto& column : cell_scalars)
-    if (field == column.name) return field_difference(run, reference, column.values);
-  std::string names;
-  for (const auto& column : cell_scalars)
-    names += std::string(names.empty() ? "" : ", ") + column.name;
-  throw py::value_error("field: " + field + " is no field of triangles; there are " + names);
-}
-
 } // namespace
 
 void bind_frames(py::module_& m) {
@@ -172,7 +163,9 @@ void bind_frames(py::module_& m) {
           "For each ply float64, (n,): a less b at the nodes of b.");
   m.def("read_frame", &read_state, py::arg("file"), py::arg("index"),
         "A state of results.h5: from 0, or -1 for the last. Raises Error.");
-  m.def("difference", &difference_of, py::arg("a"), py::arg("b"), py::arg("field"),
+  m.def("difference",
+        py::overload_cast<const Frame&, const Frame&, const std::string&>(&field_difference),
+        py::arg("a"), py::arg("b"), py::arg("field"),
         "Difference of a field of triangles, a less b. Raises Error, ValueError.");
 }
 

@@ -202,6 +202,17 @@ FieldDifference field_difference(const Frame& run, const Frame& reference,
   return result;
 }
 
+FieldDifference field_difference(const Frame& run, const Frame& reference,
+                                 const std::string& field) {
+  for (const auto& column : cell_scalars)
+    if (field == column.name) return field_difference(run, reference, column.values);
+  std::string names;
+  for (const auto& column : cell_scalars)
+    names += (names.empty() ? "" : ", ") + std::string(column.name);
+  throw std::invalid_argument(
+      fmt::format("{} is no field of triangles; there are {}", field, names));
+}
+
 FieldError shear_error(const Frame& run, const Frame& reference) {
   return field_difference(run, reference, &PlyFrame::shear_deg).error;
 }

@@ -5,6 +5,7 @@
 
 #include "core/results/frame.hpp"
 
+#include <string>
 #include <vector>
 
 namespace plyform {
@@ -29,6 +30,11 @@ struct FieldDifference {
 /// plies.
 FieldDifference field_difference(const Frame& run, const Frame& reference,
                                  std::vector<double> PlyFrame::*field);
+
+/// The same of a field by its name in results.h5, shear_angle_deg say. Throws
+/// std::invalid_argument, which lists the names, if plies have no such field.
+FieldDifference field_difference(const Frame& run, const Frame& reference,
+                                 const std::string& field);
 
 /// A value of each triangle made one of each node: the mean over the triangles around it, weighted
 /// by their areas before forming. On the rim this is the value a third of a side or so inside.

@@ -47,6 +47,11 @@ expect 0 'results/hemisphere_0' run cases/hemisphere_0/ "${short[@]}"
 expect 0 'results/hemisphere_45' run cases/hemisphere_45/case.toml "${short[@]}"
 expect 0 'ply.vtu' export results/hemisphere_0
 expect 1 'results.h5' export nosuch
+expect 0 'shear_angle_deg,0,0,0,0,0' difference results/hemisphere_0 results/hemisphere_0
+expect 0 'warp_strain,0' difference results/hemisphere_0 results/hemisphere_0 --field warp_strain
+expect 1 'shear is no field of triangles; there are shear_angle_deg' \
+  difference results/hemisphere_0 results/hemisphere_0 --field shear
+expect 1 'nosuch/results.h5' difference results/hemisphere_0 nosuch
 for name in hemisphere_0 hemisphere_45; do
   [ -s "results/$name/summary.json" ] || { echo "no results/$name"; failures=$((failures + 1)); }
 done

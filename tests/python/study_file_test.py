@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Of tools/study what runs nothing: study files and their mistakes, plans, differences of fields.
+"""Of tools/study what runs nothing: study files and their mistakes, plans.
 
     study_file_test.py TOOLS_FOLDER CASES_FOLDER PLYFORM
 
@@ -11,10 +11,7 @@ from pathlib import Path
 from study_scene import CASE, FRICTION, Scene, call, check_all, program  # puts tools/ on the path
 
 import numpy as np
-import plot_folders
-from plotting.reading import Ply, State
 from studies import plan, study_file
-from studies.difference import difference
 
 
 def planned(scene: Scene, study: str) -> list:
@@ -115,28 +112,5 @@ def check_mistakes(folder: Path) -> None:
     assert told.code == 1 and told.err.count("\n") <= 1 and "nothing.toml" in told.err, told
 
 
-def state(cells: int, field) -> State:
-    x0, triangles = plot_folders.grid(cells, 100.0)
-    place = x0[triangles].mean(axis=1)
-    return State(Path(), 1.0, [Ply("ply", 0.0, x0, x0, triangles, field(place))], [])
-
-
-def check_difference(_folder: Path) -> None:
-    """A constant is told on any meshes; a slope, wrong at the rim only, on fine ones."""
-    flat = difference(state(7, lambda at: 0 * at[:, 0] + 3.0), state(10, lambda at: 0 * at[:, 0]))
-    assert all(abs(value - 3.0) < 1e-12 for value in flat.values()), flat
-
-    def slope(at):
-        return 0.1 * at[:, 0]
-    assert difference(state(8, slope), state(8, slope))["max"] == 0.0
-    coarse, fine = (difference(state(n, slope), state(3 * n, slope)) for n in (10, 40))
-    assert fine["max"] < 0.3 * coarse["max"] and fine["rms"] <= fine["p99"] <= fine["max"]
-    outside = state(6, slope)  # a smaller sheet: beyond its rim, what its rim has
-    outside.plies[0].x0 = 0.9 * outside.plies[0].x0
-    beyond = difference(outside, state(6, lambda at: 0 * at[:, 0]))
-    rim = abs(outside.plies[0].value).max()
-    assert 0.5 * rim < beyond["max"] <= rim, (beyond, rim)
-
-
 if __name__ == "__main__":
-    check_all(check_difference, check_plans, check_mistakes)
+    check_all(check_plans, check_mistakes)

@@ -36,6 +36,11 @@ struct SpecimenArguments {
   double side = std::numeric_limits<double>::quiet_NaN();   ///< mm, frame
 };
 
+struct DifferenceArguments {
+  std::string run, reference;      ///< folders with results.h5
+  std::vector<std::string> fields; ///< of triangles, by their names in results.h5
+};
+
 struct IdentifyArguments {
   std::string test; ///< bias, frame, warp or weft
   std::string curve, x_column, y_column;
@@ -61,6 +66,7 @@ int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);
 /// Returns only if the script cannot be called.
 int chart_command(const std::vector<std::string>& arguments);
+int difference_command(const DifferenceArguments& arguments);
 int keys_command(bool markdown);
 int identify_command(const IdentifyArguments& arguments);
 int theory_command(const TheoryArguments& arguments);

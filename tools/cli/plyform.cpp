@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line: plyform run | check | chart | export | identify | theory | keys | version.
+// The command line: plyform run | check | chart | export | difference | identify | theory | keys |
+// version.
 #include "core/base/version.hpp"
 #include "core/results/export.hpp"
 #include "core/results/result_writer.hpp"
@@ -40,6 +41,7 @@ struct Arguments {
   RunArguments run;
   CaseArguments check;
   std::string results; ///< folder to export
+  DifferenceArguments difference{{}, {}, {"shear_angle_deg"}};
   IdentifyArguments identify;
   TheoryArguments theory;
   bool markdown = false; ///< keys as a page
@@ -77,6 +79,17 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
   CLI::App* results = app.add_subcommand("export", "write the last state in other formats");
   results->add_option("results", to.results, "folder of a run")->required();
   commands.push_back({results, [&to] { return export_command(to.results); }});
+
+  CLI::App* difference = app.add_subcommand(
+      "difference", "say how far the last state of a run is from that of another, on any meshes");
+  difference->add_option("run", to.difference.run, "folder of a run")->required();
+  difference->add_option("reference", to.difference.reference, "folder of the run to compare with")
+      ->required();
+  difference
+      ->add_option("--field", to.difference.fields, "column of plies/NAME.csv; may be given again")
+      ->allow_extra_args(false)
+      ->take_all();
+  commands.push_back({difference, [&to] { return difference_command(to.difference); }});
 
   CLI::App* identify =
       app.add_subcommand("identify", "turn a measured curve into a law of the fabric");

@@ -4,9 +4,10 @@
 import csv
 import json
 import math
+import subprocess
 from pathlib import Path
 
-from plotting.reading import FIELDS, Trouble, read_state
+from plotting.reading import FIELDS, Trouble
 from studies.engine import ended
 from studies.figures import figures_of
 from studies.plan import Planner, Run
@@ -49,27 +50,34 @@ def check_columns(study: Study, planner: Planner) -> None:
             study.mistakes.add(item, f"there is no {name}", f"there are {', '.join(allowed)}")
 
 
-def differences(study: Study, runs: list[Run], reference: Run | None, folder: Path) -> dict:
+def difference(program: Path, run: Path, reference: Path, fields: list[str]) -> dict:
+    """Columns of errors of these fields, by plyform itself."""
+    words = [word for field in fields for word in ("--field", FIELDS[field].dataset)]
+    told = subprocess.run([program, "difference", run, reference, *words], capture_output=True,
+                          text=True, check=False)
+    if told.returncode != 0:
+        raise Trouble(told.stderr.strip().removeprefix("plyform: error: "))
+    return {column: FIELDS[field].factor * float(numbers[kind])
+            for field, numbers in zip(fields, csv.DictReader(told.stdout.splitlines()))
+            for kind, column in error_columns(field).items()}
+
+
+def differences(study: Study, planner: Planner, runs: list[Run], folder: Path) -> dict:
     """Columns of errors by run's name; kept beside the run's results, by the reference's id."""
     fields = study.reference.fields if study.reference else []
+    reference = next((run for run in runs if run.name == planner.reference_name), None)
     if not fields or ended(folder, reference).get("status") not in SOUND:
         return {}
-    from studies.difference import difference
-    told, states = {}, {}
+    told = {}
     for run in runs:
         if run.line == "reference" or ended(folder, run).get("status") not in SOUND:
             continue
         place = folder / "runs" / run.name
         memory = place / f"difference-{reference.name.rpartition('-')[2]}.json"
         row = read_json(memory)
-        for field in fields:
-            columns = error_columns(field)
-            if columns["rms"] in row:
-                continue
-            if field not in states:
-                states[field] = read_state(folder / "runs" / reference.name, FIELDS[field])
-            found = difference(read_state(place, FIELDS[field]), states[field])
-            row |= {columns[kind]: value for kind, value in found.items()}
+        missing = [field for field in fields if error_columns(field)["rms"] not in row]
+        if missing:
+            row |= difference(planner.program, place, folder / "runs" / reference.name, missing)
             memory.write_text(json.dumps(row), encoding="utf-8")
         told[run.name] = row
     return told
@@ -98,8 +106,7 @@ def mark_front(rows: list[dict], error: str) -> None:
 
 
 def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path) -> list[dict]:
-    reference = next((run for run in runs if run.name == planner.reference_name), None)
-    errors, rows = differences(study, runs, reference, folder), []
+    errors, rows = differences(study, planner, runs, folder), []
     for run in runs:
         told = ended(folder, run)
         row = {"line": run.line, "setting": run.label,
