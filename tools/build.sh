@@ -29,7 +29,7 @@ elif [ "$target" != plyform ] && [ "$preset" != bench ] && grep -qsxF PLYFORM_TE
   fresh=add options=(-D PLYFORM_TESTS=ON)
 fi
 
-step "Packages (two minutes where all are missing, with the tests' four)"
+step "Packages (a minute or two where all are missing)"
 groups=(build)
 [ $tests = no ] || groups+=(test)
 tools/install_packages.sh "${groups[@]}"

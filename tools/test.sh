@@ -11,5 +11,17 @@ if [ "${1:-}" = --preset ]; then
   preset=${2:?--preset needs the name of a preset}
   shift 2
 fi
-tools/build.sh "$preset"
-exec ctest --preset "$preset" --parallel "$(nproc)" --no-label-summary "$@"
+
+# What the tests need only when they run is installed while they are being built. A failed build
+# waits for it too: apt must not be cut short.
+printf '== %s\n' "Packages to build with (what the tests run with follows during the build)"
+tools/install_packages.sh build test
+log=$(mktemp)
+trap 'rm -f "$log"' EXIT
+tools/install_packages.sh test-run >"$log" 2>&1 &
+built=yes
+tools/build.sh "$preset" || built=no
+wait $! || { cat "$log" >&2 && exit 1; }
+[ $built = yes ] || exit 1
+printf '== %s\n' "Tests (two cores: four minutes)"
+ctest --preset "$preset" --parallel "$(nproc)" --no-label-summary "$@"
