@@ -9,8 +9,10 @@ from plotting.looks import COLOURS, colour, finish
 from plotting.reading import FIELDS
 from studies.cost_picture import draw_cost
 from studies.plan import Planner
+from studies.plies_picture import draw_plies
 from studies.ranking import is_number
-from studies.study_file import Picture, Study
+from studies.shown import Picture
+from studies.study_file import Study
 
 SOUND = ("done", "doubtful")
 MARKS = {"stopped": "x", "failed": "+", "refused": "+"}
@@ -160,8 +162,10 @@ def draw_all(study: Study, planner: Planner, rows: list[dict], folder: Path) -> 
         if picture.kind == "cost":
             field = study.reference.fields[0]
             figure = draw_cost(study, planner, picture, rows, FIELDS[field])
+        elif picture.kind == "plies":
+            figure = draw_plies(study, picture, rows, [one.name for one in planner.vary])
         else:
             figure = {"map": draw_map, "window": draw_window,
                       "scatter": draw_scatter}[picture.kind](study, picture, rows)
-        figure.savefig(folder / picture.file, dpi=100)
+        figure.savefig(folder / picture.file, dpi=80 if picture.kind == "plies" else 100)
         plt.close(figure)
