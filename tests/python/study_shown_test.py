@@ -8,10 +8,11 @@ Leaves with 77 when a package is missing.
 """
 
 import json
+import random
 import shutil
 from pathlib import Path
 
-from study_scene import Scene, check_all  # puts tools/ on the path
+from study_scene import CASES, PLYFORM, Scene, check_all  # puts tools/ on the path
 
 import numpy as np
 import plot_folders
@@ -275,5 +276,27 @@ def check_mistakes(folder: Path) -> None:
         assert told.code == 2 and message in told.err, (after, told)
 
 
+def check_shipped(_folder: Path) -> None:
+    """Every shipped study reads without mistakes and names what its table has; the random stacks
+    are those of their seeds."""
+    files = [file for file in (CASES / "studies").rglob("*.toml") if file.name != "common.toml"]
+    assert len(files) > 20, files
+    for file in files:
+        study = study_file.read_study(file)
+        planner = plan.Planner(study, PLYFORM, "version", 1)
+        runs = planner.runs(Path("none"))
+        results.check_columns(study, planner)
+        assert not study.mistakes.told and runs, study.mistakes.texts()
+    study = study_file.read_study(CASES / "studies/real_cloth/stack_5.toml")
+    runs = plan.Planner(study, PLYFORM, "version", 1).runs(Path("none"))
+    draw = random.Random(3005)
+    angles = [round(draw.uniform(-90.0, 90.0), 1) for _ in range(5)]
+    frictions = [round(draw.uniform(0.05, 0.4), 3) for _ in range(5)]
+    wanted = [f"ply.{i}.angle={angle}" for i, angle in enumerate(angles)]
+    wanted += [f"contact.friction={frictions[0]}"]
+    wanted += [f"contact.pair.{i}.friction={value}" for i, value in enumerate(frictions[1:])]
+    assert runs[2].label == "5 plies, seed 3" and set(wanted) <= set(runs[2].settings), runs[2]
+
+
 if __name__ == "__main__":
-    check_all(check_fabric, check_verdicts, check_text, check_history, check_mistakes)
+    check_all(check_fabric, check_verdicts, check_text, check_history, check_mistakes, check_shipped)
