@@ -7,6 +7,7 @@ Leaves with 77 when a package is missing.
 """
 
 import csv
+import os
 import shutil
 import subprocess
 import sys
@@ -143,7 +144,8 @@ def check_plyform(folder: Path) -> None:
     shutil.copytree(CASES, folder / "cases")
     study, results = folder / "tiny.toml", folder / "tiny"
     study.write_text(TINY, encoding="utf-8")
-    words = [study, "--program", PLYFORM, "-o", results]
+    # seen from here, while runs are called from the study's folder of results
+    words = [os.path.relpath(study), "--program", PLYFORM, "-o", os.path.relpath(results)]
     told = call(program, *words)
     assert told.code == 0, told
     with open(results / "table.csv", newline="", encoding="utf-8") as file:

@@ -95,7 +95,7 @@ class Planner:
     def case_of(self, choice: list[tuple[Vary, tuple]]) -> Path:
         for one, row in choice:
             if CASE in one.keys:
-                path = self.study.file.parent / str(row[one.keys.index(CASE)])
+                path = (self.study.file.parent / str(row[one.keys.index(CASE)])).resolve()
                 return path / "case.toml" if path.is_dir() else path
         return self.study.case
 

@@ -211,7 +211,7 @@ def read_reference(table, study: Study) -> Reference | None:
 def case_path(reader: Reader, folder: Path) -> Path:
     text = reader.word("case", "give the case file or its folder, seen from the study file", "",
                        True)
-    path = folder / text
+    path = (folder / text).resolve()  # runs are called from another folder
     path = path / "case.toml" if path.is_dir() else path
     if text and not path.is_file():
         reader.fail("case", f"there is no file {path}",
