@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Of tools/study what it makes of results: figures, area means, limits and their verdicts, tables in
-a text, pictures of plies. The results are made up and put where runs would have left them.
+"""Of tools/study what it makes of results: figures, area means, limits and their verdicts,
+tables in a text, pictures of plies. The results are made up and put where runs would have left them.
 
     study_shown_test.py TOOLS_FOLDER CASES_FOLDER PLYFORM
 
@@ -152,7 +152,7 @@ class Shown(Scene):
 
 
 def check_fabric(folder: Path) -> None:
-    """Keys inside a fabric file: what it has is not set again, `values` and the grid are one run."""
+    """Keys inside a fabric file: what it has is not set again; `values` name a run of the grid."""
     planner, runs = Shown(folder / "fabric").plan()
     warp, weft = (f"fabrics.glass.{yarns}.compression_stiffness" for yarns in ("warp", "weft"))
     assert {label: run.settings for label, run in runs.items()} == {
@@ -178,7 +178,8 @@ def check_verdicts(folder: Path) -> None:
     assert "holds: near at most 2 (1.5 at most, 2 judged)" in told.out, told.out
     assert "holds: like at most 3 (2 at most, 2 judged)" in told.out, told.out
     row = rows["C 46, friction 0.2"]
-    assert row["against"] == "C 460, friction 0.2" and abs(float(row["area_means_deg_ply2"]) - 1.5) < 1e-8
+    assert row["against"] == "C 460, friction 0.2", row
+    assert abs(float(row["area_means_deg_ply2"]) - 1.5) < 1e-8, row
     assert float(row["deepest_mm"]) == 0.125 and float(row["tool_mm"]) == 0.08
     assert row["breaks"] == "half" and rows["turned"]["breaks"] == "", rows
     assert float(rows["turned"]["area_means_deg_ply1"]) < 1e-9  # the field is even under the turn
@@ -207,7 +208,7 @@ def check_text(folder: Path) -> None:
     scene = Shown(folder / "text")
     scene.write(STUDY + PICTURE)
     text = scene.folder / "page.md"
-    text.write_text("# Page\n\n<!-- table: study -->\n\nbetween\n\n<!-- picture: study -->\nformer\n"
+    text.write_text("# Page\n\n<!-- table: study -->\n\nbetween\n\n<!-- picture: study -->\nwas\n"
                     "<!-- end -->\n\n<!-- table: other -->\n\nkept\n\n<!-- end -->\n",
                     encoding="utf-8")
     told, _ = scene.table({"C 46, friction 0.2": {"shift": 1.5}}, "--doc", text)
@@ -219,7 +220,7 @@ def check_text(folder: Path) -> None:
                   "\n- **holds**: balance within 1 % (-0.2 to -0.2, 5 judged)\n", "\nbetween\n",
                   "![Limp and stiff](page_study.png)", "<!-- table: other -->\n\nkept\n"):
         assert filled.count(words) == 1, (words, filled)
-    assert "former" not in filled and (scene.folder / "page_study.png").stat().st_size > 5000
+    assert "\nwas\n" not in filled and (scene.folder / "page_study.png").stat().st_size > 5000
     scene.call("--table", "--doc", text)
     assert text.read_text(encoding="utf-8") == filled
     text.write_text("<!-- table: other -->\n", encoding="utf-8")
@@ -245,7 +246,7 @@ def check_history(folder: Path) -> None:
 
 
 WRONG = {
-    ('at_most = 2.0', 'at_mots = 2.0'): "study.toml:26: error: limits.near.at_mots: unknown key; did",
+    ('at_most = 2.0', 'at_mots = 2.0'): "study.toml:26: error: limits.near.at_mots: unknown key;",
     ('figure = "area_means_deg"', 'figure = "area"'): "limits.near.figure: there is no area; there",
     ('run = "turned"', 'rum = "turned"'): "limits.near.where: there is no rum; there are run, line",
     ('"common.toml"', '"none.toml"'): "study.toml:1: error: include = 'none.toml': cannot be read",
@@ -268,9 +269,9 @@ def check_mistakes(folder: Path) -> None:
     scene.write(STUDY)
     common = scene.folder / "common.toml"
     for before, after, message in (
-            ("{status}", "{state}", "common.toml:13: error: table.status: there is no state; there"),
+            ("{status}", "{state}", "common.toml:13: error: table.status: there is no state;"),
             ("crossing = 0", "crosing = 0", "common.toml:10: error: limits.crosing: there is no"),
-            ('"sum contact', '"sum of contact', "common.toml:5: error: figures.crossing: must be a")):
+            ('"sum contact', '"sum of contact', "common.toml:5: error: figures.crossing: must be")):
         common.write_text(COMMON.replace(before, after), encoding="utf-8")
         told = scene.call()
         assert told.code == 2 and message in told.err, (after, told)
@@ -299,4 +300,5 @@ def check_shipped(_folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    check_all(check_fabric, check_verdicts, check_text, check_history, check_mistakes, check_shipped)
+    check_all(check_fabric, check_verdicts, check_text, check_history, check_mistakes,
+              check_shipped)

@@ -9,15 +9,16 @@ from studies.toml_place import Mistakes
 
 KNOWN = {
     "": ("include", "title", "case", "set", "accuracy", "presets", "method", "runs", "seed",
-         "run_name", "vary", "run", "reference", "area_means", "figures", "limits", "table",
-         "picture"),
+         "run_name", "vary", "run", "reference", "area_means", "figures", "limits", "stops",
+         "table", "picture"),
     "vary": ("name", "key", "keys", "each", "values", "names", "factors", "range", "count",
              "scale"),
     "run": ("name", "values", "set", "accuracy", "against", "quarter_turns"),
     "reference": ("values", "set", "factors", "accuracy", "fields"),
     "area_means": ("radius",),
     "limits": ("figure", "at_most", "at_least", "ratio_to", "distance_to", "where", "text"),
-    "picture": ("kind", "file", "title", "x", "y", "figure", "figures", "rows")}
+    "picture": ("kind", "file", "title", "x", "y", "figure", "figures", "rows",
+                "panels", "around")}
 
 
 def is_number(value) -> bool:

@@ -2,6 +2,7 @@
 """The table of a study, a row a run, and what is made of it."""
 
 import csv
+import fnmatch
 import json
 import math
 import subprocess
@@ -13,6 +14,7 @@ from studies.engine import ended
 from studies.figures import figures_of
 from studies.plan import Planner, Run
 from studies.ranking import is_number, rank, ranking_lines
+from studies.reach import reach
 from studies.run_job import read_json
 from studies.shown import COLUMN
 from studies.study_file import Study
@@ -63,9 +65,11 @@ def check_columns(study: Study, planner: Planner) -> None:
             if getattr(one, key):
                 asked.append((f"picture.{i}.{key}", getattr(one, key), allowed))
         asked += [(f"picture.{i}.figures", name, figures) for name in one.figures]
-        asked += [(f"picture.{i}.rows", one.rows, keys)] if one.rows else []
+        asked += [(f"picture.{i}.{key}", getattr(one, key), keys) for key in ("rows", "panels")
+                  if getattr(one, key)]
     for item, name, allowed in asked:
-        if name not in allowed and not any(name.startswith(f"{one}_") for one in several):
+        if not fnmatch.filter(allowed, name) and \
+                not any(name.startswith(f"{one}_") for one in several):
             study.mistakes.add(item, f"there is no {name}", f"there are {', '.join(allowed)}")
 
 
@@ -125,6 +129,9 @@ def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path) -> li
         row |= errors.get(run.name, {})
         row |= {"message": told.get("message", "")} | means.get(run.name, {})
         rows.append(row | {"folder": f"runs/{run.name}"})
+        if study.stops:
+            rows[-1]["stop"] = next((letter for part, letter in study.stops.items()
+                                     if row["status"] == "stopped" and part in row["message"]), "")
     for row in rows if study.limits else ():
         row["breaks"] = breaks(study, row, rows)
         row["within_limits"] = int(not row["breaks"])
@@ -176,6 +183,8 @@ def tell(study: Study, planner: Planner, runs: list[Run], folder: Path,
     ranks = rank(study, [one.name for one in planner.vary], rows)
     write_csv(ranks, ["figure", "key", "effect", "standardised", "explained", "runs"],
               folder / "ranking.csv")
+    if ways := reach(study, planner, rows):
+        write_csv(ways, list(ways[0]), folder / "reach.csv")
     if study.pictures:
         from studies.pictures import draw_all
         draw_all(study, planner, rows, folder)
@@ -184,7 +193,7 @@ def tell(study: Study, planner: Planner, runs: list[Run], folder: Path,
     for word, sentence in verdicts(study, rows):
         print(f"{word}: {sentence}")
     if text:
-        fill(text, study, rows, folder)
+        fill(text, study, planner, rows, folder)
     print(f"table, ranking and pictures are in {folder}")
     lost = [row for row in rows if row["status"] in ("failed", "refused", "missing")]
     for row in rows:

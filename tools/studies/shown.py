@@ -42,6 +42,8 @@ class Picture:
     figure: str = ""
     figures: list[str] = field(default_factory=list)  # of plies
     rows: str = ""                                    # key of plies
+    panels: str = ""                                  # key of window: a plot a value
+    around: float = 0.0                               # factor of window: box about the case
 
 
 def read_figures(table, mistakes) -> dict[str, str]:
@@ -107,11 +109,11 @@ def read_limits(table, mistakes) -> dict[str, Limit]:
     return limits
 
 
-def read_table(table, mistakes) -> dict[str, str]:
-    """Template of each column by its head."""
+def read_texts(name: str, table, mistakes) -> dict[str, str]:
+    """[table], a template of each column by its head, and [stops]."""
     if not isinstance(table, dict) or not all(map(is_word, table.values())):
-        mistakes.add("table", "must be a table of texts",
-                     'write [table] and lines HEAD = "{COLUMN:FORM}"')
+        mistakes.add(name, "must be a table of texts", "write for example " + (
+            'HEAD = "{COLUMN:FORM}"' if name == "table" else '"part of a message" = "P"'))
         return {}
     return table
 
@@ -142,6 +144,12 @@ def read_picture(table: dict, number: int, study) -> Picture:
                                    True)
         one.rows = reader.word("rows", "name a vary")
     for key in {"figures", "rows"} & table.keys() if kind != "plies" else ():
+        reader.fail(key, f"a picture of kind {kind} has none", "take it out")
+    if kind == "window":
+        one.panels = reader.word("panels", "name a vary")
+        one.around = reader.get("around", lambda value: is_number(value) and value > 1,
+                                "must be a number above 1", "give the factor of the box", 0.0)
+    for key in {"panels", "around"} & table.keys() if kind != "window" else ():
         reader.fail(key, f"a picture of kind {kind} has none", "take it out")
     if kind == "cost" and study.reference is None:
         reader.fail("kind", "needs errors against a reference", "add a table [reference]", kind)

@@ -16,7 +16,7 @@ from studies.toml_place import Mistakes, lines_of
 METHODS = ("one at a time", "grid", "list", "latin hypercube", "sobol")
 DRAWN = METHODS[3:]  # from ranges, with a number of runs
 PRESETS = ("draft", "standard", "reference")
-INCLUDED = ("area_means", "figures", "limits", "table")  # what a file that is included may have
+INCLUDED = ("area_means", "figures", "limits", "stops", "table")  # of a file included
 CASE = "case"  # the key that stands for the case file itself
 
 
@@ -87,6 +87,7 @@ class Study:
     area_means: float | None = None  # mm, radius of the discs
     figures: dict[str, str] = field(default_factory=dict)
     limits: dict[str, shown.Limit] = field(default_factory=dict)
+    stops: dict[str, str] = field(default_factory=dict)  # part of a message, and its letter
     table: dict[str, str] = field(default_factory=dict)
     pictures: list[shown.Picture] = field(default_factory=list)
 
@@ -272,7 +273,8 @@ def read_shown(reader: Reader, root: dict, study: Study) -> None:
     study.area_means = shown.read_area_means(root.get("area_means"), mistakes)
     study.figures = {**shown.FIGURES, **shown.read_figures(root.get("figures", {}), mistakes)}
     study.limits = shown.read_limits(root.get("limits", {}), mistakes)
-    study.table = shown.read_table(root.get("table", {}), mistakes)
+    study.stops = shown.read_texts("stops", root.get("stops", {}), mistakes)
+    study.table = shown.read_texts("table", root.get("table", {}), mistakes)
     study.pictures = [shown.read_picture(one, i, study)
                       for i, one in enumerate(reader.tables("picture"))]
 

@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Puts a study's table, verdicts and pictures into a text in Markdown, between comments of HTML:
 
-    <!-- table: NAME -->  ...  <!-- end -->        <!-- picture: NAME -->  ...  <!-- end -->
+    <!-- table: NAME -->  ...  <!-- end -->
 
-NAME is the study file's. What stood between is replaced; a mark without an end gets one.
+or picture or reach in the place of table. NAME is the study file's. What stood between is
+replaced; a mark without an end gets one.
 """
 
 import re
@@ -13,11 +14,14 @@ from pathlib import Path
 
 from compare import table
 from plotting.reading import Trouble
+from studies import reach
+from studies.plan import Planner
 from studies.shown import COLUMN
 from studies.study_file import Study
 from studies.verdicts import columns_of, title, verdicts
 
-MARK = re.compile(r"<!-- (table|picture): (\S+) -->\n(?:(?:(?!<!--).)*?<!-- end -->\n)?", re.S)
+MARK = re.compile(r"<!-- (table|picture|reach): (\S+) -->\n"
+                  r"(?:(?:(?!<!--).)*?<!-- end -->\n)?", re.S)
 NONE = "–"
 MANY = 5  # values of a figure; of more a cell shows the range
 PLAIN = {"status": "{status}", "CPU, s": "{cpu_s:.0f}"}  # of a study without [table]
@@ -74,15 +78,17 @@ def pictures(study: Study, folder: Path, text: Path) -> str:
     return "\n\n".join(lines)
 
 
-def fill(text: Path, study: Study, rows: list[dict], folder: Path) -> None:
+def fill(text: Path, study: Study, planner: Planner, rows: list[dict], folder: Path) -> None:
     before, name = text.read_text(encoding="utf-8"), study.file.stem
     if name not in (found for _, found in MARK.findall(before)):
-        raise Trouble(f"{text} has no place for this study; write a line <!-- table: {name} --> or "
-                      f"<!-- picture: {name} -->")
+        raise Trouble(f"{text} has no place for this study; write a line <!-- table: {name} -->, "
+                      f"<!-- picture: {name} --> or <!-- reach: {name} -->")
 
     def replaced(match: re.Match) -> str:
         if match[2] != name:
             return match[0]
-        inner = pictures(study, folder, text) if match[1] == "picture" else markdown(study, rows)
+        inner = pictures(study, folder, text) if match[1] == "picture" else \
+            markdown(study, rows) if match[1] == "table" else \
+            reach.markdown(reach.reach(study, planner, rows))
         return f"<!-- {match[1]}: {name} -->\n\n{inner}\n\n<!-- end -->\n"
     text.write_text(MARK.sub(replaced, before), encoding="utf-8")
