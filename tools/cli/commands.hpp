@@ -26,7 +26,8 @@ struct CaseArguments {
 struct RunArguments {
   CaseArguments input;
   std::string output;
-  int threads = 0; ///< 0: the number of cores
+  int threads = 0;     ///< 0: the number of cores
+  bool resume = false; ///< goes on from the folder's checkpoint
 };
 
 /// A shear test: bias or frame; NaN where not given.

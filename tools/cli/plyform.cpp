@@ -60,6 +60,8 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   run->add_option("-o,--output", to.run.output, "folder for the results [results/NAME]");
   run->add_option("--threads", to.run.threads, "threads; the results do not depend on it")
       ->check(CLI::Range(1, 256));
+  run->add_flag("--resume", to.run.resume,
+                "go on where this run was killed or interrupted, with the same results");
   add_accuracy(*run, to.run.input);
   commands.push_back({run, [&to] { return run_command(to.run); }});
 
