@@ -72,7 +72,8 @@ def pictures(study: Study, folder: Path, text: Path) -> str:
     for one in study.pictures:
         name = study.file.stem if len(study.pictures) == 1 else \
             f"{study.file.stem}_{Path(one.file).stem}"
-        file = text.with_name(f"{text.stem}_{name}{Path(one.file).suffix}")
+        name = name if name.startswith(text.stem) else f"{text.stem}_{name}"
+        file = text.with_name(name + Path(one.file).suffix)
         shutil.copyfile(folder / one.file, file)
         lines.append(f"![{one.title}]({file.name})")
     return "\n\n".join(lines)
