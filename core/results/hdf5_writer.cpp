@@ -348,4 +348,8 @@ void StateFile::close() {
   if (!impl_->file.close()) fail(impl_->path, "cannot close the file");
 }
 
+void leave_hdf5_at_exit() {
+  H5dont_atexit();
+}
+
 } // namespace plyform
