@@ -239,6 +239,7 @@ void check_motions(const Case& scene, const CaseParts& parts, const std::vector<
   check_extents(check);
   if (diagnostics.errors.size() > before) return; // of another size, all else is of no use
   check_tools_apart(check);
+  if (diagnostics.errors.size() > before) return; // moved apart they have other ways
   for (std::size_t t = 0; t < scene.tools.size(); ++t) {
     if (scene.tools[t].motion == Motion::driven) check_driven(check, t);
     if (scene.tools[t].motion == Motion::force) check_pushed(check, t);
