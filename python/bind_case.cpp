@@ -125,7 +125,11 @@ void bind_case(py::module_& m) {
           },
           "PredictedError. Raises CaseError if there are mistakes.");
   bind_outlook(m);
-  m.def("prepare", &prepare_case, py::arg("file"), py::arg("overrides"),
+  const auto prepare = [](const std::filesystem::path& file,
+                          const std::vector<Override>& overrides) {
+    return prepare_case(file, overrides);
+  };
+  m.def("prepare", prepare, py::arg("file"), py::arg("overrides"),
         py::call_guard<py::gil_scoped_release>(),
         "Reads, meshes and checks a case file; overrides as (key, TOML text).");
   m.def("value_of", &value_of, py::arg("file"), py::arg("overrides"), py::arg("key"),

@@ -45,6 +45,12 @@ void check(const PolygonSoup& soup, const std::string& name) {
       fail(name, fmt::format("a coordinate of point {} is not a finite number (nan or inf); export "
                              "the mesh again",
                              i));
+  constexpr double most = 1e5; // mm, as lengths in a case
+  for (const Vec3& p : soup.points)
+    if (p.cwiseAbs().maxCoeff() > most)
+      fail(name, fmt::format("a point lies at ({:g}, {:g}, {:g}) mm, more than 100 m away; "
+                             "check the file's unit and scale",
+                             p.x(), p.y(), p.z()));
   if (soup.polygons.empty())
     fail(name, "it holds no faces; it may be truncated, or hold points or curves only: export the "
                "surface as triangles");

@@ -65,4 +65,11 @@ std::optional<std::string> read_text(const std::filesystem::path& file, std::str
   return std::string(std::istreambuf_iterator<char>(stream), {});
 }
 
+std::filesystem::path folder_of(const std::filesystem::path& file) {
+  std::error_code error;
+  if (!std::filesystem::is_symlink(file, error)) return file.parent_path();
+  const std::filesystem::path target = std::filesystem::canonical(file, error);
+  return error ? file.parent_path() : target.parent_path();
+}
+
 } // namespace plyform

@@ -18,4 +18,8 @@ std::string joined(const std::vector<std::string>& words);
 /// The content of a file, or nothing and the reason ("cannot be opened: ...").
 std::optional<std::string> read_text(const std::filesystem::path& file, std::string& reason);
 
+/// The folder that a file lies in, from which the paths in it are seen; of a symbolic link that of
+/// the file that it leads to.
+std::filesystem::path folder_of(const std::filesystem::path& file);
+
 } // namespace plyform

@@ -218,7 +218,7 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
   for (const Override& change : overrides)
     reading.overridden.insert(change.first);
   if (std::optional<TomlNode> entries = read_entries(file, overrides, diagnostics)) {
-    const std::filesystem::path folder = file.parent_path();
+    const std::filesystem::path folder = folder_of(file);
     const TableView root{&*entries, "", ""};
     Case built = build_case(root, folder, diagnostics);
     if (diagnostics.errors.empty()) {

@@ -38,6 +38,11 @@ std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<P
 void check_boundaries(const Case& scene, const CaseParts& parts, const std::vector<FlatPly>& plies,
                       const std::vector<TriMesh>& surfaces, Diagnostics& diagnostics);
 
+/// core/input/motion_checks.cpp: reports tools of a size that does not fit the plies', moving tools
+/// that begin in another one, and those that never reach a ply. surfaces as above.
+void check_motions(const Case& scene, const CaseParts& parts, const std::vector<FlatPly>& plies,
+                   const std::vector<TriMesh>& surfaces, Diagnostics& diagnostics);
+
 /// core/input/scene_checks.cpp: checks of the whole scene: blanks that cannot be
 /// meshed, plies overlapping at the start, tools inside plies, tools closer together than the
 /// stack. Returns the meshes, one per ply; none if one of them cannot be.

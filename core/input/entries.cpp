@@ -41,7 +41,7 @@ std::optional<TomlNode> read_entries(const std::filesystem::path& file,
   }
   std::optional<TomlNode> entries = parse_entries(*content, name, diagnostics);
   if (!entries) return std::nullopt;
-  const std::filesystem::path folder = file.parent_path();
+  const std::filesystem::path folder = folder_of(file);
   for (const Override& change : overrides)
     apply_override(*entries, change, folder, diagnostics);
   load_fabrics(*entries, folder, diagnostics);

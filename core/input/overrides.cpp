@@ -135,7 +135,7 @@ void apply_override(TomlNode& root, const Override& change, const std::filesyste
 
 std::filesystem::path resolve_path(const TomlNode& entry, const std::filesystem::path& folder) {
   const bool overridden = entry.at.file == override_file;
-  return (overridden ? folder : std::filesystem::path(entry.at.file).parent_path()) / entry.text;
+  return (overridden ? folder : folder_of(entry.at.file)) / entry.text;
 }
 
 void load_fabric(TomlNode& entry, const std::string& item, const std::filesystem::path& folder,

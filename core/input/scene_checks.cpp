@@ -53,6 +53,18 @@ std::optional<BlankMesh> mesh_ply(SceneCheck& check, const Ply& ply, std::set<in
   }
 }
 
+/// Warns of a mesh that cannot show how a ply forms: nothing bends or shears beside anything else.
+void warn_of_few(SceneCheck& check, const Ply& ply, const BlankMesh& mesh) {
+  constexpr std::size_t few = 4;
+  if (mesh.triangles.size() >= few) return;
+  const SourceLocation& place = check.parts.blanks[ply.blank];
+  check.diagnostics.warning(
+      place.at,
+      fmt::format("{}: has {} triangle{}, too few for a ply that forms: forces and the "
+                  "balance of energies mean nothing; give smaller elements",
+                  place.item, mesh.triangles.size(), mesh.triangles.size() == 1 ? "" : "s"));
+}
+
 /// Meshes all plies; false if one cannot be meshed.
 bool lay_plies(SceneCheck& check) {
   // the angle matters for MeshKind::fibres only
@@ -65,6 +77,7 @@ bool lay_plies(SceneCheck& check) {
     if (!meshes.contains(key)) {
       std::optional<BlankMesh> mesh = mesh_ply(check, ply, reported);
       if (!mesh) continue;
+      warn_of_few(check, ply, *mesh);
       meshes.emplace(key, std::move(*mesh));
     }
     check.plies.push_back(
@@ -169,6 +182,28 @@ void clearance_on_line(const SceneCheck& check, std::size_t tool, const Vec2& xy
   }
 }
 
+/// Whether every edge has two triangles.
+bool is_closed(const TriMesh& surface) {
+  std::map<std::pair<int, int>, int> uses;
+  for (const Triangle& t : surface.triangles)
+    for (std::size_t k = 0; k < 3; ++k)
+      ++uses[std::minmax(t[k], t[(k + 1) % 3])];
+  return std::all_of(uses.begin(), uses.end(), [](const auto& edge) { return edge.second == 2; });
+}
+
+/// Whether the tool is an open mesh that no ply would touch if its faces were turned round.
+bool inside_out(const SceneCheck& check, std::size_t tool_number) {
+  const Tool& tool = check.scene.tools[tool_number];
+  if (!std::holds_alternative<MeshShapePtr>(tool.shape) || is_closed(check.surfaces[tool_number]))
+    return false;
+  int hint = -1;
+  for (const FlatPly& ply : check.plies)
+    for (const Vec2& x : ply.mesh.x)
+      if (-tool_distance(tool, Vec3::Zero(), Vec3(x.x(), x.y(), ply.z), hint) < ply.half - touching)
+        return false;
+  return true;
+}
+
 /// Reports tools inside plies, or, if another tool is opposite, that their clearance is too small.
 void check_tools_outside(SceneCheck& check) {
   std::set<std::pair<std::size_t, std::size_t>> reported;
@@ -180,7 +215,14 @@ void check_tools_outside(SceneCheck& check) {
     const std::size_t stride = std::max<std::size_t>(1, found.lines.size() / 300);
     for (std::size_t i = 0; i < found.lines.size(); i += stride)
       clearance_on_line(check, tool, found.lines[i], least);
-    if (!std::isfinite(least.room)) {
+    if (!std::isfinite(least.room) && inside_out(check, tool)) {
+      check.tool_error(tool,
+                       fmt::format("takes the side of ply {} for its inside: its mesh is open, and "
+                                   "its faces are turned the wrong way",
+                                   check.scene.plies[found.ply].name),
+                       "turn its faces round (flip the normals) where it was made, or close it to "
+                       "a solid");
+    } else if (!std::isfinite(least.room)) {
       check.tool_error(tool,
                        fmt::format("lies inside ply {} at the start, {:.4g} mm deep at ({:.4g}, "
                                    "{:.4g}, {:.4g})",
@@ -273,6 +315,8 @@ std::vector<BlankMesh> check_scene(const Case& scene, const CaseParts& parts,
   make_surfaces(check);
   check_boundaries(scene, parts, check.plies, check.surfaces, diagnostics);
   check_tools_outside(check);
+  if (diagnostics.errors.empty())
+    check_motions(scene, parts, check.plies, check.surfaces, diagnostics);
   if (diagnostics.errors.empty()) check_end_of_stroke(check);
   std::vector<BlankMesh> meshes;
   for (FlatPly& ply : check.plies)

@@ -19,22 +19,39 @@ bool Range::holds(double x) const {
 std::string Range::text() const {
   const bool below = std::isfinite(least), above = std::isfinite(most);
   if (below && above)
-    return fmt::format("{}{}, {}{}", open_least ? '(' : '[', least, most, open_most ? ')' : ']');
-  if (below) return fmt::format("{} {}", open_least ? ">" : ">=", least);
-  if (above) return fmt::format("{} {}", open_most ? "<" : "<=", most);
+    return fmt::format("{}{:g}, {:g}{}", open_least ? '(' : '[', least, most,
+                       open_most ? ')' : ']');
+  if (below) return fmt::format("{} {:g}", open_least ? ">" : ">=", least);
+  if (above) return fmt::format("{} {:g}", open_most ? "<" : "<=", most);
   return "";
 }
 
 std::string Range::rule() const {
-  const std::string low = fmt::format("{} {}", open_least ? "greater than" : "at least", least);
-  const std::string high = fmt::format("{} {}", open_most ? "less than" : "at most", most);
+  const std::string low = fmt::format("{} {:g}", open_least ? "greater than" : "at least", least);
+  const std::string high = fmt::format("{} {:g}", open_most ? "less than" : "at most", most);
   const bool below = std::isfinite(least), above = std::isfinite(most);
   return "must be " + (below && above ? low + " and " + high : below ? low : high);
 }
 
-const Range& KeyRow::range_of(std::size_t column) const {
+std::string Range::span() const {
+  return fmt::format("{:g} to {:g}", least, most);
+}
+
+namespace {
+
+const Range& of_column(const std::vector<Range>& ranges, std::size_t column) {
   static const Range any;
   return ranges.empty() ? any : ranges[std::min(column, ranges.size() - 1)];
+}
+
+} // namespace
+
+const Range& KeyRow::range_of(std::size_t column) const {
+  return of_column(ranges, column);
+}
+
+const Range& KeyRow::usual_of(std::size_t column) const {
+  return of_column(usual, column);
 }
 
 bool KeyRow::goes_with(const std::string& choice) const {
@@ -126,6 +143,8 @@ std::string range_text(const KeyRow& row) {
   std::vector<std::string> parts;
   for (const Range& range : row.ranges)
     parts.push_back(range.text().empty() ? "any" : range.text());
+  for (const Range& range : row.usual)
+    parts.push_back("usually " + range.span());
   if (row.least_items) parts.push_back(fmt::format("{} items or more", row.least_items));
   return joined(parts);
 }

@@ -40,6 +40,7 @@ struct Range {
   bool holds(double x) const;
   std::string text() const; ///< "> 0", "[0, 1]", empty when unbounded
   std::string rule() const; ///< "must be greater than 0"
+  std::string span() const; ///< "0 to 1"; of a range with two ends
 };
 
 struct KeyRow;
@@ -63,6 +64,7 @@ struct KeyRow {
   std::string instead{};       ///< alternative key; both must not be given, and one of the two
                                ///< must be unless they have an `otherwise`
   std::vector<Range> ranges{}; ///< per column; the last one applies to all further columns
+  std::vector<Range> usual{};  ///< the same of numbers as they are used; others get a warning
   std::vector<std::string> choices{}; ///< for KeyKind::choice
   std::size_t count = 0;              ///< number of items of numbers and names; 0 = any
   std::size_t least_items = 0;        ///< smallest number of items of lists of any length
@@ -73,6 +75,7 @@ struct KeyRow {
 
   bool required() const { return fallback.empty() && otherwise.empty() && instead.empty(); }
   const Range& range_of(std::size_t column) const;
+  const Range& usual_of(std::size_t column) const;
   bool goes_with(const std::string& choice) const;
 };
 

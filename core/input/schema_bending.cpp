@@ -12,7 +12,7 @@ Rows yarn_bending_rows(const std::string& yarn) {
   return {{.key = table + ".compression_stiffness",
            .unit = "N/yarn",
            .otherwise = "0 with one ply, with two or more an estimate: 0.01 of the stiffness",
-           .ranges = {not_negative},
+           .ranges = {yarn_force_range},
            .meaning = "compressive force of one yarn divided by its shortening, at most its "
                       "stiffness in tension; 0: yarns carry tension only, and nothing is "
                       "estimated. A yarn that bends needs it. solver.fibre_softening leaves it as "
@@ -21,7 +21,7 @@ Rows yarn_bending_rows(const std::string& yarn) {
           {.key = table + ".buckling_force",
            .unit = "N/yarn",
            .otherwise = "yarns do not buckle",
-           .ranges = {not_negative},
+           .ranges = {yarn_force_range},
            .meaning = "compressive force of one yarn above which it gives way: shortening further "
                       "it takes 0.01 of its compression stiffness",
            .members = {to(&TensionLaw::buckling_force)}},
@@ -29,7 +29,8 @@ Rows yarn_bending_rows(const std::string& yarn) {
            .unit = "N mm",
            .otherwise = bending,
            .instead = "bending_table",
-           .ranges = {not_negative},
+           .ranges = {bending_range},
+           .usual = {{.least = 0.0, .most = 1e4}},
            .meaning = "moment per width divided by curvature along the " + yarn + " (N mm2/mm)",
            .members = {to(&MomentLaw::stiffness)}},
           {.key = table + ".bending_table",
@@ -37,7 +38,7 @@ Rows yarn_bending_rows(const std::string& yarn) {
            .unit = "1/mm, N",
            .otherwise = bending,
            .instead = "bending_stiffness",
-           .ranges = {not_negative, not_negative},
+           .ranges = {{.least = 0.0, .most = 1e3}, bending_range},
            .least_items = 2,
            .meaning = "[curvature along the " + yarn +
                       ", moment per width], ascending from [0, 0]; the same with minus sign for "
@@ -46,7 +47,7 @@ Rows yarn_bending_rows(const std::string& yarn) {
            .unit = "N mm",
            .otherwise = "0 with one ply, with two or more an estimate for yarns that bear "
                         "compression: zones of 2.5 cells of the weave",
-           .ranges = {not_negative},
+           .ranges = {bending_range},
            .meaning = "moment per width divided by the curvature of the " + yarn +
                       " within the cloth's surface (N mm2/mm): what makes the zones between "
                       "regions of different shear as wide as they are"}};
@@ -65,7 +66,7 @@ Rows sheet_rows() {
           {.key = "fabrics.NAME.twist_stiffness",
            .unit = "N mm",
            .otherwise = "root of the product of both bending stiffnesses (at small curvature)",
-           .ranges = {not_negative},
+           .ranges = {bending_range},
            .of = "law",
            .with = {"woven"},
            .meaning = "sum of the twisting moments per width on both cuts, over the twist of the "

@@ -11,8 +11,17 @@ namespace plyform {
 
 using Rows = std::vector<KeyRow>;
 
-inline const Range positive{.least = 0.0, .open_least = true};
-inline const Range not_negative{.least = 0.0};
+// Ranges of numbers: far beyond any use, and narrow enough for every sum to stay finite and for
+// every mesh of a tool to stay within the memory. Lengths are in mm, to 100 m.
+inline const Range length_range{.least = 1e-6, .most = 1e5};
+inline const Range length_or_zero{.least = 0.0, .most = 1e5};
+inline const Range place_range{.least = -1e5, .most = 1e5};
+inline const Range direction_range{.least = -1e9, .most = 1e9};
+inline const Range stroke_or_zero{.least = 0.0, .most = 1e5};
+inline const Range force_range{.least = 0.0, .most = 1e9};      ///< N
+inline const Range bending_range{.least = 0.0, .most = 1e7};    ///< N mm
+inline const Range yarn_force_range{.least = 0.0, .most = 1e9}; ///< N a yarn, per strain or not
+inline const Range stiffness_range{.least = 1e-6, .most = 1e9}; ///< N a yarn, of a law that has any
 
 inline void append(Rows& all, Rows part) {
   for (KeyRow& row : part)

@@ -36,6 +36,11 @@ bool check_number(const Check& check, TomlNode& value, const std::string& item,
   if (!std::isfinite(value.number)) return check.fail(value, item, "must be a finite number");
   const Range& range = check.row.range_of(column);
   if (!range.holds(value.number)) return check.fail(value, item, range.rule());
+  if (const Range& usual = check.row.usual_of(column); !usual.holds(value.number))
+    check.diagnostics.warning(
+        value.at, fmt::format("{} = {}: is unusual, usually {}{}; check number and unit", item,
+                              value.source_text, usual.span(),
+                              check.row.unit == "-" ? "" : " " + check.row.unit));
   return true;
 }
 

@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads the mesh of a blank from STL, OBJ, PLY or OFF (CGAL), as a triangle soup. Triangles are
+// Reads the mesh of a blank from STL, OBJ, PLY or OFF as a triangle soup. Triangles are
 // oriented anticlockwise and equal nodes merged (STL repeats them); any other defect is an error.
+#include "contact/shapes/polygon_file.hpp"
 #include "core/mesh/mesher_parts.hpp"
 
-#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
-#include <CGAL/IO/polygon_soup_io.h>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
-#include <fstream>
 #include <map>
 #include <numeric>
 #include <stdexcept>
@@ -24,46 +22,26 @@ constexpr double flat = 1e-6;
 /// Height over longest side below which a triangle counts as having no area.
 constexpr double thin = 1e-6;
 
-struct Soup {
-  std::vector<CGAL::Exact_predicates_inexact_constructions_kernel::Point_3> points;
-  std::vector<std::vector<std::size_t>> faces;
-};
-
 std::string text(const Vec2& p) {
   return fmt::format("({:.6g}, {:.6g})", p.x(), p.y());
 }
 
-Soup read_soup(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension)
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  if (extension != ".stl" && extension != ".obj" && extension != ".ply" && extension != ".off")
-    throw std::runtime_error("is no STL, OBJ, PLY or OFF file by its name; convert it to one");
-  if (!std::filesystem::is_regular_file(file) || !std::ifstream(file))
-    throw std::runtime_error("cannot be opened; check that it exists and may be read");
-  Soup soup;
-  if (!CGAL::IO::read_polygon_soup(file.string(), soup.points, soup.faces))
-    throw std::runtime_error("cannot be read as " + extension.substr(1) +
-                             "; check that it is whole and in that format, or export it again");
-  if (soup.faces.empty())
+void check_soup(const PolygonSoup& soup) {
+  constexpr double most = 1e5; // mm, as lengths in a case
+  if (soup.polygons.empty())
     throw std::runtime_error("holds no triangles; it may be cut short, export it again");
-  return soup;
-}
-
-void check_soup(const Soup& soup) {
   Eigen::AlignedBox3d box;
-  for (std::size_t f = 0; f < soup.faces.size(); ++f) {
-    if (soup.faces[f].size() != 3)
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
+    if (soup.polygons[f].size() != 3)
       throw std::runtime_error(fmt::format("face {} has {} corners; export the mesh as triangles",
-                                           f, soup.faces[f].size()));
-    for (const std::size_t n : soup.faces[f]) {
-      if (n >= soup.points.size())
+                                           f, soup.polygons[f].size()));
+    for (const std::size_t n : soup.polygons[f]) {
+      const Vec3& x = soup.points[n];
+      if (x.cwiseAbs().maxCoeff() > most)
         throw std::runtime_error(
-            fmt::format("face {} names node {} of {}; export it again", f, n, soup.points.size()));
-      const Vec3 x(soup.points[n].x(), soup.points[n].y(), soup.points[n].z());
-      if (!x.allFinite())
-        throw std::runtime_error(
-            fmt::format("node {} of face {} is not finite; export it again", n, f));
+            fmt::format("node {} of face {} lies more than 100 m away; check the file's "
+                        "unit, which is taken for mm",
+                        n, f));
       box.extend(x);
     }
   }
@@ -75,13 +53,13 @@ void check_soup(const Soup& soup) {
 }
 
 /// Merges equal nodes, numbers used ones in order of first use and orients triangles anticlockwise.
-BlankMesh join(const Soup& soup) {
+BlankMesh join(const PolygonSoup& soup) {
   BlankMesh mesh;
   std::map<std::pair<double, double>, std::int32_t> node;
-  for (std::size_t f = 0; f < soup.faces.size(); ++f) {
+  for (std::size_t f = 0; f < soup.polygons.size(); ++f) {
     Triangle t{};
     for (std::size_t k = 0; k < 3; ++k) {
-      const auto& p = soup.points[soup.faces[f][k]];
+      const auto& p = soup.points[soup.polygons[f][k]];
       const auto next = static_cast<std::int32_t>(mesh.x.size());
       const auto [entry, added] = node.try_emplace({p.x(), p.y()}, next);
       if (added) mesh.x.emplace_back(p.x(), p.y());
@@ -156,7 +134,7 @@ void check_one_piece(const BlankMesh& mesh, const std::vector<Edge>& edges) {
 
 BlankMesh blank_from_file(const std::filesystem::path& file) {
   try {
-    const Soup soup = read_soup(file);
+    const PolygonSoup soup = read_polygons(file);
     check_soup(soup);
     BlankMesh mesh = join(soup);
     const std::vector<Edge> edges = checked_edges(mesh);

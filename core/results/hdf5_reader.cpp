@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads a whole frame of results.h5. The layout is described in docs/users/results.md.
 //
-// The file is not trusted: sizes and node numbers are checked before they are used.
+// The file is not trusted: types, sizes and node numbers are checked before they are used, and
+// numbers must be finite. HDF5 itself goes down, or never comes back, on some damaged files; hence
+// it reads in a process of its own.
+#include "core/base/helper_process.hpp"
+#include "core/results/frame_bytes.hpp"
 #include "core/results/hdf5_handles.ipp"
 #include "core/results/result_fields.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace plyform {
 
@@ -39,6 +44,19 @@ struct Reader {
     return H5Lexists(file, where.c_str(), H5P_DEFAULT) > 0;
   }
 
+  /// Throws unless a type of the file is that of numbers: converting any other may do anything.
+  void expect_numbers(const std::string& where, const Handle& type) const {
+    const H5T_class_t kind = H5Tget_class(type.id());
+    const std::size_t size = H5Tget_size(type.id());
+    if ((kind != H5T_INTEGER && kind != H5T_FLOAT) || size == 0 || size > 8)
+      broken(where, "holds no numbers");
+  }
+
+  void expect_finite(const std::string& where, const double* values, std::size_t count) const {
+    if (!std::all_of(values, values + count, [](double x) { return std::isfinite(x); }))
+      broken(where, "holds a number that is not finite");
+  }
+
   template <class T>
   std::vector<T> dataset(const std::string& where) const {
     const Handle set(H5Dopen2(file, where.c_str(), H5P_DEFAULT), H5Dclose);
@@ -49,14 +67,15 @@ struct Reader {
     if (dimensions != (columns<T> == 1 ? 1 : 2)) broken(where, "has a wrong shape");
     H5Sget_simple_extent_dims(space.id(), size, nullptr);
     if (size[1] != columns<T>) broken(where, "has a wrong shape");
+    expect_numbers(where, Handle(H5Dget_type(set.id()), H5Tclose));
     // With a damaged header no more memory must be allocated than the file has bytes.
-    const Handle layout(H5Dget_create_plist(set.id()), H5Pclose);
-    if (H5Pget_layout(layout.id()) == H5D_CONTIGUOUS &&
-        size[0] > bytes_of_file(set.id()) / sizeof(T))
-      broken(where, "is larger than the file");
+    if (size[0] > bytes_of_file(set.id()) / sizeof(T)) broken(where, "is larger than the file");
     std::vector<T> values(size[0]);
     if (H5Dread(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)
       broken(where, "cannot be read (" + reason() + ")");
+    if constexpr (std::is_same_v<T, double>) expect_finite(where, values.data(), values.size());
+    if constexpr (std::is_same_v<T, Vec3>)
+      if (!values.empty()) expect_finite(where, values.front().data(), 3 * values.size());
     return values;
   }
 
@@ -84,6 +103,7 @@ struct Reader {
     const Handle space(H5Aget_space(found.id()), H5Sclose);
     if (H5Sget_simple_extent_npoints(space.id()) != static_cast<hssize_t>(entries))
       broken(where + ":" + name, "has a wrong shape");
+    expect_numbers(where + ":" + name, Handle(H5Aget_type(found.id()), H5Tclose));
     return found;
   }
 
@@ -92,12 +112,14 @@ struct Reader {
     const Handle found = attribute(where, name, 1);
     if (H5Aread(found.id(), memory_type<T>(), &value) < 0)
       broken(where + ":" + name, "cannot be read");
+    if constexpr (std::is_same_v<T, double>) expect_finite(where + ":" + name, &value, 1);
   }
 
   void vector(const std::string& where, const char* name, Vec3& value) const {
     const Handle found = attribute(where, name, 3);
     if (H5Aread(found.id(), memory_type<Vec3>(), value.data()) < 0)
       broken(where + ":" + name, "cannot be read");
+    expect_finite(where + ":" + name, value.data(), 3);
   }
 
   std::vector<std::string> texts(const std::string& where, const char* name) const {
@@ -170,15 +192,9 @@ BoundaryFrame read_boundary(const Reader& in, const std::string& group, const st
   return boundary;
 }
 
-} // namespace
-
-Frame read_frame(const fs::path& path, long index) {
+/// Reads it in this process.
+Frame read_here(const fs::path& path, long index) {
   const QuietErrors quiet;
-  std::error_code error;
-  if (!fs::exists(path, error))
-    throw std::runtime_error(
-        fmt::format("{}: no such file: give the result folder of a run (plyform run CASE -o DIR)",
-                    path.string()));
   const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
   if (!file.valid()) fail(path, "cannot be opened as results of a run");
   const Reader in{path, file.id()};
@@ -212,6 +228,40 @@ Frame read_frame(const fs::path& path, long index) {
   for (const std::string& name : in.texts("/", "boundaries"))
     frame.boundaries.push_back(read_boundary(in, group, name));
   return frame;
+}
+
+/// Bytes of results.h5, and of the states that it refers to while a run is in progress.
+std::size_t size_with_states(const fs::path& path) {
+  std::error_code error;
+  std::size_t size = fs::is_regular_file(path, error) ? fs::file_size(path, error) : 0;
+  for (const fs::directory_entry& entry :
+       fs::directory_iterator(path.parent_path() / state_file(0).parent_path(), error))
+    if (entry.is_regular_file(error)) size += entry.file_size(error);
+  return size;
+}
+
+} // namespace
+
+Frame read_frame(const fs::path& path, long index) {
+  std::error_code error;
+  if (!fs::exists(path, error))
+    throw std::runtime_error(
+        fmt::format("{}: no such file: give the result folder of a run (plyform run CASE -o DIR)",
+                    path.string()));
+  const std::size_t size = size_with_states(path);
+  constexpr std::size_t slow = 20 << 20; // bytes read in a second, at the least
+  HelperLimits limits;
+  limits.seconds += static_cast<unsigned>(size / slow);
+  limits.bytes += 4 * size;
+  const HelperResult read =
+      in_helper_process([&] { return frame_to_bytes(read_here(path, index)); }, limits);
+  using End = HelperResult::End;
+  if (read.end == End::done) return frame_from_bytes(read.text);
+  if (read.end == End::refused) throw std::runtime_error(read.text);
+  throw std::runtime_error(fmt::format(
+      "{}: the file is damaged: HDF5 {}; run the case again, or take a copy of the file",
+      path.string(),
+      read.end == End::timeout ? "found no end of it" : "failed on it (" + read.text + ")"));
 }
 
 } // namespace plyform

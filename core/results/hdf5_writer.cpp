@@ -337,4 +337,8 @@ void write_merged(const fs::path& path, const StateIndex& index) {
   file.complete();
 }
 
+void leave_hdf5_at_exit() {
+  H5dont_atexit();
+}
+
 } // namespace plyform

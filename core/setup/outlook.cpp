@@ -3,7 +3,9 @@
 
 #include "core/accuracy/error_model.hpp"
 #include "core/input/bending_resolution.hpp"
+#include "core/input/motion_checks.hpp"
 #include "core/model/fabric_estimates.hpp"
+#include "core/setup/tool_cuts.hpp"
 #include "core/solver/facet_penetration.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"
@@ -68,13 +70,18 @@ std::string element_text(const Membrane& m, ElementKind asked) {
 void describe_plies(const Scene& s, Lines& lines) {
   for (const PlyState& ply : s.plies) {
     const Membrane& m = ply.membrane;
+    Box3 box;
+    for (const Vec3& x : ply.x0)
+      box.extend(x);
+    const std::string size = fmt::format("{:.4g} x {:.4g} mm at z = {:.4g}", box.sizes().x(),
+                                         box.sizes().y(), box.center().z());
     if (!m.fabric.has_yarns()) {
-      say(lines, "ply {}: {} nodes, {} triangles, sheet without yarns; {}", ply.name, ply.x.size(),
-          m.triangles.size(), bending_text(ply));
+      say(lines, "ply {}: {}, {} nodes, {} triangles, sheet without yarns; {}", ply.name, size,
+          ply.x.size(), m.triangles.size(), bending_text(ply));
       continue;
     }
-    say(lines, "ply {}: {} nodes, {} triangles, warp at {:g} degrees; {}; {}", ply.name,
-        ply.x.size(), m.triangles.size(), ply.angle * 180.0 / M_PI,
+    say(lines, "ply {}: {}, {} nodes, {} triangles, warp at {:.10g} degrees; {}; {}", ply.name,
+        size, ply.x.size(), m.triangles.size(), ply.angle * 180.0 / M_PI,
         element_text(m, s.data.solver.element), bending_text(ply));
   }
 }
@@ -143,31 +150,105 @@ void describe_wrinkles(const Scene& s, Lines& lines) {
   }
 }
 
-/// Warns if facets may penetrate a tool between nodes by more than half the ply's thickness, for
-/// the ply with the deepest penetration.
-void describe_cut(const Scene& s, const ToolState& tool, Lines& lines) {
-  constexpr double half_turn = M_PI / 4.0; // a ply drawn over by 90 degrees
-  const double radius = smallest_radius(tool.body.shape);
-  if (!std::isfinite(radius)) return;
-  const double spread = curves_both_ways(tool.body.shape) ? 2.0 / std::sqrt(3.0) : 1.0;
-  const PlyState* worst = nullptr;
-  double most = 0.5;
-  for (const PlyState& ply : s.plies) {
-    const double side = spread * longest_side(ply);
-    const double cut = cut_between_nodes(side, radius, ply.thickness, half_turn) / ply.thickness;
-    if (cut > most) most = cut, worst = &ply;
+/// Tells how deep facets may cut into a tool between nodes, if by more than half the ply's
+/// thickness, for the ply with the deepest cut. Over an edge, or with elements that are larger than
+/// what is round, that is a warning: the ply's shape is then another one. Else it is flattened
+/// there, and hardly anything is changed elsewhere: a note.
+void describe_cut(const Scene& s, std::size_t tool, Lines& lines) {
+  constexpr double round = 0.5; // of the radius
+  std::optional<CutAhead> worst;
+  const PlyState* cut_ply = nullptr;
+  std::set<std::pair<int, int>> seen;
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    if (!seen.emplace(s.data.plies[p].fabric, s.data.plies[p].blank).second) continue;
+    const std::optional<CutAhead> cut = cut_ahead(s, tool, p);
+    if (!cut || cut->depth <= 0.5 * s.plies[p].thickness) continue;
+    if (!worst || cut->depth > worst->depth) worst = cut, cut_ply = &s.plies[p];
   }
   if (!worst) return;
+  const bool sharp = worst->radius <= 0.0;
+  // measured by the depth; the tool's own where it is about that
+  if (const double own = smallest_radius(s.data.tools[tool].shape);
+      !sharp && std::abs(worst->radius - own) < 0.5 * own)
+    worst->radius = own;
   say(lines,
-      "    warning: tool {}, {}: triangles have sides up to {:.3g} mm and touch at nodes "
-      "only, so that ply {} drawn over it by 90 degrees may be cut {:.2g} mm deep between "
-      "them; sides up to {:.2g} mm keep that below half its thickness",
-      tool.name, radius > 0.0 ? fmt::format("radius {:g} mm", radius) : "sharp edge",
-      longest_side(*worst), worst->name, most * worst->thickness,
-      side_of_half_cut(radius, worst->thickness, half_turn) / spread);
+      "    {}: tool {}, {} at ({:.3g}, {:.3g}, {:.3g}): triangles have sides up to {:.3g} mm and "
+      "touch at nodes only, so that ply {} drawn over it may be cut {:.2g} mm deep between them; "
+      "sides up to {:.2g} mm keep that below half its thickness",
+      sharp || worst->depth > round * worst->radius ? "warning" : "note", s.tools[tool].name,
+      sharp ? std::string("sharp edge") : fmt::format("radius {:.3g} mm", worst->radius),
+      worst->where.x(), worst->where.y(), worst->where.z(), longest_side(*cut_ply), cut_ply->name,
+      worst->depth, worst->good_side);
 }
 
-void describe_tools(const Scene& s, Lines& lines) {
+/// "340 x 340 x 5 mm from (-170, -170, -5) to (170, 170, 0)"
+std::string extents_text(const Box3& box) {
+  const Vec3 size = box.sizes();
+  const auto point = [](const Vec3& p) {
+    return fmt::format("({:.3g}, {:.3g}, {:.3g})", p.x(), p.y(), p.z());
+  };
+  return fmt::format("{:.3g} x {:.3g} x {:.3g} mm, from {} to {}", size.x(), size.y(), size.z(),
+                     point(box.min()), point(box.max()));
+}
+
+/// Depth, as a share of what contact has, at which it is that much stiffer than at first touch.
+double share_of_stiffness(double ratio) {
+  double low = 0.0, high = 0.999;
+  for (int i = 0; i < 40; ++i) {
+    const double u = 0.5 * (low + high), q = 1.0 - u * u;
+    ((1.0 + 3.0 * u * u) / (q * q * q) < ratio ? low : high) = u;
+  }
+  return low;
+}
+
+/// Warns of a force that drives contact, where the tool first lies on a ply, so deep that it is
+/// much stiffer than the elements (contact/forces/contact_law.hpp): steps shrink with it, and where
+/// a few nodes bear more than the mean the run ends as squeezed.
+void describe_pressure(const Scene& s, std::size_t tool, const ToolWay& way, Lines& lines) {
+  constexpr double stiff = 25.0; // times the first touch: 2.5 times the stiffest element
+  const Tool& t = s.data.tools[tool];
+  const PlyState& ply = s.plies[way.first];
+  if (t.motion != Motion::force || t.force == 0.0) return;
+  double area = 0.0;
+  int hint = -1;
+  for (std::size_t n = 0; n < ply.x0.size(); ++n)
+    if (tool_distance(t, way.travel * t.direction, ply.x0[n], hint) < 1.5 * ply.thickness)
+      area += ply.membrane.node_area[n];
+  const ContactLaw& law = s.tools[tool].contacts[way.first].law;
+  const double most = area * law.pressure(share_of_stiffness(stiff) * law.max_depth);
+  if (area == 0.0 || t.force <= most) return;
+  say(lines,
+      "    warning: {:g} N on {:.3g} mm2 of ply {} are more than contact bears without getting "
+      "much "
+      "stiffer than the elements, {:.2g} N: the steps shrink, and the run may stop as squeezed, "
+      "which no stroke or speed avoids; less force, or a larger contact.stiffness",
+      t.force, area, ply.name, most);
+}
+
+/// Where a tool stands and what it meets first.
+void describe_way(const Scene& s, std::size_t tool, const std::vector<FlatPly>& plies, double reach,
+                  Lines& lines) {
+  const Tool& t = s.data.tools[tool];
+  const ToolWay way = way_of(t, tool_surface(t, element_size(s.plies[0]), reach), plies);
+  const std::string& closest = s.plies[way.closest].name;
+  std::string text = way.gap < 0.005 ? fmt::format("touches ply {}", closest)
+                                     : fmt::format("{:.3g} mm from ply {}", way.gap, closest);
+  if (t.motion != Motion::fixed && way.gap >= 0.005 && std::isfinite(way.travel))
+    text += fmt::format(", first contact with ply {} after {:.4g} mm", s.plies[way.first].name,
+                        way.travel);
+  if (bounded_tool(t)) text += "; " + extents_text(way.extents);
+  lines.push_back("    " + text);
+  if (std::isfinite(way.travel)) describe_pressure(s, tool, way, lines);
+}
+
+void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, Lines& lines) {
+  std::vector<FlatPly> plies;
+  double reach = 0.0;
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    plies.push_back(make_flat_ply(meshes[p], s.data.plies[p].z, s.plies[p].thickness));
+    for (const Vec3& x : s.plies[p].x0)
+      reach = std::max(reach, x.norm());
+  }
   for (std::size_t i = 0; i < s.tools.size(); ++i) {
     const ToolState& t = s.tools[i];
     const Motion motion = s.data.tools[i].motion;
@@ -177,7 +258,8 @@ void describe_tools(const Scene& s, Lines& lines) {
         : motion == Motion::driven ? fmt::format("driven {:g} mm", t.stroke)
                                    : fmt::format("pushed by {:g} N", t.force_on),
         std::isfinite(radius) ? fmt::format(", smallest radius {:g} mm", radius) : std::string());
-    describe_cut(s, t, lines);
+    describe_way(s, i, plies, reach + s.data.tools[i].position.norm(), lines);
+    describe_cut(s, i, lines);
   }
 }
 
@@ -254,7 +336,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   describe_plies(s, lines);
   describe_locking(s, lines);
   describe_wrinkles(s, lines);
-  describe_tools(s, lines);
+  describe_tools(s, prepared.meshes, lines);
   describe_boundaries(s, lines);
   const StepBound bound = stable_step(s, pool);
   outlook.stable_step = bound.dt;

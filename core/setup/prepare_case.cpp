@@ -3,11 +3,39 @@
 
 #include "core/accuracy/error_model.hpp"
 #include "core/base/text.hpp"
+#include "core/model/motion.hpp"
+#include "core/setup/size_ahead.hpp"
 
 #include <fmt/format.h>
+#include <thread>
 
 namespace plyform {
 namespace {
+
+std::string duration_text(double seconds) {
+  if (seconds > 2.0 * 86400.0) return fmt::format("{:.2g} days", seconds / 86400.0);
+  return seconds > 7200.0 ? fmt::format("{:.2g} hours", seconds / 3600.0)
+                          : fmt::format("{:.2g} minutes", seconds / 60.0);
+}
+
+/// Refuses a case that would take more memory or time than anybody has asked for knowingly.
+void check_size(CaseReading& reading) {
+  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  const SizeAhead size = size_ahead(*reading.value, cores);
+  const double memory = machine_memory();
+  if (!too_large(size, memory)) return;
+  const SourceLocation& blank = reading.parts.blanks[static_cast<std::size_t>(size.largest)];
+  reading.errors.push_back(
+      {blank.at.file, blank.at.line, blank.at.column, blank.item + ".element_size",
+       fmt::format("{:g}",
+                   reading.value->blanks[static_cast<std::size_t>(size.largest)].element_size),
+       fmt::format("makes {:.2g} triangles of all plies: about {:.2g} GB of memory, of {:.2g} GB "
+                   "here, and {} of computing",
+                   size.triangles, size.bytes / 1e9, memory / 1e9, duration_text(size.seconds)),
+       "choose larger elements, a shorter solver.duration or more solver.fibre_softening, or go on "
+       "with --yes-large"});
+  reading.value.reset();
+}
 
 /// Which cost parameters overrides have set, and the keys of these overrides.
 std::pair<FixedParameters, std::vector<std::string>>
@@ -34,6 +62,12 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
   picked.reading = read_case(file, overrides);
   if (!picked.reading.value) return picked;
   const auto [fixed, keys] = parameters_set(picked.reading.overridden);
+  if (picked.reading.value->accuracy.shear_error > 0.0 &&
+      longest_strokes(*picked.reading.value).longest() == 0.0) {
+    picked.notes.emplace_back("accuracy asked for: it does nothing, since nothing is driven by a "
+                              "stroke, by which duration, softening and mesh would be picked");
+    return picked;
+  }
   picked.coarsening = pick_cost_parameters(*picked.reading.value, fixed);
   if (picked.reading.value->accuracy.shear_error > 0.0 && !keys.empty())
     picked.notes.push_back(
@@ -42,9 +76,10 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
   return picked;
 }
 
-PreparedCase prepare_case(const std::filesystem::path& file,
-                          const std::vector<Override>& overrides) {
+PreparedCase prepare_case(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                          CaseSize size) {
   PickedCase picked = pick_case(file, overrides);
+  if (picked.reading.value && size == CaseSize::sensible) check_size(picked.reading);
   PreparedCase prepared;
   if (picked.reading.value) prepared.meshes = check_case(picked.reading);
   prepared.value = std::move(picked.reading.value);

@@ -29,8 +29,12 @@ struct PreparedCase {
   std::vector<std::string> notes; ///< as in PickedCase
 };
 
+/// Whether a case may be of any size, or one that is too_large (size_ahead.hpp) is an error before
+/// its blanks are meshed.
+enum class CaseSize { any, sensible };
+
 /// pick_case, check_case.
-PreparedCase prepare_case(const std::filesystem::path& file,
-                          const std::vector<Override>& overrides);
+PreparedCase prepare_case(const std::filesystem::path& file, const std::vector<Override>& overrides,
+                          CaseSize size = CaseSize::any);
 
 } // namespace plyform

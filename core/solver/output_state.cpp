@@ -38,7 +38,7 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   const PlyState& ply = scene.plies[index];
   PlyFrame f;
   f.name = ply.name;
-  f.angle_deg = ply.angle * degrees;
+  f.angle_deg = std::round(ply.angle * degrees * 1e9) / 1e9; // 30 for 29.999999999999996
   f.x0 = ply.x0;
   f.x = ply.x;
   f.triangles = ply.membrane.triangles;

@@ -16,6 +16,25 @@ expect 0 'tool[].radius' keys
 expect 1 'subcommand is required'
 expect 1 'subcommand is required' frob
 expect 1 'threads' run cases/hemisphere_0 --threads 0
+# A standard output that takes nothing is told, by every command that prints there.
+if [ -e /dev/full ]; then
+  "$program" export results_of_nothing >/dev/null 2>&1 || true
+  full=("version" "keys" "keys --markdown" "--help" "run --help" "check cases/hemisphere_0 ${short[*]}"
+    "run cases/hemisphere_0 -o full ${short[*]}" "export full" "difference full full"
+    "theory frame --side 200 --fabric cases/fabrics/glass_plain_weave.toml --to 50 -o frame.csv")
+  for arguments in "${full[@]}"; do
+    found=0
+    # shellcheck disable=SC2086
+    "$program" $arguments >/dev/full 2>message || found=$?
+    if [ "$found" != 1 ] || ! grep -qF 'standard output cannot be written' message; then
+      fail "plyform $arguments >/dev/full: exit code $found"$'\n'"$(cat message)"
+    fi
+  done
+  [ -s full/summary.json ] || fail "a run whose standard output is full has left no results"
+  "$program" run cases/hemisphere_0 -o closed "${short[@]}" >&- 2>message &&
+    fail "a run without standard output says 0"
+  "$program" export closed >exported || fail "a run without standard output has spoilt its results"
+fi
 expect 2 'nosuch:1:1' run nosuch
 expect 2 'did you mean angle' run cases/hemisphere_0 --set ply.0.angel=3
 expect 2 'KEY=VALUE' run cases/hemisphere_0 --set angle
@@ -64,6 +83,22 @@ if ! grep -q '"status": "doubtful"' doubtful/summary.json; then
   echo "the summary of a doubtful run does not say so"
   failures=$((failures + 1))
 fi
+
+# A shipped case checks without warnings, at the accuracy that it has.
+for name in hemisphere_0 hemisphere_45 hemisphere_two_ply hemisphere_five_ply square_box circular_table \
+  bias_extension picture_frame; do
+  "$program" check "cases/$name" >said 2>&1 || fail "plyform check cases/$name fails"
+  grep -q 'warning: ' said && fail "plyform check cases/$name warns: $(grep 'warning: ' said)"
+done
+expect 0 'touches ply ply; 600 x 600 x 10 mm, from (-300, -300, 0.6) to (300, 300, 10.6)' \
+  check cases/hemisphere_0
+expect 0 '20 mm from ply ply, first contact with ply ply after 20 mm' check cases/hemisphere_0 \
+  --set 'tool.0.position=[0,0,95.6]'
+expect 0 'it does nothing, since nothing is driven' check cases/circular_table --accuracy draft \
+  --set blanks.sheet.element_size=20
+expect 2 'or go on with --yes-large' check cases/hemisphere_0 --set blanks.square.element_size=0.15
+ln -s "$PWD/cases/hemisphere_0/case.toml" linked.toml
+expect 0 'the case is sound' check linked.toml "${short[@]}"
 
 # The page of keys is what the program says.
 page=$tests/../../docs/users/keys.md

@@ -79,7 +79,7 @@ def check_values(_):
     told = subprocess.run([program, "check", HEMISPHERE, "--set", "ply.0.angle=45"], check=True,
                           capture_output=True, text=True).stdout.splitlines()
     assert outlook.lines[:-1] == told[:-2] and "time" in outlook.lines[-1]
-    assert any(line.startswith("    warning: tool die") for line in outlook.lines), outlook.lines
+    assert any(line.startswith("    note: tool die") for line in outlook.lines), outlook.lines
     assert 0.0 < outlook.step_s < outlook.stable_step_s and outlook.stop == ""
     assert np.isclose(outlook.steps * outlook.step_s, 0.1) and outlook.estimated_s > 0.0
     keys = {key.key: key for key in plyform.keys()}
@@ -98,7 +98,7 @@ def check_mistakes(folder):
     assert (first.file, first.line, first.column) == (str(file), line, 1)
     assert (first.item, first.remedy) == ("ply.0.angel", "did you mean angle?"), str(first)
     assert (second.file, second.item, second.value) == ("--set", "contact.friction", "-0.1")
-    assert second.rule == "must be at least 0" and second.remedy
+    assert second.rule == "must be at least 0 and at most 10" and second.remedy
     error = raised(plyform.CaseError, plyform.run, case)
     assert error.exit_code == 2 and str(first) in str(error)
     assert len(error.mistakes) == len(case.check().mistakes)

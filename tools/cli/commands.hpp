@@ -20,6 +20,7 @@ enum ExitCode { exit_done = 0, exit_other = 1, exit_case_wrong = 2, exit_stopped
 struct CaseArguments {
   std::string file;                  ///< case.toml, or its folder
   std::vector<std::string> settings; ///< KEY=VALUE
+  bool yes_large = false;            ///< any size, however much memory and time it takes
   std::string accuracy;              ///< draft, standard, reference, or empty: that of the case
 };
 

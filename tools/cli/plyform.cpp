@@ -7,10 +7,15 @@
 #include "tools/cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
+#include <cerrno>
 #include <cstdio>
 #include <exception>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <functional>
+#include <iostream>
+#include <system_error>
+#include <unistd.h>
 
 using namespace plyform;
 
@@ -28,6 +33,8 @@ void add_case_options(CLI::App& command, CaseArguments& to) {
   command.add_option("--set", to.settings, "KEY=VALUE: overrides any key of the case")
       ->allow_extra_args(false)
       ->take_all();
+  command.add_flag("--yes-large", to.yes_large,
+                   "go on though it takes more than half of the memory, or more than a day");
 }
 
 int export_command(const std::string& directory) {
@@ -114,9 +121,48 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
                       }});
 }
 
+/// Makes descriptors 0 to 2 be there, so that no file of results gets the number of a closed
+/// standard output and with it what is printed.
+void open_standard_descriptors() {
+  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd)
+    if (fcntl(fd, F_GETFD) < 0) {
+      // the wrong way round: what is printed there fails, and is told
+      const int opened = open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+      if (opened > fd) close(opened);
+    }
+}
+
+/// The exit code, once everything that was printed has reached its end; else a message, and no code
+/// of success.
+int with_output_written(int code) {
+  errno = 0;
+  const bool flushed = std::fflush(stdout) == 0;
+  const std::string reason =
+      errno != 0 ? ": " + std::generic_category().message(errno) : std::string();
+  std::cout.flush();
+  if (flushed && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  fmt::print(stderr,
+             "plyform: error: standard output cannot be written{}; what was printed is not whole\n",
+             reason);
+  return code == exit_done ? exit_other : code;
+}
+
+int run_chosen(const std::vector<Command>& commands) {
+  try {
+    for (const Command& command : commands)
+      if (command.app->parsed()) return command.act();
+  } catch (const std::exception& e) {
+    // with_output_written tells of standard output, if that was it
+    if (std::ferror(stdout) == 0) fmt::print(stderr, "plyform: error: {}\n", e.what());
+  }
+  return exit_other;
+}
+
 } // namespace
 
 int main(int argc, char** argv) {
+  leave_hdf5_at_exit();
+  open_standard_descriptors();
   CLI::App app{"Forms stacks of woven and non-crimp fabric plies between rigid tools."};
   app.require_subcommand(1);
   app.footer(
@@ -128,13 +174,7 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return app.exit(e) == 0 ? exit_done : exit_other;
+    return with_output_written(app.exit(e) == 0 ? exit_done : exit_other);
   }
-  try {
-    for (const Command& command : commands)
-      if (command.app->parsed()) return command.act();
-  } catch (const std::exception& e) {
-    fmt::print(stderr, "plyform: error: {}\n", e.what());
-  }
-  return exit_other;
+  return with_output_written(run_chosen(commands));
 }

@@ -241,7 +241,8 @@ TEST_F(ToolMeshFile, NumbersThatAreNoneAreRejected) {
   nan.x[1].x() = std::numeric_limits<double>::infinity();
   expect_rejected(write("b.ply", binary_ply(nan)), reason);
   expect_rejected(write("word.stl", spoiled(ascii_stl(s), "4.5", "four")),
-                  "no faces could be read as stl");
+                  "line 5: 'four' is not a number");
+  expect_rejected(write("far.off", spoiled(off(s), "4.5", "4.5e9")), "more than 100 m away");
   expect_rejected(write("index.obj", spoiled(obj(s), "f 1", "f 9")), "");
 }
 

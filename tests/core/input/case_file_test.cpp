@@ -184,7 +184,7 @@ TEST(CaseFile, ReadsPlacesAndMotionsOfTools) {
   ASSERT_EQ(c.tools.size(), 8u);
   const Tool &ball = c.tools[0], &roll = c.tools[1], &block = c.tools[2], &coin = c.tools[4];
   EXPECT_EQ(ball.motion, Motion::driven);
-  EXPECT_DOUBLE_EQ(ball.stroke, 1.0);
+  EXPECT_DOUBLE_EQ(ball.stroke, 2.0);
   EXPECT_EQ(ball.direction, Vec3(0, 0, -1)); // given as (0, 0, -2)
   EXPECT_EQ(ball.position, Vec3(0, 0, 10));
   EXPECT_TRUE(ball.rotation.isIdentity(0.0));

@@ -170,7 +170,7 @@ TEST(FabricFile, ReportsMistakesWithTheirPlace) {
                                                "[warp]\nstiffness = 3.0\n[weft]\ndensity = 0.25\n");
   const std::string found = texts(read_fabric_file(file, true).errors);
   for (const char* message :
-       {"a.toml:1:19: error: surface_density = -1.0: must be greater than 0",
+       {"a.toml:1:19: error: surface_density = -1.0: must be at least 0.001",
         "a.toml:2:1: error: thicknes = 1.0: unknown key", "did you mean thickness?",
         "error: thickness: is missing", "a.toml:3:1: error: warp.density: is missing"})
     EXPECT_NE(found.find(message), std::string::npos) << message << "\nin\n" << found;

@@ -81,5 +81,26 @@ TEST(CaseKeys, HaveDefaultsThatTheReaderAccepts) {
   }
 }
 
+/// Whether the sums and squares of a run stay finite with any number of the range.
+bool bounded(const Range& range) {
+  return range.least >= -1e9 && range.most <= 1e9;
+}
+
+TEST(KeyTable, BoundsEveryNumberOnBothSides) {
+  for (const KeyRow& row : key_table()) {
+    const bool numbers = row.kind == KeyKind::number || row.kind == KeyKind::integer ||
+                         row.kind == KeyKind::numbers || row.kind == KeyKind::pairs ||
+                         row.kind == KeyKind::polygons || row.kind == KeyKind::profile;
+    if (!numbers) continue;
+    EXPECT_FALSE(row.ranges.empty()) << row.key;
+    for (const Range& range : row.ranges)
+      EXPECT_TRUE(bounded(range)) << row.key << " " << range.text();
+    for (std::size_t column = 0; column < row.usual.size(); ++column) {
+      EXPECT_TRUE(row.range_of(column).holds(row.usual[column].least)) << row.key;
+      EXPECT_TRUE(row.range_of(column).holds(row.usual[column].most)) << row.key;
+    }
+  }
+}
+
 } // namespace
 } // namespace plyform

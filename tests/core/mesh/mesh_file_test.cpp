@@ -158,14 +158,16 @@ TEST(BlankFromFile, UnusedNodesAreDropped) {
 
 TEST(BlankFromFile, UnreadableFilesAreNamed) {
   EXPECT_EQ(message_of([] { read("nowhere/blank.stl"); }),
-            "blank file nowhere/blank.stl: cannot be opened; check that it exists and may be read");
+            "blank file nowhere/blank.stl: there is no such file; check the path");
   EXPECT_EQ(message_of([] { read("nowhere/blank.step"); }),
-            "blank file nowhere/blank.step: is no STL, OBJ, PLY or OFF file by its name; convert "
-            "it to one");
+            "blank file nowhere/blank.step: the extension '.step' is none of .stl, .obj, .ply and "
+            ".off; export the mesh in one of these formats");
   EXPECT_EQ(error_of("off", "this is no mesh"),
-            "cannot be read as off; check that it is whole and in that format, or export it again");
+            "line 1: no faces could be read as off: it begins with 'this', not with OFF; export "
+            "the surface again, as three-dimensional text");
   EXPECT_EQ(error_of("obj", "# nothing\n"),
-            "cannot be read as obj; check that it is whole and in that format, or export it again");
+            "no faces could be read as obj: it is truncated, or holds other things than a surface; "
+            "export the surface again");
 }
 
 TEST(BlankFromFile, EmptyAndTruncatedFilesAreRefused) {
@@ -177,11 +179,28 @@ TEST(BlankFromFile, EmptyAndTruncatedFilesAreRefused) {
         {"stl", as_ascii_stl(mesh, 0)},
         {"off", as_off(mesh, 0)},
         {"ply", as_ply(mesh, 0)}})
-    for (const std::size_t tenths : {3u, 5u, 9u})
-      EXPECT_EQ(error_of(extension, whole.substr(0, whole.size() * tenths / 10)),
-                fmt::format("cannot be read as {}; check that it is whole and in that format, or "
-                            "export it again",
-                            extension));
+    for (const std::size_t tenths : {3u, 5u, 9u}) {
+      const std::string error = error_of(extension, whole.substr(0, whole.size() * tenths / 10));
+      EXPECT_TRUE(error.find("truncated") != std::string::npos ||
+                  error.find("stands where an STL has") != std::string::npos)
+          << extension << ": " << error;
+    }
+}
+
+TEST(BlankFromFile, ANumberThatIsNoneIsNotTakenForAnother) {
+  for (const std::string bad : {"nan", "inf", "-nan", "1e999"}) {
+    const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 10 0 0\n"
+                              "vertex 0 " +
+                              bad + " 0\nendloop\nendfacet\n";
+    EXPECT_EQ(error_of("stl", "solid a\n" + facet + "endsolid a\n"),
+              "line 6: a coordinate is not a finite number (nan or inf); export the mesh again");
+  }
+}
+
+TEST(BlankFromFile, NodesBeyondAHundredMetresAreRefused) {
+  EXPECT_EQ(error_of("off", off({{0, 0, 1}, {2e6, 0, 1}, {0, 10, 1}}, {{0, 1, 2}})),
+            "node 1 of face 0 lies more than 100 m away; check the file's unit, which is "
+            "taken for mm");
 }
 
 TEST(BlankFromFile, MustBeFlat) {

@@ -8,6 +8,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 #include <hdf5.h>
+#include <limits>
 
 namespace plyform {
 namespace {
@@ -104,6 +105,81 @@ TEST_F(ResultsExport, ExportSaysWhatItCannotReadOfOtherLayouts) {
     const double numbers[] = {1.0, 2.0};
     make(file, "plies", H5T_NATIVE_DOUBLE, 2, numbers);
   });
+}
+
+/// Puts an attribute of variable length in the place of `name` of the object `where`.
+void make_variable(const fs::path& path, const char* where, const char* name, bool numbers) {
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  ASSERT_GE(H5Adelete_by_name(file, where, name, H5P_DEFAULT), 0) << where;
+  const hid_t type = numbers ? H5Tvlen_create(H5T_NATIVE_DOUBLE) : H5Tcopy(H5T_C_S1);
+  if (!numbers) H5Tset_size(type, H5T_VARIABLE);
+  const hid_t space = H5Screate(H5S_SCALAR);
+  const hid_t made =
+      H5Acreate_by_name(file, where, name, type, space, H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+  double values[] = {1.0, 2.0, 3.0};
+  const hvl_t list{3, values};
+  const char* text = "two";
+  ASSERT_GE(H5Awrite(made, type, numbers ? static_cast<const void*>(&list) : &text), 0);
+  H5Aclose(made), H5Sclose(space), H5Tclose(type), H5Fclose(file);
+}
+
+TEST_F(ResultsExport, AttributesOfVariableLengthAreNoNumbers) {
+  for (const bool numbers : {false, true})
+    for (const auto& [where, name] :
+         {std::pair("/", "format_version"), std::pair("/plies/lower", "angle_deg"),
+          std::pair("/frames/000000", "stroke_mm"), std::pair("/frames/000000", "step"),
+          std::pair("/frames/000000/tools/punch", "force_N")}) {
+      write_run(directory, {0.5});
+      make_variable(directory / "results.h5", where, name, numbers);
+      const std::string error = error_of([&] { export_results(directory); });
+      EXPECT_TRUE(contains(error, std::string(name) + " holds no numbers")) << error;
+    }
+}
+
+TEST_F(ResultsExport, NumbersThatAreNotFiniteAreRefused) {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  write_run(directory, {0.5});
+  const Frame whole = read_last_frame(directory / "results.h5");
+  for (const double bad : {nan, std::numeric_limits<double>::infinity()}) {
+    std::vector<double> values(3 * whole.plies[0].x.size(), 1.0);
+    values[7] = bad;
+    write_run(directory, {0.5});
+    replace_dataset(directory / "results.h5", "/frames/000000/plies/lower/x", values);
+    const std::string error = error_of([&] { export_results(directory); });
+    EXPECT_TRUE(contains(error, "/frames/000000/plies/lower/x holds a number that is not finite"))
+        << error;
+    EXPECT_FALSE(fs::exists(directory / "export"));
+  }
+  write_run(directory, {0.5});
+  const hid_t file = H5Fopen((directory / "results.h5").c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  const hid_t ply = H5Gopen2(file, "/plies/lower", H5P_DEFAULT);
+  const hid_t angle = H5Aopen(ply, "angle_deg", H5P_DEFAULT);
+  ASSERT_GE(H5Awrite(angle, H5T_NATIVE_DOUBLE, &nan), 0);
+  H5Aclose(angle), H5Gclose(ply), H5Fclose(file);
+  const std::string error = error_of([&] { export_results(directory); });
+  EXPECT_TRUE(contains(error, "/plies/lower:angle_deg holds a number that is not finite")) << error;
+}
+
+/// Bytes of a file changed one after the other: each is refused with the file's name, or read, and
+/// nothing goes down or on for ever.
+TEST_F(ResultsExport, DamagedBytesAreRefusedOrRead) {
+  write_run(directory, {0.5});
+  const fs::path path = directory / "results.h5";
+  const std::string whole = content(path);
+  std::size_t refused = 0;
+  const std::size_t stride = std::max<std::size_t>(1, whole.size() / 400);
+  for (std::size_t at = 0; at < whole.size(); at += stride)
+    for (const char by : {'\xff', '\0'}) {
+      std::string damaged = whole;
+      damaged[at] = by;
+      if (damaged[at] == whole[at]) continue;
+      put(path, damaged);
+      const std::string error = error_of([&] { read_last_frame(path); });
+      if (error.empty()) continue;
+      ++refused;
+      EXPECT_TRUE(contains(error, path.string())) << at << ": " << error;
+    }
+  EXPECT_GT(refused, 20u);
 }
 
 TEST_F(ResultsExport, ExportWritesNowhereButInItsFolder) {

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/setup/size_ahead.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <unistd.h>
+
+namespace plyform {
+namespace {
+
+double area_of(const std::vector<Vec2>& loop) {
+  double twice = 0.0;
+  for (std::size_t i = 0; i < loop.size(); ++i) {
+    const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
+    twice += a.x() * b.y() - a.y() * b.x();
+  }
+  return 0.5 * std::abs(twice);
+}
+
+double triangles_of(const BlankSpec& blank) {
+  if (blank.mesh == MeshKind::file || !(blank.element_size > 0.0)) return 0.0;
+  double area = area_of(blank.outline.boundary);
+  for (const auto& hole : blank.outline.holes)
+    area -= area_of(hole);
+  const double cells = std::max(area, 0.0) / (blank.element_size * blank.element_size);
+  return cells * (blank.mesh == MeshKind::crossed ? 4.0 : 2.0);
+}
+
+/// Steps, by the time that a wave of tension takes through an element. The ratio is that of
+/// cases/hemisphere_0, and holds to a factor of two or so.
+double steps_of(const Case& data, const Ply& ply) {
+  constexpr double elements_a_step = 0.7;
+  const Fabric& fabric = data.fabrics[ply.fabric];
+  const double size = data.blanks[ply.blank].element_size;
+  if (!fabric.has_yarns() || !(size > 0.0)) return 0.0;
+  const double stiffness = std::max(fabric.warp.largest_slope() * fabric.warp_density,
+                                    fabric.weft.largest_slope() * fabric.weft_density) /
+                           data.solver.fibre_softening; // N/mm
+  const double speed = std::sqrt(stiffness / fabric.surface_density);
+  return data.solver.duration * speed / (elements_a_step * size);
+}
+
+} // namespace
+
+SizeAhead size_ahead(const Case& data, int threads) {
+  // measured on one core with five plies (README) and on 25 000 triangles and more
+  constexpr double seconds_a_triangle = 2e-7, bytes_a_triangle = 1024.0;
+  SizeAhead size;
+  double steps = 0.0, most = 0.0;
+  for (const Ply& ply : data.plies) {
+    const double triangles = triangles_of(data.blanks[ply.blank]);
+    size.triangles += triangles;
+    if (triangles > most) most = triangles, size.largest = ply.blank;
+    steps = std::max(steps, steps_of(data, ply));
+  }
+  size.bytes = bytes_a_triangle * size.triangles;
+  size.seconds = seconds_a_triangle * size.triangles * steps / std::max(threads, 1);
+  return size;
+}
+
+double machine_memory() {
+  const long pages = sysconf(_SC_PHYS_PAGES), bytes = sysconf(_SC_PAGESIZE);
+  return pages > 0 && bytes > 0 ? static_cast<double>(pages) * static_cast<double>(bytes) : 4e9;
+}
+
+bool too_large(const SizeAhead& size, double memory) {
+  constexpr double day = 86400.0;
+  return size.bytes > 0.5 * memory || size.seconds > day;
+}
+
+} // namespace plyform

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/setup/tool_cuts.hpp"
+
+#include "core/input/initial_scene.hpp"
+#include "core/solver/facet_penetration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace plyform {
+namespace {
+
+/// An edge of a tool's surface that sticks out, in space.
+struct Ridge {
+  Vec3 q, n, across, along; ///< mm; unit vectors
+  double angle = 0.0;       ///< rad, between the normals of its faces
+};
+
+/// Ridges of a surface, the sharpest ones if there are very many.
+std::vector<Ridge> ridges_of(const TriMesh& surface) {
+  constexpr double flat = 1e-3;       // rad
+  constexpr std::size_t most = 20000; // asked
+  std::map<std::pair<std::int32_t, std::int32_t>, std::vector<std::size_t>> faces;
+  for (std::size_t f = 0; f < surface.triangles.size(); ++f)
+    for (std::size_t k = 0; k < 3; ++k)
+      faces[std::minmax(surface.triangles[f][k], surface.triangles[f][(k + 1) % 3])].push_back(f);
+  const auto middle = [&](std::size_t f) {
+    const Triangle& t = surface.triangles[f];
+    return Vec3((surface.x[t[0]] + surface.x[t[1]] + surface.x[t[2]]) / 3.0);
+  };
+  const auto normal = [&](std::size_t f) {
+    const Triangle& t = surface.triangles[f];
+    const Vec3& a = surface.x[t[0]];
+    return Vec3((surface.x[t[1]] - a).cross(surface.x[t[2]] - a).stableNormalized());
+  };
+  std::vector<Ridge> ridges;
+  for (const auto& [edge, sides] : faces) {
+    if (sides.size() != 2) continue;
+    const Vec3 n0 = normal(sides[0]), n1 = normal(sides[1]);
+    const double angle = std::acos(std::clamp(n0.dot(n1), -1.0, 1.0));
+    if (angle < flat || n0.dot(middle(sides[1]) - surface.x[edge.first]) >= 0.0) continue;
+    Ridge ridge;
+    ridge.q = 0.5 * (surface.x[edge.first] + surface.x[edge.second]);
+    ridge.n = (n0 + n1).stableNormalized();
+    ridge.along = (surface.x[edge.second] - surface.x[edge.first]).stableNormalized();
+    ridge.across = ridge.n.cross(ridge.along);
+    ridge.angle = angle;
+    ridges.push_back(ridge);
+  }
+  if (ridges.size() > most) {
+    std::nth_element(ridges.begin(), ridges.begin() + most, ridges.end(),
+                     [](const Ridge& a, const Ridge& b) { return a.angle > b.angle; });
+    ridges.resize(most);
+  }
+  return ridges;
+}
+
+/// Lowers chords onto one tool.
+struct Chords {
+  const Tool& tool;
+  double half; ///< mm, of the thickness
+  mutable int hint = -1;
+
+  double distance(const Vec3& p) const { return tool_distance(tool, Vec3::Zero(), p, hint); }
+
+  /// The way, mm, of a chord of that side in direction `across`.
+  double cut(const Ridge& ridge, const Vec3& across, double side) const {
+    const Vec3 top = ridge.q - distance(ridge.q) * ridge.n + half * ridge.n; // q on the surface
+    const auto free = [&](double way) {
+      const Vec3 p = top - way * ridge.n;
+      return std::min(distance(p + 0.5 * side * across), distance(p - 0.5 * side * across)) > half;
+    };
+    double low = 0.0, high = 0.5 * side; // as over a sharp edge of 90 degrees, at most
+    if (!free(1e-9 * side)) return 0.0;
+    if (free(high)) return high;
+    for (int i = 0; i < 20; ++i)
+      (free(0.5 * (low + high)) ? low : high) = 0.5 * (low + high);
+    return low;
+  }
+
+  /// With the longer way that the middle of a triangle has to its corners where the surface is
+  /// curved both ways.
+  double deepest(const Ridge& ridge, double side) const {
+    const double one = cut(ridge, ridge.across, side);
+    const bool both_ways = one > 0.0 && cut(ridge, ridge.along, side) > 0.5 * one;
+    return both_ways ? cut(ridge, ridge.across, 2.0 / std::sqrt(3.0) * side) : one;
+  }
+};
+
+/// Where things that move plies go, relative to the tool: unit vectors. A pushed tool stays about
+/// where it is if another one is driven.
+std::vector<Vec3> draws_on(const Case& data, std::size_t tool) {
+  const bool driven = std::any_of(data.tools.begin(), data.tools.end(),
+                                  [](const Tool& t) { return t.motion == Motion::driven; });
+  const auto motion = [&](const Tool& t) {
+    if (t.motion == Motion::driven) return Vec3(t.direction);
+    return t.motion == Motion::force && !driven ? Vec3(t.direction) : Vec3(Vec3::Zero());
+  };
+  std::vector<Vec3> ways;
+  const Vec3 own = motion(data.tools[tool]);
+  for (std::size_t t = 0; t < data.tools.size(); ++t)
+    if (t != tool) ways.push_back(motion(data.tools[t]) - own);
+  ways.push_back(data.gravity);
+  for (const Boundary& boundary : data.boundaries) {
+    if (boundary.stroke != 0.0) ways.push_back(boundary.direction - own);
+    if (boundary.kind == BoundaryKind::grip) ways.push_back(-own); // held while the tool comes
+  }
+  std::erase_if(ways, [](const Vec3& way) { return way.norm() < 1e-9; });
+  for (Vec3& way : ways)
+    way.normalize();
+  return ways;
+}
+
+/// Direction from the tool to the part of the ply that is closest to it.
+Vec3 side_of(const Tool& tool, const PlyState& ply) {
+  double least = std::numeric_limits<double>::infinity();
+  Vec3 side = Vec3::UnitZ();
+  int hint = -1;
+  for (const Vec3& x : ply.x0) {
+    const Vec3 local = tool.rotation.transpose() * (x - tool.position);
+    const SurfacePoint found = signed_distance(tool.shape, local, hint);
+    if (found.distance < least) least = found.distance, side = tool.rotation * found.normal;
+  }
+  return side;
+}
+
+} // namespace
+
+std::optional<CutAhead> cut_ahead(const Scene& scene, std::size_t t, std::size_t p) {
+  constexpr double askew = 0.1; // cosine from which a place faces a direction
+  const Tool& tool = scene.data.tools[t];
+  const PlyState& ply = scene.plies[p];
+  const double side = longest_side(ply), half = 0.5 * ply.thickness;
+  const std::vector<Vec3> ways = draws_on(scene.data, t);
+  Box3 box;
+  for (const Vec3& x : ply.x0)
+    box.extend(x);
+  const double reach = box.diagonal().norm() + tool.position.norm() + box.center().norm();
+  const Vec3 to_ply = side_of(tool, ply);
+  const Chords chords{tool, half};
+  std::optional<CutAhead> worst;
+  for (const Ridge& ridge : ridges_of(tool_surface(tool, 0.5 * side, reach))) {
+    const bool over = std::any_of(ways.begin(), ways.end(),
+                                  [&](const Vec3& way) { return way.dot(ridge.n) < -askew; });
+    const Eigen::AlignedBox2d plan(Vec2(box.min().head<2>()), Vec2(box.max().head<2>()));
+    if (!over || ridge.n.dot(to_ply) < askew || !plan.contains(ridge.q.head<2>())) continue;
+    const double depth = chords.deepest(ridge, side);
+    if (worst && depth <= worst->depth) continue;
+    worst = CutAhead{depth, ridge.q, 0.0, side};
+    if (!(depth > half)) continue;
+    const double near = 4.0 * half, there = chords.cut(ridge, ridge.across, near);
+    const double radius = (0.25 * near * near + there * there) / (2.0 * there) - half;
+    worst->radius =
+        radius < 2.0 * half ? 0.0 : (0.25 * side * side + depth * depth) / (2.0 * depth) - half;
+    double low = 0.0, high = side;
+    for (int i = 0; i < 20; ++i)
+      (chords.deepest(ridge, 0.5 * (low + high)) > half ? high : low) = 0.5 * (low + high);
+    worst->good_side = low;
+  }
+  return worst;
+}
+
+} // namespace plyform
