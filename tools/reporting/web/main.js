@@ -54,13 +54,12 @@ async function start() {
   const told = JSON.parse(document.getElementById("scene").textContent);
   const report = new Report(told, new Page());
   await report.load();
+  document.documentElement.dataset.picture = String(Math.round(performance.now()));
   connect(report);
-  await report.change({ field: "shear" });
   drawCharts(report, told);
   hints(report);
   preparePrint(report);
   await report.change({});
-  report.stage.draw();
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
   window.plyform_report = report; // for tests
 }

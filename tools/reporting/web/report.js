@@ -52,8 +52,10 @@ export class Report {
     }
     this.stage.camera.fit(this.box);
     if (this.runs.length > 1) this.difference = new Difference(...this.runs);
+    this.settings.limit = this.usualLimit();
     this.makeViews();
     await this.show(["all"]);
+    this.stage.draw();
   }
 
   makeViews() {

@@ -34,7 +34,9 @@ float line_at(float along, float wide) {
   return covered * clamp(spacing / (4.0 * pixel) - 0.5, 0.0, 1.0);
 }
 void main() {
+#ifdef SECTION
   if (plane_on > 0.5 && dot(v_place, plane.xyz) > plane.w) discard;
+#endif
   float share = clamp((v_value - low) / max(high - low, 1e-30), 0.0, 1.0);
   vec3 colour = texture2D(scale, vec2((share * 255.0 + 0.5) / 256.0, 0.5)).rgb;
   if (limit_on > 0.5 && v_value > limit) {
@@ -64,7 +66,7 @@ export function sharedUniforms() {
 
 export function plyMaterial(uniforms) {
   return new THREE.ShaderMaterial({
-    uniforms, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide,
+    defines: {}, uniforms, vertexShader: VERTEX, fragmentShader: FRAGMENT, side: THREE.DoubleSide,
     extensions: { derivatives: true }, polygonOffset: true, polygonOffsetFactor: 1,
     polygonOffsetUnits: 1,
   });
@@ -84,7 +86,9 @@ uniform vec4 plane;
 uniform float plane_on;
 varying vec3 v_place;
 void main() {
+#ifdef SECTION
   if (plane_on > 0.5 && dot(v_place, plane.xyz) > plane.w) discard;
+#endif
   vec3 normal = normalize(cross(dFdx(v_place), dFdy(v_place)));
   gl_FragColor = vec4(colour * (0.6 + 0.4 * abs(dot(normal, towards_eye))), 1.0);
 }`;
@@ -93,7 +97,14 @@ export function toolMaterial(colour, towardsEye) {
   return new THREE.ShaderMaterial({
     uniforms: { colour: { value: new THREE.Color(colour) }, towards_eye: towardsEye,
       plane: plane.at, plane_on: plane.on },
-    vertexShader: TOOL_VERTEX, fragmentShader: TOOL_FRAGMENT, side: THREE.DoubleSide,
+    defines: {}, vertexShader: TOOL_VERTEX, fragmentShader: TOOL_FRAGMENT, side: THREE.DoubleSide,
     extensions: { derivatives: true },
   });
+}
+
+/** Only a section needs a shader that leaves fragments out, which is slower. */
+export function cutting(material, on) {
+  if (Boolean(material.defines.SECTION) === on) return;
+  material.defines = on ? { SECTION: 1 } : {};
+  material.needsUpdate = true;
 }

@@ -8,21 +8,50 @@ import { toolMaterial } from "plyform/shaders.js";
 const THREE = window.THREE;
 const SHARP = Math.cos((35 * Math.PI) / 180); // an edge that is always drawn
 
-/** Edges with the normals of the one or two triangles at them. */
+/** Edges (two nodes, one or two triangles; -1: none) and unit normals of triangles, in a row each. */
 function edgesOf(x, triangles) {
-  const normals = [];
-  const edges = new Map();
+  const normals = new Float32Array(triangles.length);
+  const known = new Map();
+  const edges = [];
+  const [u, v] = [new THREE.Vector3(), new THREE.Vector3()];
+  const corner = (k) => new THREE.Vector3().fromArray(x, 3 * triangles[k]);
   for (let t = 0; t < triangles.length; t += 3) {
-    const [a, b, c] = [0, 1, 2].map((k) => new THREE.Vector3().fromArray(x, 3 * triangles[t + k]));
-    normals.push(b.clone().sub(a).cross(c.sub(a)).normalize());
+    const a = corner(t);
+    u.subVectors(corner(t + 1), a).cross(v.subVectors(corner(t + 2), a)).normalize().toArray(normals, t);
     for (let k = 0; k < 3; ++k) {
       const [p, q] = [triangles[t + k], triangles[t + ((k + 1) % 3)]];
       const key = Math.min(p, q) * 4294967296 + Math.max(p, q);
-      if (!edges.has(key)) edges.set(key, { a: p, b: q, first: t / 3, second: -1 });
-      else edges.get(key).second = t / 3;
+      if (known.has(key)) {
+        edges[known.get(key) + 3] = t;
+      } else {
+        known.set(key, edges.length);
+        edges.push(p, q, t, -1);
+      }
     }
   }
-  return { edges: [...edges.values()], normals };
+  return { edges: Int32Array.from(edges), normals };
+}
+
+/** Lines (pairs of nodes) without short bits that hang together with nothing. */
+function withoutBits(lines, x, least) {
+  const parent = new Map();
+  const top = (node) => {
+    let at = node;
+    while (parent.get(at) !== at) {
+      parent.set(at, parent.get(parent.get(at)));
+      at = parent.get(at);
+    }
+    return at;
+  };
+  for (const node of lines) parent.set(node, node);
+  for (let i = 0; i < lines.length; i += 2) parent.set(top(lines[i]), top(lines[i + 1]));
+  const length = new Map();
+  for (let i = 0; i < lines.length; i += 2) {
+    const [p, q, root] = [3 * lines[i], 3 * lines[i + 1], top(lines[i])];
+    const long = Math.hypot(x[p] - x[q], x[p + 1] - x[q + 1], x[p + 2] - x[q + 2]);
+    length.set(root, (length.get(root) || 0) + long);
+  }
+  return lines.filter((node) => length.get(top(node)) > least);
 }
 
 export class Tool {
@@ -36,6 +65,7 @@ export class Tool {
     const [x, triangles] = await Promise.all([this.told.x0, this.told.triangles].map(loadBlock));
     this.x = x.state(0);
     this.triangles = triangles.integers();
+    this.size = new THREE.Box3().setFromArray(this.x).getSize(new THREE.Vector3()).length();
   }
 
   /** Makes `distances` of points less where this tool, moved by `shift`, is nearer. */
@@ -64,17 +94,19 @@ export class Tool {
   /** Edges between what faces the eye and what does not, sharp edges and borders. */
   outlineSeen(eye) {
     if (!this.edges) this.edges = edgesOf(this.x, this.triangles);
-    const { edges, normals } = this.edges;
-    const facing = normals.map((normal) => normal.dot(eye));
+    const { edges, normals: n } = this.edges;
+    const facing = (t) => n[t] * eye.x + n[t + 1] * eye.y + n[t + 2] * eye.z;
     const lines = [];
-    for (const { a, b, first, second } of edges) {
-      if (second < 0 || facing[first] * facing[second] < 0 ||
-          normals[first].dot(normals[second]) < SHARP) {
-        for (const node of [a, b]) {
-          lines.push(this.x[3 * node], this.x[3 * node + 1], this.x[3 * node + 2]);
-        }
+    for (let i = 0; i < edges.length; i += 4) {
+      const [s, t] = [edges[i + 2], edges[i + 3]];
+      if (t < 0 || facing(s) * facing(t) < 0 ||
+          n[s] * n[t] + n[s + 1] * n[t + 1] + n[s + 2] * n[t + 2] < SHARP) {
+        lines.push(edges[i], edges[i + 1]);
       }
     }
-    return new Float32Array(lines);
+    const kept = withoutBits(lines, this.x, 0.15 * this.size);
+    const places = new Float32Array(3 * kept.length);
+    kept.forEach((node, i) => places.set(this.x.subarray(3 * node, 3 * node + 3), 3 * i));
+    return places;
   }
 }

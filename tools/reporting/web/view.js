@@ -3,7 +3,7 @@
 
 import { PlyMesh } from "plyform/ply_mesh.js";
 import { bands, cutsOf } from "plyform/section.js";
-import { plane, plyMaterial, sharedUniforms } from "plyform/shaders.js";
+import { cutting, plane, plyMaterial, sharedUniforms } from "plyform/shaders.js";
 import { table } from "plyform/colours.js";
 
 const THREE = window.THREE;
@@ -79,9 +79,10 @@ export class View {
 
   /** Cut faces of plies and tools at the plane. */
   section(settings) {
-    this.cut.clear = () => this.cut.remove(...this.cut.children);
     for (const part of this.cut.children) part.geometry.dispose();
-    this.cut.clear();
+    if (this.cut.children.length) this.cut.remove(...this.cut.children);
+    const parts = [...this.plies.map((mesh) => mesh.surface), ...this.tools.map((tool) => tool.solid)];
+    for (const part of parts) cutting(part.material, settings.section.on && !this.flat);
     if (this.flat || !settings.section.on) return;
     const normal = new THREE.Vector3(plane.at.value.x, plane.at.value.y, plane.at.value.z);
     this.plies.forEach((mesh, i) => {
