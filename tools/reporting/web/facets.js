@@ -15,26 +15,20 @@ function boxOf(corners, order, from, to) {
   return box;
 }
 
-function squareFromSegment(p, a, b) {
-  const [dx, dy, dz] = [b[0] - a[0], b[1] - a[1], b[2] - a[2]];
-  const [px, py, pz] = [p[0] - a[0], p[1] - a[1], p[2] - a[2]];
+/** Square of the distance of p from the side from a to b, corners of c from the places i and j. */
+function squareFromSide(px, py, pz, c, i, j) {
+  const [dx, dy, dz] = [c[j] - c[i], c[j + 1] - c[i + 1], c[j + 2] - c[i + 2]];
+  const [x, y, z] = [px - c[i], py - c[i + 1], pz - c[i + 2]];
   const long = dx * dx + dy * dy + dz * dz;
-  const share = long > 0 ? Math.min(1, Math.max(0, (px * dx + py * dy + pz * dz) / long)) : 0;
-  return (px - share * dx) ** 2 + (py - share * dy) ** 2 + (pz - share * dz) ** 2;
+  const share = long > 0 ? Math.min(1, Math.max(0, (x * dx + y * dy + z * dz) / long)) : 0;
+  return (x - share * dx) ** 2 + (y - share * dy) ** 2 + (z - share * dz) ** 2;
 }
 
-const cross = (u, v) => [u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]];
-const minus = (u, v) => [u[0] - v[0], u[1] - v[1], u[2] - v[2]];
-const dot = (u, v) => u[0] * v[0] + u[1] * v[1] + u[2] * v[2];
-
-/** Square of the distance of p from the triangle a b c. */
-export function squareFromTriangle(p, a, b, c) {
-  const normal = cross(minus(b, a), minus(c, a));
-  const size = dot(normal, normal);
-  const inside = size > 0 && [[a, b], [b, c], [c, a]].every(([from, to]) =>
-    dot(cross(minus(to, from), minus(p, from)), normal) >= 0);
-  if (inside) return dot(minus(p, a), normal) ** 2 / size;
-  return Math.min(squareFromSegment(p, a, b), squareFromSegment(p, b, c), squareFromSegment(p, c, a));
+/** Whether p is on the inner side of the side from i to j, in the direction of the normal n. */
+function isInside(px, py, pz, c, i, j, nx, ny, nz) {
+  const [dx, dy, dz] = [c[j] - c[i], c[j + 1] - c[i + 1], c[j + 2] - c[i + 2]];
+  const [x, y, z] = [px - c[i], py - c[i + 1], pz - c[i + 2]];
+  return (dy * z - dz * y) * nx + (dz * x - dx * z) * ny + (dx * y - dy * x) * nz >= 0;
 }
 
 export class Facets {
@@ -70,37 +64,72 @@ export class Facets {
     return number;
   }
 
-  squareFromBox(p, number) {
+  squareFromBox(x, y, z, number) {
     const box = this.boxes[number];
-    let sum = 0;
-    for (let k = 0; k < 3; ++k) {
-      const outside = Math.max(box[k] - p[k], 0, p[k] - box[3 + k]);
-      sum += outside * outside;
-    }
-    return sum;
+    const dx = Math.max(box[0] - x, 0, x - box[3]);
+    const dy = Math.max(box[1] - y, 0, y - box[4]);
+    const dz = Math.max(box[2] - z, 0, z - box[5]);
+    return dx * dx + dy * dy + dz * dz;
   }
 
-  /** Distance of a point, or `most` if it is further away. */
+  /** Distance of a point, or `most` if it is further away; `found` is then the triangle, or -1. */
   distance(x, y, z, most) {
-    const p = [x, y, z];
     let best = most * most;
+    this.found = -1;
     const open = [0];
     while (open.length) {
       const number = open.pop();
-      if (this.squareFromBox(p, number) >= best) continue;
+      if (this.squareFromBox(x, y, z, number) >= best) continue;
       const part = this.parts[number];
       if (part.left === undefined) {
-        for (let i = part.from; i < part.to; ++i) best = Math.min(best, this.squareFrom(p, this.order[i]));
+        for (let i = part.from; i < part.to; ++i) {
+          const square = this.squareFrom(x, y, z, this.order[i]);
+          if (square < best) [best, this.found] = [square, this.order[i]];
+        }
       } else {
-        const nearerLeft = this.squareFromBox(p, part.left) < this.squareFromBox(p, part.right);
+        const nearerLeft = this.squareFromBox(x, y, z, part.left) < this.squareFromBox(x, y, z, part.right);
         open.push(nearerLeft ? part.right : part.left, nearerLeft ? part.left : part.right);
       }
     }
     return Math.sqrt(best);
   }
 
-  squareFrom(p, triangle) {
-    const [a, b, c] = [0, 3, 6].map((k) => this.corners.subarray(9 * triangle + k, 9 * triangle + k + 3));
-    return squareFromTriangle(p, a, b, c);
+  /** Normal of a triangle, as long as twice its area. */
+  normal(triangle) {
+    const [c, a] = [this.corners, 9 * triangle];
+    const [ux, uy, uz] = [c[a + 3] - c[a], c[a + 4] - c[a + 1], c[a + 5] - c[a + 2]];
+    const [vx, vy, vz] = [c[a + 6] - c[a], c[a + 7] - c[a + 1], c[a + 8] - c[a + 2]];
+    return [uy * vz - uz * vy, uz * vx - ux * vz, ux * vy - uy * vx];
+  }
+
+  /** The point of a triangle that is nearest to p. */
+  foot(p, triangle) {
+    const corners = [0, 3, 6].map((k) => [...this.corners.subarray(9 * triangle + k, 9 * triangle + k + 3)]);
+    const n = this.normal(triangle);
+    const off = n.reduce((sum, c, k) => sum + c * (p[k] - corners[0][k]), 0) / (n[0] ** 2 + n[1] ** 2 + n[2] ** 2 || 1);
+    const feet = [p.map((c, k) => c - off * n[k])]; // if it is inside, nothing is nearer
+    for (let k = 0; k < 3; ++k) {
+      const [a, b] = [corners[k], corners[(k + 1) % 3]];
+      const side = b.map((c, i) => c - a[i]);
+      const long = side.reduce((sum, c) => sum + c * c, 0);
+      const share = side.reduce((sum, c, i) => sum + c * (p[i] - a[i]), 0) / (long || 1);
+      feet.push(a.map((c, i) => c + Math.min(1, Math.max(0, share)) * side[i]));
+    }
+    const far = (foot) => foot.reduce((sum, c, k) => sum + (p[k] - c) ** 2, 0);
+    const least = this.squareFrom(...p, triangle);
+    return feet.find((foot, k) => k > 0 && far(foot) <= least + 1e-9) || feet[0];
+  }
+
+  squareFrom(x, y, z, triangle) {
+    const c = this.corners;
+    const a = 9 * triangle;
+    const [nx, ny, nz] = this.normal(triangle);
+    const size = nx * nx + ny * ny + nz * nz;
+    if (size > 0 && isInside(x, y, z, c, a, a + 3, nx, ny, nz) &&
+        isInside(x, y, z, c, a + 3, a + 6, nx, ny, nz) && isInside(x, y, z, c, a + 6, a, nx, ny, nz)) {
+      return ((x - c[a]) * nx + (y - c[a + 1]) * ny + (z - c[a + 2]) * nz) ** 2 / size;
+    }
+    return Math.min(squareFromSide(x, y, z, c, a, a + 3), squareFromSide(x, y, z, c, a + 3, a + 6),
+      squareFromSide(x, y, z, c, a + 6, a));
   }
 }

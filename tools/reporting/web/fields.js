@@ -27,8 +27,8 @@ export const FIELDS = [
     cells: ["warp_tension_N"], of: (warp) => warp, note: "negative: compression" },
   { id: "weft-tension", label: "Weft tension", unit: "N per yarn", digits: 3, signed: true,
     cells: ["weft_tension_N"], of: (weft) => weft, note: "negative: compression" },
-  { id: "wrinkle", label: "Wrinkle height", unit: "mm", digits: 2, nodes: ["wrinkle_height_mm"],
-    of: (height) => height, note: "from valley to crest, of the waves that the mesh shows" },
+  { id: "wrinkle", label: "Wrinkle height", unit: "mm", digits: 2, computed: "wrinkles",
+    note: "from valley to crest, of the waves that the mesh shows and no tool has; under 0.3 mm as 0" },
   { id: "gap", label: "Gap to the nearest tool", unit: "mm", digits: 2, computed: "gap",
     note: "from the face of the ply; of inner plies, other plies included; 30 mm and more are alike" },
   { id: "pressure", label: "Contact pressure", unit: "N/mm²", digits: 4,
@@ -42,7 +42,8 @@ export const fieldCalled = (id) => FIELDS.find((field) => field.id === id);
 
 /** Whether a ply has what a field needs. */
 export function has(ply, field) {
-  if (field.computed) return ply.run.tools.length > 0;
+  if (field.computed === "gap") return ply.run.tools.length > 0;
+  if (field.computed) return true;
   if (field.yarns && !ply.told.woven) return false;
   return (field.cells || []).every((name) => name in ply.told.cells) &&
     (field.nodes || []).every((name) => name in ply.told.nodes);
@@ -50,7 +51,7 @@ export function has(ply, field) {
 
 /** Values of a field in a state, and whether they are of triangles or nodes. */
 export async function valuesOf(ply, field, state) {
-  if (field.computed) return { of: "node", values: await ply.gaps(state) };
+  if (field.computed) return { of: "node", values: ply.computed(field.computed, state).slice() };
   const cells = Boolean(field.cells);
   const blocks = await Promise.all((field.cells || field.nodes).map((name) => ply.block(name)));
   const arrays = blocks.map((block) => block.state(state));

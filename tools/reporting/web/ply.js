@@ -2,6 +2,7 @@
 // A ply of a run: its stored arrays, and what follows from them.
 
 import { loadBlock } from "plyform/decode.js";
+import { Wrinkles } from "plyform/wrinkles.js";
 
 /** Nodes of the edges that one triangle has, in pairs. */
 export function borderEdges(triangles) {
@@ -42,7 +43,7 @@ export class Ply {
     this.told = told;
     this.name = told.name;
     this.blocks = new Map();
-    this.gapsOfState = new Map();
+    this.computedOfState = new Map();
   }
 
   /** Geometry, needed for the first picture. */
@@ -64,17 +65,24 @@ export class Ply {
     return this.blocks.get(name);
   }
 
-  /** Gap of each node to the nearest tool in a state, computed once. */
-  async gaps(state) {
-    if (!this.gapsOfState.has(state)) {
-      const values = new Float32Array(this.flat.length / 3).fill(30);
-      const x = this.places.state(state);
-      for (const tool of this.run.tools) {
-        tool.nearest(x, tool.told.shift[state], values);
-      }
-      const half = 0.5 * this.told.thickness;
-      this.gapsOfState.set(state, values.map((distance) => distance - half));
-    }
-    return this.gapsOfState.get(state);
+  /** A field of nodes that is not stored, in a state, computed once: gap or wrinkles. */
+  computed(what, state) {
+    const key = `${what} ${state}`;
+    if (!this.computedOfState.has(key)) this.computedOfState.set(key, this[what](state));
+    return this.computedOfState.get(key);
+  }
+
+  /** Gap of each node to the nearest tool. */
+  gap(state) {
+    const values = new Float32Array(this.flat.length / 3).fill(30);
+    const x = this.places.state(state);
+    for (const tool of this.run.tools) tool.nearest(x, tool.told.shift[state], values);
+    const half = 0.5 * this.told.thickness;
+    return values.map((distance) => distance - half);
+  }
+
+  wrinkles(state) {
+    if (!this.searcher) this.searcher = new Wrinkles(this);
+    return this.searcher.heights(state);
   }
 }

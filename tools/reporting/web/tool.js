@@ -77,6 +77,16 @@ export class Tool {
     }
   }
 
+  /** Distance of a point from the tool at time 0, and the unit vector from there to the point; null
+   * if further than `most`. */
+  away(x, y, z, most) {
+    if (!this.facets) this.facets = new Facets(this.x, this.triangles);
+    const distance = this.facets.distance(x, y, z, most);
+    if (this.facets.found < 0) return null;
+    const foot = this.facets.foot([x, y, z], this.facets.found);
+    return { distance, along: [x - foot[0], y - foot[1], z - foot[2]].map((c) => c / (distance || 1)) };
+  }
+
   /** What is drawn in one picture. */
   mesh(towardsEye) {
     const geometry = new THREE.BufferGeometry();
