@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line: plyform run | check | chart | report | export | difference | identify | theory |
-// keys | version.
+// The command line: plyform run | check | chart | report | export | difference | identify |
+// theory | keys | version.
 #include "core/base/version.hpp"
 #include "core/results/export.hpp"
 #include "core/results/result_writer.hpp"

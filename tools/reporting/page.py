@@ -84,7 +84,8 @@ def ply_of(run: Run, ply: PlyStates, blocks: Blocks) -> dict:
     told = run.told(ply.name)
     across = ply.warp[0] * ply.weft[1] - ply.warp[1] * ply.weft[0]
     return {
-        "name": ply.name, "thickness": ply.thickness(), "warp": rounded(ply.warp),
+        "name": ply.name, "thickness": ply.thickness(),
+        "size": float(np.ptp(ply.x0, axis=0).max()), "warp": rounded(ply.warp),
         "weft": rounded(ply.weft), "woven": not run.summary or "max_pressed_strain" in told,
         "locking_angle": told.get("locking_angle_deg"),
         "fibre_angle": float(np.degrees(np.arctan2(across, ply.warp @ ply.weft))),
@@ -104,5 +105,7 @@ def scene_of_tool(run: Run, tool: ToolStates, blocks: Blocks) -> dict:
     low, high = tool.x0[:, 2].min(), tool.x0[:, 2].max()
     return {"name": tool.name, "x0": blocks.add(x[None], "place of a tool", *POSITION),
             "triangles": blocks.add_integers(triangles),
+            "driven": bool(np.ptp(tool.shift, axis=0).max() > 0.0
+                           and abs(tool.stroke_mm[-1] - run.stroke_mm[-1]) < 1e-6),
             "above": bool(0.5 * (low + high) > stack),
             "shift": [rounded(shift) for shift in tool.shift]}

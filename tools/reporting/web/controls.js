@@ -117,6 +117,13 @@ function keys(report) {
   });
 }
 
+/** Shows a place that a text speaks of, coloured by what the text is about. */
+export function showPlace(report, { ply, triangle, run, field }) {
+  if (field) report.change({ field });
+  report.point(Number(ply), Number(triangle), Number(run));
+  at("part").scrollIntoView({ behavior: "smooth", block: "start" });
+}
+
 export function connect(report) {
   plyBoxes(report);
   scaleControls(report);
@@ -125,11 +132,6 @@ export function connect(report) {
   film(report);
   keys(report);
   for (const button of document.querySelectorAll("button.place")) {
-    button.addEventListener("click", () => {
-      const { ply, triangle, run, field } = button.dataset;
-      if (field) report.change({ field });
-      report.point(Number(ply), Number(triangle), Number(run));
-      at("part").scrollIntoView({ behavior: "smooth", block: "start" });
-    });
+    button.addEventListener("click", () => showPlace(report, button.dataset));
   }
 }

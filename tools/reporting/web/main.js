@@ -2,11 +2,12 @@
 // Where the page begins.
 
 import { Chart } from "plyform/charts.js";
-import { connect } from "plyform/controls.js";
+import { connect, showPlace } from "plyform/controls.js";
 import { fieldCalled } from "plyform/fields.js";
 import { localise, written } from "plyform/numbers.js";
 import { Page } from "plyform/page.js";
 import { preparePrint } from "plyform/print.js";
+import { showContact } from "plyform/tool_contact.js";
 import { Report } from "plyform/report.js";
 
 function drawCharts(report, told) {
@@ -60,6 +61,8 @@ async function start() {
   hints(report);
   preparePrint(report);
   await report.change({});
+  report.runs.forEach((run, r) => showContact(document.getElementById(`contact-${r}`), run,
+    (ply, triangle) => showPlace(report, { ply, triangle, run: r, field: "gap" })));
   document.documentElement.dataset.ready = String(Math.round(performance.now()));
   window.plyform_report = report; // for tests
 }

@@ -48,10 +48,12 @@ export class PlyMesh {
     geometry.setAttribute("yarn",
       new THREE.BufferAttribute(spread(ply.yarns, ply.triangles, 2), 2));
     this.surface = new THREE.Mesh(geometry, plyMaterial(uniforms));
-    this.outline = new THREE.LineSegments(new THREE.BufferGeometry(),
-      new THREE.LineBasicMaterial({ color: flat ? 0xb0125b : 0x303030 }));
-    this.outline.geometry.setAttribute("position",
-      new THREE.BufferAttribute(new Float32Array(3 * ply.border.length), 3));
+    const line = new THREE.BufferGeometry();
+    this.outline = flat
+      ? new THREE.Mesh(line, new THREE.MeshBasicMaterial({ color: 0xe0218a, side: THREE.DoubleSide }))
+      : new THREE.LineSegments(line, new THREE.LineBasicMaterial({ color: 0x303030 }));
+    line.setAttribute("position",
+      new THREE.BufferAttribute(new Float32Array((flat ? 9 : 3) * ply.border.length), 3));
     this.object = new THREE.Group();
     this.object.add(this.surface, this.outline);
     for (const part of [this.surface, this.outline]) part.frustumCulled = false;
@@ -68,15 +70,25 @@ export class PlyMesh {
     const { triangles } = this.ply;
     this.set("position", spread(x, triangles, 3));
     this.set("normal", spread(nodeNormals(x, triangles), triangles, 3));
-    if (!this.flat) this.drawOutline(x, 0);
+    if (this.flat) return;
+    const to = this.outline.geometry.getAttribute("position");
+    this.ply.border.forEach((node, i) => to.array.set(x.subarray(3 * node, 3 * node + 3), 3 * i));
+    to.needsUpdate = true;
   }
 
-  /** Along the border; `above`, on one level over the flat ply. */
-  drawOutline(x, above) {
+  /** The border of the formed ply, seen from above, as a band over the flat one. */
+  drawFormedOutline(x, level, wide) {
     const to = this.outline.geometry.getAttribute("position");
-    this.ply.border.forEach((node, i) => {
-      for (let k = 0; k < 3; ++k) to.array[3 * i + k] = above && k === 2 ? above : x[3 * node + k];
-    });
+    const { border } = this.ply;
+    for (let i = 0; i < border.length; i += 2) {
+      const [a, b] = [3 * border[i], 3 * border[i + 1]];
+      const [dx, dy] = [x[b] - x[a], x[b + 1] - x[a + 1]];
+      const long = Math.hypot(dx, dy) || 1;
+      const [ax, ay] = [(0.5 * wide * dx) / long, (0.5 * wide * dy) / long];
+      const corners = [[a, -1, 1], [a, -1, -1], [b, 1, -1], [a, -1, 1], [b, 1, -1], [b, 1, 1]];
+      corners.forEach(([node, along, side], k) => to.array.set(
+        [x[node] + along * ax - side * ay, x[node + 1] + along * ay + side * ax, level], 9 * i + 3 * k));
+    }
     to.needsUpdate = true;
   }
 

@@ -72,7 +72,7 @@ export class View {
     this.state = state;
     this.x = this.run.plies.map((ply) => ply.places.state(state));
     this.plies.forEach((mesh, i) => {
-      if (this.flat) mesh.drawOutline(this.x[i], mesh.ply.flat[2] + 0.5);
+      if (this.flat) mesh.drawFormedOutline(this.x[i], mesh.ply.flat[2] + 0.5, mesh.ply.told.size / 150);
       else mesh.move(this.x[i]);
     });
   }
