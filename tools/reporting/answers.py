@@ -5,7 +5,7 @@ wrinkle, how much force; what not to trust. Texts are HTML, numbers in <data> fo
 from dataclasses import dataclass
 
 import numpy as np
-from markupsafe import Markup, escape
+from markupsafe import Markup
 
 from .reading_run import PlyStates, Run
 
@@ -38,6 +38,11 @@ def number(value: float | None, digits: int) -> Markup:
         return Markup("–")
     return Markup('<data class="number" value="{}" data-digits="{}">{:.{}f}</data>').format(
         f"{value:.9g}", digits, value, digits)
+
+
+def small(value: float) -> Markup:
+    """Of an error: two figures that count."""
+    return number(value, int(np.clip(1 - np.floor(np.log10(value)), 0, 9)) if value > 0.0 else 0)
 
 
 def at_place(x) -> Markup:
@@ -206,5 +211,6 @@ def doubts(run: Run) -> list[str]:
     """What not to trust, a sentence each."""
     if not run.summary:
         return ["There is no summary.json: errors, wrinkles and pressed yarns were not looked at."]
-    missing = [sentence(str(escape(text))) for text in run.summary.get("missing", [])]
-    return [Markup(text) for text in missing]
+    missing = run.summary.get("missing", [])
+    why = [text for text in missing if text in run.summary["message"]]
+    return [sentence(text) for text in why or [run.summary["message"]]]

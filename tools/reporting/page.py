@@ -31,7 +31,7 @@ def page_of(runs: list[Run]) -> str:
     shelf = jinja2.Environment(loader=jinja2.FileSystemLoader(WEB), autoescape=True,
                                trim_blocks=True, lstrip_blocks=True,
                                undefined=jinja2.StrictUndefined)
-    shelf.globals.update(number=answers.number, sentence=answers.sentence)
+    shelf.globals.update(number=answers.number, small=answers.small, sentence=answers.sentence)
     told = [told_of(run, k) for k, run in enumerate(runs)]
     ids = {chart["id"]: chart for run in scene["runs"] for chart in run["charts"]}
     return shelf.get_template("report.html").render(

@@ -15,37 +15,40 @@ export class Stage {
     this.renderer.autoClear = false;
     this.views = [];
     this.flatCamera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
-    this.camera = new Camera(() => this.request());
+    this.camera = new Camera(() => this.request("formed"));
     this.frames = 0;
     window.addEventListener("resize", () => this.request());
   }
 
-  request() {
+  /** Draws soon: all pictures, or only those of formed plies, which the camera turns. */
+  request(which = "all") {
+    if (which === "all") this.all = true;
     if (this.asked) return;
     this.asked = true;
     requestAnimationFrame(() => {
       this.asked = false;
-      this.draw();
+      this.draw(false, this.all ? "all" : "formed");
+      this.all = false;
       clearTimeout(this.rest);
       this.rest = setTimeout(() => this.draw(true), 250);
     });
   }
 
-  /** All pictures, now. Fine: twice the pixels each way, when nothing moves, for smooth edges. */
-  draw(fine = false) {
+  /** Pictures, now. Fine: twice the pixels each way, when nothing moves, for smooth edges. */
+  draw(fine = false, which = "all") {
     const { renderer, canvas } = this;
+    let everything = which === "all";
     const room = canvas.parentElement.getBoundingClientRect();
     const [width, height] = [Math.round(room.width), Math.round(room.height)];
     if (this.width !== width || this.height !== height || this.fine !== fine) {
       [this.width, this.height, this.fine] = [width, height, fine];
       renderer.setPixelRatio(fine ? 2 * this.ratio : this.ratio);
       renderer.setSize(width, height, false);
+      everything = true;
     }
-    renderer.setScissorTest(false);
-    renderer.clear();
     renderer.setScissorTest(true);
     for (const view of this.views) {
-      if (!view.element.hidden) this.drawView(view, room);
+      if (!view.element.hidden && (everything || !view.flat)) this.drawView(view, room);
     }
     this.frames += 1;
   }
@@ -57,6 +60,7 @@ export class Stage {
     this.renderer.setViewport(left, below, place.width, place.height);
     this.renderer.setScissor(left, below, place.width, place.height);
     const camera = view.flat ? this.cameraOfFlat(view, place) : this.cameraOfFormed(view, place);
+    this.renderer.clear();
     view.mark(this.probe, (camera.top - camera.bottom) / place.height);
     this.renderer.render(view.scene, camera);
   }
@@ -64,6 +68,9 @@ export class Stage {
   cameraOfFormed(view, place) {
     const camera = this.camera.forSize(place.width, place.height);
     view.uniforms.towards_eye.value.copy(this.camera.eye);
+    view.plies.forEach((mesh, i) => { // the nearest first: what it hides need not be coloured
+      mesh.surface.renderOrder = this.camera.eye.z > 0 ? -i : i;
+    });
     const key = this.camera.eye.toArray().map((k) => k.toFixed(3)).join() + view.tools.map((t) => t.outline.visible);
     if (view.outlinedFor !== key) {
       view.outlinedFor = key;

@@ -51,6 +51,7 @@ export class View {
   arrange(settings) {
     this.plies.forEach((mesh, i) => {
       mesh.object.visible = this.flat ? i === settings.flatPly : !settings.hidden.has(mesh.ply.name);
+      mesh.outline.visible = this.flat || !settings.section.on;
       mesh.object.position.z = this.flat ? 0 : i * settings.apart;
     });
     for (const tool of this.tools) {
