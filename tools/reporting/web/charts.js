@@ -62,12 +62,14 @@ export class Chart {
   axes() {
     const up = ticks(this.low, this.high);
     for (const value of up.places) {
-      part("line", { class: "grid", x1: SIZE.left, x2: SIZE.width - SIZE.right, y1: this.y(value), y2: this.y(value) }, this.svg);
-      part("text", { x: SIZE.left - 6, y: this.y(value) + 4, "text-anchor": "end" }, this.svg, written(value, up.digits));
+      const y = this.y(value);
+      part("line", { class: "grid", x1: SIZE.left, x2: SIZE.width - SIZE.right, y1: y, y2: y }, this.svg);
+      part("text", { x: SIZE.left - 6, y: y + 4, "text-anchor": "end" }, this.svg, written(value, up.digits));
     }
     const along = ticks(this.from, this.to);
     for (const value of along.places) {
-      part("text", { x: this.x(value), y: SIZE.height - SIZE.bottom + 16, "text-anchor": "middle" }, this.svg, written(value, along.digits));
+      part("text", { x: this.x(value), y: SIZE.height - SIZE.bottom + 16, "text-anchor": "middle" },
+        this.svg, written(value, along.digits));
     }
     part("text", { x: SIZE.width - SIZE.right, y: SIZE.height - 3, "text-anchor": "end" }, this.svg, "stroke, mm");
   }
@@ -89,7 +91,8 @@ export class Chart {
       const item = document.createElement("li");
       const sample = part("svg", { viewBox: "0 0 28 8", width: 28, height: 8, "aria-hidden": "true" }, item);
       const [colour, dashes] = lineStyle(k);
-      part("line", { x1: 0, x2: 28, y1: 4, y2: 4, stroke: colour, "stroke-width": r ? 1.2 : 2.2, "stroke-dasharray": dashes }, sample);
+      part("line", { x1: 0, x2: 28, y1: 4, y2: 4, stroke: colour, "stroke-width": r ? 1.2 : 2.2,
+        "stroke-dasharray": dashes }, sample);
       item.append(` ${this.runs.length > 1 ? `${"AB"[r]}: ` : ""}${line.name} `);
       const number = document.createElement("b");
       item.append(number);

@@ -103,7 +103,7 @@ function stroke(report) {
 function keys(report) {
   const views = { 1: "oblique", 2: "top", 3: "front", 4: "side", 5: "bottom" };
   document.addEventListener("keydown", (event) => {
-    if (/^(INPUT|SELECT|TEXTAREA)$/.test(event.target.tagName) || event.ctrlKey || event.metaKey || event.altKey) return;
+    if (/^(INPUT|SELECT)$/.test(event.target.tagName) || event.ctrlKey || event.metaKey || event.altKey) return;
     const step = { ",": -1, ".": 1 }[event.key];
     if (views[event.key]) report.stage.camera.set(views[event.key]);
     else if (event.key === "0") report.stage.camera.home();

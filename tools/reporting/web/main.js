@@ -26,7 +26,7 @@ function drawCharts(report, told) {
 function hints(report) {
   const hint = document.getElementById("hint");
   let asked = 0;
-  for (const view of report.stage.views.filter((one) => one.kind !== "difference")) {
+  for (const view of report.stage.views.filter((one) => !one.difference)) {
     view.element.addEventListener("pointerleave", () => { hint.hidden = true; asked += 1; });
     view.element.addEventListener("pointermove", async (event) => {
       asked += 1;

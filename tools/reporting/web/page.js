@@ -13,7 +13,7 @@ export class Page {
     this.probe = at("probe");
     this.views = {
       formed: [at("formed-0"), at("formed-1")], flat: [at("flat-0"), at("flat-1")],
-      difference: at("formed-difference"),
+      difference: { difference: at("formed-difference"), "flat-difference": at("flat-difference") },
     };
   }
 
@@ -39,7 +39,7 @@ export class Page {
     this.legend(at("legend"), scale, `${field.label}, ${field.unit}`, digits);
     this.tellState(report);
     if (at("formed-difference")) {
-      at("formed-difference").hidden = !settings.difference;
+      for (const id of ["formed-difference", "flat-difference"]) at(id).hidden = !settings.difference;
       const range = report.differenceRange;
       this.legend(at("legend-difference"), { low: -range, high: range, steps: settings.steps,
         colours: "diverging", limit: null }, `B − A: ${field.label}, ${field.unit}`, fittingDigits(range));

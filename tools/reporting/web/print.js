@@ -20,15 +20,15 @@ export function preparePrint(report) {
       place.append(figure);
     };
     for (const view of stage.views) {
-      if (view.kind === "difference" && !report.settings.difference) continue;
+      if (view.difference && !report.settings.difference) continue;
       const run = report.runs.length > 1 ? `${"AB"[report.runs.indexOf(view.run)]}: ` : "";
       const stroke = written(view.run.stroke[view.state], 2);
       if (view.flat) {
-        add(view, null, `${run}${view.run.plies[report.settings.flatPly].name}, flat`);
+        add(view, null, `${view.difference ? "B − A: " : run}${view.run.plies[report.settings.flatPly].name}, flat`);
         continue;
       }
       for (const name of ["oblique", "top"]) {
-        add(view, name, `${view.kind === "difference" ? "B − A" : run}${name}, ${stroke} mm of stroke`);
+        add(view, name, `${view.difference ? "B − A" : run}${name}, ${stroke} mm of stroke`);
       }
     }
     Object.assign(stage.camera, { azimuth, elevation });

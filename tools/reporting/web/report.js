@@ -64,7 +64,9 @@ export class Report {
       this.stage.views.push(new View(this.page.views.flat[r], run, "flat"));
     });
     if (this.difference) {
-      this.stage.views.push(new View(this.page.views.difference, this.runs[0], "difference"));
+      for (const [kind, element] of Object.entries(this.page.views.difference)) {
+        this.stage.views.push(new View(element, this.runs[0], kind));
+      }
     }
     for (const view of this.stage.views) {
       const clicked = (event) => this.click(view, event.clientX, event.clientY);
@@ -113,10 +115,10 @@ export class Report {
     const states = this.states();
     const stateOf = (view) => states[this.runs.indexOf(view.run)];
     if (changed("state")) stage.views.forEach((view) => view.move(stateOf(view)));
-    if (changed("state", "field", "difference")) await this.colour(stateOf);
+    if (changed("state", "field", "difference")) await this.colour();
     this.findScale(changed("state", "field", "difference", "low", "high", "hidden"));
     for (const view of stage.views) {
-      const scale = view.kind === "difference" ? this.differenceScale() : this.scale;
+      const scale = view.difference ? this.differenceScale() : this.scale;
       view.paint(scale, settings);
       view.arrange(settings);
     }
@@ -131,23 +133,24 @@ export class Report {
     this.watchers.forEach((watcher) => watcher(states));
   }
 
-  async colour(stateOf) {
+  async colour() {
     const field = fieldCalled(this.settings.field);
     const zero = (ply) => ({ of: "node", values: new Float32Array(ply.flat.length / 3) });
     this.values = await Promise.all(this.runs.map((run, r) => Promise.all(run.plies.map(
       (ply) => (has(ply, field) ? valuesOf(ply, field, this.states()[r]) : zero(ply))))));
     for (const view of this.stage.views) {
       const r = this.runs.indexOf(view.run);
-      if (view.kind === "difference") continue;
+      if (view.difference) continue;
       view.plies.forEach((mesh, i) => mesh.colour(this.values[r][i]));
     }
-    const view = this.stage.views.find((one) => one.kind === "difference");
-    if (!view) return;
+    if (!this.difference) return;
     this.differences = this.runs[0].plies.map((ply, i) => {
       const b = this.runs[1].plies.indexOf(this.difference.pairs[i][1]);
       return this.difference.values(i, this.values[0][i], this.values[1][b]);
     });
-    view.plies.forEach((mesh, i) => mesh.colour(this.differences[i]));
+    for (const view of this.stage.views.filter((one) => one.difference)) {
+      view.plies.forEach((mesh, i) => mesh.colour(this.differences[i]));
+    }
   }
 
   /** The scale that is set, where it is; else from the values of the plies that are shown. */

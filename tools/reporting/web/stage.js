@@ -46,6 +46,8 @@ export class Stage {
       renderer.setSize(width, height, false);
       everything = true;
     }
+    renderer.setScissorTest(false);
+    if (everything) renderer.clear();
     renderer.setScissorTest(true);
     for (const view of this.views) {
       if (!view.element.hidden && (everything || !view.flat)) this.drawView(view, room);

@@ -19,7 +19,8 @@ function markerMesh() {
 
 export class View {
   constructor(element, run, kind) {
-    Object.assign(this, { element, run, kind, flat: kind === "flat" });
+    Object.assign(this, { element, run, kind, flat: kind.startsWith("flat"),
+      difference: kind.endsWith("difference") });
     this.scene = new THREE.Scene();
     this.uniforms = sharedUniforms();
     if (this.flat) {
