@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Opens a report in headless Chromium, for the tests: what it shows, says and asks of a network."""
 
+import base64
 import json
+import sys
 import time
 from pathlib import Path
 
@@ -91,7 +93,6 @@ class Browser:
                        "return document.getElementById('canvas').toDataURL()")
 
     def screenshot(self, path, whole=False):
-        import base64
         shot = self.driver.execute_cdp_cmd("Page.captureScreenshot", {
             "format": "png", "captureBeyondViewport": whole})
         Path(path).write_bytes(base64.b64decode(shot["data"]))
@@ -108,3 +109,15 @@ class Browser:
             if message["method"] == "Network.requestWillBeSent":
                 asked.append(message["params"]["request"]["url"])
         return asked
+
+
+def main():
+    """report_browser.py REPORT.html PICTURE.png: what a reader sees first."""
+    with Browser(1280, 1010) as browser:
+        browser.open(Path(sys.argv[1]))
+        time.sleep(2.0)  # it is drawn once more, with smooth edges
+        browser.screenshot(sys.argv[2])
+
+
+if __name__ == "__main__":
+    main()

@@ -20,6 +20,7 @@ sys.path.insert(0, sys.argv[1])
 from reporting import series  # noqa: E402
 from reporting.encode import Blocks  # noqa: E402
 from reporting.reading_run import PlyStates  # noqa: E402
+from reporting import simplify  # noqa: E402
 from reporting.simplify import simplified  # noqa: E402
 import plot_folders  # noqa: E402
 
@@ -62,6 +63,7 @@ def tube(radius, height, around, up):
 
 def check_simplified():
     x, triangles = tube(80.0, 100.0, 200, 60)
+    simplify.ENOUGH = 100
     fewer, facets = simplified(x, triangles, 0.3)
     assert len(facets) < 0.35 * len(triangles)
     middles = fewer[facets].mean(axis=1)

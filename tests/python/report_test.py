@@ -123,6 +123,36 @@ def check_states(browser, folder):
             assert f"state {state + 1} of" in browser.find("#state-number").text
 
 
+def distance_to_triangles(p, corners):
+    """The least distance of a point from triangles, by brute force on 28 x 28 points of each."""
+    k = np.linspace(0.0, 1.0, 28)
+    u, v = (grid.ravel() for grid in np.meshgrid(k, k))
+    u, v = np.where(u + v > 1.0, 1.0 - u, u), np.where(u + v > 1.0, 1.0 - v, v)
+    near = corners[np.argsort(np.linalg.norm(corners.mean(axis=1) - p, axis=1))[:400]]
+    points = (near[:, 0, None] + u[:, None] * (near[:, 1] - near[:, 0])[:, None]
+              + v[:, None] * (near[:, 2] - near[:, 0])[:, None])
+    return np.linalg.norm(points - p, axis=2).min()
+
+
+def check_computed(browser, folder):
+    """Gaps against brute force on the tools of results.h5, wrinkles against the summary."""
+    summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+    for i, ply in enumerate(summary["plies"]):
+        shown = browser.js("return Math.max(...plyform_report.runs[0].plies[arguments[0]]"
+                           ".computed('wrinkles', 4))", i)
+        height = ply["wrinkle_height_mm"]
+        assert abs(shown - height) < 0.2 + 0.1 * height, (shown, height)
+    gaps = browser.js("return Array.from(plyform_report.runs[0].plies[1].computed('gap', 4))")
+    with h5py.File(folder / "results.h5") as file:
+        now, x = file["frames/000004"], file["frames/000004/plies/ply2/x"][:]
+        corners = [file[f"tools/{name}/x0"][:][file[f"tools/{name}/triangles"][:]]
+                   + now[f"tools/{name}"].attrs["displacement_mm"] for name in file["tools"]]
+    half = browser.js("return 0.5 * plyform_report.runs[0].plies[1].told.thickness")
+    for node in range(3, len(x), 17):
+        gap = min(distance_to_triangles(x[node], one) for one in corners) - half
+        assert abs(gaps[node] - min(gap, 30.0)) < 0.25, (node, gaps[node], gap)
+
+
 def check_controls(browser):
     """Each control changes the picture, and back is as before."""
     browser.choose("stroke", 4)
@@ -231,6 +261,7 @@ def check_one(folder):
         check_answers(browser, results)
         check_numbers(browser, results)
         check_states(browser, results)
+        check_computed(browser, results)
         check_controls(browser)
         check_section(browser)
         check_curves_keys_film(browser)

@@ -171,9 +171,8 @@ def pressed(run: Run, index: int) -> Answer | None:
     strain = np.minimum(ply.cells["warp_strain"][-1], ply.cells["weft_strain"][-1])
     share = max(run.told(one.name).get("area_share_pressed_over_2_percent") or 0.0
                 for one in run.plies)
-    text = Markup("Yarns are pressed most in <b>{}</b>; over 2&nbsp;% on {}&nbsp;% of the area of "
-                  "the worst ply, over which they would buckle.").format(
-                      ply.name, number(100.0 * share, 1))
+    text = Markup("Most in <b>{}</b>. Over 2&nbsp;%, where yarns buckle, it is on {}&nbsp;% of "
+                  "the area of the worst ply.").format(ply.name, number(100.0 * share, 1))
     return Answer("Pressed yarns", Markup("{}&nbsp;%").format(number(100.0 * largest, 1)), text,
                   Place(index, k, int(strain.argmin()), "pressed"), share > 0.01,
                   Markup("yarns of {} are pressed by {}&nbsp;%").format(

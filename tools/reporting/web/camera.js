@@ -43,7 +43,7 @@ export class Camera {
     const [a, e] = [this.azimuth, this.elevation].map((angle) => (angle * Math.PI) / 180);
     this.eye.set(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e));
     const far = 20 * this.fitted.radius;
-    const half = (0.88 * this.fitted.radius) / this.zoom / Math.min(1, width / height);
+    const half = (this.fitted.radius * Math.max(0.75, (1.02 * height) / width)) / this.zoom;
     const wide = (half * width) / height;
     Object.assign(three, { left: -wide, right: wide, top: half, bottom: -half, near: 0, far: 2 * far });
     three.position.copy(this.target).addScaledVector(this.eye, far);

@@ -9,7 +9,7 @@ import { nodeNormals } from "plyform/ply_mesh.js";
 const LEAST = 0.3; // mm: lower waves are of the mesh, on fillets
 const FACING = Math.SQRT1_2;
 const GROWTH = 1.2;
-const CLOSE = 3; // mm: a ply is through a tool by less
+const CLOSE = 1; // sides of triangles: a ply is through a tool by less
 
 function meanSide({ flat, triangles }) {
   let sum = 0;
@@ -163,7 +163,7 @@ export class Wrinkles {
       const all = line.map(away);
       if (all.some((one) => !one)) continue;
       const f = all.map(({ distance, facing: to }) =>
-        (distance < CLOSE && to * middle.facing < 0 ? -distance : distance));
+        (distance < CLOSE * this.side && to * middle.facing < 0 ? -distance : distance));
       const d = [1, 2, 3].map((k) => f[k] - 0.5 * (f[k - 1] + f[k + 1]));
       least = Math.min(least, heightOf(...d));
     }
