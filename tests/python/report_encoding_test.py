@@ -46,6 +46,8 @@ def check_encoding():
     assert told["bits"] == 32 and abs(decoded(blocks, told) - values).max() <= 0.0091
     constant = blocks.add(np.full((2, 5), 0.6), "thickness", 1e-5, 1e-3)
     assert abs(decoded(blocks, constant) - 0.6).max() < 1e-12
+    nothing = blocks.add(np.zeros((2, 5)), "tension", 0.0, np.inf)
+    assert (decoded(blocks, nothing) == 0.0).all()
     numbers = rng.integers(0, 70000, (30, 3))
     assert (decoded(blocks, blocks.add_integers(numbers))[0] == numbers).all()
 

@@ -148,6 +148,7 @@ def check_messages(folder):
     done = call("run", CASES / "picture_frame", "-o", folder / "with", "--report", "--set",
                 "blanks.square.element_size=50", "--set", "solver.outputs=1")
     assert done.returncode == 0 and (folder / "with" / "report.html").is_file(), done
+    assert "Warning" not in done.stderr, done
     assert done.stdout.strip().splitlines()[-1] == str(folder / "with" / "report.html"), done
 
 

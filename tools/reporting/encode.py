@@ -24,7 +24,7 @@ class Blocks:
         allowed."""
         values = np.asarray(values, dtype=np.float64)
         low, high = (float(values.min()), float(values.max())) if values.size else (0.0, 0.0)
-        step = max((high - low) / 65535.0, least_step)
+        step = max((high - low) / 65535.0, least_step) or 1.0
         bits = 16
         if step > 2.0 * most_error:
             step, bits = 2.0 * most_error, 32
