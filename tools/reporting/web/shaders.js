@@ -6,15 +6,20 @@ const THREE = window.THREE;
 const VERTEX = `
 attribute float value;
 attribute vec2 yarn;       // mm: along weft (across warp yarns), along warp
-varying float v_value;
+uniform vec3 towards_eye;
+varying float v_value, v_facing;
 varying vec2 v_yarn;
-varying vec3 v_place, v_normal;
+#ifdef SECTION
+varying vec3 v_place;
+#endif
 void main() {
   v_value = value;
   v_yarn = yarn;
   vec4 place = modelMatrix * vec4(position, 1.0);
+#ifdef SECTION
   v_place = place.xyz;
-  v_normal = normal;
+#endif
+  v_facing = abs(dot(normal, towards_eye));
   gl_Position = projectionMatrix * viewMatrix * place;
 }`;
 
@@ -23,10 +28,11 @@ uniform sampler2D scale;
 uniform float low, high, limit, limit_on, spacing, line_width, lit;
 uniform vec4 plane;        // kept: dot(place, xyz) <= w
 uniform float plane_on;
-uniform vec3 towards_eye;
-varying float v_value;
+varying float v_value, v_facing;
 varying vec2 v_yarn;
-varying vec3 v_place, v_normal;
+#ifdef SECTION
+varying vec3 v_place;
+#endif
 float line_at(float along, float wide) {
   float apart = abs(fract(along / spacing + 0.5) - 0.5) * spacing;
   float pixel = fwidth(along);
@@ -47,8 +53,7 @@ void main() {
     colour = mix(colour, vec3(1.0), 0.9 * line_at(v_yarn.x, line_width));
     colour = mix(colour, vec3(0.05), 0.8 * line_at(v_yarn.y, line_width));
   }
-  float facing = abs(dot(normalize(v_normal), towards_eye));
-  gl_FragColor = vec4(colour * mix(1.0, 0.55 + 0.45 * facing, lit), 1.0);
+  gl_FragColor = vec4(colour * mix(1.0, 0.55 + 0.45 * v_facing, lit), 1.0);
 }`;
 
 export const plane = { on: { value: 0 }, at: { value: new THREE.Vector4(0, 0, 1, 1e9) } };
