@@ -280,6 +280,12 @@ def check_two(folder):
         before = browser.picture()
         browser.click("#difference")
         assert browser.picture() != before
+        rows = [[browser.find(f"#{kind}-{which}").rect for which in ("0", "1", "difference")]
+                for kind in ("formed", "flat")]
+        for row in rows:  # three pictures of one size beside each other, the flat ones below
+            assert row[0]["x"] < row[1]["x"] < row[2]["x"] and len({r["y"] for r in row}) == 1, row
+            assert max(r["width"] for r in row) - min(r["width"] for r in row) < 3, row
+        assert rows[0][0]["y"] < rows[1][0]["y"]
         for i, name in enumerate(("ply1", "ply2")):
             a, b = (np.array([abs(float(row["shear_angle_deg"])) for row in table(one, name)])
                     for one in (first, second))
