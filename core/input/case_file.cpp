@@ -3,6 +3,7 @@
 #include "core/input/case_file.hpp"
 
 #include "core/base/text.hpp"
+#include "core/input/case_identity.hpp"
 #include "core/input/case_parts.hpp"
 #include "core/input/entries.hpp"
 #include "core/input/key_member.hpp"
@@ -223,6 +224,7 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
     if (diagnostics.errors.empty()) {
       estimate_missing(built);
       reading.parts = locate_parts(root);
+      reading.identity = identity_of(*entries, folder);
       reading.value = std::move(built);
     }
   }

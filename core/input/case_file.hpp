@@ -31,6 +31,7 @@ struct CaseReading {
   std::optional<Case> value;        ///< only when there is no error
   CaseParts parts;                  ///< positions in the file
   std::set<std::string> overridden; ///< keys set by overrides, as dotted paths
+  std::string identity; ///< version of plyform, every key with its value, and the files they name
   std::vector<CaseError> errors;
   std::vector<std::string> warnings;
 };

@@ -204,7 +204,13 @@ Rows solver_rows() {
            .fallback = fmt::format("{}", solver.outputs),
            .ranges = {{.least = 1.0, .most = 100000.0}},
            .meaning = "number of states written, evenly over the stroke",
-           .members = {to(&SolverOptions::outputs)}}};
+           .members = {to(&SolverOptions::outputs)}},
+          {.key = "solver.checkpoint_interval",
+           .unit = "s",
+           .fallback = toml(solver.checkpoint_interval),
+           .ranges = {{.least = 0.0, .most = 1e6}},
+           .meaning = "wall time between checkpoints, from which `plyform run --resume` goes on",
+           .members = {to(&SolverOptions::checkpoint_interval)}}};
 }
 
 Rows accuracy_rows() {

@@ -73,13 +73,14 @@ enum class ElementKind {
 
 struct SolverOptions {
   ElementKind element = ElementKind::automatic;
-  double duration = 0.1;          ///< s simulated
-  double step_factor = 0.5;       ///< fraction of the stable time step
-  double fibre_softening = 1.0;   ///< fibre stiffness is divided by this
-  double fibre_damping = 0.05;    ///< fraction of critical of the stiffest element mode
-  double mass_damping = 0.0;      ///< 1/s, acceleration -mass_damping * velocity
-  double max_balance_error = 0.1; ///< stop above this relative energy balance error
-  int outputs = 20;               ///< states written, evenly over the stroke
+  double duration = 0.1;             ///< s simulated
+  double step_factor = 0.5;          ///< fraction of the stable time step
+  double fibre_softening = 1.0;      ///< fibre stiffness is divided by this
+  double fibre_damping = 0.05;       ///< fraction of critical of the stiffest element mode
+  double mass_damping = 0.0;         ///< 1/s, acceleration -mass_damping * velocity
+  double max_balance_error = 0.1;    ///< stop above this relative energy balance error
+  int outputs = 20;                  ///< states written, evenly over the stroke
+  double checkpoint_interval = 60.0; ///< s of wall time
 };
 
 struct ContactOptions {

@@ -14,6 +14,16 @@ using namespace hdf5;
 
 namespace {
 
+/// Size of the file that an object is in: during a run that of its state.
+std::uintmax_t bytes_of_file(hid_t object) {
+  std::string name(static_cast<std::size_t>(std::max<ssize_t>(H5Fget_name(object, nullptr, 0), 0)),
+                   '\0');
+  H5Fget_name(object, name.data(), name.size() + 1);
+  std::error_code error;
+  const std::uintmax_t bytes = fs::file_size(name, error);
+  return error ? 0 : bytes;
+}
+
 /// Reads datasets of a file; `where` in its functions is a path inside the file.
 struct Reader {
   const fs::path& path; ///< of the file, for messages
@@ -41,7 +51,8 @@ struct Reader {
     if (size[1] != columns<T>) broken(where, "has a wrong shape");
     // With a damaged header no more memory must be allocated than the file has bytes.
     const Handle layout(H5Dget_create_plist(set.id()), H5Pclose);
-    if (H5Pget_layout(layout.id()) == H5D_CONTIGUOUS && size[0] > fs::file_size(path) / sizeof(T))
+    if (H5Pget_layout(layout.id()) == H5D_CONTIGUOUS &&
+        size[0] > bytes_of_file(set.id()) / sizeof(T))
       broken(where, "is larger than the file");
     std::vector<T> values(size[0]);
     if (H5Dread(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) < 0)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Writes results.h5. The layout is described in docs/users/results.md.
+// Writes the files that results.h5 is made of. The layout is described in docs/users/results.md.
 //
 // Every return code is checked, also that of closing a dataset: HDF5 delays small writes until
 // then, so that an error of a full disk may appear only there.
@@ -41,38 +41,14 @@ struct Writer {
   void dataset(const std::string& where, const std::vector<T>& values) const {
     const hsize_t size[2] = {values.size(), columns<T>};
     const Handle space(H5Screate_simple(columns<T> == 1 ? 1 : 2, size, nullptr), H5Sclose);
-    Handle set(H5Dcreate2(file, where.c_str(), file_type<T>(), space.id(), H5P_DEFAULT, H5P_DEFAULT,
+    const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    H5Pset_obj_track_times(layout.id(), false); // the same bytes whenever it is written
+    Handle set(H5Dcreate2(file, where.c_str(), file_type<T>(), space.id(), H5P_DEFAULT, layout.id(),
                           H5P_DEFAULT),
                H5Dclose);
     bool ok = set.valid();
     ok = ok &&
          H5Dwrite(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
-    require(set.close() && ok, where);
-  }
-
-  /// Creates an array of one entry per frame, which append_to extends.
-  template <class T>
-  void history(const std::string& where) const {
-    const hsize_t none = 0, unlimited = H5S_UNLIMITED, chunk = 256;
-    const Handle space(H5Screate_simple(1, &none, &unlimited), H5Sclose);
-    const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
-    H5Pset_chunk(layout.id(), 1, &chunk);
-    Handle set(H5Dcreate2(file, where.c_str(), file_type<T>(), space.id(), H5P_DEFAULT, layout.id(),
-                          H5P_DEFAULT),
-               H5Dclose);
-    require(set.valid() && set.close(), where);
-  }
-
-  template <class T>
-  void append_to(const std::string& where, hsize_t index, T value) const {
-    const hsize_t size = index + 1, one = 1;
-    Handle set(H5Dopen2(file, where.c_str(), H5P_DEFAULT), H5Dclose);
-    bool ok = set.valid() && H5Dset_extent(set.id(), &size) >= 0;
-    const Handle all(ok ? H5Dget_space(set.id()) : H5I_INVALID_HID, H5Sclose);
-    const Handle single(H5Screate_simple(1, &one, nullptr), H5Sclose);
-    ok = ok && H5Sselect_hyperslab(all.id(), H5S_SELECT_SET, &index, nullptr, &one, nullptr) >= 0;
-    ok =
-        ok && H5Dwrite(set.id(), memory_type<T>(), single.id(), all.id(), H5P_DEFAULT, &value) >= 0;
     require(set.close() && ok, where);
   }
 
@@ -119,42 +95,6 @@ struct Writer {
   }
 };
 
-template <class Item>
-std::vector<std::string> names_of(const std::vector<Item>& items) {
-  std::vector<std::string> names;
-  for (const Item& item : items)
-    names.push_back(item.name);
-  return names;
-}
-
-/// Writes the data that do not change during the run.
-void write_constants(const Writer& out, const Frame& frame) {
-  out.text("/", "format", "plyform results");
-  out.number<std::int64_t>("/", "format_version", layout_version);
-  out.text("/", "units", "mm, N, s, degrees, N per yarn, N/mm^2");
-  out.texts("/", "plies", names_of(frame.plies));
-  out.texts("/", "tools", names_of(frame.tools));
-  out.texts("/", "boundaries", names_of(frame.boundaries));
-  out.history<double>("/time_s");
-  out.history<double>("/stroke_mm");
-  out.history<std::int64_t>("/step");
-  out.group("/plies");
-  out.group("/tools");
-  for (const PlyFrame& ply : frame.plies) {
-    const std::string where = "/plies/" + ply.name;
-    out.group(where);
-    out.number("/plies/" + ply.name, "angle_deg", ply.angle_deg);
-    out.dataset(where + "/x0", ply.x0);
-    out.dataset(where + "/triangles", ply.triangles);
-  }
-  for (const ToolFrame& tool : frame.tools) {
-    const std::string where = "/tools/" + tool.name;
-    out.group(where);
-    out.dataset(where + "/x0", tool.surface.x);
-    out.dataset(where + "/triangles", tool.surface.triangles);
-  }
-}
-
 void write_ply(const Writer& out, const std::string& where, const PlyFrame& ply) {
   out.group(where);
   out.dataset(where + "/x", ply.x);
@@ -183,29 +123,33 @@ void write_boundary(const Writer& out, const std::string& where, const BoundaryF
   out.number(where, "force_N", boundary.force_N);
 }
 
-/// Upper estimate of the bytes that a frame adds to the file.
-std::size_t bytes_needed(const Frame& frame, bool with_constants) {
-  // Headers, symbol tables and names: measured 0.6 kB per dataset or group, taken as 2 kB.
-  constexpr std::size_t object = 2048, slack = 65536;
-  const std::size_t point = sizeof(Vec3), triangle = sizeof(Triangle), number = sizeof(double);
+/// Upper estimate of the bytes of an object's headers, symbol tables and names: measured 0.6 kB per
+/// dataset or group; and of a file without any.
+constexpr std::size_t object = 2048, slack = 65536;
+
+std::size_t bytes_of_constants(const Frame& frame) {
+  const auto mesh = [](std::size_t nodes, std::size_t triangles) {
+    return 3 * object + nodes * sizeof(Vec3) + triangles * sizeof(Triangle);
+  };
   std::size_t bytes = slack;
+  for (const PlyFrame& ply : frame.plies)
+    bytes += mesh(ply.x0.size(), ply.triangles.size());
+  for (const ToolFrame& tool : frame.tools)
+    bytes += mesh(tool.surface.x.size(), tool.surface.triangles.size());
+  return bytes;
+}
+
+std::size_t bytes_of_frame(const Frame& frame) {
+  std::size_t bytes = slack + (frame.boundaries.size() + frame.tools.size()) * object;
   for (const PlyFrame& ply : frame.plies) {
     const std::size_t n = ply.x.size(), m = ply.triangles.size();
     bytes += (2 + node_scalars.size() + node_vectors.size() + cell_vectors.size() +
               cell_scalars.size()) *
              object;
-    bytes += n * (point + node_scalars.size() * number);
+    bytes += n * (sizeof(Vec3) + node_scalars.size() * sizeof(double));
     for (const auto& field : node_vectors)
-      bytes += (ply.*field.values).size() * point;
-    bytes += m * (cell_vectors.size() * point + cell_scalars.size() * number);
-    if (with_constants) bytes += 3 * object + n * point + m * triangle;
-  }
-  bytes += frame.boundaries.size() * object;
-  for (const ToolFrame& tool : frame.tools) {
-    bytes += object;
-    if (with_constants)
-      bytes +=
-          3 * object + tool.surface.x.size() * point + tool.surface.triangles.size() * triangle;
+      bytes += (ply.*field.values).size() * sizeof(Vec3);
+    bytes += m * (cell_vectors.size() * sizeof(Vec3) + cell_scalars.size() * sizeof(double));
   }
   return bytes;
 }
@@ -224,80 +168,126 @@ off_t size_of(hid_t file) {
   return static_cast<off_t>(size);
 }
 
-/// Names and mesh sizes of plies and tools as text, to check that they do not change during a run.
-std::string shape_of(const Frame& frame) {
-  std::string shape;
-  for (const PlyFrame& ply : frame.plies)
-    shape += fmt::format("{}/{}/{}\n", ply.name, ply.x0.size(), ply.triangles.size());
-  shape += "tools\n";
-  for (const ToolFrame& tool : frame.tools)
-    shape +=
-        fmt::format("{}/{}/{}\n", tool.name, tool.surface.x.size(), tool.surface.triangles.size());
-  shape += "boundaries\n";
-  for (const BoundaryFrame& boundary : frame.boundaries)
-    shape += boundary.name + "\n";
-  return shape;
+/// A file that gets its name when it is complete and on the disk.
+class WholeFile {
+public:
+  /// Reserves disk space before HDF5 writes anything. If a write fails inside HDF5, the file can
+  /// neither be closed nor the process ended regularly (h5py issue 914, also observed with 1.10.8).
+  WholeFile(const fs::path& path, std::size_t bytes) : path_(path), temporary_(path) {
+    temporary_ += ".tmp";
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_file_locking(access.id(), false, true); // others may read while this is written
+    file_ =
+        Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+    if (!file_.valid()) hdf5::fail(path_, "cannot create the file");
+    const int error =
+        posix_fallocate(descriptor(file_.id()), size_of(file_.id()), static_cast<off_t>(bytes));
+    if (error == 0 || error == EINVAL || error == EOPNOTSUPP || error == ENODEV)
+      return; // or not supported by this file system
+    remove();
+    throw std::runtime_error(fmt::format("{}: cannot write {} bytes: {}", path_.string(), bytes,
+                                         std::generic_category().message(error)));
+  }
+  ~WholeFile() {
+    if (file_.valid()) remove();
+  }
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  Writer writer() const { return {path_, file_.id()}; }
+
+  void complete() {
+    if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) hdf5::fail(path_, "cannot write");
+    // Releases reserved space that was not used.
+    const bool ok = ftruncate(descriptor(file_.id()), size_of(file_.id())) == 0 &&
+                    fsync(descriptor(file_.id())) == 0;
+    if (!ok)
+      throw std::runtime_error(fmt::format("{}: cannot write: {}", path_.string(),
+                                           std::generic_category().message(errno)));
+    if (!file_.close()) hdf5::fail(path_, "cannot close the file");
+    std::error_code error;
+    fs::rename(temporary_, path_, error);
+    if (error)
+      throw std::runtime_error(
+          fmt::format("{}: cannot replace the file: {}", path_.string(), error.message()));
+  }
+
+private:
+  void remove() {
+    file_.close();
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
+  }
+
+  fs::path path_, temporary_;
+  Handle file_;
+};
+
+/// Attributes of the file, and an entry a frame of times.
+void write_index(const Writer& out, const StateIndex& index) {
+  out.text("/", "format", "plyform results");
+  out.number<std::int64_t>("/", "format_version", layout_version);
+  out.text("/", "units", "mm, N, s, degrees, N per yarn, N/mm^2");
+  out.texts("/", "plies", index.plies);
+  out.texts("/", "tools", index.tools);
+  out.texts("/", "boundaries", index.boundaries);
+  out.dataset("/time_s", index.time);
+  out.dataset("/stroke_mm", index.stroke);
+  out.dataset("/step", index.step);
+}
+
+/// What an index refers to: path of a file from the folder of results.h5, of a group in it, and of
+/// that group in results.h5.
+struct Part {
+  std::string file, group, name;
+};
+
+std::vector<Part> parts_of(const StateIndex& index) {
+  std::vector<Part> parts;
+  for (const char* group : {"/plies", "/tools"})
+    parts.push_back({constants_file().string(), group, group});
+  for (std::size_t i = 0; i < index.step.size(); ++i)
+    parts.push_back({state_file(i).string(), frame_group(i), frame_group(i)});
+  return parts;
 }
 
 } // namespace
 
-struct StateFile::Impl {
-  fs::path path;
-  fs::path temporary; ///< path of the file until its first frame is complete
-  Handle file;
-  std::size_t frames = 0;
-  std::string shape; ///< shape_of the first frame
-
-  void create(const Frame& frame);
-  void reserve(std::size_t bytes) const;
-  void write(const Frame& frame) const;
-  void flush() const;
-};
-
-StateFile::StateFile(fs::path path) : impl_(new Impl{std::move(path), {}, {}, 0, {}}) {
-  impl_->temporary = impl_->path;
-  impl_->temporary += ".tmp";
+fs::path constants_file() {
+  return fs::path("states") / "meshes.h5";
 }
 
-StateFile::~StateFile() {
+fs::path state_file(std::size_t index) {
+  return fs::path("states") / fmt::format("{:06}.h5", index);
+}
+
+void write_constants(const fs::path& path, const Frame& frame) {
   const QuietErrors quiet;
-  if (!impl_->file.valid()) return;
-  impl_->file.close();
-  std::error_code ignored;
-  if (impl_->frames == 0) fs::remove(impl_->temporary, ignored);
+  WholeFile file(path, bytes_of_constants(frame));
+  const Writer out = file.writer();
+  out.group("/plies");
+  out.group("/tools");
+  for (const PlyFrame& ply : frame.plies) {
+    const std::string where = "/plies/" + ply.name;
+    out.group(where);
+    out.dataset(where + "/x0", ply.x0);
+    out.dataset(where + "/triangles", ply.triangles);
+    out.number(where, "angle_deg", ply.angle_deg);
+  }
+  for (const ToolFrame& tool : frame.tools) {
+    const std::string where = "/tools/" + tool.name;
+    out.group(where);
+    out.dataset(where + "/x0", tool.surface.x);
+    out.dataset(where + "/triangles", tool.surface.triangles);
+  }
+  file.complete();
 }
 
-std::size_t StateFile::frames() const {
-  return impl_->frames;
-}
-
-void StateFile::Impl::create(const Frame& frame) {
-  const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-  // Without the file lock ParaView and h5py can read the results during the run.
-  H5Pset_file_locking(access.id(), false, true);
-  file = Handle(H5Fcreate(temporary.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
-  if (!file.valid()) fail(path, "cannot create the file");
-  shape = shape_of(frame);
-}
-
-/// Reserves disk space for a frame before HDF5 writes any of it. If a write fails inside HDF5, the
-/// file can neither be closed nor the process ended regularly (h5py issue 914, also observed
-/// with 1.10.8); if the reservation fails, the file keeps the frames that it has.
-void StateFile::Impl::reserve(std::size_t bytes) const {
-  const int error =
-      posix_fallocate(descriptor(file.id()), size_of(file.id()), static_cast<off_t>(bytes));
-  // not supported by this file system
-  if (error == EINVAL || error == EOPNOTSUPP || error == ENODEV) return;
-  if (error != 0)
-    throw std::runtime_error(fmt::format("{}: cannot write the next state ({} bytes): {}",
-                                         path.string(), bytes,
-                                         std::generic_category().message(error)));
-}
-
-void StateFile::Impl::write(const Frame& frame) const {
-  const Writer out{path, file.id()};
-  if (frames == 0) write_constants(out, frame);
-  const std::string where = frame_group(frames);
+void write_state(const fs::path& path, const Frame& frame, std::size_t index) {
+  const QuietErrors quiet;
+  WholeFile file(path, bytes_of_frame(frame));
+  const Writer out = file.writer();
+  const std::string where = frame_group(index);
   out.group(where);
   out.number(where, "time_s", frame.time);
   out.number(where, "stroke_mm", frame.stroke_mm);
@@ -308,44 +298,43 @@ void StateFile::Impl::write(const Frame& frame) const {
     write_tool(out, where + "/tools/" + tool.name, tool);
   for (const BoundaryFrame& boundary : frame.boundaries)
     write_boundary(out, where + "/boundaries/" + boundary.name, boundary);
-  // Written last, as readers take their length as the number of complete frames.
-  out.append_to("/step", frames, static_cast<std::int64_t>(frame.step));
-  out.append_to("/stroke_mm", frames, frame.stroke_mm);
-  out.append_to("/time_s", frames, frame.time);
+  file.complete();
 }
 
-void StateFile::Impl::flush() const {
-  if (H5Fflush(file.id(), H5F_SCOPE_GLOBAL) < 0) fail(path, "cannot write");
-  // Releases reserved space that was not used.
-  if (ftruncate(descriptor(file.id()), size_of(file.id())) != 0)
-    throw std::runtime_error(
-        fmt::format("{}: cannot write: {}", path.string(), std::generic_category().message(errno)));
-}
-
-void StateFile::append(const Frame& frame) {
+void write_linked(const fs::path& path, const StateIndex& index) {
   const QuietErrors quiet;
-  Impl& my = *impl_;
-  if (my.frames > 0 && !my.file.valid())
-    throw std::logic_error(my.path.string() + ": a frame was added after the file was closed");
-  if (my.frames > 0 && my.shape != shape_of(frame))
-    throw std::logic_error(my.path.string() + ": names or sizes differ from the first frame's");
-  if (my.frames == 0) my.create(frame);
-  my.reserve(bytes_needed(frame, my.frames == 0));
-  my.write(frame);
-  my.flush();
-  if (my.frames == 0) {
-    std::error_code error;
-    fs::rename(my.temporary, my.path, error);
-    if (error)
-      throw std::runtime_error(
-          fmt::format("{}: cannot replace the file: {}", my.path.string(), error.message()));
+  const std::vector<Part> parts = parts_of(index);
+  WholeFile file(path, slack + parts.size() * object);
+  const Writer out = file.writer();
+  write_index(out, index);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links.id(), 1);
+  for (const Part& part : parts)
+    out.require(H5Lcreate_external(part.file.c_str(), part.group.c_str(), out.file,
+                                   part.name.c_str(), links.id(), H5P_DEFAULT) >= 0,
+                part.name);
+  file.complete();
+}
+
+void write_merged(const fs::path& path, const StateIndex& index) {
+  const QuietErrors quiet;
+  const std::vector<Part> parts = parts_of(index);
+  std::size_t bytes = slack + parts.size() * object;
+  for (const Part& part : parts)
+    bytes += fs::file_size(path.parent_path() / part.file);
+  WholeFile file(path, bytes);
+  const Writer out = file.writer();
+  write_index(out, index);
+  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+  H5Pset_create_intermediate_group(links.id(), 1);
+  for (const Part& part : parts) {
+    const fs::path from = path.parent_path() / part.file;
+    const Handle source(H5Fopen(from.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+    out.require(source.valid() && H5Ocopy(source.id(), part.group.c_str(), out.file,
+                                          part.name.c_str(), H5P_DEFAULT, links.id()) >= 0,
+                part.name);
   }
-  ++my.frames;
-}
-
-void StateFile::close() {
-  const QuietErrors quiet;
-  if (!impl_->file.close()) fail(impl_->path, "cannot close the file");
+  file.complete();
 }
 
 } // namespace plyform

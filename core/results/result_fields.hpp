@@ -4,8 +4,8 @@
 
 #include "core/results/result_writer.hpp"
 
+#include <cstdint>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -39,24 +39,57 @@ struct XdmfText {
 /// Path of frame `index` in results.h5: /frames/000012.
 std::string frame_group(std::size_t index);
 
-/// results.h5 of a run in progress. The file gets its final name with its first complete frame.
-class StateFile {
-public:
-  explicit StateFile(std::filesystem::path path);
-  ~StateFile();
+/// What results.h5 says of all of its frames: names, and times (s), strokes (mm) and steps.
+struct StateIndex {
+  std::vector<std::string> plies, tools, boundaries;
+  std::vector<double> time, stroke;
+  std::vector<std::int64_t> step;
+  std::string shape; ///< names and mesh sizes, which do not change during a run
+};
 
-  /// Writes and flushes one frame. Throws std::runtime_error naming the path and the reason.
+// While a run is in progress, each state is a file of its own, states/000012.h5, and results.h5
+// refers to them by links, which readers follow. So no file is ever changed, and whatever happens
+// leaves whole files. At the end results.h5 is made of all of them. core/results/hdf5_writer.cpp
+// writes these files, each whole or not at all; all throw std::runtime_error naming the path and
+// the reason.
+
+/// Paths from the folder of results.h5: of the meshes, of a state.
+std::filesystem::path constants_file();
+std::filesystem::path state_file(std::size_t index);
+
+void write_constants(const std::filesystem::path& path, const Frame& frame);
+void write_state(const std::filesystem::path& path, const Frame& frame, std::size_t index);
+/// results.h5 with links to the files of all states, which stand beside it; or with copies of them.
+void write_linked(const std::filesystem::path& path, const StateIndex& index);
+void write_merged(const std::filesystem::path& path, const StateIndex& index);
+
+/// The states of a run in progress: results.h5 and the folder states beside it.
+class StateFiles {
+public:
+  explicit StateFiles(const std::filesystem::path& directory) : directory_(directory) {}
+
+  /// Writes one frame. Throws as the functions above, std::logic_error if its names or sizes differ
+  /// from the first frame's.
   void append(const Frame& frame);
 
-  /// Closes the file. Throws std::runtime_error if the last bytes cannot be written.
-  void close();
+  /// Goes on after the frames of `index`, which must be there; later ones are removed. Throws
+  /// std::runtime_error naming the path if one is missing.
+  void go_on(const StateIndex& index);
 
-  std::size_t frames() const;
+  /// Makes one file of all and removes the folder states. Throws as the functions above; then the
+  /// files stay as they were.
+  void merge();
+
+  const StateIndex& index() const { return index_; }
+  std::size_t frames() const { return index_.step.size(); }
 
 private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
+  std::filesystem::path directory_;
+  StateIndex index_;
 };
+
+/// Removes the folder states of a run: only files that runs write. Throws std::runtime_error.
+void remove_states(const std::filesystem::path& directory, std::size_t first = 0);
 
 /// A whole frame of a results.h5: from 0, or -1 for the last, -2 for the one before. The energies
 /// are not stored and stay 0. Throws std::runtime_error naming the path and what is wrong with it.

@@ -1,44 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/result_writer.hpp"
 
+#include "core/results/checkpoint_file.hpp"
 #include "core/results/result_fields.hpp"
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
-#include <cstdio>
+#include <fcntl.h>
 #include <fmt/compile.h>
 #include <fmt/format.h>
 #include <iterator>
 #include <set>
 #include <stdexcept>
+#include <sys/file.h>
 #include <system_error>
+#include <unistd.h>
 
 namespace plyform {
 
 namespace fs = std::filesystem;
-
-// Files that appear whole or not at all.
-
-void write_whole(const fs::path& path, std::string_view content) {
-  fs::path temporary = path;
-  temporary += ".tmp";
-  const auto fail = [&](const char* what, int error) {
-    std::error_code ignored;
-    fs::remove(temporary, ignored);
-    throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), what,
-                                         std::generic_category().message(error)));
-  };
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (!file) fail("create the file", errno);
-  int error = 0;
-  if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) error = errno;
-  if (std::fclose(file) != 0 && error == 0) error = errno; // fclose writes the rest of the buffer
-  if (error != 0) fail("write", error);
-  std::error_code renamed;
-  fs::rename(temporary, path, renamed);
-  if (renamed) fail("replace the file", renamed.value());
-}
 
 // What a frame must satisfy before anything is written.
 
@@ -196,6 +177,8 @@ void remove_former_run(const fs::path& directory) {
   remove_file(directory / "history.csv");
   remove_file(directory / "results.xdmf");
   remove_file(directory / "results.h5");
+  remove_file(directory / "checkpoint");
+  remove_states(directory);
   std::vector<fs::path> tables;
   for (const fs::directory_entry& entry : fs::directory_iterator(directory / "plies")) {
     const std::string name = entry.path().filename().string();
@@ -206,19 +189,29 @@ void remove_former_run(const fs::path& directory) {
     remove_file(table);
 }
 
-} // namespace
+/// Keeps other runs out of a folder while it exists.
+class FolderLock {
+public:
+  explicit FolderLock(const fs::path& directory) : file_(open(directory.c_str(), O_RDONLY)) {
+    if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
+      close(file_);
+      throw std::runtime_error(fmt::format(
+          "{}: another run writes into this folder; wait for it, or give another one with -o",
+          directory.string()));
+    }
+  }
+  ~FolderLock() {
+    if (file_ >= 0) close(file_);
+  }
+  FolderLock(const FolderLock&) = delete;
+  FolderLock& operator=(const FolderLock&) = delete;
 
-struct ResultWriter::Impl {
-  fs::path directory;
-  StateFile states;
-  std::string history; ///< all of history.csv so far
-  XdmfText xdmf;
-  double last_time = 0;
-  long last_step = 0;
+private:
+  int file_;
 };
 
-ResultWriter::ResultWriter(const fs::path& directory)
-    : impl_(new Impl{directory, StateFile(directory / "results.h5"), {}, {}, 0, 0}) {
+/// Creates the folder of a run; returns its path.
+fs::path make_folder(const fs::path& directory) {
   const fs::path plies = directory / "plies";
   std::error_code error;
   fs::create_directories(plies, error);
@@ -226,7 +219,25 @@ ResultWriter::ResultWriter(const fs::path& directory)
   if (error)
     throw std::runtime_error(fmt::format("{}: cannot create the result folder: {}",
                                          directory.string(), error.message()));
+  return directory;
 }
+
+} // namespace
+
+struct ResultWriter::Impl {
+  explicit Impl(const fs::path& folder)
+      : directory(make_folder(folder)), lock(directory), states(directory) {}
+
+  fs::path directory;
+  FolderLock lock;
+  StateFiles states;
+  std::string history; ///< all of history.csv so far
+  XdmfText xdmf;
+  double last_time = 0;
+  long last_step = 0;
+};
+
+ResultWriter::ResultWriter(const fs::path& directory) : impl_(new Impl(directory)) {}
 
 ResultWriter::~ResultWriter() = default;
 
@@ -246,16 +257,42 @@ void ResultWriter::write_frame(const Frame& frame) {
   write_whole(impl_->directory / "history.csv", impl_->history);
 }
 
+void ResultWriter::write_checkpoint(const std::string& identity, const std::string& state) {
+  Impl& my = *impl_;
+  const WriterState written{my.states.index(), my.history, my.xdmf, my.last_time, my.last_step};
+  write_checkpoint_file(my.directory / "checkpoint", {identity, written, state});
+}
+
+std::optional<Resume> ResultWriter::go_on(const std::string& identity) {
+  Impl& my = *impl_;
+  const std::optional<Checkpoint> found =
+      read_checkpoint_file(my.directory / "checkpoint", identity);
+  if (!found) return std::nullopt;
+  const WriterState& written = found->writer;
+  remove_file(my.directory / "summary.json"); // of the interrupted run
+  my.states.go_on(written.states);
+  my.history = written.history;
+  my.xdmf = written.xdmf;
+  my.last_time = written.last_time;
+  my.last_step = written.last_step;
+  write_whole(my.directory / "results.xdmf", my.xdmf.document());
+  write_whole(my.directory / "history.csv", my.history);
+  return Resume{found->solver, read_last_frame(my.directory / "results.h5")};
+}
+
 void ResultWriter::write_final(const Frame& last, const Summary& summary) {
+  Impl& my = *impl_;
   const bool written =
-      impl_->states.frames() > 0 && last.time == impl_->last_time && last.step == impl_->last_step;
+      my.states.frames() > 0 && last.time == my.last_time && last.step == my.last_step;
   // If the run stopped between two outputs: results.h5 must end with the same state as the tables.
   if (!written) write_frame(last);
   for (const PlyFrame& ply : last.plies)
-    write_whole(impl_->directory / "plies" / (ply.name + ".csv"), ply_table(ply));
-  impl_->states.close();
+    write_whole(my.directory / "plies" / (ply.name + ".csv"), ply_table(ply));
+  const bool goes_on = summary.status == "interrupted" && fs::exists(my.directory / "checkpoint");
+  if (!goes_on) my.states.merge();
   // written last, when all other files are complete
-  write_whole(impl_->directory / "summary.json", summary_json(last, summary));
+  write_whole(my.directory / "summary.json", summary_json(last, summary));
+  if (!goes_on) remove_file(my.directory / "checkpoint");
 }
 
 } // namespace plyform

@@ -11,17 +11,25 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
+#include <string>
 
 namespace plyform {
 
+/// Where a run goes on.
+struct Resume {
+  std::string state; ///< of the solver, as saved
+  Frame last;        ///< the last output state before it, without energies
+};
+
 /// Writes the folder of a run while it is in progress. Every file is written under a temporary name
 /// first and renamed when complete, so that a crash never leaves an incomplete file under its final
-/// name; results.h5 is flushed after each frame, so that it can be opened even if the run is
-/// killed.
+/// name. Until the end results.h5 refers to a file for each state (core/results/result_fields.hpp).
 class ResultWriter {
 public:
-  /// Creates `directory` (and parents). Results of a former run remain there until the first frame.
-  /// Throws std::runtime_error naming the path and the reason.
+  /// Creates `directory` (and parents) and keeps other runs out of it. Results of a former run
+  /// remain there until the first frame. Throws std::runtime_error naming the path and the reason,
+  /// also if another run writes into it.
   explicit ResultWriter(const std::filesystem::path& directory);
   ~ResultWriter();
 
@@ -31,9 +39,19 @@ public:
   /// other or the first frame.
   void write_frame(const Frame& frame);
 
+  /// Writes the file `checkpoint`, whole or not at all: from it and the frames so far the run can
+  /// go on. identity: text that tells this case from others. state: of the solver
+  /// (RunHooks::Checkpoint). Throws std::runtime_error naming the path and the reason.
+  void write_checkpoint(const std::string& identity, const std::string& state);
+
+  /// Goes on after the frames of the checkpoint, in the place of the first frame; later ones are
+  /// removed. Nothing if there is no checkpoint. Throws std::runtime_error naming the path if it is
+  /// of another case or damaged.
+  std::optional<Resume> go_on(const std::string& identity);
+
   /// plies/NAME.csv of the last frame, and summary.json with the keys of docs/users/results.md.
   /// Writes `last` as a frame too if the last one written has another time or step. No frame may
-  /// follow.
+  /// follow. Unless the run was interrupted, it cannot go on then.
   void write_final(const Frame& last, const Summary& summary);
 
 private:

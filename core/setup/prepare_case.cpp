@@ -49,6 +49,7 @@ PreparedCase prepare_case(const std::filesystem::path& file,
   if (picked.reading.value) prepared.meshes = check_case(picked.reading);
   prepared.value = std::move(picked.reading.value);
   prepared.coarsening = picked.coarsening;
+  prepared.identity = std::move(picked.reading.identity);
   prepared.errors = std::move(picked.reading.errors);
   prepared.warnings = std::move(picked.reading.warnings);
   prepared.notes = std::move(picked.notes);

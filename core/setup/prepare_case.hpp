@@ -23,6 +23,7 @@ struct PreparedCase {
   std::optional<Case> value;     ///< only when there is no error
   std::vector<BlankMesh> meshes; ///< one per ply
   double coarsening = 1.0;       ///< as in PickedCase
+  std::string identity;          ///< as in CaseReading
   std::vector<CaseError> errors;
   std::vector<std::string> warnings;
   std::vector<std::string> notes; ///< as in PickedCase

@@ -6,6 +6,7 @@
 #include "core/base/version.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/model/motion.hpp"
+#include "core/solver/checkpoint.hpp"
 #include "core/solver/facet_penetration.hpp"
 #include "core/solver/output_state.hpp"
 #include "core/solver/ply_plausibility.hpp"
@@ -29,25 +30,14 @@ double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
 }
 
-/// The state needed to return to the last good one.
-struct Snapshot {
-  std::vector<PlyKinematics> plies;
-  std::vector<Vec3> tool_displacement, tool_force;
-  std::vector<BoundaryState> boundaries;
-  Energies energy;
-  ContactReport contact; ///< penetrations only
-  double time = 0.0;
-  long step = 0;
-};
-
-ContactReport penetrations(const Scene& s) {
-  ContactReport r;
+/// Sets the penetrations of the present state.
+void keep_penetrations(const Scene& s, Snapshot& snapshot) {
+  snapshot.tool_penetration = snapshot.ply_penetration = 0.0;
   for (const ToolState& t : s.tools)
     for (const ToolPlyContact& c : t.contacts)
-      r.max_tool_penetration_mm = std::max(r.max_tool_penetration_mm, c.sums.penetration);
+      snapshot.tool_penetration = std::max(snapshot.tool_penetration, c.sums.penetration);
   for (const PlyContact& pair : s.ply_contacts)
-    r.max_ply_penetration_mm = std::max(r.max_ply_penetration_mm, pair.contact.sums.penetration);
-  return r;
+    snapshot.ply_penetration = std::max(snapshot.ply_penetration, pair.contact.sums.penetration);
 }
 
 void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
@@ -62,7 +52,7 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
     snapshot.tool_force.push_back(t.force);
   }
   snapshot.energy = energy;
-  snapshot.contact = penetrations(s);
+  keep_penetrations(s, snapshot);
   snapshot.time = s.time;
   snapshot.step = s.step;
 }
@@ -116,8 +106,11 @@ int outputs_due(const Scene& s) {
   return std::min(due, s.data.solver.outputs - 1); // the last one is due at the end
 }
 
-/// Contact report of the state in `s`: r with the exact count of intersections.
-ContactReport audit(const Scene& s, ContactReport r) {
+/// Contact report of the state in `s`, with the exact count of intersections.
+ContactReport audit(const Scene& s, const Snapshot& good) {
+  ContactReport r;
+  r.max_tool_penetration_mm = good.tool_penetration;
+  r.max_ply_penetration_mm = good.ply_penetration;
   std::vector<MeshView> sheets;
   for (const PlyState& ply : s.plies)
     sheets.push_back({ply.x, ply.membrane.triangles});
@@ -149,8 +142,7 @@ void doubt_if(const std::vector<std::string>& reasons, Summary& sum) {
     sum.message += (sum.message.empty() ? "" : "; ") + reason;
 }
 
-void finish(const Scene& s, const ContactReport& depths, RunResult& result, int threads,
-            double elapsed) {
+void finish(const Scene& s, const Snapshot& good, RunResult& result, int threads, double elapsed) {
   Summary& sum = result.summary;
   sum.title = s.data.title;
   sum.version = version();
@@ -161,7 +153,7 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
   sum.threads = threads;
   const PredictedError error = predicted_error(s.data);
   sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data)};
-  sum.contact = audit(s, depths);
+  sum.contact = audit(s, good);
   const std::vector<ToolCut> cuts = cuts_between_nodes(s);
   sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
   sum.work = report_work(s, result.last, sum.contact);
@@ -184,6 +176,99 @@ void finish(const Scene& s, const ContactReport& depths, RunResult& result, int 
 
 } // namespace
 
+namespace {
+
+/// One run: the loop over its steps.
+class Run {
+public:
+  Run(Scene& scene, int threads, const RunHooks& hooks)
+      : s_(scene), pool_(threads), threads_(threads), hooks_(hooks) {}
+
+  RunResult result() {
+    begin();
+    std::optional<Stop> stop = steps();
+    if (stop) go_back(*stop);
+    finish(s_, state_.good, result_, threads_, elapsed());
+    return std::move(result_);
+  }
+
+private:
+  double elapsed() const { return state_.elapsed + seconds_since(begin_); }
+
+  void begin() {
+    floor_ = balance_floor(s_);
+    if (hooks_.resume) {
+      load_state(hooks_.resume->state, s_, state_);
+      result_.last = hooks_.resume->last;
+      result_.last.energy = state_.good.energy;
+      return;
+    }
+    start(s_, pool_);
+    keep(s_, state_.energy, state_.good);
+  }
+
+  void write() {
+    result_.last = make_frame(s_, state_.energy);
+    state_.outputs_written = outputs_due(s_);
+    if (hooks_.frame) hooks_.frame(result_.last);
+  }
+
+  /// Between two steps.
+  void save_if_due(bool interrupted) {
+    const RunHooks::Checkpoint& checkpoint = hooks_.checkpoint;
+    if (!checkpoint.save || s_.step == 0) return;
+    if (!interrupted && seconds_since(saved_) < checkpoint.interval) return;
+    RunState now = state_;
+    now.elapsed = elapsed();
+    checkpoint.save(save_state(s_, now));
+    saved_ = Clock::now();
+  }
+
+  std::optional<Stop> steps() {
+    for (;;) {
+      const bool interrupted = hooks_.interrupt && hooks_.interrupt->load();
+      save_if_due(interrupted);
+      if (auto stop = compute_forces(s_, pool_)) return stop;
+      const bool ended = s_.time >= s_.data.solver.duration, last = interrupted || ended;
+      const bool output = last || outputs_due(s_) > state_.outputs_written;
+      if (s_.step == 0) s_.start_energy = current_energies(s_, pool_).residual();
+      if (output || s_.step % check_every == 0) {
+        state_.energy = current_energies(s_, pool_);
+        if (auto stop = check_balance(s_, state_.energy, floor_)) return stop;
+        keep(s_, state_.energy, state_.good);
+        if (hooks_.progress) hooks_.progress(progress_of(s_, state_.energy, elapsed()));
+      }
+      if (output) write();
+      if (interrupted && !ended) {
+        result_.summary.status = "interrupted";
+        result_.summary.message = fmt::format("interrupted at step {}, time {:.6g} s of {:.6g} s",
+                                              s_.step, s_.time, s_.data.solver.duration);
+      }
+      if (last) return std::nullopt;
+      move_plies(s_, pool_);
+    }
+  }
+
+  void go_back(const Stop& stop) {
+    result_.summary.status = "stopped";
+    result_.summary.message = stop.message;
+    restore(s_, state_.good);
+    state_.energy = state_.good.energy;
+    if (s_.step != result_.last.step || state_.outputs_written < 0) write();
+  }
+
+  Scene& s_;
+  ThreadPool pool_;
+  int threads_;
+  const RunHooks& hooks_;
+  Clock::time_point begin_ = Clock::now(), saved_ = begin_;
+  double floor_ = 0.0; ///< of the check of the energy balance
+  RunState state_;
+  RunResult result_;
+};
+
+} // namespace
+
 RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
                    const std::vector<BlankMesh>& meshes) {
   Scene s = make_scene(data, meshes);
@@ -191,49 +276,7 @@ RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
 }
 
 RunResult run_scene(Scene& s, int threads, const RunHooks& hooks) {
-  const auto begin = Clock::now();
-  ThreadPool pool(threads);
-  start(s, pool);
-  const double floor = balance_floor(s);
-  RunResult result;
-  Energies energy;
-  Snapshot good;
-  keep(s, energy, good);
-  int written = -1;
-  std::optional<Stop> stop;
-  const auto write = [&] {
-    result.last = make_frame(s, energy);
-    written = outputs_due(s);
-    if (hooks.frame) hooks.frame(result.last);
-  };
-  for (;;) {
-    stop = compute_forces(s, pool);
-    if (stop) break;
-    const bool interrupted = hooks.interrupt && hooks.interrupt->load();
-    const bool last = interrupted || s.time >= s.data.solver.duration;
-    const bool output = last || outputs_due(s) > written;
-    if (s.step == 0) s.start_energy = current_energies(s, pool).residual();
-    if (output || s.step % check_every == 0) {
-      energy = current_energies(s, pool);
-      stop = check_balance(s, energy, floor);
-      if (stop) break;
-      keep(s, energy, good);
-      if (hooks.progress) hooks.progress(progress_of(s, energy, seconds_since(begin)));
-    }
-    if (output) write();
-    if (interrupted && s.time < s.data.solver.duration) result.summary.status = "interrupted";
-    if (last) break;
-    move_plies(s, pool);
-  }
-  if (stop) {
-    result.summary.status = "stopped";
-    result.summary.message = stop->message;
-    restore(s, good);
-    energy = good.energy;
-    if (s.step != result.last.step || written < 0) write();
-  }
-  finish(s, good.contact, result, threads, seconds_since(begin));
-  return result;
+  return Run(s, threads, hooks).result();
 }
 
 } // namespace plyform

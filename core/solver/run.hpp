@@ -24,9 +24,18 @@ struct Progress {
 };
 
 struct RunHooks {
+  /// save(state) is called every `interval` seconds of wall time, and once when the run is
+  /// interrupted: bytes from which the same case goes on with the same bits, on this machine and
+  /// with this build.
+  struct Checkpoint {
+    std::function<void(const std::string& state)> save;
+    double interval = 60.0; ///< s
+  };
   std::function<void(const Frame&)> frame;       ///< each output state, the first and last included
   std::function<void(const Progress&)> progress; ///< several times a second at most
   const std::atomic<bool>* interrupt = nullptr;  ///< set it to end the run early
+  Checkpoint checkpoint;
+  const Resume* resume = nullptr; ///< null: from the start
 };
 
 struct RunResult {
@@ -36,7 +45,8 @@ struct RunResult {
 
 /// Runs a case. Stops early, with the last good state, if a value is not finite, an element
 /// collapses, a ply passes through another or a tool, or the energy balance error exceeds its
-/// limit. threads >= 1. meshes: as of make_scene. Throws std::runtime_error as make_scene.
+/// limit. threads >= 1. meshes: as of make_scene. Throws std::runtime_error as make_scene, and if
+/// hooks.resume is not of this case.
 RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
                    const std::vector<BlankMesh>& meshes = {});
 

@@ -102,8 +102,10 @@ y = "largest_shear_deg"
 
 
 def check_grid(folder: Path) -> None:
-    """Every combination, limits, pictures and which key moves what."""
+    """Every combination, limits, pictures and which key moves what; pictures of nothing too."""
     scene = Scene(folder / "grid", GRID)
+    scene.results.mkdir()
+    assert "missing" in scene.call("--table").err and (scene.results / "window.png").is_file()
     told = scene.call()
     assert told.code == 0, told
     rows = [row for row in scene.rows() if row["line"] == "grid"]

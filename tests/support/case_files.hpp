@@ -4,6 +4,7 @@
 
 #include "core/setup/prepare_case.hpp"
 
+#include <algorithm>
 #include <filesystem>
 #include <gtest/gtest.h>
 #include <string>
@@ -32,9 +33,9 @@ inline bool is_fabric(const fs::path& shipped) {
   return shipped.parent_path().filename() == "fabrics";
 }
 
-/// Not a case but a list of runs of one: core/study/study.hpp.
+/// Not a case but a study of one, or what studies include.
 inline bool is_study(const fs::path& shipped) {
-  return shipped.parent_path().filename() == "studies";
+  return std::find(shipped.begin(), shipped.end(), "studies") != shipped.end();
 }
 
 } // namespace plyform

@@ -28,6 +28,7 @@ struct RunArguments {
   std::string output;
   int threads = 0;     ///< 0: the number of cores
   bool report = false; ///< make report.html of the results
+  bool resume = false; ///< goes on from the folder's checkpoint
 };
 
 /// A shear test: bias or frame; NaN where not given.

@@ -61,6 +61,8 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   run->add_option("--threads", to.run.threads, "threads; the results do not depend on it")
       ->check(CLI::Range(1, 256));
   run->add_flag("--report", to.run.report, "make report.html of the results, for any browser");
+  run->add_flag("--resume", to.run.resume,
+                "go on where this run was killed or interrupted, with the same results");
   add_accuracy(*run, to.run.input);
   commands.push_back({run, [&to] { return run_command(to.run); }});
 

@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
+#include <optional>
 #include <thread>
 #include <unistd.h>
 
@@ -143,9 +144,30 @@ int tell_end(const Summary& summary, const std::filesystem::path& folder) {
     return exit_stopped;
   }
   if (summary.status == "interrupted")
-    fmt::print(stderr, "plyform: interrupted; the state reached is in {}\n", folder.string());
+    fmt::print(stderr,
+               "plyform: {}\n         the state reached is in {}; the same command with --resume "
+               "goes on\n",
+               summary.message, folder.string());
   if (summary.status == "doubtful") fmt::print(stderr, "plyform: doubtful: {}\n", summary.message);
   return ended(summary.status) ? exit_done : exit_other;
+}
+
+/// Whether the run in this folder has come to its end; says so.
+bool ended_before(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder / "summary.json", ignored)) return false;
+  fmt::print("the run in {} has ended: there is nothing to resume\n", folder.string());
+  return true;
+}
+
+/// Where the run in this folder goes on; says so. Nothing if it has no checkpoint.
+std::optional<Resume> find_checkpoint(ResultWriter& writer, const std::filesystem::path& folder,
+                                      const std::string& identity) {
+  std::optional<Resume> found = writer.go_on(identity);
+  if (found)
+    fmt::print(stderr, "goes on after {:.2f} mm of stroke, from the checkpoint in {}\n",
+               found->last.stroke_mm, folder.string());
+  return found;
 }
 
 } // namespace
@@ -157,13 +179,22 @@ int run_command(const RunArguments& arguments) {
   const int threads = arguments.threads > 0 ? arguments.threads : cores;
   const std::filesystem::path folder = output_folder(arguments);
   ResultWriter writer(folder);
-  std::signal(SIGINT, on_interrupt);
-  std::signal(SIGTERM, on_interrupt);
+  for (const int end : {SIGINT, SIGTERM, SIGHUP})
+    std::signal(end, on_interrupt);
+  std::optional<Resume> resume;
+  if (arguments.resume) {
+    resume = find_checkpoint(writer, folder, prepared.identity);
+    if (!resume && ended_before(folder)) return exit_done;
+  }
   ProgressLine line;
   RunHooks hooks;
   hooks.frame = [&](const Frame& frame) { writer.write_frame(frame); };
   hooks.progress = [&](const Progress& p) { line.show(p); };
   hooks.interrupt = &interrupted;
+  hooks.checkpoint = {
+      [&](const std::string& state) { writer.write_checkpoint(prepared.identity, state); },
+      prepared.value->solver.checkpoint_interval};
+  hooks.resume = resume ? &*resume : nullptr;
   RunResult result = run_case(*prepared.value, threads, hooks, prepared.meshes);
   result.summary.accuracy.coarsening = prepared.coarsening;
   result.summary.assumed.insert(result.summary.assumed.begin(), prepared.notes.begin(),

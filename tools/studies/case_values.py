@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What stands in a case: values of its keys, and a hash of it with all files that it names."""
 
+import contextlib
 import fnmatch
 import functools
 import hashlib
@@ -30,16 +31,29 @@ def defaults(program: Path) -> dict[str, object]:
 
 
 class CaseValues:
-    """The case file's tables with settings put in; plyform itself says whether they are right."""
+    """The case file's tables with settings put in, and those of a fabric file where a key goes
+    into it; plyform itself says whether they are right."""
 
     def __init__(self, file: Path, settings: tuple[str, ...], program: Path):
-        self.program = program
+        self.program, self.folder = program, file.parent
         self.tables = tomllib.loads(file.read_text(encoding="utf-8"))
         for setting in settings:
             self.put(*split_setting(setting))
 
+    def open_fabrics(self, steps: list[str]) -> None:
+        """For a path below a fabric, puts the tables of its file in the place of its path."""
+        fabrics = self.tables.get("fabrics")
+        if len(steps) < 3 or steps[0] != "fabrics" or not isinstance(fabrics, dict):
+            return
+        for name, fabric in fabrics.items():
+            file = self.folder / fabric if isinstance(fabric, str) else None
+            if file and file.is_file() and fnmatch.fnmatchcase(name, steps[1]):
+                with contextlib.suppress(tomllib.TOMLDecodeError):  # plyform says what is wrong
+                    fabrics[name] = tomllib.loads(file.read_text(encoding="utf-8"))
+
     def put(self, key: str, text: str) -> None:
         *path, last = key.split(".")
+        self.open_fabrics([*path, last])
         at = self.tables
         for step in path:
             if isinstance(at, list) and step.isdigit() and int(step) < len(at):
@@ -58,10 +72,10 @@ class CaseValues:
         A pattern without * is itself, whether or not the case gives it."""
         if "*" not in pattern:
             return [pattern]
-        found = []
+        found, steps = [], pattern.split(".")
+        self.open_fabrics(steps)
 
         def walk(at, path: list[str]) -> None:
-            steps = pattern.split(".")
             if len(path) == len(steps):
                 found.append(".".join(path))
                 return
@@ -75,8 +89,9 @@ class CaseValues:
 
     def own(self, key: str):
         """The value of a key, its default where the case has none; None if there is no such."""
-        at = self.tables
-        for step in key.split("."):
+        at, steps = self.tables, key.split(".")
+        self.open_fabrics(steps)
+        for step in steps:
             if isinstance(at, list) and step.isdigit() and int(step) < len(at):
                 at = at[int(step)]
             elif isinstance(at, dict) and step in at:

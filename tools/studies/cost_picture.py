@@ -11,7 +11,8 @@ from plotting.looks import colour, finish
 from plotting.reading import Field
 from studies.plan import Planner
 from studies.ranking import is_number
-from studies.study_file import Picture, Study
+from studies.shown import Picture
+from studies.study_file import Study
 
 GREY = "#7F7F7F"
 AROUND = [(0, 7), (0, -7), (8, 0), (-8, 0), (7, 6), (-7, 6), (7, -6), (-7, -6), (0, 15), (0, -15)]

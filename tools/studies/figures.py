@@ -1,7 +1,28 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Numbers of summary.json by path: max plies.*.max_shear_deg, tools.punch.force_N."""
+"""Numbers of a run by path: of summary.json, max plies.*.max_shear_deg, tools.punch.force_N; of
+history.csv, max history.die_force_N, or of the second half of the stroke, jump late.die_force_N."""
 
+import fnmatch
 import math
+import re
+from pathlib import Path
+
+import numpy as np
+from plotting.reading import read_history
+
+TAKE = ("max", "min", "mean", "sum", "jump")
+FIGURE = re.compile(rf"^(?:([-+.\deE]+) \* )?(?:({'|'.join(TAKE)}) )?(\S+)$")  # factor, take, path
+HISTORY = ("history", "late")
+
+
+def pairs_by_kind(summary: dict) -> dict:
+    """Beside `pairs`, those of plies with plies (or with themselves) and those with tools."""
+    plies = {ply.get("name") for ply in summary.get("plies", [])}
+    pairs = summary.get("pairs", [])
+    between = [{pair.get("a"), pair.get("b")} <= plies for pair in pairs]
+    return summary | {
+        "pairs_of_plies": [pair for pair, both in zip(pairs, between) if both],
+        "pairs_with_tools": [pair for pair, both in zip(pairs, between) if not both]}
 
 
 def found(at, steps: list[str], names: tuple[str, ...] = ()) -> list[tuple[str, object]]:
@@ -16,17 +37,17 @@ def found(at, steps: list[str], names: tuple[str, ...] = ()) -> list[tuple[str, 
             return found(at[int(steps[0])], steps[1:], names)
     else:
         inner = at if isinstance(at, dict) else {}
-    if steps[0] == "*":
-        return [one for name, value in inner.items()
+    if "*" in steps[0]:
+        return [one for name, value in inner.items() if fnmatch.fnmatchcase(name, steps[0])
                 for one in found(value, steps[1:], (*names, name))]
     return found(inner[steps[0]], steps[1:], names) if steps[0] in inner else []
 
 
-def number(value) -> float | int | str:
+def number(value, factor: float) -> float | int | str:
     """Texts and whole numbers as they are; NaN for null."""
-    if isinstance(value, (int, float, str)):
-        return value
-    return math.nan
+    if isinstance(value, (int, float)) and factor != 1.0:
+        return factor * value
+    return value if isinstance(value, (int, float, str)) else math.nan
 
 
 def taken(how: str, values: list) -> float:
@@ -34,21 +55,44 @@ def taken(how: str, values: list) -> float:
     numbers = [float(value) if isinstance(value, (int, float)) else math.nan for value in values]
     if not numbers or any(map(math.isnan, numbers)):
         return math.nan
+    if how == "jump":
+        return largest_jump(np.array(numbers))
     return {"max": max, "min": min, "sum": sum,
             "mean": lambda them: sum(them) / len(them)}[how](numbers)
 
 
-def figures_of(wanted: dict[str, str], summary: dict) -> dict:
-    """A column a figure; of one with * and nothing to take of them, a column each. What the
-    summary does not have is left out."""
-    row = {}
+def largest_jump(values: np.ndarray) -> float:
+    """Largest distance of a value from the mean of those before and after."""
+    return float(abs(values[1:-1] - 0.5 * (values[:-2] + values[2:])).max(initial=0.0))
+
+
+def of_history(path: str, folder: Path, jump: bool) -> list[float]:
+    """Values of a column; late ones from half of the stroke on, for jumps with the one before."""
+    which, _, column = path.partition(".")
+    history = read_history(folder)
+    if column not in history:
+        return []
+    stroke = history["stroke_mm"]
+    first = 0 if which == "history" else int(np.argmax(stroke >= 0.5 * stroke[-1])) - jump
+    return history[column][max(first, 0):].tolist()
+
+
+def figures_of(wanted: dict[str, str], summary: dict, folder: Path) -> dict:
+    """A column a figure; of one with * and nothing to take of them, a column each. What the run
+    does not have is left out."""
+    row, summary = {}, pairs_by_kind(summary) if summary else {}
     for name, path in wanted.items():
-        how, _, path = path.rpartition(" ")
-        values = found(summary, path.split("."))
+        factor, how, path = FIGURE.match(path).groups()
+        factor = float(factor or 1.0)
+        if path.startswith(tuple(f"{one}." for one in HISTORY)):
+            values = [("", value) for value in of_history(path, folder, how == "jump")] \
+                if summary else []
+        else:
+            values = found(summary, path.split("."))
         if not values:
             continue
         if how:
-            row[name] = taken(how, [value for _, value in values])
+            row[name] = factor * taken(how, [value for _, value in values])
         else:
-            row |= {f"{name}_{of}" if of else name: number(value) for of, value in values}
+            row |= {f"{name}_{of}" if of else name: number(value, factor) for of, value in values}
     return row

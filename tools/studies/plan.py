@@ -8,7 +8,9 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from studies.case_values import CaseValues, FileHash, split_setting
-from studies.study_file import CASE, DRAWN, Study, Vary, is_number
+from studies.reader import is_number
+from studies.shown import COLUMN
+from studies.study_file import CASE, DRAWN, Study, Vary
 from studies.toml_place import toml_text, toml_value
 
 # Picked by an accuracy: what a run with one takes for them is in its results.
@@ -26,6 +28,8 @@ class Run:
     values: dict = field(default_factory=dict)  # by vary's name
     item: str = ""                 # of the study file, where its mistakes are told
     name: str = ""                 # of its folder
+    against: str = ""              # label of the run that it is compared with
+    quarter_turns: int = 0         # of that one about z, before
 
     def words(self) -> list[str]:
         """Of the command, behind run or check."""
@@ -48,6 +52,10 @@ class Planner:
                     study.mistakes.add(f"{one.item}.{'each' if one.each else 'key'}",
                                        "fits no key of the case", "write it as in the case file",
                                        key)
+        for name, _ in COLUMN.findall(study.run_name):
+            if name not in (known := [one.name for one in self.vary]):
+                study.mistakes.add("run_name", f"there is no [[vary]] {name}",
+                                   f"there are {', '.join(known)}")
 
     def case_values(self, case: Path, settings: tuple[str, ...]) -> CaseValues:
         return CaseValues(case, settings, self.program)
@@ -64,17 +72,21 @@ class Planner:
         """What the case has: 1 of factors, else its value; a list for several keys."""
         if one.factors:
             return 1.0
-        found = [values.own(key) for pattern in one.keys for key in values.keys(pattern)[:1]]
-        return found[0] if len(one.keys) == 1 and found else found
+        return chosen([values.own(key) for pattern in one.keys
+                       for key in values.keys(pattern)[:1]])
 
     def settings_of(self, one: Vary, row: tuple, base: CaseValues) -> list[str]:
         settings = []
         for pattern, value in zip(one.keys, row):
             if pattern == CASE:
                 continue
-            for key in base.keys(pattern):
+            keys = base.keys(pattern)
+            for i, key in enumerate(keys):
                 own = base.own(key)
-                if not one.factors:
+                if "*" in pattern and isinstance(value, list) and not isinstance(own, list) and \
+                        len(value) == len(keys):
+                    settings.append(f"{key}={toml_text(value[i])}")  # each its own
+                elif not one.factors:
                     settings.append(f"{key}={toml_text(value)}")
                 elif is_number(own):
                     settings.append(f"{key}={own * value!r}")
@@ -97,11 +109,11 @@ class Planner:
         words = [word for one, row in choice for word in self.settings_of(one, row, base)]
         run = Run(line, label, case, self.shortest(case, [*given, *words]),
                   accuracy or self.study.accuracy, item=item)
-        chosen = {one.name: row[0] if len(row) == 1 else list(row) for one, row in choice}
+        given = {one.name: one.name_of(row) or chosen(list(row)) for one, row in choice}
         for one in self.vary:
             picked = run.accuracy and not one.factors and \
                 any(key.endswith(COST_KEYS) for key in one.keys)
-            run.values[one.name] = chosen[one.name] if one.name in chosen else \
+            run.values[one.name] = given[one.name] if one.name in given else \
                 str(case) if one.keys == [CASE] else \
                 "" if picked or (run.accuracy and one.factors) else self.own(one, base)
         return run
@@ -122,6 +134,7 @@ class Planner:
         wanted = self.study.reference
         if wanted is None:
             return None
+        choice = self.chosen_of(wanted.values)
         given = (*self.study.settings, *wanted.settings)
         values = self.case_values(self.study.case, given)
         more = []
@@ -131,8 +144,34 @@ class Planner:
                 self.study.mistakes.add("reference.factors", f"{pattern} is no number of the case",
                                         "name keys that have a value, as in --set")
             more += [f"{key}={values.own(key) * factor!r}" for key in keys if factor != 1.0]
-        return self.run("reference", "reference", settings=(*wanted.settings, *more),
+        return self.run("reference", "reference", choice, settings=(*wanted.settings, *more),
                         accuracy=wanted.accuracy, item="reference")
+
+    def chosen_of(self, values: dict) -> list[tuple[Vary, tuple]]:
+        """By name of a vary, its value or the name of one."""
+        choice = []
+        for one in self.vary:
+            if one.name not in values:
+                continue
+            value = values[one.name]
+            row = one.values[one.names.index(value)] if value in one.names else one.row(value)
+            choice.append((one, row))
+        return choice
+
+    def extra(self) -> list[Run]:
+        runs = []
+        for one in self.study.extra:
+            runs.append(self.run("run", one.name, self.chosen_of(one.values), tuple(one.settings),
+                                 one.accuracy, one.item))
+            runs[-1].against, runs[-1].quarter_turns = one.against, one.quarter_turns
+        return runs
+
+    def label_of_choice(self, number: int, choice: list[tuple[Vary, tuple]]) -> str:
+        told = {one.name: label_of(one, row) for one, row in choice}
+        if self.study.run_name:
+            return COLUMN.sub(lambda match: told[match[1]], self.study.run_name)
+        return str(number) if self.study.method in DRAWN else \
+            ", ".join(f"{name}={text}" for name, text in told.items())
 
     def choices(self) -> list[list[tuple[Vary, tuple]]]:
         """Values of what is varied, by run, for all methods but one at a time."""
@@ -165,19 +204,26 @@ class Planner:
             runs += [self.run(one.name, label_of(one, row), [(one, row)], item=f"{one.item}.{i}")
                      for i, row in enumerate(one.values)]
         if not single and self.vary:
-            for i, choice in enumerate(self.choices()):
-                label = f"{i + 1}" if study.method in DRAWN else \
-                    ", ".join(f"{one.name}={label_of(one, row)}" for one, row in choice)
-                runs.append(self.run(study.method, label, choice, item="vary"))
-        runs += [self.run("run", one.name, (), tuple(one.settings), one.accuracy, one.item)
-                 for one in study.extra]
+            for i, choice in enumerate(() if study.mistakes.told else self.choices()):
+                runs.append(self.run(study.method, self.label_of_choice(i + 1, choice), choice,
+                                     item="vary"))
+        runs += self.extra()
+        asked = [(f"{run.item}.against", run.against) for run in runs]
+        for one in study.limits.values():
+            asked += [(f"limits.{one.name}.ratio_to", one.ratio_to),
+                      (f"limits.{one.name}.distance_to", one.distance_to)]
+        labels = [run.label for run in runs]
+        for item, label in asked:
+            if label and label not in labels:
+                study.mistakes.add(item, "is no run of this study",
+                                   f"there are {', '.join(labels)}", label)
         return self.named(runs, folder)
 
     def named(self, runs: list[Run], folder: Path) -> list[Run]:
         """A reference that is another run as well stands in that one's line."""
         there = {path.name.rpartition("-")[2]: path.name for path in (folder / "runs").glob("*-*")
                  if not path.name.endswith(".running")}
-        kept = {}
+        kept, first = {}, ""
         for run in runs:
             start = run.label if run.line in (run.label, "grid", "list", "run") else \
                 f"{run.line} {run.label}"
@@ -185,12 +231,21 @@ class Planner:
             run.name = there.get(ident, f"{file_name(start)[:60]}-{ident}")
             if ident not in kept or kept[ident].line == "reference":
                 kept[ident] = run
-        self.reference_name = runs[0].name if self.study.reference else ""
+            first = first or ident
+        self.reference_name = kept[first].name if self.study.reference else ""
         return list(kept.values())
 
 
+def chosen(row: list):
+    """A value of what is varied, as tables show it: one, where all keys have the same."""
+    return row if not row or any(one != row[0] for one in row) else \
+        "" if row[0] is None else row[0]
+
+
 def label_of(one: Vary, row: tuple) -> str:
-    text = ",".join(value if isinstance(value, str) else toml_text(value) for value in row)
+    values = row if any(value != row[0] for value in row) else row[:1]
+    text = one.name_of(row) or ",".join(value if isinstance(value, str) else toml_text(value)
+                                        for value in values)
     return f"×{text}" if one.factors else text
 
 

@@ -2,22 +2,29 @@
 """The table of a study, a row a run, and what is made of it."""
 
 import csv
+import fnmatch
 import json
 import math
 import subprocess
 from pathlib import Path
 
 from plotting.reading import FIELDS, Trouble
+from studies.discs import COLUMNS, area_means
 from studies.engine import ended
 from studies.figures import figures_of
 from studies.plan import Planner, Run
 from studies.ranking import is_number, rank, ranking_lines
+from studies.reach import reach
 from studies.run_job import read_json
+from studies.shown import COLUMN
 from studies.study_file import Study
+from studies.text_table import fill
+from studies.verdicts import breaks, title, verdicts
 
 SOUND = ("done", "doubtful")
 UNITS = {"degrees": "deg", "%": "percent", "N per yarn": "N_per_yarn", "mm": "mm"}
 FRONT = "wall_time_s"
+ON_KEYS = ("map", "window", "plies")  # pictures whose axes are keys
 
 
 def error_columns(field: str) -> dict[str, str]:
@@ -32,21 +39,37 @@ def main_error(study: Study) -> str:
     return error_columns(fields[0])["rms"] if fields else ""
 
 
-def check_columns(study: Study, planner: Planner) -> None:
-    """Whether limits and pictures name what the table will have."""
-    keys = [one.name for one in planner.vary]
+def known_columns(study: Study, planner: Planner) -> tuple[list[str], list[str]]:
+    """Names of what is varied, and of the figures that the table will have."""
     errors = [name for field in (study.reference.fields if study.reference else [])
               for name in error_columns(field).values()]
-    figures = ["wall_time_s", "cpu_s", *study.figures, *errors]
-    asked = [(f"limits.{name}", name, figures) for name in study.limits]
+    means = COLUMNS if study.area_means else ()
+    return [one.name for one in planner.vary], ["wall_time_s", "cpu_s", *study.figures, *means,
+                                                *errors]
+
+
+def check_columns(study: Study, planner: Planner) -> None:
+    """Whether limits, tables and pictures name what the table will have."""
+    keys, figures = known_columns(study, planner)
+    several = (*study.figures, *(COLUMNS if study.area_means else ()))
+    asked = [(f"limits.{name}" if name == one.figure else f"limits.{name}.figure", one.figure,
+              figures) for name, one in study.limits.items()]
+    asked += [(f"limits.{name}.where", column, ["run", "line", *keys, *figures])
+              for name, one in study.limits.items() for where in one.where for column in where]
+    asked += [(f"table.{head}", column, ["status", "against", *keys, *figures])
+              for head, text in study.table.items() for column, _ in COLUMN.findall(text)]
     for i, one in enumerate(study.pictures):
         for key in ("x", "y", "figure"):
-            allowed = figures if key == "figure" else keys if one.kind in ("map", "window") else \
+            allowed = figures if key == "figure" else keys if one.kind in ON_KEYS else \
                 keys + figures
             if getattr(one, key):
                 asked.append((f"picture.{i}.{key}", getattr(one, key), allowed))
+        asked += [(f"picture.{i}.figures", name, figures) for name in one.figures]
+        asked += [(f"picture.{i}.{key}", getattr(one, key), keys) for key in ("rows", "panels")
+                  if getattr(one, key)]
     for item, name, allowed in asked:
-        if name not in allowed and not any(name.startswith(f"{f}_") for f in study.figures):
+        if not fnmatch.filter(allowed, name) and \
+                not any(name.startswith(f"{one}_") for one in several):
             study.mistakes.add(item, f"there is no {name}", f"there are {', '.join(allowed)}")
 
 
@@ -83,19 +106,6 @@ def differences(study: Study, planner: Planner, runs: list[Run], folder: Path) -
     return told
 
 
-def breaks(study: Study, row: dict) -> str:
-    """The first limit that a run does not keep, or how it ended; empty: it keeps all."""
-    if row["status"] not in SOUND:
-        return row["status"]
-    for name, limit in study.limits.items():
-        values = [value for column, value in row.items()
-                  if column == name or column.startswith(f"{name}_")]
-        if not values or not all(isinstance(value, (int, float)) and
-                                 limit.at_least <= value <= limit.at_most for value in values):
-            return name
-    return ""
-
-
 def mark_front(rows: list[dict], error: str) -> None:
     """1 where no other run is as fast and as near to the reference, and better in one of both."""
     points = [row for row in rows if row["status"] in SOUND and is_number(row.get(error))]
@@ -107,18 +117,24 @@ def mark_front(rows: list[dict], error: str) -> None:
 
 def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path) -> list[dict]:
     errors, rows = differences(study, planner, runs, folder), []
+    means = area_means(study.area_means, planner, runs, folder)
     for run in runs:
         told = ended(folder, run)
         row = {"line": run.line, "setting": run.label,
                **{one.name: run.values[one.name] for one in planner.vary},
                "status": told.get("status", "missing"), "wall_time_s": told.get("wall_time_s", ""),
                "cpu_s": told.get("cpu_s", "")}
-        row |= figures_of(study.figures, read_json(folder / "runs" / run.name / "summary.json"))
+        place = folder / "runs" / run.name
+        row |= figures_of(study.figures, read_json(place / "summary.json"), place)
         row |= errors.get(run.name, {})
-        if study.limits:
-            row["breaks"] = breaks(study, row)
-            row["within_limits"] = int(not row["breaks"])
-        rows.append(row | {"message": told.get("message", ""), "folder": f"runs/{run.name}"})
+        row |= {"message": told.get("message", "")} | means.get(run.name, {})
+        rows.append(row | {"folder": f"runs/{run.name}"})
+        if study.stops:
+            rows[-1]["stop"] = next((letter for part, letter in study.stops.items()
+                                     if row["status"] == "stopped" and part in row["message"]), "")
+    for row in rows if study.limits else ():
+        row["breaks"] = breaks(study, row, rows)
+        row["within_limits"] = int(not row["breaks"])
     if main_error(study):
         mark_front(rows, main_error(study))
     return rows
@@ -153,25 +169,31 @@ def screen(rows: list[dict], study: Study) -> str:
         value = row.get(third)
         last = f"{value:24.3g}" if isinstance(value, (int, float)) else f"{'':24}"
         time = f"{row['wall_time_s']:9.3g}" if row["wall_time_s"] != "" else " " * 9
-        name = row["line"] if row["line"] == row["setting"] else f"{row['line']} {row['setting']}"
         note = "" if row["status"] == "done" else f"  {row['status']}"
-        lines.append(f"{name:44} {time} {last}{note}"
+        lines.append(f"{title(row):44} {time} {last}{note}"
                      f"{'  best for its time' if row.get('on_front') else ''}")
     return "\n".join(lines)
 
 
-def tell(study: Study, planner: Planner, runs: list[Run], folder: Path) -> int:
-    """Writes table, ranking and pictures; the exit code."""
+def tell(study: Study, planner: Planner, runs: list[Run], folder: Path,
+         text: Path | None = None) -> int:
+    """Writes table, ranking and pictures, and fills them into a text; the exit code."""
     rows = rows_of(study, planner, runs, folder)
     write_csv(rows, columns_of(rows), folder / "table.csv")
     ranks = rank(study, [one.name for one in planner.vary], rows)
     write_csv(ranks, ["figure", "key", "effect", "standardised", "explained", "runs"],
               folder / "ranking.csv")
+    if ways := reach(study, planner, rows):
+        write_csv(ways, list(ways[0]), folder / "reach.csv")
     if study.pictures:
         from studies.pictures import draw_all
         draw_all(study, planner, rows, folder)
     print(screen(rows, study))
     print("\n".join(ranking_lines(ranks, main_error(study) or "largest_shear_deg")))
+    for word, sentence in verdicts(study, rows):
+        print(f"{word}: {sentence}")
+    if text:
+        fill(text, study, planner, rows, folder)
     print(f"table, ranking and pictures are in {folder}")
     lost = [row for row in rows if row["status"] in ("failed", "refused", "missing")]
     for row in rows:

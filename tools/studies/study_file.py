@@ -3,33 +3,21 @@
 says of keys and values is asked of plyform later (check_runs.py). docs/users/studies.md describes
 the file."""
 
-import difflib
-import math
 import re
 import tomllib
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from plotting.reading import FIELDS, Trouble
+from studies import shown
+from studies.reader import Reader, is_number, is_value, is_word
 from studies.toml_place import Mistakes, lines_of
 
 METHODS = ("one at a time", "grid", "list", "latin hypercube", "sobol")
 DRAWN = METHODS[3:]  # from ranges, with a number of runs
 PRESETS = ("draft", "standard", "reference")
-TAKE = ("max", "min", "mean", "sum")
-PICTURES = {"cost": (), "map": ("x", "y", "figure"), "scatter": ("x", "y"), "window": ("x", "y")}
+INCLUDED = ("area_means", "figures", "limits", "stops", "table")  # of a file included
 CASE = "case"  # the key that stands for the case file itself
-KNOWN = {
-    "": ("title", "case", "set", "accuracy", "presets", "method", "runs", "seed", "vary", "run",
-         "reference", "figures", "limits", "picture"),
-    "vary": ("name", "key", "keys", "each", "values", "factors", "range", "count", "scale"),
-    "run": ("name", "set", "accuracy"),
-    "reference": ("set", "factors", "accuracy", "fields"),
-    "limits": ("at_most", "at_least"),
-    "picture": ("kind", "file", "title", "x", "y", "figure")}
-FIGURES = {"steps": "steps", "elements": "elements",
-           "largest_shear_deg": "max plies.*.max_shear_deg",
-           "promised_error_deg": "accuracy.promised_shear_error_deg"}
 
 
 @dataclass
@@ -40,9 +28,18 @@ class Vary:
     keys: list[str]                         # as in --set; may hold *
     each: bool = False                      # a draw of its own for every key that fits
     values: list[tuple] = field(default_factory=list)  # one for each key
+    names: list[str] = field(default_factory=list)     # of the values, where they have any
     factors: bool = False                   # values are factors of the case's own
     range: tuple[float, float] | None = None
     log: bool = False
+
+    def row(self, value) -> tuple:
+        """A value for each key; one that is no list is for all."""
+        several = len(self.keys) > 1
+        return tuple(value) if several and isinstance(value, list) else (value,) * len(self.keys)
+
+    def name_of(self, row: tuple) -> str:
+        return self.names[self.values.index(row)] if self.names and row in self.values else ""
 
     def drawn(self, share: float) -> float:
         """The value at a share of the range; six digits are enough to tell runs apart."""
@@ -57,10 +54,14 @@ class ExtraRun:
     item: str
     settings: list[str]
     accuracy: str = ""
+    values: dict = field(default_factory=dict)  # by the name of a vary
+    against: str = ""                           # label of the run that it is compared with
+    quarter_turns: int = 0                      # of that one about z, before
 
 
 @dataclass
 class Reference:
+    values: dict
     settings: list[str]
     factors: dict[str, float]
     accuracy: str
@@ -68,122 +69,27 @@ class Reference:
 
 
 @dataclass
-class Limit:
-    at_most: float = math.inf
-    at_least: float = -math.inf
-
-
-@dataclass
-class Picture:
-    kind: str
-    file: str
-    title: str
-    x: str = ""
-    y: str = ""
-    figure: str = ""
-
-
-@dataclass
 class Study:
     file: Path
-    title: str
-    case: Path
-    settings: list[str]
-    accuracy: str
-    presets: list[str]
-    method: str
-    runs: int
-    seed: int
-    vary: list[Vary]
-    extra: list[ExtraRun]
-    reference: Reference | None
-    figures: dict[str, str]
-    limits: dict[str, Limit]
-    pictures: list[Picture]
     mistakes: Mistakes
-
-
-def is_number(value) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
-
-
-def is_word(value) -> bool:
-    return isinstance(value, str) and value != "" and "\n" not in value
-
-
-class Reader:
-    """One table of the file; whatever is wrong goes to the mistakes, a usable value comes out."""
-
-    def __init__(self, table: dict, item: str, kind: str, mistakes: Mistakes):
-        self.table, self.item, self.mistakes = table, item, mistakes
-        self.meant: set[str] = set()  # keys that are there, but misspelt
-        known = KNOWN[kind]
-        for key in table:
-            if key not in known:
-                near = difflib.get_close_matches(key, known, 1)
-                self.meant.update(near)
-                self.fail(key, "unknown key",
-                          f"did you mean {near[0]}?" if near else f"there are {', '.join(known)}")
-
-    def path(self, key: str) -> str:
-        return f"{self.item}.{key}" if self.item else key
-
-    def fail(self, key: str, rule: str, remedy: str, value=None) -> None:
-        if rule == "is missing" and key in self.meant:
-            return
-        self.mistakes.add(self.path(key), rule, remedy, value)
-
-    def get(self, key: str, right, rule: str, remedy: str, default=None, required=False):
-        """The value if right(value); else the default."""
-        if key not in self.table:
-            if required:
-                self.fail(key, "is missing", remedy)
-            return default
-        value = self.table[key]
-        if right(value):
-            return value
-        self.fail(key, rule, remedy, value if is_number(value) or isinstance(value, str) else None)
-        return default
-
-    def word(self, key: str, remedy: str, default="", required=False) -> str:
-        return self.get(key, is_word, "must be a text that is not empty", remedy, default, required)
-
-    def choice(self, key: str, words: tuple, default: str = "", required=False) -> str:
-        return self.get(key, lambda value: value in words, f"must be one of {', '.join(words)}",
-                        "take one of these", default, required)
-
-    def whole(self, key: str, least: int, default: int, remedy: str, required=False) -> int:
-        return self.get(key, lambda value: type(value) is int and value >= least,
-                        f"must be a whole number from {least} on", remedy, default, required)
-
-    def items(self, key: str, right, rule: str, remedy: str, required=False) -> list:
-        """A list, of which wrong items and those that stand twice are told and left out."""
-        values = self.get(key, lambda value: isinstance(value, list), "must be a list", remedy, [],
-                          required)
-        kept = []
-        for i, value in enumerate(values):
-            if not right(value):
-                self.fail(f"{key}.{i}", rule, remedy, value if is_number(value) else None)
-            elif value in kept and key != "set":
-                self.fail(f"{key}.{i}", "stands twice", "take one of the two out",
-                          None if isinstance(value, dict) else value)
-            else:
-                kept.append(value)
-        return kept
-
-    def settings(self) -> list[str]:
-        return self.items("set", lambda one: is_word(one) and re.match(r"[^=\s]+=.", one),
-                          "must be a text KEY=VALUE", 'write for example "contact.friction=0.3"')
-
-    def tables(self, key: str) -> list[dict]:
-        return self.get(key, lambda value: isinstance(value, list) and
-                        all(isinstance(one, dict) for one in value),
-                        "must be a list of tables", f"write each under [[{key}]]", [])
-
-
-def is_value(value) -> bool:
-    return is_number(value) or is_word(value) or isinstance(value, bool) or \
-        isinstance(value, list) and all(map(is_value, value))
+    title: str = ""
+    case: Path = Path()
+    settings: list[str] = field(default_factory=list)
+    accuracy: str = ""
+    presets: list[str] = field(default_factory=list)
+    method: str = METHODS[0]
+    runs: int = 0
+    seed: int = 0
+    run_name: str = ""  # template of the labels of drawn, listed and grid runs
+    vary: list[Vary] = field(default_factory=list)
+    extra: list[ExtraRun] = field(default_factory=list)
+    reference: Reference | None = None
+    area_means: float | None = None  # mm, radius of the discs
+    figures: dict[str, str] = field(default_factory=dict)
+    limits: dict[str, shown.Limit] = field(default_factory=dict)
+    stops: dict[str, str] = field(default_factory=dict)  # part of a message, and its letter
+    table: dict[str, str] = field(default_factory=dict)
+    pictures: list[shown.Picture] = field(default_factory=list)
 
 
 def read_range(reader: Reader, one: Vary, method: str) -> None:
@@ -203,23 +109,29 @@ def read_range(reader: Reader, one: Vary, method: str) -> None:
     one.values = [(one.drawn(i / (count - 1)),) for i in range(count)]
 
 
-def read_values(reader: Reader, one: Vary) -> None:
-    key = "factors" if one.factors else "values"
+def read_values(reader: Reader, one: Vary, twice: bool) -> None:
+    """In a list values may stand twice."""
+    key, several = "factors" if one.factors else "values", len(one.keys)
     if one.factors:
         values = reader.items(key, lambda value: is_number(value) and value > 0,
                               "must be a number above 0", "give factors of the case's own value",
-                              True)
-    elif len(one.keys) > 1:
-        values = reader.items(key, lambda value: isinstance(value, list) and
-                              len(value) == len(one.keys) and all(map(is_value, value)),
-                              f"must be a list of {len(one.keys)} values, one for each of keys",
-                              "write values = [[..., ...], [..., ...]]", True)
+                              True, twice)
+    elif several > 1:
+        values = reader.items(key, lambda value: is_value(value) and not
+                              (isinstance(value, list) and len(value) != several),
+                              f"must be a list of {several} values, one for each of keys, or one "
+                              "value for all", "write values = [[..., ...], [..., ...]]", True,
+                              twice)
     else:
         values = reader.items(key, is_value, "must be a number, a text, true, false or a list",
-                              "give values as they stand in a case file", True)
+                              "give values as they stand in a case file", True, twice)
     if not reader.table.get(key) and key in reader.table:
         reader.fail(key, "must have at least one value", "give the values to run")
-    one.values = [tuple(value) if len(one.keys) > 1 else (value,) for value in values]
+    one.values = [one.row(value) for value in values]
+    one.names = reader.items("names", is_word, "must be a text", "give a name for each value")
+    if one.names and len(one.names) != len(reader.table.get(key, [])):
+        reader.fail("names", "must have as many items as values", "give a name for each value")
+        one.names = []
 
 
 def read_vary(table: dict, number: int, study: Study) -> Vary:
@@ -244,10 +156,36 @@ def read_vary(table: dict, number: int, study: Study) -> Vary:
     elif ways == ["range"]:
         read_range(reader, one, study.method)
     else:
-        read_values(reader, one)
+        read_values(reader, one, study.method == "list")
     for key in {"count", "scale"} & table.keys() if ways != ["range"] else ():
         reader.fail(key, "goes with range only", "take it out")
+    if "names" in table and ways == ["range"]:
+        reader.fail("names", "goes with values only", "take it out")
     return one
+
+
+def read_chosen(reader: Reader, study: Study) -> dict:
+    """Values of what is varied, by its name."""
+    wanted = reader.get("values", lambda value: isinstance(value, dict), "must be a table",
+                        "write values = { NAME of a vary = VALUE }", {})
+    known = {one.name: one for one in study.vary if not one.each}
+    for name, value in wanted.items():
+        if name not in known:
+            reader.fail("values", f"there is no [[vary]] {name}", f"there are {', '.join(known)}")
+        elif not is_value(value):
+            reader.fail("values", f"{name} must be a value", "write it as in [[vary]]")
+    return {name: value for name, value in wanted.items() if name in known and is_value(value)}
+
+
+def read_extra(table: dict, number: int, study: Study) -> ExtraRun:
+    reader = Reader(table, f"run.{number}", "run", study.mistakes)
+    return ExtraRun(reader.word("name", "give the run a name", f"run {number}", True), reader.item,
+                    reader.settings(), reader.choice("accuracy", PRESETS),
+                    read_chosen(reader, study),
+                    reader.word("against", "name the run that it is compared with"),
+                    reader.get("quarter_turns", lambda value: value in (0, 1, 2, 3),
+                               "must be 0, 1, 2 or 3", "say by how many the other run is turned",
+                               0))
 
 
 def read_reference(table, study: Study) -> Reference | None:
@@ -266,54 +204,9 @@ def read_reference(table, study: Study) -> Reference | None:
     fields = reader.items("fields", lambda one: one in FIELDS,
                           f"must be one of {', '.join(FIELDS)}", "name fields to compare")
     right = {key: value for key, value in factors.items() if is_number(value)}
-    return Reference(reader.settings(), right, reader.choice("accuracy", PRESETS),
+    return Reference(read_chosen(reader, study), reader.settings(), right,
+                     reader.choice("accuracy", PRESETS),
                      fields if "fields" in table else ["shear"])
-
-
-def read_figures(table, study: Study) -> dict[str, str]:
-    if not isinstance(table, dict):
-        study.mistakes.add("figures", "must be a table",
-                           'write [figures] and lines NAME = "PATH in summary.json"')
-        return {}
-    for name, path in table.items():
-        if not (is_word(path) and (" " not in path or path.split(" ", 1)[0] in TAKE)):
-            study.mistakes.add(f"figures.{name}", "must be a path in summary.json, before it one "
-                               f"of {', '.join(TAKE)} where a * stands for several",
-                               'write for example "max plies.*.max_shear_deg"')
-    return {name: path for name, path in table.items() if isinstance(path, str)}
-
-
-def read_limits(table, study: Study) -> dict[str, Limit]:
-    limits = {}
-    if not isinstance(table, dict):
-        study.mistakes.add("limits", "must be a table", "write [limits] and lines FIGURE = LIMIT")
-        return limits
-    for name, value in table.items():
-        if is_number(value):
-            limits[name] = Limit(at_most=value)
-        elif isinstance(value, dict) and value and all(map(is_number, value.values())):
-            Reader(value, f"limits.{name}", "limits", study.mistakes)
-            limits[name] = Limit(value.get("at_most", math.inf), value.get("at_least", -math.inf))
-        else:
-            study.mistakes.add(f"limits.{name}", "must be a number, the most that is allowed, or "
-                               "{ at_least = LOW, at_most = HIGH }", "give the limit")
-    return limits
-
-
-def read_picture(table: dict, number: int, study: Study) -> Picture:
-    reader = Reader(table, f"picture.{number}", "picture", study.mistakes)
-    kind = reader.choice("kind", tuple(PICTURES), "cost", True)
-    one = Picture(kind, reader.word("file", "give a file name", f"{kind}.png"),
-                  reader.word("title", "give a title", study.title))
-    for key in PICTURES[kind]:
-        setattr(one, key, reader.word(key, "name a vary or a figure", "", True))
-    for key in {"x", "y", "figure"} & table.keys() - set(PICTURES[kind]):
-        reader.fail(key, f"a picture of kind {kind} has none", "take it out")
-    if kind == "cost" and study.reference is None:
-        reader.fail("kind", "needs errors against a reference", "add a table [reference]", kind)
-    if kind == "window" and not study.limits:
-        reader.fail("kind", "needs limits", "add a table [limits]", kind)
-    return one
 
 
 def case_path(reader: Reader, folder: Path) -> Path:
@@ -344,6 +237,48 @@ def check_names(study: Study) -> None:
                            "add [[vary]] with key and values")
 
 
+def check_against(study: Study) -> None:
+    for one in study.extra:
+        reader = Reader({}, one.item, "run", study.mistakes)
+        if one.against and study.area_means is None:
+            reader.fail("against", "needs area means", "add a table [area_means]", one.against)
+        if one.quarter_turns and not (one.against or study.reference):
+            reader.fail("quarter_turns", "needs a run to turn", "add against")
+
+
+def included(root: dict, mistakes: Mistakes) -> dict:
+    """With the tables of another file, in which what the study itself has is replaced."""
+    name = root.get("include")
+    if name is None:
+        return root
+    file = mistakes.file.parent / str(name)
+    try:
+        text = file.read_text(encoding="utf-8")
+        tables = tomllib.loads(text)
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as problem:
+        mistakes.add("include", f"cannot be read: {problem}", "give a file of TOML, seen from the "
+                     "study file", str(name))
+        return root
+    mistakes.also = (file, lines_of(text))
+    for key in tables:
+        if key not in INCLUDED:
+            mistakes.add(key, "does not go into a file that is included",
+                         f"there go {', '.join(INCLUDED)}")
+    return root | {key: tables[key] | root.get(key, {}) for key in INCLUDED
+                   if isinstance(tables.get(key), dict) and isinstance(root.get(key, {}), dict)}
+
+
+def read_shown(reader: Reader, root: dict, study: Study) -> None:
+    mistakes = study.mistakes
+    study.area_means = shown.read_area_means(root.get("area_means"), mistakes)
+    study.figures = {**shown.FIGURES, **shown.read_figures(root.get("figures", {}), mistakes)}
+    study.limits = shown.read_limits(root.get("limits", {}), mistakes)
+    study.stops = shown.read_texts("stops", root.get("stops", {}), mistakes)
+    study.table = shown.read_texts("table", root.get("table", {}), mistakes)
+    study.pictures = [shown.read_picture(one, i, study)
+                      for i, one in enumerate(reader.tables("picture"))]
+
+
 def read_study(file: Path) -> Study:
     """Never fails for what stands in the file: Study.mistakes has it."""
     try:
@@ -351,35 +286,31 @@ def read_study(file: Path) -> Study:
     except (OSError, UnicodeDecodeError) as problem:
         raise Trouble(f"{file} cannot be read: {problem}; give a study file") from problem
     mistakes = Mistakes(file, lines_of(text))
+    study = Study(file, mistakes)
     try:
         root = tomllib.loads(text)
     except tomllib.TOMLDecodeError as problem:
         where = re.search(r"line (\d+)", str(problem))
         mistakes.told.append((0, f"{file}:{where[1] if where else 1}: error: {problem}; "
                               "write it as TOML does"))
-        root = {}
-        return Study(file, "", file, [], "", [], METHODS[0], 0, 0, [], [], None, {}, {}, [],
-                     mistakes)
+        return study
+    root = included(root, mistakes)
     reader = Reader(root, "", "", mistakes)
-    method = reader.choice("method", METHODS, METHODS[0])
-    runs = reader.whole("runs", 1, 1, "say how many runs are drawn", method in DRAWN)
-    if "runs" in root and method not in DRAWN:
-        reader.fail("runs", f"does not go with method {method}", "take it out")
-    study = Study(file, reader.word("title", "give a title", file.stem),
-                  case_path(reader, file.parent), reader.settings(),
-                  reader.choice("accuracy", PRESETS),
-                  reader.items("presets", lambda one: one in PRESETS,
-                               f"must be one of {', '.join(PRESETS)}", "name accuracies"),
-                  method, runs, reader.whole("seed", 0, 1, "give the seed of the draws"), [], [],
-                  None, {}, {}, [], mistakes)
+    study.method = reader.choice("method", METHODS, METHODS[0])
+    study.runs = reader.whole("runs", 1, 1, "say how many runs are drawn", study.method in DRAWN)
+    if "runs" in root and study.method not in DRAWN:
+        reader.fail("runs", f"does not go with method {study.method}", "take it out")
+    study.title = reader.word("title", "give a title", file.stem)
+    study.case, study.settings = case_path(reader, file.parent), reader.settings()
+    study.accuracy = reader.choice("accuracy", PRESETS)
+    study.presets = reader.items("presets", lambda one: one in PRESETS,
+                                 f"must be one of {', '.join(PRESETS)}", "name accuracies")
+    study.seed = reader.whole("seed", 0, 1, "give the seed of the draws")
     study.vary = [read_vary(one, i, study) for i, one in enumerate(reader.tables("vary"))]
-    for i, table in enumerate(reader.tables("run")):
-        one = Reader(table, f"run.{i}", "run", mistakes)
-        study.extra.append(ExtraRun(one.word("name", "give the run a name", f"run {i}", True),
-                                    one.item, one.settings(), one.choice("accuracy", PRESETS)))
+    study.run_name = reader.word("run_name", "give a template such as \"friction {friction}\"")
+    study.extra = [read_extra(one, i, study) for i, one in enumerate(reader.tables("run"))]
     study.reference = read_reference(root.get("reference"), study)
-    study.figures = {**FIGURES, **read_figures(root.get("figures", {}), study)}
-    study.limits = read_limits(root.get("limits", {}), study)
-    study.pictures = [read_picture(one, i, study) for i, one in enumerate(reader.tables("picture"))]
+    read_shown(reader, root, study)
     check_names(study)
+    check_against(study)
     return study

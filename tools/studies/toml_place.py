@@ -54,17 +54,21 @@ class Mistakes:
     file: Path
     lines: dict[str, int]
     told: list[tuple[int, str]] = field(default_factory=list)
+    also: tuple[Path, dict[str, int]] | None = None  # a file that the study includes
 
-    def line(self, item: str) -> int:
+    def place(self, item: str) -> tuple[Path, int]:
         """Of the item, or of the nearest that holds it."""
-        while item and item not in self.lines:
+        while item:
+            for file, lines in ((self.file, self.lines), self.also or (self.file, {})):
+                if item in lines:
+                    return file, lines[item]
             item = item.rpartition(".")[0]
-        return self.lines.get(item, 1)
+        return self.file, 1
 
     def add(self, item: str, rule: str, remedy: str, value=None) -> None:
         equals = "" if value is None else f" = {toml_text(value)}"
-        line = self.line(item)
-        self.told.append((line, f"{self.file}:{line}: error: {item}{equals}: {rule}; {remedy}"))
+        file, line = self.place(item)
+        self.told.append((line, f"{file}:{line}: error: {item}{equals}: {rule}; {remedy}"))
 
     def texts(self) -> list[str]:
         return [text for _, text in sorted(self.told, key=lambda one: one[0])]

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Layout: a line that names the kind of file, the checksum of the rest (8 bytes), the rest.
+#include "core/results/checkpoint_file.hpp"
+
+#include "core/base/archive.hpp"
+#include "core/base/text.hpp"
+
+#include <cstdint>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <string_view>
+
+namespace plyform {
+
+namespace fs = std::filesystem;
+
+template <class Archive>
+void visit(Archive& a, Checkpoint& c) {
+  StateIndex& states = c.writer.states;
+  visit(a, c.identity, states.plies, states.tools, states.boundaries, states.time, states.stroke,
+        states.step, states.shape);
+  visit(a, c.writer.history, c.writer.xdmf.names, c.writer.xdmf.grids, c.writer.last_time,
+        c.writer.last_step, c.solver);
+}
+
+namespace {
+
+constexpr std::string_view kind = "plyform checkpoint 1\n";
+
+/// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923).
+std::uint64_t checksum(std::string_view bytes) {
+  std::uint64_t sum = 14695981039346656037ULL;
+  for (const char c : bytes)
+    sum = (sum ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
+  return sum;
+}
+
+[[noreturn]] void damaged(const fs::path& path, const std::string& what) {
+  throw std::runtime_error(fmt::format(
+      "{}: {}; the run cannot go on: run it anew, without --resume", path.string(), what));
+}
+
+} // namespace
+
+void write_checkpoint_file(const fs::path& path, const Checkpoint& checkpoint) {
+  Checkpoint copy = checkpoint;
+  SaveArchive archive;
+  visit(archive, copy);
+  std::uint64_t sum = checksum(archive.text());
+  SaveArchive head;
+  visit(head, sum);
+  write_whole(path, std::string(kind) + head.text() + archive.text());
+}
+
+std::optional<Checkpoint> read_checkpoint_file(const fs::path& path, const std::string& identity) {
+  std::error_code error;
+  if (!fs::exists(path, error)) return std::nullopt;
+  std::string reason;
+  const std::optional<std::string> content = read_text(path, reason);
+  if (!content) damaged(path, reason);
+  const std::string_view all = *content;
+  std::uint64_t sum = 0;
+  if (!all.starts_with(kind) || all.size() < kind.size() + sizeof(sum))
+    damaged(path, "is no checkpoint of this version of plyform");
+  LoadArchive head(all.substr(kind.size(), sizeof(sum)));
+  visit(head, sum);
+  const std::string_view rest = all.substr(kind.size() + sizeof(sum));
+  if (checksum(rest) != sum) damaged(path, "is damaged");
+  Checkpoint found;
+  LoadArchive archive(rest);
+  visit(archive, found);
+  if (found.identity != identity)
+    throw std::runtime_error(fmt::format(
+        "{}: is of another case, or of other settings, files or another version of plyform; give "
+        "the same ones as before, or run it anew, without --resume",
+        path.string()));
+  return found;
+}
+
+} // namespace plyform

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/results/result_fields.hpp"
+
+#include <cerrno>
+#include <cstdio>
+#include <fmt/format.h>
+#include <stdexcept>
+#include <system_error>
+#include <unistd.h>
+
+namespace plyform {
+
+namespace fs = std::filesystem;
+
+void write_whole(const fs::path& path, std::string_view content) {
+  fs::path temporary = path;
+  temporary += ".tmp";
+  const auto fail = [&](const char* what, int error) {
+    std::error_code ignored;
+    fs::remove(temporary, ignored);
+    throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), what,
+                                         std::generic_category().message(error)));
+  };
+  std::FILE* file = std::fopen(temporary.c_str(), "wb");
+  if (!file) fail("create the file", errno);
+  int error = 0;
+  if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) error = errno;
+  // On the disk before it gets its name, so that a power failure leaves the old file or the new
+  // one.
+  if (error == 0 && (std::fflush(file) != 0 || fsync(fileno(file)) != 0)) error = errno;
+  if (std::fclose(file) != 0 && error == 0) error = errno; // fclose writes the rest of the buffer
+  if (error != 0) fail("write", error);
+  std::error_code renamed;
+  fs::rename(temporary, path, renamed);
+  if (renamed) fail("replace the file", renamed.value());
+}
+
+} // namespace plyform

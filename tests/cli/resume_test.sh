@@ -1,0 +1,113 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: GPL-3.0-or-later
+# Runs that are killed at random moments and go on with --resume end in the same bytes as one that
+# never stopped, and leave no file that cannot be read.
+#   tests/cli/resume_test.sh PROGRAM CASES_FOLDER [KILLS]        4 kills unless told
+set -euo pipefail
+program=$1 cases=$2 kills=${3:-4} tests=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+folder=$(mktemp -d)
+trap 'rm -rf "$folder"' EXIT
+cd "$folder"
+. "$tests/expect.sh"
+
+# Five plies; two seconds of one core.
+stack=("$cases/hemisphere_five_ply" --set blanks.square.element_size=26 --set solver.duration=0.02
+  --set tool.0.stroke=30 --set solver.checkpoint_interval=0.05)
+# A frame that shears a ply: boundaries and their reactions.
+frame=("$cases/picture_frame" --set blanks.square.element_size=20 --set solver.duration=0.05
+  --set solver.checkpoint_interval=0.01)
+# A sheet without yarns, computed one element after the other, with viscosity.
+table=("$cases/circular_table" --set blanks.sheet.element_size=25 --set solver.duration=0.05
+  --set solver.checkpoint_interval=0.02)
+
+# run FOLDER ARGUMENT...: in the background; its process in $process.
+run() {
+  local to=$1
+  shift
+  "$program" run "$@" -o "$to" >"$to.log" 2>&1 &
+  process=$!
+}
+
+# readable FOLDER: every file there is whole.
+readable() {
+  [ ! -e "$1/results.h5" ] || "$program" export "$1" >"$1.log" 2>&1 || fail "$1: $(tail -n 1 "$1.log")"
+  rm -rf "$1/export"
+}
+
+# same FOLDER: as the folder `whole`, times on the clock apart.
+same() {
+  local file
+  for file in history.csv results.h5 results.xdmf $(cd whole && echo plies/*.csv); do
+    cmp -s "whole/$file" "$1/$file" || fail "$1/$file is not that of a run that never stopped"
+  done
+  [ ! -e "$1/checkpoint" ] && [ ! -e "$1/states" ] || fail "$1: files of a run in progress are left"
+  clock='wall_time_s|"threads"|share|"elements": 0|"contact": 0|"search": 0'
+  diff <(grep -vE "$clock" whole/summary.json) <(grep -vE "$clock" "$1/summary.json") ||
+    fail "$1/summary.json is not that of a run that never stopped"
+}
+
+killed=0
+for case in stack frame table; do
+  declare -n arguments=$case
+  rm -rf whole again
+  begin=$EPOCHREALTIME
+  "$program" run "${arguments[@]}" --threads 1 -o whole >whole.log 2>&1 || { cat whole.log; exit 1; }
+  seconds=$(awk "BEGIN { print $EPOCHREALTIME - $begin }")
+  for ((i = 0; i < kills; ++i)); do
+    run again "${arguments[@]}" --resume --threads $((1 + i % 2))
+    sleep "$(awk "BEGIN { srand($RANDOM); print 1.2 * rand() * $seconds }")"
+    kill -KILL $process 2>/dev/null && killed=$((killed + 1))
+    wait $process 2>/dev/null || true
+    readable again
+    if [ -e again/summary.json ]; then
+      same again
+      rm -rf again
+    fi
+  done
+  "$program" run "${arguments[@]}" --resume --threads 2 -o again >again.log 2>&1 ||
+    fail "$case: $(tail -n 1 again.log)"
+  same again
+done
+
+# Ended by the user, by the system, by a terminal that closed: all can go on.
+"$program" run "${stack[@]}" --threads 1 -o whole >whole.log 2>&1
+for signal in INT TERM HUP; do
+  rm -rf again
+  run again "${stack[@]}" --set solver.checkpoint_interval=1000
+  for ((i = 0; i < 200; ++i)); do
+    [ ! -e again/states/000003.h5 ] || break
+    sleep 0.05
+  done
+  kill -$signal $process
+  wait $process && fail "SIG$signal: exit code 0"
+  grep -q '"status": "interrupted"' again/summary.json || fail "SIG$signal: no status interrupted"
+  grep -q '"message": "interrupted at step' again/summary.json || fail "SIG$signal: no message"
+  grep -q 'with --resume goes on' again.log || fail "SIG$signal: $(tail -n 1 again.log)"
+  readable again
+  "$program" run "${stack[@]}" --set solver.checkpoint_interval=1000 --resume -o again \
+    >again.log 2>&1 || fail "SIG$signal: $(tail -n 1 again.log)"
+  same again
+done
+"$program" run "${stack[@]}" --resume -o again >again.log 2>&1 || fail "nothing to resume is an error"
+grep -q 'nothing to resume' again.log || fail "does not say that there is nothing to resume"
+
+# Two at once, another case, a damaged checkpoint.
+rm -rf again
+run again "${stack[@]}"
+for ((i = 0; i < 200; ++i)); do
+  [ ! -e again/checkpoint ] || break
+  sleep 0.05
+done
+"$program" run "${stack[@]}" -o again >second.log 2>&1 && fail "a second run into one folder"
+grep -q 'again: another run writes into this folder' second.log || fail "$(tail -n 1 second.log)"
+kill -KILL $process
+wait $process 2>/dev/null || true
+"$program" run "${stack[@]}" --set contact.friction=0.3 --resume -o again >second.log 2>&1 &&
+  fail "goes on with another friction"
+grep -q 'again/checkpoint: is of another case' second.log || fail "$(tail -n 1 second.log)"
+printf 'x' | dd of=again/checkpoint bs=1 seek=5000 conv=notrunc status=none
+"$program" run "${stack[@]}" --resume -o again >second.log 2>&1 && fail "goes on from a damaged file"
+grep -q 'again/checkpoint: is damaged' second.log || fail "$(tail -n 1 second.log)"
+
+echo "$killed kills, $failures failures"
+[ "$failures" -eq 0 ]
