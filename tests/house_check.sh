@@ -20,8 +20,9 @@ mapfile -t files < <(
 )
 # of REGEX: those of the files whose path matches.
 of() { printf '%s\n' "${files[@]}" | grep -E "$1" || true; }
-mapfile -t sources < <(of '\.([ch]pp|cmake|cmake\.in|sh|pyi?)$|/CMakeLists\.txt$|^\./\.ci/run$')
+mapfile -t sources < <(of '\.([ch]pp|cmake|cmake\.in|sh|pyi?|js|css|html)$|/CMakeLists\.txt$|^\./\.ci/run$')
 mapfile -t cpp < <(of '\.[ch]pp$')
+mapfile -t js < <(of '\.(js|css|html)$')
 mapfile -t build < <(of '\.(cmake|sh)$|/CMakeLists\.txt$|/CMakePresets\.json$|^\./\.ci/run$')
 mapfile -t scripts < <(of '\.sh$|^\./\.ci/run$')
 mapfile -t texts < <(of '(^\./README|^\./docs/.*)\.md$')
@@ -50,7 +51,7 @@ breach "flag that ties the program to one processor or changes its sums" "$(
 )"
 
 breach "more than 400 lines" "$(
-  for file in "${cpp[@]}"; do
+  for file in "${cpp[@]}" "${js[@]}"; do
     lines=$(wc -l <"$file")
     [ "$lines" -le 400 ] || echo "$file: $lines lines"
   done

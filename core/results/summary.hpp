@@ -56,8 +56,8 @@ struct PressedYarns {
 struct PlyReport {
   std::optional<PressedYarns> pressed; ///< none of a sheet without yarns
   Wrinkle wrinkle;
-  /// fraction of the area before forming; if the angle is known
-  std::optional<double> beyond_locking_share;
+  std::optional<double> locking_angle_deg;    ///< of the fabric, if it is known
+  std::optional<double> beyond_locking_share; ///< fraction of the area before forming; likewise
   DrawIn draw_in;
 };
 

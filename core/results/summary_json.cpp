@@ -91,6 +91,7 @@ Json report_keys(const PlyReport& report) {
   Json keys = Json::object();
   if (report.pressed) keys.update(pressed_keys(*report.pressed));
   keys.update(wrinkle_keys(report.wrinkle));
+  if (report.locking_angle_deg) keys["locking_angle_deg"] = rounded(*report.locking_angle_deg);
   if (report.beyond_locking_share)
     keys["area_share_beyond_locking_angle"] = rounded(*report.beyond_locking_share);
   keys.update(draw_in_keys(report.draw_in));

@@ -175,6 +175,7 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
     std::vector<double> shear = ply.shear_deg;
     for (double& angle : shear)
       angle = std::abs(angle);
+    result.locking_angle_deg = nature.locking_angle_deg;
     result.beyond_locking_share = area_share_above(shear, *nature.locking_angle_deg, areas);
   }
   result.draw_in = draw_in(ply, nature.fibre_angle_deg);

@@ -22,6 +22,12 @@ if /usr/bin/python3 -c 'import h5py' 2>/dev/null; then
   "$prefix/bin/plyform" chart "$prefix/share/plyform/cases/studies/bias_extension.toml" --check \
     -o "$work/study"
 fi
+if /usr/bin/python3 -c 'import h5py, jinja2' 2>/dev/null &&
+  [ -f /usr/share/javascript/three/three.min.js ]; then
+  "$prefix/bin/plyform" run "$prefix/share/plyform/cases/picture_frame" -o "$work/frame" --report \
+    --set blanks.square.element_size=50 --set solver.outputs=1
+  [ -s "$work/frame/report.html" ]
+fi
 package=$prefix/lib/python3/dist-packages
 if [ -d "$package" ]; then # the module, if it was built
   PYTHONPATH=$package /usr/bin/python3 -c \

@@ -28,6 +28,7 @@ struct RunArguments {
   CaseArguments input;
   std::string output;
   int threads = 0;     ///< 0: the number of cores
+  bool report = false; ///< make report.html of the results
   bool resume = false; ///< goes on from the folder's checkpoint
 };
 
@@ -66,8 +67,11 @@ PreparedCase load_case(const CaseArguments& arguments);
 
 int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);
-/// Returns only if the script cannot be called.
+/// tools/cli/call_script.cpp. Both return only if the script cannot be called.
 int chart_command(const std::vector<std::string>& arguments);
+int report_command(const std::vector<std::string>& arguments);
+/// Makes folder/report.html and prints its path; false if that failed, for a reason then printed.
+bool report_of_run(const std::string& folder);
 int difference_command(const DifferenceArguments& arguments);
 int keys_command(bool markdown);
 int identify_command(const IdentifyArguments& arguments);

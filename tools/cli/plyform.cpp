@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line: plyform run | check | chart | export | difference | identify | theory | keys |
-// version.
+// The command line: plyform run | check | chart | report | export | difference | identify |
+// theory | keys | version.
 #include "core/base/version.hpp"
 #include "core/results/export.hpp"
 #include "core/results/result_writer.hpp"
@@ -67,6 +67,7 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   run->add_option("-o,--output", to.run.output, "folder for the results [results/NAME]");
   run->add_option("--threads", to.run.threads, "threads; the results do not depend on it")
       ->check(CLI::Range(1, 256));
+  run->add_flag("--report", to.run.report, "make report.html of the results, for any browser");
   run->add_flag("--resume", to.run.resume,
                 "go on where this run was killed or interrupted, with the same results");
   add_accuracy(*run, to.run.input);
@@ -85,6 +86,11 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
 }
 
 void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& commands) {
+  CLI::App* report = app.add_subcommand("report", "make a page of a run, or two, for any browser");
+  report->prefix_command();
+  report->set_help_flag(); // the script has its own
+  commands.push_back({report, [report] { return report_command(report->remaining()); }});
+
   CLI::App* results = app.add_subcommand("export", "write the last state in other formats");
   results->add_option("results", to.results, "folder of a run")->required();
   commands.push_back({results, [&to] { return export_command(to.results); }});

@@ -136,6 +136,22 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   fmt::print("results are in {}\n", folder.string());
 }
 
+/// Says on standard error how a run ended that is not simply done, and returns the exit code.
+int tell_end(const Summary& summary, const std::filesystem::path& folder) {
+  if (summary.status == "stopped") {
+    fmt::print(stderr, "plyform: {}\n         the last good state is in {}\n", summary.message,
+               folder.string());
+    return exit_stopped;
+  }
+  if (summary.status == "interrupted")
+    fmt::print(stderr,
+               "plyform: {}\n         the state reached is in {}; the same command with --resume "
+               "goes on\n",
+               summary.message, folder.string());
+  if (summary.status == "doubtful") fmt::print(stderr, "plyform: doubtful: {}\n", summary.message);
+  return ended(summary.status) ? exit_done : exit_other;
+}
+
 /// Whether the run in this folder has come to its end; says so.
 bool ended_before(const std::filesystem::path& folder) {
   std::error_code ignored;
@@ -186,19 +202,9 @@ int run_command(const RunArguments& arguments) {
   line.end();
   writer.write_final(result.last, result.summary);
   print_outcome(result, folder);
-  if (result.summary.status == "stopped") {
-    fmt::print(stderr, "plyform: {}\n         the last good state is in {}\n",
-               result.summary.message, folder.string());
-    return exit_stopped;
-  }
-  if (result.summary.status == "interrupted")
-    fmt::print(stderr,
-               "plyform: {}\n         the state reached is in {}; the same command with --resume "
-               "goes on\n",
-               result.summary.message, folder.string());
-  if (result.summary.status == "doubtful")
-    fmt::print(stderr, "plyform: doubtful: {}\n", result.summary.message);
-  return ended(result.summary.status) ? exit_done : exit_other;
+  const int code = tell_end(result.summary, folder);
+  if (arguments.report && !report_of_run(folder.string()) && code == exit_done) return exit_other;
+  return code;
 }
 
 } // namespace plyform

@@ -104,6 +104,7 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   PlyReport report;
   report.pressed = PressedYarns{0.07, 0.3, 0.04, 2.5, {1, 2, 3}};
   report.wrinkle = {1.5, 40, {4, 5, 6}};
+  report.locking_angle_deg = 45;
   report.beyond_locking_share = 0.125;
   report.draw_in = {{-45, 45, 135, 225}, {0, 90, 180, 270}, {1, 2, 3, 4}, {5, 6, 7, 12}, ""};
   summary.plies = {report};
@@ -113,7 +114,7 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   "max_pressed_strain": 0.07, "area_share_pressed_over_2_percent": 0.3,
   "area_share_pressed_over_5_percent": 0.04, "excess_length_mm": 2.5,
   "excess_length_at_mm": [1, 2, 3], "wrinkle_height_mm": 1.5, "wrinkle_length_mm": 40,
-  "wrinkle_at_mm": [4, 5, 6], "area_share_beyond_locking_angle": 0.125,
+  "wrinkle_at_mm": [4, 5, 6], "locking_angle_deg": 45, "area_share_beyond_locking_angle": 0.125,
   "draw_in_mm": {"mean": 5, "largest": 12},
   "draw_in_yarns_mm": {"mean": 2.5, "spread": 3, "directions_deg": [315, 45, 135, 225],
                        "each": [1, 2, 3, 4]},

@@ -76,6 +76,7 @@ TEST(PlyPlausibility, ShareBeyondTheLockingAngle) {
     ply.shear_deg[t] = sheets::centre(ply, t).x() < -20.0 ? -50.0 : 39.0;
   const PlyReport told = report_ply(ply, {.locking_angle_deg = 40.0}, {});
   EXPECT_NEAR(told.beyond_locking_share.value(), 0.3, 1e-12);
+  EXPECT_EQ(told.locking_angle_deg.value(), 40.0);
 }
 
 /// A strip whose ends are pushed together by `stroke` of its 100 mm.

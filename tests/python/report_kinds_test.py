@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Reports of runs that ended in other ways, or form something else: each says what it is.
+
+    report_kinds_test.py TOOLS PROGRAM CASES
+
+Leaves with 77 when Chromium, its driver, selenium, h5py or Jinja2 is missing.
+"""
+
+import json
+import shutil
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+try:
+    import h5py  # noqa: F401, tools/report needs it
+    import jinja2  # noqa: F401
+    import selenium  # noqa: F401, report_browser needs it
+except ImportError as problem:
+    print("SKIPPED:", problem)
+    sys.exit(77)
+
+from report_browser import DRIVER, Browser
+
+if not Path(DRIVER).is_file() or not Path("/usr/share/javascript/three/three.min.js").is_file():
+    print("SKIPPED: chromium-driver or libjs-three is not installed")
+    sys.exit(77)
+
+TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
+
+SHEETS = """title = "{title}"
+[fabrics]
+cloth = {fabric}
+[blanks.square]
+size = [100.0, 100.0]
+mesh = "alternating"
+element_size = 25.0
+{plies}
+[[tool]]
+name = "punch"
+shape = "sphere"
+radius = 30.0
+position = [0.0, 0.0, {height}]
+motion = "driven"
+direction = [0.0, 0.0, -1.0]
+stroke = 2.0
+[solver]
+duration = 0.005
+outputs = 2
+"""
+FOIL = ('{ surface_density = 100.0, thickness = 0.1, law = "isotropic", '
+        'isotropic = { youngs_modulus = 100.0, poissons_ratio = 0.3 } }')
+
+
+def call(*words):
+    return subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
+
+
+def run(folder, case, *settings):
+    words = [word for setting in settings for word in ("--set", setting)]
+    done = call("run", case, "-o", folder, *words)
+    assert (folder / "results.h5").is_file(), done
+    return folder
+
+
+def sheets(folder, title, fabric, count):
+    plies = "\n".join(f'[[ply]]\nname = "p{k}"\nfabric = "cloth"\nblank = "square"\n'
+                      f"angle = {45.0 * (k % 2)}" for k in range(1, count + 1))
+    folder.mkdir()
+    thick = 0.1 if "isotropic" in fabric else 0.6
+    case = folder / "case.toml"
+    case.write_text(SHEETS.format(title=title, fabric=fabric, plies=plies,
+                                  height=30.0 + thick * count), encoding="utf-8")
+    return run(folder / "results", case)
+
+
+def changed(folder, to, **keys):
+    """A copy of the results whose summary says otherwise; without one for summary=None."""
+    shutil.copytree(folder, to)
+    path = to / "summary.json"
+    summary = json.loads(path.read_text(encoding="utf-8"))
+    for ply in summary["plies"]:
+        ply.update(keys.pop("of_plies", {}))
+    path.write_text(json.dumps({**summary, **keys}), encoding="utf-8")
+    return to
+
+
+def shown(browser, folder):
+    """The words of a page, opened, with the controls that it has."""
+    path = folder / "report.html"
+    done = call("report", folder)
+    assert done.returncode == 0 and done.stdout.strip() == str(path), done
+    browser.open(path)
+    assert not browser.errors()
+    fields = browser.js("return [...document.getElementById('field').options].map((o) => o.value)")
+    return browser.find("body").text, fields
+
+
+def check_endings(browser, folder):
+    frame = run(folder / "frame", CASES / "picture_frame", "blanks.square.element_size=25",
+                "solver.outputs=3")
+    words, fields = shown(browser, frame)
+    assert "no tools: a test of the fabric" in words and "gap" not in fields and "shear" in fields
+    assert "Grips and frames" in words and "\nframe" in words
+    stopped = changed(frame, folder / "stopped", status="stopped", message="ply p is squeezed")
+    words, _ = shown(browser, stopped)
+    assert "Does not form: plyform stopped the run at" in words and "Ply p is squeezed." in words
+    words, _ = shown(browser, changed(frame, folder / "interrupted", status="interrupted"))
+    assert "Not finished: the run was interrupted at" in words
+    killed = folder / "killed"
+    shutil.copytree(frame, killed)
+    (killed / "summary.json").unlink()
+    words, _ = shown(browser, killed)
+    assert "Not finished: the run goes on, or was killed" in words and "no summary.json" in words
+    doubtful = changed(frame, folder / "doubtful", status="doubtful",
+                       missing=["do not trust the corners", "friction: none"],
+                       message="do not trust the corners",
+                       of_plies={"locking_angle_deg": 40, "area_share_beyond_locking_angle": 0.5})
+    words, _ = shown(browser, doubtful)
+    assert words.index("Do not trust the corners.") < words.index("Shear angle".upper())
+    assert "passes its locking angle on 50.0" in words.replace("\u00a0", " ")
+    assert browser.js("return document.getElementById('limit').value") == "40"
+    assert "above 40.0" in browser.find(".legend-limit").text
+
+
+def check_sheets(browser, folder):
+    glass = f'"{CASES / "fabrics" / "glass_plain_weave.toml"}"'
+    words, fields = shown(browser, sheets(folder / "one", "One ply", glass, 1))
+    assert "1 ply," in words and "pressed" in fields and "gap" in fields
+    words, _ = shown(browser, sheets(folder / "twenty", "Twenty plies", glass, 20))
+    assert "20 plies" in words and words.index("p20\n") < words.index("p1\n")
+    assert len(browser.driver.find_elements("css selector", "#plies input")) == 20
+    words, fields = shown(browser, sheets(folder / "foil", "A foil", FOIL, 1))
+    assert "pressed" not in fields and "Pressed yarns".upper() not in words
+
+
+def check_messages(folder):
+    empty = folder / "empty"
+    empty.mkdir()
+    for words, told in (((empty,), "results.h5 is missing"), ((), "required"),
+                        ((empty, empty, empty), "3 folders are given")):
+        done = call("report", *words)
+        assert done.returncode in (1, 2) and told in done.stderr and "Traceback" not in done.stderr, done
+    (empty / "results.h5").write_text("no HDF5", encoding="utf-8")
+    done = call("report", empty)
+    assert done.returncode == 1 and "cannot be read as results of plyform" in done.stderr, done
+    done = call("run", CASES / "picture_frame", "-o", folder / "with", "--report", "--set",
+                "blanks.square.element_size=50", "--set", "solver.outputs=1")
+    assert done.returncode == 0 and (folder / "with" / "report.html").is_file(), done
+    assert "Warning" not in done.stderr, done
+    assert done.stdout.strip().splitlines()[-1] == str(folder / "with" / "report.html"), done
+
+
+def check_print(browser, folder):
+    """A printed page has pictures of the part, and none of the controls."""
+    import base64
+    browser.open(folder / "frame" / "report.html")
+    pdf = base64.b64decode(browser.driver.execute_cdp_cmd("Page.printToPDF", {})["data"])
+    assert pdf.startswith(b"%PDF")
+    assert browser.js("return document.querySelectorAll('#prints img').length") == 3
+    assert browser.js("return [...document.querySelectorAll('#prints img')].every((i) => i.src.length > 3000)")
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name, Browser() as browser:
+        folder = Path(name)
+        check_messages(folder)
+        check_endings(browser, folder)
+        check_print(browser, folder)
+        check_sheets(browser, folder)
+
+
+main()

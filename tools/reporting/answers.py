@@ -1,0 +1,215 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What a report says in words, before any figure: does it form, where does it shear most, does it
+wrinkle, how much force; what not to trust. Texts are HTML, numbers in <data> for the browser."""
+
+from dataclasses import dataclass
+
+import numpy as np
+from markupsafe import Markup
+
+from .reading_run import PlyStates, Run
+
+WRINKLE = 1.0    # mm: lower waves are not called wrinkles; the page says so
+PRESSED = 0.02   # of the length: the more pressed yarns count as buckled
+BALANCE = 0.01   # of the largest energy
+
+
+@dataclass
+class Place:
+    """A triangle that the reader is shown."""
+    run: int
+    ply: int
+    triangle: int
+    field: str
+
+
+@dataclass
+class Answer:
+    title: str
+    number: Markup            # the figure that counts
+    text: Markup
+    place: Place | None = None
+    warns: bool = False       # something that a good part would not have
+    words: Markup = Markup("")  # for the sentence at the top, if it warns
+
+
+def number(value: float | None, digits: int) -> Markup:
+    if value is None or not np.isfinite(value):
+        return Markup("–")
+    return Markup('<data class="number" value="{}" data-digits="{}">{:.{}f}</data>').format(
+        f"{value:.9g}", digits, value, digits)
+
+
+def small(value: float) -> Markup:
+    """Of an error: two figures that count."""
+    return number(value, int(np.clip(1 - np.floor(np.log10(value)), 0, 9)) if value > 0.0 else 0)
+
+
+def at_place(x) -> Markup:
+    return Markup("x&nbsp;{}, y&nbsp;{}, z&nbsp;{}&nbsp;mm").format(*(number(c, 0) for c in x))
+
+
+def verdict(run: Run, found: list[Answer]) -> tuple[str, Markup]:
+    """A word for the status and a sentence."""
+    stroke = number(float(run.stroke_mm[-1]), 2)
+    if run.summary is None:
+        return "unfinished", Markup("Not finished: the run goes on, or was killed. What is shown is "
+                                    "its last state, at {} mm of stroke.").format(stroke)
+    status = run.summary["status"]
+    if status == "stopped":
+        return status, Markup("Does not form: plyform stopped the run at {} mm of stroke. {}"
+                              ).format(stroke, sentence(run.summary["message"]))
+    if status == "interrupted":
+        return status, Markup("Not finished: the run was interrupted at {} mm of stroke."
+                              ).format(stroke)
+    what = "Forms" if run.tools else "Ran to its end (no tools: a test of the fabric)"
+    warnings = [answer.words for answer in found if answer.warns]
+    if warnings:
+        return status, Markup("{} to {} mm of stroke, but {}.").format(
+            what, stroke, Markup("; ").join(warnings))
+    return status, Markup("{} to {} mm of stroke: nothing found against it.").format(what, stroke)
+
+
+def sentence(text: str) -> str:
+    return text[:1].upper() + text[1:] + ("." if text and text[-1] not in ".!?" else "")
+
+
+def answers_of(run: Run, index: int) -> list[Answer]:
+    found = [shear(run, index), wrinkles(run, index), force(run), pressed(run, index), drawn_in(run)]
+    return [answer for answer in [*found, accuracy(run)] if answer]
+
+
+def shear(run: Run, index: int) -> Answer:
+    angles = [abs(ply.cells["shear_angle_deg"][-1]) for ply in run.plies]
+    k = int(np.argmax([one.max() for one in angles]))
+    ply, triangle = run.plies[k], int(angles[k].argmax())
+    text = Markup("Most in <b>{}</b> at {}").format(ply.name, at_place(middle(ply, triangle)))
+    if (p99 := run.told(ply.name).get("p99_shear_deg")) is not None:
+        text += Markup("; 99&nbsp;% of that ply has at most {}°").format(number(p99, 1))
+    beyond = [(one.name, told["area_share_beyond_locking_angle"]) for one in run.plies
+              if (told := run.told(one.name)).get("area_share_beyond_locking_angle") is not None]
+    over = [(name, share) for name, share in beyond if share > 0.0]
+    answer = Answer("Shear angle", Markup("{}°").format(number(float(angles[k].max()), 1)), text,
+                    Place(index, k, triangle, "shear"), bool(over))
+    if over:
+        name, share = max(over, key=lambda one: one[1])
+        answer.words = Markup("{} passes its locking angle on {}&nbsp;% of its area").format(
+            name, number(100.0 * share, 1))
+        answer.text += Markup(". Beyond the locking angle: {}").format(Markup(", ").join(
+            Markup("{} on {}&nbsp;%").format(n, number(100.0 * s, 1)) for n, s in over))
+    elif beyond:
+        answer.text += Markup(". No ply passes its locking angle")
+    else:
+        answer.text += Markup(". The fabric states no locking angle to compare with")
+    answer.text += "."
+    return answer
+
+
+def middle(ply: PlyStates, triangle: int) -> np.ndarray:
+    return ply.x[-1, ply.triangles[triangle]].mean(axis=0)
+
+
+def nearest(ply: PlyStates, point) -> int:
+    middles = ply.x[-1][ply.triangles].mean(axis=1)
+    return int(np.linalg.norm(middles - np.asarray(point), axis=1).argmin())
+
+
+def highest(run: Run, key: str) -> tuple[int, dict] | None:
+    told = [(k, run.told(ply.name)) for k, ply in enumerate(run.plies)]
+    told = [(k, one) for k, one in told if one.get(key) is not None]
+    return max(told, key=lambda one: one[1][key]) if told else None
+
+
+def wrinkles(run: Run, index: int) -> Answer | None:
+    if not (most := highest(run, "wrinkle_height_mm")):
+        return None
+    k, told = most
+    height, name = told["wrinkle_height_mm"], run.plies[k].name
+    value = Markup("{}&nbsp;mm").format(number(height, 1))
+    if height <= 0.0:
+        return Answer("Wrinkles", value, Markup("None that the mesh shows."))
+    text = Markup("Highest wave in <b>{}</b>, {}&nbsp;mm long, at {}. ").format(
+        name, number(told["wrinkle_length_mm"], 0), at_place(told["wrinkle_at_mm"]))
+    high = [run.plies[i].name for i, ply in enumerate(run.plies)
+            if (run.told(ply.name).get("wrinkle_height_mm") or 0.0) >= WRINKLE]
+    text += Markup("From {}&nbsp;mm it is called a wrinkle: {}.").format(
+        number(WRINKLE, 0), "yes, in " + ", ".join(high) if high else "no ply has one")
+    return Answer("Wrinkles" if high else "Wrinkles: none", value, text,
+                  Place(index, k, nearest(run.plies[k], told["wrinkle_at_mm"]), "wrinkle"),
+                  bool(high), Markup("{} wrinkle{}, {} mm high at most").format(
+                      ", ".join(high), "" if len(high) > 1 else "s", number(height, 1)))
+
+
+def force(run: Run) -> Answer | None:
+    bodies = [(tool.name, tool.force_N, np.ptp(tool.stroke_mm)) for tool in run.tools]
+    bodies += [(name, run.history[f"{name}_force_N"][:len(run.time_s)], 1.0) for name in run.grips
+               if run.history and f"{name}_force_N" in run.history]
+    if not bodies:
+        return None
+    name, force_N, _ = max(bodies, key=lambda body: (body[2], abs(body[1][-1])))
+    k = int(abs(force_N).argmax())
+    text = Markup("On <b>{}</b> at the end; the largest of all states is {}&nbsp;N at {}&nbsp;mm "
+                  "of stroke.").format(name, number(float(force_N[k]), digits_of(force_N[k])),
+                                       number(float(run.stroke_mm[k]), 1))
+    others = [Markup("{} {}&nbsp;N").format(n, number(float(f[-1]), digits_of(f[-1])))
+              for n, f, _ in bodies if n != name]
+    if others:
+        text += Markup(" Others: {}.").format(Markup(", ").join(others))
+    value = Markup("{}&nbsp;N").format(number(float(force_N[-1]), digits_of(force_N[-1])))
+    return Answer("Force", value, text)
+
+
+def digits_of(value: float) -> int:
+    return 0 if abs(value) >= 100.0 else 1 if abs(value) >= 10.0 else 2
+
+
+def pressed(run: Run, index: int) -> Answer | None:
+    if not (most := highest(run, "max_pressed_strain")):
+        return None
+    k, told = most
+    ply, largest = run.plies[k], told["max_pressed_strain"]
+    strain = np.minimum(ply.cells["warp_strain"][-1], ply.cells["weft_strain"][-1])
+    share = max(run.told(one.name).get("area_share_pressed_over_2_percent") or 0.0
+                for one in run.plies)
+    text = Markup("Most in <b>{}</b>. Over 2&nbsp;%, where yarns buckle, it is on {}&nbsp;% of "
+                  "the area of the worst ply.").format(ply.name, number(100.0 * share, 1))
+    return Answer("Pressed yarns", Markup("{}&nbsp;%").format(number(100.0 * largest, 1)), text,
+                  Place(index, k, int(strain.argmin()), "pressed"), share > 0.01,
+                  Markup("yarns of {} are pressed by {}&nbsp;%").format(
+                      ply.name, number(100.0 * largest, 1)))
+
+
+def drawn_in(run: Run) -> Answer | None:
+    told = [(ply.name, drawn) for ply in run.plies
+            if (drawn := run.told(ply.name).get("draw_in_mm"))]
+    if not told:
+        return None
+    name, drawn = max(told, key=lambda one: one[1]["largest"])
+    return Answer("Draw-in", Markup("{}&nbsp;mm").format(number(drawn["largest"], 1)),
+                  Markup("Most in <b>{}</b>; its mean over eight directions is {}&nbsp;mm."
+                         ).format(name, number(drawn["mean"], 1)))
+
+
+def accuracy(run: Run) -> Answer | None:
+    if not run.summary or "accuracy" not in run.summary:
+        return None
+    told = run.summary["accuracy"]
+    error = told.get("promised_shear_error_deg")
+    if error is None:
+        return None
+    causes = Markup("inertia {}°, softened fibres {}°, mesh {}°").format(
+        *(number(told.get(f"{cause}_deg"), 2) for cause in ("inertia", "softening", "mesh")))
+    balance = run.summary["energy"].get("balance_error")
+    text = Markup("Predicted error of shear angles, rms: {}. The energy balance closes to {}&nbsp;%."
+                  ).format(causes, number(100.0 * abs(balance or 0.0), 3))
+    return Answer("Band of error", Markup("±{}°").format(number(error, 1)), text, None,
+                  abs(balance or 0.0) > BALANCE, Markup("the energy balance is off"))
+
+
+def doubts(run: Run) -> list[str]:
+    """What not to trust, a sentence each."""
+    if not run.summary:
+        return ["There is no summary.json: errors, wrinkles and pressed yarns were not looked at."]
+    missing = run.summary.get("missing", [])
+    why = [text for text in missing if text in run.summary["message"]]
+    return [sentence(text) for text in why or [run.summary["message"]]]

@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The page: data of runs, texts, three.js and the modules of web/, all in one file."""
+
+import base64
+import json
+from pathlib import Path
+
+import jinja2
+import numpy as np
+
+from plotting.reading import Trouble
+
+from . import answers, series
+from .encode import Blocks
+from .reading_run import PlyStates, Run, ToolStates
+from .simplify import simplified
+
+WEB = Path(__file__).resolve().parent / "web"
+THREE = Path("/usr/share/javascript/three/three.min.js")
+TOOL_TOLERANCE = 0.3     # mm, of simplify: nearer than a tenth of a millimetre (gaps_test measures)
+# steps finer than these say nothing, and errors larger than these are not allowed
+CELLS = {"shear_angle_deg": (0.005, 0.02), "warp_strain": (5e-6, 1e-4), "weft_strain": (5e-6, 1e-4),
+         "warp_tension_N": (0.0, np.inf), "weft_tension_N": (0.0, np.inf),
+         "thickness_mm": (1e-5, 1e-3)}
+POSITION = (0.002, 0.009)  # mm
+
+
+def page_of(runs: list[Run]) -> str:
+    blocks = Blocks()
+    scene = {"runs": [scene_of(run, blocks) for run in runs]}
+    shelf = jinja2.Environment(loader=jinja2.FileSystemLoader(WEB), autoescape=True,
+                               trim_blocks=True, lstrip_blocks=True,
+                               undefined=jinja2.StrictUndefined)
+    shelf.globals.update(number=answers.number, small=answers.small, sentence=answers.sentence)
+    told = [told_of(run, k) for k, run in enumerate(runs)]
+    ids = {chart["id"]: chart for run in scene["runs"] for chart in run["charts"]}
+    return shelf.get_template("report.html").render(
+        runs=told, charts=list(ids.values()), errors=blocks.errors, blocks=blocks.texts,
+        scene=in_script(json.dumps(scene, separators=(",", ":"))), style=(WEB / "report.css").read_text(),
+        imports=imports(), three=in_script(three()), tool_tolerance=TOOL_TOLERANCE)
+
+
+def three() -> str:
+    if not THREE.is_file():
+        raise Trouble(f"{THREE} is missing: install Debian's package libjs-three")
+    return THREE.read_text(encoding="utf-8")
+
+
+def in_script(text: str) -> jinja2.utils.markupsafe.Markup:
+    return jinja2.utils.markupsafe.Markup(text.replace("</", "<\\/").replace("<!--", "<\\!--"))
+
+
+def imports():
+    """The modules of web/ under the names that they import each other by."""
+    named = {f"plyform/{file.name}": "data:text/javascript;base64,"
+             + base64.b64encode(file.read_bytes()).decode("ascii")
+             for file in sorted(WEB.glob("*.js"))}
+    return in_script(json.dumps({"imports": named}))
+
+
+def told_of(run: Run, index: int) -> dict:
+    """What the texts and tables of the page say of a run."""
+    found = answers.answers_of(run, index)
+    status, words = answers.verdict(run, found)
+    return {"title": run.title(), "folder": run.folder.resolve().name, "status": status,
+            "verdict": words, "answers": found, "doubts": answers.doubts(run),
+            "summary": run.summary, "run": run, "triangles": sum(len(p.triangles) for p in run.plies),
+            "plies": [(ply, run.told(ply.name)) for ply in run.plies],
+            "tools": [(tool, abs(tool.force_N).max()) for tool in run.tools]}
+
+
+def scene_of(run: Run, blocks: Blocks) -> dict:
+    return {"title": run.title(), "stroke": rounded(run.stroke_mm), "time": rounded(run.time_s),
+            "plies": [ply_of(run, ply, blocks) for ply in run.plies],
+            "tools": [scene_of_tool(run, tool, blocks) for tool in run.tools],
+            "charts": series.charts_of(run)}
+
+
+def rounded(values: np.ndarray) -> list:
+    return [float(f"{value:.7g}") for value in np.ravel(values)]
+
+
+def ply_of(run: Run, ply: PlyStates, blocks: Blocks) -> dict:
+    told = run.told(ply.name)
+    across = ply.warp[0] * ply.weft[1] - ply.warp[1] * ply.weft[0]
+    return {
+        "name": ply.name, "thickness": ply.thickness(),
+        "size": float(np.ptp(ply.x0, axis=0).max()), "warp": rounded(ply.warp),
+        "weft": rounded(ply.weft), "woven": not run.summary or "max_pressed_strain" in told,
+        "locking_angle": told.get("locking_angle_deg"),
+        "fibre_angle": float(np.degrees(np.arctan2(across, ply.warp @ ply.weft))),
+        "x0": blocks.add(ply.x0[None], "place", *POSITION),
+        "triangles": blocks.add_integers(ply.triangles),
+        "x": blocks.add(ply.x, "place", *POSITION),
+        "cells": {name: blocks.add(values, name, *CELLS[name])
+                  for name, values in ply.cells.items()},
+        "nodes": {name: blocks.add(values, name, 0.0, np.inf)
+                  for name, values in ply.nodes.items()},
+    }
+
+
+def scene_of_tool(run: Run, tool: ToolStates, blocks: Blocks) -> dict:
+    x, triangles = simplified(tool.x0, tool.triangles, TOOL_TOLERANCE)
+    stack = np.mean([ply.x0[:, 2].mean() for ply in run.plies])
+    low, high = tool.x0[:, 2].min(), tool.x0[:, 2].max()
+    return {"name": tool.name, "x0": blocks.add(x[None], "place of a tool", *POSITION),
+            "triangles": blocks.add_integers(triangles),
+            "driven": bool(np.ptp(tool.shift, axis=0).max() > 0.0
+                           and abs(tool.stroke_mm[-1] - run.stroke_mm[-1]) < 1e-6),
+            "above": bool(0.5 * (low + high) > stack),
+            "shift": [rounded(shift) for shift in tool.shift]}

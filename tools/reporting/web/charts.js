@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Curves over the stroke, as SVG; a line marks the state shown, a click goes to another.
+
+import { lineStyle } from "plyform/colours.js";
+import { fittingDigits, written } from "plyform/numbers.js";
+
+const NAMES = "http://www.w3.org/2000/svg";
+const SIZE = { width: 420, height: 230, left: 56, right: 10, top: 10, bottom: 34 };
+
+function part(name, attributes, parent, text) {
+  const made = document.createElementNS(NAMES, name);
+  for (const [key, value] of Object.entries(attributes)) made.setAttribute(key, value);
+  if (text !== undefined) made.textContent = text;
+  parent.append(made);
+  return made;
+}
+
+/** Round numbers from low to high, five or so. */
+export function ticks(low, high) {
+  const rough = (high - low) / 4 || 1;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 2.5, 5, 10].map((k) => k * power).find((size) => size >= rough);
+  const places = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) places.push(k * step);
+  return { places, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9) + (step / power === 2.5 ? 1 : 0)) };
+}
+
+export class Chart {
+  /** `runs`: of each run, its stroke and the lines of this chart. `go(stroke)`: shows a state. */
+  constructor(place, chart, runs, go) {
+    this.svg = part("svg", { viewBox: `0 0 ${SIZE.width} ${SIZE.height}`, role: "img",
+      "aria-label": `${chart.title}, ${chart.unit}, over the stroke` }, place);
+    this.unit = chart.unit;
+    this.runs = runs;
+    const strokes = runs.flatMap((run) => run.stroke);
+    const values = runs.flatMap((run) => run.lines.flatMap((line) => line.values));
+    [this.low, this.high] = [Math.min(0, ...values), Math.max(0, ...values)];
+    if (this.high === this.low) this.high = this.low + 1;
+    [this.from, this.to] = [Math.min(...strokes), Math.max(...strokes)];
+    if (this.to === this.from) this.to = this.from + 1;
+    this.axes();
+    this.lines();
+    this.mark = part("line", { class: "state", y1: SIZE.top, y2: SIZE.height - SIZE.bottom }, this.svg);
+    this.legend(place);
+    this.svg.addEventListener("click", (event) => {
+      const room = this.svg.getBoundingClientRect();
+      const x = ((event.clientX - room.left) / room.width) * SIZE.width;
+      const share = (x - SIZE.left) / (SIZE.width - SIZE.left - SIZE.right);
+      go(this.from + share * (this.to - this.from));
+    });
+  }
+
+  x(stroke) {
+    return SIZE.left + ((stroke - this.from) / (this.to - this.from)) * (SIZE.width - SIZE.left - SIZE.right);
+  }
+
+  y(value) {
+    return SIZE.height - SIZE.bottom -
+      ((value - this.low) / (this.high - this.low)) * (SIZE.height - SIZE.top - SIZE.bottom);
+  }
+
+  axes() {
+    const up = ticks(this.low, this.high);
+    for (const value of up.places) {
+      const y = this.y(value);
+      part("line", { class: "grid", x1: SIZE.left, x2: SIZE.width - SIZE.right, y1: y, y2: y }, this.svg);
+      part("text", { x: SIZE.left - 6, y: y + 4, "text-anchor": "end" }, this.svg, written(value, up.digits));
+    }
+    const along = ticks(this.from, this.to);
+    for (const value of along.places) {
+      part("text", { x: this.x(value), y: SIZE.height - SIZE.bottom + 16, "text-anchor": "middle" },
+        this.svg, written(value, along.digits));
+    }
+    part("text", { x: SIZE.width - SIZE.right, y: SIZE.height - 3, "text-anchor": "end" }, this.svg, "stroke, mm");
+  }
+
+  lines() {
+    this.runs.forEach((run, r) => run.lines.forEach((line, k) => {
+      const [colour, dashes] = lineStyle(k);
+      const points = line.values.map((value, i) => `${this.x(run.stroke[i])},${this.y(value)}`).join(" ");
+      part("polyline", { points, fill: "none", stroke: colour, "stroke-width": r ? 1.2 : 2.2,
+        "stroke-dasharray": dashes, "stroke-opacity": r ? 0.75 : 1 }, this.svg);
+    }));
+  }
+
+  legend(place) {
+    const list = document.createElement("ul");
+    list.className = "legend-of-lines";
+    this.numbers = [];
+    this.runs.forEach((run, r) => run.lines.forEach((line, k) => {
+      const item = document.createElement("li");
+      const sample = part("svg", { viewBox: "0 0 28 8", width: 28, height: 8, "aria-hidden": "true" }, item);
+      const [colour, dashes] = lineStyle(k);
+      part("line", { x1: 0, x2: 28, y1: 4, y2: 4, stroke: colour, "stroke-width": r ? 1.2 : 2.2,
+        "stroke-dasharray": dashes }, sample);
+      item.append(` ${this.runs.length > 1 ? `${"AB"[r]}: ` : ""}${line.name} `);
+      const number = document.createElement("b");
+      item.append(number);
+      list.append(item);
+      this.numbers.push({ number, run, line, r });
+    }));
+    place.append(list);
+  }
+
+  /** The line, and the values beside the names. */
+  show(stroke, states) {
+    this.mark.setAttribute("x1", this.x(stroke));
+    this.mark.setAttribute("x2", this.x(stroke));
+    const digits = fittingDigits(Math.max(Math.abs(this.low), Math.abs(this.high)));
+    for (const { number, line, r } of this.numbers) {
+      number.textContent = `${written(line.values[states[r]], digits)} ${this.unit}`;
+    }
+  }
+}

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The page around the pictures: what it shows follows the settings.
+
+import { fieldCalled } from "plyform/fields.js";
+import { fittingDigits, written } from "plyform/numbers.js";
+import { gradient } from "plyform/colours.js";
+
+const at = (id) => document.getElementById(id);
+
+export class Page {
+  constructor() {
+    this.canvas = at("canvas");
+    this.probe = at("probe");
+    this.views = {
+      formed: [at("formed-0"), at("formed-1")], flat: [at("flat-0"), at("flat-1")],
+      difference: { difference: at("formed-difference"), "flat-difference": at("flat-difference") },
+    };
+  }
+
+  /** Controls and legends as the settings are. */
+  show(report) {
+    const { settings, scale } = report;
+    const field = fieldCalled(settings.field);
+    const set = { field: settings.field, colours: settings.colours, steps: settings.steps,
+      stroke: settings.state, apart: settings.apart, yarns: settings.yarns, tools: settings.tools,
+      "flat-ply": settings.flatPly, "section-angle": settings.section.angle };
+    for (const [id, value] of Object.entries(set)) if (at(id).value !== String(value)) at(id).value = value;
+    for (const box of document.querySelectorAll("#plies input")) box.checked = !settings.hidden.has(box.dataset.ply);
+    at("colours").disabled = Boolean(field.signed);
+    const digits = fittingDigits(Math.max(Math.abs(scale.low), Math.abs(scale.high)));
+    for (const key of ["low", "high"]) {
+      if (document.activeElement !== at(key)) at(key).value = settings[key] === null ? "" : settings[key];
+      at(key).placeholder = scale[key].toFixed(digits);
+    }
+    if (document.activeElement !== at("limit")) at("limit").value = settings.limit === null ? "" : settings.limit;
+    at("section-angle-row").hidden = !settings.section.on || settings.section.level;
+    at("section-offset-row").hidden = !settings.section.on;
+    at("field-note").textContent = field.note;
+    this.legend(at("legend"), scale, `${field.label}, ${field.unit}`, digits);
+    this.tellState(report);
+    if (at("formed-difference")) {
+      for (const id of ["formed-difference", "flat-difference"]) at(id).hidden = !settings.difference;
+      const range = report.differenceRange;
+      this.legend(at("legend-difference"), { low: -range, high: range, steps: settings.steps,
+        colours: "diverging", limit: null }, `B − A: ${field.label}, ${field.unit}`, fittingDigits(range));
+      at("legend-difference").hidden = !settings.difference;
+    }
+  }
+
+  tellState(report) {
+    const [first] = report.runs;
+    const { state } = report.settings;
+    at("state").textContent = `${written(first.stroke[state], 2)} mm of stroke`;
+    at("state-number").textContent = `state ${state + 1} of ${first.stroke.length}`;
+    report.states().forEach((one, r) => {
+      const label = at(`formed-${r}`).querySelector(".of-stroke");
+      if (label) label.textContent = `${written(report.runs[r].stroke[one], 2)} mm`;
+    });
+  }
+
+  legend(place, scale, title, digits) {
+    place.querySelector(".legend-title").textContent = title;
+    place.querySelector(".legend-bar").style.background = gradient(scale.colours, scale.steps);
+    const numbers = place.querySelector(".legend-numbers");
+    numbers.replaceChildren(...[0, 0.25, 0.5, 0.75, 1].map((share) => {
+      const number = document.createElement("span");
+      number.textContent = written(scale.low + share * (scale.high - scale.low), digits);
+      return number;
+    }));
+    const over = place.querySelector(".legend-limit");
+    if (!over) return;
+    over.hidden = scale.limit === null;
+    over.querySelector("b").textContent = scale.limit === null ? "" : written(scale.limit, digits);
+  }
+}
