@@ -17,7 +17,7 @@ from .simplify import simplified
 
 WEB = Path(__file__).resolve().parent / "web"
 THREE = Path("/usr/share/javascript/three/three.min.js")
-TOOL_TOLERANCE = 0.3     # mm, of simplify: nearer than a tenth of a millimetre (gaps_test measures)
+TOOL_TOLERANCE = 0.3     # mm, of simplify: nearer than a tenth of a millimetre
 # steps finer than these say nothing, and errors larger than these are not allowed
 CELLS = {"shear_angle_deg": (0.005, 0.02), "warp_strain": (5e-6, 1e-4), "weft_strain": (5e-6, 1e-4),
          "warp_tension_N": (0.0, np.inf), "weft_tension_N": (0.0, np.inf),

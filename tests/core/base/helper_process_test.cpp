@@ -2,6 +2,7 @@
 // Whatever happens in the helper process, this one gets to know it and goes on.
 #include "core/base/helper_process.hpp"
 
+#include <atomic>
 #include <csignal>
 #include <gtest/gtest.h>
 #include <stdexcept>
@@ -41,10 +42,9 @@ TEST(HelperProcess, SurvivesACrash) {
 
 TEST(HelperProcess, EndsWorkThatNeverEnds) {
   const HelperResult result = in_helper_process(
-      [] {
-        for (volatile unsigned long i = 0;; i = i + 1) {
-        }
-        return std::string();
+      []() -> std::string {
+        for (std::atomic<unsigned long> count{0};;)
+          ++count;
       },
       {1, 1 << 30});
   EXPECT_EQ(result.end, End::timeout);
