@@ -11,6 +11,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 try:
@@ -97,6 +98,21 @@ def shown(browser, folder):
     return browser.find("body").text, fields
 
 
+def killed_run(folder):
+    """A stack with tools, killed after its third state."""
+    settings = ("blanks.square.element_size=34", "solver.duration=0.02")
+    words = [word for setting in settings for word in ("--set", setting)]
+    process = subprocess.Popen([PROGRAM, "run", CASES / "hemisphere_two_ply", *words, "-o", folder],
+                               stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    while not (folder / "states/000002.h5").exists():
+        assert process.poll() is None, "the run has ended before it could be killed"
+        time.sleep(0.002)
+    process.kill()
+    process.wait()
+    assert not (folder / "summary.json").exists()
+    return folder
+
+
 def check_endings(browser, folder):
     frame = run(folder / "frame", CASES / "picture_frame", "blanks.square.element_size=25",
                 "solver.outputs=3")
@@ -108,10 +124,7 @@ def check_endings(browser, folder):
     assert "Does not form: plyform stopped the run at" in words and "Ply p is squeezed." in words
     words, _ = shown(browser, changed(frame, folder / "interrupted", status="interrupted"))
     assert "Not finished: the run was interrupted at" in words
-    killed = folder / "killed"
-    shutil.copytree(frame, killed)
-    (killed / "summary.json").unlink()
-    words, _ = shown(browser, killed)
+    words, _ = shown(browser, killed_run(folder / "killed"))
     assert "Not finished: the run goes on, or was killed" in words and "no summary.json" in words
     doubtful = changed(frame, folder / "doubtful", status="doubtful",
                        missing=["do not trust the corners", "friction: none"],
