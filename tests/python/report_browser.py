@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Opens a report in headless Chromium, for the tests: what it shows, says and asks of a network."""
+"""Opens a report in headless Chromium, for the tests: what it shows, says and asks of a network.
+Imported, it ends the test with 77 when anything that reports or their tests need is missing."""
 
 import base64
 import json
@@ -7,11 +8,20 @@ import sys
 import time
 from pathlib import Path
 
-from selenium import webdriver
-from selenium.webdriver.chrome.service import Service
-from selenium.webdriver.common.by import By
-
 DRIVER = "/usr/bin/chromedriver"
+try:
+    import h5py  # noqa: F401, tools/report needs it
+    import jinja2  # noqa: F401
+    from selenium import webdriver
+    from selenium.webdriver.chrome.service import Service
+    from selenium.webdriver.common.by import By
+except ImportError as problem:
+    print("SKIPPED:", problem)
+    sys.exit(77)
+if not Path(DRIVER).is_file() or not Path("/usr/share/javascript/three/three.min.js").is_file():
+    print("SKIPPED: chromium-driver or libjs-three is not installed")
+    sys.exit(77)
+
 SWITCHES = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-gl=angle",
             "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars",
             "--force-device-scale-factor=1", "--disable-background-networking",

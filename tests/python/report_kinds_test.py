@@ -14,19 +14,7 @@ import tempfile
 import time
 from pathlib import Path
 
-try:
-    import h5py  # noqa: F401, tools/report needs it
-    import jinja2  # noqa: F401
-    import selenium  # noqa: F401, report_browser needs it
-except ImportError as problem:
-    print("SKIPPED:", problem)
-    sys.exit(77)
-
-from report_browser import DRIVER, Browser
-
-if not Path(DRIVER).is_file() or not Path("/usr/share/javascript/three/three.min.js").is_file():
-    print("SKIPPED: chromium-driver or libjs-three is not installed")
-    sys.exit(77)
+from report_browser import Browser
 
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
 
