@@ -76,8 +76,8 @@ public:
   /// std::runtime_error naming the path if one is missing.
   void go_on(const StateIndex& index);
 
-  /// Makes one file of all and removes the folder states. Throws as the functions above; then the
-  /// files stay as they were.
+  /// Makes one file of all; the folder states stays. Throws as the functions above; then the files
+  /// stay as they were.
   void merge();
 
   const StateIndex& index() const { return index_; }

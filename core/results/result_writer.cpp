@@ -267,7 +267,12 @@ std::optional<Resume> ResultWriter::go_on(const std::string& identity) {
   Impl& my = *impl_;
   const std::optional<Checkpoint> found =
       read_checkpoint_file(my.directory / "checkpoint", identity);
-  if (!found) return std::nullopt;
+  if (!found) {
+    std::error_code ignored;
+    if (fs::exists(my.directory / "summary.json", ignored))
+      remove_states(my.directory); // killed then
+    return std::nullopt;
+  }
   const WriterState& written = found->writer;
   remove_file(my.directory / "summary.json"); // of the interrupted run
   my.states.go_on(written.states);
@@ -292,7 +297,10 @@ void ResultWriter::write_final(const Frame& last, const Summary& summary) {
   if (!goes_on) my.states.merge();
   // written last, when all other files are complete
   write_whole(my.directory / "summary.json", summary_json(last, summary));
-  if (!goes_on) remove_file(my.directory / "checkpoint");
+  if (goes_on) return;
+  // In this order the run can go on until it has ended, wherever it is killed.
+  remove_file(my.directory / "checkpoint");
+  remove_states(my.directory);
 }
 
 } // namespace plyform

@@ -79,7 +79,6 @@ void StateFiles::go_on(const StateIndex& index) {
 
 void StateFiles::merge() {
   write_merged(directory_ / "results.h5", index_);
-  remove_states(directory_);
 }
 
 void remove_states(const fs::path& directory, std::size_t first) {

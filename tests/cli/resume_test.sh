@@ -60,6 +60,7 @@ for case in stack frame table; do
     wait $process 2>/dev/null || true
     readable again
     if [ -e again/summary.json ]; then
+      "$program" run "${arguments[@]}" --resume -o again >again.log 2>&1 || fail "$(tail -n 1 again.log)"
       same again
       rm -rf again
     fi

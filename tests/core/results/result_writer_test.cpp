@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fcntl.h>
+#include <functional>
 #include <gtest/gtest.h>
 #include <limits>
 #include <map>
@@ -157,7 +158,7 @@ TEST_F(Results, ASecondRunReplacesTheFilesOfTheFirst) {
   writer.write_frame(other);
   EXPECT_EQ(files_in(directory),
             (std::vector<std::string>{"history.csv", "photo.csv", "plies/notes.txt", "results.h5",
-                                      "results.xdmf"}));
+                                      "results.xdmf", "states/000000.h5", "states/meshes.h5"}));
   writer.write_final(other, Summary{});
   EXPECT_EQ(files_in(directory / "plies"), (std::vector<std::string>{"lower.csv", "notes.txt"}));
   EXPECT_EQ(read_last_frame(directory / "results.h5").plies.size(), 1u);
@@ -207,19 +208,24 @@ TEST_F(Results, AFullDiskIsNoticedInEveryTextFile) {
   }
 }
 
-/// Writes frames in a child until files may not grow beyond `limit` bytes, which stands for a full
-/// disk. Expects that the child ends in order all the same, and returns what it said.
-std::string error_of_full_disk(const fs::path& directory, rlim_t limit) {
+/// Writes two frames in a child, then what `more` does to the writer, while files may not grow
+/// beyond `limit` bytes, which stands for a full disk. Expects that the child ends in order all the
+/// same, and returns what it said.
+std::string error_of_full_disk(const fs::path& directory, rlim_t limit,
+                               const std::function<void(ResultWriter&)>& more) {
   const fs::path message = directory.string() + ".txt";
   const int status = in_child([&] {
     signal(SIGXFSZ, SIG_IGN);
-    const rlimit size{limit, RLIM_INFINITY};
-    if (setrlimit(RLIMIT_FSIZE, &size) != 0) _exit(9);
     const std::string error = error_of([&] {
       ResultWriter writer(directory);
-      for (int i = 0; i < 20; ++i)
-        writer.write_frame(frame(0.125 * i));
+      writer.write_frame(frame(0.25));
+      writer.write_frame(frame(0.5));
+      const rlimit size{limit, RLIM_INFINITY};
+      if (setrlimit(RLIMIT_FSIZE, &size) != 0) _exit(9);
+      more(writer);
     });
+    const rlimit none{RLIM_INFINITY, RLIM_INFINITY};
+    setrlimit(RLIMIT_FSIZE, &none);
     put(message, error);
   });
   EXPECT_EQ(status, 0) << "limit " << limit;
@@ -229,20 +235,24 @@ std::string error_of_full_disk(const fs::path& directory, rlim_t limit) {
 }
 
 TEST_F(Results, AFullDiskIsNoticedInTheStatesAndTheFormerOnesStay) {
-  double last = -1;
-  for (rlim_t limit = 10'000; limit < 400'000; limit += 21'000) {
-    const std::string error = error_of_full_disk(directory, limit);
-    EXPECT_TRUE(contains(error, (directory / "results.h5").string())) << limit << ": " << error;
+  for (rlim_t limit = 100; limit < 120'000; limit += 13'000) {
+    const std::string error = error_of_full_disk(
+        directory, limit, [](ResultWriter& writer) { writer.write_frame(frame(0.75)); });
+    EXPECT_TRUE(contains(error, (directory / "states/000002.h5").string())) << limit << error;
     EXPECT_TRUE(contains(error, "File too large")) << limit << ": " << error;
-    if (fs::exists(directory / "results.h5")) {
-      const Frame found = read_last_frame(directory / "results.h5");
-      EXPECT_GE(found.time, last) << "more room, more frames";
-      last = found.time;
-      expect_same(found, frame(last));
-    }
+    expect_same(read_last_frame(directory / "results.h5"), frame(0.5));
+    EXPECT_EQ(rows_of(content(directory / "history.csv")).size(), 3u);
+    EXPECT_FALSE(fs::exists(directory / "states/000002.h5.tmp")) << "the temporary file stays";
     fs::remove_all(directory);
   }
-  EXPECT_GT(last, 0.5) << "the largest limit holds several frames";
+}
+
+TEST_F(Results, ADiskThatIsFullInTheEndLeavesTheStatesToRead) {
+  const std::string error = error_of_full_disk(
+      directory, 120'000, [](ResultWriter& writer) { writer.write_final(frame(0.5), Summary{}); });
+  EXPECT_TRUE(contains(error, (directory / "results.h5").string())) << error;
+  EXPECT_TRUE(contains(error, "File too large")) << error;
+  expect_same(read_last_frame(directory / "results.h5"), frame(0.5));
 }
 
 TEST_F(Results, NamesThatCannotBeFilesOrStandTwiceAreRefused) {
