@@ -4,6 +4,7 @@ Imported, it ends the test with 77 when anything that reports or their tests nee
 
 import base64
 import json
+import socket
 import sys
 import time
 from pathlib import Path
@@ -26,6 +27,13 @@ SWITCHES = ["--headless=new", "--no-sandbox", "--disable-dev-shm-usage", "--use-
             "--use-angle=swiftshader", "--enable-unsafe-swiftshader", "--hide-scrollbars",
             "--force-device-scale-factor=1", "--disable-background-networking",
             "--disable-component-update", "--no-first-run"]
+
+try:
+    socket.getaddrinfo("localhost", None)
+except OSError:
+    print("SKIPPED: this system does not know the name localhost, by which the driver finds "
+          "Chromium: add the line 127.0.0.1 localhost to /etc/hosts")
+    sys.exit(77)
 
 
 class Browser:
