@@ -42,10 +42,9 @@ std::uint64_t checksum(std::string_view bytes) {
 
 } // namespace
 
-void write_checkpoint_file(const fs::path& path, const Checkpoint& checkpoint) {
-  Checkpoint copy = checkpoint;
+void write_checkpoint_file(const fs::path& path, Checkpoint checkpoint) {
   SaveArchive archive;
-  visit(archive, copy);
+  visit(archive, checkpoint);
   std::uint64_t sum = checksum(archive.text());
   SaveArchive head;
   visit(head, sum);

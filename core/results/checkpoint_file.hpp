@@ -26,7 +26,7 @@ struct Checkpoint {
 };
 
 /// Throws std::runtime_error naming the path and the reason.
-void write_checkpoint_file(const std::filesystem::path& path, const Checkpoint& checkpoint);
+void write_checkpoint_file(const std::filesystem::path& path, Checkpoint checkpoint);
 
 /// Nothing if there is no such file. Throws std::runtime_error naming the path if it is damaged, or
 /// not of a case with this identity.

@@ -191,12 +191,12 @@ std::string extents_text(const Box3& box) {
                      point(box.min()), point(box.max()));
 }
 
-/// Depth, as a share of what contact has, at which it is that much stiffer than at first touch.
-double share_of_stiffness(double ratio) {
-  double low = 0.0, high = 0.999;
+/// Depth, mm, at which contact is that much stiffer than at first touch.
+double depth_of_stiffness(const ContactLaw& law, double ratio) {
+  double low = 0.0, high = 0.999 * law.max_depth;
   for (int i = 0; i < 40; ++i) {
-    const double u = 0.5 * (low + high), q = 1.0 - u * u;
-    ((1.0 + 3.0 * u * u) / (q * q * q) < ratio ? low : high) = u;
+    const double depth = 0.5 * (low + high);
+    (law.tangent(depth) < ratio * law.stiffness ? low : high) = depth;
   }
   return low;
 }
@@ -215,12 +215,12 @@ void describe_pressure(const Scene& s, std::size_t tool, const ToolWay& way, Lin
     if (tool_distance(t, way.travel * t.direction, ply.x0[n], hint) < 1.5 * ply.thickness)
       area += ply.membrane.node_area[n];
   const ContactLaw& law = s.tools[tool].contacts[way.first].law;
-  const double most = area * law.pressure(share_of_stiffness(stiff) * law.max_depth);
+  const double most = area * law.pressure(depth_of_stiffness(law, stiff));
   if (area == 0.0 || t.force <= most) return;
   say(lines,
       "    warning: {:g} N on {:.3g} mm2 of ply {} are more than contact bears without getting "
-      "much "
-      "stiffer than the elements, {:.2g} N: the steps shrink, and the run may stop as squeezed, "
+      "much stiffer than the elements, {:.2g} N: the steps shrink, and the run may stop as "
+      "squeezed, "
       "which no stroke or speed avoids; less force, or a larger contact.stiffness",
       t.force, area, ply.name, most);
 }
