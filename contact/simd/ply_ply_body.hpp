@@ -32,10 +32,11 @@ struct SimdForces {
   Vector4 on_node, couple1, couple2; ///< of (C') on corners b and c
 };
 
-/// Normal force and friction of four points whose feet are known; `touch`: those that touch.
+/// Normal force and friction of four points whose feet are known; `touch`: those that touch; fold:
+/// as of fold_ahead.
 PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFaces& x,
-                                    const SimdFaces& u, const SimdFoot& foot, Long4 touch,
-                                    SimdPoints& p, SimdTotals& sums) {
+                                    const SimdFaces& u, const SimdFoot& foot, Double4 fold,
+                                    Long4 touch, SimdPoints& p, SimdTotals& sums) {
   const Double4 zero = all(0.0);
   const Vector4 arm = x.p - foot.wb * x.b - foot.wc * x.c;
   const Vector4 motion = u.p - foot.wb * u.b - foot.wc * u.c;
@@ -68,7 +69,9 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
   }
   sums.elastic +=
       0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * stored2);
-  sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, depth, dp));
+  Double4 closing = dp;
+  if (any(fold > 0.0)) closing = fold > 0.0 ? larger(dp, zero) + fold * root(square(motion)) : dp;
+  sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, depth, closing));
   sums.penetration = larger(sums.penetration, touch ? depth : zero);
   return f;
 }
@@ -114,10 +117,18 @@ PLYFORM_INLINE Long4 remembered(const Group& g) {
   return Long4{g.point[0]->face, g.point[1]->face, g.point[2]->face, g.point[3]->face};
 }
 
-/// Computes the forces of up to four points that touch, x their positions and foot their closest
-/// points.
+/// Upper bound of the sine of the fold between the face of a point that is not settled and those
+/// around it: the share of its motion along its own face that may close on the next one.
+PLYFORM_INLINE double fold_ahead(const PlyPlyKernelContact& k, const PlyPlyPoint& point) {
+  if (!k.fold_bound) return 1.0;
+  const double sine = (2.0 / 1.2) * k.fold_bound[point.face]; // contact/search/fold_bound.hpp
+  return sine < 1.0 ? sine : 1.0;
+}
+
+/// Computes the forces of up to four points that touch, x their positions, foot their closest
+/// points, and fold as of fold_ahead, 0 for those that are settled.
 PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const SimdFaces& x,
-                          const SimdFoot& foot, SimdTotals& sums) {
+                          const SimdFoot& foot, Double4 fold, SimdTotals& sums) {
   const SimdFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
   const Rows held = load_columns(g.point, memory_row), last = load_columns(g.point, gap_row);
   SimdPoints p;
@@ -127,7 +138,7 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const Si
   m.normal_force = last.row[0], m.slip = last.row[1], p.area = last.row[2];
   p.last_gap = last.row[3];
   p.gap = foot.distance - k.distance;
-  const SimdForces f = forces_of(k, x, u, foot, g.real, p, sums);
+  const SimdForces f = forces_of(k, x, u, foot, fold, g.real, p, sums);
   add_forces(k, g.point, foot, f, g.real);
   const Double4 height = dot(cross(x.b, x.c), x.p);
   // 0 on edges: a node may slide round the free edge of the sheet to the other side
@@ -181,6 +192,7 @@ struct Chunk {
   static constexpr int most = 64;
   alignas(32) double distance[most]; ///< mm
   bool inside[most];                 ///< the foot is inside the face
+  bool settled[most];                ///< no other face can be closer
   std::int32_t to_search[2][most];   ///< points whose faces must be searched; [1]: with edges
   int search_count[2] = {0, 0};
   std::int32_t pending[most]; ///< points whose forces are not yet computed, ascending
@@ -208,13 +220,14 @@ PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const s
     const Long4 settled = settled_of(k, g.point, foot, clear, interiors_only);
     store_weights(g.point, g.count, foot);
     if (!any(~(settled & (foot.distance < k.distance)))) {
-      press(k, g, x, foot, sums);
+      press(k, g, x, foot, all(0.0), sums);
       continue;
     }
     const std::int32_t number[simd_width] = {first, first + 1, first + 2, first + 3};
     store_foot(chunk, number, g.count, foot);
     for (int i = 0; i < g.count; ++i) {
       chunk.pending[chunk.pending_count++] = first + i;
+      chunk.settled[first + i] = settled[i] != 0;
       if (settled[i]) continue;
       const int edges = interiors_only[i] ? 0 : 1;
       chunk.to_search[edges][chunk.search_count[edges]++] = first + i;
@@ -242,11 +255,12 @@ PLYFORM_INLINE void press_pending(const PlyPlyKernelContact& k, const std::int32
                                   const std::int32_t* number, int count, const Chunk& chunk,
                                   SimdTotals& sums) {
   std::int32_t index[simd_width];
-  Double4 distance;
+  Double4 distance, fold;
   Long4 inside;
   for (int i = 0; i < simd_width; ++i) {
     const std::int32_t from = number[i < count ? i : 0];
     index[i] = active[from];
+    fold[i] = chunk.settled[from] ? 0.0 : fold_ahead(k, k.points[index[i]]);
     distance[i] = chunk.distance[from];
     inside[i] = chunk.inside[from] ? -1 : 0;
   }
@@ -255,7 +269,7 @@ PLYFORM_INLINE void press_pending(const PlyPlyKernelContact& k, const std::int32
   const Double4 wb{p[0]->w[0], p[1]->w[0], p[2]->w[0], p[3]->w[0]};
   const Double4 wc{p[0]->w[1], p[1]->w[1], p[2]->w[1], p[3]->w[1]};
   press(k, g, load_faces(k, p, remembered(g), k.slave_x, k.master_x), {wb, wc, distance, inside},
-        sums);
+        fold, sums);
 }
 
 PLYFORM_INLINE void process_chunk(const PlyPlyKernelContact& k, const std::int32_t* active,

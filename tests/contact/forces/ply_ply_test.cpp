@@ -2,11 +2,13 @@
 // Node-to-face contact of two sheets: forces against finite differences, balance, memory, search.
 #include "contact/forces/ply_ply.hpp"
 #include "contact/point_triangle.hpp"
+#include "contact/search/fold_bound.hpp"
 #include "support/contact_checks.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <numbers>
 
 namespace plyform {
 namespace {
@@ -214,6 +216,41 @@ TEST(PlyPlyContact, NodeGoneThroughIsAFault) {
 /// Height of a wavy floor.
 double wave(double x, double y) {
   return 1.5 * std::sin(0.25 * x) * std::cos(0.2 * y);
+}
+
+/// ContactTotals::step_ratio after a node has slid by `step` (mm along x) over a master that knows
+/// its folds. x: mm, where the node starts; `depth` mm deep if the master is flat there.
+double ratio_while_sliding(const OwnedSheet& master, const ContactLaw& law, double x, double depth,
+                           double step) {
+  std::vector<double> bound;
+  fold_bounds(master.x, master.triangles, bound);
+  const SurfaceKinematics folded{master.x, master.motion, master.area, bound};
+  OwnedSheet node = points_only({Vec3(x, 0.2, thickness - depth)}, 2.0);
+  Loaded contact = contact_of(law);
+  search(contact, node, master, 0.5);
+  contact.slave_force.resize(1);
+  contact.master_force.resize(master.x.size());
+  for (const double by : {0.0, step}) {
+    node.move({{by, 0.0, 0.0}});
+    ply_ply_forces(contact, node.state(), folded, master.triangles, 1e-6, {by, by},
+                   contact.slave_force, contact.master_force);
+    EXPECT_NEAR(contact.sums.penetration, depth, 1e-12); // it does not close
+  }
+  return contact.sums.step_ratio;
+}
+
+TEST(PlyPlyContact, NextStepSeesTheFaceBehindAFold) {
+  constexpr double limit = 0.25 * thickness, depth = 0.05, step = 0.02;
+  const ContactLaw law{5.0, 0.0, 0.0, limit};
+  // a floor and a wall that rises from its edge at 60 degrees
+  OwnedSheet valley = points_only({{0, -40, 0}, {0, 40, 0}, {-60, 0, 0}, {30, 0, 52}}, 1.0);
+  valley.triangles = {{0, 1, 2}, {0, 3, 1}};
+  const double near = ratio_while_sliding(valley, law, -0.36, depth, step);
+  const double onto_wall = step * std::sin(std::numbers::pi / 3.0);
+  EXPECT_LE(near, step_share * (limit - depth) / onto_wall);
+  EXPECT_GT(near, 0.5 * step_share * (limit - depth) / onto_wall);
+  // nothing is ahead in the middle of a flat face
+  EXPECT_GT(ratio_while_sliding(square_sheet(1, 40.0, 0.0), law, 0.3, depth, step), 1e3);
 }
 
 TEST(PlyPlyContact, NoPairIsMissedBetweenSearches) {
