@@ -205,6 +205,13 @@ Rows solver_rows() {
            .ranges = {{.least = 0.0, .most = 1e9}},
            .meaning = "deceleration per velocity of all nodes",
            .members = {to(&SolverOptions::mass_damping)}},
+          {.key = "solver.mass_scaling",
+           .fallback = toml(solver.mass_scaling),
+           .ranges = {share},
+           .usual = {{.least = 0.0, .most = 0.05}},
+           .meaning = "largest share of a ply's mass added at nodes of stiff contacts, for larger "
+                      "steps; 0: none",
+           .members = {to(&SolverOptions::mass_scaling)}},
           {.key = "solver.max_balance_error",
            .fallback = toml(solver.max_balance_error),
            .ranges = {{.least = 1e-12, .most = 1e6}},

@@ -8,10 +8,11 @@
 namespace plyform {
 
 /// Energies, and work done since the start, N mm (mJ). external: work of tools, boundaries and
-/// gravity on the plies, and the energy of the plies at the start.
+/// gravity on the plies, and the energy of the plies at the start. mass_scaling: kinetic energy
+/// that came with added mass.
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, bending = 0, contact = 0, friction = 0, damping = 0,
-         external = 0;
+         external = 0, mass_scaling = 0;
   double residual() const; ///< stored and dissipated energy minus external work, N mm
   double largest() const;  ///< magnitude of the largest term; NaN if any is
   /// residual() over largest(); 0 when all are 0.
@@ -27,7 +28,7 @@ struct EnergyTerm {
   double sign;
 };
 
-inline constexpr std::array<EnergyTerm, 8> energy_terms = {{
+inline constexpr std::array<EnergyTerm, 9> energy_terms = {{
     {"kinetic", &Energies::kinetic, 1.0},
     {"fibre", &Energies::fibre, 1.0},
     {"shear", &Energies::shear, 1.0},
@@ -36,6 +37,7 @@ inline constexpr std::array<EnergyTerm, 8> energy_terms = {{
     {"friction", &Energies::friction, 1.0},
     {"damping", &Energies::damping, 1.0},
     {"external", &Energies::external, -1.0},
+    {"mass_scaling", &Energies::mass_scaling, -1.0},
 }};
 
 } // namespace plyform

@@ -181,11 +181,11 @@ double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x) {
   YarnStiffness stiffness(m, x, 1.0, 0.0);
   std::vector<Vec3> y(x.size()), f(x.size());
   const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
-    over_root_of_mass(m, v, y);
+    over_root_of_mass(m.node_mass, v, y);
     std::fill(f.begin(), f.end(), Vec3::Zero());
     stiffness.add_to(y, f);
     Eigen::VectorXd w(v.size());
-    over_root_of_mass(m, std::span<const Vec3>(f), w);
+    over_root_of_mass(m.node_mass, std::span<const Vec3>(f), w);
     return w;
   };
   const double found = largest_ritz_value(apply, scattered_motion(m, x), ritz_steps);

@@ -69,6 +69,7 @@ struct Summary {
   double wall_time_s = 0;
   long steps = 0;
   double min_step_s = 0, max_step_s = 0;
+  double largest_added_mass = 0; ///< by mass scaling, share of the mass of any ply, at any time
   int threads = 1;
   AccuracyReport accuracy;
   ContactReport contact;

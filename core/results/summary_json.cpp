@@ -205,6 +205,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
                     {"wall_time_s", rounded(summary.wall_time_s)},
                     {"steps", summary.steps},
                     {"time_step_s", time_step_object(summary)},
+                    {"largest_added_mass", rounded(summary.largest_added_mass)},
                     {"threads", summary.threads},
                     {"elements", elements},
                     {"nodes", nodes},

@@ -338,7 +338,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   describe_wrinkles(s, lines);
   describe_tools(s, prepared.meshes, lines);
   describe_boundaries(s, lines);
-  const StepBound bound = stable_step(s, pool);
+  const StepBound bound = stable_step(s, contact_rows(s, pool));
   outlook.stable_step = bound.dt;
   outlook.step = s.next_dt;
   outlook.steps = data.solver.duration / s.next_dt;

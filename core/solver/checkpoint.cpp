@@ -29,7 +29,7 @@ void visit(Archive& a, PlyState& ply) {
   visit(a, static_cast<PlyKinematics&>(ply));
   visit(a, ply.x_search, ply.max_displacement, ply.path_length, ply.fold_bound,
         ply.fold_bound_displacement, ply.occluded[0], ply.occluded[1]);
-  visit(a, ply.bound, ply.eigenvalue_ratio, ply.lanczos_contacts);
+  visit(a, ply.bound, ply.eigenvalue_ratio, ply.lanczos_contacts, ply.mass);
   visit(a, ply.membrane.last_lambda, ply.membrane.last_viscous);
   if (ply.simd) visit(a, ply.simd->viscosity);
 }
@@ -85,8 +85,8 @@ void visit_state(Archive& a, Scene& s, RunState& run) {
   visit_all(a, s.ply_pairs);
   visit_all(a, s.node_sums);
   visit(a, s.time, s.step, s.dt, s.next_dt, s.stable_dt, s.min_dt, s.max_dt, s.bound_displacement,
-        s.time_step_gain, s.next_lanczos, s.start_energy, s.mass_damping_work, s.group_sums,
-        s.searches);
+        s.time_step_gain, s.next_lanczos, s.start_energy, s.mass_damping_work, s.mass_scaling_work,
+        s.largest_added_mass, s.group_sums, s.searches);
   Snapshot& good = run.good;
   visit(a, good.plies, good.tool_displacement, good.tool_force, good.boundaries, good.energy,
         good.tool_penetration, good.ply_penetration, good.time, good.step);

@@ -15,8 +15,7 @@ double kinetic_energy(const PlyState& ply, double dt, double next_dt, const Mass
     // steps.
     const Vec3 a = acceleration(ply, static_cast<int>(n), loads);
     const Vec3 now = ply.velocity[n] + 0.5 * dt * a;
-    sum += 0.5 * ply.membrane.node_mass[n] *
-           (now.squaredNorm() - 0.25 * dt * next_dt * a.squaredNorm());
+    sum += 0.5 * ply.mass[n] * (now.squaredNorm() - 0.25 * dt * next_dt * a.squaredNorm());
   }
   return sum;
 }
@@ -76,6 +75,7 @@ Energies current_energies(const Scene& s, ThreadPool& pool) {
   for (double viscous : s.group_sums)
     e.damping += viscous;
   e.damping += s.mass_damping_work;
+  e.mass_scaling = s.mass_scaling_work;
   e.external += s.start_energy;
   return e;
 }

@@ -27,7 +27,9 @@ void sum_forces(const PlyState& ply, int begin, int end, Vec3* f);
 /// Acceleration (mm/s^2) of a node by (17) of core/solver/step.hpp. force: sum of its forces, N.
 inline Vec3 acceleration(const PlyState& ply, std::size_t n, const Vec3& force,
                          const MassLoads& loads) {
-  return force / ply.membrane.node_mass[n] + loads.gravity - loads.damping * ply.velocity[n];
+  const double mass = ply.mass[n];
+  return force / mass + (ply.membrane.node_mass[n] / mass) * loads.gravity -
+         loads.damping * ply.velocity[n];
 }
 
 /// The same, with the sum of the present forces.

@@ -29,7 +29,7 @@ void hold_node(Scene& s, const PrescribedNode& held) {
       last = held.boundary[i];
     }
     const double wanted = (axis.dot(displacement) / s.next_dt - axis.dot(ply.velocity[n])) / span;
-    const Vec3 r = ply.membrane.node_mass[n] * (wanted - axis.dot(free)) * axis;
+    const Vec3 r = ply.mass[n] * (wanted - axis.dot(free)) * axis;
     reaction += r;
     state.force += r;
     state.load += r.dot(slope);

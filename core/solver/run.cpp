@@ -150,6 +150,7 @@ void finish(const Scene& s, const Snapshot& good, RunResult& result, int threads
   sum.steps = s.step;
   sum.min_step_s = s.min_dt;
   sum.max_step_s = s.max_dt;
+  sum.largest_added_mass = s.largest_added_mass;
   sum.threads = threads;
   const PredictedError error = predicted_error(s.data);
   sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data)};

@@ -66,6 +66,7 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
   body.membrane.viscosity = {2.0 * data.solver.fibre_damping * warp.largest_slope() / omega,
                              2.0 * data.solver.fibre_damping * weft.largest_slope() / omega};
   body.bound = eigenvalue_bound(body.membrane, body.x); // with viscosity
+  body.mass = body.membrane.node_mass;
   return body;
 }
 

@@ -60,6 +60,7 @@ struct PlyStability {
   EigenvalueBound bound;         ///< of the membrane, updated at least every 200 steps
   double eigenvalue_ratio = 1.0; ///< core/ply/membrane_eigenvalue.hpp, updated every 1000 steps
   double lanczos_contacts = 0.0; ///< 1/s^2, bound of contacts when time_step_gain was computed
+  std::vector<double> mass;      ///< t, one per node, with what core/solver/mass_scaling.hpp adds
 };
 
 /// Temporary data of one step.
@@ -169,9 +170,11 @@ struct SceneProgress {
   double time_step_gain = 1.0;
   long next_lanczos = 0;     ///< the next step that updates time_step_gain and eigenvalue_ratio
   double start_energy = 0.0; ///< N mm, energy of the plies at the start
-  double mass_damping_work = 0.0; ///< N mm, since the start
-  std::vector<double> group_sums; ///< N mm, viscous work since the start, one per group block
-  long searches = 0;              ///< number of contact searches so far
+  double mass_damping_work = 0.0;  ///< N mm, since the start
+  double mass_scaling_work = 0.0;  ///< N mm, kinetic energy of the mass added, since the start
+  double largest_added_mass = 0.0; ///< of the mass of any ply, at any time
+  std::vector<double> group_sums;  ///< N mm, viscous work since the start, one per group block
+  long searches = 0;               ///< number of contact searches so far
 };
 
 /// Temporary data of one step.

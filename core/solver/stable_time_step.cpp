@@ -13,64 +13,6 @@ namespace {
 
 constexpr int lanczos_interval = 1000; // steps; eigenvalue ratios change more slowly than bounds
 
-/// Row sums of the contact matrices, per ply and node.
-using ContactRows = std::vector<std::vector<ContactRow>>;
-
-/// Row sums of the contacts between two plies, per node of each.
-struct PairRows {
-  std::vector<ContactRow> a, b;
-};
-
-PairRows rows_of(const Scene& s, const PlyPair& pair) {
-  const PlyState &a = s.plies[pair.a], &b = s.plies[pair.b];
-  PairRows rows;
-  const auto begin = [&] {
-    rows.a.resize(a.x.size());
-    rows.b.resize(b.x.size());
-  };
-  for (const int i : pair.contacts) {
-    const PlyContact& c = s.ply_contacts[i];
-    if (c.contact.points.empty()) continue;
-    begin();
-    const bool up = c.slave == pair.a;
-    const PlyState& master = up ? b : a;
-    add_ply_ply_stiffness(c.contact, master.state(), master.membrane.triangles, bound_margin,
-                          up ? rows.a : rows.b, up ? rows.b : rows.a);
-  }
-  for (const int i : pair.edges) {
-    const EdgeEdgeContact& contact = s.edge_contacts[i].contact;
-    if (contact.pairs.empty()) continue;
-    begin();
-    add_edge_stiffness(contact, edge_margin, rows.a, rows.b);
-  }
-  return rows;
-}
-
-ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
-  std::vector<PairRows> of_pair(s.ply_pairs.size());
-  pool.run(static_cast<int>(of_pair.size()), [&](int i) {
-    const auto pair = static_cast<std::size_t>(i);
-    of_pair[pair] = rows_of(s, s.ply_pairs[pair]);
-  });
-  ContactRows c;
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    const PlyState& ply = s.plies[p];
-    std::vector<ContactRow>& rows = c.emplace_back(ply.x.size());
-    for (const ToolState& tool : s.tools)
-      add_tool_ply_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
-  }
-  const auto add = [&c](int ply, const std::vector<ContactRow>& rows) {
-    std::vector<ContactRow>& to = c[ply];
-    for (std::size_t n = 0; n < rows.size(); ++n)
-      to[n] += rows[n];
-  };
-  for (std::size_t i = 0; i < of_pair.size(); ++i) {
-    add(s.ply_pairs[i].a, of_pair[i].a);
-    add(s.ply_pairs[i].b, of_pair[i].b);
-  }
-  return c;
-}
-
 /// Bounds of one ply: of its elements, with the eigenvalue ratio applied, and of its contacts.
 struct PlyBound {
   Frequencies elements, contacts;
@@ -97,13 +39,13 @@ PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
   const PlyState& ply = s.plies[p];
   const EigenvalueBound& b = ply.bound;
   PlyBound of;
-  of.elements = {
-      highest_omega2(b, ply.eigenvalue_ratio) + (ply.bending ? ply.bending->omega2 : 0.0),
-      b.penalty_acts ? b.damping : std::min(b.damping, ply.eigenvalue_ratio * b.yarns * b.viscous)};
+  of.elements = {element_omega2(ply),
+                 b.penalty_acts ? b.damping
+                                : std::min(b.damping, ply.eigenvalue_ratio * b.yarns * b.viscous)};
   of.elements.damping += s.data.solver.mass_damping;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const ContactRow& row = touching[p][n];
-    const double mass = ply.membrane.node_mass[n];
+    const double mass = ply.mass[n];
     of.contacts.omega2 = std::max(of.contacts.omega2, row.stiffness / mass);
     of.contacts.damping = std::max(of.contacts.damping, row.damping / mass);
   }
@@ -122,8 +64,12 @@ double time_step_gain_of(const Scene& s, double dt, ThreadPool& pool) {
 
 } // namespace
 
-StepBound stable_step(const Scene& s, ThreadPool& pool) {
-  const ContactRows touching = contact_rows(s, pool);
+double element_omega2(const PlyState& ply) {
+  return highest_omega2(ply.bound, ply.eigenvalue_ratio) +
+         (ply.bending ? ply.bending->omega2 : 0.0);
+}
+
+StepBound stable_step(const Scene& s, const ContactRows& touching) {
   StepBound bound;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const PlyBound of = bound_of(s, touching, p);

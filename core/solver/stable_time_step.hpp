@@ -23,7 +23,7 @@
 #pragma once
 
 #include "core/base/thread_pool.hpp"
-#include "core/solver/scene.hpp"
+#include "core/solver/contact_rows.hpp"
 
 #include <cmath>
 
@@ -46,12 +46,10 @@ struct StepBound {
 /// The stable time step from PlyStability::bound, the gain, and the contacts at their present
 /// positions: those that are closed or within bound_margin of closing. step_factor covers their
 /// sliding until the next update.
-StepBound stable_step(const Scene& scene, ThreadPool& pool);
+StepBound stable_step(const Scene& scene, const ContactRows& touching);
 
-/// mm: gap up to which open contacts count. The stable time step is computed again when anything
-/// has moved by half of it.
-constexpr double bound_margin = 0.5;
-constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same for edge-edge contact
+/// Bound of omega^2, 1/s^2, of the elements and the bending of a ply.
+double element_omega2(const PlyState& ply);
 
 /// Updates PlyStability::bound at the present shape, and if due PlyStability::eigenvalue_ratio and
 /// SceneProgress::time_step_gain.

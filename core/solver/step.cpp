@@ -71,7 +71,7 @@ NodeSums move_nodes(PlyState& ply, const Block& block, double dt, double next_dt
     ply.x[n] += ply.motion[n]; // (15)
     // trapezoidal rule over the step that begins: the damping force follows `old` at its start and
     // `now` at its end
-    sums.damping += 0.5 * loads.damping * ply.membrane.node_mass[n] * now.dot(old + now) * next_dt;
+    sums.damping += 0.5 * loads.damping * ply.mass[n] * now.dot(old + now) * next_dt;
     sums.step2 = std::max(sums.step2, ply.motion[n].squaredNorm());
     const double moved2 = (ply.x[n] - ply.x_search[n]).squaredNorm();
     if (!(moved2 <= sums.moved2) && !std::isnan(sums.moved2)) sums.moved2 = moved2; // NaN stays

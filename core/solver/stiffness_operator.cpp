@@ -83,12 +83,12 @@ Eigen::Index StiffnessOperator::degrees_of_freedom(std::size_t p) const {
 }
 
 void StiffnessOperator::scale(const Eigen::VectorXd& v, std::size_t p) {
-  over_root_of_mass(s_.plies[p].membrane, v.segment(first_[p], degrees_of_freedom(p)), y_[p]);
+  over_root_of_mass(s_.plies[p].mass, v.segment(first_[p], degrees_of_freedom(p)), y_[p]);
 }
 
 void StiffnessOperator::on_ply(std::size_t p) {
   for (std::size_t n = 0; n < f_[p].size(); ++n)
-    f_[p][n] = bounded_[p] * s_.plies[p].membrane.node_mass[n] * y_[p][n];
+    f_[p][n] = bounded_[p] * s_.plies[p].mass[n] * y_[p][n];
   if (yarns_[p]) yarns_[p]->add_to(y_[p], f_[p]);
   add_tangent_forces(on_ply_[p], y_[p], y_[p], f_[p], f_[p]);
 }
@@ -109,7 +109,7 @@ void StiffnessOperator::gather(std::size_t p, Eigen::VectorXd& w) {
     if (pair.a == p) add(pair.force_a);
     if (pair.b == p) add(pair.force_b);
   }
-  over_root_of_mass(s_.plies[p].membrane, std::span<const Vec3>(f_[p]),
+  over_root_of_mass(s_.plies[p].mass, std::span<const Vec3>(f_[p]),
                     w.segment(first_[p], degrees_of_freedom(p)));
 }
 

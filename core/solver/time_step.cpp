@@ -2,6 +2,7 @@
 #include "core/solver/time_step.hpp"
 
 #include "core/solver/contact_search.hpp"
+#include "core/solver/mass_scaling.hpp"
 #include "core/solver/stable_time_step.hpp"
 
 #include <algorithm>
@@ -29,7 +30,9 @@ constexpr double largest_growth = 1.25;
 } // namespace
 
 void renew_stable_step(Scene& s, ThreadPool& pool) {
-  s.stable_dt = s.data.solver.step_factor * stable_step(s, pool).dt;
+  const ContactRows touching = contact_rows(s, pool);
+  if (s.step % mass_scaling_interval == 0) scale_masses(s, touching);
+  s.stable_dt = s.data.solver.step_factor * stable_step(s, touching).dt;
   s.bound_displacement = largest_displacement(s);
   visit_contacts(s, [](auto& contact) {
     contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);

@@ -50,6 +50,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
                   1000,
                   1e-6,
                   2e-6,
+                  0.004,
                   4,
                   {0.25, 0.5, 0.75, 1.5},
                   {0.01, 0.02, 0.05, 3, 4},
@@ -73,6 +74,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "wall_time_s": 12.5,
   "steps": 1000,
   "time_step_s": {"min": 1e-06, "max": 2e-06},
+  "largest_added_mass": 0.004,
   "threads": 4,
   "elements": 2,
   "nodes": 4,
@@ -83,7 +85,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "boundaries": [
     {"name": "upper grip", "force_N": 20, "displacement_mm": 1.5}
   ],
-  "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "balance_error": 0},
+  "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "mass_scaling": 0, "balance_error": 0},
   "accuracy": {"promised_shear_error_deg": 1.5, "inertia_deg": 0.25, "softening_deg": 0.5, "mesh_deg": 0.75, "element_size_factor": 1},
   "contact": {"max_tool_penetration_mm": 0.01, "max_tool_penetration_between_nodes_mm": 0.05, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4},
   "searches": 12,

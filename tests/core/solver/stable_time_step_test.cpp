@@ -26,7 +26,7 @@ std::optional<Stop> let_a_taut_ply_vibrate(ElementKind element, double step_fact
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     ply.x[n].head<2>() *= 1.005;
     if (ply.x0[n].head<2>().lpNorm<Eigen::Infinity>() > 49.0)
-      ply.membrane.node_mass[n] = 1e9; // t: a frame
+      ply.mass[n] = ply.membrane.node_mass[n] = 1e9; // t: a frame
     else
       ply.velocity[n] = 1000.0 * random_vector(random); // keeps all fibres taut
   }
@@ -76,7 +76,7 @@ double let_a_pressed_stack_vibrate(double damping, double step_factor, double& s
   data.tools[1].motion = Motion::fixed;
   data.tools[1].position.z() = 0.97 * top + 5.0;
   set_friction(data, 1e6);
-  data.solver.mass_damping = 0.0;
+  data.solver.mass_damping = data.solver.mass_scaling = 0.0;
   data.solver.fibre_damping = data.contact.damping = damping;
   data.solver.step_factor = step_factor;
   Scene s = make_scene(data);
@@ -86,7 +86,7 @@ double let_a_pressed_stack_vibrate(double damping, double step_factor, double& s
       ply.x[n].head<2>() *= 1.005;
       ply.x[n].z() *= 0.97;
       if (ply.x0[n].head<2>().lpNorm<Eigen::Infinity>() > 24.0)
-        ply.membrane.node_mass[n] = 1e9; // t: a frame
+        ply.mass[n] = ply.membrane.node_mass[n] = 1e9; // t: a frame
       else
         ply.velocity[n] = 20.0 * random_vector(random);
     }

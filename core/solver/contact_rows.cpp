@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/contact_rows.hpp"
+
+namespace plyform {
+namespace {
+
+/// Row sums of the contacts between two plies, per node of each.
+struct PairRows {
+  std::vector<ContactRow> a, b;
+};
+
+PairRows rows_of(const Scene& s, const PlyPair& pair) {
+  const PlyState &a = s.plies[pair.a], &b = s.plies[pair.b];
+  PairRows rows;
+  const auto begin = [&] {
+    rows.a.resize(a.x.size());
+    rows.b.resize(b.x.size());
+  };
+  for (const int i : pair.contacts) {
+    const PlyContact& c = s.ply_contacts[i];
+    if (c.contact.points.empty()) continue;
+    begin();
+    const bool up = c.slave == pair.a;
+    const PlyState& master = up ? b : a;
+    add_ply_ply_stiffness(c.contact, master.state(), master.membrane.triangles, bound_margin,
+                          up ? rows.a : rows.b, up ? rows.b : rows.a);
+  }
+  for (const int i : pair.edges) {
+    const EdgeEdgeContact& contact = s.edge_contacts[i].contact;
+    if (contact.pairs.empty()) continue;
+    begin();
+    add_edge_stiffness(contact, edge_margin, rows.a, rows.b);
+  }
+  return rows;
+}
+
+} // namespace
+
+ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
+  std::vector<PairRows> of_pair(s.ply_pairs.size());
+  pool.run(static_cast<int>(of_pair.size()), [&](int i) {
+    const auto pair = static_cast<std::size_t>(i);
+    of_pair[pair] = rows_of(s, s.ply_pairs[pair]);
+  });
+  ContactRows c;
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const PlyState& ply = s.plies[p];
+    std::vector<ContactRow>& rows = c.emplace_back(ply.x.size());
+    for (const ToolState& tool : s.tools)
+      add_tool_ply_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
+  }
+  const auto add = [&c](int ply, const std::vector<ContactRow>& rows) {
+    std::vector<ContactRow>& to = c[ply];
+    for (std::size_t n = 0; n < rows.size(); ++n)
+      to[n] += rows[n];
+  };
+  for (std::size_t i = 0; i < of_pair.size(); ++i) {
+    add(s.ply_pairs[i].a, of_pair[i].a);
+    add(s.ply_pairs[i].b, of_pair[i].b);
+  }
+  return c;
+}
+
+} // namespace plyform

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Row sums of the contact stiffness and damping matrices of a scene, which bound their eigenvalues
+// (Gershgorin).
+#pragma once
+
+#include "core/base/thread_pool.hpp"
+#include "core/solver/scene.hpp"
+
+namespace plyform {
+
+/// mm: gap up to which open contacts count. The stable time step is computed again when anything
+/// has moved by half of it.
+constexpr double bound_margin = 0.5;
+constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same for edge-edge contact
+
+/// Row sums of the contact matrices, per ply and node.
+using ContactRows = std::vector<std::vector<ContactRow>>;
+
+/// At the present positions, of contacts that are closed or within bound_margin of closing.
+ContactRows contact_rows(const Scene& scene, ThreadPool& pool);
+
+} // namespace plyform

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/mass_scaling.hpp"
+
+#include "core/solver/stable_time_step.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace plyform {
+namespace {
+
+/// Of the elements' largest omega^2: contacts below it get no mass. With half of it five plies of
+/// real cloth step no further.
+constexpr double contact_share = 0.5;
+constexpr double largest_change = 1.25; // of a node's mass at a time
+
+/// kappa of (M), 1/s^2: `least`, or more where that would add more than `budget` (t).
+double largest_contact_omega2(const std::vector<ContactRow>& rows, const std::vector<double>& mass,
+                              double least, double budget) {
+  struct Node {
+    double omega2, stiffness, mass;
+  };
+  std::vector<Node> stiff;
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    if (rows[n].stiffness > least * mass[n])
+      stiff.push_back({rows[n].stiffness / mass[n], rows[n].stiffness, mass[n]});
+  std::sort(stiff.begin(), stiff.end(),
+            [](const Node& a, const Node& b) { return a.omega2 > b.omega2; });
+  // with kappa between the omega^2 of nodes k and k + 1 the first k get c / kappa - m each
+  double stiffness = 0.0, own = 0.0;
+  for (std::size_t k = 0; k < stiff.size(); ++k) {
+    stiffness += stiff[k].stiffness, own += stiff[k].mass;
+    const double kappa = stiffness / (own + budget);
+    const double next = k + 1 < stiff.size() ? stiff[k + 1].omega2 : least;
+    if (kappa >= next) return kappa;
+  }
+  return least;
+}
+
+} // namespace
+
+void scale_masses(Scene& s, const ContactRows& touching) {
+  const double share = s.data.solver.mass_scaling;
+  if (share == 0.0) return;
+  double elements = 0.0;
+  for (const PlyState& ply : s.plies)
+    elements = std::max(elements, element_omega2(ply));
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    PlyState& ply = s.plies[p];
+    const std::vector<double>& own = ply.membrane.node_mass;
+    const double whole = std::accumulate(own.begin(), own.end(), 0.0);
+    const double kappa =
+        largest_contact_omega2(touching[p], own, contact_share * elements, share * whole);
+    double added = 0.0;
+    for (std::size_t n = 0; n < own.size(); ++n) {
+      const double wanted = std::max(own[n], touching[p][n].stiffness / kappa);
+      const double mass =
+          std::clamp(wanted, ply.mass[n] / largest_change, ply.mass[n] * largest_change);
+      s.mass_scaling_work += 0.5 * (mass - ply.mass[n]) * ply.velocity[n].squaredNorm();
+      ply.mass[n] = mass;
+      added += mass - own[n];
+    }
+    s.largest_added_mass = std::max(s.largest_added_mass, added / whole);
+  }
+}
+
+} // namespace plyform
