@@ -39,12 +39,12 @@ def read_part(path: Path) -> ShellMesh:
 def read_vtu(path: Path) -> ShellMesh:
     """By meshio. Elements are numbered from 1 in the order of the file."""
     try:
-        import meshio
+        from meshio import ReadError, vtu
     except ImportError as problem:
         raise Trouble(f"{path} is read by meshio: install python3-meshio") from problem
     try:
-        read = meshio.read(path)
-    except (meshio.ReadError, OSError, ValueError, KeyError, SyntaxError, SystemExit) as problem:
+        read = vtu.read(path)
+    except (ReadError, OSError, ValueError, KeyError, SyntaxError) as problem:
         raise Trouble(f"{path} cannot be read as VTU: {problem}") from problem
     corners, labels, at = [], [], 1
     left_out = {}

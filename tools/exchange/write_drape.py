@@ -22,8 +22,9 @@ def optistruct_files(layup: Layup) -> dict[str, str]:
     """Fields of eight characters: DRAPE, its number; below, ELEM, element, T, THETA."""
     lines = ["$ " + line for line in layup.head(note(layup))]
     if layup.own:
-        lines += [f"GRID    {label:8d}        {field8(x)}{field8(y)}{field8(z)}"
-                  for label, (x, y, z) in zip(layup.mesh.node_labels, layup.mesh.nodes)]
+        lines.append("BEGIN BULK")
+        for label, (x, y, z) in zip(layup.mesh.node_labels, layup.mesh.nodes):
+            lines += [f"GRID*   {label:16d}{'':16}{x:16.8f}{y:16.8f}*", f"*       {z:16.8f}"]
         lines += [f"CTRIA3  {label:8d}{1:8d}" + "".join(f"{layup.mesh.node_labels[k]:8d}"
                                                         for k in corners[:3])
                   for label, corners in zip(layup.mesh.labels, layup.mesh.corners)]
@@ -34,6 +35,7 @@ def optistruct_files(layup: Layup) -> dict[str, str]:
                   f"DRAPE   {number:8d}"]
         lines += [f"+       ELEM    {layup.mesh.labels[k]:8d}{field8(factor[k])}{field8(theta[k])}"
                   for k in np.flatnonzero(ply.covered())]
+    lines += ["ENDDATA"] if layup.own else []
     return {prefix(layup) + "drape.fem": "\n".join(lines) + "\n"}
 
 
