@@ -12,15 +12,19 @@ from plotting.reading import Trouble
 EXIT_OTHER, EXIT_WRONG = 1, 2
 
 
+class NotReached(Exception):
+    """What was asked for was tried and not reached; one line."""
+
+
 def ended(command: str, act: Callable[[], None]) -> None:
-    """Runs a command. What is wrong with files or arguments gives one line and exit code 2, a file
-    that cannot be written exit code 1."""
+    """Runs a command. What is wrong with files or arguments gives one line and exit code 2, what
+    was not reached and a file that cannot be written exit code 1."""
     try:
         act()
     except Trouble as problem:
         print(f"{command}: error: {problem}", file=sys.stderr)
         sys.exit(EXIT_WRONG)
-    except OSError as problem:
+    except (OSError, NotReached) as problem:
         print(f"{command}: error: {problem}", file=sys.stderr)
         sys.exit(EXIT_OTHER)
 
