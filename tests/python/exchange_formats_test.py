@@ -320,7 +320,7 @@ def main():
         folder = Path(name)
         results = folder / "run"
         call("run", CASES / "hemisphere_two_ply", "--set", "blanks.square.element_size=17", "--set",
-             "solver.duration=0.02", "--set", "solver.outputs=2", "-o", results)
+             "solver.duration=0.02", "--set", "solver.outputs=2", "--threads", "1", "-o", results)
         check_own(results, folder / "own")
         check_two(results, folder / "two")
         check_part(results, folder / "part")

@@ -30,6 +30,7 @@ class TrimCase:
     settings: list[str]  # KEY=VALUE
     blanks: dict         # of the case file
     plies: list[dict]
+    threads: int | None = None  # all cores
 
     def arguments(self, patterns: list[Pattern]) -> list[str]:
         """Each ply gets a blank of its own, meshed as the one it had."""
@@ -77,6 +78,7 @@ def read_case(program: str, path: Path, settings: list[str], stack: FormedStack)
 
 def run_with(case: TrimCase, patterns: list[Pattern], folder: Path) -> None:
     words = [case.program, "run", str(case.path), "-o", str(folder), *case.arguments(patterns)]
+    words += ["--threads", str(case.threads)] if case.threads else []
     done = subprocess.run(words, capture_output=True, text=True, check=False)
     if done.returncode != 0:
         said = (done.stderr or done.stdout).strip().splitlines()
