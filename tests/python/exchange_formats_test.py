@@ -4,7 +4,7 @@ by the published grammar line by line; angles and thickness against plies/NAME.c
 
     exchange_formats_test.py TOOLS PROGRAM CASES
 
-Leaves with 77 when numpy, scipy, h5py or meshio is missing.
+Leaves with 77 when numpy, scipy, h5py, meshio or VTK is missing.
 """
 
 import csv
@@ -18,6 +18,8 @@ try:
     import h5py
     import meshio
     import numpy as np
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
     from exchange_meshes import abaqus_text, disc
     from exchange.formed import read_formed
@@ -26,7 +28,7 @@ except ImportError as error:
     sys.exit(77)
 
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
-ALL = "csv,abaqus,acp,lsdyna,optistruct,openradioss,h5"
+ALL = "csv,abaqus,acp,lsdyna,optistruct,openradioss,h5,vtu"
 ANGLE, THICKNESS = 0.01, 1e-6  # degrees, mm or of the flat thickness
 
 
@@ -219,8 +221,21 @@ def check_h5(folder, name, wanted):
         file.visititems(named)
 
 
+def check_vtu(folder, name, wanted):
+    reader = vtkXMLUnstructuredGridReader()
+    reader.SetFileName(str(folder / f"{name}_layup.vtu"))
+    reader.Update()
+    cells = reader.GetOutput().GetCellData()
+
+    def field(key):
+        return vtk_to_numpy(cells.GetArray(key))
+    close_angle(field("warp_angle_deg"), wanted.angle(wanted.warp, X))
+    close_angle(field("weft_angle_deg"), wanted.angle(wanted.weft, X))
+    close_thickness(field("thickness_mm"), wanted.thickness)
+
+
 CHECKS = (check_csv, check_acp, check_abaqus, check_lsdyna, check_optistruct, check_openradioss,
-          check_h5)
+          check_h5, check_vtu)
 
 
 def check_own(results, folder):
@@ -272,6 +287,10 @@ def check_part(results, folder):
         pair = [float(thick[label][10:20]), float(thick[label][50:60])]
         wanted = [tables[name]["thickness_mm"][row] for name in names]
         close_thickness(pair, wanted if up(mesh) else wanted[::-1])
+    grid = meshio.read(folder / "layup.vtu")
+    for name in names:
+        assert np.allclose(np.concatenate(grid.cell_data[f"{name} warp_angle_deg"]),
+                           tables[name]["warp_angle_deg"], atol=1e-6, equal_nan=True)
     report = table_of_names(folder / "mapping.csv")
     assert [row["ply"] for row in report] == names
     assert all(float(row["there_and_back_angle_rms_deg"]) < 2.0 for row in report), report
