@@ -14,6 +14,7 @@ from plotting.reading import Trouble
 from exchange.shell_mesh import ShellMesh
 
 MOST_INCLUDES = 8  # one in another
+FARTHEST = 1e9     # mm
 
 
 @dataclass
@@ -78,8 +79,8 @@ class Deck:
     left_out: Counter = field(default_factory=Counter)
 
     def add_node(self, line: Line, label: int, place: tuple[float, float, float]) -> None:
-        if not np.isfinite(place).all():
-            raise line.wrong(f"node {label} has a coordinate that is not finite")
+        if not np.abs(place).max() < FARTHEST:
+            raise line.wrong(f"node {label} has a coordinate that is no length: {place}")
         if self.nodes.setdefault(label, place) != place:
             raise line.wrong(f"node {label} is there twice, at different places: numbers must be "
                              "unique (write parts and instances flat)")

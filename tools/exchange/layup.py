@@ -12,6 +12,9 @@ from exchange.mapping import (MappedPly, SmoothPly, map_ply, on_own_mesh, sides_
 from exchange.shell_mesh import ShellMesh, element_normals, split, triangle_normals
 
 
+BACK_CUTS = 3  # along a side of a ply's triangles
+
+
 @dataclass
 class Layup:
     """Plies from the bottom of the stack."""
@@ -115,8 +118,9 @@ def there_and_back(smooth: SmoothPly, mapped: MappedPly, mesh: ShellMesh,
                     thickness=mapped.thickness[owner])
     own = ply.own_mesh()
     up = np.ones(len(ply.triangles), int)
-    back = map_ply(SmoothPly(other), own, up, limit)
-    direct = map_ply(smooth, own, up, limit)
+    # a fine part mesh would have the back way take longer than the way there
+    back = map_ply(SmoothPly(other), own, up, limit, most_cuts=BACK_CUTS)
+    direct = map_ply(smooth, own, up, limit, most_cuts=BACK_CUTS)
     there = back.covered() & direct.covered()
     if not there.any():
         return None

@@ -19,7 +19,7 @@ from exchange.shell_mesh import (ShellMesh, border_edges, element_normals, patch
                                  triangle_normals, unit)
 
 LEAST_COSINE = 0.3   # between the normals of ply and element: 73 degrees, as at sharp corners
-MOST_CUTS = 8        # along a side of an element
+MOST_CUTS = 8        # along a side of an element: 64 closest points each, a minute of 100 000
 OVERHANG = 0.02      # of a triangle's side: beyond the ply's border by more is not covered
 
 
@@ -95,12 +95,13 @@ class Samples:
     element: np.ndarray  # k
 
 
-def sample(mesh: ShellMesh, size: float) -> Samples:
-    """Cuts each element into triangles with sides of some `size` mm at most."""
+def sample(mesh: ShellMesh, size: float, most: int = MOST_CUTS) -> Samples:
+    """Cuts each element into triangles with sides of some `size` mm at most, its sides into `most`
+    parts at most."""
     triangles, owner = split(mesh)
     corners = mesh.nodes[triangles]
     longest = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).max(axis=1)
-    cuts = np.clip(np.ceil(longest / size), 1, MOST_CUTS).astype(int)
+    cuts = np.clip(np.ceil(longest / size), 1, most).astype(int)
     areas = triangle_normals(mesh.nodes, triangles)[1]
     points, parts, owners = [], [], []
     for n in np.unique(cuts):
@@ -145,12 +146,13 @@ def sides_of(mesh: ShellMesh, plies: list[SmoothPly], limit: float,
 
 
 def map_ply(ply: SmoothPly, mesh: ShellMesh, side: np.ndarray, limit: float,
-            least_share: float = 0.5) -> MappedPly:
-    """`side` as of sides_of; `limit`: the largest distance to map over, mm."""
+            least_share: float = 0.5, most_cuts: int = MOST_CUTS) -> MappedPly:
+    """`side` as of sides_of; `limit`: the largest distance to map over, mm; `most_cuts`: along a
+    side of an element."""
     count = len(mesh.corners)
     normals, areas = element_normals(mesh)
     up = normals * side[:, None]
-    samples = sample(mesh, 0.5 * ply.side)
+    samples = sample(mesh, 0.5 * ply.side, most_cuts)
     there = side[samples.element] != 0
     points, element = samples.points[there], samples.element[there]
     triangle, weights, distance = ply.surface.closest(points, limit, up[element], LEAST_COSINE)

@@ -7,6 +7,7 @@ import numpy as np
 
 from plotting.reading import Trouble
 
+from exchange.deck_lines import FARTHEST
 from exchange.formed import FormedPly
 from exchange.read_bdf import read_bdf
 from exchange.read_cdb import read_cdb
@@ -24,11 +25,9 @@ def read_part(path: Path) -> ShellMesh:
     if not path.is_file():
         raise Trouble(f"{path} is missing")
     ending = path.suffix.lower()
-    if ending == ".vtu":
-        return read_vtu(path)
-    if ending not in READERS:
+    if ending not in READERS and ending != ".vtu":
         raise Trouble(f"{path}: a part mesh ends in {', '.join([*READERS, '.vtu'])}")
-    mesh = READERS[ending](path)
+    mesh = read_vtu(path) if ending == ".vtu" else READERS[ending](path)
     flat = np.flatnonzero(element_normals(mesh)[1] <= 0)
     if len(flat):
         raise Trouble(f"{path}: element {mesh.labels[flat[0]]} has no area: its corners lie on a "
@@ -39,13 +38,14 @@ def read_part(path: Path) -> ShellMesh:
 def read_vtu(path: Path) -> ShellMesh:
     """By meshio. Elements are numbered from 1 in the order of the file."""
     try:
-        from meshio import ReadError, vtu
+        from meshio import vtu
     except ImportError as problem:
         raise Trouble(f"{path} is read by meshio: install python3-meshio") from problem
     try:
         read = vtu.read(path)
-    except (ReadError, OSError, ValueError, KeyError, SyntaxError) as problem:
-        raise Trouble(f"{path} cannot be read as VTU: {problem}") from problem
+    except Exception as problem:  # of all kinds, on damaged files
+        said = " ".join(str(problem).split()) or type(problem).__name__
+        raise Trouble(f"{path} cannot be read as VTU: {said}") from problem
     corners, labels, at = [], [], 1
     left_out = {}
     shells = {"triangle": 3, "triangle6": 3, "quad": 4, "quad8": 4, "quad9": 4}
@@ -61,9 +61,13 @@ def read_vtu(path: Path) -> ShellMesh:
     if not corners:
         raise Trouble(f"{path} has no triangles or quadrilaterals"
                       + (f" (it has {', '.join(left_out)})" if left_out else ""))
-    if not np.isfinite(read.points).all():
-        raise Trouble(f"{path}: a coordinate is not finite")
+    if not np.abs(read.points).max() < FARTHEST:
+        raise Trouble(f"{path}: a coordinate is no length: it is beyond {FARTHEST:g} mm, or not "
+                      "finite")
     labels = np.concatenate(labels)
+    used = np.vstack(corners)[:, :3]
+    if used.min() < 0 or np.vstack(corners).max() >= len(read.points):
+        raise Trouble(f"{path}: a cell has a point that is not in the file")
     points = np.column_stack([read.points, np.zeros((len(read.points), 3 - read.points.shape[1]))])
     mesh = ShellMesh(points, np.vstack(corners), labels, np.arange(1, len(points) + 1),
                      np.ones(len(labels), np.int64), path)

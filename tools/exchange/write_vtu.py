@@ -31,4 +31,4 @@ def write_layup_vtu(layup: Layup, path: Path) -> None:
     vtu.write(path, Mesh(mesh.nodes, [(kind, mesh.corners[rows, :count])
                                       for kind, rows, count in blocks],
                          cell_data={name: [values[rows] for _, rows, _ in blocks]
-                                    for name, values in fields.items()}), binary=False)
+                                    for name, values in fields.items()}))
