@@ -8,17 +8,20 @@ Leaves with 77 when numpy, scipy or h5py is missing.
 """
 
 import sys
+from dataclasses import replace
 
 try:
     import numpy as np
     import scipy  # noqa: F401
 
-    from exchange_meshes import (disc, dome_ply, flat_of, grid, shell_mesh, yarns_at)
+    from exchange_meshes import (RADIUS, disc, dome_ply, flat_of, grid, shell_mesh, yarns_at)
     from exchange.closest import Surface
     from exchange.layup import Layup, angle_between, map_all, there_and_back
     from exchange.mapping import sample, sides_of, SmoothPly, map_ply
     from exchange.shell_mesh import centroids, element_normals, triangle_normals, unit
     from exchange.formed import FormedPly
+    from exchange.mirror import mirrored
+    from plotting.reading import Trouble
 except ImportError as error:
     print("SKIPPED:", error)
     sys.exit(77)
@@ -96,11 +99,7 @@ def check_rib():
         assert error[low].max() < 0.01 and error[wall].max() < 10.0  # the other wall: 50
         assert ((mapped.side < 0) == turned).all()
         one_wall = ply.x[ply.triangles].mean(axis=1)[:, 0] > 0.5
-        half = FormedPly(**{**vars(ply), "triangles": ply.triangles[one_wall],
-                            "warp": ply.warp[one_wall], "weft": ply.weft[one_wall],
-                            "thickness": ply.thickness[one_wall],
-                            "shear_deg": ply.shear_deg[one_wall]})
-        (mapped,), _ = map_all([half], mesh, 5.0, 0.5, False)
+        (mapped,), _ = map_all([part_of(ply, one_wall)], mesh, 5.0, 0.5, False)
         other = wall & (centroids(mesh)[:, 0] < 0)
         assert not mapped.covered()[other].any(), "mapped through the rib"
         assert mapped.covered()[wall & (centroids(mesh)[:, 0] > 0)].mean() > 0.9
@@ -129,6 +128,44 @@ def rib(half, size, height):
     m = len(triangles)
     return FormedPly("rib", 0.0, x, x, triangles, warp, np.cross(normals, warp), np.zeros(m),
                      np.full(m, 0.6), 0.6, 90.0)
+
+
+def check_mirror():
+    """A quarter and its images are the whole ply, the yarns too; angles that no plane mirrors are
+    refused."""
+    mesh = disc(6.0, False, reach=60.0)
+    for angle in (0.0, 90.0, 45.0, -45.0):
+        whole = dome_ply(angle, count=30)
+        middles = whole.x0[whole.triangles].mean(axis=1)
+        quarter = part_of(whole, (middles[:, :2] > 0).all(axis=1))
+        both = mirrored(mirrored(quarter, "x"), "y")
+        assert len(both.x) == len(whole.x) and len(both.triangles) == len(whole.triangles)
+        flat = both.x0[both.triangles].mean(axis=1)[:, :2]
+        for found, wanted in zip((both.warp, both.weft), yarns_at(flat, angle)):
+            assert angle_between(found, wanted).max() < 1e-6
+        assert np.allclose(both.shear_deg, 90.0 - angle_between(both.warp, both.weft))
+        outwards = both.x[both.triangles].mean(axis=1) + (0.0, 0.0, RADIUS)
+        assert ((triangle_normals(both.x, both.triangles)[0] * outwards).sum(axis=1) > 0).all()
+        (mapped,), _ = map_all([both], mesh, 5.0, 0.5, False)
+        exact = yarns_at(flat_of(centroids(mesh)), angle)[0]
+        assert mapped.covered().all()
+        assert angle_between(in_plane(mesh, exact), mapped.warp).max() < 0.5
+    for ply, told in ((whole, "lies on both sides of x = 0"),
+                      (part_of(dome_ply(30.0, count=30), (middles[:, :2] > 0).all(axis=1)),
+                       "at 30 degrees, are not those of its image")):
+        try:
+            mirrored(ply, "x")
+            raise AssertionError("mirrored")
+        except Trouble as problem:
+            assert told in str(problem), problem
+
+
+def part_of(ply, triangles):
+    """These triangles of a ply, and their nodes."""
+    used, rows = np.unique(ply.triangles[triangles], return_inverse=True)
+    return replace(ply, x0=ply.x0[used], x=ply.x[used], triangles=rows.reshape(-1, 3),
+                   warp=ply.warp[triangles], weft=ply.weft[triangles],
+                   shear_deg=ply.shear_deg[triangles], thickness=ply.thickness[triangles])
 
 
 def check_closest():
@@ -192,3 +229,4 @@ if __name__ == "__main__":
     check_dome()
     check_there_and_back()
     check_rib()
+    check_mirror()

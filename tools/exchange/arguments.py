@@ -9,6 +9,9 @@ from pathlib import Path
 
 from plotting.reading import Trouble
 
+from exchange.formed import FormedStack, read_formed
+from exchange.mirror import mirrored
+
 EXIT_OTHER, EXIT_WRONG = 1, 2
 
 
@@ -50,6 +53,16 @@ def add_state(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--frame", type=int, default=-1, help="number of the state, from 0 [last]")
     parser.add_argument("--ply", action="append", metavar="NAME",
                         help="this ply only; may be given again [all]")
+    parser.add_argument("--mirror", action="append", choices=["x", "y"], default=[],
+                        help="the run modelled one side of x = 0, or of y = 0; both for a quarter")
+
+
+def read_state(options: argparse.Namespace) -> FormedStack:
+    """The plies that add_state's options ask for. Raises Trouble."""
+    stack = read_formed(options.results, options.frame, options.ply)
+    for axis in options.mirror:
+        stack.plies = [mirrored(ply, axis) for ply in stack.plies]
+    return stack
 
 
 def source_words(folder: Path, frame: int, stroke: float) -> str:
