@@ -27,6 +27,8 @@ def ended(command: str, act: Callable[[], None]) -> None:
     except Trouble as problem:
         print(f"{command}: error: {problem}", file=sys.stderr)
         sys.exit(EXIT_WRONG)
+    except KeyboardInterrupt:
+        sys.exit(EXIT_OTHER)
     except (OSError, NotReached) as problem:
         print(f"{command}: error: {problem}", file=sys.stderr)
         sys.exit(EXIT_OTHER)

@@ -6,6 +6,8 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
+from plotting.reading import Trouble
+
 from exchange.angles import angles_to, reference_directions, words_of, wrapped
 from exchange.formed import FormedPly
 from exchange.mapping import (MappedPly, SmoothPly, map_ply, on_own_mesh, sides_of)
@@ -60,6 +62,13 @@ class Layup:
     def reversed_count(self) -> int:
         """Elements whose normal points down the stack."""
         return int(np.any([ply.side < 0 for ply in self.plies], axis=0).sum())
+
+    def expect_room(self, what: str) -> None:
+        """Raises Trouble unless all numbers of nodes and elements have eight digits at most."""
+        most = max(int(self.mesh.labels.max()), int(self.mesh.node_labels.max()))
+        if most > 99999999:
+            raise Trouble(f"{what} has room for 99999999 as the largest number of a node or element: "
+                          f"the part mesh has {most}; number it anew")
 
     def head(self, more: list[str] = ()) -> list[str]:
         """What each file says first."""

@@ -10,7 +10,7 @@ has a distribution for its thickness and one for its angle. The grammar is that 
 
 import numpy as np
 
-from exchange.angles import reference_directions
+from exchange.angles import reference_directions, wrapped
 from exchange.layup import Layup, safe_names
 from exchange.shell_mesh import element_normals
 
@@ -31,7 +31,7 @@ def abaqus_files(layup: Layup) -> dict[str, str]:
     lines += orientation(layup, some.astype(int))
     for ply, name in zip(layup.plies, names):
         rows = np.flatnonzero(ply.covered())
-        angle = layup.angles(ply)[0]
+        angle = wrapped(layup.angles(ply)[0])  # Abaqus takes -90 to 90 degrees
         lines += distribution("THICKNESS_" + name, "LENGTH", ply.nominal_thickness,
                               layup.mesh.labels[rows], ply.thickness[rows])
         lines += distribution("ANGLE_" + name, "ANGLE", 0.0, layup.mesh.labels[rows], angle[rows])

@@ -20,6 +20,7 @@ def note(layup: Layup) -> list[str]:
 
 def optistruct_files(layup: Layup) -> dict[str, str]:
     """Fields of eight characters: DRAPE, its number; below, ELEM, element, T, THETA."""
+    layup.expect_room("an OptiStruct file")
     lines = ["$ " + line for line in layup.head(note(layup))]
     if layup.own:
         lines.append("BEGIN BULK")

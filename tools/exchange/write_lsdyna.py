@@ -8,11 +8,10 @@ material, thickness, angle and an empty field of 10 characters.
 
 from exchange.layup import Layup
 
-MOST = 99999999  # of numbers in 8 columns
-
 
 def lsdyna_files(layup: Layup) -> dict[str, str]:
     mesh = layup.mesh
+    layup.expect_room("an LS-DYNA file")
     head = layup.head()
     head[2] = ("angles: from the side from corner 1 to corner 2, about the element's normal: "
                "materials need AOPT = 0")
