@@ -130,6 +130,41 @@ def rib(half, size, height):
                      np.full(m, 0.6), 0.6, 90.0)
 
 
+def check_closed_skin():
+    """A plate 2 mm thick as a skin in one piece, with a hole in its top, where the ply lies. Its
+    underside, larger and almost as near, is not covered, whichever way the skin's normals point."""
+    flat, quads = grid(20)
+    top = np.column_stack([40.0 * flat, np.ones(len(flat))])
+    rim = rim_of(quads)
+    count = len(top)
+    sides = np.column_stack([rim[:, 1], rim[:, 0], rim[:, 0] + count, rim[:, 1] + count])
+    hole = (np.abs(top[quads].mean(axis=1)[:, :2]) < 10.0).all(axis=1)
+    skin = np.vstack([quads[~hole], quads[:, ::-1] + count, sides])
+    ply = flat_ply(40.0, 1.3)
+    for corners in (skin, skin[:, ::-1]):
+        mesh = shell_mesh(np.vstack([top, top * (1, 1, -1)]), corners)
+        (mapped,), _ = map_all([ply], mesh, 5.0, 0.5, False)
+        height = centroids(mesh)[:, 2]
+        assert mapped.covered()[height > 0.9].all() and not mapped.covered()[height < 0.9].any()
+
+
+def rim_of(quads):
+    """Border edges of quadrilaterals, in the direction of their corners."""
+    ends = np.vstack([quads[:, [k, (k + 1) % 4]] for k in range(4)])
+    there = {tuple(edge) for edge in ends.tolist()}
+    return np.array([edge for edge in ends.tolist() if (edge[1], edge[0]) not in there])
+
+
+def flat_ply(half, height):
+    """A flat ply of 2 x half mm, yarns along x and y."""
+    flat, quads = grid(20)
+    triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    x = np.column_stack([half * flat, np.full(len(flat), height)])
+    ones = np.ones((len(triangles), 1))
+    return FormedPly("flat", 0.0, x, x, triangles, ones * (1.0, 0, 0), ones * (0, 1.0, 0),
+                     np.zeros(len(ones)), np.full(len(ones), 0.6), 0.6, 90.0)
+
+
 def check_mirror():
     """A quarter and its images are the whole ply, the yarns too; angles that no plane mirrors are
     refused."""
@@ -198,12 +233,7 @@ def brute(p, a, b, c):
 def check_cover():
     """A flat ply of 100 mm on a plate of 200 mm: what is beyond its border is not covered, and
     shares of area add up to that of the ply."""
-    flat, quads = grid(20)
-    triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
-    x = np.column_stack([50.0 * flat, np.full(len(flat), 1.0)])
-    ones = np.ones((len(triangles), 1))
-    ply = FormedPly("flat", 0.0, x, x, triangles, ones * (1.0, 0, 0), ones * (0, 1.0, 0),
-                    np.zeros(len(ones)), np.full(len(ones), 0.6), 0.6, 90.0)
+    ply = flat_ply(50.0, 1.0)
     flat, quads = grid(27)
     mesh = shell_mesh(np.column_stack([100.0 * flat, np.zeros(len(flat))]), quads)
     (mapped,), _ = map_all([ply], mesh, 5.0, 0.5, False)
@@ -229,4 +259,5 @@ if __name__ == "__main__":
     check_dome()
     check_there_and_back()
     check_rib()
+    check_closed_skin()
     check_mirror()

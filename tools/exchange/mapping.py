@@ -20,6 +20,7 @@ from exchange.shell_mesh import (ShellMesh, border_edges, element_normals, patch
 
 LEAST_COSINE = 0.3   # between the normals of ply and element: 73 degrees, as at sharp corners
 MOST_CUTS = 8        # along a side of an element: 64 closest points each, a minute of 100 000
+NEARNESS = 0.05      # of the largest distance: nearer elements do not count more
 OVERHANG = 0.02      # of a triangle's side: beyond the ply's border by more is not covered
 
 
@@ -125,7 +126,8 @@ def sides_of(mesh: ShellMesh, plies: list[SmoothPly], limit: float,
              trust_normals: bool) -> np.ndarray:
     """m: 1 where an element's normal points up the stack, -1 where down, 0 where no ply is near.
     Each patch of elements is taken to have one side, whichever way round its elements run; it is
-    the one that most of the area beside a ply shows. With trust_normals the whole mesh is one
+    the one that most of the area beside a ply shows, the more the nearer it is: of a closed skin the
+    face that the ply lies on. With trust_normals the whole mesh is one
     patch whose elements all run the right way round."""
     normals, areas = element_normals(mesh)
     patch, turned = patches(mesh)
@@ -136,12 +138,13 @@ def sides_of(mesh: ShellMesh, plies: list[SmoothPly], limit: float,
     middles = mesh.nodes[triangles].mean(axis=1)
     votes = np.zeros(patch.max() + 1)
     for ply in plies:
-        triangle, _, _ = ply.surface.closest(middles, limit)
+        triangle, _, distance = ply.surface.closest(middles, limit)
         there = triangle >= 0
+        near = 1.0 / (distance[there] + NEARNESS * limit)
         element = owner[there]
         cosine = (ply.normals[triangle[there]] * normals[element]).sum(axis=1) * sign[element]
         clear = np.abs(cosine) >= LEAST_COSINE
-        np.add.at(votes, patch[element[clear]], (cosine * areas[element])[clear])
+        np.add.at(votes, patch[element[clear]], (cosine * areas[element] * near)[clear])
     return (np.sign(votes)[patch] * sign).astype(int)
 
 
