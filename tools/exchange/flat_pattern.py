@@ -6,6 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from scipy.spatial import cKDTree
+
 from plotting.reading import Trouble
 
 from exchange.closest import Surface
@@ -13,6 +15,7 @@ from exchange.formed import FormedPly
 from exchange.outline import TrimLine, area_of, crosses_itself, distance_to, divided
 from exchange.shell_mesh import border_edges, triangle_normals
 
+AROUND = 24         # triangles
 MOST_BEYOND = 15.0  # mm that a trim line may lie outside of the formed ply: it is continued so far
 
 
@@ -41,9 +44,12 @@ def flat_pattern(ply: FormedPly, trim: TrimLine, spacing: float) -> Pattern:
         where = ", ".join(f"{value:.1f}" for value in points[worst][:2 if trim.above else 3])
         raise Trouble(f"the trim line lies {distance[worst]:.1f} mm outside of ply {ply.name} at "
                       f"({where}): form a larger blank first, or mend the trim line")
+    nodes = ply.triangles[triangle]
+    flat = (weights[:, :, None] * ply.x0[nodes]).sum(axis=1)[:, :2]
+    off = points - (weights[:, :, None] * x[nodes]).sum(axis=1)
     beyond = distance > 1e-6
-    weights[beyond] = continued(points[beyond], x[ply.triangles[triangle[beyond]]])
-    flat = (weights[:, :, None] * ply.x0[ply.triangles[triangle]]).sum(axis=1)[:, :2]
+    if beyond.any():
+        flat[beyond] += continued(off[beyond], points[beyond], x, ply)
     flat = flat if area_of(flat) > 0 else flat[::-1]
     if crosses_itself(flat):
         raise Trouble(f"the pattern of ply {ply.name} crosses itself: the trim line runs over a "
@@ -53,15 +59,17 @@ def flat_pattern(ply: FormedPly, trim: TrimLine, spacing: float) -> Pattern:
                    float(distance.max()))
 
 
-def continued(points: np.ndarray, corners: np.ndarray) -> np.ndarray:
-    """Barycentric coordinates (k x 3) in the planes of triangles (k x 3 x 3), beyond them too."""
-    a, ab, ac = corners[:, 0], corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]
-    ap = points - a
-    d00, d01, d11 = (ab * ab).sum(1), (ab * ac).sum(1), (ac * ac).sum(1)
-    d20, d21 = (ap * ab).sum(1), (ap * ac).sum(1)
-    area = np.maximum(d00 * d11 - d01 * d01, 1e-12)
-    v, w = (d11 * d20 - d01 * d21) / area, (d00 * d21 - d01 * d20) / area
-    return np.column_stack([1 - v - w, v, w])
+def continued(off: np.ndarray, points: np.ndarray, x: np.ndarray, ply: FormedPly) -> np.ndarray:
+    """What vectors `off` (k x 3, mm), from the border of the formed ply x to points beyond it, are on
+    the blank (k x 2): as the triangles there are deformed, by the mean of some around, since single
+    ones scatter."""
+    corners, flat = x[ply.triangles], ply.x0[ply.triangles][:, :, :2]
+    sides = np.stack([corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0]], axis=2)
+    before = np.stack([flat[:, 1] - flat[:, 0], flat[:, 2] - flat[:, 0]], axis=2)
+    back = before @ np.linalg.pinv(sides)  # m x 2 x 3: from the formed ply to the blank
+    count = min(AROUND, len(corners))
+    _, near = cKDTree(corners.mean(axis=1)).query(points, k=count)
+    return np.einsum("kij,kj->ki", back[near.reshape(len(points), count)].mean(axis=1), off)
 
 
 def blank_area(ply: FormedPly) -> float:
