@@ -45,10 +45,11 @@ foreach(header ${public_headers})
 endforeach()
 
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform)
-# plyform chart calls tools/study, which takes the rest; plyform report calls tools/report.
-install(PROGRAMS tools/study tools/report DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
+# plyform chart calls tools/study, which takes the rest; plyform report, map, pattern and export call
+# the programs of their names.
+install(PROGRAMS tools/study tools/report tools/map tools/pattern tools/export DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
 install(FILES tools/area_means.py tools/compare.py DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
-install(DIRECTORY tools/studies tools/plotting tools/reporting
+install(DIRECTORY tools/studies tools/plotting tools/reporting tools/exchange
         DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools
         USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})

@@ -44,6 +44,8 @@ PYBIND11_MODULE(_plyform, m) {
   bind_frames(m);
   bind_simulation(m);
   bind_fit(m);
-  m.def("export_results", &export_results, py::arg("folder"),
-        "Writes FOLDER/export/NAME.vtu, .stl and .csv of the last state; the files written.");
+  m.def(
+      "export_results", [](const std::filesystem::path& folder) { return export_results(folder); },
+      py::arg("folder"),
+      "Writes FOLDER/export/NAME.vtu, .stl and .csv of the last state; the files written.");
 }

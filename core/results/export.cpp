@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The last state in formats that other programs read: VTK XML (.vtu), binary STL and CSV.
+// States in formats that other programs read: VTK XML (.vtu), binary STL and CSV.
 #include "core/results/export.hpp"
 
 #include "core/results/result_fields.hpp"
@@ -109,37 +109,53 @@ std::string vtu(const PlyFrame& ply) {
   return file.xml + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 
-} // namespace
-
-std::vector<fs::path> export_results(const fs::path& directory) {
-  const fs::path states = directory / "results.h5";
-  const Frame last = read_last_frame(states);
-  try {
-    check_frame(last); // names become file names and must not lead out of the folder
-  } catch (const std::exception& error) {
-    throw std::runtime_error(states.string() + ": " + error.what());
-  }
-  const fs::path folder = directory / "export";
-  std::error_code error;
-  fs::create_directories(folder, error);
-  if (error)
-    throw std::runtime_error(
-        fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
-  std::vector<fs::path> files;
-  const auto write = [&](const std::string& name, const std::string& content) {
-    files.push_back(folder / name);
+/// Writes one state; `suffix` follows the names of bodies.
+void export_state(const Frame& state, const ExportChoice& choice, const fs::path& folder,
+                  const std::string& suffix, std::vector<fs::path>& files) {
+  const auto write = [&](const std::string& name, const char* ending, const std::string& content) {
+    files.push_back(folder / (name + suffix + ending));
     write_whole(files.back(), content);
   };
-  for (const PlyFrame& ply : last.plies) {
-    write(ply.name + ".vtu", vtu(ply));
-    write(ply.name + ".stl", stl(ply.x, ply.triangles));
-    write(ply.name + ".csv", ply_table(ply));
+  for (const PlyFrame& ply : state.plies) {
+    if (choice.vtu) write(ply.name, ".vtu", vtu(ply));
+    if (choice.stl) write(ply.name, ".stl", stl(ply.x, ply.triangles));
+    if (choice.csv) write(ply.name, ".csv", ply_table(ply));
   }
-  for (const ToolFrame& tool : last.tools) {
+  if (!choice.stl) return;
+  for (const ToolFrame& tool : state.tools) {
     std::vector<Vec3> x = tool.surface.x;
     for (Vec3& point : x)
       point += tool.displacement;
-    write(tool.name + ".stl", stl(x, tool.surface.triangles));
+    write(tool.name, ".stl", stl(x, tool.surface.triangles));
+  }
+}
+
+} // namespace
+
+std::vector<fs::path> export_results(const fs::path& directory, const ExportChoice& choice) {
+  const fs::path states = directory / "results.h5";
+  const bool numbered = choice.all || choice.frame;
+  const long count = numbered ? count_frames(states) : 0;
+  const long one = choice.frame.value_or(-1);
+  // what is not there is told by read_frame
+  const long first = choice.all ? 0 : one < 0 ? count + one : one;
+  const long end = choice.all ? count : first + 1;
+  const fs::path folder = directory / "export";
+  std::vector<fs::path> files;
+  for (long index = first; index < end; ++index) {
+    const Frame state =
+        numbered ? read_frame(states, index < 0 ? one : index) : read_last_frame(states);
+    try {
+      check_frame(state); // names become file names and must not lead out of the folder
+    } catch (const std::exception& error) {
+      throw std::runtime_error(states.string() + ": " + error.what());
+    }
+    std::error_code error;
+    fs::create_directories(folder, error);
+    if (error)
+      throw std::runtime_error(
+          fmt::format("{}: cannot create the folder: {}", folder.string(), error.message()));
+    export_state(state, choice, folder, numbered ? fmt::format("_{:06}", index) : "", files);
   }
   return files;
 }

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace plyform {
 
@@ -192,23 +193,29 @@ BoundaryFrame read_boundary(const Reader& in, const std::string& group, const st
   return boundary;
 }
 
-/// Reads it in this process.
-Frame read_here(const fs::path& path, long index) {
-  const QuietErrors quiet;
-  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-  if (!file.valid()) fail(path, "cannot be opened as results of a run");
-  const Reader in{path, file.id()};
-  if (H5Aexists(file.id(), "format_version") <= 0) in.broken("format_version", "is missing");
+/// The times of all frames, at least one, of a file that this plyform can read.
+std::vector<double> times_of(const Reader& in) {
+  if (H5Aexists(in.file, "format_version") <= 0) in.broken("format_version", "is missing");
   std::int64_t version = 0;
   in.number("/", "format_version", version);
   if (version != layout_version)
     throw std::runtime_error(
         fmt::format("{}: its layout is version {}, this plyform reads version {}: run the case "
                     "again, or read it with h5py",
-                    path.string(), version, layout_version));
+                    in.path.string(), version, layout_version));
   if (!in.has("/time_s") || !in.has("/frames")) in.broken("/frames or /time_s", "is missing");
-  const std::vector<double> times = in.dataset<double>("/time_s");
+  std::vector<double> times = in.dataset<double>("/time_s");
   if (times.empty()) in.broken("/time_s", "is empty: the run was stopped before its first state");
+  return times;
+}
+
+/// Reads it in this process.
+Frame read_here(const fs::path& path, long index) {
+  const QuietErrors quiet;
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file.valid()) fail(path, "cannot be opened as results of a run");
+  const Reader in{path, file.id()};
+  const std::vector<double> times = times_of(in);
   const long count = static_cast<long>(times.size()),
              from_first = index < 0 ? count + index : index;
   if (from_first < 0 || from_first >= count)
@@ -240,9 +247,16 @@ std::size_t size_with_states(const fs::path& path) {
   return size;
 }
 
-} // namespace
+/// The number of frames as text, read in this process.
+std::string count_here(const fs::path& path) {
+  const QuietErrors quiet;
+  const Handle file(H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
+  if (!file.valid()) fail(path, "cannot be opened as results of a run");
+  return fmt::to_string(times_of(Reader{path, file.id()}).size());
+}
 
-Frame read_frame(const fs::path& path, long index) {
+/// What `read` makes of the file, in a process of its own.
+std::string read_apart(const fs::path& path, const std::function<std::string()>& read) {
   std::error_code error;
   if (!fs::exists(path, error))
     throw std::runtime_error(
@@ -253,15 +267,24 @@ Frame read_frame(const fs::path& path, long index) {
   HelperLimits limits;
   limits.seconds += static_cast<unsigned>(size / slow);
   limits.bytes += 4 * size;
-  const HelperResult read =
-      in_helper_process([&] { return frame_to_bytes(read_here(path, index)); }, limits);
+  const HelperResult result = in_helper_process(read, limits);
   using End = HelperResult::End;
-  if (read.end == End::done) return frame_from_bytes(read.text);
-  if (read.end == End::refused) throw std::runtime_error(read.text);
+  if (result.end == End::done) return result.text;
+  if (result.end == End::refused) throw std::runtime_error(result.text);
   throw std::runtime_error(fmt::format(
       "{}: the file is damaged: HDF5 {}; run the case again, or take a copy of the file",
       path.string(),
-      read.end == End::timeout ? "found no end of it" : "failed on it (" + read.text + ")"));
+      result.end == End::timeout ? "found no end of it" : "failed on it (" + result.text + ")"));
+}
+
+} // namespace
+
+Frame read_frame(const fs::path& path, long index) {
+  return frame_from_bytes(read_apart(path, [&] { return frame_to_bytes(read_here(path, index)); }));
+}
+
+long count_frames(const fs::path& path) {
+  return std::stol(read_apart(path, [&] { return count_here(path); }));
 }
 
 } // namespace plyform

@@ -94,6 +94,8 @@ void remove_states(const std::filesystem::path& directory, std::size_t first = 0
 /// A whole frame of a results.h5: from 0, or -1 for the last, -2 for the one before. The energies
 /// are not stored and stay 0. Throws std::runtime_error naming the path and what is wrong with it.
 Frame read_frame(const std::filesystem::path& path, long index);
+/// How many frames a results.h5 has. Throws as read_frame.
+long count_frames(const std::filesystem::path& path);
 inline Frame read_last_frame(const std::filesystem::path& path) {
   return read_frame(path, -1);
 }

@@ -28,6 +28,11 @@ if /usr/bin/python3 -c 'import h5py, jinja2' 2>/dev/null &&
     --set blanks.square.element_size=50 --set solver.outputs=1
   [ -s "$work/frame/report.html" ]
 fi
+if /usr/bin/python3 -c 'import h5py, scipy' 2>/dev/null && [ -d "$work/frame" ]; then
+  "$prefix/bin/plyform" map "$work/frame" --format csv
+  "$prefix/bin/plyform" export "$work/frame" --format gltf
+  [ -s "$work/frame/export/state.glb" ]
+fi
 package=$prefix/lib/python3/dist-packages
 if [ -d "$package" ]; then # the module, if it was built
   PYTHONPATH=$package /usr/bin/python3 -c \

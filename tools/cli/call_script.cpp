@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calls of the Python programs tools/study and tools/report.
+// Calls of the Python programs tools/study, report, map, pattern and export.
 #include "tools/cli/commands.hpp"
 
 #include <cerrno>
@@ -45,17 +45,14 @@ int become(const fs::path& script, const std::vector<std::string>& arguments) {
 
 } // namespace
 
-int chart_command(const std::vector<std::string>& arguments) {
-  const std::optional<fs::path> script = find_script("study");
+int script_command(const std::string& name, const std::vector<std::string>& arguments,
+                   bool with_program) {
+  const std::optional<fs::path> script = find_script(name);
   if (!script) return exit_other;
-  std::vector<std::string> words{"--program", fs::read_symlink("/proc/self/exe").string()};
+  std::vector<std::string> words;
+  if (with_program) words = {"--program", fs::read_symlink("/proc/self/exe").string()};
   words.insert(words.end(), arguments.begin(), arguments.end());
   return become(*script, words);
-}
-
-int report_command(const std::vector<std::string>& arguments) {
-  const std::optional<fs::path> script = find_script("report");
-  return script ? become(*script, arguments) : exit_other;
 }
 
 bool report_of_run(const std::string& folder) {

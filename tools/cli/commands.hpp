@@ -44,6 +44,12 @@ struct DifferenceArguments {
   std::vector<std::string> fields; ///< of triangles, by their names in results.h5
 };
 
+struct ExportArguments {
+  std::string results;              ///< folder with results.h5
+  std::vector<std::string> formats; ///< empty: vtu, stl and csv
+  std::string frame;                ///< a number, "all", or empty: the last, without its number
+};
+
 struct IdentifyArguments {
   std::string test; ///< bias, frame, warp or weft
   std::string curve, x_column, y_column;
@@ -67,9 +73,11 @@ PreparedCase load_case(const CaseArguments& arguments);
 
 int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);
-/// tools/cli/call_script.cpp. Both return only if the script cannot be called.
-int chart_command(const std::vector<std::string>& arguments);
-int report_command(const std::vector<std::string>& arguments);
+int export_command(const ExportArguments& arguments);
+/// tools/cli/call_script.cpp. Calls tools/NAME; `with_program` tells it where plyform is. Returns
+/// only if the script cannot be called.
+int script_command(const std::string& name, const std::vector<std::string>& arguments,
+                   bool with_program = false);
 /// Makes folder/report.html and prints its path; false if that failed, for a reason then printed.
 bool report_of_run(const std::string& folder);
 int difference_command(const DifferenceArguments& arguments);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line: plyform run | check | chart | report | export | difference | identify |
-// theory | keys | version.
+// The command line: plyform run | check | chart | report | map | pattern | export | difference |
+// identify | theory | keys | version.
 #include "core/base/version.hpp"
-#include "core/results/export.hpp"
 #include "core/results/result_writer.hpp"
 #include "tools/cli/commands.hpp"
 
@@ -37,17 +36,11 @@ void add_case_options(CLI::App& command, CaseArguments& to) {
                    "go on though it takes more than half of the memory, or more than a day");
 }
 
-int export_command(const std::string& directory) {
-  for (const auto& file : export_results(directory))
-    fmt::print("{}\n", file.string());
-  return 0;
-}
-
 /// Arguments of all commands.
 struct Arguments {
   RunArguments run;
   CaseArguments check;
-  std::string results; ///< folder to export
+  ExportArguments results;
   DifferenceArguments difference{{}, {}, {"shear_angle_deg"}};
   IdentifyArguments identify;
   TheoryArguments theory;
@@ -60,6 +53,17 @@ struct Command {
   CLI::App* app;
   std::function<int()> act;
 };
+
+/// A command that tools/SCRIPT does, with its own options and help.
+void add_script(CLI::App& app, std::vector<Command>& commands, const char* name, const char* script,
+                const char* what, bool with_program = false) {
+  CLI::App* command = app.add_subcommand(name, what);
+  command->prefix_command();
+  command->set_help_flag();
+  commands.push_back({command, [command, script, with_program] {
+                        return script_command(script, command->remaining(), with_program);
+                      }});
+}
 
 void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& commands) {
   CLI::App* run = app.add_subcommand("run", "form the plies of a case and write the results");
@@ -79,20 +83,23 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   add_accuracy(*check, to.check);
   commands.push_back({check, [&to] { return check_command(to.check); }});
 
-  CLI::App* chart = app.add_subcommand("chart", "run a study of a case, as tools/study does");
-  chart->prefix_command();
-  chart->set_help_flag(); // the script has its own
-  commands.push_back({chart, [chart] { return chart_command(chart->remaining()); }});
+  add_script(app, commands, "chart", "study", "run a study of a case, as tools/study does", true);
 }
 
 void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& commands) {
-  CLI::App* report = app.add_subcommand("report", "make a page of a run, or two, for any browser");
-  report->prefix_command();
-  report->set_help_flag(); // the script has its own
-  commands.push_back({report, [report] { return report_command(report->remaining()); }});
+  add_script(app, commands, "report", "report", "make a page of a run, or two, for any browser");
+  add_script(app, commands, "map", "map",
+             "write the formed lay-up for the next program, on a part mesh or the plies' own");
+  add_script(app, commands, "pattern", "pattern",
+             "say where plies must be cut so that the formed part ends at its trim line", true);
 
-  CLI::App* results = app.add_subcommand("export", "write the last state in other formats");
-  results->add_option("results", to.results, "folder of a run")->required();
+  CLI::App* results = app.add_subcommand("export", "write states in other formats");
+  results->add_option("results", to.results.results, "folder of a run")->required();
+  results->add_option("--format", to.results.formats, "vtu, stl, csv, vtkhdf, gltf [vtu,stl,csv]")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"vtu", "stl", "csv", "vtkhdf", "gltf"}));
+  results->add_option("--frame", to.results.frame,
+                      "number of a state, from 0, or all [last, in files without its number]");
   commands.push_back({results, [&to] { return export_command(to.results); }});
 
   CLI::App* difference = app.add_subcommand(

@@ -5,6 +5,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <fmt/format.h>
 #include <functional>
 #include <gtest/gtest.h>
 #include <hdf5.h>
@@ -218,6 +219,29 @@ TEST_F(ResultsExport, ExportWritesTheLastStateOfEachPlyAndTool) {
                                              "90\u00b0 ply & co.vtu", "die.stl", "lower.csv",
                                              "lower.stl", "lower.vtu", "punch.stl"}));
   EXPECT_EQ(content(directory / "export/lower.csv"), content(directory / "plies/lower.csv"));
+}
+
+TEST_F(ResultsExport, ExportWritesTheStatesAndFormatsAskedFor) {
+  write_run(directory, {0.0, 0.5, 1.0});
+  EXPECT_EQ(count_frames(directory / "results.h5"), 3);
+  ExportChoice choice{false, false, true, true, {}};
+  EXPECT_EQ(export_results(directory, choice).size(), 6u);
+  EXPECT_EQ(
+      files_in(directory / "export"),
+      (std::vector<std::string>{"90\u00b0 ply & co_000000.csv", "90\u00b0 ply & co_000001.csv",
+                                "90\u00b0 ply & co_000002.csv", "lower_000000.csv",
+                                "lower_000001.csv", "lower_000002.csv"}));
+  EXPECT_EQ(content(directory / "export/lower_000002.csv"), content(directory / "plies/lower.csv"));
+  EXPECT_NE(content(directory / "export/lower_000000.csv"), content(directory / "plies/lower.csv"));
+  fs::remove_all(directory / "export");
+  choice = {true, false, false, false, -2};
+  EXPECT_EQ(export_results(directory, choice).size(), 2u);
+  EXPECT_TRUE(fs::exists(directory / "export/lower_000001.vtu"));
+  for (const long frame : {3L, -4L}) {
+    choice.frame = frame;
+    const std::string error = error_of([&] { export_results(directory, choice); });
+    EXPECT_TRUE(contains(error, fmt::format("has no frame {}, but 3 from 0", frame))) << error;
+  }
 }
 
 TEST_F(ResultsExport, ExportedToolStandsWhereItEndedAndFacesOutward) {

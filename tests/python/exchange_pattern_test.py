@@ -1,0 +1,185 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Flat patterns: against a closed form, drawings by readers that are not ours, runs with the pattern
+until the formed edge is at the trim line, and what goes wrong.
+
+    exchange_pattern_test.py TOOLS PROGRAM CASES
+
+Leaves with 77 when numpy, scipy, h5py or ezdxf is missing.
+"""
+
+import csv
+import subprocess
+import sys
+import tempfile
+import xml.etree.ElementTree as xml
+from pathlib import Path
+
+try:
+    import ezdxf
+    import numpy as np
+
+    from exchange_meshes import RADIUS, dome_ply
+    from exchange.flat_pattern import edge_error, flat_pattern, outer_border
+    from exchange.formed import read_formed
+    from exchange.outline import TrimLine, area_of, distance_to, divided, read_outline
+    from plotting.reading import Trouble
+except ImportError as error:
+    print("SKIPPED:", error)
+    sys.exit(77)
+
+PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:4])
+TRIM = 115.0  # mm: radius on the flange of the hemisphere
+SETTINGS = ("--set", "solver.outputs=1", "--threads", "1")
+
+
+def call(*words, code=0):
+    done = subprocess.run([PROGRAM, *map(str, words)], capture_output=True, text=True, check=False)
+    assert done.returncode == code, done
+    return done
+
+
+def circle(radius, count=360):
+    angle = np.linspace(0.0, 2 * np.pi, count, endpoint=False)
+    return radius * np.column_stack([np.cos(angle), np.sin(angle)])
+
+
+def check_dome():
+    """On the dome distances from the middle stay: a circle at 60 degrees from its top comes from one
+    of radius 75 mm x pi/3, whether it is given in space or from above."""
+    ply = dome_ply(30.0, size=3.4, count=60)
+    angle = np.radians(60.0)
+    around = circle(RADIUS * np.sin(angle))
+    line = np.column_stack([around, np.full(len(around), RADIUS * (np.cos(angle) - 1))])
+    flat = line * (1, 1, 0)
+    for trim, most in ((TrimLine(line, False), 0.03), (TrimLine(flat, True), 0.1)):
+        pattern = flat_pattern(ply, trim, 1.0)
+        off = np.linalg.norm(pattern.outline, axis=1) - RADIUS * angle
+        print(f"dome: pattern within {np.abs(off).max():.3f} mm of the exact one")
+        assert np.abs(off).max() < most
+        assert abs(pattern.area / (np.pi * (RADIUS * angle) ** 2) - 1) < 0.002
+        assert abs(pattern.blank_area - 204.0**2) < 1e-6 and pattern.beyond < 0.05
+        assert area_of(pattern.outline) > 0
+        assert abs(pattern.strip_area / (2 * RADIUS * angle) ** 2 - 1) < 0.002
+
+
+def check_curves(folder):
+    square = np.array([(0, 0), (10, 0), (10, 10), (0, 10)], float)
+    points = divided(square, 3.0)
+    assert len(points) == 16 and all((points == corner).all(axis=1).any() for corner in square)
+    far = np.array([(5.0, 5.0), (12.0, 5.0), (13.0, 14.0), (5.0, 0.0)])
+    assert np.allclose(distance_to(far, square), [5.0, 2.0, 5.0, 0.0])
+    assert np.allclose(distance_to(far, circle(3.0)), np.linalg.norm(far, axis=1) - 3.0, atol=1e-3)
+    drawing = ezdxf.new("R2010")
+    space = drawing.modelspace()
+    space.add_line((-20, -10), (20, -10))
+    space.add_arc((20, 0), 10, -90, 90)
+    space.add_line((-20, 10), (20, 10))
+    space.add_arc((-20, 0), 10, 90, 270)
+    drawing.saveas(folder / "slot.dxf")
+    slot = read_outline(folder / "slot.dxf", False)
+    assert abs(abs(area_of(slot.points[:, :2])) - (800 + 100 * np.pi)) < 1.0 and slot.above
+    (folder / "space.csv").write_text("x,y,z\n0,0,1\n1,0,2\n0,1,3\n", encoding="utf-8")
+    assert np.allclose(read_outline(folder / "space.csv", True).points[:, 2], [1, 2, 3])
+    assert (read_outline(folder / "space.csv", False).points[:, 2] == 0).all()
+
+
+def check_error():
+    """Of an edge at a known distance: a disc of the dome's mesh seen from above."""
+    ply = dome_ply(0.0, size=3.4, count=30)
+    edge = ply.x[outer_border(ply)][:, :2]
+    trim = TrimLine(np.column_stack([edge, np.zeros(len(edge))]), True)
+    assert edge_error(ply, trim)[0] < 1e-9
+    trim.points = trim.points + (1.5, 0.0, 0.0)
+    largest, rms = edge_error(ply, trim)
+    assert 1.3 < largest < 1.6 and 0.5 < rms < largest, (largest, rms)
+
+
+def check_runs(folder):
+    """The must-show: one ply, a round trim line on the flange, two runs."""
+    case, results, out = CASES / "hemisphere_0", folder / "run", folder / "out"
+    call("run", case, "-o", results, *SETTINGS)
+    np.savetxt(folder / "trim.csv", circle(TRIM), delimiter=",", header="x,y", comments="")
+    done = call("pattern", results, "--trim", folder / "trim.csv", "--case", case, "--iterations", 2,
+                "-o", out, *SETTINGS)
+    print(done.stdout)
+    (ply,) = read_formed(out / "iteration_2").plies
+    border = ply.x[outer_border(ply)]
+    off = np.abs(np.linalg.norm(border[:, :2], axis=1) - TRIM)  # not by what the program measures
+    print(f"formed edge within {off.max():.2f} mm, {np.sqrt((off**2).mean()):.2f} rms")
+    assert off.max() < 1.0
+    with open(out / "pattern.csv", newline="", encoding="utf-8") as file:
+        (row,) = csv.DictReader(file)
+    assert row["runs"] == "2" and abs(float(row["edge_largest_mm"]) - off.max()) < 0.1
+    saved = float(row["saved_area_mm2"])
+    assert abs(saved - (340.0**2 - float(row["pattern_area_mm2"]))) < 1e-3 and saved > 0.4 * 340**2
+    check_drawings(out, ply)
+    call("pattern", results, "--trim", folder / "trim.csv", "--case", case, "--iterations", 1,
+         "--tolerance", 0.01, "-o", folder / "one", *SETTINGS, code=1)
+    return results
+
+
+def check_drawings(out, ply):
+    """By ezdxf and an XML parser: both are the outline of the blank that was formed last."""
+    drawing = ezdxf.readfile(out / "ply.dxf")
+    (cut,) = drawing.modelspace().query("LWPOLYLINE")
+    points = np.array([point[:2] for point in cut.get_points()])
+    assert cut.closed and drawing.units == ezdxf.units.MM and not drawing.audit().errors
+    blank = ply.x0[outer_border(ply)][:, :2]
+    assert distance_to(blank, points).max() < 1e-3 and distance_to(points, blank).max() < 1e-3
+    root = xml.parse(out / "ply.svg").getroot()
+    polygon = next(one for one in root.iter() if one.get("id") == "cut")
+    drawn = np.array([pair.split(",") for pair in polygon.get("points").split()], float) * (1, -1)
+    assert np.allclose(drawn, points, atol=1e-3)
+    wide, high = (float(root.get(key)[:-2]) for key in ("width", "height"))
+    box = [float(value) for value in root.get("viewBox").split()]
+    assert root.get("width").endswith("mm") and np.allclose(box[2:], (wide, high))
+
+
+def check_wrong(folder, results):
+    files = {"open.csv": "0,0\n1,0\n", "text.csv": "0,0\n1,0\n1,one\n", "nan.csv": "0,0\nnan,1\n",
+             "bow.csv": "0,0\n10,10\n10,0\n0,10\n", "mixed.csv": "0,0\n1,0,0\n", "none.csv": "x,y\n",
+             "far.csv": "300,0\n320,0\n320,20\n", "good.csv": "50,0\n0,50\n-50,-50\n", "a.stp": "",
+             "bad.dxf": "no drawing"}
+    for name, text in files.items():
+        (folder / name).write_text(text, encoding="utf-8")
+    good = ("--trim", folder / "good.csv")
+    wrong = folder / "wrong"
+    for words, told in ((("--trim", folder / "open.csv"), "three different points"),
+                        (("--trim", folder / "text.csv"), "text.csv:3: '1,one' are not numbers"),
+                        (("--trim", folder / "nan.csv"), "nan.csv:2: a coordinate is not finite"),
+                        (("--trim", folder / "bow.csv"), "crosses itself"),
+                        (("--trim", folder / "mixed.csv"), "mixed.csv:2: 3 numbers"),
+                        (("--trim", folder / "none.csv"), "has no points"),
+                        (("--trim", folder / "far.csv"), "mm outside of ply ply at ("),
+                        (("--trim", folder / "a.stp"), "a trim line is a .csv"),
+                        (("--trim", folder / "bad.dxf"), "cannot be read as DXF"),
+                        (("--trim", folder / "absent.csv"), "is missing"),
+                        ((*good, "--space"), "--space needs x, y and z"),
+                        ((*good, "--tolerance", "0"), "--tolerance 0: a positive number"),
+                        ((*good, "--set", "a=1"), "--set is for the runs with --case"),
+                        ((*good, "--case", CASES / "picture_frame"), "has no ply ply"),
+                        ((*good, "--case", folder), "cannot be read as a case"),
+                        ((*good, "--case", CASES / "hemisphere_0", "--set", "none=1"),
+                         "ended with code 2")):
+        done = call("pattern", results, *words, "-o", wrong, code=2)
+        assert told in done.stderr and done.stderr.count("\n") == 1, done
+    try:
+        flat_pattern(dome_ply(0.0, count=10), TrimLine(np.array([(0, 0, 0), (90, 0, 0), (0, 90, 0)],
+                                                                float), True), 5.0)
+        raise AssertionError("a trim line beyond the ply was taken")
+    except Trouble as problem:
+        assert "form a larger blank" in str(problem)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        check_dome()
+        check_curves(folder)
+        check_error()
+        results = check_runs(folder)
+        check_wrong(folder, results)
+
+
+if __name__ == "__main__":
+    main()

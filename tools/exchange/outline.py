@@ -1,0 +1,179 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Closed curves: trim lines read from CSV and DXF, and what can be measured of them. Lengths in mm."""
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+
+import numpy as np
+from scipy.spatial import cKDTree
+
+from plotting.reading import Trouble
+
+CHORD = 0.05        # mm: curves of DXF files are followed to within
+CORNER_DEG = 25.0   # a turn that is a corner, to be kept
+
+
+@dataclass
+class TrimLine:
+    """A closed curve, its first point not repeated."""
+    points: np.ndarray  # k x 3; z is 0 where it is seen from above
+    above: bool         # it is seen from above, whatever the height
+
+
+def read_outline(path: Path, space: bool) -> TrimLine:
+    """Of a CSV file with x,y or x,y,z a line, or a DXF drawing with one closed curve. With `space`
+    the curve lies in space, else it is seen from above. Raises Trouble."""
+    if not path.is_file():
+        raise Trouble(f"{path} is missing")
+    readers = {".csv": read_csv, ".dxf": read_dxf}
+    if path.suffix.lower() not in readers:
+        raise Trouble(f"{path}: a trim line is a .csv file with x,y or x,y,z a line, or a .dxf "
+                      "drawing with one closed curve")
+    points = readers[path.suffix.lower()](path)
+    if space and points.shape[1] < 3:
+        raise Trouble(f"{path}: --space needs x, y and z on each line")
+    flat = np.zeros((len(points), 3))
+    flat[:, :3 if space else 2] = points[:, :3 if space else 2]
+    keep = np.linalg.norm(flat - np.roll(flat, 1, axis=0), axis=1) > 1e-6
+    flat = flat[keep]
+    if len(flat) < 3:
+        raise Trouble(f"{path}: a trim line has three different points at least")
+    if not space and crosses_itself(flat[:, :2]):
+        raise Trouble(f"{path}: the trim line crosses itself: give its points in order")
+    return TrimLine(flat, not space)
+
+
+def read_csv(path: Path) -> np.ndarray:
+    rows = []
+    text = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
+    for number, row in enumerate(csv.reader(text), 1):
+        words = [word.strip() for word in row if word.strip()]
+        if not words or words[0].startswith("#"):
+            continue
+        try:
+            values = [float(word) for word in words]
+        except ValueError:
+            if not rows:
+                continue  # names of columns
+            raise Trouble(f"{path}:{number}: {','.join(row)!r} are not numbers") from None
+        if len(values) not in (2, 3) or (rows and len(values) != len(rows[0])):
+            raise Trouble(f"{path}:{number}: {len(values)} numbers: a line has x,y or x,y,z, "
+                          "all lines alike")
+        if not np.isfinite(values).all():
+            raise Trouble(f"{path}:{number}: a coordinate is not finite")
+        rows.append(values)
+    if not rows:
+        raise Trouble(f"{path} has no points")
+    return np.array(rows)
+
+
+def read_dxf(path: Path) -> np.ndarray:
+    """Lines and arcs that join end to end are one curve."""
+    try:
+        import ezdxf
+        from ezdxf import path as curves
+    except ImportError as problem:
+        raise Trouble(f"{path} is read by ezdxf: install python3-ezdxf") from problem
+    try:
+        drawing = ezdxf.readfile(path)
+    except (OSError, ezdxf.DXFError, ValueError) as problem:
+        raise Trouble(f"{path} cannot be read as DXF: {problem}") from problem
+    pieces = []
+    for entity in drawing.modelspace():
+        try:
+            curve = curves.make_path(entity)
+        except TypeError:
+            continue  # texts, points, dimensions
+        pieces.append(np.array([tuple(p) for p in curve.flattening(CHORD)]))
+    loops = join(pieces)
+    closed = [loop for loop in loops if np.linalg.norm(loop[0] - loop[-1]) < 0.1]
+    if len(closed) != 1 or len(loops) != 1:
+        raise Trouble(f"{path} has {len(closed)} closed curves and {len(loops) - len(closed)} open "
+                      "ones: a trim line is one closed curve")
+    return closed[0]
+
+
+def join(pieces: list[np.ndarray]) -> list[np.ndarray]:
+    """Curves that end where others begin, put together."""
+    pieces, done = list(pieces), []
+    while pieces:
+        loop = pieces.pop(0)
+        found = True
+        while found and np.linalg.norm(loop[0] - loop[-1]) > 0.1:
+            found = False
+            for k, other in enumerate(pieces):
+                for way in (other, other[::-1]):
+                    if np.linalg.norm(loop[-1] - way[0]) < 0.1:
+                        loop, found = np.vstack([loop, way[1:]]), True
+                        break
+                if found:
+                    pieces.pop(k)
+                    break
+        done.append(loop)
+    return done
+
+
+def crosses_itself(points: np.ndarray) -> bool:
+    """Of a closed curve in the plane (k x 2): whether two sides that are no neighbours cut."""
+    a, b = points, np.roll(points, -1, axis=0)
+    count = len(points)
+
+    def side(p, q, r):
+        return np.sign((q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1])
+                       - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0]))
+    for k in range(count - 2):
+        others = np.arange(k + 2, count if k else count - 1)
+        c, d = a[others], b[others]
+        cut = ((side(a[k], b[k], c) * side(a[k], b[k], d) < 0)
+               & (side(c, d, a[k]) * side(c, d, b[k]) < 0))
+        if cut.any():
+            return True
+    return False
+
+
+def divided(points: np.ndarray, spacing: float) -> np.ndarray:
+    """A closed curve with points `spacing` mm apart, or somewhat less; its corners stay."""
+    ahead = np.roll(points, -1, axis=0) - points
+    behind = points - np.roll(points, 1, axis=0)
+    cosine = (ahead * behind).sum(axis=1) / np.maximum(
+        np.linalg.norm(ahead, axis=1) * np.linalg.norm(behind, axis=1), 1e-300)
+    corners = np.flatnonzero(cosine < np.cos(np.radians(CORNER_DEG)))
+    starts = corners if len(corners) else np.array([0])
+    along = np.r_[0.0, np.cumsum(np.linalg.norm(ahead, axis=1))]
+    closed = np.vstack([points, points[:1]])
+    found = []
+    for first, last in zip(starts, np.r_[starts[1:], starts[0] + len(points)]):
+        begin, end = along[first], along[last % len(points)] + along[-1] * (last >= len(points))
+        steps = max(1, int(np.ceil((end - begin) / spacing)))
+        at = np.mod(begin + (end - begin) * np.arange(steps) / steps, along[-1])
+        found.append(np.column_stack([np.interp(at, along, closed[:, k])
+                                      for k in range(closed.shape[1])]))
+    return np.vstack(found)
+
+
+def area_of(points: np.ndarray) -> float:
+    """Signed, of a closed curve in the plane; anticlockwise is positive."""
+    x, y = points[:, 0], points[:, 1]
+    return 0.5 * float(np.sum(x * np.roll(y, -1) - np.roll(x, -1) * y))
+
+
+def distance_to(points: np.ndarray, curve: np.ndarray) -> np.ndarray:
+    """Of points (k x d) from a closed curve (c x d)."""
+    a, b = curve, np.roll(curve, -1, axis=0)
+    longest = np.linalg.norm(b - a, axis=1).max()
+    middle = cKDTree(0.5 * (a + b))
+    count = min(len(a), 32)
+    to_middle, near = middle.query(points, k=count)
+    to_middle, near = to_middle.reshape(len(points), -1), near.reshape(len(points), -1)
+    least = to_pieces(points[:, None], a[near], b[near]).min(axis=1)
+    unsure = np.flatnonzero(to_middle[:, -1] - 0.5 * longest < least) if count < len(a) else []
+    for k in unsure:  # a few, of curves with long sides among short ones
+        least[k] = to_pieces(points[k], a, b).min()
+    return least
+
+
+def to_pieces(p: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
+    along = b - a
+    t = ((p - a) * along).sum(axis=-1) / np.maximum((along * along).sum(axis=-1), 1e-300)
+    return np.linalg.norm(a + np.clip(t, 0, 1)[..., None] * along - p, axis=-1)

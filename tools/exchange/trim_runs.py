@@ -1,0 +1,111 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs of a case with the blanks of flat patterns, until the formed edge lies at the trim line."""
+
+import subprocess
+import tomllib
+from dataclasses import dataclass
+from pathlib import Path
+
+from plotting.reading import Trouble
+
+from exchange.flat_pattern import Pattern, edge_error, flat_pattern
+from exchange.formed import FormedStack, read_formed
+from exchange.outline import TrimLine
+
+
+@dataclass
+class Try:
+    """A run with patterns as blanks."""
+    number: int
+    folder: Path
+    largest: dict[str, float]  # mm, by ply: distance of the formed edge from the trim line
+    rms: dict[str, float]
+
+
+@dataclass
+class TrimCase:
+    """The case that is run anew."""
+    program: str
+    path: Path
+    settings: list[str]  # KEY=VALUE
+    blanks: dict         # of the case file
+    plies: list[dict]
+    threads: int | None = None  # all cores
+
+    def arguments(self, patterns: list[Pattern]) -> list[str]:
+        """Each ply gets a blank of its own, meshed as the one it had."""
+        words = [f"--set={setting}" for setting in self.settings]
+        for pattern in patterns:
+            index = next(k for k, ply in enumerate(self.plies) if ply["name"] == pattern.ply)
+            blank = self.blanks[self.plies[index]["blank"]]
+            points = ", ".join(f"[{x:.6f}, {y:.6f}]" for x, y in pattern.outline)
+            kept = {"mesh": f'"{blank.get("mesh", "diagonal")}"',
+                    "element_size": repr(float(blank["element_size"])), "outline": f"[{points}]"}
+            table = ", ".join(f"{key} = {value}" for key, value in kept.items())
+            words += [f"--set=blanks.trimmed_{index}={{{table}}}",
+                      f"--set=ply.{index}.blank=trimmed_{index}"]
+        return words
+
+    def element_size(self, ply: str) -> float:
+        blank = next(one["blank"] for one in self.plies if one["name"] == ply)
+        return float(self.blanks[blank]["element_size"])
+
+
+def read_case(program: str, path: Path, settings: list[str], stack: FormedStack) -> TrimCase:
+    """Raises Trouble if the case cannot have been the run's, or its blanks have no outline."""
+    file = path / "case.toml" if path.is_dir() else path
+    try:
+        with open(file, "rb") as opened:
+            case = tomllib.load(opened)
+        blanks, plies = case["blanks"], case["ply"]
+        names = [ply["name"] for ply in plies]
+        for ply in stack.plies:
+            if ply.name not in names:
+                raise Trouble(f"{file} has no ply {ply.name}, which {stack.folder} has: give the "
+                              "case of this run")
+            blank = blanks[plies[names.index(ply.name)]["blank"]]
+            if "element_size" not in blank:
+                raise Trouble(f"{file}: the blank of ply {ply.name} is a mesh file, which cannot "
+                              "be cut: give it an outline or a size")
+    except (OSError, KeyError, TypeError, tomllib.TOMLDecodeError) as problem:
+        raise Trouble(f"{file} cannot be read as a case: {problem}") from problem
+    sizes = dict(word.split("=", 1) for word in settings if word.count("="))
+    for name, blank in blanks.items():
+        if f"blanks.{name}.element_size" in sizes:
+            blank["element_size"] = float(sizes[f"blanks.{name}.element_size"])
+    return TrimCase(program, path, settings, blanks, plies)
+
+
+def run_with(case: TrimCase, patterns: list[Pattern], folder: Path) -> None:
+    words = [case.program, "run", str(case.path), "-o", str(folder), *case.arguments(patterns)]
+    words += ["--threads", str(case.threads)] if case.threads else []
+    done = subprocess.run(words, capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        said = (done.stderr or done.stdout).strip().splitlines()
+        raise Trouble(f"the run with the patterns in {folder} ended with code {done.returncode}: "
+                      f"{said[-1] if said else 'nothing said'}")
+
+
+def iterate(case: TrimCase, stack: FormedStack, trim: TrimLine, tolerance: float, most: int,
+            folder: Path, tell) -> tuple[list[Pattern], list[Try]]:
+    """Patterns of the last run, and all runs. Stops as soon as the edges of all plies are within
+    `tolerance` mm, and after `most` runs."""
+    names = [ply.name for ply in stack.plies]
+    patterns, tries = meshable(case, stack, trim), []
+    for number in range(1, most + 1):
+        run_folder = folder / f"iteration_{number}"
+        run_with(case, patterns, run_folder)
+        stack = read_formed(run_folder, -1, names)
+        errors = {ply.name: edge_error(ply, trim) for ply in stack.plies}
+        tries.append(Try(number, run_folder, {name: one[0] for name, one in errors.items()},
+                         {name: one[1] for name, one in errors.items()}))
+        tell(tries[-1])
+        if max(tries[-1].largest.values()) <= tolerance or number == most:
+            break
+        patterns = meshable(case, stack, trim)
+    return patterns, tries
+
+
+def meshable(case: TrimCase, stack: FormedStack, trim: TrimLine) -> list[Pattern]:
+    """The mesher keeps every point of an outline: they stand an element apart."""
+    return [flat_pattern(ply, trim, case.element_size(ply.name)) for ply in stack.plies]

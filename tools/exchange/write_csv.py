@@ -1,0 +1,28 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Plain CSV: a file a ply, a row an element; lines that begin with # say what the columns are."""
+
+import numpy as np
+
+from exchange.layup import Layup
+
+COLUMNS = ["element", "covered_share", "warp_x", "warp_y", "warp_z", "weft_x", "weft_y", "weft_z",
+           "warp_angle_deg", "weft_angle_deg", "thickness_mm", "shear_angle_deg", "distance_mm"]
+
+
+def csv_files(layup: Layup) -> dict[str, str]:
+    """Name of each file, without its folder, and its text."""
+    files = {}
+    for ply in layup.plies:
+        warp, weft = layup.angles(ply)
+        table = np.column_stack([ply.share, ply.warp, ply.weft, warp, weft, ply.thickness,
+                                 ply.shear_deg, ply.distance])
+        lines = ["# " + line for line in layup.head(
+            [f"ply {ply.name}, {ply.nominal_angle_deg:g} degrees and {ply.nominal_thickness:g} mm "
+             "before forming",
+             "an element that the ply does not cover has its covered_share only"])]
+        lines.append(",".join(COLUMNS))
+        for label, row in zip(layup.mesh.labels, table):
+            lines.append(f"{label}," + ",".join("" if np.isnan(value) else f"{value:.9g}"
+                                                for value in row))
+        files[ply.name + ".csv"] = "\n".join(lines) + "\n"
+    return files
