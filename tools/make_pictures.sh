@@ -7,10 +7,12 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# PICTURE | CASES it shows, of cases/ (folders, or files in them) | ARGUMENTS of tools/plot.py, without -o. A line each.
+# PICTURE | CASES it shows, of cases/ (folders, or files in them) | ARGUMENTS of tools/plot.py, without -o, or
+# of `plyform`, if they begin with `report`. A line each.
 pictures=(
   "docs/users/setup.png | | setup cases/hemisphere_0/case.toml --dpi 90"
   "docs/users/five_ply.png | hemisphere_five_ply | plies results/hemisphere_five_ply --tools --gap 45 --limit 50 --dpi 75"
+  "docs/users/report.png | hemisphere_five_ply | report results/hemisphere_five_ply"
   "docs/verification/bias_extension.png | bias_extension | load results/bias_extension --curve results/bias_theory.csv --against shear --limit 5 --dpi 75"
   "docs/verification/picture_frame.png | picture_frame | load results/picture_frame --curve results/frame_theory.csv --against shear --limit 5 --dpi 75"
   "docs/verification/circular_table.png | circular_table circular_table/circular_table_no_shear.toml circular_table/circular_table_isotropic.toml | plies results/circular_table results/circular_table_no_shear results/circular_table_isotropic --only 3d --dpi 60"
@@ -58,6 +60,11 @@ for line in "${pictures[@]}"; do
     run "$case"
   done
   read -ra arguments <<<"$arguments"
-  tools/plot.py "${arguments[@]}" -o "$picture"
+  if [ "${arguments[0]}" = report ]; then
+    build/release/tools/plyform "${arguments[@]}" -o results/report.html
+    /usr/bin/python3 tests/python/report_browser.py results/report.html "$picture"
+  else
+    tools/plot.py "${arguments[@]}" -o "$picture"
+  fi
   echo "$picture"
 done

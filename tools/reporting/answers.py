@@ -200,7 +200,7 @@ def accuracy(run: Run) -> Answer | None:
     causes = Markup("inertia {}°, softened fibres {}°, mesh {}°").format(
         *(number(told.get(f"{cause}_deg"), 2) for cause in ("inertia", "softening", "mesh")))
     balance = run.summary["energy"].get("balance_error")
-    text = Markup("Predicted error of shear angles, rms: {}. The energy balance closes to {}&nbsp;%."
+    text = Markup("Predicted, rms over all plies and not of single places: {}. The energy balance closes to {}&nbsp;%."
                   ).format(causes, number(100.0 * abs(balance or 0.0), 3))
     return Answer("Band of error", Markup("±{}°").format(number(error, 1)), text, None,
                   abs(balance or 0.0) > BALANCE, Markup("the energy balance is off"))

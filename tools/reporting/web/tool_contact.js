@@ -52,7 +52,8 @@ export function showContact(card, run, show) {
   card.querySelector("h2").textContent = `On the tool: ${line.tool.name}`;
   card.querySelector(".figure").textContent = `${written(100 * line.on, 0)} %`;
   card.querySelector(".text").textContent = `of the part of ${ply.name} that faces it lies on it, ` +
-    `within ${written(ON, 1)} mm. Furthest off: ${written(line.gap, 1)} mm at ${place} mm.`;
+    `within ${written(ON, 1)} mm. Furthest off: ${written(line.gap, 1)} mm at ${place} mm. ` +
+    "Shown is the gap to the nearest tool.";
   const triangle = Math.floor(ply.triangles.indexOf(line.node) / 3);
   card.querySelector("button").addEventListener("click", () => show(line.ply, triangle));
   Object.assign(card.dataset, { gap: line.gap, ply: ply.name });
