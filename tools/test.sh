@@ -1,14 +1,19 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Installs what is missing, builds everything and runs all tests; ctest's closing lines come last.
-#   tools/test.sh [--preset PRESET] [ARGUMENT OF ctest]...      e.g. tools/test.sh -R Membrane
-# PRESET is one of CMakePresets.json, release unless told. The preset of a sanitizer leaves the
-# tests labelled `long` out.
+# Installs what is missing, builds everything and runs the tests; ctest's closing lines come last.
+#   tools/test.sh [--all | --preset PRESET] [ARGUMENT OF ctest]...   e.g. tools/test.sh -R Membrane
+# Tests labelled `long`, whole cases of ten seconds to a minute, run with --all only (and in
+# .ci/run). PRESET: a test preset of CMakePresets.json, release unless told.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 preset=release
-if [ "${1:-}" = --preset ]; then
+tests=release
+if [ "${1:-}" = --all ]; then
+  tests=release_all
+  shift
+elif [ "${1:-}" = --preset ]; then
   preset=${2:?--preset needs the name of a preset}
+  tests=$preset
   shift 2
 fi
 
@@ -23,5 +28,5 @@ built=yes
 tools/build.sh "$preset" || built=no
 wait $! || { cat "$log" >&2 && exit 1; }
 [ $built = yes ] || exit 1
-printf '== %s\n' "Tests (two cores: four minutes)"
-ctest --preset "$preset" --parallel "$(nproc)" --no-label-summary "$@"
+printf '== %s\n' "Tests (two cores: three minutes; with --all five)"
+ctest --preset "$tests" --parallel "$(nproc)" --no-label-summary "$@"

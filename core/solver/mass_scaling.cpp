@@ -4,6 +4,7 @@
 #include "core/solver/stable_time_step.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <numeric>
 
 namespace plyform {
@@ -14,7 +15,12 @@ namespace {
 constexpr double contact_share = 0.5;
 constexpr double largest_change = 1.25; // of a node's mass at a time
 
-/// kappa of (M), 1/s^2: `least`, or more where that would add more than `budget` (t).
+// A bound of contacts that would fall by less is left as it is: where a whole ply lies on a tool,
+// all of its nodes would get mass for a step that is hardly longer.
+constexpr double least_gain = 1.5;
+
+/// kappa of (M), 1/s^2: `least`, or more where that would add more than `budget` (t). Infinite if
+/// it brings less than least_gain.
 double largest_contact_omega2(const std::vector<ContactRow>& rows, const std::vector<double>& mass,
                               double least, double budget) {
   struct Node {
@@ -32,9 +38,11 @@ double largest_contact_omega2(const std::vector<ContactRow>& rows, const std::ve
     stiffness += stiff[k].stiffness, own += stiff[k].mass;
     const double kappa = stiffness / (own + budget);
     const double next = k + 1 < stiff.size() ? stiff[k + 1].omega2 : least;
-    if (kappa >= next) return kappa;
+    const double found = std::max(kappa, least);
+    if (found >= next)
+      return stiff[0].omega2 < least_gain * found ? std::numeric_limits<double>::infinity() : found;
   }
-  return least;
+  return std::numeric_limits<double>::infinity(); // there are none
 }
 
 } // namespace

@@ -39,7 +39,7 @@ inline double imbalance(const Energies& e) {
 inline void expect_collapse(const RunResult& run, const std::string& what) {
   EXPECT_EQ(run.summary.status, "stopped") << what;
   for (const char* part : {"stopped at step ", "time ", "ply ply1", "triangle ", "collapsed",
-                           "along warp", "along weft", "degrees between them"})
+                           "along warp", "along weft", "sheared by", "degrees"})
     EXPECT_NE(run.summary.message.find(part), std::string::npos) << run.summary.message;
   for (const Vec3& x : run.last.plies.at(0).x)
     EXPECT_TRUE(x.allFinite()) << what;
