@@ -11,8 +11,8 @@
 namespace plyform {
 
 /// y = M^-1/2 v, mass (t) of n nodes: y of n nodes (mm) from v of size 3 n (mm t^1/2).
-inline void over_root_of_mass(std::span<const double> mass, const Eigen::Ref<const Eigen::VectorXd>& v,
-                              std::span<Vec3> y) {
+inline void over_root_of_mass(std::span<const double> mass,
+                              const Eigen::Ref<const Eigen::VectorXd>& v, std::span<Vec3> y) {
   for (std::size_t n = 0; n < y.size(); ++n)
     y[n] = v.segment<3>(static_cast<Eigen::Index>(3 * n)) / std::sqrt(mass[n]);
 }

@@ -49,7 +49,8 @@ double largest_contact_omega2(const std::vector<ContactRow>& rows, const std::ve
 
 void scale_masses(Scene& s, const ContactRows& touching) {
   const double share = s.data.solver.mass_scaling;
-  if (share == 0.0) return;
+  const auto swings = [](const ToolState& tool) { return tool.body.mass > 0.0; };
+  if (share == 0.0 || std::any_of(s.tools.begin(), s.tools.end(), swings)) return;
   double elements = 0.0;
   for (const PlyState& ply : s.plies)
     elements = std::max(elements, element_omega2(ply));

@@ -122,6 +122,9 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
                tool.stroke_mm);
   fmt::print("  energy balance error {:.2e}, kinetic over shear energy {:.2e}\n", e.balance_error(),
              e.shear > 0.0 ? e.kinetic / e.shear : 0.0);
+  if (r.summary.largest_added_mass > 0.0)
+    fmt::print("  mass scaling: {:.2g} % of a ply's mass added at most\n",
+               100.0 * r.summary.largest_added_mass);
   const ContactReport& c = r.summary.contact;
   fmt::print("  penetration {:.3f} mm into tools, {:.3f} mm between plies; triangles crossing: {} "
              "between plies, {} within\n",
@@ -138,6 +141,7 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
 
 /// Says on standard error how a run ended that is not simply done, and returns the exit code.
 int tell_end(const Summary& summary, const std::filesystem::path& folder) {
+  std::fflush(stdout); // where both go into one file
   if (summary.status == "stopped") {
     fmt::print(stderr, "plyform: {}\n         the last good state is in {}\n", summary.message,
                folder.string());
