@@ -2,6 +2,7 @@
 // Laws of a fabric from measured curves, and the curves that it should give: numbers in and out,
 // which python/plyform/_fit.py puts into words.
 #include "core/fit/fit_shear.hpp"
+#include "core/fit/fit_tension.hpp"
 #include "core/input/fabric_file.hpp"
 #include "python/bindings.hpp"
 
@@ -21,17 +22,31 @@ py::array array_of(std::vector<double> values, double unit = 1.0) {
 }
 
 Curve curve_from_file(const std::filesystem::path& file, const std::string& x_column,
-                      const std::string& y_column) {
+                      const std::string& y_column, const std::string& angle_column, bool strain) {
   Diagnostics diagnostics;
-  std::optional<Curve> curve = read_curve(file, x_column, y_column, diagnostics);
+  CurveColumns columns;
+  columns.x.column = x_column;
+  columns.y.column = y_column;
+  columns.angle.column = angle_column;
+  columns.with_angle = !strain;
+  if (strain) {
+    columns.x_is = Quantity::strain;
+    columns.x_word = "strain";
+    columns.x_hint = "give gauge_length if it is a displacement";
+  }
+  std::optional<Curve> curve = read_curve(file, columns, diagnostics);
   if (!curve) raise_mistakes(diagnostics.errors);
   return std::move(*curve);
 }
 
-Curve curve_of(const std::vector<double>& x, const std::vector<double>& y) {
-  if (x.size() != y.size())
+Curve curve_of(const std::vector<double>& x, const std::vector<double>& y,
+               const std::vector<double>& angle_deg) {
+  if (x.size() != y.size() || (!angle_deg.empty() && angle_deg.size() != x.size()))
     throw py::value_error(fmt::format("curve: {} places, but {} values", x.size(), y.size()));
   Curve curve{"curve", "x", "y", x, y, {}};
+  if (!angle_deg.empty()) curve.angle_name = "angle";
+  for (const double angle : angle_deg)
+    curve.angle.push_back(angle * deg);
   for (std::size_t i = 0; i < x.size(); ++i)
     curve.line.push_back(static_cast<int>(i) + 1);
   return curve;
@@ -71,13 +86,57 @@ py::dict quality(const FitQuality& q, double unit) {
   return all;
 }
 
-py::dict shear_law(const Curve& curve, const ShearTest& test, const std::filesystem::path& fabric,
-                   int coefficients, double from_deg, double to_deg) {
+/// A number, "fit" where that may stand, or None.
+void put_correction(const py::object& given, const char* name, std::optional<double>& value,
+                    bool& fit) {
+  if (given.is_none()) return;
+  if (py::isinstance<py::str>(given)) {
+    if (given.cast<std::string>() != "fit")
+      throw py::value_error(fmt::format("{} must be a number or 'fit'", name));
+    fit = true;
+    return;
+  }
+  value = given.cast<double>();
+  if (!std::isfinite(*value)) throw py::value_error(fmt::format("{} must be finite", name));
+}
+
+/// compliance, zero, toe, slip and doubtful, as the program's options.
+void put_corrections(const py::dict& given, FitOptions& options) {
+  Corrections& c = options.corrections;
+  bool fit = false;
+  put_correction(given["zero"], "zero", c.load_zero, c.fit_load_zero);
+  put_correction(given["toe"], "toe", c.toe, c.fit_toe);
+  put_correction(given["compliance"], "compliance", c.compliance, fit);
+  if (fit || (c.compliance && *c.compliance < 0.0))
+    throw py::value_error("compliance must be a number of at least 0");
+  c.fit_slip = given["slip"].cast<bool>();
+  options.doubtful = given["doubtful"].cast<bool>();
+}
+
+/// Limits of confidence and specimens.
+template <class Fit>
+void put_sureness(const Fit& fit, py::dict& all) {
+  all["limits"] = fit.confidence.coefficient;
+  all["law_limits"] = fit.confidence.law;
+  py::list own;
+  for (const SpecimenLaw& specimen : fit.specimens)
+    own.append(specimen.coefficients);
+  all["of_specimens"] = own;
+  all["scatter"] = fit.scatter.law;
+}
+
+py::dict shear_law(const std::vector<Curve>& curves, const ShearTest& test,
+                   const std::filesystem::path& fabric, int coefficients, double from_deg,
+                   double to_deg, bool measured_angle, const py::dict& corrections) {
   Diagnostics diagnostics;
-  const auto fit = identify_shear(curve, test, fabric_for_shear(fabric, false),
-                                  {coefficients, from_deg * deg, to_deg * deg}, diagnostics);
+  FitOptions options{coefficients, from_deg * deg, to_deg * deg};
+  options.measured_angle = measured_angle;
+  put_corrections(corrections, options);
+  const auto fit =
+      identify_shear(curves, test, fabric_for_shear(fabric, false), options, diagnostics);
   if (!fit) raise_mistakes(diagnostics.errors);
   py::dict all = quality(fit->quality, deg);
+  put_sureness(*fit, all);
   all["coefficients"] = fit->law.k;
   all["extension_mm"] = array_of(fit->extension);
   all["shear_deg"] = array_of(fit->angle, deg);
@@ -87,14 +146,17 @@ py::dict shear_law(const Curve& curve, const ShearTest& test, const std::filesys
   return all;
 }
 
-py::dict tension_law(const Curve& curve, double yarns, double gauge_length, double from,
-                     double to) {
+py::dict tension_law(const std::vector<Curve>& curves, double yarns, double gauge_length,
+                     double from, double to, const py::dict& corrections) {
   if (!(yarns > 0.0 && std::isfinite(yarns) && gauge_length > 0.0 && std::isfinite(gauge_length)))
     throw py::value_error("yarns and gauge length must be greater than 0");
   Diagnostics diagnostics;
-  const auto fit = identify_tension(curve, {yarns, gauge_length}, {1, from, to}, diagnostics);
+  FitOptions options{1, from, to};
+  put_corrections(corrections, options);
+  const auto fit = identify_tension(curves, {yarns, gauge_length}, options, diagnostics);
   if (!fit) raise_mistakes(diagnostics.errors);
   py::dict all = quality(fit->quality, 1.0);
+  put_sureness(*fit, all);
   all["stiffness"] = fit->law.linear() ? py::object(py::float_(fit->law.stiffness)) : py::none();
   all["table_strain"] = array_of(fit->law.strain);
   all["table_tension_N"] = array_of(fit->law.tension);
@@ -139,15 +201,16 @@ std::string fabric_with_law(const std::filesystem::path& file, const std::string
 
 void bind_fit(py::module_& m) {
   py::class_<Curve>(m, "Curve", "A measured curve.")
-      .def(py::init(&curve_of), py::arg("x"), py::arg("y"),
-           "Of two sequences as long as each other.")
+      .def(py::init(&curve_of), py::arg("x"), py::arg("y"), py::arg("angle_deg"),
+           "Of sequences as long as each other; the last may be empty.")
       .def_property_readonly(
           "x", [](const Curve& c) { return array_of(c.x); }, "float64, one a row.")
       .def_property_readonly(
           "y", [](const Curve& c) { return array_of(c.y); }, "float64, one a row.");
   py::class_<ShearTest>(m, "ShearTest", "Sizes of a shear test.");
   m.def("read_curve", &curve_from_file, py::arg("file"), py::arg("x_column"), py::arg("y_column"),
-        "Two columns of a CSV file, by name or number from 1; empty: the first two.");
+        py::arg("angle_column"), py::arg("strain"),
+        "Columns of a CSV file, by name or number from 1; empty: by what the header says.");
   m.def(
       "bias_test",
       [](double length, double width) {
@@ -157,10 +220,12 @@ void bind_fit(py::module_& m) {
   m.def(
       "frame_test", [](double side) { return test_of("frame", FrameSpecimen{side}); },
       py::arg("side"), "Picture frame; side from hinge to hinge, mm.");
-  m.def("identify_shear", &shear_law, py::arg("curve"), py::arg("test"), py::arg("fabric"),
-        py::arg("coefficients"), py::arg("from_deg"), py::arg("to_deg"), "Law of shear.");
-  m.def("identify_tension", &tension_law, py::arg("curve"), py::arg("yarns"),
-        py::arg("gauge_length"), py::arg("from_strain"), py::arg("to_strain"), "Law of tension.");
+  m.def("identify_shear", &shear_law, py::arg("curves"), py::arg("test"), py::arg("fabric"),
+        py::arg("coefficients"), py::arg("from_deg"), py::arg("to_deg"), py::arg("measured_angle"),
+        py::arg("corrections"), "Law of shear.");
+  m.def("identify_tension", &tension_law, py::arg("curves"), py::arg("yarns"),
+        py::arg("gauge_length"), py::arg("from_strain"), py::arg("to_strain"),
+        py::arg("corrections"), "Law of tension.");
   m.def("theory_shear", &shear_curve, py::arg("test"), py::arg("fabric"), py::arg("to_deg"),
         py::arg("points"), "The curve that a fabric should give.");
   m.def("fabric_with_law", &fabric_with_law, py::arg("fabric"), py::arg("table"), py::arg("key"),

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fit/fit_shear.hpp"
 
-#include "core/fit/weighted_fit.hpp"
+#include "core/fit/shear_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,92 +14,38 @@ namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
 
-/// A row of the curve with the weights of the torque in (40, 41).
-struct Sample {
-  double extension, load;
-  TorqueWeights weights;
+/// A law fitted to rows, with the share of in-plane bending that follows from it.
+struct Solution {
+  LinearLaw law;
+  LinearFit fit;
+  double scale = 0.0; ///< rad, of the coefficients
+  BendingShare share;
+  Fabric fabric; ///< with the law found
 };
-
-Place place_of(const Curve& curve, std::size_t row = 0) {
-  return {curve.file, curve.line[row], 1};
-}
-
-/// The rows between `from` and `to`; reports an error and returns nothing if a row is beyond the
-/// extension that the geometry of the test allows.
-std::optional<std::vector<Sample>> samples_of(const Curve& curve, const ShearTest& test,
-                                              const Fabric& fabric, const FitOptions& options,
-                                              Diagnostics& diagnostics) {
-  std::vector<Sample> samples;
-  const double locking = locking_extension(test);
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    if (curve.x[i] >= locking) {
-      // x increases: the remaining rows are beyond it too
-      if (options.to < 0.5 * std::numbers::pi) break;
-      diagnostics.error(place_of(curve, i), curve.x_name, fmt::format("{:g}", curve.x[i]),
-                        fmt::format("the extension must be less than {:.4g} mm, where the specimen "
-                                    "would shear by 90 degrees",
-                                    locking),
-                        "check the size of the specimen and that the column is in mm, or leave the "
-                        "end out with --to");
-      return std::nullopt;
-    }
-    const TorqueWeights weights = torque_weights(test, fabric, curve.x[i]);
-    if (weights.angle >= options.from && weights.angle <= options.to)
-      samples.push_back({curve.x[i], curve.y[i], weights});
-  }
-  return samples;
-}
-
-bool enough(const Curve& curve, const std::vector<Sample>& samples, const FitOptions& options,
-            Diagnostics& diagnostics) {
-  const int sheared = static_cast<int>(std::count_if(
-      samples.begin(), samples.end(), [](const Sample& s) { return s.weights.angle > 0.0; }));
-  if (sheared < 2 * options.coefficients) {
-    diagnostics.error(place_of(curve), "", "",
-                      fmt::format("{} row{} with a shear angle above 0 within the range, {} "
-                                  "coefficient{} need{} at least {}",
-                                  sheared, sheared == 1 ? "" : "s", options.coefficients,
-                                  options.coefficients == 1 ? "" : "s",
-                                  options.coefficients == 1 ? "s" : "", 2 * options.coefficients),
-                      "record more rows, widen --from and --to, or take fewer --coefficients");
-    return false;
-  }
-  const double range = samples.back().weights.angle - samples.front().weights.angle;
-  if (range >= least_range) return true;
-  diagnostics.error(
-      place_of(curve), "", "",
-      fmt::format("the rows cover {:.2g} degrees of shear angle, there must be at least "
-                  "{:g}",
-                  range / deg, least_range / deg),
-      "test to a larger extension, widen --from and --to, or check the size of the "
-      "specimen and that the column is in mm");
-  return false;
-}
-
-/// Coefficients of g, g^3 ... by weighted linear least squares; the weights follow the fit. Loads
-/// are divided by `factor`.
-std::vector<double> fit(const std::vector<Sample>& samples, int coefficients, double factor) {
-  const auto rows = static_cast<Eigen::Index>(samples.size());
-  const double scale = samples.back().weights.angle; // scales the columns to similar magnitude
-  Eigen::MatrixXd a(rows, coefficients);
-  Eigen::VectorXd load(rows);
-  for (Eigen::Index r = 0; r < rows; ++r) {
-    const Sample& s = samples[r];
-    for (int c = 0; c < coefficients; ++c)
-      a(r, c) = s.weights.whole * std::pow(s.weights.angle / scale, 2 * c + 1) +
-                s.weights.half * std::pow(0.5 * s.weights.angle / scale, 2 * c + 1);
-    load[r] = s.load / factor;
-  }
-  const Eigen::VectorXd k = weighted_least_squares(a, load);
-  std::vector<double> law;
-  for (int c = 0; c < coefficients; ++c)
-    law.push_back(k[c] / std::pow(scale, 2 * c + 1));
-  return law;
-}
 
 /// Sets k1 to 0 if it is negative by rounding only (the law begins with a higher power).
 void clear_rounding(ShearLaw& law, double to) {
   if (law.k[0] < 0.0 && -law.k[0] * to < 1e-9 * law.at(to).value) law.k[0] = 0.0;
+}
+
+Solution solve(const LoadRows& rows, double end, const ShearTest& test, const Fabric& fabric,
+               int coefficients) {
+  Solution s;
+  s.scale = end;
+  s.fabric = fabric;
+  constexpr int repetitions =
+      20; // the share goes by the root of k1: each takes a tenth of the rest
+  for (int i = 0; i < repetitions; ++i) {
+    const double before = s.share.mean();
+    s.law = linear_shear({test, fabric, coefficients, end, 1.0 + before});
+    s.fit = fit_linear(s.law.loads(rows.x), rows.y, rows.weights);
+    s.fabric.shear = {};
+    s.fabric.shear.k = unscaled(s.fit.k, end);
+    clear_rounding(s.fabric.shear, end);
+    s.share = in_plane_bending_share(test, s.fabric);
+    if (std::abs(s.share.mean() - before) <= 1e-9) break;
+  }
+  return s;
 }
 
 /// The smallest shear angle (rad) in [from, to] at which the law decreases or is negative; a larger
@@ -140,19 +86,13 @@ bool valid(const Curve& curve, const ShearLaw& law, const FitQuality& quality,
   return true;
 }
 
-void warn_of_start(const Curve& curve, const Sample& first, Diagnostics& diagnostics) {
-  const double angle = first.weights.angle;
-  if (angle > least_range)
-    diagnostics.warning(place_of(curve), fmt::format("the rows start at {:.3g} degrees: below, the "
-                                                     "law is a guess",
-                                                     angle / deg));
-  const double most = *std::max_element(curve.y.begin(), curve.y.end());
-  if (angle < 0.1 * deg && first.load > noise_share * most)
-    diagnostics.warning(
-        place_of(curve),
-        fmt::format("{:.3g} N at an extension of {:.3g} mm, where the theory has next "
-                    "to none: subtract a preload or an offset, or start with --from",
-                    first.load, first.extension));
+/// Whether the torque is one of a fabric.
+bool usual(const Curve& curve, const Fabric& found, double end, bool doubtful,
+           Diagnostics& diagnostics) {
+  const double angle = std::min(10.0 * deg, end);
+  const double rigidity = found.warp_density * found.weft_density * found.shear.secant(angle);
+  return check_usual(place_of(curve), "shear stiffness", rigidity, usual_shear_rigidity, "N/mm",
+                     doubtful, diagnostics);
 }
 
 void warn_of_layers(const Curve& curve, const BendingShare& share, Diagnostics& diagnostics) {
@@ -167,85 +107,140 @@ void warn_of_layers(const Curve& curve, const BendingShare& share, Diagnostics& 
 
 void check_options(const Fabric& fabric, const FitOptions& options) {
   if (options.coefficients < 1 || options.coefficients > 6)
-    throw std::invalid_argument("coefficients: there can be 1 to 6");
+    throw std::invalid_argument("coefficients must be 1 to 6");
   if (!(options.from >= 0.0 && options.to > options.from))
     throw std::invalid_argument("the range must start at 0 or above and end above its start");
-  if (!(std::abs(fabric.fibre_angle - 0.5 * std::numbers::pi) < 1e-6))
-    throw std::invalid_argument("the theory of the shear tests is for yarns at 90 degrees");
+  if (std::abs(fabric.fibre_angle - 0.5 * std::numbers::pi) > 1e-6)
+    throw std::invalid_argument("the theory of the shear tests needs fibres at 90 degrees");
+}
+
+std::vector<double> fitted_loads(const Solution& s, const ShearTest& test,
+                                 const Eigen::VectorXd& extension) {
+  std::vector<double> loads;
+  for (const double x : extension)
+    loads.push_back((1.0 + s.share.mean()) * test_load(test, s.fabric, x));
+  return loads;
+}
+
+CurveWords words_of(const FitOptions& options) {
+  CurveWords words;
+  words.length_unit = "mm";
+  words.x_is_length = words.can_stretch = !options.measured_angle;
+  if (!options.measured_angle) words.angle_remedy = ", or --angle-column of a measured shear angle";
+  return words;
+}
+
+/// The law of one specimen; reports errors and returns nothing as identify_shear does.
+std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const ShearTest& test,
+                                           const Fabric& fabric, const FitOptions& options,
+                                           Diagnostics& diagnostics) {
+  const Curve& curve = specimen.curve;
+  const Solution s =
+      solve(specimen.rows, specimen.angle.back(), test, fabric, options.coefficients);
+  LoadRows rows = specimen.rows;
+  rows.weights = s.fit.weights;
+  const CurveWords words = words_of(options);
+  if (!check_disturbances(curve, s.law, rows, options, words, diagnostics)) return std::nullopt;
+  SpecimenLaw law{curve.file, s.fabric.shear.k, {}, specimen.corrected, {}};
+  law.quality =
+      quality_of(specimen.angle, {rows.y.begin(), rows.y.end()}, fitted_loads(s, test, rows.x));
+  const bool good = check_quality(
+      curve, law.quality, fmt::format("{:.3g} degrees", law.quality.largest_at / deg),
+      "check columns and specimen, smooth the curve, take more --coefficients, or leave out "
+      "slipping and wrinkling with --to",
+      diagnostics);
+  if (!good || !valid(curve, s.fabric.shear, law.quality, diagnostics) ||
+      !usual(curve, s.fabric, law.quality.to, options.doubtful, diagnostics))
+    return std::nullopt;
+  law.sensitive = sensitivities(s.law, rows, words.length, common_compliance);
+  warn_of_unknowns(curve, s.law, rows, law.sensitive, options, words, diagnostics);
+  return law;
+}
+
+/// All rows, each specimen with the same weight.
+LoadRows all_rows(const std::vector<ShearSpecimen>& specimens, ShearFit& result) {
+  std::vector<double> y, shares;
+  std::size_t rows = 0;
+  for (const ShearSpecimen& specimen : specimens)
+    rows += specimen.angle.size();
+  for (std::size_t n = 0; n < specimens.size(); ++n) {
+    const ShearSpecimen& specimen = specimens[n];
+    const double mean = static_cast<double>(rows) / static_cast<double>(specimens.size());
+    for (std::size_t i = 0; i < specimen.angle.size(); ++i) {
+      const auto row = static_cast<Eigen::Index>(i);
+      result.extension.push_back(specimen.rows.x[row]);
+      result.angle.push_back(specimen.angle[i]);
+      result.measured.push_back(specimen.rows.y[row]);
+      result.specimen.push_back(n);
+      shares.push_back(std::sqrt(mean / static_cast<double>(specimen.angle.size())));
+    }
+  }
+  return {vector_of(result.extension), vector_of(result.measured), vector_of(shares).array()};
+}
+
+/// Limits of confidence, and the scatter between specimens.
+void judge(const Solution& all, const std::vector<ShearSpecimen>& specimens,
+           const Corrections& corrections, ShearFit& result) {
+  const std::vector<double> places = probe_angles(all.scale);
+  if (specimens.size() == 1) {
+    const ShearSpecimen& only = specimens.front();
+    const LinearFit fit = with_found(all.fit, all.law, only.rows, corrections, only.corrected);
+    result.confidence = confidence_of(fit, all.law.probes, places);
+  } else {
+    std::vector<Eigen::VectorXd> own; // on the scale of all
+    for (const SpecimenLaw& law : result.specimens) {
+      Eigen::VectorXd k = vector_of(law.coefficients);
+      for (Eigen::Index c = 0; c < k.size(); ++c)
+        k[c] *= std::pow(all.scale, static_cast<double>(2 * c + 1));
+      own.push_back(k);
+    }
+    result.scatter = scatter_of(own, all.law.probes, places);
+    result.confidence = confidence_between(own, all.law.probes, places);
+  }
+  for (std::size_t c = 0; c < result.confidence.coefficient.size(); ++c) {
+    const double unit = std::pow(all.scale, static_cast<double>(2 * c + 1));
+    result.confidence.coefficient[c] /= unit;
+    if (result.scatter.coefficient.empty()) continue;
+    Spread& spread = result.scatter.coefficient[c];
+    spread = {spread.mean / unit, spread.deviation / unit, spread.limits / unit};
+  }
 }
 
 } // namespace
 
-FitQuality quality_of(const std::vector<double>& at, const std::vector<double>& measured,
-                      const std::vector<double>& fitted) {
-  FitQuality quality{.rows = at.size(), .from = at.front(), .to = at.back()};
-  const double floor = load_floor * *std::max_element(measured.begin(), measured.end());
-  double squares = 0.0;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    const double residual = std::abs(measured[i] - fitted[i]) / std::max(fitted[i], floor);
-    squares += residual * residual;
-    if (residual <= quality.largest) continue;
-    quality.largest = residual;
-    quality.largest_at = at[i];
+std::optional<ShearFit> identify_shear(const std::vector<Curve>& curves, const ShearTest& test,
+                                       const Fabric& fabric, const FitOptions& options,
+                                       Diagnostics& diagnostics) {
+  check_options(fabric, options);
+  ShearFit result;
+  std::vector<ShearSpecimen> specimens;
+  const std::size_t errors = diagnostics.errors.size();
+  for (const Curve& curve : curves) {
+    auto specimen = shear_specimen(curve, test, fabric, options, diagnostics);
+    if (!specimen) continue;
+    if (auto law = law_of_specimen(*specimen, test, fabric, options, diagnostics))
+      result.specimens.push_back(std::move(*law));
+    specimens.push_back(std::move(*specimen));
   }
-  quality.rms = std::sqrt(squares / static_cast<double>(at.size()));
-  return quality;
-}
-
-bool check_quality(const Curve& curve, const FitQuality& quality, const std::string& where,
-                   const std::string& remedy, Diagnostics& diagnostics) {
-  const std::string figures = fmt::format("{:.3g} % rms of the load, {:.3g} % at most, at {}",
-                                          100.0 * quality.rms, 100.0 * quality.largest, where);
-  if (!(quality.rms <= useless)) {
-    diagnostics.error(
-        place_of(curve), "", "",
-        fmt::format("the curve is no law's: residuals {}; they must be less than {:g} %", figures,
-                    100.0 * useless),
-        remedy);
-    return false;
-  }
-  if (quality.rms > noisy)
-    diagnostics.warning(place_of(curve),
-                        fmt::format("noise, or a shape that the law does not have: "
-                                    "residuals {}; {}",
-                                    figures, remedy));
-  return true;
+  if (diagnostics.errors.size() > errors || specimens.empty()) return std::nullopt;
+  const LoadRows rows = all_rows(specimens, result);
+  const double end = *std::max_element(result.angle.begin(), result.angle.end());
+  const Solution all = solve(rows, end, test, fabric, options.coefficients);
+  result.law = all.fabric.shear;
+  result.in_plane = all.share;
+  result.fitted = fitted_loads(all, test, rows.x);
+  result.quality = quality_of(result.angle, result.measured, result.fitted);
+  warn_of_layers(specimens.front().curve, result.in_plane, diagnostics);
+  if (specimens.size() > 1 &&
+      !valid(specimens.front().curve, result.law, result.quality, diagnostics))
+    return std::nullopt;
+  judge(all, specimens, options.corrections, result);
+  return result;
 }
 
 std::optional<ShearFit> identify_shear(Curve curve, const ShearTest& test, const Fabric& fabric,
                                        const FitOptions& options, Diagnostics& diagnostics) {
-  check_options(fabric, options);
-  if (!check_curve(curve, "extension", "load", diagnostics)) return std::nullopt;
-  const auto samples = samples_of(curve, test, fabric, options, diagnostics);
-  if (!samples || !enough(curve, *samples, options, diagnostics)) return std::nullopt;
-  warn_of_start(curve, samples->front(), diagnostics);
-  ShearFit result;
-  Fabric fitted = fabric;
-  constexpr int repetitions =
-      20; // the share goes by the root of k1: each takes a tenth of the rest
-  for (int i = 0; i < repetitions; ++i) {
-    const double before = result.in_plane.mean();
-    result.law.k = fit(*samples, options.coefficients, 1.0 + before);
-    clear_rounding(result.law, samples->back().weights.angle);
-    fitted.shear = result.law;
-    result.in_plane = in_plane_bending_share(test, fitted);
-    if (std::abs(result.in_plane.mean() - before) <= 1e-9) break;
-  }
-  warn_of_layers(curve, result.in_plane, diagnostics);
-  for (const Sample& s : *samples) {
-    result.extension.push_back(s.extension);
-    result.angle.push_back(s.weights.angle);
-    result.measured.push_back(s.load);
-    result.fitted.push_back((1.0 + result.in_plane.mean()) * test_load(test, fitted, s.extension));
-  }
-  result.quality = quality_of(result.angle, result.measured, result.fitted);
-  const bool good = check_quality(
-      curve, result.quality, fmt::format("{:.3g} degrees", result.quality.largest_at / deg),
-      "check columns and specimen, smooth the curve, take more --coefficients, or leave out "
-      "slipping and wrinkling with --to",
-      diagnostics);
-  if (!good || !valid(curve, result.law, result.quality, diagnostics)) return std::nullopt;
-  return result;
+  return identify_shear(std::vector<Curve>{std::move(curve)}, test, fabric, options, diagnostics);
 }
 
 } // namespace plyform

@@ -1,192 +1,204 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Identifies a yarn's law of tension against strain from a strip or yarn test.
-#include "core/fit/fit_shear.hpp"
-#include "core/fit/weighted_fit.hpp"
+#include "core/fit/fit_tension.hpp"
+
+#include "core/fit/tension_rows.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 #include <stdexcept>
 
 namespace plyform {
 namespace {
 
-constexpr double much_strain = 0.1, impossible_strain = 0.5;
-
-Place place_of(const Curve& curve, std::size_t row = 0) {
-  return {curve.file, curve.line[row], 1};
-}
-
-/// Converts x and y to strain and tension (N) of one yarn, and keeps only the rows in the range.
-void scale_curve(Curve& curve, const Strip& strip, const FitOptions& options) {
-  Curve scaled = curve;
-  scaled.x.clear();
-  scaled.y.clear();
-  scaled.line.clear();
-  for (std::size_t i = 0; i < curve.size(); ++i) {
-    const double strain = curve.x[i] / strip.gauge_length;
-    if (strain < options.from || strain > options.to) continue;
-    scaled.x.push_back(strain);
-    scaled.y.push_back(curve.y[i] / strip.yarns);
-    scaled.line.push_back(curve.line[i]);
-  }
-  curve = std::move(scaled);
-}
-
-bool enough(const Curve& curve, const Place& start, Diagnostics& diagnostics) {
-  const auto strained =
-      std::count_if(curve.x.begin(), curve.x.end(), [](double strain) { return strain > 0.0; });
-  if (strained < 2) {
-    diagnostics.error(
-        start, "", "",
-        fmt::format("{} row{} with a strain above 0 within the range, a law of tension "
-                    "needs at least 2",
-                    strained, strained == 1 ? "" : "s"),
-        "record more rows, or widen --from and --to");
-    return false;
-  }
-  const double most = curve.x.back();
-  if (most >= impossible_strain) {
-    diagnostics.error(place_of(curve, curve.size() - 1), curve.x_name, fmt::format("{:g}", most),
-                      fmt::format("the strain must be less than {:g}", impossible_strain),
-                      "give --gauge-length if the column is a displacement in mm, 100 if it is a "
-                      "strain in %");
-    return false;
-  }
-  if (most > much_strain)
-    diagnostics.warning(place_of(curve, curve.size() - 1),
-                        fmt::format("a strain of {:.3g} is much for a yarn: if the column is in %, "
-                                    "give --gauge-length 100",
-                                    most));
-  return true;
-}
-
-Eigen::VectorXd vector_of(const std::vector<double>& values) {
-  return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-}
-
-/// Strains of the table after 0, up to the last: those of the curve if they are few, else a
-/// selection at even distances. None closer than 1/200 of the largest, where noise would give large
-/// slopes.
-std::vector<double> knots_of(const Curve& curve) {
-  const double last = curve.x.back(), apart = 0.005 * last;
-  std::vector<double> strains;
-  for (const double strain : curve.x)
-    if (strain > (strains.empty() ? 0.0 : strains.back() + apart)) strains.push_back(strain);
-  strains.back() = last;
-  if (strains.size() < table_rows) return strains;
-  std::vector<double> knots;
-  for (std::size_t i = 1; i < table_rows; ++i)
-    knots.push_back(strains[i * strains.size() / (table_rows - 1) - 1]);
-  return knots;
-}
-
-/// Tensions at the knots of the piecewise linear law from 0 that fits the rows best.
-std::vector<double> tensions_at(const std::vector<double>& knots, const Curve& curve) {
-  Eigen::MatrixXd a = Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(curve.size()),
-                                            static_cast<Eigen::Index>(knots.size()));
-  for (std::size_t r = 0; r < curve.size(); ++r) {
-    const auto above = std::lower_bound(knots.begin(), knots.end(), curve.x[r]) - knots.begin();
-    const auto k = static_cast<std::size_t>(above); // the last knot is the last strain
-    const double left = k > 0 ? knots[k - 1] : 0.0;
-    const double share = (curve.x[r] - left) / (knots[k] - left);
-    a(static_cast<Eigen::Index>(r), above) = share;
-    if (k > 0) a(static_cast<Eigen::Index>(r), above - 1) = 1.0 - share;
-  }
-  const Eigen::VectorXd k = weighted_least_squares(a, vector_of(curve.y));
-  return {k.begin(), k.end()};
-}
-
-/// Replaces the tensions by the nearest non-decreasing ones (pool adjacent violators); returns the
-/// largest change.
-double make_rising(std::vector<double>& tension) {
-  struct Pool {
-    double sum;
-    std::size_t count;
-    double mean() const { return sum / static_cast<double>(count); }
-  };
-  std::vector<Pool> pools;
-  for (const double value : tension) {
-    pools.push_back({value, 1});
-    while (pools.size() > 1 && pools[pools.size() - 2].mean() > pools.back().mean()) {
-      pools[pools.size() - 2].sum += pools.back().sum;
-      pools[pools.size() - 2].count += pools.back().count;
-      pools.pop_back();
-    }
-  }
-  double change = 0.0;
-  std::size_t i = 0;
-  for (const Pool& pool : pools)
-    for (std::size_t n = 0; n < pool.count; ++n, ++i) {
-      const double risen = std::max(pool.mean(), 0.0);
-      change = std::max(change, std::abs(risen - tension[i]));
-      tension[i] = risen;
-    }
-  return change;
-}
-
-/// The table; reports an error and returns nothing if the curve softens.
-std::optional<TensionLaw> table_of(const Curve& curve, Diagnostics& diagnostics) {
-  std::vector<double> knots = knots_of(curve), tension = tensions_at(knots, curve);
-  const double most = *std::max_element(tension.begin(), tension.end());
-  const auto peak = std::max_element(curve.y.begin(), curve.y.end()) - curve.y.begin();
-  if (const double change = make_rising(tension); change > noise_share * most) {
-    diagnostics.error(
-        place_of(curve, static_cast<std::size_t>(peak)), curve.y_name,
-        fmt::format("{:g}", curve.y[peak]),
-        fmt::format("the tension falls with rising strain, by more than {:g} % of its "
-                    "largest value: a yarn that softens is not modelled",
-                    100.0 * noise_share),
-        "end the curve before it breaks, with --to, or smooth it");
-    return std::nullopt;
-  }
-  while (knots.size() > 1 && tension[tension.size() - 2] == tension.back()) {
-    knots.pop_back(); // the last slope is used beyond the table: noise must not make it 0
-    tension.pop_back();
-  }
-  TensionLaw law{.strain = {0.0}, .tension = {0.0}};
-  law.strain.insert(law.strain.end(), knots.begin(), knots.end());
-  law.tension.insert(law.tension.end(), tension.begin(), tension.end());
-  return law;
-}
-
-TensionFit result_of(const TensionLaw& law, const Curve& curve) {
-  TensionFit result;
-  result.law = law;
-  result.strain = curve.x;
-  result.measured = curve.y;
-  for (const double strain : curve.x)
-    result.fitted.push_back(law.at(strain).value);
-  result.quality = quality_of(result.strain, result.measured, result.fitted);
-  return result;
-}
-
-} // namespace
-
-std::optional<TensionFit> identify_tension(Curve curve, const Strip& strip,
-                                           const FitOptions& options, Diagnostics& diagnostics) {
+void check_arguments(const Strip& strip, const FitOptions& options) {
   if (!(strip.yarns > 0.0 && strip.gauge_length > 0.0))
     throw std::invalid_argument("yarns and gauge length must be greater than 0");
   if (!(options.from >= 0.0 && options.to > options.from))
     throw std::invalid_argument("the range must start at 0 or above and end above its start");
-  if (!check_curve(curve, "strain", "tension", diagnostics)) return std::nullopt;
-  const Place start = place_of(curve);
-  scale_curve(curve, strip, options);
-  if (!enough(curve, start, diagnostics)) return std::nullopt;
-  TensionLaw line;
-  line.stiffness = weighted_least_squares(vector_of(curve.x), vector_of(curve.y))[0];
-  TensionFit result = result_of(line, curve);
-  if (result.quality.rms > noisy) {
-    const std::optional<TensionLaw> table = table_of(curve, diagnostics);
-    if (!table) return std::nullopt;
-    const TensionFit with_table = result_of(*table, curve);
-    if (with_table.quality.rms < 0.5 * result.quality.rms) result = with_table;
+}
+
+/// Rows of several specimens by rising strain.
+Curve pooled(const std::vector<TensionSpecimen>& specimens) {
+  Curve all = specimens.front().curve;
+  for (std::size_t n = 1; n < specimens.size(); ++n) {
+    const Curve& more = specimens[n].curve;
+    all.x.insert(all.x.end(), more.x.begin(), more.x.end());
+    all.y.insert(all.y.end(), more.y.begin(), more.y.end());
+    all.line.insert(all.line.end(), more.line.begin(), more.line.end());
   }
-  if (!check_quality(curve, result.quality,
-                     fmt::format("a strain of {:.3g}", result.quality.largest_at),
-                     "check the columns, or smooth the curve", diagnostics))
+  std::vector<std::size_t> order(all.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return all.x[a] < all.x[b]; });
+  all.angle.clear();
+  return rows_of(all, order);
+}
+
+/// Keeps the rows up to the strain at which the shortest curve ends; reports an error and returns
+/// false if nothing is left to fit.
+bool keep_up_to(Curve& curve, double shortest, Diagnostics& diagnostics) {
+  std::vector<std::size_t> common;
+  std::size_t strained = 0;
+  for (std::size_t i = 0; i < curve.size(); ++i) {
+    if (curve.x[i] > shortest) continue;
+    common.push_back(i);
+    strained += curve.x[i] > 0.0;
+  }
+  if (strained < 2) {
+    diagnostics.error(place_of(curve), "", "",
+                      fmt::format("{} row{} up to a strain of {:.3g}, where the shortest of the "
+                                  "curves ends: a law of tension needs at least 2",
+                                  strained, strained == 1 ? "" : "s", shortest),
+                      "check that all curves are of the same test, or identify them one by one");
+    return false;
+  }
+  curve = rows_of(curve, common);
+  return true;
+}
+
+/// What all specimens are fitted with, and what came of it.
+struct Solution {
+  TensionLaw law;
+  LinearLaw basis;
+  LinearFit fit;
+  std::vector<double> places; ///< strains of the basis' probes
+  double rms = 0.0;
+};
+
+double rms_of(const TensionLaw& law, const Curve& curve) {
+  std::vector<double> fitted;
+  for (const double strain : curve.x)
+    fitted.push_back(law.at(strain).value);
+  return quality_of(curve.x, curve.y, fitted).rms;
+}
+
+Solution line_through(const Curve& curve) {
+  Solution s;
+  s.basis = line_law();
+  s.fit = fit_linear(s.basis.loads(vector_of(curve.x)), vector_of(curve.y));
+  s.law.stiffness = s.fit.k[0];
+  s.places = {curve.x.back()};
+  s.rms = rms_of(s.law, curve);
+  return s;
+}
+
+std::optional<Solution> table_through(const Curve& curve, Diagnostics& diagnostics) {
+  Solution s;
+  const std::vector<double> knots = knots_of(curve);
+  s.basis = knots_law(knots);
+  s.fit = fit_linear(s.basis.loads(vector_of(curve.x)), vector_of(curve.y));
+  for (const double knot : knots)
+    if (knot >= 0.1 * knots.back()) s.places.push_back(knot);
+  const auto law = table_of(curve, knots, {s.fit.k.begin(), s.fit.k.end()}, diagnostics);
+  if (!law) return std::nullopt;
+  s.law = *law;
+  s.rms = rms_of(s.law, curve);
+  return s;
+}
+
+/// The line, or the table where that does better; nothing after an error.
+std::optional<Solution> solve(const Curve& curve, const Corrections& corrections,
+                              Diagnostics& diagnostics) {
+  Solution line = line_through(curve);
+  if (line.rms <= noisy || is_shifted_line(curve, line.fit.weights, corrections)) return line;
+  std::optional<Solution> table = table_through(curve, diagnostics);
+  if (!table) return std::nullopt;
+  return table->rms < 0.5 * line.rms ? table : std::optional(line);
+}
+
+CurveWords words_of(const Strip& strip) {
+  CurveWords words;
+  words.x_is_length = strip.displacement();
+  words.length_unit = strip.displacement() ? "mm" : "";
+  words.x_scale = strip.gauge_length;
+  words.y_scale = strip.yarns;
+  words.length = strip.displacement() ? 0.1 / strip.gauge_length : 1e-3;
+  words.can_stretch = false; // a line stays one
+  return words;
+}
+
+/// Checks one specimen with the kind of law that all have.
+std::optional<SpecimenLaw> law_of_specimen(const TensionSpecimen& specimen, const Solution& all,
+                                           const Strip& strip, const FitOptions& options,
+                                           Diagnostics& diagnostics) {
+  const Curve& curve = specimen.curve;
+  LoadRows rows = specimen.rows();
+  const LinearFit own = fit_linear(all.basis.loads(rows.x), rows.y);
+  rows.weights = own.weights;
+  CurveWords words = words_of(strip);
+  words.zeros_show = all.law.linear(); // a table follows a wrong zero too
+  if (!check_disturbances(curve, all.basis, rows, options, words, diagnostics)) return std::nullopt;
+  SpecimenLaw law{curve.file, {own.k.begin(), own.k.end()}, {}, specimen.corrected, {}};
+  law.quality = quality_of(curve.x, curve.y, {own.fitted.begin(), own.fitted.end()});
+  if (!check_quality(curve, law.quality, fmt::format("a strain of {:.3g}", law.quality.largest_at),
+                     "check the columns, or smooth the curve", diagnostics) ||
+      !check_usual(place_of(curve), "stiffness of a yarn", all.law.largest_slope(), usual_stiffness,
+                   "N per yarn", options.doubtful, diagnostics))
     return std::nullopt;
+  law.sensitive = sensitivities(all.basis, rows, words.length,
+                                common_compliance * strip.yarns / strip.gauge_length);
+  warn_of_unknowns(curve, all.basis, rows, law.sensitive, options, words, diagnostics);
+  return law;
+}
+
+void put_rows(const std::vector<TensionSpecimen>& specimens, TensionFit& result) {
+  for (std::size_t n = 0; n < specimens.size(); ++n)
+    for (std::size_t i = 0; i < specimens[n].curve.size(); ++i) {
+      result.strain.push_back(specimens[n].curve.x[i]);
+      result.measured.push_back(specimens[n].curve.y[i]);
+      result.fitted.push_back(result.law.at(result.strain.back()).value);
+      result.specimen.push_back(n);
+    }
+}
+
+} // namespace
+
+std::optional<TensionFit> identify_tension(const std::vector<Curve>& curves, const Strip& strip,
+                                           const FitOptions& options, Diagnostics& diagnostics) {
+  check_arguments(strip, options);
+  const std::size_t errors = diagnostics.errors.size();
+  std::vector<TensionSpecimen> specimens;
+  double shortest = options.to;
+  for (const Curve& curve : curves) {
+    auto specimen = tension_specimen(curve, strip, options, "strain", diagnostics);
+    if (!specimen) continue;
+    shortest = std::min(shortest, specimen->curve.x.back());
+    specimens.push_back(std::move(*specimen));
+  }
+  if (diagnostics.errors.size() > errors || specimens.empty()) return std::nullopt;
+  for (TensionSpecimen& specimen : specimens)
+    if (!keep_up_to(specimen.curve, shortest, diagnostics)) return std::nullopt;
+  const std::optional<Solution> all = solve(pooled(specimens), options.corrections, diagnostics);
+  if (!all) return std::nullopt;
+  TensionFit result;
+  result.law = all->law;
+  std::vector<Eigen::VectorXd> own;
+  for (const TensionSpecimen& specimen : specimens) {
+    auto law = law_of_specimen(specimen, *all, strip, options, diagnostics);
+    if (!law) continue;
+    own.push_back(vector_of(law->coefficients));
+    result.specimens.push_back(std::move(*law));
+  }
+  if (diagnostics.errors.size() > errors) return std::nullopt;
+  put_rows(specimens, result);
+  result.quality = quality_of(result.strain, result.measured, result.fitted);
+  if (own.size() == 1) {
+    const TensionSpecimen& only = specimens.front();
+    const LinearFit fit =
+        with_found(all->fit, all->basis, only.rows(), options.corrections, only.corrected);
+    result.confidence = confidence_of(fit, all->basis.probes, all->places);
+  } else {
+    result.scatter = scatter_of(own, all->basis.probes, all->places);
+    result.confidence = confidence_between(own, all->basis.probes, all->places);
+  }
   return result;
+}
+
+std::optional<TensionFit> identify_tension(Curve curve, const Strip& strip,
+                                           const FitOptions& options, Diagnostics& diagnostics) {
+  return identify_tension(std::vector<Curve>{std::move(curve)}, strip, options, diagnostics);
 }
 
 } // namespace plyform

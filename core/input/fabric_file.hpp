@@ -27,8 +27,8 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
 /// A law as text for a fabric file.
 struct LawText {
   std::string table;                ///< "warp", "weft" or "shear"
-  std::string key;                  ///< "stiffness", "polynomial" or "table"
-  std::string value;                ///< TOML
+  std::string key;                  ///< "stiffness", "polynomial", "bending_stiffness" ...
+  std::string value;                ///< TOML; empty: the key is taken out
   std::vector<std::string> comment; ///< lines above the key; control characters become spaces
 };
 

@@ -12,8 +12,11 @@
 namespace plyform {
 namespace {
 
-bool is_law(const std::string& key) {
-  return key == "stiffness" || key == "table" || key == "polynomial";
+/// Name of what a key states: keys of one name stand for each other.
+std::string_view subject_of(std::string_view key) {
+  if (key == "stiffness" || key == "table" || key == "polynomial") return "law";
+  if (key == "bending_stiffness" || key == "bending_table") return "bending";
+  return key;
 }
 
 std::string quoted(const std::string& text) {
@@ -95,6 +98,7 @@ std::string comment_behind(const FabricText& from, const TomlNode& entry) {
 }
 
 void put_law(FabricText& to) {
+  if (to.law.value.empty()) return;
   for (std::string line : to.law.comment) {
     for (char& c : line)
       if (static_cast<unsigned char>(c) < 0x20 || c == 0x7F) c = ' ';
@@ -107,7 +111,7 @@ void put_law(FabricText& to) {
 void put_table(FabricText& to, const TomlNode& table, const std::string& path) {
   bool law_due = path == to.law.table;
   for (const TomlNode& child : table.children) {
-    if (path == to.law.table && is_law(child.key)) {
+    if (path == to.law.table && subject_of(to.law.key) == subject_of(child.key)) {
       if (law_due) put_law(to);
       law_due = false;
     } else if (child.kind != TomlNode::Kind::table) {

@@ -30,7 +30,7 @@ Rows yarn_bending_rows(const std::string& yarn) {
            .otherwise = bending,
            .instead = "bending_table",
            .ranges = {bending_range},
-           .usual = {{.least = 0.0, .most = 1e4}},
+           .usual = {range_of(usual_bending_stiffness)},
            .meaning = "moment per width divided by curvature along the " + yarn + " (N mm2/mm)",
            .members = {to(&MomentLaw::stiffness)}},
           {.key = table + ".bending_table",

@@ -4,6 +4,7 @@
 
 #include "core/input/schema.hpp"
 #include "core/model/case.hpp"
+#include "core/model/usual_ranges.hpp"
 
 #include <vector>
 
@@ -22,6 +23,11 @@ inline const Range force_range{.least = 0.0, .most = 1e9};      ///< N
 inline const Range bending_range{.least = 0.0, .most = 1e7};    ///< N mm
 inline const Range yarn_force_range{.least = 0.0, .most = 1e9}; ///< N a yarn, per strain or not
 inline const Range stiffness_range{.least = 1e-6, .most = 1e9}; ///< N a yarn, of a law that has any
+
+/// The range that messages call usual.
+inline Range range_of(const UsualRange& usual) {
+  return {.least = usual.least, .most = usual.most};
+}
 
 inline void append(Rows& all, Rows part) {
   for (KeyRow& row : part)

@@ -62,7 +62,7 @@ Rows fabric_rows() {
                    .unit = "N/yarn",
                    .instead = "table",
                    .ranges = {stiffness_range},
-                   .usual = {{.least = 100.0, .most = 1e6}},
+                   .usual = {range_of(usual_stiffness)},
                    .meaning = "tension of one yarn divided by its strain",
                    .members = {to(&TensionLaw::stiffness)}},
                   {.key = table + ".table",

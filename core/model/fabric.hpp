@@ -93,6 +93,9 @@ struct YarnSources {
               in_plane_bending = ValueSource::given;
 };
 
+/// mm/s^2, turns mass per area into weight.
+inline constexpr double standard_gravity = 9810.0;
+
 struct Fabric {
   std::string name;
   TensionLaw warp, weft;
@@ -110,6 +113,7 @@ struct Fabric {
   std::optional<SheetLaw> sheet;
 
   bool has_yarns() const { return !sheet; }
+  double weight() const { return surface_density * standard_gravity; } ///< N/mm^2
 };
 
 /// Whether warp and weft have the same yarns at the same density.

@@ -14,7 +14,6 @@ namespace {
 
 constexpr double compression_share = 0.01; // of tension
 constexpr double bending_length = 70.0;    // mm
-constexpr double gravity = 9810.0;         // mm/s^2, turns mass per area into weight
 constexpr double zone_in_cells = 2.5;
 constexpr double shear_scale_at = 0.5; // rad
 
@@ -103,7 +102,7 @@ double usual_twist(const BendingLaw& law) {
 }
 
 double usual_bending(const Fabric& fabric) {
-  return fabric.surface_density * gravity * bending_length * bending_length * bending_length;
+  return fabric.weight() * bending_length * bending_length * bending_length;
 }
 
 double usual_zone_width(const Fabric& fabric) {

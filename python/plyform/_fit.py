@@ -7,7 +7,7 @@ import os
 import warnings
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Sequence, Tuple, Union
+from typing import Any, List, Sequence, Tuple, Union
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -16,8 +16,13 @@ from . import _plyform
 
 Array = NDArray[np.float64]
 AnyPath = Union[str, "os.PathLike[str]"]
-#: A CSV file, or places and values as two sequences.
-AnyCurve = Union[AnyPath, Tuple[ArrayLike, ArrayLike]]
+#: A CSV file, or places and values as a tuple of two sequences; of a shear test also of three, the
+#: last a measured shear angle in degrees.
+AnyCurve = Union[AnyPath, Tuple[ArrayLike, ArrayLike], Tuple[ArrayLike, ArrayLike, ArrayLike]]
+#: A curve, or a list of them, one for each specimen.
+AnyCurves = Union[AnyCurve, List[AnyCurve]]
+#: A number, "fit" to have it found, or None.
+Correction = Union[float, str, None]
 
 
 @dataclass(frozen=True)
@@ -34,6 +39,14 @@ class Fit:
     #: N, of each row; of tension per yarn.
     measured_N: Array
     fitted_N: Array
+    #: Half widths of the 95 % limits: of each coefficient, and the largest of the law, over it. Of
+    #: one specimen from its residuals, of several from the spread between them.
+    limits: list[float]
+    law_limits: float
+    #: The coefficients of each specimen, and the largest standard deviation of the law between
+    #: specimens, over it.
+    of_specimens: list[list[float]]
+    scatter: float
 
     def _law(self) -> tuple[str, str]:
         """Key of the law in its table of a fabric file, and its value as TOML."""
@@ -97,11 +110,19 @@ class TensionFit(Fit):
         self._write(yarns, fabric, output)
 
 
-def _curve(curve: AnyCurve, x_column: str | int, y_column: str | int) -> _plyform.Curve:
+def _curve(curve: AnyCurve, x_column: str | int, y_column: str | int, angle_column: str | int,
+           strain: bool) -> _plyform.Curve:
     if isinstance(curve, (str, os.PathLike)):
-        return _plyform.read_curve(Path(curve), str(x_column), str(y_column))
-    x, y = (np.asarray(values, dtype=float).ravel() for values in curve)
-    return _plyform.Curve(x, y)
+        return _plyform.read_curve(Path(curve), str(x_column), str(y_column), str(angle_column),
+                                   strain)
+    x, y, *angle = (np.asarray(values, dtype=float).ravel() for values in curve)
+    return _plyform.Curve(x, y, angle[0] if angle else [])
+
+
+def _curves(curves: AnyCurves, x_column: str | int, y_column: str | int,
+            angle_column: str | int = "", strain: bool = False) -> list[_plyform.Curve]:
+    several = curves if isinstance(curves, list) else [curves]
+    return [_curve(curve, x_column, y_column, angle_column, strain) for curve in several]
 
 
 def _test(bias: Sequence[float] | None, frame: float | None) -> _plyform.ShearTest:
@@ -119,37 +140,54 @@ def _warn(found: dict[str, Any]) -> dict[str, Any]:
     return found
 
 
-def identify_shear(curve: AnyCurve, fabric: AnyPath, *, bias: Sequence[float] | None = None,
+def identify_shear(curve: AnyCurves, fabric: AnyPath, *, bias: Sequence[float] | None = None,
                    frame: float | None = None, coefficients: int = 3, from_deg: float = 0.0,
-                   to_deg: float = np.inf, x_column: str | int = "",
-                   y_column: str | int = "") -> ShearFit:
-    """Law of shear from extension (mm) and load (N) of a shear test.
+                   to_deg: float = np.inf, x_column: str | int = "", y_column: str | int = "",
+                   angle_column: str | int = "", compliance: float | None = None,
+                   zero: Correction = None, toe: Correction = None, slip: bool = False,
+                   doubtful: bool = False) -> ShearFit:
+    """Law of shear from extension (mm) and load (N) of shear tests.
 
     bias: free length and width of a bias-extension specimen, mm; or
     frame: side of a picture frame, from hinge to hinge, mm.
     fabric: file with all but the law of shear.
     coefficients: how many, 1 to 6. from_deg, to_deg: shear angles of the rows that count.
-    x_column, y_column: columns of a CSV file by name or number from 1; the first two unless given.
+    x_column, y_column: columns of a CSV file by name or number from 1; by its header unless given.
+    angle_column: of a measured shear angle, which then counts instead of the extension, as the
+    third sequence of a curve does.
+    compliance: mm/N of machine and clamps; zero: N that the load cell shows without load, toe: mm
+    at which the specimen is taut, each a number or "fit"; slip: take a sudden slip off.
+    doubtful: accept what is refused as a doubtful curve or law.
 
     Warns of doubtful rows. Raises CaseError for what is wrong in curve, fabric or specimen,
     ValueError for other arguments.
     """
-    return ShearFit(**_warn(_plyform.identify_shear(_curve(curve, x_column, y_column),
-                                                    _test(bias, frame), Path(fabric), coefficients,
-                                                    from_deg, to_deg)))
+    curves = _curves(curve, x_column, y_column, angle_column)
+    several = curve if isinstance(curve, list) else [curve]
+    measured = angle_column != "" or all(isinstance(c, tuple) and len(c) == 3 for c in several)
+    corrections = {"compliance": compliance, "zero": zero, "toe": toe, "slip": slip,
+                   "doubtful": doubtful}
+    return ShearFit(**_warn(_plyform.identify_shear(curves, _test(bias, frame), Path(fabric),
+                                                    coefficients, from_deg, to_deg, measured,
+                                                    corrections)))
 
 
-def identify_tension(curve: AnyCurve, *, yarns: float = 1.0, gauge_length: float = 1.0,
+def identify_tension(curve: AnyCurves, *, yarns: float = 1.0, gauge_length: float = 1.0,
                      from_strain: float = 0.0, to_strain: float = np.inf, x_column: str | int = "",
-                     y_column: str | int = "") -> TensionFit:
-    """Law of tension from strain and force (N) of a yarn or strip test.
+                     y_column: str | int = "", compliance: float | None = None,
+                     zero: Correction = None, toe: Correction = None, slip: bool = False,
+                     doubtful: bool = False) -> TensionFit:
+    """Law of tension from strain and force (N) of yarn or strip tests.
 
     yarns: that share the force. gauge_length: mm, if the curve has displacements in mm.
-    from_strain, to_strain: of the rows that count. Columns, warnings and errors: as of
-    identify_shear.
+    from_strain, to_strain: of the rows that count. toe: a strain, or mm with gauge_length. Columns,
+    corrections, warnings and errors: as of identify_shear.
     """
-    return TensionFit(**_warn(_plyform.identify_tension(_curve(curve, x_column, y_column), yarns,
-                                                        gauge_length, from_strain, to_strain)))
+    corrections = {"compliance": compliance, "zero": zero, "toe": toe, "slip": slip,
+                   "doubtful": doubtful}
+    curves = _curves(curve, x_column, y_column, strain=gauge_length == 1.0)
+    return TensionFit(**_warn(_plyform.identify_tension(curves, yarns, gauge_length, from_strain,
+                                                        to_strain, corrections)))
 
 
 def theory_shear(fabric: AnyPath, *, bias: Sequence[float] | None = None,

@@ -19,12 +19,12 @@ expect_law() {
 }
 
 bias=(--length 300 --width 100 --fabric glass.toml)
-columns=(--x-column displacement_mm --y-column force_N)
+stiff=(--compliance 0) # the curves are of theory: no machine gives way
 
 # There and back, and the written file in a case.
 expect 0 'bias.csv, 61 rows' theory bias "${bias[@]}" --to 55 --points 60 -o bias.csv
 expect 0 'k1 = 0.37044, k3 = 0.84105, k5 = 1.0311' \
-  identify bias bias.csv "${columns[@]}" "${bias[@]}" -o found.toml
+  identify bias bias.csv "${bias[@]}" -o found.toml
 expect_law found.toml polynomial 0.37044 1e-6
 [ "$(head -n 1 found_fit.csv)" = displacement_mm,shear_deg,measured_N,fitted_N ] ||
   fail 'found_fit.csv: header'
@@ -35,7 +35,7 @@ sed -i 's|^glass = .*|glass = "../found.toml"|' case/case.toml
 grep -q found.toml case/case.toml || fail 'the case does not use the fabric found'
 expect 0 'the case is sound' check case --set blanks.square.element_size=34
 expect 0 'frame.csv' theory frame --side 200 --fabric glass.toml --to 50 -o frame.csv
-expect 0 'plot: tools/plot.py fit fit.csv -o fit.png' identify frame frame.csv "${columns[@]}" \
+expect 0 'plot: tools/plot.py fit fit.csv -o fit.png' identify frame frame.csv \
   --side 200 --fabric glass.toml --coefficients 3 --to 45 -o found.toml --fit fit.csv
 expect_law found.toml polynomial 0.37044 1e-6
 
@@ -50,12 +50,12 @@ printf 'surface_density = 600\nthickness = 0.6\n[warp]\ndensity = 0.25\n[weft]\n
 expect 2 'shear: is missing' theory bias --length 300 --width 100 --fabric bare.toml --to 30 -o x.csv
 awk 'BEGIN { for (i = 0; i <= 20; i++) print i / 10 "\t" i * 11500 * 25 / 1000 / 10 }' >strip.csv
 expect 0 'still without a law: weft' \
-  identify warp strip.csv --yarns 25 --gauge-length 250 --fabric bare.toml -o warp.toml
+  identify warp strip.csv --yarns 25 --gauge-length 250 --fabric bare.toml -o warp.toml --compliance 0
 expect_law warp.toml stiffness 2875 1e-6
 awk 'BEGIN { for (i = 0; i <= 50; i++) print i / 5000 "," 4e6 * (i / 5000) ^ 2 }' >yarn.csv
 expect 0 'table of 20 rows' identify weft yarn.csv --fabric warp.toml -o both.toml
 expect 0 'strain 0 to 0.01' identify weft yarn.csv --fabric warp.toml -o both.toml
-expect 0 'bias-extension' identify bias bias.csv "${columns[@]}" --length 300 --width 100 \
+expect 0 'bias-extension' identify bias bias.csv --length 300 --width 100 \
   --fabric both.toml -o all.toml
 sed -i 's|^glass = .*|glass = "../all.toml"|' case/case.toml
 expect 0 'the case is sound' check case --set blanks.square.element_size=34
@@ -66,7 +66,8 @@ go() { expect 2 "$1" identify bias "$2" "${bias[@]}" -o never.toml "${@:3}"; }
 go 'nosuch.csv:1:1: error: the curve cannot be opened' nosuch.csv
 go 'y-column = 4: the rows have 3 columns' bias.csv --y-column 4
 go 'did you mean force_N?' bias.csv --y-column force
-go 'the fitted torque falls' bias.csv # the second column is the shear angle
+go 'shear_deg = deg: is an angle, the load must be a force; take --y-column force_N' bias.csv \
+  --y-column shear_deg
 (cat low.csv; sed '1!G;h;$!d' low.csv) >unloaded.csv
 go 'if the test was unloaded there, take out the rows from line 63 on' unloaded.csv
 awk -F';' -v OFS=';' '{ print $1, -$2 }' low.csv >negative.csv
@@ -84,6 +85,78 @@ printf '1;2\n3,5;4\n' >comma.csv
 go 'comma.csv:2:1: error: column 1 = 3,5: must be a number; write a decimal point' comma.csv
 awk -F';' -v OFS=';' '{ print $1, $2 * (NR % 2 ? 0.95 : 1.05) }' low.csv >rough.csv
 expect 0 'warning: noise' identify bias rough.csv "${bias[@]}" -o rough.toml
+
+# What a machine adds: told, refused, taken off.
+grep -q 'compliance of machine' <("$program" identify bias bias.csv "${bias[@]}" -o x.toml 2>&1) ||
+  fail 'nothing on a compliance that is not given'
+if "$program" identify bias bias.csv "${bias[@]}" "${stiff[@]}" -o x.toml 2>&1 | grep warning; then
+  fail 'a warning for the curve of theory'
+fi
+rm x.toml x_fit.csv
+awk -F, -v OFS=, 'NR > 1 { $3 += 0.9 } { print $1, $3 }' bias.csv >zero.csv
+go 'the rows show a load zero off by 0.9 N' zero.csv "${stiff[@]}"
+expect 0 'taken off zero.csv: load zero 0.9 N' identify bias zero.csv "${bias[@]}" --zero fit \
+  "${stiff[@]}" -o found.toml
+expect_law found.toml polynomial 0.37044 1e-4
+expect 0 'load zero 0.9 N' identify bias zero.csv "${bias[@]}" --zero 0.9 "${stiff[@]}" -o found.toml
+expect_law found.toml polynomial 0.37044 1e-5
+expect 0 'residuals 7' identify bias zero.csv "${bias[@]}" --yes-doubtful "${stiff[@]}" -o found.toml
+awk -F, -v OFS=, 'NR > 1 { $1 += 0.02 * $3 } { print $1, $3 }' bias.csv >soft.csv
+expect 0 'compliance 0.02 mm/N' identify bias soft.csv "${bias[@]}" --compliance 0.02 -o found.toml
+expect_law found.toml polynomial 0.37044 1e-6
+awk -F, -v OFS=, 'NR > 1 { $1 += (NR > 30 ? 5 : 0) } { print }' bias.csv >slip.csv
+go 'a slip of 5 mm' slip.csv "${stiff[@]}"
+expect 0 'slip 5 mm' identify bias slip.csv "${bias[@]}" --slip fit "${stiff[@]}" -o found.toml
+expect_law found.toml polynomial 0.37044 1e-3
+expect 0 'the measured shear angle (shear_deg) is up to' identify bias slip.csv "${bias[@]}" \
+  --yes-doubtful -o found.toml
+expect 0 'the law is of the measured angle' identify bias slip.csv "${bias[@]}" \
+  --angle-column shear_deg -o found.toml
+expect_law found.toml polynomial 0.37044 1e-5
+awk -F, -v OFS=, 'NR > 1 { print $1, $3 / 1000 }' bias.csv >kilo.csv
+go 'is no fabric' kilo.csv
+expect 0 'k1 = 0.37044' identify bias kilo.csv "${bias[@]}" --y-unit kN -o found.toml
+go 'zero = none: must be a number or fit' zero.csv --zero none
+go 'compliance = -1: must be at least 0' zero.csv --compliance -1
+go 'nothing to correct: the angle is measured' slip.csv --angle-column shear_deg --compliance 0.01
+
+# Several specimens.
+for n in 1 2 3; do
+  awk -F, -v OFS=, -v f="0.9$n" 'NR > 1 { $3 *= f } { print $1, $3 }' bias.csv >"part$n.csv"
+done
+expect 0 '3 specimens, standard deviation of the torque between them 1.1 %' identify bias \
+  part1.csv part2.csv part3.csv "${bias[@]}" "${stiff[@]}" -o found.toml
+expect_law found.toml polynomial 0.3408 1e-3
+[ "$(head -n 1 found_fit.csv)" = displacement_mm,shear_deg,measured_N,fitted_N,specimen ] ||
+  fail 'found_fit.csv: header of several specimens'
+grep -q '^# Identified by plyform .* from part1.csv, part2.csv, part3.csv:' found.toml ||
+  fail 'found.toml does not name its specimens'
+go 'would overwrite part2.csv' part1.csv part2.csv --fit part2.csv
+
+# Bending and compression.
+printf 'overhang_mm,angle_deg\n140,41.5\n141,41.5\n139,41.5\n' >hang.csv
+expect 0 'bending length 69' identify cantilever hang.csv --direction both --fabric glass.toml \
+  -o bent.toml
+[ "$(grep -c '^bending_stiffness = ' bent.toml)" = 2 ] || fail 'bent.toml: warp and weft'
+awk 'BEGIN { print "deflection (mm),force (N)"; for (i = 0; i <= 30; i++) print i / 5 "," i * 48 * 2 * 50 / 5 / 60 ^ 3 }' >three.csv
+expect 0 'bending_stiffness = 2 N mm' identify three-point three.csv --span 60 --width 50 \
+  --direction warp --fabric bent.toml --compliance 0 -o bent2.toml
+expect_law bent2.toml bending_stiffness 2 1e-4
+awk 'BEGIN { print "deflection (mm),force (N)"; for (i = 0; i <= 60; i++) { m = i / 1200; print 900 * (m / 12 + 25 * m ^ 3) "," 200 * m / 60 } }' >soften.csv
+expect 0 'bending_table of 7 rows, 3.9' identify three-point soften.csv --span 60 --width 50 \
+  --direction warp --fabric bent.toml --compliance 0 -o bent5.toml
+grep -q '^bending_table = ' bent5.toml || fail 'bent5.toml has no table'
+expect 0 'k1 = 0.37044' identify bias bias.csv "${bias[@]:0:4}" --fabric bent5.toml -o bent6.toml
+awk 'BEGIN { print "s (mm),gamma (deg)"; for (i = 0; i <= 30; i++) print i * 2 "," 8 - 6 * exp(-i * 2 / 10) }' >zone.csv
+expect 0 'zone 10 mm wide' identify in-plane-bending zone.csv --direction both --fabric bent2.toml \
+  -o bent3.toml
+awk 'BEGIN { print "strain,force (N)"; for (i = 0; i <= 40; i++) { e = i / 4000; print e "," (e < 0.005 ? 460 * e : 2.3 + 4.6 * (e - 0.005)) } }' >press.csv
+expect 0 'buckling_force = 2.3 N per yarn' identify compression press.csv --direction warp \
+  --fabric bent3.toml -o bent4.toml
+sed -i 's|^glass = .*|glass = "../bent4.toml"|' case/case.toml
+expect 0 'the case is sound' check case --set blanks.square.element_size=34
+expect 2 'shear: is missing' identify in-plane-bending zone.csv --direction both --fabric bare.toml \
+  -o never.toml
 
 # What is wrong with options and files.
 expect 2 'length = 150: must be at least twice the width' identify bias low.csv --length 150 \

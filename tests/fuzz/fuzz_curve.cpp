@@ -11,7 +11,11 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto file = fuzz::put("curve.csv", data, size);
   for (const auto& [x, y] : {std::pair("", ""), std::pair("2", "1"), std::pair("strain", "load")}) {
     Diagnostics diagnostics;
-    std::optional<Curve> curve = read_curve(file, x, y, diagnostics);
+    CurveColumns columns;
+    columns.x.column = x;
+    columns.y.column = y;
+    columns.with_angle = true;
+    std::optional<Curve> curve = read_curve(file, columns, diagnostics);
     if (!curve || !check_curve(*curve, "displacement", "force", diagnostics)) {
       if (diagnostics.errors.empty()) std::abort();
       continue;

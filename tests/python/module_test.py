@@ -293,8 +293,30 @@ def check_fits(folder):
     with warnings.catch_warnings(record=True) as told:
         warnings.simplefilter("always")
         noise = 1.0 + 0.05 * (-1.0) ** np.arange(61)
-        plyform.identify_shear((curve[0], curve[1] * noise), FABRIC, bias=(200, 100))
+        plyform.identify_shear((curve[0], curve[1] * noise), FABRIC, bias=(200, 100), compliance=0,
+                               toe=0)
     assert len(told) == 1 and "noise" in str(told[0].message)
+    check_corrections(theory, curve)
+
+
+def check_corrections(theory, curve):
+    """What a machine adds is refused, taken off, told; several specimens; measured angles."""
+    known = dict(fabric=FABRIC, bias=(200, 100), compliance=0)
+    off = curve[0], curve[1] + 0.03 * curve[1].max()
+    error = raised(plyform.CaseError, plyform.identify_shear, off, **known)
+    assert "load zero" in error.mistakes[0].rule
+    found = plyform.identify_shear(off, zero="fit", **known)
+    assert np.allclose(found.coefficients, [0.37044, 0.84105, 1.03113], rtol=1e-3)
+    pair = [(curve[0], 0.9 * curve[1]), (curve[0], 1.1 * curve[1])]
+    both = plyform.identify_shear(pair, **known)
+    assert np.isclose(both.scatter, 0.1 * np.sqrt(2)) and len(both.of_specimens) == 2
+    assert len(both.limits) == 3 and min(both.limits) > 0.0
+    slipped = curve[0] * 1.05, curve[1], theory["shear_deg"]
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        angles = plyform.identify_shear(slipped, FABRIC, bias=(200, 100))
+    assert np.allclose(angles.coefficients, [0.37044, 0.84105, 1.03113], rtol=1e-6)
+    raised(ValueError, plyform.identify_shear, off, zero="none", **known)
 
 
 def check_page(folder):

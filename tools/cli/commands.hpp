@@ -35,8 +35,9 @@ struct RunArguments {
 /// A shear test: bias or frame; NaN where not given.
 struct SpecimenArguments {
   double length = std::numeric_limits<double>::quiet_NaN(); ///< mm, bias
-  double width = std::numeric_limits<double>::quiet_NaN();  ///< mm, bias
+  double width = std::numeric_limits<double>::quiet_NaN();  ///< mm, bias, three-point
   double side = std::numeric_limits<double>::quiet_NaN();   ///< mm, frame
+  double span = std::numeric_limits<double>::quiet_NaN();   ///< mm, three-point
 };
 
 struct DifferenceArguments {
@@ -50,14 +51,26 @@ struct ExportArguments {
   std::string frame;                ///< a number, "all", or empty: the last, without its number
 };
 
+/// A column of a curve: name or number, and the unit in the place of the header's.
+struct ColumnArguments {
+  std::string name, unit;
+};
+
 struct IdentifyArguments {
-  std::string test; ///< bias, frame, warp or weft
-  std::string curve, x_column, y_column;
+  std::string
+      test; ///< bias, frame, warp, weft, compression, cantilever, three-point, in-plane-bending
+  std::vector<std::string> curves; ///< one for each specimen
+  ColumnArguments x, y, angle;
   std::string fabric, output, fit;
   SpecimenArguments specimen;
   int coefficients = 3;
-  double from = 0.0, to = std::numeric_limits<double>::infinity(); ///< degrees, or strain
+  double from = 0.0, to = std::numeric_limits<double>::infinity(); ///< degrees, strain, or share
   double yarns = 1.0, gauge_length = 1.0;                          ///< -, mm
+  std::string compliance, zero, toe,
+      slip;                      ///< numbers (mm/N, N, mm or strain), or fit; empty: not given
+  std::string direction;         ///< warp, weft or both
+  std::string reading = "angle"; ///< of a cantilever: angle or deflection
+  bool doubtful = false;
 };
 
 struct TheoryArguments {

@@ -1,275 +1,152 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// plyform identify: measured curve -> law -> fabric file. plyform theory: fabric file -> curve.
+// plyform identify: measured curves -> law -> fabric file.
 #include "core/base/version.hpp"
-#include "core/fit/fit_shear.hpp"
-#include "core/input/fabric_file.hpp"
 #include "core/results/result_fields.hpp"
-#include "tools/cli/commands.hpp"
+#include "tools/cli/identify_parts.hpp"
 
-#include <cmath>
-#include <filesystem>
+#include <algorithm>
 #include <fmt/format.h>
-#include <numbers>
+#include <stdexcept>
 
 namespace plyform {
 namespace {
 
 namespace fs = std::filesystem;
-constexpr double deg = std::numbers::pi / 180.0;
 
-void option_error(const std::string& option, const std::string& value, const std::string& rule,
-                  const std::string& remedy, Diagnostics& diagnostics) {
-  diagnostics.error({option, 1, 1}, option.substr(2), value, rule, remedy);
+/// The curves; errors are reported.
+std::vector<Curve> curves_of(const IdentifyArguments& a, Diagnostics& diagnostics) {
+  std::vector<Curve> curves;
+  for (const std::string& file : a.curves)
+    if (auto curve = read_curve(file, columns_of(a), diagnostics))
+      curves.push_back(std::move(*curve));
+  return curves;
 }
 
-/// Prints warnings, then errors; returns whether there are errors.
-bool print(const Diagnostics& diagnostics) {
-  for (const std::string& warning : diagnostics.warnings)
-    fmt::print(stderr, "{}\n", warning);
-  for (const CaseError& error : diagnostics.errors)
-    fmt::print(stderr, "{}\n", error.text());
-  return !diagnostics.errors.empty();
-}
-
-bool same_file(const fs::path& a, const fs::path& b) {
-  std::error_code ignored;
-  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) ||
-         fs::equivalent(a, b, ignored);
-}
-
-/// Reports an error if an output file is one of the other files read or written, or if its
-/// temporary name is.
-void check_output(const std::string& option, const fs::path& output,
-                  const std::vector<fs::path>& others, Diagnostics& diagnostics) {
-  fs::path temporary = output;
-  temporary += ".tmp";
-  for (const fs::path& other : others)
-    if (same_file(output, other) || same_file(temporary, other))
-      option_error(option, output.string(), "would overwrite " + other.string(),
-                   "give another file", diagnostics);
-}
-
-/// The test of the arguments; reports errors and returns nothing if its sizes are invalid.
-std::optional<ShearTest> test_of(const std::string& name, const SpecimenArguments& sizes,
-                                 Diagnostics& diagnostics) {
-  const BiasSpecimen bias{sizes.length, sizes.width};
-  const FrameSpecimen frame{sizes.side};
-  const auto fault = name == "bias" ? fault_of(bias) : fault_of(frame);
-  if (!fault) return name == "bias" ? shear_test(bias) : shear_test(frame);
-  option_error("--" + fault->size, fmt::format("{:g}", fault->value), fault->rule, fault->remedy,
-               diagnostics);
-  return std::nullopt;
-}
-
-/// Reads the fabric; its errors are added to `diagnostics`.
-FabricReading fabric_of(const std::string& file, bool for_shear, Diagnostics& diagnostics) {
-  FabricReading reading = read_fabric_file(file, true);
-  diagnostics.errors.insert(diagnostics.errors.end(), reading.errors.begin(), reading.errors.end());
-  if (reading.value && for_shear &&
-      std::abs(reading.value->fibre_angle - 0.5 * std::numbers::pi) > 1e-6)
-    diagnostics.error({file, 1, 1}, "fibre_angle",
-                      fmt::format("{:g}", reading.value->fibre_angle / deg),
-                      "must be 90 degrees: the theory of the shear tests is for such fabrics",
-                      "take the law from a test of your own evaluation and write it in by hand");
-  return reading;
-}
-
-void check_range(const IdentifyArguments& arguments, bool shear, Diagnostics& diagnostics) {
-  const double most = shear ? 90.0 : std::numeric_limits<double>::infinity();
-  if (!(arguments.from >= 0.0 && arguments.from < most))
-    option_error("--from", fmt::format("{:g}", arguments.from),
-                 shear ? "must be at least 0 and below 90" : "must be at least 0",
-                 shear ? "give a shear angle in degrees" : "give a strain", diagnostics);
-  else if (!(arguments.to > arguments.from))
-    option_error("--to", fmt::format("{:g}", arguments.to),
-                 fmt::format("must be greater than --from, {:g}", arguments.from),
-                 shear ? "give a shear angle in degrees" : "give a strain", diagnostics);
-}
-
-/// An identified law as text for the report and the fabric file.
-struct Identified {
-  LawText law;
-  std::string fit;                  ///< CSV
-  std::string law_line;             ///< for the report
-  std::vector<std::string> figures; ///< range, residuals
-};
-
-std::string figure_of_residuals(const FitQuality& quality, const std::string& at) {
-  return fmt::format("residuals {:.2g} % of the load rms, {:.2g} % at most, at {}",
-                     100.0 * quality.rms, 100.0 * quality.largest, at);
-}
-
-Identified shear_text(const ShearFit& fit) {
-  Identified result;
-  std::string numbers, names;
-  for (std::size_t i = 0; i < fit.law.k.size(); ++i) {
-    numbers += fmt::format("{}{:.7g}", i ? ", " : "", fit.law.k[i]);
-    names += fmt::format("{}k{} = {:.5g}", i ? ", " : "", 2 * i + 1, fit.law.k[i]);
+/// A pressed yarn must not be stiffer than a pulled one.
+void check_compression(const CompressionFit& fit, const IdentifyArguments& a, const Fabric& fabric,
+                       Diagnostics& diagnostics) {
+  for (const std::string& yarns : families_of(a.direction)) {
+    const double pulled = (yarns == "warp" ? fabric.warp : fabric.weft).largest_slope();
+    if (pulled > 0.0 && fit.stiffness > pulled)
+      diagnostics.error({a.curves.front(), 1, 1}, yarns + ".compression_stiffness",
+                        fmt::format("{:.5g}", fit.stiffness),
+                        fmt::format("must be at most the stiffness in tension, {:.5g}", pulled),
+                        "check units, --yarns and --gauge-length");
   }
-  result.law = {"shear", "polynomial", "[" + numbers + "]", {}};
-  result.law_line = names + " N mm: torque of one unit cell = k1 g + k3 g^3 + ..., g in rad";
-  const FitQuality& q = fit.quality;
-  result.figures = {fmt::format("{} rows, shear angle {:.3g} to {:.3g} degrees", q.rows,
-                                q.from / deg, q.to / deg),
-                    figure_of_residuals(q, fmt::format("{:.3g} degrees", q.largest_at / deg))};
-  if (fit.in_plane.most > 0.0)
-    result.figures.push_back(fmt::format(
-        "in-plane bending adds {:.2g} to {:.2g} % to the load of shear: {:.2g} % taken off",
-        100.0 * fit.in_plane.least, 100.0 * fit.in_plane.most, 100.0 * fit.in_plane.mean()));
-  result.fit = "displacement_mm,shear_deg,measured_N,fitted_N\n";
-  for (std::size_t i = 0; i < fit.angle.size(); ++i)
-    result.fit += fmt::format("{:.9g},{:.9g},{:.9g},{:.9g}\n", fit.extension[i], fit.angle[i] / deg,
-                              fit.measured[i], fit.fitted[i]);
-  return result;
 }
 
-Identified tension_text(const TensionFit& fit, const std::string& yarns) {
-  Identified result;
-  if (fit.law.strain.empty()) {
-    result.law = {yarns, "stiffness", fmt::format("{:.7g}", fit.law.stiffness), {}};
-    result.law_line = fmt::format("stiffness = {:.5g} N per yarn", fit.law.stiffness);
-  } else {
-    std::string rows = "[";
-    for (std::size_t i = 0; i < fit.law.strain.size(); ++i)
-      rows += fmt::format("\n    [{:.9g}, {:.7g}],", fit.law.strain[i], fit.law.tension[i]);
-    result.law = {yarns, "table", rows + "\n]", {}};
-    result.law_line =
-        fmt::format("table of {} rows, up to {:.4g} N per yarn at a strain of {:.4g}; no line fits",
-                    fit.law.strain.size(), fit.law.tension.back(), fit.law.strain.back());
-  }
-  const FitQuality& q = fit.quality;
-  result.figures = {fmt::format("{} rows, strain {:.3g} to {:.3g}", q.rows, q.from, q.to),
-                    figure_of_residuals(q, fmt::format("a strain of {:.3g}", q.largest_at))};
-  result.fit = "strain,measured_N,fitted_N\n";
-  for (std::size_t i = 0; i < fit.strain.size(); ++i)
-    result.fit +=
-        fmt::format("{:.9g},{:.9g},{:.9g}\n", fit.strain[i], fit.measured[i], fit.fitted[i]);
-  return result;
-}
-
-std::string test_words(const IdentifyArguments& a) {
-  if (a.test == "bias")
-    return fmt::format("bias-extension test, {:g} x {:g} mm, equation (40) read backwards",
-                       a.specimen.length, a.specimen.width);
-  if (a.test == "frame")
-    return fmt::format("picture frame of {:g} mm, equation (41) read backwards", a.specimen.side);
-  std::string words =
-      fmt::format("tension test of {:g} yarn{}", a.yarns, a.yarns == 1.0 ? "" : "s");
-  if (a.gauge_length != 1.0) words += fmt::format(", gauge length {:g} mm", a.gauge_length);
-  return words;
-}
-
-/// Checks the arguments before the curve is read.
-void check_arguments(const IdentifyArguments& a, const fs::path& fit, bool shear,
-                     Diagnostics& diagnostics) {
-  check_output("--output", a.output, {a.curve, a.fabric}, diagnostics);
-  check_output("--fit", fit, {a.curve, a.fabric, a.output}, diagnostics);
-  check_range(a, shear, diagnostics);
-  if (a.coefficients < 1 || a.coefficients > 6)
-    option_error("--coefficients", fmt::format("{}", a.coefficients), "must be 1 to 6",
-                 "give the number of coefficients k1, k3, k5 ..., usually 3", diagnostics);
-  if (!(a.yarns > 0.0 && std::isfinite(a.yarns)))
-    option_error("--yarns", fmt::format("{:g}", a.yarns), "must be greater than 0",
-                 "give the number of yarns that share the force", diagnostics);
-  if (!(a.gauge_length > 0.0 && std::isfinite(a.gauge_length)))
-    option_error("--gauge-length", fmt::format("{:g}", a.gauge_length), "must be greater than 0",
-                 "give the free length of the yarns, in mm", diagnostics);
-}
-
-std::optional<Identified> identify(const IdentifyArguments& a, const Fabric& fabric,
-                                   const std::optional<ShearTest>& test, const Curve& curve,
+std::optional<Identified> identify(const IdentifyArguments& a, const FabricReading& base,
+                                   const std::optional<ShearTest>& test,
+                                   const std::vector<Curve>& curves, const FitOptions& options,
                                    Diagnostics& diagnostics) {
-  const double unit = test ? deg : 1.0;
-  const FitOptions options{a.coefficients, a.from * unit, a.to * unit};
+  const Fabric& fabric = *base.value;
   if (test) {
-    const auto fit = identify_shear(curve, *test, fabric, options, diagnostics);
+    const auto fit = identify_shear(curves, *test, fabric, options, diagnostics);
     return fit ? std::optional(shear_text(*fit)) : std::nullopt;
   }
-  const auto fit = identify_tension(curve, {a.yarns, a.gauge_length}, options, diagnostics);
-  return fit ? std::optional(tension_text(*fit, a.test)) : std::nullopt;
+  if (a.test == "compression") {
+    const auto fit =
+        identify_compression(curves.front(), {a.yarns, a.gauge_length}, options, diagnostics);
+    if (!fit) return std::nullopt;
+    check_compression(*fit, a, fabric, diagnostics);
+    return compression_text(*fit, a);
+  }
+  if (a.test == "cantilever") {
+    const auto reading =
+        a.reading == "angle" ? CantileverReading::chord_angle : CantileverReading::sag;
+    const auto fit = identify_cantilever(curves, reading, fabric, options, diagnostics);
+    return fit ? std::optional(bending_text(*fit, a)) : std::nullopt;
+  }
+  if (a.test == "three-point") {
+    const auto fit = identify_three_point(curves, {a.specimen.span, a.specimen.width}, fabric,
+                                          options, diagnostics);
+    return fit ? std::optional(bending_text(*fit, a)) : std::nullopt;
+  }
+  if (a.test == "in-plane-bending") {
+    const auto fit = identify_zone(curves, fabric, options, diagnostics);
+    return fit ? std::optional(zone_text(*fit, a)) : std::nullopt;
+  }
+  const auto fit = identify_tension(curves, {a.yarns, a.gauge_length}, options, diagnostics);
+  return fit ? std::optional(tension_text(*fit, a)) : std::nullopt;
+}
+
+/// Names of the files, without folders.
+std::string files_of(const IdentifyArguments& a) {
+  std::string names;
+  for (const std::string& curve : a.curves)
+    names += (names.empty() ? "" : ", ") + fs::path(curve).filename().string();
+  return names;
+}
+
+/// The comment above the law in the fabric file.
+std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fabric,
+                                    const Identified& result) {
+  std::vector<std::string> comment{
+      fmt::format("Identified by plyform {} from {}:", version(), files_of(a)),
+      test_words(a) +
+          (is_shear_test(a.test)
+               ? fmt::format(", {:g} x {:g} yarns/mm", fabric.warp_density, fabric.weft_density)
+               : "") +
+          ";"};
+  for (const std::string& figure : result.figures)
+    comment.push_back(figure + (&figure == &result.figures.back() ? "." : ";"));
+  if (result.laws.front().key == "polynomial")
+    comment.push_back("torque of one unit cell = k1 g + k3 g^3 ..., N mm, g in rad");
+  return comment;
 }
 
 void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
                       const FabricReading& base, Identified result) {
-  result.law.comment = {fmt::format("Identified by plyform {} from {}:", version(),
-                                    fs::path(a.curve).filename().string()),
-                        test_words(a) +
-                            (a.test == "bias" || a.test == "frame"
-                                 ? fmt::format(", {:g} x {:g} yarns/mm", base.value->warp_density,
-                                               base.value->weft_density)
-                                 : "") +
-                            ";"};
-  for (const std::string& figure : result.figures)
-    result.law.comment.push_back(figure + (&figure == &result.figures.back() ? "." : ";"));
-  if (result.law.key == "polynomial")
-    result.law.comment.push_back("torque of one unit cell = k1 g + k3 g^3 ..., N mm, g in rad");
-  const std::string text = with_law(base.text, result.law);
+  std::string text = base.text;
+  for (LawText& law : result.laws) {
+    law.comment = comment_of(a, *base.value, result);
+    if (law.key == "buckling_force") law.comment.clear();
+    text = with_law(text, law);
+  }
   write_whole(fit_file, result.fit);
   write_whole(a.output, text);
-  const bool shear = result.law.table == "shear";
-  fmt::print("{} law of {} from {}\n", shear ? "shear" : result.law.table + " tension",
-             base.value->name, a.curve);
+  fmt::print("{} of {} from {}\n", result.title, base.value->name, files_of(a));
   fmt::print("  {}\n  {}\n", test_words(a), result.law_line);
   for (const std::string& figure : result.figures)
     fmt::print("  {}\n", figure);
+  for (const std::string& note : result.notes)
+    fmt::print("  {}\n", note);
   for (const std::string& missing : base.missing)
-    if (missing != result.law.table)
+    if (std::find(result.provides.begin(), result.provides.end(), missing) == result.provides.end())
       fmt::print("  still without a law: {}; no case can use the fabric before\n", missing);
+  fmt::print("written: {}, {}\n", a.output, fit_file.string());
   fs::path picture = fit_file;
-  fmt::print("written: {}, {}\nplot: tools/plot.py fit {} -o {}\n", a.output, fit_file.string(),
-             fit_file.string(), picture.replace_extension(".png").string());
+  if (is_shear_test(a.test) || is_tension_test(a.test) ||
+      (a.test == "three-point" && result.laws.front().key == "bending_stiffness"))
+    fmt::print("plot: tools/plot.py fit {} -o {}\n", fit_file.string(),
+               picture.replace_extension(".png").string());
 }
 
 } // namespace
 
 int identify_command(const IdentifyArguments& arguments) {
-  const bool shear = arguments.test == "bias" || arguments.test == "frame";
+  const bool shear = is_shear_test(arguments.test);
   const fs::path output = arguments.output;
   const fs::path fit = arguments.fit.empty()
                            ? output.parent_path() / (output.stem().string() + "_fit.csv")
                            : fs::path(arguments.fit);
   Diagnostics diagnostics;
-  check_arguments(arguments, fit, shear, diagnostics);
+  check_arguments(arguments, fit, diagnostics);
+  const FitOptions options = fit_options(arguments, diagnostics);
   const auto test = shear ? test_of(arguments.test, arguments.specimen, diagnostics) : std::nullopt;
   const FabricReading base = fabric_of(arguments.fabric, shear, diagnostics);
-  const auto curve =
-      read_curve(arguments.curve, arguments.x_column, arguments.y_column, diagnostics);
+  if (arguments.test == "in-plane-bending" &&
+      std::find(base.missing.begin(), base.missing.end(), "shear") != base.missing.end())
+    diagnostics.error({arguments.fabric, 1, 1}, "shear", "", "is missing",
+                      "the zone's width says how bending and shear go together: identify the law "
+                      "of shear first");
+  const std::vector<Curve> curves = curves_of(arguments, diagnostics);
   std::optional<Identified> result;
   if (diagnostics.errors.empty())
-    result = identify(arguments, *base.value, test, *curve, diagnostics);
-  if (print(diagnostics)) return exit_case_wrong;
+    result = identify(arguments, base, test, curves, options, diagnostics);
+  if (print_diagnostics(diagnostics)) return exit_case_wrong;
+  if (!result) throw std::logic_error("no law and no reason for it");
   write_and_report(arguments, fit, base, *result);
-  return exit_done;
-}
-
-int theory_command(const TheoryArguments& arguments) {
-  Diagnostics diagnostics;
-  check_output("--output", arguments.output, {arguments.fabric}, diagnostics);
-  const std::optional<ShearTest> test = test_of(arguments.test, arguments.specimen, diagnostics);
-  const FabricReading fabric = fabric_of(arguments.fabric, true, diagnostics);
-  for (const std::string& missing : fabric.missing)
-    if (missing == "shear")
-      diagnostics.error({arguments.fabric, 1, 1}, "shear", "", "is missing",
-                        "give the law of shear, or identify it from a measured curve");
-  if (!(arguments.to > 0.0 && arguments.to < 90.0))
-    option_error("--to", fmt::format("{:g}", arguments.to), "must be above 0 and below 90",
-                 "give the last shear angle, in degrees", diagnostics);
-  if (arguments.points < 1 || arguments.points > 1000000)
-    option_error("--points", fmt::format("{}", arguments.points), "must be 1 to 1000000",
-                 "give the number of rows", diagnostics);
-  if (print(diagnostics)) return exit_case_wrong;
-  std::string rows = "displacement_mm,shear_deg,force_N\n";
-  const double end = extension_at(*test, arguments.to * deg);
-  const double bending = in_plane_bending_share(*test, *fabric.value).mean();
-  for (int i = 0; i <= arguments.points; ++i) {
-    const double d = end * i / arguments.points;
-    rows += fmt::format("{:.9g},{:.9g},{:.9g}\n", d, shear_angle(*test, d) / deg,
-                        (1.0 + bending) * test_load(*test, *fabric.value, d));
-  }
-  if (bending > 0.0)
-    fmt::print("in-plane bending adds {:.2g} % to the load by (40)\n", 100.0 * bending);
-  write_whole(arguments.output, rows);
-  fmt::print("written: {}, {} rows\n", arguments.output, arguments.points + 1);
   return exit_done;
 }
 

@@ -16,42 +16,105 @@ void add_specimen(CLI::App& test, const std::string& name, SpecimenArguments& to
   }
 }
 
-void add_curve(CLI::App& test, const std::string& x, const std::string& y, const std::string& range,
-               IdentifyArguments& to) {
-  test.add_option("curve", to.curve, "CSV file of " + x + " and " + y)->required();
-  test.add_option("--x-column", to.x_column, "name or number of the column of " + x + " [1]");
-  test.add_option("--y-column", to.y_column, "name or number of the column of " + y + " [2]");
-  test.add_option("--from", to.from, range + " from which rows count [0]");
-  test.add_option("--to", to.to, range + " up to which rows count");
+void add_files(CLI::App& test, const std::string& x, const std::string& y, IdentifyArguments& to) {
+  test.add_option("curves", to.curves, "CSV file of " + x + " and " + y + ", one for each specimen")
+      ->required();
+  test.add_option("--x-column", to.x.name, "name or number of the column of " + x);
+  test.add_option("--y-column", to.y.name, "name or number of the column of " + y);
+  test.add_option("--x-unit", to.x.unit, "its unit, if the header has none or a wrong one");
+  test.add_option("--y-unit", to.y.unit, "its unit, if the header has none or a wrong one");
   test.add_option("--fabric", to.fabric, "fabric file with all but the law")->required();
   test.add_option("-o,--output", to.output, "fabric file to write")->required();
-  test.add_option("--fit", to.fit, "CSV file of measured and fitted curve [OUTPUT's stem_fit.csv]");
+  test.add_option("--fit", to.fit, "CSV file of measured and fitted rows [OUTPUT's stem_fit.csv]");
+  test.add_flag("--yes-doubtful", to.doubtful,
+                "go on though the curve shows a disturbance or the law is no fabric's");
+}
+
+/// Range of rows, and what machines add to a curve.
+void add_corrections(CLI::App& test, const std::string& range, IdentifyArguments& to) {
+  test.add_option("--from", to.from, range + " from which rows count [0]");
+  test.add_option("--to", to.to, range + " up to which rows count");
+  test.add_option("--compliance", to.compliance,
+                  "mm/N by which machine, load cell and clamps give way; 0: none");
+  test.add_option("--zero", to.zero, "N that the load cell shows without load, or fit");
+  test.add_option("--toe", to.toe,
+                  "mm (or strain) at which the specimen is taut, or fit: toe compensation");
+  test.add_option("--slip", to.slip, "fit: takes a sudden slip in the clamps off");
+}
+
+void add_direction(CLI::App& test, IdentifyArguments& to, bool both) {
+  std::vector<std::string> words{"warp", "weft"};
+  if (both) words.push_back("both");
+  test.add_option("--direction", to.direction, "yarns that it is a test of")
+      ->required()
+      ->check(CLI::IsMember(words));
+}
+
+void add_shear_tests(CLI::App& command, IdentifyArguments& to) {
+  for (const std::string name : {"bias", "frame"}) {
+    const bool bias = name == "bias";
+    CLI::App* test = command.add_subcommand(
+        name, bias ? "shear law from bias-extension tests, equation (40) read backwards"
+                   : "shear law from picture-frame tests, equation (41) read backwards");
+    add_files(*test, bias ? "extension" : "extension of the diagonal", "load", to);
+    add_corrections(*test, "shear angle (degrees)", to);
+    test->add_option("--angle-column", to.angle.name,
+                     "column of a measured shear angle, in the place of the crosshead's");
+    test->add_option("--angle-unit", to.angle.unit, "its unit: deg or rad");
+    add_specimen(*test, name, to.specimen);
+    test->add_option("--coefficients", to.coefficients, "of the torque: k1, k3, k5 ... [3]");
+    test->callback([&to, name] { to.test = name; });
+  }
+}
+
+void add_yarn_tests(CLI::App& command, IdentifyArguments& to) {
+  for (const std::string name : {"warp", "weft", "compression"}) {
+    const bool pressed = name == "compression";
+    CLI::App* test = command.add_subcommand(
+        name, pressed ? "compression of yarns, from a supported strip or yarn that is shortened"
+                      : "tension law of the " + name + " yarns from yarn or strip tests");
+    add_files(*test, pressed ? "shortening" : "strain", "force", to);
+    add_corrections(*test, "strain", to);
+    test->add_option("--yarns", to.yarns, "number of yarns that share the force [1]");
+    test->add_option("--gauge-length", to.gauge_length,
+                     "mm that turn a displacement into strain [1: it is a strain]");
+    if (pressed) add_direction(*test, to, true);
+    test->callback([&to, name] { to.test = name; });
+  }
+}
+
+void add_bending_tests(CLI::App& command, IdentifyArguments& to) {
+  CLI::App* cantilever = command.add_subcommand(
+      "cantilever", "bending stiffness from a strip that hangs over an edge (Peirce, ASTM D1388)");
+  add_files(*cantilever, "overhang", "angle of the chord or deflection of the tip", to);
+  cantilever->add_option("--reading", to.reading, "what is read beside the overhang [angle]")
+      ->check(CLI::IsMember({"angle", "deflection"}));
+  add_direction(*cantilever, to, true);
+  cantilever->callback([&to] { to.test = "cantilever"; });
+
+  CLI::App* three =
+      command.add_subcommand("three-point", "bending stiffness from three-point bending");
+  add_files(*three, "deflection", "force", to);
+  add_corrections(*three, "deflection over the span", to);
+  three->add_option("--span", to.specimen.span, "distance of the supports, mm")->required();
+  three->add_option("--width", to.specimen.width, "width of the strip, mm")->required();
+  add_direction(*three, to, true);
+  three->callback([&to] { to.test = "three-point"; });
+
+  CLI::App* zone = command.add_subcommand(
+      "in-plane-bending", "in-plane bending stiffness from the width of transition zones");
+  add_files(*zone, "distance along a yarn", "shear angle", to);
+  add_direction(*zone, to, true);
+  zone->callback([&to] { to.test = "in-plane-bending"; });
 }
 
 } // namespace
 
 void add_identify_tests(CLI::App& command, IdentifyArguments& to) {
   command.require_subcommand(1);
-  for (const std::string name : {"bias", "frame"}) {
-    const bool bias = name == "bias";
-    CLI::App* test = command.add_subcommand(
-        name, bias ? "shear law from a bias-extension test, equation (40) read backwards"
-                   : "shear law from a picture-frame test, equation (41) read backwards");
-    add_curve(*test, bias ? "extension (mm)" : "extension of the diagonal (mm)", "load (N)",
-              "shear angle (degrees)", to);
-    add_specimen(*test, name, to.specimen);
-    test->add_option("--coefficients", to.coefficients, "of the torque: k1, k3, k5 ... [3]");
-    test->callback([&to, name] { to.test = name; });
-  }
-  for (const std::string name : {"warp", "weft"}) {
-    CLI::App* test = command.add_subcommand(name, "tension law of the " + name +
-                                                      " yarns from a yarn or strip test");
-    add_curve(*test, "strain", "force (N)", "strain", to);
-    test->add_option("--yarns", to.yarns, "number of yarns that share the force [1]");
-    test->add_option("--gauge-length", to.gauge_length,
-                     "mm that turn a displacement in mm into strain [1: it is a strain]");
-    test->callback([&to, name] { to.test = name; });
-  }
+  add_shear_tests(command, to);
+  add_yarn_tests(command, to);
+  add_bending_tests(command, to);
 }
 
 void add_theory_tests(CLI::App& command, TheoryArguments& to) {

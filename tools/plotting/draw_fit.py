@@ -3,6 +3,7 @@
 
 import argparse
 
+import numpy as np
 from matplotlib import pyplot
 from matplotlib.figure import Figure
 
@@ -27,12 +28,14 @@ def draw(options: argparse.Namespace) -> Figure:
                                             gridspec_kw={"height_ratios": [2.2, 1]},
                                             layout="constrained")
     x = factor * table[column]
+    along = np.argsort(x, kind="stable")  # rows of several specimens follow each other
     top.plot(x, table["measured_N"], "o", mfc="none", ms=5, color="black", label="measured")
-    top.plot(x, table["fitted_N"], color=COLOURS[1], label="fitted")
+    top.plot(x[along], table["fitted_N"][along], color=COLOURS[1], label="fitted")
     top.set_ylabel("force (N)")
     top.set_title(options.fit.stem)
     top.legend()
-    bottom.plot(x, deviation(table["fitted_N"], table["measured_N"]), ".-", color=COLOURS[1])
+    bottom.plot(x, deviation(table["fitted_N"], table["measured_N"]),
+                "." if "specimen" in table else ".-", color=COLOURS[1])
     bottom.axhline(0.0, color="black", lw=0.8)
     bottom.set(xlabel=label, ylabel="fitted / measured − 1 (%)")
     limit_deviation(bottom, options.limit)

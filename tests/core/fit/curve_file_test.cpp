@@ -47,7 +47,10 @@ Reading read(const std::string& text, const std::string& x = "", const std::stri
   const CurveFile file(text);
   Reading reading;
   reading.file = file.path.string();
-  reading.curve = read_curve(file.path, x, y, reading.diagnostics);
+  CurveColumns columns;
+  columns.x.column = x;
+  columns.y.column = y;
+  reading.curve = read_curve(file.path, columns, reading.diagnostics);
   return reading;
 }
 
@@ -107,10 +110,12 @@ TEST(CurveFile, NamesEveryMistakeWithPlaceAndRemedy) {
       {"0,0\n1,\n", "", "", "FILE:2:3: error: column 2: is empty, there must be a number"},
       {"0,0\n1,nan\n", "", "", "FILE:2:3: error: column 2 = nan: must be a finite number"},
       {"0,0\n1,1e999\n", "", "", "FILE:2:3: error: column 2 = 1e999: must be a number"},
-      {"0,0,0\n1,1\n", "", "3", "FILE:2:1: error: the row has 2 columns, there must be at least 3"},
+      {"0,0,0\n1,1\n", "1", "3",
+       "FILE:2:1: error: the row has 2 columns, there must be at least 3"},
       {"0,0\n1\n", "", "", "FILE:2:1: error: the row has 1 column, there must be at"},
       {"0 0\n1 1\n", "", "",
        "FILE:1:1: error: the row has 1 column, there must be at least 2; separate"},
+      {"0,0,0\n1,1,1\n", "", "3", "the columns are column 1 (of unknown kind), column 2"},
       {"0,0\n1,1\n", "", "3", "--y-column:1:1: error: y-column = 3: the rows have 2 columns; give"},
       {"d,force_N\n0,0\n", "", "force",
        "--y-column:1:1: error: y-column = force: is no column of the header;"},
@@ -121,8 +126,8 @@ TEST(CurveFile, NamesEveryMistakeWithPlaceAndRemedy) {
        "--x-column:1:1: error: x-column = d: names a column, but the file has no hea"},
       {"0,0\n1,1\n", "0", "",
        "--x-column:1:1: error: x-column = 0: must be a whole number from 1; give"},
-      {"0,0\n1,1\n", "2", "",
-       "--y-column:1:1: error: y-column = 2: is the column of --x-column too; give"},
+      {"0,0\n1,1\n", "2", "2",
+       "--y-column:1:1: error: y-column = column 2: is the column of --x-column too; give"},
       {"", "", "", "FILE:1:1: error: the file has no row of numbers; give a CSV"},
       {"# nothing\nd,F\n", "", "", "FILE:1:1: error: the file has no row of numbers; give a CSV"}};
   for (const Wrong& w : wrong) {
@@ -136,8 +141,8 @@ TEST(CurveFile, NamesEveryMistakeWithPlaceAndRemedy) {
 
 TEST(CurveFile, SaysWhatCannotBeRead) {
   Diagnostics diagnostics;
-  EXPECT_FALSE(read_curve("nosuch.csv", "", "", diagnostics));
-  EXPECT_FALSE(read_curve(::testing::TempDir(), "", "", diagnostics));
+  EXPECT_FALSE(read_curve("nosuch.csv", CurveColumns{}, diagnostics));
+  EXPECT_FALSE(read_curve(::testing::TempDir(), CurveColumns{}, diagnostics));
   ASSERT_EQ(diagnostics.errors.size(), 2u);
   EXPECT_NE(diagnostics.errors[0].text().find("the curve cannot be opened"), std::string::npos);
   EXPECT_NE(diagnostics.errors[1].text().find("is a folder"), std::string::npos);
@@ -186,11 +191,11 @@ TEST(CurveChecks, RefuseWhatIsNoLoading) {
       {"5,0\n4,1\n3,2\n", "the extension falls from the first row on"},
       {"2,0\n2,1\n2,2\n", "the extension is the same in every row, it must rise; choose"},
       {"-1,0\n0,1\n2,2\n", "FILE:1:1: error: column 1 = -1: the extension must not be below 0; "
-                           "subtract"},
+                           "give the extension at which the load begins to rise with --toe"},
       {"0,0\n1,-1\n2,-2\n", "FILE:3:1: error: column 2 = -2: the load must not be below 0 by more "
                             "than 2 % of its largest value, 0; turn the sign"},
       {"0,-1\n1,4\n2,9\n", "column 2 = -1: the load must not be below 0 by more than 2 % of its "
-                           "largest value, 9; subtract the value that the load cell shows"},
+                           "largest value, 9; give the value that the load cell shows"},
       {"0,0\n1,0\n2,0\n",
        "FILE:1:1: error: column 2 = 0: the load is 0 in every row, it must rise; "
        "choose another column with --y-column"}};

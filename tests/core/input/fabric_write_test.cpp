@@ -207,5 +207,32 @@ polynomial = [1.0]
   EXPECT_TRUE(fabric.locking_angle);
 }
 
+TEST(WithLaw, PutsBendingInPlaceOfItsTableAndTakesKeysOut) {
+  const Folder folder;
+  const std::string base = R"(
+surface_density = 600.0
+thickness = 0.6
+[warp]
+density = 0.25
+stiffness = 46000.0
+compression_stiffness = 460.0
+buckling_force = 5.0
+bending_table = [[0.0, 0.0], [0.1, 0.2]]
+[weft]
+density = 0.25
+stiffness = 48000.0
+[shear]
+polynomial = [1.0]
+)";
+  const std::string bent = with_law(base, {"warp", "bending_stiffness", "1.5", {"measured"}});
+  const Fabric fabric =
+      in_a_case(folder, with_law(bent, {"warp", "buckling_force", "", {"not written"}}));
+  EXPECT_EQ(fabric.bending.warp.stiffness, 1.5);
+  EXPECT_TRUE(fabric.bending.warp.curvature.empty());
+  EXPECT_FALSE(fabric.warp.buckles());
+  EXPECT_EQ(fabric.warp.stiffness, 46000.0);
+  EXPECT_EQ(fabric.warp.compression, 460.0);
+}
+
 } // namespace
 } // namespace plyform

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Student's distribution and minima of functions of one variable.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+namespace plyform {
+
+/// Half width of the 95 % limits of a mean, over its standard error; `freedom` at least 1.
+double student_95(double freedom);
+
+/// Probability that |t| is at least this by chance.
+double student_beyond(double t, double freedom);
+
+/// Place of a minimum of f in [least, most], to 1e-6 of their distance.
+double minimum_of(const std::function<double(double)>& f, double least, double most);
+
+struct Spread {
+  double mean = 0.0;
+  double deviation = 0.0; ///< standard deviation of one
+  double limits = 0.0;    ///< half width of the 95 % limits of the mean
+};
+
+/// Of two values or more.
+Spread spread_of(const std::vector<double>& values);
+
+} // namespace plyform
