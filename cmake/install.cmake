@@ -18,9 +18,16 @@ set(public_headers
   contact/shapes/tool_shape.hpp
   core/base/diagnostics.hpp
   core/base/version.hpp
+  core/fit/corrections.hpp
   core/fit/curve_file.hpp
+  core/fit/curve_table.hpp
+  core/fit/disturbances.hpp
+  core/fit/fit_quality.hpp
   core/fit/fit_shear.hpp
+  core/fit/linear_law.hpp
   core/fit/shear_tests.hpp
+  core/fit/statistics.hpp
+  core/fit/units.hpp
   core/input/case_file.hpp
   core/mesh/mesh_blank.hpp
   core/model/blank_spec.hpp
@@ -30,6 +37,7 @@ set(public_headers
   core/model/isotropic.hpp
   core/model/sheet_law.hpp
   core/model/sheet_response.hpp
+  core/model/usual_ranges.hpp
   core/results/draw_in.hpp
   core/results/export.hpp
   core/results/frame.hpp
