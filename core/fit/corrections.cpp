@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numeric>
 
 namespace plyform {
 namespace {
@@ -108,14 +107,6 @@ Shift more_slip(const LinearLaw& law, const LoadRows& rows, std::size_t row) {
   return shift;
 }
 
-void sort_by_x(Curve& curve) {
-  std::vector<std::size_t> order(curve.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return curve.x[a] < curve.x[b]; });
-  curve = rows_of(curve, order);
-}
-
 /// The rows with x in [from, to], and the number of the first.
 LoadRows load_rows(const Curve& curve, double from, double to, std::size_t& first) {
   std::vector<double> x, y;
@@ -190,7 +181,7 @@ bool apply_given(Curve& curve, const Corrections& corrections, const std::string
   }
   for (std::size_t i = 0; i < curve.size(); ++i)
     curve.x[i] -= done.compliance * curve.y[i];
-  sort_by_x(curve);
+  curve = sorted_by_x(curve);
   return true;
 }
 
@@ -235,7 +226,7 @@ void apply_fitted(Curve& curve, const Corrections& corrections, const LinearLaw&
     }
   }
   if (slip_at > 0) done.slip_at = curve.x[slip_at];
-  sort_by_x(curve);
+  curve = sorted_by_x(curve);
   done.load_zero += found.load_zero;
   done.toe += found.toe;
   done.slip = found.slip;

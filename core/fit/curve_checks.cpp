@@ -59,11 +59,7 @@ bool sort_rows(Curve& curve, const std::string& word, double share, Diagnostics&
       fmt::format("the {} steps back {} time{}, by {:.2g} % of its span at most: the "
                   "rows have been sorted",
                   word, steps, steps == 1 ? "" : "s", 100.0 * largest / span));
-  std::vector<std::size_t> order(curve.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(),
-                   [&](std::size_t a, std::size_t b) { return curve.x[a] < curve.x[b]; });
-  curve = rows_of(curve, order);
+  curve = sorted_by_x(curve);
   return true;
 }
 

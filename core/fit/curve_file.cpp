@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <numeric>
 
 namespace plyform {
 namespace {
@@ -115,6 +116,14 @@ Curve rows_of(const Curve& curve, const std::vector<std::size_t>& rows) {
     if (!curve.angle.empty()) result.angle.push_back(curve.angle[row]);
   }
   return result;
+}
+
+Curve sorted_by_x(const Curve& curve) {
+  std::vector<std::size_t> order(curve.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return curve.x[a] < curve.x[b]; });
+  return rows_of(curve, order);
 }
 
 } // namespace plyform

@@ -55,4 +55,7 @@ inline constexpr double noise_share = 0.02;
 /// The rows of a curve with the numbers `rows`, in that order.
 Curve rows_of(const Curve& curve, const std::vector<std::size_t>& rows);
 
+/// The rows in ascending x, those of equal x as they were.
+Curve sorted_by_x(const Curve& curve);
+
 } // namespace plyform

@@ -12,7 +12,7 @@ namespace plyform {
 namespace {
 
 // Degrees: beyond, no woven fabric shears. Tried with five plies under 2000 N of a blank-holder
-// (docs/users/stopped.md).
+// (docs/users/fabrics.md#locking).
 constexpr double sheared_too_far = 70.0;
 constexpr const char* sheared_remedy =
     ", where its yarns lie on each other; those of a weave lock at 40 to 60 degrees: give the "

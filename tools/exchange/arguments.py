@@ -1,8 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the commands map, pattern and export share: their exit codes, and whole files."""
+"""What the commands map, pattern and export share: their exit codes, and the state to read."""
 
 import argparse
-import os
 import sys
 from collections.abc import Callable
 from pathlib import Path
@@ -32,22 +31,6 @@ def ended(command: str, act: Callable[[], None]) -> None:
     except (OSError, NotReached) as problem:
         print(f"{command}: error: {problem}", file=sys.stderr)
         sys.exit(EXIT_OTHER)
-
-
-def write_whole(path: Path, text: str) -> Path:
-    """The file appears under its name only when it is whole."""
-    part = path.with_name(path.name + ".part")
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, path)
-    return path
-
-
-def make_whole(path: Path, write: Callable[[Path], None]) -> Path:
-    """The same for files that a library writes."""
-    part = path.with_name("part_" + path.name)
-    write(part)
-    os.replace(part, path)
-    return path
 
 
 def add_state(parser: argparse.ArgumentParser) -> None:
