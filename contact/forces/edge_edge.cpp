@@ -72,27 +72,72 @@ double far_of(const EdgeEdgeContact& contact) {
   return 2.0 * contact.distance;
 }
 
+/// Pairs with a smaller gap than this (mm) are measured at every step, so that the stable time step
+/// knows them before they touch.
+constexpr double always_measured = 0.05;
+
 /// Updates the active pairs. Pairs that stay active keep their state.
-void renew_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a,
-                 std::span<const SheetEdge> edges_a, const SurfaceKinematics& b,
-                 std::span<const SheetEdge> edges_b, double path_length) {
-  if (!update(contact.list, path_length, [](std::int32_t) {})) return;
-  const std::vector<EdgePair> old = std::move(contact.pairs);
-  contact.pairs.clear();
+void renew_pairs(EdgeGroup& group, const EdgeSheet& a, const EdgeSheet& b, double far) {
+  if (!update(group.list, group.path_length, [](std::int32_t) {})) return;
+  const std::vector<EdgePair> old = std::move(group.pairs);
+  group.pairs.clear();
   std::size_t known = 0;
-  for (const std::int32_t i : contact.list.active) {
-    const auto& edge = contact.candidates[i];
+  for (const std::int32_t i : group.list.active) {
+    const auto& edge = group.candidates[i];
     while (known < old.size() && old[known].edge < edge)
       ++known;
     if (known < old.size() && old[known].edge == edge) {
-      contact.pairs.push_back(old[known]);
+      group.pairs.push_back(old[known]);
       continue;
     }
-    const SheetEdge &of_a = edges_a[edge[0]], &of_b = edges_b[edge[1]];
+    const SheetEdge &of_a = a.edges.all[edge[0]], &of_b = b.edges.all[edge[1]];
     EdgePair pair{edge, {of_a.a, of_a.b}, {of_b.a, of_b.b}};
-    pair.area = std::min(edge_area(a, pair.a), edge_area(b, pair.b));
-    measure(pair, a, b, far_of(contact));
-    contact.pairs.push_back(pair);
+    pair.area = std::min(edge_area(a.state, pair.a), edge_area(b.state, pair.b));
+    pair.distance = far;
+    group.pairs.push_back(pair);
+  }
+}
+
+/// Adds the forces of a closed pair, p deep, that has deepened by dp in this step, both mm. n: unit
+/// normal from b to a; touched: whether it was closed at the step before.
+void press(EdgeEdgeContact& contact, const EdgePair& pair, const Vec3& n, double p, double dp,
+           bool touched, double dt, std::span<Vec3> force_a, std::span<Vec3> force_b) {
+  ContactTotals& sums = contact.sums;
+  const NormalForce force = normal_force(contact.law, pair.area, p, touched ? dp : 0.0, dt);
+  sums.damping += force.damping * dp;
+  const Vec3 f = force.total * n;
+  const auto add = [](std::span<Vec3> to, int node, const Vec3& share) { to[node] += share; };
+  add(force_a, pair.a.a, (1.0 - pair.s) * f);
+  add(force_a, pair.a.b, pair.s * f);
+  add(force_b, pair.b.a, (pair.t - 1.0) * f);
+  add(force_b, pair.b.b, -pair.t * f);
+  sums.elastic += pair.area * contact.law.energy(p);
+  sums.penetration = std::max(sums.penetration, p);
+  ++sums.touching;
+}
+
+/// Measures the pairs of a group that may touch, and adds the forces of those that do.
+void group_forces(EdgeEdgeContact& contact, EdgeGroup& group, const SurfaceKinematics& a,
+                  const SurfaceKinematics& b, double dt, std::span<Vec3> force_a,
+                  std::span<Vec3> force_b) {
+  const double now = group.path_length, soon = now + std::max(group.list.ahead, always_measured);
+  for (std::size_t i = 0; i < group.pairs.size(); ++i) {
+    double& free_until = group.list.free_until[group.list.active[i]];
+    if (free_until > soon) continue;
+    EdgePair& pair = group.pairs[i];
+    const bool followed = pair.side != 0;
+    const double last = pair.distance;
+    const Vec3 n = measure(pair, a, b, far_of(contact));
+    const double p = contact.distance - pair.distance, dp = last - pair.distance;
+    if (followed && pair.side != 0)
+      contact.sums.step_ratio = std::min(contact.sums.step_ratio, step_ratio(contact.law, p, dp));
+    if (p > 0.0) {
+      press(contact, pair, n, p, dp, last < contact.distance, dt, force_a, force_b);
+      continue;
+    }
+    if (last < contact.distance) continue;
+    free_until = now + edge_distance(pair.a, a.x, pair.b, b.x) - contact.distance;
+    if (free_until > soon) pair.side = 0; // unmeasured until then, the edges may pass each other
   }
 }
 
@@ -117,58 +162,29 @@ double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const Edg
   return distance;
 }
 
-void edge_forces(EdgeEdgeContact& contact, const SurfaceKinematics& a,
-                 std::span<const SheetEdge> edges_a, const SurfaceKinematics& b,
-                 std::span<const SheetEdge> edges_b, double dt, double path_length,
+void edge_forces(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeSheet& b, double dt,
                  std::span<Vec3> force_a, std::span<Vec3> force_b) {
   const Stopwatch watch(contact.time.forces);
-  ContactTotals& sums = contact.sums;
-  renew_pairs(contact, a, edges_a, b, edges_b, path_length);
-  clear_present(sums);
-  for (std::size_t i = 0; i < contact.pairs.size(); ++i) {
-    EdgePair& pair = contact.pairs[i];
-    double& free_until = contact.list.free_until[contact.list.active[i]];
-    if (free_until > path_length + contact.list.ahead) continue;
-    const bool followed = pair.side != 0;
-    const double last = pair.distance;
-    const Vec3 n = measure(pair, a, b, far_of(contact));
-    const double p = contact.distance - pair.distance, dp = last - pair.distance;
-    if (followed && pair.side != 0)
-      sums.step_ratio = std::min(sums.step_ratio, step_ratio(contact.law, p, dp));
-    if (!(p > 0.0)) {
-      if (last < contact.distance) continue;
-      // path length before which the pair cannot touch
-      free_until = path_length + edge_distance(pair.a, a.x, pair.b, b.x) - contact.distance;
-      if (free_until > path_length + contact.list.ahead)
-        pair.side = 0; // unmeasured until then, the edges may pass each other
-      continue;
-    }
-    const NormalForce force =
-        normal_force(contact.law, pair.area, p, last < contact.distance ? dp : 0.0, dt);
-    sums.damping += force.damping * dp;
-    const Vec3 f = force.total * n;
-    const auto add = [](std::span<Vec3> to, int node, const Vec3& share) { to[node] += share; };
-    add(force_a, pair.a.a, (1.0 - pair.s) * f);
-    add(force_a, pair.a.b, pair.s * f);
-    add(force_b, pair.b.a, (pair.t - 1.0) * f);
-    add(force_b, pair.b.b, -pair.t * f);
-    sums.elastic += pair.area * contact.law.energy(p);
-    sums.penetration = std::max(sums.penetration, p);
-    ++sums.touching;
+  clear_present(contact.sums);
+  for (EdgeGroup& group : contact.groups) {
+    group.path_length +=
+        relative_motion(a.patch_motion[group.patch[0]], b.patch_motion[group.patch[1]]);
+    renew_pairs(group, a, b, far_of(contact));
+    group_forces(contact, group, a.state, b.state, dt, force_a, force_b);
   }
-  sums.deepest = std::max(sums.deepest, sums.penetration);
+  contact.sums.deepest = std::max(contact.sums.deepest, contact.sums.penetration);
 }
 
 void add_edge_stiffness(const EdgeEdgeContact& contact, double margin, std::span<ContactRow> rows_a,
                         std::span<ContactRow> rows_b) {
-  for (const EdgePair& pair : contact.pairs) {
-    if (!within(contact, pair, margin)) continue;
+  for_each_pair(contact, [&](const EdgePair& pair) {
+    if (!within(contact, pair, margin)) return;
     const ContactRow row = 2.0 * pair.area * row_of(contact.law, contact.distance - pair.distance);
     rows_a[pair.a.a] += (1.0 - pair.s) * row;
     rows_a[pair.a.b] += pair.s * row;
     rows_b[pair.b.a] += (1.0 - pair.t) * row;
     rows_b[pair.b.b] += pair.t * row;
-  }
+  });
 }
 
 } // namespace plyform

@@ -18,21 +18,12 @@
 #include "contact/forces/contact_law.hpp"
 #include "contact/forces/tool_ply.hpp"
 #include "contact/search/active_list.hpp"
+#include "contact/search/sheet_edges.hpp"
 
 #include <span>
 #include <vector>
 
 namespace plyform {
-
-/// An edge of a sheet: its nodes, and whether it is a free edge (a triangle on one side only).
-struct SheetEdge {
-  std::int32_t a, b;
-  bool rim;
-};
-
-/// All edges of a sheet, in ascending order of their node numbers. An edge of more than two
-/// triangles (non-manifold) is listed once for every two of them.
-std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles);
 
 /// The nodes of an edge.
 struct EdgeNodes {
@@ -49,21 +40,31 @@ struct EdgePair {
   double s = 0.0, t = 0.0;
 };
 
-/// All edges of a sheet, and the numbers of those to search, ascending.
-struct EdgeSet {
-  std::span<const SheetEdge> all;
-  std::span<const std::int32_t> some;
-};
-
-struct EdgeEdgeContact {
-  ContactLaw law;        ///< stiffness and damping per area; friction is not used
-  double distance = 0.0; ///< h/2, mm
+/// Candidate pairs of the edges of one patch of each sheet.
+struct EdgeGroup {
+  std::array<std::int32_t, 2> patch{};
+  /// mm, sum over the steps since the search of the largest relative displacement of a node of one
+  /// patch and one of the other: what contact/search/active_list.hpp calls a path length
+  double path_length = 0.0;
   std::vector<std::array<std::int32_t, 2>> candidates; ///< numbers of edges of a and b, ascending
   ActiveList list;                                     ///< of the candidates
   std::vector<EdgePair> pairs;                         ///< of list.active, in its order
+};
+
+struct EdgeEdgeContact {
+  ContactLaw law;                ///< stiffness and damping per area; friction is not used
+  double distance = 0.0;         ///< h/2, mm
+  std::vector<EdgeGroup> groups; ///< in ascending order of their patches, none without candidates
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again
   ContactTotals sums;
   ContactTime time;
+};
+
+/// A sheet whose edges are in contact.
+struct EdgeSheet {
+  SurfaceKinematics state;
+  const SheetEdges& edges;
+  std::span<const Box3> patch_motion; ///< mm, as of patch_motions, of the last step
 };
 
 /// Self-contact of a sheet: edges that share a node or are closer than `apart` (mm) in the
@@ -74,12 +75,12 @@ struct SelfEdges {
   double apart = 0.0;
 };
 
-/// Searches the candidates anew: pairs of edges at a distance <= contact.distance + skin (mm). x of
-/// a, b: mm. path_length: mm, as of contact/search/active_list.hpp. For self-contact a and b are
-/// the same sheet, and `self` is given.
-void find_edge_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a, const EdgeSet& edges_a,
-                     const SurfaceKinematics& b, const EdgeSet& edges_b, double skin,
-                     double path_length, const SelfEdges& self = {});
+/// Searches the candidates anew: pairs of edges at a distance <= contact.distance + skin (mm),
+/// among the edges with the numbers some_a and some_b, ascending. For self-contact a and b are the
+/// same sheet, and `self` is given.
+void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
+                     std::span<const std::int32_t> some_a, const EdgeSheet& b,
+                     std::span<const std::int32_t> some_b, double skin, const SelfEdges& self = {});
 
 /// Distance (mm) of two edges as segments. a, b: positions of the nodes of their sheets, mm.
 double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const EdgeNodes& edge_b,
@@ -92,12 +93,17 @@ inline bool within(const EdgeEdgeContact& contact, const EdgePair& pair, double 
          pair.distance <= contact.distance + std::min(margin, 0.5 * contact.distance);
 }
 
+/// Calls visit(pair) for every pair that is active.
+template <class Visit>
+void for_each_pair(const EdgeEdgeContact& contact, const Visit& visit) {
+  for (const EdgeGroup& group : contact.groups)
+    for (const EdgePair& pair : group.pairs)
+      visit(pair);
+}
+
 /// Adds the forces (N) of one step, (N) of contact_law.hpp, to those of each sheet's nodes. dt: s,
-/// the time step that led to these positions. path_length: mm, as of
-/// contact/search/active_list.hpp.
-void edge_forces(EdgeEdgeContact& contact, const SurfaceKinematics& a,
-                 std::span<const SheetEdge> edges_a, const SurfaceKinematics& b,
-                 std::span<const SheetEdge> edges_b, double dt, double path_length,
+/// the time step that led to these positions.
+void edge_forces(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeSheet& b, double dt,
                  std::span<Vec3> force_a, std::span<Vec3> force_b);
 
 /// Adds the row sums of the contact matrices, N/mm and N s/mm, to the rows of each sheet's nodes:

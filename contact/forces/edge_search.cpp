@@ -3,7 +3,6 @@
 #include "contact/forces/edge_edge.hpp"
 
 #include <cmath>
-#include <map>
 
 namespace plyform {
 namespace {
@@ -23,10 +22,11 @@ Box3 edge_box(const SheetEdge& e, std::span<const Vec3> x, double inflate) {
 /// axes of largest extent; each edge is in the cell of the lower corner of its box.
 class EdgeGrid {
 public:
-  EdgeGrid(const EdgeSet& edges, std::span<const Vec3> x) {
+  /// Of the edges with the numbers `some`.
+  EdgeGrid(const EdgeSheet& sheet, std::span<const std::int32_t> some) {
     Box3 all;
-    for (const std::int32_t e : edges.some) {
-      entries_.push_back({edge_box(edges.all[e], x, 0.0), e});
+    for (const std::int32_t e : some) {
+      entries_.push_back({edge_box(sheet.edges.all[e], sheet.state.x, 0.0), e});
       all.extend(entries_.back().box);
       widest_ = widest_.cwiseMax(entries_.back().box.sizes());
     }
@@ -98,55 +98,58 @@ bool neighbours(const SheetEdge& e, const SheetEdge& g, const SelfEdges& self) {
   return edge_distance({e.a, e.b}, self.x0, {g.a, g.b}, self.x0) < self.apart;
 }
 
-} // namespace
+/// A pair of edges within reach, and its gap, mm.
+struct Found {
+  std::array<std::int32_t, 2> patch, edge;
+  double gap;
+};
 
-std::vector<SheetEdge> sheet_edges(std::span<const Triangle> triangles) {
-  std::map<std::pair<int, int>, SheetEdge> open;
-  std::vector<SheetEdge> edges;
-  for (const Triangle& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const int i = t[k], j = t[(k + 1) % 3];
-      const auto key = std::minmax(i, j);
-      const auto found = open.find(key);
-      if (found == open.end()) {
-        open[key] = {key.first, key.second, true};
-      } else {
-        found->second.rim = false;
-        edges.push_back(found->second);
-        open.erase(found);
-      }
+/// Groups the pairs found, in ascending order of their edges, by patches. Groups keep the pairs
+/// that they had before the search.
+void renew_groups(EdgeEdgeContact& contact, std::vector<Found>& found) {
+  std::stable_sort(found.begin(), found.end(),
+                   [](const Found& f, const Found& g) { return f.patch < g.patch; });
+  std::vector<EdgeGroup> old = std::move(contact.groups);
+  contact.groups.clear();
+  auto before = old.begin();
+  for (const Found& f : found) {
+    if (contact.groups.empty() || contact.groups.back().patch != f.patch) {
+      contact.groups.emplace_back().patch = f.patch;
+      while (before != old.end() && before->patch < f.patch)
+        ++before;
+      if (before != old.end() && before->patch == f.patch)
+        contact.groups.back().pairs = std::move(before->pairs);
     }
-  for (const auto& [key, edge] : open)
-    edges.push_back(edge);
-  std::sort(edges.begin(), edges.end(), [](const SheetEdge& e, const SheetEdge& g) {
-    return std::pair(e.a, e.b) < std::pair(g.a, g.b);
-  });
-  return edges;
+    EdgeGroup& group = contact.groups.back();
+    group.candidates.push_back(f.edge);
+    group.list.free_until.push_back(f.gap);
+  }
 }
 
-void find_edge_pairs(EdgeEdgeContact& contact, const SurfaceKinematics& a, const EdgeSet& edges_a,
-                     const SurfaceKinematics& b, const EdgeSet& edges_b, double skin,
-                     double path_length, const SelfEdges& self) {
-  contact.candidates.clear();
-  clear(contact.list);
-  const EdgeGrid grid(edges_b, b.x);
+} // namespace
+
+void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
+                     std::span<const std::int32_t> some_a, const EdgeSheet& b,
+                     std::span<const std::int32_t> some_b, double skin, const SelfEdges& self) {
+  const EdgeGrid grid(b, some_b);
   std::vector<std::int32_t> near;
-  for (const std::int32_t e : edges_a.some) {
-    const SheetEdge& edge = edges_a.all[e];
+  std::vector<Found> found;
+  for (const std::int32_t e : some_a) {
+    const SheetEdge& edge = a.edges.all[e];
     near.clear();
-    grid.visit(edge_box(edge, a.x, contact.distance + skin),
+    grid.visit(edge_box(edge, a.state.x, contact.distance + skin),
                [&near](std::int32_t other) { near.push_back(other); });
     std::sort(near.begin(), near.end());
     for (const std::int32_t other : near) {
-      const SheetEdge& of_b = edges_b.all[other];
+      const SheetEdge& of_b = b.edges.all[other];
       if (!self.x0.empty() && (other <= e || neighbours(edge, of_b, self))) continue;
-      const double gap =
-          edge_distance({edge.a, edge.b}, a.x, {of_b.a, of_b.b}, b.x) - contact.distance;
+      const double gap = edge_distance({edge.a, edge.b}, a.state.x, {of_b.a, of_b.b}, b.state.x) -
+                         contact.distance;
       if (gap > skin) continue; // the boxes intersect, the edges are further apart
-      contact.candidates.push_back({e, other});
-      contact.list.free_until.push_back(path_length + gap);
+      found.push_back({{a.edges.patch[e], b.edges.patch[other]}, {e, other}, gap});
     }
   }
+  renew_groups(contact, found);
 }
 
 } // namespace plyform

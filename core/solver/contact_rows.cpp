@@ -27,7 +27,7 @@ PairRows rows_of(const Scene& s, const PlyPair& pair) {
   }
   for (const int i : pair.edges) {
     const EdgeEdgeContact& contact = s.edge_contacts[i].contact;
-    if (contact.pairs.empty()) continue;
+    if (contact.groups.empty()) continue;
     begin();
     add_edge_stiffness(contact, edge_margin, rows.a, rows.b);
   }

@@ -103,8 +103,8 @@ std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double 
   const PlyState& body = s.plies[ply];
   const std::span<const char> occluded = occluded_nodes(s, ply, other, reach);
   std::vector<std::int32_t> open;
-  for (std::size_t i = 0; i < body.edges.size(); ++i) {
-    const SheetEdge& e = body.edges[i];
+  for (std::size_t i = 0; i < body.edges.all.size(); ++i) {
+    const SheetEdge& e = body.edges.all[i];
     if (occluded.empty() || !occluded[e.a] || !occluded[e.b])
       open.push_back(static_cast<std::int32_t>(i));
   }
@@ -124,15 +124,14 @@ void search_edges(Scene& s, PlyEdgeContact& pair) {
   }
   SelfEdges self; // the contact distance of edges is half that of nodes
   if (pair.a == pair.b) self = {a.x0, neighbourhood * 2.0 * pair.contact.distance};
-  find_edge_pairs(pair.contact, a.state(), {a.edges, open_a}, b.state(), {b.edges, open_b}, skin,
-                  a.path_length + b.path_length, self);
+  find_edge_pairs(pair.contact, a.edge_sheet(), open_a, b.edge_sheet(), open_b, skin, self);
 }
 
 /// Allocates the force arrays of two plies as soon as anything of them may touch: most pairs of a
 /// stack never do.
 void allocate_forces(const Scene& s, PlyPair& pair) {
   const auto may_touch = [&s](int i) { return !s.ply_contacts[i].contact.points.empty(); };
-  const auto may_cross = [&s](int i) { return !s.edge_contacts[i].contact.candidates.empty(); };
+  const auto may_cross = [&s](int i) { return !s.edge_contacts[i].contact.groups.empty(); };
   if (!pair.force_a.empty() ||
       !(std::any_of(pair.contacts.begin(), pair.contacts.end(), may_touch) ||
         std::any_of(pair.edges.begin(), pair.edges.end(), may_cross)))

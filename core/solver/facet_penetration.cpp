@@ -95,7 +95,7 @@ private:
 
 double longest_side(const PlyState& ply) {
   double longest = 0.0;
-  for (const SheetEdge& e : ply.edges)
+  for (const SheetEdge& e : ply.edges.all)
     longest = std::max(longest, (ply.x[e.a] - ply.x[e.b]).norm());
   return longest;
 }

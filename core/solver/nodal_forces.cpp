@@ -48,8 +48,7 @@ void pair_forces(Scene& s, PlyPair& pair) {
   }
   for (const int i : pair.edges) {
     EdgeEdgeContact& contact = s.edge_contacts[i].contact;
-    edge_forces(contact, a.state(), a.edges, b.state(), b.edges, s.dt,
-                a.path_length + b.path_length, pair.force_a, pair.force_b);
+    edge_forces(contact, a.edge_sheet(), b.edge_sheet(), s.dt, pair.force_a, pair.force_b);
     pair.loaded = pair.loaded || contact.sums.touching > 0;
   }
 }
@@ -82,6 +81,11 @@ void element_and_contact_forces(Scene& s, ThreadPool& pool) {
     PlyState& ply = s.plies[block.ply];
     bending_forces(ply.bending_simd, *ply.bending, ply.x, block.begin);
   };
+  if (!s.edge_contacts.empty())
+    pool.run(static_cast<int>(s.plies.size()), [&](int p) {
+      PlyState& ply = s.plies[p];
+      patch_motions(ply.edges, ply.motion, ply.patch_motion);
+    });
   const int pairs = static_cast<int>(s.ply_pairs.size());
   const int tools = pairs + static_cast<int>(s.tools.size());
   s.ply_states.clear();

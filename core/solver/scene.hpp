@@ -31,7 +31,7 @@ struct PlyModel {
   std::optional<MembraneSimd> simd; ///< SIMD version of the membrane; none without yarns
   std::optional<Bending> bending;   ///< none without bending stiffness
   BendingSimd bending_simd;         ///< SIMD version of the bending, or empty
-  std::vector<SheetEdge> edges;
+  SheetEdges edges;
   std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
 };
 
@@ -65,7 +65,8 @@ struct PlyStability {
 
 /// Temporary data of one step.
 struct PlyWorkspace {
-  std::vector<ElementForce> q; ///< forces without simd, one per triangle
+  std::vector<ElementForce> q;    ///< forces without simd, one per triangle
+  std::vector<Box3> patch_motion; ///< mm, as of patch_motions, of the last step
   /// Arrays of reaction and contact forces that are not zero in this step, in fixed order.
   std::vector<const std::vector<Vec3>*> nodal_forces;
 };
@@ -73,6 +74,7 @@ struct PlyWorkspace {
 /// A ply and its state.
 struct PlyState : PlyModel, PlyKinematics, PlySearch, PlyStability, PlyWorkspace {
   SurfaceKinematics state() const { return {x, motion, membrane.node_area, fold_bound}; }
+  EdgeSheet edge_sheet() const { return {state(), edges, patch_motion}; }
 };
 
 /// One tool with its contacts: contacts[i] is with ply i.

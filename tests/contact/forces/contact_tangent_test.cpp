@@ -137,13 +137,14 @@ TEST(ContactTangents, AnswerAsEdgesDo) {
   EdgeEdgeContact contact;
   contact.law = {3.0, 0.0, 0.0};
   contact.distance = 0.3;
-  const auto edges = sheet_edges(a.triangles);
+  const SheetEdges edges = sheet_edges(a.triangles, a.x);
   const std::vector<std::int32_t> first{0};
-  find_edge_pairs(contact, a.state(), {edges, first}, b.state(), {edges, first}, margin, 0.0);
+  const std::vector<Box3> motion(1, Box3(Vec3::Zero(), Vec3::Constant(10.0))); // one patch
+  const auto of = [&](const OwnedSheet& sheet) { return EdgeSheet{sheet.state(), edges, motion}; };
+  find_edge_pairs(contact, of(a), first, of(b), first, margin);
   const auto forces = [&] {
     std::vector<Vec3> f(6, Vec3::Zero());
-    edge_forces(contact, a.state(), edges, b.state(), edges, 0.0, 10.0, std::span(f).first(3),
-                std::span(f).last(3));
+    edge_forces(contact, of(a), of(b), 0.0, std::span(f).first(3), std::span(f).last(3));
     return f;
   };
   const std::vector<Vec3> before = forces();

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <limits>
 #include <numbers>
 #include <set>
 
@@ -26,21 +25,31 @@ OwnedSheet roof(double up, double angle, double z) {
   return sheet;
 }
 
-constexpr double always = std::numeric_limits<double>::infinity(); // mm, no pair is left out
-
-/// The edges of a sheet, all of them looked at.
+/// The edges of a sheet, all of them looked at: its patches move so far that no pair is left out.
 struct AllEdges {
-  std::vector<SheetEdge> edges;
+  const OwnedSheet& of;
+  SheetEdges edges;
   std::vector<std::int32_t> numbers;
+  std::vector<Box3> motion;
   explicit AllEdges(const OwnedSheet& sheet)
-      : edges(sheet_edges(sheet.triangles)), numbers(edges.size()) {
+      : of(sheet), edges(sheet_edges(sheet.triangles, sheet.x)), numbers(edges.all.size()),
+        motion(edges.patch_nodes.size(), Box3(Vec3::Zero(), Vec3::Constant(100.0))) {
     std::iota(numbers.begin(), numbers.end(), 0);
   }
-  EdgeSet set() const { return {edges, numbers}; }
+  EdgeSheet sheet() const { return {of.state(), edges, motion}; }
 };
 
 void search(EdgeEdgeContact& contact, const OwnedSheet& a, const OwnedSheet& b, double skin) {
-  find_edge_pairs(contact, a.state(), AllEdges(a).set(), b.state(), AllEdges(b).set(), skin, 0.0);
+  const AllEdges of_a(a), of_b(b);
+  find_edge_pairs(contact, of_a.sheet(), of_a.numbers, of_b.sheet(), of_b.numbers, skin);
+}
+
+/// The candidates of all groups.
+std::vector<std::array<std::int32_t, 2>> candidates(const EdgeEdgeContact& contact) {
+  std::vector<std::array<std::int32_t, 2>> all;
+  for (const EdgeGroup& group : contact.groups)
+    all.insert(all.end(), group.candidates.begin(), group.candidates.end());
+  return all;
 }
 
 /// A contact with what it does to both sheets' nodes.
@@ -51,8 +60,8 @@ struct Loaded : EdgeEdgeContact {
 void press(Loaded& contact, const OwnedSheet& a, const OwnedSheet& b, double dt) {
   contact.force_a.assign(a.x.size(), Vec3::Zero());
   contact.force_b.assign(b.x.size(), Vec3::Zero());
-  edge_forces(contact, a.state(), AllEdges(a).edges, b.state(), AllEdges(b).edges, dt, always,
-              contact.force_a, contact.force_b);
+  const AllEdges of_a(a), of_b(b);
+  edge_forces(contact, of_a.sheet(), of_b.sheet(), dt, contact.force_a, contact.force_b);
 }
 
 Loaded contact_of(const ContactLaw& law) {
@@ -147,7 +156,8 @@ TEST(EdgeEdgeContact, DampingTakesEnergyOnly) {
 }
 
 TEST(EdgeEdgeContact, EveryEdgeIsListedOnce) {
-  const auto edges = sheet_edges(square_sheet(4, 5.0, 0.0).triangles);
+  const OwnedSheet sheet = square_sheet(4, 5.0, 0.0);
+  const std::vector<SheetEdge> edges = sheet_edges(sheet.triangles, sheet.x).all;
   EXPECT_EQ(edges.size(), 4u * 5 * 2 + 16); // sides of cells and diagonals
   for (std::size_t i = 1; i < edges.size(); ++i)
     EXPECT_LT(std::pair(edges[i - 1].a, edges[i - 1].b), std::pair(edges[i].a, edges[i].b));
@@ -163,14 +173,14 @@ TEST(EdgeEdgeContact, FindsEveryPairWithinReach) {
     Loaded contact = contact_of({1.0, 0.0, 0.0});
     constexpr double skin = 0.5;
     search(contact, a, b, skin);
-    std::set<std::array<std::int32_t, 2>> found(contact.candidates.begin(),
-                                                contact.candidates.end());
-    EXPECT_EQ(found.size(), contact.candidates.size());
+    const auto listed = candidates(contact);
+    std::set<std::array<std::int32_t, 2>> found(listed.begin(), listed.end());
+    EXPECT_EQ(found.size(), listed.size());
     const AllEdges edges_a(a), edges_b(b);
     int near = 0;
     for (const std::int32_t i : edges_a.numbers)
       for (const std::int32_t j : edges_b.numbers) {
-        const SheetEdge &e = edges_a.edges[i], &g = edges_b.edges[j];
+        const SheetEdge &e = edges_a.edges.all[i], &g = edges_b.edges.all[j];
         double nearest = 1e300; // by points along both: never below the true distance
         for (int s = 0; s <= 30; ++s)
           for (int t = 0; t <= 30; ++t) {
@@ -195,7 +205,7 @@ TEST(EdgeEdgeContact, IsLinearWhileShallowAndHasNoEndBeforeItsLimit) {
     Loaded contact = contact_of(law);
     search(contact, a, b, 0.1);
     press(contact, a, b, 0.0);
-    return (contact.force_a[0] + contact.force_a[1]).z() / contact.pairs.at(0).area;
+    return (contact.force_a[0] + contact.force_a[1]).z() / contact.groups.at(0).pairs.at(0).area;
   };
   EXPECT_NEAR(force_at(distance - 0.003), k * 0.003, 1e-3 * k * 0.003); // (1 - u^2)^-2 at u = 0.02
   EXPECT_GT(force_at(distance - 0.999 * limit), 1e5 * k * limit);       // (1 - u^2)^2 = 4e-6
@@ -212,6 +222,61 @@ TEST(EdgeEdgeContact, TellsHowMuchLongerTheNextStepMayBe) {
   press(contact, a, b, 0.0);
   // 0.01 mm from touching, closing by 0.01 mm a step: to the share of the depth limit
   EXPECT_NEAR(contact.sums.step_ratio, (0.01 + step_share * law.max_depth) / 0.01, 1e-9);
+}
+
+/// Two crumpled sheets that are carried away together and rub against each other on the way.
+struct CarriedSheets {
+  OwnedSheet a = square_sheet(8, 4.0, 0.0), b = square_sheet(9, 3.3, 1.0);
+  std::vector<Vec3> own_a, own_b; ///< mm, displacements of the nodes in a step without the carrying
+
+  explicit CarriedSheets(Random& random) {
+    const auto crumple = [&random](OwnedSheet& sheet, std::vector<Vec3>& own, double down) {
+      for (Vec3& x : sheet.x) {
+        x += Vec3(0.5, 0.5, 0.4).cwiseProduct(random_vector(random));
+        own.push_back(0.004 * random_vector(random) - Vec3(0, 0, down));
+      }
+    };
+    crumple(a, own_a, 0.0);
+    crumple(b, own_b, 0.01);
+  }
+  void step() {
+    const auto move = [](OwnedSheet& sheet, std::vector<Vec3> own) {
+      for (Vec3& u : own)
+        u += Vec3(0.3, -0.2, 0.5);
+      sheet.move(own);
+    };
+    move(a, own_a);
+    move(b, own_b);
+  }
+};
+
+TEST(EdgeEdgeContact, LeavesPairsAloneThatMoveTogetherAndMissesNone) {
+  Random random(6);
+  CarriedSheets sheets(random);
+  Loaded contact = contact_of({3.0, 0.0, 0.0}), all = contact;
+  search(contact, sheets.a, sheets.b, 2.0);
+  search(all, sheets.a, sheets.b, 2.0);
+  const AllEdges of_a(sheets.a), of_b(sheets.b);
+  int touched = 0, active = 0, of = 0;
+  for (int i = 0; i < 60; ++i) {
+    sheets.step();
+    press(all, sheets.a, sheets.b, 0.0);
+    std::vector<Box3> boxes_a, boxes_b;
+    patch_motions(of_a.edges, sheets.a.motion, boxes_a);
+    patch_motions(of_b.edges, sheets.b.motion, boxes_b);
+    contact.force_a.assign(sheets.a.x.size(), Vec3::Zero());
+    contact.force_b.assign(sheets.b.x.size(), Vec3::Zero());
+    edge_forces(contact, {sheets.a.state(), of_a.edges, boxes_a},
+                {sheets.b.state(), of_b.edges, boxes_b}, 0.0, contact.force_a, contact.force_b);
+    touched += contact.sums.touching;
+    EXPECT_EQ(contact.sums.touching, all.sums.touching) << i;
+    for (std::size_t n = 0; n < contact.force_b.size(); ++n)
+      EXPECT_EQ((contact.force_b[n] - all.force_b[n]).norm(), 0.0) << i;
+    for_each_pair(contact, [&active](const EdgePair&) { ++active; });
+    for_each_pair(all, [&of](const EdgePair&) { ++of; });
+  }
+  EXPECT_GT(touched, 500);
+  EXPECT_LT(active, of / 2); // while they are carried 37 mm
 }
 
 /// A strip of two columns of cells of 10 mm along x, bent back over itself at x = 20: its two
@@ -240,21 +305,19 @@ TEST(EdgeEdgeContact, OfASheetWithItselfLeavesOutNeighboursAndGivesEachPairOnce)
   EdgeEdgeContact contact;
   contact.distance = distance;
   for (const double apart : {1.8, 12.0}) {
-    find_edge_pairs(contact, sheet.state(), all.set(), sheet.state(), all.set(), 0.3, 0.0,
-                    {x0, apart});
-    std::set<std::array<std::int32_t, 2>> found(contact.candidates.begin(),
-                                                contact.candidates.end()),
-        expected;
-    for (std::size_t e = 0; e < all.edges.size(); ++e)
-      for (std::size_t g = e + 1; g < all.edges.size(); ++g) { // every pair, by brute force
-        const SheetEdge &a = all.edges[e], &b = all.edges[g];
+    find_edge_pairs(contact, all.sheet(), all.numbers, all.sheet(), all.numbers, 0.3, {x0, apart});
+    const auto listed = candidates(contact);
+    std::set<std::array<std::int32_t, 2>> found(listed.begin(), listed.end()), expected;
+    for (std::size_t e = 0; e < all.edges.all.size(); ++e)
+      for (std::size_t g = e + 1; g < all.edges.all.size(); ++g) { // every pair, by brute force
+        const SheetEdge &a = all.edges.all[e], &b = all.edges.all[g];
         const bool share = a.a == b.a || a.a == b.b || a.b == b.a || a.b == b.b;
         if (!share && edge_distance({a.a, a.b}, x0, {b.a, b.b}, x0) >= apart &&
             edge_distance({a.a, a.b}, sheet.x, {b.a, b.b}, sheet.x) <= distance + 0.3)
           expected.insert({static_cast<std::int32_t>(e), static_cast<std::int32_t>(g)});
       }
     EXPECT_EQ(found, expected);
-    EXPECT_EQ(found.size(), contact.candidates.size()); // none twice
+    EXPECT_EQ(found.size(), listed.size()); // none twice
     EXPECT_FALSE(found.empty());
   }
 }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/search/sheet_edges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace plyform {
+namespace {
+
+/// Small patches move more alike, few are quicker to compare. With half or twice as many edges
+/// hemisphere_five_ply takes as long.
+constexpr double edges_per_patch = 30.0;
+
+std::vector<SheetEdge> list_edges(std::span<const Triangle> triangles) {
+  std::map<std::pair<int, int>, SheetEdge> open;
+  std::vector<SheetEdge> edges;
+  for (const Triangle& t : triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const int i = t[k], j = t[(k + 1) % 3];
+      const auto key = std::minmax(i, j);
+      const auto found = open.find(key);
+      if (found == open.end()) {
+        open[key] = {key.first, key.second, true};
+      } else {
+        found->second.rim = false;
+        edges.push_back(found->second);
+        open.erase(found);
+      }
+    }
+  for (const auto& [key, edge] : open)
+    edges.push_back(edge);
+  std::sort(edges.begin(), edges.end(), [](const SheetEdge& e, const SheetEdge& g) {
+    return std::pair(e.a, e.b) < std::pair(g.a, g.b);
+  });
+  return edges;
+}
+
+/// The size (mm) of the cells, and the axes that they divide.
+struct Cells {
+  double size;
+  int one, two;
+  Vec3 low;
+};
+
+Cells cells_of(std::size_t edges, std::span<const Vec3> x0) {
+  Box3 all;
+  for (const Vec3& x : x0)
+    all.extend(x);
+  const Vec3 sizes = x0.empty() ? Vec3::Zero().eval() : Vec3(all.sizes());
+  int flat = 0;
+  sizes.minCoeff(&flat);
+  const int one = (flat + 1) % 3, two = (flat + 2) % 3;
+  const double patches = std::max(1.0, static_cast<double>(edges) / edges_per_patch);
+  const double longest = std::max(sizes[one], sizes[two]);
+  const double size = std::sqrt(sizes[one] * sizes[two] / patches);
+  return {std::max({size, longest / patches, 1e-9}), one, two, all.min()};
+}
+
+} // namespace
+
+SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0) {
+  SheetEdges edges{list_edges(triangles), {}, {}};
+  const Cells cells = cells_of(edges.all.size(), x0);
+  std::map<std::pair<int, int>, std::int32_t> patch_at;
+  for (const SheetEdge& e : edges.all) {
+    const Vec3 from = (0.5 * (x0[e.a] + x0[e.b]) - cells.low) / cells.size;
+    const std::pair place(static_cast<int>(from[cells.one]), static_cast<int>(from[cells.two]));
+    const auto next = static_cast<std::int32_t>(edges.patch_nodes.size());
+    const auto [found, is_new] = patch_at.try_emplace(place, next);
+    if (is_new) edges.patch_nodes.emplace_back();
+    edges.patch.push_back(found->second);
+    std::vector<std::int32_t>& nodes = edges.patch_nodes[found->second];
+    nodes.insert(nodes.end(), {e.a, e.b});
+  }
+  for (std::vector<std::int32_t>& nodes : edges.patch_nodes) {
+    std::sort(nodes.begin(), nodes.end());
+    nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+  return edges;
+}
+
+void patch_motions(const SheetEdges& edges, std::span<const Vec3> motion,
+                   std::vector<Box3>& boxes) {
+  boxes.assign(edges.patch_nodes.size(), {});
+  for (std::size_t p = 0; p < boxes.size(); ++p)
+    for (const std::int32_t n : edges.patch_nodes[p])
+      boxes[p].extend(motion[n]);
+}
+
+double relative_motion(const Box3& a, const Box3& b) {
+  return (a.max() - b.min()).cwiseMax(b.max() - a.min()).norm();
+}
+
+} // namespace plyform

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The edges of a sheet, and patches of neighbouring edges whose motion is bounded together.
+//
+// Two edges that were a gap g apart cannot touch before one has moved by g relative to the other.
+// Plies that are drawn in together move far, but hardly relative to each other: a bound by patches
+// leaves most pairs alone for hundreds of steps, where one by the motion of whole sheets would have
+// them measured again every few.
+//
+//   u in box(p)           displacement in a step of every node of patch p, an axis-parallel box
+//   |u_a - u_b| <= |r|,   r_i = max(max_i a - min_i b, max_i b - min_i a)                    (R)
+#pragma once
+
+#include "contact/geometry.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plyform {
+
+/// An edge of a sheet: its nodes, and whether it is a free edge (a triangle on one side only).
+struct SheetEdge {
+  std::int32_t a, b;
+  bool rim;
+};
+
+/// All edges of a sheet.
+struct SheetEdges {
+  /// In ascending order of their node numbers. An edge of more than two triangles (non-manifold) is
+  /// listed once for every two of them.
+  std::vector<SheetEdge> all;
+  std::vector<std::int32_t> patch;                    ///< of each edge
+  std::vector<std::vector<std::int32_t>> patch_nodes; ///< of the edges of each patch, ascending
+};
+
+/// The edges of these triangles, with patches by square cells in the plane of the two largest
+/// extents of the nodes, x0 (mm).
+SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0);
+
+/// Boxes (mm) of the displacements of each patch's nodes in a step. motion: mm, one per node.
+void patch_motions(const SheetEdges& edges, std::span<const Vec3> motion, std::vector<Box3>& boxes);
+
+/// (R), mm: the largest relative displacement of a node of one patch and one of the other.
+double relative_motion(const Box3& a, const Box3& b);
+
+} // namespace plyform
