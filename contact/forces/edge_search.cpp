@@ -3,6 +3,7 @@
 #include "contact/forces/edge_edge.hpp"
 
 #include <cmath>
+#include <numeric>
 
 namespace plyform {
 namespace {
@@ -25,26 +26,21 @@ public:
   /// Of the edges with the numbers `some`.
   EdgeGrid(const EdgeSheet& sheet, std::span<const std::int32_t> some) {
     Box3 all;
+    std::vector<Entry> unsorted;
+    unsorted.reserve(some.size());
     for (const std::int32_t e : some) {
-      entries_.push_back({edge_box(sheet.edges.all[e], sheet.state.x, 0.0), e});
-      all.extend(entries_.back().box);
-      widest_ = widest_.cwiseMax(entries_.back().box.sizes());
+      unsorted.push_back({edge_box(sheet.edges.all[e], sheet.state.x, 0.0), e});
+      all.extend(unsorted.back().box);
+      widest_ = widest_.cwiseMax(unsorted.back().box.sizes());
     }
-    if (entries_.empty()) return;
+    if (unsorted.empty()) return;
     all.sizes().minCoeff(&flat_);
     low_ = all.min();
     constexpr double most_cells = 1000.0; // upper limit of the cells along an axis
     cell_ = std::max({widest_.maxCoeff(), all.sizes().maxCoeff() / most_cells, 1e-9});
     for (int axis = 0; axis < 3; ++axis)
       count_[axis] = axis == flat_ ? 1 : place(all.max()[axis], axis, 1 << 20) + 1;
-    std::stable_sort(entries_.begin(), entries_.end(), [this](const Entry& a, const Entry& b) {
-      return cell_of(a.box.min()) < cell_of(b.box.min());
-    });
-    begin_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2] + 1), 0);
-    for (const Entry& e : entries_)
-      ++begin_[static_cast<std::size_t>(cell_of(e.box.min())) + 1];
-    for (std::size_t i = 1; i < begin_.size(); ++i)
-      begin_[i] += begin_[i - 1];
+    sort_into_cells(unsorted);
   }
 
   /// Calls found(edge) for each edge whose box intersects this one.
@@ -73,6 +69,22 @@ private:
     Box3 box;
     std::int32_t edge;
   };
+
+  /// Entries of a cell stay in ascending order of their edges.
+  void sort_into_cells(const std::vector<Entry>& unsorted) {
+    std::vector<int> cell;
+    cell.reserve(unsorted.size());
+    begin_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2] + 1), 0);
+    for (const Entry& e : unsorted) {
+      cell.push_back(cell_of(e.box.min()));
+      ++begin_[static_cast<std::size_t>(cell.back()) + 1];
+    }
+    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
+    std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
+    entries_.resize(unsorted.size());
+    for (std::size_t i = 0; i < unsorted.size(); ++i)
+      entries_[static_cast<std::size_t>(next[static_cast<std::size_t>(cell[i])]++)] = unsorted[i];
+  }
 
   int place(double x, int axis, int last) const {
     return static_cast<int>(
@@ -104,21 +116,26 @@ struct Found {
   double gap;
 };
 
+/// Order of the patches of two pairs.
+bool before(const std::array<std::int32_t, 2>& p, const std::array<std::int32_t, 2>& q) {
+  return p[0] != q[0] ? p[0] < q[0] : p[1] < q[1];
+}
+
 /// Groups the pairs found, in ascending order of their edges, by patches. Groups keep the pairs
 /// that they had before the search.
 void renew_groups(EdgeEdgeContact& contact, std::vector<Found>& found) {
   std::stable_sort(found.begin(), found.end(),
-                   [](const Found& f, const Found& g) { return f.patch < g.patch; });
+                   [](const Found& f, const Found& g) { return before(f.patch, g.patch); });
   std::vector<EdgeGroup> old = std::move(contact.groups);
   contact.groups.clear();
-  auto before = old.begin();
+  auto known = old.begin();
   for (const Found& f : found) {
     if (contact.groups.empty() || contact.groups.back().patch != f.patch) {
       contact.groups.emplace_back().patch = f.patch;
-      while (before != old.end() && before->patch < f.patch)
-        ++before;
-      if (before != old.end() && before->patch == f.patch)
-        contact.groups.back().pairs = std::move(before->pairs);
+      while (known != old.end() && before(known->patch, f.patch))
+        ++known;
+      if (known != old.end() && known->patch == f.patch)
+        contact.groups.back().pairs = std::move(known->pairs);
     }
     EdgeGroup& group = contact.groups.back();
     group.candidates.push_back(f.edge);
