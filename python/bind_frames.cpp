@@ -93,7 +93,10 @@ void bind_bodies(py::module_& m) {
           "float64, (3,), N, that the plies exert on the tool.")
       .def_readonly("stroke_mm", &ToolFrame::stroke_mm, "mm, along the tool's direction.")
       .def_readonly("force_N", &ToolFrame::force_N,
-                    "N, of the plies against that direction; positive when they push it back.");
+                    "N, of the plies against that direction; positive when they push it back; "
+                    "filtered, as docs/users/results.md says.")
+      .def_readonly("force_raw_N", &ToolFrame::force_raw_N,
+                    "N, the same of the last step alone, with the jitter of contact.");
   PartClass<BoundaryFrame>(m, "BoundaryFrame", "A grip or a frame at one time.")
       .def_readonly("name", &BoundaryFrame::name, "Name in the case.")
       .def_readonly("stroke_mm", &BoundaryFrame::stroke_mm, "mm, of its stroke.")

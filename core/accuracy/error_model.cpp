@@ -77,7 +77,7 @@ double useful_softening(const Case& data) {
 Numbers numbers_of(const Case& data) {
   Numbers n;
   const Strokes strokes = longest_strokes(data);
-  const double stroke = strokes.longest();
+  const double stroke = strokes.longest(), fast = strokes.at_full_speed;
   if (stroke == 0.0) return n;
   // A ply that is pulled at its edge (bias_extension) vibrates like the outer plies of a stack, and
   // the yarns in the grips bear the whole load.
@@ -96,7 +96,7 @@ Numbers numbers_of(const Case& data) {
     const double w =
         f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.at(half_radian).energy;
     if (!(w > 0.0)) continue; // no shear stiffness: nothing to compare with
-    n.inertia = std::max(n.inertia, 0.5 * f.surface_density * stroke * stroke / w);
+    n.inertia = std::max(n.inertia, 0.5 * f.surface_density * fast * fast / w);
     add_families(n, f, w);
   }
   n.max_softening = std::min(n.max_softening, useful_softening(data));
@@ -214,8 +214,8 @@ CostParameters cheapest(const Numbers& n, double left2, const SolverOptions& now
   return parameters;
 }
 
-/// Whether every blank may have elements larger by the factor `by`: not longer than the smallest
-/// tool radius, nor than in the measurements of contact, and its outline can be meshed with them.
+} // namespace
+
 bool may_coarsen(const Case& data, double by) {
   constexpr double most_thicknesses = 16.0;
   double longest = std::numeric_limits<double>::max();
@@ -232,8 +232,6 @@ bool may_coarsen(const Case& data, double by) {
   }
   return data.boundaries.empty(); // the nodes that they prescribe depend on the mesh
 }
-
-} // namespace
 
 double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
   const Numbers n = numbers_of(data);

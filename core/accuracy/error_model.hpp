@@ -43,6 +43,10 @@ std::string describe_accuracy(const PredictedError& error, double promised, doub
 /// The error (degrees) of a preset of --accuracy; 0 for a word that is not a preset.
 double preset_error(const std::string& word);
 
+/// Whether every blank may have elements larger by the factor `by`: not longer than the smallest
+/// tool radius, nor than in the measurements of contact, and its outline can be meshed with them.
+bool may_coarsen(const Case& data, double by);
+
 /// Cost parameters that the user has set by hand.
 struct FixedParameters {
   bool duration = false, softening = false, element_size = false;

@@ -25,6 +25,10 @@ void assign(int& member, const KeyRow&, const TomlNode* node) {
   if (node) member = static_cast<int>(node->number);
 }
 
+void assign(bool& member, const KeyRow&, const TomlNode* node) {
+  if (node) member = node->source_text == "true";
+}
+
 void assign(std::string& member, const KeyRow&, const TomlNode* node) {
   if (node) member = node->text;
 }

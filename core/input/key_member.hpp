@@ -15,6 +15,7 @@ namespace plyform {
 // changed.
 void assign(double& member, const KeyRow& row, const TomlNode* node);
 void assign(int& member, const KeyRow& row, const TomlNode* node);
+void assign(bool& member, const KeyRow& row, const TomlNode* node);
 void assign(std::string& member, const KeyRow& row, const TomlNode* node);
 void assign(Vec3& member, const KeyRow& row, const TomlNode* node);
 void assign(std::optional<double>& member, const KeyRow& row, const TomlNode* node);

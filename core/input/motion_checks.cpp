@@ -139,7 +139,8 @@ bool move_alike(const Tool& a, const Tool& b) {
   if (a.motion != b.motion) return false;
   if (a.motion == Motion::fixed) return true;
   const bool same_way = (a.direction - b.direction).norm() < 1e-9;
-  return same_way && (a.motion == Motion::force || a.stroke == b.stroke);
+  if (!same_way || a.motion == Motion::force) return same_way;
+  return a.stroke == b.stroke && a.programme == b.programme;
 }
 
 /// Tools do not touch each other in the model: what begins in each other goes through.

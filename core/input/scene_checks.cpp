@@ -2,6 +2,7 @@
 // Checks of the scene as a whole.
 #include "core/input/case_parts.hpp"
 #include "core/input/initial_scene.hpp"
+#include "core/model/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -244,7 +245,8 @@ void check_tools_outside(SceneCheck& check) {
 }
 
 Vec3 stroke_of(const Tool& tool) {
-  return tool.motion == Motion::driven ? Vec3(tool.stroke * tool.direction) : Vec3(Vec3::Zero());
+  return tool.motion == Motion::driven ? Vec3(motion_at(tool, 1.0, 1.0) * tool.direction)
+                                       : Vec3(Vec3::Zero());
 }
 
 /// The smallest distance (mm) of a's surface to b, both at the end of their strokes, in the area of

@@ -115,6 +115,8 @@ std::string type_text(const KeyRow& row) {
     return "string";
   case KeyKind::number:
     return "number";
+  case KeyKind::boolean:
+    return "true or false";
   case KeyKind::integer:
     return "integer";
   case KeyKind::numbers:

@@ -25,6 +25,7 @@ enum class KeyKind {
   choice, ///< one of `choices`
   number,
   integer,
+  boolean,
   numbers,  ///< list of `count` numbers, or of any number of them if count is 0
   pairs,    ///< list of [a, b]
   polygons, ///< list of lists of [x, y]

@@ -175,6 +175,12 @@ Rows solver_rows() {
            .usual = {{.least = 1e-3, .most = 100.0}},
            .meaning = "simulated time of the stroke",
            .members = {to(&SolverOptions::duration)}},
+          {.key = "solver.dwell",
+           .fallback = toml(solver.dwell),
+           .ranges = {{.least = 0.0, .most = 10.0}},
+           .meaning = "time after the stroke, at most, until forces have settled, as a share of "
+                      "the duration",
+           .members = {to(&SolverOptions::dwell)}},
           {.key = "solver.element",
            .kind = K::choice,
            .fallback = "\"auto\"",
@@ -243,7 +249,13 @@ Rows accuracy_rows() {
            .ranges = {{.least = 0.05, .most = 20.0}},
            .meaning = "root mean square error of the shear angle that is allowed; `plyform run "
                       "--accuracy draft` is 3, standard 1, reference 0.3",
-           .members = {to(&AccuracyOptions::shear_error)}}};
+           .members = {to(&AccuracyOptions::shear_error)}},
+          {.key = "accuracy.verify",
+           .kind = K::boolean,
+           .fallback = "false",
+           .meaning = "whether siblings with coarser parameters run after the run and give each "
+                      "figure its band, as `plyform run --verify`",
+           .members = {to(&AccuracyOptions::verify)}}};
 }
 
 Rows all_rows() {

@@ -174,6 +174,8 @@ bool check_value(const Check& check, TomlNode& value, const std::string& item) {
   case KeyKind::integer:
     if (value.kind == Kind::number) return check.fail(value, item, "must be a whole number");
     return check_number(check, value, item, 0);
+  case KeyKind::boolean:
+    return value.kind == Kind::boolean || check.fail(value, item, "must be true or false");
   case KeyKind::number:
     return check_number(check, value, item, 0);
   case KeyKind::numbers:

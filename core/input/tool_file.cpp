@@ -3,7 +3,9 @@
 #include "core/input/case_parts.hpp"
 #include "core/input/key_member.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <fmt/format.h>
 
 namespace plyform {
 
@@ -31,12 +33,45 @@ Eigen::Matrix3d read_rotation(const TableView& tool, Diagnostics& diagnostics) {
   return tilt.toRotationMatrix() * turned;
 }
 
+/// The stages of a programme; reports those that are not in order of time.
+std::vector<Stage> read_programme(const TableView& section, const std::string& key,
+                                  Diagnostics& diagnostics) {
+  std::vector<Stage> stages;
+  for (const Vec2& row : pairs(section, key)) {
+    if (!stages.empty() && row.x() <= stages.back().share) {
+      value_error(section, key,
+                  fmt::format("has stage {} at share {:g} after one at {:g}", stages.size() + 1,
+                              row.x(), stages.back().share),
+                  "give the stages in order of time", diagnostics);
+      break;
+    }
+    stages.push_back({row.x(), row.y()});
+  }
+  return stages;
+}
+
+/// The stroke or force of a tool, or its programme.
+void read_motion(const TableView& section, Tool& tool, Diagnostics& diagnostics) {
+  if (tool.motion == Motion::fixed) return;
+  const bool driven = tool.motion == Motion::driven;
+  const char* key = driven ? "stroke_programme" : "force_programme";
+  tool.programme = read_programme(section, key, diagnostics);
+  if (tool.programme.empty()) return;
+  double& largest = driven ? tool.stroke : tool.force;
+  for (const Stage& stage : tool.programme)
+    largest = std::max(largest, stage.value);
+  if (driven && largest == 0.0)
+    value_error(section, key, "has no stroke above 0", "give the tool a stroke, or leave it fixed",
+                diagnostics);
+}
+
 Tool read_tool(const TableView& section, const std::filesystem::path& folder,
                Diagnostics& diagnostics) {
   Tool tool;
   read_members(section, tool);
   tool.shape = read_shape(section, folder, diagnostics);
   tool.rotation = read_rotation(section, diagnostics);
+  read_motion(section, tool, diagnostics);
   if (given(section, "direction") && tool.motion != Motion::fixed)
     tool.direction = read_direction(section, "direction", diagnostics);
   return tool;

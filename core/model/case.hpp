@@ -25,8 +25,15 @@ struct Ply {
 
 enum class Motion {
   fixed,  ///< stays
-  driven, ///< moves by `stroke` along `direction` over the duration: smooth_step
+  driven, ///< moves along `direction` over the duration: core/model/motion.hpp
   force,  ///< pushed by `force` along `direction`, free to move along it only
+};
+
+/// One stage of a tool's programme: by this share of the duration it has reached this stroke (mm)
+/// or force (N).
+struct Stage {
+  double share = 1.0, value = 0.0;
+  bool operator==(const Stage&) const = default;
 };
 
 struct Tool {
@@ -36,8 +43,9 @@ struct Tool {
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< tool frame to space
   Motion motion = Motion::fixed;
   Vec3 direction = -Vec3::UnitZ(); ///< unit vector
-  double stroke = 0.0;             ///< mm, for Motion::driven
-  double force = 0.0;              ///< N, for Motion::force
+  double stroke = 0.0;             ///< mm, for Motion::driven; the largest of a programme
+  double force = 0.0;              ///< N, for Motion::force; likewise
+  std::vector<Stage> programme;    ///< in order of time; empty: one stage over the duration
   double mass = 0.0;               ///< t, for Motion::force
 };
 
@@ -73,7 +81,8 @@ enum class ElementKind {
 
 struct SolverOptions {
   ElementKind element = ElementKind::automatic;
-  double duration = 0.1;             ///< s simulated
+  double duration = 0.1;             ///< s, simulated time of the stroke
+  double dwell = 0.0;                ///< of the duration, at most, until forces have settled
   double step_factor = 0.5;          ///< fraction of the stable time step
   double fibre_softening = 1.0;      ///< fibre stiffness is divided by this
   double fibre_damping = 0.05;       ///< fraction of critical of the stiffest element mode
@@ -94,6 +103,7 @@ struct ContactOptions {
 /// Requested accuracy relative to a converged run (core/accuracy/error_model.hpp).
 struct AccuracyOptions {
   double shear_error = 0.0; ///< rad, rms; 0: not requested, solver options and element sizes apply
+  bool verify = false;      ///< runs siblings after the run: core/verification/verify.hpp
 };
 
 /// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.

@@ -12,6 +12,9 @@ double whole_stroke(const Case& data);
 /// Longest strokes, mm, of any driven tool and of any boundary; 0 where there is none.
 struct Strokes {
   double tool = 0.0, boundary = 0.0;
+  /// mm, that a body would travel if it moved all the time at the mean speed of its fastest stage:
+  /// the longest stroke, unless there is a programme
+  double at_full_speed = 0.0;
   double longest() const { return tool > boundary ? tool : boundary; }
 };
 Strokes longest_strokes(const Case& data);
@@ -22,6 +25,13 @@ Strokes longest_strokes(const Case& data);
 /// is continuous. Compared with a polynomial over the whole time, whose peak speed is higher,
 /// stacks come as close to the result of a slow run in a tenth less time (docs/developers.md).
 double smooth_step(double end, double t, double duration);
+
+/// Displacement (mm) of a driven tool along its direction, or the force (N) on a pushed one, at
+/// time t (s) of `duration` (s). One stage after the other, each by smooth_step from the value
+/// before to its own; what comes after the last one stays. Without a programme a stroke takes the
+/// duration, and a force rises over a twentieth of it, to avoid an impact. 0 of a fixed tool.
+double motion_at(const Tool& tool, double t, double duration);
+
 constexpr double ramp_share = 0.25;                           ///< of the duration, each
 constexpr double peak_speed_ratio = 1.0 / (1.0 - ramp_share); ///< largest speed over the mean
 

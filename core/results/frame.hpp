@@ -14,9 +14,10 @@ struct ToolFrame {
   std::string name;
   TriMesh surface;                  ///< in space at time 0
   Vec3 displacement = Vec3::Zero(); ///< mm, since time 0
-  Vec3 force = Vec3::Zero();        ///< N, that the plies exert on the tool
+  Vec3 force = Vec3::Zero();        ///< N, of the plies on the tool, filtered: force_filter.hpp
   double stroke_mm = 0;             ///< displacement along the tool's direction
-  double force_N = 0; ///< reaction of the plies against that direction, + when pushed back
+  double force_N = 0;     ///< reaction of the plies against that direction, + when pushed back
+  double force_raw_N = 0; ///< the same of the last step alone, with the jitter of contact
 };
 
 /// A grip or a frame.

@@ -25,7 +25,7 @@ void visit(Archive& a, PlyFrame& ply) {
 template <class Archive>
 void visit(Archive& a, ToolFrame& tool) {
   visit(a, tool.name, tool.surface.x, tool.surface.triangles, tool.displacement, tool.force,
-        tool.stroke_mm, tool.force_N);
+        tool.stroke_mm, tool.force_N, tool.force_raw_N);
 }
 
 template <class Archive>

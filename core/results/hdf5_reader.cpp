@@ -180,6 +180,9 @@ ToolFrame read_tool(const Reader& in, const std::string& group, const std::strin
   in.vector(now, "force_vector_N", tool.force);
   in.number(now, "stroke_mm", tool.stroke_mm);
   in.number(now, "force_N", tool.force_N);
+  tool.force_raw_N = tool.force_N; // of files from before there was a filter
+  if (H5Aexists_by_name(in.file, now.c_str(), "force_raw_N", H5P_DEFAULT) > 0)
+    in.number(now, "force_raw_N", tool.force_raw_N);
   return tool;
 }
 

@@ -114,6 +114,7 @@ void write_tool(const Writer& out, const std::string& where, const ToolFrame& to
   out.vector(where, "force_vector_N", tool.force);
   out.number(where, "stroke_mm", tool.stroke_mm);
   out.number(where, "force_N", tool.force_N);
+  out.number(where, "force_raw_N", tool.force_raw_N);
 }
 
 void write_boundary(const Writer& out, const std::string& where, const BoundaryFrame& boundary) {

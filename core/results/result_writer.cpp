@@ -109,8 +109,9 @@ std::string heading(const std::string& text) {
 std::string history_header(const Frame& frame) {
   std::string line = "time_s,stroke_mm";
   for (const ToolFrame& tool : frame.tools)
-    line += fmt::format(",{},{}", heading(tool.name + "_force_N"),
-                        heading(tool.name + "_displacement_mm"));
+    line +=
+        fmt::format(",{},{},{}", heading(tool.name + "_force_N"),
+                    heading(tool.name + "_force_raw_N"), heading(tool.name + "_displacement_mm"));
   for (const BoundaryFrame& b : frame.boundaries)
     line +=
         fmt::format(",{},{}", heading(b.name + "_force_N"), heading(b.name + "_displacement_mm"));
@@ -125,6 +126,7 @@ std::string history_row(const Frame& frame) {
   put(out, frame.stroke_mm);
   for (const ToolFrame& tool : frame.tools) {
     put(out, tool.force_N);
+    put(out, tool.force_raw_N);
     put(out, tool.stroke_mm);
   }
   for (const BoundaryFrame& b : frame.boundaries) {
@@ -285,6 +287,10 @@ std::optional<Resume> ResultWriter::go_on(const std::string& identity) {
   return Resume{found->solver, read_last_frame(my.directory / "results.h5")};
 }
 
+void ResultWriter::write_summary(const Frame& last, const Summary& summary) {
+  write_whole(impl_->directory / "summary.json", summary_json(last, summary));
+}
+
 void ResultWriter::write_final(const Frame& last, const Summary& summary) {
   Impl& my = *impl_;
   const bool written =
@@ -295,8 +301,7 @@ void ResultWriter::write_final(const Frame& last, const Summary& summary) {
     write_whole(my.directory / "plies" / (ply.name + ".csv"), ply_table(ply));
   const bool goes_on = summary.status == "interrupted" && fs::exists(my.directory / "checkpoint");
   if (!goes_on) my.states.merge();
-  // written last, when all other files are complete
-  write_whole(my.directory / "summary.json", summary_json(last, summary));
+  write_summary(last, summary); // when all other files are complete
   if (goes_on) return;
   // In this order the run can go on until it has ended, wherever it is killed.
   remove_file(my.directory / "checkpoint");

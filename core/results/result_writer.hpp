@@ -53,6 +53,8 @@ public:
   /// Writes `last` as a frame too if the last one written has another time or step. No frame may
   /// follow. Unless the run was interrupted, it cannot go on then.
   void write_final(const Frame& last, const Summary& summary);
+  /// Writes summary.json alone, once more.
+  void write_summary(const Frame& last, const Summary& summary);
 
 private:
   struct Impl;

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/results/draw_in.hpp"
+#include "core/results/verification.hpp"
 #include "core/results/wrinkles.hpp"
 
 #include <optional>
@@ -72,6 +73,7 @@ struct Summary {
   double largest_added_mass = 0; ///< by mass scaling, share of the mass of any ply, at any time
   int threads = 1;
   AccuracyReport accuracy;
+  Verification verification;
   ContactReport contact;
   WorkReport work;
   std::vector<PlyReport> plies; ///< one per ply of the last frame, or empty: not known

@@ -132,6 +132,7 @@ Json plies_list(const std::vector<PlyFrame>& plies, const std::vector<PlyReport>
 Json tool_object(const ToolFrame& tool) {
   return {{"name", tool.name},
           {"force_N", rounded(tool.force_N)},
+          {"force_raw_N", rounded(tool.force_raw_N)},
           {"displacement_mm", rounded(tool.stroke_mm)}};
 }
 
@@ -169,6 +170,20 @@ Json accuracy_object(const AccuracyReport& a) {
           {"element_size_factor", rounded(a.coarsening)}};
 }
 
+Json verification_object(const Verification& v) {
+  Json figures = Json::array();
+  for (const VerifiedFigure& f : v.figures)
+    figures.push_back({{"name", f.name},
+                       {"unit", f.unit},
+                       {"value", rounded(f.value)},
+                       {"band", rounded(f.band)},
+                       {"mesh", rounded(f.mesh)},
+                       {"inertia", rounded(f.inertia)},
+                       {"softening", rounded(f.softening)},
+                       {"chance", rounded(f.chance)}});
+  return {{"cost", rounded(v.cost)}, {"figures", figures}, {"left_out", v.left_out}};
+}
+
 Json contact_object(const ContactReport& c) {
   return {
       {"max_tool_penetration_mm", rounded(c.max_tool_penetration_mm)},
@@ -196,31 +211,33 @@ std::string summary_json(const Frame& last, const Summary& summary) {
     elements += ply.triangles.size();
     nodes += ply.x0.size();
   }
-  const Json all = {{"title", summary.title},
-                    {"version", summary.version},
-                    {"status", summary.status},
-                    {"message", summary.message},
-                    {"time_s", rounded(last.time)},
-                    {"stroke_mm", rounded(last.stroke_mm)},
-                    {"wall_time_s", rounded(summary.wall_time_s)},
-                    {"steps", summary.steps},
-                    {"time_step_s", time_step_object(summary)},
-                    {"largest_added_mass", rounded(summary.largest_added_mass)},
-                    {"threads", summary.threads},
-                    {"elements", elements},
-                    {"nodes", nodes},
-                    {"plies", plies_list(last.plies, summary.plies)},
-                    {"tools", list_of(last.tools, tool_object)},
-                    {"boundaries", list_of(last.boundaries, boundary_object)},
-                    {"energy", energy_object(last.energy)},
-                    {"accuracy", accuracy_object(summary.accuracy)},
-                    {"contact", contact_object(summary.contact)},
-                    {"searches", summary.work.searches},
-                    {"time_shares", time_shares_object(summary.work)},
-                    {"pairs", list_of(summary.work.pairs, pair_object)},
-                    {"assumed", summary.assumed},
-                    {"could_be_left_out", summary.work.could_be_left_out},
-                    {"missing", summary.work.missing}};
+  Json all = {{"title", summary.title},
+              {"version", summary.version},
+              {"status", summary.status},
+              {"message", summary.message},
+              {"time_s", rounded(last.time)},
+              {"stroke_mm", rounded(last.stroke_mm)},
+              {"wall_time_s", rounded(summary.wall_time_s)},
+              {"steps", summary.steps},
+              {"time_step_s", time_step_object(summary)},
+              {"largest_added_mass", rounded(summary.largest_added_mass)},
+              {"threads", summary.threads},
+              {"elements", elements},
+              {"nodes", nodes},
+              {"plies", plies_list(last.plies, summary.plies)},
+              {"tools", list_of(last.tools, tool_object)},
+              {"boundaries", list_of(last.boundaries, boundary_object)},
+              {"energy", energy_object(last.energy)},
+              {"accuracy", accuracy_object(summary.accuracy)},
+              {"contact", contact_object(summary.contact)},
+              {"searches", summary.work.searches},
+              {"time_shares", time_shares_object(summary.work)},
+              {"pairs", list_of(summary.work.pairs, pair_object)},
+              {"assumed", summary.assumed},
+              {"could_be_left_out", summary.work.could_be_left_out},
+              {"missing", summary.work.missing}};
+  if (!summary.verification.figures.empty())
+    all["verification"] = verification_object(summary.verification);
   // Names and messages may contain any bytes: those that are not UTF-8 become U+FFFD.
   return all.dump(2, ' ', false, Json::error_handler_t::replace) + '\n';
 }

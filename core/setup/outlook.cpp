@@ -241,6 +241,17 @@ void describe_way(const Scene& s, std::size_t tool, const std::vector<FlatPly>& 
   if (std::isfinite(way.travel)) describe_pressure(s, tool, way, lines);
 }
 
+std::string motion_text(const Tool& t) {
+  if (t.motion == Motion::fixed) return "fixed";
+  const bool driven = t.motion == Motion::driven;
+  std::string text =
+      driven ? fmt::format("driven {:g} mm", t.stroke) : fmt::format("pushed by {:g} N", t.force);
+  if (!t.programme.empty())
+    text += fmt::format(" at most, in {} {}", t.programme.size(),
+                        t.programme.size() == 1 ? "stage" : "stages");
+  return text;
+}
+
 void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, Lines& lines) {
   std::vector<FlatPly> plies;
   double reach = 0.0;
@@ -251,12 +262,8 @@ void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, Lines&
   }
   for (std::size_t i = 0; i < s.tools.size(); ++i) {
     const ToolState& t = s.tools[i];
-    const Motion motion = s.data.tools[i].motion;
     const double radius = smallest_radius(t.body.shape);
-    say(lines, "tool {}: {}{}", t.name,
-        motion == Motion::fixed    ? std::string("fixed")
-        : motion == Motion::driven ? fmt::format("driven {:g} mm", t.stroke)
-                                   : fmt::format("pushed by {:g} N", t.force_on),
+    say(lines, "tool {}: {}{}", t.name, motion_text(s.data.tools[i]),
         std::isfinite(radius) ? fmt::format(", smallest radius {:g} mm", radius) : std::string());
     describe_way(s, i, plies, reach + s.data.tools[i].position.norm(), lines);
     describe_cut(s, i, lines);
@@ -341,7 +348,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   const StepBound bound = stable_step(s, contact_rows(s, pool));
   outlook.stable_step = bound.dt;
   outlook.step = s.next_dt;
-  outlook.steps = data.solver.duration / s.next_dt;
+  outlook.steps = data.solver.duration / s.next_dt; // without a dwell
   say(lines, "contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm",
       s.ply_contacts.size(), s.skin);
   say(lines, "stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s", bound.dt,

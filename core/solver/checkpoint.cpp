@@ -45,8 +45,14 @@ void visit(Archive& a, ToolPlyContact& c) {
 }
 
 template <class Archive>
+void visit(Archive& a, ForceFilter& f) {
+  visit(a, f.once, f.twice);
+}
+
+template <class Archive>
 void visit(Archive& a, ToolState& t) {
   visit(a, t.body.displacement, t.body.motion, t.body.force, t.body.speed);
+  visit(a, t.filter);
   visit(a, t.force, t.displacement_search, t.max_displacement, t.path_length, t.ply_paths, t.work);
   visit_all(a, t.contacts);
 }
@@ -93,8 +99,10 @@ void visit_state(Archive& a, Scene& s, RunState& run) {
         s.time_step_gain, s.next_lanczos, s.start_energy, s.mass_damping_work, s.mass_scaling_work,
         s.largest_added_mass, s.group_sums, s.searches);
   Snapshot& good = run.good;
-  visit(a, good.plies, good.tool_displacement, good.tool_force, good.boundaries, good.energy,
-        good.tool_penetration, good.ply_penetration, good.time, good.step);
+  visit(a, good.plies, good.tool_displacement, good.tool_force, good.tool_filter, good.boundaries,
+        good.energy, good.tool_penetration, good.ply_penetration, good.time, good.step);
+  Dwell& dwell = run.dwell;
+  visit(a, dwell.low, dwell.high, dwell.window_end, dwell.settled);
   visit(a, run.energy, run.outputs_written, run.elapsed);
 }
 

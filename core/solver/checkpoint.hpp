@@ -6,6 +6,7 @@
 #include "core/base/archive.hpp"
 #include "core/model/energies.hpp"
 #include "core/results/summary.hpp"
+#include "core/solver/dwell.hpp"
 #include "core/solver/scene.hpp"
 
 #include <string>
@@ -16,6 +17,7 @@ namespace plyform {
 struct Snapshot {
   std::vector<PlyKinematics> plies;
   std::vector<Vec3> tool_displacement, tool_force;
+  std::vector<ForceFilter> tool_filter;
   std::vector<BoundaryState> boundaries;
   Energies energy;
   double tool_penetration = 0.0, ply_penetration = 0.0; ///< mm, the deepest
@@ -27,6 +29,7 @@ struct Snapshot {
 struct RunState {
   Snapshot good;
   Energies energy; ///< last computed
+  Dwell dwell;
   int outputs_written = -1;
   double elapsed = 0.0; ///< s of wall time
 };

@@ -75,9 +75,10 @@ ToolFrame make_tool_frame(const Scene& scene, const ToolState& tool) {
   for (Vec3& x : f.surface.x)
     x = body.rotation * x + body.position;
   f.displacement = body.displacement;
-  f.force = tool.force;
+  f.force = tool.filter.value();
   f.stroke_mm = body.displacement.dot(body.direction);
-  f.force_N = -tool.force.dot(body.direction);
+  f.force_N = -f.force.dot(body.direction);
+  f.force_raw_N = -tool.force.dot(body.direction);
   return f;
 }
 
@@ -111,7 +112,10 @@ std::vector<double> contact_pressure(const Scene& scene, int index) {
 }
 
 double current_stroke(const Scene& scene) {
-  return smooth_step(whole_stroke(scene.data), scene.time, scene.data.solver.duration);
+  const double duration = scene.data.solver.duration;
+  for (const Tool& tool : scene.data.tools)
+    if (tool.motion == Motion::driven) return motion_at(tool, scene.time, duration);
+  return smooth_step(whole_stroke(scene.data), scene.time, duration); // of a boundary
 }
 
 Frame make_frame(const Scene& scene, const Energies& energy) {

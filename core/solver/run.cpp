@@ -47,9 +47,11 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
   snapshot.boundaries = s.boundaries;
   snapshot.tool_displacement.clear();
   snapshot.tool_force.clear();
+  snapshot.tool_filter.clear();
   for (const ToolState& t : s.tools) {
     snapshot.tool_displacement.push_back(t.body.displacement);
     snapshot.tool_force.push_back(t.force);
+    snapshot.tool_filter.push_back(t.filter);
   }
   snapshot.energy = energy;
   keep_penetrations(s, snapshot);
@@ -64,6 +66,7 @@ void restore(Scene& s, const Snapshot& snapshot) {
   for (std::size_t t = 0; t < s.tools.size(); ++t) {
     s.tools[t].body.displacement = snapshot.tool_displacement[t];
     s.tools[t].force = snapshot.tool_force[t];
+    s.tools[t].filter = snapshot.tool_filter[t];
   }
   s.time = snapshot.time;
   s.step = snapshot.step;
@@ -82,7 +85,7 @@ double balance_floor(const Scene& s) {
     force_controlled += 0.1 * std::abs(t.force_on);
   force_controlled += 0.1 * mass * s.data.gravity.norm();
   const double peak_speed =
-      peak_speed_ratio * longest_strokes(s.data).longest() / s.data.solver.duration;
+      peak_speed_ratio * longest_strokes(s.data).at_full_speed / s.data.solver.duration;
   return 1e-6 + force_controlled + 0.01 * 0.5 * mass * peak_speed * peak_speed;
 }
 
@@ -98,10 +101,13 @@ std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floo
 }
 
 /// Number of the latest output state that is due: outputs are spaced evenly over the stroke, or
-/// over the time if nothing is driven.
+/// over the time if nothing is driven or a tool has a programme.
 int outputs_due(const Scene& s) {
   const double stroke = whole_stroke(s.data);
-  const double done = stroke != 0.0 ? current_stroke(s) / stroke : s.time / s.data.solver.duration;
+  const bool by_time =
+      stroke == 0.0 || std::any_of(s.data.tools.begin(), s.data.tools.end(),
+                                   [](const Tool& tool) { return !tool.programme.empty(); });
+  const double done = by_time ? s.time / s.data.solver.duration : current_stroke(s) / stroke;
   const int due = static_cast<int>(std::floor(done * s.data.solver.outputs + 1e-9));
   return std::min(due, s.data.solver.outputs - 1); // the last one is due at the end
 }
@@ -142,7 +148,16 @@ void doubt_if(const std::vector<std::string>& reasons, Summary& sum) {
     sum.message += (sum.message.empty() ? "" : "; ") + reason;
 }
 
-void finish(const Scene& s, const Snapshot& good, RunResult& result, int threads, double elapsed) {
+/// What WorkReport::missing says of the forces; empty if nothing.
+std::string unsettled_forces(const Scene& s, const Dwell& dwell) {
+  if (s.data.solver.dwell == 0.0 || dwell.settled || s.time < s.data.solver.duration) return {};
+  return fmt::format("forces had not settled when the dwell ended, {:.2g} s after the stroke: a "
+                     "larger solver.dwell, or a longer solver.duration, gives them more time",
+                     s.time - s.data.solver.duration);
+}
+
+void finish(const Scene& s, const RunState& state, RunResult& result, int threads, double elapsed) {
+  const Snapshot& good = state.good;
   Summary& sum = result.summary;
   sum.title = s.data.title;
   sum.version = version();
@@ -173,6 +188,8 @@ void finish(const Scene& s, const Snapshot& good, RunResult& result, int threads
                       "solver.duration may help",
                       sum.contact.intersections_within_plies));
   doubt_if(doubts(s, result.last, sum.plies, cuts), sum);
+  if (const std::string forces = unsettled_forces(s, state.dwell); !forces.empty())
+    sum.work.missing.push_back(forces);
 }
 
 } // namespace
@@ -189,7 +206,7 @@ public:
     begin();
     std::optional<Stop> stop = steps();
     if (stop) go_back(*stop);
-    finish(s_, state_.good, result_, threads_, elapsed());
+    finish(s_, state_, result_, threads_, elapsed());
     return std::move(result_);
   }
 
@@ -230,7 +247,7 @@ private:
       const bool interrupted = hooks_.interrupt && hooks_.interrupt->load();
       save_if_due(interrupted);
       if (auto stop = compute_forces(s_, pool_)) return stop;
-      const bool ended = s_.time >= s_.data.solver.duration, last = interrupted || ended;
+      const bool ended = dwell_ends(state_.dwell, s_, state_.energy), last = interrupted || ended;
       const bool output = last || outputs_due(s_) > state_.outputs_written;
       if (s_.step == 0) s_.start_energy = current_energies(s_, pool_).residual();
       if (output || s_.step % check_every == 0) {

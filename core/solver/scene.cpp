@@ -119,7 +119,6 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlySt
   t.body.mass = tool.mass;
   constexpr double closing_speed = 1000.0; // mm/s: a fast press
   t.body.max_approach_speed = closing_speed;
-  t.stroke = tool.motion == Motion::driven ? tool.stroke : 0.0;
   for (std::size_t p = 0; p < plies.size(); ++p) {
     ToolPlyContact c;
     const int body = static_cast<int>(plies.size() + index);

@@ -11,6 +11,7 @@
 #include "core/ply/bending_simd.hpp"
 #include "core/ply/membrane_eigenvalue.hpp"
 #include "core/ply/membrane_simd.hpp"
+#include "core/solver/force_filter.hpp"
 
 #include <memory>
 #include <optional>
@@ -81,10 +82,10 @@ struct PlyState : PlyModel, PlyKinematics, PlySearch, PlyStability, PlyWorkspace
 struct ToolState {
   std::string name;
   ToolBody body;
-  double stroke = 0.0;   ///< mm, 0 unless driven
   double force_on = 0.0; ///< N, prescribed force at full load, 0 unless pushed
   std::vector<ToolPlyContact> contacts;
   Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
+  ForceFilter filter;        ///< of `force`
   Vec3 displacement_search = Vec3::Zero();
   double max_displacement = 0.0; ///< mm, largest distance from displacement_search, with what it
                                  ///< may still move in this step

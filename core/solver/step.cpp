@@ -22,16 +22,16 @@ namespace {
 constexpr int elements_every = 200, contacts_every = 50;
 
 /// Moves driven tools to their positions at scene.time. Pushed tools are moved when their forces
-/// are computed; here their force is set, which rises over the first twentieth of the time to avoid
-/// an impact on the stack.
+/// are computed; here their force is set.
 void move_tools(Scene& s) {
-  constexpr double ramp = 0.05; // of the duration
-  for (ToolState& t : s.tools) {
+  for (std::size_t i = 0; i < s.tools.size(); ++i) {
+    ToolState& t = s.tools[i];
+    const double now = motion_at(s.data.tools[i], s.time, s.data.solver.duration);
     if (t.body.force_controlled) {
-      t.body.force = smooth_step(t.force_on, s.time, ramp * s.data.solver.duration);
+      t.body.force = now;
       continue;
     }
-    const Vec3 to = smooth_step(t.stroke, s.time, s.data.solver.duration) * t.body.direction;
+    const Vec3 to = now * t.body.direction;
     t.body.motion = to - t.body.displacement;
     t.body.displacement = to;
   }
@@ -44,6 +44,12 @@ std::optional<Stop> search_if_due(Scene& s, ThreadPool& pool, bool& searched) {
   if (auto stop = find_not_finite(s)) return stop;
   search_contacts(s, pool);
   return std::nullopt;
+}
+
+void filter_forces(Scene& s) {
+  const double tau = filter_share * s.data.solver.duration;
+  for (ToolState& t : s.tools)
+    t.filter.add(t.force, s.dt, tau);
 }
 
 std::optional<Stop> find_faults(const Scene& s) {
@@ -96,6 +102,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   if (due) update_stable_step(s, pool);
   if (!searched) update_fold_bounds(s, pool);
   element_and_contact_forces(s, pool);
+  filter_forces(s);
   if (due || s.step % contacts_every == 0 || contacts_deepened(s) ||
       largest_displacement(s) - s.bound_displacement > 0.5 * bound_margin)
     renew_stable_step(s, pool);

@@ -61,8 +61,8 @@ inline Frame frame(double time) {
   f.step = std::lround(1000 * time);
   f.plies = {ply("lower", 3, 0, time), ply("90\u00b0 ply & co", 4, 1, time)};
   ToolFrame punch{"punch",   sheet(2, 30), {0, 0, -50 * time}, {1, 2, 400 * time},
-                  50 * time, 400 * time};
-  ToolFrame die{"die", sheet(1, -5), Vec3::Zero(), {0, 0, -30 * time}, 0, -30 * time};
+                  50 * time, 400 * time,   420 * time};
+  ToolFrame die{"die", sheet(1, -5), Vec3::Zero(), {0, 0, -30 * time}, 0, -30 * time, -28 * time};
   f.tools = {punch, die};
   for (std::size_t i = 0; i < f.plies[1].x.size(); ++i) // the first ply is held by none
     f.plies[1].reaction.push_back(time * Vec3(static_cast<double>(i), 0.25, -3.0));

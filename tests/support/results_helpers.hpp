@@ -109,6 +109,7 @@ inline void expect_same(const ToolFrame& a, const ToolFrame& b) {
   EXPECT_EQ(a.force, b.force);
   EXPECT_EQ(a.stroke_mm, b.stroke_mm);
   EXPECT_EQ(a.force_N, b.force_N);
+  EXPECT_EQ(a.force_raw_N, b.force_raw_N);
 }
 
 inline void expect_same(const BoundaryFrame& a, const BoundaryFrame& b) {

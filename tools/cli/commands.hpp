@@ -30,6 +30,7 @@ struct RunArguments {
   int threads = 0;     ///< 0: the number of cores
   bool report = false; ///< make report.html of the results
   bool resume = false; ///< goes on from the folder's checkpoint
+  bool verify = false; ///< runs siblings, for the bands of figures
 };
 
 /// A shear test: bias or frame; NaN where not given.

@@ -3,6 +3,7 @@
 #include "core/base/text.hpp"
 #include "core/input/schema.hpp"
 #include "core/solver/run.hpp"
+#include "core/verification/verify.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <atomic>
@@ -102,6 +103,17 @@ void print_plausibility(const std::string& name, const PlyReport& ply) {
   fmt::print("\n");
 }
 
+void print_verification(const Verification& v) {
+  if (v.figures.empty()) return;
+  fmt::print("  verified by siblings, which took {:.2g} of the time of the run:\n", v.cost);
+  for (const VerifiedFigure& f : v.figures)
+    fmt::print("    {:32} {:8.4g} {:3} +- {:.2g}: mesh {:.2g}, inertia {:.2g}, softened fibres "
+               "{:.2g}, chance {:.2g}\n",
+               f.name, f.value, f.unit, f.band, f.mesh, f.inertia, f.softening, f.chance);
+  for (const std::string& what : v.left_out)
+    fmt::print("    left out: {}\n", what);
+}
+
 void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   const Energies& e = r.last.energy;
   fmt::print("{} at {:.2f} mm of stroke after {} steps in {:.1f} s\n", r.summary.status,
@@ -133,10 +145,29 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   const AccuracyReport& a = r.summary.accuracy;
   fmt::print("  {}\n", describe_accuracy({a.inertia_deg, a.softening_deg, a.mesh_deg},
                                          a.promised_deg, a.coarsening));
+  print_verification(r.summary.verification);
   for (const std::string& line : r.summary.assumed)
     fmt::print("  assumed: {}\n", line);
   print_work(r.summary.work, r.summary.steps);
   fmt::print("results are in {}\n", folder.string());
+}
+
+/// Verifies a run that has ended; says so if it is interrupted meanwhile.
+void verify_run(const Case& data, int threads, RunResult& result) {
+  ProgressLine line;
+  VerifyHooks hooks;
+  hooks.begins = [&](const std::string& sibling, std::size_t number, std::size_t of) {
+    line.end();
+    fmt::print(stderr, "verifies, {} of {}: a {}\n", number, of, sibling);
+  };
+  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.interrupt = &interrupted;
+  const std::optional<Verification> verification = verify(data, result, threads, hooks);
+  line.end();
+  if (verification)
+    result.summary.verification = *verification;
+  else
+    fmt::print(stderr, "plyform: interrupted: the results are complete, without bands\n");
 }
 
 /// Says on standard error how a run ended that is not simply done, and returns the exit code.
@@ -205,6 +236,10 @@ int run_command(const RunArguments& arguments) {
                                 prepared.notes.end());
   line.end();
   writer.write_final(result.last, result.summary);
+  if ((arguments.verify || prepared.value->accuracy.verify) && ended(result.summary.status)) {
+    verify_run(*prepared.value, threads, result);
+    writer.write_summary(result.last, result.summary);
+  }
   print_outcome(result, folder);
   const int code = tell_end(result.summary, folder);
   if (arguments.report && !report_of_run(folder.string()) && code == exit_done) return exit_other;

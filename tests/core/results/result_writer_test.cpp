@@ -57,19 +57,31 @@ TEST_F(Results, HistoryHasOneRowAnOutputTime) {
   write_run(directory, {0.0, 0.5, 1.0});
   const auto rows = rows_of(content(directory / "history.csv"));
   ASSERT_EQ(rows.size(), 4u);
-  EXPECT_EQ(rows[0], (std::vector<std::string>{"time_s",          "stroke_mm",
-                                               "punch_force_N",   "punch_displacement_mm",
-                                               "die_force_N",     "die_displacement_mm",
-                                               "grip_force_N",    "grip_displacement_mm",
-                                               "clamp_force_N",   "clamp_displacement_mm",
-                                               "kinetic_mJ",      "fibre_mJ",
-                                               "shear_mJ",        "bending_mJ",
-                                               "contact_mJ",      "friction_mJ",
-                                               "damping_mJ",      "external_mJ",
-                                               "mass_scaling_mJ", "balance_error"}));
-  EXPECT_EQ(rows[2], (std::vector<std::string>{"0.5", "25",   "200", "25",  "-15", "0",   "35",
-                                               "4",   "-4.5", "0",   "0.5", "1",   "1.5", "0",
-                                               "2",   "2.5",  "3",   "10",  "0",   "0.05"}));
+  EXPECT_EQ(rows[0], (std::vector<std::string>{"time_s",
+                                               "stroke_mm",
+                                               "punch_force_N",
+                                               "punch_force_raw_N",
+                                               "punch_displacement_mm",
+                                               "die_force_N",
+                                               "die_force_raw_N",
+                                               "die_displacement_mm",
+                                               "grip_force_N",
+                                               "grip_displacement_mm",
+                                               "clamp_force_N",
+                                               "clamp_displacement_mm",
+                                               "kinetic_mJ",
+                                               "fibre_mJ",
+                                               "shear_mJ",
+                                               "bending_mJ",
+                                               "contact_mJ",
+                                               "friction_mJ",
+                                               "damping_mJ",
+                                               "external_mJ",
+                                               "mass_scaling_mJ",
+                                               "balance_error"}));
+  EXPECT_EQ(rows[2], (std::vector<std::string>{
+                         "0.5", "25",  "200", "210", "25", "-15", "-14", "0", "35", "4", "-4.5",
+                         "0",   "0.5", "1",   "1.5", "0",  "2",   "2.5", "3", "10", "0", "0.05"}));
 }
 
 TEST_F(Results, PlyTableHasOneRowATriangleInTheNamedColumns) {

@@ -53,6 +53,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
                   0.004,
                   4,
                   {0.25, 0.5, 0.75, 1.5},
+                  {},
                   {0.01, 0.02, 0.05, 3, 4},
                   {},
                   {},

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The dwell at the end of a run: driven tools stand still until forces have settled, for at most
+// solver.dwell of the duration. A fast stroke throws plies ahead of the punch, off its face; the
+// force on it is known only when they have come back.
+//
+// Settled: over a twentieth of the duration no tool's force has varied by more than 1 % of the
+// largest, and the kinetic energy is below 1 % of that of deformation.
+#pragma once
+
+#include "core/model/energies.hpp"
+#include "core/solver/scene.hpp"
+
+#include <vector>
+
+namespace plyform {
+
+struct Dwell {
+  std::vector<double> low, high; ///< N, of each tool's force in this window
+  double window_end = 0.0;       ///< s
+  bool settled = false;
+};
+
+/// Whether a run whose stroke is over may end, after each step. energy: as of the last time that
+/// it was computed.
+bool dwell_ends(Dwell& dwell, const Scene& s, const Energies& energy);
+
+} // namespace plyform

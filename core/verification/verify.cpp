@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/verification/verify.hpp"
+
+#include "core/accuracy/error_model.hpp"
+#include "core/verification/bands.hpp"
+#include "core/verification/siblings.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace plyform {
+
+std::optional<Verification> verify(const Case& data, const RunResult& run, int threads,
+                                   const VerifyHooks& hooks) {
+  const Siblings made = siblings_of(data);
+  Verification result;
+  result.left_out = made.left_out;
+  std::map<Cause, RunEnd> ends;
+  double seconds = 0.0;
+  for (std::size_t i = 0; i < made.runs.size(); ++i) {
+    const Sibling& sibling = made.runs[i];
+    if (hooks.begins) hooks.begins(sibling.name, i + 1, made.runs.size());
+    RunHooks run_hooks;
+    run_hooks.progress = hooks.progress;
+    run_hooks.interrupt = hooks.interrupt;
+    RunResult end = run_case(sibling.data, threads, run_hooks);
+    if (hooks.interrupt && hooks.interrupt->load()) return std::nullopt;
+    seconds += end.summary.wall_time_s;
+    if (ended(end.summary.status))
+      ends[sibling.cause] = {std::move(end.last), std::move(end.summary.plies)};
+    else
+      result.left_out.push_back(fmt::format("the sibling with a {} did not go to its end: {}",
+                                            sibling.name, end.summary.message));
+  }
+  result.cost = seconds / std::max(run.summary.wall_time_s, 1e-9);
+  result.figures =
+      verified_figures({run.last, run.summary.plies}, ends, made, predicted_error(data).mesh);
+  return result;
+}
+
+} // namespace plyform
