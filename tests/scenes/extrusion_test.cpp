@@ -51,6 +51,7 @@ Case channel_case(bool extruded) {
   set_friction(data, 0.2);
   data.solver.fibre_softening = 100.0;
   data.solver.duration = 0.03;
+  data.solver.mass_damping = 2000.0; // 1/s: without it free edges flutter, and 1e-9 mm become 0.1
   data.solver.outputs = 1;
   return data;
 }
@@ -70,7 +71,7 @@ TEST(ExtrusionScene, ChannelFormsAsBoxesDo) {
   }
   fmt::print("largest difference {:.2g} mm\n", most);
   EXPECT_LT(lowest, -23.0);
-  EXPECT_LT(most, 1e-4); // rounding, grown by sticking and sliding
+  EXPECT_LT(most, 1e-6); // rounding
 }
 
 } // namespace
