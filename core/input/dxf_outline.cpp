@@ -212,11 +212,14 @@ void check_size(const ClosedLoop& loop, double scale, const std::string& unit,
 }
 
 DxfOutline outline_of(const DxfDrawing& drawing, const DxfRequest& request) {
-  constexpr std::size_t most = 100000;
+  constexpr std::size_t most = 20000;
   const std::vector<const DxfEntity*> pieces = chosen(drawing, request);
-  if (pieces.size() > most)
+  std::size_t count = 0;
+  for (const DxfEntity* piece : pieces)
+    count += piece->chain.size();
+  if (count > most)
     throw Fault{fmt::format("has {} lines and arcs, more than {}; name the outline's layer (layer)",
-                            pieces.size(), most)};
+                            count, most)};
   const auto [scale, unit] = unit_of(drawing, request);
   const std::vector<ClosedLoop> loops = closed_loops(pieces, scale);
   DxfOutline made;

@@ -35,8 +35,8 @@ class Facets:
 
 def read_solid(path: Path, deflection: float) -> Facets:
     """The one solid of a file, with triangles within `deflection` mm of its surface as far as ROUNDS
-    rounds take it. Raises Trouble: no such file, not of the kind that its ending says, nothing in it, an open
-    shell, several solids, no volume, not to be meshed."""
+    rounds take it. Raises Trouble: no such file, not of the kind that its ending says, nothing in
+    it, an open shell, several solids, a hollow, no volume, not to be meshed."""
     unit = check_kind(path)
     gmsh.initialize([], False)
     try:
