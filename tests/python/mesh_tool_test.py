@@ -160,6 +160,9 @@ def check_parts(folder):
         "SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)"))
     _, corners, said = made(metres, "--deflection", 10)
     assert "unit of the file m," in said and np.ptp(corners[:, :, 2]) == 75000, said
+    done = call(mesh_tool, metres, "-o", folder / "metres.stl", "--deflection", 0.05)
+    assert done.code == 2 and "triangles at a deflection of 0.05 mm, more than 500000: check the " \
+        "part's unit" in done.err, done
     part = folder / "box.igs"
     part.write_text(iges_of(box_faces(2.0)))
     _, corners, said = made(part)

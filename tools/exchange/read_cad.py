@@ -19,6 +19,7 @@ from plotting.reading import Trouble
 ENDINGS = {".step": "STEP", ".stp": "STEP", ".iges": "IGES", ".igs": "IGES"}
 SEW = 0.01  # mm: edges of faces nearer than that are one
 GRID = 24   # points a side, of a face's parameters, at which the deviation is measured
+MOST = 500000  # triangles
 ROUNDS = 4  # of refining, each with less allowed, until the deviation is reached
 
 
@@ -196,10 +197,15 @@ def mesh(path: Path, solid: int, deflection: float,
     """Points, triangles and their faces. A triangle of side h on a surface of curvature k misses it
     by h^2 k / 6 at its middle."""
     coarse = size / 10
-    of_face = {}
+    of_face, count = {}, 0.0
     for _, face in faces_of(solid):
         curvature = largest_curvature(face)
         of_face[face] = min(coarse, math.sqrt(6 * deflection / curvature)) if curvature else coarse
+        count += gmsh.model.occ.getMass(2, face) / (0.43 * of_face[face] ** 2)
+    if count > MOST:
+        raise Trouble(f"{path} is {size:.6g} mm large and would take {count:.1e} triangles at a "
+                      f"deflection of {deflection:g} mm, more than {MOST}: check the part's unit, "
+                      "or give a larger --deflection")
     of_curve = {}
     for face, wanted in of_face.items():
         for _, curve in gmsh.model.getBoundary([(2, face)], oriented=False):

@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-ROUNDS = 12  # each halves sides
+ROUNDS = 12     # each halves sides
+MOST = 1000000  # triangles from which no more sides are halved
 SHARE = 0.7  # of the deflection that sides and middles of triangles may have: room for other places
 
 # project(tags of faces, points) -> points on them: one tag for the inside of a face, two for the
@@ -28,7 +29,7 @@ def refined(x: np.ndarray, triangles: np.ndarray, face: np.ndarray, project: Pro
         split = np.linalg.norm(on_surface - middles, axis=1) > SHARE * deflection
         split |= longest_of(x, sides, triangles,
                             bulging(x, triangles, face, project, SHARE * deflection))
-        if not split.any():
+        if not split.any() or len(triangles) > MOST:
             break
         number = {tuple(side): len(x) + k for k, side in enumerate(sides[split].tolist())}
         x = np.vstack([x, on_surface[split]])
