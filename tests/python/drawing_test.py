@@ -2,9 +2,9 @@
 """DXF drawings that ezdxf writes, of several versions, as outlines of blanks: extents and holes as
 plyform check tells them; what is refused; and damaged drawings, each with one message at most.
 
-    drawing_test.py PROGRAM FABRIC
+    drawing_test.py PROGRAM FABRIC TOOLS
 
-Leaves with 77 when ezdxf is missing.
+Leaves with 77 when ezdxf, numpy or scipy is missing.
 """
 
 import random
@@ -13,13 +13,19 @@ import sys
 import tempfile
 from pathlib import Path
 
+PROGRAM, FABRIC, TOOLS = (Path(argument).resolve() for argument in sys.argv[1:4])
+sys.path.insert(0, str(TOOLS))
+
 try:
     import ezdxf
+    import numpy as np
+
+    from exchange.draw_pattern import write_dxf
+    from exchange.flat_pattern import Pattern
 except ImportError as error:
     print("SKIPPED:", error)
     sys.exit(77)
 
-PROGRAM, FABRIC = (Path(argument).resolve() for argument in sys.argv[1:3])
 QUARTER = 2 ** 0.5 - 1  # bulge of a quarter of a circle
 DAMAGED = 60
 
@@ -98,6 +104,16 @@ def check_versions(folder):
     expect(folder, "inch.dxf", "50 x 50 mm, 0 holes, layer 0, 5 mm a unit", more="scale = 5.0")
 
 
+def check_pattern(folder):
+    """What plyform pattern writes: the outline, the warp and the ply's name on layers of their
+    own."""
+    turn = np.linspace(0, 2 * np.pi, 92, endpoint=False)
+    outline = np.column_stack([100 * np.cos(turn), 60 * np.sin(turn)])
+    write_dxf(Pattern("ply", 30.0, outline, 0, 0, 0, 0, 0), folder / "pattern.dxf")
+    refuse(folder, "pattern.dxf", "the outline is open: LINE ends at")
+    expect(folder, "pattern.dxf", "200 x 120 mm, 0 holes, layer CUT, in mm", more='layer = "CUT"')
+
+
 def check_mirrored(folder):
     """Seen from below: bulges go the other way round in what is stored. Half a circle outwards
     makes the sheet 20 mm longer, inwards none."""
@@ -157,6 +173,7 @@ def check_damaged(folder):
 
 with tempfile.TemporaryDirectory() as name:
     check_versions(Path(name))
+    check_pattern(Path(name))
     check_mirrored(Path(name))
     check_refused(Path(name))
     check_damaged(Path(name))
