@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Signed distance to a chain of lines and arcs in the (r, z) half-plane.
+// Signed distance to a chain of lines and arcs in a plane, written for (r, z).
 //
 // Symbols: q point, a b ends of a segment, c centre and R radius of an arc (mm), t unit
 // tangent in walking direction, n = (-t_z, t_r) its left normal, which points to the free side.
@@ -76,8 +76,8 @@ SectionPoint inside_segment(const SegmentForm& s, const Vec2& q) {
 }
 
 /// m of (3), not normalised, for the vertex at the start or end of segment i.
-Vec2 pseudo_normal(const RevolvedProfile& profile, std::size_t i, Feature feature) {
-  const auto& s = profile.segments;
+Vec2 pseudo_normal(const Profile& profile, std::size_t i, Feature feature) {
+  const Profile& s = profile;
   const bool at_start = feature == Feature::start;
   const Vec2 own = tangent(s[i], at_start ? 0 : 1);
   Vec2 before = own, after = own;
@@ -92,9 +92,8 @@ Vec2 pseudo_normal(const RevolvedProfile& profile, std::size_t i, Feature featur
   return m.squaredNorm() > 1e-12 ? m : Vec2(before - after);
 }
 
-SectionPoint at_vertex(const RevolvedProfile& profile, std::size_t i, Feature feature,
-                       const Vec2& q) {
-  const ProfileSegment& s = profile.segments[i];
+SectionPoint at_vertex(const Profile& profile, std::size_t i, Feature feature, const Vec2& q) {
+  const ProfileSegment& s = profile[i];
   const Vec2 d = q - (feature == Feature::start ? s.a : s.b);
   const Vec2 m = pseudo_normal(profile, i, feature);
   const double length = d.norm(), sign = m.dot(d) < 0.0 ? -1.0 : 1.0; // (3)
@@ -104,11 +103,10 @@ SectionPoint at_vertex(const RevolvedProfile& profile, std::size_t i, Feature fe
 
 /// section_distance, with form_of(i) the SegmentForm of segment i.
 template <class FormOf>
-SectionPoint distance_to_section(const RevolvedProfile& profile, const FormOf& form_of,
-                                 const Vec2& q) {
+SectionPoint distance_to_section(const Profile& profile, const FormOf& form_of, const Vec2& q) {
   Nearest best{std::numeric_limits<double>::infinity(), Feature::start};
   std::size_t at = 0;
-  for (std::size_t i = 0; i < profile.segments.size(); ++i) {
+  for (std::size_t i = 0; i < profile.size(); ++i) {
     const Nearest here = nearest_on(form_of(i), q);
     if (here.distance2 < best.distance2) {
       best = here;
@@ -137,26 +135,26 @@ SegmentForm::SegmentForm(const ProfileSegment& s)
   past_half_turn = full_circle || turn * cross(to_a, to_b) < 0.0;
 }
 
-SectionField::SectionField(const RevolvedProfile& profile)
-    : profile_(&profile), forms_(profile.segments.begin(), profile.segments.end()) {}
+SectionField::SectionField(const Profile& profile)
+    : profile_(&profile), forms_(profile.begin(), profile.end()) {}
 
 SectionPoint SectionField::distance(const Vec2& q) const {
   const auto form_of = [this](std::size_t i) -> const SegmentForm& { return forms_[i]; };
   return distance_to_section(*profile_, form_of, q);
 }
 
-SectionPoint section_distance(const RevolvedProfile& profile, const Vec2& q) {
-  const auto form_of = [&](std::size_t i) { return SegmentForm(profile.segments[i]); };
+SectionPoint section_distance(const Profile& profile, const Vec2& q) {
+  const auto form_of = [&](std::size_t i) { return SegmentForm(profile[i]); };
   return distance_to_section(profile, form_of, q);
 }
 
-bool is_ring(const RevolvedProfile& profile) {
-  return profile.segments.front().a == profile.segments.back().b;
+bool is_ring(const Profile& profile) {
+  return profile.front().a == profile.back().b;
 }
 
 bool is_closed(const RevolvedProfile& profile) {
-  return is_ring(profile) ||
-         (profile.segments.front().a.x() <= 0.0 && profile.segments.back().b.x() <= 0.0);
+  const Profile& s = profile.segments;
+  return is_ring(s) || (s.front().a.x() <= 0.0 && s.back().b.x() <= 0.0);
 }
 
 Vec2 tangent(const ProfileSegment& s, int end) {

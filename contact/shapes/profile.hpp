@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Internal to contact/: the section of a surface of revolution in the (r, z) half-plane.
+// Internal to contact/: signed distance to a profile in its plane.
 #pragma once
 
 #include "contact/shapes/tool_shape.hpp"
 
 namespace plyform {
 
-/// Signed distance (mm, positive on the free side) and its unit gradient (r, z) at q = (r, z), r >=
-/// 0.
+/// Signed distance (mm, positive on the free side) and its unit gradient in the plane of a profile.
 struct SectionPoint {
   double distance;
   Vec2 normal;
@@ -16,7 +15,7 @@ struct SectionPoint {
 /// Signed distance (mm) of q (mm) to the profile, and its gradient: (1) to (3) of profile.cpp. Past
 /// an open end the sign is that of the side of the end's tangent on which q lies. The profile must
 /// have at least one segment.
-SectionPoint section_distance(const RevolvedProfile& profile, const Vec2& q);
+SectionPoint section_distance(const Profile& profile, const Vec2& q);
 
 /// A segment and the quantities derived from it that its distance to a point needs.
 struct SegmentForm {
@@ -37,16 +36,16 @@ struct SegmentForm {
 /// outlive it.
 class SectionField {
 public:
-  explicit SectionField(const RevolvedProfile& profile);
+  explicit SectionField(const Profile& profile);
   SectionPoint distance(const Vec2& q) const;
 
 private:
-  const RevolvedProfile* profile_;
+  const Profile* profile_;
   std::vector<SegmentForm> forms_;
 };
 
 /// The last point of the profile is its first: a ring.
-bool is_ring(const RevolvedProfile& profile);
+bool is_ring(const Profile& profile);
 
 /// A ring, or both ends on the axis: the profile bounds a solid.
 bool is_closed(const RevolvedProfile& profile);

@@ -10,6 +10,9 @@
 // (1) is exact inside too. The rounded box is the set of points within e of the inner box h - e:
 // a point at distance r <= e from the inner box therefore lies e - r below the surface, and from a
 // point in the inner box the nearest point of the surface is on a flat face, as for a sharp box.
+//
+// A prism: d the distance to its section, e = |y| - length/2 that to its ends:
+//   s = |max((d, e), 0)| + min(max(d, e), 0)                                       (2)
 #pragma once
 
 #include "contact/shapes/mesh_shape.hpp"
@@ -61,6 +64,20 @@ template <class Section>
   if (!(r > 0.0)) return {s, Vec3(n.x(), 0.0, n.y())}; // on the axis: towards +x
   const double by = n.x() / r;
   return {s, Vec3(by * p.x(), by * p.y(), n.y())};
+}
+
+/// (2): a section in (x, z) drawn out along y, with sharp ends at |y| = length/2.
+template <class Section>
+[[gnu::always_inline]] inline SurfacePoint extruded(const Vec3& p, double length,
+                                                    const Section& section) {
+  const auto [d, n] = section(Vec2(p.x(), p.z()));
+  const double e = std::abs(p.y()) - 0.5 * length;
+  if (d > 0.0 && e > 0.0) {
+    const double s = std::sqrt(d * d + e * e);
+    return {s, Vec3(d * n.x(), std::copysign(e, p.y()), d * n.y()) / s};
+  }
+  if (d >= e) return {d, Vec3(n.x(), 0.0, n.y())};
+  return {e, Vec3(0.0, std::copysign(1.0, p.y()), 0.0)};
 }
 
 /// Centre, half edges and edge radius (mm) of a ring's section. That of a disc extends through the
@@ -117,8 +134,14 @@ inline auto distance_of(const Annulus& a) {
 }
 
 inline auto distance_of(const RevolvedProfile& profile) {
-  return [section = SectionField(profile)](const Vec3& p, int&) {
+  return [section = SectionField(profile.segments)](const Vec3& p, int&) {
     return revolved(p, [&](const Vec2& q) { return section.distance(q); });
+  };
+}
+
+inline auto distance_of(const ExtrudedProfile& profile) {
+  return [section = SectionField(profile.segments), length = profile.length](const Vec3& p, int&) {
+    return extruded(p, length, [&](const Vec2& q) { return section.distance(q); });
   };
 }
 

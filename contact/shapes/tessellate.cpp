@@ -2,6 +2,7 @@
 // Triangles of a tool, for pictures and the exact check of intersections. Nodes lie on the surface,
 // so curved parts are inscribed: a chord of length l deviates from a circle of radius R by
 // l^2/(8 R).
+#include "contact/shapes/fill_polygon.hpp"
 #include "contact/shapes/shape_distance.hpp"
 
 #include <cmath>
@@ -22,10 +23,10 @@ int pieces(double length, double size) {
   return std::max(1, static_cast<int>(std::ceil(length / size - 1e-9)));
 }
 
-/// The profile as points (r, z) about `size` apart; a ring does not repeat its first point.
-std::vector<Vec2> section_points(const RevolvedProfile& profile, double size) {
+/// The profile as points about `size` apart; a ring does not repeat its first point.
+std::vector<Vec2> section_points(const Profile& profile, double size) {
   std::vector<Vec2> points;
-  for (const ProfileSegment& s : profile.segments) {
+  for (const ProfileSegment& s : profile) {
     if (s.kind == ProfileSegment::Kind::line) {
       const int n = pieces((s.b - s.a).norm(), size);
       for (int i = 0; i < n; ++i)
@@ -39,9 +40,7 @@ std::vector<Vec2> section_points(const RevolvedProfile& profile, double size) {
     for (int i = 1; i < n; ++i)
       points.push_back(s.centre + Eigen::Rotation2Dd(s.turn * angle * i / n) * ca);
   }
-  if (!is_ring(profile)) points.push_back(profile.segments.back().b);
-  for (Vec2& p : points)
-    p.x() = std::max(p.x(), 0.0); // rounding of arcs that touch the axis
+  if (!is_ring(profile)) points.push_back(profile.back().b);
   return points;
 }
 
@@ -62,10 +61,12 @@ void join(const Ring& a, const Ring& b, int sectors, std::vector<Triangle>& out)
 }
 
 TriMesh triangles_of(const RevolvedProfile& profile, double size, double) {
-  const std::vector<Vec2> points = section_points(profile, size);
+  std::vector<Vec2> points = section_points(profile.segments, size);
   double widest = 0.0;
-  for (const Vec2& p : points)
+  for (Vec2& p : points) {
+    p.x() = std::max(p.x(), 0.0); // rounding of arcs that touch the axis
     widest = std::max(widest, p.x());
+  }
   const int sectors = std::max(16, pieces(2.0 * std::numbers::pi * widest, size));
   TriMesh surface;
   std::vector<Ring> rings;
@@ -79,7 +80,7 @@ TriMesh triangles_of(const RevolvedProfile& profile, double size, double) {
   }
   for (std::size_t i = 0; i + 1 < rings.size(); ++i)
     join(rings[i], rings[i + 1], sectors, surface.triangles);
-  if (is_ring(profile)) join(rings.back(), rings.front(), sectors, surface.triangles);
+  if (is_ring(profile.segments)) join(rings.back(), rings.front(), sectors, surface.triangles);
   return surface;
 }
 
@@ -208,6 +209,29 @@ TriMesh triangles_of(const Plane&, double size, double extent) {
       surface.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
       surface.triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
     }
+  return surface;
+}
+
+/// Rows of points along y; a solid has ends.
+TriMesh triangles_of(const ExtrudedProfile& profile, double size, double) {
+  const std::vector<Vec2> points = section_points(profile.segments, size);
+  const bool ring = is_ring(profile.segments);
+  const int n = pieces(profile.length, size), count = static_cast<int>(points.size());
+  TriMesh surface;
+  for (int j = 0; j <= n; ++j)
+    for (const Vec2& p : points)
+      surface.x.emplace_back(p.x(), profile.length * (double(j) / n - 0.5), p.y());
+  for (int j = 0; j < n; ++j)
+    for (int i = 0; i + (ring ? 0 : 1) < count; ++i) {
+      const std::int32_t a = j * count + i, b = j * count + (i + 1) % count;
+      surface.triangles.push_back({a, b, b + count});
+      surface.triangles.push_back({a, b + count, a + count});
+    }
+  if (!ring || area_of(points) > 0.0) return surface;  // no solid, or one all round it
+  for (const auto& [a, b, c] : fill_polygon(points)) { // anticlockwise: towards -y
+    surface.triangles.push_back({a, b, c});
+    surface.triangles.push_back({a + n * count, c + n * count, b + n * count});
+  }
   return surface;
 }
 

@@ -31,24 +31,35 @@ double smallest(const MeshShapePtr&) {
 }
 
 /// The smallest arc radius, or 0 if the material has a sharp edge: a corner at which the profile
-/// turns to the right, or a tip on the axis. Inner corners do not count: a sheet bridges them.
-double smallest(const RevolvedProfile& profile) {
+/// turns to the right. Inner corners do not count: a sheet bridges them.
+double smallest(const Profile& s) {
   constexpr double straight = 1e-6; // rad, above the rounding of tangents
-  const auto& s = profile.segments;
   double radius = infinity;
   for (std::size_t i = 0; i < s.size(); ++i) {
     if (s[i].kind == ProfileSegment::Kind::arc)
       radius = std::min(radius, (s[i].a - s[i].centre).norm());
-    if (i + 1 == s.size() && !is_ring(profile)) break;
+    if (i + 1 == s.size() && !is_ring(s)) break;
     const Vec2 t = tangent(s[i], 1), next = tangent(s[(i + 1) % s.size()], 0);
     if (t.x() * next.y() - t.y() * next.x() < -straight) return 0.0;
   }
-  if (is_ring(profile)) return radius;
-  // A profile that leaves the axis downwards, or reaches it downwards, has the tip of a cone there.
+  return radius;
+}
+
+/// A profile that leaves the axis downwards, or reaches it downwards, has the tip of a cone there:
+/// a sharp edge too.
+double smallest(const RevolvedProfile& profile) {
+  constexpr double straight = 1e-6; // of tangents
+  const Profile& s = profile.segments;
+  if (is_ring(s)) return smallest(s);
   const Vec2 t0 = tangent(s.front(), 0), t1 = tangent(s.back(), 1);
   if (s.front().a.x() <= 0.0 && t0.x() * t0.y() < -straight) return 0.0;
   if (s.back().b.x() <= 0.0 && t1.x() * t1.y() > straight) return 0.0;
-  return radius;
+  return smallest(s);
+}
+
+/// The ends do not count.
+double smallest(const ExtrudedProfile& profile) {
+  return smallest(profile.segments);
 }
 
 bool both_ways(const Sphere&) {
@@ -65,8 +76,12 @@ bool both_ways(const Shape&) {
 } // namespace
 
 SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint) {
-  if (const auto* profile = std::get_if<RevolvedProfile>(&shape)) // one point: nothing to prepare
-    return revolved(p, [&](const Vec2& q) { return section_distance(*profile, q); });
+  // one point: nothing to prepare
+  if (const auto* profile = std::get_if<RevolvedProfile>(&shape))
+    return revolved(p, [&](const Vec2& q) { return section_distance(profile->segments, q); });
+  if (const auto* profile = std::get_if<ExtrudedProfile>(&shape))
+    return extruded(p, profile->length,
+                    [&](const Vec2& q) { return section_distance(profile->segments, q); });
   return std::visit([&](const auto& s) { return distance_of(s)(p, hint); }, shape);
 }
 

@@ -39,22 +39,32 @@ struct Annulus {
   double inner_radius, outer_radius, thickness, edge_radius;
 };
 
-/// One piece of a profile in the (r, z) half-plane: a line from a to b, or an arc about `centre`
-/// from a to b, anticlockwise (in r to the right, z up) when `turn` = +1, clockwise when -1.
+/// One piece of a profile in a plane, (r, z) or (x, z): a line from a to b, or an arc about
+/// `centre` from a to b, anticlockwise (first axis to the right, second up) when `turn` = +1,
+/// clockwise when -1.
 struct ProfileSegment {
   enum class Kind { line, arc } kind;
   Vec2 a, b;
   Vec2 centre{0.0, 0.0};
   int turn = 0;
 };
-/// Surface of revolution about z. Along the segments in order the free side is on the left and the
-/// tool's material on the right: the profile of a hole with a fillet goes up the wall, round the
-/// fillet and outwards. Each segment starts exactly where the one before ended. The profile bounds
-/// a solid if it ends where it began (a ring) or begins and ends on the axis; else it is open, and
-/// past its ends the sign is that of the side of the end's tangent. An arc with a = b is a full
-/// circle. At least one segment.
+/// Lines and arcs, at least one; each starts exactly where the one before ended. An arc with a = b
+/// is a full circle. Walking along, the free side is on the left and the tool's material on the
+/// right: the profile of a hole with a fillet goes up the wall, round the fillet and outwards.
+using Profile = std::vector<ProfileSegment>;
+
+/// Surface of revolution about z. The profile bounds a solid if it ends where it began (a ring) or
+/// begins and ends on the axis; else it is open, and past its ends the sign is that of the side of
+/// the end's tangent.
 struct RevolvedProfile {
-  std::vector<ProfileSegment> segments;
+  Profile segments;
+};
+
+/// A profile in the (x, z) plane drawn out along y, from y = -length/2 to +length/2, with sharp
+/// ends. The side of an open profile is as for a surface of revolution.
+struct ExtrudedProfile {
+  Profile segments;
+  double length;
 };
 
 /// Triangle mesh with its CGAL search tree, built by load_tool_mesh or make_mesh_shape. Immutable;
@@ -62,8 +72,8 @@ struct RevolvedProfile {
 class MeshShape;
 using MeshShapePtr = std::shared_ptr<const MeshShape>;
 
-using ToolShape =
-    std::variant<Sphere, Cylinder, Box, Plane, Annulus, RevolvedProfile, MeshShapePtr>;
+using ToolShape = std::variant<Sphere, Cylinder, Box, Plane, Annulus, RevolvedProfile,
+                               ExtrudedProfile, MeshShapePtr>;
 
 /// Signed distance (mm, positive outside) of a point and its unit gradient there.
 struct SurfacePoint {
@@ -98,6 +108,25 @@ bool curves_both_ways(const ToolShape& shape);
 /// Throws std::invalid_argument (saying which corner and why) if a fillet does not fit or stands at
 /// an end, a point repeats the one before, r < 0, a number is not finite, or fewer than two points.
 RevolvedProfile make_profile(const std::vector<std::array<double, 3>>& points);
+
+/// How messages call a point of a chain and its coordinates.
+struct PointWords {
+  const char *point, *first, *second;
+};
+
+/// The chain through points {first, second, fillet radius} (mm), each corner rounded by its fillet;
+/// with `closed` back to the first point, which is a corner as the others. Throws
+/// std::invalid_argument as make_profile, for any sign of the coordinates.
+Profile round_corners(const std::vector<std::array<double, 3>>& points, bool closed,
+                      const PointWords& words);
+
+/// Truncated cone about z as a profile: `radius` at z = -length/2, `top_radius`, which may be 0, at
+/// z = +length/2. Its edges, and its tip, are rounded with edge_radius: faces and flank stay where
+/// they are, the solid gets smaller. Throws std::invalid_argument if the roundings do not fit.
+RevolvedProfile make_cone(double radius, double top_radius, double length, double edge_radius);
+
+/// Torus about z: a circle of minor_radius about (r, z) = (major_radius, 0); minor < major.
+RevolvedProfile make_torus(double major_radius, double minor_radius);
 
 /// Size of a tool mesh, and what was changed when it was read.
 struct MeshReport {

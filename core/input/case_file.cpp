@@ -22,39 +22,6 @@ namespace {
 
 using Numbers = std::map<std::string, int>; ///< index by name
 
-BlankSpec read_blank(const TableView& section, const std::filesystem::path& folder,
-                     Diagnostics& diagnostics) {
-  BlankSpec blank;
-  read_members(section, blank);
-  if (text(section, "mesh").empty()) return blank;
-  if (blank.mesh == MeshKind::file) {
-    const TomlNode* file = given(section, "file");
-    if (!file) return blank;
-    blank.file = resolve_path(*file, folder).lexically_normal();
-    if (!std::filesystem::is_regular_file(blank.file))
-      value_error(section, "file", "there is no file " + blank.file.string(),
-                  "give the path of a blank's mesh, seen from the file that names it", diagnostics);
-    return blank;
-  }
-  const Vec2 centre = vector2(section, "centre"), half = 0.5 * vector2(section, "size");
-  blank.outline.boundary = pairs(section, "outline");
-  if (given(section, "size"))
-    blank.outline.boundary = {
-        {-half.x(), -half.y()}, {half.x(), -half.y()}, {half.x(), half.y()}, {-half.x(), half.y()}};
-  if (const TomlNode* holes = given(section, "holes"))
-    for (const TomlNode& hole : holes->children) {
-      std::vector<Vec2>& corners = blank.outline.holes.emplace_back();
-      for (const TomlNode& corner : hole.children)
-        corners.emplace_back(corner.children[0].number, corner.children[1].number);
-    }
-  for (Vec2& x : blank.outline.boundary)
-    x += centre;
-  for (std::vector<Vec2>& hole : blank.outline.holes)
-    for (Vec2& x : hole)
-      x += centre;
-  return blank;
-}
-
 /// Names of the tables of a map, with their numbers in the order of the file.
 Numbers names_of(const TableView& root, const std::string& key) {
   Numbers names;
@@ -88,6 +55,7 @@ std::vector<Ply> read_plies(const TableView& root, const std::vector<Fabric>& fa
   for (const TableView& section : subsections(root, "ply")) {
     Ply ply;
     read_members(section, ply);
+    if (given(section, "seed")) ply.seed = vector2(section, "seed");
     ply.fabric = named_part(section, "fabric", fabric_names, diagnostics);
     ply.blank = named_part(section, "blank", blank_names, diagnostics);
     const std::size_t fabric = static_cast<std::size_t>(ply.fabric);

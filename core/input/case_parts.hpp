@@ -17,6 +17,10 @@ namespace plyform {
 /// core/input/fabric_file.cpp: fabric files and tables.
 std::vector<Fabric> read_fabrics(const TableView& root, Diagnostics& diagnostics);
 
+/// core/input/blank_file.cpp: one blank. `folder` is the case file's.
+BlankSpec read_blank(const TableView& section, const std::filesystem::path& folder,
+                     Diagnostics& diagnostics);
+
 /// core/input/tool_file.cpp: tools, their shapes, places and motions. `folder` is the case file's.
 std::vector<Tool> read_tools(const TableView& root, const std::filesystem::path& folder,
                              Diagnostics& diagnostics);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/key_member.hpp"
 
+#include <algorithm>
 #include <limits>
 
 namespace plyform {
@@ -12,7 +13,8 @@ constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
 /// Whether a key that is not given is missing, so that its member is set to `nothing`.
 bool is_missed(const TableView& section, const KeyRow& row) {
   if (!row.otherwise.empty() || !row.goes_with(text(section, row.of))) return false;
-  return row.instead.empty() || !given(section, row.instead);
+  return std::none_of(row.instead.begin(), row.instead.end(),
+                      [&](const std::string& other) { return given(section, other); });
 }
 
 } // namespace

@@ -2,6 +2,7 @@
 // Checks of the scene as a whole.
 #include "core/input/case_parts.hpp"
 #include "core/input/initial_scene.hpp"
+#include "core/mesh/mesh_ply.hpp"
 #include "core/model/motion.hpp"
 
 #include <algorithm>
@@ -42,14 +43,16 @@ const Fabric& fabric_of(const Case& scene, const Ply& ply) {
 }
 
 /// The mesh of a ply's blank; reports an error, once per blank, and returns nothing if that fails.
-std::optional<BlankMesh> mesh_ply(SceneCheck& check, const Ply& ply, std::set<int>& reported) {
-  const BlankSpec& blank = check.scene.blanks[ply.blank];
+std::optional<BlankMesh> try_mesh(SceneCheck& check, const Ply& ply, std::set<int>& reported) {
+  const std::string& drawing = check.scene.blanks[ply.blank].drawing;
   try {
-    return mesh_blank(blank, ply.angle, ply.angle + fabric_of(check.scene, ply).fibre_angle);
+    return mesh_ply(check.scene, ply);
   } catch (const std::runtime_error& error) {
     if (!reported.insert(ply.blank).second) return std::nullopt;
     const SourceLocation& place = check.parts.blanks[ply.blank];
-    check.diagnostics.error_from(place.at, place.item, "", "cannot be meshed: ", error.what());
+    check.diagnostics.error_from(place.at, place.item, "",
+                                 "cannot be meshed: " + drawing + (drawing.empty() ? "" : ": "),
+                                 error.what());
     return std::nullopt;
   }
 }
@@ -69,14 +72,15 @@ void warn_of_few(SceneCheck& check, const Ply& ply, const BlankMesh& mesh) {
 /// Meshes all plies; false if one cannot be meshed.
 bool lay_plies(SceneCheck& check) {
   // the angle matters for MeshKind::fibres only
-  std::map<std::tuple<int, double, int>, BlankMesh> meshes;
+  std::map<std::tuple<int, double, int, double, double, double>, BlankMesh> meshes;
   std::set<int> reported;
   for (const Ply& ply : check.scene.plies) {
     const BlankSpec& blank = check.scene.blanks[ply.blank];
     const bool by_angle = blank.mesh == MeshKind::fibres;
-    const std::tuple key(ply.blank, by_angle ? ply.angle : 0.0, by_angle ? ply.fabric : 0);
+    const std::tuple key(ply.blank, by_angle ? ply.angle : 0.0, by_angle ? ply.fabric : 0,
+                         ply.seed.x(), ply.seed.y(), ply.rotation);
     if (!meshes.contains(key)) {
-      std::optional<BlankMesh> mesh = mesh_ply(check, ply, reported);
+      std::optional<BlankMesh> mesh = try_mesh(check, ply, reported);
       if (!mesh) continue;
       warn_of_few(check, ply, *mesh);
       meshes.emplace(key, std::move(*mesh));

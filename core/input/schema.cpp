@@ -123,19 +123,19 @@ std::string type_text(const KeyRow& row) {
     return row.count ? fmt::format("list of {} numbers", row.count) : "list of numbers";
   case KeyKind::pairs:
     return "list of [a, b]";
-  case KeyKind::polygons:
-    return "list of lists of [x, y]";
+  case KeyKind::outlines:
+    return "list of outlines or tables";
   case KeyKind::names:
     return fmt::format("list of {} strings", row.count);
   case KeyKind::profile:
-    return "list of [r, z], [r, z, fillet] or tables";
+    return "list of [a, b], [a, b, fillet] or tables";
   }
   return "";
 }
 
 std::string fallback_text(const KeyRow& row) {
   if (!row.otherwise.empty()) return row.otherwise;
-  if (!row.instead.empty()) return "required, or " + row.instead;
+  if (!row.instead.empty()) return "required, or " + joined(row.instead);
   if (!row.fallback.empty()) return row.fallback;
   return row.of.empty() ? "required" : fmt::format("required for {} {}", row.of, joined(row.with));
 }

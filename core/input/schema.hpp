@@ -28,9 +28,9 @@ enum class KeyKind {
   boolean,
   numbers,  ///< list of `count` numbers, or of any number of them if count is 0
   pairs,    ///< list of [a, b]
-  polygons, ///< list of lists of [x, y]
   names,    ///< list of `count` strings
-  profile,  ///< list of [r, z], [r, z, fillet] and tables
+  profile,  ///< list of [a, b], [a, b, fillet] and tables, which are arcs
+  outlines, ///< list of such lists, or of tables, which are circles
 };
 
 /// Range of allowed numbers; the ends belong to it unless open.
@@ -59,11 +59,12 @@ struct KeyMember {
 struct KeyRow {
   std::string key; ///< pattern
   KeyKind kind = KeyKind::number;
-  std::string unit = "-";      ///< of each column: "deg, N mm"
-  std::string fallback{};      ///< TOML value taken when the key is not given
-  std::string otherwise{};     ///< default in words, if it is not a value
-  std::string instead{};       ///< alternative key; both must not be given, and one of the two
-                               ///< must be unless they have an `otherwise`
+  std::string unit = "-";  ///< of each column: "deg, N mm"
+  std::string fallback{};  ///< TOML value taken when the key is not given
+  std::string otherwise{}; ///< default in words, if it is not a value
+  /// Alternative keys, of which each names all others: two must not be given, and one must be
+  /// unless they have an `otherwise`.
+  std::vector<std::string> instead{};
   std::vector<Range> ranges{}; ///< per column; the last one applies to all further columns
   std::vector<Range> usual{};  ///< the same of numbers as they are used; others get a warning
   std::vector<std::string> choices{}; ///< for KeyKind::choice

@@ -28,7 +28,7 @@ Rows yarn_bending_rows(const std::string& yarn) {
           {.key = table + ".bending_stiffness",
            .unit = "N mm",
            .otherwise = bending,
-           .instead = "bending_table",
+           .instead = {"bending_table"},
            .ranges = {bending_range},
            .usual = {range_of(usual_bending_stiffness)},
            .meaning = "moment per width divided by curvature along the " + yarn + " (N mm2/mm)",
@@ -37,7 +37,7 @@ Rows yarn_bending_rows(const std::string& yarn) {
            .kind = KeyKind::pairs,
            .unit = "1/mm, N",
            .otherwise = bending,
-           .instead = "bending_stiffness",
+           .instead = {"bending_stiffness"},
            .ranges = {{.least = 0.0, .most = 1e3}, bending_range},
            .least_items = 2,
            .meaning = "[curvature along the " + yarn +

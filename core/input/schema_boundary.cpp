@@ -90,8 +90,8 @@ Rows boundary_rows() {
              .with = {"symmetry"},
              .meaning = "direction [x, y] at right angles to the plane, of any length"}};
   for (KeyRow& row : rows) {
-    if (row.key == "boundary[].box") row.instead = "edge";
-    if (row.key == "boundary[].edge") row.instead = "box";
+    if (row.key == "boundary[].box") row.instead = {"edge"};
+    if (row.key == "boundary[].edge") row.instead = {"box"};
   }
   return rows;
 }

@@ -41,6 +41,9 @@ Rows sheet_rows();
 /// core/input/schema_fabric.cpp: fabrics.NAME and fabric files.
 Rows fabric_rows();
 
+/// core/input/schema_blank.cpp: blanks.NAME.
+Rows blank_rows();
+
 /// core/input/schema_tool.cpp: [[tool]], and its motion. Shapes: core/input/tool_shapes.cpp.
 Rows tool_rows();
 Rows shape_rows();

@@ -83,29 +83,41 @@ bool check_pairs(const Check& check, TomlNode& value, const std::string& item) {
   return value.valid = valid;
 }
 
-bool check_polygons(const Check& check, TomlNode& value, const std::string& item) {
-  if (value.kind != Kind::list)
-    return check.fail(value, item, "must be a list of lists of pairs of numbers");
-  bool valid = true;
-  for (std::size_t i = 0; i < value.children.size(); ++i)
-    valid &= check_pairs(check, value.children[i], fmt::format("{}.{}", item, i));
-  return value.valid = valid;
-}
-
-bool check_profile(const Check& check, TomlNode& value, const std::string& item) {
+/// `arcs`: pattern of the tables in the list.
+bool check_profile(const Check& check, TomlNode& value, const std::string& item,
+                   const std::string& arcs) {
   if (!check_list(check, value, item, "points")) return false;
   bool valid = true;
   for (std::size_t i = 0; i < value.children.size(); ++i) {
     TomlNode& point = value.children[i];
     const std::string path = fmt::format("{}.{}", item, i);
     if (point.kind == Kind::table) {
-      check_section({&point, check.row.key + "[]", path}, check.diagnostics);
+      check_section({&point, arcs, path}, check.diagnostics);
       for (const TomlNode& part : point.children)
         valid &= part.valid;
       valid &= point.valid;
     } else {
       valid &= check_numbers(check, point, path, 2, 3);
     }
+  }
+  return value.valid = valid;
+}
+
+bool check_outlines(const Check& check, TomlNode& value, const std::string& item) {
+  if (value.kind != Kind::list)
+    return check.fail(value, item, "must be a list of lists of points, or of circles");
+  bool valid = true;
+  for (std::size_t i = 0; i < value.children.size(); ++i) {
+    TomlNode& child = value.children[i];
+    const std::string path = fmt::format("{}.{}", item, i);
+    if (child.kind != Kind::table) {
+      valid &= check_profile(check, child, path, check.row.key + "[][]");
+      continue;
+    }
+    check_section({&child, check.row.key + "[]", path}, check.diagnostics);
+    for (const TomlNode& part : child.children)
+      valid &= part.valid;
+    valid &= child.valid;
   }
   return value.valid = valid;
 }
@@ -183,12 +195,12 @@ bool check_value(const Check& check, TomlNode& value, const std::string& item) {
     return check_numbers(check, value, item, check.row.count, check.row.count);
   case KeyKind::pairs:
     return check_pairs(check, value, item);
-  case KeyKind::polygons:
-    return check_polygons(check, value, item);
+  case KeyKind::outlines:
+    return check_outlines(check, value, item);
   case KeyKind::names:
     return check_names(check, value, item);
   case KeyKind::profile:
-    return check_profile(check, value, item);
+    return check_profile(check, value, item, check.row.key + "[]");
   }
   return true;
 }
@@ -214,9 +226,21 @@ void add_default(TomlNode& table, const KeyRow& row) {
   table.children.push_back(std::move(*value));
 }
 
-/// The pattern of the alternative key (KeyRow::instead).
-std::string pattern_beside(const KeyRow& row) {
-  return row.key.substr(0, row.key.size() - last_part(row.key).size()) + row.instead;
+/// The first of the alternative keys (KeyRow::instead) that the table has, before the row in the
+/// table of keys or anywhere; empty if there is none.
+std::string alternative_given(const TomlNode& table, const KeyRow& row, bool only_before) {
+  const std::string above = row.key.substr(0, row.key.size() - last_part(row.key).size());
+  for (const std::string& other : row.instead)
+    if (table.find(other) && (!only_before || find_key(above + other) < &row)) return other;
+  return "";
+}
+
+/// Whether none of the row's alternatives comes before it in the table of keys.
+bool is_first_alternative(const KeyRow& row) {
+  const std::string above = row.key.substr(0, row.key.size() - last_part(row.key).size());
+  return !row.instead.empty() &&
+         std::all_of(row.instead.begin(), row.instead.end(),
+                     [&](const std::string& other) { return find_key(above + other) > &row; });
 }
 
 /// Checks the value of one key of the table, or that it is missing.
@@ -232,20 +256,19 @@ void check_row(const TableView& section, const KeyRow& row, Diagnostics& diagnos
   }
   if (applies && !row.fallback.empty() && !table.find(key)) add_default(table, row);
   const std::string item = item_of(section, key);
-  // Of two alternative keys, the row that comes first in the table reports that both are missing,
-  // the other one that both are given, so that no error is reported twice.
-  const KeyRow* other = row.instead.empty() ? nullptr : find_key(pattern_beside(row));
-  const bool first = other && &row < other;
+  // Of alternative keys, the row that comes first in the table reports that all are missing, later
+  // ones that one before is given too, so that no error is reported twice.
   if (TomlNode* value = table.find(key)) {
     check_value({row, diagnostics}, *value, item);
-    if (!other || first || !table.find(row.instead)) return;
-    diagnostics.error(value->key_at, item, value->source_text,
-                      fmt::format("cannot stand beside {}", row.instead),
-                      "take one of the two out");
-  } else if (applies &&
-             (row.required() || (first && row.otherwise.empty() && !table.find(row.instead)))) {
-    diagnostics.error(table.at, item, "", "is missing",
-                      give(row) + (other ? ", or " + row.instead : ""));
+    if (const std::string other = alternative_given(table, row, true); !other.empty())
+      diagnostics.error(value->key_at, item, value->source_text,
+                        fmt::format("cannot stand beside {}", other), "take one of the two out");
+  } else if (applies && (row.required() || (is_first_alternative(row) && row.otherwise.empty() &&
+                                            alternative_given(table, row, false).empty()))) {
+    std::string others;
+    for (const std::string& other : row.instead)
+      others += ", or " + other;
+    diagnostics.error(table.at, item, "", "is missing", give(row) + others);
     table.valid = false;
   }
 }

@@ -60,7 +60,7 @@ Rows fabric_rows() {
                    .members = {to(yarn == "warp" ? &Fabric::warp_density : &Fabric::weft_density)}},
                   {.key = table + ".stiffness",
                    .unit = "N/yarn",
-                   .instead = "table",
+                   .instead = {"table"},
                    .ranges = {stiffness_range},
                    .usual = {range_of(usual_stiffness)},
                    .meaning = "tension of one yarn divided by its strain",
@@ -68,7 +68,7 @@ Rows fabric_rows() {
                   {.key = table + ".table",
                    .kind = K::pairs,
                    .unit = "-, N/yarn",
-                   .instead = "stiffness",
+                   .instead = {"stiffness"},
                    .ranges = {{.least = 0.0, .most = 10.0}, yarn_force_range},
                    .least_items = 2,
                    .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}});
@@ -83,7 +83,7 @@ Rows fabric_rows() {
           {.key = "fabrics.NAME.shear.polynomial",
            .kind = K::numbers,
            .unit = "N mm",
-           .instead = "table",
+           .instead = {"table"},
            .ranges = {{.least = -1e9, .most = 1e9}},
            .least_items = 1,
            .meaning = "coefficients k1, k3, k5 ... of the torque of one unit cell, "
@@ -91,7 +91,7 @@ Rows fabric_rows() {
           {.key = "fabrics.NAME.shear.table",
            .kind = K::pairs,
            .unit = "deg, N mm",
-           .instead = "polynomial",
+           .instead = {"polynomial"},
            .ranges = {{.least = 0.0, .most = 90.0, .open_most = true}, {.least = 0.0, .most = 1e9}},
            .least_items = 2,
            .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "

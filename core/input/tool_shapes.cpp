@@ -4,6 +4,7 @@
 #include "core/input/case_parts.hpp"
 #include "core/input/key_member.hpp"
 #include "core/input/overrides.hpp"
+#include "core/input/point_list.hpp"
 #include "core/input/schema_case.hpp"
 
 #include <algorithm>
@@ -75,89 +76,62 @@ ToolShape read_ring(const ShapeSection& s) {
   return ring;
 }
 
-/// Assembles a profile from points with fillets and arcs.
-struct ProfileReader {
-  const TableView& tool;
-  Diagnostics& diagnostics;
-  RevolvedProfile profile{};
-  std::vector<std::array<double, 3>> run{};   ///< points of the current polyline
-  std::vector<const TomlNode*> run_entries{}; ///< their entries in the file
-
-  void fail(const TomlNode& at, std::size_t index, const std::string& rule,
-            const std::string& remedy) {
-    diagnostics.error(at.at, fmt::format("{}.{}", item_of(tool, "points"), index), at.source_text,
-                      rule, remedy);
-  }
-  void straight(const TomlNode& entry);
-  void arc(const TomlNode& entry, std::size_t index);
-  void finish_run();
+/// Keys of shapes that become a profile.
+struct ConeKeys {
+  double radius, top_radius, length, edge_radius;
+};
+struct TorusKeys {
+  double major_radius, minor_radius;
 };
 
-void ProfileReader::straight(const TomlNode& entry) {
-  const double fillet = entry.children.size() > 2 ? entry.children[2].number : 0.0;
-  run.push_back({entry.children[0].number, entry.children[1].number, fillet});
-  run_entries.push_back(&entry);
-}
-
-/// Appends the current polyline to the profile; a fillet needs a line on both sides.
-void ProfileReader::finish_run() {
-  for (const std::size_t end : {std::size_t{0}, run.size() - 1}) {
-    if (run[end][2] == 0.0) continue;
-    const TomlNode& entry = *run_entries[end];
-    const auto index = &entry - given(tool, "points")->children.data();
-    return fail(entry, static_cast<std::size_t>(index),
-                "rounds a corner that has no straight line on both sides",
-                "take the third number out, or give the rounding as an arc");
-  }
-  if (run.size() < 2) return;
+ToolShape read_cone(const ShapeSection& s) {
+  ConeKeys cone{};
+  read_members(s.tool, cone);
+  const double sum = cone.radius + cone.top_radius + cone.length + cone.edge_radius;
+  if (std::isnan(sum)) return Plane{};
   try {
-    const RevolvedProfile part = make_profile(run);
-    profile.segments.insert(profile.segments.end(), part.segments.begin(), part.segments.end());
+    return make_cone(cone.radius, cone.top_radius, cone.length, cone.edge_radius);
   } catch (const std::exception& error) {
-    const TomlNode* points = given(tool, "points");
-    diagnostics.error_from(points->at, item_of(tool, "points"), points->source_text, "",
-                           error.what());
+    const TomlNode* edge = given(s.tool, "edge_radius");
+    s.diagnostics.error_from(edge->at, item_of(s.tool, "edge_radius"), edge->source_text, "",
+                             error.what());
+    return Plane{};
   }
 }
 
-/// Appends an arc {to = [r, z], centre = [r, z], turn = "left" or "right"} from the last point.
-void ProfileReader::arc(const TomlNode& entry, std::size_t index) {
-  const auto point = [&](const char* key) {
-    const TomlNode* list = entry.find(key);
-    return Vec2(list->children[0].number, list->children[1].number);
-  };
-  const Vec2 a(run.back()[0], run.back()[1]), b = point("to"), centre = point("centre");
-  const double radius = (a - centre).norm();
-  constexpr double tolerance = 1e-3; // of the radius: numbers rounded to some digits
-  if (!(std::abs((b - centre).norm() - radius) <= tolerance * radius) || !(radius > 0.0))
-    return fail(entry, index,
-                fmt::format("is no arc: its start is {:g} mm from the centre, its end {:g} mm",
-                            radius, (b - centre).norm()),
-                "correct centre or to: both must have one distance");
-  finish_run();
-  const int turn = entry.find("turn")->text == "left" ? 1 : -1;
-  profile.segments.push_back({ProfileSegment::Kind::arc, a, b, centre, turn});
-  run = {{b.x(), b.y(), 0.0}};
-  run_entries = {&entry};
+ToolShape read_torus(const ShapeSection& s) {
+  TorusKeys torus{};
+  read_members(s.tool, torus);
+  if (torus.minor_radius >= torus.major_radius)
+    value_error(s.tool, "minor_radius",
+                fmt::format("must be less than major_radius, which is {:g}", torus.major_radius),
+                "make it smaller, or use shape sphere or profile", s.diagnostics);
+  return make_torus(torus.major_radius, torus.minor_radius);
+}
+
+Profile read_section(const ShapeSection& s, const PointWords& words) {
+  const TomlNode* points = given(s.tool, "points");
+  if (!points) return {};
+  return read_points(*points, item_of(s.tool, "points"), words, false, s.diagnostics);
 }
 
 ToolShape read_profile(const ShapeSection& s) {
-  ProfileReader reader{s.tool, s.diagnostics};
   const TomlNode* points = given(s.tool, "points");
-  if (!points) return RevolvedProfile{};
-  for (std::size_t i = 0; i < points->children.size(); ++i) {
+  for (std::size_t i = 0; points && i < points->children.size(); ++i) {
     const TomlNode& entry = points->children[i];
-    if (entry.kind != TomlNode::Kind::table) {
-      reader.straight(entry);
-    } else if (i == 0) {
-      reader.fail(entry, i, "is an arc without a point before it", "start with a point [r, z]");
-      return RevolvedProfile{};
-    } else {
-      reader.arc(entry, i);
-    }
+    const bool arc = entry.kind == TomlNode::Kind::table;
+    const TomlNode& r = (arc ? *entry.find("to") : entry).children[0];
+    if (r.number < 0.0)
+      s.diagnostics.error(r.at,
+                          fmt::format("{}.{}{}.0", item_of(s.tool, "points"), i, arc ? ".to" : ""),
+                          r.source_text, "must be at least 0, as the profile is turned about r = 0",
+                          "give r from the axis outwards, or use shape extrusion");
   }
-  reader.finish_run();
-  return reader.profile;
+  return RevolvedProfile{read_section(s, {"profile point", "r", "z"})};
+}
+
+ToolShape read_extrusion(const ShapeSection& s) {
+  return ExtrudedProfile{read_section(s, {"section point", "x", "z"}), number(s.tool, "length")};
 }
 
 ToolShape read_mesh(const ShapeSection& s) {
@@ -178,10 +152,17 @@ struct ShapeInput {
   ToolShape (*read)(const ShapeSection& section);
 };
 
-constexpr ShapeInput shapes[] = {{"sphere", read_sphere},   {"cylinder", read_cylinder},
-                                 {"box", read_box},         {"plane", read_plane},
-                                 {"disc", read_ring},       {"annulus", read_ring},
-                                 {"profile", read_profile}, {"mesh", read_mesh}};
+constexpr ShapeInput shapes[] = {{"sphere", read_sphere},
+                                 {"cylinder", read_cylinder},
+                                 {"cone", read_cone},
+                                 {"torus", read_torus},
+                                 {"box", read_box},
+                                 {"plane", read_plane},
+                                 {"disc", read_ring},
+                                 {"annulus", read_ring},
+                                 {"profile", read_profile},
+                                 {"mesh", read_mesh},
+                                 {"extrusion", read_extrusion}};
 
 std::vector<std::string> shape_words() {
   std::vector<std::string> words;
@@ -209,12 +190,22 @@ Rows shape_rows() {
       {.key = "tool[].shape",
        .kind = K::choice,
        .choices = shape_words(),
-       .meaning = "shape; its own frame has the axis as z; cylinder and box are centred on the "
-                  "position, disc and annulus stand on it, a plane has its material below it"},
-      length("radius", {"sphere", "cylinder", "disc"}, length_range, "radius",
-             {to(&Sphere::radius), to(&Cylinder::radius), to(&Annulus::outer_radius)}),
-      length("length", {"cylinder"}, length_range, "length along the axis",
-             {to(&Cylinder::length)}),
+       .meaning = "shape; its own frame has the axis as z; cylinder, cone, torus and box are "
+                  "centred on the position, disc and annulus stand on it, a plane has its material "
+                  "below it"},
+      length("radius", {"sphere", "cylinder", "cone", "disc"}, length_range,
+             "radius; of a cone's lower end",
+             {to(&Sphere::radius), to(&Cylinder::radius), to(&ConeKeys::radius),
+              to(&Annulus::outer_radius)}),
+      length("top_radius", {"cone"}, length_or_zero, "radius of the upper end; 0 for a tip",
+             {to(&ConeKeys::top_radius)}),
+      length("length", {"cylinder", "cone", "extrusion"}, length_range,
+             "length along the axis; of an extrusion along its own y, with sharp ends",
+             {to(&Cylinder::length), to(&ConeKeys::length)}),
+      length("major_radius", {"torus"}, length_range, "radius from the axis to the tube's middle",
+             {to(&TorusKeys::major_radius)}),
+      length("minor_radius", {"torus"}, length_range, "radius of the tube",
+             {to(&TorusKeys::minor_radius)}),
       {.key = "tool[].size",
        .kind = K::numbers,
        .unit = "mm",
@@ -230,35 +221,37 @@ Rows shape_rows() {
              {to(&Annulus::outer_radius)}),
       length("thickness", {"disc", "annulus"}, length_range, "thickness along the axis",
              {to(&Annulus::thickness)}),
-      length("edge_radius", {"cylinder", "box", "disc", "annulus"}, length_or_zero,
-             "rounding of all edges; the outer dimensions stay",
-             {to(&Cylinder::edge_radius), to(&Box::edge_radius), to(&Annulus::edge_radius)}),
+      length("edge_radius", {"cylinder", "cone", "box", "disc", "annulus"}, length_or_zero,
+             "rounding of all edges; faces stay where they are, and so the outer dimensions, but "
+             "those of a cone",
+             {to(&Cylinder::edge_radius), to(&ConeKeys::edge_radius), to(&Box::edge_radius),
+              to(&Annulus::edge_radius)}),
       {.key = "tool[].points",
        .kind = K::profile,
        .unit = "mm",
-       .ranges = {length_or_zero, place_range, length_or_zero},
+       .ranges = {place_range, place_range, length_or_zero},
        .least_items = 2,
        .of = "shape",
-       .with = {"profile"},
-       .meaning = "points [r, z] of the section, turned about the axis; material to the right in "
-                  "walking order; a third number rounds the corner; a table is an arc from the "
-                  "point before"},
+       .with = {"profile", "extrusion"},
+       .meaning = "points [r, z] of a profile, turned about the axis, or [x, z] of an extrusion, "
+                  "drawn out along y; material to the right in walking order; a third number "
+                  "rounds the corner; a table is an arc from the point before"},
       {.key = "tool[].points[].to",
        .kind = K::numbers,
        .unit = "mm",
-       .ranges = {length_or_zero, place_range},
+       .ranges = {place_range},
        .count = 2,
-       .meaning = "end [r, z] of the arc"},
+       .meaning = "end [r, z] or [x, z] of the arc"},
       {.key = "tool[].points[].centre",
        .kind = K::numbers,
        .unit = "mm",
        .ranges = {place_range},
        .count = 2,
-       .meaning = "centre [r, z] of the arc"},
+       .meaning = "centre [r, z] or [x, z] of the arc"},
       {.key = "tool[].points[].turn",
        .kind = K::choice,
        .choices = {"left", "right"},
-       .meaning = "side to which the arc bends, walking with r to the right and z up"},
+       .meaning = "side to which the arc bends, walking with r or x to the right and z up"},
       {.key = "tool[].file",
        .kind = K::path,
        .of = "shape",
@@ -272,7 +265,7 @@ Rows shape_rows() {
        .with = {"mesh"},
        .meaning = "mm per unit of the mesh file"}};
   for (KeyRow& row : rows)
-    if (row.key == "tool[].edge_radius") row.fallback = "0.0";
+    if (row.key == "tool[].edge_radius" || row.key == "tool[].top_radius") row.fallback = "0.0";
   return rows;
 }
 

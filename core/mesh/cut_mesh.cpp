@@ -40,13 +40,14 @@ struct Lattice {
   bool holds(int i, int j) const { return i >= 0 && j >= 0 && i < ni && j < nj; }
 };
 
-Lattice lattice_over(const Outline& outline, double h, const CellDirections& directions) {
+Lattice lattice_over(const std::vector<Vec2>& boundary, double h,
+                     const CellDirections& directions) {
   Eigen::AlignedBox2d box;
-  for (const Vec2& p : outline.boundary)
+  for (const Vec2& p : boundary)
     box.extend(p);
   Lattice lattice{box.center(), h * directions.a, h * directions.b};
   Eigen::AlignedBox2d range;
-  for (const Vec2& p : outline.boundary)
+  for (const Vec2& p : boundary)
     range.extend(lattice.coordinates(p));
   const Vec2 low = range.min().array().floor(), high = range.max().array().ceil();
   lattice.origin = lattice.at(low.x(), low.y());
@@ -217,8 +218,9 @@ Region corners(const Lattice& lattice, const Region& outline, const std::vector<
 
 BlankMesh cut_blank(const BlankSpec& spec, const CellDirections& directions) {
   const double h = spec.element_size;
-  const Lattice lattice = lattice_over(spec.outline, h, directions);
   const Region outline = sample_outline(spec.outline, h);
+  const Lattice lattice =
+      lattice_over(spec.outline.arcs.empty() ? spec.outline.boundary : outline.x, h, directions);
   Use use = usable(lattice, outline, margin * h);
   const std::vector<std::int32_t> number = number_nodes(use.node);
   const Region unstepped = corners(lattice, outline, use.node);

@@ -2,6 +2,7 @@
 // Mesh generation for a blank: the flat, undeformed ply in its own plane.
 #pragma once
 
+#include "contact/shapes/tool_shape.hpp"
 #include "core/model/blank_spec.hpp"
 
 #include <vector>
@@ -21,12 +22,29 @@ struct BlankMesh {
 /// through the middle of the bounding box that lie wholly inside are joined to the outline by a
 /// band of triangles; the outline keeps every corner and is divided at about element_size between
 /// them. Angles in the band and in free meshes are 20 degrees at least, except at sharper corners
-/// of the outline. Equal nodes of a file are merged and its triangles oriented anticlockwise.
-/// Throws std::runtime_error (what is wrong, what to do): outline not simple or not closed
-/// properly, hole outside or touching, element larger than the blank or far too small, fibre
+/// of the outline. Arcs are divided into equal pieces of about element_size, and of 45 degrees at
+/// most, with nodes on the arc. Equal nodes of a file are merged and its triangles oriented
+/// anticlockwise. Throws std::runtime_error (what is wrong, what to do): outline not simple or not
+/// closed properly, hole outside or touching, element larger than the blank or far too small, fibre
 /// directions less than 25 degrees apart, file unreadable, empty, not flat, not of triangles, not
 /// manifold or not in one piece.
 BlankMesh mesh_blank(const BlankSpec& spec, double warp, double weft);
+
+/// Appends a closed chain of lines and arcs (contact/shapes/tool_shape.hpp) to the outline, the
+/// first one as its boundary, others as holes. Arcs are divided into pieces of at most a quarter.
+void append_loop(Outline& outline, const Profile& chain);
+
+/// Appends a circle.
+void append_circle(Outline& outline, const Vec2& centre, double radius);
+
+/// Area (mm^2) that the outline encloses, arcs as they are.
+double area_of(const Outline& outline);
+
+/// The corners of the boundary and points between them on arcs, at most largest_turn (rad) apart.
+std::vector<Vec2> points_of(const Outline& outline, double largest_turn);
+
+/// Moves all of the outline.
+void shift(Outline& outline, const Vec2& by);
 
 /// Whether the outline can be meshed with its element_size: false if mesh_blank would throw for it.
 bool takes_elements(const BlankSpec& spec);

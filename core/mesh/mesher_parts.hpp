@@ -5,6 +5,7 @@
 #include "core/mesh/mesh_blank.hpp"
 
 #include <array>
+#include <numbers>
 #include <optional>
 #include <vector>
 
@@ -42,8 +43,14 @@ inline bool is_skew(const CellDirections& d) {
 void check_outline(const Outline& outline, double element_size);
 
 /// The loops of the outline divided into pieces of about `spacing` (mm), equal between two corners;
-/// every corner is a point.
-Region sample_outline(const Outline& outline, double spacing);
+/// every corner is a point. Arcs have pieces of `largest_turn` (rad) at most, ends on the arc.
+Region sample_outline(const Outline& outline, double spacing,
+                      double largest_turn = std::numbers::pi / 4.0);
+
+/// Points of a loop, `hole` as in OutlineArc: corners, and between them those that divide sides and
+/// arcs as sample_outline.
+std::vector<Vec2> sample_loop(const Outline& outline, int hole, double spacing,
+                              double largest_turn);
 
 /// Appends the two or four triangles of the cell p00 p10 p11 p01 (node numbers); `centre` is the
 /// node in its middle, for MeshKind::crossed. The diagonal is p00-p11, or with other_diagonal

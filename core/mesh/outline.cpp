@@ -17,7 +17,11 @@ namespace plyform {
 namespace {
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
-using Loop = std::vector<Kernel::Point_2>;
+
+/// Corners; or, of a loop with arcs, the ends of pieces, which have no number for the user.
+struct Loop : std::vector<Kernel::Point_2> {
+  bool pieces = false;
+};
 
 /// More triangles are rejected as a probable mistake in element_size: one time step of them would
 /// take seconds.
@@ -38,7 +42,9 @@ Kernel::Segment_2 side(const Loop& loop, std::size_t k) {
 }
 
 std::string text(const Loop& loop, std::size_t k) {
-  return fmt::format("side {} from {} to {}", k, text(loop[k]), text(loop[(k + 1) % loop.size()]));
+  const std::string ends =
+      fmt::format("from {} to {}", text(loop[k]), text(loop[(k + 1) % loop.size()]));
+  return loop.pieces ? "the part " + ends : fmt::format("side {} {}", k, ends);
 }
 
 /// The loop, checked: finite points, at least three, no two successive ones equal.
@@ -102,8 +108,9 @@ void check_simple(const Loop& loop, const std::string& name) {
   fail(name + " crosses or touches itself; list its points in order around it, each once");
 }
 
-Loop checked_loop(const std::vector<Vec2>& points, const std::string& name) {
+Loop checked_loop(const std::vector<Vec2>& points, const std::string& name, bool pieces) {
   Loop loop = checked_points(points, name);
+  loop.pieces = pieces;
   double length = 0.0;
   const double width = smallest_width(loop, length);
   if (!(width > line * length))
@@ -163,36 +170,37 @@ void check_size(const Loop& boundary, double element_size) {
                     element_size, triangles, most_triangles, std::sqrt(2 * area / most_triangles)));
 }
 
-void append_loop(const std::vector<Vec2>& loop, double spacing, Region& region) {
-  const auto first = static_cast<std::int32_t>(region.x.size());
-  for (std::size_t k = 0; k < loop.size(); ++k) {
-    const Vec2 p = loop[k], along = loop[(k + 1) % loop.size()] - p;
-    const int pieces = std::max(1, static_cast<int>(std::lround(along.norm() / spacing)));
-    for (int i = 0; i < pieces; ++i)
-      region.x.push_back(p + along * (static_cast<double>(i) / pieces));
+/// All loops, the boundary first, checked: arcs in pieces of `largest_turn`, and in those of
+/// `spacing` (mm) at most.
+std::vector<Loop> checked_loops(const Outline& outline, double spacing, double largest_turn) {
+  std::vector<Loop> loops;
+  for (int k = -1; k < static_cast<int>(outline.holes.size()); ++k) {
+    const std::string name = k < 0 ? "the boundary" : fmt::format("hole {}", k);
+    const auto of_loop = [&](const OutlineArc& arc) { return arc.hole == k; };
+    const std::vector<Vec2>& corners = k < 0 ? outline.boundary : outline.holes[k];
+    if (std::none_of(outline.arcs.begin(), outline.arcs.end(), of_loop)) {
+      loops.push_back(checked_loop(corners, name, false));
+    } else {
+      checked_points(corners, name); // of arcs between other points there are no pieces
+      loops.push_back(checked_loop(sample_loop(outline, k, spacing, largest_turn), name, true));
+    }
   }
-  const auto last = static_cast<std::int32_t>(region.x.size());
-  for (std::int32_t n = first; n < last; ++n)
-    region.edges.push_back({n, n + 1 < last ? n + 1 : first});
+  return loops;
 }
 
 } // namespace
 
 void check_outline(const Outline& outline, double element_size) {
-  const Loop boundary = checked_loop(outline.boundary, "the boundary");
-  std::vector<Loop> holes;
-  for (std::size_t k = 0; k < outline.holes.size(); ++k)
-    holes.push_back(checked_loop(outline.holes[k], fmt::format("hole {}", k)));
-  check_holes(boundary, holes);
-  check_size(boundary, element_size);
-}
-
-Region sample_outline(const Outline& outline, double spacing) {
-  Region region;
-  append_loop(outline.boundary, spacing, region);
-  for (const auto& hole : outline.holes)
-    append_loop(hole, spacing, region);
-  return region;
+  constexpr double fine = std::numbers::pi / 16.0, coarse = std::numbers::pi / 4.0; // rad
+  const auto check = [&](double spacing, double turn) {
+    std::vector<Loop> loops = checked_loops(outline, spacing, turn);
+    const Loop boundary = std::move(loops.front());
+    loops.erase(loops.begin());
+    check_holes(boundary, loops);
+    return boundary;
+  };
+  check_size(check(std::numeric_limits<double>::infinity(), fine), element_size);
+  if (!outline.arcs.empty()) check(element_size, coarse); // as it is meshed
 }
 
 } // namespace plyform

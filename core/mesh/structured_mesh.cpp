@@ -28,7 +28,7 @@ struct Parallelogram {
 std::optional<Parallelogram> as_parallelogram(const Outline& outline,
                                               const CellDirections& directions) {
   const std::vector<Vec2>& p = outline.boundary;
-  if (p.size() != 4 || !outline.holes.empty()) return std::nullopt;
+  if (p.size() != 4 || !outline.holes.empty() || !outline.arcs.empty()) return std::nullopt;
   const bool clockwise = cross(p[1] - p[0], p[2] - p[1]) < 0;
   std::optional<Parallelogram> best;
   for (std::size_t k = 0; k < 4; ++k) {

@@ -17,10 +17,12 @@ namespace plyform {
 /// One ply of the stack. Plies are listed from the bottom up.
 struct Ply {
   std::string name;
-  int fabric = 0;     ///< index into Case::fabrics
-  int blank = 0;      ///< index into Case::blanks
-  double angle = 0.0; ///< rad, from x to warp, about +z
-  double z = 0.0;     ///< mm, height of the mid-surface at the start
+  int fabric = 0;           ///< index into Case::fabrics
+  int blank = 0;            ///< index into Case::blanks
+  double angle = 0.0;       ///< rad, from x to warp, about +z
+  double z = 0.0;           ///< mm, height of the mid-surface at the start
+  Vec2 seed = Vec2::Zero(); ///< mm, where the blank's origin lies
+  double rotation = 0.0;    ///< rad, of the blank about its origin, about +z; not of the yarns
 };
 
 enum class Motion {

@@ -86,6 +86,12 @@ void describe_plies(const Scene& s, Lines& lines) {
   }
 }
 
+/// What the outlines were read from.
+void describe_drawings(const Case& data, Lines& lines) {
+  for (const BlankSpec& blank : data.blanks)
+    if (!blank.drawing.empty()) say(lines, "outline from {}", blank.drawing);
+}
+
 /// Estimates of values that the case does not give, and values that were limited.
 void describe_fabrics(const Case& data, Lines& lines) {
   for (const std::string& line : assumptions(data))
@@ -340,6 +346,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   Lines& lines = outlook.lines;
   lines.push_back(data.title);
   describe_fabrics(s.data, lines);
+  describe_drawings(s.data, lines);
   describe_plies(s, lines);
   describe_locking(s, lines);
   describe_wrinkles(s, lines);

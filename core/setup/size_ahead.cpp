@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/size_ahead.hpp"
 
+#include "core/mesh/mesh_blank.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <unistd.h>
@@ -8,21 +10,10 @@
 namespace plyform {
 namespace {
 
-double area_of(const std::vector<Vec2>& loop) {
-  double twice = 0.0;
-  for (std::size_t i = 0; i < loop.size(); ++i) {
-    const Vec2 &a = loop[i], &b = loop[(i + 1) % loop.size()];
-    twice += a.x() * b.y() - a.y() * b.x();
-  }
-  return 0.5 * std::abs(twice);
-}
-
 double triangles_of(const BlankSpec& blank) {
   if (blank.mesh == MeshKind::file || !(blank.element_size > 0.0)) return 0.0;
-  double area = area_of(blank.outline.boundary);
-  for (const auto& hole : blank.outline.holes)
-    area -= area_of(hole);
-  const double cells = std::max(area, 0.0) / (blank.element_size * blank.element_size);
+  const double cells =
+      std::max(area_of(blank.outline), 0.0) / (blank.element_size * blank.element_size);
   return cells * (blank.mesh == MeshKind::crossed ? 4.0 : 2.0);
 }
 

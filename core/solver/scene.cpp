@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/scene.hpp"
 
+#include "core/mesh/mesh_ply.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -24,11 +26,6 @@ std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
     face.push_back(
         static_cast<char>(std::any_of(t.begin(), t.end(), [&](int n) { return node[n] != 0; })));
   return face;
-}
-
-BlankMesh mesh_ply(const Case& data, const Ply& ply) {
-  const Fabric& fabric = data.fabrics[ply.fabric];
-  return mesh_blank(data.blanks[ply.blank], ply.angle, ply.angle + fabric.fibre_angle);
 }
 
 PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {

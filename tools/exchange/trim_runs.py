@@ -33,7 +33,7 @@ class TrimCase:
     threads: int | None = None  # all cores
 
     def arguments(self, patterns: list[Pattern]) -> list[str]:
-        """Each ply gets a blank of its own, meshed as the one it had."""
+        """Each ply gets a blank of its own, meshed as the one it had, where the pattern lies."""
         words = [f"--set={setting}" for setting in self.settings]
         for pattern in patterns:
             index = next(k for k, ply in enumerate(self.plies) if ply["name"] == pattern.ply)
@@ -43,7 +43,8 @@ class TrimCase:
                     "element_size": repr(float(blank["element_size"])), "outline": f"[{points}]"}
             table = ", ".join(f"{key} = {value}" for key, value in kept.items())
             words += [f"--set=blanks.trimmed_{index}={{{table}}}",
-                      f"--set=ply.{index}.blank=trimmed_{index}"]
+                      f"--set=ply.{index}.blank=trimmed_{index}",
+                      f"--set=ply.{index}.seed=[0.0, 0.0]", f"--set=ply.{index}.rotation=0.0"]
         return words
 
     def element_size(self, ply: str) -> float:

@@ -84,7 +84,8 @@ void expect_sampling_agrees(const RevolvedProfile& profile, const Box3& box, int
     ASSERT_TRUE(std::abs(s) <= near + 1e-10 && std::abs(s) >= near - 0.5 * spacing)
         << q.transpose() << " s = " << s << " sampled " << near;
     if (closed && std::abs(s) > 2e-3) {
-      ASSERT_EQ(s < 0.0, inside(outline, is_ring(profile), q)) << q.transpose() << " s = " << s;
+      ASSERT_EQ(s < 0.0, inside(outline, is_ring(profile.segments), q))
+          << q.transpose() << " s = " << s;
     }
   }
 }
@@ -192,7 +193,7 @@ TEST(Profile, PointsNextToSharedVerticesGetTheRightSide) {
                left_v = v.x() * d.y() - v.y() * d.x() > 0;
     const bool is_free = turn > 0 ? left_u && left_v : left_u || left_v;
     const Vec2 q = corner + d;
-    const double s = section_distance(walls, q).distance;
+    const double s = section_distance(walls.segments, q).distance;
     if (std::abs(s) < 1e-12) continue; // on a wall
     ASSERT_EQ(s > 0, is_free) << "in " << in << " turn " << turn << " d " << d.transpose() << " s "
                               << s;
@@ -233,7 +234,7 @@ void expect_rejected(const Points& points, const std::string& reason) {
 
 TEST(Profile, MistakesAreRejectedWithPointAndReason) {
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_rejected({{10, 0, 0}}, "at least two points, got 1");
+  expect_rejected({{10, 0, 0}}, "at least 2 points are needed, got 1");
   expect_rejected({{10, 0, 0}, {-1, 5, 0}},
                   "profile point 1 (r = -1, z = 5): r must be at least 0");
   expect_rejected({{10, 0, 0}, {10, 0, 0}, {20, 0, 0}}, "profile point 1 (r = 10, z = 0) repeats");

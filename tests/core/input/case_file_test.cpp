@@ -2,6 +2,7 @@
 // Good case files give the right numbers; wrong ones exactly the mistakes that stand in them.
 #include "core/base/text.hpp"
 #include "core/input/schema_check.hpp"
+#include "core/mesh/mesh_blank.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "support/case_files.hpp"
 
@@ -179,6 +180,27 @@ TEST(CaseFile, ReadsBlanksAndLaysPliesOnEachOther) {
     EXPECT_NEAR(five.plies[i].z, 0.3 + 0.6 * static_cast<double>(i), 1e-14); // sums
 }
 
+TEST(CaseFile, ReadsOutlinesWithArcsAndDrawings) {
+  const Case c = good_case(data / "good/outlines.toml");
+  ASSERT_EQ(c.blanks.size(), 5u);
+  const auto area = [&](std::size_t blank) { return area_of(c.blanks[blank].outline); };
+  EXPECT_NEAR(area(0), pi * (400 - 16) - (16 - (1 - pi / 4)), 1e-9);
+  EXPECT_NEAR(area(1), 800 - (4 - pi) * 25, 1e-9);
+  EXPECT_NEAR(area(2), 400 + 50 * pi - (2 - pi / 2) * 9 - (20 + 2 * pi), 1e-9);
+  // outline with a bulge of a quarter, a circle, lines and an arc that end 0.005 mm apart
+  EXPECT_NEAR(area(3), 320 - (4 - pi) - 4 * pi - (12 + 2 * pi), 0.02);
+  EXPECT_NEAR(area(4), pi * 15 * 15, 1e-9);
+  EXPECT_EQ(c.blanks[3].drawing, "blank.dxf: 20 x 16 mm, 2 holes, layer CUT, in mm");
+  EXPECT_EQ(c.blanks[4].drawing, "metres.dxf: 30 x 30 mm, 0 holes, layer 0, 100 mm a unit");
+  EXPECT_EQ(c.blanks[0].drawing, "");
+  EXPECT_EQ(c.blanks[0].outline.arcs[0].centre, Vec2(1, 2));
+  EXPECT_EQ(c.plies[1].seed, Vec2(100, 50));
+  EXPECT_DOUBLE_EQ(c.plies[1].rotation, pi / 2);
+  EXPECT_DOUBLE_EQ(c.plies[1].angle, pi / 6);
+  EXPECT_TRUE(c.plies[0].seed.isZero(0.0));
+  EXPECT_EQ(c.plies[0].rotation, 0.0);
+}
+
 TEST(CaseFile, ReadsPlacesAndMotionsOfTools) {
   const Case c = good_case(data / "good/every_shape.toml");
   ASSERT_EQ(c.tools.size(), 8u);
@@ -229,6 +251,23 @@ TEST(CaseFile, ReadsShapesOfTools) {
   EXPECT_NEAR(distance(6, {28 + far, 0, -2 + far}), 1.0, 1e-12);
   // The tetrahedron, its face at z = 1 scaled to 3 mm.
   EXPECT_NEAR(distance(7, {0.1, 0, 5}), 2.0, 1e-12);
+}
+
+TEST(CaseFile, ReadsConesToriAndExtrusions) {
+  const Case c = good_case(data / "good/profile_shapes.toml");
+  ASSERT_EQ(c.tools.size(), 4u);
+  const auto distance = [&](std::size_t tool, const Vec3& p) {
+    int hint = -1;
+    return signed_distance(c.tools[tool].shape, p, hint).distance;
+  };
+  EXPECT_NEAR(distance(0, {0, 0, 3}), 1.0, 1e-12);   // above the top
+  EXPECT_NEAR(distance(0, {3.5, 0, 0}), 0.0, 1e-12); // middle of the flank
+  EXPECT_NEAR(smallest_radius(c.tools[0].shape), 0.5, 1e-12);
+  EXPECT_NEAR(distance(1, {0, 0, 2}), 0.0, 1e-12); // the tip
+  EXPECT_NEAR(distance(2, {0, 12, 4}), 1.0, 1e-12);
+  EXPECT_NEAR(distance(3, {0, 0, -15}), 3.0, 1e-12); // the trough is round, 10 mm about (0, -8)
+  EXPECT_NEAR(distance(3, {20, 24, 2}), 2.0, 1e-12);
+  EXPECT_NEAR(distance(3, {20, 26, -3}), 1.0, 1e-12); // beyond an end
 }
 
 TEST(CaseFile, ReadsFrictionOfPairsTheLastThatFits) {

@@ -41,7 +41,8 @@ struct Keys {
 
 TEST(CaseKeys, AreJustThoseThatGoodFilesUse) {
   Keys keys;
-  for (const char* name : {"every_shape", "inline", "base", "boundaries", "bending", "accuracy"}) {
+  for (const char* name : {"every_shape", "inline", "base", "boundaries", "bending", "accuracy",
+                           "profile_shapes", "outlines"}) {
     good_case(data / "good" / (std::string(name) + ".toml")); // each of its keys is accepted
     keys.add(data / "good" / (std::string(name) + ".toml"), "");
   }
@@ -90,7 +91,7 @@ TEST(KeyTable, BoundsEveryNumberOnBothSides) {
   for (const KeyRow& row : key_table()) {
     const bool numbers = row.kind == KeyKind::number || row.kind == KeyKind::integer ||
                          row.kind == KeyKind::numbers || row.kind == KeyKind::pairs ||
-                         row.kind == KeyKind::polygons || row.kind == KeyKind::profile;
+                         row.kind == KeyKind::outlines || row.kind == KeyKind::profile;
     if (!numbers) continue;
     EXPECT_FALSE(row.ranges.empty()) << row.key;
     for (const Range& range : row.ranges)

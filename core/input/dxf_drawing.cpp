@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/input/dxf_drawing.hpp"
+
+#include "core/base/helper_process.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <dxflib/dl_creationadapter.h>
+#include <dxflib/dl_dxf.h>
+#include <fmt/format.h>
+#include <fstream>
+#include <numbers>
+#include <set>
+#include <sstream>
+#include <stdexcept>
+
+namespace plyform {
+namespace {
+
+const std::set<std::string> supported{"LINE",     "ARC",    "CIRCLE", "LWPOLYLINE",
+                                      "POLYLINE", "VERTEX", "SEQEND"};
+const std::set<std::string> no_geometry{
+    "TEXT",   "MTEXT",    "POINT",     "DIMENSION", "LEADER",         "MLEADER", "HATCH", "ATTDEF",
+    "ATTRIB", "VIEWPORT", "TOLERANCE", "WIPEOUT",   "ARCALIGNEDTEXT", "XLINE",   "RAY"};
+
+/// Numbers of one entity as dxflib gives them; (x, y, bulge) of each vertex of a polyline.
+struct RawEntity {
+  std::string name, layer;
+  int line = 0, flags = 0;
+  bool mirrored = false, tilted = false;
+  std::vector<double> numbers{};
+};
+
+/// Takes what dxflib reads. dxflib tells of an entity when the next one begins.
+class Collector : public DL_CreationAdapter {
+public:
+  int unit = 0;
+  bool has_entities = false, ended = false;
+  std::vector<RawEntity> entities;
+
+  using DL_CreationAdapter::processCodeValuePair;
+  using DL_CreationAdapter::setVariableInt;
+  void processCodeValuePair(unsigned int code, const std::string& value) override {
+    lines_ += 2;
+    if (code == 0) begin(value);
+    if (code == 2 && now_.name == "SECTION") {
+      section_ = value;
+      has_entities = has_entities || value == "ENTITIES";
+    }
+    if (code == 8) now_.layer = value;
+    if (code == 67 && value == "1") now_.section = "paper space";
+  }
+  void setVariableInt(const std::string& key, int value, int) override {
+    if (key == "$INSUNITS") unit = value;
+  }
+  void addLine(const DL_LineData& d) override { add({d.x1, d.y1, d.x2, d.y2}, d.z1 - d.z2); }
+  void addArc(const DL_ArcData& d) override {
+    add({d.cx, d.cy, d.radius, d.angle1, d.angle2}, 0.0);
+  }
+  void addCircle(const DL_CircleData& d) override { add({d.cx, d.cy, d.radius}, 0.0); }
+  void addPolyline(const DL_PolylineData& d) override {
+    add({}, 0.0);
+    if (open_) entities.back().flags = d.flags;
+  }
+  void addVertex(const DL_VertexData& d) override {
+    if (!open_) return;
+    const double x = entities.back().mirrored ? -d.x : d.x;
+    const double bulge = entities.back().mirrored ? -d.bulge : d.bulge;
+    entities.back().numbers.insert(entities.back().numbers.end(), {x, d.y, bulge});
+  }
+
+private:
+  struct Begun {
+    std::string name, section, layer;
+    int line = 0;
+  };
+  int lines_ = 0;
+  std::string section_;
+  Begun now_, before_; ///< the entity whose groups are being read, and the one before
+  bool open_ = false;  ///< the last entity is a polyline that may get vertices
+
+  void begin(const std::string& name) {
+    before_ = now_;
+    if (name == "ENDSEC") section_.clear();
+    if (name == "EOF") ended = true;
+    const bool geometry = before_.section == "ENTITIES";
+    if (geometry && !supported.contains(before_.name) && !no_geometry.contains(before_.name))
+      entities.push_back({before_.name, before_.layer, before_.line});
+    now_ = {name, section_, "0", lines_};
+  }
+
+  void add(std::vector<double> numbers, double rise) {
+    open_ = before_.section == "ENTITIES";
+    if (!open_) return;
+    RawEntity e{before_.name, before_.layer, before_.line};
+    const double* normal = getExtrusion()->getDirection();
+    e.mirrored = before_.name != "LINE" && normal[2] < 0.0; // lines are in world coordinates
+    e.tilted = std::abs(rise) > 1e-6 * (1.0 + std::abs(rise)) ||
+               std::hypot(normal[0], normal[1]) > 1e-6 * std::abs(normal[2]);
+    e.numbers = std::move(numbers);
+    entities.push_back(std::move(e));
+  }
+};
+
+/// All that was collected, as text.
+std::string packed(const std::filesystem::path& file) {
+  Collector collector;
+  DL_Dxf dxf;
+  if (!dxf.in(file.string(), &collector)) throw std::runtime_error("cannot be opened");
+  std::string text = fmt::format("{} {} {}\n", collector.unit, collector.has_entities ? 1 : 0,
+                                 collector.ended ? 1 : 0);
+  for (const RawEntity& e : collector.entities) {
+    text += fmt::format("{} {} {} {} {} {}", e.name.empty() ? "?" : e.name, e.line, e.flags,
+                        e.mirrored ? 1 : 0, e.tilted ? 1 : 0, e.numbers.size());
+    for (const double number : e.numbers)
+      text += fmt::format(" {}", number);
+    text += "\n" + e.layer + "\n";
+  }
+  return text;
+}
+
+ProfileSegment arc_of(const Vec2& centre, double radius, double from, double to, bool mirrored) {
+  const auto at = [&](double degrees) {
+    const double angle = degrees * std::numbers::pi / 180.0;
+    const double x = centre.x() + radius * std::cos(angle);
+    return Vec2(mirrored ? -x : x, centre.y() + radius * std::sin(angle));
+  };
+  const Vec2 middle(mirrored ? -centre.x() : centre.x(), centre.y());
+  return {ProfileSegment::Kind::arc, at(from), at(to), middle, mirrored ? -1 : 1};
+}
+
+/// The side of a polyline; bulge: tangent of a quarter of the arc's angle, positive anticlockwise.
+ProfileSegment side_of(const Vec2& p, const Vec2& q, double bulge) {
+  if (bulge == 0.0) return {ProfileSegment::Kind::line, p, q};
+  const Vec2 along = q - p, left(-along.y(), along.x());
+  const Vec2 centre = 0.5 * (p + q) + left * ((1.0 - bulge * bulge) / (4.0 * bulge));
+  return {ProfileSegment::Kind::arc, p, q, centre, bulge > 0.0 ? 1 : -1};
+}
+
+Profile polyline(const RawEntity& e) {
+  Profile chain;
+  const std::size_t count = e.numbers.size() / 3;
+  const auto vertex = [&](std::size_t i) {
+    return Vec2(e.numbers[3 * (i % count)], e.numbers[3 * (i % count) + 1]);
+  };
+  const bool closed = (e.flags & 1) != 0;
+  for (std::size_t i = 0; i + (closed ? 0 : 1) < count; ++i)
+    if (vertex(i) != vertex(i + 1))
+      chain.push_back(side_of(vertex(i), vertex(i + 1), e.numbers[3 * i + 2]));
+  return chain;
+}
+
+DxfEntity entity_of(const RawEntity& e) {
+  DxfEntity made{e.name, e.layer, e.line, {}, {}};
+  const std::vector<double>& n = e.numbers;
+  constexpr int solid = 8 | 16 | 64, spline = 4; // flags of polylines
+  const bool fits = std::all_of(n.begin(), n.end(), [](double x) { return std::abs(x) < 1e9; });
+  const bool round = e.name == "ARC" || e.name == "CIRCLE";
+  if (!supported.contains(e.name))
+    made.fault = "is not supported";
+  else if (!fits)
+    made.fault = "has a number that is not finite or beyond 1e9";
+  else if (e.tilted || (e.name == "POLYLINE" && (e.flags & solid)))
+    made.fault = "does not lie in the xy plane";
+  else if (e.name == "POLYLINE" && (e.flags & spline))
+    made.fault = "is fitted by a spline, which is not supported";
+  else if (round && !(n[2] > 0.0))
+    made.fault = fmt::format("has the radius {:g}, which must be above 0", n[2]);
+  if (!made.fault.empty()) return made;
+  if (e.name == "LINE" && Vec2(n[0], n[1]) != Vec2(n[2], n[3]))
+    made.chain = {side_of({n[0], n[1]}, {n[2], n[3]}, 0.0)};
+  if (e.name == "ARC") made.chain = {arc_of({n[0], n[1]}, n[2], n[3], n[4], e.mirrored)};
+  if (e.name == "CIRCLE") {
+    made.chain = {arc_of({n[0], n[1]}, n[2], 0.0, 0.0, e.mirrored)};
+    made.chain[0].b = made.chain[0].a;
+  }
+  if (e.name == "POLYLINE" || e.name == "LWPOLYLINE") made.chain = polyline(e);
+  return made;
+}
+
+DxfDrawing unpacked(const std::string& text) {
+  std::istringstream in(text);
+  DxfDrawing drawing;
+  int has_entities = 0, ended = 0;
+  in >> drawing.unit >> has_entities >> ended;
+  if (!has_entities)
+    throw std::runtime_error("is no DXF file: it has no ENTITIES; save the drawing as ASCII DXF");
+  if (!ended)
+    throw std::runtime_error("is cut short: its last line is not EOF; save the drawing anew");
+  RawEntity e;
+  std::size_t count = 0;
+  while (in >> e.name >> e.line >> e.flags >> e.mirrored >> e.tilted >> count) {
+    e.numbers.assign(count, 0.0);
+    for (double& number : e.numbers) {
+      std::string word; // "nan" and "inf" too
+      in >> word;
+      number = std::strtod(word.c_str(), nullptr);
+    }
+    in.ignore();
+    std::getline(in, e.layer);
+    drawing.entities.push_back(entity_of(e));
+  }
+  return drawing;
+}
+
+/// Throws for files that dxflib would take for empty drawings.
+void check_kind(const std::filesystem::path& file) {
+  if (!std::filesystem::is_regular_file(file))
+    throw std::runtime_error("is no file; give the path of a drawing, seen from the file that "
+                             "names it");
+  std::ifstream in(file, std::ios::binary);
+  std::string start(22, '\0');
+  in.read(start.data(), static_cast<std::streamsize>(start.size()));
+  if (in.gcount() == 0)
+    throw std::runtime_error("is empty or cannot be read; save the drawing anew");
+  if (start.starts_with("AutoCAD Binary DXF"))
+    throw std::runtime_error("is a binary DXF file; save the drawing as ASCII DXF");
+  if (start.starts_with("AC10"))
+    throw std::runtime_error("is a DWG file; save the drawing as ASCII DXF");
+}
+
+} // namespace
+
+DxfDrawing read_dxf(const std::filesystem::path& file) {
+  check_kind(file);
+  const HelperResult result = in_helper_process([&] { return packed(file); }, HelperLimits{});
+  if (result.end == HelperResult::End::timeout)
+    throw std::runtime_error("takes too long to read; save the outline alone");
+  if (result.end != HelperResult::End::done)
+    throw std::runtime_error(
+        fmt::format("cannot be read ({}); save the drawing anew", result.text));
+  return unpacked(result.text);
+}
+
+} // namespace plyform

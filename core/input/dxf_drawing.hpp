@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What stands in a DXF drawing, as far as outlines need it. Types of dxflib are used in
+// dxf_drawing.cpp only.
+#pragma once
+
+#include "contact/shapes/tool_shape.hpp"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+/// An entity of the model space, outside of blocks, in the drawing's unit.
+struct DxfEntity {
+  std::string name; ///< LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE, or one that is not supported
+  std::string layer;
+  int line = 0;        ///< of the file, where it begins
+  Profile chain{};     ///< lines and arcs; empty if it has no length
+  std::string fault{}; ///< why it cannot be part of an outline; empty if it can
+};
+
+struct DxfDrawing {
+  int unit = 0; ///< $INSUNITS, 0 if there is none
+  std::vector<DxfEntity> entities;
+};
+
+/// Reads an ASCII DXF file by dxflib, in a process of its own. Left out are texts, dimensions and
+/// other entities that are no geometry. Throws std::runtime_error ("rule; remedy", without the
+/// file's name): no such file, DWG, binary, no DXF, cut short, dxflib crashed.
+DxfDrawing read_dxf(const std::filesystem::path& file);
+
+} // namespace plyform

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/mesh/mesh_ply.hpp"
+
+namespace plyform {
+
+BlankMesh mesh_ply(const Case& data, const Ply& ply) {
+  const double warp = ply.angle - ply.rotation; // as seen from the blank
+  BlankMesh mesh =
+      mesh_blank(data.blanks[ply.blank], warp, warp + data.fabrics[ply.fabric].fibre_angle);
+  if (ply.rotation == 0.0 && ply.seed.isZero(0.0)) return mesh;
+  const Eigen::Rotation2Dd turn(ply.rotation);
+  for (Vec2& x : mesh.x)
+    x = ply.seed + turn * x;
+  return mesh;
+}
+
+} // namespace plyform

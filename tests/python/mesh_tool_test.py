@@ -1,0 +1,242 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Tools from STEP and IGES files: closed, outward, within the deflection of shapes that are known;
+what is wrong with a file told in one line; and plies that form over them as over the primitives.
+
+    mesh_tool_test.py files|formed TOOLS PROGRAM CASES
+
+The parts are made by gmsh's Open CASCADE. Leaves with 77 when gmsh, numpy or scipy is missing.
+"""
+
+import csv
+import math
+import subprocess
+import sys
+import tempfile
+from pathlib import Path
+
+WHAT = sys.argv[1]
+TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:5])
+sys.path.insert(0, str(TOOLS))
+
+try:
+    import gmsh
+    import numpy as np
+    import scipy  # noqa: F401
+
+    import mesh_tool
+    from program_call import call
+except ImportError as error:
+    print("SKIPPED:", error)
+    sys.exit(77)
+
+
+def write_step(path, build):
+    gmsh.initialize([], False)
+    gmsh.option.setNumber("General.Terminal", 0)
+    build(gmsh.model.occ)
+    gmsh.model.occ.synchronize()
+    gmsh.write(str(path))
+    gmsh.finalize()
+
+
+def half_ball(occ):
+    occ.addSphere(0, 0, 0, 75, 1, -math.pi / 2, 0)
+
+
+def filleted_box(occ):
+    """The punch of cases/square_box."""
+    occ.addBox(-50, -50, -30, 100, 100, 60, 1)
+    occ.synchronize()
+    occ.fillet([1], [edge for _, edge in gmsh.model.getEntities(1)], [10.0])
+
+
+def two_boxes(occ):
+    occ.addBox(0, 0, 0, 1, 1, 1)
+    occ.addBox(3, 0, 0, 1, 1, 1)
+
+
+def hollow_box(occ):
+    occ.cut([(3, occ.addBox(0, 0, 0, 10, 10, 10))], [(3, occ.addBox(3, 3, 3, 2, 2, 2))])
+
+
+def one_line(occ):
+    occ.addLine(occ.addPoint(0, 0, 0), occ.addPoint(1, 0, 0))
+
+
+def iges_of(faces):
+    """Bilinear surfaces (entity 128), each by four corners, in inches."""
+    def numbered(lines, letter):
+        return [f"{line:<72}{letter}{k:7d}" for k, line in enumerate(lines, 1)]
+    entries, parameters = [], []
+    for k, corners in enumerate(faces):
+        values = [128, 1, 1, 1, 1, 0, 0, 1, 0, 0, 0., 0., 1., 1., 0., 0., 1., 1., 1., 1., 1., 1.]
+        values += [value for corner in corners for value in corner] + [0., 1., 0., 1.]
+        words, lines = [f"{value}" for value in values], [""]
+        for n, word in enumerate(words):
+            word += ";" if n + 1 == len(words) else ","
+            if len(lines[-1]) + len(word) > 64:
+                lines.append("")
+            lines[-1] += word
+        first = len(parameters) + 1
+        parameters += [f"{line:<64}{2 * k + 1:8d}" for line in lines]
+        entries.append(f"{values[0]:8d}{first:8d}" + f"{0:8d}" * 6 + "00000000")
+        entries.append(f"{values[0]:8d}" + f"{0:8d}" * 2 + f"{len(lines):8d}{0:8d}" + " " * 32)
+    head = ["1H,,1H;,4Hpart,8Hpart.igs,4Hnone,4Hnone,32,38,6,308,15,4Hpart,1.0,1,",
+            "4HINCH,1,0.01,15H20260101.000000,0.001,100.0,4Hnone,4Hnone,",
+            "11,0,15H20260101.000000;"]
+    rows = [*numbered(["made by a test"], "S"), *numbered(head, "G"), *numbered(entries, "D"),
+            *numbered(parameters, "P")]
+    counts = f"S{1:7d}G{len(head):7d}D{len(entries):7d}P{len(parameters):7d}"
+    return "\n".join([*rows, *numbered([counts], "T")]) + "\n"
+
+
+def box_faces(size):
+    corner = [np.array([x, y, z], float) * size for z in (0, 1) for y in (0, 1) for x in (0, 1)]
+    return [[corner[k].tolist() for k in face]
+            for face in ((0, 1, 2, 3), (4, 5, 6, 7), (0, 1, 4, 5), (2, 3, 6, 7), (0, 2, 4, 6),
+                         (1, 3, 5, 7))]
+
+
+def made(part, *words):
+    stl = part.with_suffix(".stl")
+    done = call(mesh_tool, part, "-o", stl, *words)
+    assert done.code == 0, done
+    rows = np.frombuffer(stl.read_bytes()[84:], dtype=[("n", "<f4", 3), ("x", "<f4", (3, 3)),
+                                                       ("end", "<u2")])
+    return stl, rows["x"].astype(float), done.out
+
+
+def check_closed_outward(corners):
+    """Every directed side has its opposite, and the volume is positive. Returns the volume."""
+    sides = {}
+    for triangle in corners.round(6).tolist():
+        for k in range(3):
+            side = tuple(triangle[k]), tuple(triangle[(k + 1) % 3])
+            assert side not in sides, side
+            sides[side] = True
+    assert all((two, one) in sides for one, two in sides)
+    volume = (corners[:, 0] * np.cross(corners[:, 1], corners[:, 2])).sum() / 6
+    assert volume > 0
+    return volume
+
+
+def all_over(corners):
+    """Middles of triangles and of their sides."""
+    a, b, c = (corners[:, k] for k in range(3))
+    return np.concatenate([(a + b + c) / 3, (a + b) / 2, (b + c) / 2, (c + a) / 2, a, b, c])
+
+
+def to_half_ball(p):
+    """Distance from the surface of the lower half of a ball of 75 mm, of points near it."""
+    return np.minimum(np.abs(np.linalg.norm(p, axis=1) - 75), np.abs(p[:, 2]))
+
+
+def to_box(p):
+    q = np.abs(p) - (40, 40, 20)
+    outside = np.linalg.norm(np.maximum(q, 0), axis=1)
+    return np.abs(outside + np.minimum(q.max(axis=1), 0) - 10)
+
+
+def check_parts(folder):
+    for name, build, distance, deflections, volume in (
+            ("half_ball", half_ball, to_half_ball, (0.1, 0.5), 2 / 3 * math.pi * 75 ** 3),
+            ("box", filleted_box, to_box, (0.2,),
+             80 * 80 * 40 + 2 * 10 * (80 * 80 + 2 * 80 * 40) + math.pi * 100 * 200
+             + 4 / 3 * math.pi * 1000)):
+        part = folder / f"{name}.step"
+        write_step(part, build)
+        for deflection in deflections:
+            _, corners, said = made(part, "--deflection", deflection)
+            assert abs(check_closed_outward(corners) / volume - 1) < 0.06 * deflection
+            away = distance(all_over(corners))
+            told = float(said.split("largest ")[1].split(" mm")[0])
+            print(f"{name}, deflection {deflection}: {len(corners)} triangles, largest deviation "
+                  f"{away.max():.4f} mm, told {told:.4f} mm")
+            assert away.max() <= deflection and told <= deflection
+            assert away.max() <= 1.3 * told  # measured at other points
+            assert "closed, outward" in said and "unit of the file mm" in said
+    metres = folder / "metres.step"
+    metres.write_text((folder / "half_ball.step").read_text().replace(
+        "SI_UNIT(.MILLI.,.METRE.)", "SI_UNIT($,.METRE.)"))
+    _, corners, said = made(metres, "--deflection", 10)
+    assert "unit of the file m," in said and np.ptp(corners[:, :, 2]) == 75000, said
+    done = call(mesh_tool, metres, "-o", folder / "metres.stl", "--deflection", 0.05)
+    assert done.code == 2 and "triangles at a deflection of 0.05 mm, more than 500000: check the " \
+        "part's unit" in done.err, done
+    part = folder / "box.igs"
+    part.write_text(iges_of(box_faces(2.0)))
+    _, corners, said = made(part)
+    assert abs(check_closed_outward(corners) - 50.8 ** 3) < 1e-3 * 50.8 ** 3
+    assert "faces sewn to one solid, unit of the file inch" in said, said
+
+
+def check_faults(folder):
+    for name, build in (("two", two_boxes), ("hollow", hollow_box), ("line", one_line),
+                        ("sheet", lambda occ: occ.addRectangle(0, 0, 0, 10, 10))):
+        write_step(folder / f"{name}.step", build)
+    whole = (folder / "two.step").read_text()
+    (folder / "short.step").write_text(whole[:len(whole) // 2])
+    (folder / "garbage.step").write_text("ISO-10303-21;\ngarbage\nEND-ISO-10303-21;\n")
+    (folder / "text.step").write_text("no part\n")
+    (folder / "text.igs").write_text("no part\n")
+    (folder / "part.txt").write_text("no part\n")
+    (folder / "open.igs").write_text(iges_of(box_faces(2.0)[:5]))
+    for name, said in (
+            ("two.step", "has 2 solids, and a tool is one"), ("hollow.step", "has a hollow inside"),
+            ("line.step", "has no faces"), ("sheet.step", "its 1 face is an open shell"),
+            ("short.step", "is cut short"), ("garbage.step", "garbage.step"),
+            ("text.step", "is no STEP file"), ("text.igs", "is no IGES file"),
+            ("open.igs", "its 5 faces are an open shell"),
+            ("part.txt", "a part is a .step, .stp, .iges or .igs file"),
+            ("absent.step", "cannot be read: No such file or directory")):
+        done = call(mesh_tool, folder / name, "-o", folder / "never.stl")
+        assert done.code == 2 and said in done.err, (name, done)
+        assert done.err.count("\n") == 1 and not done.out, (name, done)
+    box = folder / "one.step"
+    write_step(box, lambda occ: occ.addBox(0, 0, 0, 1, 1, 1))
+    for words, said in ((("--deflection", 0), "--deflection 0: 0.0001 to 10 mm"),
+                        (("-o", folder / "never.obj"), "an .stl file is written")):
+        done = call(mesh_tool, box, *words)
+        assert done.code == 2 and said in done.err, done
+    assert not list(folder.glob("never.*")) and not list(folder.glob("part_never.*"))
+
+
+def shear(folder, name):
+    with open(folder / "plies" / f"{name}.csv", newline="", encoding="utf-8") as file:
+        return np.array([float(row["shear_angle_deg"])
+                         for row in csv.DictReader(line for line in file if line[0] != "#")])
+
+
+def check_formed(folder):
+    for case, build, place, plies in (
+            ("hemisphere_0", half_ball, "position = [0.0, 0.0, 75.6], stroke = 75.0", ["ply"]),
+            ("square_box", filleted_box, "position = [0.0, 0.0, 31.2], stroke = 35.0",
+             ["lower", "upper"])):
+        part = folder / f"{case}.step"
+        write_step(part, build)
+        stl, _, said = made(part)
+        print(said.splitlines()[2])
+        punch = f'{{name = "punch", shape = "mesh", file = "{stl}", motion = "driven", {place}}}'
+        for name, words in (("primitive", []), ("step", ["--set", f"tool.0={punch}"])):
+            done = subprocess.run([PROGRAM, "run", CASES / case, "-o", folder / case / name, *words],
+                                  capture_output=True, text=True, check=False)
+            assert done.returncode == 0, done
+        for ply in plies:
+            one, two = (shear(folder / case / name, ply) for name in ("primitive", "step"))
+            rms = math.sqrt(((two - one) ** 2).mean())
+            print(f"{case}, {ply}: shear angles {rms:.3f} degrees rms apart, up to "
+                  f"{np.abs(one).max():.1f}")
+            assert np.abs(one).max() > 20 and rms <= 0.3
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        if WHAT == "files":
+            check_parts(folder)
+            check_faults(folder)
+        else:
+            check_formed(folder)
+
+
+main()
