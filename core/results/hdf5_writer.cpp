@@ -3,7 +3,7 @@
 //
 // Every return code is checked, also that of closing a dataset: HDF5 delays small writes until
 // then, so that an error of a full disk may appear only there.
-#include "core/results/hdf5_handles.ipp"
+#include "core/results/hdf5_copy.ipp"
 #include "core/results/result_fields.hpp"
 
 #include <algorithm>
@@ -26,6 +26,7 @@ struct Writer {
   const fs::path& path; ///< of the file, for messages
   hid_t file;
 
+  /// To be called before any other call of HDF5, which would forget the reason.
   void require(bool ok, const std::string& what) const {
     if (!ok) fail(path, "cannot write " + what);
   }
@@ -46,10 +47,10 @@ struct Writer {
     Handle set(H5Dcreate2(file, where.c_str(), file_type<T>(), space.id(), H5P_DEFAULT, layout.id(),
                           H5P_DEFAULT),
                H5Dclose);
-    bool ok = set.valid();
-    ok = ok &&
-         H5Dwrite(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
-    require(set.close() && ok, where);
+    require(set.valid() && H5Dwrite(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                    values.data()) >= 0,
+            where);
+    require(set.close(), where);
   }
 
   void attribute(const std::string& where, const char* name, hid_t filed, hid_t in_memory,
@@ -57,9 +58,8 @@ struct Writer {
     Handle made(H5Acreate_by_name(file, where.c_str(), name, filed, space.id(), H5P_DEFAULT,
                                   H5P_DEFAULT, H5P_DEFAULT),
                 H5Aclose);
-    bool ok = made.valid();
-    ok = ok && H5Awrite(made.id(), in_memory, values) >= 0;
-    require(made.close() && ok, where + ":" + name);
+    require(made.valid() && H5Awrite(made.id(), in_memory, values) >= 0, where + ":" + name);
+    require(made.close(), where + ":" + name);
   }
 
   template <class T>
@@ -169,28 +169,22 @@ off_t size_of(hid_t file) {
   return static_cast<off_t>(size);
 }
 
-/// A file that gets its name when it is complete and on the disk.
+/// A file that gets its name when it is complete and on the disk; else nothing of it stays.
 class WholeFile {
 public:
   /// Reserves disk space before HDF5 writes anything. If a write fails inside HDF5, the file can
   /// neither be closed nor the process ended regularly (h5py issue 914, also observed with 1.10.8).
   WholeFile(const fs::path& path, std::size_t bytes) : path_(path), temporary_(path) {
     temporary_ += ".tmp";
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_file_locking(access.id(), false, true); // others may read while this is written
-    file_ =
-        Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
-    if (!file_.valid()) hdf5::fail(path_, "cannot create the file");
-    const int error =
-        posix_fallocate(descriptor(file_.id()), size_of(file_.id()), static_cast<off_t>(bytes));
-    if (error == 0 || error == EINVAL || error == EOPNOTSUPP || error == ENODEV)
-      return; // or not supported by this file system
-    remove();
-    throw std::runtime_error(fmt::format("{}: cannot write {} bytes: {}", path_.string(), bytes,
-                                         std::generic_category().message(error)));
+    try {
+      create(bytes);
+    } catch (...) {
+      remove();
+      throw;
+    }
   }
   ~WholeFile() {
-    if (file_.valid()) remove();
+    if (!complete_) remove();
   }
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
@@ -200,20 +194,46 @@ public:
   void complete() {
     if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) hdf5::fail(path_, "cannot write");
     // Releases reserved space that was not used.
-    const bool ok = ftruncate(descriptor(file_.id()), size_of(file_.id())) == 0 &&
-                    fsync(descriptor(file_.id())) == 0;
-    if (!ok)
-      throw std::runtime_error(fmt::format("{}: cannot write: {}", path_.string(),
-                                           std::generic_category().message(errno)));
+    if (ftruncate(descriptor(file_.id()), size_of(file_.id())) != 0) fail("write", errno);
+    const Descriptor own(dup(descriptor(file_.id()))); // closing writes the head of the file again
+    if (own.number < 0) fail("write", errno);
     if (!file_.close()) hdf5::fail(path_, "cannot close the file");
+    if (fsync(own.number) != 0) fail("write", errno);
     std::error_code error;
     fs::rename(temporary_, path_, error);
-    if (error)
-      throw std::runtime_error(
-          fmt::format("{}: cannot replace the file: {}", path_.string(), error.message()));
+    if (error) fail("replace the file", error.value());
+    complete_ = true;
   }
 
 private:
+  struct Descriptor {
+    explicit Descriptor(int descriptor) : number(descriptor) {}
+    ~Descriptor() {
+      if (number >= 0) ::close(number);
+    }
+    Descriptor(const Descriptor&) = delete;
+    Descriptor& operator=(const Descriptor&) = delete;
+    int number;
+  };
+
+  void create(std::size_t bytes) {
+    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+    H5Pset_file_locking(access.id(), false, true); // others may read while this is written
+    file_ =
+        Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
+    if (!file_.valid()) hdf5::fail(path_, "cannot create the file");
+    const int error =
+        posix_fallocate(descriptor(file_.id()), size_of(file_.id()), static_cast<off_t>(bytes));
+    if (error == 0 || error == EINVAL || error == EOPNOTSUPP || error == ENODEV)
+      return; // or not supported by this file system
+    fail(fmt::format("write {} bytes", bytes), error);
+  }
+
+  [[noreturn]] void fail(const std::string& what, int error) const {
+    throw std::runtime_error(fmt::format("{}: cannot {}: {}", path_.string(), what,
+                                         std::generic_category().message(error)));
+  }
+
   void remove() {
     file_.close();
     std::error_code ignored;
@@ -222,6 +242,7 @@ private:
 
   fs::path path_, temporary_;
   Handle file_;
+  bool complete_ = false;
 };
 
 /// Attributes of the file, and an entry a frame of times.
@@ -326,14 +347,11 @@ void write_merged(const fs::path& path, const StateIndex& index) {
   WholeFile file(path, bytes);
   const Writer out = file.writer();
   write_index(out, index);
-  const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
-  H5Pset_create_intermediate_group(links.id(), 1);
   for (const Part& part : parts) {
     const fs::path from = path.parent_path() / part.file;
     const Handle source(H5Fopen(from.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT), H5Fclose);
-    out.require(source.valid() && H5Ocopy(source.id(), part.group.c_str(), out.file,
-                                          part.name.c_str(), H5P_DEFAULT, links.id()) >= 0,
-                part.name);
+    out.require(source.valid(), part.name);
+    Copier{path, source.id(), out.file}.object(part.name);
   }
   file.complete();
 }
