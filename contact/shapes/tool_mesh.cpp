@@ -15,6 +15,7 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/assertions_behaviour.h>
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
@@ -61,6 +62,23 @@ void check(const PolygonSoup& soup, const std::string& name) {
                                "again",
                                f, i, soup.points.size()));
 }
+
+/// Keeps CGAL from printing what it finds wrong; it throws all the same.
+class QuietCgal {
+public:
+  QuietCgal()
+      : errors_(CGAL::set_error_handler(&quiet)), warnings_(CGAL::set_warning_handler(&quiet)) {}
+  ~QuietCgal() {
+    CGAL::set_error_handler(errors_);
+    CGAL::set_warning_handler(warnings_);
+  }
+  QuietCgal(const QuietCgal&) = delete;
+  QuietCgal& operator=(const QuietCgal&) = delete;
+
+private:
+  static void quiet(const char*, const char*, const char*, int, const char*) {}
+  CGAL::Failure_function errors_, warnings_;
+};
 
 /// Removes faces that name a corner twice or have fewer than three corners; returns their number.
 std::size_t drop_collapsed(Polygons& polygons) {
@@ -153,11 +171,7 @@ TriMesh surface_of(const Mesh& mesh) {
   return surface;
 }
 
-} // namespace
-
-MeshShapePtr make_mesh_shape(PolygonSoup soup, const std::string& name, MeshReport* report) {
-  check(soup, name);
-  MeshReport done;
+TriMesh clean_surface(PolygonSoup soup, const std::string& name, MeshReport& done) {
   std::vector<Point> points;
   points.reserve(soup.points.size());
   for (const Vec3& p : soup.points)
@@ -172,13 +186,28 @@ MeshShapePtr make_mesh_shape(PolygonSoup soup, const std::string& name, MeshRepo
 
   Mesh mesh;
   PMP::polygon_soup_to_polygon_mesh(points, soup.polygons, mesh);
-  if (!PMP::triangulate_faces(mesh))
+  if (!PMP::triangulate_faces(mesh) || !CGAL::is_triangle_mesh(mesh)) // says true of some it leaves
     fail(name,
          "a face of more than three corners cannot be split into triangles; export triangles");
   done.removed_degenerate += remove_flat_faces(mesh, name);
   done.closed = CGAL::is_closed(mesh);
   if (done.closed) done.flipped = turn_outward(mesh, name);
-  TriMesh surface = surface_of(mesh);
+  return surface_of(mesh);
+}
+
+} // namespace
+
+MeshShapePtr make_mesh_shape(PolygonSoup soup, const std::string& name, MeshReport* report) {
+  check(soup, name);
+  MeshReport done;
+  TriMesh surface;
+  try {
+    const QuietCgal quiet;
+    surface = clean_surface(std::move(soup), name, done);
+  } catch (const CGAL::Failure_exception& failed) { // of a face that folds onto itself, say
+    fail(name, fmt::format("it cannot be made a clean surface (CGAL misses {}); repair the mesh",
+                           failed.expression()));
+  }
   done.vertices = surface.x.size();
   done.faces = surface.triangles.size();
   if (report) *report = done;

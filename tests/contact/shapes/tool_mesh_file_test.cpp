@@ -257,5 +257,15 @@ TEST_F(ToolMeshFile, CrossingSolidsAreRejected) {
   expect_rejected(write("two.stl", binary_stl(s)), "crosses or touches itself");
 }
 
+// Files that a fuzzer found: CGAL's own error came up, in five lines and without the file's name.
+TEST_F(ToolMeshFile, WhatCgalCannotRepairIsRejectedInOneLine) {
+  const std::filesystem::path corpus = std::filesystem::path(PLYFORM_TEST_DATA) / "../fuzz/corpus";
+  ::testing::internal::CaptureStderr();
+  for (const char* file : {"stl/torn.stl", "obj/torn.obj", "off/torn.off", "ply/torn.ply"})
+    expect_rejected(corpus / file, "it cannot be made a clean surface");
+  expect_rejected(corpus / "obj/not_split.obj", "cannot be split into triangles");
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
+}
+
 } // namespace
 } // namespace plyform
