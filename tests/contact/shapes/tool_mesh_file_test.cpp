@@ -202,6 +202,12 @@ TEST_F(ToolMeshFile, MissingEmptyAndForeignFilesAreNamed) {
   expect_rejected(write("nothing.stl", "solid x\nendsolid x\n"), "it holds no faces");
 }
 
+TEST_F(ToolMeshFile, AFileThatTheDiskCannotReadIsNamed) {
+  if (!std::filesystem::exists("/proc/self/mem")) GTEST_SKIP() << "no file here that fails";
+  std::filesystem::create_symlink("/proc/self/mem", folder / "bad.stl");
+  expect_rejected(folder / "bad.stl", "cannot be read to its end");
+}
+
 TEST_F(ToolMeshFile, TruncatedFilesAreRejectedWhereverTheyEnd) {
   const TriMesh s = box_mesh();
   const std::vector<std::pair<std::string, std::string>> files{{"a.stl", ascii_stl(s)},
