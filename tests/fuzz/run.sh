@@ -33,7 +33,7 @@ run_one() {
 }
 
 cores=$(nproc)
-declare -A of
+declare -A of=()
 failed=()
 reap() {
   local done_pid='' code=0
