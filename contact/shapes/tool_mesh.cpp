@@ -4,6 +4,7 @@
 #include "contact/shapes/tool_mesh.hpp"
 
 #include "contact/shapes/mesh_shape.hpp"
+#include "contact/shapes/split_polygons.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -120,6 +121,20 @@ void orient(std::vector<Point>& points, Polygons& polygons, const std::string& n
                            (after - before) / 2));
 }
 
+void split_large_faces(const std::vector<Point>& points, Polygons& polygons,
+                       const std::string& name) {
+  std::vector<Vec3> corners; // merging has renumbered them
+  corners.reserve(points.size());
+  for (const Point& p : points)
+    corners.emplace_back(p.x(), p.y(), p.z());
+  const std::ptrdiff_t bad = split_polygons(corners, polygons);
+  if (bad < 0) return;
+  const auto& polygon = polygons[static_cast<std::size_t>(bad)];
+  fail(name, fmt::format("a face of {} corners near {} crosses or touches itself, seen along its "
+                         "normal, and cannot be split into triangles; export triangles",
+                         polygon.size(), text_of(points[polygon.front()])));
+}
+
 std::size_t remove_flat_faces(Mesh& mesh, const std::string& name) {
   std::vector<Mesh::Face_index> flat;
   PMP::degenerate_faces(mesh, std::back_inserter(flat));
@@ -183,6 +198,7 @@ TriMesh clean_surface(PolygonSoup soup, const std::string& name, MeshReport& don
   if (soup.polygons.empty())
     fail(name, "none of its faces has an area; check the units and the export");
   orient(points, soup.polygons, name);
+  split_large_faces(points, soup.polygons, name);
 
   Mesh mesh;
   PMP::polygon_soup_to_polygon_mesh(points, soup.polygons, mesh);

@@ -167,6 +167,21 @@ TEST_F(ToolMeshFile, QuadsAreSplit) {
   EXPECT_NEAR(ask(mesh, Vec3(5, 5, 9)).distance, -1.0, 1e-14);
 }
 
+TEST_F(ToolMeshFile, FacesOfManyCornersAreSplitNotchesToo) {
+  const std::filesystem::path file =
+      write("angle.off", "OFF\n12 8 0\n0 0 0\n20 0 0\n20 5 0\n5 5 0\n5 20 0\n0 20 0\n"
+                         "0 0 4\n20 0 4\n20 5 4\n5 5 4\n5 20 4\n0 20 4\n"
+                         "6 5 4 3 2 1 0\n6 6 7 8 9 10 11\n4 0 1 7 6\n4 1 2 8 7\n4 2 3 9 8\n"
+                         "4 3 4 10 9\n4 4 5 11 10\n4 5 0 6 11\n");
+  MeshReport report;
+  const ToolShape tool = load_tool_mesh(file, 1.0, &report);
+  EXPECT_TRUE(report.closed);
+  EXPECT_EQ(report.faces, 20u);
+  EXPECT_NEAR(ask(tool, Vec3(2.5, 2.5, 2)).distance, -2.0, 1e-12);
+  EXPECT_NEAR(ask(tool, Vec3(8, 9, 2)).distance, 3.0, 1e-12); // in the notch
+  EXPECT_NEAR(ask(tool, Vec3(15, 2, 6)).distance, 2.0, 1e-12);
+}
+
 TEST_F(ToolMeshFile, ScaleTurnsMetresIntoMillimetres) {
   const auto file = write("box.off", off(box_mesh()));
   const ToolShape mesh = load_tool_mesh(file, 1000.0, nullptr);
@@ -270,6 +285,7 @@ TEST_F(ToolMeshFile, WhatCgalCannotRepairIsRejectedInOneLine) {
   for (const char* file : {"stl/torn.stl", "obj/torn.obj", "off/torn.off", "ply/torn.ply"})
     expect_rejected(corpus / file, "it cannot be made a clean surface");
   expect_rejected(corpus / "obj/not_split.obj", "cannot be split into triangles");
+  expect_rejected(corpus / "obj/crossing_face.obj", "a face of 7 corners near "); // SIGSEGV
   EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
