@@ -35,6 +35,16 @@ if [ -e /dev/full ]; then
     fail "a run without standard output says 0"
   "$program" export closed >exported || fail "a run without standard output has spoilt its results"
 fi
+# A folder that another run has is left alone, by --resume too.
+mkdir taken
+for resume in "" --resume; do
+  # shellcheck disable=SC2086
+  flock taken "$program" run cases/hemisphere_0 -o taken "${short[@]}" $resume >said 2>&1 &&
+    fail "a second run into one folder $resume"
+  grep -q 'taken: another run writes into this folder; wait for it, or give another one with -o' \
+    said || fail "a second run says: $(cat said)"
+done
+[ ! -e taken/results.h5 ] || fail "a second run has written"
 expect 2 'nosuch:1:1' run nosuch
 expect 2 'did you mean angle' run cases/hemisphere_0 --set ply.0.angel=3
 expect 2 'KEY=VALUE' run cases/hemisphere_0 --set angle
