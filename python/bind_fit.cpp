@@ -3,37 +3,37 @@
 // which python/plyform/_fit.py puts into words.
 #include "core/fit/fit_shear.hpp"
 #include "core/fit/fit_tension.hpp"
-#include "core/input/fabric_file.hpp"
-#include "python/bindings.hpp"
+#include "core/fit/test_columns.hpp"
+#include "python/fit_parts.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace plyform {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180.0;
-
-py::array array_of(std::vector<double> values, double unit = 1.0) {
-  for (double& value : values)
-    value /= unit;
-  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+/// Of the tests as python/plyform names them.
+CurveColumns columns_of(const std::string& test) {
+  if (test == "shear") return shear_columns();
+  if (test == "three-point") return three_point_columns();
+  if (test == "cantilever angle") return cantilever_columns(CantileverReading::chord_angle);
+  if (test == "cantilever deflection") return cantilever_columns(CantileverReading::sag);
+  if (test == "zone") return zone_columns();
+  const bool strain = test == "strain";
+  CurveColumns columns = tension_columns(strain);
+  columns.x_hint = strain ? "give gauge_length if it is a displacement"
+                          : "leave gauge_length out if it is a strain";
+  return columns;
 }
 
 Curve curve_from_file(const std::filesystem::path& file, const std::string& x_column,
-                      const std::string& y_column, const std::string& angle_column, bool strain) {
+                      const std::string& y_column, const std::string& angle_column,
+                      const std::string& test) {
   Diagnostics diagnostics;
-  CurveColumns columns;
+  CurveColumns columns = columns_of(test);
   columns.x.column = x_column;
   columns.y.column = y_column;
   columns.angle.column = angle_column;
-  columns.with_angle = !strain;
-  if (strain) {
-    columns.x_is = Quantity::strain;
-    columns.x_word = "strain";
-    columns.x_hint = "give gauge_length if it is a displacement";
-  }
   std::optional<Curve> curve = read_curve(file, columns, diagnostics);
   if (!curve) raise_mistakes(diagnostics.errors);
   return std::move(*curve);
@@ -60,32 +60,6 @@ ShearTest test_of(const char* kind, const Specimen& specimen) {
   return shear_test(specimen);
 }
 
-/// A fabric whose shear tests have a theory; `law`: with a law of shear.
-Fabric fabric_for_shear(const std::filesystem::path& file, bool law) {
-  FabricReading reading = read_fabric_file(file, true);
-  const auto wrong = [&](const std::string& item, const std::string& rule,
-                         const std::string& remedy) {
-    reading.errors.push_back({file.string(), 1, 1, item, "", rule, remedy});
-  };
-  for (const std::string& missing : reading.missing)
-    if (law && missing == "shear")
-      wrong("shear", "is missing", "give the law of shear, or identify it from a measured curve");
-  if (reading.value && !(std::abs(reading.value->fibre_angle - 0.5 * std::numbers::pi) < 1e-6))
-    wrong("fibre_angle", "must be 90 degrees: the theory of the shear tests is for such fabrics",
-          "take the law from a test of your own evaluation and write it in by hand");
-  if (!reading.errors.empty()) raise_mistakes(reading.errors);
-  return std::move(*reading.value);
-}
-
-py::dict quality(const FitQuality& q, double unit) {
-  py::dict all;
-  all["rows"] = q.rows;
-  all["rms"] = q.rms;
-  all["largest"] = q.largest;
-  all["largest_at"] = q.largest_at / unit;
-  return all;
-}
-
 /// A number, "fit" where that may stand, or None.
 void put_correction(const py::object& given, const char* name, std::optional<double>& value,
                     bool& fit) {
@@ -100,7 +74,23 @@ void put_correction(const py::object& given, const char* name, std::optional<dou
   if (!std::isfinite(*value)) throw py::value_error(fmt::format("{} must be finite", name));
 }
 
-/// compliance, zero, toe, slip and doubtful, as the program's options.
+} // namespace
+
+py::array array_of(std::vector<double> values, double unit) {
+  for (double& value : values)
+    value /= unit;
+  return py::array_t<double>(static_cast<py::ssize_t>(values.size()), values.data());
+}
+
+py::dict quality_of(const FitQuality& quality, double unit) {
+  py::dict all;
+  all["rows"] = quality.rows;
+  all["rms"] = quality.rms;
+  all["largest"] = quality.largest;
+  all["largest_at"] = quality.largest_at / unit;
+  return all;
+}
+
 void put_corrections(const py::dict& given, FitOptions& options) {
   Corrections& c = options.corrections;
   bool fit = false;
@@ -112,6 +102,25 @@ void put_corrections(const py::dict& given, FitOptions& options) {
   c.fit_slip = given["slip"].cast<bool>();
   options.doubtful = given["doubtful"].cast<bool>();
 }
+
+Fabric fabric_for_fit(const std::filesystem::path& file, FabricNeeds needs) {
+  FabricReading reading = read_fabric_file(file, true);
+  const auto wrong = [&](const std::string& item, const std::string& rule,
+                         const std::string& remedy) {
+    reading.errors.push_back({file.string(), 1, 1, item, "", rule, remedy});
+  };
+  for (const std::string& missing : reading.missing)
+    if (needs.shear_law && missing == "shear")
+      wrong("shear", "is missing", "give the law of shear, or identify it from a measured curve");
+  if (needs.right_angle && reading.value &&
+      !(std::abs(reading.value->fibre_angle - 0.5 * std::numbers::pi) < 1e-6))
+    wrong("fibre_angle", "must be 90 degrees: the theory of the shear tests is for such fabrics",
+          "take the law from a test of your own evaluation and write it in by hand");
+  if (!reading.errors.empty()) raise_mistakes(reading.errors);
+  return std::move(*reading.value);
+}
+
+namespace {
 
 /// Limits of confidence and specimens.
 template <class Fit>
@@ -132,10 +141,10 @@ py::dict shear_law(const std::vector<Curve>& curves, const ShearTest& test,
   FitOptions options{coefficients, from_deg * deg, to_deg * deg};
   options.measured_angle = measured_angle;
   put_corrections(corrections, options);
-  const auto fit =
-      identify_shear(curves, test, fabric_for_shear(fabric, false), options, diagnostics);
+  const auto fit = identify_shear(curves, test, fabric_for_fit(fabric, {.right_angle = true}),
+                                  options, diagnostics);
   if (!fit) raise_mistakes(diagnostics.errors);
-  py::dict all = quality(fit->quality, deg);
+  py::dict all = quality_of(fit->quality, deg);
   put_sureness(*fit, all);
   all["coefficients"] = fit->law.k;
   all["extension_mm"] = array_of(fit->extension);
@@ -155,7 +164,7 @@ py::dict tension_law(const std::vector<Curve>& curves, double yarns, double gaug
   put_corrections(corrections, options);
   const auto fit = identify_tension(curves, {yarns, gauge_length}, options, diagnostics);
   if (!fit) raise_mistakes(diagnostics.errors);
-  py::dict all = quality(fit->quality, 1.0);
+  py::dict all = quality_of(fit->quality, 1.0);
   put_sureness(*fit, all);
   all["stiffness"] = fit->law.linear() ? py::object(py::float_(fit->law.stiffness)) : py::none();
   all["table_strain"] = array_of(fit->law.strain);
@@ -172,7 +181,7 @@ py::dict shear_curve(const ShearTest& test, const std::filesystem::path& file, d
   if (!(to_deg > 0.0 && to_deg < 90.0))
     throw py::value_error("to_deg must be above 0 and below 90");
   if (points < 1 || points > 1000000) throw py::value_error("points must be 1 to 1000000");
-  const Fabric fabric = fabric_for_shear(file, true);
+  const Fabric fabric = fabric_for_fit(file, {.shear_law = true, .right_angle = true});
   const double end = extension_at(test, to_deg * deg);
   const double bending = in_plane_bending_share(test, fabric).mean();
   std::vector<double> extension, angle, load;
@@ -189,12 +198,18 @@ py::dict shear_curve(const ShearTest& test, const std::filesystem::path& file, d
   return all;
 }
 
-std::string fabric_with_law(const std::filesystem::path& file, const std::string& table,
-                            const std::string& key, const std::string& value,
-                            const std::vector<std::string>& comment) {
+std::string
+fabric_with_laws(const std::filesystem::path& file,
+                 const std::vector<std::tuple<std::string, std::string, std::string>>& laws,
+                 const std::vector<std::string>& comment) {
   const FabricReading reading = read_fabric_file(file, true);
   if (!reading.errors.empty()) raise_mistakes(reading.errors);
-  return with_law(reading.text, {table, key, value, comment});
+  std::string text = reading.text;
+  for (const auto& [table, key, value] : laws) {
+    const bool beside = key == "buckling_force"; // the comment stands above its stiffness
+    text = with_law(text, {table, key, value, beside ? std::vector<std::string>{} : comment});
+  }
+  return text;
 }
 
 } // namespace
@@ -209,7 +224,7 @@ void bind_fit(py::module_& m) {
           "y", [](const Curve& c) { return array_of(c.y); }, "float64, one a row.");
   py::class_<ShearTest>(m, "ShearTest", "Sizes of a shear test.");
   m.def("read_curve", &curve_from_file, py::arg("file"), py::arg("x_column"), py::arg("y_column"),
-        py::arg("angle_column"), py::arg("strain"),
+        py::arg("angle_column"), py::arg("test"),
         "Columns of a CSV file, by name or number from 1; empty: by what the header says.");
   m.def(
       "bias_test",
@@ -228,8 +243,9 @@ void bind_fit(py::module_& m) {
         py::arg("corrections"), "Law of tension.");
   m.def("theory_shear", &shear_curve, py::arg("test"), py::arg("fabric"), py::arg("to_deg"),
         py::arg("points"), "The curve that a fabric should give.");
-  m.def("fabric_with_law", &fabric_with_law, py::arg("fabric"), py::arg("table"), py::arg("key"),
-        py::arg("value"), py::arg("comment"), "Text of a fabric file with a law put in.");
+  m.def("fabric_with_laws", &fabric_with_laws, py::arg("fabric"), py::arg("laws"),
+        py::arg("comment"), "Text of a fabric file with laws put in.");
+  bind_bending(m);
 }
 
 } // namespace plyform

@@ -244,7 +244,12 @@ PolygonSoup read_polygons(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) refuse("this is not a file; check the path");
   std::ifstream in(file, std::ios::binary);
   if (!in) refuse("cannot be opened; check the permissions");
-  const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+  std::string bytes;
+  try {
+    bytes.assign(std::istreambuf_iterator<char>(in), {});
+  } catch (const std::ios_base::failure&) { // of the disk
+    refuse("cannot be read to its end; copy it again");
+  }
   if (bytes.empty()) refuse("the file is empty; export or copy it again");
   return parse_polygons(extension, bytes);
 }

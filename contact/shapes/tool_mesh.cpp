@@ -4,6 +4,7 @@
 #include "contact/shapes/tool_mesh.hpp"
 
 #include "contact/shapes/mesh_shape.hpp"
+#include "contact/shapes/split_polygons.hpp"
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_mesh_processing/measure.h>
@@ -15,6 +16,7 @@
 #include <CGAL/Polygon_mesh_processing/self_intersections.h>
 #include <CGAL/Polygon_mesh_processing/triangulate_faces.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/assertions_behaviour.h>
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
@@ -62,6 +64,23 @@ void check(const PolygonSoup& soup, const std::string& name) {
                                f, i, soup.points.size()));
 }
 
+/// Keeps CGAL from printing what it finds wrong; it throws all the same.
+class QuietCgal {
+public:
+  QuietCgal()
+      : errors_(CGAL::set_error_handler(&quiet)), warnings_(CGAL::set_warning_handler(&quiet)) {}
+  ~QuietCgal() {
+    CGAL::set_error_handler(errors_);
+    CGAL::set_warning_handler(warnings_);
+  }
+  QuietCgal(const QuietCgal&) = delete;
+  QuietCgal& operator=(const QuietCgal&) = delete;
+
+private:
+  static void quiet(const char*, const char*, const char*, int, const char*) {}
+  CGAL::Failure_function errors_, warnings_;
+};
+
 /// Removes faces that name a corner twice or have fewer than three corners; returns their number.
 std::size_t drop_collapsed(Polygons& polygons) {
   return std::erase_if(polygons, [](const std::vector<std::size_t>& polygon) {
@@ -100,6 +119,20 @@ void orient(std::vector<Point>& points, Polygons& polygons, const std::string& n
     fail(name, fmt::format("not orientable: it is a one-sided surface like a Moebius strip ({} "
                            "edges join faces whose sides cannot agree); make it two-sided",
                            (after - before) / 2));
+}
+
+void split_large_faces(const std::vector<Point>& points, Polygons& polygons,
+                       const std::string& name) {
+  std::vector<Vec3> corners; // merging has renumbered them
+  corners.reserve(points.size());
+  for (const Point& p : points)
+    corners.emplace_back(p.x(), p.y(), p.z());
+  const std::ptrdiff_t bad = split_polygons(corners, polygons);
+  if (bad < 0) return;
+  const auto& polygon = polygons[static_cast<std::size_t>(bad)];
+  fail(name, fmt::format("a face of {} corners near {} crosses or touches itself, seen along its "
+                         "normal, and cannot be split into triangles; export triangles",
+                         polygon.size(), text_of(points[polygon.front()])));
 }
 
 std::size_t remove_flat_faces(Mesh& mesh, const std::string& name) {
@@ -153,11 +186,7 @@ TriMesh surface_of(const Mesh& mesh) {
   return surface;
 }
 
-} // namespace
-
-MeshShapePtr make_mesh_shape(PolygonSoup soup, const std::string& name, MeshReport* report) {
-  check(soup, name);
-  MeshReport done;
+TriMesh clean_surface(PolygonSoup soup, const std::string& name, MeshReport& done) {
   std::vector<Point> points;
   points.reserve(soup.points.size());
   for (const Vec3& p : soup.points)
@@ -169,16 +198,32 @@ MeshShapePtr make_mesh_shape(PolygonSoup soup, const std::string& name, MeshRepo
   if (soup.polygons.empty())
     fail(name, "none of its faces has an area; check the units and the export");
   orient(points, soup.polygons, name);
+  split_large_faces(points, soup.polygons, name);
 
   Mesh mesh;
   PMP::polygon_soup_to_polygon_mesh(points, soup.polygons, mesh);
-  if (!PMP::triangulate_faces(mesh))
+  if (!PMP::triangulate_faces(mesh) || !CGAL::is_triangle_mesh(mesh)) // says true of some it leaves
     fail(name,
          "a face of more than three corners cannot be split into triangles; export triangles");
   done.removed_degenerate += remove_flat_faces(mesh, name);
   done.closed = CGAL::is_closed(mesh);
   if (done.closed) done.flipped = turn_outward(mesh, name);
-  TriMesh surface = surface_of(mesh);
+  return surface_of(mesh);
+}
+
+} // namespace
+
+MeshShapePtr make_mesh_shape(PolygonSoup soup, const std::string& name, MeshReport* report) {
+  check(soup, name);
+  MeshReport done;
+  TriMesh surface;
+  try {
+    const QuietCgal quiet;
+    surface = clean_surface(std::move(soup), name, done);
+  } catch (const CGAL::Failure_exception& failed) { // of a face that folds onto itself, say
+    fail(name, fmt::format("it cannot be made a clean surface (CGAL misses {}); repair the mesh",
+                           failed.expression()));
+  }
   done.vertices = surface.x.size();
   done.faces = surface.triangles.size();
   if (report) *report = done;

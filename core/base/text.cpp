@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cerrno>
+#include <fmt/format.h>
 #include <fstream>
 #include <iterator>
 #include <numeric>
@@ -52,17 +53,28 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::optional<std::string> read_text(const std::filesystem::path& file, std::string& reason) {
   std::error_code ignored;
-  if (std::filesystem::is_directory(file, ignored)) {
+  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
+  if (is_directory(status)) {
     reason = "is a folder, not a file";
     return std::nullopt;
   }
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) {
-    reason = "cannot be opened: " + std::generic_category().message(errno ? errno : ENOENT);
+  if (is_character_file(status) || is_block_file(status)) { // /dev/zero has no end
+    reason = "is a device, not a file";
     return std::nullopt;
   }
-  return std::string(std::istreambuf_iterator<char>(stream), {});
+  const auto failed = [&](const char* what, int fallback) {
+    reason = fmt::format("cannot be {}: {}", what,
+                         std::generic_category().message(errno ? errno : fallback));
+    return std::nullopt;
+  };
+  errno = 0;
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return failed("opened", ENOENT);
+  try {
+    return std::string(std::istreambuf_iterator<char>(stream), {});
+  } catch (const std::ios_base::failure&) { // of the disk
+    return failed("read", EIO);
+  }
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {

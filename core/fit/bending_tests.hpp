@@ -83,5 +83,8 @@ struct ZoneFit {
 /// into the zone. The fabric must have its law of shear.
 std::optional<ZoneFit> identify_zone(const std::vector<Curve>& curves, const Fabric& fabric,
                                      const FitOptions& options, Diagnostics& diagnostics);
+/// Reports an error if the law of shear is among what a fabric file misses.
+void check_zone_fabric(const std::vector<std::string>& missing, const Place& at,
+                       Diagnostics& diagnostics);
 
 } // namespace plyform

@@ -59,4 +59,9 @@ std::optional<CompressionFit> identify_compression(Curve curve, const Strip& str
                                                    const FitOptions& options,
                                                    Diagnostics& diagnostics);
 
+/// Reports an error if a compression stiffness (N) is more than that of the fabric's `yarns`
+/// ("warp", "weft") in tension, if they have one.
+void check_compression(double stiffness, const std::string& yarns, const Fabric& fabric,
+                       const Place& at, Diagnostics& diagnostics);
+
 } // namespace plyform

@@ -130,4 +130,12 @@ std::optional<ZoneFit> identify_zone(const std::vector<Curve>& curves, const Fab
   return result;
 }
 
+void check_zone_fabric(const std::vector<std::string>& missing, const Place& at,
+                       Diagnostics& diagnostics) {
+  if (std::find(missing.begin(), missing.end(), "shear") != missing.end())
+    diagnostics.error(at, "shear", "", "is missing",
+                      "the zone's width says how bending and shear go together: identify the law "
+                      "of shear first");
+}
+
 } // namespace plyform

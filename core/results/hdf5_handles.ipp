@@ -5,12 +5,15 @@
 
 #include "contact/geometry.hpp"
 
+#include <charconv>
 #include <cstdint>
 #include <filesystem>
 #include <fmt/format.h>
 #include <hdf5.h>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 
@@ -32,6 +35,17 @@ struct QuietErrors {
   QuietErrors& operator=(const QuietErrors&) = delete;
 };
 
+/// The system's message in a text of HDF5 ("..., errno = 28, ..."), which goes on about times and
+/// addresses; the text itself if it has none.
+inline std::string system_reason(const std::string& text) {
+  const std::string_view key = "errno = ";
+  const std::size_t at = text.find(key);
+  if (at == std::string::npos) return text;
+  int number = 0;
+  std::from_chars(text.data() + at + key.size(), text.data() + text.size(), number);
+  return number > 0 ? std::generic_category().message(number) : text;
+}
+
 /// What HDF5's innermost error says; that is where the system's own message stands.
 inline std::string reason() {
   std::string found;
@@ -44,7 +58,7 @@ inline std::string reason() {
       },
       &found);
   H5Eclear2(H5E_DEFAULT);
-  return found.empty() ? "HDF5 gives no reason" : found;
+  return found.empty() ? "HDF5 gives no reason" : system_reason(found);
 }
 
 [[noreturn]] inline void fail(const std::filesystem::path& path, const std::string& what) {

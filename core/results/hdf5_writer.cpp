@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Writes the files that results.h5 is made of. The layout is described in docs/users/results.md.
 //
-// Every return code is checked, also that of closing a dataset: HDF5 delays small writes until
-// then, so that an error of a full disk may appear only there.
-#include "core/results/hdf5_handles.ipp"
+// Errors of the disk are those that core/results/hdf5_disk.ipp remembers. HDF5 delays small writes:
+// many appear only when a file is closed.
+#include "core/results/hdf5_disk.ipp"
 #include "core/results/result_fields.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <fcntl.h>
 #include <stdexcept>
 #include <system_error>
-#include <unistd.h>
 
 namespace plyform {
 
@@ -25,9 +22,10 @@ namespace {
 struct Writer {
   const fs::path& path; ///< of the file, for messages
   hid_t file;
+  const Disk& disk; ///< that of the file
 
   void require(bool ok, const std::string& what) const {
-    if (!ok) fail(path, "cannot write " + what);
+    if (!ok || disk.error != 0) fail(path, "cannot write " + what, disk);
   }
 
   void group(const std::string& where) const {
@@ -46,10 +44,10 @@ struct Writer {
     Handle set(H5Dcreate2(file, where.c_str(), file_type<T>(), space.id(), H5P_DEFAULT, layout.id(),
                           H5P_DEFAULT),
                H5Dclose);
-    bool ok = set.valid();
-    ok = ok &&
-         H5Dwrite(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()) >= 0;
-    require(set.close() && ok, where);
+    require(set.valid() && H5Dwrite(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
+                                    values.data()) >= 0,
+            where);
+    require(set.close(), where);
   }
 
   void attribute(const std::string& where, const char* name, hid_t filed, hid_t in_memory,
@@ -57,9 +55,8 @@ struct Writer {
     Handle made(H5Acreate_by_name(file, where.c_str(), name, filed, space.id(), H5P_DEFAULT,
                                   H5P_DEFAULT, H5P_DEFAULT),
                 H5Aclose);
-    bool ok = made.valid();
-    ok = ok && H5Awrite(made.id(), in_memory, values) >= 0;
-    require(made.close() && ok, where + ":" + name);
+    require(made.valid() && H5Awrite(made.id(), in_memory, values) >= 0, where + ":" + name);
+    require(made.close(), where + ":" + name);
   }
 
   template <class T>
@@ -124,104 +121,43 @@ void write_boundary(const Writer& out, const std::string& where, const BoundaryF
   out.number(where, "force_N", boundary.force_N);
 }
 
-/// Upper estimate of the bytes of an object's headers, symbol tables and names: measured 0.6 kB per
-/// dataset or group; and of a file without any.
-constexpr std::size_t object = 2048, slack = 65536;
-
-std::size_t bytes_of_constants(const Frame& frame) {
-  const auto mesh = [](std::size_t nodes, std::size_t triangles) {
-    return 3 * object + nodes * sizeof(Vec3) + triangles * sizeof(Triangle);
-  };
-  std::size_t bytes = slack;
-  for (const PlyFrame& ply : frame.plies)
-    bytes += mesh(ply.x0.size(), ply.triangles.size());
-  for (const ToolFrame& tool : frame.tools)
-    bytes += mesh(tool.surface.x.size(), tool.surface.triangles.size());
-  return bytes;
-}
-
-std::size_t bytes_of_frame(const Frame& frame) {
-  std::size_t bytes = slack + (frame.boundaries.size() + frame.tools.size()) * object;
-  for (const PlyFrame& ply : frame.plies) {
-    const std::size_t n = ply.x.size(), m = ply.triangles.size();
-    bytes += (2 + node_scalars.size() + node_vectors.size() + cell_vectors.size() +
-              cell_scalars.size()) *
-             object;
-    bytes += n * (sizeof(Vec3) + node_scalars.size() * sizeof(double));
-    for (const auto& field : node_vectors)
-      bytes += (ply.*field.values).size() * sizeof(Vec3);
-    bytes += m * (cell_vectors.size() * sizeof(Vec3) + cell_scalars.size() * sizeof(double));
-  }
-  return bytes;
-}
-
-/// The file descriptor that HDF5 writes to; -1 if it is not available.
-int descriptor(hid_t file) {
-  void* found = nullptr;
-  return H5Fget_vfd_handle(file, H5P_DEFAULT, &found) < 0 ? -1 : *static_cast<int*>(found);
-}
-
-/// Size (bytes) of the file according to HDF5; the file on disk may be longer by the reserved
-/// space.
-off_t size_of(hid_t file) {
-  hsize_t size = 0;
-  H5Fget_filesize(file, &size);
-  return static_cast<off_t>(size);
-}
-
-/// A file that gets its name when it is complete and on the disk.
+/// A file that gets its name when it is complete and on the disk; else nothing of it stays.
 class WholeFile {
 public:
-  /// Reserves disk space before HDF5 writes anything. If a write fails inside HDF5, the file can
-  /// neither be closed nor the process ended regularly (h5py issue 914, also observed with 1.10.8).
-  WholeFile(const fs::path& path, std::size_t bytes) : path_(path), temporary_(path) {
+  explicit WholeFile(const fs::path& path) : path_(path), temporary_(path) {
     temporary_ += ".tmp";
-    const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
-    H5Pset_file_locking(access.id(), false, true); // others may read while this is written
-    file_ =
-        Handle(H5Fcreate(temporary_.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, access.id()), H5Fclose);
-    if (!file_.valid()) hdf5::fail(path_, "cannot create the file");
-    const int error =
-        posix_fallocate(descriptor(file_.id()), size_of(file_.id()), static_cast<off_t>(bytes));
-    if (error == 0 || error == EINVAL || error == EOPNOTSUPP || error == ENODEV)
-      return; // or not supported by this file system
-    remove();
-    throw std::runtime_error(fmt::format("{}: cannot write {} bytes: {}", path_.string(), bytes,
-                                         std::generic_category().message(error)));
+    file_ = create_file(temporary_, disk_);
+    if (file_.valid()) return;
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
+    fail(path_, "cannot create the file", disk_);
   }
   ~WholeFile() {
-    if (file_.valid()) remove();
+    if (complete_) return;
+    file_.close();
+    std::error_code ignored;
+    fs::remove(temporary_, ignored);
   }
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
-  Writer writer() const { return {path_, file_.id()}; }
+  Writer writer() const { return {path_, file_.id(), disk_}; }
 
   void complete() {
-    if (H5Fflush(file_.id(), H5F_SCOPE_GLOBAL) < 0) hdf5::fail(path_, "cannot write");
-    // Releases reserved space that was not used.
-    const bool ok = ftruncate(descriptor(file_.id()), size_of(file_.id())) == 0 &&
-                    fsync(descriptor(file_.id())) == 0;
-    if (!ok)
-      throw std::runtime_error(fmt::format("{}: cannot write: {}", path_.string(),
-                                           std::generic_category().message(errno)));
-    if (!file_.close()) hdf5::fail(path_, "cannot close the file");
+    if (!file_.close() || disk_.error != 0) fail(path_, "cannot write", disk_);
     std::error_code error;
     fs::rename(temporary_, path_, error);
     if (error)
       throw std::runtime_error(
           fmt::format("{}: cannot replace the file: {}", path_.string(), error.message()));
+    complete_ = true;
   }
 
 private:
-  void remove() {
-    file_.close();
-    std::error_code ignored;
-    fs::remove(temporary_, ignored);
-  }
-
   fs::path path_, temporary_;
+  Disk disk_;
   Handle file_;
+  bool complete_ = false;
 };
 
 /// Attributes of the file, and an entry a frame of times.
@@ -264,7 +200,7 @@ fs::path state_file(std::size_t index) {
 
 void write_constants(const fs::path& path, const Frame& frame) {
   const QuietErrors quiet;
-  WholeFile file(path, bytes_of_constants(frame));
+  WholeFile file(path);
   const Writer out = file.writer();
   out.group("/plies");
   out.group("/tools");
@@ -286,7 +222,7 @@ void write_constants(const fs::path& path, const Frame& frame) {
 
 void write_state(const fs::path& path, const Frame& frame, std::size_t index) {
   const QuietErrors quiet;
-  WholeFile file(path, bytes_of_frame(frame));
+  WholeFile file(path);
   const Writer out = file.writer();
   const std::string where = frame_group(index);
   out.group(where);
@@ -305,7 +241,7 @@ void write_state(const fs::path& path, const Frame& frame, std::size_t index) {
 void write_linked(const fs::path& path, const StateIndex& index) {
   const QuietErrors quiet;
   const std::vector<Part> parts = parts_of(index);
-  WholeFile file(path, slack + parts.size() * object);
+  WholeFile file(path);
   const Writer out = file.writer();
   write_index(out, index);
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
@@ -320,10 +256,7 @@ void write_linked(const fs::path& path, const StateIndex& index) {
 void write_merged(const fs::path& path, const StateIndex& index) {
   const QuietErrors quiet;
   const std::vector<Part> parts = parts_of(index);
-  std::size_t bytes = slack + parts.size() * object;
-  for (const Part& part : parts)
-    bytes += fs::file_size(path.parent_path() / part.file);
-  WholeFile file(path, bytes);
+  WholeFile file(path);
   const Writer out = file.writer();
   write_index(out, index);
   const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
@@ -336,10 +269,6 @@ void write_merged(const fs::path& path, const StateIndex& index) {
                 part.name);
   }
   file.complete();
-}
-
-void leave_hdf5_at_exit() {
-  H5dont_atexit();
 }
 
 } // namespace plyform

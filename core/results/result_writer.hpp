@@ -61,9 +61,4 @@ private:
   std::unique_ptr<Impl> impl_;
 };
 
-/// Keeps HDF5 from tidying up when the program ends: after a write that failed (a full disk) it
-/// tries for ever to close what cannot be closed, and says so. For programs that close their files
-/// themselves; to be called before any other use of HDF5.
-void leave_hdf5_at_exit();
-
 } // namespace plyform

@@ -94,7 +94,10 @@ void remove_states(const fs::path& directory, std::size_t first) {
     fs::remove(entry.path(), error);
     if (error) fail(entry.path(), "remove the file of a former run", error);
   }
-  if (first == 0) fs::remove(folder, error); // stays if anything else is in it
+  if (first > 0) return;
+  fs::remove(folder, error);
+  if (error && error != std::errc::directory_not_empty) // stays if anything else is in it
+    fail(folder, "remove the folder of a former run", error);
 }
 
 } // namespace plyform

@@ -4,6 +4,8 @@
 Units: mm, N, s, degrees, mJ, N per yarn. docs/users/python.md shows how it is used.
 """
 
+from ._bending import (BendingFit, CompressionFit, InPlaneBendingFit, identify_cantilever,
+                       identify_compression, identify_in_plane_bending, identify_three_point)
 from ._case import Case, Check, predicted_error
 from ._errors import CaseError, Error, Stopped
 from ._fit import Fit, ShearFit, TensionFit, identify_shear, identify_tension, theory_shear
@@ -14,9 +16,10 @@ from ._run import Result, Simulation, difference, export, history, read, run
 
 __version__ = version
 __all__ = [
-    "BoundaryFrame", "Case", "CaseError", "Check", "Difference", "Error", "Fit", "Frame", "Key",
-    "LivePly", "Mistake", "Outlook", "Parts", "PlyFrame", "PredictedError", "Progress", "Result",
-    "ShearFit", "Simulation", "Stopped", "TensionFit", "ToolFrame", "difference", "export",
-    "history", "identify_shear", "identify_tension", "keys", "predicted_error", "read", "run",
-    "theory_shear", "version",
+    "BendingFit", "BoundaryFrame", "Case", "CaseError", "Check", "CompressionFit", "Difference",
+    "Error", "Fit", "Frame", "InPlaneBendingFit", "Key", "LivePly", "Mistake", "Outlook", "Parts",
+    "PlyFrame", "PredictedError", "Progress", "Result", "ShearFit", "Simulation", "Stopped",
+    "TensionFit", "ToolFrame", "difference", "export", "history", "identify_cantilever",
+    "identify_compression", "identify_in_plane_bending", "identify_shear", "identify_tension",
+    "identify_three_point", "keys", "predicted_error", "read", "run", "theory_shear", "version",
 ]

@@ -57,7 +57,7 @@ class Fit:
         comment = [f"Identified by plyform {_plyform.version}: {self.rows} rows,",
                    f"residuals {100 * self.rms:.2g} % of the load rms, {100 * self.largest:.2g} % "
                    f"at most, at {self.largest_at:.3g}."]
-        text = _plyform.fabric_with_law(Path(fabric), table, key, value, comment)
+        text = _plyform.fabric_with_laws(Path(fabric), [(table, key, value)], comment)
         Path(output).write_text(text, encoding="utf-8")
 
 
@@ -110,19 +110,25 @@ class TensionFit(Fit):
         self._write(yarns, fabric, output)
 
 
-def _curve(curve: AnyCurve, x_column: str | int, y_column: str | int, angle_column: str | int,
-           strain: bool) -> _plyform.Curve:
+def _curve(curve: AnyCurve, x_column: str | int, y_column: str | int, test: str,
+           angle_column: str | int = "") -> _plyform.Curve:
     if isinstance(curve, (str, os.PathLike)):
         return _plyform.read_curve(Path(curve), str(x_column), str(y_column), str(angle_column),
-                                   strain)
+                                   test)
     x, y, *angle = (np.asarray(values, dtype=float).ravel() for values in curve)
+    if test in ("cantilever angle", "zone"):
+        y = np.radians(y)
     return _plyform.Curve(x, y, angle[0] if angle else [])
 
 
-def _curves(curves: AnyCurves, x_column: str | int, y_column: str | int,
-            angle_column: str | int = "", strain: bool = False) -> list[_plyform.Curve]:
+def _curves(curves: AnyCurves, x_column: str | int, y_column: str | int, test: str,
+            angle_column: str | int = "") -> list[_plyform.Curve]:
     several = curves if isinstance(curves, list) else [curves]
-    return [_curve(curve, x_column, y_column, angle_column, strain) for curve in several]
+    return [_curve(curve, x_column, y_column, test, angle_column) for curve in several]
+
+
+def _strip(gauge_length: float) -> str:
+    return "strain" if gauge_length == 1.0 else "displacement"
 
 
 def _test(bias: Sequence[float] | None, frame: float | None) -> _plyform.ShearTest:
@@ -162,7 +168,7 @@ def identify_shear(curve: AnyCurves, fabric: AnyPath, *, bias: Sequence[float] |
     Warns of doubtful rows. Raises CaseError for what is wrong in curve, fabric or specimen,
     ValueError for other arguments.
     """
-    curves = _curves(curve, x_column, y_column, angle_column)
+    curves = _curves(curve, x_column, y_column, "shear", angle_column)
     several = curve if isinstance(curve, list) else [curve]
     measured = angle_column != "" or all(isinstance(c, tuple) and len(c) == 3 for c in several)
     corrections = {"compliance": compliance, "zero": zero, "toe": toe, "slip": slip,
@@ -185,7 +191,7 @@ def identify_tension(curve: AnyCurves, *, yarns: float = 1.0, gauge_length: floa
     """
     corrections = {"compliance": compliance, "zero": zero, "toe": toe, "slip": slip,
                    "doubtful": doubtful}
-    curves = _curves(curve, x_column, y_column, strain=gauge_length == 1.0)
+    curves = _curves(curve, x_column, y_column, _strip(gauge_length))
     return TensionFit(**_warn(_plyform.identify_tension(curves, yarns, gauge_length, from_strain,
                                                         to_strain, corrections)))
 

@@ -35,6 +35,16 @@ if [ -e /dev/full ]; then
     fail "a run without standard output says 0"
   "$program" export closed >exported || fail "a run without standard output has spoilt its results"
 fi
+# A folder that another run has is left alone, by --resume too.
+mkdir taken
+for resume in "" --resume; do
+  # shellcheck disable=SC2086
+  flock taken "$program" run cases/hemisphere_0 -o taken "${short[@]}" $resume >said 2>&1 &&
+    fail "a second run into one folder $resume"
+  grep -q 'taken: another run writes into this folder; wait for it, or give another one with -o' \
+    said || fail "a second run says: $(cat said)"
+done
+[ ! -e taken/results.h5 ] || fail "a second run has written"
 expect 2 'nosuch:1:1' run nosuch
 expect 2 'did you mean angle' run cases/hemisphere_0 --set ply.0.angel=3
 expect 2 'KEY=VALUE' run cases/hemisphere_0 --set angle
@@ -97,6 +107,13 @@ expect 0 '20 mm from ply ply, first contact with ply ply after 20 mm' check case
 expect 0 'it does nothing, since nothing is driven' check cases/circular_table --accuracy draft \
   --set blanks.sheet.element_size=20
 expect 2 'or go on with --yes-large' check cases/hemisphere_0 --set blanks.square.element_size=0.15
+endless=(--set blanks.square.element_size=4 --set solver.duration=1e4) # weeks, on any machine
+expect 2 'or go on with --yes-large' check cases/hemisphere_0 "${endless[@]}"
+expect 0 'the case is sound' check cases/hemisphere_0 "${endless[@]}" --yes-large
+# One triangle used to be "done", with a balance of energies off by all of it.
+expect 0 'doubtful: do not trust forces' run "$tests/../data/cannot_work/press.toml" -o triangle \
+  --set 'blanks.square={mesh="file",file="one_triangle.off"}' --set solver.duration=0.05 \
+  --set 'tool=[{name="punch",shape="sphere",radius=20,position=[0,0,20.6],motion="driven",stroke=5}]'
 ln -s "$PWD/cases/hemisphere_0/case.toml" linked.toml
 expect 0 'the case is sound' check linked.toml "${short[@]}"
 

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# For tests of the program, to be sourced: fail and expect count in $failures; $program is called.
+# For tests of the program, to be sourced: fail, expect and same count in $failures; $program is
+# called.
 failures=0
 
 fail() {
@@ -16,4 +17,17 @@ expect() {
   if [ "$found" != "$code" ] || ! grep -qF -- "$text" <<<"$output"; then
     fail "plyform $*: exit code $found, expected $code and \"$text\"; printed:"$'\n'"$output"
   fi
+}
+
+# same FOLDER: a run that went on, as one that never stopped, in the folder `whole`, times on the
+# clock apart.
+same() {
+  local file clock
+  for file in history.csv results.h5 results.xdmf $(cd whole && echo plies/*.csv); do
+    cmp -s "whole/$file" "$1/$file" || fail "$1/$file is not that of a run that never stopped"
+  done
+  [ ! -e "$1/checkpoint" ] && [ ! -e "$1/states" ] || fail "$1: files of a run in progress are left"
+  clock='wall_time_s|"threads"|share|"(elements|contact|search)": [0-9]'
+  diff <(grep -vE "$clock" whole/summary.json) <(grep -vE "$clock" "$1/summary.json") ||
+    fail "$1/summary.json is not that of a run that never stopped"
 }

@@ -34,18 +34,6 @@ readable() {
   rm -rf "$1/export"
 }
 
-# same FOLDER: as the folder `whole`, times on the clock apart.
-same() {
-  local file
-  for file in history.csv results.h5 results.xdmf $(cd whole && echo plies/*.csv); do
-    cmp -s "whole/$file" "$1/$file" || fail "$1/$file is not that of a run that never stopped"
-  done
-  [ ! -e "$1/checkpoint" ] && [ ! -e "$1/states" ] || fail "$1: files of a run in progress are left"
-  clock='wall_time_s|"threads"|share|"elements": 0|"contact": 0|"search": 0'
-  diff <(grep -vE "$clock" whole/summary.json) <(grep -vE "$clock" "$1/summary.json") ||
-    fail "$1/summary.json is not that of a run that never stopped"
-}
-
 killed=0
 for case in stack frame table; do
   declare -n arguments=$case

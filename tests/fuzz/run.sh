@@ -25,14 +25,15 @@ run_one() {
   local target=$1 options=()
   mkdir -p "$folder/corpus/$target"
   case $target in case | fabric) options=(-dict="$folder/keys.dict") ;; esac
-  ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1 "$folder/tests/fuzz/fuzz_$target" \
+  ASAN_OPTIONS=detect_leaks=1:allocator_may_return_null=1:suppressions=$PWD/tests/fuzz/asan.txt \
+    "$folder/tests/fuzz/fuzz_$target" \
     -max_total_time="$seconds" -timeout=25 -rss_limit_mb=4096 -max_len=65536 -print_final_stats=1 \
     -artifact_prefix="$folder/finds/$target-" "${options[@]}" \
     "$folder/corpus/$target" "tests/fuzz/corpus/$target" >"$folder/logs/$target.log" 2>&1
 }
 
 cores=$(nproc)
-declare -A of
+declare -A of=()
 failed=()
 reap() {
   local done_pid='' code=0

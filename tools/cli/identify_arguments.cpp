@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of the arguments of plyform identify and theory, and what they ask for.
+#include "core/fit/test_columns.hpp"
 #include "tools/cli/identify_parts.hpp"
 
 #include <cmath>
@@ -55,6 +56,18 @@ Correction correction_of(const std::string& option, const std::string& text, boo
                  number ? (fit ? "must be a number or fit" : "must be a number") : "must be fit",
                  remedy, diagnostics);
   return result;
+}
+
+CurveColumns columns_of_test(const IdentifyArguments& a) {
+  if (is_shear_test(a.test)) return shear_columns();
+  if (a.test == "three-point") return three_point_columns();
+  if (a.test == "cantilever") return cantilever_columns(reading_of(a));
+  if (!is_tension_test(a.test)) return zone_columns();
+  const bool strain = a.gauge_length == 1.0;
+  CurveColumns columns = tension_columns(strain);
+  columns.x_hint = strain ? "give --gauge-length if it is a displacement"
+                          : "leave --gauge-length out if it is a strain";
+  return columns;
 }
 
 } // namespace
@@ -137,6 +150,10 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
   }
 }
 
+CantileverReading reading_of(const IdentifyArguments& a) {
+  return a.reading == "angle" ? CantileverReading::chord_angle : CantileverReading::sag;
+}
+
 FitOptions fit_options(const IdentifyArguments& a, Diagnostics& diagnostics) {
   const double unit = is_shear_test(a.test) ? degree : 1.0;
   FitOptions options{a.coefficients, a.from * unit, a.to * unit};
@@ -171,34 +188,10 @@ FitOptions fit_options(const IdentifyArguments& a, Diagnostics& diagnostics) {
 }
 
 CurveColumns columns_of(const IdentifyArguments& a) {
-  CurveColumns columns;
+  CurveColumns columns = columns_of_test(a);
   columns.x = {a.x.name, a.x.unit};
   columns.y = {a.y.name, a.y.unit};
   columns.angle = {a.angle.name, a.angle.unit};
-  if (is_shear_test(a.test)) {
-    columns.with_angle = true;
-  } else if (is_tension_test(a.test)) {
-    const bool strain = a.gauge_length == 1.0;
-    columns.x_is = strain ? Quantity::strain : Quantity::length;
-    columns.x_word = strain ? "strain" : "displacement";
-    columns.x_hint = strain ? "give --gauge-length if it is a displacement"
-                            : "leave --gauge-length out if it is a strain";
-  } else if (a.test == "three-point") {
-    columns.x_word = "deflection";
-  } else if (a.test == "cantilever") {
-    const bool angle = a.reading == "angle";
-    columns.x_word = "overhang";
-    columns.x_preferred = "overhang";
-    columns.y_word = angle ? "angle of the chord" : "deflection of the tip";
-    columns.y_is = angle ? Quantity::angle : Quantity::length;
-    columns.y_preferred = "deflection sag drop";
-  } else {
-    columns.x_word = "distance along the yarn";
-    columns.x_preferred = "distance position";
-    columns.y_word = "shear angle";
-    columns.y_preferred = "shear gamma";
-    columns.y_is = Quantity::angle;
-  }
   return columns;
 }
 

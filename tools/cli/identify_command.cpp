@@ -22,19 +22,6 @@ std::vector<Curve> curves_of(const IdentifyArguments& a, Diagnostics& diagnostic
   return curves;
 }
 
-/// A pressed yarn must not be stiffer than a pulled one.
-void check_compression(const CompressionFit& fit, const IdentifyArguments& a, const Fabric& fabric,
-                       Diagnostics& diagnostics) {
-  for (const std::string& yarns : families_of(a.direction)) {
-    const double pulled = (yarns == "warp" ? fabric.warp : fabric.weft).largest_slope();
-    if (pulled > 0.0 && fit.stiffness > pulled)
-      diagnostics.error({a.curves.front(), 1, 1}, yarns + ".compression_stiffness",
-                        fmt::format("{:.5g}", fit.stiffness),
-                        fmt::format("must be at most the stiffness in tension, {:.5g}", pulled),
-                        "check units, --yarns and --gauge-length");
-  }
-}
-
 std::optional<Identified> identify(const IdentifyArguments& a, const FabricReading& base,
                                    const std::optional<ShearTest>& test,
                                    const std::vector<Curve>& curves, const FitOptions& options,
@@ -48,13 +35,12 @@ std::optional<Identified> identify(const IdentifyArguments& a, const FabricReadi
     const auto fit =
         identify_compression(curves.front(), {a.yarns, a.gauge_length}, options, diagnostics);
     if (!fit) return std::nullopt;
-    check_compression(*fit, a, fabric, diagnostics);
+    for (const std::string& yarns : families_of(a.direction))
+      check_compression(fit->stiffness, yarns, fabric, {a.curves.front(), 1, 1}, diagnostics);
     return compression_text(*fit, a);
   }
   if (a.test == "cantilever") {
-    const auto reading =
-        a.reading == "angle" ? CantileverReading::chord_angle : CantileverReading::sag;
-    const auto fit = identify_cantilever(curves, reading, fabric, options, diagnostics);
+    const auto fit = identify_cantilever(curves, reading_of(a), fabric, options, diagnostics);
     return fit ? std::optional(bending_text(*fit, a)) : std::nullopt;
   }
   if (a.test == "three-point") {
@@ -135,11 +121,8 @@ int identify_command(const IdentifyArguments& arguments) {
   const FitOptions options = fit_options(arguments, diagnostics);
   const auto test = shear ? test_of(arguments.test, arguments.specimen, diagnostics) : std::nullopt;
   const FabricReading base = fabric_of(arguments.fabric, shear, diagnostics);
-  if (arguments.test == "in-plane-bending" &&
-      std::find(base.missing.begin(), base.missing.end(), "shear") != base.missing.end())
-    diagnostics.error({arguments.fabric, 1, 1}, "shear", "", "is missing",
-                      "the zone's width says how bending and shear go together: identify the law "
-                      "of shear first");
+  if (arguments.test == "in-plane-bending")
+    check_zone_fabric(base.missing, {arguments.fabric, 1, 1}, diagnostics);
   const std::vector<Curve> curves = curves_of(arguments, diagnostics);
   std::optional<Identified> result;
   if (diagnostics.errors.empty())

@@ -48,6 +48,7 @@ void check_arguments(const IdentifyArguments& arguments, const std::filesystem::
                      Diagnostics& diagnostics);
 /// Corrections as the user gives them; errors are reported.
 FitOptions fit_options(const IdentifyArguments& arguments, Diagnostics& diagnostics);
+CantileverReading reading_of(const IdentifyArguments& arguments);
 CurveColumns columns_of(const IdentifyArguments& arguments);
 /// "bias-extension test, 300 x 100 mm, equation (40) read backwards".
 std::string test_words(const IdentifyArguments& arguments);

@@ -2,7 +2,6 @@
 // The command line: plyform run | check | chart | report | map | pattern | export | difference |
 // identify | theory | keys | version.
 #include "core/base/version.hpp"
-#include "core/results/result_writer.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <CLI/CLI.hpp>
@@ -176,7 +175,6 @@ int run_chosen(const std::vector<Command>& commands) {
 } // namespace
 
 int main(int argc, char** argv) {
-  leave_hdf5_at_exit();
   open_standard_descriptors();
   CLI::App app{"Forms stacks of woven and non-crimp fabric plies between rigid tools."};
   app.require_subcommand(1);

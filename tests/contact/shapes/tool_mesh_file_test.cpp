@@ -167,6 +167,21 @@ TEST_F(ToolMeshFile, QuadsAreSplit) {
   EXPECT_NEAR(ask(mesh, Vec3(5, 5, 9)).distance, -1.0, 1e-14);
 }
 
+TEST_F(ToolMeshFile, FacesOfManyCornersAreSplitNotchesToo) {
+  const std::filesystem::path file =
+      write("angle.off", "OFF\n12 8 0\n0 0 0\n20 0 0\n20 5 0\n5 5 0\n5 20 0\n0 20 0\n"
+                         "0 0 4\n20 0 4\n20 5 4\n5 5 4\n5 20 4\n0 20 4\n"
+                         "6 5 4 3 2 1 0\n6 6 7 8 9 10 11\n4 0 1 7 6\n4 1 2 8 7\n4 2 3 9 8\n"
+                         "4 3 4 10 9\n4 4 5 11 10\n4 5 0 6 11\n");
+  MeshReport report;
+  const ToolShape tool = load_tool_mesh(file, 1.0, &report);
+  EXPECT_TRUE(report.closed);
+  EXPECT_EQ(report.faces, 20u);
+  EXPECT_NEAR(ask(tool, Vec3(2.5, 2.5, 2)).distance, -2.0, 1e-12);
+  EXPECT_NEAR(ask(tool, Vec3(8, 9, 2)).distance, 3.0, 1e-12); // in the notch
+  EXPECT_NEAR(ask(tool, Vec3(15, 2, 6)).distance, 2.0, 1e-12);
+}
+
 TEST_F(ToolMeshFile, ScaleTurnsMetresIntoMillimetres) {
   const auto file = write("box.off", off(box_mesh()));
   const ToolShape mesh = load_tool_mesh(file, 1000.0, nullptr);
@@ -200,6 +215,12 @@ TEST_F(ToolMeshFile, MissingEmptyAndForeignFilesAreNamed) {
   expect_rejected(write("points.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\n"),
                   "no faces could be read as obj");
   expect_rejected(write("nothing.stl", "solid x\nendsolid x\n"), "it holds no faces");
+}
+
+TEST_F(ToolMeshFile, AFileThatTheDiskCannotReadIsNamed) {
+  if (!std::filesystem::exists("/proc/self/mem")) GTEST_SKIP() << "no file here that fails";
+  std::filesystem::create_symlink("/proc/self/mem", folder / "bad.stl");
+  expect_rejected(folder / "bad.stl", "cannot be read to its end");
 }
 
 TEST_F(ToolMeshFile, TruncatedFilesAreRejectedWhereverTheyEnd) {
@@ -255,6 +276,17 @@ TEST_F(ToolMeshFile, CrossingSolidsAreRejected) {
   for (const Triangle& t : first)
     s.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
   expect_rejected(write("two.stl", binary_stl(s)), "crosses or touches itself");
+}
+
+// Files that a fuzzer found: CGAL's own error came up, in five lines and without the file's name.
+TEST_F(ToolMeshFile, WhatCgalCannotRepairIsRejectedInOneLine) {
+  const std::filesystem::path corpus = std::filesystem::path(PLYFORM_TEST_DATA) / "../fuzz/corpus";
+  ::testing::internal::CaptureStderr();
+  for (const char* file : {"stl/torn.stl", "obj/torn.obj", "off/torn.off", "ply/torn.ply"})
+    expect_rejected(corpus / file, "it cannot be made a clean surface");
+  expect_rejected(corpus / "obj/not_split.obj", "cannot be split into triangles");
+  expect_rejected(corpus / "obj/crossing_face.obj", "a face of 7 corners near "); // SIGSEGV
+  EXPECT_EQ(::testing::internal::GetCapturedStderr(), "");
 }
 
 } // namespace

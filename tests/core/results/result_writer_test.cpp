@@ -250,8 +250,20 @@ std::string error_of_full_disk(const fs::path& directory, rlim_t limit,
   return error;
 }
 
+/// Bytes of a file of a run of two frames, without a limit.
+rlim_t size_in_whole_run(const fs::path& directory, const char* file, bool ended) {
+  ResultWriter writer(directory);
+  writer.write_frame(frame(0.25));
+  writer.write_frame(frame(0.5));
+  if (ended) writer.write_final(frame(0.5), Summary{});
+  const rlim_t size = fs::file_size(directory / file);
+  fs::remove_all(directory);
+  return size;
+}
+
 TEST_F(Results, AFullDiskIsNoticedInTheStatesAndTheFormerOnesStay) {
-  for (rlim_t limit = 100; limit < 120'000; limit += 13'000) {
+  const rlim_t size = size_in_whole_run(directory, "states/000001.h5", false);
+  for (rlim_t limit = 100; limit < size; limit += (size - 101) / 8) {
     const std::string error = error_of_full_disk(
         directory, limit, [](ResultWriter& writer) { writer.write_frame(frame(0.75)); });
     EXPECT_TRUE(contains(error, (directory / "states/000002.h5").string())) << limit << error;
@@ -264,8 +276,9 @@ TEST_F(Results, AFullDiskIsNoticedInTheStatesAndTheFormerOnesStay) {
 }
 
 TEST_F(Results, ADiskThatIsFullInTheEndLeavesTheStatesToRead) {
+  const rlim_t size = size_in_whole_run(directory, "results.h5", true);
   const std::string error = error_of_full_disk(
-      directory, 120'000, [](ResultWriter& writer) { writer.write_final(frame(0.5), Summary{}); });
+      directory, size - 1, [](ResultWriter& writer) { writer.write_final(frame(0.5), Summary{}); });
   EXPECT_TRUE(contains(error, (directory / "results.h5").string())) << error;
   EXPECT_TRUE(contains(error, "File too large")) << error;
   expect_same(read_last_frame(directory / "results.h5"), frame(0.5));

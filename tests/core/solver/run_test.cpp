@@ -47,6 +47,20 @@ TEST(Run, NeedsNoDrivenTool) {
   EXPECT_NEAR(run.last.tools[2].force_N, data.tools[2].force, 1e-6 * data.tools[2].force);
 }
 
+TEST(Run, GivesAnglesAsTheyStandInTheCase) {
+  std::vector<double> angles; // rad, as the reader makes them; 30 degrees come back a bit short
+  for (const double degrees : {30.0, 45.0, 89.1, -12.3456789})
+    angles.push_back(degrees * std::numbers::pi / 180.0);
+  ASSERT_NE(angles[0] * 180.0 / std::numbers::pi, 30.0);
+  Case data = coarse_hemisphere(angles);
+  data.solver.duration = 1e-6;
+  const RunResult run = run_case(data, 1, {});
+  EXPECT_EQ(run.last.plies[0].angle_deg, 30.0);
+  EXPECT_EQ(run.last.plies[1].angle_deg, 45.0);
+  EXPECT_EQ(run.last.plies[2].angle_deg, 89.1);
+  EXPECT_EQ(run.last.plies[3].angle_deg, -12.3456789);
+}
+
 TEST(Run, WritesEachStateOnceAndTheLastAtTheEnd) {
   Case data = coarse_hemisphere({0.0});
   data.solver.duration = 0.02;
