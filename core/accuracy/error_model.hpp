@@ -12,9 +12,9 @@
 //                                        and plies support each other's yarns
 // w = n_c Ws(1/2 rad): energy of shear by half a radian per area, the work that forms the plies.
 //   e = sqrt( (c_I I^p)^2 + (c_S n^u S^q)^2 + (c_M M^r)^2 )                                (E)
-// c_I is larger in a stack; so is c_M in a stack of fewer than five plies, where it depends on the
-// mesh which of them slide and which stick. The number of steps is proportional to duration /
-// sqrt(softening), the cost of a mesh to h^-2.7.
+// c_I is larger in a stack of yarns that carry tension only; so is c_M in one of fewer than five
+// plies, where it depends on the mesh which of them slide and which stick. The number of steps is
+// proportional to duration / sqrt(softening), the cost of a mesh to h^-2.7.
 #pragma once
 
 #include "core/model/case.hpp"
@@ -54,12 +54,13 @@ struct FixedParameters {
 
 /// Sets solver.duration, solver.fibre_softening and the element size of the blanks for the least
 /// work whose error (E) is at most accuracy.shear_deg: softening between 1 and 1000 (stacks: 300),
-/// I at most 2.8, elements up to 1.4 times as large as the case's where tools and outlines allow
-/// it (not in stacks of two to four plies, where that was not measured), never smaller. If the mesh
-/// term leaves less than half of the error, inertia and softening get half of it. Does nothing
-/// without accuracy.shear_deg or a stroke. Fixed parameters are not changed; the others compensate
-/// for them as far as possible, with at least half of the requested error. Returns the ratio of the
-/// new element sizes to the old ones.
+/// I at most 0.36 (at 3 degrees; less for less), elements up to 1.4 times as large as the case's
+/// where tools and outlines allow it (not in stacks of two to four plies of yarns that carry
+/// tension only, where that was not measured), never smaller. If the mesh term leaves less than
+/// half of the error, inertia and softening get half of it. Does nothing without accuracy.shear_deg
+/// or a stroke. Fixed parameters are not changed; the others compensate for them as far as
+/// possible, with at least half of the requested error. Returns the ratio of the new element sizes
+/// to the old ones.
 double pick_cost_parameters(Case& data, const FixedParameters& fixed = {});
 
 } // namespace plyform

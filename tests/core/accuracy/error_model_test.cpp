@@ -141,7 +141,10 @@ double size_for(const std::string& case_file, double wanted,
 TEST(Accuracy, CoarsensTheMeshWhereItMay) {
   EXPECT_NEAR(size_for(five, 3.0), 1.4 * 6.8, 1e-12);
   EXPECT_EQ(size_for(five, 0.9), 6.8); // its error is that already
-  EXPECT_EQ(size_for(PLYFORM_CASES "/hemisphere_three_ply/case.toml", 3.0), 6.8); // not measured
+  const std::string three = PLYFORM_CASES "/hemisphere_three_ply/case.toml";
+  EXPECT_NEAR(size_for(three, 3.0), 1.4 * 6.8, 1e-12); // real cloth; not measured of the other
+  EXPECT_EQ(size_for(three, 3.0, {{"fabrics.glass", "../fabrics/glass_plain_weave_paper.toml"}}),
+            6.8);
   EXPECT_EQ(size_for(PLYFORM_CASES "/bias_extension/case.toml", 6.0),
             case_at(PLYFORM_CASES "/bias_extension/case.toml").blanks[0].element_size); // grips
   // no longer than the tightest fillet is round
@@ -155,7 +158,7 @@ TEST(Accuracy, StaysWhereTheRuleWasMeasured) {
   data.accuracy.shear_error = 15.0 * std::numbers::pi / 180.0;
   pick_cost_parameters(data);
   EXPECT_LE(data.solver.fibre_softening, 1000.0);
-  EXPECT_GT(data.solver.duration, 0.012); // I = 2.8 is at 0.0125 s
+  EXPECT_GT(data.solver.duration, 0.034); // I = 0.36 is at 0.035 s
   EXPECT_GT(predicted_error(data).inertia, at_tenth);
   Case lying = case_at(PLYFORM_CASES "/circular_table/case.toml"); // gravity only
   const double duration = lying.solver.duration;
