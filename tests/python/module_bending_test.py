@@ -16,19 +16,10 @@ program, source = Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
 
 import numpy as np  # noqa: E402
 import plyform  # noqa: E402
+from raised_exception import raised  # noqa: E402
 
 GLASS = source / "cases/fabrics/glass_plain_weave.toml"
 WEIGHT = 600e-6 * 9.81e-3  # N/mm2, of 600 g/m2
-
-
-def raised(kind, call, *arguments, **options):
-    """The exception, which has to be of that very kind."""
-    try:
-        call(*arguments, **options)
-    except BaseException as error:
-        assert type(error) is kind, f"{type(error)}: {error}"
-        return error
-    raise AssertionError(f"{kind.__name__} was not raised")
 
 
 def value_in(fabric, key):

@@ -23,6 +23,7 @@ program, source = Path(sys.argv[2]).resolve(), Path(sys.argv[3]).resolve()
 import numpy as np  # noqa: E402
 import h5py  # noqa: E402
 import plyform  # noqa: E402
+from raised_exception import raised  # noqa: E402
 
 HEMISPHERE = source / "cases/hemisphere_0"
 FABRIC = source / "cases/fabrics/glass_plain_weave.toml"
@@ -35,16 +36,6 @@ def coarse(**more):
 
 def address(array):
     return array.__array_interface__["data"][0]
-
-
-def raised(kind, call, *arguments, **options):
-    """The exception, which has to be of that very kind."""
-    try:
-        call(*arguments, **options)
-    except BaseException as error:
-        assert type(error) is kind, f"{type(error)}: {error}"
-        return error
-    raise AssertionError(f"{kind.__name__} was not raised")
 
 
 def check_values(_):
