@@ -44,6 +44,7 @@ set(public_headers
   core/results/ply_frame.hpp
   core/results/result_writer.hpp
   core/results/summary.hpp
+  core/results/verification.hpp
   core/results/wrinkles.hpp
   core/setup/prepare_case.hpp
   core/solver/run.hpp)
