@@ -116,23 +116,18 @@ struct Found {
   double gap;
 };
 
-/// Order of the patches of two pairs.
-bool before(const std::array<std::int32_t, 2>& p, const std::array<std::int32_t, 2>& q) {
-  return p[0] != q[0] ? p[0] < q[0] : p[1] < q[1];
-}
-
 /// Groups the pairs found, in ascending order of their edges, by patches. Groups keep the pairs
 /// that they had before the search.
 void renew_groups(EdgeEdgeContact& contact, std::vector<Found>& found) {
   std::stable_sort(found.begin(), found.end(),
-                   [](const Found& f, const Found& g) { return before(f.patch, g.patch); });
+                   [](const Found& f, const Found& g) { return f.patch < g.patch; });
   std::vector<EdgeGroup> old = std::move(contact.groups);
   contact.groups.clear();
   auto known = old.begin();
   for (const Found& f : found) {
     if (contact.groups.empty() || contact.groups.back().patch != f.patch) {
       contact.groups.emplace_back().patch = f.patch;
-      while (known != old.end() && before(known->patch, f.patch))
+      while (known != old.end() && known->patch < f.patch)
         ++known;
       if (known != old.end() && known->patch == f.patch)
         contact.groups.back().pairs = std::move(known->pairs);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Internal to contact/: triangles between the corners of a polygon.
+// Area of a polygon, and triangles between its corners.
 #pragma once
 
 #include "contact/geometry.hpp"

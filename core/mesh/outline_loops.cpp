@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loops of an outline: made from chains of lines and arcs, moved, measured, divided into pieces.
+#include "contact/shapes/fill_polygon.hpp"
 #include "core/mesh/mesher_parts.hpp"
 
 #include <algorithm>
@@ -31,9 +32,7 @@ const OutlineArc* arc_of(const Outline& outline, int hole, std::size_t side) {
 /// Area (mm^2), positive for loops that go round anticlockwise.
 double signed_area(const Outline& outline, int hole) {
   const std::vector<Vec2>& loop = corners_of(outline, hole);
-  double twice = 0.0;
-  for (std::size_t i = 0; i < loop.size(); ++i)
-    twice += cross(loop[i], loop[(i + 1) % loop.size()]);
+  double twice = 2.0 * area_of(loop);
   for (const OutlineArc& arc : outline.arcs) {
     if (arc.hole != hole) continue;
     const Vec2 &p = loop[arc.side], &q = loop[(arc.side + 1) % loop.size()];
