@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -18,18 +19,19 @@
 namespace plyform {
 namespace {
 
-const std::set<std::string> supported{"LINE",     "ARC",    "CIRCLE", "LWPOLYLINE",
-                                      "POLYLINE", "VERTEX", "SEQEND"};
+const std::set<std::string> supported{"LINE",   "ARC",        "CIRCLE",   "ELLIPSE", "SPLINE",
+                                      "VERTEX", "LWPOLYLINE", "POLYLINE", "SEQEND"};
 const std::set<std::string> no_geometry{
     "TEXT",   "MTEXT",    "POINT",     "DIMENSION", "LEADER",         "MLEADER", "HATCH", "ATTDEF",
     "ATTRIB", "VIEWPORT", "TOLERANCE", "WIPEOUT",   "ARCALIGNEDTEXT", "XLINE",   "RAY"};
 
-/// Numbers of one entity as dxflib gives them; (x, y, bulge) of each vertex of a polyline.
+/// Numbers of one entity as dxflib gives them; (x, y, bulge) of each vertex of a polyline; of a
+/// spline the degree, (x, y, weight) of each control point, and apart from them the knots.
 struct RawEntity {
   std::string name, layer;
   int line = 0, flags = 0;
   bool mirrored = false, tilted = false;
-  std::vector<double> numbers{};
+  std::vector<double> numbers{}, knots{};
 };
 
 /// Takes what dxflib reads. dxflib tells of an entity when the next one begins.
@@ -59,6 +61,23 @@ public:
     add({d.cx, d.cy, d.radius, d.angle1, d.angle2}, 0.0);
   }
   void addCircle(const DL_CircleData& d) override { add({d.cx, d.cy, d.radius}, 0.0); }
+  void addEllipse(const DL_EllipseData& d) override {
+    add({d.cx, d.cy, d.mx, d.my, d.ratio, d.angle1, d.angle2}, d.mz);
+  }
+  void addSpline(const DL_SplineData& d) override {
+    add({static_cast<double>(d.degree)}, 0.0);
+    height_.reset();
+  }
+  void addKnot(const DL_KnotData& d) override {
+    if (open_) entities.back().knots.push_back(d.k);
+  }
+  void addControlPoint(const DL_ControlPointData& d) override {
+    if (!open_) return;
+    if (!height_) height_ = d.z;
+    RawEntity& spline = entities.back();
+    spline.tilted = spline.tilted || is_rise(d.z - *height_);
+    spline.numbers.insert(spline.numbers.end(), {d.x, d.y, d.w});
+  }
   void addPolyline(const DL_PolylineData& d) override {
     add({}, 0.0);
     if (open_) entities.back().flags = d.flags;
@@ -77,8 +96,11 @@ private:
   };
   int lines_ = 0;
   std::string section_;
-  Begun now_, before_; ///< the entity whose groups are being read, and the one before
-  bool open_ = false;  ///< the last entity is a polyline that may get vertices
+  Begun now_, before_;           ///< the entity whose groups are being read, and the one before
+  bool open_ = false;            ///< the last entity may get vertices, knots or control points
+  std::optional<double> height_; ///< of the first control point of a spline
+
+  static bool is_rise(double rise) { return std::abs(rise) > 1e-6 * (1.0 + std::abs(rise)); }
 
   void begin(const std::string& name) {
     before_ = now_;
@@ -95,9 +117,9 @@ private:
     if (!open_) return;
     RawEntity e{before_.name, before_.layer, before_.line};
     const double* normal = getExtrusion()->getDirection();
-    e.mirrored = before_.name != "LINE" && normal[2] < 0.0; // lines are in world coordinates
-    e.tilted = std::abs(rise) > 1e-6 * (1.0 + std::abs(rise)) ||
-               std::hypot(normal[0], normal[1]) > 1e-6 * std::abs(normal[2]);
+    // lines and splines are in world coordinates, as are the axes of ellipses
+    e.mirrored = before_.name != "LINE" && before_.name != "SPLINE" && normal[2] < 0.0;
+    e.tilted = is_rise(rise) || std::hypot(normal[0], normal[1]) > 1e-6 * std::abs(normal[2]);
     e.numbers = std::move(numbers);
     entities.push_back(std::move(e));
   }
@@ -111,10 +133,11 @@ std::string packed(const std::filesystem::path& file) {
   std::string text = fmt::format("{} {} {}\n", collector.unit, collector.has_entities ? 1 : 0,
                                  collector.ended ? 1 : 0);
   for (const RawEntity& e : collector.entities) {
-    text += fmt::format("{} {} {} {} {} {}", e.name.empty() ? "?" : e.name, e.line, e.flags,
-                        e.mirrored ? 1 : 0, e.tilted ? 1 : 0, e.numbers.size());
-    for (const double number : e.numbers)
-      text += fmt::format(" {}", number);
+    text += fmt::format("{} {} {} {} {} {} {}", e.name.empty() ? "?" : e.name, e.line, e.flags,
+                        e.mirrored ? 1 : 0, e.tilted ? 1 : 0, e.numbers.size(), e.knots.size());
+    for (const std::vector<double>* list : {&e.numbers, &e.knots})
+      for (const double number : *list)
+        text += fmt::format(" {}", number);
     text += "\n" + e.layer + "\n";
   }
   return text;
@@ -151,11 +174,29 @@ Profile polyline(const RawEntity& e) {
   return chain;
 }
 
+/// Sets the curve of an ellipse or spline, or why it is none.
+template <class Shape>
+void set_curve(const Shape& shape, DxfEntity& made) {
+  made.fault = fault_of(shape);
+  if (made.fault.empty()) made.curve = curve_of(shape);
+}
+
+DxfSpline spline_of(const RawEntity& e) {
+  DxfSpline s{static_cast<int>(e.numbers[0]), e.knots, {}};
+  for (std::size_t i = 1; i + 2 < e.numbers.size(); i += 3) {
+    const double w = e.numbers[i + 2];
+    s.points.emplace_back(w * e.numbers[i], w * e.numbers[i + 1], w);
+  }
+  return s;
+}
+
 DxfEntity entity_of(const RawEntity& e) {
-  DxfEntity made{e.name, e.layer, e.line, {}, {}};
+  DxfEntity made{e.name, e.layer, e.line, {}, {}, {}};
   const std::vector<double>& n = e.numbers;
   constexpr int solid = 8 | 16 | 64, spline = 4; // flags of polylines
-  const bool fits = std::all_of(n.begin(), n.end(), [](double x) { return std::abs(x) < 1e9; });
+  const auto small = [](double x) { return std::abs(x) < 1e9; };
+  const bool fits =
+      std::all_of(n.begin(), n.end(), small) && std::all_of(e.knots.begin(), e.knots.end(), small);
   const bool round = e.name == "ARC" || e.name == "CIRCLE";
   if (!supported.contains(e.name))
     made.fault = "is not supported";
@@ -175,6 +216,9 @@ DxfEntity entity_of(const RawEntity& e) {
     made.chain = {arc_of({n[0], n[1]}, n[2], 0.0, 0.0, e.mirrored)};
     made.chain[0].b = made.chain[0].a;
   }
+  if (e.name == "ELLIPSE")
+    set_curve(DxfEllipse{{n[0], n[1]}, {n[2], n[3]}, n[4], n[5], n[6], e.mirrored}, made);
+  if (e.name == "SPLINE") set_curve(spline_of(e), made);
   if (e.name == "POLYLINE" || e.name == "LWPOLYLINE") made.chain = polyline(e);
   return made;
 }
@@ -189,14 +233,16 @@ DxfDrawing unpacked(const std::string& text) {
   if (!ended)
     throw std::runtime_error("is cut short: its last line is not EOF; save the drawing anew");
   RawEntity e;
-  std::size_t count = 0;
-  while (in >> e.name >> e.line >> e.flags >> e.mirrored >> e.tilted >> count) {
+  std::size_t count = 0, knots = 0;
+  while (in >> e.name >> e.line >> e.flags >> e.mirrored >> e.tilted >> count >> knots) {
     e.numbers.assign(count, 0.0);
-    for (double& number : e.numbers) {
-      std::string word; // "nan" and "inf" too
-      in >> word;
-      number = std::strtod(word.c_str(), nullptr);
-    }
+    e.knots.assign(knots, 0.0);
+    for (std::vector<double>* list : {&e.numbers, &e.knots})
+      for (double& number : *list) {
+        std::string word; // "nan" and "inf" too
+        in >> word;
+        number = std::strtod(word.c_str(), nullptr);
+      }
     in.ignore();
     std::getline(in, e.layer);
     drawing.entities.push_back(entity_of(e));

@@ -3,9 +3,10 @@
 // dxf_drawing.cpp only.
 #pragma once
 
-#include "contact/shapes/tool_shape.hpp"
+#include "core/input/dxf_curve.hpp"
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,11 +14,13 @@ namespace plyform {
 
 /// An entity of the model space, outside of blocks, in the drawing's unit.
 struct DxfEntity {
-  std::string name; ///< LINE, ARC, CIRCLE, LWPOLYLINE, POLYLINE, or one that is not supported
+  /// LINE, ARC, CIRCLE, ELLIPSE, SPLINE, LWPOLYLINE, POLYLINE, or one that is not supported
+  std::string name;
   std::string layer;
-  int line = 0;        ///< of the file, where it begins
-  Profile chain{};     ///< lines and arcs; empty if it has no length
-  std::string fault{}; ///< why it cannot be part of an outline; empty if it can
+  int line = 0;                    ///< of the file, where it begins
+  Profile chain{};                 ///< lines and arcs; empty if it has no length or is a curve
+  std::optional<DxfCurve> curve{}; ///< of an ellipse or a spline, which are to be divided
+  std::string fault{};             ///< why it cannot be part of an outline; empty if it can
 };
 
 struct DxfDrawing {

@@ -89,8 +89,9 @@ Attachment attach(const std::vector<Boundary>& boundaries, std::size_t index,
       sum += node.share;
     found.nodes.insert(found.nodes.end(), nodes.begin(), nodes.end());
   }
+  const double equal = 1.0 / static_cast<double>(found.nodes.size()); // of nodes without triangles
   for (AttachedNode& node : found.nodes) {
-    node.share /= sum;
+    node.share = sum > 0.0 ? node.share / sum : equal;
     found.start += node.share * plies[node.ply].x0[node.node];
   }
   if (b.kind == BoundaryKind::gripper) {
