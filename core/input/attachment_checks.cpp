@@ -64,6 +64,21 @@ void check_alone(AttachmentCheck& check, const Attachment& clamp) {
   }
 }
 
+/// A force on a ply that nothing else holds or touches moves it away for ever.
+void check_resisted(AttachmentCheck& check, const Attachment& clamp) {
+  const Case& scene = check.scene;
+  const auto others =
+      std::count_if(scene.boundaries.begin(), scene.boundaries.end(),
+                    [](const Boundary& b) { return b.kind != BoundaryKind::symmetry; });
+  if (scene.boundaries[clamp.boundary].force == 0.0 || others > 1 || !scene.tools.empty()) return;
+  check.fail(clamp,
+             fmt::format("pulls ply {} by {:g} N, and nothing holds it: it would go on for ever",
+                         scene.plies[clamp.nodes.front().ply].name,
+                         scene.boundaries[clamp.boundary].force),
+             "hold it with a grip, a spring or a blank-holder, or draw it by a drive (stiffness, "
+             "stroke)");
+}
+
 /// Warns of a pull that goes into the ply rather than off its edge.
 void warn_of_inward(AttachmentCheck& check, const Attachment& attached) {
   const Boundary& b = check.scene.boundaries[attached.boundary];
@@ -112,7 +127,7 @@ void check_attachments(const Case& scene, const CaseParts& parts, const std::vec
     if (scene.boundaries[b].kind == BoundaryKind::spring)
       check_length(check, attached);
     else
-      check_alone(check, attached);
+      check_alone(check, attached), check_resisted(check, attached);
     warn_of_inward(check, attached);
   }
 }

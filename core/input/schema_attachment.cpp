@@ -24,7 +24,7 @@ Rows attachment_rows() {
            .unit = "N",
            .instead = {"stiffness", "force_programme"},
            .ranges = {{.least = 0.0, .most = force_range.most, .open_least = true}},
-           .usual = {{.least = 0.0, .most = 1e5}},
+           .usual = {{.least = 1e-3, .most = 1e5}},
            .of = "kind",
            .with = gripper,
            .meaning = "force that pulls the gripper along its direction",

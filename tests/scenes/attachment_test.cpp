@@ -95,6 +95,51 @@ TEST(Attachments, GripperUnderAForceGoesAsFarAsSpringAndStripGiveWay) {
   EXPECT_NEAR(gripper.stroke_mm, gone + longer, 0.01 * (gone + longer));
 }
 
+TEST(Attachments, GripperThatThrowsAPlyIsDoubtful) {
+  Case data = free_strip(10.0);
+  data.solver.mass_damping = 0.0;
+  data.boundaries = {at_end(BoundaryKind::spring, -50.0, 0.01), // some 0.1 N against 10
+                     at_end(BoundaryKind::gripper, 50.0, 0.0)};
+  data.boundaries[1].force = 10.0;
+  data.solver.duration = 0.005;
+  const RunResult run = run_case(data, 1, {});
+  EXPECT_EQ(run.summary.status, "doubtful");
+  EXPECT_NE(run.summary.message.find("do not trust the way of right"), std::string::npos)
+      << run.summary.message;
+}
+
+/// Four segments of a blank-holder on the flange of two plies, each under a force of its own.
+TEST(Attachments, FourHoldersPressWithTheirOwnForces) {
+  const double forces[] = {40.0, 120.0, 75.0, 60.0};
+  std::vector<Override> changes{{"blanks.square.element_size", "13.0"},
+                                {"solver.duration", "0.05"},
+                                {"tool.0.stroke", "20.0"}};
+  for (int k = 0; k < 4; ++k)
+    changes.emplace_back(fmt::format("tool.{}.force", 5 + k), fmt::format("{}", forces[k]));
+  const PreparedCase reading =
+      prepare_case(std::string(PLYFORM_CASES) + "/square_box/case.toml", changes);
+  ASSERT_TRUE(reading.value);
+  const RunResult run = run_case(*reading.value, 1, {}, reading.meshes);
+  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+  EXPECT_LT(std::abs(run.last.energy.balance_error()), 0.01);
+  Vec3 sum = Vec3::Zero();
+  for (const ToolFrame& tool : run.last.tools)
+    sum += tool.force;
+  for (std::size_t k = 0; k < 4; ++k) {
+    EXPECT_NEAR(run.last.tools[5 + k].force_N, forces[k], 0.01 * forces[k]) << k;
+    // in the plane what moves below it drags it along by friction, no more
+    EXPECT_LE(run.last.tools[5 + k].force.head<2>().norm(), 0.2 * forces[k] * 1.01) << k;
+  }
+  const double punch = run.last.tools[0].force_N;
+  EXPECT_GT(punch, 50.0);
+  EXPECT_LT(sum.norm(), 0.02 * punch); // die and holders bear the punch
+  fmt::print(
+      "punch {:.2f} N, holders {:.2f}, {:.2f}, {:.2f}, {:.2f} N, sum of all ({:.3f}, {:.3f}, "
+      "{:.3f}) N, balance {:.1e}\n",
+      punch, run.last.tools[5].force_N, run.last.tools[6].force_N, run.last.tools[7].force_N,
+      run.last.tools[8].force_N, sum.x(), sum.y(), sum.z(), run.last.energy.balance_error());
+}
+
 TEST(Attachments, SpringAtItsLimitGivesWayAtThatForce) {
   Case data = free_strip(10.0);
   data.boundaries = {at_end(BoundaryKind::spring, -50.0, 2.0),
