@@ -4,6 +4,7 @@
 #include "core/model/motion.hpp"
 #include "core/setup/boundaries_ahead.hpp"
 #include "core/setup/prepare_case.hpp"
+#include "core/solver/attached_motion.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"
 #include "support/stress_scenes.hpp"
@@ -266,6 +267,57 @@ TEST(Attachments, StiffSpringsAndDrivesAreInTheStableStep) {
     }
     EXPECT_LT(steps[1], 0.5 * steps[0]);
   }
+}
+
+/// Minus the gradient of 1/2 k (l - ln)^2, and no more of it than the stable step reckons with.
+TEST(Attachments, PullOfASpringIsTheGradientOfItsEnergy) {
+  Case data = free_strip(10.0);
+  Boundary spring = at_end(BoundaryKind::spring, 50.0, 2.0);
+  spring.anchor = {80.0, 20.0, 15.0};
+  spring.preload = 7.0;
+  data.boundaries = {spring};
+  data.solver.duration = 1e-9; // the preload has come up
+  Scene s = make_scene(data);
+  s.time = 1.0;
+  PlyState& ply = s.plies[0];
+  const Attachment& attached = s.attachments.at(0);
+  Random random(3);
+  std::vector<std::vector<Vec3>> y(1, std::vector<Vec3>(ply.x.size(), Vec3::Zero()));
+  for (const AttachedNode& node : attached.nodes) {
+    ply.x[node.node] += random_vector(random);
+    y[0][node.node] = random_vector(random);
+  }
+  const auto energy = [&] {
+    Vec3 way = spring.anchor;
+    for (const AttachedNode& node : attached.nodes)
+      way -= node.share * ply.x[node.node];
+    return 0.5 * spring.stiffness * std::pow(way.norm() - attached.natural_length, 2);
+  };
+  const auto pulls_at = [&](double step) {
+    for (const AttachedNode& node : attached.nodes)
+      ply.x[node.node] += step * y[0][node.node];
+    pull_springs(s);
+    return std::pair{energy(), ply.pull};
+  };
+  constexpr double h = 1e-5;
+  pull_springs(s);
+  const std::vector<Vec3> here = ply.pull;
+  const auto [after, pull_after] = pulls_at(h);
+  const auto [before, pull_before] = pulls_at(-2.0 * h);
+  double work = 0.0, curvature = 0.0, reckoned = 0.0;
+  std::vector<std::vector<Vec3>> f(1, std::vector<Vec3>(ply.x.size(), Vec3::Zero()));
+  add_attachment_forces(s, 1.0, y, f);
+  for (const AttachedNode& node : attached.nodes) {
+    const Vec3& direction = y[0][node.node];
+    work += here[node.node].dot(direction);
+    curvature -= (pull_after[node.node] - pull_before[node.node]).dot(direction) / (2.0 * h);
+    reckoned += f[0][node.node].dot(direction);
+  }
+  ASSERT_GT(std::abs(work), 0.1);
+  EXPECT_NEAR(-(after - before) / (2.0 * h), work, 1e-6 * std::abs(work));
+  EXPECT_GT(curvature, 0.0);
+  EXPECT_LE(curvature, reckoned * (1.0 + 1e-9));
+  EXPECT_GT(curvature, 0.1 * reckoned);
 }
 
 TEST(Attachments, HalfAGripperOnAPlaneOfSymmetryIsHalfTheWhole) {
