@@ -2,6 +2,7 @@
 #include "core/input/dxf_drawing.hpp"
 
 #include "core/base/helper_process.hpp"
+#include "core/input/dxf_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,16 +20,20 @@
 namespace plyform {
 namespace {
 
-const std::set<std::string> supported{"LINE",   "ARC",        "CIRCLE",   "ELLIPSE", "SPLINE",
-                                      "VERTEX", "LWPOLYLINE", "POLYLINE", "SEQEND"};
+const std::set<std::string> supported{"LINE",   "ARC",    "CIRCLE",     "ELLIPSE",
+                                      "SPLINE", "VERTEX", "LWPOLYLINE", "POLYLINE",
+                                      "SEQEND", "INSERT", "BLOCK",      "ENDBLK"};
 const std::set<std::string> no_geometry{
     "TEXT",   "MTEXT",    "POINT",     "DIMENSION", "LEADER",         "MLEADER", "HATCH", "ATTDEF",
     "ATTRIB", "VIEWPORT", "TOLERANCE", "WIPEOUT",   "ARCALIGNEDTEXT", "XLINE",   "RAY"};
 
 /// Numbers of one entity as dxflib gives them; (x, y, bulge) of each vertex of a polyline; of a
-/// spline the degree, (x, y, weight) of each control point, and apart from them the knots.
+/// spline the degree, (x, y, weight) of each control point, and apart from them the knots; of a
+/// BLOCK its base point.
 struct RawEntity {
   std::string name, layer;
+  std::string block{};    ///< that it is part of; empty in the model space
+  std::string inserted{}; ///< name of the block that an INSERT names
   int line = 0, flags = 0;
   bool mirrored = false, tilted = false;
   std::vector<double> numbers{}, knots{};
@@ -82,6 +87,17 @@ public:
     add({}, 0.0);
     if (open_) entities.back().flags = d.flags;
   }
+  void addBlock(const DL_BlockData& d) override {
+    block_ = d.name;
+    add({d.bpx, d.bpy}, 0.0);
+  }
+  void endBlock() override { block_.clear(); }
+  void addInsert(const DL_InsertData& d) override {
+    add({d.ipx, d.ipy, d.sx, d.sy, d.angle, static_cast<double>(d.cols),
+         static_cast<double>(d.rows)},
+        0.0);
+    if (open_) entities.back().inserted = d.name;
+  }
   void addVertex(const DL_VertexData& d) override {
     if (!open_) return;
     const double x = entities.back().mirrored ? -d.x : d.x;
@@ -95,7 +111,7 @@ private:
     int line = 0;
   };
   int lines_ = 0;
-  std::string section_;
+  std::string section_, block_;
   Begun now_, before_;           ///< the entity whose groups are being read, and the one before
   bool open_ = false;            ///< the last entity may get vertices, knots or control points
   std::optional<double> height_; ///< of the first control point of a spline
@@ -106,16 +122,19 @@ private:
     before_ = now_;
     if (name == "ENDSEC") section_.clear();
     if (name == "EOF") ended = true;
-    const bool geometry = before_.section == "ENTITIES";
-    if (geometry && !supported.contains(before_.name) && !no_geometry.contains(before_.name))
-      entities.push_back({before_.name, before_.layer, before_.line});
+    if (is_geometry() && !supported.contains(before_.name) && !no_geometry.contains(before_.name))
+      entities.push_back({before_.name, before_.layer, block_, "", before_.line});
     now_ = {name, section_, "0", lines_};
   }
 
+  bool is_geometry() const {
+    return before_.section == "ENTITIES" || (before_.section == "BLOCKS" && !block_.empty());
+  }
+
   void add(std::vector<double> numbers, double rise) {
-    open_ = before_.section == "ENTITIES";
+    open_ = is_geometry();
     if (!open_) return;
-    RawEntity e{before_.name, before_.layer, before_.line};
+    RawEntity e{before_.name, before_.layer, block_, "", before_.line};
     const double* normal = getExtrusion()->getDirection();
     // lines and splines are in world coordinates, as are the axes of ellipses
     e.mirrored = before_.name != "LINE" && before_.name != "SPLINE" && normal[2] < 0.0;
@@ -138,7 +157,7 @@ std::string packed(const std::filesystem::path& file) {
     for (const std::vector<double>* list : {&e.numbers, &e.knots})
       for (const double number : *list)
         text += fmt::format(" {}", number);
-    text += "\n" + e.layer + "\n";
+    text += "\n" + e.layer + "\n" + e.block + "\n" + e.inserted + "\n";
   }
   return text;
 }
@@ -191,7 +210,7 @@ DxfSpline spline_of(const RawEntity& e) {
 }
 
 DxfEntity entity_of(const RawEntity& e) {
-  DxfEntity made{e.name, e.layer, e.line, {}, {}, {}};
+  DxfEntity made{e.name, e.layer, e.line, {}, {}, {}, {}};
   const std::vector<double>& n = e.numbers;
   constexpr int solid = 8 | 16 | 64, spline = 4; // flags of polylines
   const auto small = [](double x) { return std::abs(x) < 1e9; };
@@ -218,6 +237,13 @@ DxfEntity entity_of(const RawEntity& e) {
   }
   if (e.name == "ELLIPSE")
     set_curve(DxfEllipse{{n[0], n[1]}, {n[2], n[3]}, n[4], n[5], n[6], e.mirrored}, made);
+  if (e.name == "INSERT")
+    made.insert = DxfInsert{e.inserted,
+                            {n[0], n[1]},
+                            {n[2], n[3]},
+                            n[4] * std::numbers::pi / 180.0,
+                            n[5] > 1.0 || n[6] > 1.0,
+                            e.mirrored};
   if (e.name == "SPLINE") set_curve(spline_of(e), made);
   if (e.name == "POLYLINE" || e.name == "LWPOLYLINE") made.chain = polyline(e);
   return made;
@@ -226,6 +252,7 @@ DxfEntity entity_of(const RawEntity& e) {
 DxfDrawing unpacked(const std::string& text) {
   std::istringstream in(text);
   DxfDrawing drawing;
+  DxfBlocks blocks;
   int has_entities = 0, ended = 0;
   in >> drawing.unit >> has_entities >> ended;
   if (!has_entities)
@@ -245,8 +272,15 @@ DxfDrawing unpacked(const std::string& text) {
       }
     in.ignore();
     std::getline(in, e.layer);
-    drawing.entities.push_back(entity_of(e));
+    std::getline(in, e.block);
+    std::getline(in, e.inserted);
+    if (e.name == "BLOCK" && e.numbers.size() == 2)
+      blocks[lower_case(e.block)].base = {e.numbers[0], e.numbers[1]};
+    else if (e.name != "BLOCK")
+      (e.block.empty() ? drawing.entities : blocks[lower_case(e.block)].entities)
+          .push_back(entity_of(e));
   }
+  drawing.entities = exploded(drawing.entities, blocks);
   return drawing;
 }
 

@@ -19,6 +19,7 @@ sys.path.insert(0, str(TOOLS))
 
 try:
     import ezdxf
+    import ezdxf.bbox
     import numpy as np
     from ezdxf.math import rational_bspline_from_arc
 
@@ -180,6 +181,32 @@ def check_curves(folder):
         assert np.allclose((wide, high), 25.4 * flat(inches), atol=0.1), (wide, high)
 
 
+def check_blocks(folder):
+    """A sheet in blocks in blocks: turned, mirrored, scaled, seen from below. Extents as ezdxf has
+    them; holes are where it puts them, for else they would be outlines of their own."""
+    for version in ("R12", "R2000", "R2018"):
+        for turn, x, y, below in ((0, 1, 1, 1), (30, 2, 2, 1), (200, -1.5, 1.5, 1), (70, 1, 1, -1)):
+            drawing, space = drawn(version)
+            rim = drawing.blocks.new("Rim", base_point=(10, 20))
+            corners = [(0, 0, 0), (90, 0, QUARTER), (110, 20, 0), (110, 60, -0.3), (0, 60, 0)]
+            add = rim.add_polyline2d if version == "R12" else rim.add_lwpolyline
+            add(corners, format="xyb", close=True)
+            rim.add_circle((20, 30), 8)
+            rim.add_arc((60, 30), 10, 0, 180)
+            rim.add_line((50, 30), (70, 30))
+            whole = drawing.blocks.new("WHOLE")
+            whole.add_blockref("rim", (5, -7), dxfattribs={"rotation": 15, "layer": "CUT"})
+            placed = space.add_blockref("Whole", (300, 100), dxfattribs={
+                "rotation": turn, "xscale": x, "yscale": y, "zscale": abs(x),
+                "extrusion": (0, 0, below)})
+            drawing.saveas(folder / "blocks.dxf")
+            size = ezdxf.bbox.extents([placed], flatten=0.001).size
+            wide, high, holes = extents_said(folder, "blocks.dxf")
+            assert holes == 2, (version, turn, holes)
+            assert np.allclose((wide, high), (size.x, size.y), atol=0.15), (turn, wide, high, size)
+            expect(folder, "blocks.dxf", "2 holes, layer CUT,")
+
+
 def check_refused(folder):
     def save(name, draw, **options):
         drawing, space = drawn("R2010")
@@ -197,11 +224,32 @@ def check_refused(folder):
                                                            dxfattribs={"extrusion": (0, 1, 1)})),
            "CIRCLE on layer 0 does not lie in the xy plane")
 
-    def insert(drawing, space):
-        drawing.blocks.new("B").add_circle((0, 0), 5)
-        space.add_blockref("B", (0, 0), dxfattribs={"layer": "HOLES"})
-    refuse(folder, save("b.dxf", insert), "INSERT on layer HOLES is not supported")
+    def insert(at=(0, 0), **options):
+        def draw(drawing, space):
+            drawing.blocks.new("B").add_circle((0, 0), 5)
+            space.add_blockref("B", at, dxfattribs={"layer": "HOLES", **options})
+        return draw
+    expect(folder, save("b.dxf", insert()), "100 x 100 mm, 1 hole, layer 0, HOLES, in mm")
     expect(folder, "b.dxf", "100 x 100 mm, 0 holes, layer 0", more='layer = "0"')
+    refuse(folder, save("b2.dxf", insert(xscale=2)),
+           "CIRCLE on layer HOLES has arcs and is in a block that is scaled by different factors")
+    refuse(folder, save("b3.dxf", insert(column_count=3, column_spacing=12)),
+           "INSERT on layer HOLES repeats a block in rows or columns")
+    refuse(folder, save("b4.dxf", lambda _, m: m.add_blockref("C", (0, 0))),
+           "INSERT on layer 0 names the block C, which is not there")
+
+    def around(drawing, space):
+        drawing.blocks.new("B").add_blockref("B", (0, 0))
+        space.add_blockref("B", (0, 0))
+    refuse(folder, save("b5.dxf", around), "INSERT on layer 0 is a block 17 blocks deep")
+
+    def many(drawing, space):
+        for k in range(12):
+            block = drawing.blocks.new(f"B{k}")
+            for _ in range(10 if k else 0):
+                block.add_blockref(f"B{k - 1}", (0, 0))
+        space.add_blockref("B11", (0, 0))
+    refuse(folder, save("b6.dxf", many), "has more than 100000 entities")
     refuse(folder, save("bin.dxf", lambda *_: None, fmt="bin"), "is a binary DXF file")
     (folder / "part.dwg").write_bytes(b"AC1032" + bytes(100))
     refuse(folder, "part.dwg", "is a DWG file")
@@ -231,5 +279,6 @@ with tempfile.TemporaryDirectory() as name:
     check_pattern(Path(name))
     check_mirrored(Path(name))
     check_curves(Path(name))
+    check_blocks(Path(name))
     check_refused(Path(name))
     check_damaged(Path(name))
