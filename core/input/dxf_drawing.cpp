@@ -121,6 +121,7 @@ private:
   void begin(const std::string& name) {
     before_ = now_;
     if (name == "ENDSEC") section_.clear();
+    if (name == "SECTION") block_.clear(); // of a block without an end
     if (name == "EOF") ended = true;
     if (is_geometry() && !supported.contains(before_.name) && !no_geometry.contains(before_.name))
       entities.push_back({before_.name, before_.layer, block_, "", before_.line});
