@@ -97,7 +97,7 @@ void bind_bodies(py::module_& m) {
                     "filtered, as docs/users/results.md says.")
       .def_readonly("force_raw_N", &ToolFrame::force_raw_N,
                     "N, the same of the last step alone, with the jitter of contact.");
-  PartClass<BoundaryFrame>(m, "BoundaryFrame", "A grip or a frame at one time.")
+  PartClass<BoundaryFrame>(m, "BoundaryFrame", "A grip, frame, spring or gripper at one time.")
       .def_readonly("name", &BoundaryFrame::name, "Name in the case.")
       .def_readonly("stroke_mm", &BoundaryFrame::stroke_mm, "mm, of its stroke.")
       .def_readonly("force_N", &BoundaryFrame::force_N, "N, positive when it pulls along it.")

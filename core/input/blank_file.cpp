@@ -59,6 +59,7 @@ void read_drawing(const TableView& section, const std::filesystem::path& folder,
                   Diagnostics& diagnostics) {
   const TomlNode* file = given(section, "outline_file");
   DxfRequest request{resolve_path(*file, folder).lexically_normal(), text(section, "layer"), {}};
+  if (const double size = number(section, "element_size"); size > 0.0) request.spacing = size;
   if (given(section, "scale")) request.scale = number(section, "scale");
   try {
     DxfOutline drawing = read_dxf_outline(request);

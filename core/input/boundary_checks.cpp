@@ -44,7 +44,10 @@ bool share_an_axis(const Boundary& a, const Boundary& b) {
 /// Two boundaries that prescribe one node along the same axis must agree: both must be at rest.
 void check_no_conflict(BoundaryCheck& check, std::size_t a, std::size_t b) {
   const Boundary &first = check.scene.boundaries[a], &second = check.scene.boundaries[b];
-  if (first.kind == BoundaryKind::symmetry || second.kind == BoundaryKind::symmetry) return;
+  const auto of_place = [](const Boundary& x) {
+    return x.kind == BoundaryKind::grip || x.kind == BoundaryKind::frame;
+  };
+  if (!of_place(first) || !of_place(second)) return;
   if ((first.stroke == 0.0 && second.stroke == 0.0) || !share_an_axis(first, second)) return;
   for (std::size_t p = 0; p < check.plies.size(); ++p)
     for (const Vec2& x : check.plies[p].mesh.x)
@@ -140,18 +143,23 @@ void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
   }
 }
 
-/// Whether a boundary moves a node of the plane of symmetry out of it. (Grips and frames away from
-/// the plane may move in any direction: the other half has their mirror images.)
+/// Whether a boundary that moves has a stroke or, as a gripper, a force.
+bool moves(const Boundary& b) {
+  return b.kind != BoundaryKind::symmetry && (b.stroke > 0.0 || b.force > 0.0);
+}
+
+/// Whether a boundary moves a node of the plane of symmetry out of it, or pulls it. (Those away
+/// from the plane may move in any direction: the other half has their mirror images.)
 bool crosses(const BoundaryCheck& check, const Boundary& plane, const Boundary& other) {
   const Vec3 normal = normal_of(plane);
+  const double reach = other.stroke > 0.0 ? other.stroke : 1.0; // mm; of a force any length
   for (std::size_t p = 0; p < check.plies.size(); ++p)
     for (const Vec2& x : check.plies[p].mesh.x) {
       const int ply = static_cast<int>(p);
       if (!holds(plane, ply, x) || !holds(other, ply, x)) continue;
       const Vec3 X(x.x(), x.y(), 0.0);
       for (const double part : {0.5, 1.0}) // frames move on curves
-        if (std::abs((prescribed_position(other, X, part * other.stroke) - X).dot(normal)) >
-            1e-6 * other.stroke)
+        if (std::abs((prescribed_position(other, X, part * reach) - X).dot(normal)) > 1e-6 * reach)
           return true;
     }
   return false;
@@ -162,7 +170,7 @@ void check_mirrored_loads(BoundaryCheck& check, std::size_t index) {
   if (std::abs(check.scene.gravity.dot(normal_of(plane))) > 1e-6 * check.scene.gravity.norm())
     check.fail(index, "is crossed by gravity", "turn it along the plane, or model the whole");
   for (const Boundary& other : check.scene.boundaries)
-    if (other.kind != BoundaryKind::symmetry && other.stroke > 0.0 && crosses(check, plane, other))
+    if (moves(other) && crosses(check, plane, other))
       check.fail(index, fmt::format("is crossed by the motion of {}", other.name),
                  "move it along the plane or hold no node of the plane with it, or model the "
                  "whole");

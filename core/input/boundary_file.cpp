@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Reads boundaries: grips, frames and planes of symmetry.
+// Reads boundaries: grips, frames, planes of symmetry, springs and grippers.
 #include "core/input/case_parts.hpp"
 #include "core/input/key_member.hpp"
 #include "core/model/boundary.hpp"
@@ -28,12 +28,21 @@ std::array<Vec2, count> read_points(const TableView& section, const std::string&
   return points;
 }
 
-void read_grip(const TableView& section, Boundary& b, Diagnostics& diagnostics) {
+void read_place(const TableView& section, Boundary& b, Diagnostics& diagnostics) {
   b.on_edge = given(section, "edge") != nullptr;
   const char* key = b.on_edge ? "edge" : "box";
   b.place = read_points<2>(section, key, diagnostics);
   if (given(section, key) && b.on_edge && b.place[0] == b.place[1])
     value_error(section, key, "has both ends in one place", "give two different ends", diagnostics);
+}
+
+/// The stroke or its programme, of a boundary that has either.
+void read_stroke(const TableView& section, Boundary& b, Diagnostics& diagnostics) {
+  if (given(section, "stroke_programme"))
+    b.programme = read_programme(section, "stroke_programme", b.stroke, diagnostics);
+}
+
+void read_grip(const TableView& section, Boundary& b, Diagnostics& diagnostics) {
   const std::string hold = text(section, "hold");
   for (std::size_t k = 0; k < 3; ++k)
     b.held[k] = hold.find("xyz"[k]) != std::string::npos;
@@ -59,7 +68,7 @@ void read_frame(const TableView& section, Boundary& b, Diagnostics& diagnostics)
   if (std::abs(area) <= rounding * size * size)
     return value_error(section, "hinges", "lie on one line", "open the frame", diagnostics);
   if (b.stroke >= longest_stroke(b))
-    value_error(section, "stroke",
+    value_error(section, b.programme.empty() ? "stroke" : "stroke_programme",
                 fmt::format("must be less than {:.4g} mm, where the bars are in one line",
                             longest_stroke(b)),
                 "make the stroke shorter", diagnostics);
@@ -77,10 +86,45 @@ void read_plane(const TableView& section, Boundary& b, Diagnostics& diagnostics)
                 diagnostics);
 }
 
+void read_gripper(const TableView& section, Boundary& b, Diagnostics& diagnostics) {
+  b.direction = read_direction(section, "direction", diagnostics);
+  if (given(section, "force_programme")) {
+    b.programme = read_programme(section, "force_programme", b.force, diagnostics);
+    if (b.force == 0.0)
+      value_error(section, "force_programme", "has no force above 0",
+                  "give the gripper a force, or take it out", diagnostics);
+  }
+  for (const char* key : {"stroke", "stroke_programme"})
+    if (given(section, key) && !given(section, "stiffness"))
+      value_error(
+          section, key, "belongs to a gripper with a drive, this one is pulled by a force",
+          "take one of the two out, or give the drive's stiffness in the place of the force",
+          diagnostics);
+}
+
+void read_spring(const TableView& section, Boundary& b, const std::vector<Tool>& tools,
+                 Diagnostics& diagnostics) {
+  if (b.preload > b.max_force)
+    value_error(section, "preload", fmt::format("is more than max_force, {:g} N", b.max_force),
+                "preload it less, or raise max_force", diagnostics);
+  if (!given(section, "carried_by")) return;
+  const auto it = std::find_if(tools.begin(), tools.end(), [&](const Tool& tool) {
+    return tool.name == text(section, "carried_by");
+  });
+  b.carrier = static_cast<int>(it - tools.begin());
+  if (it == tools.end())
+    value_error(section, "carried_by", "names no tool of this case",
+                "leave it out to keep the anchor where it is", diagnostics);
+  else if (it->motion == Motion::force)
+    value_error(section, "carried_by",
+                "names a tool under a force, which does not feel what the spring pulls it with",
+                "name a driven tool, or leave it out to keep the anchor where it is", diagnostics);
+}
+
 } // namespace
 
 std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<Ply>& plies,
-                                      Diagnostics& diagnostics) {
+                                      const std::vector<Tool>& tools, Diagnostics& diagnostics) {
   std::vector<Boundary> boundaries;
   for (const TableView& section : subsections(root, "boundary")) {
     Boundary b;
@@ -96,6 +140,11 @@ std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<P
         b.ply = static_cast<int>(it - plies.begin());
     }
     if (given(section, "kind")) {
+      const bool spring = b.kind == BoundaryKind::spring, gripper = b.kind == BoundaryKind::gripper;
+      if (b.kind == BoundaryKind::grip || spring || gripper) read_place(section, b, diagnostics);
+      if (b.kind != BoundaryKind::symmetry && !spring) read_stroke(section, b, diagnostics);
+      if (spring) read_spring(section, b, tools, diagnostics);
+      if (gripper) read_gripper(section, b, diagnostics);
       if (b.kind == BoundaryKind::grip) read_grip(section, b, diagnostics);
       if (b.kind == BoundaryKind::frame) read_frame(section, b, diagnostics);
       if (b.kind == BoundaryKind::symmetry) read_plane(section, b, diagnostics);

@@ -138,7 +138,7 @@ Case build_case(const TableView& root, const std::filesystem::path& folder,
     built.blanks.push_back(read_blank(section, folder, diagnostics));
   built.plies = read_plies(root, built.fabrics, diagnostics);
   built.tools = read_tools(root, folder, diagnostics);
-  built.boundaries = read_boundaries(root, built.plies, diagnostics);
+  built.boundaries = read_boundaries(root, built.plies, built.tools, diagnostics);
   Numbers bodies = number_bodies(root, diagnostics);
   const TableView contact = subsection(root, "contact");
   const int plies = static_cast<int>(built.plies.size());

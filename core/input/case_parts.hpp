@@ -32,15 +32,26 @@ ToolShape read_shape(const TableView& tool, const std::filesystem::path& folder,
 /// A direction of the section as a unit vector; reports an error for the zero vector.
 Vec3 read_direction(const TableView& section, const std::string& key, Diagnostics& diagnostics);
 
-/// core/input/boundary_file.cpp: grips, frames, planes of symmetry.
+/// The stages of a programme of the section; reports those that are not in order of time. `largest`
+/// becomes the largest value, if that is larger.
+std::vector<Stage> read_programme(const TableView& section, const std::string& key, double& largest,
+                                  Diagnostics& diagnostics);
+
+/// core/input/boundary_file.cpp: grips, frames, planes of symmetry, springs and grippers.
 std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<Ply>& plies,
-                                      Diagnostics& diagnostics);
+                                      const std::vector<Tool>& tools, Diagnostics& diagnostics);
 
 /// core/input/boundary_checks.cpp: reports boundaries that prescribe no node or contradict each
 /// other, and planes to which blank, fabric or tools are not symmetric. surfaces: of the tools, mm,
 /// in space.
 void check_boundaries(const Case& scene, const CaseParts& parts, const std::vector<FlatPly>& plies,
                       const std::vector<TriMesh>& surfaces, Diagnostics& diagnostics);
+
+/// core/input/attachment_checks.cpp: reports springs that cannot be as long as they are, and
+/// grippers whose nodes others hold too; warns of those that pull into a ply. Only of boundaries
+/// that have nodes.
+void check_attachments(const Case& scene, const CaseParts& parts, const std::vector<FlatPly>& plies,
+                       Diagnostics& diagnostics);
 
 /// core/input/motion_checks.cpp: reports tools of a size that does not fit the plies', moving tools
 /// that begin in another one, and those that never reach a ply. surfaces as above.

@@ -32,7 +32,9 @@ inline constexpr Choice<Motion> motion_choices[] = {
 
 inline constexpr Choice<BoundaryKind> boundary_choices[] = {{"grip", BoundaryKind::grip},
                                                             {"frame", BoundaryKind::frame},
-                                                            {"symmetry", BoundaryKind::symmetry}};
+                                                            {"symmetry", BoundaryKind::symmetry},
+                                                            {"spring", BoundaryKind::spring},
+                                                            {"gripper", BoundaryKind::gripper}};
 
 inline constexpr Choice<bool> off_on_choices[] = {{"off", false}, {"on", true}};
 

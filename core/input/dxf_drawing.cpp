@@ -2,6 +2,7 @@
 #include "core/input/dxf_drawing.hpp"
 
 #include "core/base/helper_process.hpp"
+#include "core/input/dxf_blocks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -11,6 +12,7 @@
 #include <fmt/format.h>
 #include <fstream>
 #include <numbers>
+#include <optional>
 #include <set>
 #include <sstream>
 #include <stdexcept>
@@ -18,18 +20,23 @@
 namespace plyform {
 namespace {
 
-const std::set<std::string> supported{"LINE",     "ARC",    "CIRCLE", "LWPOLYLINE",
-                                      "POLYLINE", "VERTEX", "SEQEND"};
+const std::set<std::string> supported{"LINE",   "ARC",    "CIRCLE",     "ELLIPSE",
+                                      "SPLINE", "VERTEX", "LWPOLYLINE", "POLYLINE",
+                                      "SEQEND", "INSERT", "BLOCK",      "ENDBLK"};
 const std::set<std::string> no_geometry{
     "TEXT",   "MTEXT",    "POINT",     "DIMENSION", "LEADER",         "MLEADER", "HATCH", "ATTDEF",
     "ATTRIB", "VIEWPORT", "TOLERANCE", "WIPEOUT",   "ARCALIGNEDTEXT", "XLINE",   "RAY"};
 
-/// Numbers of one entity as dxflib gives them; (x, y, bulge) of each vertex of a polyline.
+/// Numbers of one entity as dxflib gives them; (x, y, bulge) of each vertex of a polyline; of a
+/// spline the degree, (x, y, weight) of each control point, and apart from them the knots; of a
+/// BLOCK its base point.
 struct RawEntity {
   std::string name, layer;
+  std::string block{};    ///< that it is part of; empty in the model space
+  std::string inserted{}; ///< name of the block that an INSERT names
   int line = 0, flags = 0;
   bool mirrored = false, tilted = false;
-  std::vector<double> numbers{};
+  std::vector<double> numbers{}, knots{};
 };
 
 /// Takes what dxflib reads. dxflib tells of an entity when the next one begins.
@@ -59,9 +66,37 @@ public:
     add({d.cx, d.cy, d.radius, d.angle1, d.angle2}, 0.0);
   }
   void addCircle(const DL_CircleData& d) override { add({d.cx, d.cy, d.radius}, 0.0); }
+  void addEllipse(const DL_EllipseData& d) override {
+    add({d.cx, d.cy, d.mx, d.my, d.ratio, d.angle1, d.angle2}, d.mz);
+  }
+  void addSpline(const DL_SplineData& d) override {
+    add({static_cast<double>(d.degree)}, 0.0);
+    height_.reset();
+  }
+  void addKnot(const DL_KnotData& d) override {
+    if (open_) entities.back().knots.push_back(d.k);
+  }
+  void addControlPoint(const DL_ControlPointData& d) override {
+    if (!open_) return;
+    if (!height_) height_ = d.z;
+    RawEntity& spline = entities.back();
+    spline.tilted = spline.tilted || is_rise(d.z - *height_);
+    spline.numbers.insert(spline.numbers.end(), {d.x, d.y, d.w});
+  }
   void addPolyline(const DL_PolylineData& d) override {
     add({}, 0.0);
     if (open_) entities.back().flags = d.flags;
+  }
+  void addBlock(const DL_BlockData& d) override {
+    block_ = d.name;
+    add({d.bpx, d.bpy}, 0.0);
+  }
+  void endBlock() override { block_.clear(); }
+  void addInsert(const DL_InsertData& d) override {
+    add({d.ipx, d.ipy, d.sx, d.sy, d.angle, static_cast<double>(d.cols),
+         static_cast<double>(d.rows)},
+        0.0);
+    if (open_) entities.back().inserted = d.name;
   }
   void addVertex(const DL_VertexData& d) override {
     if (!open_) return;
@@ -76,28 +111,35 @@ private:
     int line = 0;
   };
   int lines_ = 0;
-  std::string section_;
-  Begun now_, before_; ///< the entity whose groups are being read, and the one before
-  bool open_ = false;  ///< the last entity is a polyline that may get vertices
+  std::string section_, block_;
+  Begun now_, before_;           ///< the entity whose groups are being read, and the one before
+  bool open_ = false;            ///< the last entity may get vertices, knots or control points
+  std::optional<double> height_; ///< of the first control point of a spline
+
+  static bool is_rise(double rise) { return std::abs(rise) > 1e-6 * (1.0 + std::abs(rise)); }
 
   void begin(const std::string& name) {
     before_ = now_;
     if (name == "ENDSEC") section_.clear();
+    if (name == "SECTION") block_.clear(); // of a block without an end
     if (name == "EOF") ended = true;
-    const bool geometry = before_.section == "ENTITIES";
-    if (geometry && !supported.contains(before_.name) && !no_geometry.contains(before_.name))
-      entities.push_back({before_.name, before_.layer, before_.line});
+    if (is_geometry() && !supported.contains(before_.name) && !no_geometry.contains(before_.name))
+      entities.push_back({before_.name, before_.layer, block_, "", before_.line});
     now_ = {name, section_, "0", lines_};
   }
 
+  bool is_geometry() const {
+    return before_.section == "ENTITIES" || (before_.section == "BLOCKS" && !block_.empty());
+  }
+
   void add(std::vector<double> numbers, double rise) {
-    open_ = before_.section == "ENTITIES";
+    open_ = is_geometry();
     if (!open_) return;
-    RawEntity e{before_.name, before_.layer, before_.line};
+    RawEntity e{before_.name, before_.layer, block_, "", before_.line};
     const double* normal = getExtrusion()->getDirection();
-    e.mirrored = before_.name != "LINE" && normal[2] < 0.0; // lines are in world coordinates
-    e.tilted = std::abs(rise) > 1e-6 * (1.0 + std::abs(rise)) ||
-               std::hypot(normal[0], normal[1]) > 1e-6 * std::abs(normal[2]);
+    // lines and splines are in world coordinates, as are the axes of ellipses
+    e.mirrored = before_.name != "LINE" && before_.name != "SPLINE" && normal[2] < 0.0;
+    e.tilted = is_rise(rise) || std::hypot(normal[0], normal[1]) > 1e-6 * std::abs(normal[2]);
     e.numbers = std::move(numbers);
     entities.push_back(std::move(e));
   }
@@ -111,11 +153,12 @@ std::string packed(const std::filesystem::path& file) {
   std::string text = fmt::format("{} {} {}\n", collector.unit, collector.has_entities ? 1 : 0,
                                  collector.ended ? 1 : 0);
   for (const RawEntity& e : collector.entities) {
-    text += fmt::format("{} {} {} {} {} {}", e.name.empty() ? "?" : e.name, e.line, e.flags,
-                        e.mirrored ? 1 : 0, e.tilted ? 1 : 0, e.numbers.size());
-    for (const double number : e.numbers)
-      text += fmt::format(" {}", number);
-    text += "\n" + e.layer + "\n";
+    text += fmt::format("{} {} {} {} {} {} {}", e.name.empty() ? "?" : e.name, e.line, e.flags,
+                        e.mirrored ? 1 : 0, e.tilted ? 1 : 0, e.numbers.size(), e.knots.size());
+    for (const std::vector<double>* list : {&e.numbers, &e.knots})
+      for (const double number : *list)
+        text += fmt::format(" {}", number);
+    text += "\n" + e.layer + "\n" + e.block + "\n" + e.inserted + "\n";
   }
   return text;
 }
@@ -151,11 +194,29 @@ Profile polyline(const RawEntity& e) {
   return chain;
 }
 
+/// Sets the curve of an ellipse or spline, or why it is none.
+template <class Shape>
+void set_curve(const Shape& shape, DxfEntity& made) {
+  made.fault = fault_of(shape);
+  if (made.fault.empty()) made.curve = curve_of(shape);
+}
+
+DxfSpline spline_of(const RawEntity& e) {
+  DxfSpline s{static_cast<int>(e.numbers[0]), e.knots, {}};
+  for (std::size_t i = 1; i + 2 < e.numbers.size(); i += 3) {
+    const double w = e.numbers[i + 2];
+    s.points.emplace_back(w * e.numbers[i], w * e.numbers[i + 1], w);
+  }
+  return s;
+}
+
 DxfEntity entity_of(const RawEntity& e) {
-  DxfEntity made{e.name, e.layer, e.line, {}, {}};
+  DxfEntity made{e.name, e.layer, e.line, {}, {}, {}, {}};
   const std::vector<double>& n = e.numbers;
   constexpr int solid = 8 | 16 | 64, spline = 4; // flags of polylines
-  const bool fits = std::all_of(n.begin(), n.end(), [](double x) { return std::abs(x) < 1e9; });
+  const auto small = [](double x) { return std::abs(x) < 1e9; };
+  const bool fits =
+      std::all_of(n.begin(), n.end(), small) && std::all_of(e.knots.begin(), e.knots.end(), small);
   const bool round = e.name == "ARC" || e.name == "CIRCLE";
   if (!supported.contains(e.name))
     made.fault = "is not supported";
@@ -175,6 +236,16 @@ DxfEntity entity_of(const RawEntity& e) {
     made.chain = {arc_of({n[0], n[1]}, n[2], 0.0, 0.0, e.mirrored)};
     made.chain[0].b = made.chain[0].a;
   }
+  if (e.name == "ELLIPSE")
+    set_curve(DxfEllipse{{n[0], n[1]}, {n[2], n[3]}, n[4], n[5], n[6], e.mirrored}, made);
+  if (e.name == "INSERT")
+    made.insert = DxfInsert{e.inserted,
+                            {n[0], n[1]},
+                            {n[2], n[3]},
+                            n[4] * std::numbers::pi / 180.0,
+                            n[5] > 1.0 || n[6] > 1.0,
+                            e.mirrored};
+  if (e.name == "SPLINE") set_curve(spline_of(e), made);
   if (e.name == "POLYLINE" || e.name == "LWPOLYLINE") made.chain = polyline(e);
   return made;
 }
@@ -182,6 +253,7 @@ DxfEntity entity_of(const RawEntity& e) {
 DxfDrawing unpacked(const std::string& text) {
   std::istringstream in(text);
   DxfDrawing drawing;
+  DxfBlocks blocks;
   int has_entities = 0, ended = 0;
   in >> drawing.unit >> has_entities >> ended;
   if (!has_entities)
@@ -189,18 +261,27 @@ DxfDrawing unpacked(const std::string& text) {
   if (!ended)
     throw std::runtime_error("is cut short: its last line is not EOF; save the drawing anew");
   RawEntity e;
-  std::size_t count = 0;
-  while (in >> e.name >> e.line >> e.flags >> e.mirrored >> e.tilted >> count) {
+  std::size_t count = 0, knots = 0;
+  while (in >> e.name >> e.line >> e.flags >> e.mirrored >> e.tilted >> count >> knots) {
     e.numbers.assign(count, 0.0);
-    for (double& number : e.numbers) {
-      std::string word; // "nan" and "inf" too
-      in >> word;
-      number = std::strtod(word.c_str(), nullptr);
-    }
+    e.knots.assign(knots, 0.0);
+    for (std::vector<double>* list : {&e.numbers, &e.knots})
+      for (double& number : *list) {
+        std::string word; // "nan" and "inf" too
+        in >> word;
+        number = std::strtod(word.c_str(), nullptr);
+      }
     in.ignore();
     std::getline(in, e.layer);
-    drawing.entities.push_back(entity_of(e));
+    std::getline(in, e.block);
+    std::getline(in, e.inserted);
+    if (e.name == "BLOCK" && e.numbers.size() == 2)
+      blocks[lower_case(e.block)].base = {e.numbers[0], e.numbers[1]};
+    else if (e.name != "BLOCK")
+      (e.block.empty() ? drawing.entities : blocks[lower_case(e.block)].entities)
+          .push_back(entity_of(e));
   }
+  drawing.entities = exploded(drawing.entities, blocks);
   return drawing;
 }
 

@@ -159,17 +159,17 @@ std::string extents_text(const ClosedLoop& loop, double scale) {
 }
 
 /// The entities of the layer asked for, all of them fit for an outline.
-std::vector<const DxfEntity*> chosen(const DxfDrawing& drawing, const DxfRequest& request) {
-  std::vector<const DxfEntity*> pieces;
+std::vector<DxfEntity*> chosen(DxfDrawing& drawing, const DxfRequest& request) {
+  std::vector<DxfEntity*> pieces;
   std::set<std::string> layers;
-  for (const DxfEntity& e : drawing.entities) {
+  for (DxfEntity& e : drawing.entities) {
     layers.insert(e.layer);
     if (!request.layer.empty() && e.layer != request.layer) continue;
     if (!e.fault.empty())
       throw Fault{fmt::format("line {}: {} on layer {} {}; make lines, arcs, circles or polylines "
                               "of it, or name the outline's layer (layer)",
                               e.line, e.name, e.layer, e.fault)};
-    if (!e.chain.empty()) pieces.push_back(&e);
+    if (!e.chain.empty() || e.curve) pieces.push_back(&e);
   }
   if (!pieces.empty()) return pieces;
   const std::string names = joined({layers.begin(), layers.end()});
@@ -180,11 +180,12 @@ std::vector<const DxfEntity*> chosen(const DxfDrawing& drawing, const DxfRequest
   throw Fault{"has no lines, arcs, circles or polylines; draw the outline as a closed line"};
 }
 
-std::vector<ClosedLoop> closed_loops(const std::vector<const DxfEntity*>& pieces, double scale) {
+std::vector<ClosedLoop> closed_loops(const std::vector<DxfEntity*>& pieces, double scale) {
   std::vector<ClosedLoop> loops;
   Joiner joiner{{}, dxf_join / scale, scale};
   for (const DxfEntity* piece : pieces) {
     const Profile& chain = piece->chain;
+    if (chain.empty()) continue; // a curve of no length
     if (chain.front().a == chain.back().b)
       loops.push_back(measured(chain));
     else
@@ -211,16 +212,20 @@ void check_size(const ClosedLoop& loop, double scale, const std::string& unit,
                                          : "1 if it is drawn in mm")};
 }
 
-DxfOutline outline_of(const DxfDrawing& drawing, const DxfRequest& request) {
+DxfOutline outline_of(DxfDrawing drawing, const DxfRequest& request) {
   constexpr std::size_t most = 20000;
-  const std::vector<const DxfEntity*> pieces = chosen(drawing, request);
+  const std::vector<DxfEntity*> pieces = chosen(drawing, request);
+  const auto [scale, unit] = unit_of(drawing, request);
   std::size_t count = 0;
-  for (const DxfEntity* piece : pieces)
+  for (DxfEntity* piece : pieces) {
+    if (piece->curve && count <= most)
+      piece->chain = divided(*piece->curve, request.spacing / scale, most + 1);
     count += piece->chain.size();
+  }
   if (count > most)
     throw Fault{fmt::format("has {} lines and arcs, more than {}; name the outline's layer (layer)",
                             count, most)};
-  const auto [scale, unit] = unit_of(drawing, request);
+  if (count == 0) throw Fault{"has curves of no length only; draw the outline as a closed line"};
   const std::vector<ClosedLoop> loops = closed_loops(pieces, scale);
   DxfOutline made;
   for (const ClosedLoop& loop : loops) {

@@ -2,6 +2,7 @@
 #include "core/input/motion_checks.hpp"
 
 #include "core/input/case_parts.hpp"
+#include "core/model/boundary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -83,7 +84,7 @@ bool plies_move_without(const MotionCheck& check, std::size_t but) {
     if (t != but && arrives(scene.tools[t], check.ways[t])) return true;
   return scene.gravity.norm() > 0.0 ||
          std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
-                     [](const Boundary& b) { return b.stroke != 0.0; });
+                     [](const Boundary& b) { return b.stroke != 0.0 || !prescribes(b); });
 }
 
 void check_driven(MotionCheck& check, std::size_t t) {
@@ -143,17 +144,27 @@ bool move_alike(const Tool& a, const Tool& b) {
   return a.stroke == b.stroke && a.programme == b.programme;
 }
 
-/// Tools do not touch each other in the model: what begins in each other goes through.
+/// Tools do not touch each other in the model: what begins in each other goes through. Pushed ones
+/// that are pushed the same way may, but press on the same places of a ply.
 void check_tools_apart(MotionCheck& check) {
   constexpr double touching = 0.01; // mm
   for (std::size_t a = 0; a < check.scene.tools.size(); ++a)
     for (std::size_t b = a + 1; b < check.scene.tools.size(); ++b) {
       const Tool &ta = check.scene.tools[a], &tb = check.scene.tools[b];
-      if (move_alike(ta, tb)) continue;
+      const bool both_pushed = ta.motion == Motion::force && tb.motion == Motion::force;
+      if (move_alike(ta, tb) && !both_pushed) continue;
       const auto ab = depth_at_start(check, a, b), ba = depth_at_start(check, b, a);
       const auto& [depth, where] = ab.first > ba.first ? ab : ba;
       if (depth <= touching) continue;
       const std::size_t moving = tb.motion != Motion::fixed ? b : a;
+      if (move_alike(ta, tb)) {
+        check.warning(b,
+                      fmt::format("overlaps tool {}, {:.4g} mm deep at ({:.4g}, {:.4g}, {:.4g}): "
+                                  "each moves under its own force, and both press on the plies "
+                                  "there; move them apart",
+                                  ta.name, depth, where.x(), where.y(), where.z()));
+        continue;
+      }
       check.error(moving,
                   fmt::format("overlaps tool {} at the start, {:.4g} mm deep at ({:.4g}, {:.4g}, "
                               "{:.4g}): tools do not hold each other, it would go through",

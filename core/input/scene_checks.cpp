@@ -320,6 +320,7 @@ std::vector<BlankMesh> check_scene(const Case& scene, const CaseParts& parts,
   check_plies_apart(check);
   make_surfaces(check);
   check_boundaries(scene, parts, check.plies, check.surfaces, diagnostics);
+  check_attachments(scene, parts, check.plies, diagnostics);
   check_tools_outside(check);
   if (diagnostics.errors.empty())
     check_motions(scene, parts, check.plies, check.surfaces, diagnostics);

@@ -230,6 +230,7 @@ Rows all_rows() {
   append(rows, shape_rows());
   append(rows, motion_rows());
   append(rows, boundary_rows());
+  append(rows, attachment_rows());
   append(rows, contact_rows());
   append(rows, solver_rows());
   append(rows, accuracy_rows());

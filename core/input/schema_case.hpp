@@ -19,7 +19,8 @@ inline const Range length_or_zero{.least = 0.0, .most = 1e5};
 inline const Range place_range{.least = -1e5, .most = 1e5};
 inline const Range direction_range{.least = -1e9, .most = 1e9};
 inline const Range stroke_or_zero{.least = 0.0, .most = 1e5};
-inline const Range force_range{.least = 0.0, .most = 1e9};      ///< N
+inline const Range force_range{.least = 0.0, .most = 1e9}; ///< N
+inline const Range programme_share{.least = 0.0, .most = 1.0, .open_least = true};
 inline const Range bending_range{.least = 0.0, .most = 1e7};    ///< N mm
 inline const Range yarn_force_range{.least = 0.0, .most = 1e9}; ///< N a yarn, per strain or not
 inline const Range stiffness_range{.least = 1e-6, .most = 1e9}; ///< N a yarn, of a law that has any
@@ -49,7 +50,9 @@ Rows tool_rows();
 Rows shape_rows();
 Rows motion_rows();
 
-/// core/input/schema_boundary.cpp: [[boundary]].
+/// core/input/schema_boundary.cpp: [[boundary]]; and the keys of its springs and grippers,
+/// core/input/schema_attachment.cpp.
 Rows boundary_rows();
+Rows attachment_rows();
 
 } // namespace plyform

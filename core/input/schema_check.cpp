@@ -265,9 +265,11 @@ void check_row(const TableView& section, const KeyRow& row, Diagnostics& diagnos
                         fmt::format("cannot stand beside {}", other), "take one of the two out");
   } else if (applies && (row.required() || (is_first_alternative(row) && row.otherwise.empty() &&
                                             alternative_given(table, row, false).empty()))) {
+    const std::string above = row.key.substr(0, row.key.size() - key.size());
+    const TomlNode* choice = row.of.empty() ? nullptr : given(section, row.of);
     std::string others;
     for (const std::string& other : row.instead)
-      others += ", or " + other;
+      if (!choice || find_key(above + other)->goes_with(choice->text)) others += ", or " + other;
     diagnostics.error(table.at, item, "", "is missing", give(row) + others);
     table.valid = false;
   }

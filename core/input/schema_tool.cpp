@@ -19,7 +19,6 @@ Rows tool_rows() {
 
 Rows motion_rows() {
   const std::vector<std::string> moving{"driven", "force"};
-  constexpr Range share_range{.least = 0.0, .most = 1.0, .open_least = true};
   return {{.key = "tool[].position",
            .kind = K::numbers,
            .unit = "mm",
@@ -67,7 +66,7 @@ Rows motion_rows() {
            .kind = K::pairs,
            .unit = "-, mm",
            .instead = {"stroke"},
-           .ranges = {share_range, {.least = 0.0, .most = length_range.most}},
+           .ranges = {programme_share, {.least = 0.0, .most = length_range.most}},
            .least_items = 1,
            .of = "motion",
            .with = {"driven"},
@@ -85,7 +84,7 @@ Rows motion_rows() {
            .kind = K::pairs,
            .unit = "-, N",
            .instead = {"force"},
-           .ranges = {share_range, force_range},
+           .ranges = {programme_share, force_range},
            .least_items = 1,
            .of = "motion",
            .with = {"force"},

@@ -18,6 +18,23 @@ Vec3 read_direction(const TableView& tool, const std::string& key, Diagnostics& 
   return Vec3::UnitZ();
 }
 
+std::vector<Stage> read_programme(const TableView& section, const std::string& key, double& largest,
+                                  Diagnostics& diagnostics) {
+  std::vector<Stage> stages;
+  for (const Vec2& row : pairs(section, key)) {
+    if (!stages.empty() && row.x() <= stages.back().share) {
+      value_error(section, key,
+                  fmt::format("has stage {} at share {:g} after one at {:g}", stages.size() + 1,
+                              row.x(), stages.back().share),
+                  "give the stages in order of time", diagnostics);
+      break;
+    }
+    stages.push_back({row.x(), row.y()});
+    largest = std::max(largest, row.y());
+  }
+  return stages;
+}
+
 namespace {
 
 /// Rotation of a tool: first by `turn` about z, then the shortest rotation from z to the axis.
@@ -33,34 +50,14 @@ Eigen::Matrix3d read_rotation(const TableView& tool, Diagnostics& diagnostics) {
   return tilt.toRotationMatrix() * turned;
 }
 
-/// The stages of a programme; reports those that are not in order of time.
-std::vector<Stage> read_programme(const TableView& section, const std::string& key,
-                                  Diagnostics& diagnostics) {
-  std::vector<Stage> stages;
-  for (const Vec2& row : pairs(section, key)) {
-    if (!stages.empty() && row.x() <= stages.back().share) {
-      value_error(section, key,
-                  fmt::format("has stage {} at share {:g} after one at {:g}", stages.size() + 1,
-                              row.x(), stages.back().share),
-                  "give the stages in order of time", diagnostics);
-      break;
-    }
-    stages.push_back({row.x(), row.y()});
-  }
-  return stages;
-}
-
 /// The stroke or force of a tool, or its programme.
 void read_motion(const TableView& section, Tool& tool, Diagnostics& diagnostics) {
   if (tool.motion == Motion::fixed) return;
   const bool driven = tool.motion == Motion::driven;
   const char* key = driven ? "stroke_programme" : "force_programme";
-  tool.programme = read_programme(section, key, diagnostics);
-  if (tool.programme.empty()) return;
   double& largest = driven ? tool.stroke : tool.force;
-  for (const Stage& stage : tool.programme)
-    largest = std::max(largest, stage.value);
-  if (driven && largest == 0.0)
+  tool.programme = read_programme(section, key, largest, diagnostics);
+  if (driven && !tool.programme.empty() && largest == 0.0)
     value_error(section, key, "has no stroke above 0", "give the tool a stroke, or leave it fixed",
                 diagnostics);
 }

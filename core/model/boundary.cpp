@@ -74,6 +74,8 @@ bool holds(const Boundary& b, int ply, const Vec2& X) {
   if (b.ply >= 0 && b.ply != ply) return false;
   switch (b.kind) {
   case BoundaryKind::grip:
+  case BoundaryKind::spring:
+  case BoundaryKind::gripper:
     return b.on_edge ? near_segment(X, b.place[0], b.place[1]) : in_box(X, b.place);
   case BoundaryKind::frame:
     for (std::size_t i = 0; i < 4; ++i)
@@ -86,8 +88,8 @@ bool holds(const Boundary& b, int ply, const Vec2& X) {
 }
 
 Vec3 prescribed_position(const Boundary& b, const Vec3& X, double d) {
-  if (b.kind == BoundaryKind::grip) return X + d * b.direction;
-  if (b.kind == BoundaryKind::symmetry || d == 0.0) return X;
+  if (b.kind == BoundaryKind::grip || b.kind == BoundaryKind::gripper) return X + d * b.direction;
+  if (b.kind != BoundaryKind::frame || d == 0.0) return X;
   const Vec2 st = frame_coordinates(b, X.head<2>());
   const Bars bars = bars_at(b, d);
   Vec3 x = X;
@@ -96,9 +98,9 @@ Vec3 prescribed_position(const Boundary& b, const Vec3& X, double d) {
 }
 
 Vec3 prescribed_slope(const Boundary& b, const Vec3& X, double d) {
-  if (b.kind == BoundaryKind::grip) return b.direction;
+  if (b.kind == BoundaryKind::grip || b.kind == BoundaryKind::gripper) return b.direction;
   Vec3 slope = Vec3::Zero();
-  if (b.kind == BoundaryKind::symmetry) return slope;
+  if (b.kind != BoundaryKind::frame) return slope;
   const Vec2 st = frame_coordinates(b, X.head<2>());
   const Bars bars = bars_at(b, d);
   slope.head<2>() = st.x() * bars.du + st.y() * bars.dv;
@@ -113,11 +115,17 @@ double longest_stroke(const Boundary& frame) {
 std::vector<PrescribedNode> prescribed_nodes(const std::vector<Boundary>& boundaries, int ply,
                                              std::span<const Vec3> x0) {
   std::vector<PrescribedNode> held;
+  const auto by = [&](BoundaryKind kind, const Vec3& X) {
+    return std::any_of(boundaries.begin(), boundaries.end(), [&](const Boundary& b) {
+      return b.kind == kind && holds(b, ply, X.head<2>());
+    });
+  };
   for (std::size_t n = 0; n < x0.size(); ++n) {
+    if (by(BoundaryKind::gripper, x0[n])) continue;
     PrescribedNode node{ply, static_cast<int>(n)};
     for (const bool planes : {false, true})
       for (std::size_t b = 0; b < boundaries.size(); ++b)
-        if ((boundaries[b].kind == BoundaryKind::symmetry) == planes &&
+        if (prescribes(boundaries[b]) && (boundaries[b].kind == BoundaryKind::symmetry) == planes &&
             holds(boundaries[b], ply, x0[n].head<2>()))
           hold_by(node, boundaries[b], static_cast<int>(b));
     if (node.count > 0) held.push_back(node);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Nodes whose motion is prescribed: rigid grips, hinged frames, planes of symmetry; and their
-// reaction forces.
+// reaction forces. Springs and grippers, which prescribe none: core/model/attachment.hpp.
 //
 //   X   mm  position of a node before forming;  d  mm  displacement of grip or frame, 0 to stroke
 //   grip:      x = X + d direction
@@ -30,10 +30,16 @@ struct PrescribedNode {
   std::array<int, 3> boundary{}; ///< index into Case::boundaries
 };
 
-/// Whether a boundary prescribes a node at `X` (mm) in the undeformed ply number `ply`.
+/// Whether a boundary prescribes where its nodes are.
+inline bool prescribes(const Boundary& b) {
+  return b.kind != BoundaryKind::spring && b.kind != BoundaryKind::gripper;
+}
+
+/// Whether a boundary has a node at `X` (mm) in the undeformed ply number `ply`.
 bool holds(const Boundary& boundary, int ply, const Vec2& X);
 
-/// Position (mm) of a prescribed node at displacement d (mm).
+/// Position (mm) of a prescribed node at displacement d (mm); of a node of a gripper that has gone
+/// that far along its direction.
 Vec3 prescribed_position(const Boundary& boundary, const Vec3& X, double d);
 
 /// dx/dd (-) of a prescribed node at displacement d (mm).
@@ -44,7 +50,7 @@ double longest_stroke(const Boundary& frame);
 
 /// The prescribed nodes of one ply with undeformed positions `x0` (mm), ascending. Axes that an
 /// earlier boundary prescribes already are not prescribed again; grips and frames precede planes of
-/// symmetry.
+/// symmetry. Nodes of grippers are not among them: these move with their gripper.
 std::vector<PrescribedNode> prescribed_nodes(const std::vector<Boundary>& boundaries, int ply,
                                              std::span<const Vec3> x0);
 

@@ -9,6 +9,8 @@
 #include "core/model/fabric.hpp"
 
 #include <array>
+#include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,8 +33,8 @@ enum class Motion {
   force,  ///< pushed by `force` along `direction`, free to move along it only
 };
 
-/// One stage of a tool's programme: by this share of the duration it has reached this stroke (mm)
-/// or force (N).
+/// One stage of the programme of a tool or boundary: by this share of the duration it has reached
+/// this stroke (mm) or force (N).
 struct Stage {
   double share = 1.0, value = 0.0;
   bool operator==(const Stage&) const = default;
@@ -55,24 +57,40 @@ enum class BoundaryKind {
   grip,     ///< rigid: all its nodes move by one displacement
   frame,    ///< four bars hinged at their ends, pulled along a diagonal
   symmetry, ///< a vertical plane of symmetry
+  spring,   ///< a tension spring from its nodes to an anchor: core/model/attachment.hpp
+  gripper,  ///< clamps its nodes to one piece, and pulls it
 };
 
-/// Nodes whose motion is prescribed (core/model/boundary.hpp), selected in the undeformed plies.
+/// Nodes whose motion is prescribed (core/model/boundary.hpp), or that springs and grippers pull
+/// (core/model/attachment.hpp), selected in the undeformed plies.
 struct Boundary {
   std::string name;
   BoundaryKind kind = BoundaryKind::grip;
   int ply = -1; ///< index into Case::plies; -1: all
-  // grip
+  // grip, spring, gripper
   bool on_edge = false; ///< nodes on a line, else in a box
   /// mm, ends of the line, corners of the box
   std::array<Vec2, 2> place = {Vec2::Zero(), Vec2::Zero()};
   std::array<bool, 3> held = {{true, true, true}}; ///< prescribed along x, y, z; else free
-  Vec3 direction = Vec3::UnitX();                  ///< unit vector, of the stroke
+  Vec3 direction = Vec3::UnitX();                  ///< unit vector, of stroke or force
   // frame: hinges in order; the first is fixed, the third moves away from it
   std::array<Vec2, 4> hinges = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()}; ///< mm
   // symmetry
   Vec2 point = Vec2::Zero(), normal = Vec2::UnitX(); ///< mm; unit vector
-  double stroke = 0.0; ///< mm, of a grip along its direction, of a frame along its diagonal
+  /// mm, of a grip and of a gripper's drive along the direction, of a frame along its diagonal; the
+  /// largest of a programme
+  double stroke = 0.0;
+  std::vector<Stage> programme; ///< of stroke or force, in order of time; empty: one stage
+  // spring, gripper
+  double stiffness = 0.0;     ///< N/mm, of the spring, of the gripper's drive; 0: pulled by a force
+  double force = 0.0;         ///< N, on the gripper; the largest of a programme
+  double mass = 0.0;          ///< t, of the gripper
+  bool guided = false;        ///< whether the gripper moves along its direction only
+  Vec3 anchor = Vec3::Zero(); ///< mm, of the spring
+  int carrier = -1;           ///< index into Case::tools that takes the anchor along
+  double preload = 0.0;       ///< N, of the spring at the start
+  std::optional<double> natural_length; ///< mm, of the spring; else from the preload
+  double max_force = std::numeric_limits<double>::infinity(); ///< N, of the spring
 };
 
 enum class ElementKind {

@@ -8,11 +8,39 @@ namespace plyform {
 
 namespace {
 
+constexpr double force_rise = 0.05; // of the duration
+
 std::vector<Stage> stages_of(const Tool& tool) {
-  constexpr double force_rise = 0.05; // of the duration
   if (!tool.programme.empty()) return tool.programme;
   if (tool.motion == Motion::fixed) return {};
   return {tool.motion == Motion::driven ? Stage{1.0, tool.stroke} : Stage{force_rise, tool.force}};
+}
+
+std::vector<Stage> stages_of(const Boundary& b) {
+  if (!b.programme.empty()) return b.programme;
+  return {b.force > 0.0 ? Stage{force_rise, b.force} : Stage{1.0, b.stroke}};
+}
+
+double value_at(const std::vector<Stage>& stages, double t, double duration) {
+  Stage before{0.0, 0.0};
+  for (const Stage& stage : stages) {
+    const double begin = before.share * duration, length = (stage.share - before.share) * duration;
+    if (t < begin + length)
+      return before.value + smooth_step(stage.value - before.value, t - begin, length);
+    before = stage;
+  }
+  return before.value;
+}
+
+/// Largest mean speed of a stage, as the way that it would take over the whole duration, mm.
+double fastest(const std::vector<Stage>& stages) {
+  double most = 0.0;
+  Stage before{0.0, 0.0};
+  for (const Stage& stage : stages) {
+    most = std::max(most, std::abs(stage.value - before.value) / (stage.share - before.share));
+    before = stage;
+  }
+  return most;
 }
 
 } // namespace
@@ -30,16 +58,13 @@ Strokes longest_strokes(const Case& data) {
   for (const Tool& t : data.tools) {
     if (t.motion != Motion::driven) continue;
     s.tool = std::max(s.tool, t.stroke);
-    Stage before{0.0, 0.0};
-    for (const Stage& stage : stages_of(t)) {
-      s.at_full_speed = std::max(s.at_full_speed, std::abs(stage.value - before.value) /
-                                                      (stage.share - before.share));
-      before = stage;
-    }
+    s.at_full_speed = std::max(s.at_full_speed, fastest(stages_of(t)));
   }
-  for (const Boundary& b : data.boundaries)
+  for (const Boundary& b : data.boundaries) {
+    if (b.stroke == 0.0) continue;
     s.boundary = std::max(s.boundary, b.stroke);
-  s.at_full_speed = std::max(s.at_full_speed, s.boundary);
+    s.at_full_speed = std::max(s.at_full_speed, fastest(stages_of(b)));
+  }
   return s;
 }
 
@@ -56,14 +81,15 @@ double smooth_step(double end, double t, double duration) {
 }
 
 double motion_at(const Tool& tool, double t, double duration) {
-  Stage before{0.0, 0.0};
-  for (const Stage& stage : stages_of(tool)) {
-    const double begin = before.share * duration, length = (stage.share - before.share) * duration;
-    if (t < begin + length)
-      return before.value + smooth_step(stage.value - before.value, t - begin, length);
-    before = stage;
-  }
-  return before.value;
+  return value_at(stages_of(tool), t, duration);
+}
+
+double motion_at(const Boundary& boundary, double t, double duration) {
+  return value_at(stages_of(boundary), t, duration);
+}
+
+double force_share(double t, double duration) {
+  return smooth_step(1.0, t, force_rise * duration);
 }
 
 } // namespace plyform

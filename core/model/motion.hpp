@@ -32,6 +32,14 @@ double smooth_step(double end, double t, double duration);
 /// duration, and a force rises over a twentieth of it, to avoid an impact. 0 of a fixed tool.
 double motion_at(const Tool& tool, double t, double duration);
 
+/// Likewise the displacement (mm) of a grip, a frame or the drive of a gripper, or the force (N) on
+/// a gripper without a drive; 0 of springs and planes of symmetry.
+double motion_at(const Boundary& boundary, double t, double duration);
+
+/// Share of a force that has come up at time t (s) where it has no programme: of the preload of a
+/// spring.
+double force_share(double t, double duration);
+
 constexpr double ramp_share = 0.25;                           ///< of the duration, each
 constexpr double peak_speed_ratio = 1.0 / (1.0 - ramp_share); ///< largest speed over the mean
 

@@ -20,11 +20,11 @@ struct ToolFrame {
   double force_raw_N = 0; ///< the same of the last step alone, with the jitter of contact
 };
 
-/// A grip or a frame.
+/// A grip, a frame, a spring or a gripper.
 struct BoundaryFrame {
   std::string name;
-  double stroke_mm = 0;
-  double force_N = 0;        ///< conjugate to the stroke, + when it pulls along it
+  double stroke_mm = 0; ///< of a spring: how much longer it is than at the start
+  double force_N = 0;   ///< conjugate to the stroke, + when it pulls along it; of a spring tension
   Vec3 force = Vec3::Zero(); ///< N, on the plies
 };
 

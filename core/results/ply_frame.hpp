@@ -22,7 +22,7 @@ struct PlyFrame {
   std::vector<double> warp_tension, weft_tension; ///< m, N per yarn
   std::vector<double> thickness;                  ///< m, mm, from constant volume
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
-  std::vector<Vec3> reaction;           ///< n, N, of grips, frames and symmetry; empty without any
+  std::vector<Vec3> reaction;           ///< n, N, of boundaries; empty where there are none
 };
 
 /// A column of the results: its name in every file, and its member of PlyFrame.

@@ -5,6 +5,7 @@
 #include "core/input/bending_resolution.hpp"
 #include "core/input/motion_checks.hpp"
 #include "core/model/fabric_estimates.hpp"
+#include "core/setup/boundaries_ahead.hpp"
 #include "core/setup/tool_cuts.hpp"
 #include "core/solver/facet_penetration.hpp"
 #include "core/solver/stable_time_step.hpp"
@@ -276,53 +277,6 @@ void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, Lines&
   }
 }
 
-/// "77 nodes of ply lower, 12 of ply upper": the nodes that a boundary prescribes along some axis.
-/// (Nodes that an earlier boundary prescribes along all those axes are not counted.)
-std::string nodes_held(const Scene& s, int boundary) {
-  std::vector<int> count(s.plies.size(), 0);
-  for (const PrescribedNode& held : s.held) {
-    const auto end = held.boundary.begin() + held.count;
-    if (std::find(held.boundary.begin(), end, boundary) != end) ++count[held.ply];
-  }
-  std::string text;
-  for (std::size_t p = 0; p < count.size(); ++p)
-    if (count[p] > 0)
-      text += fmt::format("{}{}{} of ply {}", text.empty() ? "" : ", ", count[p],
-                          text.empty() ? " nodes" : "", s.plies[p].name);
-  return text.empty() ? "no nodes that others do not hold" : text;
-}
-
-bool holds_bending_ply(const Scene& s, const Boundary& boundary) {
-  if (boundary.ply >= 0) return s.plies[boundary.ply].bending.has_value();
-  return std::any_of(s.plies.begin(), s.plies.end(),
-                     [](const PlyState& ply) { return ply.bending.has_value(); });
-}
-
-void describe_boundaries(const Scene& s, Lines& lines) {
-  bool part = false, hinge = false;
-  for (std::size_t b = 0; b < s.data.boundaries.size(); ++b) {
-    const Boundary& boundary = s.data.boundaries[b];
-    const bool plane = boundary.kind == BoundaryKind::symmetry;
-    part = part || plane;
-    hinge = hinge || (plane && holds_bending_ply(s, boundary));
-    say(lines, "boundary {}: {}, holds {}{}", boundary.name,
-        plane                                  ? "plane of symmetry"
-        : boundary.kind == BoundaryKind::frame ? "frame"
-                                               : "grip",
-        nodes_held(s, static_cast<int>(b)),
-        plane                   ? std::string()
-        : boundary.stroke > 0.0 ? fmt::format(", moves {:g} mm", boundary.stroke)
-                                : ", stays");
-  }
-  if (part)
-    say(lines, "symmetry: forces and energies, of tools too, are those of the part modelled; a "
-               "tool's given force acts on that part");
-  if (hinge)
-    say(lines,
-        "    note: bending takes a plane of symmetry for a free edge: the ply can fold along "
-        "it as on a hinge");
-}
-
 /// Measures the wall time of a step, s, over a few steps. Returns a Stop if the simulation fails.
 std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, double& seconds) {
   constexpr int steps = 40;
@@ -351,7 +305,8 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   describe_locking(s, lines);
   describe_wrinkles(s, lines);
   describe_tools(s, prepared.meshes, lines);
-  describe_boundaries(s, lines);
+  for (std::string& line : boundaries_ahead(s))
+    lines.push_back(std::move(line));
   const StepBound bound = stable_step(s, contact_rows(s, pool));
   outlook.stable_step = bound.dt;
   outlook.step = s.next_dt;

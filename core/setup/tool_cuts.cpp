@@ -103,8 +103,9 @@ std::vector<Vec3> draws_on(const Case& data, std::size_t tool) {
     if (t != tool) ways.push_back(motion(data.tools[t]) - own);
   ways.push_back(data.gravity);
   for (const Boundary& boundary : data.boundaries) {
-    if (boundary.stroke != 0.0) ways.push_back(boundary.direction - own);
-    if (boundary.kind == BoundaryKind::grip) ways.push_back(-own); // held while the tool comes
+    if (boundary.stroke != 0.0 || boundary.force != 0.0) ways.push_back(boundary.direction - own);
+    if (boundary.kind != BoundaryKind::frame && boundary.kind != BoundaryKind::symmetry)
+      ways.push_back(-own); // held while the tool comes
   }
   std::erase_if(ways, [](const Vec3& way) { return way.norm() < 1e-9; });
   for (Vec3& way : ways)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/contact_rows.hpp"
 
+#include "core/solver/attached_motion.hpp"
+
 namespace plyform {
 namespace {
 
@@ -58,6 +60,7 @@ ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
     add(s.ply_pairs[i].a, of_pair[i].a);
     add(s.ply_pairs[i].b, of_pair[i].b);
   }
+  add_attachment_stiffness(s, c);
   return c;
 }
 

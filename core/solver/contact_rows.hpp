@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Row sums of the contact stiffness and damping matrices of a scene, which bound their eigenvalues
-// (Gershgorin).
+// Row sums of the stiffness and damping matrices of a scene's contacts, springs and grippers, which
+// bound their eigenvalues (Gershgorin).
 #pragma once
 
 #include "core/base/thread_pool.hpp"
@@ -16,7 +16,8 @@ constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same for edge-e
 /// Row sums of the contact matrices, per ply and node.
 using ContactRows = std::vector<std::vector<ContactRow>>;
 
-/// At the present positions, of contacts that are closed or within bound_margin of closing.
+/// At the present positions, of contacts that are closed or within bound_margin of closing, with
+/// springs and the drives of grippers.
 ContactRows contact_rows(const Scene& scene, ThreadPool& pool);
 
 } // namespace plyform

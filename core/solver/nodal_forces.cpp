@@ -17,6 +17,7 @@ void collect_forces(Scene& s) {
   for (PlyState& ply : s.plies) {
     ply.nodal_forces.clear();
     if (!ply.reaction.empty()) ply.nodal_forces.push_back(&ply.reaction);
+    if (!ply.pull.empty()) ply.nodal_forces.push_back(&ply.pull);
   }
   for (const ToolState& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)

@@ -59,6 +59,9 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   }
   f.contact_pressure = contact_pressure(scene, index);
   f.reaction = ply.reaction;
+  f.reaction.resize(ply.pull.empty() ? f.reaction.size() : ply.pull.size(), Vec3::Zero());
+  for (std::size_t n = 0; n < ply.pull.size(); ++n)
+    f.reaction[n] += ply.pull[n];
   return f;
 }
 
@@ -115,7 +118,9 @@ double current_stroke(const Scene& scene) {
   const double duration = scene.data.solver.duration;
   for (const Tool& tool : scene.data.tools)
     if (tool.motion == Motion::driven) return motion_at(tool, scene.time, duration);
-  return smooth_step(whole_stroke(scene.data), scene.time, duration); // of a boundary
+  for (const Boundary& boundary : scene.data.boundaries)
+    if (boundary.stroke != 0.0) return motion_at(boundary, scene.time, duration);
+  return 0.0;
 }
 
 Frame make_frame(const Scene& scene, const Energies& energy) {

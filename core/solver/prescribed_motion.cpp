@@ -2,6 +2,7 @@
 #include "core/solver/prescribed_motion.hpp"
 
 #include "core/model/motion.hpp"
+#include "core/solver/attached_motion.hpp"
 #include "core/solver/nodal_forces.hpp"
 
 namespace plyform {
@@ -43,15 +44,19 @@ void hold_node(Scene& s, const PrescribedNode& held) {
 void prescribe_nodes(Scene& s) {
   const double duration = s.data.solver.duration;
   for (std::size_t b = 0; b < s.boundaries.size(); ++b) {
-    const double stroke = s.data.boundaries[b].stroke;
+    const Boundary& boundary = s.data.boundaries[b];
+    if (!prescribes(boundary)) continue;
     BoundaryState& state = s.boundaries[b];
-    state.displacement = smooth_step(stroke, s.time, duration);
-    state.next_displacement = smooth_step(stroke, s.time + s.next_dt, duration);
+    state.displacement = motion_at(boundary, s.time, duration);
+    state.next_displacement = motion_at(boundary, s.time + s.next_dt, duration);
     state.load = 0.0;
     state.force.setZero();
   }
   for (const PrescribedNode& held : s.held)
     hold_node(s, held);
+  for (const Attachment& attached : s.attachments)
+    if (s.data.boundaries[attached.boundary].kind == BoundaryKind::gripper)
+      move_gripper(s, attached);
 }
 
 } // namespace plyform

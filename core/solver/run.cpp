@@ -74,8 +74,8 @@ void restore(Scene& s, const Snapshot& snapshot) {
 
 /// Energy (N mm) below which the balance is not checked, since its error is then a ratio of
 /// rounding errors: a hundredth of the stack's kinetic energy at the peak speed of the fastest
-/// driven tool or grip, plus the work of each pushed tool's force and of the weight over a tenth of
-/// a millimetre.
+/// driven tool or grip, plus the work of the force of each pushed tool, gripper and spring and of
+/// the weight over a tenth of a millimetre.
 double balance_floor(const Scene& s) {
   double mass = 0.0, force_controlled = 0.0;
   for (const PlyState& ply : s.plies)
@@ -83,6 +83,8 @@ double balance_floor(const Scene& s) {
       mass += m;
   for (const ToolState& t : s.tools)
     force_controlled += 0.1 * std::abs(t.force_on);
+  for (const Boundary& b : s.data.boundaries)
+    force_controlled += 0.1 * (b.force + b.preload);
   force_controlled += 0.1 * mass * s.data.gravity.norm();
   const double peak_speed =
       peak_speed_ratio * longest_strokes(s.data).at_full_speed / s.data.solver.duration;
@@ -101,12 +103,14 @@ std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floo
 }
 
 /// Number of the latest output state that is due: outputs are spaced evenly over the stroke, or
-/// over the time if nothing is driven or a tool has a programme.
+/// over the time if nothing is driven or anything has a programme.
 int outputs_due(const Scene& s) {
   const double stroke = whole_stroke(s.data);
-  const bool by_time =
-      stroke == 0.0 || std::any_of(s.data.tools.begin(), s.data.tools.end(),
-                                   [](const Tool& tool) { return !tool.programme.empty(); });
+  const bool by_time = stroke == 0.0 ||
+                       std::any_of(s.data.tools.begin(), s.data.tools.end(),
+                                   [](const Tool& tool) { return !tool.programme.empty(); }) ||
+                       std::any_of(s.data.boundaries.begin(), s.data.boundaries.end(),
+                                   [](const Boundary& b) { return !b.programme.empty(); });
   const double done = by_time ? s.time / s.data.solver.duration : current_stroke(s) / stroke;
   const int due = static_cast<int>(std::floor(done * s.data.solver.outputs + 1e-9));
   return std::min(due, s.data.solver.outputs - 1); // the last one is due at the end

@@ -175,6 +175,22 @@ double smallest_element(const std::vector<PlyState>& plies) {
   return smallest;
 }
 
+/// Springs and grippers, and the arrays that their forces need.
+void make_attachments(Scene& s) {
+  std::vector<SheetBefore> sheets;
+  for (const PlyState& ply : s.plies)
+    sheets.push_back({ply.x0, ply.membrane.triangles});
+  for (std::size_t b = 0; b < s.data.boundaries.size(); ++b) {
+    if (prescribes(s.data.boundaries[b])) continue;
+    s.attachments.push_back(attach(s.data.boundaries, b, sheets));
+    const bool spring = s.data.boundaries[b].kind == BoundaryKind::spring;
+    for (const AttachedNode& node : s.attachments.back().nodes) {
+      PlyState& ply = s.plies[node.ply];
+      (spring ? ply.pull : ply.reaction).resize(ply.x0.size(), Vec3::Zero());
+    }
+  }
+}
+
 } // namespace
 
 Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
@@ -217,6 +233,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
     if (!held.empty()) ply.reaction.assign(ply.x0.size(), Vec3::Zero());
     s.held.insert(s.held.end(), held.begin(), held.end());
   }
+  make_attachments(s);
   s.boundaries.resize(data.boundaries.size());
   s.group_sums.assign(s.group_blocks.size(), 0.0);
   s.group_collapsed.assign(s.group_blocks.size(), 0);

@@ -7,6 +7,7 @@
 #include "contact/forces/ply_ply.hpp"
 #include "contact/forces/tool_ply.hpp"
 #include "contact/search/fold_bound.hpp"
+#include "core/model/attachment.hpp"
 #include "core/model/boundary.hpp"
 #include "core/ply/bending_simd.hpp"
 #include "core/ply/membrane_eigenvalue.hpp"
@@ -70,6 +71,7 @@ struct PlyWorkspace {
   std::vector<Box3> patch_motion; ///< mm, as of patch_motions, of the last step
   /// Arrays of reaction and contact forces that are not zero in this step, in fixed order.
   std::vector<const std::vector<Vec3>*> nodal_forces;
+  std::vector<Vec3> pull; ///< N, of springs on each node; empty if none hangs on it
 };
 
 /// A ply and its state.
@@ -118,11 +120,15 @@ struct PlyPair {
 
 /// State of a boundary (Case::boundaries).
 struct BoundaryState {
-  double displacement = 0.0;      ///< mm, d at the present time
+  /// mm, d at the present time; of a gripper its way along its direction, of a spring how much
+  /// longer it is than at the start
+  double displacement = 0.0;
   double next_displacement = 0.0; ///< mm, d at the end of the coming step
-  double load = 0.0;              ///< N, (L): positive if it pulls along its stroke
-  Vec3 force = Vec3::Zero();      ///< N, sum of its reaction forces on the nodes
-  double work = 0.0;              ///< N mm, done on the plies since the start
+  /// N, (L): positive if it pulls along its stroke; of a gripper along its direction, of a spring
+  /// its tension
+  double load = 0.0;
+  Vec3 force = Vec3::Zero(); ///< N, sum of its forces on the nodes
+  double work = 0.0;         ///< N mm, done on the plies since the start
 };
 
 /// Nodes per block: enough to outweigh the scheduling, few enough to balance the threads.
@@ -145,7 +151,8 @@ struct NodeSums {
 /// Model of a scene: constant from the first step on.
 struct SceneModel {
   Case data;
-  std::vector<PrescribedNode> held; ///< ascending by ply and node
+  std::vector<PrescribedNode> held;    ///< ascending by ply and node
+  std::vector<Attachment> attachments; ///< springs and grippers, ascending by boundary
   std::vector<Block> group_blocks, node_blocks, bending_blocks;
   double element_size = 0.0; ///< mm, the smallest of the mean element sizes of all plies
   double skin = 0.0;         ///< mm, that of the case, or from the element size

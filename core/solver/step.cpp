@@ -2,6 +2,7 @@
 #include "core/solver/step.hpp"
 
 #include "core/model/motion.hpp"
+#include "core/solver/attached_motion.hpp"
 #include "core/solver/contact_search.hpp"
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/pass_through.hpp"
@@ -102,6 +103,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   if (due) update_stable_step(s, pool);
   if (!searched) update_fold_bounds(s, pool);
   element_and_contact_forces(s, pool);
+  pull_springs(s);
   filter_forces(s);
   if (due || s.step % contacts_every == 0 || contacts_deepened(s) ||
       largest_displacement(s) - s.bound_displacement > 0.5 * bound_margin)

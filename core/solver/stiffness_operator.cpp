@@ -3,6 +3,7 @@
 
 #include "core/ply/in_plane_law.hpp"
 #include "core/ply/mass_normalise.hpp"
+#include "core/solver/attached_motion.hpp"
 #include "core/solver/stable_time_step.hpp"
 
 #include <algorithm>
@@ -65,6 +66,7 @@ Eigen::VectorXd StiffnessOperator::apply(const Eigen::VectorXd& v, ThreadPool& p
     else
       on_pair(pairs_[i - plies]);
   });
+  add_attachment_forces(s_, factors_.stiffness, y_, f_);
   Eigen::VectorXd w(size_);
   pool.run(plies, [&](int p) { gather(static_cast<std::size_t>(p), w); });
   return w;

@@ -19,6 +19,9 @@ frame=("$cases/picture_frame" --set blanks.square.element_size=20 --set solver.d
 # A sheet without yarns, computed one element after the other, with viscosity.
 table=("$cases/circular_table" --set blanks.sheet.element_size=25 --set solver.duration=0.05
   --set solver.checkpoint_interval=0.02)
+# Springs, grippers on drives and two holders.
+springs=("$cases/springs_and_grippers" --set solver.duration=0.05
+  --set solver.checkpoint_interval=0.02)
 
 # run FOLDER ARGUMENT...: in the background; its process in $process.
 run() {
@@ -35,7 +38,7 @@ readable() {
 }
 
 killed=0
-for case in stack frame table; do
+for case in stack frame table springs; do
   declare -n arguments=$case
   rm -rf whole again
   begin=$EPOCHREALTIME

@@ -1,0 +1,147 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/attached_motion.hpp"
+
+#include "core/model/motion.hpp"
+#include "core/solver/nodal_forces.hpp"
+
+namespace plyform {
+namespace {
+
+const Boundary& boundary_of(const Scene& s, const Attachment& attached) {
+  return s.data.boundaries[attached.boundary];
+}
+
+/// The spring's force on its nodes (F), added up, N.
+Vec3 pull_of(const Scene& s, const Attachment& attached, BoundaryState& state) {
+  const Boundary& spring = boundary_of(s, attached);
+  Vec3 way = spring.anchor;
+  if (spring.carrier >= 0) way += s.tools[spring.carrier].body.displacement;
+  for (const AttachedNode& node : attached.nodes)
+    way -= node.share * s.plies[node.ply].x[node.node];
+  const double length = way.norm();
+  state.displacement = length - attached.length;
+  state.load =
+      spring_tension(spring, attached, length, force_share(s.time, s.data.solver.duration));
+  constexpr double no_direction = 1e-9; // mm
+  if (length < no_direction) return Vec3::Zero();
+  return state.load / length * way;
+}
+
+/// N, P of (G).
+double pull_along(const Scene& s, const Boundary& gripper, double gone) {
+  const double now = motion_at(gripper, s.time, s.data.solver.duration);
+  return gripper.stiffness > 0.0 ? gripper.stiffness * (now - gone) : now;
+}
+
+/// t, of a gripper and its nodes.
+double whole_mass(const Scene& s, const Attachment& clamp) {
+  double mass = boundary_of(s, clamp).mass;
+  for (const AttachedNode& node : clamp.nodes)
+    mass += s.plies[node.ply].membrane.node_mass[node.node];
+  return mass;
+}
+
+/// Part of node j in the mean place of what a spring or a drive moves, and the share of the
+/// stiffness that acts there: of a gripper by mass, as it moves as one piece.
+struct Stiff {
+  double stiffness;          ///< N/mm
+  std::vector<double> share; ///< sum 1
+};
+
+Stiff stiffness_of(const Scene& s, const Attachment& attached) {
+  const Boundary& b = boundary_of(s, attached);
+  Stiff of{b.stiffness, {}};
+  if (b.kind == BoundaryKind::spring) {
+    for (const AttachedNode& node : attached.nodes)
+      of.share.push_back(node.share);
+    return of;
+  }
+  const double whole = whole_mass(s, attached), nodes = whole - b.mass;
+  for (const AttachedNode& node : attached.nodes)
+    of.share.push_back(s.plies[node.ply].membrane.node_mass[node.node] / nodes);
+  of.stiffness *= nodes / whole; // so that omega^2 is k over the whole mass
+  return of;
+}
+
+} // namespace
+
+void pull_springs(Scene& s) {
+  for (PlyState& ply : s.plies)
+    std::fill(ply.pull.begin(), ply.pull.end(), Vec3::Zero());
+  for (const Attachment& attached : s.attachments) {
+    if (boundary_of(s, attached).kind != BoundaryKind::spring) continue;
+    BoundaryState& state = s.boundaries[attached.boundary];
+    const Vec3 force = pull_of(s, attached, state);
+    Vec3 motion = Vec3::Zero();
+    for (const AttachedNode& node : attached.nodes) {
+      PlyState& ply = s.plies[node.ply];
+      ply.pull[node.node] += node.share * force;
+      motion += node.share * ply.motion[node.node];
+    }
+    state.work += 0.5 * (state.force + force).dot(motion);
+    state.force = force;
+  }
+}
+
+void move_gripper(Scene& s, const Attachment& clamp) {
+  const Boundary& gripper = boundary_of(s, clamp);
+  BoundaryState& state = s.boundaries[clamp.boundary];
+  const MassLoads loads = mass_loads(s);
+  // All nodes have gone the same way at the same speed: the first one stands for the gripper.
+  const AttachedNode& first = clamp.nodes.front();
+  const PlyState& of_first = s.plies[first.ply];
+  const Vec3 gone = of_first.x[first.node] - of_first.x0[first.node];
+  const Vec3 velocity = of_first.velocity[first.node], motion = of_first.motion[first.node];
+  state.displacement = gone.dot(gripper.direction);
+  Vec3 sum = pull_along(s, gripper, state.displacement) * gripper.direction;
+  double mass = gripper.mass;
+  std::vector<Vec3> free;
+  for (const AttachedNode& node : clamp.nodes) {
+    PlyState& ply = s.plies[node.ply];
+    ply.reaction[node.node].setZero();
+    free.push_back(acceleration(ply, node.node, loads));
+    sum += ply.mass[node.node] * free.back();
+    mass += ply.mass[node.node];
+  }
+  Vec3 acceleration = sum / mass;
+  for (const Vec3& axis : clamp.held)
+    acceleration -= axis.dot(acceleration) * axis;
+  const double span = 0.5 * (s.dt + s.next_dt);
+  const Vec3 goes = gone + (velocity + span * acceleration) * s.next_dt;
+  Vec3 force = Vec3::Zero();
+  for (std::size_t j = 0; j < clamp.nodes.size(); ++j) {
+    const auto n = static_cast<std::size_t>(clamp.nodes[j].node);
+    PlyState& ply = s.plies[clamp.nodes[j].ply];
+    const Vec3 wanted = ((ply.x0[n] + goes - ply.x[n]) / s.next_dt - ply.velocity[n]) / span;
+    ply.reaction[n] = ply.mass[n] * (wanted - free[j]);
+    force += ply.reaction[n];
+  }
+  state.work += 0.5 * (state.force + force).dot(motion);
+  state.force = force;
+  state.load = force.dot(gripper.direction);
+}
+
+void add_attachment_stiffness(const Scene& s, ContactRows& rows) {
+  for (const Attachment& attached : s.attachments) {
+    const Stiff of = stiffness_of(s, attached);
+    for (std::size_t j = 0; j < of.share.size(); ++j)
+      rows[attached.nodes[j].ply][attached.nodes[j].node].stiffness += of.stiffness * of.share[j];
+  }
+}
+
+void add_attachment_forces(const Scene& s, double factor, const std::vector<std::vector<Vec3>>& y,
+                           std::vector<std::vector<Vec3>>& f) {
+  for (const Attachment& attached : s.attachments) {
+    const Boundary& b = boundary_of(s, attached);
+    const Stiff of = stiffness_of(s, attached);
+    Vec3 mean = Vec3::Zero();
+    for (std::size_t j = 0; j < of.share.size(); ++j)
+      mean += of.share[j] * y[attached.nodes[j].ply][attached.nodes[j].node];
+    if (b.kind == BoundaryKind::gripper) mean = b.direction.dot(mean) * b.direction;
+    for (std::size_t j = 0; j < of.share.size(); ++j)
+      f[attached.nodes[j].ply][attached.nodes[j].node] +=
+          factor * of.stiffness * of.share[j] * mean;
+  }
+}
+
+} // namespace plyform

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Forces of springs and grippers: equations (T), (F) and (G) of core/model/attachment.hpp.
+#pragma once
+
+#include "core/solver/contact_rows.hpp"
+
+namespace plyform {
+
+/// Computes the pulls of springs (T), (F) on the plies, after tools have moved, and adds to their
+/// work.
+void pull_springs(Scene& scene);
+
+/// Moves the nodes of a gripper as one piece by (G): sets their reactions, and adds to the work of
+/// the jaws on the plies. To be called after all other forces.
+void move_gripper(Scene& scene, const Attachment& clamp);
+
+/// Adds the row sums of the stiffness of springs and of grippers' drives.
+void add_attachment_stiffness(const Scene& scene, ContactRows& rows);
+
+/// Adds to the forces f (N) what springs and drives exert, `factor` times their stiffness, when all
+/// nodes are displaced by y (mm); both per ply and node.
+void add_attachment_forces(const Scene& scene, double factor,
+                           const std::vector<std::vector<Vec3>>& y,
+                           std::vector<std::vector<Vec3>>& f);
+
+} // namespace plyform
