@@ -69,14 +69,9 @@ void visit(Archive& a, PlyContact& pair) {
 }
 
 template <class Archive>
-void visit(Archive& a, EdgeGroup& group) {
-  visit(a, group.patch, group.path_length, group.candidates, group.list, group.pairs);
-}
-
-template <class Archive>
 void visit(Archive& a, PlyEdgeContact& pair) {
   EdgeEdgeContact& c = pair.contact;
-  visit(a, c.groups, c.sums, c.renew_depth);
+  visit(a, c.candidates, c.groups, c.pairs, c.sums, c.renew_depth);
 }
 
 template <class Archive>
