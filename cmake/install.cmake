@@ -16,6 +16,7 @@ set(public_headers
   contact/intersections.hpp
   contact/search/sheet_bvh.hpp
   contact/shapes/tool_shape.hpp
+  contact/surface_hint.hpp
   core/base/diagnostics.hpp
   core/base/version.hpp
   core/fit/corrections.hpp

@@ -56,8 +56,8 @@ void append_tangents(const PlyPlyContact& contact, const SurfaceKinematics& slav
 void append_tangents(const EdgeEdgeContact& contact, const SurfaceKinematics& a,
                      const SurfaceKinematics& b, double margin, const TangentFactors& factors,
                      std::vector<ContactTangent>& springs) {
-  for_each_pair(contact, [&](const EdgePair& pair) {
-    if (!within(contact, pair, margin)) return;
+  for (const EdgePair& pair : contact.pairs) {
+    if (!within(contact, pair, margin)) continue;
     ContactTangent spring;
     spring.node = {pair.a.a, pair.a.b, pair.b.a, pair.b.b};
     spring.share = {1.0 - pair.s, pair.s, pair.t - 1.0, -pair.t};
@@ -69,7 +69,7 @@ void append_tangents(const EdgeEdgeContact& contact, const SurfaceKinematics& a,
     set_stiffness(spring, contact.law, pair.area, contact.distance - pair.distance, factors);
     spring.across = 0.0; // edge-edge contact has no friction
     springs.push_back(spring);
-  });
+  }
 }
 
 void add_tangent_forces(std::span<const ContactTangent> springs, std::span<const Vec3> own_y,

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/forces/edge_edge.hpp"
 
+#include "contact/simd/cpu_features.hpp"
+
 #include <cmath>
 #include <limits>
 
@@ -16,7 +18,6 @@ struct SegmentDistance {
   double s, t;
   bool inside;
   Vec3 across; ///< y_a - y_b
-  Vec3 normal; ///< (x2 - x1) x (x4 - x3)
   bool parallel;
 };
 
@@ -25,7 +26,6 @@ SegmentDistance segment_distance(const Vec3& x1, const Vec3& x2, const Vec3& x3,
   const double uu = u.squaredNorm(), vv = v.squaredNorm(), uv = u.dot(v);
   const double det = uu * vv - uv * uv;
   SegmentDistance d{};
-  d.normal = u.cross(v);
   d.parallel = !(det > 1e-4 * uu * vv); // within 0.6 degrees; node-to-face contact resolves these
   if (d.parallel) return d;
   d.s = (uv * v.dot(w) - vv * u.dot(w)) / det;
@@ -45,28 +45,6 @@ double edge_area(const SurfaceKinematics& sheet, const EdgeNodes& e) {
   return 0.5 * (sheet.area[e.a] + sheet.area[e.b]);
 }
 
-/// Updates side, s, t and distance of a pair. Returns the unit normal from b to a; if the closest
-/// points are not inside both edges, sets the distance to `far` (mm) and returns zero.
-Vec3 measure(EdgePair& pair, const SurfaceKinematics& a, const SurfaceKinematics& b, double far) {
-  const SegmentDistance d =
-      segment_distance(at(a.x, pair.a.a), at(a.x, pair.a.b), at(b.x, pair.b.a), at(b.x, pair.b.b));
-  pair.distance = far;
-  if (d.parallel || !d.inside) {
-    // Edges can only cross while both closest points are interior. Otherwise they may pass each
-    // other's ends, and the cross product changes sign when they pass through parallel: the side is
-    // reset.
-    pair.side = 0;
-    return Vec3::Zero();
-  }
-  const double along = d.normal.dot(d.across);
-  const int side = along > 0.0 ? 1 : -1;
-  if (pair.side == 0) pair.side = side;
-  pair.s = d.s;
-  pair.t = d.t;
-  pair.distance = pair.side * side * d.across.norm();
-  return pair.side * d.normal.normalized();
-}
-
 /// mm, EdgePair::distance of a pair whose closest points are not inside both edges.
 double far_of(const EdgeEdgeContact& contact) {
   return 2.0 * contact.distance;
@@ -76,26 +54,73 @@ double far_of(const EdgeEdgeContact& contact) {
 /// knows them before they touch.
 constexpr double always_measured = 0.05;
 
-/// Updates the active pairs. Pairs that stay active keep their state.
-void renew_pairs(EdgeGroup& group, const EdgeSheet& a, const EdgeSheet& b, double far) {
-  if (!update(group.list, group.path_length, [](std::int32_t) {})) return;
-  const std::vector<EdgePair> old = std::move(group.pairs);
-  group.pairs.clear();
-  std::size_t known = 0;
-  for (const std::int32_t i : group.list.active) {
-    const auto& edge = group.candidates[i];
-    while (known < old.size() && old[known].edge < edge)
-      ++known;
-    if (known < old.size() && old[known].edge == edge) {
-      group.pairs.push_back(old[known]);
-      continue;
+/// Moves the groups on by their patches' motion in this step, and lists the candidates that may
+/// touch soon, or within two steps like this one, so that their closing speed is known by then.
+void list_due(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeSheet& b) {
+  EdgeMeasurements& m = contact.measurements;
+  m.due.clear();
+  m.nodes.clear();
+  for (std::size_t g = 0; g < contact.groups.size(); ++g) {
+    EdgeGroup& group = contact.groups[g];
+    const double moved =
+        relative_motion(a.patch_motion[group.patch[0]], b.patch_motion[group.patch[1]]);
+    group.path_length += moved;
+    group.ahead = std::max(2.0 * moved, always_measured);
+    const double soon = group.path_length + group.ahead;
+    if (group.free_until > soon) continue;
+    double free_until = std::numeric_limits<double>::infinity(); // of those that are not due
+    for (std::int32_t i = group.first; i < group.end; ++i) {
+      const EdgeCandidate& c = contact.candidates[i];
+      if (c.free_until > soon) {
+        free_until = std::min(free_until, c.free_until);
+        continue;
+      }
+      const SheetEdge &of_a = a.edges.all[c.edge[0]], &of_b = b.edges.all[c.edge[1]];
+      m.due.push_back({i, static_cast<std::int32_t>(g)});
+      m.nodes.push_back({of_a.a, of_a.b, of_b.a, of_b.b});
     }
-    const SheetEdge &of_a = a.edges.all[edge[0]], &of_b = b.edges.all[edge[1]];
-    EdgePair pair{edge, {of_a.a, of_a.b}, {of_b.a, of_b.b}};
-    pair.area = std::min(edge_area(a.state, pair.a), edge_area(b.state, pair.b));
-    pair.distance = far;
-    group.pairs.push_back(pair);
+    group.free_until = free_until;
   }
+}
+
+/// The pair of a candidate: as it was in the last step, if it was measured then. next: number in
+/// measurements.last of the first that may be it.
+EdgePair pair_of(const EdgeMeasurements& m, std::size_t due, std::size_t& next, const EdgeSheet& a,
+                 const EdgeSheet& b, double far) {
+  const std::int32_t candidate = m.due[due][0];
+  while (next < m.last.size() && m.last[next].candidate < candidate)
+    ++next;
+  if (next < m.last.size() && m.last[next].candidate == candidate) return m.last[next];
+  const auto& n = m.nodes[due];
+  EdgePair pair{candidate, {n[0], n[1]}, {n[2], n[3]}};
+  pair.area = std::min(edge_area(a.state, pair.a), edge_area(b.state, pair.b));
+  pair.distance = far;
+  return pair;
+}
+
+/// Updates side, s, t and distance of a pair; the distance is `far` (mm) if its closest points are
+/// not inside both edges.
+void update_pair(EdgePair& pair, const EdgeEdgeDistance& now, double far) {
+  if (now.side == 0) {
+    // Edges can only cross while both closest points are interior. Otherwise they may pass each
+    // other's ends, and the cross product changes sign when they pass through parallel: the side is
+    // reset.
+    pair.side = 0;
+    pair.distance = far;
+    return;
+  }
+  const int side = static_cast<int>(now.side);
+  if (pair.side == 0) pair.side = side;
+  pair.s = now.s;
+  pair.t = now.t;
+  pair.distance = pair.side * side * now.distance;
+}
+
+/// The unit normal of a pair from b to a.
+Vec3 normal_of(const EdgePair& pair, std::span<const Vec3> a, std::span<const Vec3> b) {
+  const Vec3 along_a = at(a, pair.a.b) - at(a, pair.a.a);
+  const Vec3 along_b = at(b, pair.b.b) - at(b, pair.b.a);
+  return pair.side * along_a.cross(along_b).normalized();
 }
 
 /// Adds the forces of a closed pair, p deep, that has deepened by dp in this step, both mm. n: unit
@@ -114,31 +139,6 @@ void press(EdgeEdgeContact& contact, const EdgePair& pair, const Vec3& n, double
   sums.elastic += pair.area * contact.law.energy(p);
   sums.penetration = std::max(sums.penetration, p);
   ++sums.touching;
-}
-
-/// Measures the pairs of a group that may touch, and adds the forces of those that do.
-void group_forces(EdgeEdgeContact& contact, EdgeGroup& group, const SurfaceKinematics& a,
-                  const SurfaceKinematics& b, double dt, std::span<Vec3> force_a,
-                  std::span<Vec3> force_b) {
-  const double now = group.path_length, soon = now + std::max(group.list.ahead, always_measured);
-  for (std::size_t i = 0; i < group.pairs.size(); ++i) {
-    double& free_until = group.list.free_until[group.list.active[i]];
-    if (free_until > soon) continue;
-    EdgePair& pair = group.pairs[i];
-    const bool followed = pair.side != 0;
-    const double last = pair.distance;
-    const Vec3 n = measure(pair, a, b, far_of(contact));
-    const double p = contact.distance - pair.distance, dp = last - pair.distance;
-    if (followed && pair.side != 0)
-      contact.sums.step_ratio = std::min(contact.sums.step_ratio, step_ratio(contact.law, p, dp));
-    if (p > 0.0) {
-      press(contact, pair, n, p, dp, last < contact.distance, dt, force_a, force_b);
-      continue;
-    }
-    if (last < contact.distance) continue;
-    free_until = now + edge_distance(pair.a, a.x, pair.b, b.x) - contact.distance;
-    if (free_until > soon) pair.side = 0; // unmeasured until then, the edges may pass each other
-  }
 }
 
 } // namespace
@@ -162,29 +162,58 @@ double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const Edg
   return distance;
 }
 
+void measure_edges(std::span<const std::array<std::int32_t, 4>> nodes, std::span<const Vec3> a,
+                   std::span<const Vec3> b, std::vector<EdgeEdgeDistance>& distances) {
+  distances.resize(nodes.size());
+  if (nodes.empty()) return;
+  const auto run = has_avx2() ? edge_edge_kernel_avx2 : edge_edge_kernel_generic;
+  run({nodes.data()->data(), static_cast<int>(nodes.size()), a.data()->data(), b.data()->data()},
+      distances.data());
+}
+
 void edge_forces(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeSheet& b, double dt,
                  std::span<Vec3> force_a, std::span<Vec3> force_b) {
   const Stopwatch watch(contact.time.forces);
   clear_present(contact.sums);
-  for (EdgeGroup& group : contact.groups) {
-    group.path_length +=
-        relative_motion(a.patch_motion[group.patch[0]], b.patch_motion[group.patch[1]]);
-    renew_pairs(group, a, b, far_of(contact));
-    group_forces(contact, group, a.state, b.state, dt, force_a, force_b);
+  list_due(contact, a, b);
+  EdgeMeasurements& m = contact.measurements;
+  measure_edges(m.nodes, a.state.x, b.state.x, m.distances);
+  std::swap(contact.pairs, m.last);
+  contact.pairs.clear();
+  const double far = far_of(contact);
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < m.due.size(); ++i) {
+    EdgePair pair = pair_of(m, i, next, a, b, far);
+    EdgeGroup& group = contact.groups[m.due[i][1]];
+    EdgeCandidate& candidate = contact.candidates[pair.candidate];
+    const bool followed = pair.side != 0;
+    const double last = pair.distance;
+    update_pair(pair, m.distances[i], far);
+    const double p = contact.distance - pair.distance, dp = last - pair.distance;
+    if (followed && pair.side != 0)
+      contact.sums.step_ratio = std::min(contact.sums.step_ratio, step_ratio(contact.law, p, dp));
+    if (p > 0.0)
+      press(contact, pair, normal_of(pair, a.state.x, b.state.x), p, dp, last < contact.distance,
+            dt, force_a, force_b);
+    else if (!(last < contact.distance)) // it has been open for a step
+      candidate.free_until = group.path_length + m.distances[i].distance - contact.distance;
+    group.free_until = std::min(group.free_until, candidate.free_until);
+    // unmeasured from then on, the edges may pass each other: a pair that is left forgets its side
+    if (!(candidate.free_until > group.path_length + group.ahead)) contact.pairs.push_back(pair);
   }
   contact.sums.deepest = std::max(contact.sums.deepest, contact.sums.penetration);
 }
 
 void add_edge_stiffness(const EdgeEdgeContact& contact, double margin, std::span<ContactRow> rows_a,
                         std::span<ContactRow> rows_b) {
-  for_each_pair(contact, [&](const EdgePair& pair) {
-    if (!within(contact, pair, margin)) return;
+  for (const EdgePair& pair : contact.pairs) {
+    if (!within(contact, pair, margin)) continue;
     const ContactRow row = 2.0 * pair.area * row_of(contact.law, contact.distance - pair.distance);
     rows_a[pair.a.a] += (1.0 - pair.s) * row;
     rows_a[pair.a.b] += pair.s * row;
     rows_b[pair.b.a] += (1.0 - pair.t) * row;
     rows_b[pair.b.b] += pair.t * row;
-  });
+  }
 }
 
 } // namespace plyform

@@ -17,8 +17,8 @@
 
 #include "contact/forces/contact_law.hpp"
 #include "contact/forces/tool_ply.hpp"
-#include "contact/search/active_list.hpp"
 #include "contact/search/sheet_edges.hpp"
+#include "contact/simd/edge_edge_kernel.hpp"
 
 #include <span>
 #include <vector>
@@ -30,9 +30,26 @@ struct EdgeNodes {
   std::int32_t a, b;
 };
 
-/// One pair of edges that may touch.
-struct EdgePair {
+/// Two edges that the search found close to each other.
+struct EdgeCandidate {
   std::array<std::int32_t, 2> edge{}; ///< numbers of the two edges
+  double free_until = 0.0;            ///< mm, path length of its group before which it cannot touch
+};
+
+/// Candidates of the edges of one patch of each sheet, a range of EdgeEdgeContact::candidates.
+struct EdgeGroup {
+  std::array<std::int32_t, 2> patch{};
+  std::int32_t first = 0, end = 0;
+  /// mm, sum over the steps since the search of the largest relative displacement of a node of one
+  /// patch and one of the other: what contact/search/active_list.hpp calls a path length
+  double path_length = 0.0;
+  double ahead = 0.0;      ///< mm, path length for which candidates are measured ahead of it
+  double free_until = 0.0; ///< mm, smallest of its candidates
+};
+
+/// A candidate that may touch soon and is measured at every step.
+struct EdgePair {
+  std::int32_t candidate = 0; ///< its number
   EdgeNodes a, b;
   int side = 0;          ///< orientation when the closest points became interior to both; 0: not so
   double area = 0.0;     ///< mm^2, tributary area of the contact
@@ -40,24 +57,24 @@ struct EdgePair {
   double s = 0.0, t = 0.0;
 };
 
-/// Candidate pairs of the edges of one patch of each sheet.
-struct EdgeGroup {
-  std::array<std::int32_t, 2> patch{};
-  /// mm, sum over the steps since the search of the largest relative displacement of a node of one
-  /// patch and one of the other: what contact/search/active_list.hpp calls a path length
-  double path_length = 0.0;
-  std::vector<std::array<std::int32_t, 2>> candidates; ///< numbers of edges of a and b, ascending
-  ActiveList list;                                     ///< of the candidates
-  std::vector<EdgePair> pairs;                         ///< of list.active, in its order
+/// What is measured in a step; kept only to spare allocations.
+struct EdgeMeasurements {
+  std::vector<std::array<std::int32_t, 2>> due; ///< numbers of candidates and of their groups
+  std::vector<std::array<std::int32_t, 4>> nodes;
+  std::vector<EdgeEdgeDistance> distances;
+  std::vector<EdgePair> last; ///< EdgeEdgeContact::pairs of the step before
 };
 
 struct EdgeEdgeContact {
-  ContactLaw law;                ///< stiffness and damping per area; friction is not used
-  double distance = 0.0;         ///< h/2, mm
+  ContactLaw law;                        ///< stiffness and damping per area; friction is not used
+  double distance = 0.0;                 ///< h/2, mm
+  std::vector<EdgeCandidate> candidates; ///< by groups, in each in ascending order of their edges
   std::vector<EdgeGroup> groups; ///< in ascending order of their patches, none without candidates
+  std::vector<EdgePair> pairs;   ///< in ascending order of their candidates
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again
   ContactTotals sums;
   ContactTime time;
+  EdgeMeasurements measurements;
 };
 
 /// A sheet whose edges are in contact.
@@ -82,7 +99,8 @@ void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
                      std::span<const std::int32_t> some_a, const EdgeSheet& b,
                      std::span<const std::int32_t> some_b, double skin, const SelfEdges& self = {});
 
-/// Distance (mm) of two edges as segments. a, b: positions of the nodes of their sheets, mm.
+/// Distance (mm) of two edges as segments, one by one. a, b: positions of the nodes of their
+/// sheets, mm.
 double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const EdgeNodes& edge_b,
                      std::span<const Vec3> b);
 
@@ -93,13 +111,10 @@ inline bool within(const EdgeEdgeContact& contact, const EdgePair& pair, double 
          pair.distance <= contact.distance + std::min(margin, 0.5 * contact.distance);
 }
 
-/// Calls visit(pair) for every pair that is active.
-template <class Visit>
-void for_each_pair(const EdgeEdgeContact& contact, const Visit& visit) {
-  for (const EdgeGroup& group : contact.groups)
-    for (const EdgePair& pair : group.pairs)
-      visit(pair);
-}
+/// Measures pairs of edges, four at a time. nodes: of the edge of a, and of that of b. a, b:
+/// positions of the nodes of their sheets, mm.
+void measure_edges(std::span<const std::array<std::int32_t, 4>> nodes, std::span<const Vec3> a,
+                   std::span<const Vec3> b, std::vector<EdgeEdgeDistance>& distances);
 
 /// Adds the forces (N) of one step, (N) of contact_law.hpp, to those of each sheet's nodes. dt: s,
 /// the time step that led to these positions.

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <numeric>
+#include <tuple>
 
 namespace plyform {
 namespace {
@@ -110,32 +111,64 @@ bool neighbours(const SheetEdge& e, const SheetEdge& g, const SelfEdges& self) {
   return edge_distance({e.a, e.b}, self.x0, {g.a, g.b}, self.x0) < self.apart;
 }
 
-/// A pair of edges within reach, and its gap, mm.
+/// The edges with these numbers in ascending order of their patches, and of their numbers in each.
+std::vector<std::int32_t> by_patch(const SheetEdges& edges, std::span<const std::int32_t> some) {
+  std::vector<std::int32_t> next(edges.patch_nodes.size() + 1, 0);
+  for (const std::int32_t e : some)
+    ++next[edges.patch[e] + 1];
+  std::partial_sum(next.begin(), next.end(), next.begin());
+  std::vector<std::int32_t> sorted(some.size());
+  for (const std::int32_t e : some)
+    sorted[next[edges.patch[e]]++] = e;
+  return sorted;
+}
+
+/// An edge of a and one of b within reach, and its gap, mm.
 struct Found {
-  std::array<std::int32_t, 2> patch, edge;
+  std::int32_t patch_b;
+  std::array<std::int32_t, 2> edge;
   double gap;
+  auto key() const { return std::tie(patch_b, edge); }
 };
 
-/// Groups the pairs found, in ascending order of their edges, by patches. Groups keep the pairs
-/// that they had before the search.
-void renew_groups(EdgeEdgeContact& contact, std::vector<Found>& found) {
-  std::stable_sort(found.begin(), found.end(),
-                   [](const Found& f, const Found& g) { return f.patch < g.patch; });
-  std::vector<EdgeGroup> old = std::move(contact.groups);
-  contact.groups.clear();
-  auto known = old.begin();
-  for (const Found& f : found) {
-    if (contact.groups.empty() || contact.groups.back().patch != f.patch) {
-      contact.groups.emplace_back().patch = f.patch;
-      while (known != old.end() && known->patch < f.patch)
-        ++known;
-      if (known != old.end() && known->patch == f.patch)
-        contact.groups.back().pairs = std::move(known->pairs);
+/// Appends the groups of one patch of a, from its pairs within reach.
+void append_groups(EdgeEdgeContact& contact, std::int32_t patch_a, std::vector<Found>& found) {
+  std::sort(found.begin(), found.end(),
+            [](const Found& f, const Found& g) { return f.key() < g.key(); });
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    const Found& f = found[i];
+    if (i == 0 || found[i - 1].patch_b != f.patch_b) {
+      EdgeGroup group;
+      group.patch = {patch_a, f.patch_b};
+      group.first = static_cast<std::int32_t>(contact.candidates.size());
+      group.free_until = f.gap;
+      contact.groups.push_back(group);
     }
+    contact.candidates.push_back({f.edge, f.gap});
     EdgeGroup& group = contact.groups.back();
-    group.candidates.push_back(f.edge);
-    group.list.free_until.push_back(f.gap);
+    group.end = static_cast<std::int32_t>(contact.candidates.size());
+    group.free_until = std::min(group.free_until, f.gap);
   }
+}
+
+/// Gives the pairs of before the search the numbers of their candidates, and drops those without.
+/// edges: theirs, in the order of the pairs.
+void renumber_pairs(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeSheet& b,
+                    std::span<const std::array<std::int32_t, 2>> edges) {
+  const auto key = [&](const std::array<std::int32_t, 2>& edge) {
+    return std::tuple(a.edges.patch[edge[0]], b.edges.patch[edge[1]], edge);
+  };
+  auto next = contact.candidates.begin();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < edges.size(); ++i) { // both are in ascending order of their keys
+    next = std::lower_bound(
+        next, contact.candidates.end(), key(edges[i]),
+        [&key](const EdgeCandidate& c, const auto& wanted) { return key(c.edge) < wanted; });
+    if (next == contact.candidates.end() || next->edge != edges[i]) continue;
+    contact.pairs[kept] = contact.pairs[i];
+    contact.pairs[kept++].candidate = static_cast<std::int32_t>(next - contact.candidates.begin());
+  }
+  contact.pairs.resize(kept);
 }
 
 } // namespace
@@ -143,25 +176,41 @@ void renew_groups(EdgeEdgeContact& contact, std::vector<Found>& found) {
 void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
                      std::span<const std::int32_t> some_a, const EdgeSheet& b,
                      std::span<const std::int32_t> some_b, double skin, const SelfEdges& self) {
+  std::vector<std::array<std::int32_t, 2>> followed;
+  for (const EdgePair& pair : contact.pairs)
+    followed.push_back(contact.candidates[pair.candidate].edge);
+  contact.candidates.clear();
+  contact.groups.clear();
   const EdgeGrid grid(b, some_b);
-  std::vector<std::int32_t> near;
+  const std::vector<std::int32_t> sorted = by_patch(a.edges, some_a);
+  std::vector<std::array<std::int32_t, 2>> near;
+  std::vector<std::array<std::int32_t, 4>> nodes;
+  std::vector<EdgeEdgeDistance> distances;
   std::vector<Found> found;
-  for (const std::int32_t e : some_a) {
-    const SheetEdge& edge = a.edges.all[e];
+  for (auto e = sorted.begin(); e != sorted.end();) { // a patch at a time
+    const std::int32_t patch = a.edges.patch[*e];
     near.clear();
-    grid.visit(edge_box(edge, a.state.x, contact.distance + skin),
-               [&near](std::int32_t other) { near.push_back(other); });
-    std::sort(near.begin(), near.end());
-    for (const std::int32_t other : near) {
-      const SheetEdge& of_b = b.edges.all[other];
-      if (!self.x0.empty() && (other <= e || neighbours(edge, of_b, self))) continue;
-      const double gap = edge_distance({edge.a, edge.b}, a.state.x, {of_b.a, of_b.b}, b.state.x) -
-                         contact.distance;
-      if (gap > skin) continue; // the boxes intersect, the edges are further apart
-      found.push_back({{a.edges.patch[e], b.edges.patch[other]}, {e, other}, gap});
+    nodes.clear();
+    found.clear();
+    for (; e != sorted.end() && a.edges.patch[*e] == patch; ++e) {
+      const SheetEdge& edge = a.edges.all[*e];
+      grid.visit(edge_box(edge, a.state.x, contact.distance + skin), [&](std::int32_t other) {
+        if (!self.x0.empty() && other <= *e) return;
+        near.push_back({*e, other});
+        nodes.push_back({edge.a, edge.b, b.edges.all[other].a, b.edges.all[other].b});
+      });
     }
+    measure_edges(nodes, a.state.x, b.state.x, distances);
+    for (std::size_t i = 0; i < near.size(); ++i) {
+      const double gap = distances[i].distance - contact.distance;
+      if (gap > skin) continue; // the boxes intersect, the edges are further apart
+      const auto [one, other] = near[i];
+      if (!self.x0.empty() && neighbours(a.edges.all[one], b.edges.all[other], self)) continue;
+      found.push_back({b.edges.patch[other], near[i], gap});
+    }
+    append_groups(contact, patch, found);
   }
-  renew_groups(contact, found);
+  renumber_pairs(contact, a, b, followed);
 }
 
 } // namespace plyform

@@ -25,7 +25,7 @@ public:
       : to_shape_(std::move(to_shape)), origin_(tool.position + tool.displacement),
         rotation_(tool.rotation), turned_(!tool.rotation.isIdentity(0.0)) {}
 
-  SurfacePoint operator()(const Vec3& x, int& hint) const {
+  SurfacePoint operator()(const Vec3& x, SurfaceHint& hint) const {
     const Vec3 from_origin = x - origin_;
     if (!turned_) return to_shape_(from_origin, hint);
     SurfacePoint s = to_shape_(rotation_.transpose() * from_origin, hint);
@@ -273,8 +273,10 @@ Vec3 push_and_press(ToolBody& tool, std::span<ToolPlyContact> contacts,
 
 } // namespace
 
-SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint) {
-  const auto to_shape = [&](const Vec3& p, int& h) { return signed_distance(tool.shape, p, h); };
+SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, SurfaceHint& hint) {
+  const auto to_shape = [&](const Vec3& p, SurfaceHint& h) {
+    return signed_distance(tool.shape, p, h);
+  };
   return Placed(tool, to_shape)(x, hint);
 }
 

@@ -76,7 +76,7 @@ struct SurfaceKinematics {
 
 /// Signed distance (mm) and normal at x (mm), in the global frame, of a tool in its present
 /// position. hint: as of signed_distance.
-SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, int& hint);
+SurfacePoint distance_to_tool(const ToolBody& tool, const Vec3& x, SurfaceHint& hint);
 
 /// Updates the points: every node that may have a gap <= reach (mm). Contacts that persist keep
 /// their history. path_length: as paths[i] of tool_ply_forces; nodes that, by their gap when last

@@ -36,6 +36,16 @@ std::vector<SheetEdge> list_edges(std::span<const Triangle> triangles) {
   return edges;
 }
 
+/// The first edge of two nodes.
+std::size_t number_of(const std::vector<SheetEdge>& edges, std::int32_t i, std::int32_t j) {
+  const std::pair<std::int32_t, std::int32_t> wanted = std::minmax(i, j);
+  const auto before = [](const SheetEdge& e, const auto& nodes) {
+    return std::pair(e.a, e.b) < nodes;
+  };
+  return static_cast<std::size_t>(std::lower_bound(edges.begin(), edges.end(), wanted, before) -
+                                  edges.begin());
+}
+
 /// The size (mm) of the cells, and the axes that they divide.
 struct Cells {
   double size;
@@ -60,7 +70,7 @@ Cells cells_of(std::size_t edges, std::span<const Vec3> x0) {
 } // namespace
 
 SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0) {
-  SheetEdges edges{list_edges(triangles), {}, {}};
+  SheetEdges edges{list_edges(triangles), {}, {}, {}};
   const Cells cells = cells_of(edges.all.size(), x0);
   std::map<std::pair<int, int>, std::int32_t> patch_at;
   for (const SheetEdge& e : edges.all) {
@@ -76,6 +86,11 @@ SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3
   for (std::vector<std::int32_t>& nodes : edges.patch_nodes) {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+  }
+  for (const Triangle& t : triangles) {
+    auto& of = edges.patches_of_triangle.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k)
+      of[k] = edges.patch[number_of(edges.all, t[k], t[(k + 1) % 3])];
   }
   return edges;
 }

@@ -30,6 +30,7 @@ struct SheetEdges {
   std::vector<SheetEdge> all;
   std::vector<std::int32_t> patch;                    ///< of each edge
   std::vector<std::vector<std::int32_t>> patch_nodes; ///< of the edges of each patch, ascending
+  std::vector<std::array<std::int32_t, 3>> patches_of_triangle; ///< of its three edges
 };
 
 /// The edges of these triangles, with patches by square cells in the plane of the two largest

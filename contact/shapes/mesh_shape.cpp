@@ -9,7 +9,10 @@
 //
 // The result must not depend on the hint. Therefore CGAL's tree is traversed with a visitor of our
 // own, which finds the triangle with the smallest pair (computed distance, number) whatever the
-// bound it starts from.
+// bound it starts from. The search also finds the distance d' of the next triangle that shares no
+// node with it: as long as the point is nearer than (d' - d) / 2 to where it was searched, the
+// closest triangle is the one found then or one around it, and the tree is asked once in many
+// steps.
 #include "contact/shapes/mesh_shape.hpp"
 
 #include "contact/point_triangle.hpp"
@@ -39,6 +42,8 @@ constexpr double search_slack = 1e-13;
 // Nearer to an edge or vertex than this (relative to the largest coordinate) the direction to it is
 // mostly rounding, and the pseudo-normal serves as normal.
 constexpr double feature_radius = 1e-11;
+// mm: how much further than the closest triangle the next one is searched.
+constexpr double widest = 2.0;
 
 double distance2_to(const CGAL::Bbox_3& box, const Vec3& p) {
   const double x = std::max({box.xmin() - p.x(), p.x() - box.xmax(), 0.0});
@@ -47,17 +52,34 @@ double distance2_to(const CGAL::Bbox_3& box, const Vec3& p) {
   return x * x + y * y + z * z;
 }
 
-/// The triangle with the least (distance2, face) pair. A visitor of AABB_tree's traversal.
-struct NearestFace {
+/// A visitor of AABB_tree's traversal that looks at triangles within a reach, nearest boxes first.
+struct FaceVisitor {
   using Priority = double; // CGAL visits the child of the higher priority first
 
-  const std::vector<std::array<Vec3, 3>>& corners;
   Facets::const_iterator first;
+  double reach2 = std::numeric_limits<double>::infinity(); ///< mm^2: what is further is skipped
+
+  int number(const Primitive& primitive) const { return static_cast<int>(primitive.id() - first); }
+  bool go_further() const { return true; }
+  bool do_intersect(const Vec3& p, const Node& node) const {
+    return distance2_to(node.bbox(), p) <= reach2;
+  }
+  std::pair<bool, Priority> do_intersect_with_priority(const Vec3& p, const Node& node) const {
+    const double d2 = distance2_to(node.bbox(), p);
+    return {d2 <= reach2, -d2};
+  }
+};
+
+/// The triangle with the least (distance2, face) pair.
+struct NearestFace : FaceVisitor {
+  const std::vector<std::array<Vec3, 3>>& corners;
   double slack; ///< mm
   ClosestPoint closest{{1.0, 0.0, 0.0}, std::numeric_limits<double>::infinity(), 0};
   int face = -1;
-  double reach2 = std::numeric_limits<double>::infinity(); ///< mm^2: what is further is skipped
 
+  NearestFace(Facets::const_iterator first_face, const std::vector<std::array<Vec3, 3>>& of,
+              double off)
+      : FaceVisitor{first_face}, corners(of), slack(off) {}
   void test_face(const Vec3& p, int candidate) {
     const auto& [a, b, c] = corners[candidate];
     const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
@@ -71,16 +93,22 @@ struct NearestFace {
     const double reach = std::sqrt(found.distance2) + slack;
     reach2 = reach * reach;
   }
-  bool go_further() const { return true; }
+  void intersection(const Vec3& p, const Primitive& primitive) { test_face(p, number(primitive)); }
+};
+
+/// The least distance of a triangle that shares no node with the closest one.
+struct NextFace : FaceVisitor {
+  const TriMesh& surface;
+  const Triangle& closest;
+
+  NextFace(Facets::const_iterator first_face, const TriMesh& of, const Triangle& nearest,
+           double reach)
+      : FaceVisitor{first_face, reach * reach}, surface(of), closest(nearest) {}
   void intersection(const Vec3& p, const Primitive& primitive) {
-    test_face(p, static_cast<int>(primitive.id() - first));
-  }
-  bool do_intersect(const Vec3& p, const Node& node) const {
-    return distance2_to(node.bbox(), p) <= reach2;
-  }
-  std::pair<bool, Priority> do_intersect_with_priority(const Vec3& p, const Node& node) const {
-    const double d2 = distance2_to(node.bbox(), p);
-    return {d2 <= reach2, -d2};
+    const Triangle& t = surface.triangles[number(primitive)];
+    if (std::find_first_of(t.begin(), t.end(), closest.begin(), closest.end()) != t.end()) return;
+    const auto& x = surface.x;
+    reach2 = std::min(reach2, closest_point_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]).distance2);
   }
 };
 
@@ -124,6 +152,14 @@ std::vector<std::array<Vec3, 7>> pseudo_normals(const TriMesh& s,
   return normals;
 }
 
+std::vector<std::vector<std::int32_t>> incident_faces(const TriMesh& s) {
+  std::vector<std::vector<std::int32_t>> faces(s.x.size());
+  for (std::size_t f = 0; f < s.triangles.size(); ++f)
+    for (const std::int32_t n : s.triangles[f])
+      faces[n].push_back(static_cast<std::int32_t>(f));
+  return faces;
+}
+
 } // namespace
 
 struct MeshShape::Tree {
@@ -147,20 +183,40 @@ MeshShape::MeshShape(TriMesh surface) : surface_(std::move(surface)) {
   for (const Triangle& t : surface_.triangles)
     corners_.push_back({surface_.x[t[0]], surface_.x[t[1]], surface_.x[t[2]]});
   normals_ = pseudo_normals(surface_, corners_);
+  faces_of_node_ = incident_faces(surface_);
   tree_ = std::make_unique<const Tree>(corners_);
 }
 
 MeshShape::~MeshShape() = default;
 
-SurfacePoint MeshShape::signed_distance(const Vec3& p, int& hint) const {
+float MeshShape::clear_way(const Vec3& p, int face, double distance) const {
+  NextFace next(tree_->facets.cbegin(), surface_, surface_.triangles[face], distance + widest);
+  tree_->search.traversal_with_priority(p, next);
+  constexpr double below = 1.0 - 1e-6; // rounding to float and of distances must not increase it
+  return static_cast<float>(0.5 * std::max(below * std::sqrt(next.reach2) - distance, 0.0));
+}
+
+SurfacePoint MeshShape::signed_distance(const Vec3& p, SurfaceHint& hint) const {
   const double scale = std::max({bounds_.min().cwiseAbs().maxCoeff(),
                                  bounds_.max().cwiseAbs().maxCoeff(), p.cwiseAbs().maxCoeff()});
-  NearestFace nearest{corners_, tree_->facets.cbegin(), search_slack * scale};
-  if (hint >= 0 && hint < static_cast<int>(corners_.size())) nearest.test_face(p, hint);
-  tree_->search.traversal_with_priority(p, nearest);
-  if (nearest.face < 0)
-    return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitZ()}; // p is NaN
-  hint = nearest.face;
+  NearestFace nearest(tree_->facets.cbegin(), corners_, search_slack * scale);
+  if (hint.facet >= 0 && hint.facet < static_cast<int>(corners_.size())) {
+    nearest.test_face(p, hint.facet);
+    for (const std::int32_t n : surface_.triangles[hint.facet])
+      for (const std::int32_t f : faces_of_node_[n])
+        nearest.test_face(p, f);
+  }
+  Eigen::Map<Vec3> searched_at(hint.at);
+  const double moved = (p - searched_at).norm();
+  if (nearest.face < 0 || !(moved < double{hint.clear})) {
+    const bool slides = hint.facet >= 0 && moved < 0.5 * widest; // it will come again
+    tree_->search.traversal_with_priority(p, nearest);
+    if (nearest.face < 0)
+      return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitZ()}; // p is NaN
+    hint.clear = slides ? clear_way(p, nearest.face, std::sqrt(nearest.closest.distance2)) : 0.0F;
+    hint.facet = nearest.face;
+    searched_at = p;
+  }
 
   const auto f = static_cast<std::size_t>(nearest.face);
   const auto& [a, b, c] = corners_[f];

@@ -13,18 +13,23 @@ public:
   explicit MeshShape(TriMesh surface);
   ~MeshShape();
 
-  /// Signed distance (mm) and normal at p (mm, tool frame), as plyform::signed_distance. `hint`:
-  /// triangle to begin with, or -1; becomes the closest triangle. Thread-safe; allocates nothing.
-  SurfacePoint signed_distance(const Vec3& p, int& hint) const;
+  /// Signed distance (mm) and normal at p (mm, tool frame), as plyform::signed_distance. Sets
+  /// `hint` where it searches the closest facet. Thread-safe; allocates nothing.
+  SurfacePoint signed_distance(const Vec3& p, SurfaceHint& hint) const;
 
   const TriMesh& surface() const { return surface_; }
 
 private:
   struct Tree;
+  /// SurfaceHint::clear of p (mm, tool frame), whose closest triangle is `face`, at this distance
+  /// (mm).
+  float clear_way(const Vec3& p, int face, double distance) const;
+
   TriMesh surface_;
   Box3 bounds_;
   std::vector<std::array<Vec3, 3>> corners_; ///< mm, of each triangle, contiguous for the search
   std::vector<std::array<Vec3, 7>> normals_; ///< unit pseudo-normals by ClosestPoint::feature
+  std::vector<std::vector<std::int32_t>> faces_of_node_;
   std::unique_ptr<const Tree> tree_;
 };
 

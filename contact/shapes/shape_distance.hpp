@@ -103,50 +103,52 @@ inline double edge_of(const Box& b) {
 }
 
 inline auto distance_of(const Sphere& sphere) {
-  return [radius = sphere.radius](const Vec3& p, int&) -> SurfacePoint {
+  return [radius = sphere.radius](const Vec3& p, SurfaceHint&) -> SurfacePoint {
     const double d = p.norm();
     return {d - radius, d > 0.0 ? Vec3(p / d) : Vec3::UnitZ()};
   };
 }
 
 inline auto distance_of(const Cylinder& c) {
-  return [half = Vec2(c.radius, 0.5 * c.length), edge = edge_of(c)](const Vec3& p, int&) {
+  return [half = Vec2(c.radius, 0.5 * c.length), edge = edge_of(c)](const Vec3& p, SurfaceHint&) {
     return revolved(p, [&](const Vec2& q) { return rounded_box<2>(q, half, edge); });
   };
 }
 
 inline auto distance_of(const Box& box) {
-  return [half = Vec3(0.5 * box.size), edge = edge_of(box)](const Vec3& p, int&) -> SurfacePoint {
+  return [half = Vec3(0.5 * box.size), edge = edge_of(box)](const Vec3& p,
+                                                            SurfaceHint&) -> SurfacePoint {
     const auto [s, n] = rounded_box<3>(p, half, edge);
     return {s, n};
   };
 }
 
 inline auto distance_of(const Plane&) {
-  return [](const Vec3& p, int&) -> SurfacePoint { return {p.z(), Vec3::UnitZ()}; };
+  return [](const Vec3& p, SurfaceHint&) -> SurfacePoint { return {p.z(), Vec3::UnitZ()}; };
 }
 
 inline auto distance_of(const Annulus& a) {
-  return [ring = section_of(a)](const Vec3& p, int&) {
+  return [ring = section_of(a)](const Vec3& p, SurfaceHint&) {
     return revolved(
         p, [&](const Vec2& q) { return rounded_box<2>(q - ring.centre, ring.half, ring.edge); });
   };
 }
 
 inline auto distance_of(const RevolvedProfile& profile) {
-  return [section = SectionField(profile.segments)](const Vec3& p, int&) {
+  return [section = SectionField(profile.segments)](const Vec3& p, SurfaceHint&) {
     return revolved(p, [&](const Vec2& q) { return section.distance(q); });
   };
 }
 
 inline auto distance_of(const ExtrudedProfile& profile) {
-  return [section = SectionField(profile.segments), length = profile.length](const Vec3& p, int&) {
+  return [section = SectionField(profile.segments), length = profile.length](const Vec3& p,
+                                                                             SurfaceHint&) {
     return extruded(p, length, [&](const Vec2& q) { return section.distance(q); });
   };
 }
 
 inline auto distance_of(const MeshShapePtr& mesh) {
-  return [&mesh](const Vec3& p, int& hint) { return mesh->signed_distance(p, hint); };
+  return [&mesh](const Vec3& p, SurfaceHint& hint) { return mesh->signed_distance(p, hint); };
 }
 
 } // namespace plyform

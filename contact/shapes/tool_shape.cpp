@@ -75,7 +75,7 @@ bool both_ways(const Shape&) {
 
 } // namespace
 
-SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint) {
+SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, SurfaceHint& hint) {
   // one point: nothing to prepare
   if (const auto* profile = std::get_if<RevolvedProfile>(&shape))
     return revolved(p, [&](const Vec2& q) { return section_distance(profile->segments, q); });

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "contact/geometry.hpp"
+#include "contact/surface_hint.hpp"
 
 #include <filesystem>
 #include <memory>
@@ -82,10 +83,10 @@ struct SurfacePoint {
 };
 
 /// Signed distance (mm) and normal at p (mm, tool frame): shape_distance.hpp, profile.cpp,
-/// mesh_shape.cpp. `hint` is state that the caller keeps per point (initially -1); only meshes use
-/// it (the last closest triangle), to speed up the search, and the result does not depend on it.
+/// mesh_shape.cpp. `hint` is state that the caller keeps per point; only meshes use it, to spare
+/// the search, and the result does not depend on it.
 /// Defined for every finite p: on the medial axis one of the valid normals is returned.
-SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, int& hint);
+SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, SurfaceHint& hint);
 
 /// Triangles of about `size` mm for pictures and the exact check of intersections, in the tool
 /// frame. Unbounded shapes (plane) are cut at `extent` (mm from the origin). Nodes lie on the

@@ -6,6 +6,8 @@
 // separated by the empty lines below; the kernels assert the offsets of the rows that they load.
 #pragma once
 
+#include "contact/surface_hint.hpp"
+
 #include <cstdint>
 
 namespace plyform {
@@ -34,8 +36,10 @@ struct alignas(32) ToolPlyPoint {
   double gap = 0.0;      ///< mm, distance minus half thickness; infinite: inactive
   double last_gap = 0.0; ///< mm, gap of the step before; if inactive, that when deactivated
 
-  double normal[3] = {};        ///< unit normal in the global frame, when last measured
-  std::int32_t node, hint = -1; ///< hint: as of signed_distance
+  double normal[3] = {}; ///< unit normal in the global frame, when last measured
+  std::int32_t node, unused = 0;
+
+  SurfaceHint hint;
 };
 
 /// One slave node and one connected component of the master faces near it (a fold of the master has

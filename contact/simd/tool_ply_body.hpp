@@ -23,8 +23,8 @@ PLYFORM_INLINE ToolGroup group_of(const ToolPlyKernelContact& k, int first) {
   return g;
 }
 
-/// Rows of a ToolPlyPoint. The last column of the third holds node and hint, which are integers: it
-/// is not used as a number.
+/// Rows of a ToolPlyPoint. The last column of the third holds the node, an integer: it is not used
+/// as a number.
 enum ToolRow : std::size_t {
   memory_row = offsetof(ToolPlyPoint, memory.s),
   gap_row = offsetof(ToolPlyPoint, memory.normal_force),

@@ -124,7 +124,7 @@ void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
   for (std::size_t t = 0; t < check.scene.tools.size(); ++t) {
     const Tool& tool = check.scene.tools[t];
     double largest = 0.0;
-    int hint = -1, mirror_hint = -1;
+    SurfaceHint hint, mirror_hint;
     for (const Vec3& x : surfaces[t].x) {
       const Vec3 mirrored = x - 2.0 * (x - point).dot(normal) * normal;
       largest =

@@ -30,13 +30,14 @@ inline constexpr Choice<ElementKind> element_choices[] = {{"auto", ElementKind::
 inline constexpr Choice<Motion> motion_choices[] = {
     {"fixed", Motion::fixed}, {"driven", Motion::driven}, {"force", Motion::force}};
 
+inline constexpr Choice<SelfContact> self_choices[] = {
+    {"auto", SelfContact::automatic}, {"off", SelfContact::off}, {"on", SelfContact::on}};
+
 inline constexpr Choice<BoundaryKind> boundary_choices[] = {{"grip", BoundaryKind::grip},
                                                             {"frame", BoundaryKind::frame},
                                                             {"symmetry", BoundaryKind::symmetry},
                                                             {"spring", BoundaryKind::spring},
                                                             {"gripper", BoundaryKind::gripper}};
-
-inline constexpr Choice<bool> off_on_choices[] = {{"off", false}, {"on", true}};
 
 /// The words, in the order of the table.
 template <class Value, std::size_t count>

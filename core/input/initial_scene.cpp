@@ -30,7 +30,7 @@ bool covers(const FlatPly& ply, const Vec2& p) {
   return inside;
 }
 
-double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, int& hint) {
+double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, SurfaceHint& hint) {
   const Vec3 local = tool.rotation.transpose() * (p - shift - tool.position);
   return signed_distance(tool.shape, local, hint).distance;
 }
@@ -79,7 +79,7 @@ void visit_slab(const TriMesh& surface, double low, double high,
 std::vector<std::pair<double, double>> occupied(const Tool& tool, const Vec2& xy, double low,
                                                 double high) {
   constexpr double shortest_step = 1e-3; // mm; thinner parts of a tool may be missed
-  int hint = -1;
+  SurfaceHint hint;
   const auto distance = [&](double z) {
     return tool_distance(tool, Vec3::Zero(), Vec3(xy.x(), xy.y(), z), hint);
   };

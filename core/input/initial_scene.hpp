@@ -25,7 +25,7 @@ FlatPly make_flat_ply(BlankMesh mesh, double z, double thickness);
 bool covers(const FlatPly& ply, const Vec2& p);
 
 /// Signed distance (mm) of p (space) to the tool moved by `shift`; `hint` as for signed_distance.
-double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, int& hint);
+double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, SurfaceHint& hint);
 
 /// The tool's surface in space as triangles of `size` (mm), but between 1/300 and 1/60 of its
 /// diagonal. Planes extend `extent` mm from the tool's origin.

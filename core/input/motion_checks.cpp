@@ -20,7 +20,7 @@ std::size_t stride_for(std::size_t count, std::size_t most) {
 
 /// Whether the tool, `distance` from p after its way so far, goes away from p and not on to it or
 /// along it.
-bool leaves(const Tool& tool, double travel, const Vec3& p, double distance, int& hint) {
+bool leaves(const Tool& tool, double travel, const Vec3& p, double distance, SurfaceHint& hint) {
   constexpr double little = 0.05, cosine = 0.1; // mm, of the way on
   const double next = tool_distance(tool, (travel + little) * tool.direction, p, hint);
   return next - distance > cosine * little;
@@ -28,7 +28,7 @@ bool leaves(const Tool& tool, double travel, const Vec3& p, double distance, int
 
 /// mm that the tool moves along its direction until its surface is `half` from p; infinite if not
 /// within `reach`. Steps by the distance, which is never too far.
-double travel_to(const Tool& tool, const Vec3& p, double half, double reach, int& hint) {
+double travel_to(const Tool& tool, const Vec3& p, double half, double reach, SurfaceHint& hint) {
   constexpr double touch = 1e-3; // mm
   constexpr int most_steps = 200;
   double travel = 0.0;
@@ -124,7 +124,7 @@ void check_pushed(MotionCheck& check, std::size_t t) {
 std::pair<double, Vec3> depth_at_start(const MotionCheck& check, std::size_t a, std::size_t b) {
   const std::vector<Vec3>& points = check.surfaces[a].x;
   std::pair<double, Vec3> deepest{0.0, Vec3::Zero()};
-  int own = -1, other = -1;
+  SurfaceHint own, other;
   for (std::size_t i = 0; i < points.size(); i += stride_for(points.size(), most_points)) {
     const Vec3& p = points[i];
     if (!check.bounds.contains(p.head<2>())) continue;
@@ -221,7 +221,7 @@ ToolWay way_of(const Tool& tool, const TriMesh& surface, const std::vector<FlatP
   };
   for (std::size_t i = 0; i < plies.size(); ++i) {
     const FlatPly& ply = plies[i];
-    int hint = -1, moved = -1;
+    SurfaceHint hint, moved;
     for (std::size_t n = 0; n < ply.mesh.x.size(); n += stride_for(ply.mesh.x.size(), most_nodes)) {
       const Vec3 p(ply.mesh.x[n].x(), ply.mesh.x[n].y(), ply.z);
       const double gap = tool_distance(tool, Vec3::Zero(), p, hint) - ply.half;

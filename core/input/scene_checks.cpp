@@ -138,7 +138,7 @@ struct Intrusion {
 Intrusion find_intrusion(const SceneCheck& check, std::size_t tool_number) {
   const Tool& tool = check.scene.tools[tool_number];
   Intrusion found;
-  int hint = -1; // neighbouring nodes have neighbouring closest triangles
+  SurfaceHint hint; // neighbouring nodes have neighbouring closest triangles
   for (std::size_t i = 0; i < check.plies.size(); ++i) {
     const FlatPly& ply = check.plies[i];
     for (const Vec2& x : ply.mesh.x) {
@@ -201,7 +201,7 @@ bool inside_out(const SceneCheck& check, std::size_t tool_number) {
   const Tool& tool = check.scene.tools[tool_number];
   if (!std::holds_alternative<MeshShapePtr>(tool.shape) || is_closed(check.surfaces[tool_number]))
     return false;
-  int hint = -1;
+  SurfaceHint hint;
   for (const FlatPly& ply : check.plies)
     for (const Vec2& x : ply.mesh.x)
       if (-tool_distance(tool, Vec3::Zero(), Vec3(x.x(), x.y(), ply.z), hint) < ply.half - touching)
@@ -259,7 +259,7 @@ double approach(const SceneCheck& check, std::size_t a, std::size_t b) {
   const Tool &ta = check.scene.tools[a], &tb = check.scene.tools[b];
   const Vec3 shift_a = stroke_of(ta), shift_b = stroke_of(tb);
   double least = std::numeric_limits<double>::infinity();
-  int hint_a = -1, hint_b = -1;
+  SurfaceHint hint_a, hint_b;
   for (const Vec3& x : check.surfaces[a].x) {
     const Vec3 p = x + shift_a;
     if (!check.bounds.contains(p.head<2>())) continue;

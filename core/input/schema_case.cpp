@@ -106,10 +106,10 @@ Rows contact_rows() {
            .members = {to(&ContactOptions::skin)}},
           {.key = "contact.self",
            .kind = K::choice,
-           .fallback = "\"off\"",
-           .choices = words_of(off_on_choices),
-           .meaning = "contact of each ply with itself, where it folds over",
-           .members = {to(&ContactOptions::self, off_on_choices)}}};
+           .fallback = "\"auto\"",
+           .choices = words_of(self_choices),
+           .meaning = "contact of each ply with itself, where it folds over; auto: in a stack",
+           .members = {to(&ContactOptions::self, self_choices)}}};
 }
 
 Rows solver_rows() {

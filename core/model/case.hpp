@@ -113,11 +113,17 @@ struct SolverOptions {
   double checkpoint_interval = 60.0; ///< s of wall time
 };
 
+enum class SelfContact {
+  automatic, ///< in a stack of two plies or more
+  off,
+  on,
+};
+
 struct ContactOptions {
   double stiffness = 0.1; ///< omega^2 of a free node on it over that of the elements
   double damping = 0.2;   ///< fraction of critical
   double skin = 0.0;      ///< mm, search distance beyond contact; 0: from the element size
-  bool self = false;      ///< self-contact of plies
+  SelfContact self = SelfContact::automatic;
 };
 
 /// Requested accuracy relative to a converged run (core/accuracy/error_model.hpp).
@@ -145,6 +151,12 @@ struct Case {
   SolverOptions solver;
   ContactOptions contact;
   AccuracyOptions accuracy;
+
+  /// Whether each ply is in contact with itself, too.
+  bool self_contact() const {
+    return contact.self == SelfContact::on ||
+           (contact.self == SelfContact::automatic && plies.size() > 1);
+  }
 };
 
 } // namespace plyform

@@ -144,7 +144,7 @@ double height_above_tools(const Line& line, const std::vector<const ToolBody*>& 
                           double half_wave) {
   double least = std::numeric_limits<double>::infinity();
   for (const ToolBody* tool : tools) {
-    int hint = -1;
+    SurfaceHint hint;
     const SurfacePoint nearest = distance_to_tool(*tool, line[2]->x, hint);
     if (std::abs(nearest.distance) > half_wave ||
         std::abs(nearest.normal.dot(line[2]->normal)) < facing)

@@ -217,7 +217,7 @@ void describe_pressure(const Scene& s, std::size_t tool, const ToolWay& way, Lin
   const PlyState& ply = s.plies[way.first];
   if (t.motion != Motion::force || t.force == 0.0) return;
   double area = 0.0;
-  int hint = -1;
+  SurfaceHint hint;
   for (std::size_t n = 0; n < ply.x0.size(); ++n)
     if (tool_distance(t, way.travel * t.direction, ply.x0[n], hint) < 1.5 * ply.thickness)
       area += ply.membrane.node_area[n];

@@ -60,7 +60,7 @@ std::vector<Ridge> ridges_of(const TriMesh& surface) {
 struct Chords {
   const Tool& tool;
   double half; ///< mm, of the thickness
-  mutable int hint = -1;
+  mutable SurfaceHint hint;
 
   double distance(const Vec3& p) const { return tool_distance(tool, Vec3::Zero(), p, hint); }
 
@@ -117,7 +117,7 @@ std::vector<Vec3> draws_on(const Case& data, std::size_t tool) {
 Vec3 side_of(const Tool& tool, const PlyState& ply) {
   double least = std::numeric_limits<double>::infinity();
   Vec3 side = Vec3::UnitZ();
-  int hint = -1;
+  SurfaceHint hint;
   for (const Vec3& x : ply.x0) {
     const Vec3 local = tool.rotation.transpose() * (x - tool.position);
     const SurfacePoint found = signed_distance(tool.shape, local, hint);

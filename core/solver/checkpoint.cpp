@@ -28,7 +28,7 @@ template <class Archive>
 void visit(Archive& a, PlyState& ply) {
   visit(a, static_cast<PlyKinematics&>(ply));
   visit(a, ply.x_search, ply.max_displacement, ply.path_length, ply.fold_bound,
-        ply.fold_bound_displacement, ply.occluded[0], ply.occluded[1]);
+        ply.fold_bound_displacement, ply.occluded[0], ply.occluded[1], ply.unfolded);
   visit(a, ply.bound, ply.eigenvalue_ratio, ply.lanczos_contacts, ply.mass);
   visit(a, ply.membrane.last_lambda, ply.membrane.last_viscous);
   if (ply.simd) visit(a, ply.simd->viscosity);
@@ -69,14 +69,9 @@ void visit(Archive& a, PlyContact& pair) {
 }
 
 template <class Archive>
-void visit(Archive& a, EdgeGroup& group) {
-  visit(a, group.patch, group.path_length, group.candidates, group.list, group.pairs);
-}
-
-template <class Archive>
 void visit(Archive& a, PlyEdgeContact& pair) {
   EdgeEdgeContact& c = pair.contact;
-  visit(a, c.groups, c.sums, c.renew_depth);
+  visit(a, c.candidates, c.groups, c.pairs, c.sums, c.renew_depth);
 }
 
 template <class Archive>

@@ -2,6 +2,7 @@
 #include "core/solver/contact_search.hpp"
 
 #include "contact/point_triangle.hpp"
+#include "contact/search/unfolded.hpp"
 #include "core/solver/pass_through.hpp"
 
 #include <algorithm>
@@ -68,10 +69,13 @@ void mark_occluded(PlyState& slave, const PlyContact& pair, const PlyState& mast
   }
 }
 
-/// Per node of the slave whether an adjacent ply occludes it from the master; empty: none is.
+/// Per node of the slave whether it cannot touch the master, as an adjacent ply occludes it or, in
+/// self-contact, its ply is not folded there; empty: every node may.
 std::span<const char> occluded_nodes(const Scene& s, int slave_ply, int master_ply, double reach) {
-  if (slave_ply == master_ply || next_ply(slave_ply, master_ply) == master_ply) return {};
   const PlyState& slave = s.plies[slave_ply];
+  if (slave_ply == master_ply)
+    return reach > slave.thickness + s.skin ? std::span<const char>() : slave.unfolded;
+  if (next_ply(slave_ply, master_ply) == master_ply) return {};
   const PlyState& between = s.plies[next_ply(slave_ply, master_ply)];
   // Occluding plies were searched within contact distance + skin only: not valid for a larger
   // reach.
@@ -98,7 +102,7 @@ void search_plies(Scene& s, PlyContact& pair) {
 }
 
 /// Numbers of the edges of a ply that may touch the ply `other`: all but those with both nodes
-/// occluded by a ply in between.
+/// occluded, as of occluded_nodes.
 std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double reach) {
   const PlyState& body = s.plies[ply];
   const std::span<const char> occluded = occluded_nodes(s, ply, other, reach);
@@ -206,6 +210,9 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
     update_ply_fold_bounds(s, ply);
+    if (s.data.self_contact())
+      find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x, ply.thickness,
+                    s.skin, ply.unfolded);
   });
   // Adjacent plies first: the nodes that they occlude are skipped for the plies beyond.
   std::array<std::vector<PlyContact*>, 2> pairs;

@@ -88,7 +88,7 @@ private:
   const ToolBody& tool_;
   double half_;
   double depth_ = 0.0;
-  int hint_ = -1; // of the last point: successive points are mostly near each other
+  SurfaceHint hint_; // of the last point: successive points are mostly near each other
 };
 
 } // namespace

@@ -56,7 +56,7 @@ bool meets_tool(const ToolBody& tool, const Vec3& from, const Vec3& displacement
   constexpr int most = 1000;      // limit of the number of steps
   constexpr double nearly = 1e-3; // mm
   const double length = displacement.norm();
-  int hint = -1;
+  SurfaceHint hint;
   double gone = 0.0;
   for (int i = 0; i < most && gone < length; ++i) {
     const double free = distance_to_tool(tool, from + gone / length * displacement, hint).distance;
@@ -68,7 +68,7 @@ bool meets_tool(const ToolBody& tool, const Vec3& from, const Vec3& displacement
 
 /// Whether a node left, or is about to leave, the tool on the side opposite to that on which it
 /// entered: the normal has reversed. Around an edge of a solid it rotates by less.
-bool passed(const ToolBody& tool, const Vec3& x, const Vec3& displacement, int hint) {
+bool passed(const ToolBody& tool, const Vec3& x, const Vec3& displacement, SurfaceHint hint) {
   const SurfacePoint now = distance_to_tool(tool, x, hint);
   if (now.distance >= displacement.norm()) return false; // the tool is not on its path
   const SurfacePoint before = distance_to_tool(tool, x - displacement, hint);

@@ -186,9 +186,9 @@ void finish(const Scene& s, const RunState& state, RunResult& result, int thread
           fmt::format("the plies overlap: {} pairs of triangles of different plies cross in "
                       "the final state; a finer mesh or a longer solver.duration may help",
                       sum.contact.intersections_between_plies));
-  stop_if(s.data.contact.self && sum.contact.intersections_within_plies > 0,
+  stop_if(s.data.self_contact() && sum.contact.intersections_within_plies > 0,
           fmt::format("a ply goes through itself: {} pairs of triangles of one ply cross in the "
-                      "final state, though contact.self is on; a finer mesh or a longer "
+                      "final state, though it is in contact with itself; a finer mesh or a longer "
                       "solver.duration may help",
                       sum.contact.intersections_within_plies));
   doubt_if(doubts(s, result.last, sum.plies, cuts), sum);

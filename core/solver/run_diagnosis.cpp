@@ -107,7 +107,7 @@ std::vector<std::string> too_much(const Scene& s, const Energies& e, const WorkR
     if (std::none_of(t.contacts.begin(), t.contacts.end(),
                      [](const ToolPlyContact& c) { return c.sums.deepest > 0.0; }))
       found.push_back(fmt::format("tool {}: no ply ever touched it", t.name));
-  if (s.data.contact.self &&
+  if (s.data.contact.self == SelfContact::on &&
       std::none_of(w.pairs.begin(), w.pairs.end(),
                    [](const PairReport& pair) { return pair.a == pair.b && pair.touched(); }))
     found.push_back(fmt::format("contact.self: no ply ever touched itself"));
@@ -163,7 +163,7 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
     found.push_back(fmt::format("tensile stiffness: yarns of {} are {:.2g} % longer, softened by "
                                 "{:g}; a smaller solver.fibre_softening makes it less",
                                 ply, 100.0 * strain, by));
-  if (c.intersections_within_plies > 0 && !s.data.contact.self)
+  if (c.intersections_within_plies > 0 && !s.data.self_contact())
     found.push_back(fmt::format("self-contact: {} pairs of triangles of one ply cross; "
                                 "contact.self = \"on\" keeps folds apart",
                                 c.intersections_within_plies));

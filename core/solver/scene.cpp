@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/scene.hpp"
 
+#include "contact/search/unfolded.hpp"
 #include "core/mesh/mesh_ply.hpp"
 
 #include <algorithm>
@@ -54,6 +55,7 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
     body.q.resize(mesh.triangles.size());
   }
   body.edges = sheet_edges(body.membrane.triangles, body.x0);
+  body.convex = is_convex(body.x0, body.membrane.triangles);
   body.touches_boundary_edge = faces_on_rim(body.edges.all, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   body.bound = eigenvalue_bound(body.membrane, body.x);
@@ -208,7 +210,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
   const int n = static_cast<int>(s.plies.size());
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b)
-      if (a != b || data.contact.self) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
+      if (a != b || data.self_contact()) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
   for (const PlyContact& pair : s.ply_contacts)
     if (pair.slave <= pair.master) {
       PlyEdgeContact edges{pair.slave, pair.master, {}};

@@ -35,6 +35,7 @@ struct PlyModel {
   BendingSimd bending_simd;         ///< SIMD version of the bending, or empty
   SheetEdges edges;
   std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
+  bool convex = false;                     ///< contact/search/unfolded.hpp
 };
 
 /// Position and velocity of a ply: the state that a restart must keep.
@@ -54,7 +55,8 @@ struct PlySearch {
   std::vector<double> fold_bound;            ///< contact/search/fold_bound.hpp, one per triangle
   double fold_bound_displacement = 0.0;      ///< mm, max_displacement when it was last computed
   std::array<std::vector<char>, 2> occluded; ///< per node, by the adjacent ply below [0], above [1]
-  double search_seconds = 0.0;               ///< s, refitting the tree, computing fold bounds
+  std::vector<char> unfolded; ///< per node, contact/search/unfolded.hpp; empty without self-contact
+  double search_seconds = 0.0; ///< s, refitting the tree, computing fold bounds
 };
 
 /// Bounds that limit the stable time step (core/solver/stable_time_step.hpp).

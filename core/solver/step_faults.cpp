@@ -32,13 +32,13 @@ bool crosses_itself(const PlyState& ply) {
   return !find_intersections(sheet).within.empty();
 }
 
-/// What to do about plies that are where they cannot be: `advice`, unless one of them (numbers; -1:
-/// none) has folded through itself.
-std::string remedy_for(const Scene& s, int a, int b, const char* advice) {
-  const auto folded = [&s](int p) { return p >= 0 && crosses_itself(s.plies[p]); };
-  if (!s.data.contact.self && (folded(a) || folded(b)))
-    return "one of them has folded through itself: set contact.self = \"on\"";
-  return advice;
+/// What to do about plies that are where they cannot be: `advice`, unless a ply has folded through
+/// itself, which its neighbours feel as well.
+std::string remedy_for(const Scene& s, const char* advice) {
+  if (s.data.self_contact()) return advice;
+  const auto folded = std::find_if(s.plies.begin(), s.plies.end(), crosses_itself);
+  if (folded == s.plies.end()) return advice;
+  return fmt::format("ply {} has folded through itself: set contact.self = \"on\"", folded->name);
 }
 
 } // namespace
@@ -63,9 +63,8 @@ std::optional<Stop> find_fault(const Scene& s) {
         "{:.3g} mm; {}",
         when(s), slave.name, fault.node, master.name, fault.face, fault.distance,
         pair.contact.distance,
-        remedy_for(s, pair.slave, pair.master,
-                   "give the stack more room between the tools, a slower stroke, or a smaller "
-                   "solver.step_factor"))};
+        remedy_for(s, "give the stack more room between the tools, a slower stroke, or a smaller "
+                      "solver.step_factor"))};
   }
   return std::nullopt;
 }
@@ -74,7 +73,6 @@ std::optional<Stop> find_squeezed(const Scene& s) {
   constexpr double least = 1e-4; // of the longest step: with less the run would practically not end
   if (s.next_dt > least * s.max_dt) return std::nullopt;
   std::string who = "plies";
-  int one = -1, other = -1; // the plies among them
   double ratio = std::numeric_limits<double>::infinity();
   const auto first = [&ratio](const ContactTotals& sums) {
     const bool closer = sums.step_ratio < ratio;
@@ -89,28 +87,21 @@ std::optional<Stop> find_squeezed(const Scene& s) {
   const auto ply = [&s](int p) -> const std::string& { return s.plies[p].name; };
   for (const ToolState& t : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
-      if (first(t.contacts[p].sums)) {
+      if (first(t.contacts[p].sums))
         who = fmt::format("ply {}, node {}, and tool {}", s.plies[p].name,
                           deepest(t.contacts[p].points), t.name);
-        one = static_cast<int>(p), other = -1;
-      }
   for (const PlyContact& pair : s.ply_contacts)
-    if (first(pair.contact.sums)) {
+    if (first(pair.contact.sums))
       who = fmt::format("ply {}, node {}, and ply {}", ply(pair.slave),
                         deepest(pair.contact.points), ply(pair.master));
-      one = pair.slave, other = pair.master;
-    }
   for (const PlyEdgeContact& pair : s.edge_contacts)
-    if (first(pair.contact.sums)) {
+    if (first(pair.contact.sums))
       who = fmt::format("edges of plies {} and {}", ply(pair.a), ply(pair.b));
-      one = pair.a, other = pair.b;
-    }
   return Stop{fmt::format("{}: {} are squeezed: the step in which they keep apart has fallen from "
                           "{:.2g} to {:.2g} s; {}",
                           when(s), who, s.max_dt, s.next_dt,
-                          remedy_for(s, one, other,
-                                     "give the stack more room between the tools, a slower "
-                                     "stroke, or a pushed tool less force"))};
+                          remedy_for(s, "give the stack more room between the tools, a slower "
+                                        "stroke, or a pushed tool less force"))};
 }
 
 std::optional<Stop> find_collapsed(const Scene& s) {

@@ -13,7 +13,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const auto file = fuzz::put("mesh." PLYFORM_FUZZ_FORMAT, data, size);
   try {
     const ToolShape tool = load_tool_mesh(file, 1.0, nullptr);
-    int hint = -1;
+    SurfaceHint hint;
     for (const Vec3& p : {Vec3(0, 0, 0), Vec3(1, 2, 3), Vec3(-1e3, 5, 1e-9)})
       if (!std::isfinite(signed_distance(tool, p, hint).distance)) std::abort();
   } catch (const std::runtime_error&) {

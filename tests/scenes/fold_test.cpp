@@ -42,7 +42,7 @@ Scene folded_strip(const std::vector<double>& folds, bool self) {
   Case data = stack_of({0.0}, rectangle(60.0, 20.0, cell));
   data.fabrics = {fabric};
   press_by_plate(data);
-  data.contact.self = self;
+  data.contact.self = self ? SelfContact::on : SelfContact::off;
   const double top = folded_place(-30.0, folds, 30.0).y() + 0.5 * fabric.thickness;
   data.tools[1].position.z() = top + 5.0;
   Scene s = make_scene(data);

@@ -32,7 +32,7 @@ EndedRun watch(const std::function<Scene()>& make, Seen& seen) {
     for (std::size_t t = 0; t < tools.size(); ++t)
       for (const PlyFrame& ply : f.plies)
         for (const Vec3& x : ply.x) {
-          int hint = -1;
+          SurfaceHint hint;
           const Vec3 p =
               tools[t].rotation.transpose() * (x - tools[t].position - f.tools[t].displacement);
           const double d = signed_distance(tools[t].shape, p, hint).distance;

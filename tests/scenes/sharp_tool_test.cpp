@@ -43,7 +43,7 @@ double sampled_depth(const Scene& s) {
         const double w[] = {double(i) / parts, double(j) / parts, double(parts - i - j) / parts};
         for (std::size_t k = 0; k < 3; ++k)
           x += w[k] * s.plies[0].x[t[k]];
-        int hint = -1;
+        SurfaceHint hint;
         depth = std::max(depth, 0.3 - distance_to_tool(s.tools[0].body, x, hint).distance);
       }
   return depth;

@@ -11,7 +11,7 @@
 namespace plyform::testing {
 
 inline SurfacePoint ask(const ToolShape& shape, const Vec3& p) {
-  int hint = -1;
+  SurfaceHint hint;
   return signed_distance(shape, p, hint);
 }
 

@@ -36,7 +36,7 @@ Vec3 near_tool(const ToolBody& tool, double low, double high, Random& random) {
   for (;;) {
     const Vec3 local = 40.0 * random_vector(random);
     const Vec3 x = tool.rotation * local + tool.position + tool.displacement;
-    int hint = -1;
+    SurfaceHint hint;
     const double d = distance_to_tool(tool, x, hint).distance;
     if (d > low && d < high) return x;
   }
@@ -159,7 +159,7 @@ TEST(ToolPlyContact, ListsEveryNodeWithinReach) {
     find_tool_ply_points(contact, tool, nodes.state(), 0.5, all_ways);
     std::size_t next = 0;
     for (std::size_t n = 0; n < x.size(); ++n) {
-      int hint = -1;
+      SurfaceHint hint;
       if (distance_to_tool(tool, x[n], hint).distance - half_thickness > 0.5) continue;
       ASSERT_LT(next, contact.points.size());
       EXPECT_EQ(contact.points[next++].node, static_cast<int>(n));

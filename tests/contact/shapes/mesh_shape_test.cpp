@@ -187,15 +187,41 @@ TEST(MeshShape, AnswerDoesNotDependOnHint) {
     RandomPoints random(8);
     const auto faces = static_cast<int>(surface.triangles.size());
     for (const Vec3& p : points) {
-      int found = -1;
+      SurfaceHint found;
       const SurfacePoint unaided = signed_distance(mesh, p, found);
-      ASSERT_TRUE(found >= 0 && found < faces);
+      ASSERT_TRUE(found.facet >= 0 && found.facet < faces);
       for (int k = 0; k < 8; ++k) {
-        int hint = k == 0 ? found : k == 1 ? faces + 5 : static_cast<int>(random.in(0, faces));
+        SurfaceHint hint;
+        hint.facet = k == 0   ? found.facet
+                     : k == 1 ? faces + 5
+                              : static_cast<int>(random.in(0, faces));
         ASSERT_TRUE(same_bits(signed_distance(mesh, p, hint), unaided)) << p.transpose();
-        ASSERT_EQ(hint, found) << p.transpose();
+        ASSERT_EQ(hint.facet, found.facet) << p.transpose();
       }
     }
+  }
+}
+
+TEST(MeshShape, PointThatSlidesGetsTheSameAnswersWithFewerSearches) {
+  for (const TriMesh& surface : solids()) {
+    const ToolShape mesh = make_mesh_shape(surface, nullptr);
+    RandomPoints random(9);
+    int searches = 0, steps = 0;
+    const auto points = telling_points(surface, 60, 10);
+    for (std::size_t start = 0; start < points.size(); ++start) {
+      const Vec3 step(random.in(-0.004, 0.004), random.in(-0.004, 0.004), random.in(-0.004, 0.004));
+      SurfaceHint kept;
+      for (int i = 0; i < 200; ++i) {
+        const Vec3 p = points[start] + i * step, before(kept.at[0], kept.at[1], kept.at[2]);
+        SurfaceHint fresh;
+        ASSERT_TRUE(same_bits(signed_distance(mesh, p, kept), signed_distance(mesh, p, fresh)))
+            << p.transpose();
+        if (start % 3 != 0) continue; // begins on an edge, or on the surface
+        searches += Vec3(kept.at[0], kept.at[1], kept.at[2]) != before ? 1 : 0;
+        ++steps;
+      }
+    }
+    EXPECT_LT(searches, steps / 4);
   }
 }
 
@@ -207,7 +233,7 @@ TEST(MeshShape, ThreadsGetTheSameAnswers) {
   std::vector<std::thread> threads;
   for (auto& answer : answers)
     threads.emplace_back([&] {
-      int hint = -1;
+      SurfaceHint hint;
       for (const Vec3& p : points)
         answer.push_back(signed_distance(mesh, p, hint));
     });

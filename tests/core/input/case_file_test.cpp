@@ -240,7 +240,7 @@ TEST(CaseFile, ReadsShapesOfTools) {
   EXPECT_DOUBLE_EQ(ring.inner_radius, 12.0);
   EXPECT_DOUBLE_EQ(ring.edge_radius, 1.0);
   const auto distance = [&](std::size_t tool, const Vec3& p) {
-    int hint = -1;
+    SurfaceHint hint;
     return signed_distance(c.tools[tool].shape, p, hint).distance;
   };
   // Middles of the arc and of the fillet, 2 mm about (14, -2) and (28, -2), and 1 mm above each.
@@ -257,7 +257,7 @@ TEST(CaseFile, ReadsConesToriAndExtrusions) {
   const Case c = good_case(data / "good/profile_shapes.toml");
   ASSERT_EQ(c.tools.size(), 4u);
   const auto distance = [&](std::size_t tool, const Vec3& p) {
-    int hint = -1;
+    SurfaceHint hint;
     return signed_distance(c.tools[tool].shape, p, hint).distance;
   };
   EXPECT_NEAR(distance(0, {0, 0, 3}), 1.0, 1e-12);   // above the top

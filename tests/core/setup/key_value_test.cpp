@@ -24,7 +24,7 @@ TEST(KeyValue, IsOfTheFileOfItsFabricAnOverrideOrTheDefault) {
   EXPECT_EQ(number_of("fabrics.glass.weft.stiffness"), 48000.0);
   EXPECT_EQ(number_of("ply.0.angle", {{"ply.0.angle", "30"}}), 30.0); // degrees, as in the file
   EXPECT_EQ(number_of("stack.bottom"), 0.0);
-  EXPECT_EQ(value_of("contact.self", {})->text, "off");
+  EXPECT_EQ(value_of("contact.self", {})->text, "auto");
   EXPECT_FALSE(value_of("fabrics.glass.warp.buckling_force", {}));
 }
 

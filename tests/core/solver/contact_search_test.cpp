@@ -74,7 +74,7 @@ void expect_all_nodes(const Scene& s, const ToolState& tool, Touching& touching)
     for (const ToolPlyPoint& c : contact.points)
       gap[c.node] = c.gap;
     for (std::size_t n = 0; n < gap.size(); ++n) {
-      int hint = -1;
+      SurfaceHint hint;
       const double expected = distance_to_tool(tool.body, s.plies[p].x[n], hint).distance - half;
       if (expected > -rounding) continue;
       ++touching.tools;

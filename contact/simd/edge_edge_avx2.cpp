@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/simd/edge_edge_body.hpp"
+
+namespace plyform {
+
+void edge_edge_kernel_avx2(const EdgeEdgeKernelPairs& pairs, EdgeEdgeDistance* distances) {
+  measure_edges(pairs, distances);
+}
+
+} // namespace plyform
