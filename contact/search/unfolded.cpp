@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/search/unfolded.hpp"
 
-#include <CGAL/Simple_cartesian.h>
+#include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/box_intersection_d.h>
 #include <CGAL/convex_hull_2.h>
 #include <algorithm>
@@ -11,7 +11,7 @@
 namespace plyform {
 namespace {
 
-using Plane = CGAL::Simple_cartesian<double>;
+using Plane = CGAL::Exact_predicates_inexact_constructions_kernel;
 
 /// (C) at the search. Until the next one sides of triangles turn by up to half a skin at either end
 /// over their length, with a skin of 0.3 elements some 30 degrees of the 60.

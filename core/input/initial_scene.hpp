@@ -6,6 +6,7 @@
 #include "core/model/case.hpp"
 
 #include <functional>
+#include <limits>
 #include <utility>
 #include <vector>
 
@@ -23,6 +24,14 @@ FlatPly make_flat_ply(BlankMesh mesh, double z, double thickness);
 
 /// Whether p (mm) lies inside the ply's mesh: an odd number of border edges is to its right.
 bool covers(const FlatPly& ply, const Vec2& p);
+
+/// The distance (mm) to a tool at the last place asked, for searches of the least of many: a
+/// distance changes by no more than the way between two places, so most need not be asked.
+struct LastDistance {
+  Vec3 at = Vec3::Zero();
+  double distance = -std::numeric_limits<double>::infinity();
+  double at_least(const Vec3& p) const { return distance - (p - at).norm(); }
+};
 
 /// Signed distance (mm) of p (space) to the tool moved by `shift`; `hint` as for signed_distance.
 double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, SurfaceHint& hint);

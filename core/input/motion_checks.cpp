@@ -125,12 +125,14 @@ std::pair<double, Vec3> depth_at_start(const MotionCheck& check, std::size_t a, 
   const std::vector<Vec3>& points = check.surfaces[a].x;
   std::pair<double, Vec3> deepest{0.0, Vec3::Zero()};
   SurfaceHint own, other;
+  LastDistance last;
   for (std::size_t i = 0; i < points.size(); i += stride_for(points.size(), most_points)) {
     const Vec3& p = points[i];
-    if (!check.bounds.contains(p.head<2>())) continue;
+    if (!check.bounds.contains(p.head<2>()) || -last.at_least(p) <= deepest.first) continue;
+    last = {p, tool_distance(check.scene.tools[b], Vec3::Zero(), p, other)};
     // the tessellation's corner may lie beside the true surface by rounding
     const double off = std::abs(tool_distance(check.scene.tools[a], Vec3::Zero(), p, own));
-    const double depth = -tool_distance(check.scene.tools[b], Vec3::Zero(), p, other) - off;
+    const double depth = -last.distance - off;
     if (depth > deepest.first) deepest = {depth, p};
   }
   return deepest;

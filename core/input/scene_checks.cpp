@@ -260,12 +260,13 @@ double approach(const SceneCheck& check, std::size_t a, std::size_t b) {
   const Vec3 shift_a = stroke_of(ta), shift_b = stroke_of(tb);
   double least = std::numeric_limits<double>::infinity();
   SurfaceHint hint_a, hint_b;
+  LastDistance last;
   for (const Vec3& x : check.surfaces[a].x) {
     const Vec3 p = x + shift_a;
-    if (!check.bounds.contains(p.head<2>())) continue;
+    if (!check.bounds.contains(p.head<2>()) || last.at_least(p) - surface_error > least) continue;
+    last = {p, tool_distance(tb, shift_b, p, hint_b)};
     // Corrected by the distance of the tessellation's corner from the true surface.
-    const double off = tool_distance(ta, shift_a, p, hint_a);
-    least = std::min(least, tool_distance(tb, shift_b, p, hint_b) + off);
+    least = std::min(least, last.distance + tool_distance(ta, shift_a, p, hint_a));
   }
   return least;
 }

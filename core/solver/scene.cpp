@@ -210,7 +210,9 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
   const int n = static_cast<int>(s.plies.size());
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b)
-      if (a != b || data.self_contact()) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
+      if (a != b) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
+  for (int a = 0; a < n && data.self_contact(); ++a)
+    s.ply_contacts.push_back(make_pair(data, s.plies, a, a));
   for (const PlyContact& pair : s.ply_contacts)
     if (pair.slave <= pair.master) {
       PlyEdgeContact edges{pair.slave, pair.master, {}};

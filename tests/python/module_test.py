@@ -42,7 +42,7 @@ def check_values(_):
     """A key's value is the file's, a default, one that was set, or picked."""
     case = plyform.Case(HEMISPHERE / "case.toml")
     assert case.get("contact.friction") == 0.2 and case.get("solver.outputs") == 20
-    assert case.get("contact.self") == "off" and case.get("stack.bottom") == 0.0  # defaults
+    assert case.get("contact.self") == "auto" and case.get("stack.bottom") == 0.0  # defaults
     assert case.get("fabrics.glass.warp.stiffness") == 46000.0  # of the file that is named there
     assert case.get("tool.0.position.2") == 75.6 and case.get("ply")[0]["blank"] == "square"
     assert case.get("fabrics.glass.warp.compression_stiffness") is None
