@@ -40,6 +40,7 @@ std::vector<Vec3> contact_forces(const Scene& s) {
   std::vector<Vec3> f[2] = {std::vector<Vec3>(s.plies[0].x.size(), Vec3::Zero()),
                             std::vector<Vec3>(s.plies[1].x.size(), Vec3::Zero())};
   for (const PlyPair& pair : s.ply_pairs) {
+    if (pair.a == pair.b) continue; // a ply with itself
     for (std::size_t n = 0; n < f[pair.a].size(); ++n)
       f[pair.a][n] += pair.force_a[n];
     for (std::size_t n = 0; n < f[pair.b].size(); ++n)
