@@ -110,8 +110,8 @@ void set_band(VerifiedFigure& f) {
   const double squares = std::sqrt(f.mesh * f.mesh + f.inertia * f.inertia +
                                    f.softening * f.softening + f.chance * f.chance);
   const double sum = std::abs(f.mesh + f.inertia + f.softening);
-  const double error = f.force ? std::max({squares, sum, f.jitter}) : squares;
-  f.band = std::max(safety * error, safety_of_chance * f.chance);
+  f.band = std::max({safety * (f.force ? std::max(squares, sum) : squares),
+                     safety_of_jitter * f.jitter, safety_of_chance * f.chance});
 }
 
 double force_jitter(const Case& data, const Frame& last) {

@@ -86,7 +86,7 @@ TEST(Correction, LeavesAParameterThatIsBetterThanNeeded) {
 TEST(Correction, LeavesWhatWasSetByHandAndSaysWhenNothingHelps) {
   const PreparedCase by_hand = small_hemisphere(1.0, {{"blanks.square.element_size", "6.8"}});
   EXPECT_TRUE(by_hand.fixed.element_size);
-  const Verification v = with_errors(0.6, 0.6, 0.5);
+  const Verification v = with_errors(0.5, 0.6, 0.5);
   const AskedAccuracy a = corrected_case(*by_hand.value, v, by_hand.fixed).asked;
   EXPECT_EQ(a.element_size, 1.0);
   EXPECT_GT(a.duration, 1.0);

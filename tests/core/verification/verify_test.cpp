@@ -136,7 +136,7 @@ TEST(Bands, OfForcesAreNotBelowTheJitterOfAPushedTool) {
   run.jitter_N = force_jitter(data, run.last);
   EXPECT_NEAR(run.jitter_N, 0.5, 1e-12);
   const auto figures = verified_figures(run, {}, {}, {});
-  EXPECT_NEAR(named(figures, "force of punch").band, safety * 0.5, 1e-12);
+  EXPECT_NEAR(named(figures, "force of punch").band, safety_of_jitter * 0.5, 1e-12);
 }
 
 TEST(Bands, OfPliesTakeTheMeanSquareOfTheirKind) {
