@@ -17,6 +17,7 @@ set(public_headers
   contact/search/sheet_bvh.hpp
   contact/shapes/tool_shape.hpp
   contact/surface_hint.hpp
+  core/accuracy/error_model.hpp
   core/base/diagnostics.hpp
   core/base/version.hpp
   core/fit/corrections.hpp
@@ -59,7 +60,7 @@ install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform)
 # the programs of their names.
 install(PROGRAMS tools/study tools/report tools/map tools/pattern tools/export DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
 install(FILES tools/area_means.py tools/compare.py DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
-install(PROGRAMS tools/mesh_tool.py DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
+install(PROGRAMS tools/mesh_tool.py tools/check_bands.py DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
 install(DIRECTORY tools/studies tools/plotting tools/reporting tools/exchange
         DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools
         USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)

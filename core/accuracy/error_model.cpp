@@ -254,6 +254,15 @@ bool may_coarsen(const Case& data, double by) {
   return data.boundaries.empty(); // the nodes that they prescribe depend on the mesh
 }
 
+bool may_refine(const Case& data, double by) {
+  return data.boundaries.empty() &&
+         std::all_of(data.plies.begin(), data.plies.end(), [&](const Ply& ply) {
+           BlankSpec blank = data.blanks[ply.blank];
+           blank.element_size *= by;
+           return blank.mesh != MeshKind::file && takes_elements(blank);
+         });
+}
+
 double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
   Numbers n = numbers_of(data);
   const double wanted = degrees(data.accuracy.shear_error);

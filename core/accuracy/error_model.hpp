@@ -47,6 +47,10 @@ double preset_error(const std::string& word);
 /// tool radius, nor than in the measurements of contact, and its outline can be meshed with them.
 bool may_coarsen(const Case& data, double by);
 
+/// Whether every blank may have elements smaller by the factor `by`: not those from files, nor with
+/// boundaries, whose nodes depend on the mesh.
+bool may_refine(const Case& data, double by);
+
 /// Cost parameters that the user has set by hand.
 struct FixedParameters {
   bool duration = false, softening = false, element_size = false;

@@ -213,6 +213,12 @@ FieldDifference field_difference(const Frame& run, const Frame& reference,
       fmt::format("{} is no field of triangles; there are {}", field, names));
 }
 
+Frame only_ply(const Frame& frame, std::size_t ply) {
+  Frame one;
+  one.plies = {frame.plies[ply]};
+  return one;
+}
+
 FieldError shear_error(const Frame& run, const Frame& reference) {
   return field_difference(run, reference, &PlyFrame::shear_deg).error;
 }

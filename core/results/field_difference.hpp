@@ -48,6 +48,9 @@ std::vector<double> nodal_means(const PlyFrame& ply, const std::vector<double>& 
 std::vector<double> interpolate(const PlyFrame& ply, const std::vector<double>& nodal,
                                 const std::vector<Vec3>& points);
 
+/// A frame with this ply alone, without tools and boundaries.
+Frame only_ply(const Frame& frame, std::size_t ply);
+
 /// The error of field_difference, of the shear angle, degrees.
 FieldError shear_error(const Frame& run, const Frame& reference);
 

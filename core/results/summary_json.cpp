@@ -170,18 +170,44 @@ Json accuracy_object(const AccuracyReport& a) {
           {"element_size_factor", rounded(a.coarsening)}};
 }
 
+Json figure_object(const VerifiedFigure& f) {
+  return {{"name", f.name},
+          {"unit", f.unit},
+          {"value", rounded(f.value)},
+          {"band", rounded(f.band)},
+          {"mesh", rounded(f.mesh)},
+          {"inertia", rounded(f.inertia)},
+          {"softening", rounded(f.softening)},
+          {"chance", rounded(f.chance)}};
+}
+
+Json asked_object(const AskedAccuracy& a) {
+  Json object = {{"wanted_shear_deg", rounded(a.wanted_deg)},
+                 {"measured_shear_deg", rounded(a.measured_deg)},
+                 {"outcome", a.kept()      ? "kept"
+                             : a.corrected ? "corrected"
+                                           : "missed"}};
+  if (a.kept()) return object;
+  if (!a.corrected) {
+    object["why_not_corrected"] = a.why_not;
+    return object;
+  }
+  object.update({{"element_size_factor", rounded(a.element_size)},
+                 {"duration_factor", rounded(a.duration)},
+                 {"fibre_softening_factor", rounded(a.softening)},
+                 {"corrected_shear_deg", rounded(a.expected_deg)},
+                 {"moved_shear_deg", rounded(a.moved_deg)},
+                 {"first_run", a.first_run}});
+  return object;
+}
+
 Json verification_object(const Verification& v) {
-  Json figures = Json::array();
-  for (const VerifiedFigure& f : v.figures)
-    figures.push_back({{"name", f.name},
-                       {"unit", f.unit},
-                       {"value", rounded(f.value)},
-                       {"band", rounded(f.band)},
-                       {"mesh", rounded(f.mesh)},
-                       {"inertia", rounded(f.inertia)},
-                       {"softening", rounded(f.softening)},
-                       {"chance", rounded(f.chance)}});
-  return {{"cost", rounded(v.cost)}, {"figures", figures}, {"left_out", v.left_out}};
+  Json object = {{"cost", rounded(v.cost)},
+                 {"figures", list_of(v.figures, figure_object)},
+                 {"shear_of_all_plies", figure_object(v.shear)}};
+  if (v.asked) object["asked"] = asked_object(*v.asked);
+  object["left_out"] = v.left_out;
+  return object;
 }
 
 Json contact_object(const ContactReport& c) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/prepare_case.hpp"
 
-#include "core/accuracy/error_model.hpp"
 #include "core/base/text.hpp"
 #include "core/model/motion.hpp"
 #include "core/setup/size_ahead.hpp"
@@ -62,6 +61,7 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
   picked.reading = read_case(file, overrides);
   if (!picked.reading.value) return picked;
   const auto [fixed, keys] = parameters_set(picked.reading.overridden);
+  picked.fixed = fixed;
   if (picked.reading.value->accuracy.shear_error > 0.0 &&
       longest_strokes(*picked.reading.value).longest() == 0.0) {
     picked.notes.emplace_back("accuracy asked for: it does nothing, since nothing is driven by a "
@@ -88,6 +88,7 @@ PreparedCase prepare_case(const std::filesystem::path& file, const std::vector<O
   prepared.errors = std::move(picked.reading.errors);
   prepared.warnings = std::move(picked.reading.warnings);
   prepared.notes = std::move(picked.notes);
+  prepared.fixed = picked.fixed;
   return prepared;
 }
 

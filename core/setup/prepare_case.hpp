@@ -3,6 +3,7 @@
 // checks the whole scene and meshes the blanks.
 #pragma once
 
+#include "core/accuracy/error_model.hpp"
 #include "core/input/case_file.hpp"
 
 namespace plyform {
@@ -13,6 +14,7 @@ struct PickedCase {
   double coarsening = 1.0; ///< element sizes over those of the file, for the requested accuracy
   /// parameters that the requested accuracy did not change, a sentence each
   std::vector<std::string> notes;
+  FixedParameters fixed; ///< those set by an override
 };
 
 /// read_case, pick_cost_parameters. Parameters set by an override are fixed for
@@ -27,6 +29,7 @@ struct PreparedCase {
   std::vector<CaseError> errors;
   std::vector<std::string> warnings;
   std::vector<std::string> notes; ///< as in PickedCase
+  FixedParameters fixed;          ///< as in PickedCase
 };
 
 /// Whether a case may be of any size, or one that is too_large (size_ahead.hpp) is an error before

@@ -8,20 +8,17 @@
 namespace plyform {
 namespace {
 
-constexpr double order_of_mesh = 1.6; // core/accuracy/error_model.hpp
-constexpr double safety_of_fields = 1.25, safety_of_figures = 2.0, safety_of_chance = 2.0;
-
 /// Error over difference, by cause.
 struct Factors {
-  double mesh = 0.0, inertia = 0.0;
+  double mesh = 0.0, inertia = 0.0, inertia_of_forces = 0.0, softening = 0.0;
 };
 
-Factors factors_of(const Siblings& made, std::size_t plies) {
-  const double ratio = std::pow(made.coarsening, order_of_mesh);
+Factors factors_of(const Siblings& made) {
   Factors f;
-  if (made.coarsening > 1.0)
-    f.mesh = plies == 1 ? 1.0 / (ratio - 1.0) : 1.0 / std::sqrt(1.0 + ratio * ratio);
-  f.inertia = 1.0 / (made.speed * made.speed - 1.0);
+  if (made.coarsening > 1.0) f.mesh = 1.0 / (std::pow(made.coarsening, order_of_mesh) - 1.0);
+  f.inertia = 1.0 / (std::pow(made.speed, order_of_inertia) - 1.0);
+  f.inertia_of_forces = 1.0 / (std::pow(made.speed, order_of_inertia_of_forces) - 1.0);
+  f.softening = 1.0 / (std::pow(2.0, order_of_softening) - 1.0);
   return f;
 }
 
@@ -48,24 +45,20 @@ Compared compared(Cause cause, const RunEnd& run, const std::map<Cause, RunEnd>&
   return {};
 }
 
-/// Sets the parts of a figure from difference(one, other), and its band.
+/// Sets the parts of a figure from difference(one, other); the second run has the larger error.
 template <class Difference>
 void estimate(VerifiedFigure& figure, const RunEnd& run, const std::map<Cause, RunEnd>& siblings,
               const Factors& factors, const Difference& difference) {
   const auto of = [&](Cause cause, double factor) {
     const Compared c = compared(cause, run, siblings);
-    return c ? factor * std::abs(difference(*c.one, *c.other)) : 0.0;
+    if (!c) return 0.0;
+    const double d = factor * difference(*c.one, *c.other);
+    return figure.force ? -d : std::abs(d);
   };
   figure.mesh = of(Cause::mesh, factors.mesh);
-  figure.inertia = of(Cause::inertia, factors.inertia);
-  figure.softening = of(Cause::softening, 1.0);
-  figure.chance = of(Cause::chance, 1.0);
-}
-
-void set_band(VerifiedFigure& f, double safety) {
-  const double all = std::sqrt(f.mesh * f.mesh + f.inertia * f.inertia + f.softening * f.softening +
-                               f.chance * f.chance);
-  f.band = std::max(safety * all, safety_of_chance * f.chance);
+  figure.inertia = of(Cause::inertia, figure.force ? factors.inertia_of_forces : factors.inertia);
+  figure.softening = of(Cause::softening, factors.softening);
+  figure.chance = std::abs(of(Cause::chance, 1.0));
 }
 
 /// Replaces each part by its root mean square over figures of one kind.
@@ -80,39 +73,74 @@ void pool(std::vector<VerifiedFigure>& figures) {
   }
 }
 
-Frame only_ply(const Frame& frame, std::size_t ply) {
-  Frame one;
-  one.plies = {frame.plies[ply]};
-  return one;
+double rms_shear(const Frame& frame) {
+  double sum = 0.0, area = 0.0;
+  for (const PlyFrame& ply : frame.plies)
+    for (std::size_t i = 0; i < ply.triangles.size(); ++i) {
+      const Triangle& t = ply.triangles[i];
+      const double a = (ply.x0[t[1]] - ply.x0[t[0]]).cross(ply.x0[t[2]] - ply.x0[t[0]]).norm();
+      sum += a * ply.shear_deg[i] * ply.shear_deg[i];
+      area += a;
+    }
+  return area > 0.0 ? std::sqrt(sum / area) : 0.0;
 }
 
-double rms_shear(const PlyFrame& ply) {
-  double sum = 0.0, area = 0.0;
-  for (std::size_t i = 0; i < ply.triangles.size(); ++i) {
-    const Triangle& t = ply.triangles[i];
-    const double a = (ply.x0[t[1]] - ply.x0[t[0]]).cross(ply.x0[t[2]] - ply.x0[t[0]]).norm();
-    sum += a * ply.shear_deg[i] * ply.shear_deg[i];
-    area += a;
-  }
-  return area > 0.0 ? std::sqrt(sum / area) : 0.0;
+/// The figure of the shear of these plies; pick: their frame, from one of all.
+template <class Pick>
+VerifiedFigure figure_of_shear(const std::string& of, const RunEnd& run,
+                               const std::map<Cause, RunEnd>& siblings, const Siblings& made,
+                               const PredictedError& predicted, const Pick& pick) {
+  VerifiedFigure field;
+  field.name = "shear of " + of, field.unit = "deg";
+  field.value = rms_shear(pick(run.last));
+  estimate(field, run, siblings, factors_of(made), [&](const RunEnd& a, const RunEnd& b) {
+    return shear_error(pick(a.last), pick(b.last)).rms;
+  });
+  if (!siblings.contains(Cause::mesh)) field.mesh = predicted.mesh;
+  if (!siblings.contains(Cause::softening) &&
+      predicted.softening > 0.0) // NaN: nothing has a stroke
+    field.softening = predicted.softening;
+  set_band(field);
+  return field;
 }
 
 } // namespace
 
+void set_band(VerifiedFigure& f) {
+  const double squares = std::sqrt(f.mesh * f.mesh + f.inertia * f.inertia +
+                                   f.softening * f.softening + f.chance * f.chance);
+  const double sum = std::abs(f.mesh + f.inertia + f.softening);
+  f.band = std::max({safety * (f.force ? std::max(squares, sum) : squares),
+                     safety_of_jitter * f.jitter, safety_of_chance * f.chance});
+}
+
+double force_jitter(const Case& data, const Frame& last) {
+  double most = 0.0;
+  for (std::size_t t = 0; t < data.tools.size(); ++t) {
+    const Tool& tool = data.tools[t];
+    if (tool.motion != Motion::force) continue;
+    const double pushed = tool.programme.empty() ? tool.force : tool.programme.back().value;
+    most = std::max(most, std::abs(last.tools[t].force_N - pushed));
+  }
+  return most;
+}
+
+VerifiedFigure verified_shear(const RunEnd& run, const std::map<Cause, RunEnd>& siblings,
+                              const Siblings& made, const PredictedError& predicted) {
+  return figure_of_shear("all plies", run, siblings, made, predicted,
+                         [](const Frame& frame) -> const Frame& { return frame; });
+}
+
 std::vector<VerifiedFigure> verified_figures(const RunEnd& run,
                                              const std::map<Cause, RunEnd>& siblings,
-                                             const Siblings& made, double predicted_mesh_deg) {
-  const Factors factors = factors_of(made, run.last.plies.size());
+                                             const Siblings& made,
+                                             const PredictedError& predicted) {
+  const Factors factors = factors_of(made);
   std::vector<VerifiedFigure> shear, draw_in, pressed, all;
   for (std::size_t p = 0; p < run.last.plies.size(); ++p) {
     const std::string& name = run.last.plies[p].name;
-    VerifiedFigure& field = shear.emplace_back();
-    field.name = "shear of " + name, field.unit = "deg";
-    field.value = rms_shear(run.last.plies[p]);
-    estimate(field, run, siblings, factors, [p](const RunEnd& a, const RunEnd& b) {
-      return shear_error(only_ply(a.last, p), only_ply(b.last, p)).rms;
-    });
-    if (made.coarsening == 1.0) field.mesh = predicted_mesh_deg;
+    shear.push_back(figure_of_shear(name, run, siblings, made, predicted,
+                                    [p](const Frame& frame) { return only_ply(frame, p); }));
     if (run.plies[p].draw_in.unknown.empty()) {
       VerifiedFigure& f = draw_in.emplace_back();
       f.name = "draw-in of " + name, f.unit = "mm";
@@ -135,7 +163,8 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run,
   std::vector<VerifiedFigure> force;
   for (std::size_t t = 0; t < run.last.tools.size(); ++t) {
     VerifiedFigure& f = force.emplace_back();
-    f.name = "force of " + run.last.tools[t].name, f.unit = "N";
+    f.name = "force of " + run.last.tools[t].name, f.unit = "N", f.force = true;
+    f.jitter = run.jitter_N;
     f.value = run.last.tools[t].force_N;
     estimate(f, run, siblings, factors, [t](const RunEnd& a, const RunEnd& b) {
       return a.last.tools[t].force_N - b.last.tools[t].force_N;
@@ -143,11 +172,9 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run,
   }
   pool(draw_in);
   pool(pressed);
-  for (VerifiedFigure& f : shear)
-    set_band(f, safety_of_fields);
   for (std::vector<VerifiedFigure>* kind : {&draw_in, &pressed, &force})
     for (VerifiedFigure& f : *kind)
-      set_band(f, safety_of_figures);
+      set_band(f);
   for (const std::vector<VerifiedFigure>* kind : {&shear, &draw_in, &pressed, &force})
     all.insert(all.end(), kind->begin(), kind->end());
   return all;

@@ -33,8 +33,10 @@ std::optional<Verification> verify(const Case& data, const RunResult& run, int t
                                             sibling.name, end.summary.message));
   }
   result.cost = seconds / std::max(run.summary.wall_time_s, 1e-9);
-  result.figures =
-      verified_figures({run.last, run.summary.plies}, ends, made, predicted_error(data).mesh);
+  const RunEnd own{run.last, run.summary.plies, force_jitter(data, run.last)};
+  const PredictedError predicted = predicted_error(data);
+  result.figures = verified_figures(own, ends, made, predicted);
+  result.shear = verified_shear(own, ends, made, predicted);
   return result;
 }
 

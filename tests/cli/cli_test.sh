@@ -117,6 +117,23 @@ expect 0 'doubtful: do not trust forces' run "$tests/../data/cannot_work/press.t
 ln -s "$PWD/cases/hemisphere_0/case.toml" linked.toml
 expect 0 'the case is sound' check linked.toml "${short[@]}"
 
+# An accuracy that was missed: the second run is in the folder, the first one in first_run, whole.
+small=(cases/studies/verify/hemisphere.toml --threads 1 --set accuracy.shear_deg=1.4
+  --set 'ply=[{name="ply1",fabric="glass",blank="square",angle=20}]'
+  --set tool.0.position=[0,0,45.6] --set tool.2.position=[0,0,0.6])
+expect 0 'the first run is in corrected/first_run' run "${small[@]}" -o corrected --verify
+grep -q '"outcome": "corrected"' corrected/summary.json || fail "no outcome in corrected"
+grep -q '"outcome": "missed"' corrected/first_run/summary.json || fail "no outcome in first_run"
+expect 0 shear_angle_deg difference corrected corrected/first_run
+[ ! -e corrected/second_run ] || fail "second_run is left"
+for file in history.csv results.xdmf plies/ply1.csv; do
+  [ -s "corrected/$file" ] && [ -s "corrected/first_run/$file" ] || fail "corrected lacks a $file"
+done
+expect 0 'missed, not corrected: what stays as it is leaves too much: elements, duration, softening' \
+  run "${small[@]}" -o by_hand --verify --set blanks.square.element_size=6.8 \
+  --set solver.duration=0.01 --set solver.fibre_softening=100
+[ ! -e by_hand/first_run ] || fail "by_hand has a second run"
+
 # The page of keys is what the program says.
 page=$tests/../../docs/users/keys.md
 if ! "$program" keys --markdown | cmp -s - "$page"; then

@@ -44,6 +44,7 @@ struct SpecimenArguments {
 struct DifferenceArguments {
   std::string run, reference;      ///< folders with results.h5
   std::vector<std::string> fields; ///< of triangles, by their names in results.h5
+  bool by_ply = false;             ///< a line for each ply, in the place of one for all
 };
 
 struct ExportArguments {

@@ -40,7 +40,7 @@ struct Arguments {
   RunArguments run;
   CaseArguments check;
   ExportArguments results;
-  DifferenceArguments difference{{}, {}, {"shear_angle_deg"}};
+  DifferenceArguments difference{{}, {}, {"shear_angle_deg"}, false};
   IdentifyArguments identify;
   TheoryArguments theory;
   bool markdown = false; ///< keys as a page
@@ -73,8 +73,10 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   run->add_flag("--report", to.run.report, "make report.html of the results, for any browser");
   run->add_flag("--resume", to.run.resume,
                 "go on where this run was killed or interrupted, with the same results");
-  run->add_flag("--verify", to.run.verify,
-                "give each figure a band, from siblings of the case with coarser parameters");
+  run->add_flag(
+      "--verify", to.run.verify,
+      "give each figure a band, from siblings of the case with coarser parameters; if the "
+      "accuracy asked for was missed, run again once");
   add_accuracy(*run, to.run.input);
   commands.push_back({run, [&to] { return run_command(to.run); }});
 
@@ -112,6 +114,7 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
       ->add_option("--field", to.difference.fields, "column of plies/NAME.csv; may be given again")
       ->allow_extra_args(false)
       ->take_all();
+  difference->add_flag("--by-ply", to.difference.by_ply, "a line for each ply");
   commands.push_back({difference, [&to] { return difference_command(to.difference); }});
 
   CLI::App* identify =

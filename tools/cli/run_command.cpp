@@ -3,18 +3,17 @@
 #include "core/base/text.hpp"
 #include "core/input/schema.hpp"
 #include "core/solver/run.hpp"
-#include "core/verification/verify.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/progress_line.hpp"
+#include "tools/cli/verify_and_correct.hpp"
 
 #include <atomic>
-#include <chrono>
 #include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
 #include <thread>
-#include <unistd.h>
 
 namespace plyform {
 namespace {
@@ -24,33 +23,6 @@ std::atomic<bool> interrupted{false};
 void on_interrupt(int) {
   interrupted = true;
 }
-
-/// Progress display: on a terminal one line that is overwritten, elsewhere a new line every few
-/// seconds.
-class ProgressLine {
-public:
-  void show(const Progress& p) {
-    const auto now = std::chrono::steady_clock::now();
-    const double since = std::chrono::duration<double>(now - last_).count();
-    if (since < (terminal_ ? 0.2 : 5.0)) return;
-    last_ = now;
-    fmt::print(stderr,
-               "{}{:3.0f} %  stroke {:7.2f} mm  step {:8}  {:4.0f} s left  kinetic/shear {:.3f}  "
-               "balance {:+.2e}{}",
-               terminal_ ? "\r" : "", 100.0 * p.fraction, p.stroke_mm, p.step, p.remaining_s,
-               p.kinetic_over_shear, p.balance_error, terminal_ ? "\033[K" : "\n");
-    std::fflush(stderr);
-    drawn_ = terminal_;
-  }
-  void end() {
-    if (drawn_) fmt::print(stderr, "\n");
-  }
-
-private:
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  bool drawn_ = false;
-  std::chrono::steady_clock::time_point last_{};
-};
 
 /// Output folder results/NAME. NAME is that of the case's folder, or of its file if it is not
 /// case.toml.
@@ -103,17 +75,6 @@ void print_plausibility(const std::string& name, const PlyReport& ply) {
   fmt::print("\n");
 }
 
-void print_verification(const Verification& v) {
-  if (v.figures.empty()) return;
-  fmt::print("  verified by siblings, which took {:.2g} of the time of the run:\n", v.cost);
-  for (const VerifiedFigure& f : v.figures)
-    fmt::print("    {:32} {:8.4g} {:3} +- {:.2g}: mesh {:.2g}, inertia {:.2g}, softened fibres "
-               "{:.2g}, chance {:.2g}\n",
-               f.name, f.value, f.unit, f.band, f.mesh, f.inertia, f.softening, f.chance);
-  for (const std::string& what : v.left_out)
-    fmt::print("    left out: {}\n", what);
-}
-
 void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   const Energies& e = r.last.energy;
   fmt::print("{} at {:.2f} mm of stroke after {} steps in {:.1f} s\n", r.summary.status,
@@ -150,24 +111,6 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
     fmt::print("  assumed: {}\n", line);
   print_work(r.summary.work, r.summary.steps);
   fmt::print("results are in {}\n", folder.string());
-}
-
-/// Verifies a run that has ended; says so if it is interrupted meanwhile.
-void verify_run(const Case& data, int threads, RunResult& result) {
-  ProgressLine line;
-  VerifyHooks hooks;
-  hooks.begins = [&](const std::string& sibling, std::size_t number, std::size_t of) {
-    line.end();
-    fmt::print(stderr, "verifies, {} of {}: a {}\n", number, of, sibling);
-  };
-  hooks.progress = [&](const Progress& p) { line.show(p); };
-  hooks.interrupt = &interrupted;
-  const std::optional<Verification> verification = verify(data, result, threads, hooks);
-  line.end();
-  if (verification)
-    result.summary.verification = *verification;
-  else
-    fmt::print(stderr, "plyform: interrupted: the results are complete, without bands\n");
 }
 
 /// Says on standard error how a run ended that is not simply done, and returns the exit code.
@@ -237,8 +180,8 @@ int run_command(const RunArguments& arguments) {
   line.end();
   writer.write_final(result.last, result.summary);
   if ((arguments.verify || prepared.value->accuracy.verify) && ended(result.summary.status)) {
-    verify_run(*prepared.value, threads, result);
-    writer.write_summary(result.last, result.summary);
+    verify_and_correct(prepared, {folder, threads, arguments.input.yes_large, &interrupted}, writer,
+                       result);
   }
   print_outcome(result, folder);
   const int code = tell_end(result.summary, folder);

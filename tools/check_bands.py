@@ -1,0 +1,297 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether the bands of plyform run --verify hold: each scene of a list is run with --verify and
+again with all cost parameters halved, and the error that the two show stands beside the band.
+
+    check_bands.py SCENES.toml [-o DIR] [--jobs N] [--program PLYFORM] [--table] [--doc TEXT]
+
+SCENES.toml has tables [[scene]] with name, case (a file, seen from SCENES.toml) and set (a list of
+KEY=VALUE). Halved are element sizes, the speed (twice solver.duration) and solver.fibre_softening.
+With d the difference of the two runs, of shear its root mean square over the ply, the error of the
+first is taken for
+
+    e = d / (1 - 2^-p),   p = 1.6                                                          (1)
+
+the Richardson extrapolation of the two with the order of the mesh, whose error is the largest. Those
+of inertia (p = 3) and softening (p = 1) are smaller; of them e is 1.3 times too large or 0.75.
+
+DIR [results/NAME of SCENES.toml] gets a folder a run, and bands.csv with a row a figure. What has
+ended is not repeated: the same command goes on after any stop. --table runs nothing. --doc fills
+the table into a text in Markdown, between <!-- table: NAME --> and <!-- end -->.
+
+Exit codes: 0 done; 1 a run is missing, was stopped, or cannot be read; 2 wrong arguments or scenes.
+"""
+
+import argparse
+import csv
+import json
+import shutil
+import statistics
+import subprocess
+import sys
+import tomllib
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+from pathlib import Path
+
+try:
+    from compare import table
+    from plotting.reading import Trouble
+    from studies.case_values import CaseValues, FileHash
+    from studies.text_table import MARK
+except ImportError as error:
+    sys.exit(f"check_bands.py: error: {error}; install python3-h5py")
+
+TOOLS = Path(__file__).resolve().parent
+ORDER = 1.6                               # p, core/verification/bands.hpp
+HALVED = {"blanks.*.element_size": 0.5, "solver.duration": 2.0, "solver.fibre_softening": 0.5}
+KINDS = {"shear": "angles", "force": "forces", "draw-in": "draw-ins", "largest": "compressions"}
+
+
+@dataclass
+class Scene:
+    name: str
+    case: Path
+    settings: tuple[str, ...]
+
+
+@dataclass
+class Run:
+    scene: Scene
+    folder: Path
+    settings: tuple[str, ...]
+    verify: bool
+
+
+@dataclass
+class Figure:
+    scene: str
+    name: str
+    unit: str
+    value: float
+    band: float
+    error: float
+
+    @property
+    def kind(self) -> str:
+        return KINDS[self.name.split(" ", 1)[0]]
+
+    @property
+    def inside(self) -> bool:
+        return self.error <= self.band  # false for NaN
+
+
+def read_scenes(file: Path) -> list[Scene]:
+    try:
+        tables = tomllib.loads(file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as problem:
+        raise Trouble(f"{file}: {problem}") from problem
+    scenes = []
+    for number, one in enumerate(tables.get("scene", []), 1):
+        where = f"{file}: scene {number}"
+        if set(one) - {"name", "case", "set"} or not {"name", "case"} <= set(one):
+            raise Trouble(f"{where} has {', '.join(one)}; it takes name, case and set")
+        settings = one.get("set", [])
+        if not (isinstance(settings, list) and all(isinstance(text, str) for text in settings)):
+            raise Trouble(f"{where}: set must be a list of texts KEY=VALUE")
+        case = file.parent / one["case"]
+        case = case / "case.toml" if case.is_dir() else case
+        if not case.is_file():
+            raise Trouble(f"{where}: {case} is missing")
+        if one["name"] in (scene.name for scene in scenes):
+            raise Trouble(f"{where}: there is another {one['name']}")
+        scenes.append(Scene(one["name"], case, tuple(settings)))
+    if not scenes:
+        raise Trouble(f"{file} has no [[scene]]")
+    return scenes
+
+
+def halved(scene: Scene, program: Path) -> tuple[str, ...]:
+    values, settings = CaseValues(scene.case, scene.settings, program), []
+    for pattern, factor in HALVED.items():
+        for key in values.keys(pattern):
+            least = 1.0 if key.endswith("softening") else 0.0
+            settings.append(f"{key}={max(factor * values.own(key), least):.9g}")
+    return tuple(settings)
+
+
+def runs_of(scenes: list[Scene], folder: Path, program: Path) -> list[tuple[Run, Run]]:
+    """Of each scene the run with bands and the one with everything halved; what changes a run
+    changes its folder's name."""
+    version = subprocess.run([program, "version"], capture_output=True, text=True,
+                             check=True).stdout.strip()
+    files, pairs = FileHash(), []
+    for scene in scenes:
+        def run(kind: str, more: tuple[str, ...], verify: bool, scene: Scene = scene) -> Run:
+            settings = ("solver.outputs=1", *scene.settings, *more)
+            name = "".join(c if c.isalnum() or c in "._" else "_" for c in scene.name)
+            return Run(scene, folder / f"{name}-{kind}-{files.of(scene.case, settings, version)}",
+                       settings, verify)
+        pairs.append((run("verified", (), True), run("halved", halved(scene, program), False)))
+    return pairs
+
+
+def summary_of(run: Run) -> dict:
+    """Empty if the run has not ended, or has no bands where it should."""
+    try:
+        told = json.loads((run.folder / "summary.json").read_text(encoding="utf-8"))
+    except (OSError, json.JSONDecodeError):
+        return {}
+    missing = told["status"] == "interrupted" or (run.verify and "verification" not in told)
+    return {} if missing else told
+
+
+def do_run(run: Run, program: Path) -> None:
+    if summary_of(run):
+        return
+    if (run.folder / "summary.json").is_file():
+        shutil.rmtree(run.folder)  # interrupted among its siblings
+    words = [word for setting in run.settings for word in ("--set", setting)]
+    done = subprocess.run([program, "run", run.scene.case, "-o", run.folder, "--threads", "1",
+                           "--resume", *words, *(["--verify"] if run.verify else [])],
+                          capture_output=True, text=True, check=False)
+    said = done.stderr.strip().splitlines()
+    told = summary_of(run)
+    state = f"{told['status']}, {told['steps']} steps" if told else said[-1] if said else "no results"
+    print(f"{run.folder.name}: {state}", file=sys.stderr, flush=True)
+
+
+def shear_differences(program: Path, run: Run, other: Run) -> dict[str, float]:
+    """Degrees rms, by ply."""
+    told = subprocess.run([program, "difference", run.folder, other.folder, "--by-ply"],
+                          capture_output=True, text=True, check=False)
+    if told.returncode != 0:
+        raise Trouble(told.stderr.strip())
+    return {row["ply"]: float(row["rms"]) for row in csv.DictReader(told.stdout.splitlines())}
+
+
+def scalars(summary: dict) -> dict[str, float]:
+    """By the names that figures have."""
+    found = {f"force of {tool['name']}": tool["force_N"] for tool in summary["tools"]}
+    for ply in summary["plies"]:
+        found[f"draw-in of {ply['name']}"] = ply.get("draw_in_mm", {}).get("mean")
+        found[f"largest compression of {ply['name']}"] = \
+            100.0 * ply["max_pressed_strain"] if "max_pressed_strain" in ply else None
+    return found
+
+
+def figures_of(program: Path, first: Run, second: Run) -> list[Figure]:
+    """Those of a scene, by (1)."""
+    one, two = summary_of(first), summary_of(second)
+    for run, told in ((first, one), (second, two)):
+        if told.get("status") not in ("done", "doubtful"):
+            raise Trouble(f"{run.folder}: {told.get('message') or 'is missing'}")
+    apart = {f"shear of {ply}": by for ply, by in shear_differences(program, first, second).items()}
+    a, b = scalars(one), scalars(two)
+    apart |= {name: abs(a[name] - b[name]) for name in a
+              if a[name] is not None and b.get(name) is not None}
+    return [Figure(first.scene.name, figure["name"], figure["unit"], figure["value"],
+                   figure["band"], apart[figure["name"]] / (1.0 - 2.0**-ORDER))
+            for figure in one["verification"]["figures"]]
+
+
+def ratio(figures: list[Figure]) -> float:
+    """Band over error, in the median."""
+    return statistics.median(f.band / f.error if f.error > 0.0 else float("inf") for f in figures)
+
+
+def cells(figures: list[Figure]) -> list[str]:
+    """Inside of how many, and the median of the band over the error."""
+    if not figures:
+        return ["–", "–"]
+    return [f"{sum(f.inside for f in figures)} of {len(figures)}", f"{ratio(figures):.1f}"]
+
+
+def markdown(figures: list[Figure]) -> str:
+    """A row a scene; then all; then each figure outside of its band."""
+    columns = ("angles", "forces", "draw-ins", "compressions")
+    head = ["scene", "error of angles, °",
+            *(text for kind in columns for text in (f"{kind} inside", "band / error"))]
+    rows = []
+    for name in [*dict.fromkeys(f.scene for f in figures), None]:
+        own = [f for f in figures if name in (None, f.scene)]
+        errors = [f.error for f in own if f.kind == "angles"]
+        rows.append([name or "**all**", f"{min(errors):.2f} to {max(errors):.2f}",
+                     *(text for kind in columns
+                       for text in cells([f for f in own if f.kind == kind]))])
+    asked = [f for f in figures if f.kind in ("angles", "forces")]
+    lines = [table(head, rows, 1),
+             f"Of angles and forces {100.0 * sum(f.inside for f in asked) / len(asked):.0f} % are "
+             f"inside; the band is {ratio(asked):.1f} times the error in the median."]
+    if outside := [f for f in figures if not f.inside]:
+        lines.append("Outside: " + "; ".join(
+            f"{f.scene}, {f.name}: {f.value:.4g} ± {f.band:.2g} {f.unit}, error {f.error:.2g}"
+            for f in outside) + ".")
+    return "\n\n".join(lines)
+
+
+def fill(text: Path, name: str, inner: str) -> None:
+    before = text.read_text(encoding="utf-8")
+    if ("table", name) not in MARK.findall(before):
+        raise Trouble(f"{text} has no place for this; write a line <!-- table: {name} -->")
+    text.write_text(MARK.sub(lambda match: match[0] if match[2] != name else
+                             f"<!-- table: {name} -->\n\n{inner}\n\n<!-- end -->\n", before),
+                    encoding="utf-8")
+
+
+def write_csv(file: Path, figures: list[Figure]) -> None:
+    with file.open("w", newline="", encoding="utf-8") as out:
+        writer = csv.writer(out)
+        writer.writerow(["scene", "figure", "unit", "value", "band", "error", "inside"])
+        for f in figures:
+            writer.writerow([f.scene, f.name, f.unit, f.value, f.band, f.error, int(f.inside)])
+
+
+def check(options: argparse.Namespace) -> int:
+    program = shutil.which(options.program)
+    if not program:
+        raise Trouble(f"{options.program} is no program; build it (tools/build.sh) or give --program")
+    program, scenes = Path(program).resolve(), read_scenes(options.scenes)
+    folder = (options.output or Path("results") / options.scenes.stem).resolve()
+    pairs = runs_of(scenes, folder, program)
+    if not options.table:
+        with ThreadPoolExecutor(options.jobs) as pool:
+            for kind in (0, 1):
+                list(pool.map(lambda pair, kind=kind: do_run(pair[kind], program), pairs))
+    figures, missing = [], []
+    for pair in pairs:
+        try:
+            figures += figures_of(program, *pair)
+        except Trouble as problem:
+            missing.append(str(problem))
+    for line in missing:
+        print(f"check_bands.py: {line}", file=sys.stderr)
+    if not figures:
+        return 1
+    write_csv(folder / "bands.csv", figures)
+    print(markdown(figures))
+    if options.doc:
+        fill(options.doc, options.scenes.stem, markdown(figures))
+    return 1 if missing else 0
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="check_bands.py", description=__doc__.split("\n\n", 1)[0])
+    parser.add_argument("scenes", type=Path, metavar="SCENES.toml")
+    parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="[results/SCENES]")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="at a time [1]")
+    parser.add_argument("--program", default=TOOLS.parent / "build/release/tools/plyform",
+                        metavar="PLYFORM")
+    parser.add_argument("--table", action="store_true", help="of what has ended, run nothing")
+    parser.add_argument("--doc", type=Path, metavar="TEXT", help="fill the table into a text, too")
+    options = parser.parse_args()
+    if options.jobs < 1:
+        parser.error("--jobs must be at least 1")
+    return options
+
+
+def main() -> int:
+    try:
+        return check(arguments())
+    except Trouble as problem:
+        print(f"check_bands.py: error: {problem}", file=sys.stderr)
+        return 2
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "tools/cli/verify_and_correct.hpp"
+
+#include "core/results/replace_run.hpp"
+#include "core/setup/size_ahead.hpp"
+#include "core/verification/correction.hpp"
+#include "core/verification/verify.hpp"
+#include "tools/cli/progress_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plyform {
+namespace {
+
+void print_figure(const VerifiedFigure& f) {
+  fmt::print("    {:32} {:8.4g} {:3} +- {:.2g}: mesh {:.2g}, inertia {:.2g}, softened fibres "
+             "{:.2g}, chance {:.2g}\n",
+             f.name, f.value, f.unit, f.band, f.mesh, f.inertia, f.softening, f.chance);
+}
+
+/// The cost parameters of the second run, over those of the first.
+std::string factors_text(const AskedAccuracy& asked) {
+  std::string text;
+  const auto add = [&](double factor, const char* what) {
+    if (factor != 1.0)
+      text += fmt::format("{}{} times {}", text.empty() ? "" : ", ", fmt::format("{:.2f}", factor),
+                          what);
+  };
+  add(asked.element_size, "the element size");
+  add(asked.duration, "the duration");
+  add(asked.softening, "the softening of fibres");
+  return text;
+}
+
+void print_asked(const AskedAccuracy& asked) {
+  fmt::print("    asked for {:.2g} deg, measured {:.2g}: ", asked.wanted_deg, asked.measured_deg);
+  if (asked.kept())
+    fmt::print("kept\n");
+  else if (!asked.corrected)
+    fmt::print("missed, not corrected: {}\n", asked.why_not);
+  else
+    fmt::print("missed; run again with {}, to {:.2g} deg. Shear moved by {:.2g} deg rms; the first "
+               "run is in {}\n",
+               factors_text(asked), asked.expected_deg, asked.moved_deg, asked.first_run);
+}
+
+/// The second run: in its own folder until it has ended, then in the place of the first.
+void run_again(const PreparedCase& prepared, const VerifyOptions& options,
+               const CorrectedCase& corrected, RunResult& result) {
+  const AskedAccuracy& asked = corrected.asked;
+  fmt::print(
+      stderr,
+      "asked for {:.2g} deg of shear, measured {:.2g}: runs again with {}; some {:.2g} times "
+      "the work\n",
+      asked.wanted_deg, asked.measured_deg, factors_text(asked),
+      std::pow(asked.element_size, -3.0) * asked.duration / std::sqrt(asked.softening));
+  const std::filesystem::path second_folder = options.folder / "second_run";
+  ResultWriter writer(second_folder);
+  ProgressLine line;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& frame) { writer.write_frame(frame); };
+  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.interrupt = options.interrupt;
+  RunResult second = run_case(corrected.data, options.threads, hooks);
+  line.end();
+  Summary& summary = second.summary;
+  summary.accuracy.coarsening = prepared.coarsening * asked.element_size;
+  summary.assumed.insert(summary.assumed.begin(), prepared.notes.begin(), prepared.notes.end());
+  AskedAccuracy said = asked;
+  if (ended(summary.status)) {
+    said.corrected = true;
+    said.first_run = (options.folder / "first_run").string();
+    summary.verification =
+        after_correction(result.summary.verification, said, {result.last, result.summary.plies},
+                         {second.last, summary.plies});
+    writer.write_final(second.last, summary);
+    replace_run(options.folder, second_folder, said.first_run);
+    result = std::move(second);
+    return;
+  }
+  writer.write_final(second.last, summary);
+  said.why_not = fmt::format("the second run was {}: {}; what it reached is in {}", summary.status,
+                             summary.message, second_folder.string());
+  result.summary.verification.asked = said;
+}
+
+} // namespace
+
+void verify_and_correct(const PreparedCase& prepared, const VerifyOptions& options,
+                        ResultWriter& writer, RunResult& result) {
+  const Case& data = *prepared.value;
+  ProgressLine line;
+  VerifyHooks hooks;
+  hooks.begins = [&](const std::string& sibling, std::size_t number, std::size_t of) {
+    line.end();
+    fmt::print(stderr, "verifies, {} of {}: a {}\n", number, of, sibling);
+  };
+  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.interrupt = options.interrupt;
+  const std::optional<Verification> verification = verify(data, result, options.threads, hooks);
+  line.end();
+  if (!verification) {
+    fmt::print(stderr, "plyform: interrupted: the results are complete, without bands\n");
+    return;
+  }
+  result.summary.verification = *verification;
+  if (!(data.accuracy.shear_error > 0.0)) {
+    writer.write_summary(result.last, result.summary);
+    return;
+  }
+  CorrectedCase corrected = corrected_case(data, *verification, prepared.fixed);
+  AskedAccuracy& asked = corrected.asked;
+  const bool again = corrected.changed();
+  if (again && !options.any_size &&
+      too_large(size_ahead(corrected.data, options.threads), machine_memory()))
+    asked.why_not = "the second run would be too large for this machine, or take more than a day; "
+                    "--yes-large makes it";
+  result.summary.verification.asked = asked;
+  writer.write_summary(result.last, result.summary); // complete, whatever becomes of the second
+  if (!again || !asked.why_not.empty()) return;
+  run_again(prepared, options, corrected, result);
+  if (!result.summary.verification.asked->corrected)
+    writer.write_summary(result.last, result.summary);
+}
+
+void print_verification(const Verification& v) {
+  if (v.figures.empty()) return;
+  fmt::print("  verified by siblings, which took {:.2g} of the time of the run:\n", v.cost);
+  for (const VerifiedFigure& f : v.figures)
+    print_figure(f);
+  if (v.asked) print_asked(*v.asked);
+  for (const std::string& what : v.left_out)
+    fmt::print("    left out: {}\n", what);
+}
+
+} // namespace plyform
