@@ -3,6 +3,7 @@
 
 #include "core/base/helper_process.hpp"
 #include "core/input/dxf_blocks.hpp"
+#include "core/input/dxf_groups.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -37,6 +38,7 @@ struct RawEntity {
   int line = 0, flags = 0;
   bool mirrored = false, tilted = false;
   std::vector<double> numbers{}, knots{};
+  std::string fault{};
 };
 
 /// Takes what dxflib reads. dxflib tells of an entity when the next one begins.
@@ -50,7 +52,12 @@ public:
   using DL_CreationAdapter::setVariableInt;
   void processCodeValuePair(unsigned int code, const std::string& value) override {
     lines_ += 2;
-    if (code == 0) begin(value);
+    if (code == 0 && ended) before_ = now_ = {}; // what follows the end is no part of it
+    if (ended) return;
+    if (code == 0)
+      begin(value);
+    else
+      now_.groups.add(now_.name, code, value, lines_);
     if (code == 2 && now_.name == "SECTION") {
       section_ = value;
       has_entities = has_entities || value == "ENTITIES";
@@ -100,6 +107,9 @@ public:
   }
   void addVertex(const DL_VertexData& d) override {
     if (!open_) return;
+    if (before_.name == "VERTEX" && entities.back().fault.empty())
+      if (const std::string fault = before_.groups.fault_of("VERTEX"); !fault.empty())
+        entities.back().fault = fault + " in a vertex";
     const double x = entities.back().mirrored ? -d.x : d.x;
     const double bulge = entities.back().mirrored ? -d.bulge : d.bulge;
     entities.back().numbers.insert(entities.back().numbers.end(), {x, d.y, bulge});
@@ -109,6 +119,7 @@ private:
   struct Begun {
     std::string name, section, layer;
     int line = 0;
+    DxfGroups groups{};
   };
   int lines_ = 0;
   std::string section_, block_;
@@ -141,6 +152,7 @@ private:
     e.mirrored = before_.name != "LINE" && before_.name != "SPLINE" && normal[2] < 0.0;
     e.tilted = is_rise(rise) || std::hypot(normal[0], normal[1]) > 1e-6 * std::abs(normal[2]);
     e.numbers = std::move(numbers);
+    e.fault = before_.groups.fault_of(before_.name);
     entities.push_back(std::move(e));
   }
 };
@@ -158,7 +170,7 @@ std::string packed(const std::filesystem::path& file) {
     for (const std::vector<double>* list : {&e.numbers, &e.knots})
       for (const double number : *list)
         text += fmt::format(" {}", number);
-    text += "\n" + e.layer + "\n" + e.block + "\n" + e.inserted + "\n";
+    text += "\n" + e.layer + "\n" + e.block + "\n" + e.inserted + "\n" + e.fault + "\n";
   }
   return text;
 }
@@ -220,6 +232,8 @@ DxfEntity entity_of(const RawEntity& e) {
   const bool round = e.name == "ARC" || e.name == "CIRCLE";
   if (!supported.contains(e.name))
     made.fault = "is not supported";
+  else if (!e.fault.empty())
+    made.fault = e.fault;
   else if (!fits)
     made.fault = "has a number that is not finite or beyond 1e9";
   else if (e.tilted || (e.name == "POLYLINE" && (e.flags & solid)))
@@ -275,6 +289,7 @@ DxfDrawing unpacked(const std::string& text) {
     std::getline(in, e.layer);
     std::getline(in, e.block);
     std::getline(in, e.inserted);
+    std::getline(in, e.fault);
     if (e.name == "BLOCK" && e.numbers.size() == 2)
       blocks[lower_case(e.block)].base = {e.numbers[0], e.numbers[1]};
     else if (e.name != "BLOCK")
@@ -305,6 +320,7 @@ void check_kind(const std::filesystem::path& file) {
 
 DxfDrawing read_dxf(const std::filesystem::path& file) {
   check_kind(file);
+  check_dxf_lines(file);
   const HelperResult result = in_helper_process([&] { return packed(file); }, HelperLimits{});
   if (result.end == HelperResult::End::timeout)
     throw std::runtime_error("takes too long to read; save the outline alone");

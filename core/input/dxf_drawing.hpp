@@ -40,7 +40,8 @@ struct DxfDrawing {
 /// Reads an ASCII DXF file by dxflib, in a process of its own, with blocks where they are inserted
 /// (core/input/dxf_blocks.hpp). Left out are texts, dimensions and
 /// other entities that are no geometry. Throws std::runtime_error ("rule; remedy", without the
-/// file's name): no such file, DWG, binary, no DXF, cut short, dxflib crashed.
+/// file's name): no such file, DWG, binary, no DXF, cut short, lines that dxflib would take
+/// for others, dxflib crashed.
 DxfDrawing read_dxf(const std::filesystem::path& file);
 
 } // namespace plyform

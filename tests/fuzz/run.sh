@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs the libFuzzer targets, as many at a time as there are cores, each for so many seconds:
-#   tests/fuzz/run.sh SECONDS [TARGET]...      all: case fabric curve results stl obj ply off
+#   tests/fuzz/run.sh SECONDS [TARGET]...      all: case fabric curve results stl obj ply off dxf
 # Seeds are tests/fuzz/corpus/TARGET; what is learned stays in build/fuzz/corpus, and a file that a
 # target goes down on, or hangs or swells on, in build/fuzz/finds: mend the reader, then put the
 # file into tests/fuzz/corpus/TARGET, where a test replays it. Answers 1 if there is any.
@@ -10,7 +10,7 @@ seconds=${1:?how many seconds? tests/fuzz/run.sh SECONDS [TARGET]...}
 shift
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(case fabric curve results stl obj ply off)
+[ ${#targets[@]} -gt 0 ] || targets=(case fabric curve results stl obj ply off dxf)
 
 tools/install_packages.sh build clang-14 libclang-rt-14-dev
 [ -e build/fuzz/build.ninja ] || cmake --preset fuzz
