@@ -118,7 +118,7 @@ ln -s "$PWD/cases/hemisphere_0/case.toml" linked.toml
 expect 0 'the case is sound' check linked.toml "${short[@]}"
 
 # An accuracy that was missed: the second run is in the folder, the first one in first_run, whole.
-small=(cases/studies/verify/hemisphere.toml --threads 1 --set accuracy.shear_deg=1.4
+small=(cases/verify/hemisphere.toml --threads 1 --set accuracy.shear_deg=1.4
   --set 'ply=[{name="ply1",fabric="glass",blank="square",angle=20}]'
   --set tool.0.position=[0,0,45.6] --set tool.2.position=[0,0,0.6])
 expect 0 'the first run is in corrected/first_run' run "${small[@]}" -o corrected --verify

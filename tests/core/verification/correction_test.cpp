@@ -18,7 +18,7 @@ PreparedCase small_hemisphere(double wanted, std::vector<Override> overrides = {
                     {"tool.0.position", "[0, 0, 45.6]"},
                     {"tool.2.position", "[0, 0, 0.6]"},
                     {"accuracy.shear_deg", std::to_string(wanted)}});
-  PreparedCase prepared = prepare_case(PLYFORM_CASES "/studies/verify/hemisphere.toml", overrides);
+  PreparedCase prepared = prepare_case(PLYFORM_CASES "/verify/hemisphere.toml", overrides);
   EXPECT_TRUE(prepared.value);
   return prepared;
 }
