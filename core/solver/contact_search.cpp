@@ -50,7 +50,7 @@ int next_ply(int from, int to) {
 }
 
 bool neighbours(const PlyContact& pair) {
-  return pair.master == next_ply(pair.slave, pair.master);
+  return pair.slave != pair.master && pair.master == next_ply(pair.slave, pair.master);
 }
 
 /// Marks the slave's nodes that the master occludes from the plies beyond it: their gap to it is
