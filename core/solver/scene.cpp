@@ -55,7 +55,7 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
     body.q.resize(mesh.triangles.size());
   }
   body.edges = sheet_edges(body.membrane.triangles, body.x0);
-  body.convex = is_convex(body.x0, body.membrane.triangles);
+  body.convex = data.self_contact() && is_convex(body.x0, body.membrane.triangles);
   body.touches_boundary_edge = faces_on_rim(body.edges.all, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   body.bound = eigenvalue_bound(body.membrane, body.x);

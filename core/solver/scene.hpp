@@ -35,7 +35,7 @@ struct PlyModel {
   BendingSimd bending_simd;         ///< SIMD version of the bending, or empty
   SheetEdges edges;
   std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
-  bool convex = false;                     ///< contact/search/unfolded.hpp
+  bool convex = false; ///< contact/search/unfolded.hpp; not asked without self-contact
 };
 
 /// Position and velocity of a ply: the state that a restart must keep.
