@@ -139,7 +139,7 @@ std::optional<CutAhead> cut_ahead(const Scene& scene, std::size_t t, std::size_t
     box.extend(x);
   const double reach = box.diagonal().norm() + tool.position.norm() + box.center().norm();
   const Vec3 to_ply = side_of(tool, ply);
-  const Chords chords{tool, half};
+  const Chords chords{tool, half, {}};
   std::optional<CutAhead> worst;
   for (const Ridge& ridge : ridges_of(tool_surface(tool, 0.5 * side, reach))) {
     const bool over = std::any_of(ways.begin(), ways.end(),
