@@ -16,6 +16,10 @@ void deactivate(ToolPlyPoint& c) {
   c.gap = std::numeric_limits<double>::infinity();
 }
 
+Vec3 to_tool_frame(const ToolBody& tool, const Vec3& x) {
+  return tool.rotation.transpose() * (x - tool.position - tool.displacement);
+}
+
 /// Signed distance to a tool in its present position; to_shape(p, hint): to its shape, in the tool
 /// frame.
 template <class ToShape>
@@ -60,8 +64,16 @@ void in_parts(const ActiveList& list, const Work& work) {
 }
 
 /// Activates the points that may touch, and deactivates the others.
-void update_active(ToolPlyContact& contact, double path_length) {
-  update(contact.list, path_length, [&contact](std::int32_t i) { deactivate(contact.points[i]); });
+void update_active(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
+                   double path_length) {
+  const auto room = [&](std::int32_t i) {
+    const ToolPlyPoint& c = contact.points[static_cast<std::size_t>(i)];
+    const Vec3 x = to_tool_frame(tool, ply.x[static_cast<std::size_t>(c.node)]);
+    const double way = (x - Vec3(c.hint.at[0], c.hint.at[1], c.hint.at[2])).norm();
+    return least_distance(c.hint, way) - contact.half_thickness;
+  };
+  update(contact.list, path_length, room,
+         [&contact](std::int32_t i) { deactivate(contact.points[i]); });
 }
 
 /// Measures gaps and normals of the points in `part` at the present positions of tool and ply.
@@ -87,7 +99,7 @@ void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinemat
 void measure_all(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
                  double path_length) {
   const Stopwatch watch(contact.time.forces);
-  update_active(contact, path_length);
+  update_active(contact, tool, ply, path_length);
   if (contact.list.active.empty()) return;
   with_distance(tool, [&](const auto& distance) {
     measure(contact, tool, ply, path_length, contact.list.active, distance);
@@ -133,7 +145,7 @@ Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& to
 Vec3 measure_and_press(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
                        double path_length, double dt) {
   const Stopwatch watch(contact.time.forces);
-  update_active(contact, path_length);
+  update_active(contact, tool, ply, path_length);
   clear_present(contact.sums);
   Vec3 on_tool = Vec3::Zero();
   if (contact.list.active.empty()) return on_tool;

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <limits>
+#include <type_traits>
 #include <vector>
 
 namespace plyform {
@@ -29,18 +30,28 @@ inline void clear(ActiveList& list) {
   list.until = -1.0;
 }
 
+/// For bodies whose path length is all that is known of their gaps.
+struct NoRoom {
+  double operator()(std::int32_t) const { return -std::numeric_limits<double>::infinity(); }
+};
+
 /// Activates the pairs that may touch at this path length (mm) and calls deactivate(i) for each
-/// pair that was active and no longer is. To be called at every step; returns whether it updated
-/// the list. An update serves for `kept` of path length, so that most steps need none, and while
-/// any pair is active for no more than `longest`, so that pairs that have opened become inactive.
-template <class Deactivate>
-bool update(ActiveList& list, double path_length, const Deactivate& deactivate) {
+/// pair that was active and no longer is. room(i): a lower bound of the pair's gap, mm, where the
+/// path length no longer tells. To be called at every step; returns whether it updated the list. An
+/// update serves for `kept` of path length, so that most steps need none, and while any pair is
+/// active for no more than `longest`, so that pairs that have opened become inactive.
+template <class Room, class Deactivate>
+bool update(ActiveList& list, double path_length, const Room& room, const Deactivate& deactivate) {
   constexpr double kept = 0.05, longest = 0.2; // mm
   // A pair is activated two steps before it may touch, so that its closing speed is known by then.
   list.ahead = 2.0 * std::max(path_length - list.last_path, 0.0);
   list.last_path = path_length;
   if (path_length < list.until) return false;
   const double now = path_length + kept + list.ahead;
+  if constexpr (!std::is_same_v<Room, NoRoom>)
+    for (std::size_t i = 0; i < list.free_until.size(); ++i)
+      if (double& free = list.free_until[i]; !(free > now))
+        free = std::max(free, path_length + room(static_cast<std::int32_t>(i)));
   for (const std::int32_t i : list.active)
     if (list.free_until[i] > now) deactivate(i);
   list.active.clear();

@@ -13,6 +13,13 @@
 // node with it: as long as the point is nearer than (d' - d) / 2 to where it was searched, the
 // closest triangle is the one found then or one around it, and the tree is asked once in many
 // steps.
+//
+// Nor need all those be measured at each step. Let p have its foot inside triangle G, a height s
+// above its plane and e from its sides. A triangle whose image on that plane does not overlap G and
+// which rises no more than r above it has a point q with |p - q|^2 >= e^2 + s^2 - 2 s r, so G is
+// the closest if e^2 > 2 s r. With the least weight w of the foot and the least height H of G, e is
+// at least w H:
+//   w^2 > s c,  c = 2 r / H^2, of the triangles below the plane if p is (3)
 #include "contact/shapes/mesh_shape.hpp"
 
 #include "contact/point_triangle.hpp"
@@ -152,6 +159,65 @@ std::vector<std::array<Vec3, 7>> pseudo_normals(const TriMesh& s,
   return normals;
 }
 
+/// Whether a side of triangle s, counter-clockwise in the plane, has all of t outside or on it.
+bool separates(const std::array<Vec2, 3>& s, const std::array<Vec2, 3>& t) {
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Vec2& from = s[k];
+    const Vec2 side = s[(k + 1) % 3] - from;
+    if (std::all_of(t.begin(), t.end(), [&](const Vec2& q) {
+          return side.x() * (q - from).y() - side.y() * (q - from).x() <= 0.0;
+        }))
+      return true;
+  }
+  return false;
+}
+
+/// A triangle and its plane, for (3).
+class Foot {
+public:
+  explicit Foot(const std::array<Vec3, 3>& corners) : origin_(corners[0]) {
+    const Vec3 first = (corners[1] - corners[0]).normalized();
+    axes_.row(2) = unit_normal(corners);
+    axes_.row(0) = first;
+    axes_.row(1) = axes_.row(2).transpose().cross(first);
+    image_ = image_of(corners).first;
+  }
+
+  /// Raises `rise`, mm above and below the plane, to hold a neighbour; infinite if it overlaps.
+  void raise(const std::array<Vec3, 3>& neighbour, std::array<double, 2>& rise) const {
+    const auto [image, height] = image_of(neighbour);
+    const Vec2 p = image[1] - image[0], q = image[2] - image[0];
+    const bool upright = p.x() * q.y() - p.y() * q.x() > 0.0; // counter-clockwise in the plane
+    const bool apart = separates(image_, image) || (upright && separates(image, image_));
+    for (std::size_t side = 0; side < 2; ++side)
+      for (const double h : height)
+        rise[side] = std::max(rise[side], apart ? (side == 0 ? h : -h)
+                                                : std::numeric_limits<double>::infinity());
+  }
+
+  double least_height() const {
+    const auto& [a, b, c] = image_;
+    const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    return std::abs((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x()) / longest;
+  }
+
+private:
+  std::pair<std::array<Vec2, 3>, std::array<double, 3>>
+  image_of(const std::array<Vec3, 3>& corners) const {
+    std::pair<std::array<Vec2, 3>, std::array<double, 3>> found;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Vec3 q = axes_ * (corners[k] - origin_);
+      found.first[k] = q.head<2>();
+      found.second[k] = q.z();
+    }
+    return found;
+  }
+
+  Vec3 origin_;
+  Eigen::Matrix3d axes_;
+  std::array<Vec2, 3> image_;
+};
+
 std::vector<std::vector<std::int32_t>> incident_faces(const TriMesh& s) {
   std::vector<std::vector<std::int32_t>> faces(s.x.size());
   for (std::size_t f = 0; f < s.triangles.size(); ++f)
@@ -178,7 +244,7 @@ struct MeshShape::Tree {
 
 MeshShape::MeshShape(TriMesh surface) : surface_(std::move(surface)) {
   for (const Vec3& x : surface_.x)
-    bounds_.extend(x);
+    largest_ = std::max(largest_, x.cwiseAbs().maxCoeff());
   corners_.reserve(surface_.triangles.size());
   for (const Triangle& t : surface_.triangles)
     corners_.push_back({surface_.x[t[0]], surface_.x[t[1]], surface_.x[t[2]]});
@@ -189,44 +255,89 @@ MeshShape::MeshShape(TriMesh surface) : surface_(std::move(surface)) {
 
 MeshShape::~MeshShape() = default;
 
-float MeshShape::clear_way(const Vec3& p, int face, double distance) const {
+float MeshShape::clear_way(const Vec3& p, int face, double distance, double off) const {
   NextFace next(tree_->facets.cbegin(), surface_, surface_.triangles[face], distance + widest);
   tree_->search.traversal_with_priority(p, next);
   constexpr double below = 1.0 - 1e-6; // rounding to float and of distances must not increase it
-  return static_cast<float>(0.5 * std::max(below * std::sqrt(next.reach2) - distance, 0.0));
+  const double way = 0.5 * (below * std::sqrt(next.reach2) - distance) - off;
+  return static_cast<float>(below * std::max(way, 0.0));
+}
+
+void MeshShape::remember(const Vec3& p, int face, double distance, bool slides,
+                         SurfaceHint& hint) const {
+  const Eigen::Vector3f at = p.cast<float>();
+  const double off = (at.cast<double>() - p).norm();
+  Eigen::Map<Eigen::Vector3f>(hint.at) = at;
+  hint.distance = static_cast<float>(distance - off - 1e-6 * std::abs(distance)); // rounded down
+  hint.clear = slides ? clear_way(p, face, std::abs(distance), off) : 0.0F;
+  hint.facet = face;
+  hint.nearest = -1;
+}
+
+SurfacePoint MeshShape::at_closest(const Vec3& p, int face, const ClosestPoint& closest,
+                                   double on_surface) const {
+  const auto f = static_cast<std::size_t>(face);
+  const auto& [a, b, c] = corners_[f];
+  const Vec3& m = normals_[f][closest.feature];
+  if (closest.feature == 0) return {m.dot(p - a), m}; // (1)
+  const auto& w = closest.w;
+  const Vec3 d = p - (w[0] * a + w[1] * b + w[2] * c);
+  const double length = d.norm(), sign = m.dot(d) < 0.0 ? -1.0 : 1.0; // (2)
+  if (length <= on_surface) return {sign * length, m};
+  return {sign * length, d * (sign / length)};
+}
+
+void MeshShape::compare_with_neighbours(int face, SurfaceHint& hint) const {
+  const Foot foot(corners_[static_cast<std::size_t>(face)]);
+  std::array<double, 2> rise{};
+  for (const std::int32_t n : surface_.triangles[static_cast<std::size_t>(hint.facet)])
+    for (const std::int32_t f : faces_of_node_[n])
+      if (f != face) foot.raise(corners_[f], rise);
+  if (hint.facet != face) foot.raise(corners_[hint.facet], rise);
+  const double height = foot.least_height();
+  constexpr double rounding = 1e-12, above = 1.0 + 1e-6; // of the largest coordinate; to float
+  for (std::size_t side = 0; side < 2; ++side)
+    hint.concavity[side] =
+        static_cast<float>(above * 2.0 * (rise[side] + rounding * largest_) / (height * height));
+  hint.nearest = face;
+}
+
+bool MeshShape::found_at_once(const Vec3& p, const SurfaceHint& hint, SurfacePoint& found) const {
+  const auto f = static_cast<std::size_t>(hint.nearest);
+  const auto& [a, b, c] = corners_[f];
+  const ClosestPoint foot = closest_point_on_triangle(p, a, b, c);
+  if (foot.feature != 0) return false;
+  const Vec3& n = normals_[f][0];
+  const double s = n.dot(p - a), w = std::min({foot.w[0], foot.w[1], foot.w[2]});
+  constexpr double rounding = 1e-6;
+  if (!(w * w > std::abs(s) * double{hint.concavity[s < 0.0 ? 1 : 0]} + rounding)) return false;
+  found = {s, n}; // (1)
+  return true;
 }
 
 SurfacePoint MeshShape::signed_distance(const Vec3& p, SurfaceHint& hint) const {
-  const double scale = std::max({bounds_.min().cwiseAbs().maxCoeff(),
-                                 bounds_.max().cwiseAbs().maxCoeff(), p.cwiseAbs().maxCoeff()});
+  const bool asked = hint.facet >= 0 && hint.facet < static_cast<int>(corners_.size());
+  const double moved = (p - Vec3(hint.at[0], hint.at[1], hint.at[2])).norm();
+  const bool around = asked && moved < double{hint.clear};
+  if (SurfacePoint found; around && hint.nearest >= 0 && found_at_once(p, hint, found))
+    return found;
+  const double scale = std::max(largest_, p.cwiseAbs().maxCoeff());
   NearestFace nearest(tree_->facets.cbegin(), corners_, search_slack * scale);
-  if (hint.facet >= 0 && hint.facet < static_cast<int>(corners_.size())) {
+  if (asked) {
     nearest.test_face(p, hint.facet);
     for (const std::int32_t n : surface_.triangles[hint.facet])
       for (const std::int32_t f : faces_of_node_[n])
         nearest.test_face(p, f);
   }
-  Eigen::Map<Vec3> searched_at(hint.at);
-  const double moved = (p - searched_at).norm();
-  if (nearest.face < 0 || !(moved < double{hint.clear})) {
-    const bool slides = hint.facet >= 0 && moved < 0.5 * widest; // it will come again
-    tree_->search.traversal_with_priority(p, nearest);
-    if (nearest.face < 0)
-      return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitZ()}; // p is NaN
-    hint.clear = slides ? clear_way(p, nearest.face, std::sqrt(nearest.closest.distance2)) : 0.0F;
-    hint.facet = nearest.face;
-    searched_at = p;
-  }
-
-  const auto f = static_cast<std::size_t>(nearest.face);
-  const auto& [a, b, c] = corners_[f];
-  const Vec3& m = normals_[f][nearest.closest.feature];
-  if (nearest.closest.feature == 0) return {m.dot(p - a), m}; // (1)
-  const auto& w = nearest.closest.w;
-  const Vec3 d = p - (w[0] * a + w[1] * b + w[2] * c);
-  const double length = d.norm(), sign = m.dot(d) < 0.0 ? -1.0 : 1.0; // (2)
-  if (length <= feature_radius * scale) return {sign * length, m};
-  return {sign * length, d * (sign / length)};
+  const bool search = nearest.face < 0 || !around;
+  if (search) tree_->search.traversal_with_priority(p, nearest);
+  if (nearest.face < 0)
+    return {std::numeric_limits<double>::quiet_NaN(), Vec3::UnitZ()}; // p is NaN
+  const SurfacePoint found = at_closest(p, nearest.face, nearest.closest, feature_radius * scale);
+  if (search) remember(p, nearest.face, found.distance, asked && moved < 0.5 * widest, hint);
+  if (nearest.closest.feature == 0 && hint.clear > 0.0F && hint.nearest != nearest.face)
+    compare_with_neighbours(nearest.face, hint);
+  return found;
 }
 
 } // namespace plyform

@@ -2,6 +2,7 @@
 // Internal to contact/: a triangle mesh as a tool. The search tree (CGAL) stays in mesh_shape.cpp.
 #pragma once
 
+#include "contact/point_triangle.hpp"
 #include "contact/shapes/tool_shape.hpp"
 
 namespace plyform {
@@ -22,11 +23,21 @@ public:
 private:
   struct Tree;
   /// SurfaceHint::clear of p (mm, tool frame), whose closest triangle is `face`, at this distance
-  /// (mm).
-  float clear_way(const Vec3& p, int face, double distance) const;
+  /// (mm). off: mm, from p to SurfaceHint::at, which is rounded.
+  float clear_way(const Vec3& p, int face, double distance, double off) const;
+  /// Sets the hint of a point whose closest triangle, at this signed distance (mm), was searched.
+  /// slides: its next search will be near.
+  void remember(const Vec3& p, int face, double distance, bool slides, SurfaceHint& hint) const;
+  /// on_surface: mm, within which the pseudo-normal serves as normal.
+  SurfacePoint at_closest(const Vec3& p, int face, const ClosestPoint& closest,
+                          double on_surface) const;
+  /// Makes `face`, hint.facet or one around it, the hint's `nearest`, with its `concavity`.
+  void compare_with_neighbours(int face, SurfaceHint& hint) const;
+  /// Sets `found` and returns true if hint.nearest alone tells that it is closest to p.
+  bool found_at_once(const Vec3& p, const SurfaceHint& hint, SurfacePoint& found) const;
 
   TriMesh surface_;
-  Box3 bounds_;
+  double largest_ = 0.0;                     ///< mm, coordinate
   std::vector<std::array<Vec3, 3>> corners_; ///< mm, of each triangle, contiguous for the search
   std::vector<std::array<Vec3, 7>> normals_; ///< unit pseudo-normals by ClosestPoint::feature
   std::vector<std::vector<std::int32_t>> faces_of_node_;

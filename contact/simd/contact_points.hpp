@@ -37,7 +37,7 @@ struct alignas(32) ToolPlyPoint {
   double last_gap = 0.0; ///< mm, gap of the step before; if inactive, that when deactivated
 
   double normal[3] = {}; ///< unit normal in the global frame, when last measured
-  std::int32_t node, unused = 0;
+  std::int32_t node;
 
   SurfaceHint hint;
 };

@@ -258,15 +258,20 @@ Vec3 stroke_of(const Tool& tool) {
 double approach(const SceneCheck& check, std::size_t a, std::size_t b) {
   const Tool &ta = check.scene.tools[a], &tb = check.scene.tools[b];
   const Vec3 shift_a = stroke_of(ta), shift_b = stroke_of(tb);
+  const std::vector<Vec3>& corners = check.surfaces[a].x;
   double least = std::numeric_limits<double>::infinity();
   SurfaceHint hint_a, hint_b;
-  LastDistance last;
-  for (const Vec3& x : check.surfaces[a].x) {
-    const Vec3 p = x + shift_a;
-    if (!check.bounds.contains(p.head<2>()) || last.at_least(p) - surface_error > least) continue;
-    last = {p, tool_distance(tb, shift_b, p, hint_b)};
-    // Corrected by the distance of the tessellation's corner from the true surface.
-    least = std::min(least, last.distance + tool_distance(ta, shift_a, p, hint_a));
+  // A few corners first: with a small distance known, most of the others need not be asked.
+  for (const std::size_t stride : {std::size_t{101}, std::size_t{1}}) {
+    LastDistance last;
+    for (std::size_t i = 0; i < corners.size(); i += stride) {
+      const Vec3 p = corners[i] + shift_a;
+      if (!check.bounds.contains(p.head<2>()) || last.at_least(p) - surface_error > least) continue;
+      last = {p, tool_distance(tb, shift_b, p, hint_b)};
+      if (last.distance - surface_error > least) continue;
+      // Corrected by the distance of the tessellation's corner from the true surface.
+      least = std::min(least, last.distance + tool_distance(ta, shift_a, p, hint_a));
+    }
   }
   return least;
 }
