@@ -5,7 +5,9 @@
 #include <Eigen/Core>
 #include <Eigen/Geometry>
 #include <array>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 namespace plyform {
@@ -22,5 +24,11 @@ struct TriMesh {
   std::vector<Vec3> x;
   std::vector<Triangle> triangles;
 };
+
+/// The float next to x that is no larger: for lower bounds that are kept in half of the memory.
+inline float rounded_down(double x) {
+  const auto f = static_cast<float>(x);
+  return double{f} > x ? std::nextafter(f, -std::numeric_limits<float>::infinity()) : f;
+}
 
 } // namespace plyform

@@ -72,7 +72,7 @@ void list_due(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeSheet& b) 
     for (std::int32_t i = group.first; i < group.end; ++i) {
       const EdgeCandidate& c = contact.candidates[i];
       if (c.free_until > soon) {
-        free_until = std::min(free_until, c.free_until);
+        free_until = std::min(free_until, double{c.free_until});
         continue;
       }
       const SheetEdge &of_a = a.edges.all[c.edge[0]], &of_b = b.edges.all[c.edge[1]];
@@ -196,8 +196,9 @@ void edge_forces(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeSheet& 
       press(contact, pair, normal_of(pair, a.state.x, b.state.x), p, dp, last < contact.distance,
             dt, force_a, force_b);
     else if (!(last < contact.distance)) // it has been open for a step
-      candidate.free_until = group.path_length + m.distances[i].distance - contact.distance;
-    group.free_until = std::min(group.free_until, candidate.free_until);
+      candidate.free_until =
+          rounded_down(group.path_length + m.distances[i].distance - contact.distance);
+    group.free_until = std::min(group.free_until, double{candidate.free_until});
     // unmeasured from then on, the edges may pass each other: a pair that is left forgets its side
     if (!(candidate.free_until > group.path_length + group.ahead)) contact.pairs.push_back(pair);
   }

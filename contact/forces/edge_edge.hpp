@@ -33,7 +33,7 @@ struct EdgeNodes {
 /// Two edges that the search found close to each other.
 struct EdgeCandidate {
   std::array<std::int32_t, 2> edge{}; ///< numbers of the two edges
-  double free_until = 0.0;            ///< mm, path length of its group before which it cannot touch
+  float free_until = 0.0F;            ///< mm, path length of its group before which it cannot touch
 };
 
 /// Candidates of the edges of one patch of each sheet, a range of EdgeEdgeContact::candidates.

@@ -144,10 +144,10 @@ void append_groups(EdgeEdgeContact& contact, std::int32_t patch_a, std::vector<F
       group.free_until = f.gap;
       contact.groups.push_back(group);
     }
-    contact.candidates.push_back({f.edge, f.gap});
+    contact.candidates.push_back({f.edge, rounded_down(f.gap)});
     EdgeGroup& group = contact.groups.back();
     group.end = static_cast<std::int32_t>(contact.candidates.size());
-    group.free_until = std::min(group.free_until, f.gap);
+    group.free_until = std::min(group.free_until, double{contact.candidates.back().free_until});
   }
 }
 
@@ -210,6 +210,7 @@ void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
     }
     append_groups(contact, patch, found);
   }
+  contact.candidates.shrink_to_fit(); // the longest list of a scene
   renumber_pairs(contact, a, b, followed);
 }
 

@@ -114,7 +114,7 @@ PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
   c.first_face = static_cast<std::int32_t>(contact.faces.size());
   for (const Candidate& n : near) {
     contact.faces.push_back(n.face);
-    contact.face_distance.push_back(std::sqrt(n.distance2));
+    contact.face_distance.push_back(rounded_down(std::sqrt(n.distance2)));
   }
   c.end_face = static_cast<std::int32_t>(contact.faces.size());
   const double tied = (1.0 + same_distance) * near.front().distance2;
@@ -146,14 +146,14 @@ const PlyPlyPoint* find_old(std::span<const PlyPlyPoint> old, std::size_t& begin
 } // namespace
 
 double distance_of_others(const PlyPlyPoint& point, const std::int32_t* triangles,
-                          const std::int32_t* faces, const double* face_distance) {
+                          const std::int32_t* faces, const float* face_distance) {
   const auto corners = [triangles](std::int32_t face) {
     return triangles + 3 * std::ptrdiff_t(face);
   };
   const std::int32_t* t = corners(point.face);
   for (std::int32_t i = point.first_face; i < point.end_face; ++i) {
     const std::int32_t* u = corners(faces[i]);
-    if (std::find_first_of(t, t + 3, u, u + 3) == t + 3) return face_distance[i];
+    if (std::find_first_of(t, t + 3, u, u + 3) == t + 3) return double{face_distance[i]};
   }
   return std::numeric_limits<double>::max(); // faces that are not listed cannot touch
 }

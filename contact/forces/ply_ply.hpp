@@ -53,12 +53,12 @@ struct ContactFault {
 };
 
 struct PlyPlyContact {
-  ContactLaw law;                    ///< with half of the pair's stiffness
-  double distance = 0.0;             ///< h, mm
-  std::vector<PlyPlyPoint> points;   ///< ascending by node
-  std::vector<std::int32_t> faces;   ///< faces of each point in turn, in ascending distance
-  std::vector<double> face_distance; ///< mm, of faces[i] from the node at the last search
-  ActiveList list;                   ///< of the points
+  ContactLaw law;                   ///< with half of the pair's stiffness
+  double distance = 0.0;            ///< h, mm
+  std::vector<PlyPlyPoint> points;  ///< ascending by node
+  std::vector<std::int32_t> faces;  ///< faces of each point in turn, in ascending distance
+  std::vector<float> face_distance; ///< mm, of faces[i] from the node at the last search, at most
+  ActiveList list;                  ///< of the points
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again
   ContactTotals sums;
   ContactFault fault;

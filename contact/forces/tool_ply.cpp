@@ -314,8 +314,7 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
       gap = at.distance - contact.half_thickness;
       normal_of(point) = at.normal;
     }
-    constexpr double below = 1.0 - 1e-6; // rounding to float must not increase the path length
-    contact.free[n] = static_cast<float>(below * (path_length + gap));
+    contact.free[n] = rounded_down(path_length + gap);
     if (gap > reach) {
       if (touched) release(contact.law, ply.area[n], point.memory, contact.sums);
       continue;

@@ -71,6 +71,8 @@ Cells cells_of(std::size_t edges, std::span<const Vec3> x0) {
 
 SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0) {
   SheetEdges edges{list_edges(triangles), {}, {}, {}};
+  edges.all.shrink_to_fit();
+  edges.patch.reserve(edges.all.size());
   const Cells cells = cells_of(edges.all.size(), x0);
   std::map<std::pair<int, int>, std::int32_t> patch_at;
   for (const SheetEdge& e : edges.all) {
@@ -86,6 +88,7 @@ SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3
   for (std::vector<std::int32_t>& nodes : edges.patch_nodes) {
     std::sort(nodes.begin(), nodes.end());
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
+    nodes.shrink_to_fit();
   }
   for (const Triangle& t : triangles) {
     auto& of = edges.patches_of_triangle.emplace_back();

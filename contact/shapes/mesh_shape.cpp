@@ -258,9 +258,8 @@ MeshShape::~MeshShape() = default;
 float MeshShape::clear_way(const Vec3& p, int face, double distance, double off) const {
   NextFace next(tree_->facets.cbegin(), surface_, surface_.triangles[face], distance + widest);
   tree_->search.traversal_with_priority(p, next);
-  constexpr double below = 1.0 - 1e-6; // rounding to float and of distances must not increase it
-  const double way = 0.5 * (below * std::sqrt(next.reach2) - distance) - off;
-  return static_cast<float>(below * std::max(way, 0.0));
+  constexpr double below = 1.0 - 1e-6; // rounding of distances must not increase it
+  return rounded_down(std::max(0.5 * (below * std::sqrt(next.reach2) - distance) - off, 0.0));
 }
 
 void MeshShape::remember(const Vec3& p, int face, double distance, bool slides,
@@ -268,7 +267,7 @@ void MeshShape::remember(const Vec3& p, int face, double distance, bool slides,
   const Eigen::Vector3f at = p.cast<float>();
   const double off = (at.cast<double>() - p).norm();
   Eigen::Map<Eigen::Vector3f>(hint.at) = at;
-  hint.distance = static_cast<float>(distance - off - 1e-6 * std::abs(distance)); // rounded down
+  hint.distance = rounded_down(distance - off);
   hint.clear = slides ? clear_way(p, face, std::abs(distance), off) : 0.0F;
   hint.facet = face;
   hint.nearest = -1;

@@ -143,7 +143,8 @@ PLYFORM_INLINE SimdFoot closest_on_any_face(const PlyPlyKernelContact& k, PlyPly
     for (int lane = 0; lane < count; ++lane) {
       const std::int32_t f = point[lane]->first_face + i;
       if (f >= point[lane]->end_face) continue;
-      if (k.face_distance[f] > limit[lane]) continue; // faces are in ascending order of distance
+      if (double{k.face_distance[f]} > limit[lane])
+        continue; // faces are in ascending order of distance
       at[lane] = k.faces[f];
       more[lane] = -1;
     }

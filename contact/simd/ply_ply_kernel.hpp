@@ -18,7 +18,7 @@ struct PlyPlyKernelContact {
   const double* fold_bound;      ///< of the master's faces (contact/search/fold_bound.hpp), or null
   const std::int32_t* triangles; ///< 3 nodes per face of the master
   const std::int32_t* faces;     ///< of PlyPlyContact
-  const double* face_distance;   ///< mm, of PlyPlyContact
+  const float* face_distance;    ///< mm, of PlyPlyContact
   double *slave_force, *master_force;
   double max_displacement; ///< mm, RelativeMotion::max_displacement
   double path_length;      ///< mm (contact/search/active_list.hpp)
@@ -42,7 +42,7 @@ constexpr double same_distance = 1e-10;
 /// of the nearest of its faces that shares no node with point.face; the largest double if there is
 /// none. triangles, faces, face_distance: as of PlyPlyKernelContact.
 double distance_of_others(const PlyPlyPoint& point, const std::int32_t* triangles,
-                          const std::int32_t* faces, const double* face_distance);
+                          const std::int32_t* faces, const float* face_distance);
 
 /// ContactTotals of this step over the points: sums, maxima and minima.
 struct PlyPlyKernelTotals {

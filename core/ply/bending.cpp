@@ -39,17 +39,8 @@ double bound(const Bending& b, std::span<const double> node_mass) {
   return largest;
 }
 
-/// Normal and second derivatives at one node.
-struct StencilShape {
-  Vec3 normal;
-  double size;                ///< |N|
-  std::array<Vec3, 3> second; ///< s_11, s_22, s_12, 1/mm
-  std::array<double, 3> kappa;
-};
-
 /// In-plane curvature of one family of yarns at one node.
 struct YarnCurvature {
-  Vec3 along;          ///< d
   Vec3 across;         ///< c / l^2
   Vec3 slope;          ///< q, 1/mm
   double kappa = 0.0;  ///< 1/mm
@@ -60,43 +51,35 @@ StencilShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t ste
   const auto first = static_cast<std::size_t>(b.begin[stencil]);
   const auto at = [&](std::size_t place) -> const Vec3& { return x[b.node[first + place]]; };
   StencilShape s;
-  s.normal.setZero();
+  Vec3 sum = Vec3::Zero(); // N
   for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
        i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
     const auto& [p, q, r] = b.fan[i];
     const Vec3& x0 = at(static_cast<std::size_t>(p));
-    s.normal += (at(static_cast<std::size_t>(q)) - x0).cross(at(static_cast<std::size_t>(r)) - x0);
+    sum += (at(static_cast<std::size_t>(q)) - x0).cross(at(static_cast<std::size_t>(r)) - x0);
   }
-  s.size = s.normal.norm();
-  s.normal /= s.size;
-  s.second.fill(Vec3::Zero());
   for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i) {
     // differences, so that rounding is relative to the stencil's size
     const Vec3 from = at(i - first) - at(0);
     for (std::size_t k = 0; k < 3; ++k)
       s.second[k] += b.b[i][k] * from;
+    for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
+      s.first[k] += b.a[i][k] * from;
   }
-  for (std::size_t k = 0; k < 3; ++k)
-    s.kappa[k] = s.normal.dot(s.second[k]); // (K)
+  set_normal(s, sum);
   return s;
 }
 
-/// (T); `family` 0 the warp, 1 the weft.
-YarnCurvature yarn_curvature(const Bending& b, std::span<const Vec3> x, std::size_t stencil,
-                             std::size_t family, const StencilShape& s) {
-  const auto first = static_cast<std::size_t>(b.begin[stencil]);
-  const Vec3& own = x[stencil];
+/// (T) of a family of yarns whose D_g is `stiffness` (N mm); `family` 0 the warp, 1 the weft.
+YarnCurvature yarn_curvature(const StencilShape& s, std::size_t family, double stiffness) {
   YarnCurvature t;
-  t.along.setZero();
-  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
-    t.along += b.a[i][family] * (x[b.node[i]] - own);
-  const Vec3 c = s.normal.cross(t.along);
+  const Vec3 c = s.normal.cross(s.first[family]);
   constexpr double least = 1e-12; // lower limit of l^2, below which a yarn has no direction
   const double l2 = std::max(least, c.squaredNorm());
   t.across = c / l2;
   t.kappa = s.second[family].dot(t.across);
   t.slope = s.second[family] / l2 - 2.0 * t.kappa * t.across;
-  t.moment = b.in_plane[stencil][family] * t.kappa;
+  t.moment = stiffness * t.kappa;
   return t;
 }
 
@@ -108,14 +91,15 @@ std::array<double, 3> moments(const BendingLaw& law, const std::array<double, 3>
 
 /// Adds (I) of one family to the forces on the nodes of a stencil, except for the term of the
 /// rotation of the normal: its contribution to h, N/mm, is returned.
-Vec3 add_in_plane(const Bending& b, const YarnCurvature& t, std::size_t stencil, std::size_t family,
-                  const Vec3& normal, std::vector<Vec3>& force) {
-  const Vec3 turned = t.slope.cross(normal);
+Vec3 add_in_plane(const Bending& b, const StencilShape& s, std::size_t stencil, std::size_t family,
+                  std::vector<Vec3>& force) {
+  const YarnCurvature t = yarn_curvature(s, family, b.in_plane[stencil][family]);
+  const Vec3 turned = t.slope.cross(s.normal);
   for (auto i = static_cast<std::size_t>(b.begin[stencil]);
        i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
     force[b.node[i]] -=
         b.area[stencil] * t.moment * (b.b[i][family] * t.across + b.a[i][family] * turned);
-  return t.moment * t.along.cross(t.slope);
+  return t.moment * s.first[family].cross(t.slope);
 }
 
 /// Adds the last term of (F), - dN/dx_i . `along`, to the forces on the nodes of a stencil; `along`
@@ -152,7 +136,8 @@ std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int 
 
 double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family) {
   const auto n = static_cast<std::size_t>(node);
-  return yarn_curvature(b, x, n, static_cast<std::size_t>(family), shape_of(b, x, n)).kappa;
+  const auto yarns = static_cast<std::size_t>(family);
+  return yarn_curvature(shape_of(b, x, n), yarns, b.in_plane[n][yarns]).kappa;
 }
 
 std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x) {
@@ -166,23 +151,38 @@ std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec
           b.area[n] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal; // (F)
     Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
     for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
-      h += add_in_plane(b, yarn_curvature(b, x, n, k, s), n, k, s.normal, force);
+      h += add_in_plane(b, s, n, k, force);
     add_normal_rotation(b, x, n, (b.area[n] / s.size) * (h - h.dot(s.normal) * s.normal), force);
   }
   return force;
 }
 
+void set_normal(StencilShape& s, const Vec3& sum) {
+  s.size = sum.norm();
+  s.normal = sum / s.size;
+  for (std::size_t k = 0; k < 3; ++k)
+    s.kappa[k] = s.normal.dot(s.second[k]); // (K)
+}
+
+double bending_energy(const BendingLaw& law, const std::array<double, 2>& in_plane,
+                      const StencilShape& s) {
+  const std::array<double, 3>& k = s.kappa;
+  double sum = law.warp.at(k[0]).energy + law.weft.at(k[1]).energy + law.coupling * k[0] * k[1] +
+               0.5 * law.twist * k[2] * k[2]; // (E)
+  for (std::size_t f = 0; f < 2; ++f)
+    if (in_plane[f] > 0.0) {
+      const YarnCurvature t = yarn_curvature(s, f, in_plane[f]);
+      sum += 0.5 * t.moment * t.kappa; // (G)
+    }
+  return sum;
+}
+
 double bending_energy(const Bending& b, std::span<const Vec3> x) {
   double sum = 0.0;
   for (std::size_t n = 0; n < b.area.size(); ++n) {
-    const StencilShape s = shape_of(b, x, n);
-    const std::array<double, 3>& k = s.kappa;
-    sum += b.area[n] * (b.law.warp.at(k[0]).energy + b.law.weft.at(k[1]).energy +
-                        b.law.coupling * k[0] * k[1] + 0.5 * b.law.twist * k[2] * k[2]); // (E)
-    for (std::size_t f = 0; f < 2 && !b.in_plane.empty(); ++f) {
-      const YarnCurvature t = yarn_curvature(b, x, n, f, s);
-      sum += 0.5 * b.area[n] * t.moment * t.kappa; // (G)
-    }
+    const std::array<double, 2> in_plane =
+        b.in_plane.empty() ? std::array<double, 2>{} : b.in_plane[n];
+    sum += b.area[n] * bending_energy(b.law, in_plane, shape_of(b, x, n));
   }
   return sum;
 }

@@ -78,6 +78,23 @@ struct Bending {
   double omega2 = 0.0; ///< 1/s^2, bound of the largest eigenvalue of M^-1 K in the undeformed shape
 };
 
+/// Normal and derivatives of the position along the yarns at one node.
+struct StencilShape {
+  Vec3 normal{};
+  double size = 0.0;                                                    ///< |N|
+  std::array<Vec3, 3> second{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}; ///< s_11, s_22, s_12
+  std::array<Vec3, 2> first{Vec3::Zero(), Vec3::Zero()};                ///< d of warp and weft
+  std::array<double, 3> kappa{};                                        ///< 1/mm
+};
+
+/// Sets normal, size and curvatures (K) of a shape with its second derivatives (1/mm); sum: N,
+/// mm^2.
+void set_normal(StencilShape& s, const Vec3& sum);
+
+/// (E) + (G) at one node per area A0, N; in_plane: D_g of warp and weft there, N mm.
+double bending_energy(const BendingLaw& law, const std::array<double, 2>& in_plane,
+                      const StencilShape& s);
+
 /// Fits all stencils (core/ply/bending_fit.hpp) and bounds omega2. x: undeformed positions, mm;
 /// node_mass: t, one per node; warp, weft: directions in rad from x.
 Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& triangles,
@@ -95,7 +112,7 @@ double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, i
 /// which core/ply/bending_simd.hpp is tested.
 std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x);
 
-/// (E) + (G) summed over all nodes, N mm. x: mm, one per node.
+/// (E) + (G) summed over all nodes, N mm. x: mm, one per node. Likewise the reference.
 double bending_energy(const Bending& b, std::span<const Vec3> x);
 
 } // namespace plyform

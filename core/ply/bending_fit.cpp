@@ -199,6 +199,8 @@ void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangl
   }
   for (std::size_t n = 0; n < x.size(); ++n)
     fit_stencil(b, sheet, static_cast<int>(n));
+  b.begin.shrink_to_fit(), b.node.shrink_to_fit(), b.b.shrink_to_fit(), b.a.shrink_to_fit();
+  b.fan_begin.shrink_to_fit(), b.fan.shrink_to_fit();
 }
 
 } // namespace plyform

@@ -197,22 +197,58 @@ void moment_of_table(const BendingKernelLaw& law, int family, const double* kapp
     m[i] = (family == 0 ? law.law->warp : law.law->weft).at(kappa[i]).value;
 }
 
-BendingKernelLaw kernel_law(const Bending& b) {
-  const BendingLaw& law = b.law;
+BendingKernelLaw kernel_law(const BendingSimd& l) {
+  const BendingLaw& law = l.law;
   const bool table = !law.warp.curvature.empty() || !law.weft.curvature.empty();
   return {{law.warp.stiffness, law.weft.stiffness},
           law.coupling,
           law.twist,
           table,
-          !b.in_plane.empty(),
+          l.in_plane,
           &law,
           moment_of_table};
+}
+
+std::size_t slot_numbers(const BendingSimd& l) {
+  return l.in_plane ? 5 : 3;
+}
+
+/// The shape of the stencil in one SIMD lane. slot: number of the group's first slot.
+StencilShape shape_in_lane(const BendingSimd& l, const BendingBlock& block, const SimdStencils& p,
+                           std::size_t slot, std::size_t lane, std::span<const Vec3> x) {
+  const auto at = [&](std::uint16_t place) -> const Vec3& {
+    return x[l.nodes[static_cast<std::size_t>(block.first_node + place / 32)]];
+  };
+  const auto difference = [&](int i) {
+    const std::size_t of = (slot + static_cast<std::size_t>(i)) * simd_width + lane;
+    return Vec3(at(l.slots[of]) - at(p.own[lane]));
+  };
+  StencilShape s;
+  const SimdNumbers* constants = l.constants.data() + slot * slot_numbers(l);
+  for (int i = 0; i < p.slots; ++i, constants += slot_numbers(l)) {
+    const Vec3 d = difference(i);
+    for (std::size_t k = 0; k < 3; ++k)
+      s.second[k] += constants[k].of[lane] * d;
+    for (std::size_t k = 0; k < 2 && l.in_plane; ++k)
+      s.first[k] += constants[3 + k].of[lane] * d;
+  }
+  Vec3 sum = Vec3::Zero(), before = difference(p.ring - 1);
+  for (int i = 0; i < p.ring; ++i) {
+    const Vec3 d = difference(i);
+    sum += before.cross(d);
+    before = d;
+  }
+  set_normal(s, sum);
+  return s;
 }
 
 } // namespace
 
 BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
   BendingSimd out;
+  out.law = b.law;
+  out.in_plane = !b.in_plane.empty();
+  out.omega2 = b.omega2;
   Box3 box;
   for (const Vec3& p : x)
     box.extend(p);
@@ -220,23 +256,40 @@ BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
   for (const int node : morton_order(x, box))
     maker.add(node);
   maker.close();
+  out.nodes.shrink_to_fit(), out.stencils.shrink_to_fit();
+  out.constants.shrink_to_fit(), out.slots.shrink_to_fit();
   find_node_forces(out, x.size());
   return out;
 }
 
-void bending_forces(BendingSimd& l, const Bending& b, std::span<const Vec3> x, int block) {
+void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block) {
   const BendingBlock& of = l.blocks[block];
-  const BendingKernelLaw law = kernel_law(b);
-  const std::size_t slot_numbers = law.in_plane ? 5 : 3;
+  const BendingKernelLaw law = kernel_law(l);
   const BendingKernelBlock kernel{l.nodes.data() + of.first_node,
                                   of.nodes,
                                   l.stencils.data() + of.first_group,
                                   of.groups,
-                                  l.constants.data() + of.first_slot * slot_numbers,
+                                  l.constants.data() + of.first_slot * slot_numbers(l),
                                   l.slots.data() + of.first_slot * simd_width,
                                   l.force.data() + of.first_node};
   const auto run = has_avx2() ? bending_kernel_avx2 : bending_kernel_generic;
   run(kernel, law, x.data()->data());
+}
+
+double bending_energy(const BendingSimd& l, std::span<const Vec3> x) {
+  double sum = 0.0;
+  for (const BendingBlock& block : l.blocks) {
+    std::size_t slot = block.first_slot;
+    for (int g = block.first_group; g < block.first_group + block.groups; ++g) {
+      const SimdStencils& p = l.stencils[static_cast<std::size_t>(g)];
+      for (std::size_t lane = 0; lane < simd_width; ++lane)
+        if (p.area[lane] > 0.0)
+          sum += p.area[lane] * bending_energy(l.law, {p.in_plane[0][lane], p.in_plane[1][lane]},
+                                               shape_in_lane(l, block, p, slot, lane, x));
+      slot += static_cast<std::size_t>(p.slots);
+    }
+  }
+  return sum;
 }
 
 } // namespace plyform

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bending of core/ply/bending.hpp, optimised: stencils of four nodes at a time (SIMD), in blocks
-// whose nodes stay in a core's cache. Its test compares it with reference_bending_forces.
+// whose nodes stay in a core's cache. Its test compares it with reference_bending_forces. It holds
+// all that a run needs, so that the stencils of Bending, which take as much memory, need not be
+// kept.
 //
 // A block gathers the positions of its nodes, computes its stencils, and sums their forces in its
 // own list of nodes. Blocks depend on the mesh only: results are the same bits for any number of
@@ -21,6 +23,9 @@ struct BendingBlock {
 };
 
 struct BendingSimd : BlockForces {
+  BendingLaw law;
+  bool in_plane = false; ///< whether yarns bend in their plane
+  double omega2 = 0.0;   ///< 1/s^2, as of Bending
   std::vector<BendingBlock> blocks;
   std::vector<SimdStencils> stencils;
   std::vector<SimdNumbers> constants; ///< of `slots`, as in BendingKernelBlock
@@ -33,6 +38,9 @@ BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x);
 
 /// Computes (F) + (I), N, of a block's stencils, stored in l.force; once all blocks are done
 /// simd_force (core/ply/block_forces.hpp) sums them on a node. x: mm, one per node of the ply.
-void bending_forces(BendingSimd& l, const Bending& b, std::span<const Vec3> x, int block);
+void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block);
+
+/// (E) + (G) summed over all nodes, N mm. x: mm, one per node.
+double bending_energy(const BendingSimd& l, std::span<const Vec3> x);
 
 } // namespace plyform

@@ -49,9 +49,12 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   const StrainGroups groups = kind == ElementKind::plain ? single_triangles(mesh.triangles.size())
                                                          : pair_triangles(mesh, alone);
   m.group_begin = groups.begin;
+  m.triangles.reserve(groups.triangles.size());
   for (std::int32_t e : groups.triangles)
     m.triangles.push_back(mesh.triangles[e]);
   m.node_area.assign(mesh.x.size(), 0.0);
+  m.c.reserve(m.triangles.size()), m.area.reserve(m.triangles.size());
+  m.node_mass.reserve(mesh.x.size());
   const Vec2 e1(std::cos(warp_angle), std::sin(warp_angle));
   const Vec2 e2(std::cos(warp_angle + m.omega0), std::sin(warp_angle + m.omega0));
   for (const Triangle& t : m.triangles) {

@@ -80,7 +80,7 @@ void element_and_contact_forces(Scene& s, ThreadPool& pool) {
     Block& block = s.bending_blocks[i];
     const Stopwatch watch(block.seconds);
     PlyState& ply = s.plies[block.ply];
-    bending_forces(ply.bending_simd, *ply.bending, ply.x, block.begin);
+    bending_forces(*ply.bending, ply.x, block.begin);
   };
   if (!s.edge_contacts.empty())
     pool.run(static_cast<int>(s.plies.size()), [&](int p) {
@@ -116,7 +116,7 @@ void sum_forces(const PlyState& ply, int begin, int end, Vec3* f) {
     Vec3& sum = f[n - begin];
     sum = ply.simd ? simd_force(*ply.simd, static_cast<std::size_t>(n))
                    : node_force(ply.membrane, ply.q, n);
-    if (ply.bending) sum += simd_force(ply.bending_simd, static_cast<std::size_t>(n));
+    if (ply.bending) sum += simd_force(*ply.bending, static_cast<std::size_t>(n));
   }
   for (const std::vector<Vec3>* force : ply.nodal_forces) {
     const Vec3* from = force->data() + begin;

@@ -39,12 +39,14 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
   BendingLaw bending = fabric.bending;
   if (!fabric.has_yarns()) bending.in_plane = {}; // no yarns that could bend in its plane
-  if (bending.any())
-    body.bending = make_bending(mesh.x, body.membrane.triangles, bending, ply.angle,
-                                ply.angle + fabric.fibre_angle, body.membrane.node_mass);
+  body.x0.reserve(mesh.x.size());
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
-  if (body.bending) body.bending_simd = make_bending_simd(*body.bending, body.x0);
+  if (bending.any())
+    body.bending =
+        make_bending_simd(make_bending(mesh.x, body.membrane.triangles, bending, ply.angle,
+                                       ply.angle + fabric.fibre_angle, body.membrane.node_mass),
+                          body.x0);
   body.x = body.x_search = body.x0;
   body.velocity.assign(body.x.size(), Vec3::Zero());
   body.motion = body.velocity;
@@ -229,7 +231,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
     else
       add_blocks(s.group_blocks, p, static_cast<std::size_t>(ply.membrane.groups()));
     add_blocks(s.node_blocks, p, ply.x.size());
-    add_blocks(s.bending_blocks, p, ply.bending_simd.blocks.size(), 1);
+    if (ply.bending) add_blocks(s.bending_blocks, p, ply.bending->blocks.size(), 1);
   }
   for (int p = 0; p < n; ++p) {
     PlyState& ply = s.plies[p];

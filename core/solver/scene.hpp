@@ -30,9 +30,8 @@ struct PlyModel {
   double thickness = 0.0; ///< mm
   std::vector<Vec3> x0;   ///< mm, before forming
   Membrane membrane;
-  std::optional<MembraneSimd> simd; ///< SIMD version of the membrane; none without yarns
-  std::optional<Bending> bending;   ///< none without bending stiffness
-  BendingSimd bending_simd;         ///< SIMD version of the bending, or empty
+  std::optional<MembraneSimd> simd;   ///< SIMD version of the membrane; none without yarns
+  std::optional<BendingSimd> bending; ///< none without bending stiffness
   SheetEdges edges;
   std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
   bool convex = false; ///< contact/search/unfolded.hpp; not asked without self-contact

@@ -59,7 +59,7 @@ void BendingLanesForces(benchmark::State& state) {
   BentSheet s = bent_sheet(state.range(0), state.range(1), state.range(2) != 0);
   for (auto _ : state) {
     for (int b = 0; b < static_cast<int>(s.simd.blocks.size()); ++b)
-      bending_forces(s.simd, s.bending, s.x, b);
+      bending_forces(s.simd, s.x, b);
     for (std::size_t n = 0; n < s.x.size(); ++n)
       s.force[n] = simd_force(s.simd, n);
     benchmark::DoNotOptimize(s.force.data());

@@ -42,7 +42,7 @@ def fastest(data: dict) -> dict[str, dict]:
 
 def measure(b: dict) -> float:
     """What decides which repetition is fastest."""
-    for key in ("wall_ns_an_element", "ns_a_triangle"):
+    for key in ("wall_ns_an_element", "ns_a_triangle", "wall_s"):
         if key in b:
             return b[key]
     for key in ("GB_s", "Gflop_s"):
@@ -130,6 +130,17 @@ def step_rows(best: dict) -> list[Row]:
     return rows
 
 
+def run_lines(best: dict) -> list[str]:
+    """Whole runs with tools as shapes, and with the same tools as meshes."""
+    shapes, meshes = best.get("WholeRun/meshes:0"), best.get("WholeRun/meshes:1")
+    if not shapes or not meshes:
+        return []
+    return [f"\nTools as meshes of {count(meshes['facets'])} facets, two threads: "
+            f"{meshes['wall_s']:.1f} s for {shapes['wall_s']:.1f} s as shapes "
+            f"({meshes['wall_s'] / shapes['wall_s']:.2f} times), processor time "
+            f"{meshes['cpu_s'] / shapes['cpu_s']:.2f} times."]
+
+
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__,
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
@@ -156,6 +167,7 @@ def main() -> int:
     print("\n| part | triangles | ns of CPU a triangle | times its stream | more |\n|---|---|---|---|---|")
     for row in element_rows(best) + contact_rows(best) + step_rows(best):
         print(f"| {' | '.join(row)} |")
+    print("\n".join(run_lines(best)))
     return 0
 
 

@@ -17,7 +17,7 @@ struct BenchSheet {
   std::vector<Triangle> triangles;
   std::vector<double> area; ///< mm^2, a third of the triangles around a node
   std::vector<Vec3> still;  ///< no motion
-  SurfaceKinematics state() const { return {x, still, area}; }
+  SurfaceKinematics state() const { return {x, still, area, {}}; }
 };
 
 /// cells x cells squares of side `cell` (mm), turned by `turn` (rad), at `height` (mm) along the

@@ -32,7 +32,7 @@ Scene five_plies(double element_size) {
   // Steps shrink with the elements: so does the time, and the blank-holder's force comes on within
   // as many steps.
   const PreparedCase reading =
-      prepare_case(PLYFORM_CASES "/hemisphere_five_ply_paper/case.toml",
+      prepare_case(PLYFORM_CASES "/hemisphere_five_ply/case.toml",
                    {{"blanks.square.element_size", fmt::format("{}", element_size)},
                     {"solver.duration", fmt::format("{}", 0.1 * element_size / shipped)}});
   if (!reading.value) throw std::runtime_error(reading.errors.front().text());
