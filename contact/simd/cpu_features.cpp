@@ -12,4 +12,14 @@ bool has_avx2() {
 #endif
 }
 
+bool has_avx512() {
+#if defined(__x86_64__)
+  static const bool has = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512vl") &&
+                          __builtin_cpu_supports("avx512dq") && has_avx2();
+  return has;
+#else
+  return false;
+#endif
+}
+
 } // namespace plyform

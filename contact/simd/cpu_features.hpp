@@ -5,5 +5,6 @@
 namespace plyform {
 
 bool has_avx2();
+bool has_avx512(); ///< F, VL and DQ, on top of AVX2
 
 } // namespace plyform

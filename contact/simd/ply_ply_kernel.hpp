@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interface of the two compiled copies of the kernel of contact/forces/ply_ply.hpp: plain numbers
+// Interface of the compiled copies of the kernel of contact/forces/ply_ply.hpp: plain numbers
 // and pointers, nothing inline (reason: contact/simd/simd.hpp).
 #pragma once
 
@@ -52,5 +52,6 @@ struct PlyPlyKernelTotals {
 
 PlyPlyKernelTotals ply_ply_kernel_generic(const PlyPlyKernelContact& contact);
 PlyPlyKernelTotals ply_ply_kernel_avx2(const PlyPlyKernelContact& contact);
+PlyPlyKernelTotals ply_ply_kernel_avx512(const PlyPlyKernelContact& contact);
 
 } // namespace plyform

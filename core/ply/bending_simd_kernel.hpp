@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interface of the two compiled copies of the kernel of core/ply/bending_simd.hpp: plain numbers
+// Interface of the compiled copies of the kernel of core/ply/bending_simd.hpp: plain numbers
 // and pointers, nothing inline (reason: contact/simd/simd.hpp).
 #pragma once
 
@@ -50,5 +50,7 @@ void bending_kernel_generic(const BendingKernelBlock& block, const BendingKernel
                             const double* x);
 void bending_kernel_avx2(const BendingKernelBlock& block, const BendingKernelLaw& law,
                          const double* x);
+void bending_kernel_avx512(const BendingKernelBlock& block, const BendingKernelLaw& law,
+                           const double* x);
 
 } // namespace plyform

@@ -77,7 +77,8 @@ void ContactStep(benchmark::State& state) {
   for (Vec3& x : moved)
     x += way;
   const std::vector<Vec3> forth(moved.size(), way), back(moved.size(), -way);
-  const SurfaceKinematics there{moved, forth, p.upper.area, {}}, here{p.upper.x, back, p.upper.area, {}};
+  const SurfaceKinematics there{moved, forth, p.upper.area, {}},
+      here{p.upper.x, back, p.upper.area, {}};
   const double dt = finer * 7e-6; // s
   std::vector<Vec3> on_upper(p.upper.x.size()), on_lower(p.lower.x.size());
   const auto step = [&](bool needs_penalty) {

@@ -81,7 +81,7 @@ def element_rows(best: dict) -> list[Row]:
     rows = []
     for name, b in best.items():
         kind, size = b.get("label", ""), count(b.get("triangles", 0))
-        if name.startswith("ElementLanes/"):
+        if name.startswith("ElementSimd/"):
             rows.append((f"element, {kind}", size, judged(b["ns_an_element"], LIMITS["element_ns"]),
                          judged(b["of_stream"], LIMITS["element_stream"]),
                          f"{100 * b['of_peak']:.0f} % of the arithmetic"))

@@ -16,6 +16,8 @@ from pathlib import Path
 
 from study_scene import CASES, FRICTION, PLYFORM, TOOLS, Scene, call, check_all, program
 
+from studies.cost_picture import errors_of_figure
+
 
 def wait_for(condition) -> None:
     for _ in range(400):
@@ -138,7 +140,17 @@ key = "blanks.*.element_size"
 factors = [2.0]
 [[picture]]
 kind = "cost"
+[[picture]]
+kind = "cost"
+file = "angle.png"
+figure = "largest_shear_deg"
 """
+
+
+def check_errors_of_figures(_: Path) -> None:
+    rows = [{"line": "reference", "N": 8.0}, {"line": "case", "N": 7.0}, {"line": "run", "N": ""}]
+    assert errors_of_figure("N", rows) == {1: 12.5}, errors_of_figure("N", rows)
+    assert errors_of_figure("N", rows[1:]) == {} and errors_of_figure("other", rows) == {}
 
 
 def check_plyform(folder: Path) -> None:
@@ -160,6 +172,7 @@ def check_plyform(folder: Path) -> None:
                 float(row["max_shear_error_deg"]), row
     assert rows["preset"]["fibre softening"] == "" and rows["case"]["fibre softening"] == "300"
     assert rows["element size"]["element size"] == "2" and (results / "cost.png").is_file()
+    assert (results / "angle.png").is_file()
     times = {path: path.stat().st_mtime_ns for path in results.glob("runs/*/ended.json")}
     again = call(program, *words)
     assert again.code == 0 and again.out == told.out and "5/5 runs" in again.err, again
@@ -178,4 +191,4 @@ def check_plyform(folder: Path) -> None:
 
 
 if __name__ == "__main__":
-    check_all(check_goes_on, check_grid, check_plyform)
+    check_all(check_goes_on, check_grid, check_errors_of_figures, check_plyform)

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Error against time, both logarithmic: a line a key, the case as a large dot, presets as diamonds
 with a bar at the error that they promise, as a grey step line the runs that no other beats in both,
-the reference's time on the lower edge, stopped runs as crosses on the upper one."""
+the reference's time on the lower edge, stopped runs as crosses on the upper one. The error of a
+field, or of a figure in percent of the reference's; only the former has promises and a step line."""
 
 import matplotlib.pyplot as plt
 import numpy as np
@@ -46,9 +47,23 @@ def place_labels(axes, points: list[tuple[float, float, str, str]]) -> None:
         taken.append(box)
 
 
+def errors_of_figure(name: str, rows: list[dict]) -> dict[int, float]:
+    """Distances from the reference, in percent of it, by the numbers of the rows."""
+    aim = next((row.get(name) for row in rows if row["line"] == "reference"), None)
+    if not is_number(aim) or aim == 0:
+        return {}
+    return {i: 100.0 * abs(row[name] / aim - 1.0) for i, row in enumerate(rows)
+            if is_number(row.get(name)) and row["line"] != "reference"}
+
+
 def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict], field: Field):
     from studies.results import main_error
     error, time = main_error(study), "wall_time_s"
+    if picture.figure:
+        error = f"{picture.figure}, % off"
+        found = errors_of_figure(picture.figure, rows)
+        rows = [row | {"on_front": False, "promised_error_deg": "", error: found.get(i, "")}
+                for i, row in enumerate(rows)]
     figure, axes = plt.subplots(figsize=(8.0, 5.6), layout="constrained")
     axes.set_xscale("log")
     axes.set_yscale("log")
@@ -79,8 +94,9 @@ def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict]
         if is_number(row.get("promised_error_deg")):
             axes.plot(row[time], row["promised_error_deg"], "_", color="black", ms=12)
     front = sorted((row for row in good if row.get("on_front")), key=lambda row: row[time])
-    axes.step(*points(front), where="post", color=GREY, lw=4, alpha=0.35, zorder=1,
-              label="best for their time")
+    if front:
+        axes.step(*points(front), where="post", color=GREY, lw=4, alpha=0.35, zorder=1,
+                  label="best for their time")
     finish(axes)
     edge = {"transform": axes.get_xaxis_transform(), "clip_on": False, "color": "black"}
     for row in rows:
@@ -91,7 +107,8 @@ def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict]
         if row["status"] == "stopped" and is_number(row[time]):
             axes.plot(row[time], 1, "x", **edge)
     axes.set_xlabel("wall time, s")
-    axes.set_ylabel(f"error of the {field.label} against the reference, rms, {field.unit}")
+    axes.set_ylabel(f"error of {picture.figure} against the reference, %" if picture.figure else
+                    f"error of the {field.label} against the reference, rms, {field.unit}")
     axes.set_title(picture.title)
     axes.legend()
     if labels:

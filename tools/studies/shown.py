@@ -137,7 +137,12 @@ def read_picture(table: dict, number: int, study) -> Picture:
                   reader.word("title", "give a title", study.title))
     for key in PICTURES[kind]:
         setattr(one, key, reader.word(key, "name a vary or a figure", "", True))
-    for key in {"x", "y", "figure"} & table.keys() - set(PICTURES[kind]):
+    if kind == "cost":
+        one.figure = reader.word("figure", "name a figure")
+        if one.figure and one.figure not in study.figures:
+            reader.fail("figure", "is no figure of the study", "name one of [figures]", one.figure)
+    allowed = {"figure"} if kind == "cost" else set(PICTURES[kind])
+    for key in {"x", "y", "figure"} & table.keys() - allowed:
         reader.fail(key, f"a picture of kind {kind} has none", "take it out")
     if kind == "plies":
         one.figures = reader.items("figures", is_word, "must be a text", "name figures of plies",

@@ -112,7 +112,7 @@ TEST(BendingSimd, KnowAHoleAndTrianglesThatOnlyShareANode) {
   }
 }
 
-/// Both copies of the kernel: no processor answers differently.
+/// All copies of the kernel: no processor answers differently.
 TEST(BendingSimd, GiveTheSameBitsOnEveryProcessor) {
   if (!has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
   Random random(8);
@@ -121,7 +121,7 @@ TEST(BendingSimd, GiveTheSameBitsOnEveryProcessor) {
     SimdStencils stencils{};
     SimdNumbers constants[5 * slots];
     std::uint16_t slot[simd_width * slots];
-    SimdForce force[2][nodes];
+    SimdForce force[3][nodes];
     double x[3 * nodes];
     for (double& a : x)
       a = 3.0 * signed_unit(random);
@@ -143,6 +143,9 @@ TEST(BendingSimd, GiveTheSameBitsOnEveryProcessor) {
       bending_kernel_avx2({list, nodes, &stencils, 1, constants, slot, force[1]}, law, x);
       ASSERT_TRUE(std::isfinite(force[0][0].x));
       ASSERT_EQ(std::memcmp(force[0], force[1], sizeof force[0]), 0) << i;
+      if (!has_avx512()) continue;
+      bending_kernel_avx512({list, nodes, &stencils, 1, constants, slot, force[2]}, law, x);
+      ASSERT_EQ(std::memcmp(force[0], force[2], sizeof force[0]), 0) << i;
     }
   }
 }
