@@ -14,22 +14,22 @@ namespace plyform {
 
 namespace fs = std::filesystem;
 
-template <class Archive>
-void visit(Archive& a, Checkpoint& c) {
-  StateIndex& states = c.writer.states;
-  visit(a, c.identity, states.plies, states.tools, states.boundaries, states.time, states.stroke,
-        states.step, states.shape);
-  visit(a, c.writer.history, c.writer.xdmf.names, c.writer.xdmf.grids, c.writer.last_time,
-        c.writer.last_step, c.solver);
-}
-
 namespace {
+
+/// All of a checkpoint but the solver's state, which comes last.
+template <class Archive>
+void visit_head(Archive& a, std::string& identity, WriterState& writer) {
+  StateIndex& states = writer.states;
+  visit(a, identity, states.plies, states.tools, states.boundaries, states.time, states.stroke,
+        states.step, states.shape);
+  visit(a, writer.history, writer.xdmf.names, writer.xdmf.grids, writer.last_time,
+        writer.last_step);
+}
 
 constexpr std::string_view kind = "plyform checkpoint 1\n";
 
-/// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923).
-std::uint64_t checksum(std::string_view bytes) {
-  std::uint64_t sum = 14695981039346656037ULL;
+/// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923). sum: of the bytes before these.
+std::uint64_t checksum(std::string_view bytes, std::uint64_t sum = 14695981039346656037ULL) {
   for (const char c : bytes)
     sum = (sum ^ static_cast<unsigned char>(c)) * 1099511628211ULL;
   return sum;
@@ -42,13 +42,16 @@ std::uint64_t checksum(std::string_view bytes) {
 
 } // namespace
 
-void write_checkpoint_file(const fs::path& path, Checkpoint checkpoint) {
-  SaveArchive archive;
-  visit(archive, checkpoint);
-  std::uint64_t sum = checksum(archive.text());
+void write_checkpoint_file(const fs::path& path, std::string identity, WriterState writer,
+                           std::string_view solver) {
   SaveArchive head;
-  visit(head, sum);
-  write_whole(path, std::string(kind) + head.text() + archive.text());
+  visit_head(head, identity, writer);
+  std::uint64_t size = solver.size();
+  visit(head, size); // as before any text; the state itself, most of the file, is not copied
+  std::uint64_t sum = checksum(solver, checksum(head.text()));
+  SaveArchive sums;
+  visit(sums, sum);
+  write_whole(path, {kind, sums.text(), head.text(), solver});
 }
 
 std::optional<Checkpoint> read_checkpoint_file(const fs::path& path, const std::string& identity) {
@@ -67,7 +70,8 @@ std::optional<Checkpoint> read_checkpoint_file(const fs::path& path, const std::
   if (checksum(rest) != sum) damaged(path, "is damaged");
   Checkpoint found;
   LoadArchive archive(rest);
-  visit(archive, found);
+  visit_head(archive, found.identity, found.writer);
+  visit(archive, found.solver);
   if (found.identity != identity)
     throw std::runtime_error(fmt::format(
         "{}: is of another case, or of other settings, files or another version of plyform; give "

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 
 namespace plyform {
 
@@ -25,8 +26,9 @@ struct Checkpoint {
   std::string solver; ///< its state, as bytes
 };
 
-/// Throws std::runtime_error naming the path and the reason.
-void write_checkpoint_file(const std::filesystem::path& path, Checkpoint checkpoint);
+/// Writes a Checkpoint of these. Throws std::runtime_error naming the path and the reason.
+void write_checkpoint_file(const std::filesystem::path& path, std::string identity,
+                           WriterState writer, std::string_view solver);
 
 /// Nothing if there is no such file. Throws std::runtime_error naming the path if it is damaged, or
 /// not of a case with this identity.

@@ -6,6 +6,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <initializer_list>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,8 @@ namespace plyform {
 /// Writes `content` to `path` + ".tmp" and renames it to `path` when it is complete. Throws
 /// std::runtime_error naming the path and the system's reason; the temporary file is then removed.
 void write_whole(const std::filesystem::path& path, std::string_view content);
+/// Likewise all parts, one after the other.
+void write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
 
 /// Throws std::runtime_error when a name cannot stand as a file name or stands twice, and
 /// std::logic_error when an array of a ply has not as many entries as its nodes or triangles.

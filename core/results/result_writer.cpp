@@ -261,8 +261,9 @@ void ResultWriter::write_frame(const Frame& frame) {
 
 void ResultWriter::write_checkpoint(const std::string& identity, const std::string& state) {
   Impl& my = *impl_;
-  const WriterState written{my.states.index(), my.history, my.xdmf, my.last_time, my.last_step};
-  write_checkpoint_file(my.directory / "checkpoint", {identity, written, state});
+  write_checkpoint_file(my.directory / "checkpoint", identity,
+                        {my.states.index(), my.history, my.xdmf, my.last_time, my.last_step},
+                        state);
 }
 
 std::optional<Resume> ResultWriter::go_on(const std::string& identity) {

@@ -13,6 +13,10 @@ namespace plyform {
 namespace fs = std::filesystem;
 
 void write_whole(const fs::path& path, std::string_view content) {
+  write_whole(path, std::initializer_list<std::string_view>{content});
+}
+
+void write_whole(const fs::path& path, std::initializer_list<std::string_view> parts) {
   fs::path temporary = path;
   temporary += ".tmp";
   const auto fail = [&](const char* what, int error) {
@@ -24,7 +28,8 @@ void write_whole(const fs::path& path, std::string_view content) {
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (!file) fail("create the file", errno);
   int error = 0;
-  if (std::fwrite(content.data(), 1, content.size(), file) != content.size()) error = errno;
+  for (const std::string_view part : parts)
+    if (error == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) error = errno;
   // On the disk before it gets its name, so that a power failure leaves the old file or the new
   // one.
   if (error == 0 && (std::fflush(file) != 0 || fsync(fileno(file)) != 0)) error = errno;

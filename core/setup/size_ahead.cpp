@@ -35,7 +35,7 @@ double steps_of(const Case& data, const Ply& ply) {
 
 SizeAhead size_ahead(const Case& data, int threads) {
   // measured on one core with five plies (README) and on 25 000 triangles and more
-  constexpr double seconds_a_triangle = 2e-7, bytes_a_triangle = 1024.0;
+  constexpr double seconds_a_triangle = 2e-7, bytes_a_triangle = 3072.0; // at its peak
   SizeAhead size;
   double steps = 0.0, most = 0.0;
   for (const Ply& ply : data.plies) {
