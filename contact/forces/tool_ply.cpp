@@ -68,6 +68,7 @@ void update_active(ToolPlyContact& contact, const ToolBody& tool, const SurfaceK
                    double path_length) {
   const auto room = [&](std::int32_t i) {
     const ToolPlyPoint& c = contact.points[static_cast<std::size_t>(i)];
+    if (c.hint.facet < 0) return NoRoom{}(i); // most tools are no meshes: spares the way to them
     const Vec3 x = to_tool_frame(tool, ply.x[static_cast<std::size_t>(c.node)]);
     const double way = (x - Vec3(c.hint.at[0], c.hint.at[1], c.hint.at[2])).norm();
     return least_distance(c.hint, way) - contact.half_thickness;

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.ticker import LogFormatter
 from matplotlib.transforms import Bbox
 from plotting.looks import colour, finish
-from plotting.reading import Field
+from plotting.reading import FIELDS
 from studies.plan import Planner
 from studies.ranking import is_number
 from studies.shown import Picture
@@ -56,11 +56,15 @@ def errors_of_figure(name: str, rows: list[dict]) -> dict[int, float]:
             if is_number(row.get(name)) and row["line"] != "reference"}
 
 
-def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict], field: Field):
+def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict]):
     from studies.results import main_error
-    error, time = main_error(study), "wall_time_s"
-    if picture.figure:
+    time = "wall_time_s"
+    if not picture.figure:
+        error, field = main_error(study), FIELDS[study.reference.fields[0]]
+        shown = f"error of the {field.label} against the reference, rms, {field.unit}"
+    else:
         error = f"{picture.figure}, % off"
+        shown = f"error of {picture.figure} against the reference, %"
         found = errors_of_figure(picture.figure, rows)
         rows = [row | {"on_front": False, "promised_error_deg": "", error: found.get(i, "")}
                 for i, row in enumerate(rows)]
@@ -107,8 +111,7 @@ def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict]
         if row["status"] == "stopped" and is_number(row[time]):
             axes.plot(row[time], 1, "x", **edge)
     axes.set_xlabel("wall time, s")
-    axes.set_ylabel(f"error of {picture.figure} against the reference, %" if picture.figure else
-                    f"error of the {field.label} against the reference, rms, {field.unit}")
+    axes.set_ylabel(shown)
     axes.set_title(picture.title)
     axes.legend()
     if labels:

@@ -6,7 +6,6 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from plotting.looks import COLOURS, finish
-from plotting.reading import FIELDS
 from studies.cost_picture import draw_cost
 from studies.plan import Planner
 from studies.plies_picture import draw_plies
@@ -60,8 +59,7 @@ def draw_scatter(study: Study, picture: Picture, rows: list[dict]):
 def draw_all(study: Study, planner: Planner, rows: list[dict], folder: Path) -> None:
     for picture in study.pictures:
         if picture.kind == "cost":
-            field = study.reference.fields[0]
-            figure = draw_cost(study, planner, picture, rows, FIELDS[field])
+            figure = draw_cost(study, planner, picture, rows)
         elif picture.kind == "plies":
             figure = draw_plies(study, picture, rows, [one.name for one in planner.vary])
         elif picture.kind == "window":
