@@ -5,8 +5,8 @@
 // depth limit, h/4). Between its nodes a straight edge can still come closer, but only where both
 // sheets are folded: over a flat part of one sheet, all of a segment is as far away as its ends.
 // Edge contact begins at h/2, since on smoothly curved stacks edges are a little closer than h by
-// construction, and its force becomes infinite at h/4. All edges are searched, also those without a
-// fold, since folds grow between two searches.
+// construction, and its force becomes infinite at h/4. Searched are therefore ridges of one
+// sheet towards ridges of the other (contact/search/sheet_ridges.hpp).
 //
 //   y_a = (1-s) x_1 + s x_2,  y_b = (1-t) x_3 + t x_4   closest points of the two edges, inside
 //   d = side * |y_a - y_b|,  negative once the edges have crossed;  p = h/2 - d
@@ -17,7 +17,7 @@
 
 #include "contact/forces/contact_law.hpp"
 #include "contact/forces/tool_ply.hpp"
-#include "contact/search/sheet_edges.hpp"
+#include "contact/search/sheet_ridges.hpp"
 #include "contact/simd/edge_edge_kernel.hpp"
 
 #include <span>
@@ -82,6 +82,8 @@ struct EdgeSheet {
   SurfaceKinematics state;
   const SheetEdges& edges;
   std::span<const Box3> patch_motion; ///< mm, as of patch_motions, of the last step
+  /// SheetRidges::sides; empty: all edges count as ridges towards both sides
+  std::span<const char> ridge_sides = {};
 };
 
 /// Self-contact of a sheet: edges that share a node or are closer than `apart` (mm) in the
@@ -92,9 +94,9 @@ struct SelfEdges {
   double apart = 0.0;
 };
 
-/// Searches the candidates anew: pairs of edges at a distance <= contact.distance + skin (mm),
-/// among the edges with the numbers some_a and some_b, ascending. For self-contact a and b are the
-/// same sheet, and `self` is given.
+/// Searches the candidates anew: pairs of edges at a distance <= contact.distance + skin (mm) that
+/// may be ridges towards each other, among the edges with the numbers some_a and some_b, ascending,
+/// and those that are closed now. For self-contact a and b are the same sheet, and `self` is given.
 void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
                      std::span<const std::int32_t> some_a, const EdgeSheet& b,
                      std::span<const std::int32_t> some_b, double skin, const SelfEdges& self = {});

@@ -135,6 +135,8 @@ struct Found {
 void append_groups(EdgeEdgeContact& contact, std::int32_t patch_a, std::vector<Found>& found) {
   std::sort(found.begin(), found.end(),
             [](const Found& f, const Found& g) { return f.key() < g.key(); });
+  const auto same = [](const Found& f, const Found& g) { return f.key() == g.key(); };
+  found.erase(std::unique(found.begin(), found.end(), same), found.end());
   for (std::size_t i = 0; i < found.size(); ++i) {
     const Found& f = found[i];
     if (i == 0 || found[i - 1].patch_b != f.patch_b) {
@@ -149,6 +151,72 @@ void append_groups(EdgeEdgeContact& contact, std::int32_t patch_a, std::vector<F
     group.end = static_cast<std::int32_t>(contact.candidates.size());
     group.free_until = std::min(group.free_until, double{contact.candidates.back().free_until});
   }
+}
+
+using EdgeNumbers = std::array<std::int32_t, 2>;
+
+/// Those of these edges that are ridges.
+std::vector<std::int32_t> ridges_of(const EdgeSheet& sheet, std::span<const std::int32_t> some) {
+  std::vector<std::int32_t> ridges;
+  ridges.reserve(some.size());
+  for (const std::int32_t e : some)
+    if (sheet.ridge_sides.empty() || sheet.ridge_sides[e] != no_ridge) ridges.push_back(e);
+  return ridges;
+}
+
+/// Whether two edges may be ridges towards each other.
+class Facing {
+public:
+  Facing(const EdgeSheet& a, const EdgeSheet& b, std::span<const std::int32_t> ridges_b)
+      : a_(a), b_(b) {
+    if (!asked()) return;
+    normal_b_.resize(b.edges.all.size());
+    for (const std::int32_t e : ridges_b)
+      normal_b_[e] = edge_normal(b.edges.all[e], b.state.x);
+  }
+  bool asked() const { return !a_.ridge_sides.empty() && !b_.ridge_sides.empty(); }
+  /// To be called before it is asked about pairs of this edge of a.
+  void set_edge(std::int32_t e) {
+    one_ = e;
+    if (asked()) normal_a_ = edge_normal(a_.edges.all[e], a_.state.x);
+  }
+  bool operator()(std::int32_t other) const {
+    return !asked() ||
+           may_face(a_.ridge_sides[one_], normal_a_, b_.ridge_sides[other], normal_b_[other]);
+  }
+
+private:
+  const EdgeSheet &a_, &b_;
+  std::vector<Vec3> normal_b_; ///< of its ridges
+  Vec3 normal_a_ = Vec3::Zero();
+  std::int32_t one_ = 0;
+};
+
+/// The edges of the pairs that are followed, in their order.
+std::vector<EdgeNumbers> followed_edges(const EdgeEdgeContact& contact) {
+  std::vector<EdgeNumbers> edges;
+  for (const EdgePair& pair : contact.pairs)
+    edges.push_back(contact.candidates[pair.candidate].edge);
+  return edges;
+}
+
+/// A pair that is closed stays a candidate until it opens, whether its edges are ridges or not.
+struct ClosedPairs {
+  std::vector<Found> pairs;       ///< in the order of the pairs followed
+  std::vector<std::int32_t> of_a; ///< their edges of a, ascending
+};
+
+ClosedPairs closed_pairs(const EdgeEdgeContact& contact, const EdgeSheet& b,
+                         std::span<const EdgeNumbers> edges) {
+  ClosedPairs closed;
+  for (std::size_t i = 0; i < edges.size(); ++i) {
+    const double gap = contact.pairs[i].distance - contact.distance;
+    if (gap >= 0.0) continue;
+    closed.pairs.push_back({b.edges.patch[edges[i][1]], edges[i], gap});
+    closed.of_a.push_back(edges[i][0]);
+  }
+  std::sort(closed.of_a.begin(), closed.of_a.end());
+  return closed;
 }
 
 /// Gives the pairs of before the search the numbers of their candidates, and drops those without.
@@ -176,14 +244,19 @@ void renumber_pairs(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeShee
 void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
                      std::span<const std::int32_t> some_a, const EdgeSheet& b,
                      std::span<const std::int32_t> some_b, double skin, const SelfEdges& self) {
-  std::vector<std::array<std::int32_t, 2>> followed;
-  for (const EdgePair& pair : contact.pairs)
-    followed.push_back(contact.candidates[pair.candidate].edge);
+  const std::vector<EdgeNumbers> followed = followed_edges(contact);
+  const ClosedPairs closed = closed_pairs(contact, b, followed);
   contact.candidates.clear();
   contact.groups.clear();
-  const EdgeGrid grid(b, some_b);
-  const std::vector<std::int32_t> sorted = by_patch(a.edges, some_a);
-  std::vector<std::array<std::int32_t, 2>> near;
+  const std::vector<std::int32_t> ridges_a = ridges_of(a, some_a), ridges_b = ridges_of(b, some_b);
+  const EdgeGrid grid(b, ridges_b);
+  Facing faces(a, b, ridges_b);
+  std::vector<std::int32_t> all_a;
+  std::set_union(ridges_a.begin(), ridges_a.end(), closed.of_a.begin(), closed.of_a.end(),
+                 std::back_inserter(all_a));
+  all_a.erase(std::unique(all_a.begin(), all_a.end()), all_a.end());
+  const std::vector<std::int32_t> sorted = by_patch(a.edges, all_a);
+  std::vector<EdgeNumbers> near;
   std::vector<std::array<std::int32_t, 4>> nodes;
   std::vector<EdgeEdgeDistance> distances;
   std::vector<Found> found;
@@ -194,8 +267,9 @@ void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
     found.clear();
     for (; e != sorted.end() && a.edges.patch[*e] == patch; ++e) {
       const SheetEdge& edge = a.edges.all[*e];
+      faces.set_edge(*e);
       grid.visit(edge_box(edge, a.state.x, contact.distance + skin), [&](std::int32_t other) {
-        if (!self.x0.empty() && other <= *e) return;
+        if ((!self.x0.empty() && other <= *e) || !faces(other)) return;
         near.push_back({*e, other});
         nodes.push_back({edge.a, edge.b, b.edges.all[other].a, b.edges.all[other].b});
       });
@@ -208,6 +282,8 @@ void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
       if (!self.x0.empty() && neighbours(a.edges.all[one], b.edges.all[other], self)) continue;
       found.push_back({b.edges.patch[other], near[i], gap});
     }
+    for (const Found& f : closed.pairs)
+      if (a.edges.patch[f.edge[0]] == patch) found.push_back(f);
     append_groups(contact, patch, found);
   }
   contact.candidates.shrink_to_fit(); // the longest list of a scene

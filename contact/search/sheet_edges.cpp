@@ -18,15 +18,14 @@ std::vector<SheetEdge> list_edges(std::span<const Triangle> triangles) {
   for (const Triangle& t : triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const int i = t[k], j = t[(k + 1) % 3];
-      const auto key = std::minmax(i, j);
-      const auto found = open.find(key);
-      if (found == open.end()) {
-        open[key] = {key.first, key.second, true};
-      } else {
-        found->second.rim = false;
-        edges.push_back(found->second);
-        open.erase(found);
-      }
+      const auto [found, first] = open.try_emplace(std::minmax(i, j));
+      SheetEdge& edge = found->second;
+      std::int32_t& third = i < j ? edge.c : edge.d;
+      if (first) edge = {std::min(i, j), std::max(i, j), -1, -1};
+      third = t[(k + 2) % 3];
+      if (first) continue;
+      edges.push_back(edge);
+      open.erase(found);
     }
   for (const auto& [key, edge] : open)
     edges.push_back(edge);
@@ -70,7 +69,7 @@ Cells cells_of(std::size_t edges, std::span<const Vec3> x0) {
 } // namespace
 
 SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0) {
-  SheetEdges edges{list_edges(triangles), {}, {}, {}};
+  SheetEdges edges{list_edges(triangles), {}, {}, {}, {}};
   edges.all.shrink_to_fit();
   edges.patch.reserve(edges.all.size());
   const Cells cells = cells_of(edges.all.size(), x0);
@@ -80,7 +79,8 @@ SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3
     const std::pair place(static_cast<int>(from[cells.one]), static_cast<int>(from[cells.two]));
     const auto next = static_cast<std::int32_t>(edges.patch_nodes.size());
     const auto [found, is_new] = patch_at.try_emplace(place, next);
-    if (is_new) edges.patch_nodes.emplace_back();
+    if (is_new) edges.patch_nodes.emplace_back(), edges.patch_edges.emplace_back();
+    edges.patch_edges[found->second].push_back(static_cast<std::int32_t>(edges.patch.size()));
     edges.patch.push_back(found->second);
     std::vector<std::int32_t>& nodes = edges.patch_nodes[found->second];
     nodes.insert(nodes.end(), {e.a, e.b});
@@ -90,6 +90,8 @@ SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3
     nodes.erase(std::unique(nodes.begin(), nodes.end()), nodes.end());
     nodes.shrink_to_fit();
   }
+  for (std::vector<std::int32_t>& of : edges.patch_edges)
+    of.shrink_to_fit();
   for (const Triangle& t : triangles) {
     auto& of = edges.patches_of_triangle.emplace_back();
     for (std::size_t k = 0; k < 3; ++k)

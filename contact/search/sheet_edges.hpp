@@ -17,10 +17,12 @@
 
 namespace plyform {
 
-/// An edge of a sheet: its nodes, and whether it is a free edge (a triangle on one side only).
+/// An edge of a sheet: its nodes, a < b, and the third nodes of its triangles: c of that in which b
+/// follows a counter-clockwise, d of the other; -1 if there is none.
 struct SheetEdge {
-  std::int32_t a, b;
-  bool rim;
+  std::int32_t a, b, c, d;
+  /// Whether it is a free edge, with a triangle on one side only.
+  bool is_free() const { return c < 0 || d < 0; }
 };
 
 /// All edges of a sheet.
@@ -29,6 +31,7 @@ struct SheetEdges {
   /// listed once for every two of them.
   std::vector<SheetEdge> all;
   std::vector<std::int32_t> patch;                    ///< of each edge
+  std::vector<std::vector<std::int32_t>> patch_edges; ///< of each patch, ascending
   std::vector<std::vector<std::int32_t>> patch_nodes; ///< of the edges of each patch, ascending
   std::vector<std::array<std::int32_t, 3>> patches_of_triangle; ///< of its three edges
 };

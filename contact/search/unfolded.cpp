@@ -49,7 +49,7 @@ std::vector<Patch> patches_of(const UndeformedSheet& sheet, const SheetEdges& ed
   for (Patch& patch : patches)
     patch.normal.normalize();
   for (std::size_t e = 0; e < edges.all.size(); ++e)
-    if (edges.all[e].rim) patches[edges.patch[e]].rim = true;
+    if (edges.all[e].is_free()) patches[edges.patch[e]].rim = true;
   return patches;
 }
 

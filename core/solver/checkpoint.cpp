@@ -28,7 +28,8 @@ template <class Archive>
 void visit(Archive& a, PlyState& ply) {
   visit(a, static_cast<PlyKinematics&>(ply));
   visit(a, ply.x_search, ply.max_displacement, ply.path_length, ply.fold_bound,
-        ply.fold_bound_displacement, ply.occluded[0], ply.occluded[1], ply.unfolded);
+        ply.fold_bound_displacement, ply.ridges.sides, ply.ridges.room, ply.occluded[0],
+        ply.occluded[1], ply.unfolded);
   visit(a, ply.bound, ply.eigenvalue_ratio, ply.lanczos_contacts, ply.mass);
   visit(a, ply.membrane.last_lambda, ply.membrane.last_viscous);
   if (ply.simd) visit(a, ply.simd->viscosity);

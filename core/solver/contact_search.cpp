@@ -3,6 +3,8 @@
 
 #include "contact/point_triangle.hpp"
 #include "contact/search/unfolded.hpp"
+#include "core/solver/edge_contact_search.hpp"
+#include "core/solver/occlusion.hpp"
 #include "core/solver/pass_through.hpp"
 
 #include <algorithm>
@@ -10,17 +12,6 @@
 
 namespace plyform {
 namespace {
-
-/// Self-contact: faces within this many thicknesses of a node in the undeformed ply are its
-/// neighbours and form no contact. The nose of a hairpin fold is pi / 2 thicknesses long, and shear
-/// by 60 degrees, which brings nodes together to 0.37 of their distance, must not count as contact.
-constexpr double neighbourhood = 3.0;
-
-bool may_meet(Box3 a, const Box3& b, double reach) {
-  a.min().array() -= reach;
-  a.max().array() += reach;
-  return a.intersects(b);
-}
 
 /// Removes candidates whose face is a neighbour of their node: contains it, or is within `reach`
 /// (mm) of it in the undeformed ply x0.
@@ -44,45 +35,6 @@ void search_tool(Scene& s, ToolState& t) {
   t.displacement_search = t.body.displacement;
 }
 
-/// The ply adjacent to `from` in the stack in the direction of `to`.
-int next_ply(int from, int to) {
-  return from + (to > from) - (to < from);
-}
-
-bool neighbours(const PlyContact& pair) {
-  return pair.slave != pair.master && pair.master == next_ply(pair.slave, pair.master);
-}
-
-/// Marks the slave's nodes that the master occludes from the plies beyond it: their gap to it is
-/// less than half the contact distance and none of their faces is at its boundary edge, so that no
-/// third ply fits in between.
-void mark_occluded(PlyState& slave, const PlyContact& pair, const PlyState& master) {
-  const double path_length = slave.path_length + master.path_length;
-  std::vector<char>& occluded = slave.occluded[pair.master > pair.slave];
-  occluded.assign(slave.x.size(), 0);
-  for (std::size_t p = 0; p < pair.contact.points.size(); ++p) {
-    const PlyPlyPoint& c = pair.contact.points[p];
-    char inside = pair.contact.list.free_until[p] - path_length < 0.5 * pair.contact.distance;
-    for (int i = c.first_face; i < c.end_face; ++i)
-      inside &= !master.touches_boundary_edge[pair.contact.faces[static_cast<std::size_t>(i)]];
-    occluded[c.node] |= inside;
-  }
-}
-
-/// Per node of the slave whether it cannot touch the master, as an adjacent ply occludes it or, in
-/// self-contact, its ply is not folded there; empty: every node may.
-std::span<const char> occluded_nodes(const Scene& s, int slave_ply, int master_ply, double reach) {
-  const PlyState& slave = s.plies[slave_ply];
-  if (slave_ply == master_ply)
-    return reach > slave.thickness + s.skin ? std::span<const char>() : slave.unfolded;
-  if (next_ply(slave_ply, master_ply) == master_ply) return {};
-  const PlyState& between = s.plies[next_ply(slave_ply, master_ply)];
-  // Occluding plies were searched within contact distance + skin only: not valid for a larger
-  // reach.
-  if (reach > 0.5 * (slave.thickness + between.thickness) + s.skin) return {};
-  return slave.occluded[master_ply > slave_ply];
-}
-
 void search_plies(Scene& s, PlyContact& pair) {
   const PlyState& slave = s.plies[pair.slave];
   const PlyState& master = s.plies[pair.master];
@@ -101,36 +53,6 @@ void search_plies(Scene& s, PlyContact& pair) {
   if (neighbours(pair)) mark_occluded(s.plies[pair.slave], pair, master);
 }
 
-/// Numbers of the edges of a ply that may touch the ply `other`: all but those with both nodes
-/// occluded, as of occluded_nodes.
-std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double reach) {
-  const PlyState& body = s.plies[ply];
-  const std::span<const char> occluded = occluded_nodes(s, ply, other, reach);
-  std::vector<std::int32_t> open;
-  for (std::size_t i = 0; i < body.edges.all.size(); ++i) {
-    const SheetEdge& e = body.edges.all[i];
-    if (occluded.empty() || !occluded[e.a] || !occluded[e.b])
-      open.push_back(static_cast<std::int32_t>(i));
-  }
-  return open;
-}
-
-void search_edges(Scene& s, PlyEdgeContact& pair) {
-  const PlyState& a = s.plies[pair.a];
-  const PlyState& b = s.plies[pair.b];
-  const Stopwatch watch(pair.contact.time.search);
-  const double skin = std::max(s.skin, step_displacement(s, pair.a) + step_displacement(s, pair.b));
-  const double reach = pair.contact.distance + skin;
-  std::vector<std::int32_t> open_a, open_b;
-  if (may_meet(a.tree->bounds(), b.tree->bounds(), reach)) {
-    open_a = open_edges(s, pair.a, pair.b, reach);
-    open_b = open_edges(s, pair.b, pair.a, reach);
-  }
-  SelfEdges self; // the contact distance of edges is half that of nodes
-  if (pair.a == pair.b) self = {a.x0, neighbourhood * 2.0 * pair.contact.distance};
-  find_edge_pairs(pair.contact, a.edge_sheet(), open_a, b.edge_sheet(), open_b, skin, self);
-}
-
 /// Allocates the force arrays of two plies as soon as anything of them may touch: most pairs of a
 /// stack never do.
 void allocate_forces(const Scene& s, PlyPair& pair) {
@@ -142,6 +64,10 @@ void allocate_forces(const Scene& s, PlyPair& pair) {
     return;
   pair.force_a.assign(s.plies[pair.a].x.size(), Vec3::Zero());
   pair.force_b.assign(s.plies[pair.b].x.size(), Vec3::Zero());
+}
+
+void find_ply_ridges(const Scene& s, PlyState& ply) {
+  if (!s.edge_contacts.empty()) find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
 }
 
 void update_ply_fold_bounds(const Scene& s, PlyState& ply) {
@@ -210,6 +136,7 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     ply.tree->refit(ply.x);
     ply.x_search = ply.x;
     update_ply_fold_bounds(s, ply);
+    find_ply_ridges(s, ply);
     if (s.data.self_contact())
       find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x, ply.thickness,
                     s.skin, ply.unfolded);
@@ -230,7 +157,7 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     if (i < far)
       search_plies(s, *pairs[1][i]);
     else
-      search_edges(s, s.edge_contacts[i - far]);
+      search_edges(s, s.edge_contacts[i - far], 0.0);
   });
   for (PlyPair& pair : s.ply_pairs)
     allocate_forces(s, pair);

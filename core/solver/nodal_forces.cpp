@@ -82,11 +82,6 @@ void element_and_contact_forces(Scene& s, ThreadPool& pool) {
     PlyState& ply = s.plies[block.ply];
     bending_forces(*ply.bending, ply.x, block.begin);
   };
-  if (!s.edge_contacts.empty())
-    pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-      PlyState& ply = s.plies[p];
-      patch_motions(ply.edges, ply.motion, ply.patch_motion);
-    });
   const int pairs = static_cast<int>(s.ply_pairs.size());
   const int tools = pairs + static_cast<int>(s.tools.size());
   s.ply_states.clear();

@@ -3,6 +3,7 @@
 
 #include "contact/search/unfolded.hpp"
 #include "core/mesh/mesh_ply.hpp"
+#include "core/solver/facet_penetration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,7 +23,7 @@ std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
                                std::span<const Triangle> triangles, std::size_t nodes) {
   std::vector<char> node(nodes, 0), face;
   for (const SheetEdge& e : edges)
-    if (e.rim) node[e.a] = node[e.b] = 1;
+    if (e.is_free()) node[e.a] = node[e.b] = 1;
   for (const Triangle& t : triangles)
     face.push_back(
         static_cast<char>(std::any_of(t.begin(), t.end(), [&](int n) { return node[n] != 0; })));
@@ -197,6 +198,17 @@ void make_attachments(Scene& s) {
 
 } // namespace
 
+/// The fold from which on an edge may touch another. Over a side L of a triangle a fold f brings
+/// two sheets closer by L f / 4, here by 3/8 of the contact distance h; nodes and faces keep three
+/// quarters of it, so that 3/8 are left, of which edges use the half beyond h/4.
+void limit_ridges(Scene& s) {
+  double longest = 0.0;
+  for (const PlyState& ply : s.plies)
+    longest = std::max(longest, longest_side(ply));
+  for (PlyState& ply : s.plies)
+    ply.ridge_limit = 1.5 * ply.thickness / longest;
+}
+
 Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
   Scene s;
   s.data = data;
@@ -223,6 +235,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
       edges.contact.distance = 0.5 * pair.contact.distance;
       s.edge_contacts.push_back(std::move(edges));
     }
+  limit_ridges(s);
   s.ply_pairs = make_pairs(s);
   for (int p = 0; p < n; ++p) {
     const PlyState& ply = s.plies[p];

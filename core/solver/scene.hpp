@@ -33,6 +33,7 @@ struct PlyModel {
   std::optional<MembraneSimd> simd;   ///< SIMD version of the membrane; none without yarns
   std::optional<BendingSimd> bending; ///< none without bending stiffness
   SheetEdges edges;
+  double ridge_limit = 0.0;                ///< contact/search/sheet_ridges.hpp
   std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
   bool convex = false; ///< contact/search/unfolded.hpp; not asked without self-contact
 };
@@ -54,6 +55,7 @@ struct PlySearch {
   std::vector<double> fold_bound;            ///< contact/search/fold_bound.hpp, one per triangle
   double fold_bound_displacement = 0.0;      ///< mm, max_displacement when it was last computed
   std::array<std::vector<char>, 2> occluded; ///< per node, by the adjacent ply below [0], above [1]
+  SheetRidges ridges;         ///< contact/search/sheet_ridges.hpp; of a single ply none
   std::vector<char> unfolded; ///< per node, contact/search/unfolded.hpp; empty without self-contact
   double search_seconds = 0.0; ///< s, refitting the tree, computing fold bounds
 };
@@ -78,7 +80,7 @@ struct PlyWorkspace {
 /// A ply and its state.
 struct PlyState : PlyModel, PlyKinematics, PlySearch, PlyStability, PlyWorkspace {
   SurfaceKinematics state() const { return {x, motion, membrane.node_area, fold_bound}; }
-  EdgeSheet edge_sheet() const { return {state(), edges, patch_motion}; }
+  EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }
 };
 
 /// One tool with its contacts: contacts[i] is with ply i.

@@ -4,6 +4,7 @@
 #include "core/model/motion.hpp"
 #include "core/solver/attached_motion.hpp"
 #include "core/solver/contact_search.hpp"
+#include "core/solver/edge_contact_search.hpp"
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/pass_through.hpp"
 #include "core/solver/prescribed_motion.hpp"
@@ -102,6 +103,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   const bool due = searched || s.step % elements_every == 0;
   if (due) update_stable_step(s, pool);
   if (!searched) update_fold_bounds(s, pool);
+  follow_edges(s, pool, searched);
   element_and_contact_forces(s, pool);
   pull_springs(s);
   filter_forces(s);
