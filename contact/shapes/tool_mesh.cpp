@@ -20,6 +20,7 @@
 #include <algorithm>
 #include <fmt/format.h>
 #include <map>
+#include <mutex>
 #include <stdexcept>
 #include <utility>
 
@@ -64,12 +65,19 @@ void check(const PolygonSoup& soup, const std::string& name) {
                                f, i, soup.points.size()));
 }
 
-/// Keeps CGAL from printing what it finds wrong; it throws all the same.
+/// Keeps CGAL from printing what it finds wrong; it throws all the same. Its handlers are one for
+/// all threads: the first to come sets them, the last to go puts them back.
 class QuietCgal {
 public:
-  QuietCgal()
-      : errors_(CGAL::set_error_handler(&quiet)), warnings_(CGAL::set_warning_handler(&quiet)) {}
+  QuietCgal() {
+    const std::lock_guard lock(one_);
+    if (present_++ > 0) return;
+    errors_ = CGAL::set_error_handler(&quiet);
+    warnings_ = CGAL::set_warning_handler(&quiet);
+  }
   ~QuietCgal() {
+    const std::lock_guard lock(one_);
+    if (--present_ > 0) return;
     CGAL::set_error_handler(errors_);
     CGAL::set_warning_handler(warnings_);
   }
@@ -78,7 +86,9 @@ public:
 
 private:
   static void quiet(const char*, const char*, const char*, int, const char*) {}
-  CGAL::Failure_function errors_, warnings_;
+  static inline std::mutex one_;
+  static inline int present_ = 0;
+  static inline CGAL::Failure_function errors_ = nullptr, warnings_ = nullptr;
 };
 
 /// Removes faces that name a corner twice or have fewer than three corners; returns their number.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/thread_pool.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <exception>
 #include <mutex>
@@ -82,6 +83,10 @@ void ThreadPool::run(int count, const std::function<void(int)>& task) {
   for (int spin = 0; s.busy.load(std::memory_order_acquire) > 0; ++spin)
     if (spin > 1000) std::this_thread::yield();
   if (s.failure) std::rethrow_exception(std::exchange(s.failure, nullptr));
+}
+
+int available_cores() {
+  return static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
 }
 
 int ThreadPool::size() const {

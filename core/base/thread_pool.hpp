@@ -8,6 +8,9 @@
 
 namespace plyform {
 
+/// Number of processors, at least 1.
+int available_cores();
+
 class ThreadPool {
 public:
   /// `threads` >= 1, the calling thread included.

@@ -7,6 +7,7 @@
 #include "core/input/case_file.hpp"
 #include "core/input/initial_scene.hpp"
 #include "core/input/schema_check.hpp"
+#include "core/input/tool_meshes.hpp"
 #include "core/model/case.hpp"
 
 #include <filesystem>
@@ -26,8 +27,7 @@ std::vector<Tool> read_tools(const TableView& root, const std::filesystem::path&
                              Diagnostics& diagnostics);
 
 /// core/input/tool_shapes.cpp: the shape of one [[tool]].
-ToolShape read_shape(const TableView& tool, const std::filesystem::path& folder,
-                     Diagnostics& diagnostics);
+ToolShape read_shape(const TableView& tool, const ToolMeshes& meshes, Diagnostics& diagnostics);
 
 /// A direction of the section as a unit vector; reports an error for the zero vector.
 Vec3 read_direction(const TableView& section, const std::string& key, Diagnostics& diagnostics);

@@ -62,11 +62,10 @@ void read_motion(const TableView& section, Tool& tool, Diagnostics& diagnostics)
                 diagnostics);
 }
 
-Tool read_tool(const TableView& section, const std::filesystem::path& folder,
-               Diagnostics& diagnostics) {
+Tool read_tool(const TableView& section, const ToolMeshes& meshes, Diagnostics& diagnostics) {
   Tool tool;
   read_members(section, tool);
-  tool.shape = read_shape(section, folder, diagnostics);
+  tool.shape = read_shape(section, meshes, diagnostics);
   tool.rotation = read_rotation(section, diagnostics);
   read_motion(section, tool, diagnostics);
   if (given(section, "direction") && tool.motion != Motion::fixed)
@@ -78,9 +77,10 @@ Tool read_tool(const TableView& section, const std::filesystem::path& folder,
 
 std::vector<Tool> read_tools(const TableView& root, const std::filesystem::path& folder,
                              Diagnostics& diagnostics) {
+  const ToolMeshes meshes(root, folder);
   std::vector<Tool> tools;
   for (const TableView& section : subsections(root, "tool"))
-    tools.push_back(read_tool(section, folder, diagnostics));
+    tools.push_back(read_tool(section, meshes, diagnostics));
   return tools;
 }
 

@@ -20,7 +20,7 @@ using K = KeyKind;
 /// Arguments of the readers of shapes.
 struct ShapeSection {
   const TableView& tool;
-  const std::filesystem::path& folder; ///< of the case file
+  const ToolMeshes& meshes;
   Diagnostics& diagnostics;
 };
 
@@ -135,16 +135,14 @@ ToolShape read_extrusion(const ShapeSection& s) {
 }
 
 ToolShape read_mesh(const ShapeSection& s) {
-  const TomlNode* file = given(s.tool, "file");
-  const double scale = number(s.tool, "scale");
-  if (!file || std::isnan(scale)) return Plane{};
   try {
-    return load_tool_mesh(resolve_path(*file, s.folder).lexically_normal(), scale, nullptr);
+    if (MeshShapePtr mesh = s.meshes.of(s.tool)) return mesh;
   } catch (const std::exception& error) {
+    const TomlNode* file = given(s.tool, "file");
     s.diagnostics.error_from(file->at, item_of(s.tool, "file"), file->source_text,
                              "cannot be used: ", error.what());
-    return Plane{};
   }
+  return Plane{};
 }
 
 struct ShapeInput {
@@ -269,10 +267,9 @@ Rows shape_rows() {
   return rows;
 }
 
-ToolShape read_shape(const TableView& tool, const std::filesystem::path& folder,
-                     Diagnostics& diagnostics) {
+ToolShape read_shape(const TableView& tool, const ToolMeshes& meshes, Diagnostics& diagnostics) {
   for (const ShapeInput& shape : shapes)
-    if (text(tool, "shape") == shape.word) return shape.read({tool, folder, diagnostics});
+    if (text(tool, "shape") == shape.word) return shape.read({tool, meshes, diagnostics});
   return Plane{}; // an unknown word has been reported
 }
 

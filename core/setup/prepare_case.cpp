@@ -2,11 +2,11 @@
 #include "core/setup/prepare_case.hpp"
 
 #include "core/base/text.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/model/motion.hpp"
 #include "core/setup/size_ahead.hpp"
 
 #include <fmt/format.h>
-#include <thread>
 
 namespace plyform {
 namespace {
@@ -19,8 +19,7 @@ std::string duration_text(double seconds) {
 
 /// Refuses a case that would take more memory or time than anybody has asked for knowingly.
 void check_size(CaseReading& reading) {
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const SizeAhead size = size_ahead(*reading.value, cores);
+  const SizeAhead size = size_ahead(*reading.value, available_cores());
   const double memory = machine_memory();
   if (!too_large(size, memory)) return;
   const SourceLocation& blank = reading.parts.blanks[static_cast<std::size_t>(size.largest)];

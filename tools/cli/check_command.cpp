@@ -1,18 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/base/thread_pool.hpp"
 #include "core/setup/outlook.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
-#include <thread>
 
 namespace plyform {
 
 int check_command(const CaseArguments& arguments) {
   const PreparedCase prepared = load_case(arguments);
   if (!prepared.value) return exit_case_wrong;
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const Outlook outlook = look_ahead(prepared, cores);
+  const Outlook outlook = look_ahead(prepared, available_cores());
   for (const std::string& line : outlook.lines)
     fmt::print("{}\n", line);
   if (!outlook.stop.empty()) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/accuracy/error_model.hpp"
 #include "core/base/text.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/input/schema.hpp"
 #include "core/solver/run.hpp"
 #include "tools/cli/commands.hpp"
@@ -13,7 +14,6 @@
 #include <filesystem>
 #include <fmt/format.h>
 #include <optional>
-#include <thread>
 
 namespace plyform {
 namespace {
@@ -153,8 +153,7 @@ std::optional<Resume> find_checkpoint(ResultWriter& writer, const std::filesyste
 int run_command(const RunArguments& arguments) {
   const PreparedCase prepared = load_case(arguments.input);
   if (!prepared.value) return exit_case_wrong;
-  const int cores = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
-  const int threads = arguments.threads > 0 ? arguments.threads : cores;
+  const int threads = arguments.threads > 0 ? arguments.threads : available_cores();
   const std::filesystem::path folder = output_folder(arguments);
   ResultWriter writer(folder);
   for (const int end : {SIGINT, SIGTERM, SIGHUP})

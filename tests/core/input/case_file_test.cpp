@@ -253,6 +253,26 @@ TEST(CaseFile, ReadsShapesOfTools) {
   EXPECT_NEAR(distance(7, {0.1, 0, 5}), 2.0, 1e-12);
 }
 
+TEST(CaseFile, LoadsEachMeshOfToolsOnceAndNamesThoseThatItCannot) {
+  const fs::path file = data / "several/mesh_tools.toml";
+  const PreparedCase reading = prepare_case(file, {});
+  ASSERT_EQ(reading.errors.size(), 2u) << all_texts(reading);
+  EXPECT_EQ(reading.errors[0].item, "tool.1.file");
+  EXPECT_NE(reading.errors[0].text().find("there is no such file"), std::string::npos);
+  EXPECT_EQ(reading.errors[1].item, "tool.3.file");
+  EXPECT_NE(reading.errors[1].text().find("no faces"), std::string::npos);
+
+  const std::string sound = fmt::format("\"{}\"", (data / "meshes/tetrahedron.off").string());
+  const PreparedCase mended = prepare_case(file, {{"tool.1.file", sound}, {"tool.3.file", sound}});
+  ASSERT_TRUE(mended.value) << all_texts(mended);
+  const auto mesh = [&](std::size_t i) {
+    return std::get<MeshShapePtr>(mended.value->tools[i].shape);
+  };
+  EXPECT_EQ(mesh(0), mesh(2));
+  EXPECT_EQ(mesh(1), mesh(3));
+  EXPECT_NE(mesh(0), mesh(1)); // another scale
+}
+
 TEST(CaseFile, ReadsConesToriAndExtrusions) {
   const Case c = good_case(data / "good/profile_shapes.toml");
   ASSERT_EQ(c.tools.size(), 4u);
