@@ -167,12 +167,13 @@ struct Pressed {
   double stiffness; ///< N/mm, A k
   double viscous;   ///< N/mm, A c / dt
   double opened;    ///< mm, -p of the step before if it was closed then, else 0
-  double max_depth; ///< mm, delta
+  double per_depth; ///< 1/mm, 1 / delta
 
   /// (N) at depth p, and its slope (K), N and N/mm.
   std::pair<double, double> force(double p) const {
     if (!(p > 0.0)) return {0.0, 0.0};
-    const double u = p / max_depth, u2 = u * u, per_room = 1.0 / std::max(1.0 - u2, least_room);
+    const double u = p * per_depth, u2 = u * u;
+    const double per_room = 1.0 / std::max(1.0 - u2, least_room);
     const double rate = stiffness * per_room * per_room;
     const double n = rate * p + viscous * (p + opened);
     if (!(n > 0.0)) return {0.0, 0.0};
@@ -190,13 +191,14 @@ std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolPlyCont
   pressed.reserve(count);
   for (std::size_t i = 0; i < contacts.size(); ++i) {
     const ContactLaw& law = contacts[i].law;
+    const double per_depth = 1.0 / law.max_depth;
     for (const std::int32_t k : contacts[i].list.active) {
       const ToolPlyPoint& c = contacts[i].points[k];
       const double facing = normal_of(c).dot(tool.direction);
       if (!(std::abs(facing) * most > c.gap)) continue;
       const double area = plies[i].area[c.node];
       pressed.push_back({facing, c.gap, area * law.stiffness, area * law.damping / dt,
-                         std::min(c.last_gap, 0.0), law.max_depth});
+                         std::min(c.last_gap, 0.0), per_depth});
     }
   }
   return pressed;
@@ -225,7 +227,7 @@ double within_room(std::span<const Pressed> pressed, double high) {
   constexpr double share = 0.5;
   for (const Pressed& c : pressed) {
     const double depth = std::max(-c.gap, 0.0);
-    const double most = depth + share * std::max(c.max_depth - depth, 0.0) + c.gap;
+    const double most = depth + share * std::max(1.0 / c.per_depth - depth, 0.0) + c.gap;
     if (c.facing * high > most) high = most / c.facing;
   }
   return high;
@@ -241,7 +243,9 @@ double equilibrium_motion(const ToolBody& tool, std::span<const ToolPlyContact> 
   double high = within_room(pressed, fastest), low = within_room(pressed, -fastest);
   double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
   bool high_known = false, low_known = false; // whether the root is known to lie below, above it
-  constexpr int most_rounds = 60; // bisections down to rounding; 3 to 6 iterations are usual
+  // A Newton step squares the relative residual: the one from `nearly` ends below 1e-9.
+  constexpr double nearly = 1e-5;
+  constexpr int most_rounds = 60; // bisections down to rounding; 2 to 5 iterations are usual
   for (int round = 0; round < most_rounds; ++round) {
     const Residual r = residual_of(tool, pressed, delta, dt);
     if (std::abs(r.value) <= 1e-9 * std::abs(tool.force)) break;
@@ -251,6 +255,7 @@ double equilibrium_motion(const ToolBody& tool, std::span<const ToolPlyContact> 
     const double newton = r.slope < 0.0 ? delta - r.value / r.slope : further ? high : low;
     if (newton > low && newton < high) {
       delta = newton;
+      if (std::abs(r.value) <= nearly * std::abs(tool.force)) break;
       continue;
     }
     if (bool& known = further ? high_known : low_known; !known) {
