@@ -276,9 +276,7 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
   clear_present(contact.sums);
   if (contact.list.active.empty()) return;
   KernelContext side{contact, slave, master, triangles, moved, slave_force, master_force};
-  const auto run = has_avx512() ? ply_ply_kernel_avx512
-                   : has_avx2() ? ply_ply_kernel_avx2
-                                : ply_ply_kernel_generic;
+  const auto run = fastest(ply_ply_kernel_generic, ply_ply_kernel_avx2, ply_ply_kernel_avx512);
   const PlyPlyKernelTotals added = run(kernel_view(side, dt));
   ContactTotals& sums = contact.sums;
   sums.elastic = added.elastic;

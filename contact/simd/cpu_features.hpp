@@ -7,4 +7,15 @@ namespace plyform {
 bool has_avx2();
 bool has_avx512(); ///< F, VL and DQ, on top of AVX2
 
+/// The copy of a kernel for this processor.
+template <class Kernel>
+Kernel* fastest(Kernel* generic, Kernel* avx2) {
+  return has_avx2() ? avx2 : generic;
+}
+
+template <class Kernel>
+Kernel* fastest(Kernel* generic, Kernel* avx2, Kernel* avx512) {
+  return has_avx512() ? avx512 : fastest(generic, avx2);
+}
+
 } // namespace plyform

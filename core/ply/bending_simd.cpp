@@ -272,9 +272,7 @@ void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block) {
                                   l.constants.data() + of.first_slot * slot_numbers(l),
                                   l.slots.data() + of.first_slot * simd_width,
                                   l.force.data() + of.first_node};
-  const auto run = has_avx512() ? bending_kernel_avx512
-                   : has_avx2() ? bending_kernel_avx2
-                                : bending_kernel_generic;
+  const auto run = fastest(bending_kernel_generic, bending_kernel_avx2, bending_kernel_avx512);
   run(kernel, law, x.data()->data());
 }
 

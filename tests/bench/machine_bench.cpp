@@ -57,7 +57,7 @@ struct Arrays {
 };
 
 double measure_bandwidth(double bytes) {
-  const auto triad = has_avx2() ? triad_avx2 : triad_generic;
+  const auto triad = fastest(triad_generic, triad_avx2);
   Arrays arrays(bytes);
   const double pass = 24.0 * static_cast<double>(arrays.count);
   const int passes = static_cast<int>(std::max(1.0, 4e7 / pass)); // some milliseconds
@@ -76,7 +76,7 @@ double measure_bandwidth(double bytes) {
 }
 
 double measure_arithmetic() {
-  const auto chains = has_avx2() ? chains_avx2 : chains_generic;
+  const auto chains = fastest(chains_generic, chains_avx2);
   double best = 0.0, spent = 0.0;
   while (spent < 0.5) { // long enough to find a moment when nobody else shares the core
     alignas(32) double at[4] = {1.0, 2.0, 3.0, 4.0};
