@@ -8,7 +8,7 @@ function(plyform_simd_kernel name)
   set(options -fno-math-errno -fno-rounding-math -Wno-psabi)
   set(generic "")
   set(avx2 -mavx2)
-  # four numbers a vector as with AVX2, but 32 registers and masks
+  # kernels say themselves where vectors hold eight numbers (PLYFORM_LANES), not the compiler
   set(avx512 -mavx512f -mavx512vl -mavx512dq -mprefer-vector-width=256)
   foreach(copy generic avx2 avx512)
     if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${name}_${copy}.cpp)

@@ -20,7 +20,7 @@ faults=(
   "boxes of the search are not brought up to date | core/solver/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
   "contacts of plies are listed without the skin | core/solver/contact_search.cpp | s/pair.contact.distance + s.skin/pair.contact.distance/"
   "what may have closed its gap is looked at too late, plies | contact/search/active_list.hpp | s/if (list.free_until\[i\] > now)/if (list.free_until[i] + 0.5 > now)/"
-  "a fold round a face is taken for a tenth of what it is | contact/simd/ply_ply_closest.hpp | s/return k.distance \* Double4{k.fold_bound/return 0.1 * k.distance * Double4{k.fold_bound/"
+  "a fold round a face is taken for a tenth of what it is | contact/simd/ply_ply_closest.hpp | s/return k.distance \* each_lane/return 0.1 * k.distance * each_lane/"
   "a ply keeps those on its sides apart past its rim | core/solver/occlusion.cpp | s/^ *char inside = .*/occluded[static_cast<std::size_t>(c.node)] = 1; char inside = 1;/"
   "the first node near a tool is not listed | contact/forces/tool_ply.cpp | s/if (gap > reach) {/if (gap > reach || contact.points.empty()) {/"
   "friction between plies is forgotten at a search | contact/forces/ply_ply.cpp | s/c.memory = before->memory;//"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// (N) and (T) of contact/forces/contact_law.hpp for four contacts at a time, and other functions
+// (N) and (T) of contact/forces/contact_law.hpp for a contact per SIMD lane, and other functions
 // that the contact kernels share. Only those kernels may include this file, as
 // contact/simd/simd.hpp.
 #pragma once
@@ -12,9 +12,7 @@
 namespace plyform {
 namespace {
 
-constexpr int simd_width = 4;
-
-PLYFORM_INLINE Double4 square(const Vector4& a) {
+PLYFORM_INLINE Doubles square(const Vectors& a) {
   return dot(a, a);
 }
 
@@ -60,20 +58,39 @@ PLYFORM_INLINE void store_row(Point* point, std::size_t row, Double4 a) {
   *reinterpret_cast<InMemory4*>(reinterpret_cast<char*>(point) + row) = a;
 }
 
-/// Loads one row of four points, transposed: row[i] of the result is column i, of all four points.
+/// One row of each point: of[i] has number i of all of them.
+struct Columns {
+  Doubles of[4];
+};
+
 template <class Point>
-PLYFORM_INLINE Rows load_columns(Point* const* point, std::size_t row) {
-  return transposed({{load_row(point[0], row), load_row(point[1], row), load_row(point[2], row),
-                      load_row(point[3], row)}});
+PLYFORM_INLINE Columns load_columns(Point* const* point, std::size_t row) {
+  Double4 part[4][quads];
+  for (int q = 0; q < quads; ++q) {
+    Point* const* p = point + 4 * q;
+    const Rows columns = transposed(
+        {{load_row(p[0], row), load_row(p[1], row), load_row(p[2], row), load_row(p[3], row)}});
+    for (int i = 0; i < 4; ++i)
+      part[i][q] = columns.row[i];
+  }
+  return {{joined(part[0]), joined(part[1]), joined(part[2]), joined(part[3])}};
 }
 
-/// Stores columns, as load_columns returns them, to that row of the first `count` of four points.
+/// The rows of the points of quad `number`.
+PLYFORM_INLINE Rows rows(const Columns& c, int number) {
+  return transposed({{quad(c.of[0], number), quad(c.of[1], number), quad(c.of[2], number),
+                      quad(c.of[3], number)}});
+}
+
+/// Stores columns, as load_columns returns them, to that row of the first `count` points.
 template <class Point>
 PLYFORM_INLINE void store_columns(Point* const* point, int count, std::size_t row,
-                                  const Rows& columns) {
-  const Rows r = transposed(columns);
-  for (int i = 0; i < count; ++i)
-    store_row(point[i], row, r.row[i]);
+                                  const Columns& columns) {
+  for (int q = 0; q < quads; ++q) {
+    const Rows r = rows(columns, q);
+    for (int i = 0; i < 4 && 4 * q + i < count; ++i)
+      store_row(point[4 * q + i], row, r.row[i]);
+  }
 }
 
 PLYFORM_INLINE double smallest(Double4 a) {
@@ -86,40 +103,56 @@ PLYFORM_INLINE double largest(Double4 a) {
   return low > high ? low : high;
 }
 
-/// ContactTotals of the kernels: sums, maxima and minima per SIMD lane, over every fourth contact.
+/// ContactTotals of the kernels: sums, maxima and minima over every fourth contact. With eight
+/// lanes the two quads are added one after the other, so that sums are those of four lanes.
 struct SimdTotals {
-  Double4 elastic = all(0.0), friction = all(0.0), damping = all(0.0);
-  Double4 penetration = all(0.0), slip = all(0.0);
-  Double4 step_ratio = all(1e300);
+  Double4 elastic{}, friction{}, damping{};
+  Double4 penetration{}, slip{};
+  Double4 step_ratio = Double4{1e300, 1e300, 1e300, 1e300};
   int touching = 0;
 };
 
-/// ContactHistory of four contacts.
+PLYFORM_INLINE void add(Double4& sum, Doubles a) {
+  for (int q = 0; q < quads; ++q)
+    sum += quad(a, q);
+}
+
+PLYFORM_INLINE void keep_larger(Double4& largest, Doubles a) {
+  for (int q = 0; q < quads; ++q)
+    largest = larger(largest, quad(a, q));
+}
+
+PLYFORM_INLINE void keep_smaller(Double4& smallest, Doubles a) {
+  for (int q = 0; q < quads; ++q)
+    smallest = smaller(smallest, quad(a, q));
+}
+
+/// ContactHistory of a contact per lane.
 struct SimdHistory {
-  Double4 damping_force, normal_force, slip;
-  Vector4 s;
+  Doubles damping_force, normal_force, slip;
+  Vectors s;
 };
 
 /// s rotated into the plane normal to n, with its length preserved.
-PLYFORM_INLINE Vector4 into_plane(const Vector4& s, const Vector4& n) {
-  const Vector4 flat = s - dot(n, s) * n;
-  const Double4 length2 = square(s), flat2 = square(flat);
-  const Double4 by = flat2 > 0.0 ? root(length2 / flat2) : all(0.0);
+PLYFORM_INLINE Vectors into_plane(const Vectors& s, const Vectors& n) {
+  const Vectors flat = s - dot(n, s) * n;
+  const Doubles length2 = square(s), flat2 = square(flat);
+  const Doubles by = flat2 > 0.0 ? root(length2 / flat2) : all(0.0);
   return by * flat;
 }
 
 /// q of contact/forces/contact_law.hpp at `depth` (mm).
 template <class Contact>
-PLYFORM_INLINE Double4 room_of(const Contact& k, Double4 depth) {
+PLYFORM_INLINE Doubles room_of(const Contact& k, Doubles depth) {
   return larger(1.0 - depth * depth * k.per_depth2, all(least_room));
 }
 
-/// ContactTotals::step_ratio of four contacts at `depth` that closed by `dp` (mm) in the last step.
+/// ContactTotals::step_ratio of contacts at `depth` that closed by `dp` (mm) in the last step.
 /// A contact that is still open may close its gap and then use step_share of the depth limit.
 template <class Contact>
-PLYFORM_INLINE Double4 step_ratio_of(const Contact& k, Double4 depth, Double4 dp) {
-  const Double4 inside = larger(depth, all(0.0)), open = inside - depth;
-  const Double4 way = open + step_share * (k.max_depth - inside);
+PLYFORM_INLINE Doubles step_ratio_of(const Contact& k, Doubles depth, Doubles dp) {
+  const Doubles inside = larger(depth, all(0.0)), open = inside - depth;
+  const Doubles way = open + step_share * (k.max_depth - inside);
   return dp > 0.0 ? larger(way, all(0.0)) / dp : all(1e300);
 }
 
@@ -128,14 +161,14 @@ PLYFORM_INLINE Double4 step_ratio_of(const Contact& k, Double4 depth, Double4 dp
 /// (negative depths included). Sets the forces in m (N) and adds the work of damping where
 /// `counted`. Uses k.stiffness, k.damping_per_dt, k.per_depth2.
 template <class Contact>
-PLYFORM_INLINE Double4 normal_pressure(const Contact& k, Double4 area, Double4 depth,
-                                       Double4 opened, Double4 dp, Long4 counted, SimdHistory& m,
+PLYFORM_INLINE Doubles normal_pressure(const Contact& k, Doubles area, Doubles depth,
+                                       Doubles opened, Doubles dp, Longs counted, SimdHistory& m,
                                        SimdTotals& sums) {
-  const Double4 q = room_of(k, depth);
-  const Double4 pressure = k.stiffness * depth / (q * q); // N/mm^2, elastic and viscous
-  const Double4 resistance = larger(k.damping_per_dt * (depth + opened), -pressure);
-  const Double4 viscous = area * resistance;
-  sums.damping += counted ? 0.5 * (viscous + m.damping_force) * dp : all(0.0);
+  const Doubles q = room_of(k, depth);
+  const Doubles pressure = k.stiffness * depth / (q * q); // N/mm^2, elastic and viscous
+  const Doubles resistance = larger(k.damping_per_dt * (depth + opened), -pressure);
+  const Doubles viscous = area * resistance;
+  add(sums.damping, counted ? 0.5 * (viscous + m.damping_force) * dp : all(0.0));
   m.damping_force = viscous;
   m.normal_force = area * (pressure + resistance);
   return pressure + resistance;
@@ -145,19 +178,19 @@ PLYFORM_INLINE Double4 normal_pressure(const Contact& k, Double4 area, Double4 d
 /// before, rotated with the body; slip: relative displacement in this step, mm. Uses k.friction and
 /// k.tangential.
 template <class Contact>
-PLYFORM_INLINE Vector4 friction_of(const Contact& k, Double4 area, Double4 pressure,
-                                   const Vector4& n, const Vector4& remembered, const Vector4& slip,
-                                   Long4 touch, SimdHistory& m, SimdTotals& sums) {
-  const Double4 zero = all(0.0);
-  const Vector4 old = into_plane(remembered, n);
-  const Vector4 trial = old + slip - dot(n, slip) * n;
-  const Double4 stiffness = area * k.tangential;
-  const Double4 limit = touch ? (k.friction / k.tangential) * pressure : zero;
-  const Double4 stretch = root(square(trial));
+PLYFORM_INLINE Vectors friction_of(const Contact& k, Doubles area, Doubles pressure,
+                                   const Vectors& n, const Vectors& remembered, const Vectors& slip,
+                                   Longs touch, SimdHistory& m, SimdTotals& sums) {
+  const Doubles zero = all(0.0);
+  const Vectors old = into_plane(remembered, n);
+  const Vectors trial = old + slip - dot(n, slip) * n;
+  const Doubles stiffness = area * k.tangential;
+  const Doubles limit = touch ? (k.friction / k.tangential) * pressure : zero;
+  const Doubles stretch = root(square(trial));
   m.s = (stretch > limit ? limit / stretch : all(1.0)) * trial;
   m.slip += touch ? larger(stretch - limit, zero) : zero;
-  sums.slip = larger(sums.slip, touch ? m.slip : zero);
-  sums.friction += 0.5 * stiffness * dot(old + m.s, trial - m.s);
+  keep_larger(sums.slip, touch ? m.slip : zero);
+  add(sums.friction, 0.5 * stiffness * dot(old + m.s, trial - m.s));
   return -stiffness * m.s;
 }
 

@@ -72,10 +72,10 @@ PLYFORM_INLINE void measure_four(const SimdEdges& e, const std::int32_t count,
 }
 
 PLYFORM_INLINE void measure_edges(const EdgeEdgeKernelPairs& k, EdgeEdgeDistance* out) {
-  for (int first = 0; first < k.count; first += simd_width) {
-    const int left = k.count - first, count = left < simd_width ? left : simd_width;
-    const std::int32_t* nodes[simd_width]; // lanes from count on repeat the first
-    for (int lane = 0; lane < simd_width; ++lane)
+  for (int first = 0; first < k.count; first += lanes) {
+    const int left = k.count - first, count = left < lanes ? left : lanes;
+    const std::int32_t* nodes[lanes]; // lanes from count on repeat the first
+    for (int lane = 0; lane < lanes; ++lane)
       nodes[lane] = k.nodes + 4 * static_cast<std::int64_t>(first + (lane < count ? lane : 0));
     measure_four(edges_of(k, nodes), count, out + first);
   }

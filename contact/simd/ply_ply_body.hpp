@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// (S), (P) and (M) of contact/forces/ply_ply.hpp for four points at a time, with the law of
+// (S), (P) and (M) of contact/forces/ply_ply.hpp, a point per lane, with the law of
 // contact/forces/contact_law.hpp. A point keeps its face (PlyPlyPoint::face) while its foot is
 // inside that face and no other face can have come closer; else those of its faces that may be
 // closest are searched.
@@ -22,99 +22,82 @@ PLYFORM_INLINE void add3(double* at, Double4 row) {
   at[2] += row[2];
 }
 
-/// The state of four points that the computation of their forces changes.
+/// The state of points that the computation of their forces changes.
 struct SimdPoints {
-  Double4 area, gap, last_gap;
+  Doubles area, gap, last_gap;
   SimdHistory memory;
 };
 
-struct SimdForces {
-  Vector4 on_node, couple1, couple2; ///< of (C') on corners b and c
+/// Weights of corners b and c at the closest points.
+struct SimdWeights {
+  Doubles b, c;
 };
 
-/// Normal force and friction of four points whose feet are known; `touch`: those that touch; fold:
+struct SimdForces {
+  Vectors on_node, couple1, couple2; ///< of (C') on corners b and c
+};
+
+/// Normal force and friction of points whose feet are known; `touch`: those that touch; fold:
 /// as of fold_ahead.
 PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFaces& x,
-                                    const SimdFaces& u, const SimdFoot& foot, Double4 fold,
-                                    Long4 touch, SimdPoints& p, SimdTotals& sums) {
-  const Double4 zero = all(0.0);
-  const Vector4 arm = x.p - foot.wb * x.b - foot.wc * x.c;
-  const Vector4 motion = u.p - foot.wb * u.b - foot.wc * u.c;
-  const Double4 depth = k.distance - foot.distance;
-  const Vector4 normal = (1.0 / foot.distance) * arm;
-  const Double4 area = touch ? p.area : zero;
-  const Long4 known = p.last_gap < 1e300;
-  const Double4 opened = known ? smaller(p.last_gap, zero) : zero;
-  const Double4 dp = known ? p.last_gap - p.gap : -dot(normal, motion);
-  const Double4 pressure = normal_pressure(k, area, depth, opened, dp, touch, p.memory, sums);
+                                    const SimdFaces& u, const SimdWeights& w, Doubles distance,
+                                    Doubles fold, Longs touch, SimdPoints& p, SimdTotals& sums) {
+  const Doubles zero = all(0.0);
+  const Vectors arm = x.p - w.b * x.b - w.c * x.c;
+  const Vectors motion = u.p - w.b * u.b - w.c * u.c;
+  const Doubles depth = k.distance - distance;
+  const Vectors normal = (1.0 / distance) * arm;
+  const Doubles area = touch ? p.area : zero;
+  const Longs known = p.last_gap < 1e300;
+  const Doubles opened = known ? smaller(p.last_gap, zero) : zero;
+  const Doubles dp = known ? p.last_gap - p.gap : -dot(normal, motion);
+  const Doubles pressure = normal_pressure(k, area, depth, opened, dp, touch, p.memory, sums);
   SimdForces f{p.memory.normal_force * normal, {zero, zero, zero}, {zero, zero, zero}};
-  Double4 stored2 = zero;
+  Doubles stored2 = zero;
   if (k.friction > 0.0) {
-    const Vector4 across = cross(x.b, x.c);
-    const Double4 per_size = 1.0 / root(square(across));
-    const Vector4 n = per_size * across;
-    const Double4 v1 = dot(n, u.b), v2 = dot(n, u.c);
-    const Double4 spin = 0.5 * (dot(x.b, u.c) - dot(x.c, u.b));
-    const Vector4 turn = per_size * (v2 * x.b - v1 * x.c - spin * n); // (W')
-    const Vector4 slip = motion - cross(turn, arm);                   // (P)
-    const Vector4& s = p.memory.s;
-    const Vector4 tangential =
+    const Vectors across = cross(x.b, x.c);
+    const Doubles per_size = 1.0 / root(square(across));
+    const Vectors n = per_size * across;
+    const Doubles v1 = dot(n, u.b), v2 = dot(n, u.c);
+    const Doubles spin = 0.5 * (dot(x.b, u.c) - dot(x.c, u.b));
+    const Vectors turn = per_size * (v2 * x.b - v1 * x.c - spin * n); // (W')
+    const Vectors slip = motion - cross(turn, arm);                   // (P)
+    const Vectors& s = p.memory.s;
+    const Vectors tangential =
         friction_of(k, area, pressure, normal, s + cross(turn, s), slip, touch, p.memory, sums);
     f.on_node = f.on_node + tangential;
-    const Vector4 couple = cross(tangential, arm); // -r x T of (M)
-    const Double4 half = 0.5 * dot(couple, n);
+    const Vectors couple = cross(tangential, arm); // -r x T of (M)
+    const Doubles half = 0.5 * dot(couple, n);
     f.couple1 = per_size * (half * x.c - dot(x.c, couple) * n); // (C'), E_1 = -C
     f.couple2 = per_size * (dot(x.b, couple) * n - half * x.b);
     stored2 = square(p.memory.s);
   }
-  sums.elastic +=
-      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * stored2);
-  Double4 closing = dp;
+  add(sums.elastic,
+      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * stored2));
+  Doubles closing = dp;
   if (any(fold > 0.0)) closing = fold > 0.0 ? larger(dp, zero) + fold * root(square(motion)) : dp;
-  sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, depth, closing));
-  sums.penetration = larger(sums.penetration, touch ? depth : zero);
+  keep_smaller(sums.step_ratio, step_ratio_of(k, depth, closing));
+  keep_larger(sums.penetration, touch ? depth : zero);
   return f;
 }
 
-/// Adds the forces of the points in `touch` to their nodes and to the corners of their faces.
-PLYFORM_INLINE void add_forces(const PlyPlyKernelContact& k, PlyPlyPoint* const* point,
-                               const SimdFoot& foot, const SimdForces& f, Long4 touch) {
-  const Rows on_node = rows(f.on_node);
-  const Rows on_b = rows(f.couple1 - foot.wb * f.on_node);
-  const Rows on_c = rows(f.couple2 - foot.wc * f.on_node);
-  for (int i = 0; i < simd_width; ++i) {
-    if (!touch[i]) continue;
-    const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(point[i]->face);
-    add3(k.slave_force + 3 * static_cast<std::int64_t>(point[i]->node), on_node.row[i]);
-    add3(k.master_force + 3 * static_cast<std::int64_t>(t[1]), on_b.row[i]);
-    add3(k.master_force + 3 * static_cast<std::int64_t>(t[2]), on_c.row[i]);
-    add3(k.master_force + 3 * static_cast<std::int64_t>(t[0]),
-         -(on_node.row[i] + on_b.row[i] + on_c.row[i]));
+/// Adds the forces of the points to their nodes and to the corners of their faces.
+PLYFORM_INLINE void add_forces(const PlyPlyKernelContact& k, const Group& g, const SimdWeights& w,
+                               const SimdForces& f) {
+  const Vectors at_b = f.couple1 - w.b * f.on_node, at_c = f.couple2 - w.c * f.on_node;
+  for (int q = 0; q < quads; ++q) {
+    const Rows on_node = rows(f.on_node, q), on_b = rows(at_b, q), on_c = rows(at_c, q);
+    for (int i = 0; i < 4; ++i) {
+      const int lane = 4 * q + i;
+      if (!has(g.real, lane)) continue;
+      const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(g.face[lane]);
+      add3(k.slave_force + 3 * static_cast<std::int64_t>(g.point[lane]->node), on_node.row[i]);
+      add3(k.master_force + 3 * static_cast<std::int64_t>(t[1]), on_b.row[i]);
+      add3(k.master_force + 3 * static_cast<std::int64_t>(t[2]), on_c.row[i]);
+      add3(k.master_force + 3 * static_cast<std::int64_t>(t[0]),
+           -(on_node.row[i] + on_b.row[i] + on_c.row[i]));
+    }
   }
-}
-
-/// Up to four points. Those from `count` on are copies of the first, to fill the SIMD lanes; `real`
-/// is their mask.
-struct Group {
-  PlyPlyPoint* point[simd_width];
-  std::int32_t index[simd_width];
-  int count;
-  Long4 real;
-};
-
-PLYFORM_INLINE Group group_of(const PlyPlyKernelContact& k, const std::int32_t* index, int left) {
-  Group g;
-  g.count = left < simd_width ? left : simd_width;
-  for (int i = 0; i < simd_width; ++i) {
-    g.index[i] = index[i < g.count ? i : 0];
-    g.point[i] = k.points + g.index[i];
-  }
-  g.real = Long4{0, 1, 2, 3} < static_cast<std::int64_t>(g.count);
-  return g;
-}
-
-PLYFORM_INLINE Long4 remembered(const Group& g) {
-  return Long4{g.point[0]->face, g.point[1]->face, g.point[2]->face, g.point[3]->face};
 }
 
 /// Upper bound of the sine of the fold between the face of a point that is not settled and those
@@ -125,170 +108,198 @@ PLYFORM_INLINE double fold_ahead(const PlyPlyKernelContact& k, const PlyPlyPoint
   return sine < 1.0 ? sine : 1.0;
 }
 
-/// Computes the forces of up to four points that touch, x their positions, foot their closest
-/// points, and fold as of fold_ahead, 0 for those that are settled.
-PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const Group& g, const SimdFaces& x,
-                          const SimdFoot& foot, Double4 fold, SimdTotals& sums) {
-  const SimdFaces u = load_faces(k, g.point, remembered(g), k.slave_motion, k.master_motion);
-  const Rows held = load_columns(g.point, memory_row), last = load_columns(g.point, gap_row);
-  SimdPoints p;
-  SimdHistory& m = p.memory;
-  m.s = {held.row[0], held.row[1], held.row[2]};
-  m.damping_force = held.row[3];
-  m.normal_force = last.row[0], m.slip = last.row[1], p.area = last.row[2];
-  p.last_gap = last.row[3];
-  p.gap = foot.distance - k.distance;
-  const SimdForces f = forces_of(k, x, u, foot, fold, g.real, p, sums);
-  add_forces(k, g.point, foot, f, g.real);
-  const Double4 height = dot(cross(x.b, x.c), x.p);
-  // 0 on edges: a node may slide round the free edge of the sheet to the other side
-  const Long4 side = foot.inside & (height >= 0.0 ? Long4{1, 1, 1, 1} : Long4{-1, -1, -1, -1});
-  const Long4 deep = (foot.distance < 0.5 * k.distance) | // for a law without a depth limit
-                     (k.distance - foot.distance >= deepest_valid * k.max_depth);
-  const Rows s = transposed({{m.s.x, m.s.y, m.s.z, m.damping_force}});
-  const Rows b = transposed({{m.normal_force, m.slip, p.area, p.gap}});
-  for (int i = 0; i < g.count; ++i) {
-    PlyPlyPoint& at = *g.point[i];
-    if (at.side * side[i] < 0 || deep[i]) k.fault(k.self, g.index[i], foot.distance[i]);
-    at.side = static_cast<std::int32_t>(side[i]);
-    store_row(&at, memory_row, s.row[i]);
-    store_row(&at, gap_row, b.row[i]);
+/// What the passes over up to 64 points find of them. Points are numbered within the chunk; sets of
+/// them have a bit per point.
+struct Chunk {
+  static constexpr int most = 64;
+  alignas(64) double distance[most]; ///< mm
+  std::uint64_t touching = 0;
+  std::uint64_t inside = 0;         ///< whose foot is inside the face
+  std::uint64_t above = 0;          ///< on the side that the face's normal points to
+  std::uint64_t settled = 0;        ///< to which no other face can be closer
+  std::uint64_t interiors_only = 0; ///< to which another face can be closer only with its interior
+};
+
+/// PlyPlyPoint::side; 0 on edges: a node may slide round the free edge of the sheet to the other
+/// side.
+PLYFORM_INLINE std::int32_t side_of(const Chunk& chunk, int number) {
+  return !has(chunk.inside, number) ? 0 : has(chunk.above, number) ? 1 : -1;
+}
+
+/// Adds the lanes of a mask to a set of points, the first lane at `first`.
+PLYFORM_INLINE void add(std::uint64_t& set, Longs mask, int first) {
+  set |= std::uint64_t{bits_of(mask)} << first;
+}
+
+PLYFORM_INLINE void put(std::uint64_t& set, int number, bool in) {
+  set = (set & ~(std::uint64_t{1} << number)) | std::uint64_t{in} << number;
+}
+
+/// Takes the point with the lowest number out of the set.
+PLYFORM_INLINE int take_first(std::uint64_t& set) {
+  const int number = __builtin_ctzll(set);
+  set &= set - 1;
+  return number;
+}
+
+/// First pass: closest points on the faces that the points keep.
+PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                           int count, Chunk& chunk) {
+  for (int first = 0; first < count; first += lanes) {
+    std::int32_t number[lanes];
+    for (int i = 0; i < lanes; ++i)
+      number[i] = first + i < count ? first + i : -1;
+    const Group g = group_of(k, active, number);
+    const SimdFaces x = load_faces(k, g, k.slave_x, k.master_x);
+    SimdClearance clear;
+    const SimdFoot foot = foot_of(k, g, x, clear);
+    Longs interiors_only;
+    const Longs settled = settled_of(k, g, foot, clear, interiors_only);
+    store_weights(g, foot);
+    store_lanes(chunk.distance + first, foot.distance);
+    add(chunk.touching, foot.distance < k.distance, first);
+    add(chunk.inside, foot.inside, first);
+    add(chunk.above, foot.above, first);
+    add(chunk.settled, settled, first);
+    add(chunk.interiors_only, interiors_only, first);
   }
-  sums.touching += g.count;
+}
+
+/// Second pass: closest points on any of their faces, of the points in `searched`.
+PLYFORM_INLINE void search_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                 std::uint64_t searched, bool edges, Chunk& chunk) {
+  while (searched != 0) {
+    std::int32_t number[lanes];
+    for (int i = 0; i < lanes; ++i)
+      number[i] = searched != 0 ? take_first(searched) : -1;
+    const Group g = group_of(k, active, number);
+    unsigned own_inside = 0;
+    for (int i = 0; i < lanes; ++i)
+      own_inside |= (has(chunk.inside, g.number[i]) ? 1U : 0U) << i;
+    const SimdFoot foot = closest_on_any_face(k, g, edges, own_inside);
+    alignas(sizeof(Doubles)) double distance[lanes];
+    store_lanes(distance, foot.distance);
+    const unsigned touching = bits_of(foot.distance < k.distance);
+    const unsigned inside = bits_of(foot.inside), above = bits_of(foot.above);
+    for (int i = 0; i < lanes && has(g.real, i); ++i) {
+      chunk.distance[number[i]] = distance[i];
+      put(chunk.touching, number[i], has(touching, i));
+      put(chunk.inside, number[i], has(inside, i));
+      put(chunk.above, number[i], has(above, i));
+    }
+  }
+}
+
+/// Points by fours in the order in which their forces are summed, which must not depend on the
+/// number of lanes: where fewer are left to a four, -1 stands for none.
+struct Order {
+  std::int32_t number[Chunk::most + lanes];
+  int count = 0;
+};
+
+PLYFORM_INLINE void append(Order& order, int number) {
+  order.number[order.count++] = number;
+}
+
+PLYFORM_INLINE void fill_up(Order& order, int multiple) {
+  while (order.count % multiple != 0)
+    append(order, -1);
+}
+
+/// Takes the points of those successive fours that all touch and are settled out of `points`, and
+/// appends them.
+PLYFORM_INLINE void take_settled(const Chunk& chunk, std::uint64_t& points, Order& order) {
+  for (int first = 0; first < Chunk::most; first += 4) {
+    std::uint64_t four = points & std::uint64_t{15} << first;
+    if ((four & ~(chunk.touching & chunk.settled)) != 0) continue;
+    points &= ~four;
+    while (four != 0)
+      append(order, take_first(four));
+    fill_up(order, 4);
+  }
 }
 
 /// Updates gap, side and path length of a point that does not touch.
 PLYFORM_INLINE void update_open_point(const PlyPlyKernelContact& k, std::int32_t index,
-                                      double distance, bool inside, SimdTotals& sums) {
+                                      double distance, std::int32_t side, SimdTotals& sums) {
   PlyPlyPoint& at = k.points[index];
   const double last_gap = at.gap;
   at.gap = distance - k.distance;
+  at.side = side;       // it may close on this side later
   if (last_gap < 1e300) // it was active in the step before
-    sums.step_ratio =
-        smaller(sums.step_ratio, step_ratio_of(k, all(-at.gap), all(last_gap - at.gap)));
-  at.side = 0;
-  if (inside) { // it may close on this side later
-    const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(at.face);
-    const double* a = k.master_x + 3 * static_cast<std::int64_t>(t[0]);
-    const double* b = k.master_x + 3 * static_cast<std::int64_t>(t[1]);
-    const double* c = k.master_x + 3 * static_cast<std::int64_t>(t[2]);
-    const double* p = k.slave_x + 3 * static_cast<std::int64_t>(at.node);
-    double height = 0.0;
-    for (int i = 0; i < 3; ++i) {
-      const int j = (i + 1) % 3, l = (i + 2) % 3;
-      height += ((b[j] - a[j]) * (c[l] - a[l]) - (b[l] - a[l]) * (c[j] - a[j])) * (p[i] - a[i]);
-    }
-    at.side = height >= 0.0 ? 1 : -1;
-  }
+    keep_smaller(sums.step_ratio, step_ratio_of(k, all(-at.gap), all(last_gap - at.gap)));
   if (at.memory.normal_force != 0.0 || at.memory.damping_force != 0.0)
     k.open(k.self, index, last_gap);
   k.free_until[index] = k.path_length + at.gap;
 }
 
-/// State of up to 64 points between the three passes: those whose forces the first pass could not
-/// compute, because their faces must be searched or because not all four of their group touch.
-/// Points are numbered within the chunk.
-struct Chunk {
-  static constexpr int most = 64;
-  alignas(32) double distance[most]; ///< mm
-  bool inside[most];                 ///< the foot is inside the face
-  bool settled[most];                ///< no other face can be closer
-  std::int32_t to_search[2][most];   ///< points whose faces must be searched; [1]: with edges
-  int search_count[2] = {0, 0};
-  std::int32_t pending[most]; ///< points whose forces are not yet computed, ascending
-  int pending_count = 0;
-};
-
-PLYFORM_INLINE void store_foot(Chunk& chunk, const std::int32_t* number, int count,
-                               const SimdFoot& foot) {
-  for (int i = 0; i < count; ++i) {
-    chunk.distance[number[i]] = foot.distance[i];
-    chunk.inside[number[i]] = foot.inside[i] != 0;
-  }
-}
-
-/// First pass: closest points on the faces that the points keep, and the forces of those groups of
-/// four in which every point touches and certainly has its closest point on that face (is settled).
-PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
-                                           int count, Chunk& chunk, SimdTotals& sums) {
-  for (int first = 0; first < count; first += simd_width) {
-    const Group g = group_of(k, active + first, count - first);
-    const SimdFaces x = load_faces(k, g.point, remembered(g), k.slave_x, k.master_x);
-    SimdClearance clear;
-    const SimdFoot foot = foot_of(k, g.point, x, clear);
-    Long4 interiors_only;
-    const Long4 settled = settled_of(k, g.point, foot, clear, interiors_only);
-    store_weights(g.point, g.count, foot);
-    if (!any(~(settled & (foot.distance < k.distance)))) {
-      press(k, g, x, foot, all(0.0), sums);
-      continue;
-    }
-    const std::int32_t number[simd_width] = {first, first + 1, first + 2, first + 3};
-    store_foot(chunk, number, g.count, foot);
-    for (int i = 0; i < g.count; ++i) {
-      chunk.pending[chunk.pending_count++] = first + i;
-      chunk.settled[first + i] = settled[i] != 0;
-      if (settled[i]) continue;
-      const int edges = interiors_only[i] ? 0 : 1;
-      chunk.to_search[edges][chunk.search_count[edges]++] = first + i;
+/// Stores what the forces have changed, and tells of points that are too deep or have gone through.
+PLYFORM_INLINE void store_points(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                 const Group& g, const Chunk& chunk, const SimdPoints& p,
+                                 Doubles distance) {
+  const SimdHistory& m = p.memory;
+  const unsigned deep = bits_of((distance < 0.5 * k.distance) | // for a law without a depth limit
+                                (k.distance - distance >= deepest_valid * k.max_depth));
+  for (int q = 0; q < quads; ++q) {
+    const Rows memory = rows(Columns{{m.s.x, m.s.y, m.s.z, m.damping_force}}, q);
+    const Rows gap = rows(Columns{{m.normal_force, m.slip, p.area, p.gap}}, q);
+    for (int i = 0; i < 4; ++i) {
+      const int lane = 4 * q + i, number = g.number[lane];
+      if (!has(g.real, lane)) continue;
+      PlyPlyPoint& at = *g.point[lane];
+      const std::int32_t side = side_of(chunk, number);
+      if (at.side * side < 0 || has(deep, lane))
+        k.fault(k.self, active[number], chunk.distance[number]);
+      at.side = side;
+      store_row(&at, memory_row, memory.row[i]);
+      store_row(&at, gap_row, gap.row[i]);
     }
   }
 }
 
-/// Second pass: closest points of the points whose faces must be searched.
-PLYFORM_INLINE void search_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
-                                 bool edges, Chunk& chunk) {
-  for (int first = 0; first < chunk.search_count[edges]; first += simd_width) {
-    const int left = chunk.search_count[edges] - first;
-    std::int32_t number[simd_width], index[simd_width];
-    for (int i = 0; i < simd_width; ++i) {
-      number[i] = chunk.to_search[edges][first + (i < left ? i : 0)];
-      index[i] = active[number[i]];
-    }
-    const Group g = group_of(k, index, left);
-    store_foot(chunk, number, g.count, closest_on_any_face(k, g.point, g.count, edges));
-  }
-}
-
-/// Third pass: forces of up to four touching points whose closest points are now known.
-PLYFORM_INLINE void press_pending(const PlyPlyKernelContact& k, const std::int32_t* active,
-                                  const std::int32_t* number, int count, const Chunk& chunk,
-                                  SimdTotals& sums) {
-  std::int32_t index[simd_width];
-  Double4 distance, fold;
-  Long4 inside;
-  for (int i = 0; i < simd_width; ++i) {
-    const std::int32_t from = number[i < count ? i : 0];
-    index[i] = active[from];
-    fold[i] = chunk.settled[from] ? 0.0 : fold_ahead(k, k.points[index[i]]);
-    distance[i] = chunk.distance[from];
-    inside[i] = chunk.inside[from] ? -1 : 0;
-  }
-  const Group g = group_of(k, index, count);
-  PlyPlyPoint* const* p = g.point;
-  const Double4 wb{p[0]->w[0], p[1]->w[0], p[2]->w[0], p[3]->w[0]};
-  const Double4 wc{p[0]->w[1], p[1]->w[1], p[2]->w[1], p[3]->w[1]};
-  press(k, g, load_faces(k, p, remembered(g), k.slave_x, k.master_x), {wb, wc, distance, inside},
-        fold, sums);
+/// Third pass: forces of touching points.
+PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* active,
+                          const std::int32_t* number, const Chunk& chunk, SimdTotals& sums) {
+  const Group g = group_of(k, active, number);
+  const SimdFaces x = load_faces(k, g, k.slave_x, k.master_x);
+  const SimdFaces u = load_faces(k, g, k.slave_motion, k.master_motion);
+  const Columns held = load_columns(g.point, memory_row), last = load_columns(g.point, gap_row);
+  const Doubles distance = each_lane([&](int i) { return chunk.distance[g.number[i]]; });
+  const SimdWeights w{each_lane([&](int i) { return g.point[i]->w[0]; }),
+                      each_lane([&](int i) { return g.point[i]->w[1]; })};
+  const Doubles fold = each_lane(
+      [&](int i) { return has(chunk.settled, g.number[i]) ? 0.0 : fold_ahead(k, *g.point[i]); });
+  SimdPoints p{last.of[2],
+               distance - k.distance,
+               last.of[3],
+               {held.of[3], last.of[0], last.of[1], {held.of[0], held.of[1], held.of[2]}}};
+  const SimdForces f = forces_of(k, x, u, w, distance, fold, mask_of(g.real), p, sums);
+  add_forces(k, g, w, f);
+  store_points(k, active, g, chunk, p, distance);
+  for (int i = 0; i < lanes; ++i)
+    sums.touching += has(g.real, i) ? 1 : 0;
 }
 
 PLYFORM_INLINE void process_chunk(const PlyPlyKernelContact& k, const std::int32_t* active,
                                   int count, SimdTotals& sums) {
   Chunk chunk;
-  project_on_known_faces(k, active, count, chunk, sums);
-  search_faces(k, active, false, chunk);
-  search_faces(k, active, true, chunk);
-  std::int32_t touching[Chunk::most];
-  int touching_count = 0;
-  for (int i = 0; i < chunk.pending_count; ++i) {
-    const std::int32_t n = chunk.pending[i];
-    if (chunk.distance[n] < k.distance)
-      touching[touching_count++] = n;
+  project_on_known_faces(k, active, count, chunk);
+  std::uint64_t points = ~std::uint64_t{0} >> (Chunk::most - count);
+  const std::uint64_t searched = points & ~chunk.settled;
+  Order order;
+  take_settled(chunk, points, order);
+  search_faces(k, active, searched & chunk.interiors_only, false, chunk);
+  search_faces(k, active, searched & ~chunk.interiors_only, true, chunk);
+  while (points != 0) {
+    const int n = take_first(points);
+    if (has(chunk.touching, n))
+      append(order, n);
     else
-      update_open_point(k, active[n], chunk.distance[n], chunk.inside[n], sums);
+      update_open_point(k, active[n], chunk.distance[n], side_of(chunk, n), sums);
   }
-  for (int i = 0; i < touching_count; i += simd_width)
-    press_pending(k, active, touching + i, touching_count - i, chunk, sums);
+  fill_up(order, lanes);
+  for (int i = 0; i < order.count; i += lanes)
+    press(k, active, order.number + i, chunk, sums);
 }
 
 PLYFORM_INLINE PlyPlyKernelTotals sheet_kernel(const PlyPlyKernelContact& k) {

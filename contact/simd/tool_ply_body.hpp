@@ -9,15 +9,15 @@ namespace {
 /// Up to four points. Those from `count` on are copies of the first, to fill the SIMD lanes; `real`
 /// is their mask.
 struct ToolGroup {
-  ToolPlyPoint* point[simd_width];
+  ToolPlyPoint* point[lanes];
   int count;
   Long4 real;
 };
 
 PLYFORM_INLINE ToolGroup group_of(const ToolPlyKernelContact& k, int first) {
   ToolGroup g;
-  g.count = k.active_count - first < simd_width ? k.active_count - first : simd_width;
-  for (int i = 0; i < simd_width; ++i)
+  g.count = k.active_count - first < lanes ? k.active_count - first : lanes;
+  for (int i = 0; i < lanes; ++i)
     g.point[i] = k.points + k.active[first + (i < g.count ? i : 0)];
   g.real = Long4{0, 1, 2, 3} < static_cast<std::int64_t>(g.count);
   return g;
@@ -44,10 +44,10 @@ PLYFORM_INLINE Double4 areas(const ToolPlyKernelContact& k, const ToolGroup& g) 
 }
 
 PLYFORM_INLINE Vector4 motions(const ToolPlyKernelContact& k, const ToolGroup& g) {
-  Double4 u[simd_width];
-  for (int i = 0; i < simd_width; ++i)
+  Double4 u[lanes];
+  for (int i = 0; i < lanes; ++i)
     u[i] = load3(k.motion + 3 * static_cast<std::int64_t>(g.point[i]->node));
-  return components(u[0], u[1], u[2], u[3]);
+  return components(u);
 }
 
 PLYFORM_INLINE void set_forces(const ToolPlyKernelContact& k, const ToolGroup& g,
@@ -91,11 +91,11 @@ PLYFORM_INLINE Vector4 forces_of(const ToolPlyKernelContact& k, const ToolGroup&
 
 PLYFORM_INLINE void press_group(const ToolPlyKernelContact& k, const ToolGroup& g, SimdTotals& sums,
                                 Vector4& on_nodes) {
-  const Rows n = load_columns(g.point, normal_row), held = load_columns(g.point, memory_row);
-  const Rows gaps = load_columns(g.point, gap_row);
-  const Vector4 normal{n.row[0], n.row[1], n.row[2]};
-  const Double4 last_gap = gaps.row[3], gap = gaps.row[2] - dot(normal, everywhere(k.advance));
-  SimdHistory m{held.row[3], gaps.row[0], gaps.row[1], {held.row[0], held.row[1], held.row[2]}};
+  const Columns n = load_columns(g.point, normal_row), held = load_columns(g.point, memory_row);
+  const Columns gaps = load_columns(g.point, gap_row);
+  const Vector4 normal{n.of[0], n.of[1], n.of[2]};
+  const Double4 last_gap = gaps.of[3], gap = gaps.of[2] - dot(normal, everywhere(k.advance));
+  SimdHistory m{held.of[3], gaps.of[0], gaps.of[1], {held.of[0], held.of[1], held.of[2]}};
   const Long4 touch = g.real & (gap < 0.0);
   sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, -gap, last_gap - gap));
   if (any(touch | (m.normal_force != 0.0) | (m.damping_force != 0.0))) {
@@ -111,7 +111,7 @@ PLYFORM_INLINE void press_group(const ToolPlyKernelContact& k, const ToolGroup& 
 PLYFORM_INLINE ToolPlyKernelTotals tool_kernel(const ToolPlyKernelContact& k) {
   SimdTotals sums;
   Vector4 f{all(0.0), all(0.0), all(0.0)};
-  for (int first = 0; first < k.active_count; first += simd_width)
+  for (int first = 0; first < k.active_count; first += lanes)
     press_group(k, group_of(k, first), sums, f);
   return {sum(sums.elastic),  sum(sums.friction),
           sum(sums.damping),  largest(sums.penetration),
