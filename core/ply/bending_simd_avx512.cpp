@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#define PLYFORM_LANES 8
 #include "core/ply/bending_simd_body.hpp"
 
 namespace plyform {

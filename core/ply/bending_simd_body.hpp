@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// (F) and (I) of core/ply/bending.hpp for the stencils of four nodes at a time. The constants of a
-// stencil sum to zero, so only differences d_i = x_i - x_own from its centre node matter, and the
-// centre node gets minus the sum of the forces on the others:
+// (F) and (I) of core/ply/bending.hpp for the stencils of four nodes at a time, or with eight lanes
+// those of two successive groups of four that have as many slots. The constants of a stencil sum to
+// zero, so only differences d_i = x_i - x_own from its centre node matter, and the centre node gets
+// minus the sum of the forces on the others:
 //   N = sum_k d_k x d_{k+1}            over the ring, from its last back to its first
 //   F_i = sum_ab B_ab,i V_ab + sum_a A_a,i U_a + (d_{i-1} - d_{i+1}) x v
 //   V_aa = -A0 (m_aa n + M_g c/l^2),  V_12 = -A0 m_12 n,  U_a = -A0 M_g (q x n),  v = A0 h_t / |N|
@@ -11,131 +12,192 @@
 namespace plyform {
 namespace {
 
-/// First and second derivatives and area vectors of four stencils.
+/// The groups of four stencils that are computed together, one per quad of lanes; they have as many
+/// slots. If there is only one (count), all quads repeat it.
+struct SimdGroups {
+  const SimdStencils* stencils[quads];
+  const SimdNumbers* constants[quads];
+  const std::uint16_t* slots[quads];
+  int ring, slot_count, count;
+};
+
+/// First and second derivatives and area vectors of the stencils.
 struct SimdShape {
-  Vector4 sum;       ///< N
-  Vector4 second[3]; ///< s_11, s_22, s_12
-  Vector4 first[2];  ///< d of warp and weft
+  Vectors sum;       ///< N
+  Vectors second[3]; ///< s_11, s_22, s_12
+  Vectors first[2];  ///< d of warp and weft
 };
 
 /// Factors of the constants in the forces.
 struct SimdFactors {
-  Vector4 second[3]; ///< V_11, V_22, V_12
-  Vector4 first[2];  ///< U_1, U_2
-  Vector4 turn;      ///< v, from the rotation of the normal
+  Vectors second[3]; ///< V_11, V_22, V_12
+  Vectors first[2];  ///< U_1, U_2
+  Vectors turn;      ///< v, from the rotation of the normal
 };
 
-PLYFORM_INLINE Vector4 none() {
+PLYFORM_INLINE Vectors none() {
   return {all(0.0), all(0.0), all(0.0)};
 }
 
-PLYFORM_INLINE Vector4 places(const double* place, const std::uint16_t* at) {
-  return components(load(of_node(place, at[0])), load(of_node(place, at[1])),
-                    load(of_node(place, at[2])), load(of_node(place, at[3])));
+/// Places of nodes; nodes_of: group to four nodes.
+template <class Nodes>
+PLYFORM_INLINE Vectors places(const double* place, const Nodes& nodes_of) {
+  Double4 at[lanes];
+  for (int q = 0; q < quads; ++q) {
+    const std::uint16_t* nodes = nodes_of(q);
+    for (int i = 0; i < simd_width; ++i)
+      at[simd_width * q + i] = load(of_node(place, nodes[i]));
+  }
+  return components(at);
+}
+
+/// Numbers of all stencils; numbers_of: group to four numbers.
+template <class Numbers>
+PLYFORM_INLINE Doubles numbers(const Numbers& numbers_of) {
+  Double4 four[quads];
+  for (int q = 0; q < quads; ++q)
+    four[q] = load(numbers_of(q));
+  return joined(four);
 }
 
 template <bool in_plane>
 constexpr int slot_numbers = in_plane ? 5 : 3;
 
-PLYFORM_INLINE void add_to(Vector4& sum, Double4 factor, const Vector4& a) {
+PLYFORM_INLINE void add_to(Vectors& sum, Doubles factor, const Vectors& a) {
   sum.x += factor * a.x, sum.y += factor * a.y, sum.z += factor * a.z;
+}
+
+/// Constant k of slot i: B_11, B_22, B_12, A_1, A_2.
+template <bool in_plane>
+PLYFORM_INLINE Doubles constant(const SimdGroups& g, int i, int k) {
+  return numbers([&](int q) { return g.constants[q][slot_numbers<in_plane> * i + k].of; });
 }
 
 /// Computes d_i of all slots, mm, and from them the derivatives.
 template <bool in_plane>
-PLYFORM_INLINE SimdShape find_shape(const SimdStencils& p, const std::uint16_t* slots,
-                                    const SimdNumbers* constants, const double* place, Vector4* d) {
-  const Vector4 own = places(place, p.own);
+PLYFORM_INLINE SimdShape find_shape(const SimdGroups& g, const double* place, Vectors* d) {
+  const Vectors own = places(place, [&](int q) { return g.stencils[q]->own; });
   SimdShape s{none(), {none(), none(), none()}, {none(), none()}};
-  for (int i = 0; i < p.slots; ++i, constants += slot_numbers<in_plane>) {
-    const Vector4 di = places(place, slots + simd_width * i) - own;
+  for (int i = 0; i < g.slot_count; ++i) {
+    const Vectors di = places(place, [&](int q) { return g.slots[q] + simd_width * i; }) - own;
     d[i] = di;
     for (int k = 0; k < 3; ++k)
-      add_to(s.second[k], load(constants[k].of), di);
+      add_to(s.second[k], constant<in_plane>(g, i, k), di);
     for (int k = 0; k < 2 && in_plane; ++k)
-      add_to(s.first[k], load(constants[3 + k].of), di);
+      add_to(s.first[k], constant<in_plane>(g, i, 3 + k), di);
   }
-  Vector4 before = d[p.ring - 1];
-  for (int i = 0; i < p.ring; ++i) {
+  Vectors before = d[g.ring - 1];
+  for (int i = 0; i < g.ring; ++i) {
     s.sum = s.sum + cross(before, d[i]);
     before = d[i];
   }
   return s;
 }
 
-/// M_1 or M_2, N, of four curvatures (1/mm).
+/// M_1 or M_2, N, of curvatures (1/mm).
 template <bool tables>
-PLYFORM_INLINE Double4 yarn_moment(const BendingKernelLaw& law, int family, Double4 kappa) {
+PLYFORM_INLINE Doubles yarn_moment(const BendingKernelLaw& law, int family, Doubles kappa) {
   if (!tables) return law.stiffness[family] * kappa;
-  alignas(32) double at[simd_width], m[simd_width];
-  store(at, kappa);
-  law.moment(law, family, at, m);
-  return load(m);
+  alignas(sizeof(Doubles)) double at[lanes], m[lanes];
+  store_lanes(at, kappa);
+  for (int q = 0; q < quads; ++q)
+    law.moment(law, family, at + simd_width * q, m + simd_width * q);
+  return numbers([&](int q) { return m + simd_width * q; });
 }
 
 /// (I) of one family: adds to the factors, and to h.
-PLYFORM_INLINE void add_in_plane(const SimdShape& s, const Vector4& normal, Double4 area,
-                                 Double4 stiffness, int family, SimdFactors& f, Vector4& h) {
+PLYFORM_INLINE void add_in_plane(const SimdShape& s, const Vectors& normal, Doubles area,
+                                 Doubles stiffness, int family, SimdFactors& f, Vectors& h) {
   constexpr double least = 1e-12; // lower limit of l^2, below which a yarn has no direction
-  const Vector4 &along = s.first[family], &second = s.second[family];
-  const Vector4 c = cross(normal, along);
-  const Double4 per_l2 = 1.0 / larger(all(least), dot(c, c));
-  const Vector4 across = per_l2 * c;
-  const Double4 kappa = dot(second, across), moment = stiffness * kappa;
-  const Vector4 q = per_l2 * second - (kappa + kappa) * across;
-  const Double4 factor = -(area * moment);
+  const Vectors &along = s.first[family], &second = s.second[family];
+  const Vectors c = cross(normal, along);
+  const Doubles per_l2 = 1.0 / larger(all(least), dot(c, c));
+  const Vectors across = per_l2 * c;
+  const Doubles kappa = dot(second, across), moment = stiffness * kappa;
+  const Vectors q = per_l2 * second - (kappa + kappa) * across;
+  const Doubles factor = -(area * moment);
   add_to(f.second[family], factor, across);
   f.first[family] = factor * cross(q, normal);
   add_to(h, moment, cross(along, q));
 }
 
 template <bool in_plane, bool tables>
-PLYFORM_INLINE SimdFactors find_factors(const SimdStencils& p, const SimdShape& s,
+PLYFORM_INLINE SimdFactors find_factors(const SimdGroups& g, const SimdShape& s,
                                         const BendingKernelLaw& law) {
-  const Double4 area = load(p.area), per_size = 1.0 / root(dot(s.sum, s.sum));
-  const Vector4 normal = per_size * s.sum;
-  const Double4 kappa1 = dot(normal, s.second[0]), kappa2 = dot(normal, s.second[1]);
-  const Double4 m1 = yarn_moment<tables>(law, 0, kappa1) + law.coupling * kappa2;
-  const Double4 m2 = yarn_moment<tables>(law, 1, kappa2) + law.coupling * kappa1;
-  const Double4 m12 = law.twist * dot(normal, s.second[2]);
-  Vector4 h = m1 * s.second[0] + m2 * s.second[1] + m12 * s.second[2];
+  const Doubles area = numbers([&](int q) { return g.stencils[q]->area; });
+  const Doubles per_size = 1.0 / root(dot(s.sum, s.sum));
+  const Vectors normal = per_size * s.sum;
+  const Doubles kappa1 = dot(normal, s.second[0]), kappa2 = dot(normal, s.second[1]);
+  const Doubles m1 = yarn_moment<tables>(law, 0, kappa1) + law.coupling * kappa2;
+  const Doubles m2 = yarn_moment<tables>(law, 1, kappa2) + law.coupling * kappa1;
+  const Doubles m12 = law.twist * dot(normal, s.second[2]);
+  Vectors h = m1 * s.second[0] + m2 * s.second[1] + m12 * s.second[2];
   SimdFactors f{{(-(area * m1)) * normal, (-(area * m2)) * normal, (-(area * m12)) * normal},
                 {none(), none()},
                 none()};
   for (int k = 0; k < 2 && in_plane; ++k)
-    add_in_plane(s, normal, area, load(p.in_plane[k]), k, f, h);
+    add_in_plane(s, normal, area, numbers([&](int q) { return g.stencils[q]->in_plane[k]; }), k, f,
+                 h);
   f.turn = (area * per_size) * (h - dot(h, normal) * normal);
   return f;
 }
 
 /// Adds four forces to four nodes.
-PLYFORM_INLINE void add_rows(const Vector4& f, const std::uint16_t* at, double* force) {
-  const Rows r = rows(f);
+PLYFORM_INLINE void add_rows(const Rows& r, const std::uint16_t* at, double* force) {
   for (int i = 0; i < simd_width; ++i) {
     double* to = of_node(force, at[i]);
     store(to, load(to) + r.row[i]);
   }
 }
 
+/// Limit of slots of groups that are computed together.
+constexpr int most_joined_slots = 64;
+
+/// Adds the forces of the first group to its nodes, then those of the second: in the order of one
+/// group after the other.
 template <bool in_plane>
-PLYFORM_INLINE void add_forces(const SimdStencils& p, const SimdFactors& f,
-                               const std::uint16_t* slots, const SimdNumbers* constants,
-                               const Vector4* d, double* force) {
-  Vector4 sum = none(), before = d[p.ring - 1];
-  for (int i = 0; i < p.slots; ++i, constants += slot_numbers<in_plane>) {
-    Vector4 fi = load(constants[0].of) * f.second[0];
+PLYFORM_INLINE void add_forces(const SimdGroups& g, const SimdFactors& f, const Vectors* d,
+                               double* force) {
+  Rows second[most_joined_slots];
+  Vectors sum = none(), before = d[g.ring - 1];
+  for (int i = 0; i < g.slot_count; ++i) {
+    Vectors fi = constant<in_plane>(g, i, 0) * f.second[0];
     for (int k = 1; k < 3; ++k)
-      add_to(fi, load(constants[k].of), f.second[k]);
+      add_to(fi, constant<in_plane>(g, i, k), f.second[k]);
     for (int k = 0; k < 2 && in_plane; ++k)
-      add_to(fi, load(constants[3 + k].of), f.first[k]);
-    if (i < p.ring) {
-      fi = fi + cross(before - d[i + 1 < p.ring ? i + 1 : 0], f.turn);
+      add_to(fi, constant<in_plane>(g, i, 3 + k), f.first[k]);
+    if (i < g.ring) {
+      fi = fi + cross(before - d[i + 1 < g.ring ? i + 1 : 0], f.turn);
       before = d[i];
     }
     sum = sum + fi;
-    add_rows(fi, slots + simd_width * i, force);
+    add_rows(rows(fi, 0), g.slots[0] + simd_width * i, force);
+    if (g.count == 2) second[i] = rows(fi, 1);
   }
-  add_rows(none() - sum, p.own, force);
+  const Vectors own = none() - sum;
+  add_rows(rows(own, 0), g.stencils[0]->own, force);
+  if (g.count == 1) return;
+  for (int i = 0; i < g.slot_count; ++i)
+    add_rows(second[i], g.slots[1] + simd_width * i, force);
+  add_rows(rows(own, 1), g.stencils[1]->own, force);
+}
+
+/// The group at `first`, and the next if the lanes have room for it and it has as many slots.
+template <bool in_plane>
+PLYFORM_INLINE SimdGroups groups_at(const BendingKernelBlock& block, int first,
+                                    const SimdNumbers* constants, const std::uint16_t* slots) {
+  const SimdStencils *p = block.stencils + first, *next = p + 1;
+  const bool joined = quads == 2 && first + 1 < block.groups && p->ring == next->ring &&
+                      p->slots == next->slots && p->slots <= most_joined_slots;
+  SimdGroups g;
+  g.ring = p->ring, g.slot_count = p->slots, g.count = joined ? 2 : 1;
+  for (int q = 0; q < quads; ++q) {
+    const int group = q < g.count ? q : 0;
+    g.stencils[q] = p + group;
+    g.constants[q] = constants + group * slot_numbers<in_plane> * p->slots;
+    g.slots[q] = slots + group * simd_width * p->slots;
+  }
+  return g;
 }
 
 template <bool in_plane, bool tables>
@@ -144,17 +206,18 @@ PLYFORM_INLINE void block_forces(const BendingKernelBlock& block, const BendingK
   gather_places(block.nodes, block.node_count, x, place);
   double* force = &block.force->x;
   for (int i = 0; i < block.node_count; ++i)
-    store(force + 4 * i, all(0.0));
-  Vector4 d[most_stencil_slots];
+    store(force + 4 * i, Double4{});
+  Vectors d[most_stencil_slots];
   const SimdNumbers* constants = block.constants;
   const std::uint16_t* slots = block.slots;
-  for (int group = 0; group < block.groups; ++group) {
-    const SimdStencils& p = block.stencils[group];
-    const SimdShape s = find_shape<in_plane>(p, slots, constants, place, d);
-    const SimdFactors f = find_factors<in_plane, tables>(p, s, law);
-    add_forces<in_plane>(p, f, slots, constants, d, force);
-    constants += slot_numbers<in_plane> * p.slots;
-    slots += simd_width * p.slots;
+  for (int group = 0; group < block.groups;) {
+    const SimdGroups g = groups_at<in_plane>(block, group, constants, slots);
+    const SimdShape s = find_shape<in_plane>(g, place, d);
+    const SimdFactors f = find_factors<in_plane, tables>(g, s, law);
+    add_forces<in_plane>(g, f, d, force);
+    group += g.count;
+    constants += g.count * slot_numbers<in_plane> * g.slot_count;
+    slots += g.count * simd_width * g.slot_count;
   }
 }
 

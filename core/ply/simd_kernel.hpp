@@ -7,7 +7,7 @@
 
 namespace plyform {
 
-constexpr int simd_width = 4; ///< triangles or nodes computed at a time, one per SIMD lane
+constexpr int simd_width = 4; ///< triangles or nodes of a group, one per SIMD lane
 /// Limit of nodes in a block: their positions and forces, 24 kB, fit into a 32 kB cache.
 constexpr int most_block_nodes = 384;
 

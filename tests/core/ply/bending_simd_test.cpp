@@ -4,6 +4,8 @@
 #include "core/ply/bending_simd.hpp"
 #include "support/membrane_checks.hpp"
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
 
@@ -112,41 +114,75 @@ TEST(BendingSimd, KnowAHoleAndTrianglesThatOnlyShareANode) {
   }
 }
 
+/// A block of groups of four stencils. Most successive groups have as many slots; some have more
+/// than are computed together.
+struct StencilBlock {
+  static constexpr std::int32_t nodes = 8;
+  std::vector<SimdStencils> stencils;
+  std::vector<SimdNumbers> constants; // as many as with bending in the plane
+  std::vector<std::uint16_t> slots;
+  std::vector<double> x;
+
+  StencilBlock(Random& random, int groups) {
+    for (int n = 0; n < 3 * nodes; ++n)
+      x.push_back(3.0 * signed_unit(random));
+    constexpr std::array<std::int32_t, 2> sizes[] = {{5, 7}, {5, 7}, {5, 7},
+                                                     {6, 7}, {5, 6}, {5, 70}};
+    for (int g = 0; g < groups; ++g) {
+      const auto [ring, slot_count] = sizes[random() % std::size(sizes)];
+      SimdStencils& p = stencils.emplace_back();
+      p.ring = ring, p.slots = slot_count;
+      for (std::size_t lane = 0; lane < simd_width; ++lane) {
+        p.area[lane] = 2.0 + signed_unit(random);
+        p.in_plane[0][lane] = 8.0, p.in_plane[1][lane] = 2.0;
+        p.own[lane] = node(lane + random() % 2);
+      }
+      for (std::int32_t k = 0; k < slot_count; ++k)
+        for (std::size_t lane = 0; lane < simd_width; ++lane)
+          slots.push_back(node(std::size_t(k) + lane + 1));
+      for (std::int32_t k = 0; k < 5 * slot_count; ++k)
+        for (double& c : constants.emplace_back().of)
+          c = signed_unit(random);
+    }
+  }
+
+  static std::uint16_t node(std::size_t number) {
+    return static_cast<std::uint16_t>(sizeof(SimdForce) * (number % nodes));
+  }
+
+  template <class Kernel>
+  std::array<SimdForce, nodes> forces(const Kernel& kernel, const BendingKernelLaw& law) const {
+    const std::int32_t list[nodes] = {0, 1, 2, 3, 4, 5, 6, 7};
+    std::array<SimdForce, nodes> force;
+    kernel({list, nodes, stencils.data(), int(stencils.size()), constants.data(), slots.data(),
+            force.data()},
+           law, x.data());
+    return force;
+  }
+};
+
+void saturating(const BendingKernelLaw&, int family, const double* kappa, double* moment) {
+  for (int i = 0; i < simd_width; ++i)
+    moment[i] = (1.0 + family) * kappa[i] / (1.0 + std::abs(kappa[i]));
+}
+
 /// All copies of the kernel: no processor answers differently.
 TEST(BendingSimd, GiveTheSameBitsOnEveryProcessor) {
   if (!has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
   Random random(8);
-  constexpr std::size_t ring = 5, slots = 7, nodes = 8;
   for (int i = 0; i < 200; ++i) {
-    SimdStencils stencils{};
-    SimdNumbers constants[5 * slots];
-    std::uint16_t slot[simd_width * slots];
-    SimdForce force[3][nodes];
-    double x[3 * nodes];
-    for (double& a : x)
-      a = 3.0 * signed_unit(random);
-    for (std::size_t lane = 0; lane < simd_width; ++lane) {
-      stencils.area[lane] = 2.0 + signed_unit(random);
-      stencils.in_plane[0][lane] = 8.0, stencils.in_plane[1][lane] = 2.0;
-      stencils.own[lane] = static_cast<std::uint16_t>(sizeof(SimdForce) * lane);
-      for (SimdNumbers& c : constants)
-        c.of[lane] = signed_unit(random);
-      for (std::size_t k = 0; k < slots; ++k)
-        slot[simd_width * k + lane] =
-            static_cast<std::uint16_t>(sizeof(SimdForce) * ((k + lane + 1) % nodes));
-    }
-    stencils.ring = ring, stencils.slots = slots;
-    const std::int32_t list[nodes] = {0, 1, 2, 3, 4, 5, 6, 7};
-    for (const bool in_plane : {false, true}) {
-      const BendingKernelLaw law{{5.0, 0.5}, 0.2, 0.3, false, in_plane, nullptr, nullptr};
-      bending_kernel_generic({list, nodes, &stencils, 1, constants, slot, force[0]}, law, x);
-      bending_kernel_avx2({list, nodes, &stencils, 1, constants, slot, force[1]}, law, x);
-      ASSERT_TRUE(std::isfinite(force[0][0].x));
-      ASSERT_EQ(std::memcmp(force[0], force[1], sizeof force[0]), 0) << i;
-      if (!has_avx512()) continue;
-      bending_kernel_avx512({list, nodes, &stencils, 1, constants, slot, force[2]}, law, x);
-      ASSERT_EQ(std::memcmp(force[0], force[2], sizeof force[0]), 0) << i;
-    }
+    const StencilBlock block(random, 1 + i % 9);
+    for (const bool in_plane : {false, true})
+      for (const bool table : {false, true}) {
+        const BendingKernelLaw law{{5.0, 0.5}, 0.2, 0.3, table, in_plane, nullptr, saturating};
+        const auto generic = block.forces(bending_kernel_generic, law);
+        const auto avx2 = block.forces(bending_kernel_avx2, law);
+        ASSERT_TRUE(std::isfinite(generic[0].x));
+        ASSERT_EQ(std::memcmp(&generic, &avx2, sizeof generic), 0) << i;
+        if (!has_avx512()) continue;
+        const auto avx512 = block.forces(bending_kernel_avx512, law);
+        ASSERT_EQ(std::memcmp(&generic, &avx512, sizeof generic), 0) << i;
+      }
   }
 }
 
