@@ -64,8 +64,8 @@ StencilSlots slots_of(const Bending& b, int stencil) {
 /// Builds the blocks one after the other.
 class BlockMaker {
 public:
-  BlockMaker(const Bending& bending, BendingSimd& lanes_)
-      : b(bending), out(lanes_), local(bending.area.size(), -1) {}
+  BlockMaker(const Bending& bending, BendingSimd& lanes_, std::vector<SimdNumbers>& constants_)
+      : b(bending), out(lanes_), constants(constants_), local(bending.area.size(), -1) {}
 
   void add(int stencil) {
     const auto p = static_cast<std::size_t>(stencil);
@@ -142,7 +142,7 @@ private:
     group.slots = static_cast<std::int32_t>(ring + others);
     const std::size_t first = out.slots.size();
     out.slots.resize(first + simd_width * (ring + others));
-    out.constants.resize(out.slots.size() / simd_width * slot_numbers());
+    constants.resize(out.slots.size() / simd_width * slot_numbers());
     for (std::size_t lane = 0; lane < simd_width; ++lane) {
       const StencilSlots& p = four[lane] ? *four[lane] : *four[0];
       const auto n = static_cast<std::size_t>(p.stencil);
@@ -177,7 +177,7 @@ private:
   }
 
   void set_constants(std::size_t slot, std::size_t lane, const StencilSlots& p, int place) {
-    SimdNumbers* to = out.constants.data() + slot * slot_numbers();
+    SimdNumbers* to = constants.data() + slot * slot_numbers();
     const std::size_t i = index(p, place);
     for (std::size_t k = 0; k < 3; ++k)
       to[k].of[lane] = b.b[i][k];
@@ -187,6 +187,7 @@ private:
 
   const Bending& b;
   BendingSimd& out;
+  std::vector<SimdNumbers>& constants;
   std::vector<std::int32_t> local; ///< per node of the ply: its index in the current block, or -1
   std::vector<std::int32_t> list;  ///< nodes of the current block
   std::vector<StencilSlots> stencils; ///< of the current block
@@ -224,7 +225,7 @@ StencilShape shape_in_lane(const BendingSimd& l, const BendingBlock& block, cons
     return Vec3(at(l.slots[of]) - at(p.own[lane]));
   };
   StencilShape s;
-  const SimdNumbers* constants = l.constants.data() + slot * slot_numbers(l);
+  const SimdNumbers* constants = l.constants->data() + slot * slot_numbers(l);
   for (int i = 0; i < p.slots; ++i, constants += slot_numbers(l)) {
     const Vec3 d = difference(i);
     for (std::size_t k = 0; k < 3; ++k)
@@ -252,12 +253,14 @@ BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
   Box3 box;
   for (const Vec3& p : x)
     box.extend(p);
-  BlockMaker maker(b, out);
+  std::vector<SimdNumbers> constants;
+  BlockMaker maker(b, out, constants);
   for (const int node : morton_order(x, box))
     maker.add(node);
   maker.close();
   out.nodes.shrink_to_fit(), out.stencils.shrink_to_fit();
-  out.constants.shrink_to_fit(), out.slots.shrink_to_fit();
+  constants.shrink_to_fit(), out.slots.shrink_to_fit();
+  out.constants = std::make_shared<const std::vector<SimdNumbers>>(std::move(constants));
   find_node_forces(out, x.size());
   return out;
 }
@@ -269,7 +272,7 @@ void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block) {
                                   of.nodes,
                                   l.stencils.data() + of.first_group,
                                   of.groups,
-                                  l.constants.data() + of.first_slot * slot_numbers(l),
+                                  l.constants->data() + of.first_slot * slot_numbers(l),
                                   l.slots.data() + of.first_slot * simd_width,
                                   l.force.data() + of.first_node};
   const auto run = fastest(bending_kernel_generic, bending_kernel_avx2, bending_kernel_avx512);

@@ -12,6 +12,7 @@
 #include "core/ply/bending.hpp"
 #include "core/ply/bending_simd_kernel.hpp"
 #include "core/ply/block_forces.hpp"
+#include "core/ply/shared_constants.hpp"
 
 namespace plyform {
 
@@ -28,8 +29,8 @@ struct BendingSimd : BlockForces {
   double omega2 = 0.0;   ///< 1/s^2, as of Bending
   std::vector<BendingBlock> blocks;
   std::vector<SimdStencils> stencils;
-  std::vector<SimdNumbers> constants; ///< of `slots`, as in BendingKernelBlock
-  std::vector<std::uint16_t> slots;   ///< of `stencils`, four nodes each
+  SharedConstants<SimdNumbers> constants; ///< of `slots`, as in BendingKernelBlock
+  std::vector<std::uint16_t> slots;       ///< of `stencils`, four nodes each
 };
 
 /// x: undeformed positions, used only to put neighbouring nodes into the same block. Throws

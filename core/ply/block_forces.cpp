@@ -26,6 +26,7 @@ void find_node_forces(BlockForces& b, std::size_t count) {
   b.force.assign(b.nodes.size() + 1, SimdForce{});
   const Gather gather = make_gather(b.nodes, count);
   const auto zero = static_cast<std::int32_t>(b.nodes.size());
+  b.force_of.reserve(count);
   for (std::size_t n = 0; n < count; ++n) {
     const std::int32_t* begin = gather.gather.data() + gather.begin[n];
     const std::int32_t entries = gather.begin[n + 1] - gather.begin[n];

@@ -30,8 +30,9 @@ std::vector<int> ordered_groups(const Membrane& m, std::span<const Vec3> x) {
 /// Builds the blocks one after the other.
 class BlockMaker {
 public:
-  BlockMaker(const Membrane& membrane, std::size_t nodes, MembraneSimd& lanes_)
-      : m(membrane), out(lanes_), local(nodes, -1) {}
+  BlockMaker(const Membrane& membrane, std::size_t nodes, MembraneSimd& lanes_,
+             std::vector<SimdTriangles>& triangles_)
+      : m(membrane), out(lanes_), triangles(triangles_), local(nodes, -1) {}
 
   void add(int group) {
     if (static_cast<int>(pairs.size() + singles.size()) == block_groups ||
@@ -50,7 +51,7 @@ public:
     SimdBlock block;
     block.first_node = static_cast<int>(out.nodes.size());
     block.nodes = static_cast<int>(list.size());
-    block.first_triangles = static_cast<int>(out.triangles.size());
+    block.first_triangles = static_cast<int>(triangles.size());
     block.first_group = static_cast<int>(out.viscosity.size());
     block.pair_packs = add_groups(pairs, 2);
     block.single_packs = add_groups(singles, 1);
@@ -74,7 +75,7 @@ private:
     const std::size_t packs = (groups.size() + simd_width - 1) / simd_width;
     for (std::size_t pack = 0; pack < packs; ++pack) {
       for (int i = 0; i < of; ++i) {
-        SimdTriangles& t = out.triangles.emplace_back();
+        SimdTriangles& t = triangles.emplace_back();
         for (std::size_t lane = 0; lane < simd_width; ++lane) {
           const std::size_t i_group = lane * packs + pack;
           const bool filler = i_group >= groups.size();
@@ -106,6 +107,7 @@ private:
 
   const Membrane& m;
   MembraneSimd& out;
+  std::vector<SimdTriangles>& triangles;
   std::vector<std::int32_t> local; ///< per node of the ply: its index in the current block, or -1
   std::vector<std::int32_t> list;  ///< nodes of the current block
   std::vector<int> pairs, singles;
@@ -184,7 +186,7 @@ KernelBlock kernel_block(const MembraneSimd& l, const SimdBlock& b, SimdViscosit
                          SimdForce* force) {
   return {l.nodes.data() + b.first_node,
           b.nodes,
-          l.triangles.data() + b.first_triangles,
+          l.triangles->data() + b.first_triangles,
           viscosity ? viscosity + b.first_group : nullptr,
           b.pair_packs,
           b.single_packs,
@@ -199,10 +201,13 @@ bool fits_simd(const Membrane& m) {
 
 MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {
   MembraneSimd out;
-  BlockMaker maker(m, x.size(), out);
+  std::vector<SimdTriangles> triangles;
+  BlockMaker maker(m, x.size(), out, triangles);
   for (const int group : ordered_groups(m, x))
     maker.add(group);
   maker.close();
+  triangles.shrink_to_fit(), out.viscosity.shrink_to_fit(), out.nodes.shrink_to_fit();
+  out.triangles = std::make_shared<const std::vector<SimdTriangles>>(std::move(triangles));
   find_node_forces(out, x.size());
   return out;
 }

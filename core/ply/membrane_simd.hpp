@@ -13,6 +13,7 @@
 #include "core/ply/block_forces.hpp"
 #include "core/ply/membrane.hpp"
 #include "core/ply/membrane_simd_kernel.hpp"
+#include "core/ply/shared_constants.hpp"
 
 namespace plyform {
 
@@ -25,8 +26,8 @@ struct SimdBlock {
 
 struct MembraneSimd : BlockForces {
   std::vector<SimdBlock> blocks;
-  std::vector<SimdTriangles> triangles; ///< of the blocks, pairs first
-  std::vector<SimdViscosity> viscosity; ///< one per pack
+  SharedConstants<SimdTriangles> triangles; ///< of the blocks, pairs first
+  std::vector<SimdViscosity> viscosity;     ///< one per pack
 };
 
 /// Whether the kernel can compute this membrane: only if it has yarns.

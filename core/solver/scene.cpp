@@ -198,6 +198,16 @@ void make_attachments(Scene& s) {
 
 } // namespace
 
+/// Lets a ply hold the constants of its kernels in common with those laid before it.
+void share_constants(std::vector<PlyState>& plies) {
+  PlyState& ply = plies.back();
+  for (std::size_t i = 0; i + 1 < plies.size(); ++i) {
+    const PlyState& other = plies[i];
+    if (ply.simd && other.simd) share(ply.simd->triangles, other.simd->triangles);
+    if (ply.bending && other.bending) share(ply.bending->constants, other.bending->constants);
+  }
+}
+
 /// The fold from which on an edge may touch another. Over a side L of a triangle a fold f brings
 /// two sheets closer by L f / 4, here by 3/8 of the contact distance h; nodes and faces keep three
 /// quarters of it, so that 3/8 are left, of which edges use the half beyond h/4.
@@ -212,9 +222,11 @@ void limit_ridges(Scene& s) {
 Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
   Scene s;
   s.data = data;
-  for (const Ply& ply : data.plies)
+  for (const Ply& ply : data.plies) {
     s.plies.push_back(
         make_ply(data, ply, meshes.empty() ? mesh_ply(data, ply) : meshes[s.plies.size()]));
+    share_constants(s.plies);
+  }
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
   s.element_size = smallest_element(s.plies);

@@ -10,7 +10,7 @@ namespace plyform {
 /// One pass of simd_forces over all blocks and of simd_force over all nodes, each array once: nodes
 /// that several blocks share are read again only out of a cache.
 inline Traffic lane_traffic(const MembraneSimd& l, std::size_t nodes) {
-  Traffic t = traffic(l.triangles.size(), sizeof(SimdTriangles));
+  Traffic t = traffic(l.triangles->size(), sizeof(SimdTriangles));
   t += traffic(l.viscosity.size(), sizeof(SimdViscosity), 2.0); // read and written
   t += traffic(l.nodes.size(), sizeof(std::int32_t));
   t += traffic(nodes, sizeof(Vec3));                    // places
