@@ -7,6 +7,7 @@
 
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <map>
 #include <numbers>
 #include <stdexcept>
@@ -246,6 +247,13 @@ TriMesh tessellate(const ToolShape& shape, double size, double extent) {
     throw std::invalid_argument(
         fmt::format("the triangle size of a tool must be above 0 mm, got {:g}", size));
   return std::visit([&](const auto& s) { return triangles_of(s, size, extent); }, shape);
+}
+
+double diagonal_of(const ToolShape& shape, double extent) {
+  Box3 box;
+  for (const Vec3& x : tessellate(shape, std::numeric_limits<double>::infinity(), extent).x)
+    box.extend(x);
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
 } // namespace plyform

@@ -95,6 +95,10 @@ SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, SurfaceHint&
 /// unchanged. Throws std::invalid_argument unless size > 0.
 TriMesh tessellate(const ToolShape& shape, double size, double extent);
 
+/// Diagonal (mm) of the box around tessellate(shape, any size, extent); 0 of a shape without area.
+/// A tool may be a thousand times as large as the plies.
+double diagonal_of(const ToolShape& shape, double extent);
+
 /// Smallest radius of curvature (mm) of the shape that a sheet has to follow; 0 for a sharp edge,
 /// infinity for a plane and for meshes (unknown). Inner corners of a profile do not count: a sheet
 /// bridges them.

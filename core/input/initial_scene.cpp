@@ -36,12 +36,8 @@ double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, Surface
 }
 
 TriMesh tool_surface(const Tool& tool, double size, double extent) {
-  const TriMesh rough = tessellate(tool.shape, extent / 8.0, extent);
-  Box3 box;
-  for (const Vec3& x : rough.x)
-    box.extend(x);
-  if (box.isEmpty()) return rough;
-  const double diagonal = box.diagonal().norm();
+  const double diagonal = diagonal_of(tool.shape, extent);
+  if (!(diagonal > 0.0)) return {};
   TriMesh surface =
       tessellate(tool.shape, std::clamp(size, diagonal / 300.0, diagonal / 60.0), extent);
   for (Vec3& x : surface.x)

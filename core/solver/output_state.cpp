@@ -73,8 +73,10 @@ ToolFrame make_tool_frame(const Scene& scene, const ToolState& tool) {
   for (const PlyState& ply : scene.plies)
     for (const Vec3& x : ply.x0)
       extent = std::max(extent, (x - body.position).norm());
-  constexpr double facet = 5.0; // mm, for pictures
-  f.surface = tessellate(body.shape, facet, 1.2 * extent);
+  constexpr double facet = 5.0; // mm, for pictures; of a tool of more than 1.5 m longer
+  extent *= 1.2;
+  f.surface =
+      tessellate(body.shape, std::max(facet, diagonal_of(body.shape, extent) / 300.0), extent);
   for (Vec3& x : f.surface.x)
     x = body.rotation * x + body.position;
   f.displacement = body.displacement;

@@ -107,6 +107,16 @@ TEST(Tessellate, SolidsAreClosedOutwardAndFreeOfSelfIntersections) {
   }
 }
 
+TEST(Tessellate, KnowsTheSizeOfAShapeFromItsCoarsestFacets) {
+  for (const Solid& solid : solids()) {
+    Box3 box;
+    for (const Vec3& x : tessellate(solid.shape, 0.5, 0.0).x)
+      box.extend(x);
+    EXPECT_NEAR(diagonal_of(solid.shape, 0.0) / box.diagonal().norm(), 1.0, 1e-3) << solid.name;
+  }
+  EXPECT_NEAR(diagonal_of(Plane{}, 100.0), 200.0 * std::sqrt(2.0), 1e-9);
+}
+
 TEST(Tessellate, FacetsStayWithinTheSagitta) {
   for (const Solid& solid : solids()) {
     SCOPED_TRACE(solid.name);

@@ -77,5 +77,11 @@ TEST(SceneProbe, VisitsEdgesThatPassAThinSlab) {
   EXPECT_EQ(points, 6); // two edges pass: ends and middle of each
 }
 
+TEST(InitialScene, AToolMuchLargerThanThePliesHasFewTriangles) {
+  Tool tool;
+  tool.shape = Annulus{638.0, 76610.0, 20.0, 0.0};
+  EXPECT_LT(tool_surface(tool, 16.0, 250.0).triangles.size(), 1'000'000u);
+}
+
 } // namespace
 } // namespace plyform
