@@ -38,16 +38,15 @@ double room_of(const EdgeFold& f, char sides, double limit) {
   return least / f.per_mm;
 }
 
-/// Sets `room` of a patch from the edges that are not ridges; returns false if one of them has
-/// grown beyond limit.
-bool update_room(const SheetEdges& edges, std::size_t patch, std::span<const Vec3> x, double limit,
+/// Sets `room` of a patch from the edges that are not ridges towards both sides; returns false if
+/// one of them has grown beyond limit. fold(i): of edge i.
+template <class Fold>
+bool update_room(const SheetEdges& edges, std::size_t patch, const Fold& fold, double limit,
                  SheetRidges& ridges) {
   double room = std::numeric_limits<float>::max();
-  for (const std::int32_t i : edges.patch_edges[patch]) {
-    const char sides = ridges.sides[i];
-    if (sides == ridge_both) continue;
-    room = std::min(room, room_of(fold_of(edges.all[i], x), sides, limit));
-  }
+  for (const std::int32_t i : edges.patch_edges[patch])
+    if (ridges.sides[i] != ridge_both)
+      room = std::min(room, room_of(fold(i), ridges.sides[i], limit));
   ridges.room[patch] = rounded_down(room);
   return room > 0.0;
 }
@@ -65,10 +64,12 @@ Vec3 edge_normal(const SheetEdge& e, std::span<const Vec3> x) {
 void find_ridges(const SheetEdges& edges, std::span<const Vec3> x, double limit,
                  SheetRidges& ridges) {
   ridges.sides.resize(edges.all.size());
+  std::vector<EdgeFold> folds(edges.all.size()); // those of free edges stay 0
   std::vector<char> at_node(x.size(), no_ridge); // sides of the sharp ridges there
   for (std::size_t i = 0; i < edges.all.size(); ++i) {
     const SheetEdge& e = edges.all[i];
-    const double fold = e.is_free() ? 0.0 : fold_of(e, x).fold;
+    if (!e.is_free()) folds[i] = fold_of(e, x);
+    const double fold = folds[i].fold;
     ridges.sides[i] = e.is_free() ? char{ridge_both} : sides_beyond(fold, listed_share * limit);
     const char sharp = sides_beyond(fold, sharp_share * limit);
     for (const std::int32_t n : {e.a, e.b})
@@ -79,16 +80,18 @@ void find_ridges(const SheetEdges& edges, std::span<const Vec3> x, double limit,
         static_cast<char>(ridges.sides[i] | at_node[edges.all[i].a] | at_node[edges.all[i].b]);
   ridges.room.resize(edges.patch_edges.size());
   for (std::size_t patch = 0; patch < ridges.room.size(); ++patch)
-    update_room(edges, patch, x, limit, ridges);
+    update_room(
+        edges, patch, [&](std::int32_t i) { return folds[i]; }, limit, ridges);
 }
 
 bool follow_ridges(const SheetEdges& edges, std::span<const Vec3> x,
                    std::span<const Box3> patch_motion, double limit, SheetRidges& ridges) {
   bool hold = true;
+  const auto fold = [&](std::int32_t i) { return fold_of(edges.all[i], x); };
   for (std::size_t patch = 0; patch < ridges.room.size(); ++patch) {
     float& room = ridges.room[patch];
     room = rounded_down(room - patch_motion[patch].diagonal().norm());
-    if (!(room > 0.0F)) hold = update_room(edges, patch, x, limit, ridges) && hold;
+    if (!(room > 0.0F)) hold = update_room(edges, patch, fold, limit, ridges) && hold;
   }
   return hold;
 }

@@ -250,10 +250,14 @@ TriMesh tessellate(const ToolShape& shape, double size, double extent) {
 }
 
 double diagonal_of(const ToolShape& shape, double extent) {
-  Box3 box;
-  for (const Vec3& x : tessellate(shape, std::numeric_limits<double>::infinity(), extent).x)
-    box.extend(x);
-  return box.isEmpty() ? 0.0 : box.diagonal().norm();
+  const auto diagonal = [](const TriMesh& surface) {
+    Box3 box;
+    for (const Vec3& x : surface.x)
+      box.extend(x);
+    return box.isEmpty() ? 0.0 : box.diagonal().norm();
+  };
+  if (const auto* mesh = std::get_if<MeshShapePtr>(&shape)) return diagonal((*mesh)->surface());
+  return diagonal(tessellate(shape, std::numeric_limits<double>::infinity(), extent));
 }
 
 } // namespace plyform

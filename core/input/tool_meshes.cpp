@@ -5,11 +5,9 @@
 #include "core/input/overrides.hpp"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 #include <cstdint>
 #include <system_error>
-#include <thread>
 #include <vector>
 
 namespace plyform {
@@ -30,21 +28,16 @@ ToolMeshes::ToolMeshes(const TableView& root, const std::filesystem::path& folde
   };
   std::stable_sort(loads.begin(), loads.end(), // the longest first
                    [&](const Load* a, const Load* b) { return bytes(a) > bytes(b); });
-  std::atomic<std::size_t> next = 0;
-  const auto work = [&] {
-    for (std::size_t i = next++; i < loads.size(); i = next++) {
-      auto& [key, loaded] = *loads[i];
-      try {
-        loaded.mesh = load_tool_mesh(key.first, key.second, nullptr);
-      } catch (...) {
-        loaded.error = std::current_exception();
-      }
+  const int count = static_cast<int>(loads.size());
+  ThreadPool pool(std::clamp(count, 1, available_cores()));
+  pool.run(count, [&](int i) {
+    auto& [key, loaded] = *loads[static_cast<std::size_t>(i)];
+    try {
+      loaded.mesh = load_tool_mesh(key.first, key.second, nullptr);
+    } catch (...) {
+      loaded.error = std::current_exception();
     }
-  };
-  std::vector<std::jthread> helpers;
-  for (std::size_t i = 1; i < loads.size() && static_cast<int>(i) < available_cores(); ++i)
-    helpers.emplace_back(work);
-  work();
+  });
 }
 
 MeshShapePtr ToolMeshes::of(const TableView& tool) const {
