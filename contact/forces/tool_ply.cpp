@@ -127,7 +127,8 @@ Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& to
   k.max_depth = contact.law.max_depth;
   k.per_depth2 = 1.0 / (k.max_depth * k.max_depth);
   k.damping_per_dt = dt > 0.0 ? contact.law.damping / dt : 0.0;
-  const ToolPlyKernelTotals added = fastest(tool_ply_kernel_generic, tool_ply_kernel_avx2)(k);
+  const ToolPlyKernelTotals added =
+      fastest(tool_ply_kernel_generic, tool_ply_kernel_avx2, tool_ply_kernel_avx512)(k);
   ContactTotals& sums = contact.sums;
   sums.elastic += added.elastic;
   sums.friction += added.friction;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Forces between a tool and four nodes at a time, whose gaps and normals have been measured.
+// Forces between a tool and nodes, one per lane, whose gaps and normals have been measured.
 #include "contact/simd/contact_law_simd.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
 
 namespace plyform {
 namespace {
 
-/// Up to four points. Those from `count` on are copies of the first, to fill the SIMD lanes; `real`
-/// is their mask.
+/// As many points as there are lanes. Those from `count` on are copies of the first; `real` is the
+/// mask of the others.
 struct ToolGroup {
   ToolPlyPoint* point[lanes];
   int count;
-  Long4 real;
+  Longs real;
 };
 
 PLYFORM_INLINE ToolGroup group_of(const ToolPlyKernelContact& k, int first) {
@@ -19,7 +19,7 @@ PLYFORM_INLINE ToolGroup group_of(const ToolPlyKernelContact& k, int first) {
   g.count = k.active_count - first < lanes ? k.active_count - first : lanes;
   for (int i = 0; i < lanes; ++i)
     g.point[i] = k.points + k.active[first + (i < g.count ? i : 0)];
-  g.real = Long4{0, 1, 2, 3} < static_cast<std::int64_t>(g.count);
+  g.real = mask_of((1U << g.count) - 1);
   return g;
 }
 
@@ -38,71 +38,92 @@ static_assert(is_row(gap_row, offsetof(ToolPlyPoint, memory.slip), offsetof(Tool
 static_assert(is_row(normal_row, offsetof(ToolPlyPoint, normal[1]),
                      offsetof(ToolPlyPoint, normal[2]), offsetof(ToolPlyPoint, node)));
 
-PLYFORM_INLINE Double4 areas(const ToolPlyKernelContact& k, const ToolGroup& g) {
-  return Double4{k.area[g.point[0]->node], k.area[g.point[1]->node], k.area[g.point[2]->node],
-                 k.area[g.point[3]->node]};
+PLYFORM_INLINE Doubles areas(const ToolPlyKernelContact& k, const ToolGroup& g) {
+  return each_lane([&](int i) { return k.area[g.point[i]->node]; });
 }
 
-PLYFORM_INLINE Vector4 motions(const ToolPlyKernelContact& k, const ToolGroup& g) {
+PLYFORM_INLINE Vectors motions(const ToolPlyKernelContact& k, const ToolGroup& g) {
   Double4 u[lanes];
   for (int i = 0; i < lanes; ++i)
     u[i] = load3(k.motion + 3 * static_cast<std::int64_t>(g.point[i]->node));
   return components(u);
 }
 
-PLYFORM_INLINE void set_forces(const ToolPlyKernelContact& k, const ToolGroup& g,
-                               const Vector4& f) {
-  const Rows r = rows(f);
-  for (int i = 0; i < g.count; ++i) {
-    double* at = k.force + 3 * static_cast<std::int64_t>(g.point[i]->node);
-    at[0] = r.row[i][0], at[1] = r.row[i][1], at[2] = r.row[i][2];
+/// `to`: bits of the lanes whose nodes get their force.
+PLYFORM_INLINE void set_forces(const ToolPlyKernelContact& k, const ToolGroup& g, const Vectors& f,
+                               unsigned to) {
+  for (int q = 0; q < quads; ++q) {
+    const Rows r = rows(f, q);
+    for (int i = 0; i < 4; ++i) {
+      if (!has(to, 4 * q + i)) continue;
+      double* at = k.force + 3 * static_cast<std::int64_t>(g.point[4 * q + i]->node);
+      at[0] = r.row[i][0], at[1] = r.row[i][1], at[2] = r.row[i][2];
+    }
   }
 }
 
-PLYFORM_INLINE Vector4 everywhere(const double* v) {
+PLYFORM_INLINE Vectors everywhere(const double* v) {
   return {all(v[0]), all(v[1]), all(v[2])};
 }
 
-/// Forces (N) on four nodes. For a point that has opened the energy of its tangential spring is
-/// counted as frictional dissipation; with area 0 the law then resets its history but for the slip,
-/// which is reset here.
-PLYFORM_INLINE Vector4 forces_of(const ToolPlyKernelContact& k, const ToolGroup& g,
-                                 const Vector4& normal, Double4 gap, Double4 last_gap, Long4 touch,
-                                 SimdHistory& m, SimdTotals& sums) {
-  const Double4 zero = all(0.0), whole = areas(k, g), area = touch ? whole : zero;
-  const Double4 depth = -gap, dp = last_gap - gap;
-  const Double4 opening = g.real & ~touch ? whole : zero;
-  sums.friction += 0.5 * opening * k.tangential * square(m.s);
-  const Double4 pressure =
-      normal_pressure(k, area, depth, smaller(last_gap, zero), dp, g.real, m, sums);
-  Vector4 f = m.normal_force * normal;
+/// Forces (N) on the nodes; `counted`: lanes that are in the sums. For a point that has opened the
+/// energy of its tangential spring is counted as frictional dissipation; with area 0 the law then
+/// resets its history but for the slip, which is reset here.
+PLYFORM_INLINE Vectors forces_of(const ToolPlyKernelContact& k, const ToolGroup& g,
+                                 const Vectors& normal, Doubles gap, Doubles last_gap, Longs touch,
+                                 Longs counted, SimdHistory& m, SimdTotals& sums) {
+  const Doubles zero = all(0.0), whole = areas(k, g), area = touch ? whole : zero;
+  const Doubles depth = -gap, dp = last_gap - gap;
+  const Doubles opening = counted & ~touch ? whole : zero;
+  add(sums.friction, 0.5 * opening * k.tangential * square(m.s));
+  const Doubles pressure =
+      normal_pressure(k, area, depth, smaller(last_gap, zero), dp, counted, m, sums);
+  Vectors f = m.normal_force * normal;
   if (k.friction > 0.0) {
-    const Vector4 slip = motions(k, g) - everywhere(k.tool_motion);
+    const Vectors slip = motions(k, g) - everywhere(k.tool_motion);
     f = f + friction_of(k, area, pressure, normal, m.s, slip, touch, m, sums);
     m.slip = touch ? m.slip : zero;
   }
-  sums.elastic +=
-      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * square(m.s));
-  sums.penetration = larger(sums.penetration, touch ? depth : zero);
-  for (int i = 0; i < g.count; ++i)
-    sums.touching += touch[i] ? 1 : 0;
+  add(sums.elastic,
+      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * square(m.s)));
+  keep_larger(sums.penetration, touch ? depth : zero);
+  sums.touching += __builtin_popcount(bits_of(touch));
   return f;
 }
 
+/// The lanes of `others` get back what they had.
+PLYFORM_INLINE void restore(SimdHistory& m, const SimdHistory& before, Longs others) {
+  const auto back = [&](Doubles& now, Doubles then) { now = others ? then : now; };
+  back(m.damping_force, before.damping_force), back(m.normal_force, before.normal_force);
+  back(m.slip, before.slip);
+  back(m.s.x, before.s.x), back(m.s.y, before.s.y), back(m.s.z, before.s.z);
+}
+
+/// Sum of the forces on the nodes, N, over every fourth contact, as SimdTotals.
+struct SimdSum {
+  Double4 x{}, y{}, z{};
+};
+
 PLYFORM_INLINE void press_group(const ToolPlyKernelContact& k, const ToolGroup& g, SimdTotals& sums,
-                                Vector4& on_nodes) {
+                                SimdSum& on_nodes) {
   const Columns n = load_columns(g.point, normal_row), held = load_columns(g.point, memory_row);
   const Columns gaps = load_columns(g.point, gap_row);
-  const Vector4 normal{n.of[0], n.of[1], n.of[2]};
-  const Double4 last_gap = gaps.of[3], gap = gaps.of[2] - dot(normal, everywhere(k.advance));
+  const Vectors normal{n.of[0], n.of[1], n.of[2]};
+  const Doubles last_gap = gaps.of[3], gap = gaps.of[2] - dot(normal, everywhere(k.advance));
   SimdHistory m{held.of[3], gaps.of[0], gaps.of[1], {held.of[0], held.of[1], held.of[2]}};
-  const Long4 touch = g.real & (gap < 0.0);
-  sums.step_ratio = smaller(sums.step_ratio, step_ratio_of(k, -gap, last_gap - gap));
-  if (any(touch | (m.normal_force != 0.0) | (m.damping_force != 0.0))) {
-    const Vector4 f = forces_of(k, g, normal, gap, last_gap, touch, m, sums);
-    set_forces(k, g, f);
-    on_nodes = on_nodes +
-               Vector4{g.real ? f.x : all(0.0), g.real ? f.y : all(0.0), g.real ? f.z : all(0.0)};
+  const Longs touch = g.real & (gap < 0.0);
+  keep_smaller(sums.step_ratio, step_ratio_of(k, -gap, last_gap - gap));
+  const Longs loaded = touch | (m.normal_force != 0.0) | (m.damping_force != 0.0);
+  const unsigned pressed = whole_quads(bits_of(g.real & loaded)); // what four lanes would compute
+  if (pressed != 0) {
+    const Longs counted = g.real & mask_of(pressed);
+    const SimdHistory before = m;
+    const Vectors f = forces_of(k, g, normal, gap, last_gap, touch, counted, m, sums);
+    if (pressed != whole_quads(~0U)) restore(m, before, ~mask_of(pressed));
+    set_forces(k, g, f, bits_of(counted));
+    add(on_nodes.x, counted ? f.x : all(0.0));
+    add(on_nodes.y, counted ? f.y : all(0.0));
+    add(on_nodes.z, counted ? f.z : all(0.0));
     store_columns(g.point, g.count, memory_row, {{m.s.x, m.s.y, m.s.z, m.damping_force}});
   }
   store_columns(g.point, g.count, gap_row, {{m.normal_force, m.slip, gap, last_gap}});
@@ -110,7 +131,7 @@ PLYFORM_INLINE void press_group(const ToolPlyKernelContact& k, const ToolGroup& 
 
 PLYFORM_INLINE ToolPlyKernelTotals tool_kernel(const ToolPlyKernelContact& k) {
   SimdTotals sums;
-  Vector4 f{all(0.0), all(0.0), all(0.0)};
+  SimdSum f;
   for (int first = 0; first < k.active_count; first += lanes)
     press_group(k, group_of(k, first), sums, f);
   return {sum(sums.elastic),  sum(sums.friction),

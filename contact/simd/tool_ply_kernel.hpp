@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interface of the two compiled copies of the kernel of contact/forces/tool_ply.hpp: plain numbers
+// Interface of the compiled copies of the kernel of contact/forces/tool_ply.hpp: plain numbers
 // and pointers, nothing inline (reason: contact/simd/simd.hpp).
 #pragma once
 
@@ -32,5 +32,6 @@ struct ToolPlyKernelTotals {
 
 ToolPlyKernelTotals tool_ply_kernel_generic(const ToolPlyKernelContact& contact);
 ToolPlyKernelTotals tool_ply_kernel_avx2(const ToolPlyKernelContact& contact);
+ToolPlyKernelTotals tool_ply_kernel_avx512(const ToolPlyKernelContact& contact);
 
 } // namespace plyform

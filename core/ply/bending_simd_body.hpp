@@ -51,15 +51,6 @@ PLYFORM_INLINE Vectors places(const double* place, const Nodes& nodes_of) {
   return components(at);
 }
 
-/// Numbers of all stencils; numbers_of: group to four numbers.
-template <class Numbers>
-PLYFORM_INLINE Doubles numbers(const Numbers& numbers_of) {
-  Double4 four[quads];
-  for (int q = 0; q < quads; ++q)
-    four[q] = load(numbers_of(q));
-  return joined(four);
-}
-
 template <bool in_plane>
 constexpr int slot_numbers = in_plane ? 5 : 3;
 
@@ -98,11 +89,7 @@ PLYFORM_INLINE SimdShape find_shape(const SimdGroups& g, const double* place, Ve
 template <bool tables>
 PLYFORM_INLINE Doubles yarn_moment(const BendingKernelLaw& law, int family, Doubles kappa) {
   if (!tables) return law.stiffness[family] * kappa;
-  alignas(sizeof(Doubles)) double at[lanes], m[lanes];
-  store_lanes(at, kappa);
-  for (int q = 0; q < quads; ++q)
-    law.moment(law, family, at + simd_width * q, m + simd_width * q);
-  return numbers([&](int q) { return m + simd_width * q; });
+  return by_quads(kappa, [&](const double* at, double* m) { law.moment(law, family, at, m); });
 }
 
 /// (I) of one family: adds to the factors, and to h.

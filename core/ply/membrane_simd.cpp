@@ -217,7 +217,7 @@ GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3
   const SimdBlock& b = l.blocks[block];
   const KernelBlock kernel = kernel_block(l, b, l.viscosity.data(), l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
-  const auto run = fastest(membrane_kernel_generic, membrane_kernel_avx2);
+  const auto run = fastest(membrane_kernel_generic, membrane_kernel_avx2, membrane_kernel_avx512);
   const KernelReport report = run(kernel, kernel_law(m), x.data()->data(), per_dt);
   return {report.viscous_work, report.collapsed};
 }
@@ -226,7 +226,7 @@ MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<c
                            int block) {
   const SimdBlock& b = l.blocks[block];
   const KernelBlock kernel = kernel_block(l, b, nullptr, nullptr);
-  const auto run = fastest(membrane_energy_generic, membrane_energy_avx2);
+  const auto run = fastest(membrane_energy_generic, membrane_energy_avx2, membrane_energy_avx512);
   const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data());
   return {energy.fibre, energy.shear};
 }

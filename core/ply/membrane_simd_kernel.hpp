@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interface of the two compiled copies of the kernel of core/ply/membrane_simd.hpp: plain numbers
+// Interface of the compiled copies of the kernel of core/ply/membrane_simd.hpp: plain numbers
 // and pointers, nothing inline (reason: contact/simd/simd.hpp).
 #pragma once
 
@@ -77,10 +77,14 @@ KernelReport membrane_kernel_generic(const KernelBlock& block, const KernelLaw& 
                                      const double* x, double per_dt);
 KernelReport membrane_kernel_avx2(const KernelBlock& block, const KernelLaw& law, const double* x,
                                   double per_dt);
+KernelReport membrane_kernel_avx512(const KernelBlock& block, const KernelLaw& law, const double* x,
+                                    double per_dt);
 
 /// (E) of a block's groups; block.viscosity and block.force are not used.
 KernelEnergy membrane_energy_generic(const KernelBlock& block, const KernelLaw& law,
                                      const double* x);
 KernelEnergy membrane_energy_avx2(const KernelBlock& block, const KernelLaw& law, const double* x);
+KernelEnergy membrane_energy_avx512(const KernelBlock& block, const KernelLaw& law,
+                                    const double* x);
 
 } // namespace plyform

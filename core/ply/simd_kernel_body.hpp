@@ -16,6 +16,43 @@ PLYFORM_INLINE double* of_node(double* first, std::uint16_t at) {
   return reinterpret_cast<double*>(reinterpret_cast<char*>(first) + at);
 }
 
+/// What is computed together, one per quad; if there are fewer (count), the other quads repeat the
+/// first.
+template <class T>
+struct OfQuads {
+  T* of[quads];
+  int count;
+};
+
+/// Of `left` that there are, `stride` apart.
+template <class T>
+PLYFORM_INLINE OfQuads<T> of_quads(T* first, int stride, int left) {
+  OfQuads<T> some;
+  some.count = left < quads ? left : quads;
+  for (int q = 0; q < quads; ++q)
+    some.of[q] = first + (q < some.count ? stride * q : 0);
+  return some;
+}
+
+/// Numbers of all lanes; numbers_of: quad to four numbers.
+template <class Numbers>
+PLYFORM_INLINE Doubles numbers(const Numbers& numbers_of) {
+  Double4 four[quads];
+  for (int q = 0; q < quads; ++q)
+    four[q] = load(numbers_of(q));
+  return joined(four);
+}
+
+/// A law that is known for four numbers: law(at, out).
+template <class Law>
+PLYFORM_INLINE Doubles by_quads(Doubles a, const Law& law) {
+  alignas(sizeof(Doubles)) double at[lanes], out[lanes];
+  store_lanes(at, a);
+  for (int q = 0; q < quads; ++q)
+    law(at + simd_width * q, out + simd_width * q);
+  return numbers([&](int q) { return out + simd_width * q; });
+}
+
 /// Copies the positions of a block's nodes, 4 numbers each, to `place`. x: 3 numbers per node of
 /// the ply.
 PLYFORM_INLINE void gather_places(const std::int32_t* nodes, int count, const double* x,
