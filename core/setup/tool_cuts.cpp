@@ -64,13 +64,22 @@ struct Chords {
 
   double distance(const Vec3& p) const { return tool_distance(tool, Vec3::Zero(), p, hint); }
 
+  /// The place of a ridge, mm, on the surface and half a thickness above it.
+  Vec3 top_of(const Ridge& ridge) const {
+    return ridge.q - distance(ridge.q) * ridge.n + half * ridge.n;
+  }
+
+  /// Whether the ends of a chord of that side in direction `across` are free `way` mm below `top`.
+  bool ends_free(const Ridge& ridge, const Vec3& top, const Vec3& across, double side,
+                 double way) const {
+    const Vec3 p = top - way * ridge.n;
+    return distance(p + 0.5 * side * across) > half && distance(p - 0.5 * side * across) > half;
+  }
+
   /// The way, mm, of a chord of that side in direction `across`.
   double cut(const Ridge& ridge, const Vec3& across, double side) const {
-    const Vec3 top = ridge.q - distance(ridge.q) * ridge.n + half * ridge.n; // q on the surface
-    const auto free = [&](double way) {
-      const Vec3 p = top - way * ridge.n;
-      return std::min(distance(p + 0.5 * side * across), distance(p - 0.5 * side * across)) > half;
-    };
+    const Vec3 top = top_of(ridge);
+    const auto free = [&](double way) { return ends_free(ridge, top, across, side, way); };
     double low = 0.0, high = 0.5 * side; // as over a sharp edge of 90 degrees, at most
     if (!free(1e-9 * side)) return 0.0;
     if (free(high)) return high;
@@ -84,8 +93,17 @@ struct Chords {
   double deepest(const Ridge& ridge, double side) const {
     const double one = cut(ridge, ridge.across, side);
     const bool both_ways = one > 0.0 && cut(ridge, ridge.along, side) > 0.5 * one;
-    return both_ways ? cut(ridge, ridge.across, 2.0 / std::sqrt(3.0) * side) : one;
+    return both_ways ? cut(ridge, ridge.across, longer * side) : one;
   }
+
+  /// Whether `deepest` may be more than `depth`, mm: most places of a tool cut less than the worst.
+  bool may_exceed(const Ridge& ridge, double side, double depth) const {
+    const Vec3 top = top_of(ridge);
+    return ends_free(ridge, top, ridge.across, longer * side, depth) ||
+           ends_free(ridge, top, ridge.across, side, depth);
+  }
+
+  static constexpr double longer = 1.1547005383792515; ///< 2 / sqrt(3)
 };
 
 /// Where things that move plies go, relative to the tool: unit vectors. A pushed tool stays about
@@ -146,6 +164,7 @@ std::optional<CutAhead> cut_ahead(const Scene& scene, std::size_t t, std::size_t
                                   [&](const Vec3& way) { return way.dot(ridge.n) < -askew; });
     const Eigen::AlignedBox2d plan(Vec2(box.min().head<2>()), Vec2(box.max().head<2>()));
     if (!over || ridge.n.dot(to_ply) < askew || !plan.contains(ridge.q.head<2>())) continue;
+    if (worst && !chords.may_exceed(ridge, side, worst->depth)) continue;
     const double depth = chords.deepest(ridge, side);
     if (worst && depth <= worst->depth) continue;
     worst = CutAhead{depth, ridge.q, 0.0, side};
