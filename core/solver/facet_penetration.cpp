@@ -112,11 +112,13 @@ double side_of_half_cut(double radius, double thickness, double half_turn) {
   return 2.0 * (cut + R * (1.0 / std::cos(half_turn) - 1.0)) / std::tan(half_turn);          // (2)
 }
 
-std::vector<ToolCut> cuts_between_nodes(const Scene& s) {
-  std::vector<ToolCut> cuts;
-  for (const ToolState& tool : s.tools)
-    for (const PlyState& ply : s.plies)
-      cuts.push_back({tool.name, ply.name, Search(ply, tool.body).deepest(), ply.thickness});
+std::vector<ToolCut> cuts_between_nodes(const Scene& s, ThreadPool& pool) {
+  std::vector<ToolCut> cuts(s.tools.size() * s.plies.size());
+  pool.run(static_cast<int>(cuts.size()), [&](int i) {
+    const ToolState& tool = s.tools[at(i) / s.plies.size()];
+    const PlyState& ply = s.plies[at(i) % s.plies.size()];
+    cuts[at(i)] = {tool.name, ply.name, Search(ply, tool.body).deepest(), ply.thickness};
+  });
   return cuts;
 }
 

@@ -14,6 +14,7 @@
 // circle), so that 2 L/sqrt(3) replaces L. With c > t/2 the mid-surface itself penetrates the tool.
 #pragma once
 
+#include "core/base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
 
 #include <string>
@@ -43,7 +44,7 @@ struct ToolCut {
 /// to be deeper than the deepest point so far, it is divided until that is decided to a hundredth
 /// of a thickness. This is exact where the tool is convex, and where it is concave; it can miss a
 /// spike with hollows around it that is narrower than a quarter of a side.
-std::vector<ToolCut> cuts_between_nodes(const Scene& scene);
+std::vector<ToolCut> cuts_between_nodes(const Scene& scene, ThreadPool& pool);
 
 /// The largest depth (mm) of all cuts, 0 if there is none.
 double deepest(const std::vector<ToolCut>& cuts);

@@ -160,7 +160,8 @@ std::string unsettled_forces(const Scene& s, const Dwell& dwell) {
                      s.time - s.data.solver.duration);
 }
 
-void finish(const Scene& s, const RunState& state, RunResult& result, int threads, double elapsed) {
+void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool& pool,
+            double elapsed) {
   const Snapshot& good = state.good;
   Summary& sum = result.summary;
   sum.title = s.data.title;
@@ -170,11 +171,11 @@ void finish(const Scene& s, const RunState& state, RunResult& result, int thread
   sum.min_step_s = s.min_dt;
   sum.max_step_s = s.max_dt;
   sum.largest_added_mass = s.largest_added_mass;
-  sum.threads = threads;
+  sum.threads = pool.size();
   const PredictedError error = predicted_error(s.data);
   sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data)};
   sum.contact = audit(s, good);
-  const std::vector<ToolCut> cuts = cuts_between_nodes(s);
+  const std::vector<ToolCut> cuts = cuts_between_nodes(s, pool);
   sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
   sum.work = report_work(s, result.last, sum.contact);
   sum.plies = report_plies(s, result.last);
@@ -204,13 +205,13 @@ namespace {
 class Run {
 public:
   Run(Scene& scene, int threads, const RunHooks& hooks)
-      : s_(scene), pool_(threads), threads_(threads), hooks_(hooks) {}
+      : s_(scene), pool_(threads), hooks_(hooks) {}
 
   RunResult result() {
     begin();
     std::optional<Stop> stop = steps();
     if (stop) go_back(*stop);
-    finish(s_, state_, result_, threads_, elapsed());
+    finish(s_, state_, result_, pool_, elapsed());
     return std::move(result_);
   }
 
@@ -281,7 +282,6 @@ private:
 
   Scene& s_;
   ThreadPool pool_;
-  int threads_;
   const RunHooks& hooks_;
   Clock::time_point begin_ = Clock::now(), saved_ = begin_;
   double floor_ = 0.0; ///< of the check of the energy balance

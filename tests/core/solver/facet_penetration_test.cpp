@@ -28,7 +28,8 @@ ToolCut cut_by(const ToolShape& shape, const Vec3& position) {
   tool.position = position;
   data.tools = {tool};
   set_friction(data, 0.0);
-  const std::vector<ToolCut> cuts = cuts_between_nodes(make_scene(data));
+  ThreadPool pool(2);
+  const std::vector<ToolCut> cuts = cuts_between_nodes(make_scene(data), pool);
   EXPECT_EQ(cuts.size(), 1u);
   return cuts.at(0);
 }
