@@ -307,6 +307,7 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
   clear(contact.list);
   contact.free.resize(ply.x.size(), -std::numeric_limits<float>::infinity());
   std::size_t next_old = 0;
+  SurfaceHint near; // of the node before: a start for one of which nothing is known
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const bool known = next_old < old.size() && old[next_old].node == static_cast<int>(n);
     const double free_until = known ? old_free_until[next_old] : double{contact.free[n]};
@@ -316,7 +317,9 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
     if (known) point = old[next_old++];
     const bool touched = known && point.gap < 0.0; // its tangential spring may store energy
     if (touched || (!known && gap <= reach)) {
+      if (!known) point.hint = near;
       const SurfacePoint at = distance_to_tool(tool, ply.x[n], point.hint);
+      near = point.hint;
       gap = at.distance - contact.half_thickness;
       normal_of(point) = at.normal;
     }

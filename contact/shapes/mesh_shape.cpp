@@ -28,9 +28,9 @@
 #include <CGAL/AABB_tree.h>
 #include <CGAL/AABB_triangle_primitive.h>
 #include <CGAL/Simple_cartesian.h>
+#include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 #include <utility>
 
 namespace plyform {
@@ -130,30 +130,42 @@ double angle_at(const std::array<Vec3, 3>& t, int corner) {
   return std::atan2(e.cross(f).norm(), e.dot(f));
 }
 
-std::pair<std::int32_t, std::int32_t> edge_of(const Triangle& t, std::size_t side) {
-  return std::minmax(t[side], t[(side + 1) % 3]);
+using FacesOfNode = std::vector<std::vector<std::int32_t>>;
+
+FacesOfNode incident_faces(const TriMesh& s) {
+  FacesOfNode faces(s.x.size());
+  for (std::size_t f = 0; f < s.triangles.size(); ++f)
+    for (const std::int32_t n : s.triangles[f])
+      faces[n].push_back(static_cast<std::int32_t>(f));
+  return faces;
+}
+
+bool has_node(const Triangle& t, std::int32_t node) {
+  return t[0] == node || t[1] == node || t[2] == node;
 }
 
 std::vector<std::array<Vec3, 7>> pseudo_normals(const TriMesh& s,
-                                                const std::vector<std::array<Vec3, 3>>& corners) {
+                                                const std::vector<std::array<Vec3, 3>>& corners,
+                                                const FacesOfNode& faces_of_node) {
   std::vector<Vec3> vertex(s.x.size(), Vec3::Zero());
-  std::map<std::pair<std::int32_t, std::int32_t>, Vec3> edge;
-  for (std::size_t f = 0; f < corners.size(); ++f) {
-    const Vec3 n = unit_normal(corners[f]);
-    for (std::size_t k = 0; k < 3; ++k) {
-      vertex[s.triangles[f][k]] += angle_at(corners[f], static_cast<int>(k)) * n;
-      edge.try_emplace(edge_of(s.triangles[f], k), Vec3::Zero()).first->second += n;
-    }
-  }
   std::vector<std::array<Vec3, 7>> normals(corners.size());
   for (std::size_t f = 0; f < corners.size(); ++f) {
-    const Vec3 n = unit_normal(corners[f]);
+    const Vec3& n = normals[f][0] = unit_normal(corners[f]);
+    for (std::size_t k = 0; k < 3; ++k)
+      vertex[s.triangles[f][k]] += angle_at(corners[f], static_cast<int>(k)) * n;
+  }
+  for (std::size_t f = 0; f < corners.size(); ++f) {
+    const Triangle& t = s.triangles[f];
     // The normals of faces folded flat onto each other cancel: any of them will do.
-    const auto unit = [&](const Vec3& m) { return m.norm() > 1e-12 ? m.normalized() : n; };
-    normals[f][0] = n;
+    const auto unit = [&](const Vec3& m) {
+      return m.norm() > 1e-12 ? m.normalized() : normals[f][0];
+    };
     for (std::size_t k = 0; k < 3; ++k) {
-      normals[f][1 + k] = unit(vertex[s.triangles[f][k]]);
-      normals[f][4 + k] = unit(edge.at(edge_of(s.triangles[f], k)));
+      Vec3 edge = Vec3::Zero();
+      for (const std::int32_t g : faces_of_node[t[k]]) // f, and at most one face on the other side
+        if (has_node(s.triangles[g], t[(k + 1) % 3])) edge += normals[g][0];
+      normals[f][1 + k] = unit(vertex[t[k]]);
+      normals[f][4 + k] = unit(edge);
     }
   }
   return normals;
@@ -218,14 +230,6 @@ private:
   std::array<Vec2, 3> image_;
 };
 
-std::vector<std::vector<std::int32_t>> incident_faces(const TriMesh& s) {
-  std::vector<std::vector<std::int32_t>> faces(s.x.size());
-  for (std::size_t f = 0; f < s.triangles.size(); ++f)
-    for (const std::int32_t n : s.triangles[f])
-      faces[n].push_back(static_cast<std::int32_t>(f));
-  return faces;
-}
-
 } // namespace
 
 struct MeshShape::Tree {
@@ -248,12 +252,24 @@ MeshShape::MeshShape(TriMesh surface) : surface_(std::move(surface)) {
   corners_.reserve(surface_.triangles.size());
   for (const Triangle& t : surface_.triangles)
     corners_.push_back({surface_.x[t[0]], surface_.x[t[1]], surface_.x[t[2]]});
-  normals_ = pseudo_normals(surface_, corners_);
   faces_of_node_ = incident_faces(surface_);
+  normals_ = pseudo_normals(surface_, corners_, faces_of_node_);
   tree_ = std::make_unique<const Tree>(corners_);
 }
 
 MeshShape::~MeshShape() = default;
+
+template <class Visit>
+void MeshShape::visit_around(int face, const Visit& visit) const {
+  visit(face);
+  const auto& [a, b, c] = surface_.triangles[face];
+  for (const std::int32_t f : faces_of_node_[a])
+    if (f != face) visit(f);
+  for (const std::int32_t f : faces_of_node_[b])
+    if (!has_node(surface_.triangles[f], a)) visit(f);
+  for (const std::int32_t f : faces_of_node_[c])
+    if (!has_node(surface_.triangles[f], a) && !has_node(surface_.triangles[f], b)) visit(f);
+}
 
 float MeshShape::clear_way(const Vec3& p, int face, double distance, double off) const {
   NextFace next(tree_->facets.cbegin(), surface_, surface_.triangles[face], distance + widest);
@@ -289,10 +305,9 @@ SurfacePoint MeshShape::at_closest(const Vec3& p, int face, const ClosestPoint& 
 void MeshShape::compare_with_neighbours(int face, SurfaceHint& hint) const {
   const Foot foot(corners_[static_cast<std::size_t>(face)]);
   std::array<double, 2> rise{};
-  for (const std::int32_t n : surface_.triangles[static_cast<std::size_t>(hint.facet)])
-    for (const std::int32_t f : faces_of_node_[n])
-      if (f != face) foot.raise(corners_[f], rise);
-  if (hint.facet != face) foot.raise(corners_[hint.facet], rise);
+  visit_around(hint.facet, [&](int f) {
+    if (f != face) foot.raise(corners_[f], rise);
+  });
   const double height = foot.least_height();
   constexpr double rounding = 1e-12, above = 1.0 + 1e-6; // of the largest coordinate; to float
   for (std::size_t side = 0; side < 2; ++side)
@@ -322,12 +337,7 @@ SurfacePoint MeshShape::signed_distance(const Vec3& p, SurfaceHint& hint) const 
     return found;
   const double scale = std::max(largest_, p.cwiseAbs().maxCoeff());
   NearestFace nearest(tree_->facets.cbegin(), corners_, search_slack * scale);
-  if (asked) {
-    nearest.test_face(p, hint.facet);
-    for (const std::int32_t n : surface_.triangles[hint.facet])
-      for (const std::int32_t f : faces_of_node_[n])
-        nearest.test_face(p, f);
-  }
+  if (asked) visit_around(hint.facet, [&](int f) { nearest.test_face(p, f); });
   const bool search = nearest.face < 0 || !around;
   if (search) tree_->search.traversal_with_priority(p, nearest);
   if (nearest.face < 0)

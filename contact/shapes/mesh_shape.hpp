@@ -22,6 +22,9 @@ public:
 
 private:
   struct Tree;
+  /// Calls visit(face) once for it and for each face that shares a node with it.
+  template <class Visit>
+  void visit_around(int face, const Visit& visit) const;
   /// SurfaceHint::clear of p (mm, tool frame), whose closest triangle is `face`, at this distance
   /// (mm). off: mm, from p to SurfaceHint::at, which is rounded.
   float clear_way(const Vec3& p, int face, double distance, double off) const;

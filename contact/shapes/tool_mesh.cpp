@@ -19,7 +19,6 @@
 #include <CGAL/assertions_behaviour.h>
 #include <algorithm>
 #include <fmt/format.h>
-#include <map>
 #include <mutex>
 #include <stdexcept>
 #include <utility>
@@ -32,7 +31,9 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel; // exact pre
 using Point = Kernel::Point_3;
 using Mesh = CGAL::Surface_mesh<Point>;
 using Polygons = std::vector<std::vector<std::size_t>>;
-using EdgeCount = std::map<std::pair<std::size_t, std::size_t>, int>;
+using Edge = std::pair<std::size_t, std::size_t>;
+/// Edges and how many faces each has, in order.
+using EdgeCount = std::vector<std::pair<Edge, int>>;
 
 [[noreturn]] void fail(const std::string& name, const std::string& text) {
   throw std::runtime_error(name + ": " + text);
@@ -102,10 +103,17 @@ std::size_t drop_collapsed(Polygons& polygons) {
 }
 
 EdgeCount count_edges(const Polygons& polygons) {
-  EdgeCount count;
+  std::vector<Edge> edges;
   for (const auto& polygon : polygons)
     for (std::size_t k = 0; k < polygon.size(); ++k)
-      ++count[std::minmax(polygon[k], polygon[(k + 1) % polygon.size()])];
+      edges.emplace_back(std::minmax(polygon[k], polygon[(k + 1) % polygon.size()]));
+  std::sort(edges.begin(), edges.end());
+  EdgeCount count;
+  for (const Edge& edge : edges)
+    if (!count.empty() && count.back().first == edge)
+      ++count.back().second;
+    else
+      count.emplace_back(edge, 1);
   return count;
 }
 
