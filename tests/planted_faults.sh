@@ -24,7 +24,7 @@ faults=(
   "a ply keeps those on its sides apart past its rim | core/solver/occlusion.cpp | s/^ *char inside = .*/occluded[static_cast<std::size_t>(c.node)] = 1; char inside = 1;/"
   "the first node near a tool is not listed | contact/forces/tool_ply.cpp | s/if (gap > reach) {/if (gap > reach || contact.points.empty()) {/"
   "friction between plies is forgotten at a search | contact/forces/ply_ply.cpp | s/c.memory = before->memory;//"
-  "friction with tools is forgotten at a search | contact/forces/tool_ply.cpp | s/if (known) point = old\[next_old++\];/if (known) point = old[next_old++], point.memory = {};/"
+  "friction with tools is forgotten at a search | contact/forces/tool_ply.cpp | s/point = old\[next_old++\];/point = old[next_old++], point.memory = {};/"
   "plies touch each other at half their thickness | core/solver/scene.cpp | s/0.5 \* (slave.thickness + master.thickness)/0.25 * (slave.thickness + master.thickness)/"
   "plies touch tools at half their half thickness | core/solver/scene.cpp | s/half_thickness = 0.5 \* plies\[p\].thickness/half_thickness = 0.25 * plies[p].thickness/"
   "depth between plies has no limit | core/solver/scene.cpp | s/deepest_in_ply \* pair.contact.distance/1e9/"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/forces/tool_ply.hpp"
 
+#include "contact/shapes/mesh_shape.hpp"
 #include "contact/shapes/shape_distance.hpp"
 #include "contact/simd/cpu_features.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
@@ -63,15 +64,20 @@ void in_parts(const ActiveList& list, const Work& work) {
     work(all.subspan(first, std::min(most, all.size() - first)));
 }
 
+/// A lower bound (mm) of the gap at x (mm, global frame) of a node with this hint.
+double least_gap(const ToolPlyContact& contact, const ToolBody& tool, const Vec3& x,
+                 const SurfaceHint& hint) {
+  if (hint.facet < 0) return NoRoom{}(0); // most tools are no meshes: spares the way to them
+  const Vec3 at(hint.at[0], hint.at[1], hint.at[2]);
+  return least_distance(hint, (to_tool_frame(tool, x) - at).norm()) - contact.half_thickness;
+}
+
 /// Activates the points that may touch, and deactivates the others.
 void update_active(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
                    double path_length) {
   const auto room = [&](std::int32_t i) {
     const ToolPlyPoint& c = contact.points[static_cast<std::size_t>(i)];
-    if (c.hint.facet < 0) return NoRoom{}(i); // most tools are no meshes: spares the way to them
-    const Vec3 x = to_tool_frame(tool, ply.x[static_cast<std::size_t>(c.node)]);
-    const double way = (x - Vec3(c.hint.at[0], c.hint.at[1], c.hint.at[2])).norm();
-    return least_distance(c.hint, way) - contact.half_thickness;
+    return least_gap(contact, tool, ply.x[static_cast<std::size_t>(c.node)], c.hint);
   };
   update(contact.list, path_length, room,
          [&contact](std::int32_t i) { deactivate(contact.points[i]); });
@@ -83,7 +89,11 @@ void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinemat
              double path_length, Part part, const Distance& distance) {
   // A pushed tool has not moved yet in this step; tool.motion still is that of the step before.
   const Vec3 tool_motion = tool.force_controlled ? Vec3(Vec3::Zero()) : tool.motion;
-  for (const std::int32_t i : part) {
+  const MeshShapePtr* mesh = std::get_if<MeshShapePtr>(&tool.shape);
+  constexpr std::size_t ahead = 6; // points: the time that a facet takes to arrive from memory
+  for (std::size_t k = 0; k < part.size(); ++k) {
+    if (mesh && k + ahead < part.size()) (*mesh)->prefetch(contact.points[part[k + ahead]].hint);
+    const std::int32_t i = part[k];
     ToolPlyPoint& c = contact.points[i];
     const auto n = static_cast<std::size_t>(c.node);
     const SurfacePoint s = distance(ply.x[n], c.hint);
@@ -306,6 +316,8 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
   contact.points.clear();
   clear(contact.list);
   contact.free.resize(ply.x.size(), -std::numeric_limits<float>::infinity());
+  const bool is_mesh = std::holds_alternative<MeshShapePtr>(tool.shape);
+  if (is_mesh) contact.hints.resize(ply.x.size());
   std::size_t next_old = 0;
   SurfaceHint near; // of the node before: a start for one of which nothing is known
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
@@ -314,10 +326,15 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
     double gap = free_until - path_length;
     ToolPlyPoint point{};
     point.node = static_cast<int>(n);
-    if (known) point = old[next_old++];
+    if (known)
+      point = old[next_old++];
+    else if (is_mesh && gap <= reach) {
+      point.hint = contact.hints[n];
+      gap = std::max(gap, least_gap(contact, tool, ply.x[n], point.hint));
+    }
     const bool touched = known && point.gap < 0.0; // its tangential spring may store energy
     if (touched || (!known && gap <= reach)) {
-      if (!known) point.hint = near;
+      if (point.hint.facet < 0) point.hint = near;
       const SurfacePoint at = distance_to_tool(tool, ply.x[n], point.hint);
       near = point.hint;
       gap = at.distance - contact.half_thickness;
@@ -325,6 +342,7 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
     }
     contact.free[n] = rounded_down(path_length + gap);
     if (gap > reach) {
+      if (is_mesh && point.hint.facet >= 0) contact.hints[n] = point.hint;
       if (touched) release(contact.law, ply.area[n], point.memory, contact.sums);
       continue;
     }

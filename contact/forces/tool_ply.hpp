@@ -59,6 +59,8 @@ struct ToolPlyContact {
   std::vector<ToolPlyPoint> points;
   ActiveList list;         ///< of the points
   std::vector<float> free; ///< mm, per node of the ply: path length before which it cannot touch
+  std::vector<SurfaceHint>
+      hints;               ///< per node of the ply, of those without a point; mesh tools only
   std::vector<Vec3> force; ///< N, per node of the ply; zero without a point. Empty: no points
   ContactTotals sums;
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again

@@ -59,6 +59,12 @@ double distance2_to(const CGAL::Bbox_3& box, const Vec3& p) {
   return x * x + y * y + z * z;
 }
 
+double distance2_to_box_of(const std::array<Vec3, 3>& triangle, const Vec3& p) {
+  const auto& [a, b, c] = triangle;
+  const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
+  return (low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm();
+}
+
 /// A visitor of AABB_tree's traversal that looks at triangles within a reach, nearest boxes first.
 struct FaceVisitor {
   using Priority = double; // CGAL visits the child of the higher priority first
@@ -88,10 +94,8 @@ struct NearestFace : FaceVisitor {
               double off)
       : FaceVisitor{first_face}, corners(of), slack(off) {}
   void test_face(const Vec3& p, int candidate) {
+    if (distance2_to_box_of(corners[candidate], p) > reach2) return;
     const auto& [a, b, c] = corners[candidate];
-    const Vec3 low = a.cwiseMin(b).cwiseMin(c), high = a.cwiseMax(b).cwiseMax(c);
-    if ((low - p).cwiseMax(p - high).cwiseMax(0.0).squaredNorm() > reach2)
-      return; // the box of the triangle already excludes it
     const ClosestPoint found = closest_point_on_triangle(p, a, b, c);
     if (found.distance2 > closest.distance2) return;
     if (found.distance2 == closest.distance2 && candidate >= face && face >= 0) return;
@@ -105,17 +109,21 @@ struct NearestFace : FaceVisitor {
 
 /// The least distance of a triangle that shares no node with the closest one.
 struct NextFace : FaceVisitor {
-  const TriMesh& surface;
+  const std::vector<std::array<Vec3, 3>>& corners;
+  const std::vector<Triangle>& nodes;
   const Triangle& closest;
 
-  NextFace(Facets::const_iterator first_face, const TriMesh& of, const Triangle& nearest,
-           double reach)
-      : FaceVisitor{first_face, reach * reach}, surface(of), closest(nearest) {}
+  NextFace(Facets::const_iterator first_face, const std::vector<std::array<Vec3, 3>>& of,
+           const std::vector<Triangle>& nodes_of, int nearest, double reach)
+      : FaceVisitor{first_face, reach * reach}, corners(of), nodes(nodes_of),
+        closest(nodes[static_cast<std::size_t>(nearest)]) {}
   void intersection(const Vec3& p, const Primitive& primitive) {
-    const Triangle& t = surface.triangles[number(primitive)];
+    const auto f = static_cast<std::size_t>(number(primitive));
+    if (distance2_to_box_of(corners[f], p) > reach2) return;
+    const Triangle& t = nodes[f];
     if (std::find_first_of(t.begin(), t.end(), closest.begin(), closest.end()) != t.end()) return;
-    const auto& x = surface.x;
-    reach2 = std::min(reach2, closest_point_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]).distance2);
+    const auto& [a, b, c] = corners[f];
+    reach2 = std::min(reach2, closest_point_on_triangle(p, a, b, c).distance2);
   }
 };
 
@@ -272,7 +280,7 @@ void MeshShape::visit_around(int face, const Visit& visit) const {
 }
 
 float MeshShape::clear_way(const Vec3& p, int face, double distance, double off) const {
-  NextFace next(tree_->facets.cbegin(), surface_, surface_.triangles[face], distance + widest);
+  NextFace next(tree_->facets.cbegin(), corners_, surface_.triangles, face, distance + widest);
   tree_->search.traversal_with_priority(p, next);
   constexpr double below = 1.0 - 1e-6; // rounding of distances must not increase it
   return rounded_down(std::max(0.5 * (below * std::sqrt(next.reach2) - distance) - off, 0.0));

@@ -18,6 +18,15 @@ public:
   /// `hint` where it searches the closest facet. Thread-safe; allocates nothing.
   SurfacePoint signed_distance(const Vec3& p, SurfaceHint& hint) const;
 
+  /// Asks memory for the facet that signed_distance(p, hint) will most likely measure.
+  void prefetch(const SurfaceHint& hint) const {
+    if (hint.nearest < 0) return;
+    const auto f = static_cast<std::size_t>(hint.nearest);
+    __builtin_prefetch(&corners_[f]);
+    __builtin_prefetch(&corners_[f][2]);
+    __builtin_prefetch(&normals_[f]);
+  }
+
   const TriMesh& surface() const { return surface_; }
 
 private:

@@ -170,6 +170,38 @@ TEST(ToolPlyContact, ListsEveryNodeWithinReach) {
   }
 }
 
+TEST(ToolPlyContact, ListsNodesNearMeshesHoweverTheyMove) {
+  Random random(5);
+  ToolBody tool =
+      placed(make_mesh_shape(tessellate(Annulus{8, 20, 6, 2}, 1.0, 0.0), nullptr), random);
+  std::vector<Vec3> x;
+  for (int n = 0; n < 300; ++n)
+    x.push_back(near_tool(tool, 0.4, 3.0, random));
+  OwnedSheet nodes = points_only(x, 1.0);
+  ToolPlyContact contact = contact_of({1.0, 0.0, 0.0});
+  double path_length = 0.0;
+  int listed = 0;
+  for (int search = 0; search < 40; ++search) {
+    find_tool_ply_points(contact, tool, nodes.state(), 0.5, path_length);
+    std::size_t next = 0;
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      while (next < contact.points.size() && contact.points[next].node < static_cast<int>(n))
+        ++next;
+      SurfaceHint hint;
+      if (distance_to_tool(tool, nodes.x[n], hint).distance - half_thickness > 0.5) continue;
+      ASSERT_LT(next, contact.points.size());
+      EXPECT_EQ(contact.points[next].node, static_cast<int>(n)) << search;
+      ++listed;
+    }
+    std::vector<Vec3> motion;
+    for (std::size_t n = 0; n < x.size(); ++n) // one in ten goes as far as the path length tells
+      motion.push_back((n % 10 == 0 ? 0.15 : 0.015) * random_vector(random).normalized());
+    nodes.move(motion);
+    path_length += 0.15;
+  }
+  EXPECT_GT(listed, 1000);
+}
+
 /// A tool pushed down on nodes at different heights.
 ToolBody force_controlled(const ToolShape& shape, const Vec3& position, double force) {
   ToolBody tool;
