@@ -54,12 +54,26 @@ double far_of(const EdgeEdgeContact& contact) {
 /// knows them before they touch.
 constexpr double always_measured = 0.05;
 
+/// Appends those of the candidates first to end - 1 that may touch within this path length (mm, of
+/// their group), and returns the smallest free_until of the others.
+float append_due(std::span<const EdgeCandidate> candidates, std::int32_t first, std::int32_t end,
+                 double path_length, std::int32_t group,
+                 std::vector<std::array<std::int32_t, 2>>& due) {
+  const float soon = rounded_down(path_length); // no float is between the two
+  float others = std::numeric_limits<float>::infinity();
+  for (std::int32_t i = first; i < end; ++i) {
+    for (; i < end && candidates[i].free_until > soon; ++i) // most of them
+      others = std::min(others, candidates[i].free_until);
+    if (i < end) due.push_back({i, group});
+  }
+  return others;
+}
+
 /// Moves the groups on by their patches' motion in this step, and lists the candidates that may
 /// touch soon, or within two steps like this one, so that their closing speed is known by then.
 void list_due(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeSheet& b) {
   EdgeMeasurements& m = contact.measurements;
   m.due.clear();
-  m.nodes.clear();
   for (std::size_t g = 0; g < contact.groups.size(); ++g) {
     EdgeGroup& group = contact.groups[g];
     const double moved =
@@ -68,18 +82,14 @@ void list_due(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeSheet& b) 
     group.ahead = std::max(2.0 * moved, always_measured);
     const double soon = group.path_length + group.ahead;
     if (group.free_until > soon) continue;
-    double free_until = std::numeric_limits<double>::infinity(); // of those that are not due
-    for (std::int32_t i = group.first; i < group.end; ++i) {
-      const EdgeCandidate& c = contact.candidates[i];
-      if (c.free_until > soon) {
-        free_until = std::min(free_until, double{c.free_until});
-        continue;
-      }
-      const SheetEdge &of_a = a.edges.all[c.edge[0]], &of_b = b.edges.all[c.edge[1]];
-      m.due.push_back({i, static_cast<std::int32_t>(g)});
-      m.nodes.push_back({of_a.a, of_a.b, of_b.a, of_b.b});
-    }
-    group.free_until = free_until;
+    group.free_until = append_due(contact.candidates, group.first, group.end, soon,
+                                  static_cast<std::int32_t>(g), m.due);
+  }
+  m.nodes.clear();
+  for (const auto& [candidate, group] : m.due) {
+    const auto& [one, other] = contact.candidates[candidate].edge;
+    const SheetEdge &of_a = a.edges.all[one], &of_b = b.edges.all[other];
+    m.nodes.push_back({of_a.a, of_a.b, of_b.a, of_b.b});
   }
 }
 

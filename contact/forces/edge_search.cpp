@@ -54,15 +54,18 @@ public:
       from[a] = axis == flat_ ? 0 : place(box.min()[axis] - widest_[axis], axis, count_[a] - 1);
       to[a] = axis == flat_ ? 0 : place(box.max()[axis], axis, count_[a] - 1);
     }
-    for (int i = from[0]; i <= to[0]; ++i)
-      for (int j = from[1]; j <= to[1]; ++j)
-        for (int k = from[2]; k <= to[2]; ++k) {
-          const auto cell = static_cast<std::size_t>((i * count_[1] + j) * count_[2] + k);
-          for (std::int32_t e = begin_[cell]; e < begin_[cell + 1]; ++e) {
-            const Entry& entry = entries_[e];
-            if (box.intersects(entry.box)) found(entry.edge);
-          }
-        }
+    const std::size_t row = flat_ == 0 ? 1 : 0, in_row = flat_ == 2 ? 1 : 2;
+    for (int i = from[row]; i <= to[row]; ++i) { // the cells of a row follow each other
+      std::array<int, 3> first{}, last{};
+      first[row] = last[row] = i;
+      first[in_row] = from[in_row];
+      last[in_row] = to[in_row];
+      const std::int32_t end = begin_[number_of(last) + 1];
+      for (std::int32_t e = begin_[number_of(first)]; e < end; ++e)
+        if (const auto& [other, edge] = entries_[e];
+            overlap(box.min(), box.max(), other.min(), other.max()))
+          found(edge);
+    }
   }
 
 private:
@@ -73,29 +76,32 @@ private:
 
   /// Entries of a cell stay in ascending order of their edges.
   void sort_into_cells(const std::vector<Entry>& unsorted) {
-    std::vector<int> cell;
+    std::vector<std::size_t> cell;
     cell.reserve(unsorted.size());
     begin_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2] + 1), 0);
     for (const Entry& e : unsorted) {
       cell.push_back(cell_of(e.box.min()));
-      ++begin_[static_cast<std::size_t>(cell.back()) + 1];
+      ++begin_[cell.back() + 1];
     }
     std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
     std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
     entries_.resize(unsorted.size());
     for (std::size_t i = 0; i < unsorted.size(); ++i)
-      entries_[static_cast<std::size_t>(next[static_cast<std::size_t>(cell[i])]++)] = unsorted[i];
+      entries_[static_cast<std::size_t>(next[cell[i]]++)] = unsorted[i];
   }
 
   int place(double x, int axis, int last) const {
     return static_cast<int>(
         std::clamp(std::floor((x - low_[axis]) / cell_), 0.0, static_cast<double>(last)));
   }
-  int cell_of(const Vec3& x) const {
+  std::size_t number_of(const std::array<int, 3>& cell) const {
+    return static_cast<std::size_t>((cell[0] * count_[1] + cell[1]) * count_[2] + cell[2]);
+  }
+  std::size_t cell_of(const Vec3& x) const {
     std::array<int, 3> i{};
     for (int axis = 0; axis < 3; ++axis)
       if (axis != flat_) i[axis] = place(x[axis], axis, count_[axis] - 1);
-    return (i[0] * count_[1] + i[1]) * count_[2] + i[2];
+    return number_of(i);
   }
 
   std::vector<Entry> entries_;
@@ -128,7 +134,11 @@ struct Found {
   std::int32_t patch_b;
   std::array<std::int32_t, 2> edge;
   double gap;
-  auto key() const { return std::tie(patch_b, edge); }
+  /// In the order of patch_b, then of the edges; none of the numbers is negative.
+  std::pair<std::uint64_t, std::uint32_t> key() const {
+    const auto high = static_cast<std::uint64_t>(patch_b) << 32;
+    return {high | static_cast<std::uint32_t>(edge[0]), static_cast<std::uint32_t>(edge[1])};
+  }
 };
 
 /// Appends the groups of one patch of a, from its pairs within reach.

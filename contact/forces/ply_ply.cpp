@@ -312,21 +312,23 @@ void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics
                            std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows) {
   // Normal stiffness: k G G^T with G = (1, -w), whose row i has the absolute sum
   // |G_i| sum_j |G_j| = 2 |G_i|. Tangential stiffness k_t = k / 2: G = G_w + G_g, with G_w = (1,
-  // -w) and the couple's G_g of entries h |gradient_j|; as G G^T <= 2 G_w G_w^T + 2 G_g G_g^T, its
-  // G_w part is bounded by the normal one and the G_g part is added here.
+  // -w) and the couple's G_g of entries h |gradient_j|, the side opposite to corner j over twice
+  // the area; as G G^T <= 2 G_w G_w^T + 2 G_g G_g^T, its G_w part is bounded by the normal one and
+  // the G_g part is added here.
   for (const PlyPlyPoint& c : contact.points) {
     if (latest_gap(c) > margin) continue;
     const Triangle& t = triangles[c.face];
     const ContactRow normal = 2.0 * c.area * row_of(contact.law, -latest_gap(c));
     slave_rows[c.node] += normal;
     if (contact.law.friction > 0.0) {
-      std::array<double, 3> couple{};
-      const FaceFrame f = face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]));
-      double sum = 0.0;
+      const Vec3 &p = at(master.x, t[0]), &q = at(master.x, t[1]), &r = at(master.x, t[2]);
+      const std::array<double, 3> side{(r - q).norm(), (p - r).norm(), (q - p).norm()};
+      const double per_side2 =
+          contact.distance * contact.distance / (q - p).cross(r - p).squaredNorm();
+      const double each =
+          2.0 * c.area * contact.law.tangential() * per_side2 * (side[0] + side[1] + side[2]);
       for (std::size_t j = 0; j < 3; ++j)
-        sum += couple[j] = contact.distance * f.gradient[j].norm();
-      for (std::size_t j = 0; j < 3; ++j)
-        master_rows[t[j]].stiffness += 2.0 * c.area * contact.law.tangential() * sum * couple[j];
+        master_rows[t[j]].stiffness += each * side[j];
     }
     const std::array<double, 3> w = weights_of(c);
     for (std::size_t j = 0; j < 3; ++j)

@@ -41,12 +41,8 @@ double squared_distance(const Vec3& p, const Box& box) {
   return (box.min_ - p).cwiseMax(p - box.max_).cwiseMax(0.0).squaredNorm();
 }
 
-/// Whether two boxes overlap. All six comparisons are evaluated without a branch: branches of a
-/// test that ends early would often be mispredicted.
-bool overlap(const Box& a, const Box& b) {
-  const Vec3 &p = a.min_, &q = a.max_, &r = b.min_, &s = b.max_;
-  return (int(p.x() <= s.x()) & int(p.y() <= s.y()) & int(p.z() <= s.z()) & int(r.x() <= q.x()) &
-          int(r.y() <= q.y()) & int(r.z() <= q.z())) != 0;
+bool meet(const Box& a, const Box& b) {
+  return overlap(a.min_, a.max_, b.min_, b.max_);
 }
 
 /// Collects the leaves whose box overlaps the box `asked`.
@@ -54,7 +50,7 @@ void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
                std::vector<const fcl::BVNode<Box>*>& leaves) {
   leaves.clear();
   stack.clear();
-  if (overlap(asked, tree.getBV(0).bv)) stack.push_back(0);
+  if (meet(asked, tree.getBV(0).bv)) stack.push_back(0);
   while (!stack.empty()) {
     const fcl::BVNode<Box>& box = tree.getBV(stack.back());
     stack.pop_back();
@@ -64,7 +60,7 @@ void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
       continue;
     }
     for (const int i : {child, child + 1})
-      if (overlap(asked, tree.getBV(i).bv)) stack.push_back(i);
+      if (meet(asked, tree.getBV(i).bv)) stack.push_back(i);
   }
 }
 

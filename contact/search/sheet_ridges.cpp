@@ -8,7 +8,7 @@
 namespace plyform {
 namespace {
 
-constexpr double listed_share = 0.2, sharp_share = 0.5;
+constexpr double listed_share = 0.1, sharp_share = 0.25;
 
 /// f and 2 (1/h_c + 1/h_d) of (G).
 struct EdgeFold {

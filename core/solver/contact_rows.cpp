@@ -36,6 +36,11 @@ PairRows rows_of(const Scene& s, const PlyPair& pair) {
   return rows;
 }
 
+void add(const std::vector<ContactRow>& rows, std::vector<ContactRow>& to) {
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    to[n] += rows[n];
+}
+
 } // namespace
 
 ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
@@ -44,22 +49,19 @@ ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
     const auto pair = static_cast<std::size_t>(i);
     of_pair[pair] = rows_of(s, s.ply_pairs[pair]);
   });
-  ContactRows c;
-  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+  ContactRows c(s.plies.size());
+  pool.run(static_cast<int>(c.size()), [&](int i) {
+    const auto p = static_cast<std::size_t>(i);
     const PlyState& ply = s.plies[p];
-    std::vector<ContactRow>& rows = c.emplace_back(ply.x.size());
+    std::vector<ContactRow>& rows = c[p];
+    rows.resize(ply.x.size());
     for (const ToolState& tool : s.tools)
       add_tool_ply_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
-  }
-  const auto add = [&c](int ply, const std::vector<ContactRow>& rows) {
-    std::vector<ContactRow>& to = c[ply];
-    for (std::size_t n = 0; n < rows.size(); ++n)
-      to[n] += rows[n];
-  };
-  for (std::size_t i = 0; i < of_pair.size(); ++i) {
-    add(s.ply_pairs[i].a, of_pair[i].a);
-    add(s.ply_pairs[i].b, of_pair[i].b);
-  }
+    for (std::size_t k = 0; k < of_pair.size(); ++k) {
+      if (s.ply_pairs[k].a == i) add(of_pair[k].a, rows);
+      if (s.ply_pairs[k].b == i) add(of_pair[k].b, rows);
+    }
+  });
   add_attachment_stiffness(s, c);
   return c;
 }

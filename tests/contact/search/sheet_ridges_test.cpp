@@ -59,8 +59,8 @@ TEST(SheetRidges, OfParallelShellsDoNotFaceEachOther) {
 
 /// Whether an edge that is no ridge towards a side is folded to it by more than `limit`.
 bool has_grown(const OwnedSheet& sheet, const SheetEdges& edges, const SheetRidges& ridges) {
-  SheetRidges now; // those beyond the limit: a fifth of five times it
-  find_ridges(edges, sheet.x, 5.0 * limit, now);
+  SheetRidges now; // those beyond the limit: a tenth of ten times it
+  find_ridges(edges, sheet.x, 10.0 * limit, now);
   for (std::size_t i = 0; i < edges.all.size(); ++i)
     if (now.sides[i] & ~ridges.sides[i]) return true;
   return false;

@@ -113,13 +113,14 @@ TEST(Step, OfAPressedStackIsLongerThanItsPartsSayAndStable) {
   };
   // With no damping at all nodes that go over to other faces stir the highest modes a little, and
   // contacts that stiffen with depth take them over the limit: within 3000 steps the energy grows
-  // by 13 % at 0.8 of it, by 75 % at 0.9.
+  // by 13 % at 0.8 of it, by 75 % at 0.9. Beyond the limit contacts that part and sheets that flap
+  // hold the growth: it ends at 3 to 9 times, which rounding decides, so that twice counts.
   for (const auto& [damping, part, most] :
        {Trial{0.0, 0.7, 1.1}, Trial{0.01, 0.95, 1.01}, Trial{0.05, 0.98, 1.01}}) {
     double stretch = 0.0;
     EXPECT_LT(let_a_pressed_stack_vibrate(damping, part, stretch), most) << damping;
     EXPECT_GT(stretch, 1.1) << damping; // elements and contacts add up to less than their bounds
-    EXPECT_GT(let_a_pressed_stack_vibrate(damping, 1.1, stretch), 5.0) << damping;
+    EXPECT_GT(let_a_pressed_stack_vibrate(damping, 1.08, stretch), 2.0) << damping;
   }
 }
 
