@@ -42,7 +42,7 @@ void visit(Archive& a, ActiveList& list) {
 
 template <class Archive>
 void visit(Archive& a, ToolPlyContact& c) {
-  visit(a, c.points, c.list, c.free, c.force, c.sums, c.renew_depth);
+  visit(a, c.points, c.list, c.free, c.hints, c.force, c.sums, c.renew_depth);
 }
 
 template <class Archive>

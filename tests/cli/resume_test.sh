@@ -23,6 +23,27 @@ table=("$cases/circular_table" --set blanks.sheet.element_size=25 --set solver.d
 springs=("$cases/springs_and_grippers" --set solver.duration=0.05
   --set solver.checkpoint_interval=0.02)
 
+# A die from a mesh, facets of some 5 mm: a hole of radius 80 with a fillet of 10 and a flat top.
+awk 'BEGIN {
+  n = split("80 -120 80 -60 80 -10 81.3 -5 85 -1.3 90 0 130 0 180 0 260 0 260 -120", p, " ") / 2
+  m = 100
+  printf "OFF\n%d %d 0\n", n * m, 2 * n * m
+  for (i = 0; i < n; ++i)
+    for (k = 0; k < m; ++k) {
+      a = 8 * atan2(1, 1) * k / m
+      printf "%.9g %.9g %.9g\n", p[2 * i + 1] * cos(a), p[2 * i + 1] * sin(a), p[2 * i + 2]
+    }
+  for (i = 0; i < n; ++i)
+    for (k = 0; k < m; ++k) {
+      j = (i + 1) % n; l = (k + 1) % m
+      printf "3 %d %d %d\n3 %d %d %d\n", i * m + k, i * m + l, j * m + l, i * m + k, j * m + l, j * m + k
+    }
+}' >die.off
+sed -e 's|"../fabrics|"'"$cases"'/fabrics|' -e '/^points = /d' -e 's|^shape = "profile"|shape = "mesh"\nfile = "die.off"|' \
+  "$cases/hemisphere_0/case.toml" >mesh.toml
+mesh=(mesh.toml --set blanks.square.element_size=13.6 --set solver.duration=0.03
+  --set solver.checkpoint_interval=0.02)
+
 # run FOLDER ARGUMENT...: in the background; its process in $process.
 run() {
   local to=$1
@@ -38,7 +59,7 @@ readable() {
 }
 
 killed=0
-for case in stack frame table springs; do
+for case in stack frame table springs mesh; do
   declare -n arguments=$case
   rm -rf whole again
   begin=$EPOCHREALTIME
