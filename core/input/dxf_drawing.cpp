@@ -41,6 +41,9 @@ struct RawEntity {
   std::string fault{};
 };
 
+/// Thrown out of dxflib at what follows the end of a drawing, which is no part of it.
+struct EndOfDrawing {};
+
 /// Takes what dxflib reads. dxflib tells of an entity when the next one begins.
 class Collector : public DL_CreationAdapter {
 public:
@@ -52,8 +55,7 @@ public:
   using DL_CreationAdapter::setVariableInt;
   void processCodeValuePair(unsigned int code, const std::string& value) override {
     lines_ += 2;
-    if (code == 0 && ended) before_ = now_ = {}; // what follows the end is no part of it
-    if (ended) return;
+    if (ended) throw EndOfDrawing{};
     if (code == 0)
       begin(value);
     else
@@ -161,7 +163,10 @@ private:
 std::string packed(const std::filesystem::path& file) {
   Collector collector;
   DL_Dxf dxf;
-  if (!dxf.in(file.string(), &collector)) throw std::runtime_error("cannot be opened");
+  try {
+    if (!dxf.in(file.string(), &collector)) throw std::runtime_error("cannot be opened");
+  } catch (const EndOfDrawing&) {
+  }
   std::string text = fmt::format("{} {} {}\n", collector.unit, collector.has_entities ? 1 : 0,
                                  collector.ended ? 1 : 0);
   for (const RawEntity& e : collector.entities) {
