@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/forces/ply_ply.hpp"
 
-#include "contact/forces/face_rotation.hpp"
 #include "contact/simd/cpu_features.hpp"
 #include "contact/simd/ply_ply_kernel.hpp"
 
