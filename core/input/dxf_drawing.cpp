@@ -170,12 +170,13 @@ std::string packed(const std::filesystem::path& file) {
   std::string text = fmt::format("{} {} {}\n", collector.unit, collector.has_entities ? 1 : 0,
                                  collector.ended ? 1 : 0);
   for (const RawEntity& e : collector.entities) {
-    text += fmt::format("{} {} {} {} {} {} {}", e.name.empty() ? "?" : e.name, e.line, e.flags,
-                        e.mirrored ? 1 : 0, e.tilted ? 1 : 0, e.numbers.size(), e.knots.size());
+    text += fmt::format("{} {} {} {} {} {}", e.line, e.flags, e.mirrored ? 1 : 0, e.tilted ? 1 : 0,
+                        e.numbers.size(), e.knots.size());
     for (const std::vector<double>* list : {&e.numbers, &e.knots})
       for (const double number : *list)
         text += fmt::format(" {}", number);
-    text += "\n" + e.layer + "\n" + e.block + "\n" + e.inserted + "\n" + e.fault + "\n";
+    text +=
+        "\n" + e.name + "\n" + e.layer + "\n" + e.block + "\n" + e.inserted + "\n" + e.fault + "\n";
   }
   return text;
 }
@@ -281,7 +282,7 @@ DxfDrawing unpacked(const std::string& text) {
     throw std::runtime_error("is cut short: its last line is not EOF; save the drawing anew");
   RawEntity e;
   std::size_t count = 0, knots = 0;
-  while (in >> e.name >> e.line >> e.flags >> e.mirrored >> e.tilted >> count >> knots) {
+  while (in >> e.line >> e.flags >> e.mirrored >> e.tilted >> count >> knots) {
     e.numbers.assign(count, 0.0);
     e.knots.assign(knots, 0.0);
     for (std::vector<double>* list : {&e.numbers, &e.knots})
@@ -291,6 +292,7 @@ DxfDrawing unpacked(const std::string& text) {
         number = std::strtod(word.c_str(), nullptr);
       }
     in.ignore();
+    std::getline(in, e.name);
     std::getline(in, e.layer);
     std::getline(in, e.block);
     std::getline(in, e.inserted);
