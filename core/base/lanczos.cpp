@@ -11,8 +11,8 @@ double Scatter::next() {
   return static_cast<double>(state_ >> 11) * 0x1p-53 - 0.5;
 }
 
-double largest_ritz_value(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
-                          const Eigen::VectorXd& start, int steps) {
+RitzValue largest_ritz_value(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
+                             const Eigen::VectorXd& start, int steps) {
   Eigen::VectorXd v = start.normalized();
   Eigen::VectorXd diagonal(steps), beside(std::max(0, steps - 1)), before;
   before.setZero(v.size());
@@ -32,8 +32,10 @@ double largest_ritz_value(const std::function<Eigen::VectorXd(const Eigen::Vecto
   }
   Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
   solver.computeFromTridiagonal(diagonal.head(found), beside.head(std::max(0, found - 1)),
-                                Eigen::EigenvaluesOnly);
-  return solver.eigenvalues().maxCoeff();
+                                Eigen::ComputeEigenvectors);
+  // ascending; `last` couples the last vector with the one that would come next
+  return {solver.eigenvalues()[found - 1],
+          last * std::abs(solver.eigenvectors()(found - 1, found - 1))};
 }
 
 } // namespace plyform

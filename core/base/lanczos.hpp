@@ -8,11 +8,17 @@
 
 namespace plyform {
 
+/// A Ritz value, and the norm of its vector's residual: an eigenvalue is no further from it than
+/// that (Parlett, The Symmetric Eigenvalue Problem, 13.2).
+struct RitzValue {
+  double value = 0.0, residual = 0.0;
+};
+
 /// Largest Ritz value after `steps` of Lanczos' iteration (Golub and Van Loan, Matrix Computations,
 /// ch. 10) on a symmetric operator: never more than the largest eigenvalue, and converging fast to
 /// it if `start` (not zero) has a component along its eigenvector.
-double largest_ritz_value(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
-                          const Eigen::VectorXd& start, int steps);
+RitzValue largest_ritz_value(const std::function<Eigen::VectorXd(const Eigen::VectorXd&)>& apply,
+                             const Eigen::VectorXd& start, int steps);
 
 /// Pseudo-random numbers between -0.5 and 0.5, the same sequence every time.
 class Scatter {

@@ -3,7 +3,9 @@
 
 #include "core/ply/bending_fit.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plyform {
@@ -11,32 +13,40 @@ namespace {
 
 /// Bound of the largest eigenvalue of M^-1 K, 1/s^2, of (E) + (G). With each node's mass shared
 /// equally among its stencils, no eigenvalue of the mesh exceeds the largest of any stencil
-/// (Irons), and that is at most the trace of M_e^-1 K_e. In a flat sheet out-of-plane and in-plane
-/// motions are not coupled, so the larger of their two traces is enough. In the plane the traces of
-/// warp and weft are added: in a sheared ply the two directions approach each other and are
-/// coupled.
+/// (Irons). With K_e = A B^T D B these are those of A D^1/2 B M_e^-1 B^T D^1/2. In a flat sheet
+/// out-of-plane and in-plane motions are not coupled, so the larger of the two is enough. In the
+/// plane warp and weft are taken to bend along the same direction, which they approach in a sheared
+/// ply: there they are coupled the most.
 double bound(const Bending& b, std::span<const double> node_mass) {
   const double coupling = std::abs(b.law.coupling);
-  const double d[3] = {b.law.warp.largest_slope() + coupling, b.law.weft.largest_slope() + coupling,
-                       b.law.twist};
+  const std::array<double, 3> across{b.law.warp.largest_slope() + coupling,
+                                     b.law.weft.largest_slope() + coupling, b.law.twist};
   std::vector<int> stencils(b.area.size(), 0); // number of them that each node belongs to
   for (const std::int32_t n : b.node)
     ++stencils[n];
-  double largest = 0.0;
-  for (std::size_t e = 0; e < b.area.size(); ++e) {
-    double across = 0.0, in_plane = 0.0;
+  // of a stencil, with the stiffnesses d of its first curvatures
+  const auto largest = [&](std::size_t e, auto d) {
+    using Square = Eigen::Matrix<double, static_cast<int>(d.size()), static_cast<int>(d.size())>;
+    Square of = Square::Zero();
     for (auto i = static_cast<std::size_t>(b.begin[e]);
          i < static_cast<std::size_t>(b.begin[e + 1]); ++i) {
       const auto n = static_cast<std::size_t>(b.node[i]);
-      for (std::size_t k = 0; k < 3; ++k)
-        across += b.area[e] * d[k] * b.b[i][k] * b.b[i][k] * stencils[n] / node_mass[n];
-      for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
-        in_plane +=
-            b.area[e] * b.in_plane[e][k] * b.b[i][k] * b.b[i][k] * stencils[n] / node_mass[n];
+      for (std::size_t k = 0; k < d.size(); ++k)
+        for (std::size_t l = 0; l < d.size(); ++l)
+          of(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) +=
+              b.area[e] * std::sqrt(d[k] * d[l]) * b.b[i][k] * b.b[i][l] * stencils[n] /
+              node_mass[n];
     }
-    largest = std::max({largest, across, in_plane});
+    return Eigen::SelfAdjointEigenSolver<Square>(of, Eigen::EigenvaluesOnly)
+        .eigenvalues()
+        .maxCoeff();
+  };
+  double found = 0.0;
+  for (std::size_t e = 0; e < b.area.size(); ++e) {
+    found = std::max(found, largest(e, across));
+    if (!b.in_plane.empty()) found = std::max(found, largest(e, b.in_plane[e]));
   }
-  return largest;
+  return found;
 }
 
 /// In-plane curvature of one family of yarns at one node.

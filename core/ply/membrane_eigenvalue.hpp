@@ -11,6 +11,7 @@
 //                  makes: eps_a = f_a . sum_n c_a,n y_n                                        (K)
 #pragma once
 
+#include "core/base/lanczos.hpp"
 #include "core/mesh/pairs.hpp"
 #include "core/ply/membrane.hpp"
 
@@ -60,10 +61,12 @@ private:
 Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x);
 
 constexpr int ritz_steps = 30; ///< iterations; the Ritz value is 1 % low on meshes of 1e6 triangles
-constexpr double ritz_margin = 1.03; ///< factor of the Ritz value: three times that error
+
+/// The Ritz value and its residual, or three times that error if the residual is more.
+double upper_bound(const RitzValue& found);
 
 /// Ratio (at most 1) of omega^2 with the yarns' stiffness alone at shape x (mm, n) to its element
-/// bound EigenvalueBound::yarns. omega^2 is the largest Ritz value times ritz_margin. 1 for a sheet
+/// bound EigenvalueBound::yarns. omega^2 is `upper_bound` of the largest Ritz value. 1 for a sheet
 /// without yarns.
 double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x);
 

@@ -55,10 +55,9 @@ PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
 /// Ratio of the stable time step of the whole scene, by Lanczos' iteration, to `dt` (s).
 double time_step_gain_of(const Scene& s, double dt, ThreadPool& pool) {
   StiffnessOperator product(s, dt);
-  const double lhs =
-      ritz_margin *
+  const double lhs = upper_bound(
       largest_ritz_value([&](const Eigen::VectorXd& v) { return product.apply(v, pool); },
-                         product.start(), ritz_steps);
+                         product.start(), ritz_steps));
   return lhs <= 4.0 ? std::sqrt(4.0 / lhs) : 4.0 / lhs; // (S) is convex in dt
 }
 

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lanczos' iteration, against eigenvalues of matrices that are small enough to have them all.
+#include "core/base/lanczos.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <gtest/gtest.h>
+
+namespace plyform {
+namespace {
+
+TEST(Lanczos, ResidualSaysHowFarTheNearestEigenvalueIs) {
+  constexpr Eigen::Index size = 60;
+  Scatter scatter;
+  Eigen::MatrixXd half(size, size);
+  for (Eigen::Index i = 0; i < half.size(); ++i)
+    half(i) = scatter.next();
+  const Eigen::MatrixXd k = half * half.transpose();
+  const Eigen::VectorXd all = Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues();
+  double before = 0.0;
+  for (const int steps : {2, 5, 10, 20, 30, 60}) {
+    const RitzValue found = largest_ritz_value([&](const Eigen::VectorXd& v) { return k * v; },
+                                               Eigen::VectorXd::Ones(size), steps);
+    EXPECT_GE(found.value, before);
+    EXPECT_LE(found.value, all.maxCoeff() * (1.0 + 1e-12));
+    EXPECT_LE((all.array() - found.value).abs().minCoeff(), found.residual + 1e-9);
+    before = found.value;
+  }
+  EXPECT_NEAR(before, all.maxCoeff(), 1e-9 * all.maxCoeff());
+}
+
+TEST(Lanczos, OfAVectorThatIsAnEigenvectorIsExact) {
+  const RitzValue found = largest_ritz_value([](const Eigen::VectorXd& v) { return 3.0 * v; },
+                                             Eigen::VectorXd::Ones(5), 4);
+  EXPECT_DOUBLE_EQ(found.value, 3.0);
+  EXPECT_LE(found.residual, 1e-12);
+}
+
+} // namespace
+} // namespace plyform
