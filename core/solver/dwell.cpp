@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/dwell.hpp"
 
+#include "core/solver/step.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -22,19 +24,22 @@ void begin_window(Dwell& dwell, const Scene& s) {
   dwell.window_end = s.time + window_share * s.data.solver.duration;
 }
 
-bool is_steady(const Dwell& dwell, const Energies& e) {
+bool is_steady(const Dwell& dwell) {
   double largest = 0.0, varies = 0.0;
   for (std::size_t t = 0; t < dwell.low.size(); ++t) {
     largest = std::max({largest, std::abs(dwell.low[t]), std::abs(dwell.high[t])});
     varies = std::max(varies, dwell.high[t] - dwell.low[t]);
   }
-  const double deformation = e.fibre + e.shear + e.bending;
-  return varies <= steady * largest && e.kinetic <= at_rest * deformation;
+  return varies <= steady * largest;
+}
+
+bool is_at_rest(const Energies& e) {
+  return e.kinetic <= at_rest * (e.fibre + e.shear + e.bending);
 }
 
 } // namespace
 
-bool dwell_ends(Dwell& dwell, const Scene& s, const Energies& energy) {
+bool dwell_ends(Dwell& dwell, const Scene& s, ThreadPool& pool) {
   const SolverOptions& solver = s.data.solver;
   if (s.time < solver.duration) return false;
   if (solver.dwell == 0.0) return true;
@@ -45,7 +50,7 @@ bool dwell_ends(Dwell& dwell, const Scene& s, const Energies& energy) {
     dwell.high[t] = std::max(dwell.high[t], force);
   }
   if (s.time < dwell.window_end) return false;
-  dwell.settled = is_steady(dwell, energy);
+  dwell.settled = is_steady(dwell) && is_at_rest(current_energies(s, pool));
   begin_window(dwell, s);
   return dwell.settled || s.time >= (1.0 + solver.dwell) * solver.duration;
 }

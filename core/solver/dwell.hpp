@@ -7,7 +7,7 @@
 // largest, and the kinetic energy is below 1 % of that of deformation.
 #pragma once
 
-#include "core/model/energies.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
 
 #include <vector>
@@ -20,8 +20,7 @@ struct Dwell {
   bool settled = false;
 };
 
-/// Whether a run whose stroke is over may end, after each step. energy: as of the last time that
-/// it was computed.
-bool dwell_ends(Dwell& dwell, const Scene& s, const Energies& energy);
+/// Whether a run whose stroke is over may end, asked at each step when its forces are known.
+bool dwell_ends(Dwell& dwell, const Scene& s, ThreadPool& pool);
 
 } // namespace plyform

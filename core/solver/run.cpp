@@ -252,7 +252,7 @@ private:
       const bool interrupted = hooks_.interrupt && hooks_.interrupt->load();
       save_if_due(interrupted);
       if (auto stop = compute_forces(s_, pool_)) return stop;
-      const bool ended = dwell_ends(state_.dwell, s_, state_.energy), last = interrupted || ended;
+      const bool ended = dwell_ends(state_.dwell, s_, pool_), last = interrupted || ended;
       const bool output = last || outputs_due(s_) > state_.outputs_written;
       if (s_.step == 0) s_.start_energy = current_energies(s_, pool_).residual();
       if (output || s_.step % check_every == 0) {
