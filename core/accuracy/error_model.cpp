@@ -165,7 +165,7 @@ PredictedError predicted_error(const Case& data) {
 std::string describe_accuracy(const PredictedError& error, double promised, double coarsening) {
   if (std::isnan(promised)) return "accuracy is not predicted: nothing has a stroke";
   std::string mesh = fmt::format("mesh {:.2g}", error.mesh);
-  if (coarsening > 1.0)
+  if (coarsening != 1.0)
     mesh += fmt::format(", of elements {:g} times as large as the case's", coarsening);
   return fmt::format(
       "shear angles to {:.2g} deg rms, as predicted: inertia {:.2g}, softened fibres "
@@ -269,13 +269,15 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
   n.max_inertia *= std::sqrt(std::min(wanted / most_inertia_at, 1.0));
   if (!(wanted > 0.0) || n.inertia == 0.0) return 1.0;
   CostParameters best;
-  for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4}) { // (E) was not measured beyond
-    if (by > 1.0 && (fixed.element_size || n.few_ply_mesh_factor > 1.0 || !may_coarsen(data, by)))
-      break;
+  for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4, 0.95, 0.9}) { // (E) was not measured beyond
+    const bool keep = fixed.element_size || n.few_ply_mesh_factor > 1.0;
+    if (by > 1.0 && (keep || !may_coarsen(data, by))) continue;
+    // smaller ones only for an error that is out of reach without
+    if (by < 1.0 && (keep || best.excess == 0.0 || !may_refine(data, by))) continue;
     const double mesh = mesh_error(n) * std::pow(by, p_mesh);
     double left2 = wanted * wanted - mesh * mesh;
     const double least2 = 0.25 * wanted * wanted;
-    if (left2 < least2 && by > 1.0) break;
+    if (left2 < least2 && by > 1.0) continue;
     left2 = std::max(left2, least2);
     CostParameters parameters = cheapest(n, left2, data.solver, fixed);
     parameters.coarsening = by;
@@ -285,15 +287,15 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
                                             softening_error(n, parameters.softening)) -
                                      wanted * (1.0 + 1e-9),
                                  0.0);
-    // If some parameters are fixed, a smaller error has priority over a lower cost.
-    const bool nearer = (fixed.duration || fixed.softening) && parameters.excess != best.excess;
-    if (nearer ? parameters.excess < best.excess : parameters.cost < best.cost) best = parameters;
+    // a smaller error has priority over a lower cost
+    if (parameters.excess != best.excess ? parameters.excess < best.excess
+                                         : parameters.cost < best.cost)
+      best = parameters;
   }
   data.solver.duration = best.duration;
   data.solver.fibre_softening = best.softening;
-  if (best.coarsening > 1.0)
-    for (BlankSpec& blank : data.blanks)
-      blank.element_size *= best.coarsening;
+  for (BlankSpec& blank : data.blanks)
+    blank.element_size *= best.coarsening;
   return best.coarsening;
 }
 

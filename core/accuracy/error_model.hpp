@@ -60,8 +60,9 @@ struct FixedParameters {
 /// work whose error (E) is at most accuracy.shear_deg: softening between 1 and 1000 (stacks: 300),
 /// I at most 0.36 (at 3 degrees; less for less), elements up to 1.4 times as large as the case's
 /// where tools and outlines allow it (not in stacks of two to four plies of yarns that carry
-/// tension only, where that was not measured), never smaller. If the mesh term leaves less than
-/// half of the error, inertia and softening get half of it. Does nothing without accuracy.shear_deg
+/// tension only, where that was not measured), and down to 0.9 times where the error is out of
+/// reach without (not with boundaries). If the mesh term leaves less than half of the error,
+/// inertia and softening get half of it. Does nothing without accuracy.shear_deg
 /// or a stroke. Fixed parameters are not changed; the others compensate for them as far as
 /// possible, with at least half of the requested error. Returns the ratio of the new element sizes
 /// to the old ones.
