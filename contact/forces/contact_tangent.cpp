@@ -9,7 +9,8 @@ const Vec3& at(std::span<const Vec3> x, std::int32_t n) {
 }
 
 /// Sets the normal and tangential stiffness of a contact `depth` mm deep with tributary `area`
-/// (mm^2).
+/// (mm^2). An open one counts as just touching and stuck: without its friction a stack of soft
+/// yarns gains energy when its plies meet.
 void set_stiffness(ContactTangent& spring, const ContactLaw& law, double area, double depth,
                    const TangentFactors& factors) {
   const ContactRow row = row_of(law, depth);

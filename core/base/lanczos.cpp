@@ -30,12 +30,20 @@ RitzValue largest_ritz_value(const std::function<Eigen::VectorXd(const Eigen::Ve
     before = v;
     v = w / last;
   }
-  Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver;
-  solver.computeFromTridiagonal(diagonal.head(found), beside.head(std::max(0, found - 1)),
-                                Eigen::ComputeEigenvectors);
+  // as a full matrix: computeFromTridiagonal of Eigen 3.4 fails where a number beside the diagonal
+  // is next to nothing
+  Eigen::MatrixXd t = Eigen::MatrixXd::Zero(found, found);
+  t.diagonal() = diagonal.head(found);
+  t.diagonal(1) = t.diagonal(-1) = beside.head(std::max(0, found - 1));
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(t);
   // ascending; `last` couples the last vector with the one that would come next
   return {solver.eigenvalues()[found - 1],
           last * std::abs(solver.eigenvectors()(found - 1, found - 1))};
+}
+
+double upper_bound(const RitzValue& found) {
+  constexpr double most = 0.03;
+  return found.value + std::min(found.residual, most * found.value);
 }
 
 } // namespace plyform

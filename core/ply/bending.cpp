@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/ply/bending.hpp"
 
+#include "core/base/lanczos.hpp"
 #include "core/ply/bending_fit.hpp"
 
-#include <Eigen/Eigenvalues>
+#include <Eigen/Core>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -11,41 +12,58 @@
 namespace plyform {
 namespace {
 
-/// Bound of the largest eigenvalue of M^-1 K, 1/s^2, of (E) + (G). With each node's mass shared
-/// equally among its stencils, no eigenvalue of the mesh exceeds the largest of any stencil
-/// (Irons). With K_e = A B^T D B these are those of A D^1/2 B M_e^-1 B^T D^1/2. In a flat sheet
-/// out-of-plane and in-plane motions are not coupled, so the larger of the two is enough. In the
-/// plane warp and weft are taken to bend along the same direction, which they approach in a sheared
-/// ply: there they are coupled the most.
-double bound(const Bending& b, std::span<const double> node_mass) {
-  const double coupling = std::abs(b.law.coupling);
-  const std::array<double, 3> across{b.law.warp.largest_slope() + coupling,
-                                     b.law.weft.largest_slope() + coupling, b.law.twist};
-  std::vector<int> stencils(b.area.size(), 0); // number of them that each node belongs to
-  for (const std::int32_t n : b.node)
-    ++stencils[n];
-  // of a stencil, with the stiffnesses d of its first curvatures
-  const auto largest = [&](std::size_t e, auto d) {
-    using Square = Eigen::Matrix<double, static_cast<int>(d.size()), static_cast<int>(d.size())>;
-    Square of = Square::Zero();
-    for (auto i = static_cast<std::size_t>(b.begin[e]);
-         i < static_cast<std::size_t>(b.begin[e + 1]); ++i) {
-      const auto n = static_cast<std::size_t>(b.node[i]);
-      for (std::size_t k = 0; k < d.size(); ++k)
-        for (std::size_t l = 0; l < d.size(); ++l)
-          of(static_cast<Eigen::Index>(k), static_cast<Eigen::Index>(l)) +=
-              b.area[e] * std::sqrt(d[k] * d[l]) * b.b[i][k] * b.b[i][l] * stencils[n] /
-              node_mass[n];
+/// Stiffnesses (N mm) of the curvatures 11, 22 and 12 of a stencil, and between the first two.
+struct CurvatureStiffness {
+  std::array<double, 3> own;
+  double coupling;
+};
+
+/// Bound of omega^2, 1/s^2, of nodes that move along one common direction, with the curvatures of
+/// that motion and the stiffnesses of(stencil); Lanczos' iteration. root: of the masses, t^1/2.
+template <class Of>
+double largest_omega2(const Bending& b, const Eigen::VectorXd& root, const Of& of) {
+  const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
+    const Eigen::VectorXd y = v.cwiseQuotient(root);
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(v.size());
+    for (std::size_t e = 0; e < b.area.size(); ++e) {
+      const auto begin = static_cast<std::size_t>(b.begin[e]),
+                 end = static_cast<std::size_t>(b.begin[e + 1]);
+      std::array<double, 3> kappa{};
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          kappa[k] += b.b[i][k] * y[b.node[i]];
+      const CurvatureStiffness d = of(e);
+      const std::array<double, 3> moment{d.own[0] * kappa[0] + d.coupling * kappa[1],
+                                         d.own[1] * kappa[1] + d.coupling * kappa[0],
+                                         d.own[2] * kappa[2]};
+      for (std::size_t i = begin; i < end; ++i)
+        for (std::size_t k = 0; k < 3; ++k)
+          force[b.node[i]] += b.area[e] * b.b[i][k] * moment[k];
     }
-    return Eigen::SelfAdjointEigenSolver<Square>(of, Eigen::EigenvaluesOnly)
-        .eigenvalues()
-        .maxCoeff();
+    return Eigen::VectorXd(force.cwiseQuotient(root));
   };
-  double found = 0.0;
-  for (std::size_t e = 0; e < b.area.size(); ++e) {
-    found = std::max(found, largest(e, across));
-    if (!b.in_plane.empty()) found = std::max(found, largest(e, b.in_plane[e]));
-  }
+  Eigen::VectorXd start(root.size());
+  Scatter scatter;
+  for (double& value : start)
+    value = scatter.next();
+  return upper_bound(largest_ritz_value(apply, start, ritz_steps));
+}
+
+/// Bound of the largest eigenvalue of M^-1 K, 1/s^2, of (E) + (G). In a flat sheet out-of-plane and
+/// in-plane motions are not coupled, so the larger of the two is enough. In the plane warp and weft
+/// are taken to bend along the same direction, which they approach in a sheared ply: there they are
+/// coupled the most.
+double bound(const Bending& b, std::span<const double> node_mass) {
+  const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(
+                                   node_mass.data(), static_cast<Eigen::Index>(node_mass.size()))
+                                   .cwiseSqrt();
+  const CurvatureStiffness across{
+      {b.law.warp.largest_slope(), b.law.weft.largest_slope(), b.law.twist}, b.law.coupling};
+  double found = largest_omega2(b, root, [&](std::size_t) { return across; });
+  if (!b.in_plane.empty())
+    found = std::max(found, largest_omega2(b, root, [&](std::size_t e) {
+                       return CurvatureStiffness{{b.in_plane[e][0], b.in_plane[e][1], 0.0}, 0.0};
+                     }));
   return found;
 }
 

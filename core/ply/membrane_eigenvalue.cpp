@@ -175,11 +175,6 @@ Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x) {
   return v;
 }
 
-double upper_bound(const RitzValue& found) {
-  constexpr double most = 0.03;
-  return found.value + std::min(found.residual, most * found.value);
-}
-
 double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x) {
   if (!in_plane_law(m.fabric).yarns) return 1.0;
   YarnStiffness stiffness(m, x, 1.0, 0.0);

@@ -60,11 +60,6 @@ private:
 /// with the ply.
 Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x);
 
-constexpr int ritz_steps = 30; ///< iterations; the Ritz value is 1 % low on meshes of 1e6 triangles
-
-/// The Ritz value and its residual, or three times that error if the residual is more.
-double upper_bound(const RitzValue& found);
-
 /// Ratio (at most 1) of omega^2 with the yarns' stiffness alone at shape x (mm, n) to its element
 /// bound EigenvalueBound::yarns. omega^2 is `upper_bound` of the largest Ritz value. 1 for a sheet
 /// without yarns.

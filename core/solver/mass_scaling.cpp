@@ -17,7 +17,7 @@ constexpr double largest_change = 1.25; // of a node's mass at a time
 
 // A bound of contacts that would fall by less is left as it is: where a whole ply lies on a tool,
 // all of its nodes would get mass for a step that is hardly longer.
-constexpr double least_gain = 1.5;
+constexpr double least_gain = 1.2;
 
 /// kappa of (M), 1/s^2: `least`, or more where that would add more than `budget` (t). Infinite if
 /// it brings less than least_gain.

@@ -13,9 +13,8 @@
 //           act on the same mode: elements in the plane, contacts normal to it, each at the node
 //           where it is stiffest
 //   gain    factor by which the step may be longer than the bound allows, from K and C of all
-//   plies,
-//           contacts and friction at the present shape, with yarns taut and contacts sticking, by
-//           Lanczos' iteration; it costs as much as 30 steps and is updated every 1000
+//           plies, contacts and friction at the present shape, with yarns taut and contacts
+//           sticking, by Lanczos' iteration; it costs as much as 30 steps and is updated every 1000
 //
 // Between updates bound times gain is used. It is valid as long as elements and contacts change in
 // proportion; therefore any increase of contact stiffness since the update counts in full, and the

@@ -3,7 +3,9 @@
 #include "core/base/lanczos.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <cmath>
 #include <gtest/gtest.h>
+#include <utility>
 
 namespace plyform {
 namespace {
@@ -26,6 +28,28 @@ TEST(Lanczos, ResidualSaysHowFarTheNearestEigenvalueIs) {
     before = found.value;
   }
   EXPECT_NEAR(before, all.maxCoeff(), 1e-9 * all.maxCoeff());
+}
+
+TEST(Lanczos, HoldsWithMoreStepsThanThereAreDirections) {
+  for (const auto& [size, rank] : {std::pair<Eigen::Index, Eigen::Index>{10, 9}, {60, 9}, {3, 2}}) {
+    Scatter scatter;
+    Eigen::MatrixXd half(size, rank);
+    for (Eigen::Index i = 0; i < half.size(); ++i)
+      half(i) = scatter.next();
+    for (Eigen::Index j = 0; j < rank; ++j)
+      half.col(j) *= std::pow(10.0, -0.3 * static_cast<double>(j));
+    const Eigen::MatrixXd k = 1e7 * half * half.transpose();
+    const double largest =
+        Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>(k).eigenvalues().maxCoeff();
+    Eigen::VectorXd start(size);
+    for (double& value : start)
+      value = scatter.next();
+    for (const int steps : {10, 20, 30}) {
+      const RitzValue found =
+          largest_ritz_value([&](const Eigen::VectorXd& v) { return k * v; }, start, steps);
+      EXPECT_NEAR(found.value, largest, 1e-9 * largest) << size << " " << rank << " " << steps;
+    }
+  }
 }
 
 TEST(Lanczos, OfAVectorThatIsAnEigenvectorIsExact) {
