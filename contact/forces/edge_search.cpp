@@ -37,8 +37,10 @@ public:
     if (unsorted.empty()) return;
     all.sizes().minCoeff(&flat_);
     low_ = all.min();
-    constexpr double most_cells = 1000.0; // upper limit of the cells along an axis
-    cell_ = std::max({widest_.maxCoeff(), all.sizes().maxCoeff() / most_cells, 1e-9});
+    // Small cells have fewer edges to look at in vain, large ones fewer rows; most_cells: along an
+    // axis.
+    constexpr double share = 0.4, most_cells = 1000.0;
+    cell_ = std::max({share * widest_.maxCoeff(), all.sizes().maxCoeff() / most_cells, 1e-9});
     for (int axis = 0; axis < 3; ++axis)
       count_[axis] = axis == flat_ ? 1 : place(all.max()[axis], axis, 1 << 20) + 1;
     sort_into_cells(unsorted);

@@ -37,8 +37,20 @@ void require_ok(int fcl_code, const char* step) {
 
 using Box = fcl::AABB<double>;
 
-double squared_distance(const Vec3& p, const Box& box) {
-  return (box.min_ - p).cwiseMax(p - box.max_).cwiseMax(0.0).squaredNorm();
+/// A leaf of the tree that is near a group of nodes: its box and triangle.
+struct Leaf {
+  Vec3 low, high;
+  int face;
+};
+
+double squared_distance(const Vec3& p, const Leaf& box) {
+  return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm();
+}
+
+/// Whether p is further than `reach` from the box along x or y: true for most, and soon known.
+bool is_beside(const Vec3& p, const Leaf& box, double reach) {
+  return p.x() < box.low.x() - reach || p.x() > box.high.x() + reach ||
+         p.y() < box.low.y() - reach || p.y() > box.high.y() + reach;
 }
 
 bool meet(const Box& a, const Box& b) {
@@ -47,7 +59,7 @@ bool meet(const Box& a, const Box& b) {
 
 /// Collects the leaves whose box overlaps the box `asked`.
 void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
-               std::vector<const fcl::BVNode<Box>*>& leaves) {
+               std::vector<Leaf>& leaves) {
   leaves.clear();
   stack.clear();
   if (meet(asked, tree.getBV(0).bv)) stack.push_back(0);
@@ -56,7 +68,7 @@ void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
     stack.pop_back();
     const int child = box.first_child; // negative: a leaf; isLeaf() says the same in a call
     if (child < 0) {
-      leaves.push_back(&box);
+      leaves.push_back({box.bv.min_, box.bv.max_, -1 - child}); // primitiveId(), without a call
       continue;
     }
     for (const int i : {child, child + 1})
@@ -67,20 +79,20 @@ void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
 /// Search distances.
 struct Reach {
   double distance; ///< mm, to triangles
-  double box2;     ///< mm^2, square of that to boxes, which includes rounding_margin
+  double box;      ///< mm, to boxes, which includes rounding_margin
 };
 
 /// Appends the triangles of `leaves` (nodes at x, mm) within reach of p, in no particular order.
 void faces_near(const Vec3* x, std::span<const Triangle> triangles, const Vec3& p,
-                const Reach& reach, std::span<const fcl::BVNode<Box>* const> leaves,
-                std::int32_t node, std::vector<Candidate>& out) {
-  for (const fcl::BVNode<Box>* leaf : leaves) {
-    if (squared_distance(p, leaf->bv) > reach.box2) continue;
-    const int face = -1 - leaf->first_child; // primitiveId(), without a call
-    const Triangle& t = triangles[face];
+                const Reach& reach, std::span<const Leaf> leaves, std::int32_t node,
+                std::vector<Candidate>& out) {
+  for (const Leaf& leaf : leaves) {
+    if (is_beside(p, leaf, reach.box) || squared_distance(p, leaf) > reach.box * reach.box)
+      continue;
+    const Triangle& t = triangles[leaf.face];
     const ClosestPoint q = closest_point_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]);
     if (q.distance2 <= reach.distance * reach.distance)
-      out.push_back({node, face, q.distance2, q.w});
+      out.push_back({node, leaf.face, q.distance2, q.w});
   }
 }
 
@@ -165,7 +177,7 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
   // mm, largest extent of a group: four times the square root of the mean triangle area
   const double size = 4.0 * std::sqrt(impl_->area / static_cast<double>(tree.num_tris));
   std::vector<int> stack;
-  std::vector<const fcl::BVNode<Box>*> leaves;
+  std::vector<Leaf> leaves;
   Box box;
   for (std::size_t i = 0, end = 0; i < nodes.size(); i = end) {
     end = group_end(nodes, i, size, box);
@@ -180,7 +192,7 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
     for (std::size_t n = i; n < end; ++n) {
       if (!skip.empty() && skip[n]) continue;
       const auto first = std::ptrdiff_t(out.size());
-      faces_near(tree.vertices, impl_->triangles, nodes[n], {reach, box_reach * box_reach}, leaves,
+      faces_near(tree.vertices, impl_->triangles, nodes[n], {reach, box_reach}, leaves,
                  std::int32_t(n), out);
       std::sort(out.begin() + first, out.end(),
                 [](const Candidate& a, const Candidate& b) { return a.face < b.face; });

@@ -40,10 +40,14 @@ struct ThreadPool::Impl {
   void help() {
     unsigned seen = 0;
     for (;;) {
-      // about 20 microseconds: longer than the pause between two calls of run
-      constexpr int spins = 20000;
-      for (int s = 0; s < spins && round.load(std::memory_order_acquire) == seen; ++s) {
+      // spins for about 20 microseconds, then lets others have the processor if they want it, for
+      // about as long as a step has one thread at work alone
+      constexpr int spins = 20000, yields = 1000;
+      const auto same = [&] { return round.load(std::memory_order_acquire) == seen; };
+      for (int s = 0; s < spins && same(); ++s) {
       }
+      for (int y = 0; y < yields && same(); ++y)
+        std::this_thread::yield();
       round.wait(seen, std::memory_order_acquire);
       seen = round.load(std::memory_order_acquire);
       if (quit.load()) return;

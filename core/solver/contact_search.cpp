@@ -152,12 +152,12 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     else
       search_tool(s, s.tools[i - near]);
   });
-  const int far = static_cast<int>(pairs[1].size());
-  pool.run(far + static_cast<int>(s.edge_contacts.size()), [&](int i) {
-    if (i < far)
-      search_plies(s, *pairs[1][i]);
+  const int edges = static_cast<int>(s.edge_contacts.size());
+  pool.run(edges + static_cast<int>(pairs[1].size()), [&](int i) { // longest tasks first
+    if (i < edges)
+      search_edges(s, s.edge_contacts[i], 0.0);
     else
-      search_edges(s, s.edge_contacts[i - far], 0.0);
+      search_plies(s, *pairs[1][i - edges]);
   });
   for (PlyPair& pair : s.ply_pairs)
     allocate_forces(s, pair);
