@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <atomic>
+#include <cassert>
+#include <cstdint>
 #include <exception>
 #include <mutex>
 #include <thread>
@@ -16,20 +18,30 @@ namespace plyform {
 // step takes a fraction of a millisecond, so waking threads through the kernel each time would be
 // too slow.
 struct ThreadPool::Impl {
+  /// The tasks that a thread begins with. Alone in its cache lines, as the owner counts in it.
+  struct alignas(128) Share {
+    std::atomic<int> next{0};
+    int end = 0;
+    const int* tasks = nullptr; ///< null: numbered as they are
+  };
+
+  explicit Impl(int threads) : shares(static_cast<std::size_t>(threads)) {}
+
+  std::vector<Share> shares; ///< the calling thread's first
   std::vector<std::thread> helpers;
   const std::function<void(int)>* task = nullptr;
-  int count = 0;
-  std::atomic<int> next{0};
   std::atomic<int> busy{0};
   std::atomic<unsigned> round{0};
   std::atomic<bool> quit{false};
   std::mutex failure_lock;
   std::exception_ptr failure;
 
-  void work() {
-    for (int i = next.fetch_add(1); i < count; i = next.fetch_add(1)) {
+  void work_on(Share& share) {
+    while (share.next.load(std::memory_order_relaxed) < share.end) {
+      const int i = share.next.fetch_add(1, std::memory_order_relaxed);
+      if (i >= share.end) return;
       try {
-        (*task)(i);
+        (*task)(share.tasks ? share.tasks[i] : i);
       } catch (...) {
         const std::lock_guard lock(failure_lock);
         if (!failure) failure = std::current_exception();
@@ -37,7 +49,23 @@ struct ThreadPool::Impl {
     }
   }
 
-  void help() {
+  void work(std::size_t thread) {
+    for (std::size_t i = 0; i < shares.size(); ++i)
+      work_on(shares[(thread + i) % shares.size()]);
+  }
+
+  /// Does the tasks of the shares.
+  void run() {
+    busy.store(static_cast<int>(helpers.size()), std::memory_order_relaxed);
+    round.fetch_add(1, std::memory_order_release);
+    round.notify_all();
+    work(0);
+    for (int spin = 0; busy.load(std::memory_order_acquire) > 0; ++spin)
+      if (spin > 1000) std::this_thread::yield();
+    if (failure) std::rethrow_exception(std::exchange(failure, nullptr));
+  }
+
+  void help(std::size_t thread) {
     unsigned seen = 0;
     for (;;) {
       // spins for about 20 microseconds, then lets others have the processor if they want it, for
@@ -51,15 +79,15 @@ struct ThreadPool::Impl {
       round.wait(seen, std::memory_order_acquire);
       seen = round.load(std::memory_order_acquire);
       if (quit.load()) return;
-      work();
+      work(thread);
       busy.fetch_sub(1, std::memory_order_release);
     }
   }
 };
 
-ThreadPool::ThreadPool(int threads) : impl_(std::make_unique<Impl>()) {
-  for (int i = 1; i < threads; ++i)
-    impl_->helpers.emplace_back([this] { impl_->help(); });
+ThreadPool::ThreadPool(int threads) : impl_(std::make_unique<Impl>(threads)) {
+  for (std::size_t i = 1; i < impl_->shares.size(); ++i)
+    impl_->helpers.emplace_back([this, i] { impl_->help(i); });
 }
 
 ThreadPool::~ThreadPool() {
@@ -78,15 +106,27 @@ void ThreadPool::run(int count, const std::function<void(int)>& task) {
     return;
   }
   s.task = &task;
-  s.count = count;
-  s.next.store(0, std::memory_order_relaxed);
-  s.busy.store(static_cast<int>(s.helpers.size()), std::memory_order_relaxed);
-  s.round.fetch_add(1, std::memory_order_release);
-  s.round.notify_all();
-  s.work();
-  for (int spin = 0; s.busy.load(std::memory_order_acquire) > 0; ++spin)
-    if (spin > 1000) std::this_thread::yield();
-  if (s.failure) std::rethrow_exception(std::exchange(s.failure, nullptr));
+  const auto threads = static_cast<std::int64_t>(s.shares.size());
+  for (std::int64_t t = 0; t < threads; ++t) {
+    Impl::Share& share = s.shares[static_cast<std::size_t>(t)];
+    share.tasks = nullptr;
+    share.next.store(static_cast<int>(t * count / threads), std::memory_order_relaxed);
+    share.end = static_cast<int>((t + 1) * count / threads);
+  }
+  s.run();
+}
+
+void ThreadPool::run(const std::vector<std::vector<int>>& shares,
+                     const std::function<void(int)>& task) {
+  Impl& s = *impl_;
+  assert(shares.size() == s.shares.size());
+  s.task = &task;
+  for (std::size_t t = 0; t < shares.size(); ++t) {
+    s.shares[t].tasks = shares[t].data();
+    s.shares[t].next.store(0, std::memory_order_relaxed);
+    s.shares[t].end = static_cast<int>(shares[t].size());
+  }
+  s.run();
 }
 
 int available_cores() {

@@ -5,6 +5,7 @@
 
 #include <functional>
 #include <memory>
+#include <vector>
 
 namespace plyform {
 
@@ -19,9 +20,14 @@ public:
   ThreadPool(const ThreadPool&) = delete;
   ThreadPool& operator=(const ThreadPool&) = delete;
 
-  /// Calls task(0) .. task(count - 1), each once, and returns when all are done. If tasks throw,
-  /// the others are still done, and the first exception seen is rethrown.
+  /// Calls task(0) .. task(count - 1), each once, and returns when all are done. Each thread begins
+  /// with a share of its own, the same in every call with this count, so that what its processor
+  /// holds of the last call serves again; when done it takes from the others'. If tasks throw, the
+  /// others are still done, and the first exception seen is rethrown.
   void run(int count, const std::function<void(int)>& task);
+
+  /// The same of the tasks in these shares, one share a thread, in their order.
+  void run(const std::vector<std::vector<int>>& shares, const std::function<void(int)>& task);
 
   int size() const;
 

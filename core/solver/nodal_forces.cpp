@@ -54,6 +54,37 @@ void pair_forces(Scene& s, PlyPair& pair) {
   }
 }
 
+/// How many tasks of each kind forces have, in the order of their numbers and of what they take.
+struct ForceTasks {
+  explicit ForceTasks(const Scene& s)
+      : pairs(static_cast<int>(s.ply_pairs.size())),
+        tools(pairs + static_cast<int>(s.tools.size())),
+        groups(tools + static_cast<int>(s.group_blocks.size())),
+        all(groups + static_cast<int>(s.bending_blocks.size())) {}
+  int pairs, tools, groups, all; ///< number of the first task that is of a later kind
+};
+
+/// The tasks of forces, shared out so that a thread has plies that are neighbours, as it has their
+/// nodes when they are moved. The longest come first.
+std::vector<std::vector<int>> share_forces(const Scene& s, int threads) {
+  std::vector<std::vector<int>> shares(static_cast<std::size_t>(threads));
+  const ForceTasks tasks(s);
+  const double plies = static_cast<double>(s.plies.size());
+  const auto give = [&](int task, double place) { // place: in the stack, from 0 to 1
+    const int thread = std::min(threads - 1, static_cast<int>(place * threads));
+    shares[static_cast<std::size_t>(thread)].push_back(task);
+  };
+  for (int i = 0; i < tasks.pairs; ++i)
+    give(i, 0.5 * (s.ply_pairs[i].a + s.ply_pairs[i].b + 1) / plies);
+  for (int i = tasks.pairs; i < tasks.tools; ++i)
+    give(i, static_cast<double>(i - tasks.pairs) / (tasks.tools - tasks.pairs));
+  for (int i = tasks.tools; i < tasks.groups; ++i)
+    give(i, static_cast<double>(i - tasks.tools) / (tasks.groups - tasks.tools));
+  for (int i = tasks.groups; i < tasks.all; ++i)
+    give(i, static_cast<double>(i - tasks.groups) / (tasks.all - tasks.groups));
+  return shares;
+}
+
 } // namespace
 
 void element_and_contact_forces(Scene& s, ThreadPool& pool) {
@@ -82,22 +113,21 @@ void element_and_contact_forces(Scene& s, ThreadPool& pool) {
     PlyState& ply = s.plies[block.ply];
     bending_forces(*ply.bending, ply.x, block.begin);
   };
-  const int pairs = static_cast<int>(s.ply_pairs.size());
-  const int tools = pairs + static_cast<int>(s.tools.size());
+  const ForceTasks tasks(s);
   s.ply_states.clear();
   for (const PlyState& ply : s.plies)
     s.ply_states.push_back(ply.state());
-  const int groups = tools + static_cast<int>(s.group_blocks.size());
-  const int all = groups + static_cast<int>(s.bending_blocks.size());
-  pool.run(all, [&](int i) { // longest tasks first
-    if (i < pairs)
+  if (s.force_shares.size() != static_cast<std::size_t>(pool.size()))
+    s.force_shares = share_forces(s, pool.size());
+  pool.run(s.force_shares, [&](int i) {
+    if (i < tasks.pairs)
       pair_forces(s, s.ply_pairs[i]);
-    else if (i < tools)
-      tool_task(i - pairs);
-    else if (i < groups)
-      group_task(i - tools);
+    else if (i < tasks.tools)
+      tool_task(i - tasks.pairs);
+    else if (i < tasks.groups)
+      group_task(i - tasks.tools);
     else
-      bending_task(i - groups);
+      bending_task(i - tasks.groups);
   });
   collect_forces(s);
 }

@@ -195,6 +195,7 @@ struct SceneWorkspace {
   std::vector<SurfaceKinematics> ply_states; ///< views of the plies
   std::vector<char> group_collapsed; ///< whether a triangle has collapsed, one per group block
   std::vector<NodeSums> node_sums;   ///< one per node block
+  std::vector<std::vector<int>> force_shares; ///< of the tasks of forces, one share a thread
 };
 
 struct Scene : SceneModel, SceneBodies, SceneProgress, SceneWorkspace {};

@@ -25,6 +25,36 @@ TEST(ThreadPool, DoesEveryTaskOnce) {
   }
 }
 
+TEST(ThreadPool, DoesEveryTaskOfSharesOnceHoweverUnevenTheyAre) {
+  for (const int threads : {1, 2, 3, 4}) {
+    ThreadPool pool(threads);
+    for (const int with_all : {0, threads - 1}) { // has all tasks but one of each other thread
+      std::vector<std::vector<int>> shares(static_cast<std::size_t>(threads));
+      constexpr int count = 500;
+      for (int i = 0; i < count; ++i)
+        shares[static_cast<std::size_t>(i < threads ? i : with_all)].push_back(count - 1 - i);
+      std::vector<std::atomic<int>> done(count);
+      pool.run(shares, [&](int i) { ++done.at(static_cast<std::size_t>(i)); });
+      for (const auto& n : done)
+        EXPECT_EQ(n.load(), 1) << threads << " threads";
+    }
+  }
+}
+
+TEST(ThreadPool, AThreadThatIsHeldUpHasItsShareDoneByOthers) {
+  ThreadPool pool(2);
+  std::atomic<int> rest{0};
+  pool.run(10, [&](int i) { // 0 waits for all others, those of its own share among them
+    if (i > 0) {
+      ++rest;
+      return;
+    }
+    while (rest.load() < 9)
+      std::this_thread::yield();
+  });
+  EXPECT_EQ(rest.load(), 9);
+}
+
 TEST(ThreadPool, WhatARoundWroteIsSeenByTheNext) {
   // Plain integers: each round reads what other threads wrote in the one before. With the thread
   // sanitizer a missing hand-over is a failure by itself.
