@@ -48,7 +48,7 @@ public:
   Simulation(PreparedCase prepared, int threads) : prepared_(std::move(prepared)) {
     threads_ = threads_or_cores(threads);
     const py::gil_scoped_release others;
-    scene_ = std::make_shared<Scene>(make_scene(*prepared_.value, prepared_.meshes));
+    scene_ = std::make_shared<Scene>(make_scene(*prepared_.value, prepared_.meshes, threads_));
   }
 
   py::object plies() const {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/result_writer.hpp"
 
+#include "core/base/thread_pool.hpp"
 #include "core/results/checkpoint_file.hpp"
 #include "core/results/result_fields.hpp"
 
@@ -226,6 +227,24 @@ fs::path make_folder(const fs::path& directory) {
 
 } // namespace
 
+namespace {
+
+/// Makes the texts of as many plies at a time as there are threads, and writes one after the other.
+void write_ply_tables(const fs::path& folder, const std::vector<PlyFrame>& plies, int threads) {
+  ThreadPool pool(threads);
+  std::vector<std::string> texts(static_cast<std::size_t>(threads));
+  for (std::size_t first = 0; first < plies.size(); first += texts.size()) {
+    const std::size_t count = std::min(texts.size(), plies.size() - first);
+    pool.run(static_cast<int>(count), [&](int i) {
+      texts[static_cast<std::size_t>(i)] = ply_table(plies[first + static_cast<std::size_t>(i)]);
+    });
+    for (std::size_t i = 0; i < count; ++i)
+      write_whole(folder / (plies[first + i].name + ".csv"), texts[i]);
+  }
+}
+
+} // namespace
+
 struct ResultWriter::Impl {
   explicit Impl(const fs::path& folder)
       : directory(make_folder(folder)), lock(directory), states(directory) {}
@@ -298,8 +317,7 @@ void ResultWriter::write_final(const Frame& last, const Summary& summary) {
       my.states.frames() > 0 && last.time == my.last_time && last.step == my.last_step;
   // If the run stopped between two outputs: results.h5 must end with the same state as the tables.
   if (!written) write_frame(last);
-  for (const PlyFrame& ply : last.plies)
-    write_whole(my.directory / "plies" / (ply.name + ".csv"), ply_table(ply));
+  write_ply_tables(my.directory / "plies", last.plies, std::max(summary.threads, 1));
   const bool goes_on = summary.status == "interrupted" && fs::exists(my.directory / "checkpoint");
   if (!goes_on) my.states.merge();
   write_summary(last, summary); // when all other files are complete

@@ -65,20 +65,25 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   return f;
 }
 
-ToolFrame make_tool_frame(const Scene& scene, const ToolState& tool) {
-  ToolFrame f;
-  f.name = tool.name;
-  const ToolBody& body = tool.body;
+TriMesh surface_of(const Scene& scene, const ToolBody& body) {
   double extent = 0.0; // mm, largest distance of a ply's node from the tool
   for (const PlyState& ply : scene.plies)
     for (const Vec3& x : ply.x0)
       extent = std::max(extent, (x - body.position).norm());
   constexpr double facet = 5.0; // mm, for pictures; of a tool of more than 1.5 m longer
   extent *= 1.2;
-  f.surface =
+  TriMesh surface =
       tessellate(body.shape, std::max(facet, diagonal_of(body.shape, extent) / 300.0), extent);
-  for (Vec3& x : f.surface.x)
+  for (Vec3& x : surface.x)
     x = body.rotation * x + body.position;
+  return surface;
+}
+
+ToolFrame make_tool_frame(const ToolState& tool, const TriMesh& surface) {
+  ToolFrame f;
+  f.name = tool.name;
+  const ToolBody& body = tool.body;
+  f.surface = surface;
   f.displacement = body.displacement;
   f.force = tool.filter.value();
   f.stroke_mm = body.displacement.dot(body.direction);
@@ -125,16 +130,27 @@ double current_stroke(const Scene& scene) {
   return 0.0;
 }
 
-Frame make_frame(const Scene& scene, const Energies& energy) {
+std::vector<TriMesh> tool_surfaces(const Scene& scene, ThreadPool& pool) {
+  std::vector<TriMesh> surfaces(scene.tools.size());
+  pool.run(static_cast<int>(surfaces.size()), [&](int i) {
+    const auto t = static_cast<std::size_t>(i);
+    surfaces[t] = surface_of(scene, scene.tools[t].body);
+  });
+  return surfaces;
+}
+
+Frame make_frame(const Scene& scene, const std::vector<TriMesh>& surfaces, const Energies& energy,
+                 ThreadPool& pool) {
   Frame f;
   f.time = scene.time;
   f.step = scene.step;
   f.stroke_mm = current_stroke(scene);
   f.energy = energy;
-  for (std::size_t p = 0; p < scene.plies.size(); ++p)
-    f.plies.push_back(make_ply_frame(scene, static_cast<int>(p)));
-  for (const ToolState& t : scene.tools)
-    f.tools.push_back(make_tool_frame(scene, t));
+  f.plies.resize(scene.plies.size());
+  pool.run(static_cast<int>(f.plies.size()),
+           [&](int p) { f.plies[static_cast<std::size_t>(p)] = make_ply_frame(scene, p); });
+  for (std::size_t t = 0; t < scene.tools.size(); ++t)
+    f.tools.push_back(make_tool_frame(scene.tools[t], surfaces[t]));
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
     const BoundaryState& state = scene.boundaries[b];
     if (scene.data.boundaries[b].kind != BoundaryKind::symmetry)

@@ -220,6 +220,7 @@ private:
 
   void begin() {
     floor_ = balance_floor(s_);
+    tool_surfaces_ = tool_surfaces(s_, pool_);
     if (hooks_.resume) {
       load_state(hooks_.resume->state, s_, state_);
       result_.last = hooks_.resume->last;
@@ -231,7 +232,7 @@ private:
   }
 
   void write() {
-    result_.last = make_frame(s_, state_.energy);
+    result_.last = make_frame(s_, tool_surfaces_, state_.energy, pool_);
     state_.outputs_written = outputs_due(s_);
     if (hooks_.frame) hooks_.frame(result_.last);
   }
@@ -285,6 +286,7 @@ private:
   const RunHooks& hooks_;
   Clock::time_point begin_ = Clock::now(), saved_ = begin_;
   double floor_ = 0.0; ///< of the check of the energy balance
+  std::vector<TriMesh> tool_surfaces_;
   RunState state_;
   RunResult result_;
 };
@@ -293,7 +295,7 @@ private:
 
 RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
                    const std::vector<BlankMesh>& meshes) {
-  Scene s = make_scene(data, meshes);
+  Scene s = make_scene(data, meshes, threads);
   return run_scene(s, threads, hooks);
 }
 

@@ -2,6 +2,7 @@
 #include "core/solver/scene.hpp"
 
 #include "contact/search/unfolded.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/solver/facet_penetration.hpp"
 
@@ -196,12 +197,10 @@ void make_attachments(Scene& s) {
   }
 }
 
-} // namespace
-
 /// Lets a ply hold the constants of its kernels in common with those laid before it.
-void share_constants(std::vector<PlyState>& plies) {
-  PlyState& ply = plies.back();
-  for (std::size_t i = 0; i + 1 < plies.size(); ++i) {
+void share_constants(std::vector<PlyState>& plies, std::size_t p) {
+  PlyState& ply = plies[p];
+  for (std::size_t i = 0; i < p; ++i) {
     const PlyState& other = plies[i];
     if (ply.simd && other.simd) share(ply.simd->triangles, other.simd->triangles);
     if (ply.bending && other.bending) share(ply.bending->constants, other.bending->constants);
@@ -219,14 +218,31 @@ void limit_ridges(Scene& s) {
     ply.ridge_limit = 1.5 * ply.thickness / longest;
 }
 
-Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes) {
+/// Makes as many plies at a time as there are threads, so that few hold constants of their own that
+/// they will share.
+std::vector<PlyState> make_plies(const Case& data, const std::vector<BlankMesh>& meshes,
+                                 int threads) {
+  std::vector<PlyState> plies(data.plies.size());
+  ThreadPool pool(threads);
+  for (std::size_t first = 0; first < plies.size(); first += static_cast<std::size_t>(threads)) {
+    const std::size_t end = std::min(plies.size(), first + static_cast<std::size_t>(threads));
+    pool.run(static_cast<int>(end - first), [&](int i) {
+      const std::size_t p = first + static_cast<std::size_t>(i);
+      const Ply& ply = data.plies[p];
+      plies[p] = make_ply(data, ply, meshes.empty() ? mesh_ply(data, ply) : meshes[p]);
+    });
+    for (std::size_t p = first; p < end; ++p)
+      share_constants(plies, p);
+  }
+  return plies;
+}
+
+} // namespace
+
+Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int threads) {
   Scene s;
   s.data = data;
-  for (const Ply& ply : data.plies) {
-    s.plies.push_back(
-        make_ply(data, ply, meshes.empty() ? mesh_ply(data, ply) : meshes[s.plies.size()]));
-    share_constants(s.plies);
-  }
+  s.plies = make_plies(data, meshes, threads);
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
   s.element_size = smallest_element(s.plies);

@@ -201,8 +201,8 @@ struct SceneWorkspace {
 struct Scene : SceneModel, SceneBodies, SceneProgress, SceneWorkspace {};
 
 /// Builds the scene of a case: meshes, membranes, bending, contacts with their stiffnesses, and the
-/// initial positions. meshes: one per ply; if empty, the blanks are meshed here. Throws
-/// std::runtime_error if a blank cannot be meshed.
-Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes = {});
+/// initial positions. meshes: one per ply; if empty, the blanks are meshed here. threads >= 1.
+/// Throws std::runtime_error if a blank cannot be meshed.
+Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes = {}, int threads = 1);
 
 } // namespace plyform
