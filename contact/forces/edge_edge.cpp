@@ -176,7 +176,8 @@ void measure_edges(std::span<const std::array<std::int32_t, 4>> nodes, std::span
                    std::span<const Vec3> b, std::vector<EdgeEdgeDistance>& distances) {
   distances.resize(nodes.size());
   if (nodes.empty()) return;
-  const auto run = fastest(edge_edge_kernel_generic, edge_edge_kernel_avx2);
+  const auto run =
+      fastest(edge_edge_kernel_generic, edge_edge_kernel_avx2, edge_edge_kernel_avx512);
   run({nodes.data()->data(), static_cast<int>(nodes.size()), a.data()->data(), b.data()->data()},
       distances.data());
 }

@@ -114,8 +114,12 @@ private:
   std::array<int, 3> count_{1, 1, 1};
 };
 
+bool share_node(const SheetEdge& e, const SheetEdge& g) {
+  return e.a == g.a || e.a == g.b || e.b == g.a || e.b == g.b;
+}
+
+/// Whether edges of one sheet that share no node are neighbours all the same.
 bool neighbours(const SheetEdge& e, const SheetEdge& g, const SelfEdges& self) {
-  if (e.a == g.a || e.a == g.b || e.b == g.a || e.b == g.b) return true;
   return edge_distance({e.a, e.b}, self.x0, {g.a, g.b}, self.x0) < self.apart;
 }
 
@@ -136,33 +140,79 @@ struct Found {
   std::int32_t patch_b;
   std::array<std::int32_t, 2> edge;
   double gap;
-  /// In the order of patch_b, then of the edges; none of the numbers is negative.
-  std::pair<std::uint64_t, std::uint32_t> key() const {
-    const auto high = static_cast<std::uint64_t>(patch_b) << 32;
-    return {high | static_cast<std::uint32_t>(edge[0]), static_cast<std::uint32_t>(edge[1])};
+};
+
+/// Pairs of edges of one patch of a, by patches of b: there are few, and found again and again.
+class FoundByPatch {
+public:
+  void clear() { used_ = 0; }
+  void add(const Found& f) {
+    std::size_t i = last_;
+    if (i >= used_ || patches_[i].patch_b != f.patch_b) {
+      i = 0;
+      while (i < used_ && patches_[i].patch_b != f.patch_b)
+        ++i;
+    }
+    last_ = i;
+    if (i == used_) start(f.patch_b);
+    patches_[i].pairs.push_back(f);
   }
+  /// Calls visit(pairs) for each patch of b in ascending order; pairs: ascending by their edges,
+  /// each once.
+  template <class Visit>
+  void visit(const Visit& visit) {
+    const auto end = patches_.begin() + static_cast<std::ptrdiff_t>(used_);
+    std::sort(patches_.begin(), end,
+              [](const Patch& p, const Patch& q) { return p.patch_b < q.patch_b; });
+    for (auto patch = patches_.begin(); patch != end; ++patch) {
+      sort_unique(patch->pairs);
+      visit(patch->pairs);
+    }
+  }
+
+private:
+  struct Patch {
+    std::int32_t patch_b;
+    std::vector<Found> pairs;
+  };
+
+  void start(std::int32_t patch_b) {
+    if (used_ == patches_.size()) patches_.emplace_back();
+    patches_[used_].patch_b = patch_b;
+    patches_[used_++].pairs.clear();
+  }
+
+  /// By insertion, as pairs come nearly in order: by edges of a, few of each.
+  static void sort_unique(std::vector<Found>& pairs) {
+    for (std::size_t i = 1; i < pairs.size(); ++i) {
+      const Found f = pairs[i];
+      std::size_t to = i;
+      for (; to > 0 && f.edge < pairs[to - 1].edge; --to)
+        pairs[to] = pairs[to - 1];
+      pairs[to] = f;
+    }
+    const auto same = [](const Found& f, const Found& g) { return f.edge == g.edge; };
+    pairs.erase(std::unique(pairs.begin(), pairs.end(), same), pairs.end());
+  }
+
+  std::vector<Patch> patches_;
+  std::size_t used_ = 0, last_ = 0;
 };
 
 /// Appends the groups of one patch of a, from its pairs within reach.
-void append_groups(EdgeEdgeContact& contact, std::int32_t patch_a, std::vector<Found>& found) {
-  std::sort(found.begin(), found.end(),
-            [](const Found& f, const Found& g) { return f.key() < g.key(); });
-  const auto same = [](const Found& f, const Found& g) { return f.key() == g.key(); };
-  found.erase(std::unique(found.begin(), found.end(), same), found.end());
-  for (std::size_t i = 0; i < found.size(); ++i) {
-    const Found& f = found[i];
-    if (i == 0 || found[i - 1].patch_b != f.patch_b) {
-      EdgeGroup group;
-      group.patch = {patch_a, f.patch_b};
-      group.first = static_cast<std::int32_t>(contact.candidates.size());
-      group.free_until = f.gap;
-      contact.groups.push_back(group);
+void append_groups(EdgeEdgeContact& contact, std::int32_t patch_a, FoundByPatch& found) {
+  found.visit([&](const std::vector<Found>& pairs) {
+    EdgeGroup group;
+    group.patch = {patch_a, pairs.front().patch_b};
+    group.first = static_cast<std::int32_t>(contact.candidates.size());
+    group.free_until = pairs.front().gap;
+    for (const Found& f : pairs) {
+      contact.candidates.push_back({f.edge, rounded_down(f.gap)});
+      group.free_until = std::min(group.free_until, double{contact.candidates.back().free_until});
     }
-    contact.candidates.push_back({f.edge, rounded_down(f.gap)});
-    EdgeGroup& group = contact.groups.back();
     group.end = static_cast<std::int32_t>(contact.candidates.size());
-    group.free_until = std::min(group.free_until, double{contact.candidates.back().free_until});
-  }
+    contact.groups.push_back(group);
+  });
 }
 
 using EdgeNumbers = std::array<std::int32_t, 2>;
@@ -268,10 +318,11 @@ void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
                  std::back_inserter(all_a));
   all_a.erase(std::unique(all_a.begin(), all_a.end()), all_a.end());
   const std::vector<std::int32_t> sorted = by_patch(a.edges, all_a);
+  const bool one_sheet = !self.x0.empty();
   std::vector<EdgeNumbers> near;
   std::vector<std::array<std::int32_t, 4>> nodes;
   std::vector<EdgeEdgeDistance> distances;
-  std::vector<Found> found;
+  FoundByPatch found;
   for (auto e = sorted.begin(); e != sorted.end();) { // a patch at a time
     const std::int32_t patch = a.edges.patch[*e];
     near.clear();
@@ -281,7 +332,8 @@ void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
       const SheetEdge& edge = a.edges.all[*e];
       faces.set_edge(*e);
       grid.visit(edge_box(edge, a.state.x, contact.distance + skin), [&](std::int32_t other) {
-        if ((!self.x0.empty() && other <= *e) || !faces(other)) return;
+        if (one_sheet && (other <= *e || share_node(edge, b.edges.all[other]))) return;
+        if (!faces(other)) return;
         near.push_back({*e, other});
         nodes.push_back({edge.a, edge.b, b.edges.all[other].a, b.edges.all[other].b});
       });
@@ -291,11 +343,11 @@ void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
       const double gap = distances[i].distance - contact.distance;
       if (gap > skin) continue; // the boxes intersect, the edges are further apart
       const auto [one, other] = near[i];
-      if (!self.x0.empty() && neighbours(a.edges.all[one], b.edges.all[other], self)) continue;
-      found.push_back({b.edges.patch[other], near[i], gap});
+      if (one_sheet && neighbours(a.edges.all[one], b.edges.all[other], self)) continue;
+      found.add({b.edges.patch[other], near[i], gap});
     }
     for (const Found& f : closed.pairs)
-      if (a.edges.patch[f.edge[0]] == patch) found.push_back(f);
+      if (a.edges.patch[f.edge[0]] == patch) found.add(f);
     append_groups(contact, patch, found);
   }
   contact.candidates.shrink_to_fit(); // the longest list of a scene

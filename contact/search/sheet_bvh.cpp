@@ -97,16 +97,20 @@ void faces_near(const Vec3* x, std::span<const Triangle> triangles, const Vec3& 
 }
 
 /// Groups nodes for one traversal of the tree: returns the end of the group that begins at `first`,
-/// and its box. A group has at most 16 nodes within a cube of `size` mm; on most meshes nodes of
-/// neighbouring numbers are close to each other.
+/// and its box. On most meshes nodes of neighbouring numbers are close to each other: rows of them
+/// on structured ones. size: mm, of an element.
 std::size_t group_end(std::span<const Vec3> nodes, std::size_t first, double size, Box& box) {
   constexpr std::size_t most = 16;
+  constexpr double longest = 12.0, largest = 16.0; // sizes along an axis, squared sizes along two
   box = Box(nodes[first]);
   std::size_t end = first + 1;
   for (; end < std::min(nodes.size(), first + most); ++end) {
     Box larger = box;
     larger += nodes[end];
-    if ((larger.max_ - larger.min_).maxCoeff() > size) break;
+    const Vec3 extent = larger.max_ - larger.min_;
+    const double length = extent.maxCoeff();
+    const double width = extent.sum() - length - extent.minCoeff(); // the second largest
+    if (length > longest * size || length * width > largest * size * size) break;
     box = larger;
   }
   return end;
@@ -174,8 +178,7 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
   require_finite(nodes, "asked node");
   const Tree& tree = impl_->tree;
   const double box_reach = reach + rounding_margin * (bounds().diagonal().norm() + reach);
-  // mm, largest extent of a group: four times the square root of the mean triangle area
-  const double size = 4.0 * std::sqrt(impl_->area / static_cast<double>(tree.num_tris));
+  const double size = std::sqrt(impl_->area / static_cast<double>(tree.num_tris));
   std::vector<int> stack;
   std::vector<Leaf> leaves;
   Box box;

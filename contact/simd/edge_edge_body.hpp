@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Distances of pairs of edges as segments, four at a time: y_a = x1 + s u, y_b = x3 + t v with the
+// Distances of pairs of edges as segments, a pair per lane: y_a = x1 + s u, y_b = x3 + t v with the
 // symbols of contact/forces/edge_edge.hpp, u = x2 - x1, v = x4 - x3, w = x1 - x3. The lines are
 // closest at
 //   s = (u.v v.w - v.v u.w) / det,  t = (u.u v.w - u.v u.w) / det,  det = u.u v.v - (u.v)^2
@@ -13,60 +13,59 @@ namespace plyform {
 namespace {
 
 struct SimdEdges {
-  Vector4 u, v, w;
+  Vectors u, v, w;
 };
 
-/// Node `number` (0 to 3) of four pairs.
-PLYFORM_INLINE Vector4 corner(const double* x, const std::int32_t* const* nodes, int number) {
-  const auto at = [&](int lane) {
-    return load3(x + 3 * static_cast<std::int64_t>(nodes[lane][number]));
-  };
-  return components(at(0), at(1), at(2), at(3));
+/// Node `number` (0 to 3) of each pair.
+PLYFORM_INLINE Vectors corner(const double* x, const std::int32_t* const* nodes, int number) {
+  Double4 at[lanes];
+  for (int lane = 0; lane < lanes; ++lane)
+    at[lane] = load3(x + 3 * static_cast<std::int64_t>(nodes[lane][number]));
+  return components(at);
 }
 
 PLYFORM_INLINE SimdEdges edges_of(const EdgeEdgeKernelPairs& k, const std::int32_t* const* nodes) {
-  const Vector4 x1 = corner(k.first, nodes, 0), x3 = corner(k.second, nodes, 2);
+  const Vectors x1 = corner(k.first, nodes, 0), x3 = corner(k.second, nodes, 2);
   return {corner(k.first, nodes, 1) - x1, corner(k.second, nodes, 3) - x3, x1 - x3};
 }
 
 /// a / b in 0..1; 0 for the NaN of an edge without length.
-PLYFORM_INLINE Double4 share(Double4 a, Double4 b) {
+PLYFORM_INLINE Doubles share(Doubles a, Doubles b) {
   return smaller(larger(a / b, all(0.0)), all(1.0));
 }
 
 /// Square of the distance of the points s and t, mm^2.
-PLYFORM_INLINE Double4 distance2(const SimdEdges& e, Double4 s, Double4 t) {
+PLYFORM_INLINE Doubles distance2(const SimdEdges& e, Doubles s, Doubles t) {
   return square(e.w + s * e.u - t * e.v);
 }
 
-PLYFORM_INLINE void measure_four(const SimdEdges& e, const std::int32_t count,
-                                 EdgeEdgeDistance* out) {
-  const Double4 zero = all(0.0), one = all(1.0), far = all(1e300);
-  const Double4 uu = square(e.u), vv = square(e.v), uv = dot(e.u, e.v);
-  const Double4 uw = dot(e.u, e.w), vw = dot(e.v, e.w);
-  const Double4 det = uu * vv - uv * uv;
-  const Long4 crosswise = det > 1e-4 * uu * vv;
-  const Double4 s = (uv * vw - vv * uw) / det, t = (uu * vw - uv * uw) / det;
-  const Long4 s_inside = crosswise & (s > 0.0) & (s < 1.0);
-  const Long4 t_inside = crosswise & (t > 0.0) & (t < 1.0);
-  const Long4 inside = s_inside & t_inside;
-  Double4 best = distance2(e, s, t);
+PLYFORM_INLINE void measure_pairs(const SimdEdges& e, const int count, EdgeEdgeDistance* out) {
+  const Doubles zero = all(0.0), one = all(1.0), far = all(1e300);
+  const Doubles uu = square(e.u), vv = square(e.v), uv = dot(e.u, e.v);
+  const Doubles uw = dot(e.u, e.w), vw = dot(e.v, e.w);
+  const Doubles det = uu * vv - uv * uv;
+  const Longs crosswise = det > 1e-4 * uu * vv;
+  const Doubles s = (uv * vw - vv * uw) / det, t = (uu * vw - uv * uw) / det;
+  const Longs s_inside = crosswise & (s > 0.0) & (s < 1.0);
+  const Longs t_inside = crosswise & (t > 0.0) & (t < 1.0);
+  const Longs inside = s_inside & t_inside;
+  Doubles best = distance2(e, s, t);
   if (any(~inside)) {
-    const Double4 end_a = s <= 0.0 ? zero : one, end_b = t <= 0.0 ? zero : one;
-    const Double4 from_a = distance2(e, end_a, share(vw + end_a * uv, vv));
-    const Double4 from_b = distance2(e, share(end_b * uv - uw, uu), end_b);
+    const Doubles end_a = s <= 0.0 ? zero : one, end_b = t <= 0.0 ? zero : one;
+    const Doubles from_a = distance2(e, end_a, share(vw + end_a * uv, vv));
+    const Doubles from_b = distance2(e, share(end_b * uv - uw, uu), end_b);
     best = inside ? best : smaller(s_inside ? far : from_a, t_inside ? far : from_b);
     if (any(~crosswise)) {
-      const Double4 ends_a =
+      const Doubles ends_a =
           smaller(distance2(e, zero, share(vw, vv)), distance2(e, one, share(vw + uv, vv)));
-      const Double4 ends_b =
+      const Doubles ends_b =
           smaller(distance2(e, share(-uw, uu), zero), distance2(e, share(uv - uw, uu), one));
       best = crosswise ? best : smaller(ends_a, ends_b);
     }
   }
-  const Double4 along = dot(cross(e.u, e.v), e.w); // u and v drop out of y_a - y_b
-  const Double4 distance = root(best);
-  const Long4 side = inside & (along > 0.0 ? Long4{1, 1, 1, 1} : Long4{-1, -1, -1, -1});
+  const Doubles along = dot(cross(e.u, e.v), e.w); // u and v drop out of y_a - y_b
+  const Doubles distance = root(best);
+  const Longs side = inside & (along > 0.0 ? Longs{} + 1 : Longs{} - 1);
   for (int lane = 0; lane < count; ++lane)
     out[lane] = {distance[lane], s[lane], t[lane], side[lane]};
 }
@@ -77,7 +76,7 @@ PLYFORM_INLINE void measure_edges(const EdgeEdgeKernelPairs& k, EdgeEdgeDistance
     const std::int32_t* nodes[lanes]; // lanes from count on repeat the first
     for (int lane = 0; lane < lanes; ++lane)
       nodes[lane] = k.nodes + 4 * static_cast<std::int64_t>(first + (lane < count ? lane : 0));
-    measure_four(edges_of(k, nodes), count, out + first);
+    measure_pairs(edges_of(k, nodes), count, out + first);
   }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Interface of the two compiled copies of the kernel of contact/forces/edge_edge.hpp: plain numbers
+// Interface of the compiled copies of the kernel of contact/forces/edge_edge.hpp: plain numbers
 // and pointers, nothing inline (reason: contact/simd/simd.hpp).
 #pragma once
 
@@ -27,5 +27,6 @@ struct EdgeEdgeDistance {
 /// Measures all pairs; distances: one each.
 void edge_edge_kernel_generic(const EdgeEdgeKernelPairs& pairs, EdgeEdgeDistance* distances);
 void edge_edge_kernel_avx2(const EdgeEdgeKernelPairs& pairs, EdgeEdgeDistance* distances);
+void edge_edge_kernel_avx512(const EdgeEdgeKernelPairs& pairs, EdgeEdgeDistance* distances);
 
 } // namespace plyform

@@ -3,13 +3,13 @@
 // lane; those that are written for any number of lanes (Doubles, Vectors) process eight with
 // AVX-512.
 //
-// Only kernel files may include it. Each kernel is compiled for any processor and with AVX2, those
-// of membrane, bending, and contact of nodes also with AVX-512 (cmake/simd.cmake), and the program
-// selects the fastest one that the processor supports when it runs. If two copies contained the
-// same inline function the linker could keep the AVX2 version for all callers: therefore everything
-// here has internal linkage, and kernel files use nothing else that is inline: no Eigen, no
-// containers. No copy contracts a * b + c, and all perform the same operations, and add up in the
-// same order, by fours, so results are the same bits on any processor.
+// Only kernel files may include it. Each kernel is compiled for any processor, with AVX2 and with
+// AVX-512 (cmake/simd.cmake), and the program selects the fastest one that the processor supports
+// when it runs. If two copies contained the same inline function the linker could keep the AVX2
+// version for all callers: therefore everything here has internal linkage, and kernel files use
+// nothing else that is inline: no Eigen, no containers. No copy contracts a * b + c, and all
+// perform the same operations, and add up in the same order, by fours, so results are the same bits
+// on any processor.
 #pragma once
 
 #include <cmath>
