@@ -103,9 +103,15 @@ SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3
 void patch_motions(const SheetEdges& edges, std::span<const Vec3> motion,
                    std::vector<Box3>& boxes) {
   boxes.assign(edges.patch_nodes.size(), {});
-  for (std::size_t p = 0; p < boxes.size(); ++p)
-    for (const std::int32_t n : edges.patch_nodes[p])
-      boxes[p].extend(motion[n]);
+  for (std::size_t p = 0; p < boxes.size(); ++p) {
+    const std::vector<std::int32_t>& nodes = edges.patch_nodes[p];
+    Vec3 low = motion[nodes.front()], high = low; // in registers, unlike boxes[p]
+    for (const std::int32_t n : nodes) {
+      low = low.cwiseMin(motion[n]);
+      high = high.cwiseMax(motion[n]);
+    }
+    boxes[p] = Box3(low, high);
+  }
 }
 
 double relative_motion(const Box3& a, const Box3& b) {
