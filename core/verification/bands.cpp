@@ -3,6 +3,7 @@
 
 #include "core/results/field_difference.hpp"
 
+#include <array>
 #include <cmath>
 
 namespace plyform {
@@ -61,16 +62,25 @@ void estimate(VerifiedFigure& figure, const RunEnd& run, const std::map<Cause, R
   figure.chance = std::abs(of(Cause::chance, 1.0));
 }
 
+constexpr std::array parts{&VerifiedFigure::mesh, &VerifiedFigure::inertia,
+                           &VerifiedFigure::softening, &VerifiedFigure::chance};
+
 /// Replaces each part by its root mean square over figures of one kind.
 void pool(std::vector<VerifiedFigure>& figures) {
-  for (double VerifiedFigure::*part : {&VerifiedFigure::mesh, &VerifiedFigure::inertia,
-                                       &VerifiedFigure::softening, &VerifiedFigure::chance}) {
+  for (double VerifiedFigure::*part : parts) {
     double sum2 = 0.0;
     for (const VerifiedFigure& f : figures)
       sum2 += f.*part * f.*part;
     for (VerifiedFigure& f : figures)
       f.*part = std::sqrt(sum2 / static_cast<double>(figures.size()));
   }
+}
+
+/// Replaces the size of each part by the root mean square of it and of that of the other estimate.
+void pool(VerifiedFigure& figure, const VerifiedFigure& other) {
+  for (double VerifiedFigure::*part : parts)
+    figure.*part =
+        std::copysign(std::sqrt(0.5) * std::hypot(figure.*part, other.*part), figure.*part);
 }
 
 double rms_shear(const Frame& frame) {
@@ -125,6 +135,21 @@ double force_jitter(const Case& data, const Frame& last) {
   return most;
 }
 
+std::vector<double> forces_by_balance(const Case& data, const Frame& last) {
+  if (!data.boundaries.empty()) return {};
+  Vec3 all = Vec3::Zero();
+  for (const ToolFrame& tool : last.tools)
+    all += tool.force;
+  std::vector<double> forces;
+  for (std::size_t t = 0; t < data.tools.size(); ++t) {
+    const ToolFrame& tool = last.tools[t];
+    forces.push_back(data.tools[t].motion == Motion::force
+                         ? tool.force_N
+                         : (all - tool.force).dot(data.tools[t].direction));
+  }
+  return forces;
+}
+
 VerifiedFigure verified_shear(const RunEnd& run, const std::map<Cause, RunEnd>& siblings,
                               const Siblings& made, const PredictedError& predicted) {
   return figure_of_shear("all plies", run, siblings, made, predicted,
@@ -169,6 +194,11 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run,
     estimate(f, run, siblings, factors, [t](const RunEnd& a, const RunEnd& b) {
       return a.last.tools[t].force_N - b.last.tools[t].force_N;
     });
+    if (run.balance_N.empty()) continue;
+    VerifiedFigure by_balance = f;
+    estimate(by_balance, run, siblings, factors,
+             [t](const RunEnd& a, const RunEnd& b) { return a.balance_N[t] - b.balance_N[t]; });
+    pool(f, by_balance);
   }
   pool(draw_in);
   pool(pressed);

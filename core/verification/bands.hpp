@@ -9,13 +9,16 @@
 //   chance     d
 //   of shear and lengths  e = sqrt(mesh^2 + inertia^2 + softening^2 + chance^2)
 //   of a force            e = max(that, |mesh + inertia + softening|), which have signs
-//   band = max(k e, c), k = 1.7, c = 2 chance, of forces at least 3 times the jitter
+//   band = max(k e, c), k = 1.65, c = 2 chance, of forces at least 3 times the jitter
 // r: of strokes from 0.1 to 0.01 s (four small hemispheres of one ply and two) errors of shear go
 // with the speed to the 1.1 to 3.2, 2.2 in the median, until they are as large as 2 degrees; those
 // of the punch's force to the 1.8 to 3.7, 2.9 in the median, until it is lost. k: grid-convergence
 // practice takes 1.25 with an order observed on three meshes, 3 with one assumed on two; here it is
 // one of many scenes (docs/users/accuracy.md). A single length may agree by accident on two meshes:
-// it takes the mean square over its kind (the draw-ins of all plies). Jitter: what a tool pushed by
+// it takes the mean square over its kind (the draw-ins of all plies). So may a single force: at the
+// end the forces of all tools are in balance, what one carries is what the others do, and each part
+// of its error is the root mean square of both. Not that of a tool pushed by a force, which it
+// keeps, nor where boundaries carry, too. Jitter: what a tool pushed by
 // a force has on its face beyond that force.
 #pragma once
 
@@ -32,14 +35,20 @@ namespace plyform {
 constexpr double order_of_mesh = 1.6; // core/accuracy/error_model.hpp
 constexpr double order_of_inertia = 2.0, order_of_inertia_of_forces = 3.0;
 constexpr double order_of_softening = 1.0;
-constexpr double safety = 1.7, safety_of_chance = 2.0, safety_of_jitter = 3.0;
+constexpr double safety = 1.65, safety_of_chance = 2.0, safety_of_jitter = 3.0;
 
 /// What a run or a sibling ended with.
 struct RunEnd {
   Frame last;
   std::vector<PlyReport> plies;
   double jitter_N = 0.0; ///< as above
+  /// N, the force of each tool by the balance of all, its own if it is pushed; empty if boundaries
+  /// carry as well.
+  std::vector<double> balance_N = {};
 };
+
+/// RunEnd::balance_N of a run of `data` that ended like this.
+std::vector<double> forces_by_balance(const Case& data, const Frame& last);
 
 /// Of the pushed tools of a run of `data`, the largest.
 double force_jitter(const Case& data, const Frame& last);

@@ -7,8 +7,18 @@
 
 #include <algorithm>
 #include <fmt/format.h>
+#include <utility>
 
 namespace plyform {
+namespace {
+
+RunEnd end_of(const Case& data, RunResult run) {
+  const double jitter = force_jitter(data, run.last);
+  std::vector<double> balance = forces_by_balance(data, run.last);
+  return {std::move(run.last), std::move(run.summary.plies), jitter, std::move(balance)};
+}
+
+} // namespace
 
 std::optional<Verification> verify(const Case& data, const RunResult& run, int threads,
                                    const VerifyHooks& hooks) {
@@ -27,13 +37,13 @@ std::optional<Verification> verify(const Case& data, const RunResult& run, int t
     if (hooks.interrupt && hooks.interrupt->load()) return std::nullopt;
     seconds += end.summary.wall_time_s;
     if (ended(end.summary.status))
-      ends[sibling.cause] = {std::move(end.last), std::move(end.summary.plies)};
+      ends[sibling.cause] = end_of(sibling.data, std::move(end));
     else
       result.left_out.push_back(fmt::format("the sibling with a {} did not go to its end: {}",
                                             sibling.name, end.summary.message));
   }
   result.cost = seconds / std::max(run.summary.wall_time_s, 1e-9);
-  const RunEnd own{run.last, run.summary.plies, force_jitter(data, run.last)};
+  const RunEnd own = end_of(data, run);
   const PredictedError predicted = predicted_error(data);
   result.figures = verified_figures(own, ends, made, predicted);
   result.shear = verified_shear(own, ends, made, predicted);

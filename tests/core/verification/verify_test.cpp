@@ -123,6 +123,37 @@ TEST(Bands, OfForcesAddUpWithTheirSigns) {
   EXPECT_NEAR(f.band, safety * 5.0, 1e-12);
 }
 
+TEST(Bands, OfForcesTakeTheirOwnErrorAndThatOfAllOthers) {
+  Case data;
+  data.tools.resize(3);
+  data.tools[2].motion = Motion::force; // a holder, pushed by 300 N
+  for (Tool& tool : data.tools)
+    tool.direction = -Vec3::UnitZ();
+  const auto end = [&](double punch, double die) {
+    RunEnd e = end_with(1, 30.0, 20.0, punch);
+    e.last.tools.resize(3);
+    e.last.tools[1].name = "die", e.last.tools[1].force_N = die;
+    e.last.tools[2].name = "holder", e.last.tools[2].force_N = 300.0;
+    for (ToolFrame& tool : e.last.tools)
+      tool.force = tool.force_N * Vec3::UnitZ();
+    e.balance_N = forces_by_balance(data, e.last);
+    return e;
+  };
+  const RunEnd run = end(100.0, -400.0);
+  EXPECT_NEAR(run.balance_N[0], 100.0, 1e-12); // in balance
+  EXPECT_NEAR(run.balance_N[1], -400.0, 1e-12);
+  EXPECT_NEAR(run.balance_N[2], 300.0, 1e-12);
+  Siblings made;
+  made.coarsening = 1.4;
+  const auto figures = verified_figures(run, {{Cause::mesh, end(101.0, -407.0)}}, made, {});
+  const double per_N = 1.0 / (std::pow(1.4, 1.6) - 1.0), both = per_N * std::sqrt(0.5 * (1 + 49));
+  EXPECT_NEAR(named(figures, "force of punch").mesh, both, 1e-9); // coarse: by 1, and by 7
+  EXPECT_NEAR(named(figures, "force of die").mesh, -both, 1e-9);
+  EXPECT_NEAR(named(figures, "force of holder").mesh, 0.0, 1e-12);
+  data.boundaries.resize(1);
+  EXPECT_TRUE(forces_by_balance(data, run.last).empty());
+}
+
 TEST(Bands, OfForcesAreNotBelowTheJitterOfAPushedTool) {
   Case data;
   data.tools.resize(2);
