@@ -191,6 +191,17 @@ double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x) {
   return std::min(1.0, upper_bound(found) / eigenvalue_bound(m, x).yarns);
 }
 
+double kink_factor(const Membrane& m) {
+  double most = 0.0;
+  for (const TensionLaw& yarn : m.yarn) {
+    const double tension = yarn.largest_slope(), compression = yarn.compression;
+    if (!(tension > 0.0)) continue; // no yarns
+    const double r = std::min(tension, compression) / std::max(tension, compression);
+    most = std::max(most, r * (1.0 - r));
+  }
+  return 1.0 + 0.8 * most; // (R)
+}
+
 double highest_omega2(const EigenvalueBound& bound, double eigenvalue_ratio) {
   if (bound.penalty_acts) return bound.omega2;
   return std::min(bound.omega2, eigenvalue_ratio * bound.yarns + bound.soft);

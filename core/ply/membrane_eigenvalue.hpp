@@ -65,6 +65,15 @@ Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x);
 /// without yarns.
 double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x);
 
+/// Factor of the yarns' part of omega^2 for a law with a kink at zero strain, with r the smaller
+/// slope there over the larger:
+///   1 + 0.8 r (1 - r)                                                                         (R)
+/// The largest slope alone is not enough near the limit of (S), core/solver/stable_time_step.hpp:
+/// a step conserves another energy on each side of the kink, and modes that cross it gain at every
+/// crossing. Five frictionless plies (docs/theory/time_step.md#kinks) gain where r is 0.25 or 0.5
+/// from 0.91 to 0.95 of that step on, not with 0.9, nor where r is 0.1 or 0.75.
+double kink_factor(const Membrane& m);
+
 /// Bound of omega^2 (1/s^2) with the yarns' part multiplied by eigenvalue_ratio; the element bound
 /// itself where stiff collapse penalties act.
 double highest_omega2(const EigenvalueBound& bound, double eigenvalue_ratio);

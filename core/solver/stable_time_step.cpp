@@ -64,7 +64,7 @@ double time_step_gain_of(const Scene& s, double dt, ThreadPool& pool) {
 } // namespace
 
 double element_omega2(const PlyState& ply) {
-  return highest_omega2(ply.bound, ply.eigenvalue_ratio) +
+  return kink_factor(ply.membrane) * highest_omega2(ply.bound, ply.eigenvalue_ratio) +
          (ply.bending ? ply.bending->omega2 : 0.0);
 }
 

@@ -28,8 +28,8 @@ void StiffnessOperator::add_ply(const PlyState& ply, double dt) {
   if (ply.bending) bounded.omega2 += ply.bending->omega2;
   yarns_.emplace_back();
   if (in_plane_law(ply.membrane.fabric).yarns)
-    yarns_.back() =
-        std::make_unique<YarnStiffness>(ply.membrane, ply.x, factors_.stiffness, factors_.damping);
+    yarns_.back() = std::make_unique<YarnStiffness>(
+        ply.membrane, ply.x, kink_factor(ply.membrane) * factors_.stiffness, factors_.damping);
   else
     bounded.omega2 += ply.bound.yarns;
   bounded_.push_back(bounded.stability_lhs(dt));
