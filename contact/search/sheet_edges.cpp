@@ -102,7 +102,7 @@ SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3
 
 void patch_motions(const SheetEdges& edges, std::span<const Vec3> motion,
                    std::vector<Box3>& boxes) {
-  boxes.assign(edges.patch_nodes.size(), {});
+  boxes.resize(edges.patch_nodes.size());
   for (std::size_t p = 0; p < boxes.size(); ++p) {
     const std::vector<std::int32_t>& nodes = edges.patch_nodes[p];
     Vec3 low = motion[nodes.front()], high = low; // in registers, unlike boxes[p]

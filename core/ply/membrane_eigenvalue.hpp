@@ -65,8 +65,8 @@ Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x);
 /// without yarns.
 double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x);
 
-/// Factor of the yarns' part of omega^2 for a law with a kink at zero strain, with r the smaller
-/// slope there over the larger:
+/// Factor of the yarns' part of omega^2 for a law with a kink at zero strain (the bound of elements
+/// has its small soft part multiplied too), with r the smaller slope there over the larger:
 ///   1 + 0.8 r (1 - r)                                                                         (R)
 /// The largest slope alone is not enough near the limit of (S), core/solver/stable_time_step.hpp:
 /// a step conserves another energy on each side of the kink, and modes that cross it gain at every

@@ -18,8 +18,8 @@
 // it takes the mean square over its kind (the draw-ins of all plies). So may a single force: at the
 // end the forces of all tools are in balance, what one carries is what the others do, and each part
 // of its error is the root mean square of both. Not that of a tool pushed by a force, which it
-// keeps, nor where boundaries carry, too. Jitter: what a tool pushed by
-// a force has on its face beyond that force.
+// keeps, nor where boundaries carry, too. Jitter: what a tool pushed by a force has on its
+// face beyond that force.
 #pragma once
 
 #include "core/accuracy/error_model.hpp"
