@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Geometric types that contact/ and core/ share. Lengths in mm.
+// Geometric types and small functions that contact/ and core/ share. Lengths in mm.
 #pragma once
 
 #include <Eigen/Core>
@@ -8,6 +8,8 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <numbers>
+#include <span>
 #include <vector>
 
 namespace plyform {
@@ -15,6 +17,9 @@ namespace plyform {
 using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Box3 = Eigen::AlignedBox3d;
+
+/// In rad, as all angles of the program.
+inline constexpr double degree = std::numbers::pi / 180.0;
 
 /// Node numbers of a triangle, counter-clockwise seen from its outer (upper) side.
 using Triangle = std::array<std::int32_t, 3>;
@@ -24,6 +29,16 @@ struct TriMesh {
   std::vector<Vec3> x;
   std::vector<Triangle> triangles;
 };
+
+/// The number of a node, triangle or edge as containers of the standard library take it.
+inline std::size_t at(std::int32_t index) {
+  return static_cast<std::size_t>(index);
+}
+
+/// Position (mm) of node n.
+inline const Vec3& at(std::span<const Vec3> x, std::int32_t n) {
+  return x[at(n)];
+}
 
 /// Whether two boxes, given by their corners (mm), overlap. All six comparisons are evaluated
 /// without a branch: branches of a test that ends early would often be mispredicted.

@@ -4,10 +4,6 @@
 namespace plyform {
 namespace {
 
-const Vec3& at(std::span<const Vec3> x, std::int32_t n) {
-  return x[n];
-}
-
 /// Sets the normal and tangential stiffness of a contact `depth` mm deep with tributary `area`
 /// (mm^2). An open one counts as just touching and stuck: without its friction a stack of soft
 /// yarns gains energy when its plies meet.

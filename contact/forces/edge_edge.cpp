@@ -9,10 +9,6 @@
 namespace plyform {
 namespace {
 
-const Vec3& at(std::span<const Vec3> x, int n) {
-  return x[n];
-}
-
 /// Closest points of the lines through two segments; inside: whether they lie inside both segments.
 struct SegmentDistance {
   double s, t;

@@ -9,10 +9,6 @@
 namespace plyform {
 namespace {
 
-const Vec3& at(std::span<const Vec3> x, int n) {
-  return x[n];
-}
-
 Box3 edge_box(const SheetEdge& e, std::span<const Vec3> x, double inflate) {
   Box3 box(at(x, e.a).cwiseMin(at(x, e.b)), at(x, e.a).cwiseMax(at(x, e.b)));
   box.min().array() -= inflate;

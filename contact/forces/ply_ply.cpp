@@ -10,10 +10,6 @@
 namespace plyform {
 namespace {
 
-const Vec3& at(std::span<const Vec3> x, int n) {
-  return x[n];
-}
-
 /// Whether one node is a corner of all these faces, which are then connected.
 bool share_node(std::span<const Candidate> group, std::span<const Triangle> triangles) {
   const Triangle& t = triangles[group.front().face];

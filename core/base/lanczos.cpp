@@ -6,7 +6,7 @@
 #include <cmath>
 
 namespace plyform {
-double Scatter::next() {
+double RandomNumbers::next() {
   state_ = state_ * 6364136223846793005u + 1442695040888963407u; // Knuth's MMIX generator
   return static_cast<double>(state_ >> 11) * 0x1p-53 - 0.5;
 }

@@ -29,7 +29,7 @@ constexpr int ritz_steps = 30;
 double upper_bound(const RitzValue& found);
 
 /// Pseudo-random numbers between -0.5 and 0.5, the same sequence every time.
-class Scatter {
+class RandomNumbers {
 public:
   double next();
 

@@ -10,9 +10,8 @@
 namespace plyform {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180.0;
 constexpr double steepest =
-    85.0 * deg; // of the chord: beyond, a strip hangs whatever its stiffness
+    85.0 * degree; // of the chord: beyond, a strip hangs whatever its stiffness
 
 /// A strip by (a): L, sag and horizontal reach over c.
 struct Hanging {
@@ -72,7 +71,7 @@ std::optional<double> length_of(const Curve& curve, std::size_t row, CantileverR
                  "give the length that hangs over the edge, in mm");
   if (reading == CantileverReading::chord_angle) {
     if (y > 0.0 && y <= steepest) return overhang / overhang_at_chord(y);
-    return wrong(curve.y_name, y / deg, "the angle must be above 0 and at most 85 degrees",
+    return wrong(curve.y_name, y / degree, "the angle must be above 0 and at most 85 degrees",
                  "give the angle of the line from the edge to the tip below the horizontal; of "
                  "angles near 90 degrees nothing follows, let less hang over");
   }

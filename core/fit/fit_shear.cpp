@@ -12,10 +12,8 @@
 namespace plyform {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180.0;
-
 /// A law fitted to rows, with the share of in-plane bending that follows from it.
-struct Solution {
+struct ShearSolution {
   LinearLaw law;
   LinearFit fit;
   double scale = 0.0; ///< rad, of the coefficients
@@ -28,9 +26,9 @@ void clear_rounding(ShearLaw& law, double to) {
   if (law.k[0] < 0.0 && -law.k[0] * to < 1e-9 * law.at(to).value) law.k[0] = 0.0;
 }
 
-Solution solve(const LoadRows& rows, double end, const ShearTest& test, const Fabric& fabric,
-               int coefficients) {
-  Solution s;
+ShearSolution solve(const LoadRows& rows, double end, const ShearTest& test, const Fabric& fabric,
+                    int coefficients) {
+  ShearSolution s;
   s.scale = end;
   s.fabric = fabric;
   constexpr int repetitions =
@@ -69,7 +67,7 @@ bool valid(const Curve& curve, const ShearLaw& law, const FitQuality& quality,
         place_of(curve), "", "",
         fmt::format("the fitted torque {} at {:.3g} degrees ({:.3g} N mm, slope {:.3g} N mm/rad), "
                     "within the range covered: a cell must resist shear everywhere",
-                    p.value < 0.0 ? "is negative" : "falls", at / deg, p.value, p.slope),
+                    p.value < 0.0 ? "is negative" : "falls", at / degree, p.value, p.slope),
         law.k.size() > 1 ? fmt::format("take fewer coefficients: --coefficients {}; or leave out "
                                        "what is no shear with --from and --to",
                                        law.k.size() - 1)
@@ -82,14 +80,14 @@ bool valid(const Curve& curve, const ShearLaw& law, const FitQuality& quality,
                         fmt::format("beyond the range covered, from {:.3g} degrees on, the torque "
                                     "falls: do not form to larger angles with it, or take fewer "
                                     "--coefficients",
-                                    beyond / deg));
+                                    beyond / degree));
   return true;
 }
 
 /// Whether the torque is one of a fabric.
 bool usual(const Curve& curve, const Fabric& found, double end, bool doubtful,
            Diagnostics& diagnostics) {
-  const double angle = std::min(10.0 * deg, end);
+  const double angle = std::min(10.0 * degree, end);
   const double rigidity = found.warp_density * found.weft_density * found.shear.secant(angle);
   return check_usual(place_of(curve), "shear stiffness", rigidity, usual_shear_rigidity, "N/mm",
                      doubtful, diagnostics);
@@ -114,7 +112,7 @@ void check_options(const Fabric& fabric, const FitOptions& options) {
     throw std::invalid_argument("the theory of the shear tests needs fibres at 90 degrees");
 }
 
-std::vector<double> fitted_loads(const Solution& s, const ShearTest& test,
+std::vector<double> fitted_loads(const ShearSolution& s, const ShearTest& test,
                                  const Eigen::VectorXd& extension) {
   std::vector<double> loads;
   for (const double x : extension)
@@ -135,7 +133,7 @@ std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const 
                                            const Fabric& fabric, const FitOptions& options,
                                            Diagnostics& diagnostics) {
   const Curve& curve = specimen.curve;
-  const Solution s =
+  const ShearSolution s =
       solve(specimen.rows, specimen.angle.back(), test, fabric, options.coefficients);
   LoadRows rows = specimen.rows;
   rows.weights = s.fit.weights;
@@ -145,7 +143,7 @@ std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const 
   law.quality =
       quality_of(specimen.angle, {rows.y.begin(), rows.y.end()}, fitted_loads(s, test, rows.x));
   const bool good = check_quality(
-      curve, law.quality, fmt::format("{:.3g} degrees", law.quality.largest_at / deg),
+      curve, law.quality, fmt::format("{:.3g} degrees", law.quality.largest_at / degree),
       "check columns and specimen, smooth the curve, take more --coefficients, or leave out "
       "slipping and wrinkling with --to",
       diagnostics);
@@ -179,7 +177,7 @@ LoadRows all_rows(const std::vector<ShearSpecimen>& specimens, ShearFit& result)
 }
 
 /// Limits of confidence, and the scatter between specimens.
-void judge(const Solution& all, const std::vector<ShearSpecimen>& specimens,
+void judge(const ShearSolution& all, const std::vector<ShearSpecimen>& specimens,
            const Corrections& corrections, ShearFit& result) {
   const std::vector<double> places = probe_angles(all.scale);
   if (specimens.size() == 1) {
@@ -225,7 +223,7 @@ std::optional<ShearFit> identify_shear(const std::vector<Curve>& curves, const S
   if (diagnostics.errors.size() > errors || specimens.empty()) return std::nullopt;
   const LoadRows rows = all_rows(specimens, result);
   const double end = *std::max_element(result.angle.begin(), result.angle.end());
-  const Solution all = solve(rows, end, test, fabric, options.coefficients);
+  const ShearSolution all = solve(rows, end, test, fabric, options.coefficients);
   result.law = all.fabric.shear;
   result.in_plane = all.share;
   result.fitted = fitted_loads(all, test, rows.x);

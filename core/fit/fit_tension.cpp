@@ -59,7 +59,7 @@ bool keep_up_to(Curve& curve, double shortest, Diagnostics& diagnostics) {
 }
 
 /// What all specimens are fitted with, and what came of it.
-struct Solution {
+struct TensionSolution {
   TensionLaw law;
   LinearLaw basis;
   LinearFit fit;
@@ -74,8 +74,8 @@ double rms_of(const TensionLaw& law, const Curve& curve) {
   return quality_of(curve.x, curve.y, fitted).rms;
 }
 
-Solution line_through(const Curve& curve) {
-  Solution s;
+TensionSolution line_through(const Curve& curve) {
+  TensionSolution s;
   s.basis = line_law();
   s.fit = fit_linear(s.basis.loads(vector_of(curve.x)), vector_of(curve.y));
   s.law.stiffness = s.fit.k[0];
@@ -84,8 +84,8 @@ Solution line_through(const Curve& curve) {
   return s;
 }
 
-std::optional<Solution> table_through(const Curve& curve, Diagnostics& diagnostics) {
-  Solution s;
+std::optional<TensionSolution> table_through(const Curve& curve, Diagnostics& diagnostics) {
+  TensionSolution s;
   const std::vector<double> knots = knots_of(curve);
   s.basis = knots_law(knots);
   s.fit = fit_linear(s.basis.loads(vector_of(curve.x)), vector_of(curve.y));
@@ -99,11 +99,11 @@ std::optional<Solution> table_through(const Curve& curve, Diagnostics& diagnosti
 }
 
 /// The line, or the table where that does better; nothing after an error.
-std::optional<Solution> solve(const Curve& curve, const Corrections& corrections,
-                              Diagnostics& diagnostics) {
-  Solution line = line_through(curve);
+std::optional<TensionSolution> solve(const Curve& curve, const Corrections& corrections,
+                                     Diagnostics& diagnostics) {
+  TensionSolution line = line_through(curve);
   if (line.rms <= noisy || is_shifted_line(curve, line.fit.weights, corrections)) return line;
-  std::optional<Solution> table = table_through(curve, diagnostics);
+  std::optional<TensionSolution> table = table_through(curve, diagnostics);
   if (!table) return std::nullopt;
   return table->rms < 0.5 * line.rms ? table : std::optional(line);
 }
@@ -120,9 +120,9 @@ CurveWords words_of(const Strip& strip) {
 }
 
 /// Checks one specimen with the kind of law that all have.
-std::optional<SpecimenLaw> law_of_specimen(const TensionSpecimen& specimen, const Solution& all,
-                                           const Strip& strip, const FitOptions& options,
-                                           Diagnostics& diagnostics) {
+std::optional<SpecimenLaw> law_of_specimen(const TensionSpecimen& specimen,
+                                           const TensionSolution& all, const Strip& strip,
+                                           const FitOptions& options, Diagnostics& diagnostics) {
   const Curve& curve = specimen.curve;
   LoadRows rows = specimen.rows();
   const LinearFit own = fit_linear(all.basis.loads(rows.x), rows.y);
@@ -170,7 +170,8 @@ std::optional<TensionFit> identify_tension(const std::vector<Curve>& curves, con
   if (diagnostics.errors.size() > errors || specimens.empty()) return std::nullopt;
   for (TensionSpecimen& specimen : specimens)
     if (!keep_up_to(specimen.curve, shortest, diagnostics)) return std::nullopt;
-  const std::optional<Solution> all = solve(pooled(specimens), options.corrections, diagnostics);
+  const std::optional<TensionSolution> all =
+      solve(pooled(specimens), options.corrections, diagnostics);
   if (!all) return std::nullopt;
   TensionFit result;
   result.law = all->law;

@@ -10,7 +10,6 @@
 namespace plyform {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180.0;
 constexpr double right_angle = 0.5 * std::numbers::pi;
 
 Eigen::MatrixXd loads_of(const ShearBasis& basis, const Eigen::VectorXd& extension) {
@@ -33,7 +32,7 @@ bool take_measured_angles(Curve& curve, const ShearTest& test, Diagnostics& diag
   for (std::size_t i = 0; i < curve.size(); ++i) {
     if (!(std::abs(curve.angle[i]) < right_angle)) {
       diagnostics.error(place_of(curve, i), curve.angle_name,
-                        fmt::format("{:g}", curve.angle[i] / deg),
+                        fmt::format("{:g}", curve.angle[i] / degree),
                         "the shear angle must be less than 90 degrees",
                         "give the change of the angle between the yarns; --angle-unit rad if it is "
                         "in radians");
@@ -63,14 +62,14 @@ void compare_angles(const Curve& curve, const ShearTest& test, bool measured_cou
     largest = difference;
     at = angle;
   }
-  constexpr double agree = 1.0 * deg;
+  constexpr double agree = 1.0 * degree;
   if (std::abs(largest) <= agree) return;
   diagnostics.warning(
       place_of(curve),
       fmt::format("the measured shear angle ({}) is up to {:.2g} degrees {} than that of the "
                   "crosshead, at {:.3g} degrees: {}; {}",
-                  curve.angle_name, std::abs(largest) / deg, largest > 0.0 ? "smaller" : "larger",
-                  at / deg,
+                  curve.angle_name, std::abs(largest) / degree,
+                  largest > 0.0 ? "smaller" : "larger", at / degree,
                   largest > 0.0 ? "slip in the clamps, compliance, or yarns that slide"
                                 : "a displacement zero set too late, or another specimen",
                   measured_counts ? "the law is of the measured angle"
@@ -129,7 +128,7 @@ bool enough(const ShearSpecimen& specimen, const FitOptions& options, Diagnostic
       place_of(specimen.curve), "", "",
       fmt::format("the rows cover {:.2g} degrees of shear angle, there must be at least "
                   "{:g}",
-                  range / deg, least_range / deg),
+                  range / degree, least_range / degree),
       "test to a larger extension, widen --from and --to, or check the size of the "
       "specimen and that the column is in mm");
   return false;
@@ -141,10 +140,10 @@ void warn_of_start(const ShearSpecimen& specimen, const FitOptions& options,
   if (angle > least_range)
     diagnostics.warning(
         place_of(specimen.curve),
-        fmt::format("the rows start at {:.3g} degrees: below, the law is a guess", angle / deg));
+        fmt::format("the rows start at {:.3g} degrees: below, the law is a guess", angle / degree));
   const Corrections& c = options.corrections;
   if (c.load_zero || c.fit_load_zero || c.toe || c.fit_toe) return;
-  if (angle < 0.1 * deg && load > noise_share * specimen.rows.y.maxCoeff())
+  if (angle < 0.1 * degree && load > noise_share * specimen.rows.y.maxCoeff())
     diagnostics.warning(
         place_of(specimen.curve),
         fmt::format(

@@ -4,15 +4,12 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace plyform {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180.0;
-
 /// gamma = a + b exp(-s / l) with the best l.
-struct Profile {
+struct AngleProfile {
   double length = 0.0, limits = 0.0; ///< l, mm
   double plateau = 0.0, step = 0.0;  ///< a, b, rad
   double rms = 0.0;                  ///< of the residuals over |b|
@@ -25,13 +22,13 @@ Eigen::MatrixXd columns_of(const Eigen::VectorXd& s, double length) {
   return a;
 }
 
-Profile fit_profile(const Eigen::VectorXd& s, const Eigen::VectorXd& angle) {
+AngleProfile fit_profile(const Eigen::VectorXd& s, const Eigen::VectorXd& angle) {
   const Eigen::ArrayXd ones = Eigen::ArrayXd::Ones(s.size());
   const double span = s.maxCoeff() - s.minCoeff();
   const double log_length = minimum_of(
       [&](double l) { return fit_fixed(columns_of(s, std::exp(l)), angle, ones).squares; },
       std::log(0.01 * span), std::log(10.0 * span));
-  Profile profile;
+  AngleProfile profile;
   profile.length = std::exp(log_length);
   Eigen::MatrixXd j(s.size(), 3);
   j.leftCols(2) = columns_of(s, profile.length);
@@ -47,7 +44,7 @@ Profile fit_profile(const Eigen::VectorXd& s, const Eigen::VectorXd& angle) {
   return profile;
 }
 
-bool good_profile(const Curve& curve, const Profile& profile, double span,
+bool good_profile(const Curve& curve, const AngleProfile& profile, double span,
                   Diagnostics& diagnostics) {
   constexpr double least_lengths = 1.5; // of l in the profile, for its plateau to be seen
   constexpr double largest_limits = 0.5;
@@ -69,17 +66,18 @@ bool good_profile(const Curve& curve, const Profile& profile, double span,
                       "take one side of the step only, away from the rim");
     return false;
   }
-  constexpr double small = 15.0 * deg;
+  constexpr double small = 15.0 * degree;
   if (std::abs(profile.plateau) > small)
     diagnostics.warning(place_of(curve),
                         fmt::format("the zone is sheared by {:.3g} degrees: measure at 5 to 10, "
                                     "where the law of shear is nearly a line",
-                                    profile.plateau / deg));
+                                    profile.plateau / degree));
   return true;
 }
 
 /// Where y stands for an angle, in degrees: residuals over the step.
-void put_rows(const Curve& curve, const Profile& profile, std::size_t specimen, ZoneFit& result) {
+void put_rows(const Curve& curve, const AngleProfile& profile, std::size_t specimen,
+              ZoneFit& result) {
   for (std::size_t i = 0; i < curve.size(); ++i) {
     result.x.push_back(curve.x[i]);
     result.measured.push_back(curve.y[i]);
@@ -105,9 +103,9 @@ std::optional<ZoneFit> identify_zone(const std::vector<Curve>& curves, const Fab
       return std::nullopt;
     }
     const Eigen::VectorXd s = (vector_of(curve.x).array() - curve.x.front()).matrix();
-    const Profile profile = fit_profile(s, vector_of(curve.y));
+    const AngleProfile profile = fit_profile(s, vector_of(curve.y));
     if (!good_profile(curve, profile, s.maxCoeff(), diagnostics)) return std::nullopt;
-    Profile shifted = profile; // rows begin where they were measured
+    AngleProfile shifted = profile; // rows begin where they were measured
     shifted.step *= std::exp(curve.x.front() / profile.length);
     put_rows(curve, shifted, n, result);
     result.lengths.push_back(profile.length);

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fit/units.hpp"
 
+#include "contact/geometry.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cctype>
-#include <numbers>
 #include <vector>
 
 namespace plyform {
 namespace {
 
 using Q = Quantity;
-constexpr double deg = std::numbers::pi / 180.0;
 
 struct NamedUnit {
   std::string_view name;
@@ -43,13 +43,13 @@ constexpr NamedUnit units[] = {
     {"KN", {Q::force, 1000.0}},
     {"newton", {Q::force, 1.0}},
     {"Newton", {Q::force, 1.0}},
-    {"deg", {Q::angle, deg}},
-    {"degree", {Q::angle, deg}},
-    {"degrees", {Q::angle, deg}},
-    {"\xC2\xB0", {Q::angle, deg}}, // degree sign
+    {"deg", {Q::angle, degree}},
+    {"degree", {Q::angle, degree}},
+    {"degrees", {Q::angle, degree}},
+    {"\xC2\xB0", {Q::angle, degree}}, // degree sign
     {"rad", {Q::angle, 1.0}},
     {"mrad", {Q::angle, 1e-3}},
-    {"DEG", {Q::angle, deg}},
+    {"DEG", {Q::angle, degree}},
     {"%", {Q::strain, 0.01}},
     {"percent", {Q::strain, 0.01}},
     {"pct", {Q::strain, 0.01}},
@@ -192,7 +192,7 @@ std::string units_of(Quantity quantity) {
 }
 
 double usual_factor(Quantity quantity) {
-  return quantity == Quantity::angle ? deg : 1.0;
+  return quantity == Quantity::angle ? degree : 1.0;
 }
 
 bool has_word(const std::string& name, const std::string& words) {

@@ -13,7 +13,7 @@
 namespace plyform {
 namespace {
 
-constexpr PointWords words{"point", "x", "y"};
+constexpr PointWords point_words{"point", "x", "y"};
 
 /// Whether the list has corners only, neither rounded nor arcs.
 bool is_polygon(const TomlNode& list) {
@@ -27,7 +27,7 @@ bool is_polygon(const TomlNode& list) {
 void read_loop(const TomlNode& list, const std::string& item, bool hole, Outline& outline,
                Diagnostics& diagnostics) {
   if (!is_polygon(list)) {
-    const Profile chain = read_points(list, item, words, true, diagnostics);
+    const Profile chain = read_points(list, item, point_words, true, diagnostics);
     if (!chain.empty() && (!hole || !outline.boundary.empty())) append_loop(outline, chain);
     return;
   }
@@ -51,7 +51,7 @@ void read_rectangle(const TableView& section, Outline& outline, Diagnostics& dia
                                         {half.x(), -half.y(), radius},
                                         {half.x(), half.y(), radius},
                                         {-half.x(), half.y(), radius}},
-                                       true, words));
+                                       true, point_words));
   }
 }
 

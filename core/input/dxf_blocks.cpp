@@ -11,7 +11,7 @@ namespace plyform {
 namespace {
 
 constexpr std::size_t most_entities = 100000;
-constexpr int deepest = 16; // blocks in blocks
+constexpr int most_blocks_deep = 16; // blocks in blocks
 
 struct Map {
   Eigen::Matrix2d turn = Eigen::Matrix2d::Identity();
@@ -60,7 +60,7 @@ std::string fault_of(const DxfInsert& insert, const DxfBlocks& blocks, int depth
     return fmt::format("names the block {}, which is not there", insert.block);
   if (insert.array) return "repeats a block in rows or columns";
   if (insert.scale.x() == 0.0 || insert.scale.y() == 0.0) return "has a scale of 0";
-  if (depth > deepest) return fmt::format("is a block {} blocks deep", depth);
+  if (depth > most_blocks_deep) return fmt::format("is a block {} blocks deep", depth);
   return {};
 }
 

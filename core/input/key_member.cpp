@@ -8,9 +8,7 @@ namespace plyform {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
-/// Whether a key that is not given is missing, so that its member is set to `nothing`.
+/// Whether a key that is not given is missing, so that its member is set to `not_given`.
 bool is_missed(const TableView& section, const KeyRow& row) {
   if (!row.otherwise.empty() || !row.goes_with(text(section, row.of))) return false;
   return std::none_of(row.instead.begin(), row.instead.end(),
@@ -20,7 +18,7 @@ bool is_missed(const TableView& section, const KeyRow& row) {
 } // namespace
 
 void assign(double& member, const KeyRow& row, const TomlNode* node) {
-  member = node ? node->number * unit_factor(row, 0) : nothing;
+  member = node ? node->number * unit_factor(row, 0) : not_given;
 }
 
 void assign(int& member, const KeyRow&, const TomlNode* node) {

@@ -6,6 +6,7 @@
 #include "core/input/schema.hpp"
 #include "core/input/toml_tree.hpp"
 
+#include <limits>
 #include <string>
 #include <vector>
 
@@ -38,8 +39,11 @@ TableView subsection(const TableView& section, const std::string& key);
 /// The tables of a list of tables or the tables of a map.
 std::vector<TableView> subsections(const TableView& section, const std::string& key);
 
-/// Values in the program's units (mm, N, s, t, rad). NaN or empty if not given or invalid, so that
-/// comparisons fail and no second error is reported for the same value.
+/// Stands for a number that is not given or invalid: comparisons with it fail.
+constexpr double not_given = std::numeric_limits<double>::quiet_NaN();
+
+/// Values in the program's units (mm, N, s, t, rad). `not_given` or empty if not given or invalid,
+/// so that no second error is reported for the same value.
 double number(const TableView& section, const std::string& key);
 std::vector<double> numbers(const TableView& section, const std::string& key);
 std::vector<Vec2> pairs(const TableView& section, const std::string& key);

@@ -10,8 +10,6 @@ namespace plyform {
 
 namespace {
 
-constexpr double nothing = std::numeric_limits<double>::quiet_NaN();
-
 const KeyRow& row_of(const TableView& section, const std::string& key) {
   const std::string pattern = pattern_of(section.pattern, key);
   const KeyRow* row = find_key(pattern);
@@ -49,7 +47,7 @@ std::vector<TableView> subsections(const TableView& section, const std::string& 
 
 double number(const TableView& section, const std::string& key) {
   const TomlNode* value = given(section, key);
-  return value ? value->number * unit_factor(row_of(section, key), 0) : nothing;
+  return value ? value->number * unit_factor(row_of(section, key), 0) : not_given;
 }
 
 std::vector<double> numbers(const TableView& section, const std::string& key) {
@@ -76,12 +74,12 @@ std::string text(const TableView& section, const std::string& key) {
 
 Vec2 vector2(const TableView& section, const std::string& key) {
   const std::vector<double> v = numbers(section, key);
-  return v.size() == 2 ? Vec2(v[0], v[1]) : Vec2::Constant(nothing);
+  return v.size() == 2 ? Vec2(v[0], v[1]) : Vec2::Constant(not_given);
 }
 
 Vec3 vector3(const TableView& section, const std::string& key) {
   const std::vector<double> v = numbers(section, key);
-  return v.size() == 3 ? Vec3(v[0], v[1], v[2]) : Vec3::Constant(nothing);
+  return v.size() == 3 ? Vec3(v[0], v[1], v[2]) : Vec3::Constant(not_given);
 }
 
 void value_error(const TableView& section, const std::string& key, const std::string& rule,

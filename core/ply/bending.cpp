@@ -43,7 +43,7 @@ double largest_omega2(const Bending& b, const Eigen::VectorXd& root, const Of& o
     return Eigen::VectorXd(force.cwiseQuotient(root));
   };
   Eigen::VectorXd start(root.size());
-  Scatter scatter;
+  RandomNumbers scatter;
   for (double& value : start)
     value = scatter.next();
   return upper_bound(largest_ritz_value(apply, start, ritz_steps));

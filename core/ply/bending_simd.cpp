@@ -62,9 +62,10 @@ StencilSlots slots_of(const Bending& b, int stencil) {
 }
 
 /// Builds the blocks one after the other.
-class BlockMaker {
+class BendingBlockMaker {
 public:
-  BlockMaker(const Bending& bending, BendingSimd& lanes_, std::vector<SimdNumbers>& constants_)
+  BendingBlockMaker(const Bending& bending, BendingSimd& lanes_,
+                    std::vector<SimdNumbers>& constants_)
       : b(bending), out(lanes_), constants(constants_), local(bending.area.size(), -1) {}
 
   void add(int stencil) {
@@ -254,7 +255,7 @@ BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
   for (const Vec3& p : x)
     box.extend(p);
   std::vector<SimdNumbers> constants;
-  BlockMaker maker(b, out, constants);
+  BendingBlockMaker maker(b, out, constants);
   for (const int node : morton_order(x, box))
     maker.add(node);
   maker.close();

@@ -164,7 +164,7 @@ void YarnStiffness::add_to(std::span<const Vec3> y, std::span<Vec3> f) {
 
 Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x) {
   Eigen::VectorXd v(static_cast<Eigen::Index>(3 * x.size()));
-  Scatter scatter;
+  RandomNumbers scatter;
   for (std::size_t n = 0; n < x.size(); ++n) {
     const int triangle = m.gather[m.gather_begin[n]] / 3;
     const FibreState s = fibre_state(m, x, triangle);

@@ -28,10 +28,10 @@ std::vector<int> ordered_groups(const Membrane& m, std::span<const Vec3> x) {
 }
 
 /// Builds the blocks one after the other.
-class BlockMaker {
+class MembraneBlockMaker {
 public:
-  BlockMaker(const Membrane& membrane, std::size_t nodes, MembraneSimd& lanes_,
-             std::vector<SimdTriangles>& triangles_)
+  MembraneBlockMaker(const Membrane& membrane, std::size_t nodes, MembraneSimd& lanes_,
+                     std::vector<SimdTriangles>& triangles_)
       : m(membrane), out(lanes_), triangles(triangles_), local(nodes, -1) {}
 
   void add(int group) {
@@ -202,7 +202,7 @@ bool fits_simd(const Membrane& m) {
 MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {
   MembraneSimd out;
   std::vector<SimdTriangles> triangles;
-  BlockMaker maker(m, x.size(), out, triangles);
+  MembraneBlockMaker maker(m, x.size(), out, triangles);
   for (const int group : ordered_groups(m, x))
     maker.add(group);
   maker.close();

@@ -11,8 +11,8 @@ SheetResponse response(const Membrane& m, const Vec3& k1, const Vec3& k2) {
 }
 
 /// (q) of triangles [begin, end); each triangle is a strain group of its own.
-GroupReport forces(Membrane& m, std::span<const Vec3> x, double, int begin, int end,
-                   std::span<ElementForce> q) {
+GroupReport sheet_forces(Membrane& m, std::span<const Vec3> x, double, int begin, int end,
+                         std::span<ElementForce> q) {
   GroupReport report;
   for (int e = begin; e < end; ++e) {
     const FibreState s = fibre_state(m, x, e);
@@ -25,7 +25,7 @@ GroupReport forces(Membrane& m, std::span<const Vec3> x, double, int begin, int 
 }
 
 /// Energy of the sheet; all of it counts as shear.
-MembraneEnergy energy(const Membrane& m, std::span<const Vec3> x) {
+MembraneEnergy sheet_energy(const Membrane& m, std::span<const Vec3> x) {
   MembraneEnergy sum;
   for (int e = 0; e < m.groups(); ++e) {
     const FibreState s = fibre_state(m, x, e);
@@ -42,6 +42,6 @@ double stiffness(const Membrane& m, const FibreState& s, const Gram& g) {
 
 } // namespace
 
-const InPlaneLaw sheet_in_plane{false, forces, energy, stiffness};
+const InPlaneLaw sheet_in_plane{false, sheet_forces, sheet_energy, stiffness};
 
 } // namespace plyform

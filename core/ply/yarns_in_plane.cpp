@@ -93,8 +93,8 @@ void group_forces(const Membrane& m, const GroupState& s, double n1, double n2,
 }
 
 /// (Q) of groups [begin, end).
-GroupReport forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
-                   std::span<ElementForce> q) {
+GroupReport yarn_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+                        std::span<ElementForce> q) {
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   GroupReport report;
@@ -122,7 +122,7 @@ GroupReport forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, i
 }
 
 /// (E).
-MembraneEnergy energy(const Membrane& m, std::span<const Vec3> x) {
+MembraneEnergy yarn_energy(const Membrane& m, std::span<const Vec3> x) {
   MembraneEnergy sum;
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
   for (int p = 0; p < m.groups(); ++p) {
@@ -143,7 +143,7 @@ MembraneEnergy energy(const Membrane& m, std::span<const Vec3> x) {
 
 } // namespace
 
-const InPlaneLaw yarns_in_plane{true, forces, energy, nullptr};
+const InPlaneLaw yarns_in_plane{true, yarn_forces, yarn_energy, nullptr};
 
 double deviation_stiffness(const Membrane& m, double gamma) {
   const double slope = m.cells_per_area * m.fabric.shear.at(gamma).slope;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Layout: a line that names the kind of file, the checksum of the rest (8 bytes), the rest.
+// Layout: a line that names the first_line of file, the checksum of the rest (8 bytes), the rest.
 #include "core/results/checkpoint_file.hpp"
 
 #include "core/base/archive.hpp"
@@ -26,7 +26,7 @@ void visit_head(Archive& a, std::string& identity, WriterState& writer) {
         writer.last_step);
 }
 
-constexpr std::string_view kind = "plyform checkpoint 1\n";
+constexpr std::string_view first_line = "plyform checkpoint 1\n";
 
 /// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923). sum: of the bytes before these.
 std::uint64_t checksum(std::string_view bytes, std::uint64_t sum = 14695981039346656037ULL) {
@@ -51,7 +51,7 @@ void write_checkpoint_file(const fs::path& path, std::string identity, WriterSta
   std::uint64_t sum = checksum(solver, checksum(head.text()));
   SaveArchive sums;
   visit(sums, sum);
-  write_whole(path, {kind, sums.text(), head.text(), solver});
+  write_whole(path, {first_line, sums.text(), head.text(), solver});
 }
 
 std::optional<Checkpoint> read_checkpoint_file(const fs::path& path, const std::string& identity) {
@@ -62,11 +62,11 @@ std::optional<Checkpoint> read_checkpoint_file(const fs::path& path, const std::
   if (!content) damaged(path, reason);
   const std::string_view all = *content;
   std::uint64_t sum = 0;
-  if (!all.starts_with(kind) || all.size() < kind.size() + sizeof(sum))
+  if (!all.starts_with(first_line) || all.size() < first_line.size() + sizeof(sum))
     damaged(path, "is no checkpoint of this version of plyform");
-  LoadArchive head(all.substr(kind.size(), sizeof(sum)));
+  LoadArchive head(all.substr(first_line.size(), sizeof(sum)));
   visit(head, sum);
-  const std::string_view rest = all.substr(kind.size() + sizeof(sum));
+  const std::string_view rest = all.substr(first_line.size() + sizeof(sum));
   if (checksum(rest) != sum) damaged(path, "is damaged");
   Checkpoint found;
   LoadArchive archive(rest);

@@ -13,12 +13,6 @@
 namespace plyform {
 namespace {
 
-constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
-
 using Loop = std::vector<std::int32_t>;
 
 /// The two neighbours of each node along the border, whose edges belong to one triangle each.
@@ -79,7 +73,8 @@ std::optional<Loop> outer_border(const PlyFrame& ply) {
 /// Draw-in (mm) of one walk; NaN if the middle is not inside the border.
 double draw_in_of_walk(const PlyFrame& ply, const Loop& loop, const Vec2& middle, double angle) {
   const Vec2 u(std::cos(angle), std::sin(angle)), side(-u.y(), u.x());
-  double nearest = std::numeric_limits<double>::infinity(), formed = nan_value;
+  double nearest = std::numeric_limits<double>::infinity(),
+         formed = std::numeric_limits<double>::quiet_NaN();
   int ahead = 0;
   for (std::size_t i = 0; i < loop.size(); ++i) {
     const std::size_t a = at(loop[i]), b = at(loop[(i + 1) % loop.size()]);
@@ -94,7 +89,7 @@ double draw_in_of_walk(const PlyFrame& ply, const Loop& loop, const Vec2& middle
     nearest = met;
     formed = ((1.0 - w) * ply.x[a] + w * ply.x[b]).head<2>().operator-(middle).norm();
   }
-  return ahead % 2 == 0 ? nan_value : nearest - formed;
+  return ahead % 2 == 0 ? std::numeric_limits<double>::quiet_NaN() : nearest - formed;
 }
 
 } // namespace

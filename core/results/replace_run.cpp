@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/replace_run.hpp"
 
+#include "core/results/result_fields.hpp"
+
 #include <fmt/format.h>
 #include <stdexcept>
 
@@ -10,25 +12,21 @@ namespace fs = std::filesystem;
 
 namespace {
 
-[[noreturn]] void fail(const fs::path& path, const char* what, const std::error_code& error) {
-  throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), what, error.message()));
-}
-
 void remove_results(const fs::path& folder) {
   for (const fs::path& file : files_of_run(folder)) {
     std::error_code error;
     fs::remove(folder / file, error);
-    if (error) fail(folder / file, "remove the file of a former run", error);
+    if (error) throw_cannot(folder / file, "remove the file of a former run", error);
   }
 }
 
 void move_results(const fs::path& from, const fs::path& to) {
   std::error_code error;
   fs::create_directories(to / "plies", error);
-  if (error) fail(to, "create the result folder", error);
+  if (error) throw_cannot(to, "create the result folder", error);
   for (const fs::path& file : files_of_run(from)) {
     fs::rename(from / file, to / file, error);
-    if (error) fail(from / file, "move the file", error);
+    if (error) throw_cannot(from / file, "move the file", error);
   }
 }
 
@@ -52,7 +50,7 @@ void replace_run(const fs::path& folder, const fs::path& second, const fs::path&
   std::error_code error;
   fs::remove(second / "plies", error);
   fs::remove(second, error);
-  if (error) fail(second, "remove the folder", error);
+  if (error) throw_cannot(second, "remove the folder", error);
 }
 
 } // namespace plyform

@@ -9,6 +9,7 @@
 #include <initializer_list>
 #include <string>
 #include <string_view>
+#include <system_error>
 #include <vector>
 
 namespace plyform {
@@ -18,6 +19,10 @@ namespace plyform {
 void write_whole(const std::filesystem::path& path, std::string_view content);
 /// Likewise all parts, one after the other.
 void write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
+
+/// Throws std::runtime_error: "PATH: cannot WHAT: the system's reason".
+[[noreturn]] void throw_cannot(const std::filesystem::path& path, const char* what,
+                               const std::error_code& error);
 
 /// Throws std::runtime_error when a name cannot stand as a file name or stands twice, and
 /// std::logic_error when an array of a ply has not as many entries as its nodes or triangles.

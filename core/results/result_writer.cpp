@@ -3,20 +3,17 @@
 
 #include "core/base/thread_pool.hpp"
 #include "core/results/checkpoint_file.hpp"
+#include "core/results/folder_lock.hpp"
 #include "core/results/result_fields.hpp"
 
 #include <algorithm>
-#include <cerrno>
 #include <cmath>
-#include <fcntl.h>
 #include <fmt/compile.h>
 #include <fmt/format.h>
 #include <iterator>
 #include <set>
 #include <stdexcept>
-#include <sys/file.h>
 #include <system_error>
-#include <unistd.h>
 
 namespace plyform {
 
@@ -192,27 +189,6 @@ void remove_former_run(const fs::path& directory) {
     remove_file(table);
 }
 
-/// Keeps other runs out of a folder while it exists.
-class FolderLock {
-public:
-  explicit FolderLock(const fs::path& directory) : file_(open(directory.c_str(), O_RDONLY)) {
-    if (file_ >= 0 && flock(file_, LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK) {
-      close(file_);
-      throw std::runtime_error(fmt::format(
-          "{}: another run writes into this folder; wait for it, or give another one with -o",
-          directory.string()));
-    }
-  }
-  ~FolderLock() {
-    if (file_ >= 0) close(file_);
-  }
-  FolderLock(const FolderLock&) = delete;
-  FolderLock& operator=(const FolderLock&) = delete;
-
-private:
-  int file_;
-};
-
 /// Creates the folder of a run; returns its path.
 fs::path make_folder(const fs::path& directory) {
   const fs::path plies = directory / "plies";
@@ -224,10 +200,6 @@ fs::path make_folder(const fs::path& directory) {
                                          directory.string(), error.message()));
   return directory;
 }
-
-} // namespace
-
-namespace {
 
 /// Makes the texts of as many plies at a time as there are threads, and writes one after the other.
 void write_ply_tables(const fs::path& folder, const std::vector<PlyFrame>& plies, int threads) {

@@ -34,10 +34,6 @@ std::string shape_of(const Frame& frame) {
   return shape;
 }
 
-[[noreturn]] void fail(const fs::path& path, const char* what, const std::error_code& error) {
-  throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), what, error.message()));
-}
-
 } // namespace
 
 void StateFiles::append(const Frame& frame) {
@@ -46,7 +42,7 @@ void StateFiles::append(const Frame& frame) {
   if (number == 0) {
     std::error_code error;
     fs::create_directory(directory_ / "states", error);
-    if (error) fail(directory_ / "states", "create the folder", error);
+    if (error) throw_cannot(directory_ / "states", "create the folder", error);
     next.plies = names_of(frame.plies);
     next.tools = names_of(frame.tools);
     next.boundaries = names_of(frame.boundaries);
@@ -92,12 +88,12 @@ void remove_states(const fs::path& directory, std::size_t first) {
                                     name < state_file(first).filename().string());
     if (!written || kept) continue;
     fs::remove(entry.path(), error);
-    if (error) fail(entry.path(), "remove the file of a former run", error);
+    if (error) throw_cannot(entry.path(), "remove the file of a former run", error);
   }
   if (first > 0) return;
   fs::remove(folder, error);
   if (error && error != std::errc::directory_not_empty) // stays if anything else is in it
-    fail(folder, "remove the folder of a former run", error);
+    throw_cannot(folder, "remove the folder of a former run", error);
 }
 
 } // namespace plyform

@@ -17,10 +17,6 @@ constexpr double longest_half_mm = 30.0; // waves of dry cloth under a holder ar
 constexpr double half_growth = 1.2;      // from one s to the next; between them H loses 3 % at most
 constexpr double facing = std::numbers::sqrt2 / 2.0; // cosine of 45 degrees
 
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
-
 double mean_side(const PlyFrame& ply) {
   double sum = 0.0;
   for (const Triangle& t : ply.triangles)

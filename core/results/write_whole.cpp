@@ -12,6 +12,10 @@ namespace plyform {
 
 namespace fs = std::filesystem;
 
+void throw_cannot(const fs::path& path, const char* what, const std::error_code& error) {
+  throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), what, error.message()));
+}
+
 void write_whole(const fs::path& path, std::string_view content) {
   write_whole(path, std::initializer_list<std::string_view>{content});
 }
@@ -22,8 +26,7 @@ void write_whole(const fs::path& path, std::initializer_list<std::string_view> p
   const auto fail = [&](const char* what, int error) {
     std::error_code ignored;
     fs::remove(temporary, ignored);
-    throw std::runtime_error(fmt::format("{}: cannot {}: {}", path.string(), what,
-                                         std::generic_category().message(error)));
+    throw_cannot(path, what, {error, std::generic_category()});
   };
   std::FILE* file = std::fopen(temporary.c_str(), "wb");
   if (!file) fail("create the file", errno);

@@ -11,10 +11,6 @@ namespace {
 constexpr double resolution = 0.01; // thicknesses; a cut of one thickness makes a result doubtful
 constexpr int most_halvings = 8;    // of a quarter of a side: 0.01 mm where a side has 10 mm
 
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
-
 /// Search for the deepest point of one ply in one tool.
 class Search {
 public:

@@ -6,13 +6,6 @@
 #include <fmt/format.h>
 
 namespace plyform {
-namespace {
-
-const Vec3& at(const std::vector<Vec3>& v, int n) {
-  return v[n];
-}
-
-} // namespace
 
 double step_displacement(const Scene& s, int ply) {
   double step2 = 0.0;

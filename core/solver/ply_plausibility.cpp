@@ -16,11 +16,7 @@ namespace plyform {
 namespace {
 
 constexpr double line_spacing = 2.0; // mm, of the lines of (1): about a yarn, finer than any mesh
-constexpr double degrees = 180.0 / std::numbers::pi;
-
-std::size_t at(std::int32_t index) {
-  return static_cast<std::size_t>(index);
-}
+constexpr double degrees_per_rad = 180.0 / std::numbers::pi;
 
 Vec3 formed_centroid(const PlyFrame& ply, std::size_t t) {
   const Triangle& n = ply.triangles[t];
@@ -94,7 +90,8 @@ PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas
   }
   result.share_above_2 = area_share_above(pressed, 0.02, areas);
   result.share_above_5 = area_share_above(pressed, 0.05, areas);
-  const double warp = ply.angle_deg / degrees, weft = warp + fibre_angle_deg / degrees;
+  const double warp = ply.angle_deg / degrees_per_rad,
+               weft = warp + fibre_angle_deg / degrees_per_rad;
   for (const YarnLine& line : {worst_line(ply, ply.warp_strain, areas, warp),
                                worst_line(ply, ply.weft_strain, areas, weft)})
     if (line.excess > result.excess_mm) {
@@ -206,8 +203,8 @@ std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
   std::vector<PlyReport> result;
   for (std::size_t p = 0; p < last.plies.size(); ++p) {
     const Fabric& fabric = s.data.fabrics[s.data.plies[p].fabric];
-    PlyNature nature{fabric.fibre_angle * degrees, fabric.has_yarns(), std::nullopt};
-    if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle * degrees;
+    PlyNature nature{fabric.fibre_angle * degrees_per_rad, fabric.has_yarns(), std::nullopt};
+    if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle * degrees_per_rad;
     result.push_back(report_ply(last.plies[p], nature, tools));
   }
   return result;

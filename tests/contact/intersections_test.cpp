@@ -21,6 +21,9 @@ static void PrintTo(const Intersection& i, std::ostream* out) {
   *out << "(" << i.sheet_a << ":" << i.a << " " << i.sheet_b << ":" << i.b << ")";
 }
 
+} // namespace plyform
+
+namespace plyform::intersections_test {
 namespace {
 
 // ---- the oracle: every pair, by constructing the intersection in exact arithmetic ----
@@ -355,4 +358,4 @@ TEST(Audit, WrongInputIsRefusedNamingTheNode) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::intersections_test

@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-namespace plyform {
+namespace plyform::point_triangle_test {
 namespace {
 
 using Exact = CGAL::Exact_rational;
@@ -219,4 +219,4 @@ TEST_F(PointTriangle, ClosestPointNeverJumps) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::point_triangle_test

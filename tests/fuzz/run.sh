@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs the libFuzzer targets, as many at a time as there are cores, each for so many seconds:
 #   tests/fuzz/run.sh SECONDS [TARGET]...      all: case fabric curve results stl obj ply off dxf
-# Seeds are tests/fuzz/corpus/TARGET; what is learned stays in build/fuzz/corpus, and a file that a
-# target goes down on, or hangs or swells on, in build/fuzz/finds: mend the reader, then put the
+# Seeds are tests/fuzz/corpus/TARGET; what is learned stays in build/asan/corpus, and a file that a
+# target goes down on, or hangs or swells on, in build/asan/finds: mend the reader, then put the
 # file into tests/fuzz/corpus/TARGET, where a test replays it. Answers 1 if there is any.
 set -euo pipefail
 seconds=${1:?how many seconds? tests/fuzz/run.sh SECONDS [TARGET]...}
@@ -12,10 +12,9 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=(case fabric curve results stl obj ply off dxf)
 
-tools/install_packages.sh build clang-14 libclang-rt-14-dev
-[ -e build/fuzz/build.ninja ] || cmake --preset fuzz
-cmake --build --preset fuzz
-folder=$PWD/build/fuzz
+tools/install_packages.sh clang-14 libclang-rt-14-dev
+tools/build.sh asan fuzzers
+folder=$PWD/build/asan
 mkdir -p "$folder/finds" "$folder/logs"
 # words of case and fabric files, as keys.md lists them
 sed -n 's/^| `\([^`]*\)`.*/\1/p' docs/users/keys.md | sed 's/.*[.]//; s/\[\]//; s/.*/"& = "/' |
@@ -55,7 +54,7 @@ for target in "${targets[@]}"; do
   total=$((total + ${runs:-0}))
 done
 for target in ${failed[@]+"${failed[@]}"}; do
-  echo "== $target: found something; build/fuzz/logs/$target.log ends with"
+  echo "== $target: found something; build/asan/logs/$target.log ends with"
   tail -n 40 "$folder/logs/$target.log"
 done
 echo "${#targets[@]} targets, $total executions, ${#failed[@]} with finds"

@@ -12,7 +12,7 @@
 
 #include <cmath>
 
-namespace plyform {
+namespace plyform::attachment_test {
 namespace {
 
 constexpr double length = 100.0, width = 20.0; // mm
@@ -386,4 +386,4 @@ TEST(Attachments, DrawOfTheShippedCaseFollowsHoldersAndSprings) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::attachment_test

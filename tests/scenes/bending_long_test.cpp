@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <iostream>
 
-namespace plyform {
+namespace plyform::bending_long_test {
 namespace {
 
 constexpr double weight = 6e-10 * 9810.0; // N/mm^2, of glass_weave()
@@ -155,4 +155,4 @@ TEST(BendingLong, StripFollowsATableOfMoments) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::bending_long_test

@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace plyform {
+namespace plyform::boundary_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -279,4 +279,4 @@ TEST(BoundaryScene, StoppedRunGoesBackToBoundariesOfItsLastGoodState) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::boundary_test

@@ -12,7 +12,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::capstan_test {
 namespace {
 
 constexpr double cell = 5.0; // mm
@@ -102,4 +102,4 @@ TEST(CapstanScene, PullGrowsByTheExponentialRoundHalfATurn) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::capstan_test

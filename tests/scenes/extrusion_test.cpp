@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-namespace plyform {
+namespace plyform::extrusion_test {
 namespace {
 
 constexpr double gap = 40.0, fillet = 8.0, reach = 120.0; // mm
@@ -75,4 +75,4 @@ TEST(ExtrusionScene, ChannelFormsAsBoxesDo) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::extrusion_test

@@ -11,7 +11,7 @@
 
 #include <fmt/format.h>
 
-namespace plyform {
+namespace plyform::fold_test {
 namespace {
 
 constexpr double cell = 5.0; // mm
@@ -88,4 +88,4 @@ TEST(FoldScene, AnSFoldIsThreeLayers) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::fold_test

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <map>
 
-namespace plyform {
+namespace plyform::hemisphere_long_test {
 namespace {
 
 Case shipped(const char* name) {
@@ -109,4 +109,4 @@ TEST(HemisphereLong, FivePliesFormSoundly) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::hemisphere_long_test

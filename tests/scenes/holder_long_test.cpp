@@ -7,7 +7,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::holder_long_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -98,4 +98,4 @@ TEST(HolderSceneLong, ForceIsThatGivenAndMassDoesNotShowOnTwoPlies) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::holder_long_test

@@ -5,7 +5,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::impact_test {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -231,4 +231,4 @@ TEST(Impact, PlateDroppedFromTenMillimetres) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::impact_test

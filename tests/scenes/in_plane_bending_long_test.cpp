@@ -7,7 +7,7 @@
 
 #include <cmath>
 
-namespace plyform {
+namespace plyform::in_plane_bending_long_test {
 namespace {
 
 constexpr double shear_stiffness = 0.25 * 0.25 * 0.37044; // N/mm, n_c Cs'(0) of glass_weave()
@@ -147,4 +147,4 @@ TEST(InPlaneBendingLong, LayersBetweenItsZonesAddToTheLoadOfTheBiasTest) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::in_plane_bending_long_test

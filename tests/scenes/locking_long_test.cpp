@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::locking_long_test {
 namespace {
 
 constexpr double length = 300.0, width = 100.0, degree = std::numbers::pi / 180.0;
@@ -62,4 +62,4 @@ TEST(LockingLong, PlainElementIsNot) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::locking_long_test

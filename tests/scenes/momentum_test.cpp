@@ -5,7 +5,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::momentum_test {
 namespace {
 
 /// Three plies at three angles, the middle one of finer mesh, pressed by a plate while a ball goes
@@ -121,4 +121,4 @@ TEST(MomentumScene, IsTheSameOnAnyThreads) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::momentum_test

@@ -3,7 +3,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::moved_test {
 namespace {
 
 /// x -> turn x + way (mm).
@@ -88,4 +88,4 @@ TEST(MovedScene, FormsTheSameWay) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::moved_test

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::paper_cases_long_test {
 namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
@@ -285,4 +285,4 @@ TEST(PaperLong, HemisphereTurnedBy45DegreesIsTheSame) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::paper_cases_long_test

@@ -10,7 +10,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::pull_out_test {
 namespace {
 
 constexpr double mu = 0.2;
@@ -134,4 +134,4 @@ TEST(PullOutScene, PullAtConstantPressureFallsWithTheArea) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::pull_out_test

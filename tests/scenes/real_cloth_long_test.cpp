@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::real_cloth_long_test {
 namespace {
 
 /// hemisphere_five_ply with cells of 10 mm, and zones of sheared yarns that these carry (docs/
@@ -80,4 +80,4 @@ TEST(RealClothLong, ContactHoldsWhereItGaveWay) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::real_cloth_long_test

@@ -5,7 +5,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::rim_test {
 namespace {
 
 /// A large coarse ply and a small fine one under a plate of 30 N, the small one gripped at its left
@@ -115,4 +115,4 @@ TEST(RimScene, NodesLeaveAndComeBackWithoutJumpOrChatter) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::rim_test

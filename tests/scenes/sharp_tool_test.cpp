@@ -5,7 +5,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::sharp_tool_test {
 namespace {
 
 constexpr double quarter = 0.5 * std::numbers::pi;
@@ -132,4 +132,4 @@ TEST(SharpTool, BoundIsTheWorstOfAllChords) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::sharp_tool_test

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-namespace plyform {
+namespace plyform::slope_test {
 namespace {
 
 constexpr double g = 9810.0; // mm/s^2
@@ -106,4 +106,4 @@ TEST(SlopeScene, SlidesAboveItWithWhatFrictionLeavesOfGravity) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::slope_test

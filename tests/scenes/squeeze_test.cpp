@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::squeeze_test {
 namespace {
 
 /// `plies` on a floor, under a box that comes down by `stroke` (mm) from where it touches.
@@ -57,4 +57,4 @@ TEST(SqueezeScene, TooLittleRoomIsNamed) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::squeeze_test

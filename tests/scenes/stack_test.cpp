@@ -7,7 +7,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::stack_test {
 namespace {
 
 constexpr double force = 300.0; // N
@@ -58,4 +58,4 @@ INSTANTIATE_TEST_SUITE_P(OfPliesAndThickness, StackScene,
                                             ::testing::Values(0.2, 0.6, 2.0)));
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::stack_test

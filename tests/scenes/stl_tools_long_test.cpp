@@ -5,7 +5,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
-namespace plyform {
+namespace plyform::stl_tools_long_test {
 namespace {
 
 /// The coarse hemisphere with punch and die as they are, or as meshes of 1 mm facets (which miss a
@@ -49,4 +49,4 @@ TEST(StlToolsLong, FormLikeTheirShapes) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::stl_tools_long_test

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
-namespace plyform {
+namespace plyform::stress_long_test {
 namespace {
 
 /// Bias test at rest with ten elements a width: load of the averaged element on shaken cells at 20
@@ -59,4 +59,4 @@ TEST(StressLong, YarnsThatBearCompressionNeedAFinerMesh) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::stress_long_test

@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::stress_table_test {
 namespace {
 
 constexpr double side = 100.0; // mm
@@ -294,4 +294,4 @@ TEST(Stress, StopsWhenAStripIsPushedThroughItself) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::stress_table_test

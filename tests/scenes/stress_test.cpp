@@ -5,7 +5,7 @@
 #include "core/solver/scene.hpp"
 #include "support/stress_scenes.hpp"
 
-namespace plyform {
+namespace plyform::stress_test {
 namespace {
 
 TEST(Stress, PulledObliquelyEveryFabricKeepsItsLedger) {
@@ -164,4 +164,4 @@ TEST(Stress, FinePlyDrawnOverCoarseOneFeelsItsFriction) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::stress_test

@@ -35,7 +35,7 @@
 
 #include <algorithm>
 
-namespace plyform {
+namespace plyform::strip_between_plates_long_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -347,4 +347,4 @@ TEST(StripBetweenPlatesLong, StraightStripIsHeldStraightBeyondTheOnset) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::strip_between_plates_long_test

@@ -11,7 +11,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::symmetry_test {
 namespace {
 
 /// A scene run to its end with the stable step of its stiffest element, which part and whole share;
@@ -80,4 +80,4 @@ TEST(SymmetryScene, GripsOffThePlaneMayCrossIt) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::symmetry_test

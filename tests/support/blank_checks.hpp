@@ -15,8 +15,6 @@
 
 namespace plyform::blank_checks {
 
-inline constexpr double degree = std::numbers::pi / 180;
-
 inline double turn(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }

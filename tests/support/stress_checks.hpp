@@ -13,8 +13,6 @@
 
 namespace plyform {
 
-constexpr double degree = std::numbers::pi / 180.0;
-
 struct NamedFabric {
   std::string name;
   Fabric fabric;

@@ -9,12 +9,9 @@
 #include "tools/cli/commands.hpp"
 
 #include <filesystem>
-#include <numbers>
 #include <optional>
 
 namespace plyform {
-
-inline constexpr double degree = std::numbers::pi / 180.0;
 
 /// An identified law as text for the report and the fabric file.
 struct Identified {

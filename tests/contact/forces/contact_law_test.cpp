@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::contact_law_test {
 namespace {
 
 constexpr double area = 3.0, k = 2.0; // mm^2, N/mm^3
@@ -131,4 +131,4 @@ TEST(ContactLaw, ReleaseTurnsTheSpringIntoHeat) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::contact_law_test

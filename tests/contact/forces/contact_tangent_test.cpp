@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::contact_tangent_test {
 namespace {
 
 constexpr double thickness = 0.6;  // mm
@@ -161,4 +161,4 @@ TEST(ContactTangents, AnswerAsEdgesDo) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::contact_tangent_test

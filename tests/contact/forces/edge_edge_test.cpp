@@ -9,7 +9,7 @@
 #include <numbers>
 #include <set>
 
-namespace plyform {
+namespace plyform::edge_edge_test {
 namespace {
 
 constexpr double thickness = 0.6; // h, mm
@@ -323,4 +323,4 @@ TEST(EdgeEdgeContact, OfASheetWithItselfLeavesOutNeighboursAndGivesEachPairOnce)
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::edge_edge_test

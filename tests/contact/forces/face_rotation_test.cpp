@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::face_rotation_test {
 namespace {
 
 struct RandomFace {
@@ -64,4 +64,4 @@ TEST(FaceTurn, ForcesOfACoupleDoItsWork) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::face_rotation_test

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::ply_ply_test {
 namespace {
 
 constexpr double thickness = 0.6; // h, mm
@@ -313,4 +313,4 @@ TEST(PlyPlyContact, NoPairIsMissedBetweenSearches) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::ply_ply_test

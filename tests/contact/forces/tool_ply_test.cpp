@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::tool_ply_test {
 namespace {
 
 constexpr double half_thickness = 0.3; // mm
@@ -268,4 +268,4 @@ TEST(ToolPlyContact, PushedToolClosesAtItsSpeedLimit) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::tool_ply_test

@@ -18,6 +18,9 @@ static void PrintTo(const Candidate& c, std::ostream* out) {
   *out << "(" << c.node << ", " << c.face << ")";
 }
 
+} // namespace plyform
+
+namespace plyform::sheet_bvh_test {
 namespace {
 
 /// nx x ny cells of size h from the origin, lifted to z(x, y).
@@ -262,4 +265,4 @@ TEST(Candidates, WrongInputIsRefused) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::sheet_bvh_test

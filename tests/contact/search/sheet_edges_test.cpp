@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::sheet_edges_test {
 namespace {
 
 TEST(SheetEdges, EveryEdgeIsInAPatchThatHoldsItsNodes) {
@@ -50,4 +50,4 @@ TEST(SheetEdges, MotionOfPatchesBoundsThatOfTheirNodes) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::sheet_edges_test

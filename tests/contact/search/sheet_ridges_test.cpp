@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-namespace plyform {
+namespace plyform::sheet_ridges_test {
 namespace {
 
 constexpr double limit = 0.05;
@@ -184,4 +184,4 @@ TEST(SheetRidges, AClosedPairStaysACandidateWhateverItsFold) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::sheet_ridges_test

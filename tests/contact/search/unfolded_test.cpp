@@ -9,7 +9,7 @@
 #include <numbers>
 #include <numeric>
 
-namespace plyform {
+namespace plyform::unfolded_test {
 namespace {
 
 constexpr double distance = 0.6, apart = 3.0 * distance, skin = 1.0; // mm
@@ -120,4 +120,4 @@ TEST(Unfolded, NotWhereTheLipsOfASlitSlideOverEachOther) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::unfolded_test

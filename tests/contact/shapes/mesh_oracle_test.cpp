@@ -13,7 +13,7 @@
 #include <CGAL/Surface_mesh.h>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::mesh_oracle_test {
 namespace {
 
 using testing::ask;
@@ -107,4 +107,4 @@ TEST(MeshOracle, DistanceSideAndNormalAgreeWithCgal) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::mesh_oracle_test

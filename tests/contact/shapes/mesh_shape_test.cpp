@@ -14,7 +14,7 @@
 #include <string>
 #include <thread>
 
-namespace plyform {
+namespace plyform::mesh_shape_test {
 namespace {
 
 using testing::ask;
@@ -387,4 +387,4 @@ TEST(MeshShape, BrokenMeshesAreRejectedWithTheReason) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::mesh_shape_test

@@ -5,7 +5,7 @@
 #include <cstring>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::polygon_file_test {
 namespace {
 
 /// The message about a file's content; empty if it is accepted.
@@ -169,4 +169,4 @@ TEST(PolygonFile, ObjThatGoesAgainstItsFormatIsRefused) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::polygon_file_test

@@ -11,7 +11,7 @@
 #include <functional>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::primitive_oracle_test {
 namespace {
 
 using testing::ask;
@@ -149,4 +149,4 @@ TEST(PrimitiveOracle, CentresAxesCornersEdgesRimsAndFacesAgreeWithFcl) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::primitive_oracle_test

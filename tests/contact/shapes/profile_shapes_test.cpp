@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace plyform {
+namespace plyform::profile_shapes_test {
 namespace {
 
 using testing::ask;
@@ -179,4 +179,4 @@ TEST(ProfileShapes, ClosedChainsRoundEveryCorner) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::profile_shapes_test

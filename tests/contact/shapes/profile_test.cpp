@@ -10,7 +10,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace plyform {
+namespace plyform::profile_test {
 namespace {
 
 using testing::ask;
@@ -249,4 +249,4 @@ TEST(Profile, MistakesAreRejectedWithPointAndReason) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::profile_test

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::rounded_shape_test {
 namespace {
 
 using testing::ask;
@@ -168,4 +168,4 @@ TEST(RoundedShape, TakesNoLargerRadiusThanFits) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::rounded_shape_test

@@ -8,7 +8,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::section_oracle_test {
 namespace {
 
 using testing::ask;
@@ -264,4 +264,4 @@ TEST(SectionOracle, CornersCentresAxisAndSurfaceAgreeWithBruteForce) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::section_oracle_test

@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::tessellate_test {
 namespace {
 
 namespace PMP = CGAL::Polygon_mesh_processing;
@@ -175,4 +175,4 @@ TEST(Tessellate, SizeMustBeAboveZero) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::tessellate_test

@@ -13,7 +13,7 @@
 #include <string>
 #include <unistd.h>
 
-namespace plyform {
+namespace plyform::tool_mesh_file_test {
 namespace {
 
 using testing::ask;
@@ -290,4 +290,4 @@ TEST_F(ToolMeshFile, WhatCgalCannotRepairIsRejectedInOneLine) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::tool_mesh_file_test

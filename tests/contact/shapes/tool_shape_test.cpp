@@ -8,7 +8,7 @@
 #include <limits>
 #include <memory>
 
-namespace plyform {
+namespace plyform::tool_shape_test {
 namespace {
 
 using testing::ask;
@@ -185,4 +185,4 @@ TEST(ToolShape, SmallestRadius) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::tool_shape_test

@@ -8,7 +8,7 @@
 #include <cstring>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::edge_edge_kernel_test {
 namespace {
 
 /// Edges at random, some of them exactly or nearly parallel, some without length.
@@ -76,4 +76,4 @@ TEST(EdgeEdgeKernel, AllCopiesGiveTheSameBits) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::edge_edge_kernel_test

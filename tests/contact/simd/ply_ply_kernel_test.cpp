@@ -10,7 +10,7 @@
 #include <limits>
 #include <utility>
 
-namespace plyform {
+namespace plyform::ply_ply_kernel_test {
 namespace {
 
 /// A call back of the kernel: the point, and the gap or distance that it tells.
@@ -182,4 +182,4 @@ TEST(PlyPlyKernel, AllCopiesGiveTheSameBitsWithAnyNumberOfPoints) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::ply_ply_kernel_test

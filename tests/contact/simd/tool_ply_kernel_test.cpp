@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-namespace plyform {
+namespace plyform::tool_ply_kernel_test {
 namespace {
 
 /// A step of contacts with random memories and gaps up to 0.05 mm either way, every third four of
@@ -151,4 +151,4 @@ TEST(ToolKernelOracle, GivesTheSameBitsOnEveryProcessor) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::tool_ply_kernel_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::error_model_test {
 namespace {
 
 Case case_at(const std::string& file, const std::vector<Override>& overrides = {}) {
@@ -214,4 +214,4 @@ TEST(Accuracy, CasesMayAskForIt) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::error_model_test

@@ -8,7 +8,7 @@
 #include <stdexcept>
 #include <vector>
 
-namespace plyform {
+namespace plyform::helper_process_test {
 namespace {
 
 using End = HelperResult::End;
@@ -57,4 +57,4 @@ TEST(HelperProcess, KeepsItsChangesToItself) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::helper_process_test

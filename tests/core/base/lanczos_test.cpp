@@ -7,12 +7,12 @@
 #include <gtest/gtest.h>
 #include <utility>
 
-namespace plyform {
+namespace plyform::lanczos_test {
 namespace {
 
 TEST(Lanczos, ResidualSaysHowFarTheNearestEigenvalueIs) {
   constexpr Eigen::Index size = 60;
-  Scatter scatter;
+  RandomNumbers scatter;
   Eigen::MatrixXd half(size, size);
   for (Eigen::Index i = 0; i < half.size(); ++i)
     half(i) = scatter.next();
@@ -32,7 +32,7 @@ TEST(Lanczos, ResidualSaysHowFarTheNearestEigenvalueIs) {
 
 TEST(Lanczos, HoldsWithMoreStepsThanThereAreDirections) {
   for (const auto& [size, rank] : {std::pair<Eigen::Index, Eigen::Index>{10, 9}, {60, 9}, {3, 2}}) {
-    Scatter scatter;
+    RandomNumbers scatter;
     Eigen::MatrixXd half(size, rank);
     for (Eigen::Index i = 0; i < half.size(); ++i)
       half(i) = scatter.next();
@@ -60,4 +60,4 @@ TEST(Lanczos, OfAVectorThatIsAnEigenvectorIsExact) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::lanczos_test

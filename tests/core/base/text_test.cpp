@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::text_test {
 namespace {
 
 TEST(ReadText, SaysWhatIsNoFile) {
@@ -26,4 +26,4 @@ TEST(ReadText, SaysThatAFileCannotBeRead) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::text_test

@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-namespace plyform {
+namespace plyform::thread_pool_test {
 namespace {
 
 TEST(ThreadPool, DoesEveryTaskOnce) {
@@ -96,4 +96,4 @@ TEST(ThreadPool, ComesAndGoesWithoutWork) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::thread_pool_test

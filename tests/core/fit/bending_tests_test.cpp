@@ -11,7 +11,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::bending_tests_test {
 namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
@@ -210,4 +210,4 @@ TEST(Compression, IsALineAndAPlateau) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::bending_tests_test

@@ -9,7 +9,7 @@
 #include <numbers>
 #include <unistd.h>
 
-namespace plyform {
+namespace plyform::curve_columns_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ TEST(CurveColumns, PreferTheWordsOfTheTest) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::curve_columns_test

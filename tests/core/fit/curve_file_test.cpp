@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace plyform {
+namespace plyform::curve_file_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -218,4 +218,4 @@ TEST(CurveChecks, LeaveOutRowsBarelyBelowZero) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::curve_file_test

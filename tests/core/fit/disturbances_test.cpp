@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::disturbances_test {
 namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
@@ -234,4 +234,4 @@ TEST(Disturbances, OfAStripAreFoundAndTakenOff) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::disturbances_test

@@ -11,7 +11,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace plyform {
+namespace plyform::fit_shear_test {
 namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
@@ -253,4 +253,4 @@ TEST(IdentifyShear, ThrowsForOptionsOutOfRange) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::fit_shear_test

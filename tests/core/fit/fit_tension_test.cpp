@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <stdexcept>
 
-namespace plyform {
+namespace plyform::fit_tension_test {
 namespace {
 
 template <class Law>
@@ -129,4 +129,4 @@ TEST(IdentifyTension, RefusesWithOneMessage) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::fit_tension_test

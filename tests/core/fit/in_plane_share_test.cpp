@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::in_plane_share_test {
 namespace {
 
 const ShearTest bias = shear_test(BiasSpecimen{300.0, 100.0});
@@ -80,4 +80,4 @@ TEST(InPlaneShare, WarnsWhereItIsMostOfTheLoad) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::in_plane_share_test

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <stdexcept>
 
-namespace plyform {
+namespace plyform::shear_tests_test {
 namespace {
 
 using std::numbers::pi;
@@ -121,4 +121,4 @@ TEST(ShearTests, RefuseSpecimensThatTheEquationsDoNotHoldFor) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::shear_tests_test

@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::specimens_test {
 namespace {
 
 constexpr double deg = std::numbers::pi / 180.0;
@@ -134,4 +134,4 @@ TEST(Specimens, OfOtherLengthsHaveTheirCommonPart) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::specimens_test

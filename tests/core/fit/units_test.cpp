@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::units_test {
 namespace {
 
 using Q = Quantity;
@@ -68,4 +68,4 @@ TEST(Units, WordsAreWholeWords) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::units_test

@@ -6,7 +6,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::attachment_checks_test {
 namespace {
 
 /// The warnings of a case, which has no error.
@@ -82,4 +82,4 @@ TEST(AttachmentChecks, HoldersInEachOtherAreWarnedOf) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::attachment_checks_test

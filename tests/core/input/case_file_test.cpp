@@ -14,7 +14,7 @@
 #include <set>
 #include <sstream>
 
-namespace plyform {
+namespace plyform::case_file_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -323,4 +323,4 @@ TEST(CaseFile, HasTheFabricsBending) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::case_file_test

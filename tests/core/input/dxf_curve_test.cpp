@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::dxf_curve_test {
 namespace {
 
 constexpr double pi = std::numbers::pi, infinity = std::numeric_limits<double>::infinity();
@@ -149,4 +149,4 @@ TEST(DxfCurve, FinerThanManyPiecesIsCutOff) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::dxf_curve_test

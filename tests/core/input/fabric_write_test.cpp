@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <unistd.h>
 
-namespace plyform {
+namespace plyform::fabric_write_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -235,4 +235,4 @@ polynomial = [1.0]
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::fabric_write_test

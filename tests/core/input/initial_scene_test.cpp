@@ -6,7 +6,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::initial_scene_test {
 namespace {
 
 Tool ball(double radius, const Vec3& position) {
@@ -84,4 +84,4 @@ TEST(InitialScene, AToolMuchLargerThanThePliesHasFewTriangles) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::initial_scene_test

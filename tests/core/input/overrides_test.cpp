@@ -1,29 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // --set KEY=VALUE, and the checks of the scene as a whole on a case changed by it.
-#include "core/setup/prepare_case.hpp"
+#include "support/case_files.hpp"
 
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::overrides_test {
 namespace {
 
-const std::filesystem::path data = PLYFORM_TEST_DATA;
 constexpr double pi = std::numbers::pi;
-
-std::string all_texts(const PreparedCase& reading) {
-  std::string texts;
-  for (const CaseError& error : reading.errors)
-    texts += error.text() + "\n";
-  return texts;
-}
-
-/// A case that must be right.
-Case good_case(const std::filesystem::path& file, const std::vector<Override>& overrides) {
-  const PreparedCase reading = prepare_case(file, overrides);
-  EXPECT_TRUE(reading.value) << all_texts(reading);
-  return reading.value ? *reading.value : Case{};
-}
 
 Case base_with(const std::vector<Override>& overrides) {
   return good_case(data / "good/base.toml", overrides);
@@ -141,4 +126,4 @@ TEST(SceneCheck, LetsToolsTouchThePlies) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::overrides_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace plyform {
+namespace plyform::schema_test {
 namespace {
 
 /// All patterns of keys that stand in a file.
@@ -104,4 +104,4 @@ TEST(KeyTable, BoundsEveryNumberOnBothSides) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::schema_test

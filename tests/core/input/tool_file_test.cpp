@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::tool_file_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -103,4 +103,4 @@ TEST(ToolFile, ReadsConesToriAndExtrusions) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::tool_file_test

@@ -10,7 +10,7 @@
 #include <memory>
 #include <set>
 
-namespace plyform {
+namespace plyform::mesh_blank_test {
 namespace {
 
 using namespace blank_checks;
@@ -262,4 +262,4 @@ TEST(Blank, FibresNearlyParallelAreRefused) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::mesh_blank_test

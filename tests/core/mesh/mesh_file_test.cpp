@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace plyform {
+namespace plyform::mesh_file_test {
 namespace {
 
 using namespace blank_checks;
@@ -238,4 +238,4 @@ TEST(BlankFromFile, MustBeManifoldAndInOnePiece) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::mesh_file_test

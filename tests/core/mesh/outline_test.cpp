@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace plyform {
+namespace plyform::outline_test {
 namespace {
 
 using namespace blank_checks;
@@ -118,4 +118,4 @@ TEST(BlankOutline, SmallestWidthIsThatOfTheShapeNotOfItsBoundingBox) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::outline_test

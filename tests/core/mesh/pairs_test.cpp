@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 #include <set>
 
-namespace plyform {
+namespace plyform::pairs_test {
 namespace {
 
 BlankMesh meshed(MeshKind kind) {
@@ -96,4 +96,4 @@ TEST(StrainGroups, AreTheSameEveryTime) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::pairs_test

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::round_blank_test {
 namespace {
 
 using namespace blank_checks;
@@ -166,4 +166,4 @@ TEST(PlyPlace, YarnsStayAtTheirAngleWhenTheBlankTurns) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::round_blank_test

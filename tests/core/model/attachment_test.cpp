@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace plyform {
+namespace plyform::attachment_test {
 namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
@@ -135,4 +135,4 @@ TEST(Attachment, GripperIsHeldByPlanesOfSymmetryAndItsGuide) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::attachment_test

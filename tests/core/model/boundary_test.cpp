@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::boundary_test {
 namespace {
 
 constexpr double pi = std::numbers::pi;
@@ -206,4 +206,4 @@ TEST(Boundary, OfOtherPliesHoldsNothing) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::boundary_test

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-namespace plyform {
+namespace plyform::fabric_estimates_test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -169,4 +169,4 @@ TEST(Resolution, WarnsOfMeshesThatDoNotCarryTheYarnsBending) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::fabric_estimates_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::fabric_test {
 namespace {
 
 constexpr double h = 1e-6; // strain or rad: cut-off 1e-12 relative, rounding 1e-9
@@ -138,4 +138,4 @@ TEST(ShearLaw, IsThePapersPolynomial) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::fabric_test

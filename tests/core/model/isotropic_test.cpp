@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::isotropic_test {
 namespace {
 
 constexpr double modulus = 4200.0, ratio = 0.35, thickness = 0.25; // N/mm^2, -, mm: paper or foil
@@ -213,4 +213,4 @@ TEST(Isotropic, StiffnessBoundHoldsForEveryStateOfOneTriangle) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::isotropic_test

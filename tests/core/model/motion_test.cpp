@@ -5,7 +5,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::motion_test {
 namespace {
 
 TEST(Motion, SmoothStepStartsAndEndsAtRest) {
@@ -67,4 +67,4 @@ TEST(Motion, WithoutAProgrammeAStrokeTakesTheDurationAndAForceRisesAtOnce) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::motion_test

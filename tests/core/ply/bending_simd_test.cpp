@@ -9,7 +9,7 @@
 #include <cstring>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::bending_simd_test {
 namespace {
 
 constexpr double warp = 0.3, weft = 1.55; // rad
@@ -187,4 +187,4 @@ TEST(BendingSimd, GiveTheSameBitsOnEveryProcessor) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::bending_simd_test

@@ -7,7 +7,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::bending_test {
 namespace {
 
 BendingLaw cloth() {
@@ -195,4 +195,4 @@ TEST(Bending, BoundHoldsForYarnsThatBendInThePlane) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::bending_test

@@ -8,7 +8,7 @@
 #include <Eigen/Eigenvalues>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::in_plane_bending_test {
 namespace {
 
 constexpr double size = 60.0;        // mm, of the square blanks
@@ -209,4 +209,4 @@ TEST(InPlaneBending, BoundHoldsFlatAndShearedAndIsTheLargerOfBothBendings) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::in_plane_bending_test

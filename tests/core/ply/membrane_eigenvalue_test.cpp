@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::membrane_eigenvalue_test {
 namespace {
 
 constexpr double right_angle = 0.5 * std::numbers::pi;
@@ -212,4 +212,4 @@ TEST(MembraneFrequency, NoModeIsWithoutStiffness) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::membrane_eigenvalue_test

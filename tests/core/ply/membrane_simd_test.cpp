@@ -7,7 +7,7 @@
 #include <cstring>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::membrane_simd_test {
 namespace {
 
 /// Table laws that bend, and yarns that bear some compression.
@@ -228,4 +228,4 @@ TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::membrane_simd_test

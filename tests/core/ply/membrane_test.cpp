@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::membrane_test {
 namespace {
 
 constexpr double right_angle = 0.5 * std::numbers::pi;
@@ -379,4 +379,4 @@ TEST(Membrane, PicksTheElementThatSuitsTheMesh) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::membrane_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::draw_in_test {
 namespace {
 
 using sheets::sheet;
@@ -113,4 +113,4 @@ TEST(DrawIn, SaysWhyThereIsNone) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::draw_in_test

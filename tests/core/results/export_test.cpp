@@ -11,7 +11,7 @@
 #include <hdf5.h>
 #include <limits>
 
-namespace plyform {
+namespace plyform::export_test {
 namespace {
 
 using namespace results_test;
@@ -262,4 +262,4 @@ TEST_F(ResultsExport, ExportedToolStandsWhereItEndedAndFacesOutward) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::export_test

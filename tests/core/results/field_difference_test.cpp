@@ -9,7 +9,7 @@
 #include <numeric>
 #include <stdexcept>
 
-namespace plyform {
+namespace plyform::field_difference_test {
 namespace {
 
 using Field = std::function<double(double, double)>;
@@ -160,4 +160,4 @@ TEST(FieldError, IsNotANumberWhereAFieldIsNone) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::field_difference_test

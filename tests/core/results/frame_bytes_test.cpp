@@ -2,7 +2,7 @@
 #include "core/results/frame_bytes.hpp"
 #include "support/results_helpers.hpp"
 
-namespace plyform {
+namespace plyform::frame_bytes_test {
 namespace {
 
 TEST(FrameBytes, GiveTheFrameBack) {
@@ -30,4 +30,4 @@ TEST(FrameBytes, CutShortOrTooLongAreRefused) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::frame_bytes_test

@@ -17,7 +17,7 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-namespace plyform {
+namespace plyform::result_writer_test {
 namespace {
 
 using namespace results_test;
@@ -319,4 +319,4 @@ TEST_F(Results, ReactionsStandOnlyWhereAPlyIsHeld) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::result_writer_test

@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace plyform {
+namespace plyform::statistics_test {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -63,4 +63,4 @@ TEST(Statistics, OfNoValues) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::statistics_test

@@ -7,7 +7,7 @@
 #include <limits>
 #include <nlohmann/json.hpp>
 
-namespace plyform {
+namespace plyform::summary_json_test {
 namespace {
 
 constexpr double nan_value = std::numeric_limits<double>::quiet_NaN();
@@ -20,7 +20,7 @@ Json read_back(const Frame& frame, const Summary& summary) {
   return Json::parse(summary_json(frame, summary));
 }
 
-Json only_ply(const Frame& frame, const Summary& summary) {
+Json ply_read_back(const Frame& frame, const Summary& summary) {
   return read_back(frame, summary).at("plies").at(0);
 }
 
@@ -111,7 +111,7 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   report.beyond_locking_share = 0.125;
   report.draw_in = {{-45, 45, 135, 225}, {0, 90, 180, 270}, {1, 2, 3, 4}, {5, 6, 7, 12}, ""};
   summary.plies = {report};
-  EXPECT_EQ(only_ply(unequal(10, -20), summary), Json::parse(R"({
+  EXPECT_EQ(ply_read_back(unequal(10, -20), summary), Json::parse(R"({
   "name": "p", "angle_deg": 0, "max_shear_deg": 20, "p99_shear_deg": 10, "rms_shear_deg": 10.1488916,
   "max_fibre_strain": 0.003, "min_fibre_strain": -0.004, "max_tension_N_per_yarn": 7,
   "max_pressed_strain": 0.07, "area_share_pressed_over_2_percent": 0.3,
@@ -127,7 +127,7 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   report = {};
   report.draw_in.unknown = "why";
   summary.plies = {report};
-  EXPECT_EQ(only_ply(unequal(10, -20), summary), Json::parse(R"({
+  EXPECT_EQ(ply_read_back(unequal(10, -20), summary), Json::parse(R"({
   "name": "p", "angle_deg": 0, "max_shear_deg": 20, "p99_shear_deg": 10, "rms_shear_deg": 10.1488916,
   "max_fibre_strain": 0.003, "min_fibre_strain": -0.004, "max_tension_N_per_yarn": 7,
   "wrinkle_height_mm": 0, "wrinkle_length_mm": 0, "wrinkle_at_mm": [0, 0, 0], "no_draw_in": "why"
@@ -167,9 +167,9 @@ TEST(SummaryJson, IsLaidOutAValueALineWithNumbersOfNineDigits) {
 
 TEST(SummaryJson, PercentileOfShearIsWeightedByAreaNotByNumber) {
   // 1 of 100 mm2 has 20 degrees: 99 % of the area stays at or below 10
-  EXPECT_EQ(only_ply(unequal(10, 20), {}).at("p99_shear_deg"), 10);
+  EXPECT_EQ(ply_read_back(unequal(10, 20), {}).at("p99_shear_deg"), 10);
   // 99 of 100 mm2 have 20 degrees
-  EXPECT_EQ(only_ply(unequal(-20, 10), {}).at("p99_shear_deg"), 20);
+  EXPECT_EQ(ply_read_back(unequal(-20, 10), {}).at("p99_shear_deg"), 20);
 }
 
 TEST(SummaryJson, NumbersThatAreNotFiniteBecomeNull) {
@@ -211,4 +211,4 @@ TEST(SummaryJson, TextIsEscapedAndAlwaysUtf8) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::summary_json_test

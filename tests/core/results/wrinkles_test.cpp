@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::wrinkles_test {
 namespace {
 
 using sheets::sheet;
@@ -101,4 +101,4 @@ TEST(Wrinkles, APlyThatFollowsAToolHasNone) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::wrinkles_test

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::key_value_test {
 namespace {
 
 const std::filesystem::path hemisphere = PLYFORM_CASES "/hemisphere_0/case.toml";
@@ -62,4 +62,4 @@ TEST(KeyValue, ReportsKeysAndItemsThatDoNotExist) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::key_value_test

@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::contact_search_test {
 namespace {
 
 constexpr double rounding = 1e-11; // mm, of two ways to a distance at 100 mm from the origin
@@ -191,4 +191,4 @@ TEST(ContactSearch, NoPairIsAbsentAroundTheRimOfAPlyBetween) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::contact_search_test

@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <numbers>
 
-namespace plyform {
+namespace plyform::dwell_test {
 namespace {
 
 TEST(ForceFilter, FollowsASteadyRiseAndLeavesLittleOfAVibration) {
@@ -83,4 +83,4 @@ TEST(Dwell, ToolsFollowTheirProgrammes) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::dwell_test

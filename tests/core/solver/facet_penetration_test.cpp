@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::facet_penetration_test {
 namespace {
 
 /// A pyramid whose tip is at `tip` and whose four sides fall by as much as they go out.
@@ -64,4 +64,4 @@ TEST(ToolDepth, OfAPlaneIsTheSameEverywhere) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::facet_penetration_test

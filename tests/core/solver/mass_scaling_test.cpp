@@ -9,7 +9,7 @@
 #include <gtest/gtest.h>
 #include <numeric>
 
-namespace plyform {
+namespace plyform::mass_scaling_test {
 namespace {
 
 double sum(const std::vector<double>& values) {
@@ -119,4 +119,4 @@ TEST(MassScaling, MakesStepsLongerAndKeepsTheEnergy) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::mass_scaling_test

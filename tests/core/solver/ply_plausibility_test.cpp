@@ -8,7 +8,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace plyform {
+namespace plyform::ply_plausibility_test {
 namespace {
 
 using sheets::sheet;
@@ -128,4 +128,4 @@ TEST(Doubtful, IsNotASheetWithoutYarns) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::ply_plausibility_test

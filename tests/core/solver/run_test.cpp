@@ -10,7 +10,7 @@
 #include <cstring>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::run_test {
 namespace {
 
 bool all_finite(const Frame& f) {
@@ -149,4 +149,4 @@ TEST(Run, CarriesAPlatesForceThroughEveryPlyOfAStack) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::run_test

@@ -5,7 +5,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::scene_test {
 namespace {
 
 TEST(Scene, HoldsTheConstantsOfPliesThatAreAlikeOnce) {
@@ -23,4 +23,4 @@ TEST(Scene, HoldsTheConstantsOfPliesThatAreAlikeOnce) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::scene_test

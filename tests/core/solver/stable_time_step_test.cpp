@@ -12,7 +12,7 @@
 #include <gtest/gtest.h>
 #include <limits>
 
-namespace plyform {
+namespace plyform::stable_time_step_test {
 namespace {
 
 /// A ply held taut all round, without damping, its nodes set off at random. Returns why it stopped,
@@ -158,4 +158,4 @@ TEST(StableStep, YarnsWithAKinkDoNotGainEnergy) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::stable_time_step_test

@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::step_test {
 namespace {
 
 /// A ply without tools, 10 x 10 cells of 10 mm.
@@ -278,4 +278,4 @@ TEST(Step, StopsAtAPositionThatIsNotFinite) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::step_test

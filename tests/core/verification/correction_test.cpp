@@ -8,7 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::correction_test {
 namespace {
 
 /// The small hemisphere, one ply; wanted: degrees.
@@ -143,4 +143,4 @@ TEST(Correction, BringsARunThatHasMissedNearer) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::correction_test

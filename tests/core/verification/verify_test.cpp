@@ -8,7 +8,7 @@
 #include <cmath>
 #include <gtest/gtest.h>
 
-namespace plyform {
+namespace plyform::verify_test {
 namespace {
 
 Case shipped(const std::string& name, const std::vector<Override>& overrides = {}) {
@@ -218,4 +218,4 @@ TEST(Verify, RunsTheSiblingsAndEndsWhenInterrupted) {
 }
 
 } // namespace
-} // namespace plyform
+} // namespace plyform::verify_test
