@@ -11,14 +11,18 @@
 //   F_j  = [ (E_j.K) n - 1/2 (K.n) E_j ] / |N|   from a couple K, j = 1, 2;  F_0 = -F_1 - F_2 (C')
 #include "contact/simd/ply_ply_closest.hpp"
 
+#include <cstring>
+
 namespace plyform {
 namespace {
 
-using Pair2 = double __attribute__((vector_size(16), may_alias, aligned(8)));
+using Pair2 = double __attribute__((vector_size(16)));
 
 PLYFORM_INLINE void add3(double* at, Double4 row) {
-  Pair2& low = *reinterpret_cast<Pair2*>(at);
+  Pair2 low; // not aligned to its size in memory
+  std::memcpy(&low, at, sizeof(low));
   low += Pair2{row[0], row[1]};
+  std::memcpy(at, &low, sizeof(low));
   at[2] += row[2];
 }
 
