@@ -114,6 +114,8 @@ void load_state(const std::string& bytes, Scene& scene, RunState& run) {
   LoadArchive archive(bytes);
   visit_state(archive, scene, run);
   if (archive.left() > 0) throw std::runtime_error("is longer than its scene");
+  for (PlyState& ply : scene.plies)
+    ply.tree->refit(ply.x_search); // as the last search left it
 }
 
 } // namespace plyform
