@@ -32,6 +32,7 @@ fi
 step "Packages (a minute or two where all are missing)"
 groups=(build)
 [ $tests = no ] || groups+=(test)
+[ "$preset" != asan ] || groups+=(clang-14 libclang-rt-14-dev)
 tools/install_packages.sh "${groups[@]}"
 
 step "Build in build/$preset (two cores: plyform three minutes, with the tests eight)"

@@ -12,7 +12,6 @@ cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 targets=("$@")
 [ ${#targets[@]} -gt 0 ] || targets=(case fabric curve results stl obj ply off dxf)
 
-tools/install_packages.sh clang-14 libclang-rt-14-dev
 tools/build.sh asan fuzzers
 folder=$PWD/build/asan
 mkdir -p "$folder/finds" "$folder/logs"
