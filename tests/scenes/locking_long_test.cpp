@@ -7,7 +7,7 @@
 namespace plyform::locking_long_test {
 namespace {
 
-constexpr double length = 300.0, width = 100.0, degree = std::numbers::pi / 180.0;
+constexpr double length = 300.0, width = 100.0;
 const std::vector<double> angles{10.0 * degree, 20.0 * degree, 30.0 * degree};
 
 std::vector<double> loads(const StripMesh& mesh, ElementKind element) {

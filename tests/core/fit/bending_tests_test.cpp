@@ -14,8 +14,6 @@
 namespace plyform::bending_tests_test {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180.0;
-
 Fabric glass() {
   Fabric fabric = glass_weave();
   fabric.surface_density = 600e-12; // t/mm^2
@@ -47,11 +45,11 @@ TEST(Cantilever, ShortOneIsTheBeams) {
 
 TEST(Cantilever, PeircesFormulaIsNear) {
   for (double angle = 5.0; angle <= 60.0; angle += 5.0) { // Peirce's c is larger
-    const double phi = angle * deg;
+    const double phi = angle * degree;
     const double peirce = std::cbrt(8.0 * std::tan(phi) / std::cos(0.5 * phi));
     EXPECT_NEAR(overhang_at_chord(phi) / peirce, 1.0, angle < 42.0 ? 0.02 : 0.045) << angle;
   }
-  EXPECT_NEAR(overhang_at_chord(41.5 * deg), 2.0, 1e-3); // ASTM D1388: c = L/2
+  EXPECT_NEAR(overhang_at_chord(41.5 * degree), 2.0, 1e-3); // ASTM D1388: c = L/2
 }
 
 TEST(Cantilever, GivesTheStiffnessThatTheStripHas) {
@@ -71,13 +69,13 @@ TEST(Cantilever, GivesTheStiffnessThatTheStripHas) {
 
 TEST(Cantilever, SpecimensScatterAndLimitsFollow) {
   const auto readings = [](double c) {
-    return curve_of({2.0 * c, 2.0 * c}, {41.5 * deg, 41.5 * deg});
+    return curve_of({2.0 * c, 2.0 * c}, {41.5 * degree, 41.5 * degree});
   };
   Diagnostics diagnostics;
   const auto fit = identify_cantilever({readings(68.0), readings(70.0), readings(72.0)},
                                        CantileverReading::chord_angle, glass(), {}, diagnostics);
   ASSERT_TRUE(fit) << texts(diagnostics);
-  const double unit = 2.0 / overhang_at_chord(41.5 * deg); // c over L/2
+  const double unit = 2.0 / overhang_at_chord(41.5 * degree); // c over L/2
   EXPECT_NEAR(fit->bending_length, 70.0 * unit, 1e-9);
   const double deviation = 2.0 * unit; // of c: 68, 70, 72
   EXPECT_NEAR(fit->limits / fit->stiffness,
@@ -90,11 +88,11 @@ TEST(Cantilever, RefusesAndWarns) {
     diagnostics = {};
     return identify_cantilever({curve}, reading, glass(), {}, diagnostics).has_value();
   };
-  EXPECT_FALSE(go(curve_of({100.0}, {89.0 * deg}), CantileverReading::chord_angle));
+  EXPECT_FALSE(go(curve_of({100.0}, {89.0 * degree}), CantileverReading::chord_angle));
   EXPECT_NE(texts(diagnostics).find("at most 85 degrees"), std::string::npos);
   EXPECT_FALSE(go(curve_of({100.0}, {99.0}), CantileverReading::sag));
   EXPECT_FALSE(go(curve_of({0.0}, {1.0}), CantileverReading::sag));
-  EXPECT_FALSE(go(curve_of({0.14}, {41.5 * deg}), CantileverReading::chord_angle)); // in m
+  EXPECT_FALSE(go(curve_of({0.14}, {41.5 * degree}), CantileverReading::chord_angle)); // in m
   EXPECT_NE(texts(diagnostics).find("bending length = "), std::string::npos) << texts(diagnostics);
   const double w = glass().weight();
   std::vector<double> length, sag; // softer the more it bends
@@ -163,13 +161,13 @@ TEST(TransitionZone, GivesTheWidthAndTheStiffness) {
       std::vector<double> s, angle;
       for (int i = 0; i <= 40; ++i) {
         s.push_back(30.0 + 2.0 * i); // the origin does not matter
-        angle.push_back((8.0 + step * std::exp(-2.0 * i / l)) * deg);
+        angle.push_back((8.0 + step * std::exp(-2.0 * i / l)) * degree);
       }
       Diagnostics diagnostics;
       const auto fit = identify_zone({curve_of(s, angle)}, glass(), {}, diagnostics);
       ASSERT_TRUE(fit) << texts(diagnostics);
       EXPECT_NEAR(fit->length, l, 1e-3 * l);
-      const double rigidity = 0.0625 * glass().shear.at(8.0 * deg).slope;
+      const double rigidity = 0.0625 * glass().shear.at(8.0 * degree).slope;
       EXPECT_NEAR(fit->stiffness, rigidity * l * l, 3e-3 * rigidity * l * l);
     }
 }
@@ -178,8 +176,8 @@ TEST(TransitionZone, RefusesProfilesThatDoNotShowIt) {
   std::vector<double> s, angle, line;
   for (int i = 0; i <= 20; ++i) {
     s.push_back(i);
-    angle.push_back((8.0 - 6.0 * std::exp(-i / 40.0)) * deg); // far from its end
-    line.push_back((2.0 + 0.2 * i) * deg);
+    angle.push_back((8.0 - 6.0 * std::exp(-i / 40.0)) * degree); // far from its end
+    line.push_back((2.0 + 0.2 * i) * degree);
   }
   for (const auto& profile : {angle, line}) {
     Diagnostics diagnostics;

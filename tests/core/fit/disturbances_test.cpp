@@ -13,14 +13,13 @@
 namespace plyform::disturbances_test {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180.0;
 const ShearTest bias = shear_test(BiasSpecimen{300.0, 100.0});
 
 /// The glass weave's curve from an extension on, 61 rows to 55 degrees, with noise.
 Curve glass_curve(unsigned seed, double from = 0.0, double of_load = 0.003,
                   double of_largest = 0.0005) {
   Curve curve{.file = "test.csv", .x_name = "d", .y_name = "F", .x = {}, .y = {}, .line = {}};
-  const double end = extension_at(bias, 55.0 * deg);
+  const double end = extension_at(bias, 55.0 * degree);
   for (int i = 0; i <= 60; ++i) {
     curve.x.push_back(from + (end - from) * i / 60.0);
     curve.y.push_back(test_load(bias, glass_weave(), curve.x.back()));
@@ -33,7 +32,8 @@ double wrong_by(const ShearLaw& law) {
   double largest = 0.0;
   for (double g = 5.0; g <= 55.0; g += 0.5)
     largest = std::max(
-        largest, std::abs(law.at(g * deg).value / glass_weave().shear.at(g * deg).value - 1.0));
+        largest,
+        std::abs(law.at(g * degree).value / glass_weave().shear.at(g * degree).value - 1.0));
   return largest;
 }
 

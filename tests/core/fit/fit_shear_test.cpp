@@ -14,8 +14,6 @@
 namespace plyform::fit_shear_test {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180.0;
-
 Fabric glass() { // Hamila and Boisse 2008, table 1
   Fabric fabric;
   fabric.warp_density = fabric.weft_density = 0.25;
@@ -30,7 +28,7 @@ const ShearTest frame = shear_test(FrameSpecimen{200.0});
 Curve theory(const ShearTest& test, const Fabric& fabric, double to_deg = 55.0, int rows = 60) {
   Curve curve{.file = "test.csv", .x_name = "d", .y_name = "F", .x = {}, .y = {}, .line = {}};
   for (int i = 0; i <= rows; ++i) {
-    curve.x.push_back(extension_at(test, to_deg * deg) * i / rows);
+    curve.x.push_back(extension_at(test, to_deg * degree) * i / rows);
     curve.y.push_back(test_load(test, fabric, curve.x.back()));
     curve.line.push_back(i + 1);
   }
@@ -41,7 +39,7 @@ Curve theory(const ShearTest& test, const Fabric& fabric, double to_deg = 55.0, 
 double difference(const ShearLaw& a, const ShearLaw& b, double from = 1.0, double to = 55.0) {
   double largest = 0.0;
   for (double g = from; g <= to; g += 0.25) {
-    const double d = std::abs(a.at(g * deg).value / b.at(g * deg).value - 1.0);
+    const double d = std::abs(a.at(g * degree).value / b.at(g * degree).value - 1.0);
     if (!(d <= largest)) largest = d; // keeps NaN
   }
   return largest;
@@ -64,7 +62,7 @@ TEST(IdentifyShear, FindsTheLawOfTheGlassWeaveAgain) {
     EXPECT_NEAR(fit.law.k[1], 0.84105, 1e-8);
     EXPECT_NEAR(fit.law.k[2], 1.03113, 1e-8);
     EXPECT_EQ(fit.quality.rows, 61u);
-    EXPECT_NEAR(fit.quality.to, 55.0 * deg, 1e-12);
+    EXPECT_NEAR(fit.quality.to, 55.0 * degree, 1e-12);
     EXPECT_LT(fit.quality.largest, 1e-9);
   }
 }
@@ -76,7 +74,7 @@ TEST(IdentifyShear, FollowsTheCurveNotTheTruth) {
     y *= 0.98;
   const ShearFit fit = found(low, strip);
   for (const double g : {5.0, 20.0, 50.0})
-    EXPECT_NEAR(fit.law.at(g * deg).value / glass().shear.at(g * deg).value, 0.98, 1e-9);
+    EXPECT_NEAR(fit.law.at(g * degree).value / glass().shear.at(g * degree).value, 0.98, 1e-9);
 }
 
 TEST(IdentifyShear, OnePercentOfNoiseMovesTheLawByAFewTenths) {
@@ -104,7 +102,7 @@ TEST(IdentifyShear, NoiseDoesNotPullTheLawDown) {
         identify_shear(noisy_curve(theory(strip, glass()), 0.05, 0.0, seed), strip, glass(),
                        {.coefficients = 3, .from = 0.0, .to = 1.0}, diagnostics);
     ASSERT_TRUE(fit) << texts(diagnostics);
-    mean += fit->law.at(30.0 * deg).value / glass().shear.at(30.0 * deg).value / tests;
+    mean += fit->law.at(30.0 * degree).value / glass().shear.at(30.0 * degree).value / tests;
   }
   EXPECT_NEAR(mean, 1.0, 0.002); // scatter of one about 1 %, of the mean 0.05 %
 }
@@ -131,14 +129,14 @@ TEST(IdentifyShear, AcceptsALawThatStartsWithoutStiffness) {
 TEST(IdentifyShear, TakesTheRowsOfTheRangeOnly) {
   Curve curve = theory(strip, glass());
   for (std::size_t i = 0; i < curve.size(); ++i) {
-    const double angle = shear_angle(strip, curve.x[i]) / deg;
+    const double angle = shear_angle(strip, curve.x[i]) / degree;
     if (angle < 3.0 || angle > 40.0) curve.y[i] += 5.0; // a preload, and wrinkles
   }
   const ShearFit fit =
-      found(curve, strip, {.coefficients = 3, .from = 3.0 * deg, .to = 40.0 * deg});
+      found(curve, strip, {.coefficients = 3, .from = 3.0 * degree, .to = 40.0 * degree});
   EXPECT_LT(difference(fit.law, glass().shear), 1e-7);
-  EXPECT_GE(fit.quality.from, 3.0 * deg);
-  EXPECT_LE(fit.quality.to, 40.0 * deg);
+  EXPECT_GE(fit.quality.from, 3.0 * degree);
+  EXPECT_LE(fit.quality.to, 40.0 * degree);
   EXPECT_LT(fit.quality.rows, 50u);
 }
 
@@ -228,7 +226,7 @@ TEST(IdentifyShear, WarnsOfWhatLiesOutsideTheRange) {
       << texts(diagnostics);
   diagnostics = {};
   ASSERT_TRUE(identify_shear(theory(strip, glass()), strip, glass(),
-                             {.coefficients = 3, .from = 10.0 * deg}, diagnostics));
+                             {.coefficients = 3, .from = 10.0 * degree}, diagnostics));
   EXPECT_NE(texts(diagnostics).find("below, the law is a guess"), std::string::npos);
   diagnostics = {};
   Curve preloaded = theory(strip, glass());

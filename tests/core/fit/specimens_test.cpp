@@ -12,7 +12,6 @@
 namespace plyform::specimens_test {
 namespace {
 
-constexpr double deg = std::numbers::pi / 180.0;
 const ShearTest bias = shear_test(BiasSpecimen{300.0, 100.0});
 
 FitOptions stiff_machine() {
@@ -25,7 +24,7 @@ FitOptions stiff_machine() {
 Curve glass_curve(double factor, int rows = 60) {
   Curve curve{.file = "test.csv", .x_name = "d", .y_name = "F", .x = {}, .y = {}, .line = {}};
   for (int i = 0; i <= rows; ++i) {
-    curve.x.push_back(extension_at(bias, 50.0 * deg) * i / rows);
+    curve.x.push_back(extension_at(bias, 50.0 * degree) * i / rows);
     curve.y.push_back(factor * test_load(bias, glass_weave(), curve.x.back()));
     curve.line.push_back(i + 1);
   }
@@ -50,7 +49,8 @@ TEST(Specimens, CountTheSameHoweverManyRowsTheyHave) {
                                   glass_weave(), stiff_machine(), diagnostics);
   ASSERT_TRUE(fit) << texts(diagnostics);
   for (const double g : {10.0, 30.0, 50.0}) // weights by the fitted load draw neither way
-    EXPECT_NEAR(fit->law.at(g * deg).value / glass_weave().shear.at(g * deg).value, 1.0, 0.01);
+    EXPECT_NEAR(fit->law.at(g * degree).value / glass_weave().shear.at(g * degree).value, 1.0,
+                0.01);
   ASSERT_EQ(fit->specimens.size(), 2u);
   EXPECT_NEAR(fit->specimens[0].coefficients[0], 0.9 * 0.37044, 1e-6);
   EXPECT_NEAR(fit->specimens[1].coefficients[2], 1.1 * 1.03113, 1e-6);

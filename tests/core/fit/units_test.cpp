@@ -9,7 +9,6 @@ namespace plyform::units_test {
 namespace {
 
 using Q = Quantity;
-constexpr double deg = std::numbers::pi / 180.0;
 
 TEST(Units, AreReadFromHeadersAsTheyAreWritten) {
   struct Header {
@@ -19,7 +18,7 @@ TEST(Units, AreReadFromHeadersAsTheyAreWritten) {
   };
   const Header headers[] = {{"displacement_mm", "", Q::length, 1.0},
                             {"upper_grip_force_N", "", Q::force, 1.0},
-                            {"shear_deg", "", Q::angle, deg},
+                            {"shear_deg", "", Q::angle, degree},
                             {"Load (kN)", "", Q::force, 1000.0},
                             {"Extension [cm]", "", Q::length, 10.0},
                             {"F / N", "", Q::force, 1.0},
@@ -31,12 +30,12 @@ TEST(Units, AreReadFromHeadersAsTheyAreWritten) {
                             {"Tensile strain (mm/mm)", "", Q::strain, 1.0},
                             {"strain_%", "", Q::strain, 0.01},
                             {"Elongation (%)", "", Q::strain, 0.01},
-                            {"gamma (\xC2\xB0)", "", Q::angle, deg},
+                            {"gamma (\xC2\xB0)", "", Q::angle, degree},
                             {"Shear angle rad", "", Q::angle, 1.0},
                             {"KN", "KN", Q::force, 1000.0},
                             {"Force (crosshead)", "", Q::force, 1.0},
                             {"Crosshead travel", "", Q::length, 1.0},
-                            {"Shear angle", "", Q::angle, deg},
+                            {"Shear angle", "", Q::angle, degree},
                             {"Time (s)", "", Q::time, 1.0},
                             {"Stress (MPa)", "", Q::other, 1.0},
                             {"Force per width (N/mm)", "", Q::other, 1.0},
