@@ -249,7 +249,10 @@ PlyPlyKernelContact kernel_view(KernelContext& k, double dt) {
   view.master_motion = k.master.motion.data()->data();
   view.faces = c.faces.data();
   view.face_distance = c.face_distance.data();
-  view.fold_bound = k.master.fold_bound.empty() ? nullptr : k.master.fold_bound.data();
+  if (!k.master.fold_bound.empty()) {
+    view.fold_bound = k.master.fold_bound.data();
+    view.faces_across = k.master.faces_across.data()->data();
+  }
   view.max_displacement = k.moved.max_displacement;
   view.path_length = k.moved.path_length;
   view.triangles = k.triangles.data()->data();

@@ -74,6 +74,8 @@ struct SurfaceKinematics {
   std::span<const double> area; ///< mm^2, tributary area of a node
   std::span<const double>
       fold_bound; ///< per face (contact/search/fold_bound.hpp); empty: not known
+  /// per face, of SheetEdges; needed only with fold_bound
+  std::span<const std::array<std::int32_t, 3>> faces_across = {};
 };
 
 /// Signed distance (mm) and normal at x (mm), in the global frame, of a tool in its present

@@ -66,10 +66,33 @@ Cells cells_of(std::size_t edges, std::span<const Vec3> x0) {
   return {std::max({size, longest / patches, 1e-9}), one, two, all.min()};
 }
 
+/// SheetEdges::faces_across. edge: numbers of the edges of each triangle, that of its nodes k and
+/// k + 1 at k.
+std::vector<std::array<std::int32_t, 3>>
+faces_across(const std::vector<std::array<std::int32_t, 3>>& edge, std::size_t edges) {
+  std::vector<std::array<std::int32_t, 2>> faces(edges, {no_face, no_face});
+  for (std::size_t t = 0; t < edge.size(); ++t)
+    for (const std::int32_t e : edge[t]) {
+      const auto face = static_cast<std::int32_t>(t);
+      auto& [one, other] = faces[static_cast<std::size_t>(e)];
+      if (one == no_face)
+        one = face;
+      else
+        other = other == no_face ? face : several_faces;
+    }
+  std::vector<std::array<std::int32_t, 3>> across(edge.size());
+  for (std::size_t t = 0; t < edge.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto& [one, other] = faces[static_cast<std::size_t>(edge[t][(k + 1) % 3])];
+      across[t][k] = other < 0 || one == static_cast<std::int32_t>(t) ? other : one;
+    }
+  return across;
+}
+
 } // namespace
 
 SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0) {
-  SheetEdges edges{list_edges(triangles), {}, {}, {}, {}};
+  SheetEdges edges{list_edges(triangles), {}, {}, {}, {}, {}};
   edges.all.shrink_to_fit();
   edges.patch.reserve(edges.all.size());
   const Cells cells = cells_of(edges.all.size(), x0);
@@ -92,11 +115,19 @@ SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3
   }
   for (std::vector<std::int32_t>& of : edges.patch_edges)
     of.shrink_to_fit();
+  std::vector<std::array<std::int32_t, 3>> edge_of;
+  edge_of.reserve(triangles.size());
+  edges.patches_of_triangle.reserve(triangles.size());
   for (const Triangle& t : triangles) {
-    auto& of = edges.patches_of_triangle.emplace_back();
-    for (std::size_t k = 0; k < 3; ++k)
-      of[k] = edges.patch[number_of(edges.all, t[k], t[(k + 1) % 3])];
+    auto& of = edge_of.emplace_back();
+    auto& patch = edges.patches_of_triangle.emplace_back();
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::size_t e = number_of(edges.all, t[k], t[(k + 1) % 3]);
+      of[k] = static_cast<std::int32_t>(e);
+      patch[k] = edges.patch[e];
+    }
   }
+  edges.faces_across = faces_across(edge_of, edges.all.size());
   return edges;
 }
 

@@ -10,6 +10,7 @@
 //   |u_a - u_b| <= |r|,   r_i = max(max_i a - min_i b, max_i b - min_i a)                    (R)
 #pragma once
 
+#include "contact/face_across.hpp"
 #include "contact/geometry.hpp"
 
 #include <span>
@@ -34,6 +35,9 @@ struct SheetEdges {
   std::vector<std::vector<std::int32_t>> patch_edges; ///< of each patch, ascending
   std::vector<std::vector<std::int32_t>> patch_nodes; ///< of the edges of each patch, ascending
   std::vector<std::array<std::int32_t, 3>> patches_of_triangle; ///< of its three edges
+  /// Of each triangle, that across the edge opposite to each corner; no_face or several_faces of
+  /// contact/face_across.hpp.
+  std::vector<std::array<std::int32_t, 3>> faces_across;
 };
 
 /// The edges of these triangles, with patches by square cells in the plane of the two largest

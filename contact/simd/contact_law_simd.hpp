@@ -148,11 +148,13 @@ PLYFORM_INLINE Doubles room_of(const Contact& k, Doubles depth) {
 }
 
 /// ContactTotals::step_ratio of contacts at `depth` that closed by `dp` (mm) in the last step.
-/// A contact that is still open may close its gap and then use step_share of the depth limit.
+/// A contact that is still open may close its gap and then use its share of the depth limit.
 template <class Contact>
 PLYFORM_INLINE Doubles step_ratio_of(const Contact& k, Doubles depth, Doubles dp) {
   const Doubles inside = larger(depth, all(0.0)), open = inside - depth;
-  const Doubles way = open + step_share * (k.max_depth - inside);
+  const Doubles left = larger(1.0 - inside * (1.0 / k.max_depth), all(0.0)), left2 = left * left;
+  const Doubles share = step_share + shallow_share * (left2 * left2 * left);
+  const Doubles way = open + share * (k.max_depth - inside);
   return dp > 0.0 ? larger(way, all(0.0)) / dp : all(1e300);
 }
 

@@ -6,6 +6,7 @@
 // separated by the empty lines below; the kernels assert the offsets of the rows that they load.
 #pragma once
 
+#include "contact/face_across.hpp"
 #include "contact/surface_hint.hpp"
 
 #include <cstdint>
@@ -17,9 +18,10 @@ namespace plyform {
 /// the limit only keeps its force finite.
 constexpr double least_room = 1e-3, deepest_valid = 0.9995;
 
-/// Share of its remaining depth by which a contact may deepen in a step: the stiffness (K) then
-/// grows by 2.4 times at most, and with it energy is kept; half of the depth is 8 times.
-constexpr double step_share = 0.25;
+/// Share of its remaining depth by which a contact may deepen in a step, at a depth of u:
+/// step_share + shallow_share (1 - u)^5. From any depth the stiffness (K) then grows by 2.3 to 2.4
+/// times, and with it energy is kept; with half of the remaining depth it grows by 8 times.
+constexpr double step_share = 0.25, shallow_share = 0.14;
 
 /// History variables of one contact.
 struct ContactHistory {

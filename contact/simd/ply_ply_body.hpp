@@ -79,7 +79,10 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
   add(sums.elastic,
       0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * stored2));
   Doubles closing = dp;
-  if (any(fold > 0.0)) closing = fold > 0.0 ? larger(dp, zero) + fold * root(square(motion)) : dp;
+  if (any(fold > 0.0)) {
+    const Doubles along = root(square(motion - dot(normal, motion) * normal));
+    closing = fold > 0.0 ? larger(dp, zero) + fold * along : dp;
+  }
   keep_smaller(sums.step_ratio, step_ratio_of(k, depth, closing));
   keep_larger(sums.penetration, touch ? depth : zero);
   return f;
@@ -116,12 +119,14 @@ PLYFORM_INLINE double fold_ahead(const PlyPlyKernelContact& k, const PlyPlyPoint
 /// them have a bit per point.
 struct Chunk {
   static constexpr int most = 64;
-  alignas(64) double distance[most]; ///< mm
+  alignas(64) double distance[most];  ///< mm
+  alignas(64) double distance2[most]; ///< mm^2, from the face kept
+  std::int32_t across[most];          ///< face across the edge of those in near_edge
   std::uint64_t touching = 0;
-  std::uint64_t inside = 0;         ///< whose foot is inside the face
-  std::uint64_t above = 0;          ///< on the side that the face's normal points to
-  std::uint64_t settled = 0;        ///< to which no other face can be closer
-  std::uint64_t interiors_only = 0; ///< to which another face can be closer only with its interior
+  std::uint64_t inside = 0;    ///< whose foot is inside the face
+  std::uint64_t above = 0;     ///< on the side that the face's normal points to
+  std::uint64_t settled = 0;   ///< to which no other face can be closer
+  std::uint64_t near_edge = 0; ///< to which only the face across one edge can be closer
 };
 
 /// PlyPlyPoint::side; 0 on edges: a node may slide round the free edge of the sheet to the other
@@ -146,6 +151,17 @@ PLYFORM_INLINE int take_first(std::uint64_t& set) {
   return number;
 }
 
+/// Stores the faces across the edges opposite to these corners, and returns the mask of the points
+/// that have several.
+PLYFORM_INLINE Longs store_across(const PlyPlyKernelContact& k, const Group& g, Longs opposite,
+                                  std::int32_t* across) {
+  alignas(sizeof(Longs)) std::int64_t corner[lanes];
+  store_lanes(corner, opposite);
+  for (int i = 0; i < lanes; ++i)
+    across[i] = k.faces_across[3 * static_cast<std::int64_t>(g.face[i]) + corner[i]];
+  return each_lane([&](int i) { return std::int64_t{across[i]}; }) == several_faces;
+}
+
 /// First pass: closest points on the faces that the points keep.
 PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
                                            int count, Chunk& chunk) {
@@ -156,41 +172,73 @@ PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const s
     const Group g = group_of(k, active, number);
     const SimdFaces x = load_faces(k, g, k.slave_x, k.master_x);
     SimdClearance clear;
-    const SimdFoot foot = foot_of(k, g, x, clear);
-    Longs interiors_only;
-    const Longs settled = settled_of(k, g, foot, clear, interiors_only);
-    store_weights(g, foot);
+    Doubles distance2;
+    const SimdFoot foot = foot_of(k, g, x, distance2, clear);
+    Longs near_edge;
+    const Longs settled = settled_of(k, g, foot, clear, near_edge);
+    if (any(near_edge)) near_edge &= ~store_across(k, g, clear.opposite, chunk.across + first);
+    store_weights(g, foot, g.real);
     store_lanes(chunk.distance + first, foot.distance);
+    store_lanes(chunk.distance2 + first, distance2);
     add(chunk.touching, foot.distance < k.distance, first);
     add(chunk.inside, foot.inside, first);
     add(chunk.above, foot.above, first);
     add(chunk.settled, settled, first);
-    add(chunk.interiors_only, interiors_only, first);
+    add(chunk.near_edge, near_edge, first);
   }
 }
 
-/// Second pass: closest points on any of their faces, of the points in `searched`.
-PLYFORM_INLINE void search_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
-                                 std::uint64_t searched, bool edges, Chunk& chunk) {
+/// Stores what a search has found of the points of these lanes, a bit of `some` per lane.
+PLYFORM_INLINE void store_feet(const Group& g, const PlyPlyKernelContact& k, const SimdFoot& foot,
+                               unsigned some, Chunk& chunk) {
+  alignas(sizeof(Doubles)) double distance[lanes];
+  store_lanes(distance, foot.distance);
+  const unsigned touching = bits_of(foot.distance < k.distance);
+  const unsigned inside = bits_of(foot.inside), above = bits_of(foot.above);
+  for (int i = 0; i < lanes; ++i) {
+    if (!has(some, i)) continue;
+    chunk.distance[g.number[i]] = distance[i];
+    put(chunk.touching, g.number[i], has(touching, i));
+    put(chunk.inside, g.number[i], has(inside, i));
+    put(chunk.above, g.number[i], has(above, i));
+  }
+}
+
+/// The next points of `searched`, one per lane, which are taken out of it.
+PLYFORM_INLINE Group take_group(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                std::uint64_t& searched) {
+  std::int32_t number[lanes];
+  for (int i = 0; i < lanes; ++i)
+    number[i] = searched != 0 ? take_first(searched) : -1;
+  return group_of(k, active, number);
+}
+
+/// Second pass for points in `searched` that are near one edge.
+PLYFORM_INLINE void search_across(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                  std::uint64_t searched, Chunk& chunk) {
   while (searched != 0) {
-    std::int32_t number[lanes];
-    for (int i = 0; i < lanes; ++i)
-      number[i] = searched != 0 ? take_first(searched) : -1;
-    const Group g = group_of(k, active, number);
+    const Group g = take_group(k, active, searched);
+    std::int32_t across[lanes];
+    for (int i = 0; i < lanes; ++i) {
+      const std::int32_t face = chunk.across[g.number[i]];
+      across[i] = face == no_face ? g.face[i] : face; // then nothing is closer
+    }
+    const Doubles own2 = each_lane([&](int i) { return chunk.distance2[g.number[i]]; });
+    Longs chosen;
+    const SimdFoot foot = closest_across(k, g, across, own2, chosen);
+    store_feet(g, k, foot, bits_of(chosen), chunk);
+  }
+}
+
+/// Second pass for the other points in `searched`: closest points on any of their faces.
+PLYFORM_INLINE void search_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
+                                 std::uint64_t searched, Chunk& chunk) {
+  while (searched != 0) {
+    const Group g = take_group(k, active, searched);
     unsigned own_inside = 0;
     for (int i = 0; i < lanes; ++i)
       own_inside |= (has(chunk.inside, g.number[i]) ? 1U : 0U) << i;
-    const SimdFoot foot = closest_on_any_face(k, g, edges, own_inside);
-    alignas(sizeof(Doubles)) double distance[lanes];
-    store_lanes(distance, foot.distance);
-    const unsigned touching = bits_of(foot.distance < k.distance);
-    const unsigned inside = bits_of(foot.inside), above = bits_of(foot.above);
-    for (int i = 0; i < lanes && has(g.real, i); ++i) {
-      chunk.distance[number[i]] = distance[i];
-      put(chunk.touching, number[i], has(touching, i));
-      put(chunk.inside, number[i], has(inside, i));
-      put(chunk.above, number[i], has(above, i));
-    }
+    store_feet(g, k, closest_on_any_face(k, g, own_inside), g.real, chunk);
   }
 }
 
@@ -226,12 +274,14 @@ PLYFORM_INLINE void take_settled(const Chunk& chunk, std::uint64_t& points, Orde
 /// Updates gap, side and path length of a point that does not touch.
 PLYFORM_INLINE void update_open_point(const PlyPlyKernelContact& k, std::int32_t index,
                                       double distance, std::int32_t side, SimdTotals& sums) {
+  constexpr double first_share = step_share + shallow_share; // of the depth, once it has closed
   PlyPlyPoint& at = k.points[index];
   const double last_gap = at.gap;
   at.gap = distance - k.distance;
-  at.side = side;       // it may close on this side later
-  if (last_gap < 1e300) // it was active in the step before
-    keep_smaller(sums.step_ratio, step_ratio_of(k, all(-at.gap), all(last_gap - at.gap)));
+  at.side = side; // it may close on this side later
+  if (last_gap < 1e300 &&
+      last_gap > at.gap) // active in the step before, and closing: step_ratio_of
+    keep_smaller(sums.step_ratio, all((at.gap + first_share * k.max_depth) / (last_gap - at.gap)));
   if (at.memory.normal_force != 0.0 || at.memory.damping_force != 0.0)
     k.open(k.self, index, last_gap);
   k.free_until[index] = k.path_length + at.gap;
@@ -292,15 +342,14 @@ PLYFORM_INLINE void process_chunk(const PlyPlyKernelContact& k, const std::int32
   const std::uint64_t searched = points & ~chunk.settled;
   Order order;
   take_settled(chunk, points, order);
-  search_faces(k, active, searched & chunk.interiors_only, false, chunk);
-  search_faces(k, active, searched & ~chunk.interiors_only, true, chunk);
-  while (points != 0) {
-    const int n = take_first(points);
-    if (has(chunk.touching, n))
-      append(order, n);
-    else
-      update_open_point(k, active[n], chunk.distance[n], side_of(chunk, n), sums);
+  search_across(k, active, searched & chunk.near_edge, chunk);
+  search_faces(k, active, searched & ~chunk.near_edge, chunk);
+  for (std::uint64_t open = points & ~chunk.touching; open != 0;) {
+    const int n = take_first(open);
+    update_open_point(k, active[n], chunk.distance[n], side_of(chunk, n), sums);
   }
+  for (std::uint64_t touching = points & chunk.touching; touching != 0;)
+    append(order, take_first(touching));
   fill_up(order, lanes);
   for (int i = 0; i < order.count; i += lanes)
     press(k, active, order.number + i, chunk, sums);

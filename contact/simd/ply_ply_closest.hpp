@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The closest points of ply_ply_body.hpp, a point per lane: those on the faces that the points
-// keep, a test whether no other face can be closer, and the closest of all their faces where one
-// can.
+// keep, a test whether no other face can be closer, and the closest of the others where one can.
 #pragma once
 
 #include "contact/simd/contact_law_simd.hpp"
@@ -140,57 +139,78 @@ PLYFORM_INLINE Longs is_above(const SimdFaces& x) {
   return dot(cross(x.b, x.c), x.p) >= 0.0;
 }
 
-/// Whether the feet are so far inside their faces that no face across an edge or
-/// corner can be closer.
+/// Whether the feet are so far inside their faces that no face across an edge or corner can be
+/// closer.
 struct SimdClearance {
   Longs of_edges, of_corners; ///< far enough from all edges; from two edges at least
+  Longs opposite; ///< number of the corner opposite to the edge from which they are not
 };
 
 /// Distance (mm) from an edge beyond which a foot is closer to its own face than to that across the
-/// edge: contact/search/fold_bound.hpp.
-PLYFORM_INLINE Doubles clearance(const PlyPlyKernelContact& k, const Group& g) {
+/// edge, for points that are `distance` mm from their faces: contact/search/fold_bound.hpp.
+PLYFORM_INLINE Doubles clearance(const PlyPlyKernelContact& k, const Group& g, Doubles distance) {
   if (!k.fold_bound) return all(far2);
-  return k.distance * each_lane([&](int i) { return k.fold_bound[g.face[i]]; });
+  return larger(distance, all(k.distance)) *
+         each_lane([&](int i) { return k.fold_bound[g.face[i]]; });
 }
 
+/// The foot on the face that a point keeps, with the square of its distance (mm^2).
 PLYFORM_INLINE SimdFoot foot_of(const PlyPlyKernelContact& k, const Group& g, const SimdFaces& x,
-                                SimdClearance& clear) {
+                                Doubles& distance2, SimdClearance& clear) {
   const SimdPlanes q = planes_of(x);
+  const SimdClosest closest = closest_of(x, q, 0);
+  distance2 = closest.distance2;
+  const Doubles distance = root(distance2);
   // the distance from edge i, w_i times the height sqrt(det) / |edge|, against the clearance
-  const Doubles margin = clearance(k, g), margin2 = margin * margin;
+  const Doubles margin = clearance(k, g, distance), margin2 = margin * margin;
   const Longs a = q.wa * q.wa * q.det > margin2 * (q.bb + q.cc - 2.0 * q.bc);
   const Longs b = q.wb * q.wb * q.det > margin2 * q.cc, c = q.wc * q.wc * q.det > margin2 * q.bb;
   clear.of_edges = a & b & c;
   clear.of_corners = (a & b) | (b & c) | (c & a);
-  const SimdClosest closest = closest_of(x, q, 0);
-  return {closest.wb, closest.wc, root(closest.distance2), closest.inside, is_above(x)};
+  clear.opposite = b ? (c ? Longs{} : Longs{} + 2) : Longs{} + 1;
+  return {closest.wb, closest.wc, distance, closest.inside, is_above(x)};
 }
 
-PLYFORM_INLINE void store_weights(const Group& g, const SimdFoot& foot) {
+/// Stores the weights of the lanes whose bits are set in `some`.
+PLYFORM_INLINE void store_weights(const Group& g, const SimdFoot& foot, unsigned some) {
   alignas(sizeof(Doubles)) double wb[lanes], wc[lanes];
   store_lanes(wb, foot.wb), store_lanes(wc, foot.wc);
   for (int i = 0; i < lanes; ++i)
-    if (has(g.real, i)) g.point[i]->w[0] = wb[i], g.point[i]->w[1] = wc[i];
+    if (has(some, i)) g.point[i]->w[0] = wb[i], g.point[i]->w[1] = wc[i];
 }
 
-/// Number i of the faces of each point, which has one at least, and its distance at the search, mm.
+/// A number of 32 bits per lane.
+using Ints = std::int32_t __attribute__((vector_size(4 * lanes)));
+
+/// The faces of each point, which has one at least: numbers of the first and how many follow.
+struct FaceLists {
+  Ints first, more;
+};
+
+PLYFORM_INLINE FaceLists face_lists(const Group& g) {
+  FaceLists lists;
+  for (int i = 0; i < lanes; ++i) {
+    lists.first[i] = g.point[i]->first_face;
+    lists.more[i] = g.point[i]->end_face - g.point[i]->first_face - 1;
+  }
+  return lists;
+}
+
+/// Number i of the faces of each point, and its distance at the search, mm.
 struct ListedFaces {
   std::int32_t face[lanes];
   Doubles distance;
   unsigned some; ///< bits of the points that have as many; the others repeat their last
 };
 
-PLYFORM_INLINE ListedFaces listed_faces(const PlyPlyKernelContact& k, const Group& g, int i) {
+PLYFORM_INLINE ListedFaces listed_faces(const PlyPlyKernelContact& k, const FaceLists& lists,
+                                        int i) {
+  const Ints number = Ints{} + i, at = lists.first + (number < lists.more ? number : lists.more);
   ListedFaces q;
-  std::int32_t at[lanes];
-  q.some = 0;
-  for (int lane = 0; lane < lanes; ++lane) {
-    const std::int32_t last = g.point[lane]->end_face - g.point[lane]->first_face - 1;
-    at[lane] = g.point[lane]->first_face + (i < last ? i : last);
+  for (int lane = 0; lane < lanes; ++lane)
     q.face[lane] = k.faces[at[lane]];
-    q.some |= (i <= last ? 1U : 0U) << lane;
-  }
   q.distance = each_lane([&](int lane) { return double{k.face_distance[at[lane]]}; });
+  q.some = bits_of(__builtin_convertvector(number <= lists.more, Longs));
   return q;
 }
 
@@ -207,26 +227,26 @@ PLYFORM_INLINE void store_faces(const PlyPlyKernelContact& k, const Group& g, Lo
 }
 
 /// Closest points on any face of each point. Updates the members face, other and the weights of
-/// each. Without `edges` only feet inside faces are compared: enough for a point that is inside its
-/// face and near one edge only, as the foot is closer than that edge. With `edges` they are
-/// compared in all lanes of a quad if one of its feet is outside, where points that have been
-/// through their faces count as those on the face that they kept, own_inside: beside an edge
-/// rounding decides which is closer, and must decide the same for any number of lanes.
+/// each. Points on edges are compared in all lanes of a quad if one of its feet is outside, where
+/// points that have been through their faces count as those on the face that they kept, own_inside:
+/// beside an edge rounding decides which is closer, and must decide the same for any number of
+/// lanes.
 PLYFORM_INLINE SimdFoot closest_on_any_face(const PlyPlyKernelContact& k, const Group& g,
-                                            bool edges, unsigned own_inside) {
+                                            unsigned own_inside) {
   Doubles best2 = all(far2), limit = all(far2), wb = all(0.0), wc = all(0.0);
-  Longs face = Longs{} - 1, inside{}, above{};
+  Longs face = Longs{} + no_face, inside{}, above{};
   Double4 node[lanes];
   load_nodes(g, k.slave_x, node);
+  const FaceLists lists = face_lists(g);
   for (int i = 0;; ++i) {
-    const ListedFaces listed = listed_faces(k, g, i);
+    const ListedFaces listed = listed_faces(k, lists, i);
     // faces are in ascending order of distance
     const unsigned more = g.real & listed.some & ~bits_of(listed.distance > limit);
     if (more == 0) break;
     const SimdFaces x = load_faces(k, node, listed.face, k.master_x);
     const SimdPlanes plane = planes_of(x);
     const unsigned outside = ~((bits_of(plane.inside) & more) | (own_inside & ~more));
-    const SimdClosest q = closest_of(x, plane, edges ? whole_quads(outside) : 0);
+    const SimdClosest q = closest_of(x, plane, whole_quads(outside));
     const Longs at = each_lane([&](int lane) { return std::int64_t{listed.face[lane]}; });
     const Longs tied = magnitude(q.distance2 - best2) <= same_distance * best2;
     const Longs closer = mask_of(more) & (q.distance2 < best2);
@@ -239,21 +259,42 @@ PLYFORM_INLINE SimdFoot closest_on_any_face(const PlyPlyKernelContact& k, const 
     above = chosen ? is_above(x) : above;
   }
   const SimdFoot foot{wb, wc, root(best2), inside, above};
-  store_weights(g, foot);
+  store_weights(g, foot, g.real);
   store_faces(k, g, face);
+  return foot;
+}
+
+/// Feet inside the faces `across` an edge of those that the points keep, from which they have the
+/// squared distance own2 (mm^2), where they are closer: `chosen`, mask. Updates the members face,
+/// other and the weights of those.
+PLYFORM_INLINE SimdFoot closest_across(const PlyPlyKernelContact& k, const Group& g,
+                                       const std::int32_t* across, Doubles own2, Longs& chosen) {
+  Double4 node[lanes];
+  load_nodes(g, k.slave_x, node);
+  const SimdFaces x = load_faces(k, node, across, k.master_x);
+  const SimdClosest q = closest_of(x, planes_of(x), 0);
+  const Longs own = each_lane([&](int lane) { return std::int64_t{g.face[lane]}; });
+  const Longs other = each_lane([&](int lane) { return std::int64_t{across[lane]}; });
+  const Longs tied = magnitude(q.distance2 - own2) <= same_distance * own2;
+  chosen = mask_of(g.real) & (tied ? other < own : q.distance2 < own2);
+  const SimdFoot foot{q.wb, q.wc, root(smaller(q.distance2, own2)), q.inside, is_above(x)};
+  store_weights(g, foot, bits_of(chosen));
+  store_faces(k, g, chosen ? other : own);
   return foot;
 }
 
 /// Mask of the points whose faces need no search, as no other face can be closer: those that share
 /// a node with the point's face by contact/search/fold_bound.hpp, the others because of their
-/// distance at the search and the relative motion since. interiors_only: mask of the points for
-/// which only a face across one edge may be closer, and only with its interior.
+/// distance at the search and the relative motion since. near_edge: mask of the points for which
+/// only the face across one edge, clear.opposite, may be closer, and only with its interior, as
+/// their foot is closer than that edge.
 PLYFORM_INLINE Longs settled_of(const PlyPlyKernelContact& k, const Group& g, const SimdFoot& foot,
-                                const SimdClearance& clear, Longs& interiors_only) {
+                                const SimdClearance& clear, Longs& near_edge) {
   const Doubles other = each_lane([&](int i) { return g.point[i]->other; });
   const Longs others_further = other - k.max_displacement > foot.distance;
-  interiors_only = others_further & foot.inside & clear.of_corners;
-  return interiors_only & clear.of_edges;
+  const Longs one_edge = others_further & foot.inside & clear.of_corners;
+  near_edge = one_edge & ~clear.of_edges;
+  return one_edge & clear.of_edges;
 }
 
 } // namespace

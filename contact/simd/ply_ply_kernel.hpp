@@ -15,7 +15,9 @@ struct PlyPlyKernelContact {
   int active_count;
   double* free_until; ///< mm, of the points (contact/search/active_list.hpp)
   const double *slave_x, *slave_motion, *master_x, *master_motion;
-  const double* fold_bound;      ///< of the master's faces (contact/search/fold_bound.hpp), or null
+  const double* fold_bound; ///< of the master's faces (contact/search/fold_bound.hpp), or null
+  /// 3 per face of the master, SheetEdges::faces_across; needed only with fold_bound
+  const std::int32_t* faces_across;
   const std::int32_t* triangles; ///< 3 nodes per face of the master
   const std::int32_t* faces;     ///< of PlyPlyContact
   const float* face_distance;    ///< mm, of PlyPlyContact

@@ -79,7 +79,9 @@ struct PlyWorkspace {
 
 /// A ply and its state.
 struct PlyState : PlyModel, PlyKinematics, PlySearch, PlyStability, PlyWorkspace {
-  SurfaceKinematics state() const { return {x, motion, membrane.node_area, fold_bound}; }
+  SurfaceKinematics state() const {
+    return {x, motion, membrane.node_area, fold_bound, edges.faces_across};
+  }
   EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }
 };
 

@@ -46,10 +46,20 @@ TEST(ContactLaw, PressureIsTheSlopeOfTheEnergyAndHasNoEndBeforeItsLimit) {
 TEST(ContactLaw, NextStepUsesItsShareOfTheRoom) {
   constexpr double limit = 0.1;
   const ContactLaw law{k, 0.0, 0.0, limit};
-  EXPECT_DOUBLE_EQ(step_ratio(law, 0.06, 0.01), step_share * 0.04 / 0.01);
-  EXPECT_DOUBLE_EQ(step_ratio(law, -0.02, 0.01), (0.02 + step_share * limit) / 0.01);
+  EXPECT_DOUBLE_EQ(step_ratio(law, 0.06, 0.01), room_in_a_step(law, 0.06) / 0.01);
+  EXPECT_DOUBLE_EQ(step_ratio(law, -0.02, 0.01), (0.02 + room_in_a_step(law, 0.0)) / 0.01);
   EXPECT_TRUE(std::isinf(step_ratio(law, 0.06, -0.01))); // it opens
   EXPECT_EQ(step_ratio(law, 2.0 * limit, 0.01), 0.0);
+}
+
+TEST(ContactLaw, StiffnessGrowsAlikeFromAnyDepthInAStep) {
+  constexpr double limit = 0.1;
+  const ContactLaw law{k, 0.0, 0.0, limit};
+  for (double p = 0.0; p < 0.95 * limit; p += 0.01 * limit) {
+    const double growth = law.tangent(p + room_in_a_step(law, p)) / law.tangent(p);
+    EXPECT_LT(growth, 2.4) << p;
+    EXPECT_GT(growth, 2.3) << p;
+  }
 }
 
 TEST(ContactLaw, FrictionHeatIsNeverNegativeAndNeverMoreThanTheWork) {

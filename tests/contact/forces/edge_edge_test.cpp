@@ -221,7 +221,7 @@ TEST(EdgeEdgeContact, TellsHowMuchLongerTheNextStepMayBe) {
     x.z() -= 0.01;
   press(contact, a, b, 0.0);
   // 0.01 mm from touching, closing by 0.01 mm a step: to the share of the depth limit
-  EXPECT_NEAR(contact.sums.step_ratio, (0.01 + step_share * law.max_depth) / 0.01, 1e-9);
+  EXPECT_NEAR(contact.sums.step_ratio, (0.01 + room_in_a_step(law, 0.0)) / 0.01, 1e-9);
 }
 
 /// Two crumpled sheets that are carried away together and rub against each other on the way.

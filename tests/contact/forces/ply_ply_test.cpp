@@ -3,6 +3,7 @@
 #include "contact/forces/ply_ply.hpp"
 #include "contact/point_triangle.hpp"
 #include "contact/search/fold_bound.hpp"
+#include "contact/search/sheet_edges.hpp"
 #include "support/contact_checks.hpp"
 
 #include <cmath>
@@ -218,13 +219,22 @@ double wave(double x, double y) {
   return 1.5 * std::sin(0.25 * x) * std::cos(0.2 * y);
 }
 
+/// A floor and a slope that rises from its edge x = 0 at `angle` (rad).
+OwnedSheet valley(double angle) {
+  OwnedSheet sheet = points_only(
+      {{0, -40, 0}, {0, 40, 0}, {-60, 0, 0}, {60 * std::cos(angle), 0, 60 * std::sin(angle)}}, 1.0);
+  sheet.triangles = {{0, 1, 2}, {0, 3, 1}};
+  return sheet;
+}
+
 /// ContactTotals::step_ratio after a node has slid by `step` (mm along x) over a master that knows
 /// its folds. x: mm, where the node starts; `depth` mm deep if the master is flat there.
 double ratio_while_sliding(const OwnedSheet& master, const ContactLaw& law, double x, double depth,
                            double step) {
   std::vector<double> bound;
   fold_bounds(master.x, master.triangles, bound);
-  const SurfaceKinematics folded{master.x, master.motion, master.area, bound};
+  const SheetEdges edges = sheet_edges(master.triangles, master.x);
+  const SurfaceKinematics folded{master.x, master.motion, master.area, bound, edges.faces_across};
   OwnedSheet node = points_only({Vec3(x, 0.2, thickness - depth)}, 2.0);
   Loaded contact = contact_of(law);
   search(contact, node, master, 0.5);
@@ -242,15 +252,54 @@ double ratio_while_sliding(const OwnedSheet& master, const ContactLaw& law, doub
 TEST(PlyPlyContact, NextStepSeesTheFaceBehindAFold) {
   constexpr double limit = 0.25 * thickness, depth = 0.05, step = 0.02;
   const ContactLaw law{5.0, 0.0, 0.0, limit};
-  // a floor and a wall that rises from its edge at 60 degrees
-  OwnedSheet valley = points_only({{0, -40, 0}, {0, 40, 0}, {-60, 0, 0}, {30, 0, 52}}, 1.0);
-  valley.triangles = {{0, 1, 2}, {0, 3, 1}};
-  const double near = ratio_while_sliding(valley, law, -0.36, depth, step);
+  const double near = ratio_while_sliding(valley(60.0 * degree), law, -0.36, depth, step);
   const double onto_wall = step * std::sin(std::numbers::pi / 3.0);
-  EXPECT_LE(near, step_share * (limit - depth) / onto_wall);
-  EXPECT_GT(near, 0.5 * step_share * (limit - depth) / onto_wall);
+  EXPECT_LE(near, room_in_a_step(law, depth) / onto_wall);
+  EXPECT_GT(near, 0.5 * room_in_a_step(law, depth) / onto_wall);
   // nothing is ahead in the middle of a flat face
   EXPECT_GT(ratio_while_sliding(square_sheet(1, 40.0, 0.0), law, 0.3, depth, step), 1e3);
+}
+
+/// The contact of one node that has moved from `from` by `step` (mm) in the last of two steps, over
+/// a master that knows its folds, both of which have moved by `path` (mm) in all.
+Loaded after_a_step(const OwnedSheet& master, const ContactLaw& law, const Vec3& from,
+                    const Vec3& step, double path) {
+  std::vector<double> bound;
+  fold_bounds(master.x, master.triangles, bound);
+  const SheetEdges edges = sheet_edges(master.triangles, master.x);
+  const SurfaceKinematics folded{master.x, master.motion, master.area, bound, edges.faces_across};
+  OwnedSheet node = points_only({from}, 2.0);
+  Loaded contact = contact_of(law);
+  search(contact, node, master, 5.0);
+  contact.slave_force.resize(1);
+  contact.master_force.resize(master.x.size());
+  for (const Vec3& by : {Vec3(0, 0, 0), step}) {
+    node.move({by});
+    ply_ply_forces(contact, node.state(), folded, master.triangles, 1e-6, {by.norm(), path},
+                   contact.slave_force, contact.master_force);
+  }
+  return contact;
+}
+
+TEST(PlyPlyContact, OnlyMotionAlongTheFaceMayCloseOnTheNext) {
+  constexpr double limit = 0.25 * thickness, depth = 0.03, step = 0.01;
+  const ContactLaw law{5.0, 0.0, 0.0, limit};
+  const Vec3 beside_the_edge(-0.2, 0.2, thickness - depth); // the floor is closer
+  const Loaded pressed =
+      after_a_step(valley(20.0 * degree), law, beside_the_edge, {0, 0, -step}, 0.0);
+  ASSERT_EQ(pressed.points.size(), 1u);
+  EXPECT_NEAR(pressed.sums.step_ratio, room_in_a_step(law, depth + step) / step, 1e-9);
+}
+
+TEST(PlyPlyContact, FarFromTheSheetAFoldReachesFurther) {
+  const double angle = 20.0 * degree;
+  const OwnedSheet master = valley(angle);
+  const Loaded contact =
+      after_a_step(master, {5.0, 0.0, 0.0, 0.25 * thickness}, {-1.5, 0.2, 3.0}, {1.2, 0, 0}, 10.0);
+  ASSERT_EQ(contact.points.size(), 1u);
+  EXPECT_EQ(contact.points[0].face, 1); // the slope, though the foot on the floor is inside
+  EXPECT_NEAR(contact.points[0].gap, 0.3 * std::sin(angle) + 3.0 * std::cos(angle) - thickness,
+              1e-12);
 }
 
 TEST(PlyPlyContact, NoPairIsMissedBetweenSearches) {

@@ -3,6 +3,7 @@
 #include "contact/search/sheet_edges.hpp"
 #include "support/contact_checks.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace plyform::sheet_edges_test {
@@ -23,6 +24,37 @@ TEST(SheetEdges, EveryEdgeIsInAPatchThatHoldsItsNodes) {
   for (const auto& nodes : edges.patch_nodes) // neighbours
     for (const std::int32_t n : nodes)
       EXPECT_LT((sheet.x[n] - sheet.x[nodes.front()]).norm(), 45.0);
+}
+
+TEST(SheetEdges, FacesAcrossShareTheTwoOtherCorners) {
+  const OwnedSheet sheet = square_sheet(5, 4.0, 0.0);
+  const SheetEdges edges = sheet_edges(sheet.triangles, sheet.x);
+  ASSERT_EQ(edges.faces_across.size(), sheet.triangles.size());
+  std::size_t free = 0;
+  for (std::size_t t = 0; t < sheet.triangles.size(); ++t)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::int32_t face = edges.faces_across[t][k];
+      if (face == no_face) {
+        ++free;
+        continue;
+      }
+      const Triangle& other = sheet.triangles.at(at(face));
+      EXPECT_NE(at(face), t);
+      for (const std::size_t corner : {(k + 1) % 3, (k + 2) % 3})
+        EXPECT_EQ(std::count(other.begin(), other.end(), sheet.triangles[t][corner]), 1);
+      EXPECT_EQ(std::count(other.begin(), other.end(), sheet.triangles[t][k]), 0);
+    }
+  EXPECT_EQ(free, 20u); // sides of the rim
+}
+
+TEST(SheetEdges, SaysWhereSeveralFacesAreAcross) {
+  const std::vector<Vec3> x{{0, 0, 0}, {0, 4, 0}, {4, 2, 0}, {-4, 2, 0}, {0, 2, 4}};
+  const std::vector<Triangle> book{{0, 2, 1}, {0, 1, 3}, {4, 0, 1}}; // three leaves on one edge
+  const SheetEdges edges = sheet_edges(book, x);
+  EXPECT_EQ(edges.faces_across[0][1], several_faces);
+  EXPECT_EQ(edges.faces_across[1][2], several_faces);
+  EXPECT_EQ(edges.faces_across[2][0], several_faces);
+  EXPECT_EQ(edges.faces_across[2][1], no_face);
 }
 
 TEST(SheetEdges, MotionOfPatchesBoundsThatOfTheirNodes) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The copies of the kernel of nodes and faces of plies against each other.
+#include "contact/search/sheet_edges.hpp"
 #include "contact/simd/cpu_features.hpp"
 #include "contact/simd/ply_ply_kernel.hpp"
 #include "support/contact_checks.hpp"
@@ -29,7 +30,7 @@ struct Sliding {
   enum class Kind { pressed, passing, anywhere, over_edge };
   std::vector<double> master_x, master_motion, slave_x, slave_motion, free_until, fold_bound;
   std::vector<double> slave_force, master_force;
-  std::vector<std::int32_t> triangles, faces, active;
+  std::vector<std::int32_t> triangles, faces_across, faces, active;
   std::vector<float> face_distance;
   std::vector<PlyPlyPoint> points;
   std::vector<PlyPlyKernelTotals> totals; ///< of each step
@@ -66,6 +67,15 @@ struct Sliding {
           triangles.push_back(corner);
       }
     fold_bound.assign(triangles.size() / 3, 0.1);
+    std::vector<Triangle> sheet;
+    for (std::size_t t = 0; t < triangles.size(); t += 3)
+      sheet.push_back({triangles[t], triangles[t + 1], triangles[t + 2]});
+    std::vector<Vec3> x;
+    for (std::size_t n = 0; n < master_x.size(); n += 3)
+      x.emplace_back(&master_x[n]);
+    for (const auto& of : sheet_edges(sheet, x).faces_across)
+      faces_across.insert(faces_across.end(), of.begin(), of.end());
+    faces_across.front() = several_faces; // as where three faces share an edge
   }
 
   void add_point(Random& random, Kind kind, std::int32_t p) {
@@ -113,6 +123,7 @@ struct Sliding {
     k.slave_x = slave_x.data(), k.slave_motion = slave_motion.data();
     k.master_x = master_x.data(), k.master_motion = master_motion.data();
     k.fold_bound = fold_bound.data(), k.triangles = triangles.data(), k.faces = faces.data();
+    k.faces_across = faces_across.data();
     k.face_distance = face_distance.data();
     k.slave_force = slave_force.data(), k.master_force = master_force.data();
     k.max_displacement = 0.1, k.path_length = 0.1;
