@@ -101,6 +101,14 @@ void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
                      std::span<const std::int32_t> some_a, const EdgeSheet& b,
                      std::span<const std::int32_t> some_b, double skin, const SelfEdges& self = {});
 
+/// Adds the candidates that ridges have which are new since the last search: new_a and new_b,
+/// ascending, those of them that are among some_a and some_b with all ridges of the other sheet.
+/// The others stay as they are. Arguments as of find_edge_pairs.
+void add_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
+                    std::span<const std::int32_t> some_a, std::span<const std::int32_t> new_a,
+                    const EdgeSheet& b, std::span<const std::int32_t> some_b,
+                    std::span<const std::int32_t> new_b, double skin, const SelfEdges& self = {});
+
 /// Distance (mm) of two edges as segments, one by one. a, b: positions of the nodes of their
 /// sheets, mm.
 double edge_distance(const EdgeNodes& edge_a, std::span<const Vec3> a, const EdgeNodes& edge_b,

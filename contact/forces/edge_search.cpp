@@ -1,114 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Search for pairs of edges of two sheets that are close to each other.
 #include "contact/forces/edge_edge.hpp"
+#include "contact/search/edge_grid.hpp"
 
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <tuple>
 
 namespace plyform {
 namespace {
-
-Box3 edge_box(const SheetEdge& e, std::span<const Vec3> x, double inflate) {
-  Box3 box(at(x, e.a).cwiseMin(at(x, e.b)), at(x, e.a).cwiseMax(at(x, e.b)));
-  box.min().array() -= inflate;
-  box.max().array() += inflate;
-  return box;
-}
-
-/// The bounding boxes of some edges, sorted into the square cells of a grid in the plane of the two
-/// axes of largest extent; each edge is in the cell of the lower corner of its box.
-class EdgeGrid {
-public:
-  /// Of the edges with the numbers `some`.
-  EdgeGrid(const EdgeSheet& sheet, std::span<const std::int32_t> some) {
-    Box3 all;
-    std::vector<Entry> unsorted;
-    unsorted.reserve(some.size());
-    for (const std::int32_t e : some) {
-      unsorted.push_back({edge_box(sheet.edges.all[e], sheet.state.x, 0.0), e});
-      all.extend(unsorted.back().box);
-      widest_ = widest_.cwiseMax(unsorted.back().box.sizes());
-    }
-    if (unsorted.empty()) return;
-    all.sizes().minCoeff(&flat_);
-    low_ = all.min();
-    // Small cells have fewer edges to look at in vain, large ones fewer rows; most_cells: along an
-    // axis.
-    constexpr double share = 0.4, most_cells = 1000.0;
-    cell_ = std::max({share * widest_.maxCoeff(), all.sizes().maxCoeff() / most_cells, 1e-9});
-    for (int axis = 0; axis < 3; ++axis)
-      count_[axis] = axis == flat_ ? 1 : place(all.max()[axis], axis, 1 << 20) + 1;
-    sort_into_cells(unsorted);
-  }
-
-  /// Calls found(edge) for each edge whose box intersects this one.
-  template <class Found>
-  void visit(const Box3& box, const Found& found) const {
-    if (entries_.empty()) return;
-    std::array<int, 3> from{}, to{};
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto a = static_cast<std::size_t>(axis);
-      from[a] = axis == flat_ ? 0 : place(box.min()[axis] - widest_[axis], axis, count_[a] - 1);
-      to[a] = axis == flat_ ? 0 : place(box.max()[axis], axis, count_[a] - 1);
-    }
-    const std::size_t row = flat_ == 0 ? 1 : 0, in_row = flat_ == 2 ? 1 : 2;
-    for (int i = from[row]; i <= to[row]; ++i) { // the cells of a row follow each other
-      std::array<int, 3> first{}, last{};
-      first[row] = last[row] = i;
-      first[in_row] = from[in_row];
-      last[in_row] = to[in_row];
-      const std::int32_t end = begin_[number_of(last) + 1];
-      for (std::int32_t e = begin_[number_of(first)]; e < end; ++e)
-        if (const auto& [other, edge] = entries_[e];
-            overlap(box.min(), box.max(), other.min(), other.max()))
-          found(edge);
-    }
-  }
-
-private:
-  struct Entry {
-    Box3 box;
-    std::int32_t edge;
-  };
-
-  /// Entries of a cell stay in ascending order of their edges.
-  void sort_into_cells(const std::vector<Entry>& unsorted) {
-    std::vector<std::size_t> cell;
-    cell.reserve(unsorted.size());
-    begin_.assign(static_cast<std::size_t>(count_[0] * count_[1] * count_[2] + 1), 0);
-    for (const Entry& e : unsorted) {
-      cell.push_back(cell_of(e.box.min()));
-      ++begin_[cell.back() + 1];
-    }
-    std::partial_sum(begin_.begin(), begin_.end(), begin_.begin());
-    std::vector<std::int32_t> next(begin_.begin(), begin_.end() - 1);
-    entries_.resize(unsorted.size());
-    for (std::size_t i = 0; i < unsorted.size(); ++i)
-      entries_[static_cast<std::size_t>(next[cell[i]]++)] = unsorted[i];
-  }
-
-  int place(double x, int axis, int last) const {
-    return static_cast<int>(
-        std::clamp(std::floor((x - low_[axis]) / cell_), 0.0, static_cast<double>(last)));
-  }
-  std::size_t number_of(const std::array<int, 3>& cell) const {
-    return static_cast<std::size_t>((cell[0] * count_[1] + cell[1]) * count_[2] + cell[2]);
-  }
-  std::size_t cell_of(const Vec3& x) const {
-    std::array<int, 3> i{};
-    for (int axis = 0; axis < 3; ++axis)
-      if (axis != flat_) i[axis] = place(x[axis], axis, count_[axis] - 1);
-    return number_of(i);
-  }
-
-  std::vector<Entry> entries_;
-  std::vector<std::int32_t> begin_;
-  Vec3 low_ = Vec3::Zero(), widest_ = Vec3::Zero(); ///< mm
-  double cell_ = 1.0;                               ///< mm
-  int flat_ = 2;                                    ///< axis without cells
-  std::array<int, 3> count_{1, 1, 1};
-};
 
 bool share_node(const SheetEdge& e, const SheetEdge& g) {
   return e.a == g.a || e.a == g.b || e.b == g.a || e.b == g.b;
@@ -195,20 +96,76 @@ private:
   std::size_t used_ = 0, last_ = 0;
 };
 
+/// Candidates and their groups, as EdgeEdgeContact has them.
+struct Listed {
+  std::vector<EdgeCandidate> candidates;
+  std::vector<EdgeGroup> groups;
+};
+
+/// Begins a group of these patches with the next candidate.
+EdgeGroup& begin_group(Listed& to, const std::array<std::int32_t, 2>& patch) {
+  EdgeGroup& group = to.groups.emplace_back();
+  group.patch = patch;
+  group.first = group.end = static_cast<std::int32_t>(to.candidates.size());
+  group.free_until = std::numeric_limits<double>::infinity();
+  return group;
+}
+
+void append(Listed& to, EdgeGroup& group, const EdgeCandidate& candidate) {
+  to.candidates.push_back(candidate);
+  ++group.end;
+  group.free_until = std::min(group.free_until, double{candidate.free_until});
+}
+
 /// Appends the groups of one patch of a, from its pairs within reach.
-void append_groups(EdgeEdgeContact& contact, std::int32_t patch_a, FoundByPatch& found) {
+void append_groups(Listed& to, std::int32_t patch_a, FoundByPatch& found) {
   found.visit([&](const std::vector<Found>& pairs) {
-    EdgeGroup group;
-    group.patch = {patch_a, pairs.front().patch_b};
-    group.first = static_cast<std::int32_t>(contact.candidates.size());
-    group.free_until = pairs.front().gap;
-    for (const Found& f : pairs) {
-      contact.candidates.push_back({f.edge, rounded_down(f.gap)});
-      group.free_until = std::min(group.free_until, double{contact.candidates.back().free_until});
-    }
-    group.end = static_cast<std::int32_t>(contact.candidates.size());
-    contact.groups.push_back(group);
+    EdgeGroup& group = begin_group(to, {patch_a, pairs.front().patch_b});
+    for (const Found& f : pairs)
+      append(to, group, {f.edge, rounded_down(f.gap)});
   });
+}
+
+/// Adds `more`, whose path lengths begin now, to the candidates of a contact, in their order. Those
+/// that it has already stay as they are.
+void merge(EdgeEdgeContact& contact, const Listed& more) {
+  if (more.groups.empty()) return;
+  Listed all;
+  all.candidates.reserve(contact.candidates.size() + more.candidates.size());
+  all.groups.reserve(contact.groups.size() + more.groups.size());
+  auto old = contact.groups.begin();
+  const auto copy_old = [&] {
+    EdgeGroup& group = begin_group(all, old->patch);
+    group.path_length = old->path_length, group.ahead = old->ahead;
+    for (std::int32_t i = old->first; i < old->end; ++i)
+      append(all, group, contact.candidates[at(i)]);
+    group.free_until = old->free_until;
+    ++old;
+  };
+  for (const EdgeGroup& next : more.groups) {
+    while (old != contact.groups.end() && old->patch < next.patch)
+      copy_old();
+    const bool is_new = old == contact.groups.end() || old->patch != next.patch;
+    const EdgeGroup before = is_new ? EdgeGroup{} : *old;
+    EdgeGroup& group = begin_group(all, next.patch);
+    group.path_length = before.path_length, group.ahead = before.ahead;
+    if (!is_new) group.free_until = before.free_until, ++old;
+    std::int32_t i = before.first;
+    for (std::int32_t k = next.first; k < next.end; ++k) {
+      EdgeCandidate candidate = more.candidates[at(k)];
+      for (; i < before.end && contact.candidates[at(i)].edge < candidate.edge; ++i)
+        append(all, group, contact.candidates[at(i)]);
+      if (i < before.end && contact.candidates[at(i)].edge == candidate.edge) continue;
+      candidate.free_until = rounded_down(group.path_length + double{candidate.free_until});
+      append(all, group, candidate);
+    }
+    for (; i < before.end; ++i)
+      append(all, group, contact.candidates[at(i)]);
+  }
+  while (old != contact.groups.end())
+    copy_old();
+  contact.candidates = std::move(all.candidates);
+  contact.groups = std::move(all.groups);
 }
 
 using EdgeNumbers = std::array<std::int32_t, 2>;
@@ -222,30 +179,33 @@ std::vector<std::int32_t> ridges_of(const EdgeSheet& sheet, std::span<const std:
   return ridges;
 }
 
-/// Whether two edges may be ridges towards each other.
+/// Whether an edge of a and one of b may be ridges towards each other. Their normals are computed
+/// when they are first asked for.
 class Facing {
 public:
-  Facing(const EdgeSheet& a, const EdgeSheet& b, std::span<const std::int32_t> ridges_b)
-      : a_(a), b_(b) {
-    if (!asked()) return;
-    normal_b_.resize(b.edges.all.size());
-    for (const std::int32_t e : ridges_b)
-      normal_b_[e] = edge_normal(b.edges.all[e], b.state.x);
+  Facing(const EdgeSheet& a, const EdgeSheet& b) : a_(a), b_(b) {
+    if (asked()) normals_b_.resize(b.edges.all.size(), Vec3::Zero());
   }
   bool asked() const { return !a_.ridge_sides.empty() && !b_.ridge_sides.empty(); }
   /// To be called before it is asked about pairs of this edge of a.
   void set_edge(std::int32_t e) {
     one_ = e;
-    if (asked()) normal_a_ = edge_normal(a_.edges.all[e], a_.state.x);
+    normal_a_ = Vec3::Zero();
   }
-  bool operator()(std::int32_t other) const {
-    return !asked() ||
-           may_face(a_.ridge_sides[one_], normal_a_, b_.ridge_sides[other], normal_b_[other]);
+  bool operator()(std::int32_t other) {
+    return !asked() || may_face(a_.ridge_sides[one_], normal_of(a_, one_, normal_a_),
+                                b_.ridge_sides[other], normal_of(b_, other, normals_b_[at(other)]));
   }
 
 private:
+  /// `known`: zero before it is known.
+  static const Vec3& normal_of(const EdgeSheet& sheet, std::int32_t e, Vec3& known) {
+    if (known.isZero(0.0)) known = edge_normal(sheet.edges.all[e], sheet.state.x);
+    return known;
+  }
+
   const EdgeSheet &a_, &b_;
-  std::vector<Vec3> normal_b_; ///< of its ridges
+  std::vector<Vec3> normals_b_; ///< of its ridges
   Vec3 normal_a_ = Vec3::Zero();
   std::int32_t one_ = 0;
 };
@@ -297,20 +257,26 @@ void renumber_pairs(EdgeEdgeContact& contact, const EdgeSheet& a, const EdgeShee
   contact.pairs.resize(kept);
 }
 
-} // namespace
+/// Ascending numbers that are in both lists, which are ascending.
+std::vector<std::int32_t> common(std::span<const std::int32_t> one,
+                                 std::span<const std::int32_t> other) {
+  std::vector<std::int32_t> both;
+  std::set_intersection(one.begin(), one.end(), other.begin(), other.end(),
+                        std::back_inserter(both));
+  return both;
+}
 
-void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
-                     std::span<const std::int32_t> some_a, const EdgeSheet& b,
-                     std::span<const std::int32_t> some_b, double skin, const SelfEdges& self) {
-  const std::vector<EdgeNumbers> followed = followed_edges(contact);
-  const ClosedPairs closed = closed_pairs(contact, b, followed);
-  contact.candidates.clear();
-  contact.groups.clear();
-  const std::vector<std::int32_t> ridges_a = ridges_of(a, some_a), ridges_b = ridges_of(b, some_b);
-  const EdgeGrid grid(b, ridges_b);
-  Facing faces(a, b, ridges_b);
+/// Lists the pairs of these edges of a and b, ascending, that are within contact.distance + skin
+/// (mm) and may be ridges towards each other, and those that are closed.
+Listed near_pairs(const EdgeEdgeContact& contact, const EdgeSheet& a,
+                  std::span<const std::int32_t> of_a, const EdgeSheet& b,
+                  std::span<const std::int32_t> of_b, double skin, const SelfEdges& self,
+                  const ClosedPairs& closed) {
+  Listed listed;
+  const EdgeGrid grid(b.edges.all, b.state.x, of_b);
+  Facing faces(a, b);
   std::vector<std::int32_t> all_a;
-  std::set_union(ridges_a.begin(), ridges_a.end(), closed.of_a.begin(), closed.of_a.end(),
+  std::set_union(of_a.begin(), of_a.end(), closed.of_a.begin(), closed.of_a.end(),
                  std::back_inserter(all_a));
   all_a.erase(std::unique(all_a.begin(), all_a.end()), all_a.end());
   const std::vector<std::int32_t> sorted = by_patch(a.edges, all_a);
@@ -344,9 +310,37 @@ void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
     }
     for (const Found& f : closed.pairs)
       if (a.edges.patch[f.edge[0]] == patch) found.add(f);
-    append_groups(contact, patch, found);
+    append_groups(listed, patch, found);
   }
-  contact.candidates.shrink_to_fit(); // the longest list of a scene
+  return listed;
+}
+
+} // namespace
+
+void find_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
+                     std::span<const std::int32_t> some_a, const EdgeSheet& b,
+                     std::span<const std::int32_t> some_b, double skin, const SelfEdges& self) {
+  const std::vector<EdgeNumbers> followed = followed_edges(contact);
+  const ClosedPairs closed = closed_pairs(contact, b, followed);
+  Listed listed =
+      near_pairs(contact, a, ridges_of(a, some_a), b, ridges_of(b, some_b), skin, self, closed);
+  listed.candidates.shrink_to_fit(); // the longest list of a scene
+  contact.candidates = std::move(listed.candidates);
+  contact.groups = std::move(listed.groups);
+  renumber_pairs(contact, a, b, followed);
+}
+
+void add_edge_pairs(EdgeEdgeContact& contact, const EdgeSheet& a,
+                    std::span<const std::int32_t> some_a, std::span<const std::int32_t> new_a,
+                    const EdgeSheet& b, std::span<const std::int32_t> some_b,
+                    std::span<const std::int32_t> new_b, double skin, const SelfEdges& self) {
+  const std::vector<EdgeNumbers> followed = followed_edges(contact);
+  const auto add = [&](std::span<const std::int32_t> of_a, std::span<const std::int32_t> of_b) {
+    if (!of_a.empty() && !of_b.empty())
+      merge(contact, near_pairs(contact, a, of_a, b, of_b, skin, self, {}));
+  };
+  add(common(some_a, new_a), ridges_of(b, some_b));
+  add(ridges_of(a, some_a), common(some_b, new_b));
   renumber_pairs(contact, a, b, followed);
 }
 

@@ -155,7 +155,7 @@ void search_contacts(Scene& s, ThreadPool& pool) {
   const int edges = static_cast<int>(s.edge_contacts.size());
   pool.run(edges + static_cast<int>(pairs[1].size()), [&](int i) { // longest tasks first
     if (i < edges)
-      search_edges(s, s.edge_contacts[i], 0.0);
+      search_edges(s, s.edge_contacts[i]);
     else
       search_plies(s, *pairs[1][i - edges]);
   });

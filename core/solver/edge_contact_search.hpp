@@ -8,12 +8,11 @@
 
 namespace plyform {
 
-/// Lists every pair of ridges of two plies within contact distance + skin. moved: mm, what their
-/// nodes together have moved by since the last contact search.
-void search_edges(Scene& scene, PlyEdgeContact& pair, double moved);
+/// Lists every pair of ridges of two plies within contact distance + skin.
+void search_edges(const Scene& scene, PlyEdgeContact& pair);
 
-/// Follows patches and ridges of all plies through the last step, and searches the edges of those
-/// that have new ridges. searched: whether ridges were found in this step.
+/// Follows patches and ridges of all plies through the last step, and searches for what new ridges
+/// are near. searched: whether ridges were found in this step.
 void follow_edges(Scene& scene, ThreadPool& pool, bool searched);
 
 } // namespace plyform

@@ -151,6 +151,92 @@ TEST(SheetRidges, AreWhereTwoSheetsAreClosestBetweenTheirNodes) {
   EXPECT_LT(listed, of * 2 / 3);
 }
 
+/// Edges of a sheet that are ridges at first, and those that become it later.
+struct Growing {
+  SheetEdges edges;
+  std::vector<std::int32_t> all, grown;
+  std::vector<char> before, after;
+  Growing(const OwnedSheet& sheet, Random& random)
+      : edges(sheet_edges(sheet.triangles, sheet.x)), all(edges.all.size()),
+        before(edges.all.size(), ridge_both), after(before) {
+    std::iota(all.begin(), all.end(), 0);
+    for (const std::int32_t e : all)
+      if (random() % 4 == 0) {
+        before[at(e)] = no_ridge;
+        grown.push_back(e);
+      }
+  }
+};
+
+/// A contact of the edges of two sheets, or of a folded one with itself, as it was searched before
+/// edges grew to ridges, with path lengths since; then with what is added for them.
+void expect_added(const OwnedSheet& a, const OwnedSheet& b, bool one_sheet) {
+  Random random(7);
+  const Growing of_a(a, random), of_b = one_sheet ? of_a : Growing(b, random);
+  const auto sheet = [](const OwnedSheet& of, const Growing& edges,
+                        const std::vector<char>& sides) {
+    return EdgeSheet{of.state(), edges.edges, {}, sides};
+  };
+  const EdgeSheet before_a = sheet(a, of_a, of_a.before), before_b = sheet(b, of_b, of_b.before);
+  const EdgeSheet after_a = sheet(a, of_a, of_a.after), after_b = sheet(b, of_b, of_b.after);
+  const std::vector<Vec3> flat = square_sheet(8, 2.0, 0.0).x;
+  const SelfEdges self = one_sheet ? SelfEdges{flat, 3.0} : SelfEdges{};
+  constexpr double skin = 1.5, gone = 0.25;
+  EdgeEdgeContact contact, whole;
+  contact.distance = whole.distance = 0.3;
+  find_edge_pairs(contact, before_a, of_a.all, before_b, of_b.all, skin, self);
+  const EdgeEdgeContact first = contact;
+  ASSERT_GT(first.candidates.size(), 40u);
+  for (EdgeGroup& group : contact.groups)
+    group.path_length = gone;
+  for (const std::int32_t candidate : {3, 17, 18}) // pairs that are followed
+    contact.pairs.push_back({candidate, {}, {}});
+  add_edge_pairs(contact, after_a, of_a.all, of_a.grown, after_b, of_b.all, of_b.grown, skin, self);
+  find_edge_pairs(whole, after_a, of_a.all, after_b, of_b.all, skin, self);
+  ASSERT_EQ(contact.candidates.size(), whole.candidates.size());
+  EXPECT_GT(whole.candidates.size(), first.candidates.size() * 4 / 3);
+  ASSERT_EQ(contact.groups.size(), whole.groups.size());
+  for (std::size_t g = 0; g < whole.groups.size(); ++g) {
+    const EdgeGroup &group = contact.groups[g], &expected = whole.groups[g];
+    EXPECT_EQ(group.patch, expected.patch);
+    EXPECT_EQ(group.first, expected.first);
+    EXPECT_EQ(group.end, expected.end);
+    const bool known = std::any_of(first.groups.begin(), first.groups.end(),
+                                   [&](const EdgeGroup& f) { return f.patch == group.patch; });
+    EXPECT_EQ(group.path_length, known ? gone : 0.0);
+    double least = std::numeric_limits<double>::max();
+    for (std::int32_t i = group.first; i < group.end; ++i) {
+      const EdgeCandidate &c = contact.candidates[at(i)], &now = whole.candidates[at(i)];
+      EXPECT_EQ(c.edge, now.edge);
+      const bool listed_before =
+          std::any_of(first.candidates.begin(), first.candidates.end(),
+                      [&c](const EdgeCandidate& f) { return f.edge == c.edge; });
+      EXPECT_NEAR(c.free_until, now.free_until + (listed_before ? 0.0 : group.path_length), 1e-6);
+      least = std::min(least, double{c.free_until});
+    }
+    EXPECT_EQ(group.free_until, least);
+  }
+  ASSERT_EQ(contact.pairs.size(), 3u);
+  for (const auto& [pair, candidate] : {std::pair{0, 3}, {1, 17}, {2, 18}})
+    EXPECT_EQ(contact.candidates[at(contact.pairs[std::size_t(pair)].candidate)].edge,
+              first.candidates[at(candidate)].edge);
+}
+
+TEST(SheetRidges, NewOnesAreAddedToWhatWasSearched) {
+  Random random(2);
+  OwnedSheet a = square_sheet(8, 2.0, 0.8), b = square_sheet(8, 2.0, 0.0);
+  for (OwnedSheet* sheet : {&a, &b})
+    for (Vec3& x : sheet->x)
+      x += 0.2 * random_vector(random);
+  expect_added(a, b, false);
+  OwnedSheet rolled = square_sheet(8, 2.0, 0.0); // a turn and a half, in 0.8 mm steps
+  for (Vec3& x : rolled.x) {
+    const double along = x.x() + 8.0, radius = 1.0 + 0.08 * along, angle = along / 1.7;
+    x = Vec3(radius * std::cos(angle), x.y(), radius * std::sin(angle));
+  }
+  expect_added(rolled, rolled, true);
+}
+
 TEST(SheetRidges, AClosedPairStaysACandidateWhateverItsFold) {
   const auto cross = [](double z, bool along_x) {
     OwnedSheet sheet =
