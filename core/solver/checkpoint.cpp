@@ -27,9 +27,8 @@ void visit(Archive& a, PlyKinematics& p) {
 template <class Archive>
 void visit(Archive& a, PlyState& ply) {
   visit(a, static_cast<PlyKinematics&>(ply));
-  visit(a, ply.x_search, ply.max_displacement, ply.path_length, ply.fold_bound,
-        ply.fold_bound_displacement, ply.ridges.sides, ply.ridges.room, ply.occluded[0],
-        ply.occluded[1], ply.unfolded);
+  visit(a, ply.x_search, ply.max_displacement, ply.path_length, ply.fold_bound, ply.fold_bound_path,
+        ply.ridges.sides, ply.ridges.room, ply.occluded[0], ply.occluded[1], ply.unfolded);
   visit(a, ply.bound, ply.eigenvalue_ratio, ply.lanczos_contacts, ply.mass);
   visit(a, ply.membrane.last_lambda, ply.membrane.last_viscous);
   if (ply.simd) visit(a, ply.simd->viscosity);
@@ -78,6 +77,7 @@ void visit(Archive& a, PlyEdgeContact& pair) {
 template <class Archive>
 void visit(Archive& a, PlyPair& pair) {
   visit(a, pair.force_a, pair.force_b, pair.loaded); // all zero unless loaded
+  visit(a, pair.rows_a, pair.rows_b);
 }
 
 namespace {

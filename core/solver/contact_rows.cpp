@@ -6,17 +6,21 @@
 namespace plyform {
 namespace {
 
-/// Row sums of the contacts between two plies, per node of each.
-struct PairRows {
-  std::vector<ContactRow> a, b;
-};
+/// Calls visit(contact) for the contacts of a pair, of nodes and edges.
+template <class SomeScene, class Visit>
+void visit_contacts(SomeScene& s, const PlyPair& pair, const Visit& visit) {
+  for (const int i : pair.contacts)
+    visit(s.ply_contacts[i].contact);
+  for (const int i : pair.edges)
+    visit(s.edge_contacts[i].contact);
+}
 
-PairRows rows_of(const Scene& s, const PlyPair& pair) {
+void renew_rows(Scene& s, PlyPair& pair) {
   const PlyState &a = s.plies[pair.a], &b = s.plies[pair.b];
-  PairRows rows;
+  pair.rows_a.clear(), pair.rows_b.clear();
   const auto begin = [&] {
-    rows.a.resize(a.x.size());
-    rows.b.resize(b.x.size());
+    pair.rows_a.resize(a.x.size());
+    pair.rows_b.resize(b.x.size());
   };
   for (const int i : pair.contacts) {
     const PlyContact& c = s.ply_contacts[i];
@@ -25,15 +29,34 @@ PairRows rows_of(const Scene& s, const PlyPair& pair) {
     const bool up = c.slave == pair.a;
     const PlyState& master = up ? b : a;
     add_ply_ply_stiffness(c.contact, master.state(), master.membrane.triangles, bound_margin,
-                          up ? rows.a : rows.b, up ? rows.b : rows.a);
+                          up ? pair.rows_a : pair.rows_b, up ? pair.rows_b : pair.rows_a);
   }
   for (const int i : pair.edges) {
     const EdgeEdgeContact& contact = s.edge_contacts[i].contact;
     if (contact.groups.empty()) continue;
     begin();
-    add_edge_stiffness(contact, edge_margin, rows.a, rows.b);
+    add_edge_stiffness(contact, edge_margin, pair.rows_a, pair.rows_b);
   }
-  return rows;
+  visit_contacts(s, pair, [](auto& contact) {
+    contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
+  });
+}
+
+bool has_deepened(const Scene& s, const PlyPair& pair) {
+  bool deepened = false;
+  visit_contacts(s, pair, [&](const auto& contact) {
+    deepened = deepened || contact.sums.penetration > contact.renew_depth;
+  });
+  return deepened;
+}
+
+/// Renews the rows of the pairs for which due(pair) holds.
+template <class Due>
+void renew_rows_if(Scene& s, ThreadPool& pool, const Due& due) {
+  pool.run(static_cast<int>(s.ply_pairs.size()), [&](int i) {
+    PlyPair& pair = s.ply_pairs[static_cast<std::size_t>(i)];
+    if (due(pair)) renew_rows(s, pair);
+  });
 }
 
 void add(const std::vector<ContactRow>& rows, std::vector<ContactRow>& to) {
@@ -43,12 +66,15 @@ void add(const std::vector<ContactRow>& rows, std::vector<ContactRow>& to) {
 
 } // namespace
 
+void renew_rows(Scene& s, ThreadPool& pool) {
+  renew_rows_if(s, pool, [](const PlyPair&) { return true; });
+}
+
+void renew_deepened_rows(Scene& s, ThreadPool& pool) {
+  renew_rows_if(s, pool, [&s](const PlyPair& pair) { return has_deepened(s, pair); });
+}
+
 ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
-  std::vector<PairRows> of_pair(s.ply_pairs.size());
-  pool.run(static_cast<int>(of_pair.size()), [&](int i) {
-    const auto pair = static_cast<std::size_t>(i);
-    of_pair[pair] = rows_of(s, s.ply_pairs[pair]);
-  });
   ContactRows c(s.plies.size());
   pool.run(static_cast<int>(c.size()), [&](int i) {
     const auto p = static_cast<std::size_t>(i);
@@ -57,9 +83,9 @@ ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
     rows.resize(ply.x.size());
     for (const ToolState& tool : s.tools)
       add_tool_ply_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
-    for (std::size_t k = 0; k < of_pair.size(); ++k) {
-      if (s.ply_pairs[k].a == i) add(of_pair[k].a, rows);
-      if (s.ply_pairs[k].b == i) add(of_pair[k].b, rows);
+    for (const PlyPair& pair : s.ply_pairs) {
+      if (pair.a == i) add(pair.rows_a, rows);
+      if (pair.b == i) add(pair.rows_b, rows);
     }
   });
   add_attachment_stiffness(s, c);

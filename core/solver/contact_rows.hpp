@@ -16,8 +16,15 @@ constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same for edge-e
 /// Row sums of the contact matrices, per ply and node.
 using ContactRows = std::vector<std::vector<ContactRow>>;
 
-/// At the present positions, of contacts that are closed or within bound_margin of closing, with
-/// springs and the drives of grippers.
+/// Computes those of the contacts between two plies, or of one with itself, that are closed or
+/// within bound_margin of closing now, and the depths (renew_depth) up to which they hold.
+void renew_rows(Scene& scene, ThreadPool& pool);
+
+/// The same of the pairs of plies alone in which a contact is deeper than that.
+void renew_deepened_rows(Scene& scene, ThreadPool& pool);
+
+/// The rows of the pairs as they were last computed, and those of the tools at the present
+/// positions, of springs and of the drives of grippers.
 ContactRows contact_rows(const Scene& scene, ThreadPool& pool);
 
 } // namespace plyform

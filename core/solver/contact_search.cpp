@@ -73,7 +73,7 @@ void find_ply_ridges(const Scene& s, PlyState& ply) {
 void update_ply_fold_bounds(const Scene& s, PlyState& ply) {
   if (s.ply_contacts.empty()) return; // only contacts between plies use the bounds
   fold_bounds(ply.x, ply.membrane.triangles, ply.fold_bound);
-  ply.fold_bound_displacement = ply.max_displacement;
+  ply.fold_bound_path = ply.path_length;
 }
 
 } // namespace
@@ -82,7 +82,7 @@ void update_fold_bounds(Scene& s, ThreadPool& pool) {
   // If the two nodes of a side move by `most` each, the side rotates by up to half of fold_margin.
   const double most = 0.25 * fold_margin * s.element_size;
   const auto due = [most](const PlyState& ply) {
-    return ply.max_displacement - ply.fold_bound_displacement > most;
+    return ply.path_length - ply.fold_bound_path > most;
   };
   if (s.ply_contacts.empty() || std::none_of(s.plies.begin(), s.plies.end(), due)) return;
   pool.run(static_cast<int>(s.plies.size()), [&](int p) {
@@ -164,7 +164,7 @@ void search_contacts(Scene& s, ThreadPool& pool) {
   for (NodeSums& n : s.node_sums)
     n.moved2 = 0.0;
   for (PlyState& ply : s.plies)
-    ply.max_displacement = ply.fold_bound_displacement = 0.0;
+    ply.max_displacement = 0.0;
   for (ToolState& t : s.tools) // what it may still move in this step
     t.max_displacement = t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0;
   ++s.searches;

@@ -53,7 +53,7 @@ struct PlySearch {
   double path_length = 0.0;      ///< mm, contact/search/active_list.hpp
   std::unique_ptr<SheetTree> tree;
   std::vector<double> fold_bound;            ///< contact/search/fold_bound.hpp, one per triangle
-  double fold_bound_displacement = 0.0;      ///< mm, max_displacement when it was last computed
+  double fold_bound_path = 0.0;              ///< mm, path_length when it was last computed
   std::array<std::vector<char>, 2> occluded; ///< per node, by the adjacent ply below [0], above [1]
   SheetRidges ridges;         ///< contact/search/sheet_ridges.hpp; of a single ply none
   std::vector<char> unfolded; ///< per node, contact/search/unfolded.hpp; empty without self-contact
@@ -121,6 +121,8 @@ struct PlyPair {
   std::vector<int> edges;             ///< in Scene::edge_contacts
   std::vector<Vec3> force_a, force_b; ///< N, sums over the contacts; empty until anything may touch
   bool loaded = false;                ///< whether any contact is closed; else the forces are zero
+  std::vector<ContactRow> rows_a,
+      rows_b; ///< core/solver/contact_rows.hpp; empty if nothing is near
 };
 
 /// State of a boundary (Case::boundaries).

@@ -92,6 +92,7 @@ void update_stable_step(Scene& s, ThreadPool& pool) {
   });
   if (!lanczos_due) return;
   s.next_lanczos = s.step + lanczos_interval;
+  renew_rows(s, pool);
   const ContactRows touching = contact_rows(s, pool);
   double dt = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < s.plies.size(); ++p) {

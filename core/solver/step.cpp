@@ -107,9 +107,11 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   element_and_contact_forces(s, pool);
   pull_springs(s);
   filter_forces(s);
-  if (due || s.step % contacts_every == 0 || contacts_deepened(s) ||
+  if (due || s.step % contacts_every == 0 ||
       largest_displacement(s) - s.bound_displacement > 0.5 * bound_margin)
     renew_stable_step(s, pool);
+  else if (contacts_deepened(s))
+    renew_deepened_step(s, pool);
   set_step(s);
   if (auto stop = find_faults(s)) return stop;
   prescribe_nodes(s);

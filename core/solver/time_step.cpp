@@ -27,16 +27,27 @@ void visit_contacts(SomeScene& s, const Visit& visit) {
 /// next one; the step must not be long again before that one has felt them.
 constexpr double largest_growth = 1.25;
 
-} // namespace
-
-void renew_stable_step(Scene& s, ThreadPool& pool) {
+/// Updates masses, the stable time step, and the depths of contacts with tools for which it holds.
+void use_rows(Scene& s, ThreadPool& pool) {
   const ContactRows touching = contact_rows(s, pool);
   if (s.step % mass_scaling_interval == 0) scale_masses(s, touching);
   s.stable_dt = s.data.solver.step_factor * stable_step(s, touching).dt;
+  for (ToolState& tool : s.tools)
+    for (ToolPlyContact& contact : tool.contacts)
+      contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
+}
+
+} // namespace
+
+void renew_stable_step(Scene& s, ThreadPool& pool) {
+  renew_rows(s, pool);
   s.bound_displacement = largest_displacement(s);
-  visit_contacts(s, [](auto& contact) {
-    contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
-  });
+  use_rows(s, pool);
+}
+
+void renew_deepened_step(Scene& s, ThreadPool& pool) {
+  renew_deepened_rows(s, pool);
+  use_rows(s, pool);
 }
 
 bool contacts_deepened(const Scene& s) {

@@ -2,11 +2,13 @@
 // Where the step is stable: below its bound, alone and in a stack, and not above it.
 #include "core/ply/membrane_eigenvalue.hpp"
 #include "core/setup/prepare_case.hpp"
+#include "core/solver/contact_rows.hpp"
 #include "core/solver/run.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"
 #include "support/scene_checks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -69,6 +71,43 @@ TEST(Step, IsStableBelowTheBoundAndStopsAboveIt) {
     for (const char* part : {"stopped at step ", "time ", "ply ply1"})
       EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
   }
+}
+
+TEST(ContactRows, OnlyOfPairsThatHaveDeepenedAreComputedAnew) {
+  Case data = stack_of({0.0, 0.8, 0.0}, rectangle(50.0, 50.0, 5.0));
+  set_friction(data, 0.2);
+  Scene s = make_scene(data);
+  ThreadPool pool(2);
+  start(s, pool);
+  ASSERT_FALSE(compute_forces(s, pool));
+  const auto is_near = [](const PlyPair& pair) { return !pair.rows_a.empty(); };
+  std::vector<PlyPair> before = s.ply_pairs;
+  ASSERT_GE(std::count_if(before.begin(), before.end(), is_near), 2);
+  const auto sum = [](const std::vector<ContactRow>& rows) {
+    double stiffness = 0.0;
+    for (const ContactRow& row : rows)
+      stiffness += row.stiffness;
+    return stiffness;
+  };
+  PlyPair& first = s.ply_pairs[0];
+  for (const int i : first.contacts) { // as if all its points had been pressed in
+    PlyPlyContact& contact = s.ply_contacts[i].contact;
+    for (PlyPlyPoint& point : contact.points)
+      point.gap = -0.5 * contact.law.max_depth;
+    contact.sums.penetration = 0.5 * contact.law.max_depth;
+  }
+  renew_deepened_rows(s, pool);
+  EXPECT_GT(sum(first.rows_a), 1.5 * sum(before[0].rows_a));
+  EXPECT_GT(sum(first.rows_b), 1.5 * sum(before[0].rows_b));
+  for (const int i : first.contacts) {
+    const PlyPlyContact& contact = s.ply_contacts[i].contact;
+    EXPECT_GT(contact.renew_depth, contact.sums.penetration);
+  }
+  for (std::size_t p = 1; p < before.size(); ++p)
+    EXPECT_EQ(sum(s.ply_pairs[p].rows_a), sum(before[p].rows_a)) << p;
+  renew_rows(s, pool); // nothing else had changed
+  for (std::size_t p = 1; p < before.size(); ++p)
+    EXPECT_EQ(sum(s.ply_pairs[p].rows_a), sum(before[p].rows_a)) << p;
 }
 
 /// Three plies held taut all round and pressed between two plates, nodes set off at random,
