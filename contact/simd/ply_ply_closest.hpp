@@ -143,7 +143,7 @@ PLYFORM_INLINE Longs is_above(const SimdFaces& x) {
 /// closer.
 struct SimdClearance {
   Longs of_edges, of_corners; ///< far enough from all edges; from two edges at least
-  Longs opposite; ///< number of the corner opposite to the edge from which they are not
+  Longs opposite;             ///< number of the corner opposite to the edge from which they are not
 };
 
 /// Distance (mm) from an edge beyond which a foot is closer to its own face than to that across the
