@@ -135,47 +135,80 @@ std::vector<Point> checked_points(const MeshView& sheet, int sheet_number) {
   return points;
 }
 
-std::vector<Face> collect_faces(std::span<const MeshView> sheets) {
+std::vector<Face> collect_faces(const MeshView& sheet, int number) {
   std::vector<Face> faces;
-  for (int s = 0; s < int(sheets.size()); ++s) {
-    const std::vector<Point> points = checked_points(sheets[s], s);
-    for (int t = 0; t < int(sheets[s].triangles.size()); ++t) {
-      const Triangle& node = sheets[s].triangles[t];
-      for (const std::int32_t n : node)
-        if (n < 0 || std::size_t(n) >= points.size())
-          throw std::runtime_error(fmt::format("audit: triangle {} of sheet {} names node {} of {}",
-                                               t, s, n, points.size()));
-      const std::array<Point, 3> x{points[node[0]], points[node[1]], points[node[2]]};
-      faces.push_back({s, t, node, x, make_shape(x)});
-    }
+  faces.reserve(sheet.triangles.size());
+  const std::vector<Point> points = checked_points(sheet, number);
+  for (int t = 0; t < int(sheet.triangles.size()); ++t) {
+    const Triangle& node = sheet.triangles[t];
+    for (const std::int32_t n : node)
+      if (n < 0 || std::size_t(n) >= points.size())
+        throw std::runtime_error(fmt::format("audit: triangle {} of sheet {} names node {} of {}",
+                                             t, number, n, points.size()));
+    const std::array<Point, 3> x{points[node[0]], points[node[1]], points[node[2]]};
+    faces.push_back({number, t, node, x, make_shape(x)});
   }
   return faces;
 }
 
-} // namespace
-
-Intersections find_intersections(std::span<const MeshView> sheets) {
-  const std::vector<Face> faces = collect_faces(sheets);
+std::vector<FaceBox> boxes_of(const std::vector<Face>& faces) {
   std::vector<FaceBox> boxes;
   boxes.reserve(faces.size());
   for (const Face& face : faces)
     boxes.emplace_back(face.x[0].bbox() + face.x[1].bbox() + face.x[2].bbox(), &face);
+  return boxes;
+}
 
+/// The intersections of the faces of two sheets, or of one if both are the same.
+std::vector<Intersection> intersections_of(const std::vector<Face>& a, const std::vector<Face>& b) {
+  std::vector<Intersection> found;
+  const auto compare = [&found](const FaceBox& left, const FaceBox& right) {
+    const Face *f = left.handle(), *g = right.handle();
+    if (std::pair(g->sheet, g->index) < std::pair(f->sheet, f->index)) std::swap(f, g);
+    if (intersect(*f, *g)) found.push_back({f->sheet, f->index, g->sheet, g->index});
+  };
+  std::vector<FaceBox> of_a = boxes_of(a); // CGAL sorts them
+  if (&a == &b) {
+    CGAL::box_self_intersection_d(of_a.begin(), of_a.end(), compare);
+  } else {
+    std::vector<FaceBox> of_b = boxes_of(b);
+    CGAL::box_intersection_d(of_a.begin(), of_a.end(), of_b.begin(), of_b.end(), compare);
+  }
+  return found;
+}
+
+} // namespace
+
+Intersections find_intersections(std::span<const MeshView> sheets, const RunTasks& run) {
+  const int n = static_cast<int>(sheets.size());
+  std::vector<std::vector<Face>> faces(sheets.size());
+  run(n, [&](int s) { faces[at(s)] = collect_faces(sheets[at(s)], s); });
+  std::vector<std::array<std::size_t, 2>> pairs;
+  for (std::size_t a = 0; a < faces.size(); ++a)
+    for (std::size_t b = a; b < faces.size(); ++b)
+      pairs.push_back({a, b});
+  std::vector<std::vector<Intersection>> found(pairs.size());
+  run(static_cast<int>(pairs.size()), [&](int i) {
+    const auto [a, b] = pairs[at(i)];
+    found[at(i)] = intersections_of(faces[a], faces[b]);
+  });
   Intersections result;
-  CGAL::box_self_intersection_d(
-      boxes.begin(), boxes.end(), [&result](const FaceBox& left, const FaceBox& right) {
-        const Face* f = left.handle(); // addresses ascend by sheet, then by triangle
-        const Face* g = right.handle();
-        if (g < f) std::swap(f, g);
-        if (!intersect(*f, *g)) return;
-        auto& list = f->sheet == g->sheet ? result.within : result.between;
-        list.push_back({f->sheet, f->index, g->sheet, g->index});
-      });
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    auto& list = pairs[i][0] == pairs[i][1] ? result.within : result.between;
+    list.insert(list.end(), found[i].begin(), found[i].end());
+  }
   for (auto* list : {&result.between, &result.within}) {
     std::sort(list->begin(), list->end());
     list->erase(std::unique(list->begin(), list->end()), list->end());
   }
   return result;
+}
+
+Intersections find_intersections(std::span<const MeshView> sheets) {
+  return find_intersections(sheets, [](int count, const std::function<void(int)>& task) {
+    for (int i = 0; i < count; ++i)
+      task(i);
+  });
 }
 
 } // namespace plyform

@@ -5,6 +5,7 @@
 #include "contact/geometry.hpp"
 
 #include <compare>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -34,5 +35,11 @@ struct MeshView {
 /// that it is. Cost about n log n. Throws std::runtime_error naming sheet and node if a position
 /// is not finite or a triangle names a node that does not exist.
 Intersections find_intersections(std::span<const MeshView> sheets);
+
+/// Calls task(0) .. task(count - 1), each once, in any order or at once, as ThreadPool::run.
+using RunTasks = std::function<void(int count, const std::function<void(int)>& task)>;
+
+/// The same, found by independent tasks.
+Intersections find_intersections(std::span<const MeshView> sheets, const RunTasks& run);
 
 } // namespace plyform

@@ -117,14 +117,15 @@ int outputs_due(const Scene& s) {
 }
 
 /// Contact report of the state in `s`, with the exact count of intersections.
-ContactReport audit(const Scene& s, const Snapshot& good) {
+ContactReport audit(const Scene& s, const Snapshot& good, ThreadPool& pool) {
   ContactReport r;
   r.max_tool_penetration_mm = good.tool_penetration;
   r.max_ply_penetration_mm = good.ply_penetration;
   std::vector<MeshView> sheets;
   for (const PlyState& ply : s.plies)
     sheets.push_back({ply.x, ply.membrane.triangles});
-  const Intersections found = find_intersections(sheets);
+  const Intersections found =
+      find_intersections(sheets, [&pool](int count, const auto& task) { pool.run(count, task); });
   r.intersections_between_plies = static_cast<long>(found.between.size());
   r.intersections_within_plies = static_cast<long>(found.within.size());
   return r;
@@ -174,7 +175,7 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
   sum.threads = pool.size();
   const PredictedError error = predicted_error(s.data);
   sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data)};
-  sum.contact = audit(s, good);
+  sum.contact = audit(s, good, pool);
   const std::vector<ToolCut> cuts = cuts_between_nodes(s, pool);
   sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
   sum.work = report_work(s, result.last, sum.contact);

@@ -31,7 +31,8 @@ std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
   return face;
 }
 
-PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
+/// alike: a ply of the same fabric, angle and mesh, or null.
+PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const PlyState* alike) {
   PlyState body;
   const Fabric& fabric = data.fabrics[ply.fabric];
   body.name = ply.name;
@@ -44,7 +45,9 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh) {
   body.x0.reserve(mesh.x.size());
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
-  if (bending.any())
+  if (bending.any() && alike)
+    body.bending = alike->bending;
+  else if (bending.any())
     body.bending =
         make_bending_simd(make_bending(mesh.x, body.membrane.triangles, bending, ply.angle,
                                        ply.angle + fabric.fibre_angle, body.membrane.node_mass),
@@ -197,6 +200,15 @@ void make_attachments(Scene& s) {
   }
 }
 
+/// Whether a ply on this mesh is of the same fabric, angle and mesh as another, which has been
+/// made.
+bool is_alike(const Ply& ply, const BlankMesh& mesh, const Ply& other, const PlyState& made) {
+  return ply.fabric == other.fabric && ply.angle == other.angle &&
+         mesh.triangles == made.membrane.triangles && mesh.x.size() == made.x0.size() &&
+         std::equal(mesh.x.begin(), mesh.x.end(), made.x0.begin(),
+                    [](const Vec2& p, const Vec3& q) { return p == q.head<2>(); });
+}
+
 /// Lets a ply hold the constants of its kernels in common with those laid before it.
 void share_constants(std::vector<PlyState>& plies, std::size_t p) {
   PlyState& ply = plies[p];
@@ -229,7 +241,11 @@ std::vector<PlyState> make_plies(const Case& data, const std::vector<BlankMesh>&
     pool.run(static_cast<int>(end - first), [&](int i) {
       const std::size_t p = first + static_cast<std::size_t>(i);
       const Ply& ply = data.plies[p];
-      plies[p] = make_ply(data, ply, meshes.empty() ? mesh_ply(data, ply) : meshes[p]);
+      const BlankMesh mesh = meshes.empty() ? mesh_ply(data, ply) : meshes[p];
+      const PlyState* alike = nullptr;
+      for (std::size_t q = 0; q < first && !alike; ++q)
+        if (is_alike(ply, mesh, data.plies[q], plies[q])) alike = &plies[q];
+      plies[p] = make_ply(data, ply, mesh, alike);
     });
     for (std::size_t p = first; p < end; ++p)
       share_constants(plies, p);

@@ -123,7 +123,15 @@ std::vector<MeshView> views(const std::vector<TriMesh>& sheets) {
 }
 
 Intersections audit(const std::vector<TriMesh>& sheets) {
-  return find_intersections(views(sheets));
+  const Intersections found = find_intersections(views(sheets));
+  const Intersections last_first =
+      find_intersections(views(sheets), [](int count, const std::function<void(int)>& task) {
+        for (int i = count; i-- > 0;)
+          task(i);
+      });
+  EXPECT_EQ(found.between, last_first.between);
+  EXPECT_EQ(found.within, last_first.within);
+  return found;
 }
 
 void expect_every_pair(const std::vector<TriMesh>& sheets, const Intersections& found) {
