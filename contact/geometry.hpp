@@ -40,6 +40,15 @@ inline const Vec3& at(std::span<const Vec3> x, std::int32_t n) {
   return x[at(n)];
 }
 
+/// Whether two boxes, given by their corners (mm), overlap. All six comparisons are evaluated
+/// without a branch: branches of a test that ends early would often be mispredicted.
+inline bool overlap(const Vec3& low, const Vec3& high, const Vec3& other_low,
+                    const Vec3& other_high) {
+  return (int(low.x() <= other_high.x()) & int(low.y() <= other_high.y()) &
+          int(low.z() <= other_high.z()) & int(other_low.x() <= high.x()) &
+          int(other_low.y() <= high.y()) & int(other_low.z() <= high.z())) != 0;
+}
+
 /// The float next to x that is no larger: for lower bounds that are kept in half of the memory.
 inline float rounded_down(double x) {
   const auto f = static_cast<float>(x);

@@ -2,7 +2,6 @@
 #include "contact/search/sheet_bvh.hpp"
 
 #include "contact/point_triangle.hpp"
-#include "contact/search/float_box.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -13,20 +12,14 @@
 
 namespace plyform {
 
-/// A node of the tree, with its box in floats. child: the first of its two children, which follow
-/// each other; negative: a leaf, of triangle -1 - child.
-struct TreeNode {
-  FloatBox box;
-  int child;
-};
-
 namespace {
 
 using Tree = fcl::BVHModel<fcl::AABB<double>>;
 
-/// By this much, relative to the coordinates of the sheet and to the reach, boxes are enlarged
-/// beyond the reach: rounding of floats, and of the point-triangle distance, must not prune a pair.
-constexpr double rounding_margin = 1e-6;
+/// By this much, relative to the size of sheet and reach, boxes are enlarged beyond the reach:
+/// rounding of the point-triangle distance (some 1e-15 of the triangle's size) must not prune a
+/// pair.
+constexpr double rounding_margin = 1e-12;
 
 void require_finite(std::span<const Vec3> x, const char* what) {
   for (std::size_t i = 0; i < x.size(); ++i)
@@ -46,64 +39,56 @@ using Box = fcl::AABB<double>;
 
 /// A leaf of the tree that is near a group of nodes: its box and triangle.
 struct Leaf {
-  FloatBox box;
+  Vec3 low, high;
   int face;
 };
 
-/// mm^2, of floats
-float squared_distance(const std::array<float, 3>& p, const FloatBox& box) {
-  float sum = 0.0F;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const float apart = std::max({box.low[i] - p[i], p[i] - box.high[i], 0.0F});
-    sum += apart * apart;
-  }
-  return sum;
+double squared_distance(const Vec3& p, const Leaf& box) {
+  return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm();
 }
 
-/// Copies the boxes of FCL's tree, which are in doubles.
-void copy_boxes(const Tree& tree, std::vector<TreeNode>& nodes) {
-  nodes.resize(static_cast<std::size_t>(tree.getNumBVs()));
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const fcl::BVNode<Box>& of = tree.getBV(static_cast<int>(i));
-    nodes[i] = {FloatBox(of.bv.min_, of.bv.max_), of.first_child};
-  }
+/// Whether p is further than `reach` from the box along x or y: true for most, and soon known.
+bool is_beside(const Vec3& p, const Leaf& box, double reach) {
+  return p.x() < box.low.x() - reach || p.x() > box.high.x() + reach ||
+         p.y() < box.low.y() - reach || p.y() > box.high.y() + reach;
+}
+
+bool meet(const Box& a, const Box& b) {
+  return overlap(a.min_, a.max_, b.min_, b.max_);
 }
 
 /// Collects the leaves whose box overlaps the box `asked`.
-void leaves_in(std::span<const TreeNode> tree, const FloatBox& asked, std::vector<int>& stack,
+void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
                std::vector<Leaf>& leaves) {
   leaves.clear();
   stack.clear();
-  if (overlap(asked, tree[0].box)) stack.push_back(0);
+  if (meet(asked, tree.getBV(0).bv)) stack.push_back(0);
   while (!stack.empty()) {
-    const TreeNode& node = tree[at(stack.back())];
+    const fcl::BVNode<Box>& box = tree.getBV(stack.back());
     stack.pop_back();
-    if (node.child < 0) {
-      leaves.push_back({node.box, -1 - node.child});
+    const int child = box.first_child; // negative: a leaf; isLeaf() says the same in a call
+    if (child < 0) {
+      leaves.push_back({box.bv.min_, box.bv.max_, -1 - child}); // primitiveId(), without a call
       continue;
     }
-    for (const int i : {node.child, node.child + 1})
-      if (overlap(asked, tree[at(i)].box)) stack.push_back(i);
+    for (const int i : {child, child + 1})
+      if (meet(asked, tree.getBV(i).bv)) stack.push_back(i);
   }
 }
 
 /// Search distances.
 struct Reach {
   double distance; ///< mm, to triangles
-  double box;      ///< mm, to boxes, with rounding_margin and what floats round
+  double box;      ///< mm, to boxes, which includes rounding_margin
 };
 
 /// Appends the triangles of `leaves` (nodes at x, mm) within reach of p, in no particular order.
 void faces_near(const Vec3* x, std::span<const Triangle> triangles, const Vec3& p,
                 const Reach& reach, std::span<const Leaf> leaves, std::int32_t node,
                 std::vector<Candidate>& out) {
-  const Vec3 around = Vec3::Constant(reach.box);
-  const FloatBox box(p - around, p + around);
-  const auto rounded = [&p](int i) { return static_cast<float>(p[i]); };
-  const std::array<float, 3> at_p{rounded(0), rounded(1), rounded(2)};
-  const auto reach2 = static_cast<float>(reach.box * reach.box);
   for (const Leaf& leaf : leaves) {
-    if (!overlap(box, leaf.box) || squared_distance(at_p, leaf.box) > reach2) continue;
+    if (is_beside(p, leaf, reach.box) || squared_distance(p, leaf) > reach.box * reach.box)
+      continue;
     const Triangle& t = triangles[leaf.face];
     const ClosestPoint q = closest_point_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]);
     if (q.distance2 <= reach.distance * reach.distance)
@@ -136,7 +121,6 @@ std::size_t group_end(std::span<const Vec3> nodes, std::size_t first, double siz
 struct SheetTree::Impl {
   Tree tree;
   std::vector<Triangle> triangles; ///< a copy: reading those of FCL costs a function call each
-  std::vector<TreeNode> nodes;     ///< of the tree, copied when it is refitted
   double area = 0.0;               ///< mm^2, as built
 };
 
@@ -157,7 +141,6 @@ SheetTree::SheetTree(std::span<const Vec3> x, std::span<const Triangle> triangle
   require_ok(tree.beginModel(int(faces.size()), int(x.size())), "begin the tree");
   require_ok(tree.addSubModel({x.begin(), x.end()}, faces), "take the triangles");
   require_ok(tree.endModel(), "build the tree");
-  copy_boxes(tree, impl_->nodes);
   impl_->triangles.assign(triangles.begin(), triangles.end());
   for (const Triangle& t : triangles) {
     const auto at = [&](std::size_t k) -> const Vec3& { return x[t[k]]; };
@@ -180,7 +163,6 @@ void SheetTree::refit(std::span<const Vec3> x) {
   for (const Vec3& position : x)
     require_ok(tree.replaceVertex(position), "replace a vertex");
   require_ok(tree.endReplaceModel(/*refit=*/true, /*bottomup=*/true), "refit");
-  copy_boxes(tree, impl_->nodes);
 }
 
 Box3 SheetTree::bounds() const {
@@ -195,9 +177,7 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
     throw std::invalid_argument(fmt::format("SheetTree: reach {} mm is no distance", reach));
   require_finite(nodes, "asked node");
   const Tree& tree = impl_->tree;
-  const Box3 all = bounds();
-  const double largest = std::max(all.min().cwiseAbs().maxCoeff(), all.max().cwiseAbs().maxCoeff());
-  const double box_reach = reach + rounding_margin * (largest + reach);
+  const double box_reach = reach + rounding_margin * (bounds().diagonal().norm() + reach);
   const double size = std::sqrt(impl_->area / static_cast<double>(tree.num_tris));
   std::vector<int> stack;
   std::vector<Leaf> leaves;
@@ -208,8 +188,9 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
         std::all_of(skip.begin() + static_cast<std::ptrdiff_t>(i),
                     skip.begin() + static_cast<std::ptrdiff_t>(end), [](char s) { return s != 0; }))
       continue;
-    const Vec3 around = Vec3::Constant(box_reach);
-    leaves_in(impl_->nodes, FloatBox(box.min_ - around, box.max_ + around), stack, leaves);
+    box.min_.array() -= box_reach;
+    box.max_.array() += box_reach;
+    leaves_in(tree, box, stack, leaves);
     if (leaves.empty()) continue;
     for (std::size_t n = i; n < end; ++n) {
       if (!skip.empty() && skip[n]) continue;
