@@ -133,37 +133,31 @@ void merge(EdgeEdgeContact& contact, const Listed& more) {
   Listed all;
   all.candidates.reserve(contact.candidates.size() + more.candidates.size());
   all.groups.reserve(contact.groups.size() + more.groups.size());
-  auto old = contact.groups.begin();
-  const auto copy_old = [&] {
-    EdgeGroup& group = begin_group(all, old->patch);
-    group.path_length = old->path_length, group.ahead = old->ahead;
-    for (std::int32_t i = old->first; i < old->end; ++i)
-      append(all, group, contact.candidates[at(i)]);
-    group.free_until = old->free_until;
-    ++old;
-  };
-  for (const EdgeGroup& next : more.groups) {
-    while (old != contact.groups.end() && old->patch < next.patch)
-      copy_old();
-    const bool is_new = old == contact.groups.end() || old->patch != next.patch;
-    const EdgeGroup before = is_new ? EdgeGroup{} : *old;
-    EdgeGroup& group = begin_group(all, next.patch);
-    group.path_length = before.path_length, group.ahead = before.ahead;
-    if (!is_new) group.free_until = before.free_until, ++old;
-    std::int32_t i = before.first;
+  // of the same patches, or without candidates where the one or the other has none
+  const auto join = [&](const EdgeGroup& old, const EdgeGroup& next) {
+    EdgeGroup& group = begin_group(all, old.first < old.end ? old.patch : next.patch);
+    group.path_length = old.path_length, group.ahead = old.ahead;
+    std::int32_t i = old.first;
     for (std::int32_t k = next.first; k < next.end; ++k) {
       EdgeCandidate candidate = more.candidates[at(k)];
-      for (; i < before.end && contact.candidates[at(i)].edge < candidate.edge; ++i)
+      for (; i < old.end && contact.candidates[at(i)].edge < candidate.edge; ++i)
         append(all, group, contact.candidates[at(i)]);
-      if (i < before.end && contact.candidates[at(i)].edge == candidate.edge) continue;
+      if (i < old.end && contact.candidates[at(i)].edge == candidate.edge) continue;
       candidate.free_until = rounded_down(group.path_length + double{candidate.free_until});
       append(all, group, candidate);
     }
-    for (; i < before.end; ++i)
+    for (; i < old.end; ++i)
       append(all, group, contact.candidates[at(i)]);
+  };
+  auto old = contact.groups.begin();
+  for (const EdgeGroup& next : more.groups) {
+    for (; old != contact.groups.end() && old->patch < next.patch; ++old)
+      join(*old, {});
+    const bool known = old != contact.groups.end() && old->patch == next.patch;
+    join(known ? *old++ : EdgeGroup{}, next);
   }
-  while (old != contact.groups.end())
-    copy_old();
+  for (; old != contact.groups.end(); ++old)
+    join(*old, {});
   contact.candidates = std::move(all.candidates);
   contact.groups = std::move(all.groups);
 }
