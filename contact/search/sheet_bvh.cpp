@@ -2,6 +2,9 @@
 #include "contact/search/sheet_bvh.hpp"
 
 #include "contact/point_triangle.hpp"
+#include "contact/search/float_box.hpp"
+#include "contact/simd/cpu_features.hpp"
+#include "contact/simd/point_face_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -39,19 +42,9 @@ using Box = fcl::AABB<double>;
 
 /// A leaf of the tree that is near a group of nodes: its box and triangle.
 struct Leaf {
-  Vec3 low, high;
-  int face;
+  FloatBox box;
+  std::int32_t face;
 };
-
-double squared_distance(const Vec3& p, const Leaf& box) {
-  return (box.low - p).cwiseMax(p - box.high).cwiseMax(0.0).squaredNorm();
-}
-
-/// Whether p is further than `reach` from the box along x or y: true for most, and soon known.
-bool is_beside(const Vec3& p, const Leaf& box, double reach) {
-  return p.x() < box.low.x() - reach || p.x() > box.high.x() + reach ||
-         p.y() < box.low.y() - reach || p.y() > box.high.y() + reach;
-}
 
 bool meet(const Box& a, const Box& b) {
   return overlap(a.min_, a.max_, b.min_, b.max_);
@@ -68,7 +61,8 @@ void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
     stack.pop_back();
     const int child = box.first_child; // negative: a leaf; isLeaf() says the same in a call
     if (child < 0) {
-      leaves.push_back({box.bv.min_, box.bv.max_, -1 - child}); // primitiveId(), without a call
+      // primitiveId(), without a call
+      leaves.push_back({FloatBox(box.bv.min_, box.bv.max_), -1 - child});
       continue;
     }
     for (const int i : {child, child + 1})
@@ -82,18 +76,54 @@ struct Reach {
   double box;      ///< mm, to boxes, which includes rounding_margin
 };
 
-/// Appends the triangles of `leaves` (nodes at x, mm) within reach of p, in no particular order.
-void faces_near(const Vec3* x, std::span<const Triangle> triangles, const Vec3& p,
-                const Reach& reach, std::span<const Leaf> leaves, std::int32_t node,
-                std::vector<Candidate>& out) {
-  for (const Leaf& leaf : leaves) {
-    if (is_beside(p, leaf, reach.box) || squared_distance(p, leaf) > reach.box * reach.box)
-      continue;
-    const Triangle& t = triangles[leaf.face];
-    const ClosestPoint q = closest_point_on_triangle(p, x[t[0]], x[t[1]], x[t[2]]);
-    if (q.distance2 <= reach.distance * reach.distance)
-      out.push_back({node, leaf.face, q.distance2, q.w});
+/// A node and a triangle whose boxes are near each other.
+using Pair = std::array<std::int32_t, 2>;
+
+/// Appends the pairs of the node and the leaves whose box is within reach of it, at p.
+void append_pairs(const Vec3& p, std::int32_t node, const Reach& reach,
+                  std::span<const Leaf> leaves, std::vector<Pair>& pairs) {
+  const Vec3 around = Vec3::Constant(reach.box);
+  const FloatBox near(p - around, p + around);
+  std::size_t count = pairs.size();
+  pairs.resize(count + leaves.size());
+  for (const Leaf& leaf : leaves) { // without a branch, which would often be mispredicted
+    pairs[count] = {node, leaf.face};
+    count += overlap(near, leaf.box) ? 1 : 0;
   }
+  pairs.resize(count);
+}
+
+/// Appends those of the pairs that are within reach, of each node by triangles. x: mm, of the
+/// triangles' nodes.
+void append_near(std::span<const Vec3> nodes, const Vec3* x, std::span<const Triangle> triangles,
+                 const Reach& reach, std::span<const Pair> pairs,
+                 std::vector<PointFaceDistance>& distances, std::vector<Candidate>& out) {
+  const auto measure =
+      fastest(point_face_kernel_generic, point_face_kernel_avx2, point_face_kernel_avx512);
+  distances.resize(pairs.size());
+  if (pairs.empty()) return;
+  measure({pairs.data()->data(), static_cast<int>(pairs.size()), nodes.data()->data(), x->data(),
+           triangles.data()->data()},
+          distances.data());
+  auto first = static_cast<std::ptrdiff_t>(out.size()); // of the node
+  const auto sort_node = [&] {
+    std::sort(out.begin() + first, out.end(),
+              [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
+    first = static_cast<std::ptrdiff_t>(out.size());
+  };
+  for (std::size_t i = 0; i < pairs.size(); ++i) {
+    const auto [node, face] = pairs[i];
+    const PointFaceDistance& d = distances[i];
+    Candidate candidate{node, face, d.distance2, {d.w[0], d.w[1], d.w[2]}};
+    if (std::isnan(d.distance2)) {
+      const Triangle& t = triangles[face];
+      const ClosestPoint q = closest_point_on_triangle(nodes[node], x[t[0]], x[t[1]], x[t[2]]);
+      candidate.distance2 = q.distance2, candidate.w = q.w;
+    }
+    if (i > 0 && node != pairs[i - 1][0]) sort_node();
+    if (candidate.distance2 <= reach.distance * reach.distance) out.push_back(candidate);
+  }
+  sort_node();
 }
 
 /// Groups nodes for one traversal of the tree: returns the end of the group that begins at `first`,
@@ -181,6 +211,8 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
   const double size = std::sqrt(impl_->area / static_cast<double>(tree.num_tris));
   std::vector<int> stack;
   std::vector<Leaf> leaves;
+  std::vector<Pair> pairs;
+  std::vector<PointFaceDistance> distances;
   Box box;
   for (std::size_t i = 0, end = 0; i < nodes.size(); i = end) {
     end = group_end(nodes, i, size, box);
@@ -192,14 +224,11 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
     box.max_.array() += box_reach;
     leaves_in(tree, box, stack, leaves);
     if (leaves.empty()) continue;
-    for (std::size_t n = i; n < end; ++n) {
-      if (!skip.empty() && skip[n]) continue;
-      const auto first = std::ptrdiff_t(out.size());
-      faces_near(tree.vertices, impl_->triangles, nodes[n], {reach, box_reach}, leaves,
-                 std::int32_t(n), out);
-      std::sort(out.begin() + first, out.end(),
-                [](const Candidate& a, const Candidate& b) { return a.face < b.face; });
-    }
+    pairs.clear();
+    for (std::size_t n = i; n < end; ++n)
+      if (skip.empty() || !skip[n])
+        append_pairs(nodes[n], static_cast<std::int32_t>(n), {reach, box_reach}, leaves, pairs);
+    append_near(nodes, tree.vertices, impl_->triangles, {reach, box_reach}, pairs, distances, out);
   }
 }
 

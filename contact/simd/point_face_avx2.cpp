@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "contact/simd/point_face_body.hpp"
+
+namespace plyform {
+
+void point_face_kernel_avx2(const PointFaceKernelPairs& pairs, PointFaceDistance* distances) {
+  measure_point_faces(pairs, distances);
+}
+
+} // namespace plyform
