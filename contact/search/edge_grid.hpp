@@ -38,8 +38,17 @@ public:
       first[in_row] = from[in_row];
       last[in_row] = to[in_row];
       const std::int32_t end = begin_[number_of(last) + 1];
-      for (std::int32_t e = begin_[number_of(first)]; e < end; ++e)
-        if (overlap(rounded, boxes_[at(e)])) found(edges_[at(e)]);
+      std::array<std::int32_t, 32> hits; // without a branch each, which would often be mispredicted
+      for (std::int32_t e = begin_[number_of(first)]; e < end;) {
+        const std::int32_t stop = std::min(end, e + static_cast<std::int32_t>(hits.size()));
+        std::size_t count = 0;
+        for (; e < stop; ++e) {
+          hits[count] = edges_[at(e)];
+          count += overlap(rounded, boxes_[at(e)]) ? 1 : 0;
+        }
+        for (std::size_t hit = 0; hit < count; ++hit)
+          found(hits[hit]);
+      }
     }
   }
 
