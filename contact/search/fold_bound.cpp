@@ -7,8 +7,8 @@
 
 namespace plyform {
 
-// For each node: the mean direction of the normals around it, and the largest squared deviation
-// `off` of a normal from it. By the triangle inequality the normals of two faces that share the
+// For each node: the mean direction of the normals around it, and the largest deviation `off` of a
+// normal from it. By the triangle inequality the normals of two faces that share the
 // node differ by no more than the sum of their deviations.
 void fold_bounds(std::span<const Vec3> x, std::span<const Triangle> triangles,
                  std::vector<double>& fold_bound) {
@@ -28,12 +28,14 @@ void fold_bounds(std::span<const Vec3> x, std::span<const Triangle> triangles,
       const double here = (normal[f] - mean[at(n)]).squaredNorm();
       if (!(here <= off[at(n)])) off[at(n)] = here; // NaN too
     }
+  for (double& o : off)
+    o = std::sqrt(o);
   fold_bound.resize(triangles.size());
   constexpr double most = 0.4;
   for (std::size_t f = 0; f < triangles.size(); ++f) {
     double chord = 0.0;
     for (const int n : triangles[f])
-      chord = std::max(chord, (normal[f] - mean[at(n)]).norm() + std::sqrt(off[at(n)]));
+      chord = std::max(chord, (normal[f] - mean[at(n)]).norm() + off[at(n)]);
     // An angle is less than 1.1 times its chord (the difference of unit normals) up to a right
     // angle, and tan(a) < a / (1 - a^2 / 2) below a = 1.2.
     const double a = 0.5 * (1.1 * chord + fold_margin);

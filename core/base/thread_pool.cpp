@@ -100,6 +100,7 @@ ThreadPool::~ThreadPool() {
 
 void ThreadPool::run(int count, const std::function<void(int)>& task) {
   Impl& s = *impl_;
+  if (count == 0) return;
   if (s.helpers.empty()) {
     for (int i = 0; i < count; ++i)
       task(i);

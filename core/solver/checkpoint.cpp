@@ -27,7 +27,7 @@ void visit(Archive& a, PlyKinematics& p) {
 template <class Archive>
 void visit(Archive& a, PlyState& ply) {
   visit(a, static_cast<PlyKinematics&>(ply));
-  visit(a, ply.x_search, ply.max_displacement, ply.path_length, ply.fold_bound, ply.fold_bound_path,
+  visit(a, ply.x_search, ply.max_displacement, ply.path_length, ply.fold_bound, ply.fold_motion,
         ply.ridges.sides, ply.ridges.room, ply.occluded[0], ply.occluded[1], ply.unfolded);
   visit(a, ply.bound, ply.eigenvalue_ratio, ply.lanczos_contacts, ply.mass);
   visit(a, ply.membrane.last_lambda, ply.membrane.last_viscous);

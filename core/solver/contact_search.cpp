@@ -66,31 +66,28 @@ void allocate_forces(const Scene& s, PlyPair& pair) {
   pair.force_b.assign(s.plies[pair.b].x.size(), Vec3::Zero());
 }
 
-void find_ply_ridges(const Scene& s, PlyState& ply) {
-  if (!s.edge_contacts.empty()) find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
-}
+/// What of a ply is found anew at a search, the longest first. None depends on another: a task
+/// each, as few plies are shared out badly.
+constexpr int search_parts = 4;
 
-void update_ply_fold_bounds(const Scene& s, PlyState& ply) {
-  if (s.ply_contacts.empty()) return; // only contacts between plies use the bounds
-  fold_bounds(ply.x, ply.membrane.triangles, ply.fold_bound);
-  ply.fold_bound_path = ply.path_length;
+void prepare(const Scene& s, PlyState& ply, int part) {
+  if (part == 0 && s.data.self_contact())
+    find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x, ply.thickness,
+                  s.skin, ply.unfolded);
+  if (part == 1 && !s.edge_contacts.empty())
+    find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
+  if (part == 2) {
+    ply.tree->refit(ply.x);
+    ply.x_search = ply.x;
+  }
+  if (part == 3 && !s.ply_contacts.empty()) renew_fold_bounds(ply); // only they use the bounds
 }
 
 } // namespace
 
-void update_fold_bounds(Scene& s, ThreadPool& pool) {
-  // If the two nodes of a side move by `most` each, the side rotates by up to half of fold_margin.
-  const double most = 0.25 * fold_margin * s.element_size;
-  const auto due = [most](const PlyState& ply) {
-    return ply.path_length - ply.fold_bound_path > most;
-  };
-  if (s.ply_contacts.empty() || std::none_of(s.plies.begin(), s.plies.end(), due)) return;
-  pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyState& ply = s.plies[p];
-    if (!due(ply)) return;
-    const Stopwatch watch(ply.search_seconds);
-    update_ply_fold_bounds(s, ply);
-  });
+void renew_fold_bounds(PlyState& ply) {
+  fold_bounds(ply.x, ply.membrane.triangles, ply.fold_bound);
+  ply.fold_motion = 0.0;
 }
 
 bool track_displacements(Scene& s) {
@@ -130,17 +127,14 @@ double largest_displacement(const Scene& s) {
 }
 
 void search_contacts(Scene& s, ThreadPool& pool) {
-  pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyState& ply = s.plies[p];
-    const Stopwatch watch(ply.search_seconds);
-    ply.tree->refit(ply.x);
-    ply.x_search = ply.x;
-    update_ply_fold_bounds(s, ply);
-    find_ply_ridges(s, ply);
-    if (s.data.self_contact())
-      find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x, ply.thickness,
-                    s.skin, ply.unfolded);
+  const int plies = static_cast<int>(s.plies.size());
+  std::vector<double> seconds(at(search_parts * plies), 0.0);
+  pool.run(search_parts * plies, [&](int i) {
+    const Stopwatch watch(seconds[at(i)]);
+    prepare(s, s.plies[at(i % plies)], i / plies);
   });
+  for (int i = 0; i < search_parts * plies; ++i)
+    s.plies[at(i % plies)].search_seconds += seconds[at(i)];
   // Adjacent plies first: the nodes that they occlude are skipped for the plies beyond.
   std::array<std::vector<PlyContact*>, 2> pairs;
   for (PlyContact& pair : s.ply_contacts)

@@ -42,24 +42,6 @@ struct EdgeQuery {
   SelfEdges self;
 };
 
-/// Adds the pairs of ridges that are new in either ply.
-void search_new_ridges(const Scene& s, PlyEdgeContact& pair, std::span<const std::int32_t> new_a,
-                       std::span<const std::int32_t> new_b) {
-  const Stopwatch watch(pair.contact.time.search);
-  const EdgeQuery q(s, pair);
-  const double moved = q.a.max_displacement + q.b.max_displacement; // since the contact search
-  add_edge_pairs(pair.contact, q.a.edge_sheet(), q.open_a, new_a, q.b.edge_sheet(), q.open_b, new_b,
-                 q.skin + moved, q.self);
-}
-
-/// Numbers of the edges that are ridges towards a side now, and were not before.
-std::vector<std::int32_t> new_ridges(std::span<const char> before, std::span<const char> now) {
-  std::vector<std::int32_t> grown;
-  for (std::size_t i = 0; i < now.size(); ++i)
-    if ((now[i] & ~before[i]) != 0) grown.push_back(static_cast<std::int32_t>(i));
-  return grown;
-}
-
 } // namespace
 
 void search_edges(const Scene& s, PlyEdgeContact& pair) {
@@ -69,25 +51,13 @@ void search_edges(const Scene& s, PlyEdgeContact& pair) {
                   q.self);
 }
 
-void follow_edges(Scene& s, ThreadPool& pool, bool searched) {
-  if (s.edge_contacts.empty()) return;
-  std::vector<std::vector<std::int32_t>> grown(s.plies.size());
-  pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyState& ply = s.plies[p];
-    patch_motions(ply.edges, ply.motion, ply.patch_motion);
-    if (searched || follow_ridges(ply.edges, ply.x, ply.patch_motion, ply.ridge_limit, ply.ridges))
-      return;
-    const std::vector<char> before = ply.ridges.sides;
-    find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
-    grown[static_cast<std::size_t>(p)] = new_ridges(before, ply.ridges.sides);
-  });
-  std::vector<PlyEdgeContact*> due;
-  for (PlyEdgeContact& pair : s.edge_contacts)
-    if (!grown[at(pair.a)].empty() || !grown[at(pair.b)].empty()) due.push_back(&pair);
-  pool.run(static_cast<int>(due.size()), [&](int i) {
-    PlyEdgeContact& pair = *due[static_cast<std::size_t>(i)];
-    search_new_ridges(s, pair, grown[at(pair.a)], grown[at(pair.b)]);
-  });
+void search_new_ridges(const Scene& s, PlyEdgeContact& pair, std::span<const std::int32_t> new_a,
+                       std::span<const std::int32_t> new_b) {
+  const Stopwatch watch(pair.contact.time.search);
+  const EdgeQuery q(s, pair);
+  const double moved = q.a.max_displacement + q.b.max_displacement; // since the contact search
+  add_edge_pairs(pair.contact, q.a.edge_sheet(), q.open_a, new_a, q.b.edge_sheet(), q.open_b, new_b,
+                 q.skin + moved, q.self);
 }
 
 } // namespace plyform

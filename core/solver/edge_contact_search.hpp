@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The search for pairs of edges, and when it is due: with every contact search, and when an edge
-// has become a ridge since (contact/search/sheet_ridges.hpp).
+// The search for pairs of edges: with every contact search, and when an edge has become a ridge
+// since (contact/search/sheet_ridges.hpp).
 #pragma once
 
-#include "core/base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
+
+#include <span>
 
 namespace plyform {
 
 /// Lists every pair of ridges of two plies within contact distance + skin.
 void search_edges(const Scene& scene, PlyEdgeContact& pair);
 
-/// Follows patches and ridges of all plies through the last step, and searches for what new ridges
-/// are near. searched: whether ridges were found in this step.
-void follow_edges(Scene& scene, ThreadPool& pool, bool searched);
+/// Adds the pairs of these edges, which have become ridges since the search, with all ridges of the
+/// other ply. new_a, new_b: numbers of edges of either ply, ascending.
+void search_new_ridges(const Scene& scene, PlyEdgeContact& pair,
+                       std::span<const std::int32_t> new_a, std::span<const std::int32_t> new_b);
 
 } // namespace plyform

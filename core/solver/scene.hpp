@@ -52,8 +52,10 @@ struct PlySearch {
   double max_displacement = 0.0; ///< mm, largest distance of any node from x_search since then
   double path_length = 0.0;      ///< mm, contact/search/active_list.hpp
   std::unique_ptr<SheetTree> tree;
-  std::vector<double> fold_bound;            ///< contact/search/fold_bound.hpp, one per triangle
-  double fold_bound_path = 0.0;              ///< mm, path_length when it was last computed
+  std::vector<double> fold_bound; ///< contact/search/fold_bound.hpp, one per triangle
+  /// mm, sum over the steps since it was computed of the largest relative displacement of two nodes
+  /// of a patch of edges
+  double fold_motion = 0.0;
   std::array<std::vector<char>, 2> occluded; ///< per node, by the adjacent ply below [0], above [1]
   SheetRidges ridges;         ///< contact/search/sheet_ridges.hpp; of a single ply none
   std::vector<char> unfolded; ///< per node, contact/search/unfolded.hpp; empty without self-contact

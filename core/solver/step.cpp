@@ -4,7 +4,7 @@
 #include "core/model/motion.hpp"
 #include "core/solver/attached_motion.hpp"
 #include "core/solver/contact_search.hpp"
-#include "core/solver/edge_contact_search.hpp"
+#include "core/solver/follow_folds.hpp"
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/pass_through.hpp"
 #include "core/solver/prescribed_motion.hpp"
@@ -102,8 +102,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   if (auto stop = search_if_due(s, pool, searched)) return stop;
   const bool due = searched || s.step % elements_every == 0;
   if (due) update_stable_step(s, pool);
-  if (!searched) update_fold_bounds(s, pool);
-  follow_edges(s, pool, searched);
+  follow_folds(s, pool, searched);
   element_and_contact_forces(s, pool);
   pull_springs(s);
   filter_forces(s);

@@ -190,5 +190,55 @@ TEST(ContactSearch, NoPairIsAbsentAroundTheRimOfAPlyBetween) {
   ASSERT_EQ(s.ply_contacts[1].master, 2);
 }
 
+/// rad, the largest angle between each face and those that share a node with it.
+std::vector<double> folds(const PlyState& ply) {
+  std::vector<Vec3> normal;
+  std::vector<std::vector<std::size_t>> around(ply.x.size());
+  for (const Triangle& t : ply.membrane.triangles) {
+    for (const int n : t)
+      around[static_cast<std::size_t>(n)].push_back(normal.size());
+    normal.push_back((ply.x[t[1]] - ply.x[t[0]]).cross(ply.x[t[2]] - ply.x[t[0]]).normalized());
+  }
+  std::vector<double> fold(normal.size(), 0.0);
+  for (std::size_t f = 0; f < fold.size(); ++f)
+    for (const int n : ply.membrane.triangles[f])
+      for (const std::size_t g : around[static_cast<std::size_t>(n)])
+        fold[f] = std::max(fold[f], std::acos(std::clamp(normal[f].dot(normal[g]), -1.0, 1.0)));
+  return fold;
+}
+
+/// A ply that buckles in the shortest waves its mesh has, as it flies: it folds by far more than
+/// its bounds allow for before anything has moved by half of the skin.
+TEST(ContactSearch, BoundsOfFoldsHoldBetweenSearches) {
+  Case data = stack_of({0.0, 0.0}, rectangle(60.0, 60.0, 6.0));
+  data.plies[1].z += 10.0;
+  data.solver.fibre_softening = 100.0;
+  data.solver.duration = 0.001;
+  data.contact.skin = 6.0;
+  set_friction(data, 0.2);
+  Scene s = make_scene(data);
+  PlyState& ply = s.plies[1];
+  for (std::size_t n = 0; n < ply.x.size(); ++n)
+    ply.velocity[n] = Vec3(5000.0, 0.0, 3000.0 * std::cos(M_PI * (ply.x[n].x() - 30.0) / 6.0));
+  ThreadPool pool(1);
+  start(s, pool);
+  const std::vector<double> at_start = ply.fold_bound;
+  double largest = 0.0, beyond = 0.0;
+  while (s.searches == 1) {
+    ASSERT_FALSE(compute_forces(s, pool));
+    const std::vector<double> fold = folds(ply);
+    for (std::size_t f = 0; f < fold.size(); ++f) {
+      const double needed = 1.2 * std::tan(0.5 * fold[f]);
+      ASSERT_GE(ply.fold_bound[f], needed) << "step " << s.step << " triangle " << f;
+      beyond = std::max(beyond, needed / at_start[f]);
+      largest = std::max(largest, fold[f]);
+    }
+    move_plies(s, pool);
+  }
+  EXPECT_GT(largest, 0.3);
+  EXPECT_GT(beyond, 1.2); // those of the start would not have held
+  EXPECT_GT(s.step, 20);
+}
+
 } // namespace
 } // namespace plyform::contact_search_test
