@@ -16,8 +16,7 @@
 #pragma once
 
 #include "contact/geometry.hpp"
-
-#include <limits>
+#include "contact/sliver.hpp"
 
 namespace plyform {
 
@@ -31,12 +30,6 @@ struct ClosestPoint {
 };
 
 namespace detail {
-
-/// Square of the sine of the angle at a below which a triangle is treated as a sliver. At 6 degrees
-/// (1) still has 1e-14; a fabric locks at 50 to 60 degrees of shear, its triangles stay above 15.
-constexpr double sliver_sine2 = 0.01;
-/// Smallest det (mm^4), so that 1 / det stays finite: triangles of 1e-77 mm are slivers as well.
-constexpr double smallest_det = std::numeric_limits<double>::min();
 
 /// Moves `best` to the edge s + t d of corners i, j (feature `edge`) if that is closer. ps = p - s.
 inline void closer_on_edge(const Vec3& ps, const Vec3& d, int i, int j, int edge,
@@ -80,7 +73,7 @@ inline ClosestPoint closest_point_on_triangle(const Vec3& p, const Vec3& a, cons
   const Vec3 ab = b - a, ac = c - a, ap = p - a;
   const double bb = ab.dot(ab), cc = ac.dot(ac), bc = ab.dot(ac);
   const double det = bb * cc - bc * bc; // (2)
-  if (!(det > detail::sliver_sine2 * (bb * cc) + detail::smallest_det))
+  if (!(det > sliver_sine2 * (bb * cc) + smallest_det))
     return detail::closest_point_on_sliver(p, a, b, c);
   const auto at = [&](double wa, double wb, double wc, int feature) -> ClosestPoint {
     return {{wa, wb, wc}, (ap - wb * ab - wc * ac).squaredNorm(), feature};

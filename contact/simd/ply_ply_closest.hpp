@@ -5,12 +5,12 @@
 
 #include "contact/simd/contact_law_simd.hpp"
 #include "contact/simd/ply_ply_kernel.hpp"
+#include "contact/sliver.hpp"
 
 namespace plyform {
 namespace {
 
-constexpr double sliver_sine2 = 0.01; // as in contact/point_triangle.hpp
-constexpr double far2 = 1e300;        // mm^2
+constexpr double far2 = 1e300; // mm^2
 
 /// Rows of a PlyPlyPoint.
 enum PlyRow : std::size_t {

@@ -4,12 +4,10 @@
 // takes the one that its point is in.
 #include "contact/simd/contact_law_simd.hpp"
 #include "contact/simd/point_face_kernel.hpp"
+#include "contact/sliver.hpp"
 
 namespace plyform {
 namespace {
-
-constexpr double sliver_sine2 = 0.01;                    // as in contact/point_triangle.hpp
-constexpr double smallest_det = 2.2250738585072014e-308; // the smallest normal double
 
 /// Weights of the corners.
 struct FaceWeights {
