@@ -27,6 +27,11 @@ struct ThreadPool::Impl {
 
   explicit Impl(int threads) : shares(static_cast<std::size_t>(threads)) {}
 
+  /// How long a thread spins before it lets others have its processor, some 100 microseconds:
+  /// longer than it mostly has to wait. Where another program wants the processor it is gone for
+  /// milliseconds each time.
+  static constexpr int spins = 100000;
+
   std::vector<Share> shares; ///< the calling thread's first
   std::vector<std::thread> helpers;
   const std::function<void(int)>* task = nullptr;
@@ -61,16 +66,16 @@ struct ThreadPool::Impl {
     round.notify_all();
     work(0);
     for (int spin = 0; busy.load(std::memory_order_acquire) > 0; ++spin)
-      if (spin > 1000) std::this_thread::yield();
+      if (spin > spins) std::this_thread::yield();
     if (failure) std::rethrow_exception(std::exchange(failure, nullptr));
   }
 
   void help(std::size_t thread) {
     unsigned seen = 0;
     for (;;) {
-      // spins for about 20 microseconds, then lets others have the processor if they want it, for
-      // about as long as a step has one thread at work alone
-      constexpr int spins = 20000, yields = 1000;
+      // then lets others have the processor if they want it, for about as long as a step has one
+      // thread at work alone
+      constexpr int yields = 1000;
       const auto same = [&] { return round.load(std::memory_order_acquire) == seen; };
       for (int s = 0; s < spins && same(); ++s) {
       }
