@@ -65,16 +65,19 @@ struct ThreadPool::Impl {
     round.fetch_add(1, std::memory_order_release);
     round.notify_all();
     work(0);
-    for (int spin = 0; busy.load(std::memory_order_acquire) > 0; ++spin)
-      if (spin > spins) std::this_thread::yield();
+    for (int spin = 0; busy.load(std::memory_order_acquire) > 0;)
+      if (spin < spins)
+        ++spin;
+      else
+        std::this_thread::yield();
     if (failure) std::rethrow_exception(std::exchange(failure, nullptr));
   }
 
   void help(std::size_t thread) {
     unsigned seen = 0;
     for (;;) {
-      // then lets others have the processor if they want it, for about as long as a step has one
-      // thread at work alone
+      // spins, then lets others have the processor if they want it, for about as long as a step has
+      // one thread at work alone, then sleeps
       constexpr int yields = 1000;
       const auto same = [&] { return round.load(std::memory_order_acquire) == seen; };
       for (int s = 0; s < spins && same(); ++s) {
