@@ -16,7 +16,7 @@ faults=(
   "normals beside edges of profiles point to the edge, inside as outside | contact/shapes/profile.cpp | s/d \* (sign \/ length)}/d \/ length}/"
   "normals beside edges of mesh tools point to the edge, inside as outside | contact/shapes/mesh_shape.cpp | s/d \* (sign \/ length)}/d \/ length}/"
   "normal force between plies pulls | contact/simd/ply_ply_body.hpp | s/SimdForces f{p.memory.normal_force \* normal/SimdForces f{-p.memory.normal_force * normal/"
-  "boxes of the search: one triangle in 64 is never a candidate | contact/search/sheet_bvh.cpp | s/if (candidate.distance2 <= reach.distance \* reach.distance)/if (candidate.distance2 <= reach.distance * reach.distance \&\& face % 64 != 7)/"
+  "boxes of the search: one triangle in 64 is never a candidate | contact/search/sheet_bvh.cpp | s/if (candidate.distance2 <= reach \* reach)/if (candidate.distance2 <= reach * reach \&\& face % 64 != 7)/"
   "boxes of the search are not brought up to date | core/solver/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
   "contacts of plies are listed without the skin | core/solver/contact_search.cpp | s/pair.contact.distance + s.skin/pair.contact.distance/"
   "what may have closed its gap is looked at too late, plies | contact/search/active_list.hpp | s/if (list.free_until\[i\] > now)/if (list.free_until[i] + 0.5 > now)/"

@@ -8,8 +8,8 @@
 namespace plyform {
 
 // For each node: the mean direction of the normals around it, and the largest deviation `off` of a
-// normal from it. By the triangle inequality the normals of two faces that share the
-// node differ by no more than the sum of their deviations.
+// normal from it. By the triangle inequality the normals of two faces that share the node differ by
+// no more than the sum of their deviations.
 void fold_bounds(std::span<const Vec3> x, std::span<const Triangle> triangles,
                  std::vector<double>& fold_bound) {
   const auto at = [](int n) { return static_cast<std::size_t>(n); };

@@ -70,19 +70,13 @@ void leaves_in(const Tree& tree, const Box& asked, std::vector<int>& stack,
   }
 }
 
-/// Search distances.
-struct Reach {
-  double distance; ///< mm, to triangles
-  double box;      ///< mm, to boxes, which includes rounding_margin
-};
-
 /// A node and a triangle whose boxes are near each other.
 using Pair = std::array<std::int32_t, 2>;
 
-/// Appends the pairs of the node and the leaves whose box is within reach of it, at p.
-void append_pairs(const Vec3& p, std::int32_t node, const Reach& reach,
-                  std::span<const Leaf> leaves, std::vector<Pair>& pairs) {
-  const Vec3 around = Vec3::Constant(reach.box);
+/// Appends the pairs of the node and the leaves whose box is within `reach` (mm) of it, at p.
+void append_pairs(const Vec3& p, std::int32_t node, double reach, std::span<const Leaf> leaves,
+                  std::vector<Pair>& pairs) {
+  const Vec3 around = Vec3::Constant(reach);
   const FloatBox near(p - around, p + around);
   std::size_t count = pairs.size();
   pairs.resize(count + leaves.size());
@@ -93,10 +87,10 @@ void append_pairs(const Vec3& p, std::int32_t node, const Reach& reach,
   pairs.resize(count);
 }
 
-/// Appends those of the pairs that are within reach, of each node by triangles. x: mm, of the
-/// triangles' nodes.
+/// Appends those of the pairs that are within `reach` (mm), of each node by triangles. x: mm, of
+/// the triangles' nodes.
 void append_near(std::span<const Vec3> nodes, const Vec3* x, std::span<const Triangle> triangles,
-                 const Reach& reach, std::span<const Pair> pairs,
+                 double reach, std::span<const Pair> pairs,
                  std::vector<PointFaceDistance>& distances, std::vector<Candidate>& out) {
   const auto measure =
       fastest(point_face_kernel_generic, point_face_kernel_avx2, point_face_kernel_avx512);
@@ -121,7 +115,7 @@ void append_near(std::span<const Vec3> nodes, const Vec3* x, std::span<const Tri
       candidate.distance2 = q.distance2, candidate.w = q.w;
     }
     if (i > 0 && node != pairs[i - 1][0]) sort_node();
-    if (candidate.distance2 <= reach.distance * reach.distance) out.push_back(candidate);
+    if (candidate.distance2 <= reach * reach) out.push_back(candidate);
   }
   sort_node();
 }
@@ -227,8 +221,8 @@ void SheetTree::candidates(std::span<const Vec3> nodes, double reach, std::vecto
     pairs.clear();
     for (std::size_t n = i; n < end; ++n)
       if (skip.empty() || !skip[n])
-        append_pairs(nodes[n], static_cast<std::int32_t>(n), {reach, box_reach}, leaves, pairs);
-    append_near(nodes, tree.vertices, impl_->triangles, {reach, box_reach}, pairs, distances, out);
+        append_pairs(nodes[n], static_cast<std::int32_t>(n), box_reach, leaves, pairs);
+    append_near(nodes, tree.vertices, impl_->triangles, reach, pairs, distances, out);
   }
 }
 

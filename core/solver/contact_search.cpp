@@ -8,6 +8,7 @@
 #include "core/solver/pass_through.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace plyform {
@@ -66,22 +67,29 @@ void allocate_forces(const Scene& s, PlyPair& pair) {
   pair.force_b.assign(s.plies[pair.b].x.size(), Vec3::Zero());
 }
 
-/// What of a ply is found anew at a search, the longest first. None depends on another: a task
-/// each, as few plies are shared out badly.
-constexpr int search_parts = 4;
-
-void prepare(const Scene& s, PlyState& ply, int part) {
-  if (part == 0 && s.data.self_contact())
+void find_ply_unfolded(const Scene& s, PlyState& ply) {
+  if (s.data.self_contact())
     find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x, ply.thickness,
                   s.skin, ply.unfolded);
-  if (part == 1 && !s.edge_contacts.empty())
-    find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
-  if (part == 2) {
-    ply.tree->refit(ply.x);
-    ply.x_search = ply.x;
-  }
-  if (part == 3 && !s.ply_contacts.empty()) renew_fold_bounds(ply); // only they use the bounds
 }
+
+void find_ply_ridges(const Scene& s, PlyState& ply) {
+  if (!s.edge_contacts.empty()) find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
+}
+
+void refit_tree(const Scene&, PlyState& ply) {
+  ply.tree->refit(ply.x);
+  ply.x_search = ply.x;
+}
+
+void find_fold_bounds(const Scene& s, PlyState& ply) {
+  if (!s.ply_contacts.empty()) renew_fold_bounds(ply); // only contacts between plies use them
+}
+
+/// What of a ply is found anew at a search, the longest first. None depends on another: a task
+/// each, as few plies are shared out badly.
+constexpr std::array search_parts{&find_ply_unfolded, &find_ply_ridges, &refit_tree,
+                                  &find_fold_bounds};
 
 } // namespace
 
@@ -128,13 +136,13 @@ double largest_displacement(const Scene& s) {
 
 void search_contacts(Scene& s, ThreadPool& pool) {
   const int plies = static_cast<int>(s.plies.size());
-  std::vector<double> seconds(at(search_parts * plies), 0.0);
-  pool.run(search_parts * plies, [&](int i) {
+  std::vector<double> seconds(search_parts.size() * s.plies.size(), 0.0); // parts at the same time
+  pool.run(static_cast<int>(seconds.size()), [&](int i) {
     const Stopwatch watch(seconds[at(i)]);
-    prepare(s, s.plies[at(i % plies)], i / plies);
+    search_parts[at(i / plies)](s, s.plies[at(i % plies)]);
   });
-  for (int i = 0; i < search_parts * plies; ++i)
-    s.plies[at(i % plies)].search_seconds += seconds[at(i)];
+  for (std::size_t i = 0; i < seconds.size(); ++i)
+    s.plies[i % s.plies.size()].search_seconds += seconds[i];
   // Adjacent plies first: the nodes that they occlude are skipped for the plies beyond.
   std::array<std::vector<PlyContact*>, 2> pairs;
   for (PlyContact& pair : s.ply_contacts)
