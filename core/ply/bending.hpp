@@ -5,13 +5,13 @@
 //
 //   r_1, r_2   mm     lengths along warp and weft in the undeformed ply
 //   A_a,i      1/mm   first and
-//   B_ab,i     1/mm^2 second derivatives of the quadratic polynomial through (or nearest to) the
-//                     nodes i of a stencil: dx/dr_a = sum_i A_a,i x_i, d^2 x / dr_a dr_b =
-//                     sum_i B_ab,i x_i; constants. Exact for any quadratic shape on any mesh,
-//                     except on the free edge, where only derivatives along the edge are used (the
-//                     moment across a free edge is zero)
+//   B_ab,i     1/mm^2 second derivatives at a node from the nodes i of a stencil: dx/dr_a = sum_i
+//                     A_a,i x_i, of the nearest quadratic polynomial; d^2 x / dr_a dr_b = sum_i
+//                     B_ab,i x_i, the mean over the node's cell (core/ply/curvature_flux.hpp).
+//                     Constants, exact for any quadratic shape on any mesh; but on the free edge
+//                     the moment across it is zero, and the curvature that goes with it
 //   N          mm^2   sum of the area vectors (twice) of the triangles around the node; n = N/|N|
-//   A0         mm^2   a third of the undeformed triangles around the node
+//   A0         mm^2   a third of the undeformed triangles around the node: its cell
 //
 // Out-of-plane bending, with s_ab = sum_i B_ab,i x_i:
 //   kappa_ab   1/mm   n . s_ab                                                                 (K)
@@ -48,10 +48,10 @@
 // - nu) D, D = E t^3 / (12 (1 - nu^2)), and no in-plane bending. Curvatures are sampled at nodes,
 // one sample of each per node, to match the one deflection that each node has. Sampled at
 // triangles, a strip whose weft has no stiffness folds between the samples without resistance
-// (twice the sag of theory); the same happens if nodes on the free edge take their curvature from
-// nodes inside. The polynomial is fitted in the undeformed ply, since yarn strains are small.
-// Sources: rotation-free bending by fits over neighbours goes back to Phaal and Calladine (1992)
-// and Onate and Zarate (2000); plate constants: Timoshenko; geodesic curvature of yarns as a
+// (twice the sag of theory); the same happens if nodes on the free edge take their curvature along
+// it from nodes inside. The cells are those of the undeformed ply, since yarn strains are small.
+// Sources: rotation-free bending by the nodes around goes back to Phaal and Calladine (1992) and
+// Onate and Zarate (2000); plate constants: Timoshenko; geodesic curvature of yarns as a
 // strain: Steigmann and dell'Isola (2015).
 #pragma once
 

@@ -1,124 +1,40 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/ply/bending_fit.hpp"
 
-#include <Eigen/SVD>
+#include "core/ply/curvature_flux.hpp"
+#include "core/ply/quadratic_fit.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace plyform {
 namespace {
 
-using Matrix = Eigen::MatrixXd;
-
-/// The undeformed ply in which all stencils are fitted.
-struct Sheet {
-  std::span<const Vec2> x;
-  const std::vector<Triangle>& triangles;
-  std::vector<std::vector<int>> around; ///< triangles of each node
-  std::array<Vec2, 2> yarn;             ///< unit vectors along warp and weft
-  double fibre_angle;                   ///< rad, from warp to weft
-};
-
-/// Weights of each node of a stencil (columns) in the derivatives at its centre: rows d/d1, d/d2,
-/// d2/d11, d2/d22, d2/d12, with 1 along the warp, 2 normal to it, lengths in units of `size`.
-struct StencilFit {
-  Matrix rows;
-  std::array<bool, 2> follows_yarn; ///< whether (T) is defined for warp, weft
-};
-
-/// Adds the nodes that share a triangle with those of `nodes`.
-void grow(std::vector<int>& nodes, const Sheet& sheet) {
-  const std::vector<int> inner = nodes;
-  for (const int n : inner)
-    for (const int e : sheet.around[n])
-      for (const int other : sheet.triangles[e])
-        if (std::find(nodes.begin(), nodes.end(), other) == nodes.end()) nodes.push_back(other);
+/// The nodes of the triangles around a node, which comes first.
+std::vector<int> nodes_around(const UndeformedSheet& sheet, int node) {
+  std::vector<int> nodes{node};
+  for (const int e : sheet.around[node])
+    for (const int other : sheet.triangles[e])
+      if (std::find(nodes.begin(), nodes.end(), other) == nodes.end()) nodes.push_back(other);
+  return nodes;
 }
 
-double across(const Vec2& a, const Vec2& b) {
-  return a.x() * b.y() - a.y() * b.x();
-}
-
-/// Rows 1, r, s, r^2/2, s^2/2, r s of each node, with r and s its coordinates from the centre node
-/// in units of `size`, along e1 and normal to it.
-Matrix monomials(std::span<const Vec2> x, const std::vector<int>& nodes, double size,
-                 const Vec2& e1) {
-  Matrix p(static_cast<Eigen::Index>(nodes.size()), 6);
-  const Vec2& middle = x[nodes[0]];
-  for (std::size_t i = 0; i < nodes.size(); ++i) {
-    const Vec2 d = (x[nodes[i]] - middle) / size;
-    const double r = d.dot(e1), s = across(e1, d);
-    p.row(static_cast<Eigen::Index>(i)) << 1.0, r, s, 0.5 * r * r, 0.5 * s * s, r * s;
-  }
-  return p;
-}
-
-/// The fit of an inner node; lengths in units of `size`. May extend `nodes`.
-StencilFit interior_fit(const Sheet& sheet, std::vector<int>& nodes, double size) {
-  constexpr double least_ratio = 0.002; // of singular values; a regular stencil has 0.01 to 0.1
-  const auto place = [&](std::size_t i) -> const Vec2& { return sheet.x[nodes[i]]; };
-  for (int more = 0;; ++more) {
-    // Near nodes get more weight: averages over rows of nodes would let single rows bend
-    // alternately without energy; a strip of alternating diagonals sagged by 1.3 to 1.8 times
-    // theory without weights.
-    Eigen::VectorXd weight = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(nodes.size()));
-    for (std::size_t i = 1; i < nodes.size(); ++i) {
-      const Vec2 d = place(i) - place(0);
-      const double near = std::min(1.0, size * size / d.squaredNorm());
-      weight[static_cast<Eigen::Index>(i)] = near * near * near * near;
-    }
-    Eigen::JacobiSVD<Matrix> svd(weight.asDiagonal() *
-                                     monomials(sheet.x, nodes, size, sheet.yarn[0]),
-                                 Eigen::ComputeThinU | Eigen::ComputeThinV);
-    const auto& s = svd.singularValues();
-    if ((s.size() < 6 || s[5] < least_ratio * s[0]) && more < 2) {
-      grow(nodes, sheet);
-      continue;
-    }
-    svd.setThreshold(1e-6); // derivatives that a tiny mesh does not determine become 0
-    return {svd.solve(Matrix(weight.asDiagonal())).bottomRows(5), {true, true}};
-  }
-}
-
-/// The two neighbours of a node along the free edge of the ply, or none for an inner node.
-std::vector<int> rim_neighbours(const Sheet& sheet, const std::vector<int>& nodes) {
+/// Whether a yarn along `yarn` can be followed through a node: anywhere inside; on the rim only if
+/// it lies along it. A yarn that ends at the rim has no moment there, and the curvature of the rim
+/// would give even a straight yarn a moment if it is stretched unevenly.
+bool follows(const UndeformedSheet& sheet, const std::vector<int>& nodes, const Vec2& yarn) {
+  constexpr double same = 0.02; // sine: yarn and rim within 1 degree
   const std::vector<int>& around = sheet.around[nodes[0]];
-  std::vector<int> rim;
   for (const int n : nodes) {
     const auto has = [&](int e) {
       const Triangle& t = sheet.triangles[e];
       return std::find(t.begin(), t.end(), n) != t.end();
     };
-    if (n != nodes[0] && std::count_if(around.begin(), around.end(), has) == 1) rim.push_back(n);
+    if (n == nodes[0] || std::count_if(around.begin(), around.end(), has) != 1) continue;
+    const Vec2 side = (sheet.x[n] - sheet.x[nodes[0]]).normalized();
+    if (std::abs(side.x() * yarn.y() - side.y() * yarn.x()) >= same) return false;
   }
-  return rim;
-}
-
-/// The fit of a node on the free edge. Only derivatives along the edge are determined; across it
-/// the moment is zero, so that it adds nothing to the energy. (T) is defined only for a yarn along
-/// the edge: a yarn that ends at the edge has no moment there, and the curvature of the edge would
-/// give even a straight yarn a moment if it is stretched unevenly. At corners the fit is zero.
-StencilFit rim_fit(const Sheet& sheet, const std::vector<int>& nodes, double size,
-                   const std::vector<int>& rim) {
-  StencilFit fit{Matrix::Zero(5, static_cast<Eigen::Index>(nodes.size())), {false, false}};
-  if (rim.size() != 2) return fit;
-  const Vec2& middle = sheet.x[nodes[0]];
-  const Vec2 a = sheet.x[rim[0]] - middle;
-  const Vec2 b = sheet.x[rim[1]] - middle;
-  constexpr double straight = 0.9; // cosine: the edge turns by less than 26 degrees at this node
-  if (a.dot(b) > -straight * a.norm() * b.norm()) return fit;
-  const Vec2 along = (b - a).normalized();
-  Eigen::JacobiSVD<Matrix> svd(monomials(sheet.x, nodes, size, along).leftCols(4),
-                               Eigen::ComputeThinU | Eigen::ComputeThinV);
-  const auto count = static_cast<Eigen::Index>(nodes.size());
-  const Matrix all = svd.solve(Matrix::Identity(count, count));
-  const Matrix slope = all.row(1), curvature = all.bottomRows(1);
-  const double c = along.dot(sheet.yarn[0]), s = across(sheet.yarn[0], along);
-  fit.rows << c * slope, s * slope, c * c * curvature, s * s * curvature, c * s * curvature;
-  constexpr double same = 0.02; // sine: yarn and edge within 1 degree
-  for (std::size_t k = 0; k < 2; ++k)
-    fit.follows_yarn[k] = std::abs(across(along, sheet.yarn[k])) < same;
-  return fit;
+  return true;
 }
 
 /// Sets the constants of the centre node to minus the sum of the others, so that a rigid
@@ -133,38 +49,44 @@ void balance(std::vector<std::array<double, size>>& constants, std::size_t first
   }
 }
 
-/// Appends a fit, as derivatives along the yarns in mm, to the constants of `b`.
-void append_constants(Bending& b, const Sheet& sheet, const StencilFit& fit, double size) {
-  const double c = std::cos(sheet.fibre_angle), s = std::sin(sheet.fibre_angle);
-  const Matrix second = fit.rows.bottomRows(3) / (size * size);
-  const std::size_t first = b.b.size();
-  for (Eigen::Index i = 0; i < second.cols(); ++i) {
-    const double b11 = second(0, i), b22 = second(1, i), b12 = second(2, i);
-    b.b.push_back({b11, c * c * b11 + s * s * b22 + 2.0 * c * s * b12, c * b11 + s * b12});
-  }
-  balance(b.b, first);
-  if (b.in_plane.empty()) return;
-  for (Eigen::Index i = 0; i < fit.rows.cols(); ++i) {
-    const double a1 = fit.rows(0, i) / size, a2 = fit.rows(1, i) / size;
-    b.a.push_back({a1, c * a1 + s * a2});
-  }
+/// Appends the constants A_a,i of a stencil with these nodes.
+void append_slopes(Bending& b, const UndeformedSheet& sheet, const std::vector<int>& nodes) {
+  const auto own = static_cast<std::size_t>(nodes[0]);
+  const Vec2 weft(std::cos(sheet.fibre_angle), std::sin(sheet.fibre_angle));
+  const QuadraticFit fit = fit_quadratic(sheet.x, nodes, sheet.x[own], std::sqrt(sheet.area[own]));
+  const std::size_t first = b.a.size();
+  for (Eigen::Index i = 0; i < fit.rows.cols(); ++i)
+    b.a.push_back({fit.rows(1, i), weft.x() * fit.rows(1, i) + weft.y() * fit.rows(2, i)});
   balance(b.a, first);
+  const std::array<Vec2, 2> yarns{Vec2(1.0, 0.0), weft};
+  const std::vector<int> around = nodes_around(sheet, nodes[0]);
+  for (std::size_t k = 0; k < 2; ++k)
+    b.in_plane[own][k] = follows(sheet, around, yarns[k]) ? b.law.in_plane[k] : 0.0;
 }
 
 /// Appends nodes and constants of one node's stencil to `b`.
-void fit_stencil(Bending& b, const Sheet& sheet, int node) {
-  std::vector<int> nodes{node};
-  const auto own = static_cast<std::size_t>(node);
-  const double size = std::sqrt(b.area[own]);
-  grow(nodes, sheet);
-  const std::vector<int> rim = rim_neighbours(sheet, nodes);
-  const StencilFit fit =
-      rim.empty() ? interior_fit(sheet, nodes, size) : rim_fit(sheet, nodes, size, rim);
-  append_constants(b, sheet, fit, size);
-  if (!b.in_plane.empty())
-    for (std::size_t k = 0; k < 2; ++k)
-      b.in_plane[own][k] = fit.follows_yarn[k] ? b.law.in_plane[k] : 0.0;
-  for (const int e : sheet.around[own]) {
+void append_stencil(Bending& b, const UndeformedSheet& sheet, int node, const CurvatureRow& row) {
+  constexpr double rounding = 1e-12; // relative to the largest constant
+  std::vector<int> nodes = nodes_around(sheet, node);
+  double largest = 0.0;
+  for (const auto& [n, h] : row)
+    for (const double value : h)
+      largest = std::max(largest, std::abs(value));
+  for (const auto& [n, h] : row)
+    if (std::any_of(h.begin(), h.end(), [&](double v) { return std::abs(v) > rounding * largest; }))
+      if (std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
+  const Eigen::Matrix3d turn = along_yarns(sheet.fibre_angle);
+  const std::size_t first = b.b.size();
+  for (const int n : nodes) {
+    const auto at =
+        std::find_if(row.begin(), row.end(), [&](const auto& p) { return p.first == n; });
+    Eigen::Vector3d h = Eigen::Vector3d::Zero();
+    if (at != row.end()) h = turn * Eigen::Vector3d(at->second[0], at->second[1], at->second[2]);
+    b.b.push_back({h[0], h[1], h[2]});
+  }
+  balance(b.b, first);
+  if (!b.in_plane.empty()) append_slopes(b, sheet, nodes);
+  for (const int e : sheet.around[node]) {
     Triangle places;
     for (std::size_t k = 0; k < 3; ++k)
       places[k] = static_cast<std::int32_t>(
@@ -180,25 +102,26 @@ void fit_stencil(Bending& b, const Sheet& sheet, int node) {
 
 void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangle>& triangles,
                   double warp, double weft) {
-  Sheet sheet{x,
-              triangles,
-              std::vector<std::vector<int>>(x.size()),
-              {Vec2(std::cos(warp), std::sin(warp)), Vec2(std::cos(weft), std::sin(weft))},
-              weft - warp};
-  b.begin = b.fan_begin = {0};
-  b.area.assign(x.size(), 0.0);
-  if (b.law.in_plane[0] > 0.0 || b.law.in_plane[1] > 0.0) b.in_plane.assign(x.size(), {0.0, 0.0});
+  UndeformedSheet sheet{{}, triangles, std::vector<std::vector<int>>(x.size()), {}, weft - warp};
+  const Vec2 e1(std::cos(warp), std::sin(warp)), e2(-e1.y(), e1.x());
+  for (const Vec2& p : x)
+    sheet.x.emplace_back(p.dot(e1), p.dot(e2));
+  sheet.area.assign(x.size(), 0.0);
   for (std::size_t e = 0; e < triangles.size(); ++e) {
     const Triangle& t = triangles[e];
     const Vec2 g1 = x[t[1]] - x[t[0]];
     const Vec2 g2 = x[t[2]] - x[t[0]];
     for (const int n : t) {
       sheet.around[n].push_back(static_cast<int>(e));
-      b.area[n] += across(g1, g2) / 6.0;
+      sheet.area[n] += (g1.x() * g2.y() - g1.y() * g2.x()) / 6.0;
     }
   }
+  b.begin = b.fan_begin = {0};
+  b.area = sheet.area;
+  if (b.law.in_plane[0] > 0.0 || b.law.in_plane[1] > 0.0) b.in_plane.assign(x.size(), {0.0, 0.0});
+  const std::vector<CurvatureRow> rows = curvature_rows(sheet, b.law);
   for (std::size_t n = 0; n < x.size(); ++n)
-    fit_stencil(b, sheet, static_cast<int>(n));
+    append_stencil(b, sheet, static_cast<int>(n), rows[n]);
   b.begin.shrink_to_fit(), b.node.shrink_to_fit(), b.b.shrink_to_fit(), b.a.shrink_to_fit();
   b.fan_begin.shrink_to_fit(), b.fan.shrink_to_fit();
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Stencils of core/ply/bending.hpp: the nodes from whose positions the shape at a node is fitted,
+// Stencils of core/ply/bending.hpp: the nodes from whose positions the shape at a node is found,
 // and the constants A_a,i and B_ab,i of its first and second derivatives.
 #pragma once
 
@@ -8,8 +8,8 @@
 namespace plyform {
 
 /// Fills the stencils of `b` (begin, node, b, a, fan), b.area and, by b.law, b.in_plane. x:
-/// undeformed positions, mm; warp, weft: directions in rad from x. A stencil is extended by further
-/// neighbours where those around the node do not determine a quadratic polynomial.
+/// undeformed positions, mm; warp, weft: directions in rad from x. A stencil holds the nodes of the
+/// triangles around its node and, where cells are not of parallelograms, those next to them.
 void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangle>& triangles,
                   double warp, double weft);
 
