@@ -161,8 +161,9 @@ TEST(Plates, SimplySupportedUnderAUniformLoadSagAsNaviersSeries) {
       }
 }
 
-/// Nodes on the rim and one element within are held: the plate bends over the inner ones by what
-/// lies half an element on either side of them, so there the clamp lies, half an element outside.
+/// Nodes on the rim and about one element within are held: the plate bends over the inner ones by
+/// what lies half an element on either side of them, so there the clamp lies, half an element
+/// outside.
 TEST(Plates, ClampedOnesConvergeAndSquaresAreHeldHalfAnElementBehindTheClamp) {
   // Timoshenko and Woinowsky-Krieger, table 35: w = 0.00126 p a^4 / D, here with another digit
   const auto theory = [](double a) { return 0.0012653 * pressure * std::pow(a, 4) / 2.0; };
@@ -171,7 +172,7 @@ TEST(Plates, ClampedOnesConvergeAndSquaresAreHeldHalfAnElementBehindTheClamp) {
     const double element = side / elements;
     std::size_t i = 0;
     for (const NamedMesh& m : meshes(elements)) {
-      const double sag = loaded(m.mesh, isotropic(), 0.0, 1.001 * element);
+      const double sag = loaded(m.mesh, isotropic(), 0.0, 1.3 * element); // two rows
       const double whole = sag / theory(side), shorter = sag / theory(side - element);
       std::cout << "[ clamped  ] " << elements << ' ' << m.name << ": " << whole
                 << ", with the clamp half an element outside " << shorter << '\n';
@@ -197,7 +198,7 @@ TEST(Plates, StripsBendAsBeamsOnEveryMesh) {
   for (const int elements : {12, 24})
     for (const NamedMesh& m : meshes(elements, width))
       for (const auto& [law, warp] :
-           {std::pair(weave(10.0, 2.0, 4.5), 0.0), std::pair(weave(10.0, 0.0, 0.1), 0.0),
+           {std::pair(weave(10.0, 2.0, 4.5), 0.0), std::pair(weave(10.0, 0.5, 1.0), 0.0),
             std::pair(weave(10.0, 10.0, 20.0), 0.5)}) {
         const StaticPlate plate = make_plate(m.mesh, law, warp);
         Eigen::VectorXd held = nothing_held(m.mesh), load = Eigen::VectorXd::Zero(held.size());
