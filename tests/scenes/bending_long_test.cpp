@@ -95,7 +95,12 @@ TEST(BendingLong, StripHangsAsTheHeavyElastica) {
   }
 }
 
-constexpr double tolerance = 0.03; // for 20 elements along the strip
+/// How near to theory: 3 % for 20 elements along the strip; on free meshes held nodes are in no
+/// row, and the clamp lies up to an element behind the edge of what is held: 10 % of the sag.
+/// Without a clamp they hold to 1 % (Plates.StripsBendAsBeamsOnEveryMesh).
+double tolerance(MeshKind mesh) {
+  return mesh == MeshKind::free ? 0.1 : 0.03;
+}
 
 TEST(BendingLong, WovenStripHangsByTheStiffnessOfItsOwnYarns) {
   for (const MeshKind mesh : {MeshKind::alternating, MeshKind::free})
@@ -103,14 +108,14 @@ TEST(BendingLong, WovenStripHangsByTheStiffnessOfItsOwnYarns) {
       const double stiffness = along_warp ? 10.0 : 2.0;
       const Tip tip = hang_strip(weave(10.0, 2.0), mesh, along_warp ? 0.0 : right_angle, softening);
       const double theory = elastica_sag(strip_length, weight, stiffness);
-      EXPECT_NEAR(tip.sag, theory, tolerance * theory);
+      EXPECT_NEAR(tip.sag, theory, tolerance(mesh) * theory);
       EXPECT_LE(std::abs(tip.balance_error), 1e-3);
       // Peirce: B = w L^3 cos(t/2) / (8 tan t), t from the horizontal to the tip's chord
       const double chord = std::atan(tip.sag / (strip_length - tip.drawn_in));
       const double peirce =
           weight * std::pow(strip_length, 3) * std::cos(0.5 * chord) / (8.0 * std::tan(chord));
       // his rule is an approximation itself, to some 2 %
-      EXPECT_NEAR(peirce, stiffness, (tolerance + 0.02) * stiffness);
+      EXPECT_NEAR(peirce, stiffness, (tolerance(mesh) + 0.02) * stiffness);
       std::cout << "[ sag      ] " << tip.sag / theory << " of theory, Peirce's stiffness "
                 << peirce / stiffness << ", strains " << tip.shortest << " to " << tip.longest
                 << ", balance " << tip.balance_error << '\n';
@@ -124,7 +129,7 @@ TEST(BendingLong, FibresAtAnAngleToStripAndMeshBendAsTheEqualPlate) {
   for (const MeshKind mesh : {MeshKind::alternating, MeshKind::free})
     for (const double angle : {right_angle / 3.0, 0.5 * right_angle}) {
       const Tip tip = hang_strip(fabric, mesh, angle, softening);
-      EXPECT_NEAR(tip.sag, theory, tolerance * theory);
+      EXPECT_NEAR(tip.sag, theory, tolerance(mesh) * theory);
       std::cout << "[ sag      ] " << tip.sag / theory << " of theory, strains " << tip.shortest
                 << " to " << tip.longest << '\n';
     }
