@@ -75,6 +75,14 @@ void print_plausibility(const std::string& name, const PlyReport& ply) {
   fmt::print("\n");
 }
 
+/// Prints one line per tool, or per gripper, spring and clamp.
+template <class Body>
+void print_forces(const std::vector<Body>& bodies) {
+  for (const Body& body : bodies)
+    fmt::print("  {:16} force {:8.{}f} N, displacement {:7.2f} mm\n", body.name, body.force_N,
+               std::abs(body.force_N) < 10.0 ? 3 : 1, body.stroke_mm);
+}
+
 void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   const Energies& e = r.last.energy;
   fmt::print("{} at {:.2f} mm of stroke after {} steps in {:.1f} s\n", r.summary.status,
@@ -90,9 +98,8 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   }
   for (std::size_t p = 0; p < r.summary.plies.size(); ++p)
     print_plausibility(r.last.plies[p].name, r.summary.plies[p]);
-  for (const ToolFrame& tool : r.last.tools)
-    fmt::print("  {:16} force {:8.1f} N, displacement {:7.2f} mm\n", tool.name, tool.force_N,
-               tool.stroke_mm);
+  print_forces(r.last.tools);
+  print_forces(r.last.boundaries);
   fmt::print("  energy balance error {:.2e}, kinetic over shear energy {:.2e}\n", e.balance_error(),
              e.shear > 0.0 ? e.kinetic / e.shear : 0.0);
   if (r.summary.largest_added_mass > 0.0)

@@ -37,6 +37,28 @@ TEST(Run, GivesTheSameBitsForAnyNumberOfThreads) {
   }
 }
 
+TEST(Run, GivesTheSameBitsWhileTheNumberOfThreadsChanges) {
+  Case data = coarse_hemisphere({0.0, 0.25 * std::numbers::pi});
+  data.blanks[0].element_size = 12.0; // several blocks of nodes and of triangles a ply
+  data.solver.duration = 0.03;
+  const auto nodes_after = [&](ThreadPool& pool, int changes) { // `changes`: numbers in turns
+    Scene s = make_scene(data);
+    start(s, pool);
+    for (int step = 0; step < 300; ++step) {
+      pool.work_with(1 + step % changes);
+      EXPECT_FALSE(compute_forces(s, pool).has_value()) << step;
+      move_plies(s, pool);
+    }
+    return std::vector<std::vector<Vec3>>{s.plies[0].x, s.plies[1].x};
+  };
+  ThreadPool one(1), four(4);
+  const auto expected = nodes_after(one, 1), changing = nodes_after(four, 4);
+  for (std::size_t p = 0; p < expected.size(); ++p) {
+    EXPECT_TRUE(same_bits(expected[p], changing[p])) << p;
+    EXPECT_FALSE(same_bits(expected[p], make_scene(data).plies[p].x)) << p; // they have moved
+  }
+}
+
 TEST(Run, NeedsNoDrivenTool) {
   Case data = coarse_hemisphere({0.0});
   data.tools[0].motion = Motion::fixed;
