@@ -35,6 +35,15 @@ if [ -e /dev/full ]; then
     fail "a run without standard output says 0"
   "$program" export closed >exported || fail "a run without standard output has spoilt its results"
 fi
+# Forces are printed of all that holds or pulls, as they are in summary.json.
+"$program" run cases/springs_and_grippers -o pulled --set blanks.strip.element_size=25 \
+  --set solver.duration=0.01 >said 2>&1 || fail "a strip on springs says: $(cat said)"
+for name in spring_south spring_north gripper_south gripper_north holder_west; do
+  printed=$(sed -nE "s/^ +$name +force +([^ ]+) N, displacement .* mm$/\\1/p" said)
+  written=$(grep -A1 "\"name\": \"$name\"" pulled/summary.json | sed -nE 's/.*"force_N": ([^,]*).*/\1/p')
+  awk -v a="$printed" -v b="$written" 'BEGIN { d = a - b; exit !(a != "" && b != "" && d * d < 0.003) }' ||
+    fail "$name: force '$printed' printed, '$written' in summary.json"
+done
 # A folder that another run has is left alone, by --resume too.
 mkdir taken
 for resume in "" --resume; do

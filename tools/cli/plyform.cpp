@@ -71,7 +71,7 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   CLI::App* run = app.add_subcommand("run", "form the plies of a case and write the results");
   add_case_options(*run, to.run.input);
   run->add_option("-o,--output", to.run.output, "folder for the results [results/NAME]");
-  run->add_option("--threads", to.run.threads, "threads; the results do not depend on it")
+  run->add_option("--threads", to.run.threads, "threads, at most; the results do not depend on it")
       ->check(CLI::Range(1, 256));
   run->add_flag("--report", to.run.report, "make report.html of the results, for any browser");
   run->add_flag("--resume", to.run.resume,
