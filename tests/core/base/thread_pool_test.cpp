@@ -147,10 +147,20 @@ TEST(ThreadPool, AThreadThatHasBegunNoTaskIsNotWaitedFor) {
 
 TEST(ThreadPool, WorksWithOtherNumbersOfThreadsFromRoundToRound) {
   ThreadPool pool(4);
-  for (int round = 0; round < 2000; ++round) {
+  pool.work_with(4);
+  std::atomic<int> begun{0};
+  pool.run(4, [&](int) { // each waits for all others, so that all threads are there
+    ++begun;
+    while (begun.load() < 4)
+      std::this_thread::yield();
+  });
+  for (int round = 0; round < 300; ++round) {
     pool.work_with(1 + round * 7 % 4);
     std::vector<int> done(50, 0); // plain: a task that is done twice at once is a race
-    pool.run(50, [&](int i) { ++done[static_cast<std::size_t>(i)]; });
+    pool.run(50, [&](int i) {
+      ++done[static_cast<std::size_t>(i)];
+      if (i == 0) std::this_thread::yield(); // so that others come in
+    });
     ASSERT_EQ(done, std::vector<int>(50, 1)) << round;
   }
 }
