@@ -1,118 +1,137 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the readers of input decks share: lines with their places, numbers, and the mesh under
-construction. Every complaint is a Trouble with file, line, value, rule and remedy."""
+"""What the readers of input decks share: lines with their places, numbers, and columns of numbers of
+many lines at once. Every complaint is a Trouble with file, line, value, rule and remedy."""
 
-from collections import Counter
-from collections.abc import Iterator
-from dataclasses import dataclass, field
+import warnings
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
 from plotting.reading import Trouble
 
-from exchange.shell_mesh import ShellMesh
-
-MOST_INCLUDES = 8  # one in another
-FARTHEST = 1e9     # mm
+MOST_INCLUDES = 8      # one in another
+MOST_BYTES = 8 << 30   # of a part mesh: some hundred million elements
 
 
 @dataclass
 class Line:
     path: Path
-    number: int
+    number: int  # from 1; 0 where there are no lines
     text: str
 
     def wrong(self, what: str) -> Trouble:
-        return Trouble(f"{self.path}:{self.number}: {what}")
+        place = f"{self.path}:{self.number}" if self.number else str(self.path)
+        return Trouble(f"{place}: {what}")
 
 
-def lines_of(path: Path) -> list[Line]:
+def texts_of(path: Path) -> list[str]:
+    """The lines of a file. Raises Trouble unless it is a file, and not too large."""
     try:
-        text = path.read_text(encoding="utf-8", errors="replace")
+        if not path.is_file():
+            raise Trouble(f"{path} is no file: give the path of a part mesh")
+        if path.stat().st_size > MOST_BYTES:
+            raise Trouble(f"{path} has {path.stat().st_size / 2**30:.0f} GiB, more than "
+                          f"{MOST_BYTES >> 30}: leave the results out of the mesh's file")
+        return path.read_text(encoding="utf-8", errors="replace").splitlines()
     except OSError as problem:
         raise Trouble(f"{path} cannot be read: {problem.strerror or problem}") from problem
-    return [Line(path, k, line) for k, line in enumerate(text.splitlines(), 1)]
 
 
-def included(line: Line, name: str, depth: int) -> Iterator[Line]:
-    """The lines of a file that a line names, seen from its own folder."""
+def included(line: Line, name: str, depth: int, beside: Path) -> Path:
+    """The file that a line names, seen from the line's own folder, or from `beside`, that of the
+    first file."""
     if depth >= MOST_INCLUDES:
         raise line.wrong(f"includes go {depth} files deep: put the mesh into one file")
-    path = line.path.parent / name.strip().strip("'\"")
-    if not path.is_file():
-        raise line.wrong(f"includes {path}, which is missing")
-    return lines_of(path)
+    name = name.strip().strip("'\"")
+    for folder in (line.path.parent, beside):
+        if (folder / name).is_file():
+            return folder / name
+    raise line.wrong(f"includes {line.path.parent / name}, which is missing")
 
 
 def whole(line: Line, text: str, what: str) -> int:
     try:
-        return int(text)
+        value = int(text)
     except ValueError:
-        raise line.wrong(f"{what} is {text.strip()!r}, not a whole number") from None
+        raise line.wrong(f"{what} is {text.strip()[:40]!r}, not a whole number") from None
+    if abs(value) >= 2**62:
+        raise line.wrong(f"{what} is {text.strip()[:40]}: numbers have 18 digits at most")
+    return value
 
 
 def number(line: Line, text: str, what: str) -> float:
     """Also 1.5-3 for 1.5e-3 and 1.0D2, as Nastran writes them."""
     text = text.strip()
     try:
-        return float(text)
+        return float(mended(text))
+    except ValueError:
+        raise line.wrong(f"{what} is {text[:40]!r}, not a number") from None
+
+
+def mended(text: str) -> str:
+    try:
+        float(text)
+        return text
     except ValueError:
         pass
-    mended = text.upper().replace("D", "E")
-    if "E" not in mended:
-        cut = max(mended.rfind("+"), mended.rfind("-"))
+    text = text.upper().replace("D", "E")
+    if "E" not in text:
+        cut = max(text.rfind("+"), text.rfind("-"))
         if cut > 0:
-            mended = mended[:cut] + "E" + mended[cut:]
-    try:
-        return float(mended)
-    except ValueError:
-        raise line.wrong(f"{what} is {text!r}, not a number") from None
+            text = text[:cut] + "E" + text[cut:]
+    return text
 
 
-@dataclass
-class Deck:
-    """Nodes and shells as they are read."""
-    path: Path
-    nodes: dict[int, tuple[float, float, float]] = field(default_factory=dict)
-    shells: dict[int, tuple[list[int], int, Line]] = field(default_factory=dict)
-    left_out: Counter = field(default_factory=Counter)
+def by_commas(texts: list[str]) -> np.ndarray | None:
+    """k x c numbers of lines that all have c of them with commas between; else None."""
+    commas = texts[0].count(",")
+    if any(text.count(",") != commas for text in texts):
+        return None
+    return numbers_of(",".join(texts), ",", (len(texts), commas + 1))
 
-    def add_node(self, line: Line, label: int, place: tuple[float, float, float]) -> None:
-        if not np.abs(place).max() < FARTHEST:
-            raise line.wrong(f"node {label} has a coordinate that is no length: {place}")
-        if self.nodes.setdefault(label, place) != place:
-            raise line.wrong(f"node {label} is there twice, at different places: numbers must be "
-                             "unique (write parts and instances flat)")
 
-    def add_shell(self, line: Line, label: int, corners: list[int], part: int) -> None:
-        """Three or four corners; a quadrilateral whose last two are one is a triangle."""
-        if len(corners) == 4 and (corners[3] in (0, corners[2])):
-            corners = corners[:3]
-        if len(corners) not in (3, 4) or len(set(corners)) != len(corners):
-            raise line.wrong(f"element {label} has the corners "
-                             f"{', '.join(map(str, corners)) or 'none'}: a shell has three or four "
-                             "different ones")
-        if label in self.shells:
-            raise line.wrong(f"element {label} is there twice: numbers must be unique (write parts "
-                             "and instances flat)")
-        self.shells[label] = (corners, part, line)
+def numbers_of(text: str, between: str, shape: tuple[int, int]) -> np.ndarray | None:
+    """None unless the text is just so many numbers."""
+    if "d" in text or "D" in text:
+        text = text.replace("D", "E").replace("d", "E")
+    with warnings.catch_warnings():
+        warnings.simplefilter("error", DeprecationWarning)
+        try:
+            found = np.fromstring(text, sep=between)
+        except (DeprecationWarning, ValueError):
+            return None
+    return found.reshape(shape) if len(found) == shape[0] * shape[1] else None
 
-    def mesh(self) -> ShellMesh:
-        if not self.shells:
-            others = ", ".join(f"{n} {kind}" for kind, n in self.left_out.items())
-            raise Trouble(f"{self.path} has no shell element"
-                          + (f" (it has {others}, which are none)" if others else "")
-                          + ": plies are mapped onto shells of three or four corners")
-        labels = np.array(list(self.nodes), np.int64)
-        row = {label: k for k, label in enumerate(self.nodes)}
-        corners = np.full((len(self.shells), 4), -1, np.int64)
-        for k, (label, (ends, _, line)) in enumerate(self.shells.items()):
-            for j, end in enumerate(ends):
-                if end not in row:
-                    raise line.wrong(f"element {label} has node {end}, which is not in the file")
-                corners[k, j] = row[end]
-        return ShellMesh(np.array(list(self.nodes.values())), corners,
-                         np.array(list(self.shells), np.int64), labels,
-                         np.array([part for _, part, _ in self.shells.values()], np.int64),
-                         self.path, self.left_out)
+
+class Fields:
+    """Fields of fixed widths of many lines."""
+
+    def __init__(self, texts: list[str], width: int):
+        joined = "".join([text.ljust(width)[:width] for text in texts])
+        data = joined.encode("ascii", "replace")
+        self.bytes = np.frombuffer(data, np.uint8).reshape(len(texts), width)
+
+    def words(self, start: int, stop: int) -> np.ndarray:
+        field = np.ascontiguousarray(self.bytes[:, start:stop])
+        return field.view(f"S{stop - start}").ravel()
+
+    def blank(self, start: int, stop: int) -> np.ndarray:
+        return (self.bytes[:, start:stop] == 32).all(axis=1)
+
+    def whole(self, start: int, stop: int) -> np.ndarray:
+        """Whole numbers, 0 where blank. Raises ValueError: ask the lines one by one."""
+        return self._filled(start, stop).astype(np.int64)
+
+    def number(self, start: int, stop: int) -> np.ndarray:
+        """As `number` reads them. Raises ValueError."""
+        words = self._filled(start, stop)
+        try:
+            return words.astype(float)
+        except ValueError:
+            return np.array([float(mended(word.decode().strip())) for word in words.tolist()])
+
+    def _filled(self, start: int, stop: int) -> np.ndarray:
+        words = self.words(start, stop)
+        blank = self.blank(start, stop)
+        return np.where(blank, b"0", words) if blank.any() else words

@@ -2,13 +2,14 @@
 """Formed plies on a shell mesh, as files for other programs take them."""
 
 import re
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from functools import cached_property
 
 import numpy as np
 
 from plotting.reading import Trouble
 
-from exchange.angles import angles_to, reference_directions, words_of, wrapped
+from exchange.angles import Reference, angles_to, reference_of, warnings_of, words_of, wrapped
 from exchange.formed import FormedPly
 from exchange.mapping import (MappedPly, SmoothPly, map_ply, on_own_mesh, sides_of)
 from exchange.shell_mesh import ShellMesh, element_normals, split, triangle_normals
@@ -25,13 +26,28 @@ class Layup:
     reference: str | tuple[float, ...]
     source: str  # of the state, in words
     own: bool    # the mesh is the ply's own, and goes into the files too
+    notes: tuple[str, ...] = ()  # of the part mesh: what of it was not used
+    told: list[str] = field(default_factory=list)  # what formats have to tell of their files
+
+    @cached_property
+    def normals(self) -> np.ndarray:
+        return element_normals(self.mesh)[0]
+
+    @cached_property
+    def base(self) -> Reference:
+        return reference_of(self.mesh, self.reference, self.normals)
+
+    @cached_property
+    def warnings(self) -> list[str]:
+        """Where the reference is not what its words say."""
+        return warnings_of(self.mesh, self.base, self.normals)
 
     def angles(self, ply: MappedPly, reference=None) -> tuple[np.ndarray, np.ndarray]:
         """Of warp and weft (m each, degrees) to the elements' reference, that of the lay-up unless
         another is given."""
-        normals = element_normals(self.mesh)[0]
-        base = reference_directions(self.mesh, reference or self.reference)
-        return angles_to(base, ply.warp, normals), angles_to(base, ply.weft, normals)
+        base = (reference_of(self.mesh, reference, self.normals) if reference else
+                self.base).directions
+        return angles_to(base, ply.warp, self.normals), angles_to(base, ply.weft, self.normals)
 
     def corrections(self, ply: MappedPly) -> tuple[np.ndarray, np.ndarray]:
         """What draping adds to the angle of the warp, and to that of the direction across it, over
@@ -70,12 +86,17 @@ class Layup:
             raise Trouble(f"{what} has room for 99999999 as the largest number of a node or element: "
                           f"the part mesh has {most}; number it anew")
 
-    def head(self, more: list[str] = ()) -> list[str]:
-        """What each file says first."""
+    def head(self, more: list[str] = (), reference: str = "") -> list[str]:
+        """What each file says first. `reference`: of a format with one of its own."""
+        words = reference or words_of(self.reference, self.mesh)
+        if not reference and len(self.base.replaced):
+            words += f"; on {len(self.base.replaced)} elements {self.base.other}, see below"
         return ["formed plies of plyform, " + self.source,
                 "lengths in mm, angles in degrees",
-                f"angles: from the element's reference ({words_of(self.reference)}), about its "
-                "normal (right-hand rule along its corners)",
+                f"angles: from the element's reference ({words}), about its normal (right-hand rule "
+                "along its corners)",
+                *(self.warnings if not reference else []),
+                *self.notes,
                 "plies are listed along the element's normal, "
                 f"{self.reversed_count()} elements have normals that point down the stack",
                 *more]

@@ -15,8 +15,8 @@ import numpy as np
 
 from exchange.closest import Surface
 from exchange.formed import FormedPly
-from exchange.shell_mesh import (ShellMesh, border_edges, element_normals, patches, split,
-                                 triangle_normals, unit)
+from exchange.shell_mesh import (ShellMesh, border_edges, centroids, element_normals, patches,
+                                 split, triangle_normals, unit)
 
 LEAST_COSINE = 0.3   # between the normals of ply and element: 73 degrees, as at sharp corners
 MOST_CUTS = 8        # along a side of an element: 64 closest points each, a minute of 100 000
@@ -60,18 +60,17 @@ class SmoothPly:
         self.side = float(np.linalg.norm(sides, axis=2).mean())
 
     def _at_nodes(self, values: np.ndarray, areas: np.ndarray) -> np.ndarray:
-        total = np.zeros((len(self.ply.x), values.shape[1]))
-        weight = np.zeros(len(self.ply.x))
-        for k in range(3):
-            np.add.at(total, self.ply.triangles[:, k], areas[:, None] * values)
-            np.add.at(weight, self.ply.triangles[:, k], areas)
+        nodes, count = self.ply.triangles.T.ravel(), len(self.ply.x)
+        weight = np.bincount(nodes, np.tile(areas, 3), count)
+        total = np.column_stack([np.bincount(nodes, np.tile(areas * one, 3), count)
+                                 for one in values.T])
         return total / np.maximum(weight, 1e-300)[:, None]
 
     def at(self, triangle: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, ...]:
         """Normal, warp, weft (k x 3, unit vectors, yarns along the ply) and thickness (k)."""
         nodes = self.ply.triangles[triangle]
         def mean(values):
-            return (weights[:, :, None] * values[nodes]).sum(axis=1)
+            return np.einsum("ij,ijk->ik", weights, values[nodes])
         normal = unit(mean(self.node_normals))
         yarns = [unit(v - (v * normal).sum(axis=1, keepdims=True) * normal)
                  for v in (mean(self.warp), mean(self.weft))]
@@ -81,7 +80,7 @@ class SmoothPly:
         """Whether points p lie beyond the ply's border: their closest points are on it, and they
         are off to the side rather than above or below."""
         corners = self.surface.corners[triangle]
-        off = p - (weights[:, :, None] * corners).sum(axis=1)
+        off = p - np.einsum("ij,ijk->ik", weights, corners)
         normal = self.normals[triangle]
         along = np.linalg.norm(off - (off * normal).sum(axis=1, keepdims=True) * normal, axis=1)
         on_border = (self.border[triangle] & (weights[:, [2, 0, 1]] < 1e-9)).any(axis=1)
@@ -134,17 +133,17 @@ def sides_of(mesh: ShellMesh, plies: list[SmoothPly], limit: float,
     if trust_normals:
         patch, turned = np.zeros(len(areas), int), np.zeros(len(areas), bool)
     sign = np.where(turned, -1, 1)
-    triangles, owner = split(mesh)
-    middles = mesh.nodes[triangles].mean(axis=1)
+    middles = centroids(mesh)
     votes = np.zeros(patch.max() + 1)
     for ply in plies:
         triangle, _, distance = ply.surface.closest(middles, limit)
         there = triangle >= 0
         near = 1.0 / (distance[there] + NEARNESS * limit)
-        element = owner[there]
+        element = np.flatnonzero(there)
         cosine = (ply.normals[triangle[there]] * normals[element]).sum(axis=1) * sign[element]
         clear = np.abs(cosine) >= LEAST_COSINE
-        np.add.at(votes, patch[element[clear]], (cosine * areas[element] * near)[clear])
+        votes += np.bincount(patch[element[clear]], (cosine * areas[element] * near)[clear],
+                             len(votes))
     return (np.sign(votes)[patch] * sign).astype(int)
 
 
@@ -165,9 +164,9 @@ def map_ply(ply: SmoothPly, mesh: ShellMesh, side: np.ndarray, limit: float,
     normal, warp, weft, thickness = ply.at(triangle[hit], weights[hit])
 
     def mean(values):
-        total = np.zeros((count, *values.shape[1:]))
-        np.add.at(total, element, (values.T * area).T)
-        return total
+        if values.ndim == 1:
+            return np.bincount(element, values * area, count)
+        return np.column_stack([np.bincount(element, one * area, count) for one in values.T])
     weight = mean(np.ones(len(element)))
     total = np.bincount(samples.element, samples.areas, count)
     share = weight / np.maximum(total, 1e-300)

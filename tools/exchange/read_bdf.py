@@ -1,100 +1,155 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shells of a Nastran or OptiStruct bulk data file: GRID, CQUAD4, CTRIA3 and their kin, INCLUDE;
-small and large fields, and fields with commas.
+"""Shells of a Nastran or OptiStruct bulk data file: GRID, CQUAD4, CTRIA3 and their kin, their THETA or
+MCID.
 
 Python's meshio reads these files too, but leaves out the numbers of the elements, which the next
 program asks for.
 """
 
 import re
-from collections.abc import Iterator
 from pathlib import Path
 
-from exchange.deck_lines import Deck, Line, included, lines_of, number, whole
+import numpy as np
+
+from plotting.reading import Trouble
+
+from exchange.bdf_axes import give_axes
+from exchange.bulk_data import Entries, entries_of
+from exchange.deck_lines import Fields, number, whole
+from exchange.deck_mesh import Deck
 from exchange.shell_mesh import ShellMesh
 
-CORNERS = {"CTRIA3": 3, "CTRIAR": 3, "CTRIA6": 3, "CQUAD4": 4, "CQUADR": 4, "CQUAD8": 4, "CQUAD": 4}
+# corners, all nodes; THETA or MCID stands in the field after the nodes, but in that of CQUAD8 four
+# thicknesses stand between
+SHELLS = {"CTRIA3": (3, 3), "CTRIAR": (3, 3), "CTRIA6": (3, 6), "CQUAD4": (4, 4), "CQUADR": (4, 4),
+          "CQUAD8": (4, 8), "CQUAD": (4, 9)}
+THETA = {name: 3 + nodes + (4 if name == "CQUAD8" else 0) for name, (_, nodes) in SHELLS.items()}
 # entries that begin with C and are elements, but no shells
 OTHERS = {"CHEXA", "CPENTA", "CTETRA", "CPYRA", "CPYRAM", "CBAR", "CBEAM", "CBEAM3", "CBEND",
-          "CROD", "CONROD", "CTUBE", "CBUSH", "CBUSH1D", "CELAS1", "CELAS2", "CELAS3", "CELAS4",
-          "CDAMP1", "CDAMP2", "CDAMP3", "CDAMP4", "CDAMP5", "CMASS1", "CMASS2", "CMASS3", "CMASS4",
-          "CONM1", "CONM2", "CGAP", "CVISC", "CWELD", "CFAST", "CSEAM", "CSHEAR", "CRAC2D",
+          "CROD", "CONROD", "CTUBE", "CBUSH", "CBUSH1D", "CBUSH2D", "CELAS1", "CELAS2", "CELAS3",
+          "CELAS4", "CDAMP1", "CDAMP2", "CDAMP3", "CDAMP4", "CDAMP5", "CMASS1", "CMASS2", "CMASS3",
+          "CMASS4", "CONM1", "CONM2", "CGAP", "CVISC", "CWELD", "CFAST", "CSEAM", "CSHEAR", "CRAC2D",
           "CRAC3D", "CTRIAX", "CTRIAX6", "CQUADX", "CQUADX4", "CQUADX8", "CAABSF", "CHBDYE",
-          "CHBDYG", "CHBDYP", "CTAXI", "CGASK6", "CGASK8", "CGASK12", "CGASK16"}
+          "CHBDYG", "CHBDYP", "CTAXI", "CQAXI", "CGASK6", "CGASK8", "CGASK12", "CGASK16"}
 NO_ELEMENTS = re.compile(r"(CORD|CELL|CSET|CSUP|CTRL|CNVR|CYJOIN|CYSYM|CYAX|CYSUP|CLOAD|CONV|"
                          r"CONTAC|CREEP|CONTRL|CAERO|CASECC|CONCTL|CSCHD|CSSCHD|CDADD|CONROT)")
 
 
 def read_bdf(path: Path) -> ShellMesh:
-    deck = Deck(path)
-    for line, fields in entries(list(cards(path, 0))):
-        name = fields[0].rstrip("*").upper()
-        if name == "GRID":
-            add_grid(deck, line, fields)
-        elif name in CORNERS:
-            label = whole(line, fields[1], "an element's number")
-            part = whole(line, fields[2] or str(label), f"the property of element {label}")
-            ends = [whole(line, word or "0", f"a corner of element {label}")
-                    for word in fields[3:3 + CORNERS[name]]]
-            deck.add_shell(line, label, ends, part)
-        elif name in OTHERS:
-            deck.left_out[name] += 1
-        elif re.match(r"C[A-Z]+\d*$", name) and not NO_ELEMENTS.match(name):
-            raise line.wrong(f"element type {name} is not known: shells are {', '.join(CORNERS)}; "
-                             "take other elements out of the file, or write them as one of these")
-    return deck.mesh()
+    deck, axes, files = Deck(path), {}, entries_of(path)
+    for entries in files:
+        for name, some in entries.items():
+            if name == "GRID":
+                add_grids(deck, some)
+            elif name == "GRDSET":
+                expect_basic(some)
+            elif name in SHELLS:
+                add_shells(deck, some, name, axes)
+            elif name in OTHERS:
+                deck.left_out[name] += len(some.lines)
+            elif re.match(r"C[A-Z]+\d*$", name) and not NO_ELEMENTS.match(name):
+                raise some.line(0).wrong(f"element type {name} is not known: shells are "
+                                         f"{', '.join(SHELLS)}; take other elements out of the "
+                                         "file, or write them as one of these")
+    mesh = deck.mesh()
+    give_axes(mesh, axes, files)
+    return mesh
 
 
-def add_grid(deck: Deck, line: Line, fields: list[str]) -> None:
-    label = whole(line, fields[1], "a grid point's number")
-    if fields[2] and whole(line, fields[2], f"the system of grid point {label}") != 0:
-        raise line.wrong(f"grid point {label} stands in coordinate system {fields[2]}: write grid "
-                         "points in the basic system")
-    deck.add_node(line, label, tuple(number(line, word or "0", f"a coordinate of grid point {label}")
-                                     for word in fields[3:6]))
+def expect_basic(entries: Entries) -> None:
+    for line, fields in entries.each():
+        if fields[2] not in ("", "0"):
+            raise line.wrong(f"GRDSET puts grid points into coordinate system {fields[2]}: write "
+                             "them in the basic system")
 
 
-def cards(path: Path, depth: int, lines: list[Line] | None = None) -> Iterator[Line]:
-    """Lines of bulk data: those of executive and case control, before BEGIN BULK, are left out."""
-    lines = lines if lines is not None else lines_of(path)
-    begin = next((k for k, line in enumerate(lines)
-                  if re.match(r"\s*BEGIN\s+BULK", line.text, re.IGNORECASE)), -1)
-    for line in lines[begin + 1:]:
-        text = line.text.split("$", 1)[0].rstrip()
-        if not text:
-            continue
-        if text.upper().startswith("ENDDATA"):
-            return
-        name = re.match(r"INCLUDE\s*(.+)", text, re.IGNORECASE)
-        if name:
-            yield from cards(path, depth + 1, included(line, name[1], depth))
-        else:
-            yield Line(line.path, line.number, text)
+def add_grids(deck: Deck, entries: Entries) -> None:
+    """Lines of small fields without continuation, and of large ones with one, all at once."""
+    every = range(len(entries.lines))
+    texts, more = entries.texts, entries.more
+    small = [k for k in every if "," not in texts[k] and "*" not in texts[k][:8] and "\t" not in texts[k]
+             and k not in more]
+    large = [k for k in every if "*" in texts[k][:8] and "," not in texts[k] and "\t" not in texts[k]
+             and len(more.get(k, ())) == 1 and "," not in more[k][0] and "\t" not in more[k][0]]
+    done = np.zeros(len(texts), bool)
+    for rows, lines, width in ((small, [texts[k] for k in small], 8),
+                               (large, [texts[k][:72].ljust(72) + more[k][0][8:24] for k in large], 16)):
+        if rows:
+            done[rows] = add_columns(deck, entries, rows, lines, width)
+    labels, places, lines = [], [], []
+    for row in np.flatnonzero(~done):
+        line, fields = entries.line(row), entries.fields(row)
+        label = whole(line, fields[1], "a grid point's number")
+        if fields[2] and whole(line, fields[2], f"the system of grid point {label}") != 0:
+            raise line.wrong(f"grid point {label} stands in coordinate system {fields[2]}: write grid "
+                             "points in the basic system")
+        labels.append(label)
+        places.append([number(line, word or "0", f"a coordinate of grid point {label}")
+                       for word in fields[3:6]])
+        lines.append(line.number)
+    deck.add_nodes(entries.path, lines, labels, places)
 
 
-def entries(lines: list[Line]) -> Iterator[tuple[Line, list[str]]]:
-    """Fields of each entry, with those of its continuations; at least nine."""
-    held, first = [], None
-    for line in lines:
-        words = fields_of(line)
-        if words[0][:1] in ("", "+", "*") and held:
-            held += words[1:]
-            continue
-        if held:
-            yield first, held + [""] * (9 - len(held))
-        held, first = words, line
-    if held:
-        yield first, held + [""] * (9 - len(held))
+def add_columns(deck: Deck, entries: Entries, rows: list[int], texts: list[str], width: int) -> bool:
+    fields = Fields(texts, 8 + 5 * width)
+    try:
+        label, system = (fields.whole(8 + k * width, 8 + (k + 1) * width) for k in (0, 1))
+        places = np.column_stack([fields.number(8 + k * width, 8 + (k + 1) * width)
+                                  for k in (2, 3, 4)])
+    except ValueError:
+        return False
+    if system.any() or (label <= 0).any():
+        return False
+    deck.add_nodes(entries.path, np.array(entries.lines)[rows], label, places)
+    return True
 
 
-def fields_of(line: Line) -> list[str]:
-    """Name and eight fields (four of large ones); the tenth, which names continuations, is left
-    out."""
-    text = line.text.expandtabs(8)
-    if "," in text:
-        words = [word.strip() for word in text.split(",")]
-        large = words[0].endswith("*")
-        return (words + [""] * 9)[:5 if large else 9]
-    name = text[:8].strip()
-    width, count = (16, 4) if name.endswith("*") or name.startswith("*") else (8, 8)
-    return [name, *(text[8 + k * width:8 + (k + 1) * width].strip() for k in range(count))]
+def add_shells(deck: Deck, entries: Entries, name: str, axes: dict[int, float | int | str]) -> None:
+    """`axes` gets the words of THETA or MCID by the number of the element."""
+    corners, nodes = SHELLS[name]
+    if nodes == corners and not entries.more and add_short(deck, entries, name, axes):
+        return
+    labels, parts, table, lines = [], [], [], []
+    for line, fields in entries.each():
+        label = whole(line, fields[1], "an element's number")
+        fields += [""] * (THETA[name] + 1 - len(fields))
+        ends = [whole(line, word or "0", f"a node of element {label}")
+                for word in fields[3:3 + nodes]]
+        middles = ends[corners:2 * corners]
+        table.append(ends[:corners] + [0] * (4 - corners) + middles + [0] * (4 - len(middles)))
+        labels.append(label)
+        parts.append(whole(line, fields[2] or str(label), f"the property of element {label}"))
+        lines.append(line.number)
+        if fields[THETA[name]]:
+            axes[label] = angle_or_system(line, fields[THETA[name]], label)
+    deck.add_shells(entries.path, lines, labels, parts, table)
+
+
+def add_short(deck: Deck, entries: Entries, name: str, axes: dict) -> bool:
+    """Elements on one line of small fields each, all at once."""
+    if any("," in text or "*" in text[:8] or "\t" in text for text in entries.texts):
+        return False
+    corners, theta = SHELLS[name][0], THETA[name]
+    fields = Fields(entries.texts, 8 * (theta + 1))
+    try:
+        label, part, *ends = (fields.whole(8 * k, 8 * k + 8) for k in range(1, 3 + corners))
+    except ValueError:
+        return False
+    ends = np.column_stack(ends + [np.zeros(len(label), np.int64)] * (8 - corners))
+    part = np.where(fields.blank(16, 24), label, part)
+    words = fields.words(8 * theta, 8 * theta + 8)
+    for row in np.flatnonzero(~fields.blank(8 * theta, 8 * theta + 8)):
+        axes[int(label[row])] = angle_or_system(entries.line(row), words[row].decode().strip(),
+                                                int(label[row]))
+    deck.add_shells(entries.path, entries.lines, label, part, ends)
+    return True
+
+
+def angle_or_system(line, word: str, label: int) -> float | int | str:
+    """THETA has a point, MCID is a whole number; some programs give a system a name."""
+    if word.isdigit():
+        return int(word)
+    try:
+        return number(line, word, f"THETA of element {label}")
+    except Trouble:
+        return word

@@ -2,10 +2,13 @@
 """Shells of an Ansys archive (CDWRITE): ET, NBLOCK and EBLOCK, in the widths that the blocks state."""
 
 import re
-from collections.abc import Iterator
+from dataclasses import dataclass, field
 from pathlib import Path
 
-from exchange.deck_lines import Deck, Line, lines_of, number, whole
+import numpy as np
+
+from exchange.deck_lines import Fields, Line, number, texts_of, whole
+from exchange.deck_mesh import Deck
 from exchange.shell_mesh import ShellMesh
 
 SHELLS = {28, 41, 43, 63, 91, 93, 99, 131, 132, 157, 181, 208, 209, 281}
@@ -18,81 +21,155 @@ OTHERS = {1, 4, 8, 10, 11, 13, 14, 21, 23, 24, 25, 27, 30, 33, 34, 37, 38, 39, 4
           279, 285, 288, 289, 290, 291, 292, 293}
 
 
+@dataclass
+class Archive:
+    """The lines of a file, and what its blocks refer to."""
+    deck: Deck
+    texts: list[str]
+    types: dict[int, int] = field(default_factory=dict)
+    systems: int = 0  # elements with a coordinate system of their own
+
+    def line(self, row: int) -> Line:
+        return Line(self.deck.path, row + 1, self.texts[row] if row < len(self.texts) else "")
+
+    def end_of(self, row: int, marks: tuple[str, ...], what: str) -> int:
+        """The row that ends the block whose first line of data is at `row`."""
+        for k in range(row, len(self.texts)):
+            if self.texts[k].lstrip()[:2] in marks:
+                return k
+        raise self.line(row - 2).wrong(f"the block of {what} has no end: the file is cut off")
+
+
 def read_cdb(path: Path) -> ShellMesh:
-    deck, types = Deck(path), {}
-    lines = iter(lines_of(path))
-    for line in lines:
+    archive, row = Archive(Deck(path), texts_of(path)), 0
+    while row < len(archive.texts):
+        line = archive.line(row)
         words = [word.strip() for word in line.text.split(",")]
         command = words[0].upper()
+        row += 1
         if command == "ET" and len(words) >= 3:
-            types[whole(line, words[1], "an element type")] = whole(
+            archive.types[whole(line, words[1], "an element type")] = whole(
                 line, re.sub(r"^[A-Za-z]+", "", words[2]), "an element")
         elif command == "NBLOCK":
-            read_nodes(deck, line, lines)
+            row = read_nodes(archive, row)
         elif command == "EBLOCK":
-            read_elements(deck, line, words, lines, types)
+            row = read_elements(archive, row, len(words) > 2 and words[2].upper() == "SOLID")
         elif command in ("N", "E", "EN", "NGEN", "EGEN"):
             raise line.wrong(f"{command} commands are not read: write the mesh with CDWRITE,DB, "
                              "which makes blocks")
-    return deck.mesh()
+    mesh = archive.deck.mesh()
+    if archive.systems:
+        mesh.notes.append(f"ESYS, the coordinate systems of {archive.systems} elements: not used")
+    return mesh
 
 
-def widths_of(lines: Iterator[Line], line: Line) -> tuple[int, int, int, Line]:
+def widths_of(archive: Archive, row: int) -> tuple[int, int, int]:
     """How many whole numbers stand first, their width, the width of the others."""
-    form = next(lines, line)
-    found = re.match(r"\s*\((\d+)i(\d+)(?:,\d*e(\d+)\.\d+(?:e\d+)?)?\)\s*$", form.text,
+    form = archive.line(row)
+    found = re.match(r"\s*\((\d{1,3})i(\d{1,3})(?:,\d*e(\d{1,3})\.\d+(?:e\d+)?)?\)\s*$", form.text,
                      re.IGNORECASE)
-    if not found:
-        raise form.wrong(f"a block's widths are {form.text.strip()!r}: expected such as "
+    if not found or int(found[2]) == 0:
+        raise form.wrong(f"a block's widths are {form.text.strip()[:60]!r}: expected such as "
                          "(3i9,6e21.13e3) or (19i9)")
-    return int(found[1]), int(found[2]), int(found[3] or 0), form
+    return int(found[1]), int(found[2]), int(found[3] or 0)
 
 
-def read_nodes(deck: Deck, line: Line, lines: Iterator[Line]) -> None:
-    heads, narrow, wide, form = widths_of(lines, line)
+def read_nodes(archive: Archive, row: int) -> int:
+    heads, narrow, wide = widths_of(archive, row)
     if not wide:
-        raise form.wrong("the widths of a block of nodes name no coordinates")
-    for row in lines:
-        text = row.text
-        if text.strip().startswith(("N,", "-1")):
-            return
-        label = whole(row, text[:narrow], "a node's number")
-        place = [text[heads * narrow + k * wide:heads * narrow + (k + 1) * wide] for k in range(3)]
-        deck.add_node(row, label, tuple(number(row, part.strip() or "0", "a coordinate")
-                                        for part in place))
-    raise line.wrong("the block of nodes has no end: the file is cut off")
+        raise archive.line(row).wrong("the widths of a block of nodes name no coordinates")
+    last = archive.end_of(row + 1, ("N,", "n,", "-1"), "nodes")
+    texts, lines = archive.texts[row + 1:last], np.arange(row + 2, last + 1)
+    if not texts:
+        return last + 1
+    first = heads * narrow
+    spans = [(first + k * wide, first + (k + 1) * wide) for k in range(3)]
+    try:
+        fields = Fields(texts, spans[-1][1])
+        labels, places = fields.whole(0, narrow), np.column_stack([fields.number(*at) for at in spans])
+    except ValueError:
+        labels, places = [], []
+        for k, text in enumerate(texts, row + 1):
+            labels.append(whole(archive.line(k), text[:narrow], "a node's number"))
+            places.append([number(archive.line(k), text[a:b].strip() or "0", "a coordinate")
+                           for a, b in spans])
+    archive.deck.add_nodes(archive.deck.path, lines, labels, places)
+    return last + 1
 
 
-def read_elements(deck: Deck, line: Line, words: list[str], lines: Iterator[Line],
-                  types: dict[int, int]) -> None:
+def read_elements(archive: Archive, row: int, solid: bool) -> int:
     """With SOLID: material, type, real, section, system, birth and death, reference, shape, number
     of nodes, blank, element, nodes. Without: element, type, real, material, system, nodes."""
-    solid = len(words) > 2 and words[2].upper() == "SOLID"
-    _, width, _, _ = widths_of(lines, line)
-    for row in lines:
-        values = numbers(row, width)
-        if values[:1] == [-1]:
-            return
+    _, width, _ = widths_of(archive, row)
+    last = archive.end_of(row + 1, ("-1",), "elements")
+    table = all_alike(archive.texts[row + 1:last], width, solid)
+    if table is not None:
+        add(archive, np.arange(row + 1, last), table)
+        return last + 1
+    k, rows, made = row + 1, [], []
+    while k < last:
+        line, values = archive.line(k), numbers(archive.line(k), width)
         if len(values) < (13 if solid else 8):
-            raise row.wrong(f"an element has {len(values)} numbers, too few")
+            raise line.wrong(f"an element has {len(values)} numbers, too few")
+        rows.append(k)
         if solid:
-            kind, part, label = values[1], values[3], values[10]
-            nodes = values[11:11 + values[8]]
-            while len(nodes) < values[8]:
-                nodes += numbers(next(lines, row), width)
+            kind, part, system, label, nodes = values[1], values[3], values[4], values[10], values[11:]
+            while len(nodes) < values[8] and k + 1 < last:
+                k += 1
+                nodes += numbers(archive.line(k), width)
+            nodes = nodes[:max(values[8], 0)]
         else:
-            label, kind, part, nodes = values[0], values[1], values[2], values[5:]
-        if kind not in types:
-            raise row.wrong(f"element {label} is of type {kind}, which no ET line above defines")
-        if types[kind] in OTHERS:
-            deck.left_out[f"type {types[kind]}"] += 1
-        elif types[kind] in SHELLS:
-            deck.add_shell(row, label, nodes[:4], part)
+            label, kind, part, system, nodes = *values[:3], values[4], values[5:]
+        made.append([label, kind, part, system, *(nodes + [0] * 8)[:8]])
+        k += 1
+    add(archive, np.array(rows, int), np.array(made, np.int64).reshape(-1, 12))
+    return last + 1
+
+
+def all_alike(texts: list[str], width: int, solid: bool) -> np.ndarray | None:
+    """m x 12: element, type, part, system, nodes; none unless each line is an element of as many
+    nodes."""
+    if not texts:
+        return None
+    size = len(texts[0].rstrip())
+    count, odd = divmod(size, width)
+    most = 19 if solid else 13
+    if odd or not (14 if solid else 8) <= count <= most or any(len(t.rstrip()) != size for t in texts):
+        return None
+    try:
+        fields = Fields(texts, size)
+        values = [fields.whole(k * width, (k + 1) * width) for k in range(count)]
+    except ValueError:
+        return None
+    if solid and (values[8] != count - 11).any():
+        return None
+    heads = [10, 1, 3, 4] if solid else [0, 1, 2, 4]
+    nodes = values[11:] if solid else values[5:]
+    empty = np.zeros(len(texts), np.int64)
+    return np.column_stack([*(values[k] for k in heads), *nodes, *[empty] * (8 - len(nodes))])
+
+
+def add(archive: Archive, rows: np.ndarray, table: np.ndarray) -> None:
+    """Elements (m x 12) by their types. Raises Trouble for types that are not known."""
+    types, back = np.unique(table[:, 1], return_inverse=True)
+    for k, kind in enumerate(types.tolist()):
+        here = back.ravel() == k
+        first, label = archive.line(rows[here][0]), table[here][0, 0]
+        if kind not in archive.types:
+            raise first.wrong(f"element {label} is of type {kind}, which no ET line above defines")
+        element = archive.types[kind]
+        if element in OTHERS:
+            archive.deck.left_out[f"type {element}"] += int(here.sum())
+        elif element in SHELLS:
+            ends = table[here][:, 4:]
+            ends[ends[:, 3] == 0, 7] = 0
+            archive.systems += int((table[here][:, 3] != 0).sum())
+            archive.deck.add_shells(archive.deck.path, rows[here] + 1, table[here][:, 0],
+                                    table[here][:, 2], ends)
         else:
-            raise row.wrong(f"element {label} is of type {types[kind]}, which is not known: shells "
-                            f"are {', '.join(map(str, sorted(SHELLS)))}; take other elements out "
-                            "of the file, or write them as one of these")
-    raise line.wrong("the block of elements has no end: the file is cut off")
+            raise first.wrong(f"element {label} is of type {element}, which is not known: shells "
+                              f"are {', '.join(map(str, sorted(SHELLS)))}; take other elements out "
+                              "of the file, or write them as one of these")
 
 
 def numbers(row: Line, width: int) -> list[int]:

@@ -1,108 +1,166 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Shells of an LS-DYNA keyword file: *NODE, *ELEMENT_SHELL with its options, *INCLUDE; fields of
-standard width, of LONG=Y (20), or with commas."""
+"""Shells of an LS-DYNA keyword file: *NODE, *ELEMENT_SHELL with its options.
 
-from collections.abc import Iterator
+After an element's first card come, with THICKNESS, BETA or MCID, a card with thicknesses at its corners
+and with BETA or MCID in its fifth field; one more with those at the nodes N5 to N8 if the first card has
+any of them but zeros; one with OFFSET; one with DOF; with COMPOSITE as many as there are plies.
+"""
+
 from pathlib import Path
 
-from exchange.deck_lines import Deck, Line, included, lines_of, number, whole
+import numpy as np
+
+from exchange.deck_lines import Fields, Line, number, numbers_of, whole
+from exchange.deck_mesh import Deck
+from exchange.k_axes import Axes
+from exchange.keyword_file import Cards, blocks_of
 from exchange.shell_mesh import ShellMesh
 
 OTHERS = ("SOLID", "BEAM", "TSHELL", "DISCRETE", "MASS", "INERTIA", "SEATBELT", "SPH", "PLOTEL",
           "TRIM", "LANCING", "GENERALIZED", "INTERPOLATION", "BEARING", "BLANKING", "DIRECT", "RIGID")
-CARDS_AFTER = {"THICKNESS": 1, "BETA": 1, "MCID": 1, "OFFSET": 1, "DOF": 1}  # an element
+THICK = {"THICKNESS", "BETA", "MCID"}
+OPTIONS = [*sorted(THICK), "OFFSET", "DOF", "COMPOSITE"]
+NO_CARDS = {"LONG", "ID", "TITLE", "TO", "SHL4", "SHL8"}
+ELEMENT = [8] * 10
+CORNERS = 6  # fields of an element's first card: number, part, four corners
 
 
 def read_k(path: Path) -> ShellMesh:
-    deck = Deck(path)
-    keyword, skip, cards, wide = "", 0, 0, False
-    for line in decks(path, 0):
-        text = line.text
-        if text.startswith("*"):
-            words = text[1:].upper().split()
-            keyword = words[0] if words else ""
-            wide = wide or (keyword == "KEYWORD" and "LONG=Y" in words)
-            keyword, long_form = (keyword[:-1], True) if keyword[-1:] == "+" else (keyword, wide)
-            cards, skip = cards_after(line, keyword), 0
-        elif keyword == "NODE":
-            words = fields_of(text, [20] * 4 if long_form else [8, 16, 16, 16])
-            deck.add_node(line, whole(line, words[0], "a node's number"),
-                          tuple(number(line, word or "0", "a coordinate") for word in words[1:4]))
-        elif keyword.startswith("ELEMENT_SHELL"):
-            if skip:
-                skip -= 1
-                continue
-            words = fields_of(text, [20 if long_form else 8] * 10)
-            if cards < 0 and not is_element(words, deck):
-                continue
-            add_shell(deck, line, words)
-            # corners beyond the fourth make a second card of thicknesses
-            skip = max(cards, 0) + (1 if "THICKNESS" in keyword and any(words[6:]) else 0)
-        elif keyword.startswith("ELEMENT_"):
-            deck.left_out[keyword] += 1
-    return deck.mesh()
+    deck, axes = Deck(path), Axes()
+    for block in blocks_of(path):
+        if block.keyword == "NODE":
+            add_nodes(deck, block)
+        elif block.keyword.startswith("ELEMENT_"):
+            add_elements(deck, block, axes)
+        else:
+            axes.note(block)
+    mesh = deck.mesh()
+    axes.give(mesh)
+    return mesh
 
 
-def cards_after(line: Line, keyword: str) -> int:
-    """Cards that follow each element's first; -1: any number (plies). Raises Trouble for elements
-    that are not known."""
-    if not keyword.startswith("ELEMENT_"):
-        return 0
+def add_nodes(deck: Deck, block: Cards) -> None:
+    widths, rows = block.widths([8, 16, 16, 16]), range(len(block.texts))
+    ends = np.cumsum(widths)
+    commas = np.array(["," in text for text in block.texts], bool)
+    if not commas.any() and len(block.texts):
+        fields = Fields(block.texts, int(ends[-1]))
+        try:
+            label = fields.whole(0, ends[0])
+            places = np.column_stack([fields.number(a, b) for a, b in zip(ends, ends[1:])])
+            deck.add_nodes(block.head.path, block.lines, label, places)
+            return
+        except ValueError:
+            pass
+    elif commas.all() and len(block.texts) and add_by_commas(deck, block):
+        return
+    labels, places = [], []
+    for row in rows:
+        line, words = block.line(row), block.words(row, widths)
+        labels.append(whole(line, words[0], "a node's number"))
+        places.append([number(line, word or "0", "a coordinate") for word in words[1:4]])
+    deck.add_nodes(block.head.path, block.lines, labels, places)
+
+
+def add_by_commas(deck: Deck, block: Cards) -> bool:
+    four = [",".join(text.split(",", 4)[:4]) for text in block.texts]
+    if any(text.count(",") != 3 for text in four):
+        return False
+    table = numbers_of(",".join(four), ",", (len(four), 4))
+    if table is None or (table[:, 0] != np.round(table[:, 0])).any():
+        return False
+    deck.add_nodes(block.head.path, block.lines, table[:, 0], table[:, 1:])
+    return True
+
+
+def add_elements(deck: Deck, block: Cards, axes: Axes) -> None:
+    options = options_of(block.head, block.keyword)
+    if options is None:
+        deck.left_out[block.keyword] += len(block.texts)
+        return
+    if not options - NO_CARDS and add_all_at_once(deck, block):
+        return
+    widths, row = block.widths(ELEMENT), 0
+    labels, parts, table, lines = [], [], [], []
+    seen: set[int] = set()
+    while row < len(block.texts):
+        line, words = block.line(row), block.words(row, widths)
+        row += 1
+        if "COMPOSITE" in options and not is_element(words, seen):
+            continue
+        label = whole(line, words[0], "an element's number")
+        parts.append(whole(line, words[1] or "0", f"the part of element {label}"))
+        ends = [whole(line, word or "0", f"a node of element {label}") for word in words[2:10]]
+        table.append(in_order(ends))
+        labels.append(label)
+        lines.append(line.number)
+        seen.add(label)
+        if "COMPOSITE" in options:
+            continue
+        if options & THICK:
+            axes.of_card(block, row, label, options)
+            row += 2 if any(ends[4:]) else 1
+        row += ("OFFSET" in options) + ("DOF" in options)
+    if row > len(block.texts):
+        raise block.line(len(block.texts) - 1).wrong(
+            f"the cards of element {labels[-1]} are cut off: *{block.keyword} has more of them")
+    deck.add_shells(block.head.path, lines, labels, parts, table)
+
+
+def options_of(line: Line, keyword: str) -> set[str] | None:
+    """Of *ELEMENT_SHELL_...; none of elements that are no shells. Raises Trouble for those that are not
+    known."""
     kind, *options = keyword.split("_")[1:]
     if kind in OTHERS:
-        return 0
-    unknown = [option for option in options
-               if option not in (*CARDS_AFTER, "COMPOSITE", "LONG", "ID", "TITLE")]
-    if kind != "SHELL" or unknown:
-        raise line.wrong(f"*{keyword} is not known: shells are *ELEMENT_SHELL with "
-                         f"{', '.join(CARDS_AFTER)} or COMPOSITE; take other elements out of the "
-                         "file, or write them as one of these")
-    if "COMPOSITE" in options:
-        return -1
-    one = 1 if {"THICKNESS", "BETA", "MCID"} & set(options) else 0
-    return one + ("OFFSET" in options) + ("DOF" in options)
+        return None
+    if kind != "SHELL" or set(options) - {*OPTIONS, *NO_CARDS}:
+        raise line.wrong(f"*{keyword[:60]} is not known: shells are *ELEMENT_SHELL with "
+                         f"{', '.join(OPTIONS)}; take other elements out of the file, or write them "
+                         "as one of these")
+    return set(options)
 
 
-def is_element(words: list[str], deck: Deck) -> bool:
-    """Tells an element's card from the plies below it: whole numbers, and new in the file."""
-    first = [word for word in words[:6] if word]
-    return (len(first) >= 5 and all(word.lstrip("+-").isdigit() for word in first)
-            and int(first[0]) not in deck.shells)
+def in_order(ends: list[int]) -> list[int]:
+    """Corners and middles of N1 to N8: a triangle has its third corner as its fourth, and with middles
+    four of them, or three."""
+    corners, middles = ends[:4], ends[4:]
+    if corners[3] == 0:
+        middles = [*middles[:3], 0]
+    return corners + middles
 
 
-def add_shell(deck: Deck, line: Line, words: list[str]) -> None:
-    label = whole(line, words[0], "an element's number")
-    part = whole(line, words[1] or "0", f"the part of element {label}")
-    deck.add_shell(line, label, [whole(line, word or "0", f"a corner of element {label}")
-                                 for word in words[2:6]], part)
+def add_all_at_once(deck: Deck, block: Cards) -> bool:
+    """Elements of one card each."""
+    texts = block.texts
+    if not texts:
+        return True
+    if all("," in text for text in texts):
+        counts = {text.rstrip(", ").count(",") for text in texts}
+        if len(counts) != 1 or not 4 <= min(counts) <= 9:
+            return False
+        shape = (len(texts), min(counts) + 1)
+        table = numbers_of(",".join([text.rstrip(", ") for text in texts]), ",", shape)
+        if table is None or (table != np.round(table)).any():
+            return False
+    elif any("," in text for text in texts):
+        return False
+    else:
+        ends = np.cumsum([0, *block.widths(ELEMENT)])
+        fields = Fields(texts, int(ends[-1]))
+        try:
+            table = np.column_stack([fields.whole(a, b) for a, b in zip(ends, ends[1:])])
+        except ValueError:
+            return False
+    table = np.pad(table, ((0, 0), (0, 10 - table.shape[1]))).astype(np.int64)
+    nodes = table[:, 2:]
+    nodes[nodes[:, 3] == 0, 7] = 0
+    deck.add_shells(block.head.path, block.lines, table[:, 0], table[:, 1], nodes)
+    return True
 
 
-def fields_of(text: str, widths: list[int]) -> list[str]:
-    if "," in text:
-        words = [word.strip() for word in text.split(",")]
-        return words + [""] * (len(widths) - len(words))
-    words, at = [], 0
-    for width in widths:
-        words.append(text[at:at + width].strip())
-        at += width
-    return words
-
-
-def decks(path: Path, depth: int, lines: list[Line] | None = None) -> Iterator[Line]:
-    awaited = None  # the name of an included file stands on the next line
-    for line in lines if lines is not None else lines_of(path):
-        text = line.text.split("$", 1)[0].rstrip()
-        if not text:
-            continue
-        if text.upper().startswith("*END"):
-            return
-        if awaited is not None and not text.startswith("*"):
-            yield from decks(path, depth + 1, included(line, text, depth))
-        elif text.upper().split()[0] == "*INCLUDE":
-            awaited = line
-            continue
-        elif text.upper().startswith("*INCLUDE_TRANSFORM"):
-            raise line.wrong("*INCLUDE_TRANSFORM moves the mesh: write the moved mesh into the file")
-        else:
-            yield Line(line.path, line.number, text)
-        awaited = None
+def is_element(words: list[str], seen: set[int]) -> bool:
+    """Tells an element's card from the plies below it, whose fields are wider: number, part and three
+    corners, whole and without gaps, and new in the file."""
+    return (all(word.lstrip("+-").isdigit() for word in words[:5])
+            and all(word.lstrip("+-").isdigit() for word in words[5:CORNERS] if word)
+            and int(words[0]) not in seen)

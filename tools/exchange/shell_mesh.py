@@ -7,7 +7,9 @@ from pathlib import Path
 
 import numpy as np
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order, connected_components
+from scipy.sparse.csgraph import connected_components
+
+SAME_PLACE = 1e-6  # of the mesh's diagonal: nodes so near are one where patches are looked for
 
 
 @dataclass
@@ -20,13 +22,18 @@ class ShellMesh:
     parts: np.ndarray                 # m, the file's part or property of each element
     path: Path | None = None          # none: a ply's own mesh
     left_out: Counter = field(default_factory=Counter)  # elements that are no shells, by type
+    middles: np.ndarray | None = None  # m x 4, rows of nodes: that of the side from a corner to the
+    #                                    next, -1 where there is none; none: no element has any
+    axes: np.ndarray | None = None     # m x 3: along the material axes of the file; none: it has none
+    axes_words: str = ""               # where these are from
+    notes: list[str] = field(default_factory=list)  # of the file, what was not read
 
     def triangular(self) -> np.ndarray:
         return self.corners[:, 3] < 0
 
     def size(self) -> float:
         """Diagonal of the box round all elements, mm."""
-        used = self.nodes[np.unique(self.corners[self.corners >= 0])]
+        used = self.nodes[self.corners[self.corners >= 0]]
         return float(np.linalg.norm(used.max(axis=0) - used.min(axis=0)))
 
 
@@ -65,48 +72,86 @@ def centroids(mesh: ShellMesh) -> np.ndarray:
     return corners.sum(axis=1) / np.where(mesh.triangular(), 3, 4)[:, None]
 
 
-def edges_of(mesh: ShellMesh) -> tuple[np.ndarray, np.ndarray]:
-    """Directed edges (k x 2) in the order of the corners, and the element of each (k)."""
+def crossed(mesh: ShellMesh) -> np.ndarray:
+    """Rows of quadrilaterals whose sides cross, as those of a bow-tie: of the turns at their corners
+    two are against the other two. A quadrilateral with one corner pushed in has one such turn."""
+    quads = np.flatnonzero(~mesh.triangular())
+    x = mesh.nodes[mesh.corners[quads]]
+    ahead = np.roll(x, -1, axis=1) - x
+    turns = np.cross(np.roll(ahead, 1, axis=1), ahead)
+    along = (turns * turns[:, :1]).sum(axis=2)
+    return quads[(along < 0).sum(axis=1) == 2]
+
+
+def edges_of(mesh: ShellMesh, corners: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Directed edges (k x 2) in the order of `corners` (m x 4), and the element of each (k)."""
     triangular = mesh.triangular()
     ends, owners = [], []
     for k in range(4):
-        there = np.arange(len(mesh.corners)) if k < 3 else np.flatnonzero(~triangular)
+        there = np.arange(len(corners)) if k < 3 else np.flatnonzero(~triangular)
         last = np.where(triangular[there] & (k == 2), 0, (k + 1) % 4)
-        ends.append(np.column_stack([mesh.corners[there, k], mesh.corners[there, last]]))
+        ends.append(np.column_stack([corners[there, k], corners[there, last]]))
         owners.append(there)
     return np.vstack(ends), np.concatenate(owners)
+
+
+def edge_keys(ends: np.ndarray) -> np.ndarray:
+    """A number for each edge (k x 2), the same whichever way it runs."""
+    return ends.min(axis=1) * (int(ends.max()) + 1) + ends.max(axis=1)
+
+
+def one_a_place(mesh: ShellMesh) -> np.ndarray:
+    """Corners (m x 4) in which nodes at the same place are one: meshes with unmerged nodes hang
+    together as they look."""
+    low = mesh.nodes[mesh.corners[:, :3]].reshape(-1, 3).min(axis=0)
+    step = max(SAME_PLACE * mesh.size(), 1e-300)
+    cell = np.round((mesh.nodes - low) / step)
+    cell = np.clip(cell, -1, 1 / SAME_PLACE + 1).astype(np.int64) + 1  # nodes that are not used
+    key = (cell[:, 0] << 42) | (cell[:, 1] << 21) | cell[:, 2]
+    _, row = np.unique(key, return_inverse=True)
+    return np.where(mesh.corners >= 0, row[mesh.corners], -1)
+
+
+def neighbours(mesh: ShellMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """Pairs of elements (k, k) that share an edge with each other and with no third, and whether
+    they walk round differently (k)."""
+    ends, owners = edges_of(mesh, one_a_place(mesh))
+    long = ends[:, 0] != ends[:, 1]
+    ends, owners = ends[long], owners[long]
+    key = edge_keys(ends)
+    order = np.argsort(key, kind="stable")
+    same = key[order][1:] == key[order][:-1]
+    first = np.flatnonzero(same & ~np.r_[False, same[:-1]] & ~np.r_[same[1:], False])
+    one, two = order[first], order[first + 1]
+    apart = owners[one] != owners[two]
+    one, two = one[apart], two[apart]
+    # neighbours that agree walk along their edge in opposite directions
+    return owners[one], owners[two], ends[one, 0] == ends[two, 0]
 
 
 def patches(mesh: ShellMesh) -> tuple[np.ndarray, np.ndarray]:
     """The patch of each element (m), and whether its corners run the other way round than those of
     the patch's first element (m). A patch is what hangs together by edges of exactly two elements:
-    where three meet, at the foot of a rib, patches end."""
-    ends, owners = edges_of(mesh)
+    where three meet, at the foot of a rib, patches end; an element that shares none is one by
+    itself. So is each element of a strip with one side only (Moebius)."""
     count = len(mesh.corners)
-    key = np.sort(ends, axis=1)
-    order = np.lexsort(key.T)
-    same = np.all(key[order][1:] == key[order][:-1], axis=1)
-    first = np.flatnonzero(same & ~np.r_[False, same[:-1]] & ~np.r_[same[1:], False])
-    one, two = order[first], order[first + 1]
-    # neighbours that agree walk along their edge in opposite directions
-    differ = ends[one, 0] == ends[two, 0]
-    a, b = owners[one], owners[two]
-    link = coo_matrix((np.where(differ, 2, 1), (a, b)), shape=(count, count)).tocsr()
-    link = link.maximum(link.T)
-    amount, patch = connected_components(link, directed=False)
-    turned = np.zeros(count, bool)
-    _, starts = np.unique(patch, return_index=True)
-    for start in starts[:amount]:
-        walk, before = breadth_first_order(link, start, directed=False)
-        differs = np.asarray(link[walk[1:], before[walk[1:]]]).ravel() == 2
-        for element, parent, other in zip(walk[1:], before[walk[1:]], differs):
-            turned[element] = turned[parent] ^ other
-    return patch, turned
+    a, b, differ = neighbours(mesh)
+    # each element twice, as it runs and turned round: what agrees hangs together in both copies
+    other = np.where(differ, count, 0)
+    pairs = (np.concatenate([a, a + count]), np.concatenate([b + other, b + count - other]))
+    link = coo_matrix((np.ones(len(pairs[0]), np.int8), pairs), shape=(2 * count, 2 * count))
+    _, part = connected_components(link, directed=False)
+    straight, turned = part[:count], part[count:]
+    patch = np.minimum(straight, turned)
+    alone = straight == turned
+    patch[alone] = part.max() + 1 + np.flatnonzero(alone)
+    _, starts, patch = np.unique(patch, return_index=True, return_inverse=True)
+    patch = patch.ravel()
+    return patch, ~alone & (straight != straight[starts][patch])
 
 
 def border_edges(triangles: np.ndarray) -> np.ndarray:
     """m x 3 booleans: whether edge k of a triangle, from corner k to the next, has it alone."""
     ends = np.vstack([triangles[:, [k, (k + 1) % 3]] for k in range(3)])
-    _, back, count = np.unique(np.sort(ends, axis=1), axis=0, return_inverse=True,
-                               return_counts=True)
+    _, back, count = np.unique(edge_keys(ends), return_inverse=True, return_counts=True)
     return (count[back.ravel()] == 1).reshape(3, -1).T

@@ -10,9 +10,8 @@ has a distribution for its thickness and one for its angle. The grammar is that 
 
 import numpy as np
 
-from exchange.angles import reference_directions, wrapped
+from exchange.angles import wrapped
 from exchange.layup import Layup, safe_names
-from exchange.shell_mesh import element_normals
 
 POINTS = 3  # of integration a layer: Abaqus' own choice with Simpson's rule
 
@@ -55,8 +54,8 @@ def distribution(name: str, table: str, default: float, labels: np.ndarray,
 
 
 def orientation(layup: Layup, rows: np.ndarray) -> list[str]:
-    a = reference_directions(layup.mesh, layup.reference)
-    b = np.cross(element_normals(layup.mesh)[0], a)
+    a = layup.base.directions
+    b = np.cross(layup.normals, a)
     lines = ["*DISTRIBUTION, NAME=PLYFORM_AXES, LOCATION=ELEMENT, TABLE=PLYFORM_COORDINATES",
              ", 1., 0., 0., 0., 1., 0."]
     for k in rows:

@@ -21,8 +21,16 @@ def csv_files(layup: Layup) -> dict[str, str]:
              "before forming",
              "an element that the ply does not cover has its covered_share only"])]
         lines.append(",".join(COLUMNS))
-        for label, row in zip(layup.mesh.labels, table):
-            lines.append(f"{label}," + ",".join("" if np.isnan(value) else f"{value:.9g}"
-                                                for value in row))
+        lines += rows_of(layup.mesh.labels, table)
         files[ply.name + ".csv"] = "\n".join(lines) + "\n"
     return files
+
+
+def rows_of(labels: np.ndarray, table: np.ndarray) -> list[str]:
+    """A line a row; what is not finite is left empty."""
+    form = "%d" + ",%.9g" * table.shape[1]
+    rows = list(map(form.__mod__, map(tuple, np.column_stack([labels, table]).tolist())))
+    for k in np.flatnonzero(~np.isfinite(table).all(axis=1)):
+        rows[k] = f"{labels[k]}," + ",".join(f"{value:.9g}" if np.isfinite(value) else ""
+                                             for value in table[k])
+    return rows

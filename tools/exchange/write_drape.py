@@ -52,7 +52,10 @@ def field8(value: float) -> str:
 
 def openradioss_files(layup: Layup) -> dict[str, str]:
     """Columns of ten: entity, element, then thinning and angle of twenty."""
-    lines = ["# " + line for line in layup.head(note(layup))]
+    own_axes = ["one reference vector of a stack cannot give these axes: give elements of the same "
+                "axes stacks of their own, or map with --reference x"]
+    lines = ["# " + line for line in layup.head(
+        note(layup) + (own_axes if layup.reference == "part" else []))]
     for number, ply in enumerate(layup.plies, 1):
         factor, theta = layup.thinning(ply), layup.corrections(ply)[0]
         lines += [f"# ply {ply.name}: thickness {ply.nominal_thickness:g}, angle "

@@ -8,21 +8,20 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from exchange.angles import reference_directions
 from exchange.layup import Layup, safe_names
-from exchange.shell_mesh import ShellMesh, element_normals
+from exchange.shell_mesh import ShellMesh
 
 
 def write_composite_cae(layup: Layup, path: Path) -> None:
     """Each component has a mesh of the elements that its ply covers."""
     names = safe_names([ply.name for ply in layup.plies])
-    base = reference_directions(layup.mesh, layup.reference)
-    normals = element_normals(layup.mesh)[0]
+    base, normals = layup.base.directions, layup.normals
     with h5py.File(path, "w", track_order=True) as file:
         root = file.create_group("composite_cae")
         for name, value in (("format_version", "1.0"), ("vendor", "plyform"), ("unit_system", "SI"),
                             ("length_unit", "mm")):
             root.attrs[name] = text(value)
+        root.attrs["comment"] = text("; ".join(layup.head()))
         meshes, materials, components = (root.create_group(name) for name in
                                          ("meshes", "materials", "components"))
         for layer, (ply, name) in enumerate(zip(layup.plies, names), 1):

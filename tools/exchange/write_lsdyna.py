@@ -12,9 +12,8 @@ from exchange.layup import Layup
 def lsdyna_files(layup: Layup) -> dict[str, str]:
     mesh = layup.mesh
     layup.expect_room("an LS-DYNA file")
-    head = layup.head()
-    head[2] = ("angles: from the side from corner 1 to corner 2, about the element's normal: "
-               "materials need AOPT = 0")
+    head = layup.head(["materials need AOPT = 0 and BETA = 0; elements written here have no BETA, MCID "
+                       "or OFFSET of their own"], "side from corner 1 to corner 2")
     lines = ["$ " + line for line in head]
     lines += [f"$ material {k}: ply {ply.name}" for k, ply in enumerate(layup.plies, 1)]
     lines += ["$ these elements take the place of those of the same number in your mesh",
