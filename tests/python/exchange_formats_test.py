@@ -21,14 +21,14 @@ try:
     from vtkmodules.util.numpy_support import vtk_to_numpy
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader
 
-    from exchange_meshes import abaqus_text, disc
+    from exchange_meshes import abaqus_text, disc, nastran_text
     from exchange.formed import read_formed
 except ImportError as error:
     print("SKIPPED:", error)
     sys.exit(77)
 
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
-ALL = "csv,abaqus,acp,lsdyna,optistruct,openradioss,h5,vtu"
+ALL = "csv,abaqus,calculix,acp,lsdyna,optistruct,openradioss,h5,vtu"
 ANGLE, THICKNESS = 0.01, 1e-6  # degrees, mm or of the flat thickness
 
 
@@ -234,7 +234,30 @@ def check_vtu(folder, name, wanted):
     close_thickness(field("thickness_mm"), wanted.thickness)
 
 
-CHECKS = (check_csv, check_acp, check_abaqus, check_lsdyna, check_optistruct, check_openradioss,
+def check_calculix(folder, name, wanted):
+    """Axes and thickness of each element, and its six nodes; exchange_calculix_test.py solves such
+    files."""
+    lines = (folder / f"{name}_layup_calculix.inp").read_text(encoding="utf-8").splitlines()
+    at = [k for k, line in enumerate(lines) if line.startswith("*ORIENTATION")]
+    axes = np.array([[float(word) for word in lines[k + 1].split(",")] for k in at])
+    assert np.allclose(axes[:, :3], wanted.warp, atol=1e-8)
+    assert np.abs((axes[:, 3:] * wanted.warp).sum(axis=1)).max() < 1e-8
+    at = [k for k, line in enumerate(lines) if line.startswith("*SHELL SECTION")]
+    layers = [lines[k + 1].split(", ") for k in at]
+    close_thickness([float(layer[0]) for layer in layers], wanted.thickness)
+    assert {layer[2] for layer in layers} == {f"MATERIAL_{name}"}
+    assert max(map(len, lines)) <= 132 or lines[0].startswith("**")
+    labels = [lines[k - 1].split(", ") for k in at]
+    assert [int(one) for one, _ in labels] == list(range(1, len(labels) + 1))
+    alike = folder / f"{name}_meshio.inp"
+    alike.write_text("\n".join(lines).replace("TYPE=S6", "TYPE=STRI65"), encoding="utf-8")
+    read = meshio.read(alike)
+    six = read.points[read.cells_dict["triangle6"]]
+    assert np.allclose(six[:, :3].mean(axis=1), wanted.middle, atol=1e-5)
+    assert np.allclose(six[:, 3:], 0.5 * (six[:, :3] + six[:, [1, 2, 0]]), atol=1e-8)
+
+
+CHECKS = (check_csv, check_acp, check_abaqus, check_calculix, check_lsdyna, check_optistruct, check_openradioss,
           check_h5, check_vtu)
 
 
@@ -302,6 +325,48 @@ def check_part(results, folder, down):
     assert warned == down
 
 
+def check_axes(results, folder):
+    """Material axes of the part mesh are what angles are measured from, or that they are not is told on
+    screen and in every file."""
+    mesh = disc(12.0, False, 75.0, 50.0)
+    mesh.nodes[:, 2] = -mesh.nodes[:, 2] - 75.0
+    folder.mkdir()
+    part, plain = folder / "part.bdf", folder / "plain.bdf"
+    lines = nastran_text(mesh).splitlines()
+    lines.insert(3, "CORD2C,7,,0.,0.,0.,0.,0.,1.\n,1.,0.,0.")
+    plain.write_text("\n".join(lines), encoding="utf-8")
+    part.write_text("\n".join(line + f"{7:8d}" if line.startswith("CQUAD4") else line for line in lines),
+                    encoding="utf-8")
+    name = read_formed(results).plies[0].name
+
+    def mapped(file, *words):
+        done = call("map", results, "--onto", file, "--distance", 8, "--ply", name, "--format",
+                    "csv,abaqus,optistruct,openradioss,acp", "-o", folder, *words)
+        return done.stdout, {path.name: path.read_text(encoding="utf-8")[:2000] for path in
+                             (*folder.glob("*.csv"), folder / "layup.inp", folder / "drape.fem",
+                              folder / "drape_0000.inc")}, table(folder / f"{name}.csv")
+    said, files, radial = mapped(part)
+    for text in (said, *files.values()):
+        assert "material axes of the part mesh: MCID 7 (cylindrical: its radial direction) of" in text
+    said, files, along_x = mapped(part, "--reference", "x")
+    for text in (said, *files.values()):
+        assert "MCID 7" in text and "are not used: --reference asks for global x" in text
+    angle = np.degrees(np.arctan2(*disc_middles(mesh).T[[1, 0]]))
+    close = np.abs(angle) < 20  # there a projected x axis lies as the radius, turned by this angle
+    assert close.sum() > 5
+    off = along_x["warp_angle_deg"] - radial["warp_angle_deg"]
+    off = np.mod(off - angle + 180, 360) - 180
+    assert np.abs(off[close]).max() < 8.0, np.abs(off[close]).max()
+    said, files, _ = mapped(plain)
+    assert "measured from: global x" in said and "MCID" not in said
+    done = call("map", results, "--onto", plain, "--reference", "part", "--distance", 8, code=2)
+    assert "gives no material axes" in done.stderr
+
+
+def disc_middles(mesh):
+    return mesh.nodes[mesh.corners].mean(axis=1)
+
+
 def table_of_names(path):
     with open(path, newline="", encoding="utf-8") as file:
         return list(csv.DictReader(line for line in file if not line.startswith("#")))
@@ -351,6 +416,7 @@ def main():
         check_two(results, folder / "two")
         check_part(results, folder / "part", False)
         check_part(results, folder / "down", True)
+        check_axes(results, folder / "axes")
         check_wrong(results, folder)
 
 

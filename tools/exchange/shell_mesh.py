@@ -114,8 +114,9 @@ def one_a_place(mesh: ShellMesh) -> np.ndarray:
 
 def neighbours(mesh: ShellMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """Pairs of elements (k, k) that share an edge with each other and with no third, and whether
-    they walk round differently (k)."""
-    ends, owners = edges_of(mesh, one_a_place(mesh))
+    they walk round differently (k). An element that is there twice is no neighbour of itself."""
+    corners = one_a_place(mesh)
+    ends, owners = edges_of(mesh, corners)
     long = ends[:, 0] != ends[:, 1]
     ends, owners = ends[long], owners[long]
     key = edge_keys(ends)
@@ -123,7 +124,7 @@ def neighbours(mesh: ShellMesh) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     same = key[order][1:] == key[order][:-1]
     first = np.flatnonzero(same & ~np.r_[False, same[:-1]] & ~np.r_[same[1:], False])
     one, two = order[first], order[first + 1]
-    apart = owners[one] != owners[two]
+    apart = (np.sort(corners[owners[one]], axis=1) != np.sort(corners[owners[two]], axis=1)).any(axis=1)
     one, two = one[apart], two[apart]
     # neighbours that agree walk along their edge in opposite directions
     return owners[one], owners[two], ends[one, 0] == ends[two, 0]
