@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Makes the mesh of a tool from a solid of a STEP or IGES file, for shape = "mesh".
 
-    mesh_tool.py PART.step [--deflection 0.05] [-o punch.stl]
+    mesh_tool.py PART.step [--deflection 0.05] [--minutes 10] [-o punch.stl]
 
 The STL is in mm, closed, its triangles outward; how far they are from the surface of the part is
 measured and printed. Exit codes: 0 done, 2 an argument or the part is wrong, 1 anything else.
@@ -10,9 +10,8 @@ measured and printed. Exit codes: 0 done, 2 an argument or the part is wrong, 1 
 
 import argparse
 import os
+import signal
 import sys
-from concurrent.futures import ProcessPoolExecutor
-from concurrent.futures.process import BrokenProcessPool
 from multiprocessing import get_context
 from pathlib import Path
 
@@ -34,6 +33,8 @@ def arguments() -> argparse.Namespace:
                         help="a solid: .step, .stp, .iges or .igs")
     parser.add_argument("--deflection", type=float, default=0.05, metavar="MM",
                         help="largest distance between triangles and surface [0.05]")
+    parser.add_argument("--minutes", type=float, default=10.0, metavar="MINUTES",
+                        help="to give up after [10]")
     parser.add_argument("-o", "--output", type=Path, metavar="FILE.stl",
                         help="[the part's name with .stl, in this folder]")
     options = parser.parse_args()
@@ -44,25 +45,44 @@ def arguments() -> argparse.Namespace:
 def check(options: argparse.Namespace) -> None:
     if not 1e-4 <= options.deflection <= 10:
         raise Trouble(f"--deflection {options.deflection:g}: 0.0001 to 10 mm")
+    if not 0 < options.minutes <= 1e5:
+        raise Trouble(f"--minutes {options.minutes:g}: a positive number, 100000 at most")
     if options.output.suffix.lower() != ".stl":
         raise Trouble(f"{options.output}: an .stl file is written: end its name with .stl")
 
 
-def read_quietly(part: Path, deflection: float) -> Facets:
-    """In a process of its own: without what Open CASCADE prints."""
+def read_quietly(part: Path, deflection: float, answer) -> None:
+    """In a process of its own: without what Open CASCADE prints, and ended by a signal at once."""
+    signal.signal(signal.SIGINT, signal.SIG_DFL)
     nowhere = os.open(os.devnull, os.O_WRONLY)
     os.dup2(nowhere, 1)
     os.dup2(nowhere, 2)
-    return read_solid(part, deflection)
-
-
-def solid_of(part: Path, deflection: float) -> Facets:
     try:
-        with ProcessPoolExecutor(1, mp_context=get_context("fork")) as pool:
-            return pool.submit(read_quietly, part, deflection).result()
-    except BrokenProcessPool:
+        answer.send(read_solid(part, deflection))
+    except Exception as problem:  # to be raised again where it is told
+        answer.send(problem)
+
+
+def solid_of(part: Path, deflection: float, minutes: float) -> Facets:
+    """Raises Trouble, also where Open CASCADE ends its process or comes to no end."""
+    ours, theirs = get_context("fork").Pipe(duplex=False)
+    process = get_context("fork").Process(target=read_quietly, args=(part, deflection, theirs))
+    process.start()
+    theirs.close()
+    try:
+        if not ours.poll(60.0 * minutes):
+            raise Trouble(f"{part}: Open CASCADE has come to no end after {minutes:g} minutes: heal the "
+                          "part in the CAD program, or give a larger --deflection or more --minutes")
+        answer = ours.recv()
+    except EOFError:
         raise Trouble(f"{part} cannot be read: Open CASCADE came to an end on it: export the part "
                       "anew") from None
+    finally:
+        process.kill()
+        process.join()
+    if isinstance(answer, Exception):
+        raise answer
+    return answer
 
 
 def write_stl(path: Path, facets: Facets) -> None:
@@ -93,7 +113,7 @@ def tell(part: Path, facets: Facets) -> None:
 def run() -> None:
     options = arguments()
     check(options)
-    facets = solid_of(options.part, options.deflection)
+    facets = solid_of(options.part, options.deflection, options.minutes)
     tell(options.part, facets)
     print(make_whole(options.output, lambda path: write_stl(path, facets)))
     if facets.deviation.max() > options.deflection:

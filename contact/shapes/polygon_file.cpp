@@ -236,10 +236,13 @@ PolygonSoup parse_polygons(const std::string& extension, std::string_view bytes)
 
 PolygonSoup read_polygons(const std::filesystem::path& file) {
   const std::string extension = lower_case(file.extension().string());
-  if (extension != ".stl" && extension != ".obj" && extension != ".ply" && extension != ".off")
-    refuse(fmt::format("the extension '{}' is none of .stl, .obj, .ply and .off; export the mesh "
-                       "in one of these formats",
-                       extension));
+  if (extension != ".stl" && extension != ".obj" && extension != ".ply" && extension != ".off") {
+    const bool solid =
+        extension == ".step" || extension == ".stp" || extension == ".iges" || extension == ".igs";
+    refuse(fmt::format("the extension '{}' is none of .stl, .obj, .ply and .off; {}", extension,
+                       solid ? "mesh_tool.py PART.step -o PART.stl makes the mesh of a solid"
+                             : "export the mesh in one of these formats"));
+  }
   if (!std::filesystem::exists(file)) refuse("there is no such file; check the path");
   if (!std::filesystem::is_regular_file(file)) refuse("this is not a file; check the path");
   std::ifstream in(file, std::ios::binary);

@@ -18,9 +18,10 @@ try:
     import ezdxf
     import numpy as np
 
-    from exchange_meshes import RADIUS, dome_ply
+    from exchange_meshes import RADIUS, dome_ply, grid
+    from exchange import trim_runs
     from exchange.flat_pattern import edge_error, flat_pattern, outer_border
-    from exchange.formed import read_formed
+    from exchange.formed import FormedPly, FormedStack, read_formed
     from exchange.outline import TrimLine, area_of, distance_to, divided, read_outline
     from plotting.reading import Trouble
 except ImportError as error:
@@ -92,6 +93,46 @@ def check_error():
     trim.points = trim.points + (1.5, 0.0, 0.0)
     largest, rms = edge_error(ply, trim)
     assert 1.3 < largest < 1.6 and 0.5 < rms < largest, (largest, rms)
+
+
+def check_best(folder):
+    """A part whose draw-in answers too strongly to its blank: a ring that is too large by d becomes too
+    small by twice d, so that patterns taken from run to run get worse and worse. The best one is kept,
+    and half steps from it come to the trim line."""
+    flat, quads = grid(30)
+    triangles = np.vstack([quads[:, [0, 1, 2]], quads[:, [0, 2, 3]]])
+    zero, target = np.zeros(len(triangles)), 100.0
+
+    def formed(radius):
+        """A square sheet's inner disc as blank, stretched about its middle."""
+        u, v = flat.T
+        disc = np.column_stack([u * np.sqrt(1 - 0.5 * v * v), v * np.sqrt(1 - 0.5 * u * u)])
+        x0 = np.column_stack([radius * disc, np.zeros(len(flat))])
+        ply = FormedPly("ply", 0.0, x0, x0 * (1 + 2.0 * (radius - target) / target), triangles,
+                        np.tile((1.0, 0, 0), (len(zero), 1)), np.tile((0, 1.0, 0), (len(zero), 1)),
+                        zero, zero + 0.6, 0.6, 90.0)
+        return FormedStack(folder, 0, 0.0, [ply])
+
+    class Case:
+        def element_size(self, _):
+            return 8.0
+
+    radii, kept = [], (trim_runs.run_with, trim_runs.read_formed)
+    trim_runs.run_with = lambda _, patterns, __: radii.append(
+        float(np.linalg.norm(patterns[0].outline, axis=1).mean()))
+    trim_runs.read_formed = lambda *_: formed(radii[-1])
+    try:
+        for most, tolerance in ((2, 1e-9), (9, 0.5)):
+            radii.clear()
+            line = TrimLine(np.column_stack([circle(target), np.zeros(len(circle(target)))]), True)
+            best, tries = trim_runs.iterate(Case(), formed(102.0), line, tolerance, most, folder, print)
+            worst = [one.worst() for one in tries]
+            assert worst[1] > worst[0] and best.worst() == min(worst) == tries[best.number - 1].worst()
+            assert np.isclose(np.linalg.norm(best.patterns[0].outline, axis=1).mean(),
+                              radii[best.number - 1])
+            assert best.worst() <= 0.5 or most == 2, worst
+    finally:
+        trim_runs.run_with, trim_runs.read_formed = kept
 
 
 def check_runs(folder):
@@ -177,6 +218,7 @@ def main():
         check_dome()
         check_curves(folder)
         check_error()
+        check_best(folder)
         results = check_runs(folder)
         check_wrong(folder, results)
 

@@ -194,11 +194,36 @@ def check_faults(folder):
         assert done.err.count("\n") == 1 and not done.out, (name, done)
     box = folder / "one.step"
     write_step(box, lambda occ: occ.addBox(0, 0, 0, 1, 1, 1))
+    check_numbers(folder, box)
     for words, said in ((("--deflection", 0), "--deflection 0: 0.0001 to 10 mm"),
                         (("-o", folder / "never.obj"), "an .stl file is written")):
         done = call(mesh_tool, box, *words)
         assert done.code == 2 and said in done.err, done
     assert not list(folder.glob("never.*")) and not list(folder.glob("part_never.*"))
+
+
+def check_numbers(folder, box):
+    """Coordinates that no part has are told with their line, before Open CASCADE reckons without end; a
+    part that takes too long is given up."""
+    text = box.read_text()
+    at = text.index("CARTESIAN_POINT")
+    first = text.index("(", text.index("(", at) + 1)  # of its three coordinates
+    end = text.index(",", first)
+    line = text[:first].count("\n") + 1
+    for word in ("1e300", "-1.E+300", "NAN", "-nan", "INF", "1.#QNAN", "1.E400", "12345678901."):
+        (folder / "huge.step").write_text(text[:first + 1] + word + text[end:])
+        done = call(mesh_tool, folder / "huge.step", "-o", folder / "never.stl")
+        assert done.code == 2 and f"huge.step:{line}: {word} is no coordinate" in done.err, (word, done)
+        assert done.err.count("\n") == 1
+    (folder / "named.step").write_text(text.replace("CARTESIAN_POINT('',", "CARTESIAN_POINT('1e300 NAN',"))
+    made(folder / "named.step")
+    (folder / "huge.igs").write_text(iges_of(box_faces(2.0)).replace("2.0,", "1D300,", 1))
+    done = call(mesh_tool, folder / "huge.igs", "-o", folder / "never.stl")
+    assert done.code == 2 and "1D300 is no coordinate" in done.err, done
+    slow = folder / "slow.step"
+    write_step(slow, half_ball)
+    done = call(mesh_tool, slow, "--deflection", 0.01, "--minutes", 0.001, "-o", folder / "never.stl")
+    assert done.code == 2 and "has come to no end after 0.001 minutes" in done.err, done
 
 
 def shear(folder, name):

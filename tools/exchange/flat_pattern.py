@@ -2,7 +2,7 @@
 """Where a ply must be cut so that the formed part ends at its trim line: the trim line on the formed
 ply, taken back to the flat blank; and how far a formed edge is from a trim line."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -57,6 +57,14 @@ def flat_pattern(ply: FormedPly, trim: TrimLine, spacing: float) -> Pattern:
     return Pattern(ply.name, ply.angle_deg, flat, blank_area(ply), abs(area_of(flat)),
                    strip_area(flat, ply.angle_deg), strip_area(ply.x0[:, :2], ply.angle_deg),
                    float(distance.max()))
+
+
+def blend(one: Pattern, two: Pattern, part: float) -> Pattern:
+    """Between two patterns of a ply of the same trim line and spacing, `part` of the way from the first:
+    their points are those of the same points of the trim line."""
+    outline = one.outline + part * (two.outline - one.outline)
+    return replace(two, outline=outline, area=abs(area_of(outline)),
+                   strip_area=strip_area(outline, two.angle_deg))
 
 
 def continued(off: np.ndarray, points: np.ndarray, x: np.ndarray, ply: FormedPly) -> np.ndarray:

@@ -12,6 +12,7 @@ from pathlib import Path
 import gmsh
 import numpy as np
 
+from exchange.cad_numbers import expect_lengths
 from exchange.closest import Surface
 from exchange.refine_facets import refined
 from plotting.reading import Trouble
@@ -20,6 +21,7 @@ ENDINGS = {".step": "STEP", ".stp": "STEP", ".iges": "IGES", ".igs": "IGES"}
 SEW = 0.01  # mm: edges of faces nearer than that are one
 GRID = 24   # points a side, of a face's parameters, at which the deviation is measured
 MOST = 500000  # triangles
+MOST_BYTES = 2 << 30  # of a file: Open CASCADE takes some ten times as much memory
 ROUNDS = 4  # of refining, each with less allowed, until the deviation is reached
 
 
@@ -74,6 +76,11 @@ def check_kind(path: Path) -> str:
     if not kind:
         raise Trouble(f"{path}: a part is a .step, .stp, .iges or .igs file")
     try:
+        if path.exists() and not path.is_file():
+            raise Trouble(f"{path} is no file: give the path of a part")
+        if path.exists() and path.stat().st_size > MOST_BYTES:
+            raise Trouble(f"{path} has {path.stat().st_size / 2**30:.1f} GiB, more than "
+                          f"{MOST_BYTES / 2**30:g}: export the part alone")
         text = path.read_text(encoding="latin-1")
     except OSError as problem:
         raise Trouble(f"{path} cannot be read: {problem.strerror}: give the path of a part") from None
@@ -84,6 +91,7 @@ def check_kind(path: Path) -> str:
         if "END-ISO-10303-21" not in text[-200:]:
             raise Trouble(f"{path} is cut short, it does not end with END-ISO-10303-21: export the "
                           "part anew")
+        expect_lengths(path, text)
         return step_unit(text)
     lines = text.splitlines()
     if not lines or len(lines[0]) < 73 or lines[0][72] != "S":
@@ -92,6 +100,7 @@ def check_kind(path: Path) -> str:
     if not any(len(line) >= 73 and line[72] == "T" for line in lines[-3:]):
         raise Trouble(f"{path} is cut short, its last line has no T in column 73: export the part "
                       "anew")
+    expect_lengths(path, text)
     return iges_unit(lines)
 
 

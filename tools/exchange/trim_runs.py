@@ -8,7 +8,7 @@ from pathlib import Path
 
 from plotting.reading import Trouble
 
-from exchange.flat_pattern import Pattern, edge_error, flat_pattern
+from exchange.flat_pattern import Pattern, blend, edge_error, flat_pattern
 from exchange.formed import FormedStack, read_formed
 from exchange.outline import TrimLine
 
@@ -20,6 +20,15 @@ class Try:
     folder: Path
     largest: dict[str, float]  # mm, by ply: distance of the formed edge from the trim line
     rms: dict[str, float]
+    patterns: list[Pattern]    # the blanks of this run
+
+    def worst(self) -> float:
+        return max(self.largest.values())
+
+    def words(self) -> str:
+        return (f"run {self.number}: formed edge within "
+                + ", ".join(f"{value:.2f} mm ({name})" for name, value in self.largest.items())
+                + " of the trim line")
 
 
 @dataclass
@@ -88,23 +97,47 @@ def run_with(case: TrimCase, patterns: list[Pattern], folder: Path) -> None:
 
 
 def iterate(case: TrimCase, stack: FormedStack, trim: TrimLine, tolerance: float, most: int,
-            folder: Path, tell) -> tuple[list[Pattern], list[Try]]:
-    """Patterns of the last run, and all runs. Stops as soon as the edges of all plies are within
-    `tolerance` mm, and after `most` runs."""
+            folder: Path, tell) -> tuple[Try, list[Try]]:
+    """The run whose edges are nearest to the trim line, and all runs. Stops as soon as the edges of all
+    plies are within `tolerance` mm, and after `most` runs. A pattern that made it worse is not gone on
+    from: half of the step that led to it is taken from the best one, then a quarter. A run that comes to
+    no end counts as one that made it worse, unless it is the first. Later steps are cut as far."""
     names = [ply.name for ply in stack.plies]
-    patterns, tries = meshable(case, stack, trim), []
+    wanted, best, step, tries = meshable(case, stack, trim), None, 1.0, []
     for number in range(1, most + 1):
+        patterns = wanted if best is None else [blend(one, two, step)
+                                                for one, two in zip(best.patterns, wanted)]
         run_folder = folder / f"iteration_{number}"
-        run_with(case, patterns, run_folder)
-        stack = read_formed(run_folder, -1, names)
-        errors = {ply.name: edge_error(ply, trim) for ply in stack.plies}
-        tries.append(Try(number, run_folder, {name: one[0] for name, one in errors.items()},
-                         {name: one[1] for name, one in errors.items()}))
-        tell(tries[-1])
-        if max(tries[-1].largest.values()) <= tolerance or number == most:
+        try:
+            run_with(case, patterns, run_folder)
+            stack = read_formed(run_folder, -1, names)
+        except Trouble as problem:
+            if best is None:
+                raise
+            tell(f"run {number}: {problem}")
+            step *= 0.5
+            continue
+        tries.append(measured(number, run_folder, stack, trim, patterns))
+        tell(tries[-1].words())
+        if best is not None and tries[-1].worst() >= best.worst():
+            step *= 0.5
+            continue
+        best = tries[-1]
+        if best.worst() <= tolerance or number == most:
             break
-        patterns = meshable(case, stack, trim)
-    return patterns, tries
+        try:
+            wanted = meshable(case, stack, trim)
+        except Trouble as problem:
+            tell(f"no pattern comes of run {number}: {problem}")
+            break
+    return best, tries
+
+
+def measured(number: int, folder: Path, stack: FormedStack, trim: TrimLine,
+             patterns: list[Pattern]) -> Try:
+    errors = {ply.name: edge_error(ply, trim) for ply in stack.plies}
+    return Try(number, folder, {name: one[0] for name, one in errors.items()},
+               {name: one[1] for name, one in errors.items()}, patterns)
 
 
 def meshable(case: TrimCase, stack: FormedStack, trim: TrimLine) -> list[Pattern]:

@@ -205,6 +205,9 @@ TEST_F(ToolMeshFile, MissingEmptyAndForeignFilesAreNamed) {
   expect_rejected(write("empty.stl", ""), "the file is empty");
   expect_rejected(write("empty.obj", ""), "the file is empty");
   expect_rejected(write("part.step", "ISO-10303-21;"), "the extension '.step' is none of .stl");
+  for (const char* solid : {"part.STEP", "part.stp", "part.igs", "part.iges"})
+    expect_rejected(write(solid, "ISO-10303-21;"),
+                    "mesh_tool.py PART.step -o PART.stl makes the mesh");
   expect_rejected(write("noextension", "x"), "the extension '' is none of");
   std::filesystem::create_directory(folder / "folder.stl");
   expect_rejected(folder / "folder.stl", "this is not a file");

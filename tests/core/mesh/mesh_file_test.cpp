@@ -162,7 +162,7 @@ TEST(BlankFromFile, UnreadableFilesAreNamed) {
             "blank file nowhere/blank.stl: there is no such file; check the path");
   EXPECT_EQ(message_of([] { read("nowhere/blank.step"); }),
             "blank file nowhere/blank.step: the extension '.step' is none of .stl, .obj, .ply and "
-            ".off; export the mesh in one of these formats");
+            ".off; mesh_tool.py PART.step -o PART.stl makes the mesh of a solid");
   EXPECT_EQ(error_of("off", "this is no mesh"),
             "line 1: no faces could be read as off: it begins with 'this', not with OFF; export "
             "the surface again, as three-dimensional text");
