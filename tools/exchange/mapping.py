@@ -97,14 +97,17 @@ class Samples:
 
 def sample(mesh: ShellMesh, size: float, most: int = MOST_CUTS) -> Samples:
     """Cuts each element into triangles with sides of some `size` mm at most, its sides into `most`
-    parts at most."""
+    parts at most. A quadrilateral of half that size stays whole."""
     triangles, owner = split(mesh)
     corners = mesh.nodes[triangles]
-    longest = np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).max(axis=1)
-    cuts = np.clip(np.ceil(longest / size), 1, most).astype(int)
-    areas = triangle_normals(mesh.nodes, triangles)[1]
-    points, parts, owners = [], [], []
-    for n in np.unique(cuts):
+    longest = np.sqrt(((corners - np.roll(corners, -1, axis=1)) ** 2).sum(axis=2).max(axis=1))
+    areas, count = triangle_normals(mesh.nodes, triangles)[1], len(mesh.corners)
+    worst, total = longest[:count].copy(), np.bincount(owner, areas, count)
+    worst[owner[count:]] = np.maximum(worst[owner[count:]], longest[count:])
+    whole = ~mesh.triangular() & (worst <= 0.5 * size)
+    points, parts, owners = [centroids(mesh)[whole]], [total[whole]], [np.flatnonzero(whole)]
+    cuts = np.where(whole[owner], 0, np.clip(np.ceil(longest / size), 1, most)).astype(int)
+    for n in np.unique(cuts[cuts > 0]):
         middles = small_triangles(n)
         there = np.flatnonzero(cuts == n)
         points.append(np.einsum("sk,tkx->tsx", middles, corners[there]).reshape(-1, 3))
