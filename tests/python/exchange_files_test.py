@@ -7,8 +7,10 @@ wrong with a file told in one line.
 Leaves with 77 when numpy, scipy, h5py or meshio is missing.
 """
 
+import re
 import sys
 import tempfile
+import warnings
 from pathlib import Path
 
 try:
@@ -17,6 +19,7 @@ try:
 
     from exchange_meshes import TEXTS, disc, dome_ply, grid, shell_mesh
     from exchange.part_files import check_size, placed, read_part
+    from exchange.shell_mesh import patches
     from plotting.reading import Trouble
 except ImportError as error:
     print("SKIPPED:", error)
@@ -177,6 +180,65 @@ def check_damaged(folder):
         assert refused > 10, ending
 
 
+SYSTEMS = {".bdf": "CORD2R,5,,0.,0.,0.,0.,0.,1.\n,0.8660254,0.5,0.\nCORD2C,7,5,0.,0.,0.,0.,0.,1.\n,1.,0.,0.\n"
+           "CORD1R,8,11,12,13\nCQUAD8,9001,1,11,12,13,14\n,,,,,,,25.\nCTRIA6,9002,1,11,12,13,,,\n,7\n",
+           ".inp": "*ELSET, ELSET=all, GENERATE\n101,140,1\n*Elset, elset=outer\nALL, skin\n*ORIENTATION, "
+           "NAME=O, SYSTEM=CYLINDRICAL\n0,0,0,0,0,1\n3,5.\n*SHELL SECTION, ELSET=outer, ORIENTATION=O\n1.\n",
+           ".k": "*DEFINE_COORDINATE_SYSTEM\n4,0,0,0,0.866,0.5,0\n-1,1,0\n*DEFINE_COORDINATE_NODES_TITLE\nname\n"
+           "5,11,12,13\n*ELEMENT_SHELL_MCID_OFFSET\n9001,1,11,12,13,14\n1,1,1,1,4\n0.5\n*ELEMENT_SHELL_BETA\n"
+           "9002,1,11,12,13,13\n1,1,1,1,30.\n*ELEMENT_SHELL_COMPOSITE\n9003,1,11,12,13,14\n1,.5,30.,,1,.5,60\n"}
+WORDS = ("", "0", "-1", "1e300", "nan", "inf", "9" * 20, "1.5-3", "*", "+", "$", "**", "\x00", "'", '"', "3", "1",
+         "7", "*INCLUDE", "GENERATE", "0.0", "1E", "1D5", ",", ",,", "*END", "ENDDATA", "(19i0)", "%", " +")
+
+
+def mutant(random, lines):
+    """A line left out, doubled, cut off or replaced, or one of its words replaced, a few times over."""
+    lines = list(lines)
+    for _ in range(int(random.integers(1, 5))):
+        at, kind = int(random.integers(len(lines))), int(random.integers(6))
+        word = WORDS[int(random.integers(len(WORDS)))]
+        if kind == 0 and len(lines) > 1:
+            del lines[at]
+        elif kind == 1:
+            lines.insert(at, lines[int(random.integers(len(lines)))])
+        elif kind == 2:
+            lines[at] = word
+        elif kind == 3:
+            lines[at] = lines[at][:int(random.integers(len(lines[at]) + 1))]
+        else:
+            words = re.split(r"([,\s]+)", lines[at])
+            words[int(random.integers(len(words)))] = word
+            lines[at] = "".join(words)
+    return "\n".join(lines)
+
+
+def check_mutants(folder):
+    """Decks with words and lines changed: each is read, with axes that are directions, or refused in one
+    line; nothing is reckoned with that is no number."""
+    random, mesh = np.random.default_rng(11), disc(80.0, False)
+    for ending, text in TEXTS.items():
+        whole = text(mesh).splitlines()
+        end = [] if ending != ".bdf" else [whole.pop()]
+        whole += SYSTEMS.get(ending, "").splitlines() + end
+        whole = [line for line in whole if line != "*END"]
+        assert (read(folder, "a" + ending, "\n".join(whole)).axes is not None) == (ending in SYSTEMS)
+        kept = whole[:3] + whole[-40:] if ending != ".cdb" else whole
+        taken = 0
+        for number in range(300):
+            path = folder / ("mutant" + ending)
+            path.write_text(mutant(random, whole if number % 2 else kept), encoding="utf-8")
+            try:
+                with warnings.catch_warnings():
+                    warnings.simplefilter("error")
+                    found = read_part(path)
+                    patches(found)
+                assert found.axes is None or np.isfinite(found.axes).all()
+                taken += 1
+            except Trouble as problem:
+                assert str(folder) in str(problem) and "\n" not in str(problem), problem
+        assert 10 < taken < 290, (ending, taken)
+
+
 def check_placed():
     mesh = shell_mesh([(1.0, 0, 0), (0, 1.0, 0), (0, 0, 1.0), (1.0, 1, 1)], grid(1)[1])
     x = placed(mesh, 2.0, [90.0, 0.0, 90.0], [0.0, 0.0, 5.0]).nodes
@@ -190,4 +252,5 @@ if __name__ == "__main__":
         check_more_grammar(Path(name))
         check_wrong(Path(name))
         check_damaged(Path(name))
+        check_mutants(Path(name))
         check_placed()

@@ -7,7 +7,7 @@ side. Of a cylindrical or spherical system x is the radial direction at the midd
 import numpy as np
 
 from exchange.bulk_data import Entries
-from exchange.deck_lines import Line, number, whole
+from exchange.deck_lines import Line, bounded, whole
 from exchange.deck_mesh import found_in
 from exchange.part_axes import AxesFound, System, system_of
 from exchange.shell_mesh import ShellMesh
@@ -77,7 +77,7 @@ def add_by_points(systems: dict[str, System], kind: str, line: Line, fields: lis
     if base is None:
         return False
     fields = fields + [""] * (12 - len(fields))
-    values = [number(line, word or "0", "a coordinate of a coordinate system") for word in fields[3:12]]
+    values = [bounded(line, word or "0", "a coordinate of a coordinate system") for word in fields[3:12]]
     points = [base.place(np.array(values[k:k + 3])) for k in (0, 3, 6)]
     add(systems, fields[1], system_of(kind, *points), line)
     return True

@@ -43,7 +43,7 @@ class Surface:
         middle = self.corners.mean(axis=1)
         self.radius = np.sqrt(((self.corners - middle[:, None]) ** 2).sum(axis=2).max(axis=1))
         self.reach = float(self.radius.max())
-        self.tree = cKDTree(middle)
+        self.tree = cKDTree(middle, balanced_tree=False)  # twice as fast to build
         a = self.corners[:, 0]
         self.ab, self.ac = self.corners[:, 1] - a, self.corners[:, 2] - a
         self.products = np.column_stack([dot(self.ab, self.ab), dot(self.ab, self.ac),

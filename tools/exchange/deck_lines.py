@@ -11,6 +11,7 @@ import numpy as np
 from plotting.reading import Trouble
 
 MOST_INCLUDES = 8      # one in another
+FARTHEST = 1e9         # mm
 MOST_BYTES = 8 << 30   # of a part mesh: some hundred million elements
 
 
@@ -69,6 +70,19 @@ def number(line: Line, text: str, what: str) -> float:
         raise line.wrong(f"{what} is {text[:40]!r}, not a number") from None
 
 
+def bounded(line: Line, text: str, what: str) -> float:
+    """A length or an angle: finite, and not beyond all parts."""
+    value = number(line, text, what)
+    if not abs(value) < FARTHEST:
+        raise line.wrong(f"{what} is {text.strip()[:40]!r}: it is beyond {FARTHEST:g}, or not finite")
+    return value
+
+
+def are_whole(values: np.ndarray) -> bool:
+    """Whether numbers are whole, and exact."""
+    return bool(((values == np.round(values)) & (np.abs(values) < 2**53)).all())
+
+
 def mended(text: str) -> str:
     try:
         float(text)
@@ -121,7 +135,10 @@ class Fields:
 
     def whole(self, start: int, stop: int) -> np.ndarray:
         """Whole numbers, 0 where blank. Raises ValueError: ask the lines one by one."""
-        return self._filled(start, stop).astype(np.int64)
+        try:
+            return self._filled(start, stop).astype(np.int64)
+        except OverflowError as problem:
+            raise ValueError from problem
 
     def number(self, start: int, stop: int) -> np.ndarray:
         """As `number` reads them. Raises ValueError."""

@@ -9,10 +9,8 @@ import numpy as np
 
 from plotting.reading import Trouble
 
-from exchange.deck_lines import Line
+from exchange.deck_lines import FARTHEST, Line
 from exchange.shell_mesh import ShellMesh
-
-FARTHEST = 1e9     # mm
 
 
 @dataclass

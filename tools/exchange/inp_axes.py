@@ -14,7 +14,7 @@ import numpy as np
 
 from plotting.reading import Trouble
 
-from exchange.deck_lines import Line, number, whole
+from exchange.deck_lines import Line, bounded, whole
 from exchange.deck_mesh import found_in
 from exchange.part_axes import AxesFound, System, system_along
 from exchange.shell_mesh import ShellMesh
@@ -143,5 +143,5 @@ def made(kind: str, a: np.ndarray, b: np.ndarray, c: np.ndarray) -> System | Non
 
 
 def numbers_on(line: Line) -> list[float]:
-    return [number(line, word.strip() or "0", "a number of an orientation")
+    return [bounded(line, word.strip() or "0", "a number of an orientation")
             for word in line.text.rstrip().rstrip(",").split(",")]

@@ -6,7 +6,7 @@ shell; BETA turns the axes of the material, which are the side from corner 1 to 
 
 import numpy as np
 
-from exchange.deck_lines import Line, number, whole
+from exchange.deck_lines import Line, bounded, whole
 from exchange.deck_mesh import found_in
 from exchange.keyword_file import Cards
 from exchange.part_axes import AxesFound, System, system_along
@@ -35,7 +35,7 @@ class Axes:
         words = block.words(row, block.widths([16] * 5))
         if not words[4]:
             return
-        value = number(block.line(row), words[4], f"BETA or MCID of element {label}")
+        value = bounded(block.line(row), words[4], f"BETA or MCID of element {label}")
         if "MCID" in options:
             self.mcid[label] = int(value)
         else:
@@ -99,7 +99,7 @@ class Axes:
 
 def values_of(block: Cards, row: int, count: int) -> tuple[Line, list[float]]:
     line, words = block.line(row), block.words(row, [20 if block.form == "long" else 10] * 8)
-    return line, [number(line, word or "0", "a number of a coordinate system") for word in words[:count]]
+    return line, [bounded(line, word or "0", "a number of a coordinate system") for word in words[:count]]
 
 
 def of_system(block: Cards, rows: list[int]) -> dict[int, tuple]:

@@ -15,7 +15,7 @@ from plotting.reading import Trouble
 
 from exchange.bdf_axes import give_axes
 from exchange.bulk_data import Entries, entries_of
-from exchange.deck_lines import Fields, number, whole
+from exchange.deck_lines import Fields, bounded, mended, number, whole
 from exchange.deck_mesh import Deck
 from exchange.shell_mesh import ShellMesh
 
@@ -150,6 +150,8 @@ def angle_or_system(line, word: str, label: int) -> float | int | str:
     if word.isdigit():
         return int(word)
     try:
-        return number(line, word, f"THETA of element {label}")
+        return bounded(line, mended(word), f"THETA of element {label}")
     except Trouble:
+        if not word[:1].isalpha():
+            raise
         return word

@@ -13,7 +13,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exchange.deck_lines import Line, by_commas, included, number, texts_of, whole
+from exchange.deck_lines import Line, are_whole, by_commas, included, number, texts_of, whole
 from exchange.deck_mesh import Deck
 from exchange.inp_axes import Sections
 from exchange.shell_mesh import ShellMesh
@@ -102,7 +102,7 @@ def add_nodes(deck: Deck, block: Block) -> None:
     if not block.texts:
         return
     table = by_commas(block.texts)
-    if table is not None and table.shape[1] >= 4 and (table[:, 0] == np.round(table[:, 0])).all():
+    if table is not None and table.shape[1] >= 4 and are_whole(table[:, 0]):
         deck.add_nodes(block.head.path, block.lines, table[:, 0], table[:, 1:4])
         return
     labels, places = [], []
@@ -137,7 +137,7 @@ def add_elements(deck: Deck, block: Block, sections: Sections) -> None:
         return
     corners, nodes = counts
     table = by_commas(block.texts) if block.texts else None
-    if table is not None and table.shape[1] == nodes + 1 and (table == np.round(table)).all():
+    if table is not None and table.shape[1] == nodes + 1 and are_whole(table):
         lines, table = block.lines, table.astype(np.int64)
     else:
         lines, table = one_by_one(block, kind, nodes)

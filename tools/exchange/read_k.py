@@ -10,7 +10,7 @@ from pathlib import Path
 
 import numpy as np
 
-from exchange.deck_lines import Fields, Line, number, numbers_of, whole
+from exchange.deck_lines import Fields, Line, are_whole, number, numbers_of, whole
 from exchange.deck_mesh import Deck
 from exchange.k_axes import Axes
 from exchange.keyword_file import Cards, blocks_of
@@ -67,7 +67,7 @@ def add_by_commas(deck: Deck, block: Cards) -> bool:
     if any(text.count(",") != 3 for text in four):
         return False
     table = numbers_of(",".join(four), ",", (len(four), 4))
-    if table is None or (table[:, 0] != np.round(table[:, 0])).any():
+    if table is None or not are_whole(table[:, 0]):
         return False
     deck.add_nodes(block.head.path, block.lines, table[:, 0], table[:, 1:])
     return True
@@ -140,7 +140,7 @@ def add_all_at_once(deck: Deck, block: Cards) -> bool:
             return False
         shape = (len(texts), min(counts) + 1)
         table = numbers_of(",".join([text.rstrip(", ") for text in texts]), ",", shape)
-        if table is None or (table != np.round(table)).any():
+        if table is None or not are_whole(table):
             return False
     elif any("," in text for text in texts):
         return False
