@@ -22,7 +22,8 @@ try:
     from exchange import trim_runs
     from exchange.flat_pattern import edge_error, flat_pattern, outer_border
     from exchange.formed import FormedPly, FormedStack, read_formed
-    from exchange.outline import TrimLine, area_of, distance_to, divided, read_outline
+    from exchange.outline import (TrimLine, area_of, crosses_itself, distance_to, divided, join,
+                                  read_outline)
     from plotting.reading import Trouble
 except ImportError as error:
     print("SKIPPED:", error)
@@ -93,6 +94,32 @@ def check_error():
     trim.points = trim.points + (1.5, 0.0, 0.0)
     largest, rms = edge_error(ply, trim)
     assert 1.3 < largest < 1.6 and 0.5 < rms < largest, (largest, rms)
+
+
+def check_crossing():
+    """Whether a closed curve crosses itself, against every pair of its sides; and pieces put together in
+    any order and direction."""
+    random, crossed = np.random.default_rng(5), 0
+    for number in range(400):
+        count = int(random.integers(3, 14))
+        points = random.integers(0, 12, (count, 2)).astype(float)
+        if number % 2:
+            points = circle(1.0, count) * random.uniform(0.5, 3, (count, 1))
+        found = False
+        for i in range(count):
+            for j in range(i + 2, count - (i == 0)):
+                (p, q), (r, s) = ((points[k], points[(k + 1) % count]) for k in (i, j))
+                turns = [np.cross(q - p, r - p), np.cross(q - p, s - p), np.cross(s - r, p - r),
+                         np.cross(s - r, q - r)]
+                found |= turns[0] * turns[1] < 0 and turns[2] * turns[3] < 0
+        crossed += found
+        assert crosses_itself(points) == found, points
+    assert 50 < crossed < 350
+    assert not crosses_itself(circle(100.0, 50000))
+    around = np.column_stack([circle(1000.0, 4000), np.zeros(4000)])
+    (loop,) = join([around[[k, (k + 1) % 4000]][::1 if k % 3 else -1] for k in random.permutation(4000)])
+    assert len(loop) == 4001 and (loop[0] == loop[-1]).all()
+    assert abs(abs(area_of(loop[:-1, :2])) / area_of(around[:, :2]) - 1) < 1e-12
 
 
 def check_best(folder):
@@ -218,6 +245,7 @@ def main():
         check_dome()
         check_curves(folder)
         check_error()
+        check_crossing()
         check_best(folder)
         results = check_runs(folder)
         check_wrong(folder, results)

@@ -12,6 +12,8 @@ from plotting.reading import Trouble
 
 CHORD = 0.05        # mm: curves of DXF files are followed to within
 CORNER_DEG = 25.0   # a turn that is a corner, to be kept
+JOINED = 0.1        # mm between the ends of curves that are one
+MOST_PAIRS = 1 << 20  # of sides compared at once
 
 
 @dataclass
@@ -87,7 +89,7 @@ def read_dxf(path: Path) -> np.ndarray:
             continue  # texts, points, dimensions
         pieces.append(np.array([tuple(p) for p in curve.flattening(CHORD)]))
     loops = join(pieces)
-    closed = [loop for loop in loops if np.linalg.norm(loop[0] - loop[-1]) < 0.1]
+    closed = [loop for loop in loops if np.linalg.norm(loop[0] - loop[-1]) < JOINED]
     if len(closed) != 1 or len(loops) != 1:
         raise Trouble(f"{path} has {len(closed)} closed curves and {len(loops) - len(closed)} open "
                       "ones: a trim line is one closed curve")
@@ -96,40 +98,76 @@ def read_dxf(path: Path) -> np.ndarray:
 
 def join(pieces: list[np.ndarray]) -> list[np.ndarray]:
     """Curves that end where others begin, put together."""
-    pieces, done = list(pieces), []
-    while pieces:
-        loop = pieces.pop(0)
-        found = True
-        while found and np.linalg.norm(loop[0] - loop[-1]) > 0.1:
-            found = False
-            for k, other in enumerate(pieces):
-                for way in (other, other[::-1]):
-                    if np.linalg.norm(loop[-1] - way[0]) < 0.1:
-                        loop, found = np.vstack([loop, way[1:]]), True
-                        break
-                if found:
-                    pieces.pop(k)
-                    break
-        done.append(loop)
+    if not pieces:
+        return []
+    ends = cKDTree(np.array([end for piece in pieces for end in (piece[0], piece[-1])]))
+    used, done = np.zeros(len(pieces), bool), []
+    for first in range(len(pieces)):
+        if used[first]:
+            continue
+        used[first] = True
+        parts = [pieces[first]]
+        while np.linalg.norm(parts[0][0] - parts[-1][-1]) > JOINED:
+            near = sorted(ends.query_ball_point(parts[-1][-1], JOINED))
+            other = next((one for one in near if not used[one // 2]), None)
+            if other is None:
+                break
+            used[other // 2] = True
+            piece = pieces[other // 2]
+            parts.append(piece[::-1][1:] if other % 2 else piece[1:])
+        done.append(np.vstack(parts))
     return done
 
 
 def crosses_itself(points: np.ndarray) -> bool:
-    """Of a closed curve in the plane (k x 2): whether two sides that are no neighbours cut."""
+    """Of a closed curve in the plane (k x 2): whether two sides that are no neighbours cut. Only sides
+    whose boxes overlap are asked: boxes round halves of the curve, quarters, and so on are compared
+    first."""
     a, b = points, np.roll(points, -1, axis=0)
-    count = len(points)
+    boxes = halved(np.minimum(a, b), np.maximum(a, b))
+    todo = [(0, np.zeros(1, int), np.zeros(1, int))]
+    while todo:
+        level, one, two = todo.pop()
+        low, high = boxes[level]
+        meet = (low[one] <= high[two]).all(axis=1) & (low[two] <= high[one]).all(axis=1)
+        one, two = one[meet], two[meet]
+        if level + 1 == len(boxes):
+            if cut(a, b, one, two).any():
+                return True
+            continue
+        pairs = [(2 * one + i, 2 * two + j) for i in (0, 1) for j in (0, 1)]
+        one, two = (np.concatenate(some) for some in zip(*pairs))
+        once = one <= two
+        one, two = one[once], two[once]
+        for k in range(0, len(one), MOST_PAIRS):
+            todo.append((level + 1, one[k:k + MOST_PAIRS], two[k:k + MOST_PAIRS]))
+    return False
+
+
+def halved(low: np.ndarray, high: np.ndarray) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Boxes round all, round halves, and so on, to those given; none is empty but those that fill up a
+    power of two."""
+    fill = (1 << max(0, (len(low) - 1).bit_length())) - len(low)
+    low = np.vstack([low, np.full((fill, 2), np.inf)])
+    high = np.vstack([high, np.full((fill, 2), -np.inf)])
+    levels = [(low, high)]
+    while len(low) > 1:
+        low = np.minimum(low[::2], low[1::2])
+        high = np.maximum(high[::2], high[1::2])
+        levels.insert(0, (low, high))
+    return levels
+
+
+def cut(a: np.ndarray, b: np.ndarray, one: np.ndarray, two: np.ndarray) -> np.ndarray:
+    """Whether sides ab of rows `one` and `two`, which are no neighbours, cross."""
+    apart = (two - one > 1) & (two - one < len(a) - 1)
+    one, two = one[apart], two[apart]
 
     def side(p, q, r):
-        return np.sign((q[..., 0] - p[..., 0]) * (r[..., 1] - p[..., 1])
-                       - (q[..., 1] - p[..., 1]) * (r[..., 0] - p[..., 0]))
-    for k in range(count - 2):
-        others = np.arange(k + 2, count if k else count - 1)
-        c, d = a[others], b[others]
-        cut = ((side(a[k], b[k], c) * side(a[k], b[k], d) < 0)
-               & (side(c, d, a[k]) * side(c, d, b[k]) < 0))
-        if cut.any():
-            return True
-    return False
+        return np.sign((q[:, 0] - p[:, 0]) * (r[:, 1] - p[:, 1])
+                       - (q[:, 1] - p[:, 1]) * (r[:, 0] - p[:, 0]))
+    return ((side(a[one], b[one], a[two]) * side(a[one], b[one], b[two]) < 0)
+            & (side(a[two], b[two], a[one]) * side(a[two], b[two], b[one]) < 0))
 
 
 def divided(points: np.ndarray, spacing: float) -> np.ndarray:
