@@ -267,6 +267,11 @@ MeshShape::MeshShape(TriMesh surface) : surface_(std::move(surface)) {
 
 MeshShape::~MeshShape() = default;
 
+const MeshCurvature& MeshShape::curvature() const {
+  std::call_once(curvature_asked_, [this] { curvature_ = mesh_curvature(surface_); });
+  return curvature_;
+}
+
 template <class Visit>
 void MeshShape::visit_around(int face, const Visit& visit) const {
   visit(face);

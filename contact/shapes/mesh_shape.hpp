@@ -3,7 +3,10 @@
 #pragma once
 
 #include "contact/point_triangle.hpp"
+#include "contact/shapes/mesh_curvature.hpp"
 #include "contact/shapes/tool_shape.hpp"
+
+#include <mutex>
 
 namespace plyform {
 
@@ -28,6 +31,9 @@ public:
   }
 
   const TriMesh& surface() const { return surface_; }
+
+  /// Found when it is first asked for. Thread-safe.
+  const MeshCurvature& curvature() const;
 
 private:
   struct Tree;
@@ -54,6 +60,8 @@ private:
   std::vector<std::array<Vec3, 7>> normals_; ///< unit pseudo-normals by ClosestPoint::feature
   std::vector<std::vector<std::int32_t>> faces_of_node_;
   std::unique_ptr<const Tree> tree_;
+  mutable std::once_flag curvature_asked_;
+  mutable MeshCurvature curvature_;
 };
 
 } // namespace plyform

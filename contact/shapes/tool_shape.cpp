@@ -4,7 +4,9 @@
 
 #include "contact/shapes/shape_distance.hpp"
 
+#include <algorithm>
 #include <limits>
+#include <vector>
 
 namespace plyform {
 namespace {
@@ -26,8 +28,9 @@ double smallest(const Plane&) {
 double smallest(const Annulus& a) {
   return section_of(a).edge;
 }
-double smallest(const MeshShapePtr&) {
-  return infinity;
+double smallest(const MeshShapePtr& mesh) {
+  const std::vector<double>& radii = mesh->curvature().radius;
+  return radii.empty() ? infinity : *std::min_element(radii.begin(), radii.end());
 }
 
 /// The smallest arc radius, or 0 if the material has a sharp edge: a corner at which the profile
@@ -91,6 +94,36 @@ bool curves_both_ways(const ToolShape& shape) {
 
 double smallest_radius(const ToolShape& shape) {
   return std::visit([](const auto& s) { return smallest(s); }, shape);
+}
+
+double smallest_rounding(const ToolShape& shape) {
+  const auto* mesh = std::get_if<MeshShapePtr>(&shape);
+  if (!mesh) return smallest_radius(shape);
+  double least = infinity;
+  for (const double radius : (*mesh)->curvature().radius)
+    if (radius > 0.0) least = std::min(least, radius);
+  return least;
+}
+
+double radius_near(const ToolShape& shape, const Vec3& p) {
+  const auto* mesh = std::get_if<MeshShapePtr>(&shape);
+  if (!mesh) return smallest_radius(shape);
+  SurfaceHint hint;
+  (*mesh)->signed_distance(p, hint);
+  if (hint.facet < 0) return infinity;
+  double least = infinity;
+  for (const std::int32_t node : (*mesh)->surface().triangles[at(hint.facet)])
+    if (const double radius = (*mesh)->curvature().radius[at(node)]; radius > 0.0)
+      least = std::min(least, radius);
+  return least;
+}
+
+double deflection_near(const ToolShape& shape, const Vec3& p) {
+  const auto* mesh = std::get_if<MeshShapePtr>(&shape);
+  if (!mesh) return 0.0;
+  SurfaceHint hint;
+  (*mesh)->signed_distance(p, hint);
+  return hint.facet < 0 ? 0.0 : (*mesh)->curvature().deflection[at(hint.facet)];
 }
 
 } // namespace plyform

@@ -95,14 +95,29 @@ SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, SurfaceHint&
 /// unchanged. Throws std::invalid_argument unless size > 0.
 TriMesh tessellate(const ToolShape& shape, double size, double extent);
 
+/// Divides sides that are longer than `size` (mm) at their middles until none is, and their
+/// triangles with them; the surface stays as it is.
+void divide_sides(TriMesh& surface, double size);
+
 /// Diagonal (mm) of the box around tessellate(shape, any size, extent); 0 of a shape without area.
 /// A tool may be a thousand times as large as the plies.
 double diagonal_of(const ToolShape& shape, double extent);
 
 /// Smallest radius of curvature (mm) of the shape that a sheet has to follow; 0 for a sharp edge,
-/// infinity for a plane and for meshes (unknown). Inner corners of a profile do not count: a sheet
-/// bridges them.
+/// infinity for a plane. Inner corners do not count: a sheet bridges them. Of a mesh that of the
+/// surface that it stands for (mesh_curvature.hpp).
 double smallest_radius(const ToolShape& shape);
+
+/// The same, but of a mesh without its sharp edges: those of a solid often are where no sheet gets.
+double smallest_rounding(const ToolShape& shape);
+
+/// smallest_rounding of the facet of a mesh that is closest to p (mm, tool frame); of other shapes
+/// smallest_radius.
+double radius_near(const ToolShape& shape, const Vec3& p);
+
+/// How far (mm) the surface that a mesh stands for may be from its facet that is closest to p (mm,
+/// tool frame); 0 of other shapes.
+double deflection_near(const ToolShape& shape, const Vec3& p);
 
 /// Whether the surface at smallest_radius is doubly curved (a sphere, the rounded corner of a box):
 /// a flat triangle then penetrates deeper than on a singly curved one.

@@ -164,6 +164,10 @@ PredictedError predicted_error(const Case& data) {
 
 std::string describe_accuracy(const PredictedError& error, double promised, double coarsening) {
   if (std::isnan(promised)) return "accuracy is not predicted: nothing has a stroke";
+  constexpr double sense = 45.0; // degrees: as much as parts are sheared
+  if (promised > sense)
+    return "accuracy is not predicted: inertia, softened fibres or the mesh are far beyond what it "
+           "was measured for";
   std::string mesh = fmt::format("mesh {:.2g}", error.mesh);
   if (coarsening != 1.0)
     mesh += fmt::format(", of elements {:g} times as large as the case's", coarsening);
@@ -241,7 +245,7 @@ bool may_coarsen(const Case& data, double by) {
   constexpr double most_thicknesses = 16.0;
   double longest = std::numeric_limits<double>::max();
   for (const Tool& t : data.tools)
-    if (const double radius = smallest_radius(t.shape); radius > 0.0)
+    if (const double radius = smallest_rounding(t.shape); radius > 0.0)
       longest = std::min(longest, radius);
   for (const Ply& ply : data.plies) {
     const double thickness = data.fabrics[ply.fabric].thickness;

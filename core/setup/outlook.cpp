@@ -175,8 +175,10 @@ void describe_cut(const Scene& s, std::size_t tool, Lines& lines) {
   if (!worst) return;
   const bool sharp = worst->radius <= 0.0;
   // measured by the depth; the tool's own where it is about that
-  if (const double own = smallest_radius(s.data.tools[tool].shape);
-      !sharp && std::abs(worst->radius - own) < 0.5 * own)
+  const Tool& t = s.data.tools[tool];
+  if (const double own = radius_near(t.shape, t.rotation.transpose() * (worst->where - t.position));
+      !sharp && (std::abs(worst->radius - own) < 0.5 * own ||
+                 (std::holds_alternative<MeshShapePtr>(t.shape) && std::isfinite(own))))
     worst->radius = own;
   say(lines,
       "    {}: tool {}, {} at ({:.3g}, {:.3g}, {:.3g}): triangles have sides up to {:.3g} mm and "
@@ -271,7 +273,7 @@ void describe_tools(const Scene& s, const std::vector<BlankMesh>& meshes, Lines&
     const ToolState& t = s.tools[i];
     const double radius = smallest_radius(t.body.shape);
     say(lines, "tool {}: {}{}", t.name, motion_text(s.data.tools[i]),
-        std::isfinite(radius) ? fmt::format(", smallest radius {:g} mm", radius) : std::string());
+        std::isfinite(radius) ? fmt::format(", smallest radius {:.4g} mm", radius) : std::string());
     describe_way(s, i, plies, reach + s.data.tools[i].position.norm(), lines);
     describe_cut(s, i, lines);
   }
