@@ -8,6 +8,7 @@
 #include "core/input/entries.hpp"
 #include "core/input/key_member.hpp"
 #include "core/input/overrides.hpp"
+#include "core/input/sense_checks.hpp"
 #include "core/model/fabric_estimates.hpp"
 
 #include <algorithm>
@@ -152,14 +153,30 @@ Case build_case(const TableView& root, const std::filesystem::path& folder,
   return built;
 }
 
+SourceLocation locate(const TableView& root, const TableView& section) {
+  SourceLocation part{section.entry ? section.entry->at : root.entry->at, section.item};
+  const TomlNode* scale = section.entry ? section.entry->find("scale") : nullptr;
+  if (!scale || !scale->is_number()) return part;
+  part.scale = scale->number;
+  const Place &at = scale->at, &table = section.entry->at; // a default has the place of its table
+  part.scale_given = at.file != table.file || at.line != table.line || at.column != table.column;
+  return part;
+}
+
 CaseParts locate_parts(const TableView& root) {
-  const auto locate = [&](const char* key) {
+  const auto all = [&](const char* key) {
     std::vector<SourceLocation> places;
     for (const TableView& section : subsections(root, key))
-      places.push_back({section.entry ? section.entry->at : root.entry->at, section.item});
+      places.push_back(locate(root, section));
     return places;
   };
-  return {locate("blanks"), locate("ply"), locate("tool"), locate("boundary")};
+  const TomlNode* gravity = given(root, "gravity");
+  return {all("blanks"),
+          all("ply"),
+          all("tool"),
+          all("boundary"),
+          {gravity ? gravity->at : root.entry->at, "gravity"},
+          locate(root, subsection(root, "solver"))};
 }
 
 /// Sorts errors: those of the case file first, then of the files that it names, then of overrides,
@@ -206,8 +223,10 @@ std::vector<BlankMesh> check_case(CaseReading& reading) {
   if (!reading.value) return {};
   Diagnostics diagnostics;
   std::vector<BlankMesh> meshes = check_scene(*reading.value, reading.parts, diagnostics);
-  if (diagnostics.errors.empty())
+  if (diagnostics.errors.empty()) {
+    check_case_sense(*reading.value, reading.parts, diagnostics);
     check_resolution(*reading.value, reading.parts, meshes, diagnostics);
+  }
   put_in_order(diagnostics.errors, reading.file.string());
   if (!diagnostics.errors.empty()) reading.value.reset();
   reading.errors.insert(reading.errors.end(), diagnostics.errors.begin(), diagnostics.errors.end());

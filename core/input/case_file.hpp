@@ -19,10 +19,13 @@ namespace plyform {
 struct SourceLocation {
   Place at;
   std::string item;
+  double scale = 1.0;       ///< mm per unit of its file, of tools and blanks that give one
+  bool scale_given = false; ///< in the case, rather than a default
 };
 
 struct CaseParts {
   std::vector<SourceLocation> blanks, plies, tools, boundaries;
+  SourceLocation gravity, solver; ///< tables or values, or the file where they are not given
 };
 
 /// Result of reading a case file with overrides.

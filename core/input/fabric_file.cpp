@@ -5,6 +5,7 @@
 #include "core/base/text.hpp"
 #include "core/input/case_parts.hpp"
 #include "core/input/key_member.hpp"
+#include "core/input/sense_checks.hpp"
 #include "core/input/sheet_laws.hpp"
 #include "core/model/fabric_estimates.hpp"
 
@@ -175,9 +176,13 @@ bool stand_in(TomlNode& root, const std::string& table, const std::string& key, 
 
 std::vector<Fabric> read_fabrics(const TableView& root, Diagnostics& diagnostics) {
   std::vector<Fabric> fabrics;
-  for (const TableView& section : subsections(root, "fabrics"))
+  for (const TableView& section : subsections(root, "fabrics")) {
+    const std::size_t before = diagnostics.errors.size();
     fabrics.push_back(
         read_fabric(section, section.item.substr(std::string("fabrics.").size()), diagnostics));
+    if (diagnostics.errors.size() == before)
+      check_fabric_sense(section, fabrics.back(), diagnostics);
+  }
   return fabrics;
 }
 

@@ -30,6 +30,14 @@ bool covers(const FlatPly& ply, const Vec2& p) {
   return inside;
 }
 
+double touch_depth(std::span<const FlatPly> plies) {
+  constexpr double share = 1e-3; // of a thickness
+  double least = std::numeric_limits<double>::infinity();
+  for (const FlatPly& ply : plies)
+    least = std::min(least, 2.0 * share * ply.half);
+  return least;
+}
+
 double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, SurfaceHint& hint) {
   const Vec3 local = tool.rotation.transpose() * (p - shift - tool.position);
   return signed_distance(tool.shape, local, hint).distance;
@@ -38,8 +46,9 @@ double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, Surface
 TriMesh tool_surface(const Tool& tool, double size, double extent) {
   const double diagonal = diagonal_of(tool.shape, extent);
   if (!(diagonal > 0.0)) return {};
-  TriMesh surface =
-      tessellate(tool.shape, std::clamp(size, diagonal / 300.0, diagonal / 60.0), extent);
+  const double side = std::clamp(size, diagonal / 300.0, diagonal / 60.0);
+  TriMesh surface = tessellate(tool.shape, side, extent);
+  if (std::holds_alternative<MeshShapePtr>(tool.shape)) divide_sides(surface, side);
   for (Vec3& x : surface.x)
     x = tool.position + tool.rotation * x;
   return surface;

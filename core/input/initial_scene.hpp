@@ -7,6 +7,7 @@
 
 #include <functional>
 #include <limits>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -36,8 +37,13 @@ struct LastDistance {
 /// Signed distance (mm) of p (space) to the tool moved by `shift`; `hint` as for signed_distance.
 double tool_distance(const Tool& tool, const Vec3& shift, const Vec3& p, SurfaceHint& hint);
 
+/// Depth (mm) up to which one counts as touching: a thousandth of the thinnest ply. Coordinates
+/// have been rounded when files were written, and contact does not feel so little.
+double touch_depth(std::span<const FlatPly> plies);
+
 /// The tool's surface in space as triangles of `size` (mm), but between 1/300 and 1/60 of its
-/// diagonal. Planes extend `extent` mm from the tool's origin.
+/// diagonal: what is large in a mesh is divided, so that points of the surface stand for all of it.
+/// Planes extend `extent` mm from the tool's origin.
 TriMesh tool_surface(const Tool& tool, double size, double extent);
 
 /// Calls visit(p) for points p of the surface with heights between `low` and `high` (mm): corners,

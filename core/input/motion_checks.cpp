@@ -2,6 +2,8 @@
 #include "core/input/motion_checks.hpp"
 
 #include "core/input/case_parts.hpp"
+#include "core/input/sense_checks.hpp"
+#include "core/input/tool_overlap.hpp"
 #include "core/model/boundary.hpp"
 
 #include <algorithm>
@@ -46,7 +48,7 @@ double travel_of_point(const Vec3& x, const Vec3& direction, const FlatPly& ply)
   if (std::abs(direction.z()) < 1e-9) return infinity;
   const double face = ply.z - std::copysign(ply.half, direction.z());
   const double travel = (face - x.z()) / direction.z();
-  if (travel < -1e-3) return infinity;
+  if (travel < -std::max(1e-3, touch_depth({&ply, 1}))) return infinity;
   const Vec3 there = x + travel * direction;
   return covers(ply, there.head<2>()) ? std::max(travel, 0.0) : infinity;
 }
@@ -120,24 +122,6 @@ void check_pushed(MotionCheck& check, std::size_t t) {
               "turn its direction, or move it over a ply (position)");
 }
 
-/// Deepest point of a's surface in b at the start, within the area of the plies.
-std::pair<double, Vec3> depth_at_start(const MotionCheck& check, std::size_t a, std::size_t b) {
-  const std::vector<Vec3>& points = check.surfaces[a].x;
-  std::pair<double, Vec3> deepest{0.0, Vec3::Zero()};
-  SurfaceHint own, other;
-  LastDistance last;
-  for (std::size_t i = 0; i < points.size(); i += stride_for(points.size(), most_points)) {
-    const Vec3& p = points[i];
-    if (!check.bounds.contains(p.head<2>()) || -last.at_least(p) <= deepest.first) continue;
-    last = {p, tool_distance(check.scene.tools[b], Vec3::Zero(), p, other)};
-    // the tessellation's corner may lie beside the true surface by rounding
-    const double off = std::abs(tool_distance(check.scene.tools[a], Vec3::Zero(), p, own));
-    const double depth = -last.distance - off;
-    if (depth > deepest.first) deepest = {depth, p};
-  }
-  return deepest;
-}
-
 bool move_alike(const Tool& a, const Tool& b) {
   if (a.motion != b.motion) return false;
   if (a.motion == Motion::fixed) return true;
@@ -149,15 +133,16 @@ bool move_alike(const Tool& a, const Tool& b) {
 /// Tools do not touch each other in the model: what begins in each other goes through. Pushed ones
 /// that are pushed the same way may, but press on the same places of a ply.
 void check_tools_apart(MotionCheck& check) {
-  constexpr double touching = 0.01; // mm
+  const double touching = 20.0 * touch_depth(check.plies); // a fiftieth of a thickness
   for (std::size_t a = 0; a < check.scene.tools.size(); ++a)
     for (std::size_t b = a + 1; b < check.scene.tools.size(); ++b) {
       const Tool &ta = check.scene.tools[a], &tb = check.scene.tools[b];
       const bool both_pushed = ta.motion == Motion::force && tb.motion == Motion::force;
       if (move_alike(ta, tb) && !both_pushed) continue;
-      const auto ab = depth_at_start(check, a, b), ba = depth_at_start(check, b, a);
-      const auto& [depth, where] = ab.first > ba.first ? ab : ba;
-      if (depth <= touching) continue;
+      const auto [gap, where] =
+          deepest_overlap({ta, check.surfaces[a]}, {tb, check.surfaces[b]}, check.bounds, touching);
+      const double depth = -gap;
+      if (!(depth > touching)) continue;
       const std::size_t moving = tb.motion != Motion::fixed ? b : a;
       if (move_alike(ta, tb)) {
         check.warning(b,
@@ -258,6 +243,7 @@ void check_motions(const Case& scene, const CaseParts& parts, const std::vector<
     if (scene.tools[t].motion == Motion::driven) check_driven(check, t);
     if (scene.tools[t].motion == Motion::force) check_pushed(check, t);
   }
+  check_tool_sense(scene, parts, plies, check.ways, surfaces, diagnostics);
 }
 
 } // namespace plyform

@@ -2,6 +2,7 @@
 // Checks of the scene as a whole.
 #include "core/input/case_parts.hpp"
 #include "core/input/initial_scene.hpp"
+#include "core/input/tool_overlap.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/motion.hpp"
 
@@ -19,9 +20,6 @@ namespace plyform {
 
 namespace {
 
-constexpr double touching = 1e-6;      ///< mm, depth that counts as touching: rounding of distances
-constexpr double surface_error = 1e-3; ///< mm, of distances between tessellated surfaces
-
 struct SceneCheck {
   const Case& scene;
   const CaseParts& parts;
@@ -31,6 +29,7 @@ struct SceneCheck {
   double bottom = 0.0, top = 0.0;  ///< mm, of the stack
   Eigen::AlignedBox2d bounds{};    ///< of all plies
   double stack = 0.0;              ///< mm, thickness of all plies together
+  double touching = 0.0;           ///< mm, touch_depth of the plies
 
   void tool_error(std::size_t tool, const std::string& rule, const std::string& remedy) {
     diagnostics.error(parts.tools[tool].at, parts.tools[tool].item, scene.tools[tool].name, rule,
@@ -96,6 +95,7 @@ bool lay_plies(SceneCheck& check) {
     check.bounds.extend(ply.bounds);
     check.stack += 2.0 * ply.half;
   }
+  check.touching = touch_depth(check.plies);
   return reported.empty();
 }
 
@@ -106,7 +106,7 @@ void check_plies_apart(SceneCheck& check) {
     for (std::size_t a = 0; a < b; ++a) {
       const FlatPly &pa = check.plies[a], &pb = check.plies[b];
       const double apart = std::abs(pb.z - pa.z), needed = pa.half + pb.half;
-      if (!pa.bounds.intersects(pb.bounds) || apart >= needed - 1e-9) continue;
+      if (!pa.bounds.intersects(pb.bounds) || apart >= needed - check.touching) continue;
       check.diagnostics.error(
           check.parts.plies[b].at, check.parts.plies[b].item, check.scene.plies[b].name,
           fmt::format("overlaps ply {} at the start: the mid-surfaces are {:.4g} mm apart and need "
@@ -119,6 +119,7 @@ void check_plies_apart(SceneCheck& check) {
 
 /// Greatest depth of a tool inside a ply, and all points of plies that are inside the tool.
 struct Intrusion {
+  double touching = 0.0; ///< mm, what is no deeper does not count
   double depth = 0.0;
   std::size_t ply = 0;
   Vec3 where = Vec3::Zero();
@@ -137,7 +138,9 @@ struct Intrusion {
 /// the flat ply, which finds tools that penetrate between nodes.
 Intrusion find_intrusion(const SceneCheck& check, std::size_t tool_number) {
   const Tool& tool = check.scene.tools[tool_number];
+  const double touching = check.touching;
   Intrusion found;
+  found.touching = touching;
   SurfaceHint hint; // neighbouring nodes have neighbouring closest triangles
   for (std::size_t i = 0; i < check.plies.size(); ++i) {
     const FlatPly& ply = check.plies[i];
@@ -181,19 +184,10 @@ void clearance_on_line(const SceneCheck& check, std::size_t tool, const Vec2& xy
         const double room = over.first - under.second;
         const bool facing = under.first + under.second < 2.0 * middle &&
                             over.first + over.second > 2.0 * middle && room >= 0.0;
-        if (facing && room < needed - touching && room < least.room)
+        if (facing && room < needed - check.touching && room < least.room)
           least = {room, needed, other, xy};
       }
   }
-}
-
-/// Whether every edge has two triangles.
-bool is_closed(const TriMesh& surface) {
-  std::map<std::pair<int, int>, int> uses;
-  for (const Triangle& t : surface.triangles)
-    for (std::size_t k = 0; k < 3; ++k)
-      ++uses[std::minmax(t[k], t[(k + 1) % 3])];
-  return std::all_of(uses.begin(), uses.end(), [](const auto& edge) { return edge.second == 2; });
 }
 
 /// Whether the tool is an open mesh that no ply would touch if its faces were turned round.
@@ -204,7 +198,8 @@ bool inside_out(const SceneCheck& check, std::size_t tool_number) {
   SurfaceHint hint;
   for (const FlatPly& ply : check.plies)
     for (const Vec2& x : ply.mesh.x)
-      if (-tool_distance(tool, Vec3::Zero(), Vec3(x.x(), x.y(), ply.z), hint) < ply.half - touching)
+      if (-tool_distance(tool, Vec3::Zero(), Vec3(x.x(), x.y(), ply.z), hint) <
+          ply.half - check.touching)
         return false;
   return true;
 }
@@ -214,7 +209,7 @@ void check_tools_outside(SceneCheck& check) {
   std::set<std::pair<std::size_t, std::size_t>> reported;
   for (std::size_t tool = 0; tool < check.scene.tools.size(); ++tool) {
     const Intrusion found = find_intrusion(check, tool);
-    if (!(found.depth > touching)) continue;
+    if (!(found.depth > check.touching)) continue;
     Clearance least;
     // About 300 lines are enough to find the smallest clearance.
     const std::size_t stride = std::max<std::size_t>(1, found.lines.size() / 300);
@@ -253,27 +248,18 @@ Vec3 stroke_of(const Tool& tool) {
                                        : Vec3(Vec3::Zero());
 }
 
-/// The smallest distance (mm) of a's surface to b, both at the end of their strokes, in the area of
-/// the plies.
-double approach(const SceneCheck& check, std::size_t a, std::size_t b) {
-  const Tool &ta = check.scene.tools[a], &tb = check.scene.tools[b];
-  const Vec3 shift_a = stroke_of(ta), shift_b = stroke_of(tb);
-  const std::vector<Vec3>& corners = check.surfaces[a].x;
-  double least = std::numeric_limits<double>::infinity();
-  SurfaceHint hint_a, hint_b;
-  // A few corners first: with a small distance known, most of the others need not be asked.
-  for (const std::size_t stride : {std::size_t{101}, std::size_t{1}}) {
-    LastDistance last;
-    for (std::size_t i = 0; i < corners.size(); i += stride) {
-      const Vec3 p = corners[i] + shift_a;
-      if (!check.bounds.contains(p.head<2>()) || last.at_least(p) - surface_error > least) continue;
-      last = {p, tool_distance(tb, shift_b, p, hint_b)};
-      if (last.distance - surface_error > least) continue;
-      // Corrected by the distance of the tessellation's corner from the true surface.
-      least = std::min(least, last.distance + tool_distance(ta, shift_a, p, hint_a));
-    }
-  }
-  return least;
+/// The smallest distance (mm) of two tools at the end of their strokes, in the area of the plies;
+/// below 0 if one is in the other.
+double room_at_end(const SceneCheck& check, std::size_t a, std::size_t b) {
+  const std::vector<Tool>& tools = check.scene.tools;
+  const PlacedTool first{tools[a], check.surfaces[a], stroke_of(tools[a])},
+      second{tools[b], check.surfaces[b], stroke_of(tools[b])};
+  const double overlap = deepest_overlap(first, second, check.bounds, check.touching).gap;
+  if (std::isfinite(overlap)) return overlap;
+  const double little = 0.02 * check.stack;
+  return std::max(std::min(least_gap(first, second, check.bounds, check.stack, little).gap,
+                           least_gap(second, first, check.bounds, check.stack, little).gap),
+                  0.0);
 }
 
 /// Checks the distance of each driven tool to the other tools at the end of its stroke. A tool
@@ -284,13 +270,13 @@ void check_end_of_stroke(SceneCheck& check) {
     if (tools[a].motion != Motion::driven) continue;
     for (std::size_t b = 0; b < tools.size(); ++b) {
       if (b == a || (tools[b].motion == Motion::driven && b < a)) continue;
-      const double room = std::min(approach(check, a, b), approach(check, b, a));
-      if (room < -surface_error && tools[b].motion != Motion::force)
+      const double room = room_at_end(check, a, b);
+      if (room < 0.0 && tools[b].motion != Motion::force)
         check.tool_error(a,
                          fmt::format("goes {:.4g} mm into tool {} at the end of the stroke", -room,
                                      tools[b].name),
                          "shorten the stroke, or move one of the two");
-      else if (room < check.stack - surface_error)
+      else if (room < check.stack - 2.0 * check.touching)
         check.diagnostics.warning(
             check.parts.tools[a].at,
             fmt::format("{} = {}: comes within {:.4g} mm of tool {} at the end of the stroke, less "

@@ -30,6 +30,21 @@ struct Check {
   }
 };
 
+/// Warns of an angle that is 15, 30, 45 ... degrees if it is taken for rad.
+void warn_of_radians(const Check& check, const TomlNode& value, const std::string& item) {
+  constexpr double degrees_a_radian = 57.29577951308232, round = 15.0; // degrees
+  constexpr double rounding = 0.3;                // degrees: of two or three digits that are given
+  const double most = check.row.range_of(0).most; // of a direction, not of an error
+  const double as_rad = std::abs(value.number) * degrees_a_radian;
+  const double nearest = round * std::round(as_rad / round);
+  if (check.row.unit != "deg" || check.row.kind != KeyKind::number || most < 90.0) return;
+  if (nearest == 0.0 || nearest > 360.0 || std::abs(as_rad - nearest) > rounding) return;
+  if (value.number == std::round(value.number)) return;
+  check.diagnostics.warning(
+      value.at, fmt::format("{} = {}: is in degrees; give {:g} if it is meant in rad", item,
+                            value.source_text, std::copysign(nearest, value.number)));
+}
+
 bool check_number(const Check& check, TomlNode& value, const std::string& item,
                   std::size_t column) {
   if (!value.is_number()) return check.fail(value, item, "must be a number");
@@ -41,6 +56,7 @@ bool check_number(const Check& check, TomlNode& value, const std::string& item,
         value.at, fmt::format("{} = {}: is unusual, usually {}{}; check number and unit", item,
                               value.source_text, usual.span(),
                               check.row.unit == "-" ? "" : " " + check.row.unit));
+  warn_of_radians(check, value, item);
   return true;
 }
 
