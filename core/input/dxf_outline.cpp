@@ -252,6 +252,12 @@ DxfOutline outline_of(DxfDrawing drawing, const DxfRequest& request) {
 
 } // namespace
 
+double unit_named_in(const std::string& description) {
+  for (const Unit& unit : units)
+    if (description.ends_with(fmt::format("in {}", unit.name))) return unit.mm;
+  return 1.0;
+}
+
 DxfOutline read_dxf_outline(const DxfRequest& request) {
   const std::string name = request.file.string();
   try {

@@ -24,6 +24,9 @@ struct DxfOutline {
   std::string description; ///< "blank.dxf: 4 lines and arcs on layer CUT, in mm"
 };
 
+/// mm per unit that the description of a drawing without a `scale` names; 1 if it names none.
+double unit_named_in(const std::string& description);
+
 /// Ends of lines and arcs nearer than this are one point, mm.
 inline constexpr double dxf_join = 0.01;
 

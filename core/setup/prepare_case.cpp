@@ -3,9 +3,11 @@
 
 #include "core/base/text.hpp"
 #include "core/base/thread_pool.hpp"
+#include "core/input/unit_checks.hpp"
 #include "core/model/motion.hpp"
 #include "core/setup/size_ahead.hpp"
 
+#include <cmath>
 #include <fmt/format.h>
 
 namespace plyform {
@@ -33,6 +35,57 @@ void check_size(CaseReading& reading) {
        "choose larger elements, a shorter solver.duration or more solver.fibre_softening, or go on "
        "with --yes-large"});
   reading.value.reset();
+}
+
+/// Replaces what is said of a scene that cannot work by what is at its bottom: a body in another
+/// unit.
+void blame(const UnitSuspicion& unit, CaseReading& reading) {
+  const Place& at = unit.at.at;
+  reading.errors = {{at.file, at.line, at.column, unit.at.item, unit.name, unit.rule, unit.remedy}};
+  reading.value.reset();
+}
+
+/// Checks size and scene, and whether a body in another unit is behind what is wrong with them.
+std::vector<BlankMesh> check_scene_and_units(CaseReading& reading, CaseSize size) {
+  std::optional<UnitSuspicion> unit = suspect_unit(*reading.value, reading.parts, false);
+  if (unit && unit->is_drawing) { // nobody waits for the mesh of a blank of 8 m
+    blame(*unit, reading);
+    return {};
+  }
+  const Case before = *reading.value;
+  std::vector<BlankMesh> meshes;
+  if (size == CaseSize::sensible) check_size(reading);
+  if (reading.value) meshes = check_case(reading);
+  if (!reading.value) {
+    if (!unit) unit = suspect_unit(before, reading.parts, true);
+    if (unit) blame(*unit, reading);
+  } else if (unit) {
+    const Place& at = unit->at.at;
+    reading.warnings.push_back(
+        fmt::format("{}:{}:{}: warning: {}{}: {}; {}", at.file, at.line, at.column, unit->at.item,
+                    unit->name.empty() ? "" : " = " + unit->name, unit->rule, unit->remedy));
+  }
+  return meshes;
+}
+
+/// Warns of a stroke so fast, or fibres so soft, that no shape comes out that means anything.
+void check_prediction(CaseReading& reading) {
+  constexpr double most = 10.0, good = 3.0; // degrees: a third of what parts are sheared; a draft
+  const PredictedError error = predicted_error(*reading.value);
+  if (!(std::hypot(error.inertia, error.softening) > most)) return;
+  const bool fast = error.inertia > error.softening;
+  const std::string remedy =
+      fast ? fmt::format("give a solver.duration of {:.2g} s or more", // falls with the third power
+                         reading.value->solver.duration * std::cbrt(error.inertia / good))
+           : std::string("give less solver.fibre_softening");
+  const SourceLocation& solver = reading.parts.solver;
+  reading.warnings.push_back(fmt::format(
+      "{}:{}:{}: warning: shear angles would be off by more than {:g} degrees, as predicted: {}; "
+      "{}",
+      solver.at.file, solver.at.line, solver.at.column, most,
+      fast ? fmt::format("in {:g} s plies are thrown, not formed", reading.value->solver.duration)
+           : std::string("the fibres are too soft"),
+      remedy));
 }
 
 /// Which cost parameters overrides have set, and the keys of these overrides.
@@ -78,9 +131,9 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
 PreparedCase prepare_case(const std::filesystem::path& file, const std::vector<Override>& overrides,
                           CaseSize size) {
   PickedCase picked = pick_case(file, overrides);
-  if (picked.reading.value && size == CaseSize::sensible) check_size(picked.reading);
   PreparedCase prepared;
-  if (picked.reading.value) prepared.meshes = check_case(picked.reading);
+  if (picked.reading.value) prepared.meshes = check_scene_and_units(picked.reading, size);
+  if (picked.reading.value) check_prediction(picked.reading);
   prepared.value = std::move(picked.reading.value);
   prepared.coarsening = picked.coarsening;
   prepared.identity = std::move(picked.reading.identity);

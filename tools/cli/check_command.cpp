@@ -18,7 +18,15 @@ int check_command(const CaseArguments& arguments) {
     fmt::print(stderr, "plyform: {}\n", outlook.stop);
     return exit_stopped;
   }
-  fmt::print("the case is sound\n");
+  const auto told =
+      std::count_if(outlook.lines.begin(), outlook.lines.end(),
+                    [](const std::string& line) { return line.starts_with("    warning: "); });
+  const auto warnings = static_cast<std::size_t>(told) + prepared.warnings.size();
+  if (warnings == 0)
+    fmt::print("the case is sound\n");
+  else
+    fmt::print("the case is sound but for what {} warning{} {} of\n", warnings,
+               warnings == 1 ? "" : "s", warnings == 1 ? "tells" : "tell");
   return exit_done;
 }
 
