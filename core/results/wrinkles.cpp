@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <numbers>
 
 namespace plyform {
@@ -15,6 +16,7 @@ constexpr double shortest_half = 1.5; // elements: three per wave; shorter waves
 constexpr double longest_half = 4.0;  // elements, at least, for coarse meshes
 constexpr double longest_half_mm = 30.0; // waves of dry cloth under a holder are 20 to 60 mm long
 constexpr double half_growth = 1.2;      // from one s to the next; between them H loses 3 % at most
+constexpr double near_waves = 2.0;       // s: tools nearer than that may have a wave's shape
 constexpr double facing = std::numbers::sqrt2 / 2.0; // cosine of 45 degrees
 
 double mean_side(const PlyFrame& ply) {
@@ -154,6 +156,53 @@ double height_above_tools(const Line& line, const std::vector<const ToolBody*>& 
   return least;
 }
 
+/// How far (mm) the surface of a tool lies from x along the unit vector d, at most `most`: negative
+/// where x is in the tool, infinite where the line meets none.
+double way_to(const ToolBody& tool, const Vec3& x, const Vec3& d, double most) {
+  constexpr int most_steps = 200; // of a line that grazes the surface
+  const double near = 1e-3 * most;
+  SurfaceHint hint;
+  double gone = 0.0, free = distance_to_tool(tool, x, hint).distance;
+  const bool inside = free < 0.0;
+  for (int i = 0; i < most_steps && std::abs(gone) < most; ++i) {
+    if (inside ? free >= 0.0 : free <= near) return gone;
+    gone += inside ? std::min(free, -near) : free;
+    free = distance_to_tool(tool, x + gone * d, hint).distance;
+  }
+  return std::abs(gone) < most ? gone : std::numeric_limits<double>::infinity();
+}
+
+/// (3): T_k of one tool at the place k of a line, mm; 0 if the tool is not near or does not face
+/// it.
+double height_of_tool(const Line& line, std::size_t k, const ToolBody& tool, double half_wave) {
+  const Vec3 &x = line[k]->x, &n = line[k]->normal;
+  SurfaceHint hint;
+  const SurfacePoint nearest = distance_to_tool(tool, x, hint);
+  const double faces = nearest.normal.dot(n);
+  if (std::abs(nearest.distance) > near_waves * half_wave || std::abs(faces) < facing) return 0.0;
+  const Vec3 towards = faces > 0.0 ? Vec3(-n) : n; // from the ply to the tool
+  std::array<double, 3> z{};
+  for (std::size_t j = 0; j < 3; ++j) {
+    const Vec3& p = line[k + j - 1]->x;
+    z[j] = n.dot(p - x) + n.dot(towards) * way_to(tool, p, towards, 2.0 * near_waves * half_wave);
+  }
+  return std::isfinite(z[1]) ? z[1] - 0.5 * (z[0] + z[2]) : 0.0;
+}
+
+/// (3): the share of a wave that is the tools' own, 0 to 1.
+double share_of_tools(const Line& line, const std::vector<const ToolBody*>& tools,
+                      double half_wave) {
+  double share = 1.0;
+  for (std::size_t k = 1; k <= 3 && share > 0.0; ++k) {
+    const double d = line[k]->normal.dot(line[k]->x - 0.5 * (line[k - 1]->x + line[k + 1]->x));
+    double most = 0.0;
+    for (const ToolBody* tool : tools)
+      most = std::max(most, height_of_tool(line, k, *tool, half_wave) / d);
+    share = std::min(share, most);
+  }
+  return share;
+}
+
 /// Updates `best` with the highest wrinkle of all lines whose points are (di, dj) grid steps apart.
 void search_along(const Grid& grid, int di, int dj, const std::vector<const ToolBody*>& tools,
                   Wrinkle& best) {
@@ -170,6 +219,7 @@ void search_along(const Grid& grid, int di, int dj, const std::vector<const Tool
       double found = height_of_shape(line);
       if (found <= best.height) continue;
       found = std::min(found, height_above_tools(line, tools, half_wave));
+      if (found > best.height) found *= 1.0 - share_of_tools(line, tools, half_wave);
       if (found > best.height) best = {found, 2.0 * half_wave, line[2]->x};
     }
 }

@@ -16,8 +16,16 @@
 // A tool with beads, or the edge of a hole seen along its tangent, has such waves itself. Therefore
 // H is also computed from the signed distances to each tool that faces the ply within s of P_0 (its
 // normal within 45 degrees of the ply's), and the smallest H counts: a ply that follows a tool has
-// no wrinkle there. Lines run along warp, across it and at 45 degrees, through all points of a grid
-// of h/2; a wave at another angle appears at most 8 % longer, with the same height.
+// no wrinkle there. Nor has one that is still on its way: between tools that are not closed it
+// bends over the crests of one into the valleys of another, less than they do. With
+//   T_k  mm  height over the chord, as D_k, of the surface that the lines through P_k-1, P_k, P_k+1
+//            along n_k meet, of a tool within 2 s of P_k that faces it; where a line meets nothing,
+//            the tool falls away, and T_k is infinite
+//   e    -   least over k of T_k/D_k, largest of all tools, from 0 to 1 (3)
+// the share e of the wave is the tools' own, and H is (1 - e) of what it would be: a wave is none
+// only if tools have all three of its bends. Lines run along warp, across it and at 45 degrees,
+// through all points of a grid of h/2; a wave at another angle appears at most 8 % longer, with the
+// same height.
 //
 // Points are taken on the smooth surface approximated by the facets, or each fillet would show
 // waves of their sag h^2/(8 r): half-way between the facet and the mean, weighted by w_i of the

@@ -100,5 +100,77 @@ TEST(Wrinkles, APlyThatFollowsAToolHasNone) {
   EXPECT_GT(highest(0.0, off_tool, {&tool}).height, 1.4);
 }
 
+/// Waves round z of this height (mm, valley to crest), 40 mm long, about z = `level`: the surface
+/// of a tool with its material below, or above.
+ToolBody rings(double height, double level, bool above) {
+  const auto point = [&](int k) -> Vec2 {
+    return {k, level + 0.5 * height * std::cos(2.0 * pi * k / 40.0)};
+  };
+  RevolvedProfile profile;
+  for (int i = 0; i < 200; ++i) {
+    const int k = above ? 200 - i : i, next = above ? k - 1 : k + 1; // material on the right
+    profile.segments.push_back({ProfileSegment::Kind::line, point(k), point(next)});
+  }
+  ToolBody tool;
+  tool.shape = profile;
+  return tool;
+}
+
+/// Between wavy tools that are not closed yet a ply bends over the crests of both, less than they.
+TEST(Wrinkles, APlyOnItsWayIntoToolsHasNone) {
+  for (const double share : {0.25, 0.5, 0.75}) // of the tools' waves
+    for (const double gap : {0.0, 2.0, 6.0}) { // mm, more than they need
+      const double waves = 6.0, room = waves * (1.0 - share);
+      const ToolBody die = rings(waves, -0.5 * room - 0.5 * gap, false),
+                     punch = rings(waves, 0.5 * room + 0.5 * gap, true);
+      const auto shape = [&](const Vec2& p) {
+        return Vec3(p.x(), p.y(), 0.5 * share * waves * std::cos(2.0 * pi * p.norm() / 40.0));
+      };
+      const double free = highest(0.0, shape).height, on_die = highest(0.0, shape, {&die}).height,
+                   between = highest(0.0, shape, {&die, &punch}).height;
+      fmt::print(
+          "{:g} of 6 mm, {:g} mm to spare: {:.2f} free, {:.2f} over the die, {:.2f} between\n",
+          share, gap, free, on_die, between);
+      EXPECT_GT(free, 0.9 * share * waves);
+      EXPECT_LT(on_die, 0.15 * share * waves + 0.2);
+      EXPECT_LT(between, 0.15 * share * waves + 0.2);
+    }
+}
+
+/// Wrinkles between flat tools, over a ball, and waves of a ply that tools have elsewhere or turned
+/// round are still found.
+TEST(Wrinkles, WavesThatToolsDoNotHaveAreFound) {
+  ToolBody floor, lid;
+  floor.shape = Plane{};
+  floor.position.z() = -2.0;
+  lid.shape = Plane{};
+  lid.position.z() = 2.0;
+  lid.rotation = Eigen::AngleAxisd(pi, Vec3::UnitX()).toRotationMatrix();
+  const auto wave = [](const Vec2& p) {
+    return Vec3(p.x(), p.y(), 1.5 * std::cos(2.0 * pi * p.x() / 40.0));
+  };
+  EXPECT_NEAR(highest(0.0, wave, {&floor, &lid}).height, 3.0, 0.3);
+  const auto rounds = [](const Vec2& p) {
+    return Vec3(p.x(), p.y(), 1.5 * std::cos(2.0 * pi * p.norm() / 40.0));
+  };
+  const ToolBody flat_rings = rings(1.0, -3.0, false); // a third of it
+  EXPECT_NEAR(highest(0.0, rounds, {&flat_rings}).height, 2.0, 0.4);
+  const auto opposite = [](const Vec2& p) {
+    return Vec3(p.x(), p.y(), 4.0 - 1.5 * std::cos(2.0 * pi * p.norm() / 40.0));
+  };
+  const ToolBody die = rings(3.0, 0.0, false);
+  EXPECT_GT(highest(0.0, opposite, {&die}).height, 2.7);
+  ToolBody ball;
+  ball.shape = Sphere{150.0};
+  ball.position.z() = -152.0;
+  const auto over_ball = [](const Vec2& p) {
+    const double r = std::max(p.norm(), 1e-9), a = r / 150.0;
+    const double high = 150.0 + 1.5 * std::cos(2.0 * pi * p.x() / 40.0);
+    return Vec3(p.x() / r * high * std::sin(a), p.y() / r * high * std::sin(a),
+                high * std::cos(a) - 152.0);
+  };
+  EXPECT_GT(highest(0.0, over_ball, {&ball}).height, 2.5);
+}
+
 } // namespace
 } // namespace plyform::wrinkles_test

@@ -2,13 +2,15 @@
 // Height of wrinkles over a ply: the measure of core/results/wrinkles.hpp, whose largest is in
 // summary.json, at every place in the place of the largest. Where a line of five points of the flat
 // ply, half a wave apart, goes up and down in turn, the least of its three heights over the chords
-// counts, and no wave counts that a tool close by has itself.
+// counts, and no wave counts that a tool close by has itself, nor the share that tools have of a wave
+// between them that is not closed yet.
 
 import { nodeNormals } from "plyform/ply_mesh.js";
 
 const LEAST = 0.3; // mm: lower waves are of the mesh, on fillets
 const FACING = Math.SQRT1_2;
 const GROWTH = 1.2;
+const NEAR_WAVES = 2; // half waves: tools nearer than that may have a wave's shape
 const CLOSE = 1; // sides of triangles: a ply is through a tool by less
 
 function meanSide({ flat, triangles }) {
@@ -20,6 +22,18 @@ function meanSide({ flat, triangles }) {
     }
   }
   return sum / triangles.length;
+}
+
+/** How far a tool's surface lies from p along d, from `behind` before p to `most`; else Infinity. */
+function wayTo(tool, p, d, behind, most) {
+  const near = 1e-3 * most;
+  let gone = -behind;
+  for (let i = 0; i < 200 && gone < most; ++i) {
+    const told = tool.away(...p.map((c, k) => c + gone * d[k]), most);
+    if (told && told.distance <= near) return gone;
+    gone += told ? told.distance : most;
+  }
+  return gone < most ? gone : Infinity;
 }
 
 const heightOf = (before, here, after) => (before * here >= 0 || after * here >= 0 ? 0
@@ -141,9 +155,43 @@ export class Wrinkles {
         if (!(height > Math.max(found[g], LEAST))) continue;
         const line = [-2, -1, 0, 1, 2].map((k) => 3 * (g + k * apart));
         height = Math.min(height, this.heightOfTools(line, points, facing, state, half));
+        if (height > found[g]) height *= 1 - this.shareOfTools(line, d, points, facing, state, half);
         if (height > found[g]) found[g] = height;
       }
     }
+  }
+
+  /** (3) of wrinkles.hpp: the share of a wave, with heights d over its chords, that tools have. */
+  shareOfTools(line, d, points, facing, state, half) {
+    let share = 1;
+    for (let k = 0; k < 3 && share > 0; ++k) {
+      let most = 0;
+      for (const tool of this.ply.run.tools) {
+        most = Math.max(most, this.heightOfTool(tool, line.slice(k, k + 3), points, facing, state, half) / d[k]);
+      }
+      share = Math.min(share, most);
+    }
+    return share;
+  }
+
+  /** Height over the chord of a tool's surface along the normal at the middle one of three places; 0
+   * if the tool is not near or does not face it. */
+  heightOfTool(tool, line, points, facing, state, half) {
+    const shift = tool.told.shift[state];
+    const place = (at) => [0, 1, 2].map((c) => points[at + c] - shift[c]);
+    const normal = [0, 1, 2].map((c) => facing[line[1] + c]);
+    const dot = (u) => u.reduce((sum, c, k) => sum + c * normal[k], 0);
+    const here = place(line[1]);
+    const nearest = tool.away(...here, NEAR_WAVES * half);
+    if (!nearest || Math.abs(dot(nearest.along)) < FACING) return 0;
+    const side = dot(nearest.along) > 0 ? -1 : 1; // of the tool, unless the ply is through it
+    const towards = normal.map((c) => side * c);
+    const z = line.map((at) => {
+      const p = place(at);
+      return dot(p.map((c, k) => c - here[k])) +
+        side * wayTo(tool, p, towards, CLOSE * this.side, 2 * NEAR_WAVES * half);
+    });
+    return Number.isFinite(z[1]) ? z[1] - 0.5 * (z[0] + z[2]) : 0;
   }
 
   /** The least height that the distances from a tool which faces the ply have; infinite if none does.
