@@ -5,6 +5,7 @@
 #include "core/solver/output_state.hpp"
 #include "core/solver/run.hpp"
 #include "core/solver/scene.hpp"
+#include "core/solver/whole_step.hpp"
 #include "python/bindings.hpp"
 
 #include <numbers>
@@ -68,12 +69,16 @@ public:
     RunHooks hooks;
     hooks.progress = [&](const Progress& p) {
       const py::gil_scoped_acquire python;
+      if (progress.is_none()) return callbacks.call(progress, [] { return py::none(); });
+      const VelocitiesAtPositions now(*scene_);
       callbacks.call(progress, [&] { return py::cast(p); });
     };
     hooks.frame = [&](const Frame& f) {
       // h5py's calls of HDF5, which is not made for threads, are kept out by the GIL too.
       const py::gil_scoped_acquire python;
       if (writer) writer->write_frame(f);
+      if (frame.is_none()) return callbacks.call(frame, [] { return py::none(); });
+      const VelocitiesAtPositions now(*scene_);
       callbacks.call(frame, [&] { return py::cast(std::make_shared<Frame>(f)); });
     };
     hooks.interrupt = &callbacks.stop;
@@ -81,6 +86,7 @@ public:
       const py::gil_scoped_release others;
       return run_scene(*scene_, threads_, hooks);
     }();
+    if (result.summary.status != "stopped") VelocitiesAtPositions(*scene_).keep();
     result.summary.accuracy.coarsening = prepared_.coarsening;
     result.summary.assumed.insert(result.summary.assumed.begin(), prepared_.notes.begin(),
                                   prepared_.notes.end());
@@ -124,7 +130,7 @@ void bind_live_ply(py::module_& m) {
       "thickness_mm", [](const PlyState& p) { return p.thickness; }, "mm, before forming.");
   add_live(ply, "positions", &PlyKinematics::x, true, "float64, (n, 3), mm: where the nodes are.");
   add_live(ply, "velocities", &PlyKinematics::velocity, true,
-           "float64, (n, 3), mm/s, half a step behind the positions.");
+           "float64, (n, 3), mm/s, at the time of the positions.");
   add_live(ply, "x0", &PlyModel::x0, false, "float64, (n, 3), mm: before forming.");
   ply.def_property_readonly(
       "triangles",

@@ -196,6 +196,63 @@ def check_start():
     assert np.allclose(starts[0][:, 0] - simulation.plies[0].x0[:, 0], 1e-3)
 
 
+FLIGHT = """
+gravity = [0.0, 0.0, -9810.0]
+[fabrics]
+glass = "{fabric}"
+[blanks.square]
+size = [40.0, 40.0]
+element_size = 10.0
+[[ply]]
+name = "ply"
+fabric = "glass"
+blank = "square"
+angle = 0.0
+[solver]
+duration = 0.01
+fibre_softening = 100.0
+outputs = 2
+"""
+
+
+def check_flight(folder):
+    """Velocities are those at the time of the positions: a free ply falls as it must, and one that
+    is thrown on its way counts from there on."""
+    (folder / "case.toml").write_text(FLIGHT.format(fabric=FABRIC), encoding="utf-8")
+    simulation = plyform.Simulation(plyform.Case(folder / "case.toml"), threads=1)
+    ply, g, seen = simulation.plies[0], 9810.0, []
+    ply.velocities[:] = [100.0, 0.0, 50.0]  # mm/s
+    start = ply.positions.copy()
+
+    def look(_):
+        t = simulation.time_s
+        if not seen or seen[-1][3] != t:
+            seen.append((abs(ply.velocities - [100.0, 0.0, 50.0 - g * t]).max(),
+                         ply.positions[:, 2].mean(), simulation.step, t))
+        if simulation.step == 200:
+            ply.velocities[:] = [0.0, -300.0, 800.0]
+            seen.append((0.0, ply.positions[:, 2].mean(), -1, t))
+            look.thrown = t, ply.positions.copy()
+            return False if look.stop else None
+        return None
+
+    look.stop = True
+    simulation.run(progress=look)
+    assert len(seen) >= 3 and max(row[0] for row in seen) < 1e-6 * 98.1, seen
+    simulation = plyform.Simulation(plyform.Case(folder / "case.toml"), threads=1)
+    ply, look.stop = simulation.plies[0], False
+    ply.velocities[:] = [100.0, 0.0, 50.0]
+    seen.clear()
+    simulation.run(progress=look)
+    thrown, at = look.thrown
+    left = simulation.time_s - thrown
+    assert left > 1e-3, left
+    wanted = at + np.array([0.0, -300.0 * left, 800.0 * left - 0.5 * g * left ** 2])
+    assert abs(ply.positions - wanted).max() < 1e-7, abs(ply.positions - wanted).max()
+    assert abs(ply.velocities - [0.0, -300.0, 800.0 - g * left]).max() < 1e-4
+    assert np.array_equal(start, ply.x0)
+
+
 def whole(folder, status):
     """The folder of a run that ended early: readable, and says so."""
     result = plyform.read(folder)
@@ -363,7 +420,7 @@ def check_types():
 with tempfile.TemporaryDirectory() as name:
     root = Path(name)
     folders = {}
-    for part in ("values", "mistakes", "run", "memory", "stops", "fits", "page"):
+    for part in ("values", "mistakes", "run", "memory", "flight", "stops", "fits", "page"):
         folders[part] = root / part
         folders[part].mkdir()
     check_types()
@@ -373,6 +430,7 @@ with tempfile.TemporaryDirectory() as name:
     check_difference(folders["run"], first)
     check_memory(folders["memory"])
     check_start()
+    check_flight(folders["flight"])
     check_stops(folders["stops"])
     check_fits(folders["fits"])
     check_page(folders["page"])
