@@ -136,6 +136,31 @@ void describe_locking(const Scene& s, Lines& lines) {
   }
 }
 
+/// Warns of nets that hardly resist shear on a mesh askew to their yarns (docs/theory/element.md).
+void describe_limp(const Scene& s, Lines& lines) {
+  constexpr double limp = 2e-7; // of the yarns' stiffness: a tenth of what glass weaves have
+  std::set<std::pair<int, int>> seen;
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const Membrane& m = s.plies[p].membrane;
+    const Fabric& f = m.fabric;
+    const auto triangles = static_cast<double>(m.triangles.size());
+    const double averaged = 2.0 * (triangles - m.groups()) / triangles;
+    constexpr double few = 0.05; // along an edge
+    const Ply& ply = s.data.plies[p];
+    if (!f.has_yarns() || averaged < few || !seen.emplace(ply.fabric, ply.blank).second) continue;
+    const Fabric& whole = s.data.fabrics[ply.fabric]; // not softened
+    const double yarns = std::min(whole.warp_density * whole.warp.largest_slope(),
+                                  whole.weft_density * whole.weft.largest_slope());
+    const double ratio = shear_rigidity(whole) / yarns;
+    if (ratio > limp) continue;
+    say(lines,
+        "    warning: ply {} hardly resists shear, by {:.2g} of its yarns' stiffness, and {:.0f} % "
+        "of its triangles are askew to the yarns: over a tip its shear may be off by 2 deg rms and "
+        "20 deg at places, or it stops; mesh = \"fibres\" has sides along both families",
+        ply.name, ratio, 100.0 * averaged);
+  }
+}
+
 /// Gives the wavelengths of wrinkles of compressed plies under tools that are pushed, once for each
 /// fabric and blank.
 void describe_wrinkles(const Scene& s, Lines& lines) {
@@ -180,14 +205,16 @@ void describe_cut(const Scene& s, std::size_t tool, Lines& lines) {
       !sharp && (std::abs(worst->radius - own) < 0.5 * own ||
                  (std::holds_alternative<MeshShapePtr>(t.shape) && std::isfinite(own))))
     worst->radius = own;
+  const bool warns = sharp || worst->depth > round * worst->radius;
   say(lines,
       "    {}: tool {}, {} at ({:.3g}, {:.3g}, {:.3g}): triangles have sides up to {:.3g} mm and "
-      "touch at nodes only, so that ply {} drawn over it may be cut {:.2g} mm deep between them; "
+      "touch at nodes only, so that ply {} drawn over it may be cut {:.2g} mm deep between them{}; "
       "sides up to {:.2g} mm keep that below half its thickness",
-      sharp || worst->depth > round * worst->radius ? "warning" : "note", s.tools[tool].name,
+      warns ? "warning" : "note", s.tools[tool].name,
       sharp ? std::string("sharp edge") : fmt::format("radius {:.3g} mm", worst->radius),
       worst->where.x(), worst->where.y(), worst->where.z(), longest_side(*cut_ply), cut_ply->name,
-      worst->depth, worst->good_side);
+      worst->depth, warns ? ", and that forces over it, of friction above all, are the mesh's" : "",
+      worst->good_side);
 }
 
 /// "340 x 340 x 5 mm from (-170, -170, -5) to (170, 170, 0)"
@@ -305,6 +332,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   describe_drawings(s.data, lines);
   describe_plies(s, lines);
   describe_locking(s, lines);
+  describe_limp(s, lines);
   describe_wrinkles(s, lines);
   describe_tools(s, prepared.meshes, lines);
   for (std::string& line : boundaries_ahead(s))
