@@ -6,6 +6,7 @@
 #include "core/results/verification.hpp"
 #include "core/results/wrinkles.hpp"
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -62,6 +63,14 @@ struct PlyReport {
   DrawIn draw_in;
 };
 
+/// Up to where the force of a tool is known: to the last output at which it did not press the plies
+/// against another tool (core/solver/pressed_stack.hpp).
+struct KnownForce {
+  double stroke_mm = std::numeric_limits<double>::infinity();
+  double time_s = std::numeric_limits<double>::infinity(); ///< infinite: to the end
+  bool to_end() const { return time_s == std::numeric_limits<double>::infinity(); }
+};
+
 struct Summary {
   std::string title, version;
   /// done; doubtful: it ended, but there are reasons to doubt the result; interrupted; stopped
@@ -76,7 +85,8 @@ struct Summary {
   Verification verification;
   ContactReport contact;
   WorkReport work;
-  std::vector<PlyReport> plies; ///< one per ply of the last frame, or empty: not known
+  std::vector<KnownForce> known_forces; ///< one per tool, or empty: all to the end
+  std::vector<PlyReport> plies;         ///< one per ply of the last frame, or empty: not known
   /// A sentence each: estimates of values that the case does not give, and values that were limited
   /// (core/model/fabric_estimates.hpp, assumptions).
   std::vector<std::string> assumed;

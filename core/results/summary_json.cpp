@@ -136,6 +136,18 @@ Json tool_object(const ToolFrame& tool) {
           {"displacement_mm", rounded(tool.stroke_mm)}};
 }
 
+/// The tools, with what is known of their forces.
+Json tools_list(const std::vector<ToolFrame>& tools, const std::vector<KnownForce>& known) {
+  Json list = list_of(tools, tool_object);
+  for (std::size_t t = 0; t < std::min(known.size(), list.size()); ++t) {
+    list[t]["force_known"] = known[t].to_end();
+    if (known[t].to_end()) continue;
+    list[t]["force_known_to_mm"] = rounded(known[t].stroke_mm);
+    list[t]["force_known_to_s"] = rounded(known[t].time_s);
+  }
+  return list;
+}
+
 Json boundary_object(const BoundaryFrame& boundary) {
   return {{"name", boundary.name},
           {"force_N", rounded(boundary.force_N)},
@@ -251,7 +263,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
               {"elements", elements},
               {"nodes", nodes},
               {"plies", plies_list(last.plies, summary.plies)},
-              {"tools", list_of(last.tools, tool_object)},
+              {"tools", tools_list(last.tools, summary.known_forces)},
               {"boundaries", list_of(last.boundaries, boundary_object)},
               {"energy", energy_object(last.energy)},
               {"accuracy", accuracy_object(summary.accuracy)},

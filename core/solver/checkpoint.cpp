@@ -29,7 +29,7 @@ void visit(Archive& a, PlyState& ply) {
   visit(a, static_cast<PlyKinematics&>(ply));
   visit(a, ply.x_search, ply.max_displacement, ply.path_length, ply.fold_bound, ply.fold_motion,
         ply.ridges.sides, ply.ridges.room, ply.occluded[0], ply.occluded[1], ply.unfolded);
-  visit(a, ply.bound, ply.eigenvalue_ratio, ply.lanczos_contacts, ply.mass);
+  visit(a, ply.bound, ply.eigenvalue_ratio, ply.lanczos_contacts, ply.mass, ply.resting);
   visit(a, ply.membrane.last_lambda, ply.membrane.last_viscous);
   if (ply.simd) visit(a, ply.simd->viscosity);
 }
@@ -53,7 +53,8 @@ template <class Archive>
 void visit(Archive& a, ToolState& t) {
   visit(a, t.body.displacement, t.body.motion, t.body.force, t.body.speed);
   visit(a, t.filter);
-  visit(a, t.force, t.displacement_search, t.max_displacement, t.path_length, t.ply_paths, t.work);
+  visit(a, t.force, t.displacement_search, t.max_displacement, t.path_length, t.ply_paths, t.work,
+        t.far);
   visit_all(a, t.contacts);
 }
 
@@ -99,6 +100,7 @@ void visit_state(Archive& a, Scene& s, RunState& run) {
         good.energy, good.tool_penetration, good.ply_penetration, good.time, good.step);
   Dwell& dwell = run.dwell;
   visit(a, dwell.low, dwell.high, dwell.window_end, dwell.settled);
+  visit(a, run.known_forces, run.astray);
   visit(a, run.energy, run.outputs_written, run.elapsed);
 }
 

@@ -6,6 +6,7 @@
 #include "core/base/archive.hpp"
 #include "core/model/energies.hpp"
 #include "core/results/summary.hpp"
+#include "core/solver/astray_forces.hpp"
 #include "core/solver/dwell.hpp"
 #include "core/solver/scene.hpp"
 
@@ -30,6 +31,8 @@ struct RunState {
   Snapshot good;
   Energies energy; ///< last computed
   Dwell dwell;
+  std::vector<KnownForce> known_forces; ///< core/solver/pressed_stack.hpp
+  std::vector<AstrayForce> astray;      ///< core/solver/astray_forces.hpp
   int outputs_written = -1;
   double elapsed = 0.0; ///< s of wall time
 };

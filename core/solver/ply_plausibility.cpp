@@ -2,6 +2,7 @@
 #include "core/solver/ply_plausibility.hpp"
 
 #include "core/base/text.hpp"
+#include "core/model/motion.hpp"
 #include "core/results/statistics.hpp"
 
 #include <algorithm>
@@ -15,7 +16,13 @@
 namespace plyform {
 namespace {
 
-constexpr double line_spacing = 2.0; // mm, of the lines of (1): about a yarn, finer than any mesh
+/// mm, of the lines of (1): about a yarn, and finer than the mesh.
+double line_spacing(const std::vector<double>& areas) {
+  double whole = 0.0;
+  for (const double area : areas)
+    whole += area;
+  return std::min(2.0, std::sqrt(whole / static_cast<double>(areas.size())));
+}
 constexpr double degrees_per_rad = 180.0 / std::numbers::pi;
 
 Vec3 formed_centroid(const PlyFrame& ply, std::size_t t) {
@@ -31,16 +38,16 @@ struct YarnLine {
 };
 
 /// Adds the compression of one triangle (`pressed`, strain) to (1) of the lines that cross it.
-/// across: coordinates of its corners normal to the lines, from line 0, in units of the spacing;
-/// area: mm^2.
-void add_chords(std::array<double, 3> across, double area, double pressed, std::size_t triangle,
-                std::vector<YarnLine>& lines) {
+/// across: coordinates of its corners normal to the lines, from line 0, in units of the spacing,
+/// mm; area: mm^2.
+void add_chords(std::array<double, 3> across, double spacing, double area, double pressed,
+                std::size_t triangle, std::vector<YarnLine>& lines) {
   std::sort(across.begin(), across.end());
   const auto [low, middle, high] = across;
   if (!(high > low)) return;
   // The chord through the corner with the middle coordinate is the longest; from it the length of
   // chords decreases linearly to both sides.
-  const double longest = 2.0 * area / ((high - low) * line_spacing);
+  const double longest = 2.0 * area / ((high - low) * spacing);
   for (auto k = static_cast<std::size_t>(std::ceil(std::max(low, 0.0)));
        static_cast<double>(k) < high && k < lines.size(); ++k) {
     const auto v = static_cast<double>(k);
@@ -60,15 +67,16 @@ YarnLine worst_line(const PlyFrame& ply, const std::vector<double>& strain,
     const double v = across.dot(x - ply.x0.front());
     low = std::min(low, v), high = std::max(high, v);
   }
+  const double spacing = line_spacing(areas);
   // The first line lies half a spacing inside, so that none lies on the edge of the ply.
-  const Vec3 start = ply.x0.front() + (low + 0.5 * line_spacing) * across;
-  std::vector<YarnLine> lines(1 + static_cast<std::size_t>((high - low) / line_spacing));
+  const Vec3 start = ply.x0.front() + (low + 0.5 * spacing) * across;
+  std::vector<YarnLine> lines(1 + static_cast<std::size_t>((high - low) / spacing));
   for (std::size_t t = 0; t < ply.triangles.size(); ++t) {
     if (!(strain[t] < 0.0)) continue;
     std::array<double, 3> v{};
     for (std::size_t k = 0; k < 3; ++k)
-      v[k] = across.dot(ply.x0[at(ply.triangles[t][k])] - start) / line_spacing;
-    add_chords(v, areas[t], -strain[t], t, lines);
+      v[k] = across.dot(ply.x0[at(ply.triangles[t][k])] - start) / spacing;
+    add_chords(v, spacing, areas[t], -strain[t], t, lines);
   }
   return *std::max_element(lines.begin(), lines.end(), [](const YarnLine& a, const YarnLine& b) {
     return a.excess < b.excess;
@@ -178,6 +186,87 @@ std::vector<std::string> doubts_of_grippers(const Scene& s, const Frame& last) {
 }
 
 } // namespace
+
+namespace {
+
+/// Tools that press the plies between them.
+std::vector<std::string> doubts_of_pressed(const Scene& s, const std::vector<KnownForce>& known) {
+  std::vector<std::string> names;
+  KnownForce first;
+  for (std::size_t t = 0; t < known.size(); ++t) {
+    if (known[t].to_end()) continue;
+    names.push_back(s.tools[t].name);
+    if (known[t].time_s < first.time_s) first = known[t];
+  }
+  if (names.empty()) return {};
+  return {fmt::format("do not trust the force of {} after {}: they press the plies between them "
+                      "with less room than the plies are thick, and nothing gives way but contact, "
+                      "whose stiffness is a number of the solver: the compression of plies is not "
+                      "modelled; leave them the thickness of the stack, or push one by a force",
+                      joined(names),
+                      whole_stroke(s.data) != 0.0 ? fmt::format("{:.4g} mm", first.stroke_mm)
+                                                  : fmt::format("{:.4g} s", first.time_s))};
+}
+
+/// Mean element size (mm) of the plies that have touched a tool, the largest.
+double element_on(const Scene& s, const ToolState& tool) {
+  double size = 0.0;
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    if (tool.contacts[p].sums.deepest == 0.0) continue;
+    double area = 0.0;
+    for (const double a : s.plies[p].membrane.node_area)
+      area += a;
+    const auto triangles = static_cast<double>(s.plies[p].membrane.triangles.size());
+    size = std::max(size, std::sqrt(2.0 * area / triangles));
+  }
+  return size;
+}
+
+/// Tools over whose edges the mesh does not follow.
+std::vector<std::string> doubts_of_edges(const Scene& s, const std::vector<AstrayForce>& astray) {
+  std::vector<std::string> found;
+  for (std::size_t t = 0; t < astray.size(); ++t) {
+    if (!(astray[t].share() > doubtful_astray_share)) continue;
+    const ToolState& tool = s.tools[t];
+    const double radius = smallest_radius(tool.body.shape), size = element_on(s, tool);
+    const std::string edge = std::isfinite(radius)
+                                 ? fmt::format("its smallest radius is {:g} mm", radius)
+                                 : std::string("its edges are sharper than that");
+    found.push_back(fmt::format(
+        "do not trust forces and draw-in over the edges of {}: elements of {:.3g} mm do not follow "
+        "them ({}), and contact at their nodes holds and pushes the plies by {:.2g} % of the load "
+        "that draws them: friction there is the mesh's; elements of half the radius, or a rounder "
+        "edge, avoid it",
+        tool.name, size, edge, 100.0 * astray[t].share()));
+  }
+  return found;
+}
+
+/// Plies that touched, though they were taken to be out of reach of each other.
+std::vector<std::string> doubts_of_reach(const Scene& s) {
+  std::vector<std::string> found;
+  for (const PlyContact& c : s.ply_contacts) {
+    const PlyState &a = s.plies[c.slave], &b = s.plies[c.master];
+    if (c.slave > c.master || a.stack == b.stack || !(c.contact.sums.deepest > 0.0)) continue;
+    found.push_back(
+        fmt::format("do not trust {} and {} where they press each other: they began too "
+                    "far apart to be taken for a stack, for which compression and "
+                    "bending of yarns are estimated; let them begin nearer, or give "
+                    "their fabrics these keys",
+                    a.name, b.name));
+  }
+  return found;
+}
+
+} // namespace
+
+std::vector<std::string> doubts_of_forces(const Scene& s, const std::vector<KnownForce>& known,
+                                          const std::vector<AstrayForce>& astray) {
+  std::vector<std::string> found = doubts_of_pressed(s, known);
+  for (const auto& more : {doubts_of_edges(s, astray), doubts_of_reach(s)})
+    found.insert(found.end(), more.begin(), more.end());
+  return found;
+}
 
 PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
                      const std::vector<const ToolBody*>& tools) {

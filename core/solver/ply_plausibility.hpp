@@ -3,13 +3,14 @@
 //
 // Woven yarns hardly bear compression: they buckle. Buckling that the mesh is too coarse to resolve
 // appears in the results as shortening of the yarn. The excess length of a ply is the largest, over
-// straight lines of the undeformed ply along warp and weft, 2 mm apart, of
+// straight lines of the undeformed ply along warp and weft, 2 mm apart or less, of
 //   e = integral of max(0, -strain) ds,  mm                                                     (1)
 // that is, by how much that yarn is longer than its path in the mesh. Gathered in one wrinkle of
 // wavelength w (mm) it would have the height (2/pi) sqrt(w e).
 #pragma once
 
 #include "core/results/result_writer.hpp"
+#include "core/solver/astray_forces.hpp"
 #include "core/solver/facet_penetration.hpp"
 #include "core/solver/scene.hpp"
 
@@ -25,6 +26,10 @@ constexpr double doubtful_pressed_share = 0.02;
 /// Relative energy balance error of a run beyond which its forces are doubtful.
 constexpr double doubtful_balance_error = 0.01;
 
+/// Forces astray over the edges of a tool (core/solver/astray_forces.hpp), of the load that draws
+/// the plies, beyond which forces are doubtful.
+constexpr double doubtful_astray_share = 0.1;
+
 /// Properties of a ply that report_ply needs besides its frame.
 struct PlyNature {
   double fibre_angle_deg = 90.0; ///< from warp to weft before forming
@@ -37,6 +42,11 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
 
 /// The reports of all plies of `last`, the frame of the scene in its present state.
 std::vector<PlyReport> report_plies(const Scene& s, const Frame& last);
+
+/// Reasons to doubt forces: of tools that press the plies between them (known: per tool), or over
+/// whose edges the mesh does not follow (astray: likewise).
+std::vector<std::string> doubts_of_forces(const Scene& s, const std::vector<KnownForce>& known,
+                                          const std::vector<AstrayForce>& astray);
 
 /// Reasons to doubt the result and what to do about each, one sentence each; empty if there is
 /// none. cuts: those of facet_penetration.hpp in the same state.

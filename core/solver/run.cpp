@@ -10,6 +10,7 @@
 #include "core/solver/facet_penetration.hpp"
 #include "core/solver/output_state.hpp"
 #include "core/solver/ply_plausibility.hpp"
+#include "core/solver/pressed_stack.hpp"
 #include "core/solver/run_diagnosis.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
@@ -188,12 +189,16 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
           fmt::format("the plies overlap: {} pairs of triangles of different plies cross in "
                       "the final state; a finer mesh or a longer solver.duration may help",
                       sum.contact.intersections_between_plies));
-  stop_if(s.data.self_contact() && sum.contact.intersections_within_plies > 0,
+  stop_if(any_self_contact(s) && sum.contact.intersections_within_plies > 0,
           fmt::format("a ply goes through itself: {} pairs of triangles of one ply cross in the "
                       "final state, though it is in contact with itself; a finer mesh or a longer "
                       "solver.duration may help",
                       sum.contact.intersections_within_plies));
-  doubt_if(doubts(s, result.last, sum.plies, cuts), sum);
+  sum.known_forces = state.known_forces;
+  std::vector<std::string> reasons = doubts(s, result.last, sum.plies, cuts);
+  for (std::string& reason : doubts_of_forces(s, state.known_forces, state.astray))
+    reasons.push_back(std::move(reason));
+  doubt_if(reasons, sum);
   if (const std::string forces = unsettled_forces(s, state.dwell); !forces.empty())
     sum.work.missing.push_back(forces);
 }
@@ -233,6 +238,11 @@ private:
   }
 
   void write() {
+    const bool first = state_.outputs_written < 0;
+    const double stroke = first ? 0.0 : result_.last.stroke_mm,
+                 time = first ? 0.0 : result_.last.time;
+    follow_known_forces(s_, stroke, time, state_.known_forces);
+    follow_astray_forces(s_, state_.astray);
     result_.last = make_frame(s_, tool_surfaces_, state_.energy, pool_);
     state_.outputs_written = outputs_due(s_);
     if (hooks_.frame) hooks_.frame(result_.last);

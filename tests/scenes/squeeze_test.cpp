@@ -56,5 +56,38 @@ TEST(SqueezeScene, TooLittleRoomIsNamed) {
   }
 }
 
+/// Where two tools with prescribed places press the plies, the force is that of contact.
+TEST(SqueezeScene, ForcesOfClosedToolsAreNotKnown) {
+  for (const auto& [plies, stroke] : {std::pair(1, 0.05), std::pair(3, 0.12)}) {
+    const RunResult run = run_case(under_a_press(plies, stroke), 1, {});
+    fmt::print("{} plies: {:.1f} N, {}\n", plies, run.last.tools[1].force_N, run.summary.message);
+    EXPECT_EQ(run.summary.status, "doubtful");
+    EXPECT_NE(run.summary.message.find("do not trust the force of floor, press after"),
+              std::string::npos);
+    ASSERT_EQ(run.summary.known_forces.size(), 2u);
+    for (const KnownForce& known : run.summary.known_forces) {
+      EXPECT_FALSE(known.to_end());
+      EXPECT_LT(known.stroke_mm, 0.5 * stroke);
+    }
+  }
+}
+
+/// Not where there is room, nor where one of them is pushed by a force, which the plies pass on.
+TEST(SqueezeScene, ForcesOfAGivenForceAndOfOpenToolsAreKnown) {
+  Case open = under_a_press(2, 1.0);
+  open.tools[1].position.z() += 1.2;
+  Case clamp = under_a_press(2, 0.0);
+  clamp.tools[1].motion = Motion::force, clamp.tools[1].force = 50.0;
+  Case formed = coarse_hemisphere({0.0, 0.5});
+  formed.solver.duration = 0.03;
+  for (const Case& data : {open, clamp, formed}) {
+    const Summary told = run_case(data, 1, {}).summary;
+    EXPECT_TRUE(ended(told.status)) << told.message;
+    EXPECT_EQ(told.message.find("do not trust the force of"), std::string::npos) << told.message;
+    for (const KnownForce& known : told.known_forces)
+      EXPECT_TRUE(known.to_end());
+  }
+}
+
 } // namespace
 } // namespace plyform::squeeze_test

@@ -75,12 +75,16 @@ void print_plausibility(const std::string& name, const PlyReport& ply) {
   fmt::print("\n");
 }
 
-/// Prints one line per tool, or per gripper, spring and clamp.
+/// Prints the force of a tool, or of a gripper, spring or clamp.
 template <class Body>
-void print_forces(const std::vector<Body>& bodies) {
-  for (const Body& body : bodies)
+void print_force(const Body& body, const KnownForce& known) {
+  if (known.to_end())
     fmt::print("  {:16} force {:8.{}f} N, displacement {:7.2f} mm\n", body.name, body.force_N,
                std::abs(body.force_N) < 10.0 ? 3 : 1, body.stroke_mm);
+  else
+    fmt::print("  {:16} force not known after {:.2f} mm, where tools press the plies; displacement "
+               "{:7.2f} mm\n",
+               body.name, known.stroke_mm, body.stroke_mm);
 }
 
 void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
@@ -98,8 +102,11 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   }
   for (std::size_t p = 0; p < r.summary.plies.size(); ++p)
     print_plausibility(r.last.plies[p].name, r.summary.plies[p]);
-  print_forces(r.last.tools);
-  print_forces(r.last.boundaries);
+  for (std::size_t t = 0; t < r.last.tools.size(); ++t)
+    print_force(r.last.tools[t],
+                t < r.summary.known_forces.size() ? r.summary.known_forces[t] : KnownForce{});
+  for (const auto& boundary : r.last.boundaries)
+    print_force(boundary, KnownForce{});
   fmt::print("  energy balance error {:.2e}, kinetic over shear energy {:.2e}\n", e.balance_error(),
              e.shear > 0.0 ? e.kinetic / e.shear : 0.0);
   if (r.summary.largest_added_mass > 0.0)

@@ -135,7 +135,23 @@ def read_summary(folder: Path) -> dict:
     except (OSError, KeyError, TypeError, ValueError) as problem:
         raise Trouble(f"{path} cannot be read as a summary of plyform: "
                       f"{problem}") from problem
+    return without_unknown_forces(summary)
+
+
+def without_unknown_forces(summary: dict) -> dict:
+    """Null in the place of forces of tools that press the plies between them: those are contact's
+    stiffness, not the cloth's."""
+    for tool in summary.get("tools", []):
+        if "force_N" in tool and not tool.get("force_known", True):
+            tool["force_N"] = tool["force_raw_N"] = None
     return summary
+
+
+def known_to_s(summary: dict) -> dict[str, float]:
+    """Of tools that came to press the plies between them, by name: until when their force is
+    known, s."""
+    return {tool["name"]: float(tool.get("force_known_to_s") or 0.0)
+            for tool in summary["tools"] if not tool.get("force_known", True)}
 
 
 def ended(summary: dict) -> bool:
@@ -164,4 +180,14 @@ def read_table(path: Path, needed: list[str] = ()) -> dict[str, np.ndarray]:
 
 
 def read_history(folder: Path) -> dict[str, np.ndarray]:
-    return read_table(file_in(folder, "history.csv"), ["time_s", "stroke_mm"])
+    """Columns by name; forces of tools that press the plies between them, as the summary has it,
+    are NaN from then on."""
+    history = read_table(file_in(folder, "history.csv"), ["time_s", "stroke_mm"])
+    if not (folder / "summary.json").is_file():
+        return history
+    for name, until in known_to_s(read_summary(folder)).items():
+        for column in (f"{name}_force_N", f"{name}_force_raw_N"):
+            if column in history:
+                history[column] = np.where(history["time_s"] > until * (1.0 + 1e-6), np.nan,
+                                           history[column])
+    return history

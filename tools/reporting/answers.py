@@ -146,17 +146,30 @@ def force(run: Run) -> Answer | None:
                if run.history and f"{name}_force_N" in run.history]
     if not bodies:
         return None
-    name, force_N, _ = max(bodies, key=lambda body: (body[2], abs(body[1][-1])))
+    name, force_N, _ = max(bodies, key=lambda body: (body[2], np.nan_to_num(abs(body[1][-1]))))
+    if np.isnan(force_N[-1]):
+        return force_not_known(run, name, force_N)
     k = int(abs(force_N).argmax())
     text = Markup("On <b>{}</b> at the end; the largest of all states is {}&nbsp;N at {}&nbsp;mm "
                   "of stroke.").format(name, number(float(force_N[k]), digits_of(force_N[k])),
                                        number(float(run.stroke_mm[k]), 1))
     others = [Markup("{} {}&nbsp;N").format(n, number(float(f[-1]), digits_of(f[-1])))
-              for n, f, _ in bodies if n != name]
+              for n, f, _ in bodies if n != name and not np.isnan(f[-1])]
     if others:
         text += Markup(" Others: {}.").format(Markup(", ").join(others))
     value = Markup("{}&nbsp;N").format(number(float(force_N[-1]), digits_of(force_N[-1])))
     return Answer("Force", value, text)
+
+
+def force_not_known(run: Run, name: str, force_N: np.ndarray) -> Answer:
+    """Of a tool that presses the plies against another one."""
+    k = int(np.flatnonzero(~np.isnan(force_N))[-1])
+    text = Markup("<b>{}</b> presses the plies against another tool, with less room than they are "
+                  "thick: from there on its force would be that of contact, not of the cloth. The "
+                  "last that is known is {}&nbsp;N at {}&nbsp;mm of stroke.").format(
+                      name, number(float(force_N[k]), digits_of(force_N[k])),
+                      number(float(run.stroke_mm[k]), 1))
+    return Answer("Force", Markup("not known"), text)
 
 
 def digits_of(value: float) -> int:

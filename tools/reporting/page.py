@@ -66,7 +66,7 @@ def told_of(run: Run, index: int) -> dict:
             "verdict": words, "answers": found, "doubts": answers.doubts(run),
             "summary": run.summary, "run": run, "triangles": sum(len(p.triangles) for p in run.plies),
             "plies": [(ply, run.told(ply.name)) for ply in run.plies],
-            "tools": [(tool, abs(tool.force_N).max()) for tool in run.tools]}
+            "tools": [(tool, np.nanmax(abs(tool.force_N), initial=0.0)) for tool in run.tools]}
 
 
 def scene_of(run: Run, blocks: Blocks) -> dict:

@@ -8,7 +8,7 @@ from pathlib import Path
 import h5py
 import numpy as np
 
-from plotting.reading import Trouble, file_in, names, read_history, read_summary
+from plotting.reading import Trouble, file_in, known_to_s, names, read_history, read_summary
 
 CELL_FIELDS = ["shear_angle_deg", "warp_strain", "weft_strain", "warp_tension_N",
                "weft_tension_N", "thickness_mm"]
@@ -42,7 +42,7 @@ class ToolStates:
     x0: np.ndarray         # n x 3, mm, at time 0
     triangles: np.ndarray  # m x 3
     shift: np.ndarray      # t x 3, mm, since time 0
-    force_N: np.ndarray    # t
+    force_N: np.ndarray    # t, NaN where it is not known
     stroke_mm: np.ndarray  # t, along its direction
 
 
@@ -75,6 +75,11 @@ def read_run(folder: Path) -> Run:
         raise Trouble(f"{path} cannot be read as results of plyform: {problem}") from problem
     if (folder / "summary.json").is_file():
         run.summary = read_summary(folder)
+        known = known_to_s(run.summary)
+        for tool in run.tools:
+            if tool.name in known:
+                after = run.time_s > known[tool.name] * (1.0 + 1e-6)
+                tool.force_N = np.where(after, np.nan, tool.force_N)
     if (folder / "history.csv").is_file():
         run.history = read_history(folder)
     return run

@@ -83,5 +83,6 @@ def charts_of(run: Run) -> list[dict]:
 
 
 def lines(named) -> list[dict]:
-    return [{"name": name, "values": [float(f"{v:.7g}") for v in values]}
+    """None where a value is not known."""
+    return [{"name": name, "values": [float(f"{v:.7g}") if np.isfinite(v) else None for v in values]}
             for name, values in named]

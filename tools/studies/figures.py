@@ -8,7 +8,7 @@ import re
 from pathlib import Path
 
 import numpy as np
-from plotting.reading import read_history
+from plotting.reading import read_history, without_unknown_forces
 
 TAKE = ("max", "min", "mean", "sum", "jump")
 FIGURE = re.compile(rf"^(?:([-+.\deE]+) \* )?(?:({'|'.join(TAKE)}) )?(\S+)$")  # factor, take, path
@@ -80,7 +80,7 @@ def of_history(path: str, folder: Path, jump: bool) -> list[float]:
 def figures_of(wanted: dict[str, str], summary: dict, folder: Path) -> dict:
     """A column a figure; of one with * and nothing to take of them, a column each. What the run
     does not have is left out."""
-    row, summary = {}, pairs_by_kind(summary) if summary else {}
+    row, summary = {}, pairs_by_kind(without_unknown_forces(summary)) if summary else {}
     for name, path in wanted.items():
         factor, how, path = FIGURE.match(path).groups()
         factor = float(factor or 1.0)

@@ -33,7 +33,7 @@ export class Chart {
     this.unit = chart.unit;
     this.runs = runs;
     const strokes = runs.flatMap((run) => run.stroke);
-    const values = runs.flatMap((run) => run.lines.flatMap((line) => line.values));
+    const values = runs.flatMap((run) => run.lines.flatMap((line) => line.values.filter(Number.isFinite)));
     [this.low, this.high] = [Math.min(0, ...values), Math.max(0, ...values)];
     if (this.high === this.low) this.high = this.low + 1;
     [this.from, this.to] = [Math.min(...strokes), Math.max(...strokes)];
@@ -77,7 +77,8 @@ export class Chart {
   lines() {
     this.runs.forEach((run, r) => run.lines.forEach((line, k) => {
       const [colour, dashes] = lineStyle(k);
-      const points = line.values.map((value, i) => `${this.x(run.stroke[i])},${this.y(value)}`).join(" ");
+      const points = line.values.map((value, i) => (Number.isFinite(value) // else not known
+        ? `${this.x(run.stroke[i])},${this.y(value)}` : "")).filter(Boolean).join(" ");
       part("polyline", { points, fill: "none", stroke: colour, "stroke-width": r ? 1.2 : 2.2,
         "stroke-dasharray": dashes, "stroke-opacity": r ? 0.75 : 1 }, this.svg);
     }));
@@ -108,7 +109,8 @@ export class Chart {
     this.mark.setAttribute("x2", this.x(stroke));
     const digits = fittingDigits(Math.max(Math.abs(this.low), Math.abs(this.high)));
     for (const { number, line, r } of this.numbers) {
-      number.textContent = `${written(line.values[states[r]], digits)} ${this.unit}`;
+      const value = line.values[states[r]];
+      number.textContent = Number.isFinite(value) ? `${written(value, digits)} ${this.unit}` : "not known";
     }
   }
 }

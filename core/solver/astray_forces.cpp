@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/astray_forces.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plyform {
+namespace {
+
+std::vector<Vec3> unit_normals(const PlyState& ply) {
+  std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
+  for (const Triangle& t : ply.membrane.triangles) {
+    const Vec3& a = at(ply.x, t[0]);
+    const Vec3 n = (at(ply.x, t[1]) - a).cross(at(ply.x, t[2]) - a).stableNormalized();
+    for (const std::int32_t k : t)
+      normals[at(k)] += n; // by sides, not areas: a bend is half of what is before and behind it
+  }
+  for (Vec3& n : normals)
+    n.stableNormalize();
+  return normals;
+}
+
+/// L, N.
+double drawing_load(const Scene& s) {
+  double drawn = 0.0, any = 0.0;
+  for (std::size_t t = 0; t < s.tools.size(); ++t) {
+    const double force = s.tools[t].force.norm();
+    any = std::max(any, force);
+    if (s.data.tools[t].motion == Motion::driven) drawn = std::max(drawn, force);
+  }
+  for (const BoundaryState& b : s.boundaries)
+    drawn = std::max(drawn, b.force.norm());
+  return drawn > 0.0 ? drawn : any;
+}
+
+} // namespace
+
+std::vector<double> forces_astray(const Scene& s) {
+  std::vector<double> astray(s.tools.size(), 0.0);
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    std::vector<Vec3> normals;
+    for (std::size_t t = 0; t < s.tools.size(); ++t) {
+      if (s.tools[t].contacts[p].sums.touching == 0) continue;
+      if (normals.empty()) normals = unit_normals(s.plies[p]);
+      for (const ToolPlyPoint& c : s.tools[t].contacts[p].points)
+        astray[t] += c.memory.normal_force * normal_of(c).cross(normals[at(c.node)]).norm();
+    }
+  }
+  return astray;
+}
+
+void follow_astray_forces(const Scene& s, std::vector<AstrayForce>& astray) {
+  astray.resize(s.tools.size());
+  const std::vector<double> now = forces_astray(s);
+  const double load = drawing_load(s);
+  for (std::size_t t = 0; t < now.size(); ++t)
+    astray[t].astray += now[t], astray[t].load += load;
+}
+
+} // namespace plyform
