@@ -278,7 +278,7 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
                     const RelativeMotion& moved, std::span<Vec3> slave_force,
                     std::span<Vec3> master_force) {
   const Stopwatch watch(contact.time.forces);
-  update(contact.list, moved.path_length, NoRoom{},
+  update(contact.list, moved.path_length, contact.distance, NoRoom{},
          [&contact](std::int32_t i) { deactivate(contact.points[i]); });
   clear_present(contact.sums);
   if (contact.list.active.empty()) return;

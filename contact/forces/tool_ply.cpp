@@ -79,7 +79,7 @@ void update_active(ToolPlyContact& contact, const ToolBody& tool, const SurfaceK
     const ToolPlyPoint& c = contact.points[static_cast<std::size_t>(i)];
     return least_gap(contact, tool, ply.x[static_cast<std::size_t>(c.node)], c.hint);
   };
-  update(contact.list, path_length, room,
+  update(contact.list, path_length, 2.0 * contact.half_thickness, room,
          [&contact](std::int32_t i) { deactivate(contact.points[i]); });
 }
 

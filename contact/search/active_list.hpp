@@ -39,10 +39,13 @@ struct NoRoom {
 /// pair that was active and no longer is. room(i): a lower bound of the pair's gap, mm, where the
 /// path length no longer tells. To be called at every step; returns whether it updated the list. An
 /// update serves for `kept` of path length, so that most steps need none, and while any pair is
-/// active for no more than `longest`, so that pairs that have opened become inactive.
+/// active for no more than `longest`, so that pairs that have opened become inactive. thickness:
+/// mm, of what touches, which both follow.
 template <class Room, class Deactivate>
-bool update(ActiveList& list, double path_length, const Room& room, const Deactivate& deactivate) {
-  constexpr double kept = 0.05, longest = 0.2; // mm
+bool update(ActiveList& list, double path_length, double thickness, const Room& room,
+            const Deactivate& deactivate) {
+  constexpr double tried = 0.6; // mm, the thickness for which the two were found by trying
+  const double kept = 0.05 * (thickness / tried), longest = 0.2 * (thickness / tried); // mm
   // A pair is activated two steps before it may touch, so that its closing speed is known by then.
   list.ahead = 2.0 * std::max(path_length - list.last_path, 0.0);
   list.last_path = path_length;

@@ -249,15 +249,20 @@ TriMesh tessellate(const ToolShape& shape, double size, double extent) {
   return std::visit([&](const auto& s) { return triangles_of(s, size, extent); }, shape);
 }
 
-double diagonal_of(const ToolShape& shape, double extent) {
-  const auto diagonal = [](const TriMesh& surface) {
+Box3 box_of(const ToolShape& shape, double extent) {
+  const auto around = [](const TriMesh& surface) {
     Box3 box;
     for (const Vec3& x : surface.x)
       box.extend(x);
-    return box.isEmpty() ? 0.0 : box.diagonal().norm();
+    return box;
   };
-  if (const auto* mesh = std::get_if<MeshShapePtr>(&shape)) return diagonal((*mesh)->surface());
-  return diagonal(tessellate(shape, std::numeric_limits<double>::infinity(), extent));
+  if (const auto* mesh = std::get_if<MeshShapePtr>(&shape)) return around((*mesh)->surface());
+  return around(tessellate(shape, std::numeric_limits<double>::infinity(), extent));
+}
+
+double diagonal_of(const ToolShape& shape, double extent) {
+  const Box3 box = box_of(shape, extent);
+  return box.isEmpty() ? 0.0 : box.diagonal().norm();
 }
 
 } // namespace plyform

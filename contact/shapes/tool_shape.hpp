@@ -99,7 +99,11 @@ TriMesh tessellate(const ToolShape& shape, double size, double extent);
 /// triangles with them; the surface stays as it is.
 void divide_sides(TriMesh& surface, double size);
 
-/// Diagonal (mm) of the box around tessellate(shape, any size, extent); 0 of a shape without area.
+/// The box (mm, tool frame) around tessellate(shape, any size, extent); empty of a shape without
+/// area.
+Box3 box_of(const ToolShape& shape, double extent);
+
+/// Diagonal (mm) of box_of; 0 of a shape without area.
 /// A tool may be a thousand times as large as the plies.
 double diagonal_of(const ToolShape& shape, double extent);
 

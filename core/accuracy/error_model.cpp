@@ -3,6 +3,7 @@
 
 #include "core/mesh/mesh_blank.hpp"
 #include "core/model/motion.hpp"
+#include "core/model/reach_ahead.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -91,8 +92,9 @@ bool bears_compression(const Case& data) {
   });
 }
 
-Numbers numbers_of(const Case& data) {
+Numbers numbers_of(const Case& all) {
   Numbers n;
+  const Case data = taking_part(all);
   const Strokes strokes = longest_strokes(data);
   const double stroke = strokes.longest(), fast = strokes.at_full_speed;
   if (stroke == 0.0) return n;
@@ -100,12 +102,13 @@ Numbers numbers_of(const Case& data) {
   // the yarns in the grips bear the whole load.
   const bool pulled = strokes.boundary > strokes.tool;
   constexpr double in_grips = 5.5;
-  const auto plies = static_cast<double>(data.plies.size());
+  const int stacked = reach_ahead(data).largest_stack();
+  const auto plies = static_cast<double>(stacked);
   const bool cloth = plies > 1.0 && bears_compression(data);
   n.inertia_factor = pulled ? c_stack : cloth ? c_cloth : plies > 1.0 ? c_stack : c_inertia;
   n.clamp_load_factor = pulled ? in_grips : 1.0;
   n.stack_softening_factor = std::pow(plies, p_shared);
-  if (data.plies.size() > 1) n.max_softening = measured_max_softening_of_stack;
+  if (stacked > 1) n.max_softening = measured_max_softening_of_stack;
   if (cloth)
     n.cloth_mesh_factor = mesh_of_cloth;
   else if (plies > 1.0)

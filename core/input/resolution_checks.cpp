@@ -3,6 +3,7 @@
 #include "core/input/bending_resolution.hpp"
 #include "core/input/case_parts.hpp"
 #include "core/model/fabric_estimates.hpp"
+#include "core/model/reach_ahead.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -56,6 +57,7 @@ double size_of(const BlankMesh& mesh) {
 
 void check_resolution(const Case& scene, const CaseParts& parts,
                       const std::vector<BlankMesh>& meshes, Diagnostics& diagnostics) {
+  const ReachAhead ahead = reach_ahead(scene);
   std::set<std::pair<int, int>> seen;
   for (std::size_t p = 0; p < scene.plies.size(); ++p) {
     const Ply& ply = scene.plies[p];
@@ -64,7 +66,7 @@ void check_resolution(const Case& scene, const CaseParts& parts,
     const auto number = static_cast<std::size_t>(ply.blank);
     const BlankSpec& spec = scene.blanks[number];
     const double h = spec.mesh == MeshKind::file ? size_of(meshes[p]) : spec.element_size;
-    const std::string text = too_coarse(fabric, scene.plies.size() > 1, h);
+    const std::string text = too_coarse(fabric, ahead.plies_in_stack(p) > 1, h);
     if (text.empty()) continue;
     const SourceLocation& blank = parts.blanks[number];
     diagnostics.warning(blank.at,

@@ -7,11 +7,11 @@ namespace plyform {
 
 Rows yarn_bending_rows(const std::string& yarn) {
   const std::string table = "fabrics.NAME." + yarn;
-  const std::string bending = "none with one ply, with two or more an estimate for yarns that bear "
+  const std::string bending = "none of a ply alone, in a stack an estimate for yarns that bear "
                               "compression: a bending length of 70 mm";
   return {{.key = table + ".compression_stiffness",
            .unit = "N/yarn",
-           .otherwise = "0 with one ply, with two or more an estimate: 0.01 of the stiffness",
+           .otherwise = "0 of a ply alone, in a stack an estimate: 0.01 of the stiffness",
            .ranges = {yarn_force_range},
            .meaning = "compressive force of one yarn divided by its shortening, at most its "
                       "stiffness in tension; 0: yarns carry tension only, and nothing is "
@@ -45,7 +45,7 @@ Rows yarn_bending_rows(const std::string& yarn) {
                       "negative curvatures"},
           {.key = table + ".in_plane_bending_stiffness",
            .unit = "N mm",
-           .otherwise = "0 with one ply, with two or more an estimate for yarns that bear "
+           .otherwise = "0 of a ply alone, in a stack an estimate for yarns that bear "
                         "compression: zones of 2.5 cells of the weave",
            .ranges = {bending_range},
            .meaning = "moment per width divided by the curvature of the " + yarn +

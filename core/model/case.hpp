@@ -151,12 +151,6 @@ struct Case {
   SolverOptions solver;
   ContactOptions contact;
   AccuracyOptions accuracy;
-
-  /// Whether each ply is in contact with itself, too.
-  bool self_contact() const {
-    return contact.self == SelfContact::on ||
-           (contact.self == SelfContact::automatic && plies.size() > 1);
-  }
 };
 
 } // namespace plyform

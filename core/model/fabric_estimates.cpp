@@ -2,11 +2,12 @@
 #include "core/model/fabric_estimates.hpp"
 
 #include "core/base/text.hpp"
+#include "core/model/reach_ahead.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <set>
+#include <map>
 #include <vector>
 
 namespace plyform {
@@ -122,26 +123,37 @@ double usual_in_plane_bending(const Fabric& fabric) {
 }
 
 void estimate_missing(Case& data) {
-  std::set<int> used;
-  for (const Ply& ply : data.plies)
-    used.insert(ply.fabric);
-  for (const int index : used) {
-    Fabric& fabric = data.fabrics[index];
-    if (!fabric.has_yarns()) continue;
-    if (data.plies.size() > 1)
-      estimate_for_stack(fabric);
-    else
-      estimate_for_one_ply(fabric);
+  const ReachAhead ahead = reach_ahead(data);
+  std::array<std::map<int, std::vector<std::size_t>>, 2> plies_of; // by fabric; [1]: in stacks
+  for (std::size_t p = 0; p < data.plies.size(); ++p)
+    plies_of[ahead.plies_in_stack(p) > 1 ? 1 : 0][data.plies[p].fabric].push_back(p);
+  for (const auto& [index, alone] : plies_of[0]) {
+    if (!data.fabrics[index].has_yarns()) continue;
+    int own = index;
+    if (plies_of[1].contains(index)) { // plies that lie alone are not of the stack's yarns
+      own = static_cast<int>(data.fabrics.size());
+      data.fabrics.push_back(Fabric(data.fabrics[index]));
+      for (const std::size_t p : alone)
+        data.plies[p].fabric = own;
+    }
+    estimate_for_one_ply(data.fabrics[own]);
   }
+  for (const auto& [index, stacked] : plies_of[1])
+    if (data.fabrics[index].has_yarns()) estimate_for_stack(data.fabrics[index]);
 }
 
 std::vector<std::string> describe_estimates(const Case& data) {
-  const std::string why = data.plies.size() > 1 ? "since a stack of plies presses its yarns"
-                                                : "since yarns that bend or buckle need it";
+  const ReachAhead ahead = reach_ahead(data);
+  std::vector<char> stacked(data.fabrics.size(), 0);
+  for (std::size_t p = 0; p < data.plies.size(); ++p)
+    if (ahead.plies_in_stack(p) > 1) stacked[at(data.plies[p].fabric)] = 1;
   std::vector<std::string> lines;
-  for (const Fabric& f : data.fabrics) {
+  for (std::size_t i = 0; i < data.fabrics.size(); ++i) {
+    const Fabric& f = data.fabrics[i];
     const std::string values = estimated_values(f);
     if (values.empty()) continue;
+    const char* why = stacked[i] ? "since a stack of plies presses its yarns"
+                                 : "since yarns that bend or buckle need it";
     lines.push_back(
         fmt::format("{}: {}: estimated, {}; give the keys, or compression_stiffness = 0 "
                     "for yarns that carry tension only",

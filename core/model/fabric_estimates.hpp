@@ -47,9 +47,11 @@ double shear_rigidity(const Fabric& fabric);
 double usual_in_plane_bending(const Fabric& fabric);
 
 /// Estimates the ValueSource::missing properties of the woven fabrics of a case's plies, and marks
-/// them ValueSource::estimated. With two or more plies: C, and B and D_g of yarns that bear
-/// compression. With one ply: C of yarns whose file has a bending stiffness or buckling force, as
-/// both need it. A family with a given compression of 0 is not changed: it carries tension only.
+/// them ValueSource::estimated. Of plies that others may press (core/model/reach_ahead.hpp): C, and
+/// B and D_g of yarns that bear compression. Of a ply that lies alone: C of yarns whose file has a
+/// bending stiffness or buckling force, as both need it; if plies in a stack are of its fabric too,
+/// it gets a copy of its own. A family with a given compression of 0 is not changed: it carries
+/// tension only.
 void estimate_missing(Case& data);
 
 /// What was estimated and why, for the user: one line per fabric with an estimate.

@@ -40,6 +40,8 @@ double motion_at(const Boundary& boundary, double t, double duration);
 /// spring.
 double force_share(double t, double duration);
 
+/// mm/s, at most, of a pushed tool, reached where nothing resists: a fast press.
+constexpr double closing_speed = 1000.0;
 constexpr double ramp_share = 0.25;                           ///< of the duration, each
 constexpr double peak_speed_ratio = 1.0 / (1.0 - ramp_share); ///< largest speed over the mean
 

@@ -28,14 +28,14 @@ void renew_rows(Scene& s, PlyPair& pair) {
     begin();
     const bool up = c.slave == pair.a;
     const PlyState& master = up ? b : a;
-    add_ply_ply_stiffness(c.contact, master.state(), master.membrane.triangles, bound_margin,
+    add_ply_ply_stiffness(c.contact, master.state(), master.membrane.triangles, s.bound_margin,
                           up ? pair.rows_a : pair.rows_b, up ? pair.rows_b : pair.rows_a);
   }
   for (const int i : pair.edges) {
     const EdgeEdgeContact& contact = s.edge_contacts[i].contact;
     if (contact.groups.empty()) continue;
     begin();
-    add_edge_stiffness(contact, edge_margin, pair.rows_a, pair.rows_b);
+    add_edge_stiffness(contact, edge_margin(s), pair.rows_a, pair.rows_b);
   }
   visit_contacts(s, pair, [](auto& contact) {
     contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
@@ -82,7 +82,7 @@ ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
     std::vector<ContactRow>& rows = c[p];
     rows.resize(ply.x.size());
     for (const ToolState& tool : s.tools)
-      add_tool_ply_stiffness(tool.contacts[p], ply.membrane.node_area, bound_margin, rows);
+      add_tool_ply_stiffness(tool.contacts[p], ply.membrane.node_area, s.bound_margin, rows);
     for (const PlyPair& pair : s.ply_pairs) {
       if (pair.a == i) add(pair.rows_a, rows);
       if (pair.b == i) add(pair.rows_b, rows);

@@ -8,10 +8,10 @@
 
 namespace plyform {
 
-/// mm: gap up to which open contacts count. The stable time step is computed again when anything
-/// has moved by half of it.
-constexpr double bound_margin = 0.5;
-constexpr double edge_margin = 0.25 * bound_margin; ///< mm, the same for edge-edge contact
+/// mm, SceneModel::bound_margin of edge-edge contact.
+inline double edge_margin(const Scene& scene) {
+  return 0.25 * scene.bound_margin;
+}
 
 /// Row sums of the contact matrices, per ply and node.
 using ContactRows = std::vector<std::vector<ContactRow>>;

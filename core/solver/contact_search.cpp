@@ -6,6 +6,7 @@
 #include "core/solver/edge_contact_search.hpp"
 #include "core/solver/occlusion.hpp"
 #include "core/solver/pass_through.hpp"
+#include "core/solver/resting.hpp"
 
 #include <algorithm>
 #include <array>
@@ -68,7 +69,7 @@ void allocate_forces(const Scene& s, PlyPair& pair) {
 }
 
 void find_ply_unfolded(const Scene& s, PlyState& ply) {
-  if (s.data.self_contact())
+  if (ply.self_contact)
     find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x, ply.thickness,
                   s.skin, ply.unfolded);
 }
@@ -112,6 +113,7 @@ bool track_displacements(Scene& s) {
     // A pushed tool moves later in this step, when its forces are computed.
     const double ahead = t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0;
     t.path_length += t.body.motion.norm();
+    if (t.far) continue;
     grow(t.max_displacement, (t.body.displacement - t.displacement_search).norm() + ahead);
   }
   return largest_displacement(s) <= 0.5 * s.skin;
@@ -167,8 +169,10 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     n.moved2 = 0.0;
   for (PlyState& ply : s.plies)
     ply.max_displacement = 0.0;
+  find_far_tools(s);
   for (ToolState& t : s.tools) // what it may still move in this step
-    t.max_displacement = t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0;
+    t.max_displacement = t.body.force_controlled && !t.far ? t.body.max_approach_speed * s.dt : 0.0;
+  find_resting(s);
   ++s.searches;
 }
 

@@ -70,10 +70,12 @@ TriMesh surface_of(const Scene& scene, const ToolBody& body) {
   for (const PlyState& ply : scene.plies)
     for (const Vec3& x : ply.x0)
       extent = std::max(extent, (x - body.position).norm());
-  constexpr double facet = 5.0; // mm, for pictures; of a tool of more than 1.5 m longer
+  constexpr double facet = 5.0; // mm, for pictures; of a tool of more than 1.5 m longer, of one of
+                                // less than 100 mm shorter
   extent *= 1.2;
-  TriMesh surface =
-      tessellate(body.shape, std::max(facet, diagonal_of(body.shape, extent) / 300.0), extent);
+  const double diagonal = diagonal_of(body.shape, extent);
+  const double size = diagonal > 0.0 ? std::clamp(facet, diagonal / 300.0, diagonal / 20.0) : facet;
+  TriMesh surface = tessellate(body.shape, size, extent);
   for (Vec3& x : surface.x)
     x = body.rotation * x + body.position;
   return surface;

@@ -46,9 +46,8 @@ std::optional<Stop> find_pass_through(const Scene& s, const PlyContact& pair) {
 /// Whether the straight path from `from` by `displacement` meets the tool. Marches along the path
 /// by the signed distance at each point (sphere tracing), so that a thin tool is not missed.
 bool meets_tool(const ToolBody& tool, const Vec3& from, const Vec3& displacement) {
-  constexpr int most = 1000;      // limit of the number of steps
-  constexpr double nearly = 1e-3; // mm
-  const double length = displacement.norm();
+  constexpr int most = 1000;                                         // limit of the number of steps
+  const double length = displacement.norm(), nearly = length / most; // mm
   SurfaceHint hint;
   double gone = 0.0;
   for (int i = 0; i < most && gone < length; ++i) {

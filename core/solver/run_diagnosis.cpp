@@ -163,7 +163,7 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
     found.push_back(fmt::format("tensile stiffness: yarns of {} are {:.2g} % longer, softened by "
                                 "{:g}; a smaller solver.fibre_softening makes it less",
                                 ply, 100.0 * strain, by));
-  if (c.intersections_within_plies > 0 && !s.data.self_contact())
+  if (c.intersections_within_plies > 0 && !any_self_contact(s))
     found.push_back(fmt::format("self-contact: {} pairs of triangles of one ply cross; "
                                 "contact.self = \"on\" keeps folds apart",
                                 c.intersections_within_plies));

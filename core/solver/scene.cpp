@@ -4,6 +4,8 @@
 #include "contact/search/unfolded.hpp"
 #include "core/base/thread_pool.hpp"
 #include "core/mesh/mesh_ply.hpp"
+#include "core/model/motion.hpp"
+#include "core/model/reach_ahead.hpp"
 #include "core/solver/facet_penetration.hpp"
 
 #include <algorithm>
@@ -62,7 +64,6 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const
     body.q.resize(mesh.triangles.size());
   }
   body.edges = sheet_edges(body.membrane.triangles, body.x0);
-  body.convex = data.self_contact() && is_convex(body.x0, body.membrane.triangles);
   body.touches_boundary_edge = faces_on_rim(body.edges.all, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   body.bound = eigenvalue_bound(body.membrane, body.x);
@@ -101,6 +102,10 @@ double penalty_per_area(const PlyState& ply, double fraction, bool stack) {
          ply.bound.omega2;
 }
 
+// Gap up to which open contacts count in the bound of the stable step (SceneModel::bound_margin),
+// over the thickness of the thinnest ply: 0.5 mm for 0.6 mm.
+constexpr double margin_in_thicknesses = 1.0 / 1.2;
+
 // Depth limits of contact over a ply's thickness. Between plies a quarter, with which edge-edge
 // contact begins before edges can cross (contact/forces/edge_edge.hpp). In tools a sixth: 0.1 mm
 // for a ply of 0.6 mm.
@@ -123,13 +128,12 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlySt
   t.body.force_controlled = tool.motion == Motion::force;
   t.force_on = tool.force;
   t.body.mass = tool.mass;
-  constexpr double closing_speed = 1000.0; // mm/s: a fast press
   t.body.max_approach_speed = closing_speed;
   for (std::size_t p = 0; p < plies.size(); ++p) {
     ToolPlyContact c;
     const int body = static_cast<int>(plies.size() + index);
     c.law =
-        make_law(data.contact, penalty_per_area(plies[p], data.contact.stiffness, plies.size() > 1),
+        make_law(data.contact, penalty_per_area(plies[p], data.contact.stiffness, plies[p].stacked),
                  plies[p].membrane.fabric.surface_density, data.friction(static_cast<int>(p), body),
                  deepest_in_tool * plies[p].thickness);
     c.half_thickness = 0.5 * plies[p].thickness;
@@ -177,11 +181,35 @@ std::vector<PlyPair> make_pairs(const Scene& s) {
   return pairs;
 }
 
-double smallest_element(const std::vector<PlyState>& plies) {
-  double smallest = std::numeric_limits<double>::max();
-  for (const PlyState& ply : plies)
-    smallest = std::min(smallest, std::sqrt(cell_area(ply)));
-  return smallest;
+/// Sets what follows from which bodies may meet.
+void set_reach(const Case& data, std::vector<PlyState>& plies) {
+  const ReachAhead ahead = reach_ahead(data);
+  const bool any_moves =
+      std::find(ahead.ply_moves.begin(), ahead.ply_moves.end(), 1) != ahead.ply_moves.end();
+  for (std::size_t p = 0; p < plies.size(); ++p) {
+    PlyState& ply = plies[p];
+    ply.stack = ahead.stack[p];
+    ply.stacked = ahead.plies_in_stack(p) > 1;
+    ply.left_alone = any_moves && !ahead.ply_moves[p];
+    ply.self_contact = data.contact.self == SelfContact::on ||
+                       (data.contact.self == SelfContact::automatic && ply.stacked);
+    ply.convex = ply.self_contact && is_convex(ply.x0, ply.membrane.triangles);
+  }
+}
+
+/// Sets the lengths that the smallest element and the thinnest ply decide, of those that move.
+void set_lengths(Scene& s) {
+  double element = std::numeric_limits<double>::max(), thickness = element;
+  for (const PlyState& ply : s.plies) {
+    if (ply.left_alone) continue;
+    element = std::min(element, std::sqrt(cell_area(ply)));
+    thickness = std::min(thickness, ply.thickness);
+  }
+  s.element_size = element;
+  // A small skin makes searches frequent, a large one increases the number of points and faces
+  // within reach (with its square): with a third of an element both costs are small.
+  s.skin = s.data.contact.skin > 0.0 ? s.data.contact.skin : 0.3 * element;
+  s.bound_margin = margin_in_thicknesses * thickness;
 }
 
 /// Springs and grippers, and the arrays that their forces need.
@@ -223,11 +251,12 @@ void share_constants(std::vector<PlyState>& plies, std::size_t p) {
 /// two sheets closer by L f / 4, here by 3/8 of the contact distance h; nodes and faces keep three
 /// quarters of it, so that 3/8 are left, of which edges use the half beyond h/4.
 void limit_ridges(Scene& s) {
-  double longest = 0.0;
-  for (const PlyState& ply : s.plies)
-    longest = std::max(longest, longest_side(ply));
-  for (PlyState& ply : s.plies)
+  for (PlyState& ply : s.plies) {
+    double longest = 0.0;
+    for (const PlyState& other : s.plies)
+      if (other.stack == ply.stack) longest = std::max(longest, longest_side(other));
     ply.ridge_limit = 1.5 * ply.thickness / longest;
+  }
 }
 
 /// Makes as many plies at a time as there are threads, so that few hold constants of their own that
@@ -259,18 +288,16 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   Scene s;
   s.data = data;
   s.plies = make_plies(data, meshes, threads);
+  set_reach(data, s.plies);
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
-  s.element_size = smallest_element(s.plies);
-  // A small skin makes searches frequent, a large one increases the number of points and faces
-  // within reach (with its square): with a third of an element both costs are small.
-  s.skin = data.contact.skin > 0.0 ? data.contact.skin : 0.3 * s.element_size;
+  set_lengths(s);
   const int n = static_cast<int>(s.plies.size());
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b)
       if (a != b) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
-  for (int a = 0; a < n && data.self_contact(); ++a)
-    s.ply_contacts.push_back(make_pair(data, s.plies, a, a));
+  for (int a = 0; a < n; ++a)
+    if (s.plies[a].self_contact) s.ply_contacts.push_back(make_pair(data, s.plies, a, a));
   for (const PlyContact& pair : s.ply_contacts)
     if (pair.slave <= pair.master) {
       PlyEdgeContact edges{pair.slave, pair.master, {}};

@@ -14,6 +14,7 @@
 #include "core/ply/membrane_simd.hpp"
 #include "core/solver/force_filter.hpp"
 
+#include <algorithm>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,7 +36,12 @@ struct PlyModel {
   SheetEdges edges;
   double ridge_limit = 0.0;                ///< contact/search/sheet_ridges.hpp
   std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
-  bool convex = false; ///< contact/search/unfolded.hpp; not asked without self-contact
+  // What follows from which bodies may meet: core/model/reach_ahead.hpp.
+  int stack = 0;             ///< the lowest ply of its stack
+  bool stacked = false;      ///< whether its stack has other plies
+  bool left_alone = false;   ///< nothing may move it, but something moves others
+  bool self_contact = false; ///< whether it is in contact with itself, too
+  bool convex = false;       ///< contact/search/unfolded.hpp; not asked without self-contact
 };
 
 /// Position and velocity of a ply: the state that a restart must keep.
@@ -70,6 +76,11 @@ struct PlyStability {
   std::vector<double> mass;      ///< t, one per node, with what core/solver/mass_scaling.hpp adds
 };
 
+/// Whether a ply is part of the motion: core/solver/resting.hpp.
+struct PlyRest {
+  bool resting = false; ///< at rest where it began, with nothing near that moves
+};
+
 /// Temporary data of one step.
 struct PlyWorkspace {
   std::vector<ElementForce> q;    ///< forces without simd, one per triangle
@@ -80,7 +91,7 @@ struct PlyWorkspace {
 };
 
 /// A ply and its state.
-struct PlyState : PlyModel, PlyKinematics, PlySearch, PlyStability, PlyWorkspace {
+struct PlyState : PlyModel, PlyKinematics, PlySearch, PlyStability, PlyRest, PlyWorkspace {
   SurfaceKinematics state() const {
     return {x, motion, membrane.node_area, fold_bound, edges.faces_across};
   }
@@ -99,6 +110,7 @@ struct ToolState {
   double max_displacement = 0.0; ///< mm, largest distance from displacement_search, with what it
                                  ///< may still move in this step
   double path_length = 0.0;      ///< mm, contact/search/active_list.hpp
+  bool far = false; ///< core/solver/resting.hpp: it cannot touch a ply before the next search
   std::vector<double> ply_paths; ///< mm, with each ply, with what it may still move in this step
   double work = 0.0;             ///< N mm, done by the tool on the plies since the start
   double seconds = 0.0;          ///< s, computing time of its forces
@@ -163,8 +175,11 @@ struct SceneModel {
   std::vector<PrescribedNode> held;    ///< ascending by ply and node
   std::vector<Attachment> attachments; ///< springs and grippers, ascending by boundary
   std::vector<Block> group_blocks, node_blocks, bending_blocks;
-  double element_size = 0.0; ///< mm, the smallest of the mean element sizes of all plies
+  double element_size = 0.0; ///< mm, the smallest of the mean element sizes of plies that move
   double skin = 0.0;         ///< mm, that of the case, or from the element size
+  /// mm: gap up to which open contacts count in the stable time step, which is computed again when
+  /// anything has moved by half of it (core/solver/contact_rows.hpp)
+  double bound_margin = 0.0;
 };
 
 /// Plies, tools, boundaries and the contacts between them.
@@ -205,6 +220,11 @@ struct SceneWorkspace {
 };
 
 struct Scene : SceneModel, SceneBodies, SceneProgress, SceneWorkspace {};
+
+inline bool any_self_contact(const Scene& s) {
+  return std::any_of(s.plies.begin(), s.plies.end(),
+                     [](const PlyState& ply) { return ply.self_contact; });
+}
 
 /// Builds the scene of a case: meshes, membranes, bending, contacts with their stiffnesses, and the
 /// initial positions. meshes: one per ply; if empty, the blanks are meshed here. threads >= 1.

@@ -71,6 +71,7 @@ double element_omega2(const PlyState& ply) {
 StepBound stable_step(const Scene& s, const ContactRows& touching) {
   StepBound bound;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    if (s.plies[p].resting) continue;
     const PlyBound of = bound_of(s, touching, p);
     double dt = std::min(of.step_with_gain(s.time_step_gain, s.plies[p].lanczos_contacts),
                          of.elements.step());
@@ -96,6 +97,7 @@ void update_stable_step(Scene& s, ThreadPool& pool) {
   const ContactRows touching = contact_rows(s, pool);
   double dt = std::numeric_limits<double>::infinity();
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    if (s.plies[p].resting) continue;
     const PlyBound of = bound_of(s, touching, p);
     s.plies[p].lanczos_contacts = of.contacts.omega2;
     dt = std::min(dt, of.sum_step());

@@ -43,8 +43,8 @@ struct StepBound {
   int ply = -1, triangle = -1;
 };
 /// The stable time step from PlyStability::bound, the gain, and the contacts at their present
-/// positions: those that are closed or within bound_margin of closing. step_factor covers their
-/// sliding until the next update.
+/// positions: those that are closed or within Scene::bound_margin of closing. step_factor covers
+/// their sliding until the next update.
 StepBound stable_step(const Scene& scene, const ContactRows& touching);
 
 /// Bound of omega^2, 1/s^2, of the elements and the bending of a ply.

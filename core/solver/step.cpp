@@ -107,7 +107,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   pull_springs(s);
   filter_forces(s);
   if (due || s.step % contacts_every == 0 ||
-      largest_displacement(s) - s.bound_displacement > 0.5 * bound_margin)
+      largest_displacement(s) - s.bound_displacement > 0.5 * s.bound_margin)
     renew_stable_step(s, pool);
   else if (contacts_deepened(s))
     renew_deepened_step(s, pool);
@@ -122,6 +122,7 @@ void move_plies(Scene& s, ThreadPool& pool) {
   pool.run(static_cast<int>(s.node_blocks.size()), [&](int i) {
     const auto b = static_cast<std::size_t>(i);
     Block& block = s.node_blocks[b];
+    if (s.plies[block.ply].resting) return;
     const Stopwatch watch(block.seconds);
     s.node_sums[b] = move_nodes(s.plies[block.ply], block, s.dt, s.next_dt, loads);
   });

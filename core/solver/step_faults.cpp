@@ -35,8 +35,9 @@ bool crosses_itself(const PlyState& ply) {
 /// What to do about plies that are where they cannot be: `advice`, unless a ply has folded through
 /// itself, which its neighbours feel as well.
 std::string remedy_for(const Scene& s, const char* advice) {
-  if (s.data.self_contact()) return advice;
-  const auto folded = std::find_if(s.plies.begin(), s.plies.end(), crosses_itself);
+  const auto folded = std::find_if(s.plies.begin(), s.plies.end(), [](const PlyState& ply) {
+    return !ply.self_contact && crosses_itself(ply);
+  });
   if (folded == s.plies.end()) return advice;
   return fmt::format("ply {} has folded through itself: set contact.self = \"on\"", folded->name);
 }

@@ -22,6 +22,11 @@ StiffnessOperator::StiffnessOperator(const Scene& s, double dt)
 void StiffnessOperator::add_ply(const PlyState& ply, double dt) {
   const std::size_t p = y_.size();
   first_.push_back(size_);
+  if (ply.resting) { // no part of what moves: without degrees of freedom
+    y_.emplace_back(), yarns_.emplace_back(), on_ply_.emplace_back();
+    bounded_.push_back(0.0);
+    return;
+  }
   size_ += static_cast<Eigen::Index>(3 * ply.x.size());
   y_.emplace_back(ply.x.size());
   Frequencies bounded{ply.bound.soft, s_.data.solver.mass_damping};
@@ -35,7 +40,7 @@ void StiffnessOperator::add_ply(const PlyState& ply, double dt) {
   bounded_.push_back(bounded.stability_lhs(dt));
   std::vector<ContactTangent>& on_ply = on_ply_.emplace_back();
   for (const ToolState& tool : s_.tools)
-    append_tangents(tool.contacts[p], ply.membrane.node_area, bound_margin, factors_, on_ply);
+    append_tangents(tool.contacts[p], ply.membrane.node_area, s_.bound_margin, factors_, on_ply);
 }
 
 void StiffnessOperator::add_pair(const PlyPair& pair) {
@@ -46,10 +51,10 @@ void StiffnessOperator::add_pair(const PlyPair& pair) {
     const bool up = c.slave == pair.a;
     const PlyState &slave = up ? a : b, &master = up ? b : a;
     append_tangents(c.contact, slave.state(), master.state(), master.membrane.triangles,
-                    bound_margin, factors_, up ? to.up : to.down);
+                    s_.bound_margin, factors_, up ? to.up : to.down);
   }
   for (const int i : pair.edges)
-    append_tangents(s_.edge_contacts[i].contact, a.state(), b.state(), edge_margin, factors_,
+    append_tangents(s_.edge_contacts[i].contact, a.state(), b.state(), edge_margin(s_), factors_,
                     to.up);
   if (to.up.empty() && to.down.empty()) return;
   to.force_a.resize(a.x.size());
@@ -75,8 +80,9 @@ Eigen::VectorXd StiffnessOperator::apply(const Eigen::VectorXd& v, ThreadPool& p
 Eigen::VectorXd StiffnessOperator::start() const {
   Eigen::VectorXd v(size_);
   for (std::size_t p = 0; p < y_.size(); ++p)
-    v.segment(first_[p], degrees_of_freedom(p)) =
-        scattered_motion(s_.plies[p].membrane, s_.plies[p].x);
+    if (!s_.plies[p].resting)
+      v.segment(first_[p], degrees_of_freedom(p)) =
+          scattered_motion(s_.plies[p].membrane, s_.plies[p].x);
   return v;
 }
 

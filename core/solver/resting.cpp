@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/resting.hpp"
+
+#include "core/model/motion.hpp"
+#include "core/solver/contact_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+bool is_as_it_began(const PlyState& ply) {
+  return ply.x == ply.x0 && std::all_of(ply.velocity.begin(), ply.velocity.end(),
+                                        [](const Vec3& v) { return v.isZero(0.0); });
+}
+
+template <class Points>
+bool any_closed(const Points& points) {
+  return std::any_of(points.begin(), points.end(),
+                     [](const auto& c) { return latest_gap(c) < 0.0; });
+}
+
+/// Whether a tool that moves is near a ply, or one presses it.
+bool tool_is_near(const Scene& s, std::size_t p) {
+  for (std::size_t t = 0; t < s.tools.size(); ++t) {
+    const ToolPlyContact& contact = s.tools[t].contacts[p];
+    const bool moves = s.data.tools[t].motion != Motion::fixed;
+    if (moves ? !contact.points.empty() : any_closed(contact.points)) return true;
+  }
+  return false;
+}
+
+/// mm, the longest that a tool may still go from where it is.
+double way_left(const Scene& s, std::size_t t) {
+  const Tool& tool = s.data.tools[t];
+  const double end = (1.0 + s.data.solver.dwell) * s.data.solver.duration;
+  if (tool.motion == Motion::force)
+    return s.tools[t].body.max_approach_speed * std::max(end - s.time, 0.0);
+  if (tool.motion == Motion::fixed) return 0.0;
+  const double now = motion_at(tool, s.time, s.data.solver.duration);
+  double left = std::max(std::abs(now), std::abs(tool.stroke - now));
+  for (const Stage& stage : tool.programme)
+    left = std::max(left, std::abs(stage.value - now));
+  return left;
+}
+
+bool is_far(const Scene& s, std::size_t t) {
+  const ToolState& tool = s.tools[t];
+  double gap = std::numeric_limits<double>::infinity(); // mm, at least, to any ply
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    const ToolPlyContact& contact = tool.contacts[p];
+    if (!contact.points.empty()) return false;
+    const double path = path_length_ahead(s, tool) + s.plies[p].path_length;
+    for (const float free : contact.free)
+      gap = std::min(gap, double{free} - path);
+  }
+  // plies move by half a skin until the next search, and by one more step
+  return gap > way_left(s, t) + s.skin;
+}
+
+} // namespace
+
+void find_far_tools(Scene& s) {
+  for (std::size_t t = 0; t < s.tools.size(); ++t)
+    s.tools[t].far = is_far(s, t);
+}
+
+void find_resting(Scene& s) {
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    PlyState& ply = s.plies[p];
+    ply.resting = ply.left_alone && is_as_it_began(ply) && !tool_is_near(s, p);
+  }
+  bool news = true; // what is woken may wake others
+  while (news) {
+    news = false;
+    for (const PlyPair& pair : s.ply_pairs) {
+      PlyState &a = s.plies[pair.a], &b = s.plies[pair.b];
+      if (!a.resting && !b.resting) continue;
+      const bool both = a.resting && b.resting;
+      const auto wakes = [&](int i) {
+        const auto& points = s.ply_contacts[i].contact.points;
+        return both ? any_closed(points) : !points.empty();
+      };
+      const auto edges_wake = [&](int i) {
+        return !both && !s.edge_contacts[i].contact.groups.empty();
+      };
+      if (std::none_of(pair.contacts.begin(), pair.contacts.end(), wakes) &&
+          std::none_of(pair.edges.begin(), pair.edges.end(), edges_wake))
+        continue;
+      a.resting = b.resting = false;
+      news = true;
+    }
+  }
+}
+
+} // namespace plyform
