@@ -54,7 +54,16 @@ void follow_astray_forces(const Scene& s, std::vector<AstrayForce>& astray) {
   const std::vector<double> now = forces_astray(s);
   const double load = drawing_load(s);
   for (std::size_t t = 0; t < now.size(); ++t)
-    astray[t].astray += now[t], astray[t].load += load;
+    astray[t].push_back(load > 0.0 ? now[t] / load : 0.0);
+}
+
+double astray_share(const AstrayForce& astray) {
+  if (astray.empty()) return 0.0;
+  std::vector<double> later(astray.begin() + static_cast<std::ptrdiff_t>(astray.size() / 2),
+                            astray.end());
+  const auto middle = later.begin() + static_cast<std::ptrdiff_t>(later.size() / 2);
+  std::nth_element(later.begin(), middle, later.end());
+  return *middle;
 }
 
 } // namespace plyform

@@ -226,7 +226,7 @@ double element_on(const Scene& s, const ToolState& tool) {
 std::vector<std::string> doubts_of_edges(const Scene& s, const std::vector<AstrayForce>& astray) {
   std::vector<std::string> found;
   for (std::size_t t = 0; t < astray.size(); ++t) {
-    if (!(astray[t].share() > doubtful_astray_share)) continue;
+    if (!(astray_share(astray[t]) > doubtful_astray_share)) continue;
     const ToolState& tool = s.tools[t];
     const double radius = smallest_radius(tool.body.shape), size = element_on(s, tool);
     const std::string edge = std::isfinite(radius)
@@ -237,7 +237,7 @@ std::vector<std::string> doubts_of_edges(const Scene& s, const std::vector<Astra
         "them ({}), and contact at their nodes holds and pushes the plies by {:.2g} % of the load "
         "that draws them: friction there is the mesh's; elements of half the radius, or a rounder "
         "edge, avoid it",
-        tool.name, size, edge, 100.0 * astray[t].share()));
+        tool.name, size, edge, 100.0 * astray_share(astray[t])));
   }
   return found;
 }
