@@ -29,8 +29,10 @@ from pathlib import Path
 
 try:
     import numpy as np
+    from base.ending import EXIT_OTHER, ended
     from plotting.numbers import edges_of
     from plotting.reading import FIELDS, Ply, Trouble, read_state
+    from plotting.whole_file import write_whole
 except ImportError as error:
     sys.exit(f"area_means.py: error: {error}; install python3-h5py")
 
@@ -172,7 +174,7 @@ def table(plies: list[dict]) -> str:
     return "\n".join(lines)
 
 
-def main() -> None:
+def run() -> None:
     parser = argparse.ArgumentParser(prog="area_means.py", description=__doc__.split("\n", 1)[0])
     parser.add_argument("first", type=Path, metavar="DIR_A", help="result folder")
     parser.add_argument("second", type=Path, nargs="?", metavar="DIR_B",
@@ -182,19 +184,19 @@ def main() -> None:
                         metavar="DEGREES", help="turn the second run about z: 90, 180 or 270")
     parser.add_argument("--json", type=Path, metavar="FILE", help="the numbers, with places")
     options = parser.parse_args()
-    if not options.radius > 0.0:
-        parser.error("--radius must be above 0")
+    if not 0.0 < options.radius < 1e6:
+        parser.error("--radius must be above 0 and at most 1e6 mm")
     if options.second is None and options.turn == 0:
         parser.error("a second folder or --turn is needed")
-    try:
-        told = compare(options.first, options.second or options.first, options.radius,
-                       options.turn // 90)
-        if options.json:
-            options.json.write_text(json.dumps(told, indent=2, ensure_ascii=False) + "\n",
-                                    encoding="utf-8")
-        print(table(told))
-    except (Trouble, OSError) as problem:
-        sys.exit(f"area_means.py: error: {problem}")
+    told = compare(options.first, options.second or options.first, options.radius,
+                   options.turn // 90)
+    if options.json:
+        write_whole(options.json, json.dumps(told, indent=2, ensure_ascii=False) + "\n")
+    print(table(told))
+
+
+def main() -> None:
+    ended("area_means.py", run, wrong=EXIT_OTHER)
 
 
 if __name__ == "__main__":

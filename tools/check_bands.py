@@ -24,19 +24,21 @@ Exit codes: 0 done; 1 a run is missing, was stopped, or cannot be read; 2 wrong 
 
 import argparse
 import csv
-import json
 import shutil
 import statistics
 import subprocess
 import sys
-import tomllib
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
 try:
+    from base.ending import Mistake, ended
+    from base.files import TEXT, check_file, read_text, read_toml
+    from base.summary_file import read_summary
     from compare import table
     from plotting.reading import Trouble
+    from plotting.whole_file import write_whole
     from studies.case_values import CaseValues, FileHash
     from studies.text_table import MARK
 except ImportError as error:
@@ -82,22 +84,20 @@ class Figure:
 
 
 def read_scenes(file: Path) -> list[Scene]:
-    try:
-        tables = tomllib.loads(file.read_text(encoding="utf-8"))
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as problem:
-        raise Trouble(f"{file}: {problem}") from problem
-    scenes = []
-    for number, one in enumerate(tables.get("scene", []), 1):
+    tables, scenes = read_toml(file).get("scene", []), []
+    if not isinstance(tables, list) or not all(isinstance(one, dict) for one in tables):
+        raise Mistake(f"{file}: scene is no list of tables; write each under [[scene]]")
+    for number, one in enumerate(tables, 1):
         where = f"{file}: scene {number}"
         if set(one) - {"name", "case", "set"} or not {"name", "case"} <= set(one):
             raise Trouble(f"{where} has {', '.join(one)}; it takes name, case and set")
         settings = one.get("set", [])
         if not (isinstance(settings, list) and all(isinstance(text, str) for text in settings)):
             raise Trouble(f"{where}: set must be a list of texts KEY=VALUE")
+        if not all(isinstance(one[key], str) and one[key] for key in ("name", "case")):
+            raise Trouble(f"{where}: name and case must be texts")
         case = file.parent / one["case"]
-        case = case / "case.toml" if case.is_dir() else case
-        if not case.is_file():
-            raise Trouble(f"{where}: {case} is missing")
+        case = check_file(case / "case.toml" if case.is_dir() else case, TEXT)
         if one["name"] in (scene.name for scene in scenes):
             raise Trouble(f"{where}: there is another {one['name']}")
         scenes.append(Scene(one["name"], case, tuple(settings)))
@@ -134,8 +134,8 @@ def runs_of(scenes: list[Scene], folder: Path, program: Path) -> list[tuple[Run,
 def summary_of(run: Run) -> dict:
     """Empty if the run has not ended, or has no bands where it should."""
     try:
-        told = json.loads((run.folder / "summary.json").read_text(encoding="utf-8"))
-    except (OSError, json.JSONDecodeError):
+        told = read_summary(run.folder, ("status", "plies", "tools"))
+    except Trouble:
         return {}
     missing = told["status"] == "interrupted" or (run.verify and "verification" not in told)
     return {} if missing else told
@@ -152,7 +152,7 @@ def do_run(run: Run, program: Path) -> None:
                           capture_output=True, text=True, check=False)
     said = done.stderr.strip().splitlines()
     told = summary_of(run)
-    state = f"{told['status']}, {told['steps']} steps" if told else said[-1] if said else "no results"
+    state = f"{told['status']}, {told.get('steps')} steps" if told else said[-1] if said else "no results"
     print(f"{run.folder.name}: {state}", file=sys.stderr, flush=True)
 
 
@@ -167,11 +167,11 @@ def shear_differences(program: Path, run: Run, other: Run) -> dict[str, float]:
 
 def scalars(summary: dict) -> dict[str, float]:
     """By the names that figures have."""
-    found = {f"force of {tool['name']}": tool["force_N"] for tool in summary["tools"]}
+    found = {f"force of {tool['name']}": tool.get("force_N") for tool in summary["tools"]}
     for ply in summary["plies"]:
         found[f"draw-in of {ply['name']}"] = ply.get("draw_in_mm", {}).get("mean")
-        found[f"largest compression of {ply['name']}"] = \
-            100.0 * ply["max_pressed_strain"] if "max_pressed_strain" in ply else None
+        pressed = ply.get("max_pressed_strain")
+        found[f"largest compression of {ply['name']}"] = None if pressed is None else 100.0 * pressed
     return found
 
 
@@ -185,9 +185,12 @@ def figures_of(program: Path, first: Run, second: Run) -> list[Figure]:
     a, b = scalars(one), scalars(two)
     apart |= {name: abs(a[name] - b[name]) for name in a
               if a[name] is not None and b.get(name) is not None}
-    return [Figure(first.scene.name, figure["name"], figure["unit"], figure["value"],
-                   figure["band"], apart[figure["name"]] / (1.0 - 2.0**-ORDER))
-            for figure in one["verification"]["figures"]]
+    try:
+        return [Figure(first.scene.name, figure["name"], figure["unit"], figure["value"],
+                       figure["band"], apart[figure["name"]] / (1.0 - 2.0**-ORDER))
+                for figure in one["verification"]["figures"] if figure["band"] is not None]
+    except KeyError as problem:
+        raise Trouble(f"{first.folder}: its bands, or the other run, lack {problem}") from problem
 
 
 def ratio(figures: list[Figure]) -> float:
@@ -226,12 +229,11 @@ def markdown(figures: list[Figure]) -> str:
 
 
 def fill(text: Path, name: str, inner: str) -> None:
-    before = text.read_text(encoding="utf-8")
+    before = read_text(text)
     if ("table", name) not in MARK.findall(before):
         raise Trouble(f"{text} has no place for this; write a line <!-- table: {name} -->")
-    text.write_text(MARK.sub(lambda match: match[0] if match[2] != name else
-                             f"<!-- table: {name} -->\n\n{inner}\n\n<!-- end -->\n", before),
-                    encoding="utf-8")
+    write_whole(text, MARK.sub(lambda match: match[0] if match[2] != name else
+                               f"<!-- table: {name} -->\n\n{inner}\n\n<!-- end -->\n", before))
 
 
 def write_csv(file: Path, figures: list[Figure]) -> None:
@@ -285,13 +287,9 @@ def arguments() -> argparse.Namespace:
     return options
 
 
-def main() -> int:
-    try:
-        return check(arguments())
-    except Trouble as problem:
-        print(f"check_bands.py: error: {problem}", file=sys.stderr)
-        return 2
+def main() -> None:
+    ended("check_bands.py", lambda: check(arguments()))
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    main()

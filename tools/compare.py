@@ -23,7 +23,10 @@ from pathlib import Path
 try:
     import numpy as np
     from plotting.numbers import values_at
-    from plotting.reading import FIELDS, Ply, Trouble, ended, read_state, read_summary
+    from base.ending import EXIT_OTHER, ended, one_line
+    from plotting.reading import FIELDS, Ply, Trouble, read_state, read_summary
+    from plotting.reading import ended as has_ended
+    from plotting.whole_file import write_whole
 except ImportError as error:
     sys.exit(f"compare.py: error: {error}; install python3-h5py")
 
@@ -55,7 +58,7 @@ def read_reference(folder: Path) -> dict[str, tuple[Ply, float | None]]:
 def read_run(folder: Path, reference: dict[str, tuple[Ply, float | None]]) -> dict:
     """The summary and the folder and, of each ply that the reference has, how far it is from
     that."""
-    run = {"folder": str(folder), **read_summary(folder)}
+    run = {"folder": one_line(folder), **read_summary(folder)}
     plies = {ply.name: ply for ply in read_state(folder, FIELDS["shear"]).plies}
     if list(plies) != [ply.get("name") for ply in run["plies"]]:
         raise Trouble(f"{folder}: summary.json and results.h5 have different plies: "
@@ -72,7 +75,8 @@ def read_run(folder: Path, reference: dict[str, tuple[Ply, float | None]]) -> di
 def labels(folders: list[Path]) -> list[str]:
     """Last part of each path, or the paths where two have the same."""
     names = [folder.resolve().name for folder in folders]
-    return names if len(set(names)) == len(names) else [str(folder) for folder in folders]
+    told = names if len(set(names)) == len(names) else [str(folder) for folder in folders]
+    return [one_line(name) for name in told]
 
 
 def number(value, form: str, factor: float = 1.0) -> str:
@@ -160,7 +164,7 @@ def run_table(runs: list[dict], names: list[str]) -> str:
 def remarks(runs: list[dict], names: list[str]) -> str:
     """What the tables cannot say: why runs ended early, what not to trust and why draw-ins are
     missing."""
-    lines = [f"- {name} is {'doubtful' if ended(run) else 'not done (' + run['status'] + ')'}: "
+    lines = [f"- {name} is {'doubtful' if has_ended(run) else 'not done (' + run['status'] + ')'}: "
              f"{run.get('message') or 'no reason given'}"
              for run, name in zip(runs, names) if run["status"] != "done"]
     lines += [f"- {name}, ply {ply['name']}: no draw-in, {ply['no_draw_in']}"
@@ -168,25 +172,25 @@ def remarks(runs: list[dict], names: list[str]) -> str:
     return "\n".join(lines)
 
 
-def main() -> None:
+def run() -> None:
     parser = argparse.ArgumentParser(prog="compare.py", description=__doc__.split("\n", 1)[0])
     parser.add_argument("folders", nargs="+", type=Path, metavar="DIR", help="result folder")
     parser.add_argument("--against", type=Path, metavar="DIR",
                         help="result folder that the others are compared with")
     parser.add_argument("--json", type=Path, metavar="FILE", help="all numbers, with all walks of the draw-in")
     options = parser.parse_args()
-    try:
-        reference = read_reference(options.against) if options.against else {}
-        runs = [read_run(folder, reference) for folder in options.folders]
-        names = labels(options.folders)
-        if options.json:
-            options.json.write_text(json.dumps(runs, indent=2, ensure_ascii=False) + "\n",
-                                    encoding="utf-8")
-        parts = [part(runs, names) for part in
-                 (difference_table, ply_table, force_table, run_table, remarks)]
-        print("\n\n".join(part for part in parts if part))
-    except (Trouble, OSError) as problem:
-        sys.exit(f"compare.py: error: {problem}")
+    reference = read_reference(options.against) if options.against else {}
+    runs = [read_run(folder, reference) for folder in options.folders]
+    names = labels(options.folders)
+    if options.json:
+        write_whole(options.json, json.dumps(runs, indent=2, ensure_ascii=False) + "\n")
+    parts = [part(runs, names) for part in
+             (difference_table, ply_table, force_table, run_table, remarks)]
+    print("\n\n".join(part for part in parts if part))
+
+
+def main() -> None:
+    ended("compare.py", run, wrong=EXIT_OTHER)
 
 
 if __name__ == "__main__":

@@ -19,8 +19,10 @@ import sys
 from pathlib import Path
 
 try:
+    from base.ending import EXIT_OTHER, ended
     from plotting import draw_fit, draw_folds, draw_history, draw_plies, draw_section, draw_setup
-    from plotting.reading import FIELDS, Trouble
+    from plotting.reading import FIELDS
+    from plotting.whole_file import make_whole
 except ImportError as error:
     sys.exit(f"plot.py: error: {error}; install python3-h5py and python3-matplotlib")
 
@@ -143,13 +145,16 @@ def arguments() -> argparse.Namespace:
     return options
 
 
-def main() -> None:
+def run() -> None:
     options = arguments()
-    try:
-        # tight: where axes have to be square, the layout alone may cut their titles off
-        options.draw(options).savefig(options.output, dpi=options.dpi, bbox_inches="tight")
-    except (Trouble, OSError) as problem:
-        sys.exit(f"plot.py: error: {problem}")
+    figure = options.draw(options)
+    # tight: where axes have to be square, the layout alone may cut their titles off
+    make_whole(options.output,
+               lambda part: figure.savefig(part, dpi=options.dpi, bbox_inches="tight"))
+
+
+def main() -> None:
+    ended("plot.py", run, wrong=EXIT_OTHER)
 
 
 if __name__ == "__main__":

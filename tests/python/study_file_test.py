@@ -95,7 +95,16 @@ WRONG = {  # what is put in the place of what, and the one message that comes
     ("values = [0.1", "values = [9, 0.1"): "study.toml:8: error: vary.0.values.0: does not fit "
     "the case: contact.friction = 9: must not be that; give less",
     ('"contact.friction"', '"tools.*.force"'): "vary.0.key = 'tools.*.force': fits no key",
-    ("values = ", "values = = "): "study.toml:8: error: ",
+    ("values = ", "values = = "): "study.toml:8:10: error: Invalid value; write it as TOML does",
+    ("values = [0.1, 0.2, 0.3, 0.4]", "range = [0.1, 0.4]\ncount = 1000000000"):
+    "study.toml:9: error: vary.0.count = 1000000000: must be a whole number from 2 to 100000",
+    ("values = [0.1", "values = [1" + 400 * "0"): "vary.0.values.0: must be a number",
+    ("[[vary]]", "[table]\nforce = '{punch_N:s}'\n[[vary]]"): "{punch_N:s} has no form of a number",
+    ("[[vary]]", "[table]\nforce = '{punch_N:.999999999f}'\n[[vary]]"): "has no form of a number",
+    ('name = "friction"', 'name = "status"'): "status is a column of every",
+    **{("[[vary]]", "[[picture]]\nkind = 'scatter'\nx = 'punch_N'\ny = 'shear_deg'\nfile = "
+        f"'{name}'\n[[vary]]"): f"study.toml:10: error: picture.0.file = '{name}': must be a file's"
+       for name in ("../x.png", "/x.png", "a.exe", ".x.png", "x/y.png", "table.csv", "..png")},
 }
 
 

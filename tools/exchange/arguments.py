@@ -1,36 +1,14 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What the commands map, pattern and export share: their exit codes, and the state to read."""
+"""What the commands map, pattern and export share: the state to read."""
 
 import argparse
-import sys
-from collections.abc import Callable
 from pathlib import Path
 
-from plotting.reading import Trouble
-
+from base.ending import NotReached, ended, one_line
 from exchange.formed import FormedStack, read_formed
 from exchange.mirror import mirrored
 
-EXIT_OTHER, EXIT_WRONG = 1, 2
-
-
-class NotReached(Exception):
-    """What was asked for was tried and not reached; one line."""
-
-
-def ended(command: str, act: Callable[[], None]) -> None:
-    """Runs a command. What is wrong with files or arguments gives one line and exit code 2, what
-    was not reached and a file that cannot be written exit code 1."""
-    try:
-        act()
-    except Trouble as problem:
-        print(f"{command}: error: {problem}", file=sys.stderr)
-        sys.exit(EXIT_WRONG)
-    except KeyboardInterrupt:
-        sys.exit(EXIT_OTHER)
-    except (OSError, NotReached) as problem:
-        print(f"{command}: error: {problem}", file=sys.stderr)
-        sys.exit(EXIT_OTHER)
+__all__ = ["NotReached", "add_state", "ended", "read_state", "source_words"]
 
 
 def add_state(parser: argparse.ArgumentParser) -> None:
@@ -51,4 +29,4 @@ def read_state(options: argparse.Namespace) -> FormedStack:
 
 
 def source_words(folder: Path, frame: int, stroke: float) -> str:
-    return f"run {folder.resolve().name}, frame {frame} at {stroke:.6g} mm of stroke"
+    return f"run {one_line(folder.resolve().name, 200)}, frame {frame} at {stroke:.6g} mm of stroke"

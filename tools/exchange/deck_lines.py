@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from base.files import is_file, read_bytes
 from plotting.reading import Trouble
 
 MOST_INCLUDES = 8      # one in another
@@ -28,15 +29,7 @@ class Line:
 
 def texts_of(path: Path) -> list[str]:
     """The lines of a file. Raises Trouble unless it is a file, and not too large."""
-    try:
-        if not path.is_file():
-            raise Trouble(f"{path} is no file: give the path of a part mesh")
-        if path.stat().st_size > MOST_BYTES:
-            raise Trouble(f"{path} has {path.stat().st_size / 2**30:.0f} GiB, more than "
-                          f"{MOST_BYTES >> 30}: leave the results out of the mesh's file")
-        return path.read_text(encoding="utf-8", errors="replace").splitlines()
-    except OSError as problem:
-        raise Trouble(f"{path} cannot be read: {problem.strerror or problem}") from problem
+    return read_bytes(path, MOST_BYTES).decode("utf-8", "replace").splitlines()
 
 
 def included(line: Line, name: str, depth: int, beside: Path) -> Path:
@@ -46,7 +39,7 @@ def included(line: Line, name: str, depth: int, beside: Path) -> Path:
         raise line.wrong(f"includes go {depth} files deep: put the mesh into one file")
     name = name.strip().strip("'\"")
     for folder in (line.path.parent, beside):
-        if (folder / name).is_file():
+        if is_file(folder / name):
             return folder / name
     raise line.wrong(f"includes {line.path.parent / name}, which is missing")
 

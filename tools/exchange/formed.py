@@ -5,10 +5,10 @@
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
 import numpy as np
 
-from plotting.reading import Trouble, file_in, names
+from base.results_file import Broken, Results, read_results
+from plotting.reading import Trouble
 
 from exchange.shell_mesh import ShellMesh, triangle_normals
 
@@ -45,48 +45,35 @@ class FormedStack:
 def read_formed(folder: Path, frame: int = -1, only: list[str] | None = None) -> FormedStack:
     """Frame -1 is the last. Raises Trouble if there is no such state or ply, or a number is not
     finite."""
-    path = file_in(folder, "results.h5")
-    try:
-        with h5py.File(path, "r") as file:
-            return stack_of(file, folder, frame, only or [])
-    except (OSError, KeyError, ValueError) as problem:
-        raise Trouble(f"{path} cannot be read as results of plyform: {problem}") from problem
+    return read_results(folder, lambda results: stack_of(results, folder, frame, only or []))
 
 
-def frame_number(file: h5py.File, folder: Path, frame: int) -> int:
-    count = len(file["time_s"])
-    number = frame if frame >= 0 else count + frame
-    if not 0 <= number < count:
-        raise Trouble(f"{folder} has no frame {frame}: it has frames 0 to {count - 1}")
-    return number
-
-
-def stack_of(file: h5py.File, folder: Path, frame: int, only: list[str]) -> FormedStack:
-    number = frame_number(file, folder, frame)
-    there = names(file, "plies")
+def stack_of(results: Results, folder: Path, frame: int, only: list[str]) -> FormedStack:
+    number = results.frame_number(frame)
+    there = results.names("plies")
     for name in only:
         if name not in there:
             raise Trouble(f"there is no ply {name}: it is one of {', '.join(there)}")
-    now = file[f"frames/{number:06}"]
-    plies = [ply_of(name, file["plies"][name], file["frames/000000/plies"][name],
-                    now["plies"][name])
-             for name in there if not only or name in only]
-    for ply in plies:
-        for what, values in (("position", ply.x), ("warp direction", ply.warp),
-                             ("weft direction", ply.weft), ("thickness", ply.thickness)):
-            if not np.isfinite(values).all():
-                raise Trouble(f"{folder}: a {what} of ply {ply.name} is not finite: the run is "
-                              "broken")
-    return FormedStack(folder, number, float(now.attrs["stroke_mm"]), plies)
+    plies = [ply_of(results, number, name) for name in there if not only or name in only]
+    if not plies:
+        raise Trouble(f"{folder} has no ply")
+    return FormedStack(folder, number, results.number(results.state(number), "stroke_mm"), plies)
 
 
-def ply_of(name: str, fixed: h5py.Group, first: h5py.Group, now: h5py.Group) -> FormedPly:
-    x0, triangles = fixed["x0"][:], fixed["triangles"][:].astype(np.int64)
+def ply_of(results: Results, number: int, name: str) -> FormedPly:
+    fixed, now = results.group("plies", name), results.in_state(number, "plies", name)
+    x0, triangles = results.body("plies", name)
     # a mesh file may walk round its triangles either way
     down = triangle_normals(x0, triangles)[0][:, 2] < 0
     triangles[down] = triangles[down][:, [0, 2, 1]]
-    warp, weft, shear = now["warp"][:], now["weft"][:], now["shear_angle_deg"][:]
+    count = len(triangles)
+    warp, weft = (results.numbers(now, yarns, (count, 3)) for yarns in ("warp", "weft"))
+    shear, thickness = (results.numbers(now, field, (count,))
+                        for field in ("shear_angle_deg", "thickness_mm"))
+    flat = results.numbers(results.in_state(0, "plies", name), "thickness_mm", (count,))
     angle = np.degrees(np.arccos(np.clip((warp * weft).sum(axis=1), -1, 1)))
-    return FormedPly(name, float(fixed.attrs["angle_deg"]), x0, now["x"][:], triangles, warp, weft,
-                     shear, now["thickness_mm"][:], float(first["thickness_mm"][:].mean()),
-                     float(np.median(angle + shear)))
+    if not (thickness > 0).all() or not (flat > 0).all():
+        raise Broken(f"{now.name}/thickness_mm is not above 0 everywhere")
+    return FormedPly(name, results.number(fixed, "angle_deg"), x0,
+                     results.numbers(now, "x", (len(x0), 3)), triangles, warp, weft, shear,
+                     thickness, float(flat.mean()), float(np.median(angle + shear)))

@@ -7,6 +7,7 @@ from functools import cached_property
 
 import numpy as np
 
+from base.ending import one_line
 from plotting.reading import Trouble
 
 from exchange.angles import Reference, angles_to, reference_of, warnings_of, words_of, wrapped
@@ -87,19 +88,20 @@ class Layup:
                           f"the part mesh has {most}; number it anew")
 
     def head(self, more: list[str] = (), reference: str = "") -> list[str]:
-        """What each file says first. `reference`: of a format with one of its own."""
+        """What each file says first, in lines that cannot end, whatever a folder is called. `reference`: of a format with one of its own."""
         words = reference or words_of(self.reference, self.mesh)
         if not reference and len(self.base.replaced):
             words += f"; on {len(self.base.replaced)} elements {self.base.other}, see below"
-        return ["formed plies of plyform, " + self.source,
-                "lengths in mm, angles in degrees",
-                f"angles: from the element's reference ({words}), about its normal (right-hand rule "
-                "along its corners)",
-                *(self.warnings if not reference else []),
-                *self.notes,
-                "plies are listed along the element's normal, "
-                f"{self.reversed_count()} elements have normals that point down the stack",
-                *more]
+        lines = ["formed plies of plyform, " + self.source,
+                 "lengths in mm, angles in degrees",
+                 f"angles: from the element's reference ({words}), about its normal (right-hand rule "
+                 "along its corners)",
+                 *(self.warnings if not reference else []),
+                 *self.notes,
+                 "plies are listed along the element's normal, "
+                 f"{self.reversed_count()} elements have normals that point down the stack",
+                 *more]
+        return [one_line(line) for line in lines]
 
 
 def own_layup(ply: FormedPly, reference, source: str) -> Layup:

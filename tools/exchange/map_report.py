@@ -31,9 +31,14 @@ def table_of(rows: list[list], layup: Layup) -> str:
          "smoothed field; warp or weft, whichever is worse",
          "smoothing: what the smoothed field differs from the run's triangles"])]
     lines.append(",".join(COLUMNS))
-    lines += [",".join([row[0], *("" if np.isnan(value) else f"{value:.6g}" for value in row[1:])])
+    lines += [",".join([cell(row[0]), *("" if np.isnan(value) else f"{value:.6g}" for value in row[1:])])
               for row in rows]
     return "\n".join(lines) + "\n"
+
+
+def cell(name: str) -> str:
+    """In quotes with a comma (names hold no quotes)."""
+    return f'"{name}"' if "," in name else name
 
 
 def words_of(rows: list[list], mesh: ShellMesh, bare: int) -> list[str]:

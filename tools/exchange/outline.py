@@ -2,12 +2,14 @@
 """Closed curves: trim lines read from CSV and DXF, and what can be measured of them. Lengths in mm."""
 
 import csv
+from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 from scipy.spatial import cKDTree
 
+from base.files import TABLE, check_file, read_bytes
 from plotting.reading import Trouble
 
 CHORD = 0.05        # mm: curves of DXF files are followed to within
@@ -26,8 +28,7 @@ class TrimLine:
 def read_outline(path: Path, space: bool) -> TrimLine:
     """Of a CSV file with x,y or x,y,z a line, or a DXF drawing with one closed curve. With `space`
     the curve lies in space, else it is seen from above. Raises Trouble."""
-    if not path.is_file():
-        raise Trouble(f"{path} is missing")
+    check_file(path, TABLE)
     readers = {".csv": read_csv, ".dxf": read_dxf}
     if path.suffix.lower() not in readers:
         raise Trouble(f"{path}: a trim line is a .csv file with x,y or x,y,z a line, or a .dxf "
@@ -48,8 +49,8 @@ def read_outline(path: Path, space: bool) -> TrimLine:
 
 def read_csv(path: Path) -> np.ndarray:
     rows = []
-    text = path.read_text(encoding="utf-8-sig", errors="replace").splitlines()
-    for number, row in enumerate(csv.reader(text), 1):
+    text = read_bytes(path, TABLE).decode("utf-8-sig", "replace").splitlines()
+    for number, row in rows_of(path, text):
         words = [word.strip() for word in row if word.strip()]
         if not words or words[0].startswith("#"):
             continue
@@ -68,6 +69,14 @@ def read_csv(path: Path) -> np.ndarray:
     if not rows:
         raise Trouble(f"{path} has no points")
     return np.array(rows)
+
+
+def rows_of(path: Path, lines: list[str]) -> Iterator[tuple[int, list[str]]]:
+    reader = csv.reader(lines)
+    try:
+        yield from enumerate(reader, 1)
+    except csv.Error as problem:
+        raise Trouble(f"{path}:{reader.line_num}: {problem}") from problem
 
 
 def read_dxf(path: Path) -> np.ndarray:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from base.files import TABLE, check_file
 from plotting.reading import Trouble
 
 from exchange.deck_mesh import Deck
@@ -24,8 +25,7 @@ FAR_OFF = 30.0  # times larger or smaller than the plies: another unit of length
 
 def read_part(path: Path) -> ShellMesh:
     """Shells of a part mesh. Raises Trouble."""
-    if not path.is_file():
-        raise Trouble(f"{path} is missing")
+    check_file(path, TABLE)
     ending = path.suffix.lower()
     if ending not in READERS and ending != ".vtu":
         raise Trouble(f"{path}: a part mesh ends in {', '.join([*READERS, '.vtu'])}")

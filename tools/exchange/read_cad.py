@@ -15,6 +15,7 @@ import numpy as np
 from exchange.cad_numbers import expect_lengths
 from exchange.closest import Surface
 from exchange.refine_facets import refined
+from base.files import read_bytes
 from plotting.reading import Trouble
 
 ENDINGS = {".step": "STEP", ".stp": "STEP", ".iges": "IGES", ".igs": "IGES"}
@@ -75,15 +76,7 @@ def check_kind(path: Path) -> str:
     kind = ENDINGS.get(path.suffix.lower())
     if not kind:
         raise Trouble(f"{path}: a part is a .step, .stp, .iges or .igs file")
-    try:
-        if path.exists() and not path.is_file():
-            raise Trouble(f"{path} is no file: give the path of a part")
-        if path.exists() and path.stat().st_size > MOST_BYTES:
-            raise Trouble(f"{path} has {path.stat().st_size / 2**30:.1f} GiB, more than "
-                          f"{MOST_BYTES / 2**30:g}: export the part alone")
-        text = path.read_text(encoding="latin-1")
-    except OSError as problem:
-        raise Trouble(f"{path} cannot be read: {problem.strerror}: give the path of a part") from None
+    text = read_bytes(path, MOST_BYTES).decode("latin-1")
     if kind == "STEP":
         if not text.lstrip().startswith("ISO-10303-21"):
             raise Trouble(f"{path} is no STEP file, it does not begin with ISO-10303-21: export the "

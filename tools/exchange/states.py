@@ -1,16 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """All fields of plies and tools of a state in results.h5, for export."""
 
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
 import numpy as np
 
-from plotting.reading import Trouble, file_in, names
-
-from exchange.formed import frame_number
+from base.results_file import Results, read_results
+from plotting.reading import Trouble
 
 
 @dataclass
@@ -32,19 +29,19 @@ class State:
     bodies: list[Body]  # plies from the bottom of the stack, then tools
 
 
-def read_states(folder: Path, frame: str) -> Iterator[State]:
+# columns a triangle and a node (core/results/ply_frame.hpp): how many numbers
+CELLS = {"shear_angle_deg": 1, "warp_strain": 1, "weft_strain": 1, "warp_tension_N": 1,
+         "weft_tension_N": 1, "thickness_mm": 1, "warp": 3, "weft": 3}
+NODES = {"contact_pressure": 1, "reaction_N": 3}
+OPTIONAL = "reaction_N"  # only of plies that something holds
+
+
+def read_states(folder: Path, frame: str) -> list[State]:
     """One state, by its number from 0 (-1: the last), or "all". Raises Trouble."""
-    path = file_in(folder, "results.h5")
-    try:
-        with h5py.File(path, "r") as file:
-            if frame == "all":
-                numbers = range(len(file["time_s"]))
-            else:
-                numbers = [frame_number(file, folder, whole(frame))]
-            for number in numbers:
-                yield state_of(file, number)
-    except (OSError, KeyError, ValueError) as problem:
-        raise Trouble(f"{path} cannot be read as results of plyform: {problem}") from problem
+    asked = None if frame == "all" else whole(frame)
+    return read_results(folder, lambda results: [
+        state_of(results, number) for number in
+        (range(results.count) if asked is None else [results.frame_number(asked)])])
 
 
 def whole(word: str) -> int:
@@ -54,23 +51,27 @@ def whole(word: str) -> int:
         raise Trouble(f"--frame {word}: a number from 0, -1 for the last, or all") from None
 
 
-def state_of(file: h5py.File, number: int) -> State:
-    now = file[f"frames/{number:06}"]
+def fields_of(results: Results, number: int, name: str, count: int,
+              columns: dict[str, int]) -> dict[str, np.ndarray]:
+    now = results.in_state(number, "plies", name)
+    return {key: results.numbers(now, key, (count,) if size == 1 else (count, size))
+            for key, size in columns.items() if key != OPTIONAL or key in now}
+
+
+def state_of(results: Results, number: int) -> State:
+    now = results.state(number)
     bodies = []
-    for name in names(file, "plies"):
-        fixed, ply = file["plies"][name], now["plies"][name]
-        points, triangles = ply["x"][:], fixed["triangles"][:].astype(np.int64)
-        fields = {key: ply[key][:] for key in ply if key != "x"}
-        nodes = {key: value for key, value in fields.items()
-                 if key in ("contact_pressure", "reaction_N")}
-        nodes["x0"] = fixed["x0"][:]
-        cells = {key: value for key, value in fields.items() if key not in nodes}
-        if not all(np.isfinite(value).all() for value in (points, *fields.values())):
-            raise Trouble(f"a value of ply {name} is not finite: the run is broken")
-        bodies.append(Body(name, points, triangles, nodes, cells, False))
-    for name in names(file, "tools"):
-        fixed = file["tools"][name]
-        shift = np.asarray(now["tools"][name].attrs["displacement_mm"])
-        bodies.append(Body(name, fixed["x0"][:] + shift, fixed["triangles"][:].astype(np.int64), {},
-                           {}, True))
-    return State(number, float(now.attrs["time_s"]), float(now.attrs["stroke_mm"]), bodies)
+    for name in results.names("plies"):
+        x0, triangles = results.body("plies", name)
+        points = results.numbers(results.in_state(number, "plies", name), "x", x0.shape)
+        nodes = {**fields_of(results, number, name, len(x0), NODES), "x0": x0}
+        bodies.append(Body(name, points, triangles, nodes,
+                           fields_of(results, number, name, len(triangles), CELLS), False))
+    for name in results.names("tools"):
+        x0, triangles = results.body("tools", name)
+        shift = results.attribute(results.in_state(number, "tools", name), "displacement_mm", (3,))
+        bodies.append(Body(name, x0 + shift, triangles, {}, {}, True))
+    names = [body.name for body in bodies]
+    if len(set(names)) < len(names):
+        raise Trouble(f"{results.path}: a ply and a tool have one name, and so would their files")
+    return State(number, results.number(now, "time_s"), results.number(now, "stroke_mm"), bodies)

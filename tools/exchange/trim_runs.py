@@ -2,10 +2,10 @@
 """Runs of a case with the blanks of flat patterns, until the formed edge lies at the trim line."""
 
 import subprocess
-import tomllib
 from dataclasses import dataclass
 from pathlib import Path
 
+from base.files import read_toml
 from plotting.reading import Trouble
 
 from exchange.flat_pattern import Pattern, blend, edge_error, flat_pattern
@@ -65,8 +65,7 @@ def read_case(program: str, path: Path, settings: list[str], stack: FormedStack)
     """Raises Trouble if the case cannot have been the run's, or its blanks have no outline."""
     file = path / "case.toml" if path.is_dir() else path
     try:
-        with open(file, "rb") as opened:
-            case = tomllib.load(opened)
+        case = read_toml(file)
         blanks, plies = case["blanks"], case["ply"]
         names = [ply["name"] for ply in plies]
         for ply in stack.plies:
@@ -77,12 +76,14 @@ def read_case(program: str, path: Path, settings: list[str], stack: FormedStack)
             if "element_size" not in blank:
                 raise Trouble(f"{file}: the blank of ply {ply.name} is a mesh file, which cannot "
                               "be cut: give it an outline or a size")
-    except (OSError, KeyError, TypeError, tomllib.TOMLDecodeError) as problem:
-        raise Trouble(f"{file} cannot be read as a case: {problem}") from problem
-    sizes = dict(word.split("=", 1) for word in settings if word.count("="))
-    for name, blank in blanks.items():
-        if f"blanks.{name}.element_size" in sizes:
-            blank["element_size"] = float(sizes[f"blanks.{name}.element_size"])
+        sizes = dict(word.split("=", 1) for word in settings if word.count("="))
+        for name, blank in blanks.items():
+            if f"blanks.{name}.element_size" in sizes:
+                blank["element_size"] = sizes[f"blanks.{name}.element_size"]
+            blank["element_size"] = float(blank.get("element_size", "nan"))
+    except (KeyError, TypeError, AttributeError, ValueError) as problem:
+        raise Trouble(f"{file} cannot be read as a case: {type(problem).__name__} {problem}; see what "
+                      "plyform check says of it") from problem
     return TrimCase(program, path, settings, blanks, plies)
 
 

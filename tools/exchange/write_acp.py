@@ -8,6 +8,7 @@ ply's angle and to the direction across it; the thickness and its ratio to the f
 
 import numpy as np
 
+from base.ending import one_line
 from exchange.layup import Layup
 from exchange.shell_mesh import centroids
 
@@ -63,5 +64,5 @@ def acp_files(layup: Layup) -> dict[str, str]:
              "draping angles: added to the ply's angle, and to the direction across it"])]
         lines += [",".join(COLUMNS), *(",".join(f"{v:.9g}" for v in row) for row in table)]
         files[f"acp_{ply.name}.csv"] = "\n".join(lines) + "\n"
-    files["acp_tables.py"] = SCRIPT.format(head=layup.source)
+    files["acp_tables.py"] = SCRIPT.format(head=one_line(layup.source))
     return files

@@ -2,13 +2,14 @@
 """The section of a case like cases/hemisphere_0, its ply drawn thicker, labelled with its keys."""
 
 import argparse
-import tomllib
 from pathlib import Path
 
 import numpy as np
 from matplotlib import pyplot
 from matplotlib.figure import Figure
 from matplotlib.patches import FancyArrowPatch, Polygon
+
+from base.files import read_toml
 
 from .looks import COLOURS
 from .reading import Trouble
@@ -20,7 +21,14 @@ KEY = {"family": "monospace", "fontsize": 10}
 
 
 def draw(options: argparse.Namespace) -> Figure:
-    case = read(options.case)
+    try:
+        return drawn(read_toml(options.case))
+    except (KeyError, IndexError, TypeError, AttributeError, ValueError) as problem:
+        raise Trouble(f"{options.case} is no case such as the sketch shows, of a sphere, a profile "
+                      f"and an annulus: {type(problem).__name__} {problem}") from problem
+
+
+def drawn(case: dict) -> Figure:
     punch, die, holder = (tool_of(case, shape) for shape in ("sphere", "profile", "annulus"))
     figure, axes = pyplot.subplots(figsize=(8.0, 5.1), layout="constrained")
     half = case["blanks"][case["ply"][0]["blank"]]["size"][0] / 2.0
@@ -44,13 +52,6 @@ def draw(options: argparse.Namespace) -> Figure:
     axes.set(xlim=(-EDGE, EDGE), ylim=(-72.0, 168.0), aspect="equal")
     axes.axis("off")
     return figure
-
-
-def read(file: Path) -> dict:
-    try:
-        return tomllib.loads(file.read_text(encoding="utf-8"))
-    except (OSError, tomllib.TOMLDecodeError) as problem:
-        raise Trouble(f"{file}: {problem}") from problem
 
 
 def tool_of(case: dict, shape: str) -> dict:

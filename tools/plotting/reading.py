@@ -2,16 +2,18 @@
 """Readers of result folders (layout: docs/users/results.md) and of tables with named columns."""
 
 import csv
-import json
 from dataclasses import dataclass
 from pathlib import Path
 
-import h5py
 import numpy as np
 
+from base.ending import Trouble
+from base.files import TABLE, check_file, read_text
+from base.results_file import Results, read_results
+from base.summary_file import read_summary
 
-class Trouble(Exception):
-    """What is wrong with a result folder, a table or what was asked of them; one line."""
+__all__ = ["FIELDS", "Field", "Ply", "State", "Tool", "Trouble", "ended", "file_in", "read_history",
+           "read_state", "read_states", "read_summary", "read_table"]
 
 
 @dataclass(frozen=True)
@@ -62,9 +64,9 @@ class State:
 
 
 def file_in(folder: Path, name: str) -> Path:
-    if not (folder / name).is_file():
+    if not (folder / name).exists():
         raise Trouble(f"{folder / name} is missing: is {folder} the folder of a run?")
-    return folder / name
+    return check_file(folder / name)
 
 
 def read_states(folders: list[Path], field: Field, names: list[str] | None = None, frame: int = -1,
@@ -87,71 +89,25 @@ def read_states(folders: list[Path], field: Field, names: list[str] | None = Non
 
 
 def read_state(folder: Path, field: Field, frame: int = -1, tools: bool = False) -> State:
-    path = file_in(folder, "results.h5")
-    try:
-        with h5py.File(path, "r") as file:
-            return state_of(file, folder, field, frame, tools)
-    except (OSError, KeyError, ValueError) as problem:
-        raise Trouble(f"{path} cannot be read as results of plyform: {problem}") from problem
+    return read_results(folder, lambda results: state_of(results, field, frame, tools))
 
 
-def names(file: h5py.File, bodies: str) -> list[str]:
-    """Of "plies", from the bottom of the stack, "tools" or "boundaries"."""
-    # texts of any length in files of layout 1
-    return [name if isinstance(name, str) else name.decode() for name in file.attrs[bodies]]
-
-
-def state_of(file: h5py.File, folder: Path, field: Field, frame: int, tools: bool) -> State:
-    frames = len(file["time_s"])
-    number = frame if frame >= 0 else frames + frame
-    if not 0 <= number < frames:
-        raise Trouble(f"{folder} has no frame {frame}: it has frames 0 to {frames - 1}")
-    now = file[f"frames/{number:06}"]
+def state_of(results: Results, field: Field, frame: int, tools: bool) -> State:
+    number = results.frame_number(frame)
+    now = results.state(number)
     plies = []
-    for name in names(file, "plies"):
-        fixed, ply = file["plies"][name], now["plies"][name]
-        plies.append(Ply(name, float(fixed.attrs["angle_deg"]), fixed["x0"][:], ply["x"][:],
-                         fixed["triangles"][:], field.factor * ply[field.dataset][:]))
-        if not (np.isfinite(plies[-1].value).all() and np.isfinite(plies[-1].x).all()):
-            raise Trouble(f"{folder}: a {field.label} or a position of ply {name} is not finite")
+    for name in results.names("plies"):
+        x0, triangles = results.body("plies", name)
+        ply = results.in_state(number, "plies", name)
+        plies.append(Ply(name, results.number(results.group("plies", name), "angle_deg"), x0,
+                         results.numbers(ply, "x", x0.shape), triangles,
+                         field.factor * results.numbers(ply, field.dataset, (len(triangles),))))
     bodies = []
-    for name in names(file, "tools") if tools else []:
-        tool = file["tools"][name]
-        shift = np.asarray(now["tools"][name].attrs["displacement_mm"])
-        bodies.append(Tool(name, tool["x0"][:] + shift, tool["triangles"][:]))
-    return State(folder, float(now.attrs["stroke_mm"]), plies, bodies)
-
-
-def read_summary(folder: Path) -> dict:
-    path = file_in(folder, "summary.json")
-    try:
-        summary = json.loads(path.read_text(encoding="utf-8"))
-        for key, kind in (("status", str), ("plies", list), ("tools", list), ("energy", dict),
-                          ("contact", dict)):
-            if not isinstance(summary[key], kind):
-                raise ValueError(f"{key} is not what it should be")
-        for body in [*summary["plies"], *summary["tools"], *summary.get("boundaries", [])]:
-            body["name"]  # missing: a KeyError
-    except (OSError, KeyError, TypeError, ValueError) as problem:
-        raise Trouble(f"{path} cannot be read as a summary of plyform: "
-                      f"{problem}") from problem
-    return without_unknown_forces(summary)
-
-
-def without_unknown_forces(summary: dict) -> dict:
-    """Null in the place of forces of tools that press the plies between them: those are contact's
-    stiffness, not the cloth's."""
-    for tool in summary.get("tools", []):
-        if "force_N" in tool and not tool.get("force_known", True):
-            tool["force_N"] = tool["force_raw_N"] = None
-    return summary
-
-
-def known_to_s(summary: dict) -> dict[str, float]:
-    """Of tools that came to press the plies between them, by name: until when their force is
-    known, s."""
-    return {tool["name"]: float(tool.get("force_known_to_s") or 0.0)
-            for tool in summary["tools"] if not tool.get("force_known", True)}
+    for name in results.names("tools") if tools else []:
+        x0, triangles = results.body("tools", name)
+        tool = results.in_state(number, "tools", name)
+        bodies.append(Tool(name, x0 + results.attribute(tool, "displacement_mm", (3,)), triangles))
+    return State(results.folder, results.number(now, "stroke_mm"), plies, bodies)
 
 
 def ended(summary: dict) -> bool:
@@ -161,15 +117,16 @@ def ended(summary: dict) -> bool:
 
 def read_table(path: Path, needed: list[str] = ()) -> dict[str, np.ndarray]:
     """Columns of a CSV file by name; empty fields are NaN, lines that start with # are left out."""
-    if not path.is_file():
-        raise Trouble(f"{path} is missing")
+    text = read_text(path, TABLE)
     try:
-        with open(path, newline="", encoding="utf-8-sig") as file:
-            rows = list(csv.DictReader((line for line in file if not line.startswith("#")),
-                                       skipinitialspace=True))
-        table = {name: np.array([float(row[name] or "nan") for row in rows])
-                 for name in (rows[0] if rows else [])}
-    except (TypeError, ValueError) as problem:
+        rows = list(csv.reader((line for line in text.splitlines() if not line.startswith("#")),
+                               skipinitialspace=True))
+        names, rows = (rows[0], [row for row in rows[1:] if row]) if rows else ([], [])
+        if any(len(row) > len(names) for row in rows):
+            raise ValueError("a line has more fields than names stand above")
+        table = {name: np.array([float((row[k] if k < len(row) else "") or "nan") for row in rows])
+                 for k, name in enumerate(names)} if rows else {}
+    except (csv.Error, ValueError) as problem:
         raise Trouble(f"{path} is not a table of numbers under one line of names: "
                       f"{problem}") from problem
     missing = [name for name in needed if name not in table]

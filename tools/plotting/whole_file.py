@@ -5,17 +5,31 @@ import os
 from collections.abc import Callable
 from pathlib import Path
 
+from base.names import place_in
+
 
 def write_whole(path: Path, text: str) -> Path:
-    part = path.with_name(path.name + ".part")
-    part.write_text(text, encoding="utf-8")
-    os.replace(part, path)
-    return path
+    """What is no character, as in a name that is no text, is written as ?."""
+    return make_whole(path, lambda part: part.write_bytes(text.encode("utf-8", "replace")))
 
 
 def make_whole(path: Path, write: Callable[[Path], None]) -> Path:
-    """The same for files that a library writes, which goes by their ending."""
+    """For files that a library writes, which goes by their ending."""
     part = path.with_name("part_" + path.name)
-    write(part)
-    os.replace(part, path)
+    try:
+        write(part)
+        os.replace(part, path)
+    except BaseException:
+        part.unlink(missing_ok=True)
+        raise
     return path
+
+
+def write_in(folder: Path, name: str, text: str) -> Path:
+    """A file whose name was made of names from other files. Raises Trouble."""
+    return write_whole(place_in(folder, name), text)
+
+
+def make_in(folder: Path, name: str, write: Callable[[Path], None]) -> Path:
+    """The same for make_whole. Raises Trouble."""
+    return make_whole(place_in(folder, name), write)

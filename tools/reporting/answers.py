@@ -8,6 +8,7 @@ import numpy as np
 from markupsafe import Markup
 
 from .reading_run import PlyStates, Run
+from .series import of_states
 
 WRINKLE = 1.0    # mm: lower waves are not called wrinkles; the page says so
 PRESSED = 0.02   # of the length: the more pressed yarns count as buckled
@@ -38,6 +39,10 @@ def number(value: float | None, digits: int) -> Markup:
         return Markup("–")
     return Markup('<data class="number" value="{}" data-digits="{}">{:.{}f}</data>').format(
         f"{value:.9g}", digits, value, digits)
+
+
+def percent(share: float | None, digits: int) -> Markup:
+    return number(None if share is None else 100.0 * share, digits)
 
 
 def small(value: float) -> Markup:
@@ -126,24 +131,26 @@ def wrinkles(run: Run, index: int) -> Answer | None:
     k, told = most
     height, name = told["wrinkle_height_mm"], run.plies[k].name
     value = Markup("{}&nbsp;mm").format(number(height, 1))
-    if height <= 0.0:
+    place = told.get("wrinkle_at_mm", [None])
+    if height <= 0.0 or None in place:
         return Answer("Wrinkles", value, Markup("None that the mesh shows."))
     text = Markup("Highest wave in <b>{}</b>, {}&nbsp;mm long, at {}. ").format(
-        name, number(told["wrinkle_length_mm"], 0), at_place(told["wrinkle_at_mm"]))
+        name, number(told.get("wrinkle_length_mm"), 0), at_place(place))
     high = [run.plies[i].name for i, ply in enumerate(run.plies)
             if (run.told(ply.name).get("wrinkle_height_mm") or 0.0) >= WRINKLE]
     text += Markup("From {}&nbsp;mm it is called a wrinkle: {}.").format(
         number(WRINKLE, 0), "yes, in " + ", ".join(high) if high else "no ply has one")
     return Answer("Wrinkles" if high else "Wrinkles: none", value, text,
-                  Place(index, k, nearest(run.plies[k], told["wrinkle_at_mm"]), "wrinkle"),
+                  Place(index, k, nearest(run.plies[k], place), "wrinkle"),
                   bool(high), Markup("{} wrinkle{}, {} mm high at most").format(
                       ", ".join(high), "" if len(high) > 1 else "s", number(height, 1)))
 
 
 def force(run: Run) -> Answer | None:
     bodies = [(tool.name, tool.force_N, np.ptp(tool.stroke_mm)) for tool in run.tools]
-    bodies += [(name, run.history[f"{name}_force_N"][:len(run.time_s)], 1.0) for name in run.grips
-               if run.history and f"{name}_force_N" in run.history]
+    bodies += [(name, force, 1.0) for name in run.grips
+               if (force := of_states(run, f"{name}_force_N")) is not None]
+    bodies = [(name, force_N, way) for name, force_N, way in bodies if np.isfinite(force_N).all()]
     if not bodies:
         return None
     name, force_N, _ = max(bodies, key=lambda body: (body[2], np.nan_to_num(abs(body[1][-1]))))
@@ -194,13 +201,13 @@ def pressed(run: Run, index: int) -> Answer | None:
 
 def drawn_in(run: Run) -> Answer | None:
     told = [(ply.name, drawn) for ply in run.plies
-            if (drawn := run.told(ply.name).get("draw_in_mm"))]
+            if (drawn := run.told(ply.name).get("draw_in_mm")) and drawn.get("largest") is not None]
     if not told:
         return None
     name, drawn = max(told, key=lambda one: one[1]["largest"])
     return Answer("Draw-in", Markup("{}&nbsp;mm").format(number(drawn["largest"], 1)),
                   Markup("Most in <b>{}</b>; its mean over eight directions is {}&nbsp;mm."
-                         ).format(name, number(drawn["mean"], 1)))
+                         ).format(name, number(drawn.get("mean"), 1)))
 
 
 def accuracy(run: Run) -> Answer | None:

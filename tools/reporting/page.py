@@ -8,6 +8,8 @@ from pathlib import Path
 import jinja2
 import numpy as np
 
+from base.ending import one_line
+from base.files import read_text
 from plotting.reading import Trouble
 
 from . import answers, series
@@ -26,28 +28,54 @@ POSITION = (0.002, 0.009)  # mm
 
 
 def page_of(runs: list[Run]) -> str:
-    blocks = Blocks()
+    blocks, titles = Blocks(), titles_of(runs)
     scene = {"runs": [scene_of(run, blocks) for run in runs]}
+    for one, title in zip(scene["runs"], titles):
+        one["title"] = title
     shelf = jinja2.Environment(loader=jinja2.FileSystemLoader(WEB), autoescape=True,
                                trim_blocks=True, lstrip_blocks=True,
                                undefined=jinja2.StrictUndefined)
-    shelf.globals.update(number=answers.number, small=answers.small, sentence=answers.sentence)
-    told = [told_of(run, k) for k, run in enumerate(runs)]
+    shelf.globals.update(number=answers.number, percent=answers.percent, small=answers.small, sentence=answers.sentence)
+    told = [told_of(run, k) | {"title": title} for k, (run, title) in enumerate(zip(runs, titles))]
     ids = {chart["id"]: chart for run in scene["runs"] for chart in run["charts"]}
     return shelf.get_template("report.html").render(
         runs=told, charts=list(ids.values()), errors=blocks.errors, blocks=blocks.texts,
-        scene=in_script(json.dumps(scene, separators=(",", ":"))), style=(WEB / "report.css").read_text(),
+        scene=json_in_script(scene), style=(WEB / "report.css").read_text(encoding="utf-8"),
         imports=imports(), three=in_script(three()), tool_tolerance=TOOL_TOLERANCE)
+
+
+def titles_of(runs: list[Run]) -> list[str]:
+    """Those of two runs differ: by the names of their folders, or as much of the paths as it takes."""
+    titles = [run.title() for run in runs]
+    if len(set(titles)) == len(titles):
+        return titles
+    parts = [run.folder.resolve().parts for run in runs]
+    most = max(map(len, parts))
+    for count in range(1, most + 1):
+        ends = ["/".join(part[-count:]) for part in parts]
+        if len(set(ends)) == len(ends):
+            return [f"{title} ({one_line(end)})" for title, end in zip(titles, ends)]
+    return [f"{title} ({letter})" for title, letter in zip(titles, "AB")]  # a run beside itself
 
 
 def three() -> str:
     if not THREE.is_file():
         raise Trouble(f"{THREE} is missing: install Debian's package libjs-three")
-    return THREE.read_text(encoding="utf-8")
+    return read_text(THREE)
 
 
-def in_script(text: str) -> jinja2.utils.markupsafe.Markup:
-    return jinja2.utils.markupsafe.Markup(text.replace("</", "<\\/").replace("<!--", "<\\!--"))
+def in_script(library: str) -> jinja2.utils.markupsafe.Markup:
+    """Of a library, whose texts may close the script that it stands in."""
+    return jinja2.utils.markupsafe.Markup(library.replace("</", "<\\/").replace("<!--", "<\\!--"))
+
+
+def json_in_script(data) -> jinja2.utils.markupsafe.Markup:
+    """JSON that is the same wherever it stands: no character of it means anything to HTML, nor ends
+    a line of JavaScript. Numbers are finite."""
+    text = json.dumps(data, separators=(",", ":"), allow_nan=False)  # ASCII
+    for c in "<>&":
+        text = text.replace(c, f"\\u{ord(c):04x}")
+    return jinja2.utils.markupsafe.Markup(text)
 
 
 def imports():
@@ -55,14 +83,14 @@ def imports():
     named = {f"plyform/{file.name}": "data:text/javascript;base64,"
              + base64.b64encode(file.read_bytes()).decode("ascii")
              for file in sorted(WEB.glob("*.js"))}
-    return in_script(json.dumps({"imports": named}))
+    return json_in_script({"imports": named})
 
 
 def told_of(run: Run, index: int) -> dict:
     """What the texts and tables of the page say of a run."""
     found = answers.answers_of(run, index)
     status, words = answers.verdict(run, found)
-    return {"title": run.title(), "folder": run.folder.resolve().name, "status": status,
+    return {"folder": run.name(), "status": status,
             "verdict": words, "answers": found, "doubts": answers.doubts(run),
             "summary": run.summary, "run": run, "triangles": sum(len(p.triangles) for p in run.plies),
             "plies": [(ply, run.told(ply.name)) for ply in run.plies],
@@ -70,7 +98,7 @@ def told_of(run: Run, index: int) -> dict:
 
 
 def scene_of(run: Run, blocks: Blocks) -> dict:
-    return {"title": run.title(), "stroke": rounded(run.stroke_mm), "time": rounded(run.time_s),
+    return {"stroke": rounded(run.stroke_mm), "time": rounded(run.time_s),
             "plies": [ply_of(run, ply, blocks) for ply in run.plies],
             "tools": [scene_of_tool(run, tool, blocks) for tool in run.tools],
             "charts": series.charts_of(run)}

@@ -5,11 +5,15 @@ summary yet."""
 from dataclasses import dataclass, field
 from pathlib import Path
 
-import h5py
 import numpy as np
 
-from plotting.reading import Trouble, file_in, known_to_s, names, read_history, read_summary
+from base.ending import one_line
+from base.results_file import Broken, Results, read_results
+from base.summary_file import known_to_s
+from plotting.reading import Trouble, read_history, read_summary
 
+# of summary.json, without which there is no report
+NEEDED = ("status", "message", "version", "steps", "wall_time_s", "plies", "tools", "energy", "contact")
 CELL_FIELDS = ["shear_angle_deg", "warp_strain", "weft_strain", "warp_tension_N",
                "weft_tension_N", "thickness_mm"]
 
@@ -63,61 +67,69 @@ class Run:
         return next((ply for ply in plies if ply["name"] == name), {})
 
     def title(self) -> str:
-        return (self.summary or {}).get("title") or self.folder.resolve().name
+        return (self.summary or {}).get("title") or self.name()
+
+    def name(self) -> str:
+        """Of the folder; bytes that are no text are written out."""
+        return one_line(self.folder.resolve().name)
 
 
 def read_run(folder: Path) -> Run:
-    path = file_in(folder, "results.h5")
-    try:
-        with h5py.File(path, "r") as file:
-            run = run_of(file, folder)
-    except (OSError, KeyError, ValueError) as problem:
-        raise Trouble(f"{path} cannot be read as results of plyform: {problem}") from problem
-    if (folder / "summary.json").is_file():
-        run.summary = read_summary(folder)
+    run = read_results(folder, run_of)
+    if (folder / "summary.json").exists():
+        run.summary = read_summary(folder, NEEDED)
+        check_bodies(run)
         known = known_to_s(run.summary)
         for tool in run.tools:
             if tool.name in known:
                 after = run.time_s > known[tool.name] * (1.0 + 1e-6)
                 tool.force_N = np.where(after, np.nan, tool.force_N)
-    if (folder / "history.csv").is_file():
+    if (folder / "history.csv").exists():
         run.history = read_history(folder)
     return run
 
 
-def run_of(file: h5py.File, folder: Path) -> Run:
-    count = len(file["time_s"])
-    if count == 0:
-        raise Trouble(f"{folder}/results.h5 has no state yet: wait for the run's first output")
-    frames = [file[f"frames/{k:06}"] for k in range(count)]
-    plies = [ply_of(file["plies"][name], [frame["plies"][name] for frame in frames], name)
-             for name in names(file, "plies")]
-    for ply in plies:
-        if not all(np.isfinite(values).all() for values in (ply.x, *ply.cells.values())):
-            raise Trouble(f"{folder}: a value of ply {ply.name} is not finite: the run is broken")
-    tools = [tool_of(file["tools"][name], [frame["tools"][name] for frame in frames], name)
-             for name in names(file, "tools")]
-    return Run(folder, None, None, file["time_s"][:], file["stroke_mm"][:], plies, tools,
-               names(file, "boundaries"))
+def check_bodies(run: Run) -> None:
+    """Whether summary.json and results.h5 are of one run. Raises Trouble."""
+    for kind, own in (("plies", run.plies), ("tools", run.tools)):
+        told = [body["name"] for body in run.summary[kind]]
+        if told != [body.name for body in own]:
+            raise Trouble(f"{run.folder}: summary.json and results.h5 have different {kind}: are "
+                          "they of one run?")
 
 
-def ply_of(fixed: h5py.Group, states: list[h5py.Group], name: str) -> PlyStates:
-    def over_time(dataset: str) -> np.ndarray:
-        return np.stack([state[dataset][:] for state in states])
+def run_of(results: Results) -> Run:
+    results.frame_number(0)  # raises where there is no state yet
+    stroke_mm = results.numbers(results.file, "stroke_mm", (results.count,))
+    plies = [ply_of(results, name) for name in results.names("plies")]
+    tools = [tool_of(results, name) for name in results.names("tools")]
+    if not plies:
+        raise Broken("/:plies is empty")
+    return Run(results.folder, None, None, results.time_s, stroke_mm, plies, tools,
+               results.names("boundaries"))
+
+
+def ply_of(results: Results, name: str) -> PlyStates:
+    x0, triangles = results.body("plies", name)
+    states = [results.in_state(k, "plies", name) for k in range(results.count)]
+    count = len(triangles)
+
+    def over_time(dataset: str, shape: tuple) -> np.ndarray:
+        return np.stack([results.numbers(state, dataset, shape) for state in states])
 
     def direction(dataset: str) -> np.ndarray:
-        mean = states[0][dataset][:].mean(axis=0)
+        mean = results.numbers(states[0], dataset, (count, 3)).mean(axis=0)
         return mean / max(float(np.linalg.norm(mean)), 1e-30)
 
-    return PlyStates(name, float(fixed.attrs["angle_deg"]), fixed["x0"][:],
-                     fixed["triangles"][:].astype(np.int64), over_time("x"),
-                     {one: over_time(one) for one in CELL_FIELDS},
-                     {"contact_pressure": over_time("contact_pressure")},
+    return PlyStates(name, results.number(results.group("plies", name), "angle_deg"), x0, triangles,
+                     over_time("x", x0.shape), {one: over_time(one, (count,)) for one in CELL_FIELDS},
+                     {"contact_pressure": over_time("contact_pressure", (len(x0),))},
                      direction("warp"), direction("weft"))
 
 
-def tool_of(fixed: h5py.Group, states: list[h5py.Group], name: str) -> ToolStates:
-    return ToolStates(name, fixed["x0"][:], fixed["triangles"][:].astype(np.int64),
-                      np.stack([np.asarray(state.attrs["displacement_mm"]) for state in states]),
-                      np.array([float(state.attrs["force_N"]) for state in states]),
-                      np.array([float(state.attrs["stroke_mm"]) for state in states]))
+def tool_of(results: Results, name: str) -> ToolStates:
+    states = [results.in_state(k, "tools", name) for k in range(results.count)]
+    return ToolStates(name, *results.body("tools", name),
+                      np.stack([results.attribute(state, "displacement_mm", (3,)) for state in states]),
+                      np.array([results.number(state, "force_N") for state in states]),
+                      np.array([results.number(state, "stroke_mm") for state in states]))

@@ -60,8 +60,8 @@ def charts_of(run: Run) -> list[dict]:
     """Curves over the states: title, unit, and a list of names with values."""
     charts = []
     forces = [(tool.name, tool.force_N) for tool in run.tools]
-    forces += [(name, run.history[f"{name}_force_N"][:len(run.time_s)]) for name in run.grips
-               if run.history and f"{name}_force_N" in run.history]
+    forces += [(name, force) for name in run.grips
+               if (force := of_states(run, f"{name}_force_N")) is not None]
     if forces:
         charts.append({"id": "forces", "title": "Forces", "unit": "N", "lines": lines(forces)})
     charts.append({"id": "largest-shear", "title": "Largest shear angle", "unit": "°",
@@ -74,12 +74,23 @@ def charts_of(run: Run) -> list[dict]:
         charts.append({"id": "draw-in", "title": "Draw-in, mean of eight walks", "unit": "mm",
                        "lines": lines(drawn)})
     if run.history:
-        energies = [(name, run.history[f"{name}_mJ"][:len(run.time_s)] / 1000.0)
-                    for name in ENERGIES if f"{name}_mJ" in run.history]
+        energies = [(name, values / 1000.0) for name in ENERGIES
+                    if (values := of_states(run, f"{name}_mJ")) is not None]
         charts.append({"id": "energies", "title": "Energies", "unit": "J",
                        "lines": lines((name, values) for name, values in energies
-                                      if abs(values).max(initial=0.0) > 0.0)})
+                                      if np.nanmax(abs(values), initial=0.0) > 0.0)})
     return charts
+
+
+def of_states(run: Run, column: str) -> np.ndarray | None:
+    """A column of history.csv, which may have a row less than there are states, or more, while the
+    run goes on: NaN where there is none."""
+    if not run.history or column not in run.history:
+        return None
+    values = np.full(len(run.time_s), np.nan)
+    told = run.history[column][:len(values)]
+    values[:len(told)] = told
+    return values
 
 
 def lines(named) -> list[dict]:

@@ -6,9 +6,10 @@ import fnmatch
 import functools
 import hashlib
 import subprocess
-import tomllib
 from pathlib import Path
 
+from base.ending import Trouble
+from base.files import BINARY, is_file, read_bytes, read_toml
 from studies.toml_place import toml_text, toml_value
 
 
@@ -30,13 +31,19 @@ def defaults(program: Path) -> dict[str, object]:
     return told
 
 
+def number_in(at, step: str) -> int | None:
+    """That a step of a key is in a list; none if it is none of it."""
+    short = isinstance(at, list) and len(step) < 10 and step.isascii() and step.isdigit()
+    return int(step) if short and int(step) < len(at) else None
+
+
 class CaseValues:
     """The case file's tables with settings put in, and those of a fabric file where a key goes
     into it; plyform itself says whether they are right."""
 
     def __init__(self, file: Path, settings: tuple[str, ...], program: Path):
         self.program, self.folder = program, file.parent
-        self.tables = tomllib.loads(file.read_text(encoding="utf-8"))
+        self.tables = read_toml(file)
         for setting in settings:
             self.put(*split_setting(setting))
 
@@ -47,16 +54,16 @@ class CaseValues:
             return
         for name, fabric in fabrics.items():
             file = self.folder / fabric if isinstance(fabric, str) else None
-            if file and file.is_file() and fnmatch.fnmatchcase(name, steps[1]):
-                with contextlib.suppress(tomllib.TOMLDecodeError):  # plyform says what is wrong
-                    fabrics[name] = tomllib.loads(file.read_text(encoding="utf-8"))
+            if file and is_file(file) and fnmatch.fnmatchcase(name, steps[1]):
+                with contextlib.suppress(Trouble):  # plyform says what is wrong
+                    fabrics[name] = read_toml(file)
 
     def put(self, key: str, text: str) -> None:
         *path, last = key.split(".")
         self.open_fabrics([*path, last])
         at = self.tables
         for step in path:
-            if isinstance(at, list) and step.isdigit() and int(step) < len(at):
+            if number_in(at, step) is not None:
                 at = at[int(step)]
             elif isinstance(at, dict):
                 at = at.setdefault(step, {})
@@ -64,7 +71,7 @@ class CaseValues:
                 return
         if isinstance(at, dict):
             at[last] = toml_value(text)
-        elif isinstance(at, list) and last.isdigit() and int(last) < len(at):
+        elif number_in(at, last) is not None:
             at[int(last)] = toml_value(text)
 
     def keys(self, pattern: str) -> list[str]:
@@ -92,7 +99,7 @@ class CaseValues:
         at, steps = self.tables, key.split(".")
         self.open_fabrics(steps)
         for step in steps:
-            if isinstance(at, list) and step.isdigit() and int(step) < len(at):
+            if number_in(at, step) is not None:
                 at = at[int(step)]
             elif isinstance(at, dict) and step in at:
                 at = at[step]
@@ -122,19 +129,18 @@ class FileHash:
             return
         seen.add(file)
         if file not in self.content:
-            self.content[file] = file.read_bytes()
-            try:
-                tables = tomllib.loads(self.content[file].decode()) if file.suffix == ".toml" \
-                    else {}
-            except (tomllib.TOMLDecodeError, UnicodeDecodeError):
-                tables = {}
+            self.content[file] = read_bytes(file, BINARY)
+            tables = {}
+            if file.suffix == ".toml":
+                with contextlib.suppress(Trouble):
+                    tables = read_toml(file)
             self.named[file] = texts_in(tables)
         into.update(self.content[file])
         for text in self.named[file]:
             self.add_named(text, file.parent, into, seen)
 
     def add_named(self, text: str, folder: Path, into, seen: set[Path]) -> None:
-        if text and len(text) < 1000 and "\n" not in text and (folder / text).is_file():
+        if text and len(text) < 1000 and "\n" not in text and is_file(folder / text):
             self.add(folder / text, into, seen)
 
     def of(self, case: Path, settings: tuple[str, ...], rest: str) -> str:

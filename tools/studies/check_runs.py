@@ -7,9 +7,12 @@ import subprocess
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
+from base.files import is_file
 from plotting.reading import Trouble
 from studies.case_values import split_setting
 from studies.plan import Planner, Run, label_of
+from studies.reader import is_number
+from studies.run_job import read_json
 from studies.study_file import CASE, Study
 
 REFUSED = 2  # exit code of plyform: the case is wrong
@@ -32,7 +35,7 @@ def wanted(study: Study, planner: Planner, runs: list[Run]) -> list[tuple[str, R
             item = f"{one.item}.range" if one.range else \
                 f"{one.item}.{'factors' if one.factors else 'values'}.{i}"
             choice = [(one, row)]
-            if CASE in one.keys and not planner.case_of(choice).is_file():
+            if CASE in one.keys and not is_file(planner.case_of(choice)):
                 study.mistakes.add(item, f"there is no file {planner.case_of(choice)}",
                                    "give case files seen from the study file")
                 continue
@@ -65,10 +68,7 @@ def tell(study: Study, item: str, run: Run, text: str, told: set[str]) -> None:
 def check_runs(study: Study, planner: Planner, runs: list[Run], folder: Path, jobs: int) -> float:
     """Estimated seconds of a run on one thread. What was sound once is not asked again."""
     memory = folder / "checked.json"
-    try:
-        known = json.loads(memory.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
-        known = {}
+    known = {key: time for key, time in read_json(memory).items() if is_number(time)}
     asked = wanted(study, planner, runs)
     named = planner.hash
     keys = [named.of(run.case, run.settings, f"{planner.rest}{run.accuracy}") for _, run in asked]

@@ -9,6 +9,7 @@ from area_means import compare
 from plotting.reading import Trouble
 from studies.engine import ended
 from studies.plan import Planner, Run
+from studies.reader import is_number
 from studies.run_job import read_json
 
 SOUND = ("done", "doubtful")
@@ -27,7 +28,7 @@ def columns_of(folder: Path, run: Run, other: Run | None, radius: float) -> dict
     """Kept beside the run's results, by what it was compared with."""
     place, ident = folder / "runs" / run.name, (other or run).name.rpartition("-")[2]
     memory = place / f"area-means-{ident}-{run.quarter_turns}-{radius:g}.json"
-    if row := read_json(memory):
+    if (row := read_json(memory)) and all(map(is_number, row.values())):
         return row
     try:
         plies = compare(place, folder / "runs" / (other or run).name, radius, run.quarter_turns)

@@ -2,9 +2,11 @@
 """Has Snakemake do the runs of a study that are missing, and says how far it is."""
 
 import fcntl
+import importlib.util
 import json
 import math
 import os
+import shlex
 import shutil
 import signal
 import subprocess
@@ -13,11 +15,16 @@ import time
 from dataclasses import dataclass
 from pathlib import Path
 
-from plotting.reading import Trouble
+from base.ending import NotReached, Trouble
+from base.files import is_file, read_text
 from studies.plan import Run
-from studies.run_job import ENDED, die_with_parent, read_json
+from studies.reader import is_number
+from studies.run_job import ENDED, KILLED_FOLDER, die_with_parent, read_json
 
 HERE = Path(__file__).resolve().parent
+STATUS_VARIABLE = "PLYFORM_SLURM_STATUS"  # where profiles/slurm finds its program
+STATUS_PROGRAM = HERE / "profiles" / "slurm" / "status.sh"
+PLUGIN = "snakemake_executor_plugin_cluster_generic"
 JOB_S = 10.0           # a job of this machine takes as many runs as fill this time
 CLUSTER_JOB_S = 60.0   # a job of a cluster costs seconds of its own
 LOOK_S = 0.5           # between looks at what has ended
@@ -37,7 +44,27 @@ class Options:
 
 def ended(folder: Path, run: Run) -> dict:
     """What the run left; empty if it has not ended."""
-    return read_json(folder / "runs" / run.name / ENDED)
+    told = read_json(folder / "runs" / run.name / ENDED)
+    right = isinstance(told.get("status"), str) and isinstance(told.get("message", ""), str) and \
+        all(is_number(told.get(key, 0.0)) for key in ("cpu_s", "wall_time_s"))
+    return told if right else {}
+
+
+def killed(folder: Path, run: Run) -> str:
+    """How a run that has not ended was ended from outside, in words; empty if it was not."""
+    note = folder / KILLED_FOLDER / run.name
+    return read_text(note) if is_file(note) and not ended(folder, run) else ""
+
+
+def snakemake_version() -> int:
+    try:
+        told = subprocess.run(["snakemake", "--version"], capture_output=True, text=True, check=True)
+        return int(told.stdout.strip().partition(".")[0])
+    except FileNotFoundError:
+        raise Trouble("there is no snakemake; install the package snakemake") from None
+    except (OSError, ValueError, subprocess.CalledProcessError) as problem:
+        raise Trouble(f"snakemake --version says nothing that can be read: {problem}; install the "
+                      "package snakemake anew") from problem
 
 
 def profile_of(name: str) -> str:
@@ -49,6 +76,33 @@ def profile_of(name: str) -> str:
         if (place / "config.yaml").is_file():
             return str(place.resolve())
     return name
+
+
+def check_profile(name: str, version: int) -> None:
+    """Profiles of this folder are for Snakemake 7, and for 8 with the plugin that calls sbatch."""
+    if version < 7:
+        raise NotReached(f"Snakemake {version} is too old for --profile: install version 7 or later")
+    if version < 8 or not profile_of(name).startswith(str(HERE)):
+        return
+    if importlib.util.find_spec(PLUGIN) is None and not has_plugin():
+        raise NotReached(f"Snakemake {version} calls Slurm by a plugin: install "
+                         "snakemake-executor-plugin-cluster-generic beside it, or give a --profile of "
+                         "your own")
+
+
+def has_plugin() -> bool:
+    """Snakemake may be of another Python than this one: its help lists the executors it has."""
+    told = subprocess.run(["snakemake", "--help"], capture_output=True, text=True, check=False)
+    return "cluster-generic" in told.stdout
+
+
+def check_plain(folder: Path) -> None:
+    """Snakemake writes the folder into the scripts of a cluster's jobs, for a shell, and does not
+    quote all of it."""
+    text = str(folder)
+    if not text.isprintable() or any(c in text for c in "'\"$`\\{}"):
+        raise NotReached(f"{folder}: with --profile the folder of results must have a name without "
+                         "quotes, $, ` , \\ and braces: give another with -o")
 
 
 def clock(seconds: float) -> str:
@@ -87,7 +141,7 @@ class Engine:
 
     def time_of_run(self) -> float:
         """Measured, where some have ended."""
-        times = [told["cpu_s"] for run in self.runs if (told := ended(self.options.folder, run))]
+        times = [told.get("cpu_s", 0.0) for run in self.runs if (told := ended(self.options.folder, run))]
         return sum(times) / len(times) if times else self.estimate_s
 
     def batches(self, missing: list[Run]) -> dict[str, list[str]]:
@@ -105,21 +159,23 @@ class Engine:
     def write_jobs(self, missing: list[Run]) -> None:
         folder = self.options.folder
         shutil.rmtree(folder / "jobs", ignore_errors=True)
-        python = sys.executable or "python3"
         told = {"program": str(self.options.program), "threads": self.options.threads,
-                "call": f'"{python}" -S "{HERE / "run_job.py"}"',
                 "jobs": self.batches(missing),
                 "runs": {run.name: {"words": run.words(), "line": run.line, "label": run.label}
                          for run in missing}}
-        text = json.dumps(told, indent=1, ensure_ascii=False)
-        (folder / "jobs.json").write_text(text, encoding="utf-8")
+        (folder / "jobs.json").write_text(json.dumps(told, indent=1), encoding="utf-8")
+        # Snakemake sees no path but this file's: whatever a folder is called, no shell reads it
+        words = shlex.join([sys.executable or "python3", "-S", str(HERE / "run_job.py")])
+        (folder / "job.sh").write_bytes(os.fsencode(f'exec {words} jobs.json "$1"\n'))
+        shutil.copyfile(HERE / "Snakefile", folder / "Snakefile")
+        shutil.rmtree(folder / KILLED_FOLDER, ignore_errors=True)
 
     def command(self) -> list[str]:
         jobs, threads = self.options.jobs, self.options.threads
-        words = ["snakemake", "--snakefile", str(HERE / "Snakefile"), "--directory",
-                 str(self.options.folder), "--keep-going", "--nolock", "--rerun-incomplete",
-                 "--rerun-triggers", "mtime", "--scheduler", "greedy"]
+        words = ["snakemake", "--snakefile", "Snakefile", "--keep-going", "--nolock",
+                 "--rerun-incomplete", "--rerun-triggers", "mtime", "--scheduler", "greedy"]
         if self.options.profile:
+            check_plain(self.options.folder)
             return [*words, "--profile", profile_of(self.options.profile),
                     *(["--jobs", str(jobs)] if jobs else [])]
         return [*words, "--cores", str(jobs * threads), "--drop-metadata", "--quiet", "all"]
@@ -147,13 +203,15 @@ class Engine:
         progress.tell(len(missing), last=not missing)
         if not missing:
             return
-        if shutil.which("snakemake") is None:
-            raise Trouble("there is no snakemake; install the package snakemake")
+        version = snakemake_version()
+        if self.options.profile:
+            check_profile(self.options.profile, version)
         self.write_jobs(missing)
         with open(folder / "snakemake.log", "w", encoding="utf-8") as log:
             process = subprocess.Popen(self.command(), stdin=subprocess.DEVNULL, stdout=log,
                                        stderr=subprocess.STDOUT, preexec_fn=die_with_parent,
-                                       start_new_session=True)
+                                       start_new_session=True, cwd=folder,
+                                       env=os.environ | {STATUS_VARIABLE: str(STATUS_PROGRAM)})
         try:
             left = missing
             while process.poll() is None:
@@ -170,9 +228,18 @@ class Engine:
             raise
         progress.tell(len(left), last=True)
         if len(left) == len(missing):
-            lines = (folder / "snakemake.log").read_text(encoding="utf-8").split("\n")
-            raise Trouble("no run has ended: " + " / ".join(filter(None, lines[-6:])) +
-                          f"; see {folder / 'snakemake.log'}")
+            raise NotReached(f"no run has ended: {self.why_not(missing)}; see "
+                             f"{folder / 'snakemake.log'}")
+
+    def why_not(self, missing: list[Run]) -> str:
+        folder = self.options.folder
+        told = [f"runs/{run.name} was {words}" for run in missing if (words := killed(folder, run))]
+        if told:
+            more = f", and {len(told) - 3} more" if len(told) > 3 else ""
+            return ", ".join(told[:3]) + more + "; the same command does them again"
+        lines = (folder / "snakemake.log").read_text(encoding="utf-8", errors="replace").split("\n")
+        return " / ".join([line.strip() for line in lines if line.strip()][-6:]) or \
+            "Snakemake has said nothing"
 
     def leave(self, process: subprocess.Popen) -> None:
         """Ends the jobs of this machine with Snakemake; of a cluster, has it cancel them."""

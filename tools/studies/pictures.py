@@ -6,6 +6,7 @@ from pathlib import Path
 import matplotlib.pyplot as plt
 import numpy as np
 from plotting.looks import COLOURS, finish
+from plotting.whole_file import make_in
 from studies.cost_picture import draw_cost
 from studies.plan import Planner
 from studies.plies_picture import draw_plies
@@ -66,5 +67,6 @@ def draw_all(study: Study, planner: Planner, rows: list[dict], folder: Path) -> 
             figure = draw_window(study, planner, picture, rows)
         else:
             figure = {"map": draw_map, "scatter": draw_scatter}[picture.kind](study, picture, rows)
-        figure.savefig(folder / picture.file, dpi=80 if picture.kind == "plies" else 100)
+        dots = 80 if picture.kind == "plies" else 100
+        make_in(folder, picture.file, lambda part: figure.savefig(part, dpi=dots))
         plt.close(figure)

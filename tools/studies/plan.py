@@ -10,7 +10,7 @@ from pathlib import Path
 from studies.case_values import CaseValues, FileHash, split_setting
 from studies.reader import is_number
 from studies.shown import COLUMN
-from studies.study_file import CASE, DRAWN, Study, Vary
+from studies.study_file import CASE, DRAWN, Study, Vary, case_file
 from studies.toml_place import toml_text, toml_value
 
 # Picked by an accuracy: what a run with one takes for them is in its results.
@@ -95,8 +95,7 @@ class Planner:
     def case_of(self, choice: list[tuple[Vary, tuple]]) -> Path:
         for one, row in choice:
             if CASE in one.keys:
-                path = (self.study.file.parent / str(row[one.keys.index(CASE)])).resolve()
-                return path / "case.toml" if path.is_dir() else path
+                return case_file(self.study.file.parent, str(row[one.keys.index(CASE)]))
         return self.study.case
 
     def run(self, line: str, label: str, choice: list[tuple[Vary, tuple]] = (),

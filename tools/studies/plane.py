@@ -41,14 +41,11 @@ def is_wide(values: np.ndarray, names) -> bool:
 
 
 def edges(ticks: np.ndarray, wide: bool) -> np.ndarray:
-    """Borders of cells around sorted values, half-way between."""
+    """Borders of cells around sorted values, at least two: half-way between, and at the outermost
+    values, as nothing was run beyond them."""
     at = np.log(ticks) if wide else ticks
-    if len(at) == 1:
-        inner = np.array([at[0] - 0.5, at[0] + 0.5])
-    else:
-        middle = 0.5 * (at[1:] + at[:-1])
-        inner = np.concatenate([[2 * at[0] - middle[0]], middle, [2 * at[-1] - middle[-1]]])
-    return np.exp(inner) if wide else inner
+    inner = np.concatenate([[at[0]], 0.5 * (at[1:] + at[:-1]), [at[-1]]])
+    return np.concatenate([ticks[:1], np.exp(inner[1:-1]) if wide else inner[1:-1], ticks[-1:]])
 
 
 class Plane:

@@ -4,6 +4,7 @@
 import math
 
 import numpy as np
+from studies.reader import LARGEST
 from studies.study_file import DRAWN, Study
 
 SKIPPED = ("line", "setting", "status", "breaks", "message", "folder", "on_front")
@@ -11,7 +12,7 @@ FEW = 10  # different values of a key of which means are taken each
 
 
 def is_number(value) -> bool:
-    return isinstance(value, (int, float)) and math.isfinite(value)
+    return isinstance(value, (int, float)) and -LARGEST < value < LARGEST
 
 
 def effect_of(values: list, figure: np.ndarray) -> float:

@@ -2,7 +2,6 @@
 """One table of a study file, with the keys that it may have."""
 
 import difflib
-import math
 import re
 
 from studies.toml_place import Mistakes
@@ -21,12 +20,17 @@ KNOWN = {
                 "panels", "around")}
 
 
+LARGEST = 1e300  # whole numbers of TOML have any size
+LONGEST = 10000  # characters of a text
+
+
 def is_number(value) -> bool:
-    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and \
+        -LARGEST < value < LARGEST
 
 
 def is_word(value) -> bool:
-    return isinstance(value, str) and value != "" and "\n" not in value
+    return isinstance(value, str) and value.isprintable() and 0 < len(value) < LONGEST
 
 
 def is_value(value) -> bool:
@@ -68,16 +72,23 @@ class Reader:
         self.fail(key, rule, remedy, value if is_number(value) or isinstance(value, str) else None)
         return default
 
+    def some(self, key: str, right, rule: str, remedy: str) -> list:
+        """A list of items that may be missing, but not empty."""
+        if self.table.get(key) == []:
+            self.fail(key, "must have at least one item", remedy)
+        return self.items(key, right, rule, remedy)
+
     def word(self, key: str, remedy: str, default="", required=False) -> str:
-        return self.get(key, is_word, "must be a text that is not empty", remedy, default, required)
+        return self.get(key, is_word, "must be a text in one line, not empty", remedy, default, required)
 
     def choice(self, key: str, words: tuple, default: str = "", required=False) -> str:
         return self.get(key, lambda value: value in words, f"must be one of {', '.join(words)}",
                         "take one of these", default, required)
 
-    def whole(self, key: str, least: int, default: int, remedy: str, required=False) -> int:
-        return self.get(key, lambda value: type(value) is int and value >= least,
-                        f"must be a whole number from {least} on", remedy, default, required)
+    def whole(self, key: str, least: int, default: int, remedy: str, required=False,
+              most: int = 2**32 - 1) -> int:
+        return self.get(key, lambda value: type(value) is int and least <= value <= most,
+                        f"must be a whole number from {least} to {most}", remedy, default, required)
 
     def items(self, key: str, right, rule: str, remedy: str, required=False, twice=False) -> list:
         """A list, of which wrong items, and those that stand twice unless they may, are told and

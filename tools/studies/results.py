@@ -8,9 +8,11 @@ import math
 import subprocess
 from pathlib import Path
 
-from plotting.reading import FIELDS, Trouble
+from base.ending import Trouble
+from base.summary_file import read_summary
+from plotting.reading import FIELDS
 from studies.discs import COLUMNS, area_means
-from studies.engine import ended
+from studies.engine import ended, killed
 from studies.figures import figures_of
 from studies.plan import Planner, Run
 from studies.ranking import is_number, rank, ranking_lines
@@ -97,7 +99,7 @@ def differences(study: Study, planner: Planner, runs: list[Run], folder: Path) -
             continue
         place = folder / "runs" / run.name
         memory = place / f"difference-{reference.name.rpartition('-')[2]}.json"
-        row = read_json(memory)
+        row = {name: value for name, value in read_json(memory).items() if is_number(value)}
         missing = [field for field in fields if error_columns(field)["rms"] not in row]
         if missing:
             row |= difference(planner.program, place, folder / "runs" / reference.name, missing)
@@ -125,9 +127,14 @@ def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path) -> li
                "status": told.get("status", "missing"), "wall_time_s": told.get("wall_time_s", ""),
                "cpu_s": told.get("cpu_s", "")}
         place = folder / "runs" / run.name
-        row |= figures_of(study.figures, read_json(place / "summary.json"), place)
+        message = told.get("message", "") or killed(folder, run)
+        try:
+            summary = read_summary(place, ()) if (place / "summary.json").exists() else {}
+            row |= figures_of(study.figures, summary, place)
+        except Trouble as problem:
+            message = message or str(problem)
         row |= errors.get(run.name, {})
-        row |= {"message": told.get("message", "")} | means.get(run.name, {})
+        row |= {"message": message} | means.get(run.name, {})
         rows.append(row | {"folder": f"runs/{run.name}"})
         if study.stops:
             rows[-1]["stop"] = next((letter for part, letter in study.stops.items()

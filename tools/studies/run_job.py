@@ -20,6 +20,8 @@ import time
 from pathlib import Path
 
 ENDED = "ended.json"
+KILLED_FOLDER = "killed"  # of notes on runs that were ended from outside
+LOG_END = 4096            # bytes of a log that are looked at
 DIES_WITH_PARENT = 1  # PR_SET_PDEATHSIG
 KILLED = {signal.SIGINT, signal.SIGTERM, signal.SIGKILL, signal.SIGHUP}  # from outside
 C = ctypes.CDLL(None)
@@ -30,16 +32,32 @@ def die_with_parent() -> None:
 
 
 def read_json(file: Path) -> dict:
+    """Empty for what is no file of this program."""
     try:
-        told = json.loads(file.read_text(encoding="utf-8"))
-    except (OSError, ValueError):
+        told = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
+    except (OSError, ValueError, RecursionError):
         return {}
     return told if isinstance(told, dict) else {}
 
 
 def end_of_log(work: Path) -> str:
-    lines = (work / "log.txt").read_text(encoding="utf-8", errors="replace").splitlines()
+    with open(work / "log.txt", "rb") as log:
+        log.seek(max(0, log.seek(0, os.SEEK_END) - LOG_END))
+        lines = log.read().decode("utf-8", "replace").splitlines()
     return " / ".join(line.strip() for line in lines[-2:])
+
+
+def how(code: int) -> str:
+    """A run's end, in words."""
+    if code >= 0:
+        return f"exit code {code}"
+    names = {signal.SIGKILL: " from outside, or by the system where memory is short",
+             signal.SIGXCPU: ": its processor time is used up",
+             signal.SIGXFSZ: ": a file is larger than it may be"}
+    try:
+        return f"ended by {signal.Signals(-code).name}{names.get(-code, '')}"
+    except ValueError:
+        return f"ended by signal {-code}"
 
 
 def status_of(code: int, summary: dict) -> str:
@@ -77,10 +95,14 @@ def do_run(name: str, run: dict, study: dict) -> bool:
                                 "--threads", str(study["threads"])], work)
         summary = read_json(work / "summary.json")
         status = status_of(code, summary)
+        killed = Path(KILLED_FOLDER) / name
         if not status:
+            killed.write_text(how(code) if code < 0 else "interrupted", encoding="utf-8")
+            print(f"{name}: {killed.read_text(encoding='utf-8')}", flush=True)
             return False
+        killed.unlink(missing_ok=True)
         message = summary.get("message") or "" if status in ("done", "doubtful", "stopped") else \
-            f"exit code {code}: {end_of_log(work)}"
+            f"{how(code)}: {end_of_log(work)}"
         told = {"status": status, "exit_code": code, "cpu_s": cpu,
                 "wall_time_s": summary.get("wall_time_s", wall), "message": message, **run}
         (work / ENDED).write_text(json.dumps(told, indent=1), encoding="utf-8")
@@ -91,7 +113,7 @@ def do_run(name: str, run: dict, study: dict) -> bool:
 def main() -> int:
     die_with_parent()
     study = json.loads(Path(sys.argv[1]).read_text(encoding="utf-8"))
-    for folder in ("runs", "locks"):
+    for folder in ("runs", "locks", KILLED_FOLDER):
         Path(folder).mkdir(exist_ok=True)
     whole = [do_run(name, study["runs"][name], study) for name in study["jobs"][sys.argv[2]]]
     return 0 if all(whole) else 1

@@ -5,6 +5,7 @@ import math
 import re
 from dataclasses import dataclass, field
 
+from base.names import fault_of
 from studies.figures import FIGURE, TAKE
 from studies.reader import Reader, is_number, is_word
 
@@ -13,6 +14,8 @@ PICTURES = {"cost": (), "map": ("x", "y", "figure"), "scatter": ("x", "y"), "win
 FIGURES = {"steps": "steps", "elements": "elements",
            "largest_shear_deg": "max plies.*.max_shear_deg",
            "promised_error_deg": "accuracy.promised_shear_error_deg"}
+FORM = re.compile(r"(\+?\d?(\.\d{1,2})?[feg])?")  # of a number in a template
+ENDINGS = (".png", ".svg", ".pdf")
 COLUMN = re.compile(r"\{([^{}:]+)(?::([^{}]*))?\}")  # of a template: {punch_N:.0f}
 
 
@@ -46,18 +49,27 @@ class Picture:
     around: float = 0.0                               # factor of window: box about the case
 
 
+def is_figure(path) -> bool:
+    if not (is_word(path) and (found := FIGURE.match(path))):
+        return False
+    try:
+        return math.isfinite(float(found[1] or 1.0))
+    except ValueError:
+        return False
+
+
 def read_figures(table, mistakes) -> dict[str, str]:
     if not isinstance(table, dict):
         mistakes.add("figures", "must be a table",
                      'write [figures] and lines NAME = "PATH in summary.json"')
         return {}
     for name, path in table.items():
-        if not (is_word(path) and FIGURE.match(path)):
+        if not is_figure(path):
             mistakes.add(f"figures.{name}", "must be a path in summary.json, before it one of "
                          f"{', '.join(TAKE)} where a * stands for several, and before all a factor",
                          'write for example "100 * max plies.*.max_pressed_strain"')
     return {name: path for name, path in table.items()
-            if isinstance(path, str) and FIGURE.match(path)}
+            if is_figure(path)}
 
 
 def is_condition(value) -> bool:
@@ -115,6 +127,11 @@ def read_texts(name: str, table, mistakes) -> dict[str, str]:
         mistakes.add(name, "must be a table of texts", "write for example " + (
             'HEAD = "{COLUMN:FORM}"' if name == "table" else '"part of a message" = "P"'))
         return {}
+    for head, text in table.items() if name == "table" else ():
+        for column, form in COLUMN.findall(text):
+            if not FORM.fullmatch(form):
+                mistakes.add(f"table.{head}", f"{{{column}:{form}}} has no form of a number",
+                             "write for example {punch_N:.1f}; forms end in f, e or g", text)
     return table
 
 
@@ -130,11 +147,19 @@ def read_area_means(table, mistakes) -> float | None:
         "give the radius of the discs in mm", 10.0)
 
 
+def is_picture_name(name) -> bool:
+    return not fault_of(name) and name.endswith(ENDINGS)
+
+
 def read_picture(table: dict, number: int, study) -> Picture:
     reader = Reader(table, f"picture.{number}", "picture", study.mistakes)
     kind = reader.choice("kind", tuple(PICTURES), "cost", True)
-    one = Picture(kind, reader.word("file", "give a file name", f"{kind}.png"),
+    one = Picture(kind, reader.get("file", is_picture_name, "must be a file's name without a folder, "
+                                   f"which ends in {', '.join(ENDINGS)}", "give a file name",
+                                   f"{kind}.png"),
                   reader.word("title", "give a title", study.title))
+    if one.file in [other.file for other in study.pictures]:
+        reader.fail("file", "is that of another picture too", "give it a name of its own", one.file)
     for key in PICTURES[kind]:
         setattr(one, key, reader.word(key, "name a vary or a figure", "", True))
     if kind == "cost":
@@ -145,8 +170,9 @@ def read_picture(table: dict, number: int, study) -> Picture:
     for key in {"x", "y", "figure"} & table.keys() - allowed:
         reader.fail(key, f"a picture of kind {kind} has none", "take it out")
     if kind == "plies":
-        one.figures = reader.items("figures", is_word, "must be a text", "name figures of plies",
-                                   True)
+        one.figures = reader.some("figures", is_word, "must be a text", "name figures of plies")
+        if "figures" not in table:
+            reader.fail("figures", "is missing", "name figures of plies")
         one.rows = reader.word("rows", "name a vary")
     for key in {"figures", "rows"} & table.keys() if kind != "plies" else ():
         reader.fail(key, f"a picture of kind {kind} has none", "take it out")

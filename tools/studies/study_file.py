@@ -3,12 +3,14 @@
 says of keys and values is asked of plyform later (check_runs.py). docs/users/studies.md describes
 the file."""
 
-import re
-import tomllib
+import math
+import os
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from plotting.reading import FIELDS, Trouble
+from base.ending import Trouble, one_line
+from base.files import is_file, parsed_toml, read_text
+from plotting.reading import FIELDS
 from studies import shown
 from studies.reader import Reader, is_number, is_value, is_word
 from studies.toml_place import Mistakes, lines_of
@@ -17,6 +19,10 @@ METHODS = ("one at a time", "grid", "list", "latin hypercube", "sobol")
 DRAWN = METHODS[3:]  # from ranges, with a number of runs
 PRESETS = ("draft", "standard", "reference")
 INCLUDED = ("area_means", "figures", "limits", "stops", "table")  # of a file included
+MOST_RUNS = 100000  # of a second each they take a day
+# columns of every table
+COLUMNS = ("line", "setting", "status", "against", "wall_time_s", "cpu_s", "message", "folder", "stop",
+           "breaks", "within_limits", "on_front")
 CASE = "case"  # the key that stands for the case file itself
 
 
@@ -105,7 +111,8 @@ def read_range(reader: Reader, one: Vary, method: str) -> None:
         one.log = False
     if method in DRAWN:
         return
-    count = reader.whole("count", 2, 2, "say in how many values the range is divided", True)
+    count = reader.whole("count", 2, 2, "say in how many values the range is divided", True,
+                         MOST_RUNS)
     one.values = [(one.drawn(i / (count - 1)),) for i in range(count)]
 
 
@@ -140,7 +147,7 @@ def read_vary(table: dict, number: int, study: Study) -> Vary:
     if len(given) != 1:
         reader.fail("key", "is missing" if not given else f"stands beside {given[-1]}",
                     "give one of key, keys (several together) and each (several, each its own)")
-    keys = reader.items("keys", is_word, "must be a key of the case", "as in --set") or ["?"] \
+    keys = reader.some("keys", is_word, "must be a key of the case", "as in --set") or ["?"] \
         if given == ["keys"] else [reader.word((given or ["key"])[0], "as in --set", "?")]
     one = Vary(reader.word("name", "give a name for the column", " ".join(keys)), reader.item, keys,
                given == ["each"])
@@ -209,12 +216,17 @@ def read_reference(table, study: Study) -> Reference | None:
                      fields if "fields" in table else ["shear"])
 
 
+def case_file(folder: Path, text: str) -> Path:
+    """Of a case file or its folder; runs are called from another folder."""
+    path = Path(os.path.realpath(folder / text))
+    return path / "case.toml" if os.path.isdir(path) else path
+
+
 def case_path(reader: Reader, folder: Path) -> Path:
     text = reader.word("case", "give the case file or its folder, seen from the study file", "",
                        True)
-    path = (folder / text).resolve()  # runs are called from another folder
-    path = path / "case.toml" if path.is_dir() else path
-    if text and not path.is_file():
+    path = case_file(folder, text)
+    if text and not is_file(path):
         reader.fail("case", f"there is no file {path}",
                     "give the case file or its folder, seen from the study file", text)
     return path
@@ -228,6 +240,15 @@ def check_names(study: Study) -> None:
                                "give each a name of its own, other than case, reference and those "
                                "of presets", one.name)
         seen.add(one.name)
+    for item, names in (("vary", [one.name for one in study.vary]), ("figures", study.figures)):
+        for name in names:
+            if name in COLUMNS:
+                study.mistakes.add(item, f"{name} is a column of every table", "give another name")
+    runs = study.runs if study.method in DRAWN else math.prod(
+        len(one.values) for one in study.vary) if study.method == "grid" else 0
+    if runs > MOST_RUNS:
+        study.mistakes.add("method", f"the grid has {runs} runs, more than {MOST_RUNS}",
+                           "vary less, or draw from ranges", study.method)
     lengths = {len(one.values) for one in study.vary}
     if study.method == "list" and len(lengths) > 1:
         study.mistakes.add("method", "in a list all [[vary]] must have as many values",
@@ -253,11 +274,11 @@ def included(root: dict, mistakes: Mistakes) -> dict:
         return root
     file = mistakes.file.parent / str(name)
     try:
-        text = file.read_text(encoding="utf-8")
-        tables = tomllib.loads(text)
-    except (OSError, UnicodeDecodeError, tomllib.TOMLDecodeError) as problem:
+        text = read_text(file)
+        tables = parsed_toml(file, text)
+    except Trouble as problem:
         mistakes.add("include", f"cannot be read: {problem}", "give a file of TOML, seen from the "
-                     "study file", str(name))
+                     "study file", one_line(name, 200))
         return root
     mistakes.also = (file, lines_of(text))
     for key in tables:
@@ -275,29 +296,25 @@ def read_shown(reader: Reader, root: dict, study: Study) -> None:
     study.limits = shown.read_limits(root.get("limits", {}), mistakes)
     study.stops = shown.read_texts("stops", root.get("stops", {}), mistakes)
     study.table = shown.read_texts("table", root.get("table", {}), mistakes)
-    study.pictures = [shown.read_picture(one, i, study)
-                      for i, one in enumerate(reader.tables("picture"))]
+    for i, one in enumerate(reader.tables("picture")):
+        study.pictures.append(shown.read_picture(one, i, study))
 
 
 def read_study(file: Path) -> Study:
     """Never fails for what stands in the file: Study.mistakes has it."""
-    try:
-        text = file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as problem:
-        raise Trouble(f"{file} cannot be read: {problem}; give a study file") from problem
+    text = read_text(file)
     mistakes = Mistakes(file, lines_of(text))
     study = Study(file, mistakes)
     try:
-        root = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as problem:
-        where = re.search(r"line (\d+)", str(problem))
-        mistakes.told.append((0, f"{file}:{where[1] if where else 1}: error: {problem}; "
-                              "write it as TOML does"))
+        root = parsed_toml(file, text)
+    except Trouble as problem:
+        mistakes.told.append((0, str(problem)))
         return study
     root = included(root, mistakes)
     reader = Reader(root, "", "", mistakes)
     study.method = reader.choice("method", METHODS, METHODS[0])
-    study.runs = reader.whole("runs", 1, 1, "say how many runs are drawn", study.method in DRAWN)
+    study.runs = reader.whole("runs", 1, 1, "say how many runs are drawn", study.method in DRAWN,
+                              MOST_RUNS)
     if "runs" in root and study.method not in DRAWN:
         reader.fail("runs", f"does not go with method {study.method}", "take it out")
     study.title = reader.word("title", "give a title", file.stem)

@@ -13,7 +13,9 @@ from math import isfinite
 from pathlib import Path
 
 from compare import table
+from base.files import read_text
 from plotting.reading import Trouble
+from plotting.whole_file import make_in, write_whole
 from studies import reach
 from studies.plan import Planner
 from studies.shown import COLUMN
@@ -73,14 +75,14 @@ def pictures(study: Study, folder: Path, text: Path) -> str:
         name = study.file.stem if len(study.pictures) == 1 else \
             f"{study.file.stem}_{Path(one.file).stem}"
         name = name if name.startswith(text.stem) else f"{text.stem}_{name}"
-        file = text.with_name(name + Path(one.file).suffix)
-        shutil.copyfile(folder / one.file, file)
+        file = make_in(text.parent, name + Path(one.file).suffix,
+                       lambda part, one=one: shutil.copyfile(folder / one.file, part))
         lines.append(f"![{one.title}]({file.name})")
     return "\n\n".join(lines)
 
 
 def fill(text: Path, study: Study, planner: Planner, rows: list[dict], folder: Path) -> None:
-    before, name = text.read_text(encoding="utf-8"), study.file.stem
+    before, name = read_text(text), study.file.stem
     if name not in (found for _, found in MARK.findall(before)):
         raise Trouble(f"{text} has no place for this study; write a line <!-- table: {name} -->, "
                       f"<!-- picture: {name} --> or <!-- reach: {name} -->")
@@ -92,4 +94,4 @@ def fill(text: Path, study: Study, planner: Planner, rows: list[dict], folder: P
             markdown(study, rows) if match[1] == "table" else \
             reach.markdown(reach.reach(study, planner, rows))
         return f"<!-- {match[1]}: {name} -->\n\n{inner}\n\n<!-- end -->\n"
-    text.write_text(MARK.sub(replaced, before), encoding="utf-8")
+    write_whole(text, MARK.sub(replaced, before))

@@ -44,7 +44,7 @@ def toml_value(text: str):
     """What stands behind KEY= in --set; a text that is no value of TOML is a word."""
     try:
         return tomllib.loads(f"value = {text}")["value"]
-    except tomllib.TOMLDecodeError:
+    except (ValueError, RecursionError):  # of more digits or brackets than TOML is read with
         return text
 
 

@@ -77,8 +77,8 @@ export class Chart {
   lines() {
     this.runs.forEach((run, r) => run.lines.forEach((line, k) => {
       const [colour, dashes] = lineStyle(k);
-      const points = line.values.map((value, i) => (Number.isFinite(value) // else not known
-        ? `${this.x(run.stroke[i])},${this.y(value)}` : "")).filter(Boolean).join(" ");
+      const points = line.values.flatMap((value, i) => (Number.isFinite(value) // else not known
+        ? [`${this.x(run.stroke[i])},${this.y(value)}`] : [])).join(" ");
       part("polyline", { points, fill: "none", stroke: colour, "stroke-width": r ? 1.2 : 2.2,
         "stroke-dasharray": dashes, "stroke-opacity": r ? 0.75 : 1 }, this.svg);
     }));

@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""summary.json (keys: docs/users/results.md): its values are of the kinds that plyform writes, so that
+who reads it need not look again. Keys that are not here may be anything."""
+
+from pathlib import Path
+
+from base.ending import Mistake, Trouble, one_line
+from base.files import read_json
+from base.names import checked
+
+MOST_TEXT = 100000  # characters: a message has some hundred
+
+NUMBER, TEXT = "a number or null", "a text"
+FOUR = [NUMBER] * 4
+POINT = [NUMBER] * 3
+WALKS = {"mean": NUMBER, "spread": NUMBER, "directions_deg": FOUR, "each": FOUR}
+BODY = {"name": TEXT, "force_N": NUMBER, "force_raw_N": NUMBER, "displacement_mm": NUMBER,
+        "force_known_to_s": NUMBER}
+FIGURE = {"name": TEXT, "unit": TEXT, "value": NUMBER, "band": NUMBER}
+PLY = {"name": TEXT, "wrinkle_at_mm": POINT, "excess_length_at_mm": POINT, "no_draw_in": TEXT,
+       "draw_in_mm": {"mean": NUMBER, "largest": NUMBER}, "draw_in_yarns_mm": WALKS,
+       "draw_in_bisectors_mm": WALKS,
+       **dict.fromkeys(("angle_deg", "max_shear_deg", "p99_shear_deg", "rms_shear_deg",
+                        "max_fibre_strain", "min_fibre_strain", "max_tension_N_per_yarn",
+                        "max_pressed_strain", "area_share_pressed_over_2_percent",
+                        "area_share_pressed_over_5_percent", "excess_length_mm",
+                        "wrinkle_height_mm", "wrinkle_length_mm", "locking_angle_deg",
+                        "area_share_beyond_locking_angle"), NUMBER)}
+# {...: kind}: any key; (kind,): a list of any length
+SUMMARY = {
+    **dict.fromkeys(("title", "version", "status", "message"), TEXT),
+    **dict.fromkeys(("time_s", "stroke_mm", "wall_time_s", "steps", "threads", "elements", "nodes",
+                     "searches", "largest_added_mass"), NUMBER),
+    "plies": (PLY,), "tools": (BODY,), "boundaries": (BODY,), "energy": {...: NUMBER},
+    "accuracy": {key: NUMBER for key in ("promised_shear_error_deg", "inertia_deg", "mesh_deg",
+                                         "softening_deg", "element_size_factor")},
+    "contact": {key: NUMBER for key in ("max_tool_penetration_mm", "max_ply_penetration_mm",
+                                        "intersections_between_plies",
+                                        "intersections_within_plies")},
+    "pairs": ({"a": TEXT, "b": TEXT},), "assumed": (TEXT,), "could_be_left_out": (TEXT,),
+    "missing": (TEXT,), "verification": {"figures": (FIGURE,)}}
+STATUSES = ("done", "doubtful", "stopped", "interrupted")
+NEEDED = ("status", "plies", "tools", "energy", "contact")
+
+
+def word_of(kind) -> str:
+    return kind if isinstance(kind, str) else "a table" if isinstance(kind, dict) else \
+        f"a list of {len(kind)} numbers" if isinstance(kind, list) else "a list"
+
+
+def wrong(path: Path, where: str, kind, value) -> Mistake:
+    return Mistake(f"{path}: {where} is {one_line(repr(value), 80)}, not {word_of(kind)}, as plyform "
+                   "writes it: run the case again")
+
+
+def check(path: Path, where: str, kind, value) -> None:
+    """Raises Mistake."""
+    right = {NUMBER: value is None or type(value) in (int, float),
+             TEXT: isinstance(value, str) and len(value) < MOST_TEXT}[kind] \
+        if isinstance(kind, str) else \
+        isinstance(value, dict) if isinstance(kind, dict) else isinstance(value, list) and \
+        (isinstance(kind, tuple) or len(value) == len(kind))
+    if not right:
+        raise wrong(path, where, kind, value)
+    if isinstance(kind, dict):
+        for key, inner in value.items():
+            if (want := kind.get(key, kind.get(...))) is not None:
+                check(path, f"{where}.{key}" if where else key, want, inner)
+    elif not isinstance(kind, str):
+        for i, inner in enumerate(value):
+            check(path, f"{where}.{i}", kind[0], inner)
+
+
+def check_bodies(path: Path, summary: dict) -> None:
+    for kind, what in (("plies", "ply"), ("tools", "tool"), ("boundaries", "boundary")):
+        told = summary.get(kind, [])
+        for i, body in enumerate(told):
+            if "name" not in body:
+                raise Mistake(f"{path}: {kind}.{i}.name is missing: run the case again")
+            checked(body["name"], what, path, "/\\")  # no file is called after these
+        if len({body["name"] for body in told}) < len(told):
+            raise Mistake(f"{path}: {kind} has a name twice: run the case again")
+
+
+def without_unknown_forces(summary: dict) -> dict:
+    """Null in the place of forces of tools that press the plies between them: those are contact's
+    stiffness, not the cloth's."""
+    for tool in summary.get("tools", []):
+        if "force_N" in tool and not tool.get("force_known", True):
+            tool["force_N"] = tool["force_raw_N"] = None
+    return summary
+
+
+def known_to_s(summary: dict) -> dict[str, float]:
+    """Of tools that came to press the plies between them, by name: until when their force is
+    known, s."""
+    return {tool["name"]: float(tool.get("force_known_to_s") or 0.0)
+            for tool in summary.get("tools", []) if not tool.get("force_known", True)}
+
+
+def read_summary(folder: Path, needed: tuple[str, ...] = NEEDED) -> dict:
+    """Of a folder of results. Raises Trouble."""
+    path = folder / "summary.json"
+    if not path.exists():
+        raise Trouble(f"{path} is missing: is {folder} the folder of a run?")
+    summary = read_json(path)
+    check(path, "", SUMMARY, summary)
+    for key in needed:
+        if key not in summary:
+            raise Mistake(f"{path}: {key} is missing: run the case again")
+    if summary.get("status", STATUSES[0]) not in STATUSES:
+        raise wrong(path, "status", "one of " + ", ".join(STATUSES), summary["status"])
+    check_bodies(path, summary)
+    return without_unknown_forces(summary)
