@@ -8,6 +8,7 @@
 #include "python/bindings.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace plyform {
 namespace {
@@ -82,7 +83,13 @@ void bind_outlook(py::module_& m) {
       .def_readonly("step_s", &Outlook::step, "s, the step used at the start.")
       .def_readonly("steps", &Outlook::steps, "About how many steps the run takes.")
       .def_readonly("estimated_s", &Outlook::seconds, "About how long it takes, s of wall time.")
-      .def_readonly("stop", &Outlook::stop, "Why the first steps went wrong; else empty.");
+      .def_readonly("stop", &Outlook::stop, "Why the first steps went wrong; else empty.")
+      .def("__str__", [](const Outlook& o) { return fmt::format("{}", fmt::join(o.lines, "\n")); })
+      .def("__repr__", [](const Outlook& o) {
+        return o.stop.empty() ? fmt::format("<Outlook of {} steps of {:.3g} s, about {:.3g} s>",
+                                            o.steps, o.step, o.seconds)
+                              : fmt::format("<Outlook: {}>", o.stop);
+      });
   m.def(
       "look_ahead",
       [](const PreparedCase& prepared, int threads) {

@@ -10,6 +10,7 @@
 
 #include <numbers>
 #include <stdexcept>
+#include <unistd.h>
 
 namespace plyform {
 namespace {
@@ -32,9 +33,11 @@ public:
       if (PyErr_CheckSignals() != 0) throw py::error_already_set();
       if (function.is_none()) return;
       const py::object answer = function(value());
+      leave_if_forked(nullptr);
       py::detail::make_caster<bool> truth; // of a bool, or NumPy's, only
       if (truth.load(answer, false) && !static_cast<bool>(truth)) stop = true;
     } catch (py::error_already_set& raised) {
+      leave_if_forked(&raised);
       error = raised.value();
       if (raised.trace()) PyException_SetTraceback(error.ptr(), raised.trace().ptr());
       stop = true;
@@ -42,6 +45,37 @@ public:
   }
   std::atomic<bool> stop{false};
   py::object error = py::none();
+
+private:
+  const pid_t process_ = getpid();
+
+  /// In a copy of this process, which a callback forked and then came back from: the threads that
+  /// the run waits for are not in it, and the files are those of the first process. It ends, with
+  /// the code of a SystemExit.
+  void leave_if_forked(py::error_already_set* raised) const {
+    if (getpid() == process_) return;
+    int code = 1;
+    if (raised != nullptr && raised->matches(PyExc_SystemExit)) {
+      const py::object told = raised->value().attr("code");
+      if (told.is_none()) code = 0;
+      if (py::isinstance<py::int_>(told)) code = told.cast<int>() & 0xff;
+    } else {
+      if (raised != nullptr) {
+        raised->restore();
+        PyErr_Print();
+      }
+      PySys_WriteStderr(
+          "plyform: a callback forked, and the copy came back into the run, which goes "
+          "on in the first process only: the copy ends here; end it in the callback, "
+          "with os._exit\n");
+    }
+    for (const char* name : {"stdout", "stderr"})
+      if (PyObject* stream = PySys_GetObject(name); stream != nullptr && stream != Py_None) {
+        Py_XDECREF(PyObject_CallMethod(stream, "flush", nullptr));
+        PyErr_Clear();
+      }
+    _exit(code);
+  }
 };
 
 class Simulation {

@@ -25,6 +25,29 @@ void translate(std::exception_ptr thrown) {
   }
 }
 
+newfunc made_by_pybind = nullptr; ///< of all classes here
+
+PyObject* make(PyTypeObject* type, PyObject* arguments, PyObject* keywords) {
+  return made_by_pybind(type, arguments, keywords);
+}
+
+/// Only a constructor, or C++, makes objects: what __new__ alone makes, which copy.copy and
+/// unpickling call too, would be memory without a value, in which pybind11 sees one.
+void refuse_unfinished_objects(const py::module_& m) {
+  const py::cpp_function refuse([](const py::args&, const py::kwargs&) -> py::object {
+    throw py::type_error("objects of this class are made by plyform: they cannot be made without "
+                         "their contents, copied or unpickled");
+  });
+  for (const auto& [name, value] : m.attr("__dict__").cast<py::dict>()) {
+    if (PyType_Check(value.ptr()) == 0) continue;
+    auto* type = reinterpret_cast<PyTypeObject*>(value.ptr());
+    made_by_pybind = type->tp_new;
+    py::setattr(value, "__new__", py::staticmethod(refuse)); // sets tp_new too, to call it
+    type->tp_new = make;
+    PyType_Modified(type);
+  }
+}
+
 } // namespace
 
 void raise_mistakes(const std::vector<CaseError>& mistakes) {
@@ -48,4 +71,5 @@ PYBIND11_MODULE(_plyform, m) {
       "export_results", [](const std::filesystem::path& folder) { return export_results(folder); },
       py::arg("folder"),
       "Writes FOLDER/export/NAME.vtu, .stl and .csv of the last state; the files written.");
+  refuse_unfinished_objects(m);
 }

@@ -140,7 +140,7 @@ std::vector<fs::path> export_results(const fs::path& directory, const ExportChoi
   // what is not there is told by read_frame
   const long first = choice.all ? 0 : one < 0 ? count + one : one;
   const long end = choice.all ? count : first + 1;
-  const fs::path folder = directory / "export";
+  const fs::path folder = choice.folder.empty() ? directory / "export" : choice.folder;
   std::vector<fs::path> files;
   for (long index = first; index < end; ++index) {
     const Frame state =

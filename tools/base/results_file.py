@@ -45,6 +45,8 @@ class Results:
             elif away or not isinstance(link, h5py.HardLink):
                 raise Broken(f"{here} is a link to elsewhere, which plyform does not write")
             at = group.get(name)
+            if at is None:
+                raise Broken(f"{here} leads nowhere")
             told = h5py.h5o.get_info(at.id)
             if (told.fileno, told.addr) in self.seen:
                 raise Broken(f"{here} is a link to what stands elsewhere too, which plyform does "

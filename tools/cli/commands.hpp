@@ -51,6 +51,7 @@ struct ExportArguments {
   std::string results;              ///< folder with results.h5
   std::vector<std::string> formats; ///< empty: vtu, stl and csv
   std::string frame;                ///< a number, "all", or empty: the last, without its number
+  std::string output;               ///< folder for the files; empty: results/export
 };
 
 /// A column of a curve: name or number, and the unit in the place of the header's.

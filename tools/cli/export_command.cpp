@@ -17,7 +17,8 @@ int export_command(const ExportArguments& arguments) {
     return std::find(formats.begin(), formats.end(), name) != formats.end();
   };
   ExportChoice choice;
-  if (!formats.empty()) choice = {asked("vtu"), asked("stl"), asked("csv"), false, {}};
+  if (!formats.empty()) choice = {asked("vtu"), asked("stl"), asked("csv"), false, {}, {}};
+  choice.folder = arguments.output;
   choice.all = arguments.frame == "all";
   if (!choice.all && !arguments.frame.empty()) {
     const char* end = arguments.frame.data() + arguments.frame.size();
@@ -40,6 +41,7 @@ int export_command(const ExportArguments& arguments) {
   std::fflush(nullptr); // the script prints after it
   std::vector<std::string> words{arguments.results, "--format", others};
   if (!arguments.frame.empty()) words.push_back(fmt::format("--frame={}", arguments.frame));
+  if (!arguments.output.empty()) words.push_back(fmt::format("--output={}", arguments.output));
   return script_command("export", words);
 }
 

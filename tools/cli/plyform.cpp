@@ -106,6 +106,7 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
       ->check(CLI::IsMember({"vtu", "stl", "csv", "vtkhdf", "gltf"}));
   results->add_option("--frame", to.results.frame,
                       "number of a state, from 0, or all [last, in files without its number]");
+  results->add_option("-o,--output", to.results.output, "folder for the files [DIR/export]");
   commands.push_back({results, [&to] { return export_command(to.results); }});
 
   CLI::App* difference = app.add_subcommand(

@@ -4,6 +4,8 @@
 // needs: names of stored arrays, a value a triangle (cells) or a node (nodes); of: from these to the
 // value shown; digits: decimals in numbers; signed: a scale with zero in its middle.
 
+import { nodalMeans } from "plyform/difference.js";
+
 const largest = (a, b) => Math.max(a, b);
 
 export const FIELDS = [
@@ -47,6 +49,15 @@ export function has(ply, field) {
   if (field.yarns && !ply.told.woven) return false;
   return (field.cells || []).every((name) => name in ply.told.cells) &&
     (field.nodes || []).every((name) => name in ply.told.nodes);
+}
+
+/** Values of a field at the nodes of a ply: what it is made of is evened out first. */
+export async function nodalValuesOf(ply, field, state) {
+  if (!field.cells) return (await valuesOf(ply, field, state)).values;
+  const blocks = await Promise.all(field.cells.map((name) => ply.block(name)));
+  const arrays = blocks.map((block) => nodalMeans(ply, block.state(state)));
+  const [values, other = values] = arrays;
+  return values.map((value, i) => field.of(value, other[i]));
 }
 
 /** Values of a field in a state, and whether they are of triangles or nodes. */

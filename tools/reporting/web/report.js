@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The report as a whole: settings, what follows from them, what is shown.
 
-import { FIELDS, fieldCalled, has, valuesOf } from "plyform/fields.js";
+import { FIELDS, fieldCalled, has, nodalValuesOf, valuesOf } from "plyform/fields.js";
 import { Difference } from "plyform/difference.js";
 import { firstMet } from "plyform/pick.js";
 import { Ply } from "plyform/ply.js";
@@ -144,10 +144,11 @@ export class Report {
       view.plies.forEach((mesh, i) => mesh.colour(this.values[r][i]));
     }
     if (!this.difference) return;
-    this.differences = this.runs[0].plies.map((ply, i) => {
-      const b = this.runs[1].plies.indexOf(this.difference.pairs[i][1]);
-      return this.difference.values(i, this.values[0][i], this.values[1][b]);
-    });
+    const [stateA, stateB] = this.states();
+    this.differences = await Promise.all(this.difference.pairs.map(async ([a, b], i) => {
+      if (!b || !has(a, field) || !has(b, field)) return zero(a);
+      return this.difference.values(i, await nodalValuesOf(a, field, stateA), await nodalValuesOf(b, field, stateB));
+    }));
     for (const view of this.stage.views.filter((one) => one.difference)) {
       view.plies.forEach((mesh, i) => mesh.colour(this.differences[i]));
     }
