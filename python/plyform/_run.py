@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from . import _plyform
 from ._case import Case
 from ._errors import CaseError, Error, Stopped
+from ._files import read_text
 from ._parts import Parts
 from ._plyform import BoundaryFrame, Difference, Frame, LivePly, PlyFrame, Progress, ToolFrame
 
@@ -152,11 +153,13 @@ def read(folder: AnyPath, frame: int = -1) -> Result:
     path = Path(folder)
     state = _plyform.read_frame(path / "results.h5", frame)
     try:
-        summary = json.loads((path / "summary.json").read_text(encoding="utf-8"))
+        summary = json.loads(read_text(path / "summary.json"))
     except FileNotFoundError:
         summary = {}
-    except (OSError, ValueError) as problem:
+    except (ValueError, RecursionError) as problem:
         raise Error(f"{path / 'summary.json'}: {problem}") from problem
+    if not isinstance(summary, dict):
+        raise Error(f"{path / 'summary.json'}: is no summary of a run")
     return Result(state, summary, path)
 
 
@@ -164,10 +167,9 @@ def history(folder: AnyPath) -> dict[str, NDArray[np.float64]]:
     """The columns of history.csv by name, one value an output time. Raises Error."""
     file = Path(folder) / "history.csv"
     try:
-        with open(file, encoding="utf-8", newline="") as lines:
-            names, *rows = csv.reader(lines)
+        names, *rows = csv.reader(read_text(file).splitlines())
         values = np.array(rows, dtype=float).reshape(len(rows), len(names))
-    except (OSError, ValueError) as problem:
+    except (OSError, ValueError, csv.Error) as problem:
         raise Error(f"{file}: {problem}") from problem
     return {name: values[:, i] for i, name in enumerate(names)}
 
