@@ -107,7 +107,7 @@ def check_slurm(folder: Path) -> None:
     assert status(said=away)[0] == "failed" and not mark.exists()
     scene = Scene(folder / "by_slurm")
     done = start(scene, "--profile", "slurm", env={**env, "STATE": "COMPLETED"})
-    assert done.returncode == 0 and len(scene.calls()) == 5, (
+    assert done.returncode == 0 and len(scene.calls()) == 4, (
         done, (scene.results / "snakemake.log").read_text(encoding="utf-8"))
     scene.results = folder / "quotes ' $(touch ran)"
     done = start(scene, "--profile", "slurm", env=env)
