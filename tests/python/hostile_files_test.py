@@ -201,7 +201,8 @@ def check_odd_files(folder):
             if ending == ".inp" or kind in ("pipe", "kernel"):
                 refused(call("map", folder / "sound", "--onto", folder / f"{kind}{ending}"))
         put_odd(folder / f"{kind}.toml", kind)
-        done = call("study", folder / f"{kind}.toml", "--program", "/bin/true")
+        done = call("study", folder / f"{kind}.toml", "--program", "/bin/true", "-o",
+                    folder / "out")
         if kind == "kernel":  # a file of no bytes, without the two tables that it needs
             assert done.code == 2 and "kernel.toml:1: error: case: is missing" in done.err, done
         else:
@@ -209,10 +210,13 @@ def check_odd_files(folder):
         put_odd(folder / f"{kind}_case.toml", kind)
         (folder / "study.toml").write_text(f'case = "{kind}_case.toml"\n[[vary]]\nkey = "a.b"\n'
                                            "values = [1]\n", encoding="utf-8")
-        done = call("study", folder / "study.toml", "--program", "/bin/true")
+        done = call("study", folder / "study.toml", "--program", "/bin/true", "-o",
+                    folder / "out")
         assert done.code in (1, 2) and "Traceback" not in done.err, done
-        refused(call("check_bands.py", folder / f"{kind}.toml", "--program", "/bin/true"), kind)
-    refused(call("study", folder / "latin.toml", "--program", "/bin/true"), "latin.toml:1:10: ")
+        refused(call("check_bands.py", folder / f"{kind}.toml", "--program", "/bin/true", "-o",
+                    folder / "out"), kind)
+    refused(call("study", folder / "latin.toml", "--program", "/bin/true", "-o",
+                    folder / "out"), "latin.toml:1:10: ")
 
 
 def check_texts(folder):
