@@ -6,6 +6,7 @@ from pathlib import Path
 from base.ending import Trouble, one_line
 
 FORBIDDEN = '/\\:*?"<>|'  # as core/results/result_writer.cpp has them
+SEPARATORS = "/\\"      # of folders: in no name that is read
 LONGEST = 200  # bytes: file systems take 255, and endings and numbers come behind
 
 

@@ -13,7 +13,7 @@ import numpy as np
 from base.apart import read_apart
 from base.ending import Trouble
 from base.files import check_file
-from base.names import checked
+from base.names import SEPARATORS, checked
 
 # of a run in progress, whose states are files of their own
 STATE_FILE = re.compile(r"states/[A-Za-z0-9_]+\.h5")
@@ -122,7 +122,7 @@ class Results:
         # texts of any length in files of layout 1
         told = [name if isinstance(name, str) else name.decode() for name in self.file.attrs[bodies]]
         for name in told:
-            checked(name, {"plies": "ply"}.get(bodies, bodies[:-1]), self.path)
+            checked(name, {"plies": "ply"}.get(bodies, bodies[:-1]), self.path, SEPARATORS)
         if len(set(told)) < len(told):
             raise Broken(f"/:{bodies} has a name twice")
         return told

@@ -4,9 +4,9 @@ who reads it need not look again. Keys that are not here may be anything."""
 
 from pathlib import Path
 
-from base.ending import Mistake, Trouble, one_line
+from base.ending import Trouble, one_line
 from base.files import read_json
-from base.names import checked
+from base.names import SEPARATORS, checked
 
 MOST_TEXT = 100000  # characters: a message has some hundred
 
@@ -48,13 +48,17 @@ def word_of(kind) -> str:
         f"a list of {len(kind)} numbers" if isinstance(kind, list) else "a list"
 
 
-def wrong(path: Path, where: str, kind, value) -> Mistake:
-    return Mistake(f"{path}: {where} is {one_line(repr(value), 80)}, not {word_of(kind)}, as plyform "
-                   "writes it: run the case again")
+def broken(path: Path, what: str) -> Trouble:
+    return Trouble(f"{path} cannot be read as a summary of plyform: {what}; run the case again")
+
+
+def wrong(path: Path, where: str, kind, value) -> Trouble:
+    return broken(path, f"{where or 'it'} is {one_line(repr(value), 80)}, not {word_of(kind)}, as "
+                        "plyform writes it")
 
 
 def check(path: Path, where: str, kind, value) -> None:
-    """Raises Mistake."""
+    """Raises Trouble."""
     right = {NUMBER: value is None or type(value) in (int, float),
              TEXT: isinstance(value, str) and len(value) < MOST_TEXT}[kind] \
         if isinstance(kind, str) else \
@@ -76,10 +80,10 @@ def check_bodies(path: Path, summary: dict) -> None:
         told = summary.get(kind, [])
         for i, body in enumerate(told):
             if "name" not in body:
-                raise Mistake(f"{path}: {kind}.{i}.name is missing: run the case again")
-            checked(body["name"], what, path, "/\\")  # no file is called after these
+                raise broken(path, f"{kind}.{i}.name is missing")
+            checked(body["name"], what, path, SEPARATORS)
         if len({body["name"] for body in told}) < len(told):
-            raise Mistake(f"{path}: {kind} has a name twice: run the case again")
+            raise broken(path, f"{kind} has a name twice")
 
 
 def without_unknown_forces(summary: dict) -> dict:
@@ -103,11 +107,14 @@ def read_summary(folder: Path, needed: tuple[str, ...] = NEEDED) -> dict:
     path = folder / "summary.json"
     if not path.exists():
         raise Trouble(f"{path} is missing: is {folder} the folder of a run?")
-    summary = read_json(path)
+    try:
+        summary = read_json(path)
+    except Trouble as problem:
+        raise broken(path, str(problem).removeprefix(str(path)).lstrip(":")) from problem
     check(path, "", SUMMARY, summary)
     for key in needed:
         if key not in summary:
-            raise Mistake(f"{path}: {key} is missing: run the case again")
+            raise broken(path, f"{key} is missing")
     if summary.get("status", STATUSES[0]) not in STATUSES:
         raise wrong(path, "status", "one of " + ", ".join(STATUSES), summary["status"])
     check_bodies(path, summary)
