@@ -167,4 +167,4 @@ def spoil_link(file, name, found, chance) -> None:
     elif way == 5 and values is not None:
         file[name] = odd_array(values, chance)
     elif way == 6 and values is not None:
-        file.create_dataset(name, (10**chance.randrange(1, 10),), "f8", chunks=(64,))
+        file.create_dataset(name, (10**chance.randrange(2, 10),), "f8", chunks=(64,))
