@@ -155,6 +155,9 @@ class Bench:
         meshio.vtu.write(folder / "part.vtu", meshio.Mesh(mesh.nodes, [("quad", mesh.corners)]),
                          binary=False)
         self.parts[".vtu"] = (folder / "part.vtu").read_text(encoding="utf-8")
+        for ending, text in self.parts.items():  # what is not spoilt is read
+            (folder / f"part{ending}").write_text(text, encoding="utf-8")
+            read_a_part(folder / f"part{ending}", self.ply)
         (folder / "case.toml").write_text("[contact]\nfriction = 0.2\n", encoding="utf-8")
 
     def kinds(self) -> list[str]:
