@@ -10,7 +10,7 @@ import numpy as np
 from base.ending import Trouble
 from base.files import TABLE, check_file, read_text
 from base.results_file import Results, read_results
-from base.summary_file import read_summary
+from base.summary_file import known_to_s, read_summary
 
 __all__ = ["FIELDS", "Field", "Ply", "State", "Tool", "Trouble", "ended", "file_in", "read_history",
            "read_state", "read_states", "read_summary", "read_table"]

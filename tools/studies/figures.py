@@ -8,7 +8,8 @@ import re
 from pathlib import Path
 
 import numpy as np
-from plotting.reading import read_history, without_unknown_forces
+from base.summary_file import without_unknown_forces
+from plotting.reading import read_history
 
 TAKE = ("max", "min", "mean", "sum", "jump")
 FIGURE = re.compile(rf"^(?:([-+.\deE]+) \* )?(?:({'|'.join(TAKE)}) )?(\S+)$")  # factor, take, path
