@@ -139,10 +139,12 @@ TEST(InPlaneBendingLong, LayersBetweenItsZonesAddToTheLoadOfTheBiasTest) {
   Fabric fabric = glass_weave();
   fabric.bending.in_plane = {8.0, 8.0};
   const BendingShare share = in_plane_bending_share(shear_test(BiasSpecimen{300.0, 100.0}), fabric);
-  for (const double found : bias_shares(8.0, 0.5 * size)) {
-    EXPECT_GT(found / 0.99, 1.0 + share.least);
-    EXPECT_LT(found / 0.99, 1.0 + share.most);
-    EXPECT_NEAR(found / 0.99, 1.0 + share.mean(), 0.04); // the law is as wrong: 0.16 without
+  const std::vector<double> fine = bias_shares(8.0, 0.5 * size);
+  for (std::size_t i = 0; i < 2; ++i) { // over the load at the same angle without layers
+    const double found = fine[i] / none[i];
+    EXPECT_GT(found, 1.0 + share.least);
+    EXPECT_LT(found, 1.0 + share.most);
+    EXPECT_NEAR(found, 1.0 + share.mean(), 0.04); // the law is as wrong: 0.16 without
   }
 }
 
