@@ -40,7 +40,7 @@ double way_left(const Scene& s, std::size_t t) {
     return s.tools[t].body.max_approach_speed * std::max(end - s.time, 0.0);
   if (tool.motion == Motion::fixed) return 0.0;
   const double now = motion_at(tool, s.time, s.data.solver.duration);
-  double left = std::max(std::abs(now), std::abs(tool.stroke - now));
+  double left = tool.programme.empty() ? std::abs(tool.stroke - now) : 0.0;
   for (const Stage& stage : tool.programme)
     left = std::max(left, std::abs(stage.value - now));
   return left;
