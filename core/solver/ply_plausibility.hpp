@@ -28,7 +28,7 @@ constexpr double doubtful_balance_error = 0.01;
 
 /// Forces astray over the edges of a tool (core/solver/astray_forces.hpp), of the load that draws
 /// the plies, beyond which forces are doubtful.
-constexpr double doubtful_astray_share = 0.4;
+constexpr double doubtful_astray_share = 0.2;
 
 /// Properties of a ply that report_ply needs besides its frame.
 struct PlyNature {
