@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys, mistakes, and cases as they were checked.
 #include "core/accuracy/error_model.hpp"
+#include "core/base/text.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/setup/key_value.hpp"
 #include "core/setup/outlook.hpp"
@@ -54,8 +55,9 @@ py::object value_of(const std::filesystem::path& file, const std::vector<Overrid
 
 void bind_mistakes(py::module_& m) {
   py::class_<CaseError>(m, "Mistake", "One mistake in a file: where, what, which rule, what to do.")
-      .def_readonly("file", &CaseError::file,
-                    "File, as it was named; --set for a value set from Python.")
+      .def_property_readonly(
+          "file", [](const CaseError& e) { return printable(e.file); },
+          "File, as it was named; --set for a value set from Python.")
       .def_readonly("line", &CaseError::line, "Line, from 1.")
       .def_readonly("column", &CaseError::column, "Column, from 1, in characters.")
       .def_readonly("item", &CaseError::item, "Key as a dotted path: ply.2.angle.")
@@ -76,9 +78,16 @@ void bind_mistakes(py::module_& m) {
 
 void bind_outlook(py::module_& m) {
   py::class_<Outlook>(m, "Outlook", "What will be modelled, and how long it takes.")
-      .def_readonly("lines", &Outlook::lines,
-                    "What plyform check prints; lines that need a look start with warning or note, "
-                    "after four spaces.")
+      .def_property_readonly(
+          "lines",
+          [](const Outlook& o) {
+            std::vector<std::string> lines;
+            for (const std::string& line : o.lines)
+              lines.push_back(printable(line));
+            return lines;
+          },
+          "What plyform check prints; lines that need a look start with warning or note, "
+          "after four spaces.")
       .def_readonly("stable_step_s", &Outlook::stable_step, "s, the stable step at the start.")
       .def_readonly("step_s", &Outlook::step, "s, the step used at the start.")
       .def_readonly("steps", &Outlook::steps, "About how many steps the run takes.")

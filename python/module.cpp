@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The compiled part of `import plyform`. What its users see, and how it is to be called, is in
 // python/plyform: __init__.py and, for this part, _plyform.pyi.
+#include "core/base/text.hpp"
 #include "core/base/version.hpp"
 #include "core/results/export.hpp"
 #include "python/bindings.hpp"
@@ -21,7 +22,7 @@ void translate(std::exception_ptr thrown) {
   } catch (const py::builtin_exception&) {
     throw;
   } catch (const std::runtime_error& error) {
-    PyErr_SetString(error_class("Error").ptr(), error.what());
+    PyErr_SetString(error_class("Error").ptr(), printable(error.what()).c_str()); // UTF-8
   }
 }
 

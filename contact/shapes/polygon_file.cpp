@@ -2,14 +2,13 @@
 // Mesh files by format: STL, OBJ, OFF; PLY is in polygon_ply.cpp.
 #include "contact/shapes/polygon_file.hpp"
 
+#include "contact/files/read_file.hpp"
 #include "contact/shapes/polygon_text.hpp"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 
 namespace plyform {
 namespace {
@@ -28,8 +27,8 @@ void expect_word(WordReader& in, const char* word, std::size_t facets) {
                        "again",
                        facets));
   if (lower_case(found) != word)
-    in.fail(fmt::format("'{}' stands where an STL has {}; export the mesh again",
-                        found.substr(0, 30), word));
+    in.fail(fmt::format("'{}' stands where an STL has {}; export the mesh again", shown(found, 30),
+                        word));
 }
 
 /// Reads the rest of a facet. Its normal is not used, and some exporters write nan there.
@@ -70,7 +69,7 @@ PolygonSoup parse_ascii_stl(std::string_view text) {
       expect_word(in, "endsolid", soup.polygons.size());
     } else {
       in.fail(fmt::format("'{}' stands where an STL has {}; export the mesh again",
-                          found.substr(0, 30), open ? "facet or endsolid" : "solid"));
+                          shown(found, 30), open ? "facet or endsolid" : "solid"));
     }
   }
 }
@@ -94,8 +93,9 @@ PolygonSoup parse_binary_stl(std::string_view bytes) {
                        "or copy it again",
                        count, held));
   if (held > count)
-    refuse(fmt::format("its header promises {} facets, but it holds {}; export or copy it again",
-                       count, held));
+    refuse(fmt::format("its header promises {} facets, but it holds {}: {} bytes follow them; "
+                       "export or copy it again",
+                       count, held, bytes.size() - stl_header - count * stl_facet));
   PolygonSoup soup;
   for (std::size_t f = 0; f < count; ++f) {
     std::array<float, 9> corners{};
@@ -142,23 +142,26 @@ void off_header(WordReader& in) {
     return;
   in.fail(fmt::format("no faces could be read as off: it begins with '{}', not with OFF; export "
                       "the surface again, as three-dimensional text",
-                      word.substr(0, 30)));
+                      shown(word, 30)));
 }
 
 } // namespace
 
 PolygonSoup parse_stl(std::string_view bytes) {
-  const std::string start = lower_case(bytes.substr(0, 256));
+  // The size decides, whatever the title says; less than a facet may follow the last one.
+  if (bytes.size() >= stl_header &&
+      (bytes.size() - stl_header) / stl_facet == facets_promised(bytes))
+    return parse_binary_stl(bytes);
+  // Else a text: the count of a binary one has a byte 0 up to 16 million facets.
+  const std::string_view start = bytes.substr(0, 4096);
   const std::size_t first = start.find_first_not_of(" \t\r\n");
-  const bool solid = first != std::string::npos && start.compare(first, 5, "solid") == 0;
-  const bool binary =
-      bytes.size() >= stl_header && bytes.size() == stl_header + stl_facet * facets_promised(bytes);
-  const auto holds = [&](const char* a, const char* b) {
-    return bytes.find(a) != bytes.npos || bytes.find(b) != bytes.npos;
-  };
-  if (solid && !binary && (holds("facet", "FACET") || holds("endsolid", "ENDSOLID")))
-    return parse_ascii_stl(bytes);
-  return parse_binary_stl(bytes);
+  const bool solid =
+      first != std::string_view::npos && lower_case(start.substr(first, 5)) == "solid";
+  const bool text = std::none_of(start.begin(), start.end(), [](char c) {
+    const auto byte = static_cast<unsigned char>(c);
+    return (byte < ' ' && (byte < '\t' || byte > '\r')) || byte == 0x7F;
+  });
+  return solid && text ? parse_ascii_stl(bytes) : parse_binary_stl(bytes);
 }
 
 PolygonSoup parse_obj(std::string_view bytes) {
@@ -186,7 +189,7 @@ PolygonSoup parse_obj(std::string_view bytes) {
     } else if (!means_no_surface(word)) {
       in.fail(fmt::format("'{}' is nothing that can be read as obj: only points and faces can; "
                           "export the surface as triangles",
-                          word.substr(0, 30)));
+                          shown(word, 30)));
     }
     in.skip_line();
   }
@@ -239,22 +242,17 @@ PolygonSoup read_polygons(const std::filesystem::path& file) {
   if (extension != ".stl" && extension != ".obj" && extension != ".ply" && extension != ".off") {
     const bool solid =
         extension == ".step" || extension == ".stp" || extension == ".iges" || extension == ".igs";
-    refuse(fmt::format("the extension '{}' is none of .stl, .obj, .ply and .off; {}", extension,
+    refuse(fmt::format("the extension '{}' is none of .stl, .obj, .ply and .off; {}",
+                       shown(extension, 30),
                        solid ? "mesh_tool.py PART.step -o PART.stl makes the mesh of a solid"
                              : "export the mesh in one of these formats"));
   }
   if (!std::filesystem::exists(file)) refuse("there is no such file; check the path");
-  if (!std::filesystem::is_regular_file(file)) refuse("this is not a file; check the path");
-  std::ifstream in(file, std::ios::binary);
-  if (!in) refuse("cannot be opened; check the permissions");
-  std::string bytes;
-  try {
-    bytes.assign(std::istreambuf_iterator<char>(in), {});
-  } catch (const std::ios_base::failure&) { // of the disk
-    refuse("cannot be read to its end; copy it again");
-  }
-  if (bytes.empty()) refuse("the file is empty; export or copy it again");
-  return parse_polygons(extension, bytes);
+  std::string reason;
+  const std::optional<std::string> bytes = read_file(file, most_mesh_bytes, reason);
+  if (!bytes) refuse(reason + "; check the path and the file");
+  if (bytes->empty()) refuse("the file is empty; export or copy it again");
+  return parse_polygons(extension, *bytes);
 }
 
 } // namespace plyform

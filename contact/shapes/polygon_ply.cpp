@@ -46,7 +46,7 @@ NumberType type_named(const WordReader& in, std::string_view word) {
   if (word == "double" || word == "float64") return {8, true, true};
   in.fail(fmt::format("the header has a property of type '{}', which PLY does not know; export the "
                       "mesh again",
-                      word.substr(0, 30)));
+                      shown(word, 30)));
 }
 
 Property property_of(WordReader& in) {
@@ -70,7 +70,7 @@ Header::Format format_of(WordReader& in) {
   if (word == "binary_big_endian") return Header::Format::big;
   in.fail(fmt::format("the format is '{}', not ascii, binary_little_endian or binary_big_endian; "
                       "export the mesh again",
-                      word.substr(0, 30)));
+                      shown(word, 30)));
 }
 
 /// Reads the header up to the end of its last line.
@@ -98,8 +98,8 @@ Header read_header(WordReader& in) {
       return header;
     } else if (word != "comment" && word != "obj_info") {
       if (word.empty()) in.fail("the file is truncated: its header has no end; copy it again");
-      in.fail(fmt::format("'{}' is no line of a PLY header; export the mesh again",
-                          word.substr(0, 30)));
+      in.fail(
+          fmt::format("'{}' is no line of a PLY header; export the mesh again", shown(word, 30)));
     }
     in.skip_line();
   }

@@ -3,7 +3,6 @@
 
 #include <charconv>
 #include <cmath>
-#include <cstdlib>
 
 namespace plyform {
 namespace {
@@ -12,34 +11,7 @@ bool is_blank(char c) {
   return c == ' ' || c == '\t' || c == '\r' || c == '\v' || c == '\f';
 }
 
-/// A word as it is shown in messages: short, and printable.
-std::string shown(std::string_view word) {
-  constexpr std::size_t most = 30;
-  std::string text(word.substr(0, most));
-  for (char& c : text)
-    if (c < ' ' || c > '~') c = '?';
-  return word.size() > most ? text + "..." : text;
-}
-
-/// A word as a number, infinite or NaN too; nothing if it is none.
-std::optional<double> number_of(std::string_view word) {
-  if (word.starts_with('+')) word.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error == std::errc::invalid_argument || end != word.data() + word.size()) return std::nullopt;
-  if (error == std::errc::result_out_of_range) // too large, or too small and then next to 0
-    value = std::strtod(std::string(word).c_str(), nullptr);
-  return value;
-}
-
 } // namespace
-
-std::string lower_case(std::string_view text) {
-  std::string lower(text);
-  for (char& c : lower)
-    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
-  return lower;
-}
 
 bool WordReader::skip_blanks(bool over_lines) {
   for (; at_ < text_.size(); ++at_) {
@@ -80,8 +52,8 @@ void WordReader::fail(const std::string& what) const {
 
 double WordReader::coordinate(std::string_view word) const {
   if (word.empty()) fail("a coordinate is missing, the file is truncated; export or copy it again");
-  const std::optional<double> value = number_of(word);
-  if (!value) fail(fmt::format("'{}' is not a number; export the mesh again", shown(word)));
+  const std::optional<double> value = number_in(word);
+  if (!value) fail(fmt::format("'{}' is not a number; export the mesh again", shown(word, 30)));
   if (!std::isfinite(*value)) fail(not_finite);
   return *value;
 }
@@ -92,7 +64,8 @@ std::int64_t WordReader::integer(std::string_view word, const char* what) const 
   std::int64_t value = 0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   if (error != std::errc() || end != word.data() + word.size())
-    fail(fmt::format("{} is '{}', not a whole number; export the mesh again", what, shown(word)));
+    fail(fmt::format("{} is '{}', not a whole number; export the mesh again", what,
+                     shown(word, 30)));
   return value;
 }
 
@@ -116,7 +89,7 @@ std::size_t WordReader::count(std::string_view word, const char* what, std::size
 void WordReader::expect_end(const std::string& counted) {
   if (const std::string_view more = word(); !more.empty())
     fail(fmt::format("'{}' stands after {}; correct the count, or export the mesh again",
-                     shown(more), counted));
+                     shown(more, 30), counted));
 }
 
 } // namespace plyform

@@ -2,6 +2,7 @@
 // Internal to contact/shapes: words, numbers and lines of mesh files, and readers of formats.
 #pragma once
 
+#include "contact/files/words.hpp"
 #include "contact/shapes/polygon_file.hpp"
 
 #include <cstdint>
@@ -49,9 +50,6 @@ private:
   std::size_t at_ = 0;
   std::size_t line_ = 1;
 };
-
-/// Lower case of ASCII letters.
-std::string lower_case(std::string_view text);
 
 PolygonSoup parse_stl(std::string_view bytes);
 PolygonSoup parse_obj(std::string_view bytes);

@@ -56,6 +56,15 @@ void visit(Archive& archive, T& value) {
   archive.bytes(&value, sizeof(T));
 }
 
+/// A byte that is neither 0 nor 1 is no truth value, and must not become one.
+template <class Archive>
+void visit(Archive& archive, bool& value) {
+  unsigned char byte = value ? 1 : 0;
+  archive.bytes(&byte, 1);
+  if (byte > 1) throw std::runtime_error("holds a truth value that is none");
+  value = byte == 1;
+}
+
 /// The number of values, `values` resized to it. One beyond what is left is refused before memory
 /// is taken for it.
 template <class Archive, class Container>

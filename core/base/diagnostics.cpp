@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/base/diagnostics.hpp"
 
+#include "contact/files/words.hpp"
+
 #include <fmt/format.h>
 
 namespace plyform {
@@ -8,12 +10,15 @@ namespace plyform {
 std::string CaseError::text() const {
   const std::string equals = value.empty() ? "" : " = " + value;
   const std::string subject = item.empty() ? "" : item + equals + ": ";
-  return fmt::format("{}:{}:{}: error: {}{}; {}", file, line, column, subject, rule, remedy);
+  return printable(
+      fmt::format("{}:{}:{}: error: {}{}; {}", file, line, column, subject, rule, remedy));
 }
 
 void Diagnostics::error(const Place& at, const std::string& item, const std::string& value,
                         const std::string& rule, const std::string& remedy) {
-  errors.push_back({at.file, at.line, at.column, item, value, rule, remedy});
+  constexpr std::size_t key = 200, short_text = 100, long_text = 2000; // characters, at most
+  errors.push_back({at.file, at.line, at.column, shown(item, key), shown(value, short_text),
+                    shown(rule, long_text), shown(remedy, long_text)});
 }
 
 void Diagnostics::error_from(const Place& at, const std::string& item, const std::string& value,
@@ -25,7 +30,8 @@ void Diagnostics::error_from(const Place& at, const std::string& item, const std
 }
 
 void Diagnostics::warning(const Place& at, const std::string& text) {
-  warnings.push_back(fmt::format("{}:{}:{}: warning: {}", at.file, at.line, at.column, text));
+  warnings.push_back(
+      printable(fmt::format("{}:{}:{}: warning: {}", at.file, at.line, at.column, text)));
 }
 
 } // namespace plyform

@@ -21,7 +21,7 @@ struct CaseError {
   std::string value;  ///< as written; empty when missing
   std::string rule;   ///< "must be at least 0"
   std::string remedy; ///< "give the friction coefficient, usually 0.1 to 0.4"
-  /// file:line:column: error: item = value: rule; remedy
+  /// file:line:column: error: item = value: rule; remedy; printable, whatever stands in the file
   std::string text() const;
 };
 

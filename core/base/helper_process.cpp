@@ -2,10 +2,12 @@
 #include "core/base/helper_process.hpp"
 
 #include <cerrno>
+#include <clocale>
 #include <csignal>
 #include <exception>
 #include <fmt/format.h>
 #include <fstream>
+#include <locale>
 #include <new>
 #include <stdexcept>
 #include <sys/resource.h>
@@ -32,6 +34,8 @@ void limit(int what, rlim_t amount) {
 
 /// Faults end the helper, quietly, and so does too much time or memory.
 void prepare_helper(HelperLimits limits) {
+  std::setlocale(LC_ALL, "C"); // numbers have decimal points, whatever the program around has set
+  std::locale::global(std::locale::classic());
   for (const int fault : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGXCPU, SIGTERM, SIGINT})
     std::signal(fault, SIG_DFL);
   std::signal(SIGPIPE, SIG_IGN);

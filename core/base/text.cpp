@@ -2,10 +2,6 @@
 #include "core/base/text.hpp"
 
 #include <algorithm>
-#include <cerrno>
-#include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <numeric>
 #include <system_error>
 
@@ -32,7 +28,9 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 } // namespace
 
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known) {
+  constexpr std::size_t longest = 64; // characters: no word known is as long
   std::string nearest;
+  if (word.size() > longest) return nearest;
   std::size_t least = 2 + word.size() / 4; // beyond this distance it is not a misspelling
   for (const std::string& candidate : known) {
     const std::size_t distance = edit_distance(word, candidate);
@@ -52,29 +50,7 @@ std::string joined(const std::vector<std::string>& words) {
 }
 
 std::optional<std::string> read_text(const std::filesystem::path& file, std::string& reason) {
-  std::error_code ignored;
-  const std::filesystem::file_status status = std::filesystem::status(file, ignored);
-  if (is_directory(status)) {
-    reason = "is a folder, not a file";
-    return std::nullopt;
-  }
-  if (is_character_file(status) || is_block_file(status)) { // /dev/zero has no end
-    reason = "is a device, not a file";
-    return std::nullopt;
-  }
-  const auto failed = [&](const char* what, int fallback) {
-    reason = fmt::format("cannot be {}: {}", what,
-                         std::generic_category().message(errno ? errno : fallback));
-    return std::nullopt;
-  };
-  errno = 0;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) return failed("opened", ENOENT);
-  try {
-    return std::string(std::istreambuf_iterator<char>(stream), {});
-  } catch (const std::ios_base::failure&) { // of the disk
-    return failed("read", EIO);
-  }
+  return read_file(file, most_case_bytes, reason);
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {

@@ -2,6 +2,9 @@
 // Text functions: reading a file, joining words, suggesting a word for a misspelt one.
 #pragma once
 
+#include "contact/files/read_file.hpp"
+#include "contact/files/words.hpp"
+
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -15,7 +18,7 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
 /// "a, b, c"
 std::string joined(const std::vector<std::string>& words);
 
-/// The content of a file, or nothing and the reason ("cannot be opened: ...").
+/// The content of a case or fabric file, as of read_file.
 std::optional<std::string> read_text(const std::filesystem::path& file, std::string& reason);
 
 /// The folder that a file lies in, from which the paths in it are seen; of a symbolic link that of

@@ -4,7 +4,6 @@
 #include "core/base/text.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <fmt/format.h>
 #include <string_view>
 
@@ -110,14 +109,6 @@ void take_header(CurveTable& table) {
 
 } // namespace
 
-std::optional<double> number_in(std::string_view text) {
-  if (!text.empty() && text[0] == '+') text.remove_prefix(1);
-  double value = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (error != std::errc() || end != text.data() + text.size()) return std::nullopt;
-  return value;
-}
-
 std::size_t CurveTable::width() const {
   return rows.empty() ? names.size() : rows.front().fields.size();
 }
@@ -136,7 +127,7 @@ std::optional<CurveTable> read_curve_table(const std::filesystem::path& file,
   table.file = file.string();
   const Place start{table.file, 1, 1};
   std::string reason;
-  const std::optional<std::string> text = read_text(file, reason);
+  const std::optional<std::string> text = read_file(file, most_curve_bytes, reason);
   if (!text) {
     diagnostics.error(start, "", "", "the curve " + reason, "give the path of a CSV file");
     return std::nullopt;

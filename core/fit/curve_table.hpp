@@ -73,7 +73,4 @@ std::optional<std::vector<std::optional<ChosenColumn>>>
 choose_columns(const CurveTable& table, const std::vector<ColumnRequest>& requests,
                Diagnostics& diagnostics);
 
-/// The number, if the whole text is one, else nothing. Independent of the locale.
-std::optional<double> number_in(std::string_view text);
-
 } // namespace plyform

@@ -119,7 +119,7 @@ BlankSpec read_blank(const TableView& section, const std::filesystem::path& fold
   const TomlNode* file = given(section, "file");
   if (!file) return blank;
   blank.file = resolve_path(*file, folder).lexically_normal();
-  if (!std::filesystem::is_regular_file(blank.file))
+  if (std::error_code none; !std::filesystem::exists(blank.file, none)) // others: when it is read
     value_error(section, "file", "there is no file " + blank.file.string(),
                 "give the path of a blank's mesh, seen from the file that names it", diagnostics);
   return blank;

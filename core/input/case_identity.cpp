@@ -31,7 +31,7 @@ void add(const TomlNode& node, const std::filesystem::path& folder, std::string&
     std::string reason;
     if (const auto file = resolve_path(node, folder);
         std::filesystem::is_regular_file(file, ignored))
-      if (const std::optional<std::string> content = read_text(file, reason))
+      if (const std::optional<std::string> content = read_file(file, most_mesh_bytes, reason))
         text += fmt::format("<{}:{}>", content->size(), *content);
     break;
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/dxf_blocks.hpp"
 
+#include "core/base/text.hpp"
+
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
@@ -57,7 +58,7 @@ void move(DxfEntity& e, const Map& map) {
 /// Why an insertion cannot be resolved; empty if it can.
 std::string fault_of(const DxfInsert& insert, const DxfBlocks& blocks, int depth) {
   if (!blocks.contains(lower_case(insert.block)))
-    return fmt::format("names the block {}, which is not there", insert.block);
+    return fmt::format("names the block {}, which is not there", shown(insert.block));
   if (insert.array) return "repeats a block in rows or columns";
   if (insert.scale.x() == 0.0 || insert.scale.y() == 0.0) return "has a scale of 0";
   if (depth > most_blocks_deep) return fmt::format("is a block {} blocks deep", depth);
@@ -95,12 +96,6 @@ void Exploder::append(const DxfEntity& e, int depth) {
 }
 
 } // namespace
-
-std::string lower_case(std::string name) {
-  for (char& c : name)
-    c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return name;
-}
 
 std::vector<DxfEntity> exploded(const std::vector<DxfEntity>& entities, const DxfBlocks& blocks) {
   Exploder exploder{blocks};

@@ -19,8 +19,6 @@ struct DxfBlock {
 /// By name, in lower case: names of blocks do not distinguish it.
 using DxfBlocks = std::map<std::string, DxfBlock>;
 
-std::string lower_case(std::string name);
-
 /// The entities with those of blocks in the place of their insertions, also of blocks in blocks. An
 /// entity on layer 0 of a block gets the layer of the insertion. Insertions that cannot be resolved
 /// stay, with their fault: of a block that is not there, of arrays, of blocks in themselves, of

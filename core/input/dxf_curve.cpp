@@ -36,6 +36,36 @@ Vec2 point_of(const DxfSpline& s, double u) {
   return d[p].head<2>() / d[p].z();
 }
 
+/// Whether the points that close a spline follow its others once more.
+bool repeats_points(const DxfSpline& s) {
+  const auto p = static_cast<std::ptrdiff_t>(s.degree);
+  constexpr double rounding = 1e-9;
+  return std::equal(s.points.begin(), s.points.begin() + p, s.points.end() - p,
+                    [](const Vec3& a, const Vec3& b) {
+                      return (a - b).norm() <= rounding * (a.norm() + b.norm());
+                    });
+}
+
+/// A closed spline with all its points, (1); others as they are.
+DxfSpline with_period(const DxfSpline& said) {
+  DxfSpline s = said;
+  if (!s.closed || s.degree < 1 || s.points.size() < static_cast<std::size_t>(s.degree) + 1)
+    return s;
+  const auto p = static_cast<std::size_t>(s.degree);
+  const std::size_t n = s.points.size();
+  const bool all_knots = s.knots.size() == n + 2 * p + 1;
+  if (!all_knots && (s.knots.size() != n + p + 1 || repeats_points(s))) return s;
+  const double period = s.knots[n] - s.knots[0];
+  constexpr double rounding = 1e-6; // of knots written with some digits
+  for (std::size_t i = 1; i <= p; ++i)
+    if (!(std::abs(s.knots[n + i] - s.knots[i] - period) <= rounding * period)) return s;
+  for (std::size_t i = p + 1; s.knots.size() < n + 2 * p + 1; ++i)
+    s.knots.push_back(s.knots[i] + period);
+  s.points.insert(s.points.end(), said.points.begin(),
+                  said.points.begin() + static_cast<std::ptrdiff_t>(p));
+  return s;
+}
+
 double angle_between(const Vec2& a, const Vec2& b) {
   return std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
 }
@@ -101,7 +131,8 @@ DxfCurve curve_of(const DxfEllipse& e) {
   return curve;
 }
 
-std::string fault_of(const DxfSpline& s) {
+std::string fault_of(const DxfSpline& said) {
+  const DxfSpline s = with_period(said);
   if (s.points.empty())
     return "has no control points (fit points alone do not say which curve it is)";
   constexpr std::size_t most = 5000;
@@ -119,7 +150,8 @@ std::string fault_of(const DxfSpline& s) {
   return {};
 }
 
-DxfCurve curve_of(const DxfSpline& s) {
+DxfCurve curve_of(const DxfSpline& said) {
+  const DxfSpline s = with_period(said);
   const auto p = static_cast<std::size_t>(s.degree);
   const std::size_t end = s.points.size();
   DxfCurve curve;

@@ -34,6 +34,10 @@ struct DxfSpline {
   int degree;
   std::vector<double> knots;
   std::vector<Vec3> points; ///< (w x, w y, w)
+  /// By its flags. Then the first p points follow the last once more, unless they do so already,
+  /// where the knots repeat with the period that this takes:
+  ///   P_n+i = P_i,  u_n+i - u_n = u_i - u_0,  i = 1 .. p                                      (1)
+  bool closed = false;
 };
 
 /// Why it is no curve ("has ..."); empty if it is one.

@@ -1,21 +1,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/dxf_drawing.hpp"
 
+#include "core/base/archive.hpp"
 #include "core/base/helper_process.hpp"
+#include "core/base/text.hpp"
 #include "core/input/dxf_blocks.hpp"
 #include "core/input/dxf_groups.hpp"
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <dxflib/dl_creationadapter.h>
 #include <dxflib/dl_dxf.h>
 #include <fmt/format.h>
-#include <fstream>
 #include <numbers>
 #include <optional>
 #include <set>
-#include <sstream>
 #include <stdexcept>
 
 namespace plyform {
@@ -40,6 +39,12 @@ struct RawEntity {
   std::vector<double> numbers{}, knots{};
   std::string fault{};
 };
+
+template <class Archive>
+void visit(Archive& a, RawEntity& e) {
+  visit(a, e.name, e.layer, e.block, e.inserted, e.line, e.flags, e.mirrored, e.tilted, e.numbers,
+        e.knots, e.fault);
+}
 
 /// Thrown out of dxflib at what follows the end of a drawing, which is no part of it.
 struct EndOfDrawing {};
@@ -80,6 +85,7 @@ public:
   }
   void addSpline(const DL_SplineData& d) override {
     add({static_cast<double>(d.degree)}, 0.0);
+    if (open_) entities.back().flags = d.flags;
     height_.reset();
   }
   void addKnot(const DL_KnotData& d) override {
@@ -159,7 +165,7 @@ private:
   }
 };
 
-/// All that was collected, as text.
+/// All that was collected, as bytes.
 std::string packed(const std::filesystem::path& file) {
   Collector collector;
   DL_Dxf dxf;
@@ -167,18 +173,9 @@ std::string packed(const std::filesystem::path& file) {
     if (!dxf.in(file.string(), &collector)) throw std::runtime_error("cannot be opened");
   } catch (const EndOfDrawing&) {
   }
-  std::string text = fmt::format("{} {} {}\n", collector.unit, collector.has_entities ? 1 : 0,
-                                 collector.ended ? 1 : 0);
-  for (const RawEntity& e : collector.entities) {
-    text += fmt::format("{} {} {} {} {} {}", e.line, e.flags, e.mirrored ? 1 : 0, e.tilted ? 1 : 0,
-                        e.numbers.size(), e.knots.size());
-    for (const std::vector<double>* list : {&e.numbers, &e.knots})
-      for (const double number : *list)
-        text += fmt::format(" {}", number);
-    text +=
-        "\n" + e.name + "\n" + e.layer + "\n" + e.block + "\n" + e.inserted + "\n" + e.fault + "\n";
-  }
-  return text;
+  SaveArchive archive;
+  visit(archive, collector.unit, collector.has_entities, collector.ended, collector.entities);
+  return archive.text();
 }
 
 ProfileSegment arc_of(const Vec2& centre, double radius, double from, double to, bool mirrored) {
@@ -220,7 +217,7 @@ void set_curve(const Shape& shape, DxfEntity& made) {
 }
 
 DxfSpline spline_of(const RawEntity& e) {
-  DxfSpline s{static_cast<int>(e.numbers[0]), e.knots, {}};
+  DxfSpline s{static_cast<int>(e.numbers[0]), e.knots, {}, (e.flags & 3) != 0};
   for (std::size_t i = 1; i + 2 < e.numbers.size(); i += 3) {
     const double w = e.numbers[i + 2];
     s.points.emplace_back(w * e.numbers[i], w * e.numbers[i + 1], w);
@@ -229,7 +226,7 @@ DxfSpline spline_of(const RawEntity& e) {
 }
 
 DxfEntity entity_of(const RawEntity& e) {
-  DxfEntity made{e.name, e.layer, e.line, {}, {}, {}, {}};
+  DxfEntity made{e.name, e.layer, e.line, {}, {}, {}, {}, false};
   const std::vector<double>& n = e.numbers;
   constexpr int solid = 8 | 16 | 64, spline = 4; // flags of polylines
   const auto small = [](double x) { return std::abs(x) < 1e9; };
@@ -265,75 +262,62 @@ DxfEntity entity_of(const RawEntity& e) {
                             n[4] * std::numbers::pi / 180.0,
                             n[5] > 1.0 || n[6] > 1.0,
                             e.mirrored};
-  if (e.name == "SPLINE") set_curve(spline_of(e), made);
+  if (e.name == "SPLINE") {
+    set_curve(spline_of(e), made);
+    made.marked_closed = (e.flags & 1) != 0;
+  }
   if (e.name == "POLYLINE" || e.name == "LWPOLYLINE") made.chain = polyline(e);
   return made;
 }
 
-DxfDrawing unpacked(const std::string& text) {
-  std::istringstream in(text);
+DxfDrawing unpacked(const std::string& bytes) {
   DxfDrawing drawing;
   DxfBlocks blocks;
-  int has_entities = 0, ended = 0;
-  in >> drawing.unit >> has_entities >> ended;
+  bool has_entities = false, ended = false;
+  std::vector<RawEntity> entities;
+  LoadArchive archive(bytes);
+  visit(archive, drawing.unit, has_entities, ended, entities);
   if (!has_entities)
     throw std::runtime_error("is no DXF file: it has no ENTITIES; save the drawing as ASCII DXF");
   if (!ended)
     throw std::runtime_error("is cut short: its last line is not EOF; save the drawing anew");
-  RawEntity e;
-  std::size_t count = 0, knots = 0;
-  while (in >> e.line >> e.flags >> e.mirrored >> e.tilted >> count >> knots) {
-    e.numbers.assign(count, 0.0);
-    e.knots.assign(knots, 0.0);
-    for (std::vector<double>* list : {&e.numbers, &e.knots})
-      for (double& number : *list) {
-        std::string word; // "nan" and "inf" too
-        in >> word;
-        number = std::strtod(word.c_str(), nullptr);
-      }
-    in.ignore();
-    std::getline(in, e.name);
-    std::getline(in, e.layer);
-    std::getline(in, e.block);
-    std::getline(in, e.inserted);
-    std::getline(in, e.fault);
+  for (const RawEntity& e : entities)
     if (e.name == "BLOCK" && e.numbers.size() == 2)
       blocks[lower_case(e.block)].base = {e.numbers[0], e.numbers[1]};
     else if (e.name != "BLOCK")
       (e.block.empty() ? drawing.entities : blocks[lower_case(e.block)].entities)
           .push_back(entity_of(e));
-  }
   drawing.entities = exploded(drawing.entities, blocks);
   return drawing;
 }
 
-/// Throws for files that dxflib would take for empty drawings.
-void check_kind(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file))
+/// The content of a file, unless dxflib would take it for an empty drawing.
+std::string content_of(const std::filesystem::path& file) {
+  if (std::error_code none; !std::filesystem::exists(file, none))
     throw std::runtime_error("is no file; give the path of a drawing, seen from the file that "
                              "names it");
-  std::ifstream in(file, std::ios::binary);
-  std::string start(22, '\0');
-  in.read(start.data(), static_cast<std::streamsize>(start.size()));
-  if (in.gcount() == 0)
+  std::string reason;
+  std::optional<std::string> content = read_file(file, most_drawing_bytes, reason);
+  if (!content) throw std::runtime_error(reason + "; give the path of a drawing");
+  if (content->empty())
     throw std::runtime_error("is empty or cannot be read; save the drawing anew");
-  if (start.starts_with("AutoCAD Binary DXF"))
+  if (content->starts_with("AutoCAD Binary DXF"))
     throw std::runtime_error("is a binary DXF file; save the drawing as ASCII DXF");
-  if (start.starts_with("AC10"))
+  if (content->starts_with("AC10"))
     throw std::runtime_error("is a DWG file; save the drawing as ASCII DXF");
+  return *std::move(content);
 }
 
 } // namespace
 
 DxfDrawing read_dxf(const std::filesystem::path& file) {
-  check_kind(file);
-  check_dxf_lines(file);
+  check_dxf_lines(content_of(file));
   const HelperResult result = in_helper_process([&] { return packed(file); }, HelperLimits{});
   if (result.end == HelperResult::End::timeout)
     throw std::runtime_error("takes too long to read; save the outline alone");
   if (result.end != HelperResult::End::done)
     throw std::runtime_error(
-        fmt::format("cannot be read ({}); save the drawing anew", result.text));
+        fmt::format("cannot be read ({}); save the drawing anew", shown(result.text, 200)));
   return unpacked(result.text);
 }
 

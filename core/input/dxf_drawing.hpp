@@ -30,6 +30,7 @@ struct DxfEntity {
   std::optional<DxfCurve> curve{};   ///< of an ellipse or a spline, which are to be divided
   std::optional<DxfInsert> insert{}; ///< resolved in what read_dxf returns, unless it has a fault
   std::string fault{};               ///< why it cannot be part of an outline; empty if it can
+  bool marked_closed = false;        ///< a spline that is said to be closed, whether it is or not
 };
 
 struct DxfDrawing {

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/dxf_groups.hpp"
 
+#include "core/base/text.hpp"
+
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdlib>
 #include <fmt/format.h>
-#include <fstream>
+#include <optional>
 #include <stdexcept>
 #include <string_view>
 #include <vector>
@@ -38,11 +40,8 @@ std::string_view trimmed(std::string_view text) {
 
 bool is_number(std::string value) {
   std::replace(value.begin(), value.end(), ',', '.'); // as dxflib does
-  std::string_view text = trimmed(value);
-  if (text.starts_with('+')) text.remove_prefix(1);
-  double number = 0.0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
-  return error == std::errc() && end == text.data() + text.size() && std::isfinite(number);
+  const std::optional<double> number = number_in(trimmed(value));
+  return number && std::isfinite(*number);
 }
 
 } // namespace
@@ -56,8 +55,8 @@ void DxfGroups::add(const std::string& name, unsigned int code, const std::strin
       if (count.code == code) {
         counts_[code] = std::atol(value.c_str());
         if (counts_[code] > most)
-          throw std::runtime_error(
-              fmt::format("line {} counts {} {} of a {}", line, value, count.what, name));
+          throw std::runtime_error(fmt::format("line {} counts {} {} of a {}", line,
+                                               shown(value, 30), count.what, name));
       }
   const bool real = (code >= 10 && code < 60) || (code >= 210 && code < 240);
   if (fault_.empty() && real && !is_number(value))
@@ -86,12 +85,15 @@ std::string DxfGroups::fault_of(const std::string& name) const {
   return "";
 }
 
-void check_dxf_lines(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  char line[1023];
+void check_dxf_lines(std::string_view content) {
+  constexpr std::size_t longest = 1022; // bytes, of dxflib's lines without their end
   bool last = false;
-  for (int number = 1; in.getline(line, sizeof line); ++number) {
-    std::string_view text(line, static_cast<std::size_t>(in.gcount()) - (in.eof() ? 0 : 1));
+  for (int number = 1; !content.empty(); ++number) {
+    const std::size_t end_of_line = std::min(content.find('\n'), content.size());
+    std::string_view text = content.substr(0, end_of_line);
+    content.remove_prefix(std::min(end_of_line + 1, content.size()));
+    if (text.size() > longest)
+      throw std::runtime_error("has a line of more than 1000 characters; take long texts out");
     if (text.find('\0') != std::string_view::npos)
       throw std::runtime_error(
           fmt::format("is no text: line {} has a byte 0; save the drawing as ASCII DXF", number));
@@ -108,8 +110,6 @@ void check_dxf_lines(const std::filesystem::path& file) {
           "is no DXF file: line {} is no group code; save the drawing as ASCII DXF", number));
     last = code == 0;
   }
-  if (!in.eof())
-    throw std::runtime_error("has a line of more than 1000 characters; take long texts out");
 }
 
 } // namespace plyform

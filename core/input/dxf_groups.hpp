@@ -2,16 +2,16 @@
 // What dxflib would read as another drawing without a word.
 #pragma once
 
-#include <filesystem>
 #include <map>
 #include <string>
+#include <string_view>
 
 namespace plyform {
 
 /// Throws std::runtime_error ("rule; remedy", with the line) where dxflib would lose the pairs of
 /// lines, a group code and its value: it cuts lines of more than a thousand characters in two, ends
 /// them at a byte 0, and takes words for code 0.
-void check_dxf_lines(const std::filesystem::path& file);
+void check_dxf_lines(std::string_view content);
 
 /// Groups of one entity as they pass. dxflib takes 0 for a number that is missing or none, and as
 /// many points as are counted.

@@ -76,11 +76,16 @@ void Joiner::report_gap(std::size_t end) const {
   double gap = std::numeric_limits<double>::infinity();
   for (std::size_t other = 0; other < 2 * pieces.size(); ++other)
     if (const double d = (at(other) - p).norm(); other != end && d < gap) gap = d, nearest = other;
+  // flag of a spline whose control points are not repeated, and whose knots do not go round
+  const bool alone = nearest / 2 == end / 2 && pieces[end / 2]->marked_closed;
   throw Fault{fmt::format("line {}: the outline is open: {} ends at {}, the nearest other end, at "
-                          "{}, is {:.3g} mm away, and ends within {:g} mm are joined; close it in "
-                          "the drawing",
+                          "{}, is {:.3g} mm away, and ends within {:g} mm are joined; {}",
                           pieces[end / 2]->line, pieces[end / 2]->name, point_text(p),
-                          point_text(at(nearest)), gap * scale, dxf_join)};
+                          point_text(at(nearest)), gap * scale, dxf_join,
+                          alone ? "it is marked as closed (group 70), but its knots are those of "
+                                  "an open spline, clamped at both ends: save it as a periodic "
+                                  "spline or a polyline, or join its ends by a line"
+                                : "close it in the drawing")};
 }
 
 /// The one other end at the place of an end.
@@ -168,7 +173,7 @@ std::vector<DxfEntity*> chosen(DxfDrawing& drawing, const DxfRequest& request) {
     if (!e.fault.empty())
       throw Fault{fmt::format("line {}: {} on layer {} {}; make lines, arcs, circles or polylines "
                               "of it, or name the outline's layer (layer)",
-                              e.line, e.name, e.layer, e.fault)};
+                              e.line, shown(e.name), shown(e.layer), e.fault)};
     if (!e.chain.empty() || e.curve) pieces.push_back(&e);
   }
   if (!pieces.empty()) return pieces;
@@ -176,7 +181,7 @@ std::vector<DxfEntity*> chosen(DxfDrawing& drawing, const DxfRequest& request) {
   if (!request.layer.empty() && !layers.empty())
     throw Fault{fmt::format("layer {} has no lines, arcs, circles or polylines; the layers that "
                             "have any are {}",
-                            request.layer, names)};
+                            shown(request.layer), shown(names, 300))};
   throw Fault{"has no lines, arcs, circles or polylines; draw the outline as a closed line"};
 }
 
@@ -243,10 +248,10 @@ DxfOutline outline_of(DxfDrawing drawing, const DxfRequest& request) {
   for (const DxfEntity* piece : pieces)
     layers.insert(piece->layer);
   const Vec2 size = scale * loops[0].box.sizes();
-  made.description =
-      fmt::format("{}: {:.4g} x {:.4g} mm, {} hole{}, layer {}, {}",
-                  request.file.filename().string(), size.x(), size.y(), loops.size() - 1,
-                  loops.size() == 2 ? "" : "s", joined({layers.begin(), layers.end()}), unit);
+  made.description = fmt::format("{}: {:.4g} x {:.4g} mm, {} hole{}, layer {}, {}",
+                                 request.file.filename().string(), size.x(), size.y(),
+                                 loops.size() - 1, loops.size() == 2 ? "" : "s",
+                                 shown(joined({layers.begin(), layers.end()}), 200), unit);
   return made;
 }
 

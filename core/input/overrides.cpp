@@ -42,7 +42,7 @@ std::optional<TomlNode> override_value(const Override& change, Diagnostics& diag
                     source_text.find('\n') == std::string::npos;
   if (!bare) {
     diagnostics.error({override_file, 1, column}, key, source_text,
-                      "must be a TOML value or a word",
+                      "must be a TOML value or a word, and " + reason,
                       "write KEY=VALUE, texts with spaces in quotes: " + key + "='\"a b\"'");
     return std::nullopt;
   }
@@ -57,6 +57,7 @@ std::optional<TomlNode> override_value(const Override& change, Diagnostics& diag
 struct Walk {
   TomlNode* entry;
   std::string pattern, item;
+  TomlNode* grown = nullptr; ///< the first entry that got a new last member on the way
 };
 
 /// The list item that a step names; reports an error and returns null if there is none.
@@ -76,7 +77,7 @@ TomlNode* list_item(const Walk& walk, const Step& step, const std::string& key,
 
 /// The member of a table that a step names, created if it does not exist; reports an error and
 /// returns null if the table of keys does not have it.
-TomlNode* member(const Walk& walk, const Step& step, const std::string& pattern,
+TomlNode* member(Walk& walk, const Step& step, const std::string& pattern,
                  Diagnostics& diagnostics) {
   const Place at{override_file, 1, step.column};
   if (pattern.empty()) {
@@ -91,6 +92,7 @@ TomlNode* member(const Walk& walk, const Step& step, const std::string& pattern,
   const bool table = kind == KeyKind::table || kind == KeyKind::map || kind == KeyKind::fabric;
   made.kind = table ? TomlNode::Kind::table : TomlNode::Kind::list;
   walk.entry->children.push_back(made);
+  if (!walk.grown) walk.grown = walk.entry;
   return &walk.entry->children.back();
 }
 
@@ -109,7 +111,7 @@ bool descend(Walk& walk, const Step& step, const std::string& key, Diagnostics& 
                       fmt::format("{} is a single value and has no {}", walk.item, step.name),
                       fmt::format("set {} itself", walk.item));
   }
-  walk = {next, pattern, (walk.item.empty() ? "" : walk.item + ".") + step.name};
+  walk = {next, pattern, (walk.item.empty() ? "" : walk.item + ".") + step.name, walk.grown};
   return next != nullptr;
 }
 
@@ -120,17 +122,17 @@ void apply_override(TomlNode& root, const Override& change, const std::filesyste
   std::optional<TomlNode> value = override_value(change, diagnostics);
   if (!value) return;
   const std::vector<Step> steps = split_path(change.first);
-  TomlNode changed = root; // a copy, so that an invalid path leaves the tree unchanged
-  Walk walk{&changed, "", ""};
+  Walk walk{&root, "", ""};
   for (const Step& step : steps) {
     if (walk.pattern == "fabrics.NAME") load_fabric(*walk.entry, walk.item, folder, diagnostics);
     if (!walk.entry->valid) return; // the fabric's file cannot be read; has been reported
-    if (!descend(walk, step, change.first, diagnostics)) return;
+    if (descend(walk, step, change.first, diagnostics)) continue;
+    if (walk.grown) walk.grown->children.pop_back(); // an invalid path leaves the tree unchanged
+    return;
   }
   value->key = walk.entry->key;
   value->key_at = {override_file, 1, steps.back().column};
   *walk.entry = std::move(*value);
-  root = std::move(changed);
 }
 
 std::filesystem::path resolve_path(const TomlNode& entry, const std::filesystem::path& folder) {

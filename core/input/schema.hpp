@@ -70,6 +70,7 @@ struct KeyRow {
   std::vector<std::string> choices{}; ///< for KeyKind::choice
   std::size_t count = 0;              ///< number of items of numbers and names; 0 = any
   std::size_t least_items = 0;        ///< smallest number of items of lists of any length
+  std::size_t most_items = 0;         ///< largest number of them; 0: as many as usual for its kind
   std::string of{};                   ///< choice key of the same table that this key depends on
   std::vector<std::string> with{};    ///< values of that choice key for which this key is allowed
   std::string meaning{};              ///< noun phrase, completes "give the ..."

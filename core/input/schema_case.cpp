@@ -31,6 +31,7 @@ Rows ply_rows() {
           {.key = "ply",
            .kind = K::tables,
            .least_items = 1,
+           .most_items = 200, // each may touch each other
            .meaning = "plies, one [[ply]] each, from the bottom up"},
           {.key = "ply[].name",
            .kind = K::name,

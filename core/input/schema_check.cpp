@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/schema_check.hpp"
 
+#include "core/base/names.hpp"
 #include "core/base/text.hpp"
 
 #include <algorithm>
@@ -60,6 +61,20 @@ bool check_number(const Check& check, TomlNode& value, const std::string& item,
   return true;
 }
 
+/// Whether a list or a map has no more items than can be worked with.
+bool check_most(const Check& check, TomlNode& value, const std::string& item) {
+  constexpr std::size_t tables = 1000, points = 20'000, numbers = 100'000;
+  const KeyKind kind = check.row.kind;
+  const std::size_t usual = kind == KeyKind::tables || kind == KeyKind::map         ? tables
+                            : kind == KeyKind::profile || kind == KeyKind::outlines ? points
+                                                                                    : numbers;
+  const std::size_t most = check.row.most_items ? check.row.most_items : usual;
+  return value.children.size() <= most ||
+         check.fail(
+             value, item,
+             fmt::format("has {} items, and may have {} at most", value.children.size(), most));
+}
+
 bool check_list(const Check& check, TomlNode& value, const std::string& item, const char* what) {
   if (value.kind != Kind::list)
     return check.fail(value, item, fmt::format("must be a list of {}", what));
@@ -67,7 +82,7 @@ bool check_list(const Check& check, TomlNode& value, const std::string& item, co
     return check.fail(value, item,
                       fmt::format("must have at least {} item{}, not {}", check.row.least_items,
                                   check.row.least_items == 1 ? "" : "s", value.children.size()));
-  return true;
+  return check_most(check, value, item);
 }
 
 /// Checks a list of `least` to `most` numbers.
@@ -122,6 +137,7 @@ bool check_profile(const Check& check, TomlNode& value, const std::string& item,
 bool check_outlines(const Check& check, TomlNode& value, const std::string& item) {
   if (value.kind != Kind::list)
     return check.fail(value, item, "must be a list of lists of points, or of circles");
+  if (!check_most(check, value, item)) return false;
   bool valid = true;
   for (std::size_t i = 0; i < value.children.size(); ++i) {
     TomlNode& child = value.children[i];
@@ -156,6 +172,14 @@ bool check_string(const Check& check, TomlNode& value, const std::string& item) 
       "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-";
   if (check.row.kind == KeyKind::name && value.text.find_first_not_of(allowed) != std::string::npos)
     return check.fail(value, item, "may have only letters a to z, digits, _ and -");
+  const bool name = check.row.kind == KeyKind::name;
+  if (const std::string fault = name ? fault_of_file_name(value.text) : ""; !fault.empty())
+    return check.fail(value, item, fault);
+  constexpr std::size_t longest = 4096; // bytes: that of a path
+  if (value.text.size() > longest)
+    return check.fail(
+        value, item,
+        fmt::format("must not be longer than {} bytes, and has {}", longest, value.text.size()));
   const std::vector<std::string>& choices = check.row.choices;
   if (check.row.kind == KeyKind::choice &&
       std::find(choices.begin(), choices.end(), value.text) == choices.end())
@@ -311,9 +335,14 @@ void check_section(const TableView& section, Diagnostics& diagnostics) {
   TomlNode& table = *section.entry;
   const KeyRow* own = find_key(section.pattern);
   if (own && own->kind == KeyKind::map) { // every key is a user-defined name
+    if (!check_most({*own, diagnostics}, table, section.item)) return;
     for (TomlNode& child : table.children)
-      check_value({*find_key(section.pattern + ".NAME"), diagnostics}, child,
-                  item_of(section, child.key));
+      if (const std::string fault = fault_of_name(child.key); fault.empty())
+        check_value({*find_key(section.pattern + ".NAME"), diagnostics}, child,
+                    item_of(section, child.key));
+      else
+        diagnostics.error(child.key_at, item_of(section, child.key), "", "its name " + fault,
+                          "choose another name");
     return;
   }
   const std::vector<const KeyRow*> rows = keys_below(section.pattern);

@@ -52,18 +52,22 @@ double number(const TableView& section, const std::string& key) {
 
 std::vector<double> numbers(const TableView& section, const std::string& key) {
   std::vector<double> list;
-  if (const TomlNode* value = given(section, key))
+  if (const TomlNode* value = given(section, key)) {
+    const double factor = unit_factor(row_of(section, key), 0);
     for (const TomlNode& item : value->children)
-      list.push_back(item.number * unit_factor(row_of(section, key), 0));
+      list.push_back(item.number * factor);
+  }
   return list;
 }
 
 std::vector<Vec2> pairs(const TableView& section, const std::string& key) {
   std::vector<Vec2> list;
-  if (const TomlNode* value = given(section, key))
+  if (const TomlNode* value = given(section, key)) {
+    const KeyRow& row = row_of(section, key);
+    const double first = unit_factor(row, 0), second = unit_factor(row, 1);
     for (const TomlNode& item : value->children)
-      list.emplace_back(item.children[0].number * unit_factor(row_of(section, key), 0),
-                        item.children[1].number * unit_factor(row_of(section, key), 1));
+      list.emplace_back(item.children[0].number * first, item.children[1].number * second);
+  }
   return list;
 }
 

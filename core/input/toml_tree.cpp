@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/toml_tree.hpp"
 
+#include "core/base/text.hpp"
+#include "core/input/toml_depth.hpp"
+
 #include <algorithm>
-#include <cerrno>
 #include <fmt/format.h>
-#include <fstream>
-#include <iterator>
 #include <string_view>
-#include <system_error>
 #include <toml++/toml.h>
 
 namespace plyform {
@@ -24,22 +23,6 @@ const TomlNode* TomlNode::find(const std::string& name) const {
 
 namespace {
 
-/// The parsed text, in lines, to quote values as written.
-struct Source {
-  std::string name;
-  std::vector<std::string_view> lines;
-};
-
-Source split_lines(std::string_view text, const std::string& name) {
-  Source source{name, {}};
-  while (!text.empty()) {
-    const std::size_t end = std::min(text.find('\n'), text.size());
-    source.lines.push_back(text.substr(0, end));
-    text.remove_prefix(std::min(end + 1, text.size()));
-  }
-  return source;
-}
-
 /// Byte offset of the column-th character (from 1) of UTF-8 text.
 std::size_t byte_of_column(std::string_view line, std::size_t column) {
   std::size_t byte = 0;
@@ -51,14 +34,52 @@ std::size_t byte_of_column(std::string_view line, std::size_t column) {
   return byte;
 }
 
+/// A line, and where every so many characters of it begin: a list of numbers may be one long line.
+struct SourceLine {
+  static constexpr std::size_t apart = 256; // characters
+  std::string_view text;
+  std::vector<std::size_t> marks{}; ///< bytes before characters apart, 2 apart, ...
+
+  explicit SourceLine(std::string_view line) : text(line) {
+    for (std::size_t byte = 0;;) {
+      byte += byte_of_column(text.substr(byte), apart + 1);
+      if (byte >= text.size()) return;
+      marks.push_back(byte);
+    }
+  }
+  std::size_t byte_of(std::size_t column) const {
+    if (column == 0) return 0;
+    const std::size_t mark = std::min((column - 1) / apart, marks.size());
+    const std::size_t from = mark == 0 ? 0 : marks[mark - 1];
+    return from + byte_of_column(text.substr(from), column - mark * apart);
+  }
+};
+
+/// The parsed text, in lines, to quote values as written.
+struct Source {
+  std::string name;
+  std::vector<SourceLine> lines;
+};
+
+Source split_lines(std::string_view text, const std::string& name) {
+  Source source{name, {}};
+  while (!text.empty()) {
+    const std::size_t end = std::min(text.find('\n'), text.size());
+    source.lines.emplace_back(text.substr(0, end));
+    text.remove_prefix(std::min(end + 1, text.size()));
+  }
+  return source;
+}
+
 /// The first line of a region of the text, at most 60 characters.
 std::string quote(const Source& source, const toml::source_region& region) {
   constexpr std::size_t longest = 60;
   if (region.begin.line == 0 || region.begin.line > source.lines.size()) return "";
-  const std::string_view line = source.lines[region.begin.line - 1];
-  const std::size_t from = byte_of_column(line, region.begin.column);
+  const SourceLine& marked = source.lines[region.begin.line - 1];
+  const std::string_view line = marked.text;
+  const std::size_t from = marked.byte_of(region.begin.column);
   const bool more_lines = region.end.line > region.begin.line;
-  std::size_t to = more_lines ? line.size() : byte_of_column(line, region.end.column);
+  std::size_t to = more_lines ? line.size() : marked.byte_of(region.end.column);
   if (more_lines && to > from && line[to - 1] == '\r') --to;
   const std::string_view all = line.substr(from, std::max(from, to) - from);
   const std::size_t kept = byte_of_column(all, longest + 1);
@@ -115,7 +136,21 @@ TomlNode convert(const toml::node& node, const Source& source) {
 
 std::optional<TomlNode> parse_entries(const std::string& text, const std::string& name,
                                       Diagnostics& diagnostics) {
+  if (text.size() > most_case_bytes) {
+    diagnostics.error({name, 1, 1}, "", "",
+                      fmt::format("has {} bytes, more than the {} that a case or fabric may have",
+                                  text.size(), most_case_bytes),
+                      "put meshes and drawings into files of their own");
+    return std::nullopt;
+  }
   const Source source = split_lines(text, name);
+  if (const std::optional<TomlPlace> deep = nested_too_deep(text)) {
+    diagnostics.error({name, deep->line, deep->column}, "", "",
+                      fmt::format("goes more than {} levels deep", most_nested),
+                      "take dots out of the key, or brackets out of the list: no key of a case or "
+                      "fabric is as deep");
+    return std::nullopt;
+  }
   try {
     const toml::table table = toml::parse(std::string_view(text), std::string_view(name));
     return convert(table, source);

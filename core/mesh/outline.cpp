@@ -5,11 +5,14 @@
 
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Polygon_2_algorithms.h>
+#include <CGAL/box_intersection_d.h>
 #include <CGAL/convex_hull_2.h>
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <functional>
 #include <limits>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -26,6 +29,8 @@ struct Loop : std::vector<Kernel::Point_2> {
 /// More triangles are rejected as a probable mistake in element_size: one time step of them would
 /// take seconds.
 constexpr double most_triangles = 1e7;
+/// Points of an outline and its holes; drawings have as many lines and arcs at most.
+constexpr std::size_t most_points = 100'000;
 /// A loop whose width is below this fraction of its length counts as a line without area.
 constexpr double line = 1e-9;
 
@@ -76,16 +81,57 @@ double smallest_width(const Loop& loop, double& length) {
   CGAL::convex_hull_2(loop.begin(), loop.end(), std::back_inserter(hull));
   double width = std::numeric_limits<double>::infinity();
   length = 0.0;
-  for (std::size_t k = 0; k < hull.size(); ++k) {
-    const Kernel::Vector_2 along = hull[(k + 1) % hull.size()] - hull[k];
-    double reach = 0.0;
-    for (const auto& p : hull) {
-      reach = std::max(reach, CGAL::determinant(along, p - hull[k]));
-      length = std::max(length, std::sqrt((p - hull[k]).squared_length()));
-    }
-    width = std::min(width, reach / std::sqrt(along.squared_length()));
+  const std::size_t n = hull.size();
+  std::size_t far = 1; // the corner furthest from a side goes round with the side (calipers)
+  for (std::size_t k = 0; k < n; ++k) {
+    const Kernel::Vector_2 along = hull[(k + 1) % n] - hull[k];
+    const auto reach = [&](std::size_t i) {
+      return CGAL::determinant(along, hull[i % n] - hull[k]);
+    };
+    for (std::size_t i = 0; i < n && reach(far + 1) >= reach(far); ++i)
+      far = (far + 1) % n;
+    for (const std::size_t end : {k, (k + 1) % n})
+      length = std::max(length, std::sqrt((hull[far] - hull[end]).squared_length()));
+    width = std::min(width, reach(far) / std::sqrt(along.squared_length()));
   }
   return width;
+}
+
+/// A side of one of several loops.
+struct Side {
+  std::size_t loop, k;
+  bool operator<(const Side& other) const {
+    return std::pair(loop, k) < std::pair(other.loop, other.k);
+  }
+};
+
+/// The first two sides in the order of `loops` that meet and for which asked(a, b), a < b, holds;
+/// nothing if none do. One of them, if a great many do.
+template <class Asked>
+std::optional<std::pair<Side, Side>> first_meeting(const std::vector<const Loop*>& loops,
+                                                   const Asked& asked) {
+  using Box = CGAL::Box_intersection_d::Box_with_info_d<double, 2, Side>;
+  struct Enough {};
+  constexpr std::size_t enough = 10'000; // pairs, of which the first is taken
+  std::vector<Box> boxes;
+  for (std::size_t i = 0; i < loops.size(); ++i)
+    for (std::size_t k = 0; k < loops[i]->size(); ++k)
+      boxes.emplace_back(side(*loops[i], k).bbox(), Side{i, k});
+  std::optional<std::pair<Side, Side>> first;
+  std::size_t met = 0;
+  const auto meet = [&](const Box& one, const Box& other) {
+    Side a = one.info(), b = other.info();
+    if (b < a) std::swap(a, b);
+    if (!asked(a, b) || !CGAL::do_intersect(side(*loops[a.loop], a.k), side(*loops[b.loop], b.k)))
+      return;
+    if (!first || std::pair(a, b) < *first) first = std::pair(a, b);
+    if (++met == enough) throw Enough{};
+  };
+  try {
+    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), meet);
+  } catch (const Enough&) {
+  }
+  return first;
 }
 
 /// Throws for the first two sides of the loop that meet where they should not.
@@ -97,14 +143,18 @@ void check_simple(const Loop& loop, const std::string& name) {
                      "once",
                      text(loop, k), text(loop, l), name));
   };
-  for (std::size_t k = 0; k < n; ++k) {
-    const auto& p = loop[k];
-    const auto& q = loop[(k + 1) % n];
-    const auto& r = loop[(k + 2) % n];
-    if (CGAL::collinear(p, q, r) && (q - p) * (r - q) < 0) report(k, (k + 1) % n);
-    for (std::size_t l = k + 2; l < n; ++l)
-      if (!(k == 0 && l == n - 1) && CGAL::do_intersect(side(loop, k), side(loop, l))) report(k, l);
-  }
+  std::size_t back = 0; // the first side after which the next goes back on it
+  const auto goes_back = [&](std::size_t k) {
+    const auto &p = loop[k], &q = loop[(k + 1) % n], &r = loop[(k + 2) % n];
+    return CGAL::collinear(p, q, r) && (q - p) * (r - q) < 0;
+  };
+  while (back < n && !goes_back(back))
+    ++back;
+  const auto crossing = first_meeting({&loop}, [n](const Side& a, const Side& b) {
+    return b.k > a.k + 1 && !(a.k == 0 && b.k == n - 1);
+  });
+  if (crossing && crossing->first.k < back) report(crossing->first.k, crossing->second.k);
+  if (back < n) report(back, (back + 1) % n);
   fail(name + " crosses or touches itself; list its points in order around it, each once");
 }
 
@@ -119,33 +169,44 @@ Loop checked_loop(const std::vector<Vec2>& points, const std::string& name, bool
   return loop;
 }
 
-void check_apart(const Loop& a, const std::string& a_name, const Loop& b,
-                 const std::string& b_name) {
-  for (std::size_t k = 0; k < a.size(); ++k)
-    for (std::size_t l = 0; l < b.size(); ++l)
-      if (CGAL::do_intersect(side(a, k), side(b, l)))
-        fail(fmt::format("{} of {} crosses or touches {} of {}; move or shrink the hole",
-                         text(a, k), a_name, text(b, l), b_name));
-}
-
 /// Whether loop a lies inside loop b, for loops whose sides do not meet: one point is
 /// representative.
 bool lies_in(const Loop& a, const Loop& b) {
   return CGAL::bounded_side_2(b.begin(), b.end(), a.front()) == CGAL::ON_BOUNDED_SIDE;
 }
 
+/// loops: the boundary, and all holes.
+void check_apart(const std::vector<const Loop*>& loops,
+                 const std::function<std::string(std::size_t)>& name) {
+  const auto met =
+      first_meeting(loops, [](const Side& a, const Side& b) { return a.loop != b.loop; });
+  if (!met) return;
+  const auto& [b, a] = *met;
+  fail(fmt::format("{} of {} crosses or touches {} of {}; move or shrink the hole",
+                   text(*loops[a.loop], a.k), name(a.loop), text(*loops[b.loop], b.k),
+                   name(b.loop)));
+}
+
 void check_holes(const Loop& boundary, const std::vector<Loop>& holes) {
-  const auto name = [](std::size_t k) { return fmt::format("hole {}", k); };
-  for (std::size_t k = 0; k < holes.size(); ++k) {
-    check_apart(holes[k], name(k), boundary, "the boundary");
-    if (!lies_in(holes[k], boundary))
+  const auto name = [](std::size_t k) { // 0: the boundary
+    return k == 0 ? std::string("the boundary") : fmt::format("hole {}", k - 1);
+  };
+  std::vector<const Loop*> loops{&boundary};
+  std::vector<CGAL::Bbox_2> boxes{CGAL::bbox_2(boundary.begin(), boundary.end())};
+  for (const Loop& hole : holes) {
+    loops.push_back(&hole);
+    boxes.push_back(CGAL::bbox_2(hole.begin(), hole.end()));
+  }
+  check_apart(loops, name);
+  for (std::size_t k = 1; k < loops.size(); ++k) {
+    if (!lies_in(*loops[k], boundary))
       fail(fmt::format("{} lies outside the boundary, its first point is {}; move it inside or "
                        "leave it out",
-                       name(k), text(holes[k].front())));
-    for (std::size_t l = 0; l < k; ++l) {
-      check_apart(holes[k], name(k), holes[l], name(l));
+                       name(k), text(loops[k]->front())));
+    for (std::size_t l = 1; l < k; ++l) {
+      if (!CGAL::do_overlap(boxes[k], boxes[l])) continue;
       for (const auto& [inner, outer] : {std::pair(k, l), std::pair(l, k)})
-        if (lies_in(holes[inner], holes[outer]))
+        if (lies_in(*loops[inner], *loops[outer]))
           fail(fmt::format("{} lies inside {}; leave it out", name(inner), name(outer)));
     }
   }
@@ -191,6 +252,12 @@ std::vector<Loop> checked_loops(const Outline& outline, double spacing, double l
 } // namespace
 
 void check_outline(const Outline& outline, double element_size) {
+  std::size_t points = outline.boundary.size();
+  for (const std::vector<Vec2>& hole : outline.holes)
+    points += hole.size();
+  if (points > most_points)
+    fail(fmt::format("it has {} points, more than {}; leave out what an element cannot follow",
+                     points, most_points));
   constexpr double fine = std::numbers::pi / 16.0, coarse = std::numbers::pi / 4.0; // rad
   const auto check = [&](double spacing, double turn) {
     std::vector<Loop> loops = checked_loops(outline, spacing, turn);

@@ -21,12 +21,12 @@ const std::vector<Vec2>& corners_of(const Outline& outline, int hole) {
   return hole < 0 ? outline.boundary : outline.holes[static_cast<std::size_t>(hole)];
 }
 
-/// The arc in the place of a side, or null.
-const OutlineArc* arc_of(const Outline& outline, int hole, std::size_t side) {
-  const auto at =
-      std::find_if(outline.arcs.begin(), outline.arcs.end(),
-                   [&](const OutlineArc& arc) { return arc.hole == hole && arc.side == side; });
-  return at == outline.arcs.end() ? nullptr : &*at;
+/// The arc in the place of each side of a loop, or null.
+std::vector<const OutlineArc*> arcs_of(const Outline& outline, int hole) {
+  std::vector<const OutlineArc*> arcs(corners_of(outline, hole).size(), nullptr);
+  for (const OutlineArc& arc : outline.arcs)
+    if (arc.hole == hole && arc.side < arcs.size() && !arcs[arc.side]) arcs[arc.side] = &arc;
+  return arcs;
 }
 
 /// Area (mm^2), positive for loops that go round anticlockwise.
@@ -98,10 +98,11 @@ std::vector<Vec2> sample_loop(const Outline& outline, int hole, double spacing,
   const auto pieces = [spacing](double length) {
     return std::max(1, static_cast<int>(std::lround(length / spacing)));
   };
+  const std::vector<const OutlineArc*> arcs = arcs_of(outline, hole);
   std::vector<Vec2> points;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec2 p = corners[k], q = corners[(k + 1) % corners.size()], along = q - p;
-    const OutlineArc* arc = arc_of(outline, hole, k);
+    const OutlineArc* arc = arcs[k];
     if (!arc) {
       const int n = pieces(along.norm());
       for (int i = 0; i < n; ++i)

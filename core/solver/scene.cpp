@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 
 namespace plyform {
 namespace {
@@ -161,6 +162,13 @@ PlyContact make_pair(const Case& data, const std::vector<PlyState>& plies, int a
 
 /// The pairs of plies, adjacent ones first, which take longest to compute.
 std::vector<PlyPair> make_pairs(const Scene& s) {
+  using Numbers = std::array<std::vector<int>, 2>; // of contacts of nodes, and of edges
+  std::map<std::pair<int, int>, Numbers> of;
+  for (std::size_t i = 0; i < s.ply_contacts.size(); ++i)
+    of[std::minmax(s.ply_contacts[i].slave, s.ply_contacts[i].master)][0].push_back(
+        static_cast<int>(i));
+  for (std::size_t i = 0; i < s.edge_contacts.size(); ++i)
+    of[{s.edge_contacts[i].a, s.edge_contacts[i].b}][1].push_back(static_cast<int>(i));
   std::vector<PlyPair> pairs;
   const int n = static_cast<int>(s.plies.size());
   for (int apart = 1; apart <= n; ++apart)
@@ -169,12 +177,8 @@ std::vector<PlyPair> make_pairs(const Scene& s) {
       if (b >= n) continue;
       PlyPair pair;
       pair.a = a, pair.b = b;
-      for (std::size_t i = 0; i < s.ply_contacts.size(); ++i)
-        if (std::minmax(s.ply_contacts[i].slave, s.ply_contacts[i].master) == std::minmax(a, b))
-          pair.contacts.push_back(static_cast<int>(i));
-      for (std::size_t i = 0; i < s.edge_contacts.size(); ++i)
-        if (s.edge_contacts[i].a == a && s.edge_contacts[i].b == b)
-          pair.edges.push_back(static_cast<int>(i));
+      pair.contacts = of[{a, b}][0];
+      pair.edges = of[{a, b}][1];
       if (pair.contacts.empty()) continue;
       pairs.push_back(std::move(pair));
     }

@@ -136,6 +136,30 @@ TEST(PolygonFile, StlThatGoesAgainstItsFormatIsRefused) {
   EXPECT_EQ(refusal(".stl", binary), "");
 }
 
+TEST(PolygonFile, StlIsBinaryOrTextByItsSizeNotItsTitle) {
+  // A title that looks like a text's, and bytes behind the last facet, as some exporters leave.
+  for (const std::string title : {"solid facet normal", "SOLID\nfacet\nendsolid", "endsolid", ""})
+    for (const std::size_t more : {0, 2, 49}) {
+      std::string binary = title + std::string(84 + 2 * 50 + more - title.size(), '\0');
+      binary[80] = 2;
+      const float corner = 1.5F;
+      std::memcpy(&binary[84 + 50 + 12], &corner, sizeof corner);
+      const PolygonSoup soup = parse_polygons(".stl", binary);
+      EXPECT_EQ(soup.polygons.size(), 2u) << title << more;
+      EXPECT_EQ(soup.points[3], Vec3(1.5, 0, 0));
+      expect_refused(".stl", binary.substr(0, 84 + 60), "truncated: its header promises 2 facets");
+    }
+  expect_refused(".stl", "solid " + std::string("\x1b[2J\xff") + "\n\x1b]0;x\xff\n",
+                 "the file is truncated: 19 bytes");
+  expect_refused(".stl", "solid a\n\xff\xc2\x9b\n", "line 2: '\\xff\\u{9b}' stands where");
+}
+
+TEST(PolygonFile, NumbersTooSmallForADoubleAreZero) {
+  const std::string facet = "facet normal 0 0 1\nouter loop\nvertex 1.5e-400 0 0\nvertex 1 0 0\n"
+                            "vertex 0 1 0\nendloop\nendfacet\n";
+  EXPECT_EQ(parse_polygons(".stl", "solid a\n" + facet + "endsolid a\n").points[0], Vec3::Zero());
+}
+
 TEST(PolygonFile, OffThatGoesAgainstItsFormatIsRefused) {
   const std::string header = "OFF # a comment\n# another\n3 1 0\n";
   EXPECT_EQ(refusal(".off", header + three + "3 0 1 2 255 0 0\n\n# end\n"), "");

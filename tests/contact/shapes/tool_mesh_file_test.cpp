@@ -210,7 +210,7 @@ TEST_F(ToolMeshFile, MissingEmptyAndForeignFilesAreNamed) {
                     "mesh_tool.py PART.step -o PART.stl makes the mesh");
   expect_rejected(write("noextension", "x"), "the extension '' is none of");
   std::filesystem::create_directory(folder / "folder.stl");
-  expect_rejected(folder / "folder.stl", "this is not a file");
+  expect_rejected(folder / "folder.stl", "is a folder, not a file");
   expect_rejected(write("words.stl", std::string(200, 'x')),
                   "the file is truncated: its header promises");
   expect_rejected(write("words.off", "hello world\n"), "no faces could be read as off");
@@ -223,7 +223,7 @@ TEST_F(ToolMeshFile, MissingEmptyAndForeignFilesAreNamed) {
 TEST_F(ToolMeshFile, AFileThatTheDiskCannotReadIsNamed) {
   if (!std::filesystem::exists("/proc/self/mem")) GTEST_SKIP() << "no file here that fails";
   std::filesystem::create_symlink("/proc/self/mem", folder / "bad.stl");
-  expect_rejected(folder / "bad.stl", "cannot be read to its end");
+  expect_rejected(folder / "bad.stl", "cannot be read: ");
 }
 
 TEST_F(ToolMeshFile, TruncatedFilesAreRejectedWhereverTheyEnd) {

@@ -148,5 +148,48 @@ TEST(DxfCurve, FinerThanManyPiecesIsCutOff) {
   EXPECT_EQ(divided(curve_of(e), 1e-9, 500).size(), 500u);
 }
 
+/// Points of a circle, each once.
+std::vector<Vec3> eight_points() {
+  std::vector<Vec3> points;
+  for (int i = 0; i < 8; ++i)
+    points.emplace_back(150.0 * std::cos(0.25 * std::numbers::pi * i),
+                        150.0 * std::sin(0.25 * std::numbers::pi * i), 1.0);
+  return points;
+}
+
+TEST(DxfCurve, AClosedSplineWhosePointsAreNotRepeatedGoesRound) {
+  DxfSpline s{3, {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11}, eight_points(), true};
+  const DxfCurve curve = curve_of(s);
+  EXPECT_TRUE(curve.closed);
+  // the uniform cubic spline over the points of a regular polygon has its symmetry
+  const double radius = curve.at(3.0).norm();
+  EXPECT_NEAR(radius, 150.0 * (4.0 + 2.0 * std::cos(0.25 * std::numbers::pi)) / 6.0, 1e-9);
+  for (int i = 0; i <= 8; ++i)
+    EXPECT_NEAR(curve.at(3.0 + i).norm(), radius, 1e-9) << i;
+  EXPECT_LT((curve.at(11.0) - curve.at(3.0)).norm(), 1e-9);
+  // the same curve with points and knots repeated, as others write it
+  DxfSpline repeated = s;
+  for (int i = 0; i < 3; ++i) {
+    repeated.points.push_back(s.points[static_cast<std::size_t>(i)]);
+    repeated.knots.push_back(12.0 + i);
+  }
+  for (const bool marked : {false, true}) {
+    repeated.closed = marked;
+    EXPECT_TRUE(curve_of(repeated).closed);
+    EXPECT_EQ(curve_of(repeated).at(5.3), curve.at(5.3));
+  }
+  s.knots = repeated.knots; // all knots, the points once
+  EXPECT_EQ(curve_of(s).at(5.3), curve.at(5.3));
+}
+
+TEST(DxfCurve, AFlagAloneClosesNoSpline) {
+  DxfSpline s{3, {0, 0, 0, 0, 1, 2, 3, 4, 5, 5, 5, 5}, eight_points(), true};
+  EXPECT_FALSE(curve_of(s).closed);
+  EXPECT_EQ(curve_of(s).at(0.0), Vec2(150.0, 0.0));
+  s.knots = {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11};
+  s.closed = false;
+  EXPECT_FALSE(curve_of(s).closed);
+}
+
 } // namespace
 } // namespace plyform::dxf_curve_test
