@@ -145,11 +145,6 @@ std::vector<fs::path> export_results(const fs::path& directory, const ExportChoi
   for (long index = first; index < end; ++index) {
     const Frame state =
         numbered ? read_frame(states, index < 0 ? one : index) : read_last_frame(states);
-    try {
-      check_frame(state); // names become file names and must not lead out of the folder
-    } catch (const std::exception& error) {
-      throw std::runtime_error(states.string() + ": " + error.what());
-    }
     std::error_code error;
     fs::create_directories(folder, error);
     if (error)

@@ -100,7 +100,8 @@ inline DiskFile& file_of(const H5FD_t* file) {
 
 inline H5FD_t* open_driver_file(const char* name, unsigned, hid_t access, haddr_t) {
   Disk* const disk = *static_cast<Disk* const*>(H5Pget_driver_info(access));
-  const int descriptor = open(name, O_RDWR | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  unlink(name); // whatever has that name, as a link to another file, is not written into
+  const int descriptor = open(name, O_RDWR | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
   if (descriptor < 0) {
     disk->error = errno;
     return nullptr;

@@ -5,13 +5,16 @@
 // numbers must be finite. HDF5 itself goes down, or never comes back, on some damaged files; hence
 // it reads in a process of its own.
 #include "core/base/helper_process.hpp"
+#include "core/base/text.hpp"
 #include "core/results/frame_bytes.hpp"
-#include "core/results/hdf5_handles.ipp"
+#include "core/results/hdf5_links.ipp"
 #include "core/results/result_fields.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <limits>
+#include <set>
 
 namespace plyform {
 
@@ -32,16 +35,30 @@ std::uintmax_t bytes_of_file(hid_t object) {
 
 /// Reads datasets of a file; `where` in its functions is a path inside the file.
 struct Reader {
-  const fs::path& path; ///< of the file, for messages
+  const fs::path& path; ///< of the file
   hid_t file;
+  mutable std::set<std::string> followed{}; ///< links that may be
 
   [[noreturn]] void broken(const std::string& where, const std::string& what) const {
     throw std::runtime_error(fmt::format(
         "{}: {} {}; the file is damaged or not by this version of plyform: run the case again",
-        path.string(), where, what));
+        path.string(), shown(where, 200), what));
+  }
+
+  /// Throws if a link on the way to `where` leads out of the results. To be called before HDF5 goes
+  /// that way.
+  void follow(const std::string& where) const {
+    for (std::size_t end = 0; end != std::string::npos;) {
+      end = where.find('/', end + 1);
+      const std::string part = where.substr(0, end);
+      if (part.size() < 2 || !followed.insert(part).second) continue;
+      if (const std::string fault = fault_of_link(file, part, path.parent_path()); !fault.empty())
+        broken(part, fault);
+    }
   }
 
   bool has(const std::string& where) const {
+    follow(where);
     return H5Lexists(file, where.c_str(), H5P_DEFAULT) > 0;
   }
 
@@ -60,8 +77,10 @@ struct Reader {
 
   template <class T>
   std::vector<T> dataset(const std::string& where) const {
+    follow(where);
     const Handle set(H5Dopen2(file, where.c_str(), H5P_DEFAULT), H5Dclose);
     if (!set.valid()) broken(where, "is missing");
+    if (const std::string fault = fault_of_storage(set.id()); !fault.empty()) broken(where, fault);
     const Handle space(H5Dget_space(set.id()), H5Sclose);
     hsize_t size[2] = {0, 1};
     const int dimensions = H5Sget_simple_extent_ndims(space.id());
@@ -99,6 +118,7 @@ struct Reader {
   }
 
   Handle attribute(const std::string& where, const char* name, hsize_t entries) const {
+    follow(where);
     Handle found(H5Aopen_by_name(file, where.c_str(), name, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
     if (!found.valid()) broken(where + ":" + name, "is missing");
     const Handle space(H5Aget_space(found.id()), H5Sclose);
@@ -265,6 +285,10 @@ std::string read_apart(const fs::path& path, const std::function<std::string()>&
     throw std::runtime_error(
         fmt::format("{}: no such file: give the result folder of a run (plyform run CASE -o DIR)",
                     path.string()));
+  if (const std::string fault = fault_of_file(path, std::numeric_limits<std::size_t>::max());
+      !fault.empty())
+    throw std::runtime_error(
+        fmt::format("{}: {}: give the result folder of a run", path.string(), fault));
   const std::size_t size = size_with_states(path);
   constexpr std::size_t slow = 20 << 20; // bytes read in a second, at the least
   HelperLimits limits;
@@ -283,7 +307,14 @@ std::string read_apart(const fs::path& path, const std::function<std::string()>&
 } // namespace
 
 Frame read_frame(const fs::path& path, long index) {
-  return frame_from_bytes(read_apart(path, [&] { return frame_to_bytes(read_here(path, index)); }));
+  Frame frame =
+      frame_from_bytes(read_apart(path, [&] { return frame_to_bytes(read_here(path, index)); }));
+  try {
+    check_frame(frame); // names become those of files, and must not lead out of a folder
+  } catch (const std::exception& error) {
+    throw std::runtime_error(path.string() + ": " + error.what());
+  }
+  return frame;
 }
 
 long count_frames(const fs::path& path) {

@@ -3,6 +3,7 @@
 
 #include <cerrno>
 #include <cstdio>
+#include <fcntl.h>
 #include <fmt/format.h>
 #include <stdexcept>
 #include <system_error>
@@ -28,8 +29,16 @@ void write_whole(const fs::path& path, std::initializer_list<std::string_view> p
     fs::remove(temporary, ignored);
     throw_cannot(path, what, {error, std::generic_category()});
   };
-  std::FILE* file = std::fopen(temporary.c_str(), "wb");
-  if (!file) fail("create the file", errno);
+  // Whatever has that name, as a pipe or a link to another file, is not written into.
+  std::error_code ignored;
+  fs::remove(temporary, ignored);
+  const int made = open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+  std::FILE* file = made < 0 ? nullptr : fdopen(made, "wb");
+  if (!file) {
+    const int error = errno;
+    if (made >= 0) close(made);
+    fail("create the file", error);
+  }
   int error = 0;
   for (const std::string_view part : parts)
     if (error == 0 && std::fwrite(part.data(), 1, part.size(), file) != part.size()) error = errno;
