@@ -4,6 +4,7 @@
 
 #include "core/results/result_fields.hpp"
 
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -30,8 +31,13 @@ struct Checkpoint {
 void write_checkpoint_file(const std::filesystem::path& path, std::string identity,
                            WriterState writer, std::string_view solver);
 
+/// FNV-1a, 64 bits (Fowler, Noll, Vo; RFC 9923), of what a checkpoint holds. It tells damage, not
+/// intent. sum: of the bytes before these.
+std::uint64_t checkpoint_sum(std::string_view bytes, std::uint64_t sum = 14695981039346656037ULL);
+
 /// Nothing if there is no such file. Throws std::runtime_error naming the path if it is damaged, or
-/// not of a case with this identity.
+/// not of a case with this identity; whatever its checksum says, sizes, names and times are
+/// checked.
 std::optional<Checkpoint> read_checkpoint_file(const std::filesystem::path& path,
                                                const std::string& identity);
 

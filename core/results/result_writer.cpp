@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/result_writer.hpp"
 
+#include "core/base/names.hpp"
+#include "core/base/text.hpp"
 #include "core/base/thread_pool.hpp"
 #include "core/results/checkpoint_file.hpp"
 #include "core/results/folder_lock.hpp"
@@ -24,16 +26,10 @@ namespace fs = std::filesystem;
 namespace {
 
 void check_name(const std::string& name, const char* kind) {
-  const auto forbidden = [](unsigned char c) {
-    return c < 0x20 || c == 0x7f ||
-           std::string_view("/\\:*?\"<>|").find(static_cast<char>(c)) != std::string_view::npos;
-  };
-  if (!name.empty() && name.front() != '.' && std::none_of(name.begin(), name.end(), forbidden))
-    return;
-  throw std::runtime_error(fmt::format(
-      "{} name \"{}\" cannot be a file name: it must not be empty, start with a dot or hold "
-      "control characters or any of / \\ : * ? \" < > |; rename the {} in the case file",
-      kind, name, kind));
+  if (const std::string fault = fault_of_file_name(name); !fault.empty())
+    throw std::runtime_error(
+        fmt::format("{} name \"{}\" cannot be a file name: it {}; rename the {} in the case file",
+                    kind, shown(name), fault, kind));
 }
 
 void check_sizes(const PlyFrame& ply) {
@@ -276,7 +272,13 @@ std::optional<Resume> ResultWriter::go_on(const std::string& identity) {
   my.last_step = written.last_step;
   write_whole(my.directory / "results.xdmf", my.xdmf.document());
   write_whole(my.directory / "history.csv", my.history);
-  return Resume{found->solver, read_last_frame(my.directory / "results.h5")};
+  Resume resume{found->solver, read_last_frame(my.directory / "results.h5")};
+  if (resume.last.time != written.last_time || resume.last.step != written.last_step)
+    throw std::runtime_error(fmt::format(
+        "{}: its last state is not that of the checkpoint, so that the run cannot go on; run it "
+        "anew, without --resume",
+        (my.directory / state_file(written.states.step.size() - 1)).string()));
+  return resume;
 }
 
 void ResultWriter::write_summary(const Frame& last, const Summary& summary) {

@@ -63,10 +63,12 @@ void StateFiles::append(const Frame& frame) {
 void StateFiles::go_on(const StateIndex& index) {
   for (std::size_t i = 0; i <= index.step.size(); ++i) {
     const fs::path file = i == 0 ? constants_file() : state_file(i - 1);
-    if (!fs::is_regular_file(directory_ / file))
-      throw std::runtime_error(fmt::format("{} is missing, so that the run cannot go on; run it "
-                                           "anew, without --resume",
-                                           (directory_ / file).string()));
+    std::error_code ignored;
+    if (!fs::is_regular_file(fs::symlink_status(directory_ / file, ignored)))
+      throw std::runtime_error(
+          fmt::format("{} is missing or no file, so that the run cannot go on; run it "
+                      "anew, without --resume",
+                      (directory_ / file).string()));
   }
   write_linked(directory_ / "results.h5", index);
   remove_states(directory_, index.step.size());

@@ -3,6 +3,8 @@
 // next step computes; times for the report.
 #include "core/solver/checkpoint.hpp"
 
+#include "core/solver/checkpoint_checks.hpp"
+
 #include <stdexcept>
 
 namespace plyform {
@@ -22,6 +24,11 @@ void visit_all(Archive& a, std::vector<T>& values) {
 template <class Archive>
 void visit(Archive& a, PlyKinematics& p) {
   visit(a, p.x, p.velocity, p.motion, p.reaction);
+}
+
+template <class Archive>
+void visit(Archive& a, EigenvalueBound& b) {
+  visit(a, b.omega2, b.yarns, b.soft, b.penalty_acts, b.damping, b.viscous, b.triangle);
 }
 
 template <class Archive>
@@ -113,9 +120,11 @@ std::string save_state(Scene& scene, RunState& run) {
 }
 
 void load_state(const std::string& bytes, Scene& scene, RunState& run) {
+  const std::vector<PlyArrays> made = arrays_of(scene);
   LoadArchive archive(bytes);
   visit_state(archive, scene, run);
   if (archive.left() > 0) throw std::runtime_error("is longer than its scene");
+  check_loaded(scene, run, made);
   for (PlyState& ply : scene.plies)
     ply.tree->refit(ply.x_search); // as the last search left it
 }

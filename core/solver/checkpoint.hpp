@@ -40,8 +40,9 @@ struct RunState {
 /// The bytes of scene and run.
 std::string save_state(Scene& scene, RunState& run);
 
-/// Loads what save_state saved into the scene of the same case, as make_scene made it. Throws
-/// std::runtime_error if the bytes do not fit the scene.
+/// Loads what save_state saved into the scene of the same case, as make_scene made it. The bytes
+/// are not trusted (core/solver/checkpoint_checks.hpp): throws std::runtime_error if they do not
+/// fit the scene, which is of no use then.
 void load_state(const std::string& bytes, Scene& scene, RunState& run);
 
 } // namespace plyform

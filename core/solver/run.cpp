@@ -19,6 +19,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <stdexcept>
 
 namespace plyform {
 namespace {
@@ -228,13 +229,33 @@ private:
     floor_ = balance_floor(s_);
     tool_surfaces_ = tool_surfaces(s_, pool_);
     if (hooks_.resume) {
-      load_state(hooks_.resume->state, s_, state_);
+      try {
+        load_state(hooks_.resume->state, s_, state_);
+      } catch (const std::runtime_error& fault) {
+        throw std::runtime_error(fmt::format("the checkpoint is damaged: it {}; the run cannot go "
+                                             "on: run it anew, without --resume",
+                                             fault.what()));
+      }
+      check_last(hooks_.resume->last);
       result_.last = hooks_.resume->last;
       result_.last.energy = state_.good.energy;
       return;
     }
     start(s_, pool_);
     keep(s_, state_.energy, state_.good);
+  }
+
+  /// The last output state before a resume must be of this scene.
+  void check_last(const Frame& last) const {
+    bool fits = last.plies.size() == s_.plies.size() && last.tools.size() == s_.tools.size() &&
+                last.boundaries.size() == s_.boundaries.size() && last.step <= s_.step;
+    for (std::size_t p = 0; fits && p < s_.plies.size(); ++p)
+      fits = last.plies[p].name == s_.plies[p].name &&
+             last.plies[p].x0.size() == s_.plies[p].x0.size() &&
+             last.plies[p].triangles == s_.plies[p].membrane.triangles;
+    if (!fits)
+      throw std::runtime_error("the last state in results.h5 is not of this case, so that the run "
+                               "cannot go on; run it anew, without --resume");
   }
 
   void write() {
@@ -287,7 +308,7 @@ private:
   void go_back(const Stop& stop) {
     result_.summary.status = "stopped";
     result_.summary.message = stop.message;
-    restore(s_, state_.good);
+    if (!state_.good.plies.empty()) restore(s_, state_.good);
     state_.energy = state_.good.energy;
     if (s_.step != result_.last.step || state_.outputs_written < 0) write();
   }

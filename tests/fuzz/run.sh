@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Runs the libFuzzer targets, as many at a time as there are cores, each for so many seconds:
-#   tests/fuzz/run.sh SECONDS [TARGET]...      all: case fabric curve results stl obj ply off dxf
+#   tests/fuzz/run.sh SECONDS [TARGET]...      all: case fabric curve results
+#                                           checkpoint stl obj ply off dxf
 # Seeds are tests/fuzz/corpus/TARGET; what is learned stays in build/asan/corpus, and a file that a
 # target goes down on, or hangs or swells on, in build/asan/finds: mend the reader, then put the
 # file into tests/fuzz/corpus/TARGET, where a test replays it. Answers 1 if there is any.
@@ -10,7 +11,7 @@ seconds=${1:?how many seconds? tests/fuzz/run.sh SECONDS [TARGET]...}
 shift
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 targets=("$@")
-[ ${#targets[@]} -gt 0 ] || targets=(case fabric curve results stl obj ply off dxf)
+[ ${#targets[@]} -gt 0 ] || targets=(case fabric curve results checkpoint stl obj ply off dxf)
 
 tools/build.sh asan fuzzers
 folder=$PWD/build/asan
@@ -49,7 +50,7 @@ while [ ${#of[@]} -gt 0 ]; do reap; done
 total=0
 for target in "${targets[@]}"; do
   runs=$(sed -n 's/^stat::number_of_executed_units: *//p' "$folder/logs/$target.log")
-  printf '%-8s %10s executions in %s s\n' "$target" "${runs:-?}" "$seconds"
+  printf '%-10s %10s executions in %s s\n' "$target" "${runs:-?}" "$seconds"
   total=$((total + ${runs:-0}))
 done
 for target in ${failed[@]+"${failed[@]}"}; do

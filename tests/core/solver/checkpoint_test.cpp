@@ -5,7 +5,10 @@
 #include "core/solver/step.hpp"
 #include "support/scene_checks.hpp"
 
+#include <algorithm>
+#include <cstring>
 #include <gtest/gtest.h>
+#include <limits>
 
 namespace plyform::checkpoint_test {
 namespace {
@@ -58,6 +61,116 @@ TEST(Checkpoint, LoadedSceneHasTheBoxesOfTheLastSearchAndGoesOnTheSameWay) {
   EXPECT_EQ(scene.plies[0].x, loaded.plies[0].x);
   EXPECT_EQ(scene.plies[1].x, loaded.plies[1].x);
   EXPECT_LT(closest, glass_weave().thickness) << "they have not met";
+}
+
+/// Two plies that lie on each other, in themselves and on a mesh, held by a grip, some steps on.
+Case touching_plies() {
+  Case data = stack_of({0.0, 0.7}, rectangle(60.0, 60.0, 20.0));
+  Tool floor;
+  floor.name = "floor";
+  floor.shape = make_mesh_shape(tessellate(Box{{100.0, 100.0, 10.0}}, 50.0, 100.0), nullptr);
+  floor.position = {0.0, 0.0, -5.0};
+  Tool punch;
+  punch.name = "punch";
+  punch.shape = Sphere{20.0};
+  punch.position = {0.0, 0.0, 21.2};
+  punch.motion = Motion::driven;
+  punch.stroke = 0.5;
+  data.tools = {floor, punch};
+  set_friction(data, 0.2);
+  data.contact.self = SelfContact::on;
+  data.solver.fibre_softening = 100.0;
+  data.solver.duration = 0.01;
+  return data;
+}
+
+/// A state with one field changed, as somebody does who then makes the checksum right: refused, or
+/// a scene that can be computed on.
+class ChangedState : public ::testing::Test {
+protected:
+  void SetUp() override {
+    scene = make_scene(touching_plies());
+    start(scene, pool);
+    for (int i = 0; i < 60; ++i)
+      step(scene, pool);
+    saved = save_state(scene, run);
+  }
+  /// Whether the state is refused; else some steps are computed from it.
+  bool refused(const std::string& state) {
+    Scene loaded = make_scene(touching_plies());
+    RunState other;
+    try {
+      load_state(state, loaded, other);
+    } catch (const std::runtime_error& error) {
+      EXPECT_NE(std::string(error.what()), "");
+      return true;
+    }
+    for (int i = 0; i < 3 && !compute_forces(loaded, pool); ++i)
+      move_plies(loaded, pool);
+    return false;
+  }
+  ThreadPool pool{1};
+  Scene scene;
+  RunState run;
+  std::string saved;
+};
+
+TEST_F(ChangedState, OfWhateverFieldIsRefusedOrComputedOn) {
+  ASSERT_FALSE(refused(saved));
+  int count = 0;
+  const std::size_t stride = std::max<std::size_t>(4, saved.size() / 350 / 4 * 4);
+  for (std::size_t at = 0; at + 8 <= saved.size(); at += stride)
+    for (const std::int32_t by : {-1, 1 << 30, std::numeric_limits<std::int32_t>::min()}) {
+      std::string changed = saved;
+      std::memcpy(&changed[at], &by, sizeof by);
+      if (by == -1) std::memcpy(&changed[at + 4], &by, sizeof by); // NaN, and -1 of 64 bits
+      if (changed != saved && refused(changed)) ++count;
+    }
+  EXPECT_GT(count, 150) << "of some 1000";
+}
+
+TEST_F(ChangedState, IndicesSizesAndChoicesAreChecked) {
+  const auto refuses = [&](const char* what, const auto& change) {
+    Scene other = make_scene(touching_plies());
+    RunState state;
+    load_state(saved, other, state);
+    change(other, state);
+    std::string bytes = save_state(other, state);
+    EXPECT_TRUE(refused(bytes)) << what;
+  };
+  ASSERT_FALSE(scene.ply_contacts[0].contact.points.empty());
+  ASSERT_FALSE(scene.tools[0].contacts[0].points.empty());
+  ASSERT_FALSE(scene.edge_contacts[0].contact.candidates.empty());
+  refuses("a face", [](Scene& s, RunState&) { s.ply_contacts[0].contact.points[0].face = 1000; });
+  refuses("a node", [](Scene& s, RunState&) { s.ply_contacts[0].contact.points[0].node = -1; });
+  refuses("faces", [](Scene& s, RunState&) { s.ply_contacts[0].contact.faces[0] = 1 << 20; });
+  refuses("a range",
+          [](Scene& s, RunState&) { s.ply_contacts[0].contact.points[0].end_face = 1 << 20; });
+  refuses("distances",
+          [](Scene& s, RunState&) { s.ply_contacts[0].contact.face_distance.pop_back(); });
+  refuses("an active one",
+          [](Scene& s, RunState&) { s.ply_contacts[0].contact.list.active.push_back(1 << 20); });
+  refuses("a node at a tool",
+          [](Scene& s, RunState&) { s.tools[0].contacts[0].points[0].node = 1 << 20; });
+  refuses("a facet",
+          [](Scene& s, RunState&) { s.tools[0].contacts[0].points[0].hint.nearest = 1 << 20; });
+  refuses("forces", [](Scene& s, RunState&) { s.tools[0].contacts[0].force.pop_back(); });
+  refuses("an edge",
+          [](Scene& s, RunState&) { s.edge_contacts[0].contact.candidates[0].edge[1] = 1 << 20; });
+  refuses("a patch",
+          [](Scene& s, RunState&) { s.edge_contacts[0].contact.groups[0].patch[0] = -1; });
+  refuses("nodes", [](Scene& s, RunState&) { s.plies[1].x.pop_back(); });
+  refuses("a place", [](Scene& s, RunState&) {
+    s.plies[1].x[3].x() = std::numeric_limits<double>::quiet_NaN();
+  });
+  refuses("viscosity", [](Scene& s, RunState&) { s.plies[0].simd->viscosity.pop_back(); });
+  refuses("a ridge", [](Scene& s, RunState&) { s.plies[0].ridges.sides[0] = 7; });
+  refuses("sums", [](Scene& s, RunState&) { s.group_sums.clear(); });
+  refuses("the step", [](Scene& s, RunState&) { s.step = -1; });
+  refuses("the time", [](Scene& s, RunState&) { s.time *= 2.0; });
+  refuses("a way", [](Scene& s, RunState&) { s.tools[1].body.displacement.z() += 0.1; });
+  refuses("outputs", [](Scene&, RunState& r) { r.outputs_written = 1 << 20; });
+  refuses("the good state", [](Scene& s, RunState& r) { r.good.plies.resize(s.plies.size()); });
 }
 
 } // namespace

@@ -1,0 +1,369 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/checkpoint_checks.hpp"
+
+#include "contact/shapes/mesh_shape.hpp"
+#include "core/model/motion.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace plyform {
+namespace {
+
+void expect(bool fits, const char* what) {
+  if (!fits) throw std::runtime_error(fmt::format("does not fit its scene: {}", what));
+}
+
+constexpr double furthest_place =
+    1e9; // mm, a thousand kilometres: squares of it are finite in floats
+
+bool sound(double x) {
+  return std::isfinite(x);
+}
+bool sound(float x) {
+  return std::isfinite(x);
+}
+bool sound(const Vec3& x) {
+  return x.allFinite();
+}
+bool sound(const std::array<double, 2>& x) {
+  return sound(x[0]) && sound(x[1]);
+}
+bool sound(const ContactRow& row) {
+  return row.stiffness >= 0.0 && sound(row.stiffness) && row.damping >= 0.0 && sound(row.damping);
+}
+bool sound(const ContactHistory& h) {
+  return sound(h.s[0]) && sound(h.s[1]) && sound(h.s[2]) && sound(h.damping_force) &&
+         sound(h.normal_force) && sound(h.slip);
+}
+bool sound(const ForceFilter& f) {
+  return sound(f.once) && sound(f.twice);
+}
+bool sound(const Energies& e) {
+  return std::all_of(energy_terms.begin(), energy_terms.end(),
+                     [&](const EnergyTerm& term) { return sound(e.*term.value); });
+}
+bool sound(const BoundaryState& b) {
+  return sound(b.displacement) && sound(b.next_displacement) && sound(b.load) && sound(b.force) &&
+         sound(b.work);
+}
+bool sound(const SimdViscosity& v) {
+  const auto all = [](const auto& rows) {
+    return std::all_of(std::begin(rows[0]), std::end(rows[0]), [](double x) { return sound(x); }) &&
+           std::all_of(std::begin(rows[1]), std::end(rows[1]), [](double x) { return sound(x); });
+  };
+  return all(v.lambda) && all(v.tension);
+}
+
+/// Numbers of which some may be infinite: path lengths before which nothing can touch.
+bool known(double x) {
+  return !std::isnan(x);
+}
+
+bool within(std::int64_t i, std::size_t count) {
+  return i >= 0 && static_cast<std::uint64_t>(i) < count;
+}
+
+template <class T>
+bool all_sound(const std::vector<T>& values) {
+  return std::all_of(values.begin(), values.end(), [](const T& value) { return sound(value); });
+}
+
+template <class T>
+bool all_known(const std::vector<T>& values) {
+  return std::all_of(values.begin(), values.end(), [](T value) { return known(double{value}); });
+}
+
+bool all_up_to(const std::vector<char>& values, int most) {
+  return std::all_of(values.begin(), values.end(),
+                     [most](char value) { return value >= 0 && value <= most; });
+}
+
+bool near_enough(const std::vector<Vec3>& x) {
+  return std::all_of(x.begin(), x.end(),
+                     [](const Vec3& p) { return p.cwiseAbs().maxCoeff() <= furthest_place; });
+}
+
+void check(const PlyKinematics& p, std::size_t n, std::size_t reactions) {
+  expect(p.x.size() == n && p.velocity.size() == n && p.motion.size() == n &&
+             p.reaction.size() == reactions,
+         "the number of nodes");
+  expect(near_enough(p.x) && near_enough(p.motion), "a node's place"); // false for NaN too
+  expect(all_sound(p.velocity) && all_sound(p.reaction), "a velocity or force");
+}
+
+void check(const Scene& s, const PlyState& ply, const PlyArrays& made) {
+  const std::size_t n = ply.x0.size(), m = ply.membrane.triangles.size();
+  check(ply, n, made.reaction);
+  expect(ply.x_search.size() == n && near_enough(ply.x_search), "places at the last search");
+  expect(ply.max_displacement >= 0.0 && sound(ply.max_displacement) && ply.path_length >= 0.0 &&
+             sound(ply.path_length) && ply.fold_motion >= 0.0 && sound(ply.fold_motion),
+         "a way of a ply");
+  expect(ply.fold_bound.size() == (s.ply_contacts.empty() ? 0 : m) && all_known(ply.fold_bound),
+         "bounds of folds");
+  const bool edges = !s.edge_contacts.empty();
+  expect(ply.ridges.sides.size() == (edges ? ply.edges.all.size() : 0) &&
+             all_up_to(ply.ridges.sides, ridge_both),
+         "ridges");
+  expect(ply.ridges.room.size() == (edges ? ply.edges.patch_edges.size() : 0) &&
+             all_known(ply.ridges.room),
+         "ridges");
+  for (const std::vector<char>& side : ply.occluded)
+    expect((side.empty() || side.size() == n) && all_up_to(side, 1), "occluded nodes");
+  expect(ply.unfolded.size() == (s.data.self_contact() ? n : 0) && all_up_to(ply.unfolded, 1),
+         "unfolded nodes");
+  const EigenvalueBound& b = ply.bound;
+  expect(sound(b.omega2) && b.omega2 >= 0.0 && sound(b.yarns) && sound(b.soft) &&
+             sound(b.damping) && sound(b.viscous) && (b.triangle == -1 || within(b.triangle, m)),
+         "the bound of eigenvalues");
+  expect(ply.eigenvalue_ratio > 0.0 && ply.eigenvalue_ratio <= 1.0 && sound(ply.lanczos_contacts),
+         "the ratio of eigenvalues");
+  expect(ply.mass.size() == n, "the number of masses");
+  for (std::size_t i = 0; i < n; ++i)
+    expect(ply.mass[i] >= ply.membrane.node_mass[i] && sound(ply.mass[i]), "a mass");
+  expect(ply.membrane.last_lambda.size() == made.last_lambda &&
+             ply.membrane.last_viscous.size() == made.last_viscous &&
+             all_sound(ply.membrane.last_lambda) && all_sound(ply.membrane.last_viscous),
+         "viscosity");
+  if (ply.simd)
+    expect(ply.simd->viscosity.size() == made.viscosity && all_sound(ply.simd->viscosity),
+           "viscosity");
+}
+
+void check(const ActiveList& list, std::size_t count) {
+  expect(list.free_until.size() == count && all_known(list.free_until), "the list of contacts");
+  expect(known(list.until) && sound(list.last_path) && sound(list.ahead), "the list of contacts");
+  std::int32_t last = -1;
+  for (const std::int32_t i : list.active) {
+    expect(within(i, count) && i > last, "the list of active contacts");
+    last = i;
+  }
+}
+
+void check(const ContactTotals& sums) {
+  expect(sound(sums.elastic) && sound(sums.friction) && sound(sums.damping) &&
+             sound(sums.penetration) && sound(sums.deepest) && sound(sums.slip) &&
+             sums.touching >= 0 && sums.step_ratio > 0.0,
+         "sums of a contact");
+}
+
+bool fits(const SurfaceHint& hint, std::size_t facets) {
+  const auto facet = [&](std::int32_t f) { return f == -1 || within(f, facets); };
+  return facet(hint.facet) && facet(hint.nearest) && known(hint.at[0]) && known(hint.at[1]) &&
+         known(hint.at[2]) && known(hint.distance) && known(hint.clear) &&
+         known(hint.concavity[0]) && known(hint.concavity[1]);
+}
+
+void check(const ToolState& tool, const ToolPlyContact& c, std::size_t n) {
+  const MeshShapePtr* mesh = std::get_if<MeshShapePtr>(&tool.body.shape);
+  const std::size_t facets = mesh ? (*mesh)->surface().triangles.size() : 0;
+  std::int32_t last = -1;
+  for (const ToolPlyPoint& p : c.points) {
+    expect(within(p.node, n) && p.node > last, "nodes near a tool");
+    last = p.node;
+    expect(sound(p.memory) && known(p.gap) && known(p.last_gap) && sound(p.normal[0]) &&
+               sound(p.normal[1]) && sound(p.normal[2]),
+           "a contact with a tool");
+    expect(fits(p.hint, facets), "a facet of a tool");
+  }
+  check(c.list, c.points.size());
+  expect(c.free.size() == n && all_known(c.free), "nodes far from a tool");
+  expect(c.hints.size() == (mesh ? n : 0), "facets of a tool");
+  for (const SurfaceHint& hint : c.hints)
+    expect(fits(hint, facets), "a facet of a tool");
+  expect(c.force.size() == (c.points.empty() ? 0 : n) && all_sound(c.force), "forces of a tool");
+  check(c.sums);
+  expect(known(c.renew_depth), "the depth of a contact");
+}
+
+/// `before`: the time at which tools were moved last.
+void check(const Scene& s, std::size_t index, double before) {
+  const ToolState& t = s.tools[index];
+  const ToolBody& body = t.body;
+  expect(sound(body.displacement) && body.displacement.cwiseAbs().maxCoeff() <= furthest_place &&
+             sound(body.motion) && sound(body.force) && sound(body.speed),
+         "the motion of a tool");
+  constexpr double rounding = 1e-6; // mm
+  if (!body.force_controlled)
+    expect((body.displacement -
+            motion_at(s.data.tools[index], before, s.data.solver.duration) * body.direction)
+                   .norm() <= rounding,
+           "the way of a tool at its time");
+  expect(sound(t.filter) && sound(t.force) && sound(t.displacement_search) && sound(t.work),
+         "forces of a tool");
+  expect(t.max_displacement >= 0.0 && sound(t.max_displacement) && t.path_length >= 0.0 &&
+             sound(t.path_length) && t.ply_paths.size() == s.plies.size() && all_sound(t.ply_paths),
+         "a way of a tool");
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    check(t, t.contacts[p], s.plies[p].x0.size());
+}
+
+void check(const Scene& s, const PlyContact& pair) {
+  const PlyPlyContact& c = pair.contact;
+  const std::size_t nodes = s.plies[static_cast<std::size_t>(pair.slave)].x0.size();
+  const std::size_t faces =
+      s.plies[static_cast<std::size_t>(pair.master)].membrane.triangles.size();
+  expect(c.face_distance.size() == c.faces.size() && all_known(c.face_distance) &&
+             std::all_of(c.faces.begin(), c.faces.end(),
+                         [faces](std::int32_t f) { return within(f, faces); }),
+         "faces near a node");
+  std::int32_t last = 0;
+  for (const PlyPlyPoint& p : c.points) {
+    expect(within(p.node, nodes) && p.node >= last && within(p.face, faces), "nodes near a face");
+    last = p.node;
+    expect(p.first_face >= 0 && p.first_face < p.end_face &&
+               static_cast<std::size_t>(p.end_face) <= c.faces.size(),
+           "faces near a node");
+    expect(sound(p.memory) && p.area > 0.0 && sound(p.area) && known(p.gap) && sound(p.w[0]) &&
+               sound(p.w[1]) && known(p.other) && known(p.gap_when_deactivated) && p.side >= -1 &&
+               p.side <= 1,
+           "a contact of plies");
+  }
+  check(c.list, c.points.size());
+  check(c.sums);
+  expect(known(c.renew_depth), "the depth of a contact");
+}
+
+void check_groups(const EdgeEdgeContact& c, const SheetEdges& a, const SheetEdges& b) {
+  std::int32_t next = 0;
+  for (const EdgeGroup& g : c.groups) {
+    expect(g.first == next && g.end > g.first &&
+               static_cast<std::size_t>(g.end) <= c.candidates.size() &&
+               within(g.patch[0], a.patch_edges.size()) && within(g.patch[1], b.patch_edges.size()),
+           "patches of edges");
+    expect(sound(g.path_length) && sound(g.ahead) && known(g.free_until), "a way of edges");
+    next = g.end;
+  }
+  expect(static_cast<std::size_t>(next) == c.candidates.size(), "patches of edges");
+}
+
+void check(const Scene& s, const PlyEdgeContact& pair) {
+  const EdgeEdgeContact& c = pair.contact;
+  const PlyState &a = s.plies[static_cast<std::size_t>(pair.a)],
+                 &b = s.plies[static_cast<std::size_t>(pair.b)];
+  for (const EdgeCandidate& e : c.candidates)
+    expect(within(e.edge[0], a.edges.all.size()) && within(e.edge[1], b.edges.all.size()) &&
+               known(e.free_until),
+           "edges near each other");
+  check_groups(c, a.edges, b.edges);
+  std::int32_t last = -1;
+  for (const EdgePair& p : c.pairs) {
+    expect(within(p.candidate, c.candidates.size()) && p.candidate > last, "pairs of edges");
+    last = p.candidate;
+    const auto& [one, other] = c.candidates[static_cast<std::size_t>(p.candidate)].edge;
+    const SheetEdge &of_a = a.edges.all[static_cast<std::size_t>(one)],
+                    &of_b = b.edges.all[static_cast<std::size_t>(other)];
+    expect(p.a.a == of_a.a && p.a.b == of_a.b && p.b.a == of_b.a && p.b.b == of_b.b,
+           "nodes of edges");
+    expect(p.side >= -1 && p.side <= 1 && sound(p.area) && p.area >= 0.0 && sound(p.distance) &&
+               sound(p.s) && sound(p.t),
+           "a contact of edges");
+  }
+  check(c.sums);
+  expect(known(c.renew_depth), "the depth of a contact");
+}
+
+void check(const Scene& s, const PlyPair& pair) {
+  const std::size_t a = s.plies[static_cast<std::size_t>(pair.a)].x0.size(),
+                    b = s.plies[static_cast<std::size_t>(pair.b)].x0.size();
+  bool near = pair.loaded;
+  for (const int i : pair.contacts)
+    near = near || !s.ply_contacts[static_cast<std::size_t>(i)].contact.points.empty();
+  for (const int i : pair.edges)
+    near = near || !s.edge_contacts[static_cast<std::size_t>(i)].contact.groups.empty();
+  const bool none = !near && pair.force_a.empty() && pair.force_b.empty();
+  expect(none || (pair.force_a.size() == a && pair.force_b.size() == b), "forces between plies");
+  expect(all_sound(pair.force_a) && all_sound(pair.force_b), "a force between plies");
+  expect((pair.rows_a.empty() || pair.rows_a.size() == a) &&
+             (pair.rows_b.empty() || pair.rows_b.size() == b) && all_sound(pair.rows_a) &&
+             all_sound(pair.rows_b),
+         "stiffnesses between plies");
+}
+
+void check_progress(const Scene& s) {
+  const SolverOptions& solver = s.data.solver;
+  expect(s.step > 0 && s.searches > 0 && s.searches <= s.step + 1 && s.next_lanczos >= 0,
+         "the number of steps");
+  expect(s.dt > 0.0 && sound(s.dt) && s.next_dt > 0.0 && sound(s.next_dt) && s.stable_dt > 0.0 &&
+             sound(s.stable_dt) && s.min_dt > 0.0 && s.min_dt <= s.max_dt && sound(s.max_dt) &&
+             s.dt >= s.min_dt && s.dt <= s.max_dt,
+         "the time step");
+  const double steps = static_cast<double>(s.step);
+  constexpr double rounding = 1e-6;
+  expect(s.time >= s.dt * (1.0 - rounding) && s.time >= steps * s.min_dt * (1.0 - rounding) &&
+             s.time <= steps * s.max_dt * (1.0 + rounding) &&
+             s.time <= solver.duration * (1.0 + solver.dwell) + 2.0 * s.max_dt,
+         "the time");
+  expect(s.bound_displacement >= 0.0 && sound(s.bound_displacement) && s.time_step_gain >= 1.0 &&
+             sound(s.time_step_gain) && sound(s.start_energy) && sound(s.mass_damping_work) &&
+             sound(s.mass_scaling_work) && s.largest_added_mass >= 0.0 &&
+             sound(s.largest_added_mass),
+         "sums of the run");
+  expect(s.group_sums.size() == s.group_blocks.size() && all_sound(s.group_sums),
+         "sums of the elements");
+  for (const NodeSums& n : s.node_sums)
+    expect(sound(n.damping) && sound(n.moved2) && sound(n.step2), "sums of the nodes");
+}
+
+void check(const Scene& s, const Snapshot& good, const std::vector<PlyArrays>& made) {
+  expect(good.time >= 0.0 && good.time <= s.time && good.step >= 0 && good.step <= s.step &&
+             sound(good.energy) && sound(good.tool_penetration) && sound(good.ply_penetration),
+         "the last good state");
+  if (good.plies.empty() && good.boundaries.empty() && good.tool_displacement.empty() &&
+      good.tool_force.empty() && good.tool_filter.empty())
+    return; // none was kept yet
+  expect(good.plies.size() == s.plies.size() && good.boundaries.size() == s.boundaries.size() &&
+             good.tool_displacement.size() == s.tools.size() &&
+             good.tool_force.size() == s.tools.size() && good.tool_filter.size() == s.tools.size(),
+         "the last good state");
+  for (std::size_t p = 0; p < good.plies.size(); ++p)
+    check(good.plies[p], s.plies[p].x0.size(), made[p].reaction);
+  expect(all_sound(good.boundaries) && all_sound(good.tool_displacement) &&
+             all_sound(good.tool_force) && all_sound(good.tool_filter),
+         "the last good state");
+}
+
+void check(const Scene& s, const RunState& run, const std::vector<PlyArrays>& made) {
+  check(s, run.good, made);
+  const Dwell& dwell = run.dwell;
+  const auto each_tool = [&](const std::vector<double>& values) {
+    return values.empty() || values.size() == s.tools.size();
+  };
+  expect(each_tool(dwell.low) && dwell.low.size() == dwell.high.size() && all_sound(dwell.low) &&
+             all_sound(dwell.high) && sound(dwell.window_end),
+         "the dwell");
+  expect(sound(run.energy) && run.outputs_written >= -1 &&
+             run.outputs_written < s.data.solver.outputs && run.elapsed >= 0.0 &&
+             sound(run.elapsed),
+         "the progress of the run");
+}
+
+} // namespace
+
+std::vector<PlyArrays> arrays_of(const Scene& s) {
+  std::vector<PlyArrays> arrays;
+  for (const PlyState& ply : s.plies)
+    arrays.push_back({ply.reaction.size(), ply.membrane.last_lambda.size(),
+                      ply.membrane.last_viscous.size(), ply.simd ? ply.simd->viscosity.size() : 0});
+  return arrays;
+}
+
+void check_loaded(const Scene& s, const RunState& run, const std::vector<PlyArrays>& made) {
+  check_progress(s);
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    check(s, s.plies[p], made[p]);
+  for (std::size_t t = 0; t < s.tools.size(); ++t)
+    check(s, t, s.time - s.dt);
+  expect(all_sound(s.boundaries), "a boundary");
+  for (const PlyContact& pair : s.ply_contacts)
+    check(s, pair);
+  for (const PlyEdgeContact& pair : s.edge_contacts)
+    check(s, pair);
+  for (const PlyPair& pair : s.ply_pairs)
+    check(s, pair);
+  check(s, run, made);
+}
+
+} // namespace plyform
