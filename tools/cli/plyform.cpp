@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command line: plyform run | check | chart | report | map | pattern | export | difference |
 // identify | theory | keys | version.
+#include "core/base/text.hpp"
 #include "core/base/version.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/standard_streams.hpp"
 
 #include <CLI/CLI.hpp>
 #include <cerrno>
 #include <cstdio>
 #include <exception>
-#include <fcntl.h>
 #include <fmt/format.h>
 #include <functional>
-#include <iostream>
 #ifdef __GLIBC__
 #include <malloc.h>
 #endif
+#include <sstream>
 #include <system_error>
-#include <unistd.h>
 
 using namespace plyform;
 
@@ -142,17 +142,6 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
                       }});
 }
 
-/// Makes descriptors 0 to 2 be there, so that no file of results gets the number of a closed
-/// standard output and with it what is printed.
-void open_standard_descriptors() {
-  for (int fd = STDIN_FILENO; fd <= STDERR_FILENO; ++fd)
-    if (fcntl(fd, F_GETFD) < 0) {
-      // the wrong way round: what is printed there fails, and is told
-      const int opened = open("/dev/null", fd == STDIN_FILENO ? O_WRONLY : O_RDONLY);
-      if (opened > fd) close(opened);
-    }
-}
-
 /// The exit code, once everything that was printed has reached its end; else a message, and no code
 /// of success.
 int with_output_written(int code) {
@@ -160,8 +149,7 @@ int with_output_written(int code) {
   const bool flushed = std::fflush(stdout) == 0;
   const std::string reason =
       errno != 0 ? ": " + std::generic_category().message(errno) : std::string();
-  std::cout.flush();
-  if (flushed && std::ferror(stdout) == 0 && std::cout.good()) return code;
+  if (flushed && std::ferror(stdout) == 0) return code;
   fmt::print(stderr,
              "plyform: error: standard output cannot be written{}; what was printed is not whole\n",
              reason);
@@ -174,7 +162,7 @@ int run_chosen(const std::vector<Command>& commands) {
       if (command.app->parsed()) return command.act();
   } catch (const std::exception& e) {
     // with_output_written tells of standard output, if that was it
-    if (std::ferror(stdout) == 0) fmt::print(stderr, "plyform: error: {}\n", e.what());
+    if (std::ferror(stdout) == 0) fmt::print(stderr, "plyform: error: {}\n", printable(e.what()));
   }
   return exit_other;
 }
@@ -192,7 +180,7 @@ void keep_freed_memory() {
 
 int main(int argc, char** argv) {
   keep_freed_memory();
-  open_standard_descriptors();
+  prepare_standard_streams();
   CLI::App app{"Forms stacks of woven and non-crimp fabric plies between rigid tools."};
   app.require_subcommand(1);
   app.footer(
@@ -204,7 +192,11 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
-    return with_output_written(app.exit(e) == 0 ? exit_done : exit_other);
+    std::ostringstream out, err;
+    const int code = app.exit(e, out, err) == 0 ? exit_done : exit_other;
+    std::fputs(out.str().c_str(), stdout);
+    std::fputs(err.str().c_str(), stderr);
+    return with_output_written(code);
   }
   return with_output_written(run_chosen(commands));
 }

@@ -5,8 +5,8 @@
 #include "core/solver/run.hpp"
 
 #include <chrono>
-#include <cstdio>
 #include <fmt/format.h>
+#include <string>
 #include <unistd.h>
 
 namespace plyform {
@@ -20,19 +20,23 @@ public:
     const double since = std::chrono::duration<double>(now - last_).count();
     if (since < (terminal_ ? 0.2 : 5.0)) return;
     last_ = now;
-    fmt::print(stderr,
-               "{}{:3.0f} %  stroke {:7.2f} mm  step {:8}  {:4.0f} s left  kinetic/shear {:.3f}  "
-               "balance {:+.2e}{}",
-               terminal_ ? "\r" : "", 100.0 * p.fraction, p.stroke_mm, p.step, p.remaining_s,
-               p.kinetic_over_shear, p.balance_error, terminal_ ? "\033[K" : "\n");
-    std::fflush(stderr);
+    draw(fmt::format(
+        "{}{:3.0f} %  stroke {:7.2f} mm  step {:8}  {:4.0f} s left  kinetic/shear {:.3f}  "
+        "balance {:+.2e}{}",
+        terminal_ ? "\r" : "", 100.0 * p.fraction, p.stroke_mm, p.step, p.remaining_s,
+        p.kinetic_over_shear, p.balance_error, terminal_ ? "\033[K" : "\n"));
     drawn_ = terminal_;
   }
   void end() {
-    if (drawn_) fmt::print(stderr, "\n");
+    if (drawn_) draw("\n");
   }
 
 private:
+  /// Past the stream stderr, which keeps such bytes from terminals. What is not taken is dropped.
+  static void draw(const std::string& text) {
+    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
+  }
+
   bool terminal_ = isatty(STDERR_FILENO) != 0;
   bool drawn_ = false;
   std::chrono::steady_clock::time_point last_{};

@@ -2,14 +2,14 @@
 #include "core/accuracy/error_model.hpp"
 #include "core/base/text.hpp"
 #include "core/base/thread_pool.hpp"
+#include "core/base/version.hpp"
 #include "core/input/schema.hpp"
 #include "core/solver/run.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/ending_signals.hpp"
 #include "tools/cli/progress_line.hpp"
 #include "tools/cli/verify_and_correct.hpp"
 
-#include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
@@ -17,12 +17,6 @@
 
 namespace plyform {
 namespace {
-
-std::atomic<bool> interrupted{false};
-
-void on_interrupt(int) {
-  interrupted = true;
-}
 
 /// Output folder results/NAME. NAME is that of the case's folder, or of its file if it is not
 /// case.toml.
@@ -162,6 +156,57 @@ std::optional<Resume> find_checkpoint(ResultWriter& writer, const std::filesyste
   return found;
 }
 
+/// The summary of a run that a signal ended while its results could not be written any more (a
+/// limit of the size of files): of the last state that was.
+void leave_summary(ResultWriter& writer, const PreparedCase& prepared, const Frame& reached,
+                   const std::string& why) {
+  Summary summary;
+  summary.title = prepared.value->title;
+  summary.version = version();
+  summary.status = "interrupted";
+  summary.message =
+      fmt::format("interrupted after step {}, time {:.6g} s of {:.6g} s, by {}: {}", reached.step,
+                  reached.time, prepared.value->solver.duration, ending_signal(), why);
+  summary.steps = reached.step;
+  try {
+    writer.write_summary(reached, summary);
+  } catch (const std::runtime_error&) { // nothing can be written; the caller says so
+  }
+}
+
+/// Runs the case and writes its results.
+RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter& writer,
+                        const std::optional<Resume>& resume) {
+  ProgressLine line;
+  Frame reached = resume ? resume->last : Frame{};
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& frame) {
+    writer.write_frame(frame);
+    reached = frame;
+  };
+  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.interrupt = &interrupted();
+  hooks.checkpoint = {
+      [&](const std::string& state) { writer.write_checkpoint(prepared.identity, state); },
+      prepared.value->solver.checkpoint_interval};
+  hooks.resume = resume ? &*resume : nullptr;
+  try {
+    RunResult result = run_case(*prepared.value, threads, hooks, prepared.meshes);
+    result.summary.accuracy.coarsening = prepared.coarsening;
+    result.summary.assumed.insert(result.summary.assumed.begin(), prepared.notes.begin(),
+                                  prepared.notes.end());
+    if (result.summary.status == "interrupted") result.summary.message += ", by " + ending_signal();
+    line.end();
+    writer.write_final(result.last, result.summary);
+    return result;
+  } catch (const std::runtime_error& error) {
+    line.end();
+    if (!ending_signal().empty() && !reached.plies.empty())
+      leave_summary(writer, prepared, reached, error.what());
+    throw;
+  }
+}
+
 } // namespace
 
 int run_command(const RunArguments& arguments) {
@@ -170,31 +215,16 @@ int run_command(const RunArguments& arguments) {
   const int threads = arguments.threads > 0 ? arguments.threads : available_cores();
   const std::filesystem::path folder = output_folder(arguments);
   ResultWriter writer(folder);
-  for (const int end : {SIGINT, SIGTERM, SIGHUP})
-    std::signal(end, on_interrupt);
+  catch_ending_signals();
   std::optional<Resume> resume;
   if (arguments.resume) {
     resume = find_checkpoint(writer, folder, prepared.identity);
     if (!resume && ended_before(folder)) return exit_done;
   }
-  ProgressLine line;
-  RunHooks hooks;
-  hooks.frame = [&](const Frame& frame) { writer.write_frame(frame); };
-  hooks.progress = [&](const Progress& p) { line.show(p); };
-  hooks.interrupt = &interrupted;
-  hooks.checkpoint = {
-      [&](const std::string& state) { writer.write_checkpoint(prepared.identity, state); },
-      prepared.value->solver.checkpoint_interval};
-  hooks.resume = resume ? &*resume : nullptr;
-  RunResult result = run_case(*prepared.value, threads, hooks, prepared.meshes);
-  result.summary.accuracy.coarsening = prepared.coarsening;
-  result.summary.assumed.insert(result.summary.assumed.begin(), prepared.notes.begin(),
-                                prepared.notes.end());
-  line.end();
-  writer.write_final(result.last, result.summary);
+  RunResult result = run_and_write(prepared, threads, writer, resume);
   if ((arguments.verify || prepared.value->accuracy.verify) && ended(result.summary.status)) {
-    verify_and_correct(prepared, {folder, threads, arguments.input.yes_large, &interrupted}, writer,
-                       result);
+    verify_and_correct(prepared, {folder, threads, arguments.input.yes_large, &interrupted()},
+                       writer, result);
   }
   print_outcome(result, folder);
   const int code = tell_end(result.summary, folder);
