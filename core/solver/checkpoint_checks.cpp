@@ -168,7 +168,8 @@ void check(const ToolState& tool, const ToolPlyContact& c, std::size_t n) {
   }
   check(c.list, c.points.size());
   const bool never = tool.far && c.points.empty(); // it may not have been searched yet
-  expect((c.free.size() == n || (never && c.free.empty())) && all_known(c.free), "nodes far from a tool");
+  expect((c.free.size() == n || (never && c.free.empty())) && all_known(c.free),
+         "nodes far from a tool");
   expect(c.hints.size() == (mesh ? n : 0) || (never && c.hints.empty()), "facets of a tool");
   for (const SurfaceHint& hint : c.hints)
     expect(fits(hint, facets), "a facet of a tool");
