@@ -16,7 +16,7 @@ namespace plyform {
 namespace {
 
 // Relative rounding of lengths: two fillets may together take up a whole side.
-constexpr double rounding = 1e-12;
+constexpr double rounding_of_lengths = 1e-12;
 
 struct Corner {
   Vec2 start, end, centre;
@@ -79,8 +79,8 @@ Corner round_corner(const Chain& chain, std::size_t i) {
   const Vec2 u = (p - point(points, chain.before(i))).normalized();
   const Vec2 v = (point(points, chain.after(i)) - p).normalized();
   const double sine = u.x() * v.y() - u.y() * v.x(), cosine = u.dot(v);
-  if (std::abs(sine) < rounding && cosine > 0.0) return corner; // no corner
-  if (std::abs(sine) < rounding)
+  if (std::abs(sine) < rounding_of_lengths && cosine > 0.0) return corner; // no corner
+  if (std::abs(sine) < rounding_of_lengths)
     throw std::invalid_argument(chain.named(i) +
                                 ": the line turns straight back, no fillet fits there");
   corner.turn = sine > 0.0 ? 1 : -1;
@@ -97,14 +97,14 @@ double length_left(const Chain& chain, const std::vector<Corner>& corners, std::
   const std::size_t next = chain.after(i);
   const double side = (point(points, next) - point(points, i)).norm();
   const double needed = corners[i].setback + corners[next].setback;
-  if (needed > side * (1.0 + rounding)) {
+  if (needed > side * (1.0 + rounding_of_lengths)) {
     const std::size_t at = corners[i].setback > corners[next].setback ? i : next;
     throw std::invalid_argument(fmt::format(
         "{}: its fillet radius {:g} does not fit: the fillets on the side from point {} to "
         "point {} take {:g} mm of its {:g} mm; make the fillet smaller or the side longer",
         chain.named(at), points[at][2], i, next, needed, side));
   }
-  return side - needed > side * rounding ? side - needed : 0.0;
+  return side - needed > side * rounding_of_lengths ? side - needed : 0.0;
 }
 
 } // namespace
