@@ -6,7 +6,8 @@ again with all cost parameters halved, and the error that the two show stands be
     check_bands.py SCENES.toml [-o DIR] [--jobs N] [--program PLYFORM] [--table] [--doc TEXT]
 
 SCENES.toml has tables [[scene]] with name, case (a file, seen from SCENES.toml) and set (a list of
-KEY=VALUE). Halved are element sizes, the speed (twice solver.duration) and solver.fibre_softening.
+KEY=VALUE). Halved are element sizes, the speed (twice solver.duration) and solver.fibre_softening;
+each triangle of a mesh file (OFF) is cut into four.
 With d the difference of the two runs, of shear its root mean square over the ply, the error of the
 first is taken for
 
@@ -71,7 +72,7 @@ class Figure:
     name: str
     unit: str
     value: float
-    band: float
+    band: float | None                    # None: a part of the error was not measured
     error: float
 
     @property
@@ -80,7 +81,7 @@ class Figure:
 
     @property
     def inside(self) -> bool:
-        return self.error <= self.band  # false for NaN
+        return self.band is not None and self.error <= self.band  # false for NaN
 
 
 def read_scenes(file: Path) -> list[Scene]:
@@ -106,8 +107,50 @@ def read_scenes(file: Path) -> list[Scene]:
     return scenes
 
 
-def halved(scene: Scene, program: Path) -> tuple[str, ...]:
-    values, settings = CaseValues(scene.case, scene.settings, program), []
+def cut_into_four(source: Path, target: Path) -> None:
+    """A mesh in OFF with every triangle cut at the middles of its sides."""
+    words = source.read_text(encoding="utf-8").split()
+    if words[0] != "OFF":
+        raise Trouble(f"{source} is no OFF; only such meshes can be halved")
+    nodes, count = int(words[1]), int(words[2])
+    points = [tuple(map(float, words[4 + 3 * i:7 + 3 * i])) for i in range(nodes)]
+    middles: dict[tuple[int, int], int] = {}
+
+    def middle(a: int, b: int) -> int:
+        side = (min(a, b), max(a, b))
+        if side not in middles:
+            middles[side] = len(points)
+            points.append(tuple(0.5 * (p + q) for p, q in zip(points[a], points[b])))
+        return middles[side]
+
+    triangles = []
+    for i in range(count):
+        a, b, c = map(int, words[5 + 3 * nodes + 4 * i:8 + 3 * nodes + 4 * i])
+        ab, bc, ca = middle(a, b), middle(b, c), middle(c, a)
+        triangles += [(a, ab, ca), (b, bc, ab), (c, ca, bc), (ab, bc, ca)]
+    target.parent.mkdir(parents=True, exist_ok=True)
+    lines = ["OFF", f"{len(points)} {len(triangles)} 0",
+             *(" ".join(f"{value:.17g}" for value in point) for point in points),
+             *(f"3 {a} {b} {c}" for a, b, c in triangles)]
+    target.write_text("\n".join(lines) + "\n", encoding="utf-8")
+
+
+def halved_meshes(scene: Scene, folder: Path) -> list[str]:
+    """Settings that put finer meshes, written into the folder, in the place of mesh files."""
+    settings = []
+    blanks = tomllib.loads(scene.case.read_text(encoding="utf-8")).get("blanks", {})
+    for name, blank in blanks.items():
+        if blank.get("mesh") == "file":
+            source = scene.case.parent / blank["file"]
+            fine = folder / f"{source.stem}-halved.off"
+            cut_into_four(source, fine)
+            settings.append(f"blanks.{name}.file='{fine}'")
+    return settings
+
+
+def halved(scene: Scene, program: Path, folder: Path) -> tuple[str, ...]:
+    values = CaseValues(scene.case, scene.settings, program)
+    settings = halved_meshes(scene, folder)
     for pattern, factor in HALVED.items():
         for key in values.keys(pattern):
             least = 1.0 if key.endswith("softening") else 0.0
@@ -127,7 +170,7 @@ def runs_of(scenes: list[Scene], folder: Path, program: Path) -> list[tuple[Run,
             name = "".join(c if c.isalnum() or c in "._" else "_" for c in scene.name)
             return Run(scene, folder / f"{name}-{kind}-{files.of(scene.case, settings, version)}",
                        settings, verify)
-        pairs.append((run("verified", (), True), run("halved", halved(scene, program), False)))
+        pairs.append((run("verified", (), True), run("halved", halved(scene, program, folder), False)))
     return pairs
 
 
@@ -188,21 +231,27 @@ def figures_of(program: Path, first: Run, second: Run) -> list[Figure]:
     try:
         return [Figure(first.scene.name, figure["name"], figure["unit"], figure["value"],
                        figure["band"], apart[figure["name"]] / (1.0 - 2.0**-ORDER))
-                for figure in one["verification"]["figures"] if figure["band"] is not None]
+                for figure in one["verification"]["figures"] if figure["name"] in apart]
     except KeyError as problem:
         raise Trouble(f"{first.folder}: its bands, or the other run, lack {problem}") from problem
 
 
 def ratio(figures: list[Figure]) -> float:
     """Band over error, in the median."""
-    return statistics.median(f.band / f.error if f.error > 0.0 else float("inf") for f in figures)
+    known = [f.band / f.error if f.error > 0.0 else float("inf")
+             for f in figures if f.band is not None]
+    return statistics.median(known) if known else float("nan")
 
 
 def cells(figures: list[Figure]) -> list[str]:
     """Inside of how many, and the median of the band over the error."""
     if not figures:
         return ["–", "–"]
-    return [f"{sum(f.inside for f in figures)} of {len(figures)}", f"{ratio(figures):.1f}"]
+    known = [f for f in figures if f.band is not None]
+    if not known:
+        return [f"– of 0 ({len(figures)} without)", "–"]
+    without = f" ({len(figures) - len(known)} without)" if len(known) < len(figures) else ""
+    return [f"{sum(f.inside for f in known)} of {len(known)}{without}", f"{ratio(known):.1f}"]
 
 
 def markdown(figures: list[Figure]) -> str:
@@ -218,10 +267,14 @@ def markdown(figures: list[Figure]) -> str:
                      *(text for kind in columns
                        for text in cells([f for f in own if f.kind == kind]))])
     asked = [f for f in figures if f.kind in ("angles", "forces")]
+    known = [f for f in asked if f.band is not None]
+    share = 100.0 * sum(f.inside for f in known) / len(known) if known else float("nan")
     lines = [table(head, rows, 1),
-             f"Of angles and forces {100.0 * sum(f.inside for f in asked) / len(asked):.0f} % are "
-             f"inside; the band is {ratio(asked):.1f} times the error in the median."]
-    if outside := [f for f in figures if not f.inside]:
+             f"Of angles and forces {share:.0f} % are "
+             f"inside; the band is {ratio(known):.1f} times the error in the median."]
+    if without := len(asked) - len(known):
+        lines[-1] += f" {without} of {len(asked)} have no band."
+    if outside := [f for f in figures if f.band is not None and not f.inside]:
         lines.append("Outside: " + "; ".join(
             f"{f.scene}, {f.name}: {f.value:.4g} ± {f.band:.2g} {f.unit}, error {f.error:.2g}"
             for f in outside) + ".")
@@ -241,7 +294,8 @@ def write_csv(file: Path, figures: list[Figure]) -> None:
         writer = csv.writer(out)
         writer.writerow(["scene", "figure", "unit", "value", "band", "error", "inside"])
         for f in figures:
-            writer.writerow([f.scene, f.name, f.unit, f.value, f.band, f.error, int(f.inside)])
+            writer.writerow([f.scene, f.name, f.unit, f.value, "" if f.band is None else f.band,
+                             f.error, int(f.inside)])
 
 
 def check(options: argparse.Namespace) -> int:

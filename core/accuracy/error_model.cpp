@@ -92,6 +92,22 @@ bool bears_compression(const Case& data) {
   });
 }
 
+/// Mean element size of a blank, mm: side of a square of two triangles; of a file as it is.
+double element_size_of(const BlankSpec& blank) {
+  if (blank.mesh != MeshKind::file) return blank.element_size;
+  try {
+    const BlankMesh mesh = mesh_blank(blank, 0.0, 0.0);
+    double twice = 0.0; // mm^2, of the area
+    for (const Triangle& t : mesh.triangles) {
+      const Vec2 a = mesh.x[t[1]] - mesh.x[t[0]], b = mesh.x[t[2]] - mesh.x[t[0]];
+      twice += std::abs(a.x() * b.y() - a.y() * b.x());
+    }
+    return std::sqrt(twice / static_cast<double>(mesh.triangles.size()));
+  } catch (const std::runtime_error&) { // told where the case is checked
+    return std::numeric_limits<double>::quiet_NaN();
+  }
+}
+
 Numbers numbers_of(const Case& all) {
   Numbers n;
   const Case data = taking_part(all);
@@ -115,8 +131,8 @@ Numbers numbers_of(const Case& all) {
     n.few_ply_mesh_factor += c_fewer * std::max(many_plies - plies, 0.0);
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[ply.fabric];
-    const double size = data.blanks[ply.blank].element_size;
-    n.mesh = std::max(n.mesh, size / stroke);
+    const double mesh = element_size_of(data.blanks[ply.blank]) / stroke;
+    if (std::isnan(mesh) || mesh > n.mesh) n.mesh = mesh; // NaN stays
     const double w =
         f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.at(half_radian).energy;
     if (!(w > 0.0)) continue; // no shear stiffness: nothing to compare with
@@ -165,8 +181,16 @@ PredictedError predicted_error(const Case& data) {
           mesh_error(n)};
 }
 
-std::string describe_accuracy(const PredictedError& error, double promised, double coarsening) {
-  if (std::isnan(promised)) return "accuracy is not predicted: nothing has a stroke";
+std::string PredictedError::unknown(const Case& data) const {
+  if (!std::isnan(total())) return {};
+  return longest_strokes(data).longest() == 0.0
+             ? "nothing has a stroke"
+             : "the size of the elements of a mesh file is not known";
+}
+
+std::string describe_accuracy(const PredictedError& error, double promised, double coarsening,
+                              const std::string& unknown) {
+  if (std::isnan(promised)) return "accuracy is not predicted: " + unknown;
   constexpr double sense = 45.0; // degrees: as much as parts are sheared
   if (promised > sense)
     return "accuracy is not predicted: inertia, softened fibres or the mesh are far beyond what it "
@@ -178,6 +202,27 @@ std::string describe_accuracy(const PredictedError& error, double promised, doub
       "shear angles to {:.2g} deg rms, as predicted: inertia {:.2g}, softened fibres "
       "{:.2g}, {}",
       promised, error.inertia, error.softening, mesh);
+}
+
+std::string missed_accuracy(const Case& data) {
+  const PredictedError error = predicted_error(data);
+  const double wanted = degrees(data.accuracy.shear_error), promised = error.promised(data);
+  constexpr double rounding = 1.01; // of what is printed with two digits
+  if (!(wanted > 0.0) || !(promised > rounding * wanted)) return {};
+  std::string text =
+      fmt::format("accuracy asked for: shear angles to {:.2g} deg rms are out of reach, {:.2g} deg "
+                  "is what this "
+                  "run can promise: inertia {:.2g}, softened fibres {:.2g}, mesh {:.2g}",
+                  wanted, promised, error.inertia, error.softening, error.mesh);
+  constexpr double share_of_mesh = 0.75; // of the squares, where the mesh costs the most
+  const double left = std::sqrt(share_of_mesh) * wanted;
+  if (error.mesh > left)
+    text +=
+        fmt::format("; elements {:.2g} times as large would keep it, and take some {:.2g} times "
+                    "the time",
+                    std::pow(left / error.mesh, 1.0 / p_mesh),
+                    std::pow(error.mesh / left, 2.7 / p_mesh)); // cost of h^-2.7
+  return text;
 }
 
 double preset_error(const std::string& word) {
@@ -281,7 +326,7 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
     if (by > 1.0 && (keep || !may_coarsen(data, by))) continue;
     // smaller ones only for an error that is out of reach without
     if (by < 1.0 && (keep || best.excess == 0.0 || !may_refine(data, by))) continue;
-    const double mesh = mesh_error(n) * std::pow(by, p_mesh);
+    const double mesh = std::isnan(n.mesh) ? 0.0 : mesh_error(n) * std::pow(by, p_mesh);
     double left2 = wanted * wanted - mesh * mesh;
     const double least2 = 0.25 * wanted * wanted;
     if (left2 < least2 && by > 1.0) continue;

@@ -24,21 +24,29 @@
 
 namespace plyform {
 
-/// The terms of (E) by cause, degrees rms. The mesh term of a mesh from a file, which has no
-/// element size, is 0.
+/// The terms of (E) by cause, degrees rms. Of a mesh from a file the mean size of its elements
+/// counts; the mesh term is NaN if the file cannot be read.
 struct PredictedError {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
   double total() const;
   /// The error promised to the user, degrees: total(), or the requested one if that is larger.
   double promised(const Case& data) const;
+  /// Why promised() is NaN, a clause; else empty.
+  std::string unknown(const Case& data) const;
 };
 
 /// (E) for a case with a stroke (of driven tools or boundaries); NaN without one. With several
 /// fabrics and blanks the largest errors count.
 PredictedError predicted_error(const Case& data);
 
-/// One line for the user; promised: degrees; coarsening: as pick_cost_parameters returned it.
-std::string describe_accuracy(const PredictedError& error, double promised, double coarsening);
+/// One line for the user; promised: degrees, or NaN, and `unknown` says why; coarsening: as
+/// pick_cost_parameters returned it.
+std::string describe_accuracy(const PredictedError& error, double promised, double coarsening,
+                              const std::string& unknown);
+
+/// What to say before a run of a case whose predicted error is more than its accuracy.shear_deg: by
+/// how much, which cause, and what helps; empty if it is kept or none was asked for.
+std::string missed_accuracy(const Case& data);
 
 /// The error (degrees) of a preset of --accuracy; 0 for a word that is not a preset.
 double preset_error(const std::string& word);

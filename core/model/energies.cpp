@@ -23,8 +23,13 @@ double Energies::largest() const {
 }
 
 double Energies::balance_error() const {
-  const double most = largest();
+  const double most = std::max(largest(), floor); // NaN stays
   return most == 0.0 ? 0.0 : residual() / most;
+}
+
+double Energies::kinetic_over_shear() const {
+  const double most = std::max(shear, floor);
+  return most == 0.0 ? 0.0 : kinetic / most;
 }
 
 Energies& Energies::operator+=(const Energies& more) {

@@ -13,10 +13,14 @@ namespace plyform {
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, bending = 0, contact = 0, friction = 0, damping = 0,
          external = 0, mass_scaling = 0;
+  /// Energies below this are rounding errors, and ratios to them mean nothing; no term of the
+  /// balance. Scene::energy_floor.
+  double floor = 0;
   double residual() const; ///< stored and dissipated energy minus external work, N mm
   double largest() const;  ///< magnitude of the largest term; NaN if any is
-  /// residual() over largest(); 0 when all are 0.
+  /// residual() over largest(), or over the floor if that is more; 0 when all are 0.
   double balance_error() const;
+  double kinetic_over_shear() const; ///< likewise; 0 when both are 0
   Energies& operator+=(const Energies& more);
 };
 

@@ -39,11 +39,13 @@ struct WorkReport {
   std::vector<std::string> could_be_left_out, missing; ///< a sentence each
 };
 
-/// Predicted root mean square error of the shear angle (core/accuracy/error_model.hpp), degrees.
+/// Predicted root mean square error of the shear angle (core/accuracy/error_model.hpp), degrees; NaN
+/// where the rule does not hold.
 struct AccuracyReport {
   double inertia_deg = 0, softening_deg = 0, mesh_deg = 0;
   double promised_deg = 0; ///< PredictedError::promised
   double coarsening = 1.0; ///< element sizes over those of the case file
+  std::string unknown;     ///< why nothing is predicted, a clause; else empty
 };
 
 /// Compressed yarns of one ply: shortening in its membrane where real yarns would buckle.
@@ -82,6 +84,7 @@ struct Summary {
   double largest_added_mass = 0; ///< by mass scaling, share of the mass of any ply, at any time
   int threads = 1;
   AccuracyReport accuracy;
+  double motion_share = 0; ///< largest_motion (core/solver/ply_motion.hpp) at the end
   Verification verification;
   ContactReport contact;
   WorkReport work;
@@ -90,6 +93,7 @@ struct Summary {
   /// A sentence each: estimates of values that the case does not give, and values that were limited
   /// (core/model/fabric_estimates.hpp, assumptions).
   std::vector<std::string> assumed;
+  bool flies = false; ///< a ply at the end: core/solver/ply_motion.hpp
 };
 
 /// Whether a run with this status reached its end time.

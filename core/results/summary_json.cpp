@@ -175,22 +175,41 @@ Json energy_object(const Energies& e) {
 }
 
 Json accuracy_object(const AccuracyReport& a) {
-  return {{"promised_shear_error_deg", rounded(a.promised_deg)},
-          {"inertia_deg", rounded(a.inertia_deg)},
-          {"softening_deg", rounded(a.softening_deg)},
-          {"mesh_deg", rounded(a.mesh_deg)},
-          {"element_size_factor", rounded(a.coarsening)}};
+  Json object = {{"promised_shear_error_deg", rounded(a.promised_deg)},
+                 {"inertia_deg", rounded(a.inertia_deg)},
+                 {"softening_deg", rounded(a.softening_deg)},
+                 {"mesh_deg", rounded(a.mesh_deg)},
+                 {"element_size_factor", rounded(a.coarsening)}};
+  if (!a.unknown.empty()) object["unknown"] = a.unknown;
+  return object;
+}
+
+/// null of what was not measured.
+Json part(const ErrorPart& value) {
+  return value ? Json(rounded(*value)) : Json(nullptr);
 }
 
 Json figure_object(const VerifiedFigure& f) {
-  return {{"name", f.name},
-          {"unit", f.unit},
-          {"value", rounded(f.value)},
-          {"band", rounded(f.band)},
-          {"mesh", rounded(f.mesh)},
-          {"inertia", rounded(f.inertia)},
-          {"softening", rounded(f.softening)},
-          {"chance", rounded(f.chance)}};
+  Json object = {{"name", f.name},
+                 {"unit", f.unit},
+                 {"value", rounded(f.value)},
+                 {"band", part(f.band)},
+                 {"mesh", part(f.mesh)},
+                 {"inertia", part(f.inertia)},
+                 {"softening", part(f.softening)},
+                 {"chance", part(f.chance)}};
+  if (const std::vector<std::string> missing = unmeasured(f); !missing.empty())
+    object["unmeasured"] = missing;
+  return object;
+}
+
+Json parting_object(const Parting& p) {
+  return {{"ply", p.ply},
+          {"time_s", rounded(p.time_s)},
+          {"stroke_mm", rounded(p.stroke_mm)},
+          {"at_mm", place(p.at_mm)},
+          {"apart_mm", rounded(p.apart_mm)},
+          {"shear_deg", rounded(p.shear_deg)}};
 }
 
 Json asked_object(const AskedAccuracy& a) {
@@ -215,10 +234,12 @@ Json asked_object(const AskedAccuracy& a) {
 
 Json verification_object(const Verification& v) {
   Json object = {{"cost", rounded(v.cost)},
+                 {"work", rounded(v.work)},
                  {"figures", list_of(v.figures, figure_object)},
                  {"shear_of_all_plies", figure_object(v.shear)}};
   if (v.asked) object["asked"] = asked_object(*v.asked);
   object["left_out"] = v.left_out;
+  object["partings"] = list_of(v.partings, parting_object);
   return object;
 }
 
@@ -266,6 +287,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
               {"tools", tools_list(last.tools, summary.known_forces)},
               {"boundaries", list_of(last.boundaries, boundary_object)},
               {"energy", energy_object(last.energy)},
+              {"kinetic_over_deformation", rounded(summary.motion_share)},
               {"accuracy", accuracy_object(summary.accuracy)},
               {"contact", contact_object(summary.contact)},
               {"searches", summary.work.searches},

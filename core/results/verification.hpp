@@ -2,11 +2,16 @@
 // Figures of a run with the bands that sibling runs gave them (core/verification/verify.hpp).
 #pragma once
 
+#include "contact/geometry.hpp"
+
 #include <optional>
 #include <string>
 #include <vector>
 
 namespace plyform {
+
+/// A part of an error, or nothing: it was not measured, which is not the same as 0.
+using ErrorPart = std::optional<double>;
 
 struct VerifiedFigure {
   std::string name, unit; ///< "shear of ply1", deg
@@ -14,11 +19,31 @@ struct VerifiedFigure {
   /// A force has errors with signs, above 0: it is too large; of others they are magnitudes.
   bool force = false;
   /// The error is thought to be no larger, in 95 of 100 figures. Of shear: root mean square of the
-  /// difference in shear angle over the ply.
-  double band = 0.0;
+  /// difference in shear angle over the ply. Nothing if any part was not measured.
+  ErrorPart band = std::nullopt;
   // What each cause adds to the error, before any factor of safety; `chance` of two equal runs
-  double mesh = 0.0, inertia = 0.0, softening = 0.0, chance = 0.0;
+  ErrorPart mesh = std::nullopt, inertia = std::nullopt, softening = std::nullopt,
+            chance = std::nullopt;
   double jitter = 0.0; ///< N, of a force: core/verification/bands.hpp
+};
+
+/// The causes whose part was not measured, by their names in files.
+inline std::vector<std::string> unmeasured(const VerifiedFigure& figure) {
+  std::vector<std::string> names;
+  if (!figure.mesh) names.emplace_back("mesh");
+  if (!figure.inertia) names.emplace_back("inertia");
+  if (!figure.softening) names.emplace_back("softening");
+  if (!figure.chance) names.emplace_back("chance");
+  return names;
+}
+
+/// Where two runs that differ by nothing to speak of first go different ways.
+struct Parting {
+  std::string ply;
+  double time_s = 0.0, stroke_mm = 0.0;
+  Vec3 at_mm = Vec3::Zero(); ///< of the node that is furthest apart then, formed
+  double apart_mm = 0.0;     ///< then
+  double shear_deg = 0.0;    ///< rms difference in shear of that ply at the end
 };
 
 /// Whether shear angles are as near as the case asked for, and what was done if they are not.
@@ -40,7 +65,9 @@ struct Verification {
   VerifiedFigure shear;                ///< of all plies together
   std::optional<AskedAccuracy> asked;  ///< if the case asks for an accuracy
   double cost = 0.0;                   ///< time of the siblings over that of the run
+  double work = 0.0;                   ///< the same by triangles times steps, whatever else runs
   std::vector<std::string> left_out;   ///< causes without a sibling, and why, a sentence each
+  std::vector<Parting> partings;       ///< where chance is more than all else in a band
 };
 
 } // namespace plyform

@@ -35,7 +35,7 @@ double steps_of(const Case& data, const Ply& ply) {
 
 SizeAhead size_ahead(const Case& data, int threads) {
   // measured on one core with five plies (README) and on 25 000 triangles and more
-  constexpr double seconds_a_triangle = 2e-7, bytes_a_triangle = 3072.0; // at its peak
+  constexpr double seconds_a_triangle = 2e-7;
   SizeAhead size;
   double steps = 0.0, most = 0.0;
   for (const Ply& ply : data.plies) {
@@ -44,9 +44,14 @@ SizeAhead size_ahead(const Case& data, int threads) {
     if (triangles > most) most = triangles, size.largest = ply.blank;
     steps = std::max(steps, steps_of(data, ply));
   }
-  size.bytes = bytes_a_triangle * size.triangles;
+  size.bytes = bytes_for(size.triangles);
   size.seconds = seconds_a_triangle * size.triangles * steps / std::max(threads, 1);
   return size;
+}
+
+double bytes_for(double triangles) {
+  constexpr double a_triangle = 3072.0; // at its peak, measured as seconds_a_triangle
+  return a_triangle * triangles;
 }
 
 double machine_memory() {

@@ -16,6 +16,9 @@ struct SizeAhead {
 /// threads: that share the work.
 SizeAhead size_ahead(const Case& data, int threads);
 
+/// Bytes of memory, about, that a run with so many triangles of all plies takes at its peak.
+double bytes_for(double triangles);
+
 /// Bytes of memory that this machine has.
 double machine_memory();
 

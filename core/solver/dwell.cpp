@@ -24,17 +24,18 @@ void begin_window(Dwell& dwell, const Scene& s) {
   dwell.window_end = s.time + window_share * s.data.solver.duration;
 }
 
-bool is_steady(const Dwell& dwell) {
+/// floor: N, forces that are rounding errors.
+bool is_steady(const Dwell& dwell, double floor) {
   double largest = 0.0, varies = 0.0;
   for (std::size_t t = 0; t < dwell.low.size(); ++t) {
     largest = std::max({largest, std::abs(dwell.low[t]), std::abs(dwell.high[t])});
     varies = std::max(varies, dwell.high[t] - dwell.low[t]);
   }
-  return varies <= steady * largest;
+  return varies <= std::max(steady * largest, floor);
 }
 
 bool is_at_rest(const Energies& e) {
-  return e.kinetic <= at_rest * (e.fibre + e.shear + e.bending);
+  return e.kinetic <= std::max(at_rest * (e.fibre + e.shear + e.bending), e.floor);
 }
 
 } // namespace
@@ -50,7 +51,8 @@ bool dwell_ends(Dwell& dwell, const Scene& s, ThreadPool& pool) {
     dwell.high[t] = std::max(dwell.high[t], force);
   }
   if (s.time < dwell.window_end) return false;
-  dwell.settled = is_steady(dwell) && is_at_rest(current_energies(s, pool));
+  dwell.settled =
+      is_steady(dwell, s.energy_floor / s.element_size) && is_at_rest(current_energies(s, pool));
   begin_window(dwell, s);
   return dwell.settled || s.time >= (1.0 + solver.dwell) * solver.duration;
 }

@@ -77,6 +77,7 @@ Energies current_energies(const Scene& s, ThreadPool& pool) {
   e.damping += s.mass_damping_work;
   e.mass_scaling = s.mass_scaling_work;
   e.external += s.start_energy;
+  e.floor = s.energy_floor;
   return e;
 }
 

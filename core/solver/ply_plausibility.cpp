@@ -4,6 +4,7 @@
 #include "core/base/text.hpp"
 #include "core/model/motion.hpp"
 #include "core/results/statistics.hpp"
+#include "core/solver/ply_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -168,23 +169,6 @@ std::vector<std::string> doubts_of_yarns(const Scene& s, const Frame& last,
   return found;
 }
 
-/// Grippers whose force throws the plies instead of drawing them.
-std::vector<std::string> doubts_of_grippers(const Scene& s, const Frame& last) {
-  constexpr double thrown = 0.1; // of the work of the grippers: some 1e-3 where they draw
-  std::vector<std::string> names;
-  double work = 0.0;
-  for (std::size_t b = 0; b < s.boundaries.size(); ++b) {
-    if (s.data.boundaries[b].force == 0.0) continue;
-    names.push_back(s.data.boundaries[b].name);
-    work += s.boundaries[b].work;
-  }
-  if (names.empty() || !(last.energy.kinetic > thrown * std::abs(work))) return {};
-  return {fmt::format("do not trust the way of {}: at the end {:.2g} % of the work of that pull is "
-                      "motion, so that the force is more than what holds the plies; less force, or "
-                      "a drive (stiffness, stroke) in its place",
-                      joined(names), 100.0 * last.energy.kinetic / std::abs(work))};
-}
-
 } // namespace
 
 namespace {
@@ -308,7 +292,7 @@ std::vector<std::string> doubts(const Scene& s, const Frame& last,
                                 "energy that comes from nowhere "
                                 "or goes nowhere; a smaller solver.step_factor makes it less",
                                 100.0 * error));
-  for (std::string& doubt : doubts_of_grippers(s, last))
+  for (std::string& doubt : doubts_of_motion(s, last))
     found.push_back(std::move(doubt));
   for (const ToolState& tool : s.tools) {
     std::vector<std::string> names;

@@ -9,6 +9,7 @@
 #include "core/solver/checkpoint.hpp"
 #include "core/solver/facet_penetration.hpp"
 #include "core/solver/output_state.hpp"
+#include "core/solver/ply_motion.hpp"
 #include "core/solver/ply_plausibility.hpp"
 #include "core/solver/pressed_stack.hpp"
 #include "core/solver/run_diagnosis.hpp"
@@ -19,6 +20,7 @@
 #include <chrono>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 #include <stdexcept>
 
 namespace plyform {
@@ -140,7 +142,7 @@ Progress progress_of(const Scene& s, const Energies& e, double elapsed) {
   p.step = s.step;
   p.elapsed_s = elapsed;
   p.remaining_s = p.fraction > 0.0 ? elapsed * (1.0 - p.fraction) / p.fraction : 0.0;
-  p.kinetic_over_shear = e.shear > 0.0 ? e.kinetic / e.shear : 0.0;
+  p.kinetic_over_shear = e.kinetic_over_shear();
   p.balance_error = e.balance_error();
   return p;
 }
@@ -163,6 +165,19 @@ std::string unsettled_forces(const Scene& s, const Dwell& dwell) {
                      s.time - s.data.solver.duration);
 }
 
+/// What is predicted, unless the premise of the rule does not hold.
+AccuracyReport accuracy_of(const Case& data, bool flies) {
+  const PredictedError error = predicted_error(data);
+  AccuracyReport accuracy{error.inertia, error.softening, error.mesh, error.promised(data)};
+  accuracy.unknown = error.unknown(data);
+  if (!flies) return accuracy;
+  accuracy.inertia_deg = accuracy.promised_deg = std::numeric_limits<double>::quiet_NaN();
+  if (accuracy.unknown.empty())
+    accuracy.unknown = "plies fly at the end, and the rule of inertia is for plies that follow the "
+                       "tools";
+  return accuracy;
+}
+
 void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool& pool,
             double elapsed) {
   const Snapshot& good = state.good;
@@ -175,8 +190,10 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
   sum.max_step_s = s.max_dt;
   sum.largest_added_mass = s.largest_added_mass;
   sum.threads = pool.size();
-  const PredictedError error = predicted_error(s.data);
-  sum.accuracy = {error.inertia, error.softening, error.mesh, error.promised(s.data)};
+  const LargestMotion motion = largest_motion(s, motion_of_plies(s), result.last.energy.external);
+  sum.motion_share = motion.share;
+  sum.flies = !motion.flying.empty();
+  sum.accuracy = accuracy_of(s.data, !motion.flying.empty());
   sum.contact = audit(s, good, pool);
   const std::vector<ToolCut> cuts = cuts_between_nodes(s, pool);
   sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);
@@ -239,6 +256,7 @@ private:
       check_last(hooks_.resume->last);
       result_.last = hooks_.resume->last;
       result_.last.energy = state_.good.energy;
+      next_mark_ = 1 + static_cast<int>(s_.time / s_.data.solver.duration * hooks_.marks.count);
       return;
     }
     start(s_, pool_);
@@ -274,16 +292,34 @@ private:
     const RunHooks::Checkpoint& checkpoint = hooks_.checkpoint;
     if (!checkpoint.save || s_.step == 0) return;
     if (!interrupted && seconds_since(saved_) < checkpoint.interval) return;
-    RunState now = state_;
-    now.elapsed = elapsed();
-    checkpoint.save(save_state(s_, now));
+    RunState state = now();
+    checkpoint.save(save_state(s_, state));
     saved_ = Clock::now();
+  }
+
+  RunState now() const {
+    RunState state = state_;
+    state.elapsed = elapsed();
+    return state;
+  }
+
+  /// Between two steps; of a run that goes on, the marks that are left.
+  void tell_marks() {
+    const RunHooks::Marks& marks = hooks_.marks;
+    if (!marks.reached || marks.count == 0) return;
+    const double share = s_.time / s_.data.solver.duration * marks.count;
+    for (; next_mark_ <= marks.count && share >= next_mark_ * (1.0 - 1e-12); ++next_mark_)
+      marks.reached(next_mark_, s_, [this] {
+        RunState state = now();
+        return save_state(s_, state);
+      });
   }
 
   std::optional<Stop> steps() {
     for (;;) {
       const bool interrupted = hooks_.interrupt && hooks_.interrupt->load();
       save_if_due(interrupted);
+      tell_marks();
       if (auto stop = compute_forces(s_, pool_)) return stop;
       const bool ended = dwell_ends(state_.dwell, s_, pool_), last = interrupted || ended;
       const bool output = last || outputs_due(s_) > state_.outputs_written;
@@ -318,6 +354,7 @@ private:
   const RunHooks& hooks_;
   Clock::time_point begin_ = Clock::now(), saved_ = begin_;
   double floor_ = 0.0; ///< of the check of the energy balance
+  int next_mark_ = 1;
   std::vector<TriMesh> tool_surfaces_;
   RunState state_;
   RunResult result_;

@@ -31,10 +31,18 @@ struct RunHooks {
     std::function<void(const std::string& state)> save;
     double interval = 60.0; ///< s
   };
+  /// reached(number, scene, state) at the first step at or after each number / count of the
+  /// duration, 1 to count; state() gives the bytes of Checkpoint::save.
+  struct Marks {
+    int count = 0;
+    std::function<void(int number, const Scene& scene, const std::function<std::string()>& state)>
+        reached;
+  };
   std::function<void(const Frame&)> frame;       ///< each output state, the first and last included
   std::function<void(const Progress&)> progress; ///< several times a second at most
   const std::atomic<bool>* interrupt = nullptr;  ///< set it to end the run early
   Checkpoint checkpoint;
+  Marks marks;
   const Resume* resume = nullptr; ///< null: from the start
 };
 

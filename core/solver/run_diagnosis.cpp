@@ -91,14 +91,14 @@ std::vector<std::string> too_much(const Scene& s, const Energies& e, const WorkR
   const bool bending = std::any_of(s.plies.begin(), s.plies.end(),
                                    [](const PlyState& ply) { return ply.bending.has_value(); });
   const double deformation = e.shear + e.fibre;
-  if (bending && e.bending < small_bending * deformation)
+  if (bending && deformation > e.floor && e.bending < small_bending * deformation)
     found.push_back(fmt::format("bending: {:.2g} % of the deformation energy; without the fabric's "
                                 "bending keys only the size of wrinkles would change",
                                 100.0 * e.bending / deformation));
   std::vector<std::string> idle;
   for (const PairReport& pair : w.pairs)
     if (pair.a != pair.b && pair.touched() && pair.friction_coefficient > 0.0 &&
-        pair.friction_mJ < small_friction * std::abs(e.external))
+        std::abs(e.external) > e.floor && pair.friction_mJ < small_friction * std::abs(e.external))
       idle.push_back(named(pair));
   if (!idle.empty())
     found.push_back(fmt::format("friction of {}: less than {:g} of the work done each",
@@ -154,10 +154,10 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
       found.push_back(fmt::format("{} with {}: {:.3f} mm deep at some time, of {:.3g} mm that "
                                   "contact has; a finer mesh spreads the pressure over more nodes",
                                   names.first, names.second, depth.first, depth.second));
-  if (e.shear > 0.0 && e.kinetic > high_inertia * e.shear)
+  if (const double share = e.kinetic_over_shear(); share > high_inertia)
     found.push_back(fmt::format("inertia: kinetic energy is {:.2g} of the shear energy at the end; "
                                 "a longer solver.duration makes it less",
-                                e.kinetic / e.shear));
+                                share));
   const auto [strain, ply] = longest_yarn(last);
   if (const double by = largest_softening(s, ply); by > 1.0 && strain > long_strain)
     found.push_back(fmt::format("tensile stiffness: yarns of {} are {:.2g} % longer, softened by "

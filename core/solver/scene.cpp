@@ -288,6 +288,24 @@ std::vector<PlyState> make_plies(const Case& data, const std::vector<BlankMesh>&
 
 } // namespace
 
+namespace {
+
+double energy_floor_of(const std::vector<PlyState>& plies) {
+  constexpr double strain = 1e-7; // a millionth of what forms cloth, a billion roundings
+  double floor = 0.0;
+  for (const PlyState& ply : plies) {
+    const Membrane& m = ply.membrane;
+    double stiffness = m.fabric.warp_density * m.yarn[0].largest_slope() +
+                       m.fabric.weft_density * m.yarn[1].largest_slope(); // N/mm
+    if (m.fabric.sheet) stiffness = std::get<IsotropicLaw>(*m.fabric.sheet).modulus;
+    for (const double area : m.node_area)
+      floor += 0.5 * stiffness * strain * strain * area;
+  }
+  return floor;
+}
+
+} // namespace
+
 Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int threads) {
   Scene s;
   s.data = data;
@@ -296,6 +314,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
   set_lengths(s);
+  s.energy_floor = energy_floor_of(s.plies);
   const int n = static_cast<int>(s.plies.size());
   for (int a = 0; a < n; ++a)
     for (int b = 0; b < n; ++b)

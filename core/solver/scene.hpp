@@ -180,6 +180,8 @@ struct SceneModel {
   /// mm: gap up to which open contacts count in the stable time step, which is computed again when
   /// anything has moved by half of it (core/solver/contact_rows.hpp)
   double bound_margin = 0.0;
+  /// N mm, of all plies with every yarn strained by 1e-7: what is less is rounding errors
+  double energy_floor = 0.0;
 };
 
 /// Plies, tools, boundaries and the contacts between them.

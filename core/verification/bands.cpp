@@ -3,6 +3,7 @@
 
 #include "core/results/field_difference.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -11,55 +12,97 @@ namespace {
 
 /// Error over difference, by cause.
 struct Factors {
-  double mesh = 0.0, inertia = 0.0, inertia_of_forces = 0.0, softening = 0.0;
+  double mesh = 0.0, inertia = 0.0, softening = 0.0;
 };
 
-Factors factors_of(const Siblings& made) {
+Factors factors_of(const Siblings& made, double order_of_speed) {
   Factors f;
-  if (made.coarsening > 1.0) f.mesh = 1.0 / (std::pow(made.coarsening, order_of_mesh) - 1.0);
-  f.inertia = 1.0 / (std::pow(made.speed, order_of_inertia) - 1.0);
-  f.inertia_of_forces = 1.0 / (std::pow(made.speed, order_of_inertia_of_forces) - 1.0);
-  f.softening = 1.0 / (std::pow(2.0, order_of_softening) - 1.0);
+  const double b = std::pow(made.coarsening, order_of_mesh);
+  if (b != 1.0) f.mesh = b > 1.0 ? 1.0 / (b - 1.0) : 1.0 / (1.0 - b);
+  f.inertia = 1.0 / (std::pow(made.speed, order_of_speed) - 1.0);
+  f.softening = std::abs(made.softening);
   return f;
 }
 
-/// The runs that a cause compares: both null if one of them is missing.
+/// Two runs, the second with the larger error: both null if one of them is missing.
 struct Compared {
   const RunEnd *one = nullptr, *other = nullptr;
   explicit operator bool() const { return one && other; }
 };
 
-Compared compared(Cause cause, const RunEnd& run, const std::map<Cause, RunEnd>& siblings) {
+Compared compared(Cause cause, const RunEnd& run, const Ends& siblings, const Siblings& made) {
   const auto end = [&](Cause of) {
     const auto found = siblings.find(of);
     return found == siblings.end() ? nullptr : &found->second;
   };
+  const bool coarser = made.coarsening > 1.0; // then `faster` has the mesh of `coarser`
   switch (cause) {
   case Cause::mesh:
-    return {&run, end(Cause::mesh)};
-  case Cause::inertia: // `faster` has the mesh of `coarser`, or the run's if there is none
-    return {end(Cause::mesh) ? end(Cause::mesh) : &run, end(Cause::inertia)};
+    return coarser ? Compared{&run, end(Cause::mesh)}
+                   : Compared{end(Cause::mesh), end(Cause::inertia)};
+  case Cause::inertia:
+    return {coarser ? end(Cause::mesh) : &run, end(Cause::inertia)};
   case Cause::softening:
+    return made.softening < 0.0 ? Compared{end(cause), end(Cause::inertia)}
+                                : Compared{end(Cause::inertia), end(cause)};
   case Cause::chance:
     return {end(Cause::inertia), end(cause)};
+  case Cause::late_chance:
+  case Cause::later_chance:
+    return {&run, end(cause)};
   }
   return {};
 }
 
-/// Sets the parts of a figure from difference(one, other); the second run has the larger error.
+/// Whether speed has taken more than half of a force that counts from one run to the other.
+bool lost_force(const RunEnd& one, const RunEnd& other) {
+  constexpr double counts = 0.05, half = 0.5; // of the largest force, of its own
+  double largest = 0.0;
+  for (const ToolFrame& tool : one.last.tools)
+    largest = std::max(largest, std::abs(tool.force_N));
+  for (std::size_t t = 0; t < one.last.tools.size(); ++t) {
+    const double force = one.last.tools[t].force_N;
+    if (std::abs(force) > counts * largest &&
+        std::abs(force - other.last.tools[t].force_N) > half * std::abs(force))
+      return true;
+  }
+  return false;
+}
+
+double order_of_speed(const Compared& inertia, bool force) {
+  const double order = force ? order_of_inertia_of_forces : order_of_inertia;
+  if (!inertia) return order;
+  const bool off = inertia.one->flies || inertia.other->flies ||
+                   (force && lost_force(*inertia.one, *inertia.other));
+  return off ? order_outside_premise : order;
+}
+
+/// Sets the parts of a figure from difference(one, other).
 template <class Difference>
-void estimate(VerifiedFigure& figure, const RunEnd& run, const std::map<Cause, RunEnd>& siblings,
-              const Factors& factors, const Difference& difference) {
-  const auto of = [&](Cause cause, double factor) {
-    const Compared c = compared(cause, run, siblings);
-    if (!c) return 0.0;
+void estimate(VerifiedFigure& figure, const RunEnd& run, const Ends& siblings, const Siblings& made,
+              const Difference& difference) {
+  const Factors factors =
+      factors_of(made, order_of_speed(compared(Cause::inertia, run, siblings, made), figure.force));
+  const auto of = [&](Cause cause, double factor) -> ErrorPart {
+    const Compared c = compared(cause, run, siblings, made);
+    if (!c) return std::nullopt;
     const double d = factor * difference(*c.one, *c.other);
     return figure.force ? -d : std::abs(d);
   };
+  figure.chance.reset();
   figure.mesh = of(Cause::mesh, factors.mesh);
-  figure.inertia = of(Cause::inertia, figure.force ? factors.inertia_of_forces : factors.inertia);
+  figure.inertia = of(Cause::inertia, factors.inertia);
+  for (const Cause twin : {Cause::chance, Cause::late_chance, Cause::later_chance})
+    if (const ErrorPart apart = of(twin, 1.0))
+      figure.chance = std::max(figure.chance.value_or(0.0), std::abs(*apart));
   figure.softening = of(Cause::softening, factors.softening);
-  figure.chance = std::abs(of(Cause::chance, 1.0));
+  if (made.softening == 0.0) figure.softening = 0.0; // nothing is softened
+  if (made.softening < 0.0 && figure.softening && figure.chance) {
+    // it doubles what two runs differ by anyway
+    const double all = std::abs(*figure.softening), by_chance = factors.softening * *figure.chance;
+    figure.softening = std::copysign(std::sqrt(std::max(all * all - by_chance * by_chance, 0.0)),
+                                     *figure.softening);
+  }
 }
 
 constexpr std::array parts{&VerifiedFigure::mesh, &VerifiedFigure::inertia,
@@ -67,20 +110,21 @@ constexpr std::array parts{&VerifiedFigure::mesh, &VerifiedFigure::inertia,
 
 /// Replaces each part by its root mean square over figures of one kind.
 void pool(std::vector<VerifiedFigure>& figures) {
-  for (double VerifiedFigure::*part : parts) {
+  for (ErrorPart VerifiedFigure::*part : parts) {
     double sum2 = 0.0;
     for (const VerifiedFigure& f : figures)
-      sum2 += f.*part * f.*part;
+      sum2 += (f.*part).value_or(0.0) * (f.*part).value_or(0.0);
     for (VerifiedFigure& f : figures)
-      f.*part = std::sqrt(sum2 / static_cast<double>(figures.size()));
+      if (f.*part) f.*part = std::sqrt(sum2 / static_cast<double>(figures.size()));
   }
 }
 
 /// Replaces the size of each part by the root mean square of it and of that of the other estimate.
 void pool(VerifiedFigure& figure, const VerifiedFigure& other) {
-  for (double VerifiedFigure::*part : parts)
-    figure.*part =
-        std::copysign(std::sqrt(0.5) * std::hypot(figure.*part, other.*part), figure.*part);
+  for (ErrorPart VerifiedFigure::*part : parts)
+    if (figure.*part && other.*part)
+      figure.*part = std::copysign(std::sqrt(0.5) * std::hypot(*(figure.*part), *(other.*part)),
+                                   *(figure.*part));
 }
 
 double rms_shear(const Frame& frame) {
@@ -97,19 +141,17 @@ double rms_shear(const Frame& frame) {
 
 /// The figure of the shear of these plies; pick: their frame, from one of all.
 template <class Pick>
-VerifiedFigure figure_of_shear(const std::string& of, const RunEnd& run,
-                               const std::map<Cause, RunEnd>& siblings, const Siblings& made,
-                               const PredictedError& predicted, const Pick& pick) {
+VerifiedFigure figure_of_shear(const std::string& of, const RunEnd& run, const Ends& siblings,
+                               const Siblings& made, const PredictedError& predicted,
+                               const Pick& pick) {
   VerifiedFigure field;
   field.name = "shear of " + of, field.unit = "deg";
   field.value = rms_shear(pick(run.last));
-  estimate(field, run, siblings, factors_of(made), [&](const RunEnd& a, const RunEnd& b) {
+  estimate(field, run, siblings, made, [&](const RunEnd& a, const RunEnd& b) {
     return shear_error(pick(a.last), pick(b.last)).rms;
   });
-  if (!siblings.contains(Cause::mesh)) field.mesh = predicted.mesh;
-  if (!siblings.contains(Cause::softening) &&
-      predicted.softening > 0.0) // NaN: nothing has a stroke
-    field.softening = predicted.softening;
+  if (!field.mesh && predicted.mesh > 0.0) field.mesh = predicted.mesh; // false for NaN
+  if (!field.softening && predicted.softening > 0.0) field.softening = predicted.softening;
   set_band(field);
   return field;
 }
@@ -117,11 +159,13 @@ VerifiedFigure figure_of_shear(const std::string& of, const RunEnd& run,
 } // namespace
 
 void set_band(VerifiedFigure& f) {
-  const double squares = std::sqrt(f.mesh * f.mesh + f.inertia * f.inertia +
-                                   f.softening * f.softening + f.chance * f.chance);
-  const double sum = std::abs(f.mesh + f.inertia + f.softening);
+  f.band.reset();
+  if (!unmeasured(f).empty()) return;
+  const double squares = std::sqrt(*f.mesh * *f.mesh + *f.inertia * *f.inertia +
+                                   *f.softening * *f.softening + *f.chance * *f.chance);
+  const double sum = std::abs(*f.mesh + *f.inertia + *f.softening);
   f.band = std::max({safety * (f.force ? std::max(squares, sum) : squares),
-                     safety_of_jitter * f.jitter, safety_of_chance * f.chance});
+                     safety_of_jitter * f.jitter, safety_of_chance * *f.chance});
 }
 
 double force_jitter(const Case& data, const Frame& last) {
@@ -150,17 +194,15 @@ std::vector<double> forces_by_balance(const Case& data, const Frame& last) {
   return forces;
 }
 
-VerifiedFigure verified_shear(const RunEnd& run, const std::map<Cause, RunEnd>& siblings,
-                              const Siblings& made, const PredictedError& predicted) {
+VerifiedFigure verified_shear(const RunEnd& run, const Ends& siblings, const Siblings& made,
+                              const PredictedError& predicted) {
   return figure_of_shear("all plies", run, siblings, made, predicted,
                          [](const Frame& frame) -> const Frame& { return frame; });
 }
 
-std::vector<VerifiedFigure> verified_figures(const RunEnd& run,
-                                             const std::map<Cause, RunEnd>& siblings,
+std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& siblings,
                                              const Siblings& made,
                                              const PredictedError& predicted) {
-  const Factors factors = factors_of(made);
   std::vector<VerifiedFigure> shear, draw_in, pressed, all;
   for (std::size_t p = 0; p < run.last.plies.size(); ++p) {
     const std::string& name = run.last.plies[p].name;
@@ -170,7 +212,7 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run,
       VerifiedFigure& f = draw_in.emplace_back();
       f.name = "draw-in of " + name, f.unit = "mm";
       f.value = run.plies[p].draw_in.mean();
-      estimate(f, run, siblings, factors, [p](const RunEnd& a, const RunEnd& b) {
+      estimate(f, run, siblings, made, [p](const RunEnd& a, const RunEnd& b) {
         return a.plies[p].draw_in.mean() - b.plies[p].draw_in.mean();
       });
     }
@@ -181,7 +223,7 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run,
       VerifiedFigure& f = pressed.emplace_back();
       f.name = "largest compression of " + name, f.unit = "%";
       f.value = largest(run);
-      estimate(f, run, siblings, factors,
+      estimate(f, run, siblings, made,
                [&](const RunEnd& a, const RunEnd& b) { return largest(a) - largest(b); });
     }
   }
@@ -191,12 +233,12 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run,
     f.name = "force of " + run.last.tools[t].name, f.unit = "N", f.force = true;
     f.jitter = run.jitter_N;
     f.value = run.last.tools[t].force_N;
-    estimate(f, run, siblings, factors, [t](const RunEnd& a, const RunEnd& b) {
+    estimate(f, run, siblings, made, [t](const RunEnd& a, const RunEnd& b) {
       return a.last.tools[t].force_N - b.last.tools[t].force_N;
     });
     if (run.balance_N.empty()) continue;
     VerifiedFigure by_balance = f;
-    estimate(by_balance, run, siblings, factors,
+    estimate(by_balance, run, siblings, made,
              [t](const RunEnd& a, const RunEnd& b) { return a.balance_N[t] - b.balance_N[t]; });
     pool(f, by_balance);
   }

@@ -5,8 +5,12 @@
 //   b, q   factors of element size and speed between siblings;  d  difference of two runs
 //   mesh       d / (b^p - 1), p = 1.6
 //   inertia    d / (q^r - 1), r = 2 for shear and lengths, 3 for forces
-//   softening  d: proportional, twice the softening; without a sibling what is predicted for shear
-//   chance     d
+//   softening  d: proportional, twice the softening; d / (1 - 1/2) of half of it, without chance
+//   chance     d, the largest of all twins
+// with r = 1 where either of the two flies (core/solver/ply_motion.hpp) or has lost more than half
+// of a force: such errors follow no power of the speed. b < 1, of a finer mesh: d / (1 - b^p). A
+// part without a sibling is not measured, and a figure without all parts has no band; of shear what
+// is predicted for mesh and softening may stand in, and the verification says so.
 //   of shear and lengths  e = sqrt(mesh^2 + inertia^2 + softening^2 + chance^2)
 //   of a force            e = max(that, |mesh + inertia + softening|), which have signs
 //   band = max(k e, c), k = 1.65, c = 2 chance, of forces at least 3 times the jitter
@@ -34,6 +38,7 @@ namespace plyform {
 // Errors go with these powers of element size, speed and softening.
 constexpr double order_of_mesh = 1.6; // core/accuracy/error_model.hpp
 constexpr double order_of_inertia = 2.0, order_of_inertia_of_forces = 3.0;
+constexpr double order_outside_premise = 1.0;
 constexpr double order_of_softening = 1.0;
 constexpr double safety = 1.65, safety_of_chance = 2.0, safety_of_jitter = 3.0;
 
@@ -45,7 +50,10 @@ struct RunEnd {
   /// N, the force of each tool by the balance of all, its own if it is pushed; empty if boundaries
   /// carry as well.
   std::vector<double> balance_N = {};
+  bool flies = false; ///< a ply, at the end
 };
+
+using Ends = std::map<Cause, RunEnd>;
 
 /// RunEnd::balance_N of a run of `data` that ended like this.
 std::vector<double> forces_by_balance(const Case& data, const Frame& last);
@@ -54,17 +62,16 @@ std::vector<double> forces_by_balance(const Case& data, const Frame& last);
 double force_jitter(const Case& data, const Frame& last);
 
 /// The figures of a run: shear, draw-in and largest compression of each ply, force of each tool.
-/// siblings: those that ended, by their cause; a cause without one adds nothing, mesh what was
-/// predicted for the shear.
-std::vector<VerifiedFigure> verified_figures(const RunEnd& run,
-                                             const std::map<Cause, RunEnd>& siblings,
+/// siblings: those that ended, by their cause; predicted: of the run, NaN where the rule does not
+/// hold.
+std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& siblings,
                                              const Siblings& made, const PredictedError& predicted);
 
 /// The shear of all plies together, as a figure; likewise.
-VerifiedFigure verified_shear(const RunEnd& run, const std::map<Cause, RunEnd>& siblings,
-                              const Siblings& made, const PredictedError& predicted);
+VerifiedFigure verified_shear(const RunEnd& run, const Ends& siblings, const Siblings& made,
+                              const PredictedError& predicted);
 
-/// Sets the band from the parts.
+/// Sets the band from the parts, or none if any is missing.
 void set_band(VerifiedFigure& figure);
 
 } // namespace plyform

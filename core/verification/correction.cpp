@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace plyform {
 namespace {
@@ -54,9 +55,11 @@ std::string list_of_fixed(const std::array<bool, causes>& stays) {
 }
 
 void scale(VerifiedFigure& f, const AskedAccuracy& asked) {
-  f.mesh *= std::pow(asked.element_size, order_of_mesh);
-  f.inertia *= std::pow(asked.duration, f.force ? -order_of_inertia_of_forces : -order_of_inertia);
-  f.softening *= std::pow(asked.softening, order_of_softening);
+  if (f.mesh) *f.mesh *= std::pow(asked.element_size, order_of_mesh);
+  if (f.inertia)
+    *f.inertia *=
+        std::pow(asked.duration, f.force ? -order_of_inertia_of_forces : -order_of_inertia);
+  if (f.softening) *f.softening *= std::pow(asked.softening, order_of_softening);
 }
 
 } // namespace
@@ -67,12 +70,17 @@ CorrectedCase corrected_case(const Case& data, const Verification& verification,
   AskedAccuracy& asked = corrected.asked;
   const VerifiedFigure& shear = verification.shear;
   asked.wanted_deg = data.accuracy.shear_error * 180.0 / M_PI;
-  asked.measured_deg = asked.expected_deg = shear.band;
+  asked.measured_deg = asked.expected_deg =
+      shear.band.value_or(std::numeric_limits<double>::quiet_NaN());
   if (asked.kept()) return corrected;
+  if (!shear.band) {
+    asked.why_not = "the shear has no band, as a part of its error was not measured";
+    return corrected;
+  }
   const double allowed = asked.wanted_deg / safety;
   const double left2 =
-      std::max(allowed * allowed - shear.chance * shear.chance, least_share * allowed * allowed);
-  const std::array<double, causes> errors = {shear.mesh, shear.inertia, shear.softening};
+      std::max(allowed * allowed - *shear.chance * *shear.chance, least_share * allowed * allowed);
+  const std::array<double, causes> errors = {*shear.mesh, *shear.inertia, *shear.softening};
   std::array<bool, causes> stays = {fixed.element_size || !may_refine(data, smallest_elements),
                                     fixed.duration,
                                     fixed.softening || data.solver.fibre_softening <= 1.0};
@@ -85,7 +93,7 @@ CorrectedCase corrected_case(const Case& data, const Verification& verification,
   VerifiedFigure after = shear;
   scale(after, asked);
   set_band(after);
-  asked.expected_deg = after.band;
+  asked.expected_deg = *after.band;
   for (BlankSpec& blank : corrected.data.blanks)
     blank.element_size *= asked.element_size;
   corrected.data.solver.duration *= asked.duration;

@@ -5,6 +5,7 @@
 
 #include "core/results/verification.hpp"
 #include "core/solver/run.hpp"
+#include "core/verification/trace.hpp"
 
 #include <atomic>
 #include <functional>
@@ -19,10 +20,12 @@ struct VerifyHooks {
   const std::atomic<bool>* interrupt = nullptr; ///< set it to end early
 };
 
-/// The bands of a run of `data` that went to its end. A sibling that stops, or ends at another
-/// stroke, is left out, which the verification says. Nothing if it was interrupted. threads >= 1.
-/// Throws std::runtime_error as run_case.
-std::optional<Verification> verify(const Case& data, const RunResult& run, int threads,
-                                   const VerifyHooks& hooks);
+/// The bands of a run of `data` that went to its end; trace: what watch() kept of it, with states;
+/// without them there are no late twins. A sibling that stops is left out, which the verification
+/// says. Nothing if it was interrupted. threads >= 1. meshes: of the run's plies, or empty. Throws
+/// std::runtime_error as run_case.
+std::optional<Verification> verify(const Case& data, const RunResult& run, const Trace& trace,
+                                   int threads, const VerifyHooks& hooks,
+                                   const std::vector<BlankMesh>& meshes = {});
 
 } // namespace plyform

@@ -45,7 +45,8 @@ else:
     if "--verify" in words:
         told["verification"] = {"figures": [
             {"name": "shear of lower", "unit": "deg", "value": 30.0, "band": 4.0},
-            {"name": "force of punch", "unit": "N", "value": force, "band": 9.0}]}
+            {"name": "force of punch", "unit": "N", "value": force, "band": 9.0},
+            {"name": "draw-in of lower", "unit": "mm", "value": 3.0, "band": None}]}
     folder = Path(words[words.index("-o") + 1])
     folder.mkdir(parents=True, exist_ok=True)
     (folder / "summary.json").write_text(json.dumps(told))
@@ -100,10 +101,11 @@ def main() -> None:
         # of the known order: the extrapolation finds the whole error, 10 N
         assert abs(float(rows["force of punch"]["error"]) - 10.0) < 1e-9, rows
         assert rows["force of punch"]["inside"] == "0", rows
+        assert rows["draw-in of lower"]["band"] == "", rows  # not measured
         filled = text.read_text(encoding="utf-8")
         assert filled.startswith("before\n") and filled.endswith("after\n"), filled
         assert "old" not in filled and "Outside: as it is, force of punch" in filled, filled
-        assert "50 % are inside" in filled, filled
+        assert "50 % are inside" in filled and "(1 without)" in filled, filled
 
         assert call(folder).returncode == 0 and len(runs(folder)) == 2  # nothing anew
         (folder / "scenes.toml").write_text(
@@ -113,6 +115,18 @@ def main() -> None:
         assert done.returncode == 1 and "rough-halved" in done.stderr, done
         assert "made-up trouble" in done.stderr and "as it is" in done.stdout, done
         assert len(runs(folder)) == 4, runs(folder)  # the new scene's alone
+
+        # a mesh from a file: each triangle in four
+        (folder / "flat.off").write_text("OFF\n4 2 0\n0 0 0\n2 0 0\n2 2 0\n0 2 0\n"
+                                         "3 0 1 2\n3 0 2 3\n", encoding="utf-8")
+        (folder / "meshed.toml").write_text('[blanks.a]\nmesh = "file"\nfile = "flat.off"\n'
+                                            "[solver]\nduration = 0.1\n", encoding="utf-8")
+        (folder / "scenes.toml").write_text(SCENES.replace("case.toml", "meshed.toml"),
+                                            encoding="utf-8")
+        assert call(folder).returncode == 0
+        fine = (folder / "out/flat-halved.off").read_text(encoding="utf-8").split()
+        assert fine[:3] == ["OFF", "9", "8"] and len(fine) == 4 + 3 * 9 + 4 * 8, fine
+        assert "flat-halved.off" in runs(folder)[-1] and "flat-halved" not in runs(folder)[-2]
 
         for wrong, said in ((SCENES + SCENES, "there is another"), ("", "has no [[scene]]"),
                             (SCENES.replace("case.toml", "none.toml"), "none.toml is missing"),

@@ -102,7 +102,7 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   for (const auto& boundary : r.last.boundaries)
     print_force(boundary, KnownForce{});
   fmt::print("  energy balance error {:.2e}, kinetic over shear energy {:.2e}\n", e.balance_error(),
-             e.shear > 0.0 ? e.kinetic / e.shear : 0.0);
+             e.kinetic_over_shear());
   if (r.summary.largest_added_mass > 0.0)
     fmt::print("  mass scaling: {:.2g} % of a ply's mass added at most\n",
                100.0 * r.summary.largest_added_mass);
@@ -113,7 +113,7 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
              c.intersections_within_plies);
   const AccuracyReport& a = r.summary.accuracy;
   fmt::print("  {}\n", describe_accuracy({a.inertia_deg, a.softening_deg, a.mesh_deg},
-                                         a.promised_deg, a.coarsening));
+                                         a.promised_deg, a.coarsening, a.unknown));
   print_verification(r.summary.verification);
   for (const std::string& line : r.summary.assumed)
     fmt::print("  assumed: {}\n", line);
@@ -176,7 +176,7 @@ void leave_summary(ResultWriter& writer, const PreparedCase& prepared, const Fra
 
 /// Runs the case and writes its results.
 RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter& writer,
-                        const std::optional<Resume>& resume) {
+                        const std::optional<Resume>& resume, Trace* trace) {
   ProgressLine line;
   Frame reached = resume ? resume->last : Frame{};
   RunHooks hooks;
@@ -190,6 +190,7 @@ RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter&
       [&](const std::string& state) { writer.write_checkpoint(prepared.identity, state); },
       prepared.value->solver.checkpoint_interval};
   hooks.resume = resume ? &*resume : nullptr;
+  if (trace) watch(hooks, *trace, true);
   try {
     RunResult result = run_case(*prepared.value, threads, hooks, prepared.meshes);
     result.summary.accuracy.coarsening = prepared.coarsening;
@@ -221,11 +222,12 @@ int run_command(const RunArguments& arguments) {
     resume = find_checkpoint(writer, folder, prepared.identity);
     if (!resume && ended_before(folder)) return exit_done;
   }
-  RunResult result = run_and_write(prepared, threads, writer, resume);
-  if ((arguments.verify || prepared.value->accuracy.verify) && ended(result.summary.status)) {
-    verify_and_correct(prepared, {folder, threads, arguments.input.yes_large, &interrupted()},
-                       writer, result);
-  }
+  const bool verified = arguments.verify || prepared.value->accuracy.verify;
+  VerifyOptions options{folder, threads, arguments.input.yes_large, &interrupted()};
+  RunResult result =
+      run_and_write(prepared, threads, writer, resume, verified ? &options.trace : nullptr);
+  if (verified && ended(result.summary.status))
+    verify_and_correct(prepared, options, writer, result);
   print_outcome(result, folder);
   const int code = tell_end(result.summary, folder);
   if (arguments.report && !report_of_run(folder.string()) && code == exit_done) return exit_other;

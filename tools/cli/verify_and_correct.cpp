@@ -13,10 +13,23 @@
 namespace plyform {
 namespace {
 
+std::string part_text(const ErrorPart& part) {
+  return part ? fmt::format("{:.2g}", *part) : std::string("not measured");
+}
+
 void print_figure(const VerifiedFigure& f) {
-  fmt::print("    {:32} {:8.4g} {:3} +- {:.2g}: mesh {:.2g}, inertia {:.2g}, softened fibres "
-             "{:.2g}, chance {:.2g}\n",
-             f.name, f.value, f.unit, f.band, f.mesh, f.inertia, f.softening, f.chance);
+  fmt::print("    {:32} {:8.4g} {:3} {}: mesh {}, inertia {}, softened fibres {}, chance {}\n",
+             f.name, f.value, f.unit,
+             f.band ? fmt::format("+- {:.2g}", *f.band) : std::string("has no band"),
+             part_text(f.mesh), part_text(f.inertia), part_text(f.softening), part_text(f.chance));
+}
+
+void print_parting(const Parting& p) {
+  fmt::print(
+      "    twins, which differ by nothing to speak of, go different ways from {:.3g} s on, at "
+      "{:.4g} mm of stroke: first ply {} at ({:.4g}, {:.4g}, {:.4g}) mm, {:.2g} mm apart; "
+      "its shear ends {:.2g} deg apart, rms\n",
+      p.time_s, p.stroke_mm, p.ply, p.at_mm.x(), p.at_mm.y(), p.at_mm.z(), p.apart_mm, p.shear_deg);
 }
 
 /// The cost parameters of the second run, over those of the first.
@@ -98,7 +111,8 @@ void verify_and_correct(const PreparedCase& prepared, const VerifyOptions& optio
   };
   hooks.progress = [&](const Progress& p) { line.show(p); };
   hooks.interrupt = options.interrupt;
-  const std::optional<Verification> verification = verify(data, result, options.threads, hooks);
+  const std::optional<Verification> verification =
+      verify(data, result, options.trace, options.threads, hooks, prepared.meshes);
   line.end();
   if (!verification) {
     fmt::print(stderr, "plyform: interrupted: the results are complete, without bands\n");
@@ -130,6 +144,8 @@ void print_verification(const Verification& v) {
   for (const VerifiedFigure& f : v.figures)
     print_figure(f);
   if (v.asked) print_asked(*v.asked);
+  for (const Parting& parting : v.partings)
+    print_parting(parting);
   for (const std::string& what : v.left_out)
     fmt::print("    left out: {}\n", what);
 }

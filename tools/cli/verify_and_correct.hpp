@@ -6,6 +6,7 @@
 #include "core/results/result_writer.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "core/solver/run.hpp"
+#include "core/verification/trace.hpp"
 
 #include <atomic>
 #include <filesystem>
@@ -17,6 +18,7 @@ struct VerifyOptions {
   int threads = 1;
   bool any_size = false; ///< of the second run
   const std::atomic<bool>* interrupt = nullptr;
+  Trace trace{}; ///< of the run, with states
 };
 
 /// Verifies a run that has ended and writes its summary again, with the bands. If shear angles are

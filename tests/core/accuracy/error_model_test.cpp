@@ -187,7 +187,8 @@ TEST(Accuracy, StaysWhereTheRuleWasMeasured) {
   pick_cost_parameters(lying);
   EXPECT_EQ(lying.solver.duration, duration);
   EXPECT_TRUE(std::isnan(predicted_error(lying).promised(lying)));
-  EXPECT_EQ(describe_accuracy(predicted_error(lying), predicted_error(lying).promised(lying), 1.0),
+  EXPECT_EQ(describe_accuracy(predicted_error(lying), predicted_error(lying).promised(lying), 1.0,
+                              predicted_error(lying).unknown(lying)),
             "accuracy is not predicted: nothing has a stroke");
 }
 
@@ -199,6 +200,27 @@ TEST(Accuracy, AMeshTooCoarseLeavesHalfToTheOtherDials) {
   ASSERT_GT(error.mesh, 1.0);
   EXPECT_NEAR(std::hypot(error.inertia, error.softening), 0.5, 0.001);
   EXPECT_EQ(error.promised(data), error.total());
+}
+
+TEST(Accuracy, OutOfReachIsSaidBefore) {
+  Case data = case_at(five);
+  data.accuracy.shear_error = 0.3 * std::numbers::pi / 180.0;
+  pick_cost_parameters(data);
+  const std::string said = missed_accuracy(data);
+  EXPECT_NE(said.find("0.3 deg rms are out of reach"), std::string::npos) << said;
+  EXPECT_NE(said.find("times as large would keep it"), std::string::npos) << said;
+  data.accuracy.shear_error = 3.0 * std::numbers::pi / 180.0;
+  pick_cost_parameters(data);
+  EXPECT_EQ(missed_accuracy(data), "");
+}
+
+TEST(Accuracy, AMeshFromAFileHasAnErrorToo) {
+  const Case data = case_at(PLYFORM_CASES "/verify/slipping_corner.toml"); // elements of 6.5 mm
+  EXPECT_GT(predicted_error(data).mesh, 1.0);
+  Case none = data;
+  none.blanks[0].file = "none.off";
+  EXPECT_TRUE(std::isnan(predicted_error(none).promised(none)));
+  EXPECT_NE(predicted_error(none).unknown(none), "");
 }
 
 TEST(Accuracy, CasesMayAskForIt) {

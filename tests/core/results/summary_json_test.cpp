@@ -52,7 +52,8 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
                   2e-6,
                   0.004,
                   4,
-                  {0.25, 0.5, 0.75, 1.5},
+                  {0.25, 0.5, 0.75, 1.5, 1.0, {}},
+                  0.0625,
                   {},
                   {0.01, 0.02, 0.05, 3, 4},
                   {},
@@ -87,6 +88,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
     {"name": "upper grip", "force_N": 20, "displacement_mm": 1.5}
   ],
   "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "external": 0, "mass_scaling": 0, "balance_error": 0},
+  "kinetic_over_deformation": 0.0625,
   "accuracy": {"promised_shear_error_deg": 1.5, "inertia_deg": 0.25, "softening_deg": 0.5, "mesh_deg": 0.75, "element_size_factor": 1},
   "contact": {"max_tool_penetration_mm": 0.01, "max_tool_penetration_between_nodes_mm": 0.05, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4},
   "searches": 12,
@@ -100,6 +102,20 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   ],
   "missing": []
 })")); // rms: sqrt((99 * 10^2 + 1 * 20^2) / 100) = sqrt(103)
+}
+
+TEST(SummaryJson, PartsThatWereNotMeasuredAreNull) {
+  Summary summary;
+  VerifiedFigure figure;
+  figure.name = "force of punch", figure.unit = "N", figure.value = 10.8, figure.inertia = 0.5;
+  summary.verification.figures = {figure};
+  summary.verification.partings = {{"p", 0.05, 28.8, {1, 2, 3}, 0.7, 1.8}};
+  const Json json = read_back(unequal(10, -20), summary).at("verification");
+  EXPECT_EQ(json.at("figures").at(0), Json::parse(R"({"name": "force of punch", "unit": "N",
+    "value": 10.8, "band": null, "mesh": null, "inertia": 0.5, "softening": null, "chance": null,
+    "unmeasured": ["mesh", "softening", "chance"]})"));
+  EXPECT_EQ(json.at("partings"), Json::parse(R"([{"ply": "p", "time_s": 0.05, "stroke_mm": 28.8,
+    "at_mm": [1, 2, 3], "apart_mm": 0.7, "shear_deg": 1.8}])"));
 }
 
 TEST(SummaryJson, HasTheKeysOfAPlysReport) {

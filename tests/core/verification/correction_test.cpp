@@ -41,6 +41,10 @@ TEST(Correction, LeavesARunThatKeepsWhatWasAskedFor) {
   Verification v;
   v.shear = unknown;
   EXPECT_FALSE(corrected_case(*prepared.value, v, {}).asked.kept());
+  v.shear.mesh.reset(), set_band(v.shear); // not measured: nothing to correct by
+  const CorrectedCase none = corrected_case(*prepared.value, v, {});
+  EXPECT_FALSE(none.asked.kept() || none.changed());
+  EXPECT_NE(none.asked.why_not.find("no band"), std::string::npos);
 }
 
 TEST(Correction, IsTheLeastWorkThatKeepsWhatWasAskedFor) {
@@ -118,8 +122,11 @@ double error_of(const RunResult& run, Case data) {
 TEST(Correction, BringsARunThatHasMissedNearer) {
   const PreparedCase prepared = small_hemisphere(1.6, {{"solver.duration", "0.02"}});
   Case data = *prepared.value;
-  const RunResult first = run_case(data, 1, {});
-  const auto verification = verify(data, first, 1, {});
+  Trace trace;
+  RunHooks hooks;
+  watch(hooks, trace, true);
+  const RunResult first = run_case(data, 1, hooks);
+  const auto verification = verify(data, first, trace, 1, {});
   ASSERT_TRUE(verification);
   const CorrectedCase corrected = corrected_case(data, *verification, {});
   ASSERT_FALSE(corrected.asked.kept());
@@ -132,12 +139,13 @@ TEST(Correction, BringsARunThatHasMissedNearer) {
   const Verification now =
       after_correction(*verification, corrected.asked, {first.last, first.summary.plies},
                        {second.last, second.summary.plies});
-  EXPECT_NEAR(now.shear.band, corrected.asked.expected_deg, 1e-12);
+  EXPECT_NEAR(now.shear.band.value(), corrected.asked.expected_deg, 1e-12);
   EXPECT_GT(now.asked->moved_deg, 0.0);
   ASSERT_EQ(now.figures.size(), verification->figures.size());
   for (std::size_t i = 0; i < now.figures.size(); ++i) {
     EXPECT_EQ(now.figures[i].name, verification->figures[i].name);
-    EXPECT_LE(std::abs(now.figures[i].mesh), std::abs(verification->figures[i].mesh));
+    EXPECT_LE(std::abs(now.figures[i].mesh.value()),
+              std::abs(verification->figures[i].mesh.value()));
   }
   EXPECT_EQ(now.figures.back().value, second.last.tools.back().force_N);
 }
