@@ -168,8 +168,8 @@ std::string unsettled_forces(const Scene& s, const Dwell& dwell) {
 /// What is predicted, unless the premise of the rule does not hold.
 AccuracyReport accuracy_of(const Case& data, bool flies) {
   const PredictedError error = predicted_error(data);
-  AccuracyReport accuracy{error.inertia, error.softening, error.mesh, error.promised(data)};
-  accuracy.unknown = error.unknown(data);
+  AccuracyReport accuracy{error.inertia, error.softening,    error.mesh, error.promised(data),
+                          1.0,           error.unknown(data)};
   if (!flies) return accuracy;
   accuracy.inertia_deg = accuracy.promised_deg = std::numeric_limits<double>::quiet_NaN();
   if (accuracy.unknown.empty())

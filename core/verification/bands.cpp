@@ -15,10 +15,13 @@ struct Factors {
   double mesh = 0.0, inertia = 0.0, softening = 0.0;
 };
 
-Factors factors_of(const Siblings& made, double order_of_speed) {
+/// field: of a root mean square over a ply, not of a number.
+Factors factors_of(const Siblings& made, double order_of_speed, bool field) {
   Factors f;
   const double b = std::pow(made.coarsening, order_of_mesh);
-  if (b != 1.0) f.mesh = b > 1.0 ? 1.0 / (b - 1.0) : 1.0 / (1.0 - b);
+  if (b > 1.0) f.mesh = 1.0 / (b - 1.0);
+  if (b < 1.0) f.mesh = 1.0 / (1.0 - b);
+  if (b < 1.0 && field) f.mesh = std::sqrt(f.mesh / std::hypot(1.0, b));
   f.inertia = 1.0 / (std::pow(made.speed, order_of_speed) - 1.0);
   f.softening = std::abs(made.softening);
   return f;
@@ -81,8 +84,9 @@ double order_of_speed(const Compared& inertia, bool force) {
 template <class Difference>
 void estimate(VerifiedFigure& figure, const RunEnd& run, const Ends& siblings, const Siblings& made,
               const Difference& difference) {
-  const Factors factors =
-      factors_of(made, order_of_speed(compared(Cause::inertia, run, siblings, made), figure.force));
+  const bool field = figure.unit == "deg";
+  const Factors factors = factors_of(
+      made, order_of_speed(compared(Cause::inertia, run, siblings, made), figure.force), field);
   const auto of = [&](Cause cause, double factor) -> ErrorPart {
     const Compared c = compared(cause, run, siblings, made);
     if (!c) return std::nullopt;
@@ -92,6 +96,7 @@ void estimate(VerifiedFigure& figure, const RunEnd& run, const Ends& siblings, c
   figure.chance.reset();
   figure.mesh = of(Cause::mesh, factors.mesh);
   figure.inertia = of(Cause::inertia, factors.inertia);
+  if (run.flies && !field) figure.inertia.reset(); // two that have lost a force may agree
   for (const Cause twin : {Cause::chance, Cause::late_chance, Cause::later_chance})
     if (const ErrorPart apart = of(twin, 1.0))
       figure.chance = std::max(figure.chance.value_or(0.0), std::abs(*apart));

@@ -8,7 +8,10 @@
 //   softening  d: proportional, twice the softening; d / (1 - 1/2) of half of it, without chance
 //   chance     d, the largest of all twins
 // with r = 1 where either of the two flies (core/solver/ply_motion.hpp) or has lost more than half
-// of a force: such errors follow no power of the speed. b < 1, of a finer mesh: d / (1 - b^p). A
+// of a force: such errors follow no power of the speed. b < 1, of a finer mesh: d / (1 - b^p), if
+// both err alike; fields of shear do so in part, and take the geometric mean of that and of
+// d / sqrt(1 + b^2p), if the errors are independent (two stacks differed by as much at a factor of
+// 1.3 as at 2). A
 // part without a sibling is not measured, and a figure without all parts has no band; of shear what
 // is predicted for mesh and softening may stand in, and the verification says so.
 //   of shear and lengths  e = sqrt(mesh^2 + inertia^2 + softening^2 + chance^2)
@@ -61,9 +64,9 @@ std::vector<double> forces_by_balance(const Case& data, const Frame& last);
 /// Of the pushed tools of a run of `data`, the largest.
 double force_jitter(const Case& data, const Frame& last);
 
-/// The figures of a run: shear, draw-in and largest compression of each ply, force of each tool.
-/// siblings: those that ended, by their cause; predicted: of the run, NaN where the rule does not
-/// hold.
+/// The figures of a run; of one that flies only shear has a band: shear, draw-in and largest
+/// compression of each ply, force of each tool. siblings: those that ended, by their cause;
+/// predicted: of the run, NaN where the rule does not hold.
 std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& siblings,
                                              const Siblings& made, const PredictedError& predicted);
 

@@ -54,11 +54,13 @@ std::string list_of_fixed(const std::array<bool, causes>& stays) {
   return text;
 }
 
-void scale(VerifiedFigure& f, const AskedAccuracy& asked) {
+/// flew: the run that the parts are of.
+void scale(VerifiedFigure& f, const AskedAccuracy& asked, bool flew = false) {
   if (f.mesh) *f.mesh *= std::pow(asked.element_size, order_of_mesh);
-  if (f.inertia)
-    *f.inertia *=
-        std::pow(asked.duration, f.force ? -order_of_inertia_of_forces : -order_of_inertia);
+  const double power = flew      ? order_outside_premise
+                       : f.force ? order_of_inertia_of_forces
+                                 : order_of_inertia;
+  if (f.inertia) *f.inertia *= std::pow(asked.duration, -power);
   if (f.softening) *f.softening *= std::pow(asked.softening, order_of_softening);
 }
 
@@ -114,10 +116,10 @@ Verification after_correction(const Verification& first, const AskedAccuracy& as
     const auto same = std::find_if(now.begin(), now.end(),
                                    [&](const VerifiedFigure& n) { return n.name == f.name; });
     if (same != now.end()) f.value = same->value, f.jitter = same->jitter;
-    scale(f, asked);
+    scale(f, asked, first_run.flies);
     set_band(f);
   }
-  scale(all.shear, asked);
+  scale(all.shear, asked, first_run.flies);
   set_band(all.shear);
   all.shear.value = verified_shear(second, {}, {}, {}).value;
   all.asked->moved_deg = shear_error(first_run.last, second.last).rms;

@@ -85,7 +85,8 @@ void run_again(const PreparedCase& prepared, const VerifyOptions& options,
     said.corrected = true;
     said.first_run = (options.folder / "first_run").string();
     summary.verification =
-        after_correction(result.summary.verification, said, {result.last, result.summary.plies},
+        after_correction(result.summary.verification, said,
+                         {result.last, result.summary.plies, 0.0, {}, result.summary.flies},
                          {second.last, summary.plies});
     writer.write_final(second.last, summary);
     replace_run(options.folder, second_folder, said.first_run);

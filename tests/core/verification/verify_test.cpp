@@ -272,7 +272,9 @@ TEST(Bands, TakeTheMeshFromAFinerSibling) {
                       {Cause::late_chance, at(1.0, 1.0)}};
   for (const VerifiedFigure& f : verified_figures(at(1.0, 1.0), siblings, made, {}))
     if (f.unit != "mm") {
-      EXPECT_NEAR(f.mesh.value(), a, 1e-9) << f.name;
+      const double r = std::pow(0.7, 1.6); // of fields half alike: bands.hpp
+      const double alike = f.force ? 1.0 : std::sqrt((1.0 - r) / std::hypot(1.0, r));
+      EXPECT_NEAR(f.mesh.value(), alike * a, 1e-9) << f.name;
       EXPECT_NEAR(f.inertia.value(), b, 1e-9) << f.name;
       EXPECT_EQ(f.softening.value(), 0.0) << f.name;
       EXPECT_TRUE(f.band) << f.name;
@@ -291,7 +293,10 @@ TEST(Bands, TakeNoOrderOfTheSpeedWherePliesFlyOrAForceIsLost) {
   EXPECT_NEAR(inertia_of(end_with(1, 36.0, 20.0, 30.0), "force of punch"), 70.0, 1e-9); // lost
   run.flies = true;
   EXPECT_NEAR(inertia_of(end_with(1, 36.0, 20.0, 93.0), "shear of ply1"), 6.0, 1e-9);
-  EXPECT_NEAR(inertia_of(end_with(1, 36.0, 20.0, 93.0), "force of punch"), 7.0, 1e-9);
+  // of the run itself all may be lost already: it and a faster one agree, and both are wrong
+  const Ends fast{{Cause::inertia, end_with(1, 36.0, 20.0, 99.0)}};
+  EXPECT_FALSE(named(verified_figures(run, fast, made, {}), "force of punch").inertia);
+  EXPECT_FALSE(named(verified_figures(run, fast, made, {}), "draw-in of ply1").inertia);
 }
 
 TEST(Verify, RunsTheSiblingsAndEndsWhenInterrupted) {
