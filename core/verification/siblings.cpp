@@ -18,7 +18,7 @@ namespace {
 
 constexpr double fewest_in_layer = 1.8;   // elements
 constexpr double finer_by = 1.0 / 1.3;    // b where the mesh cannot be coarser
-constexpr double most_cost = 1.45;        // of the run, all siblings; measured 0.9 to 1.05 of it
+constexpr double most_cost = 1.2;         // of the run's work: 1.2 times as much of its time
 constexpr double work_of_elements = -2.7; // exponent of the element size, core/accuracy
 
 using Meshes = std::vector<BlankMesh>;
@@ -181,7 +181,7 @@ void add_finer(Siblings& siblings, const Case& data, const Meshes& own,
   }
   if (fine) siblings.coarsening = std::sqrt(before / after);
   const double of_mesh = fine ? std::pow(siblings.coarsening, work_of_elements) : 0.0;
-  const double left = most_cost - (1.0 - first_late);
+  const double left = most_cost - (1.0 - second_late);
   siblings.speed = std::max(2.0, (1.0 + of_mesh + softening_sibling(data).cost) / left);
   OtherMesh base{data, own};
   base.data.solver.outputs = 1;

@@ -21,7 +21,7 @@
 //
 // Where twice the softening does nothing, as yarns bear compression, half of what acts in its
 // place. With b = 1.4 and q = 2 they cost 0.40, 0.20, 0.14 (0.28), 0.20, 0.45 and 0.2 of the run;
-// in the second set q is such that all cost 1.45.
+// in the second set q is such that all cost 1.2.
 #pragma once
 
 #include "core/mesh/mesh_blank.hpp"
