@@ -38,6 +38,8 @@ double processor_seconds(clockid_t clock) {
 /// to wait. Where another program wants the processor it is gone for milliseconds each time.
 constexpr double spinning = 1e-4;
 
+} // namespace
+
 /// The processor time of one thread. Alone in its cache lines, as the thread counts in it.
 class alignas(128) ThreadTime {
 public:
@@ -76,8 +78,6 @@ private:
   clockid_t clock_ = CLOCK_THREAD_CPUTIME_ID;
   double used_ = 0.0, waited_before_ = 0.0; ///< at the last call of `computed`
 };
-
-} // namespace
 
 // One round: the calling thread opens it, works too, closes it when no task is left, and waits for
 // the helper threads that have entered: one that has lost its processor, or sleeps, holds nobody

@@ -39,8 +39,8 @@ struct WorkReport {
   std::vector<std::string> could_be_left_out, missing; ///< a sentence each
 };
 
-/// Predicted root mean square error of the shear angle (core/accuracy/error_model.hpp), degrees; NaN
-/// where the rule does not hold.
+/// Predicted root mean square error of the shear angle (core/accuracy/error_model.hpp), degrees;
+/// NaN where the rule does not hold.
 struct AccuracyReport {
   double inertia_deg = 0, softening_deg = 0, mesh_deg = 0;
   double promised_deg = 0; ///< PredictedError::promised

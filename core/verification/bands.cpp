@@ -205,6 +205,21 @@ VerifiedFigure verified_shear(const RunEnd& run, const Ends& siblings, const Sib
                          [](const Frame& frame) -> const Frame& { return frame; });
 }
 
+namespace {
+
+/// Takes the bands from forces that are contact's stiffness, not the cloth's: what siblings agree
+/// on there is no error of it.
+void leave_out_unknown(std::vector<VerifiedFigure>& forces, const RunEnd& run) {
+  for (std::size_t t = 0; t < std::min(forces.size(), run.known_forces.size()); ++t)
+    if (!run.known_forces[t].to_end()) {
+      for (ErrorPart VerifiedFigure::*part : parts)
+        (forces[t].*part).reset();
+      forces[t].band.reset();
+    }
+}
+
+} // namespace
+
 std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& siblings,
                                              const Siblings& made,
                                              const PredictedError& predicted) {
@@ -252,6 +267,7 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& sibl
   for (std::vector<VerifiedFigure>* kind : {&draw_in, &pressed, &force})
     for (VerifiedFigure& f : *kind)
       set_band(f);
+  leave_out_unknown(force, run);
   for (const std::vector<VerifiedFigure>* kind : {&shear, &draw_in, &pressed, &force})
     all.insert(all.end(), kind->begin(), kind->end());
   return all;

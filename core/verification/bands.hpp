@@ -53,7 +53,8 @@ struct RunEnd {
   /// N, the force of each tool by the balance of all, its own if it is pushed; empty if boundaries
   /// carry as well.
   std::vector<double> balance_N = {};
-  bool flies = false; ///< a ply, at the end
+  bool flies = false;                        ///< a ply, at the end
+  std::vector<KnownForce> known_forces = {}; ///< as in Summary
 };
 
 using Ends = std::map<Cause, RunEnd>;

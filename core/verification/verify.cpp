@@ -20,8 +20,12 @@ namespace {
 constexpr double most_work = 1.25;
 
 RunEnd end_of(const Case& data, const RunResult& run) {
-  return {run.last, run.summary.plies, force_jitter(data, run.last),
-          forces_by_balance(data, run.last), run.summary.flies};
+  return {run.last,
+          run.summary.plies,
+          force_jitter(data, run.last),
+          forces_by_balance(data, run.last),
+          run.summary.flies,
+          run.summary.known_forces};
 }
 
 /// Work of a run: triangles times steps.

@@ -174,7 +174,7 @@ void leave_summary(ResultWriter& writer, const PreparedCase& prepared, const Fra
   }
 }
 
-/// Runs the case and writes its results.
+/// Runs the case and writes its results; `trace`, unless null, gets what `verify` asks of the run.
 RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter& writer,
                         const std::optional<Resume>& resume, Trace* trace) {
   ProgressLine line;

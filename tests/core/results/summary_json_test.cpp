@@ -41,7 +41,7 @@ Frame unequal(double most, double rest) {
   return frame;
 }
 
-TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
+Summary made_up_summary() {
   Summary summary{"a title",
                   "1.2.3",
                   "done",
@@ -61,6 +61,11 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
                   {}};
   summary.work = {0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7}}, {"bending: small"},
                   {}};
+  return summary;
+}
+
+TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
+  const Summary summary = made_up_summary();
   Frame frame = unequal(10, -20);
   frame.boundaries = {{"upper grip", 1.5, 20, {20, 3, 4}}};
   const Json json = read_back(frame, summary);
