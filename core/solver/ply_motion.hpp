@@ -23,7 +23,7 @@ namespace plyform {
 
 /// K / W. Hemispheres of one ply and two, a box, a dome without a holder, in ever shorter times:
 /// with 0.03 to 0.05 at the end the punch has lost 0.8 to 0.99 of its force, with 0.06 a fifth in
-/// the dome; in drafts of the shipped cases it is 0.03 at most (docs/users/accuracy.md).
+/// the dome (docs/users/accuracy.md).
 constexpr double flying = 0.05;
 /// K / E. Grippers that draw plies from under a holder (cases/springs_and_grippers, draft) have
 /// 0.002, and 0.05 of K / W; those that fly 0.02 and more.
