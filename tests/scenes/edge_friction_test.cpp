@@ -49,11 +49,12 @@ TEST(EdgeFriction, IsRightWhereNodesShareTheArcAndElseNotTrusted) {
     ASSERT_TRUE(ended(run.summary.status)) << message;
     const bool told = message.find("do not trust forces and draw-in over the edges of block") !=
                       std::string::npos;
-    if (radius < 2.5)
+    if (radius < 2.5) {
       EXPECT_TRUE(told && run.summary.status == "doubtful") << radius;
-    else
+    } else {
       EXPECT_FALSE(told) << radius;
-    if (!told) EXPECT_NEAR(ratio, right, 0.02 * right);
+      EXPECT_NEAR(ratio, right, 0.02 * right);
+    }
   }
 }
 
