@@ -288,6 +288,7 @@ std::optional<UnitSuspicion> suspect_unit(const Case& scene, const CaseParts& pa
   const double scale = at.scale_given || !drawn ? at.scale : unit_named_in(blank->drawing);
   found.remedy = remedy_of(at, body, scale, tool || drawn, factor);
   found.is_drawing = drawn && !at.scale_given;
+  found.from_file = body.file;
   return found;
 }
 

@@ -19,6 +19,7 @@ struct UnitSuspicion {
   std::string name;  ///< of a tool; empty for a blank
   std::string rule, remedy;
   bool is_drawing = false; ///< whose scale is not given: a mistake of the file, until it is
+  bool from_file = false;  ///< its sizes; else they are numbers of the case
 };
 
 /// The body that is suspected, if any. broken: whether the scene cannot work as it is; then sizes

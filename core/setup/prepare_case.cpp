@@ -45,6 +45,15 @@ void blame(const UnitSuspicion& unit, CaseReading& reading) {
   reading.value.reset();
 }
 
+/// Says beside all else that a body may be in another unit. Numbers of the case file are in mm, so
+/// that what is wrong with their scene may be something else.
+void warn_of(const UnitSuspicion& unit, CaseReading& reading) {
+  const Place& at = unit.at.at;
+  reading.warnings.push_back(
+      fmt::format("{}:{}:{}: warning: {}{}: {}; {}", at.file, at.line, at.column, unit.at.item,
+                  unit.name.empty() ? "" : " = " + unit.name, unit.rule, unit.remedy));
+}
+
 /// Checks size and scene, and whether a body in another unit is behind what is wrong with them.
 std::vector<BlankMesh> check_scene_and_units(CaseReading& reading, CaseSize size) {
   std::optional<UnitSuspicion> unit = suspect_unit(*reading.value, reading.parts, false);
@@ -56,15 +65,13 @@ std::vector<BlankMesh> check_scene_and_units(CaseReading& reading, CaseSize size
   std::vector<BlankMesh> meshes;
   if (size == CaseSize::sensible) check_size(reading);
   if (reading.value) meshes = check_case(reading);
-  if (!reading.value) {
-    if (!unit) unit = suspect_unit(before, reading.parts, true);
-    if (unit) blame(*unit, reading);
-  } else if (unit) {
-    const Place& at = unit->at.at;
-    reading.warnings.push_back(
-        fmt::format("{}:{}:{}: warning: {}{}: {}; {}", at.file, at.line, at.column, unit->at.item,
-                    unit->name.empty() ? "" : " = " + unit->name, unit->rule, unit->remedy));
-  }
+  const bool broken = !reading.value;
+  if (broken && !unit) unit = suspect_unit(before, reading.parts, true);
+  if (!unit) return meshes;
+  if (broken && unit->from_file)
+    blame(*unit, reading);
+  else
+    warn_of(*unit, reading);
   return meshes;
 }
 

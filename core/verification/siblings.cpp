@@ -140,7 +140,6 @@ void add_late_twins(Siblings& siblings, const Case& data, const Meshes& own, dou
   for (const auto& [cause, from, way] : {std::tuple(Cause::late_chance, first, 1.0),
                                          std::tuple(Cause::later_chance, second, -1.0)}) {
     Sibling twin{cause, "twin, from late in the run on", data, own, from, Vec3::Zero()};
-    twin.data.solver.outputs = 1;
     disturb(twin, way);
     siblings.runs.push_back(std::move(twin));
   }

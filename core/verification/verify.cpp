@@ -60,6 +60,7 @@ SiblingRun run_sibling(const Sibling& sibling, const RunResult& run, const Trace
   if (sibling.from > 0.0) {
     const Moment& start = *moment_at(trace, sibling.from);
     resume = {start.state, run.last};
+    resume.last.step = start.step; // its own states follow
     done.first_step = start.step;
     run_hooks.resume = &resume;
   }

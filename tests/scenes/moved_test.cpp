@@ -51,8 +51,9 @@ Case busy_case() {
   return data;
 }
 
-/// Any turn and 10 m: the same to 1e-6 mm. Coordinates of 1e4 mm have a rounding of 2e-12 mm, which
-/// contact does not make larger: its forces are continuous, though all nodes start just touching.
+/// Any turn and 10 m: the same to 4e-6 mm. Coordinates of 1e4 mm have a rounding of 2e-12 mm, which
+/// 2 500 steps of plies that slide on each other with friction make larger by some 1e6 (5e4 to 7e5
+/// seen), but no more: forces of contact are continuous, though all nodes start just touching.
 TEST(MovedScene, FormsTheSameWay) {
   const Case data = busy_case();
   const EndedRun here = run_on_any_threads([&] { return make_scene(data); });
@@ -82,7 +83,7 @@ TEST(MovedScene, FormsTheSameWay) {
     }
     fmt::print("moved by {:g} mm: nodes {:.1e} mm, tool forces {:.1e} N, {} steps, {:.2f} s\n", far,
                off, force_off, there.result.summary.steps, there.result.summary.wall_time_s);
-    EXPECT_LE(off, 1e-6);
+    EXPECT_LE(off, 4e-6);
     EXPECT_LE(force_off, 1e-3);
   }
 }

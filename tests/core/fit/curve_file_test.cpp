@@ -109,7 +109,7 @@ TEST(CurveFile, NamesEveryMistakeWithPlaceAndRemedy) {
       {"d;F\n0;0\n1,5;2\n", "", "", "FILE:3:1: error: d = 1,5: must be a number; write a decimal"},
       {"0,0\n1,\n", "", "", "FILE:2:3: error: column 2: is empty, there must be a number"},
       {"0,0\n1,nan\n", "", "", "FILE:2:3: error: column 2 = nan: must be a finite number"},
-      {"0,0\n1,1e999\n", "", "", "FILE:2:3: error: column 2 = 1e999: must be a number"},
+      {"0,0\n1,1e999\n", "", "", "FILE:2:3: error: column 2 = 1e999: must be a finite number"},
       {"0,0,0\n1,1\n", "1", "3",
        "FILE:2:1: error: the row has 2 columns, there must be at least 3"},
       {"0,0\n1\n", "", "", "FILE:2:1: error: the row has 1 column, there must be at"},

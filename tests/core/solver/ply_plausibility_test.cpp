@@ -101,7 +101,8 @@ TEST(Doubtful, IsARunThatPressesWovenYarnsByMoreThanFivePercent) {
   EXPECT_NE(s.message.find("do not trust"), std::string::npos) << s.message;
   EXPECT_NE(s.message.find("compression_stiffness"), std::string::npos) << s.message;
   ASSERT_FALSE(s.work.missing.empty());
-  EXPECT_EQ(s.work.missing.front(), s.message);
+  EXPECT_EQ(s.message.find(s.work.missing.front()), 0u)
+      << s.message; // limp and fast, it also flies
 }
 
 /// With yarns that bear it the strip gives way sideways in its plane instead.
