@@ -138,7 +138,7 @@ def cut_into_four(source: Path, target: Path) -> None:
 def halved_meshes(scene: Scene, folder: Path) -> list[str]:
     """Settings that put finer meshes, written into the folder, in the place of mesh files."""
     settings = []
-    blanks = tomllib.loads(scene.case.read_text(encoding="utf-8")).get("blanks", {})
+    blanks = read_toml(scene.case).get("blanks", {})
     for name, blank in blanks.items():
         if blank.get("mesh") == "file":
             source = scene.case.parent / blank["file"]

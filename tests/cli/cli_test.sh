@@ -120,7 +120,7 @@ endless=(--set blanks.square.element_size=4 --set solver.duration=1e4) # weeks, 
 expect 2 'or go on with --yes-large' check cases/hemisphere_0 "${endless[@]}"
 expect 0 'the case is sound' check cases/hemisphere_0 "${endless[@]}" --yes-large
 # One triangle used to be "done", with a balance of energies off by all of it.
-expect 0 'doubtful: do not trust forces' run "$tests/../data/cannot_work/press.toml" -o triangle \
+expect 0 'doubtful: do not trust ply where punch cuts into it' run "$tests/../data/cannot_work/press.toml" -o triangle \
   --set 'blanks.square={mesh="file",file="one_triangle.off"}' --set solver.duration=0.05 \
   --set 'tool=[{name="punch",shape="sphere",radius=20,position=[0,0,20.6],motion="driven",stroke=5}]'
 ln -s "$PWD/cases/hemisphere_0/case.toml" linked.toml

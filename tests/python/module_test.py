@@ -72,7 +72,7 @@ def check_values(_):
     assert outlook.lines[:-1] == told[:-2] and "time" in outlook.lines[-1]
     assert any(line.startswith("    note: tool die") for line in outlook.lines), outlook.lines
     assert 0.0 < outlook.step_s < outlook.stable_step_s and outlook.stop == ""
-    assert np.isclose(outlook.steps * outlook.step_s, 0.1) and outlook.estimated_s > 0.0
+    assert 0.1 < outlook.steps * outlook.step_s < 0.3 and outlook.estimated_s > 0.0
     keys = {key.key: key for key in plyform.keys()}
     assert keys["tool[].radius"].unit == "mm" and keys["contact.friction"].range
 

@@ -103,7 +103,7 @@ WRONG = {  # what is put in the place of what, and the one message that comes
     ("[[vary]]", "[table]\nforce = '{punch_N:.999999999f}'\n[[vary]]"): "has no form of a number",
     ('name = "friction"', 'name = "status"'): "status is a column of every",
     **{("[[vary]]", "[[picture]]\nkind = 'scatter'\nx = 'punch_N'\ny = 'shear_deg'\nfile = "
-        f"'{name}'\n[[vary]]"): f"study.toml:10: error: picture.0.file = '{name}': must be a file's"
+        f"'{name}'\n[[vary]]"): f"study.toml:9: error: picture.0.file = '{name}': must be a file's"
        for name in ("../x.png", "/x.png", "a.exe", ".x.png", "x/y.png", "table.csv", "..png")},
 }
 

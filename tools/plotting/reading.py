@@ -142,7 +142,7 @@ def read_history(folder: Path) -> dict[str, np.ndarray]:
     history = read_table(file_in(folder, "history.csv"), ["time_s", "stroke_mm"])
     if not (folder / "summary.json").is_file():
         return history
-    for name, until in known_to_s(read_summary(folder)).items():
+    for name, until in known_to_s(read_summary(folder, ())).items():
         for column in (f"{name}_force_N", f"{name}_force_raw_N"):
             if column in history:
                 history[column] = np.where(history["time_s"] > until * (1.0 + 1e-6), np.nan,
