@@ -212,6 +212,7 @@ angle = 0.0
 duration = 0.01
 fibre_softening = 100.0
 outputs = 2
+max_balance_error = 10.0  # velocities that are written bring energy from nowhere
 """
 
 
