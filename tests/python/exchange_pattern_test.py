@@ -226,7 +226,7 @@ def check_wrong(folder, results):
                         ((*good, "--tolerance", "0"), "--tolerance 0: a positive number"),
                         ((*good, "--set", "a=1"), "--set is for the runs with --case"),
                         ((*good, "--case", CASES / "picture_frame"), "has no ply ply"),
-                        ((*good, "--case", folder), "cannot be read as a case"),
+                        ((*good, "--case", folder), "case.toml is missing"),
                         ((*good, "--case", CASES / "hemisphere_0", "--set", "none=1"),
                          "ended with code 2")):
         done = call("pattern", results, *words, "-o", wrong, code=2)
