@@ -45,13 +45,18 @@ void blame(const UnitSuspicion& unit, CaseReading& reading) {
   reading.value.reset();
 }
 
+void add_warning(CaseReading& reading, const Place& at, const std::string& text) {
+  Diagnostics told; // which makes it printable
+  told.warning(at, text);
+  reading.warnings.push_back(std::move(told.warnings.front()));
+}
+
 /// Says beside all else that a body may be in another unit. Numbers of the case file are in mm, so
 /// that what is wrong with their scene may be something else.
 void warn_of(const UnitSuspicion& unit, CaseReading& reading) {
-  const Place& at = unit.at.at;
-  reading.warnings.push_back(
-      fmt::format("{}:{}:{}: warning: {}{}: {}; {}", at.file, at.line, at.column, unit.at.item,
-                  unit.name.empty() ? "" : " = " + unit.name, unit.rule, unit.remedy));
+  add_warning(reading, unit.at.at,
+              fmt::format("{}{}: {}; {}", unit.at.item, unit.name.empty() ? "" : " = " + unit.name,
+                          unit.rule, unit.remedy));
 }
 
 /// Checks size and scene, and whether a body in another unit is behind what is wrong with them.
@@ -85,14 +90,13 @@ void check_prediction(CaseReading& reading) {
       fast ? fmt::format("give a solver.duration of {:.2g} s or more", // falls with the third power
                          reading.value->solver.duration * std::cbrt(error.inertia / good))
            : std::string("give less solver.fibre_softening");
-  const SourceLocation& solver = reading.parts.solver;
-  reading.warnings.push_back(fmt::format(
-      "{}:{}:{}: warning: shear angles would be off by more than {:g} degrees, as predicted: {}; "
-      "{}",
-      solver.at.file, solver.at.line, solver.at.column, most,
-      fast ? fmt::format("in {:g} s plies are thrown, not formed", reading.value->solver.duration)
-           : std::string("the fibres are too soft"),
-      remedy));
+  add_warning(
+      reading, reading.parts.solver.at,
+      fmt::format("shear angles would be off by more than {:g} degrees, as predicted: {}; {}", most,
+                  fast ? fmt::format("in {:g} s plies are thrown, not formed",
+                                     reading.value->solver.duration)
+                       : std::string("the fibres are too soft"),
+                  remedy));
 }
 
 /// Which cost parameters overrides have set, and the keys of these overrides.
