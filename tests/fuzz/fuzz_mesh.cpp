@@ -7,10 +7,15 @@
 
 #include <cmath>
 #include <stdexcept>
+#include <string>
+
+namespace plyform::fuzz {
+extern const char* const mesh_format; // mesh_format.cpp
+}
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   using namespace plyform;
-  const auto file = fuzz::put("mesh." PLYFORM_FUZZ_FORMAT, data, size);
+  const auto file = fuzz::put(("mesh." + std::string(fuzz::mesh_format)).c_str(), data, size);
   try {
     const ToolShape tool = load_tool_mesh(file, 1.0, nullptr);
     SurfaceHint hint;
