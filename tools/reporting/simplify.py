@@ -7,6 +7,8 @@ the neighbour is within a tolerance of the planes of all triangles that have com
 right angles to their triangles, so that outlines stay.
 """
 
+import hashlib
+
 import numpy as np
 
 ROUNDS = 40
@@ -14,8 +16,20 @@ ENOUGH = 6000  # triangles: a picture is drawn fast enough
 FEW = 0.01  # of the vertices: when fewer move in a round, it was the last
 
 
+_found: dict = {}  # of surfaces already asked for: two runs that are compared often share their tools
+
+
 def simplified(x: np.ndarray, triangles: np.ndarray, tolerance: float):
     """Vertices and triangles within about `tolerance` (mm) of the surface given."""
+    bytes_of = hashlib.sha256(x.tobytes())
+    bytes_of.update(triangles.tobytes())
+    key = bytes_of.digest(), tolerance
+    if key not in _found:
+        _found[key] = compute(x, triangles, tolerance)
+    return _found[key]
+
+
+def compute(x: np.ndarray, triangles: np.ndarray, tolerance: float):
     quadrics, chance = quadrics_of(x, triangles), np.random.default_rng(1)
     for _ in range(ROUNDS):
         moved, to = collapses(x, triangles, quadrics, tolerance, chance)
@@ -37,17 +51,16 @@ def collapses(x, triangles, quadrics, tolerance, chance):
     start, end, error = start[good], end[good], error[good]
     length = np.linalg.norm(x[end] - x[start], axis=1)
     cost = (error + 1e-3 * tolerance * length) * chance.uniform(0.5, 1.5, len(error))
-    order = np.lexsort((cost, start))
-    first = order[np.unique(start[order], return_index=True)[1]]
+    order = np.argsort(-cost)  # the last that is written stays: the least
     best, target = np.full(len(x), np.inf), np.arange(len(x))
-    best[start[first]], target[start[first]] = cost[first], end[first]
+    best[start[order]], target[start[order]] = cost[order], end[order]
     turned = np.zeros(len(x), dtype=bool)
     for k in range(3):
         turned[triangles[turns_over(x, triangles, k, target), k]] = True
     best[turned] = np.inf
     least = np.full(len(x), np.inf)  # of a vertex: over all triangles that it is in
     of_triangle = best[triangles].min(axis=1)
-    order = np.argsort(-of_triangle)  # the last that is written stays: the least
+    order = np.argsort(-of_triangle)
     for k in range(3):
         mine = np.full(len(x), np.inf)
         mine[triangles[order, k]] = of_triangle[order]
