@@ -60,7 +60,8 @@ begun() {
 # Each signal that would end the program: a summary that says which it was.
 for signal in INT TERM HUP XCPU XFSZ USR1 USR2 ALRM VTALRM PROF IO PWR RTMIN RTMAX; do
   rm -rf out
-  "$program" run "${long[@]}" -o out >said 2>&1 &
+  # a test that nohup began has a hang-up ignored, and the program would leave it so
+  env --default-signal "$program" run "${long[@]}" -o out >said 2>&1 &
   process=$!
   begun out
   kill "-$signal" $process
