@@ -13,6 +13,12 @@ namespace plyform {
 /// A part of an error, or nothing: it was not measured, which is not the same as 0.
 using ErrorPart = std::optional<double>;
 
+/// What causes add to a force, above 0: it is too large, N.
+struct SignedErrors {
+  double mesh = 0.0, inertia = 0.0, softening = 0.0;
+  double sum() const { return mesh + inertia + softening; }
+};
+
 struct VerifiedFigure {
   std::string name, unit; ///< "shear of ply1", deg
   double value = 0.0;
@@ -24,6 +30,9 @@ struct VerifiedFigure {
   // What each cause adds to the error, before any factor of safety; `chance` of two equal runs
   ErrorPart mesh = std::nullopt, inertia = std::nullopt, softening = std::nullopt,
             chance = std::nullopt;
+  /// Of a force that was estimated in several ways, of which the parts above are the mean squares:
+  /// signs mean something within one estimate only.
+  std::vector<SignedErrors> estimates = {};
   double jitter = 0.0; ///< N, of a force: core/verification/bands.hpp
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 
 namespace plyform {
 namespace {
@@ -16,13 +17,13 @@ struct Factors {
 };
 
 /// field: of a root mean square over a ply, not of a number.
-Factors factors_of(const Siblings& made, double order_of_speed, bool field) {
+Factors factors_of(const Siblings& made, double of_inertia, bool field) {
   Factors f;
   const double b = std::pow(made.coarsening, order_of_mesh);
   if (b > 1.0) f.mesh = 1.0 / (b - 1.0);
   if (b < 1.0) f.mesh = 1.0 / (1.0 - b);
   if (b < 1.0 && field) f.mesh = std::sqrt(f.mesh / std::hypot(1.0, b));
-  f.inertia = 1.0 / (std::pow(made.speed, order_of_speed) - 1.0);
+  f.inertia = of_inertia;
   f.softening = std::abs(made.softening);
   return f;
 }
@@ -57,27 +58,31 @@ Compared compared(Cause cause, const RunEnd& run, const Ends& siblings, const Si
   return {};
 }
 
-/// Whether speed has taken more than half of a force that counts from one run to the other.
-bool lost_force(const RunEnd& one, const RunEnd& other) {
-  constexpr double counts = 0.05, half = 0.5; // of the largest force, of its own
+/// Error over difference by (1) of bands.hpp, of the force of which speed has left the least.
+double factor_of_forces(const RunEnd& one, const RunEnd& other, double speed) {
+  constexpr double counts = 0.05; // of the largest force: smaller ones are jitter
+  constexpr double thrown = 1.5;  // of its own: no loss, but plies that are thrown against a tool
   double largest = 0.0;
   for (const ToolFrame& tool : one.last.tools)
     largest = std::max(largest, std::abs(tool.force_N));
-  for (std::size_t t = 0; t < one.last.tools.size(); ++t) {
-    const double force = one.last.tools[t].force_N;
-    if (std::abs(force) > counts * largest &&
-        std::abs(force - other.last.tools[t].force_N) > half * std::abs(force))
-      return true;
-  }
-  return false;
+  double left = 1.0, grown = 1.0;
+  for (std::size_t t = 0; t < one.last.tools.size(); ++t)
+    if (const double force = one.last.tools[t].force_N; std::abs(force) > counts * largest) {
+      left = std::min(left, other.last.tools[t].force_N / force);
+      grown = std::max(grown, other.last.tools[t].force_N / force);
+    }
+  const double powers = std::pow(speed, order_of_inertia_of_forces) - 1.0;
+  const double most = 1.0 / (std::pow(speed, order_outside_premise) - 1.0);
+  if (left <= 0.0 || grown > thrown) return most;
+  if (left == 1.0) return 1.0 / powers; // none has become less
+  return std::min(std::expm1(-std::log(left) / powers) / (1.0 - left), most);
 }
 
-double order_of_speed(const Compared& inertia, bool force) {
-  const double order = force ? order_of_inertia_of_forces : order_of_inertia;
-  if (!inertia) return order;
-  const bool off = inertia.one->flies || inertia.other->flies ||
-                   (force && lost_force(*inertia.one, *inertia.other));
-  return off ? order_outside_premise : order;
+/// Error over difference of inertia.
+double factor_of_inertia(const Compared& inertia, double speed, bool force) {
+  const bool flies = inertia && (inertia.one->flies || inertia.other->flies);
+  if (force && inertia && !flies) return factor_of_forces(*inertia.one, *inertia.other, speed);
+  return 1.0 / (std::pow(speed, flies ? order_outside_premise : order_of_inertia) - 1.0);
 }
 
 /// Sets the parts of a figure from difference(one, other).
@@ -86,7 +91,9 @@ void estimate(VerifiedFigure& figure, const RunEnd& run, const Ends& siblings, c
               const Difference& difference) {
   const bool field = figure.unit == "deg";
   const Factors factors = factors_of(
-      made, order_of_speed(compared(Cause::inertia, run, siblings, made), figure.force), field);
+      made,
+      factor_of_inertia(compared(Cause::inertia, run, siblings, made), made.speed, figure.force),
+      field);
   const auto of = [&](Cause cause, double factor) -> ErrorPart {
     const Compared c = compared(cause, run, siblings, made);
     if (!c) return std::nullopt;
@@ -124,12 +131,25 @@ void pool(std::vector<VerifiedFigure>& figures) {
   }
 }
 
-/// Replaces the size of each part by the root mean square of it and of that of the other estimate.
+/// Replaces the size of each part by the root mean square of it and of that of the other estimate,
+/// whose signs are kept beside.
 void pool(VerifiedFigure& figure, const VerifiedFigure& other) {
+  if (unmeasured(figure).empty() && unmeasured(other).empty())
+    for (const VerifiedFigure& one : {std::cref(figure), std::cref(other)})
+      figure.estimates.push_back({*one.mesh, *one.inertia, *one.softening});
   for (ErrorPart VerifiedFigure::*part : parts)
     if (figure.*part && other.*part)
       figure.*part = std::copysign(std::sqrt(0.5) * std::hypot(*(figure.*part), *(other.*part)),
                                    *(figure.*part));
+}
+
+/// What the parts of a force add up to, the root mean square over its estimates.
+double sum_with_signs(const VerifiedFigure& f) {
+  if (f.estimates.empty()) return std::abs(*f.mesh + *f.inertia + *f.softening);
+  double sum2 = 0.0;
+  for (const SignedErrors& one : f.estimates)
+    sum2 += one.sum() * one.sum();
+  return std::sqrt(sum2 / static_cast<double>(f.estimates.size()));
 }
 
 double rms_shear(const Frame& frame) {
@@ -168,9 +188,9 @@ void set_band(VerifiedFigure& f) {
   if (!unmeasured(f).empty()) return;
   const double squares = std::sqrt(*f.mesh * *f.mesh + *f.inertia * *f.inertia +
                                    *f.softening * *f.softening + *f.chance * *f.chance);
-  const double sum = std::abs(*f.mesh + *f.inertia + *f.softening);
-  f.band = std::max({safety * (f.force ? std::max(squares, sum) : squares),
-                     safety_of_jitter * f.jitter, safety_of_chance * *f.chance});
+  double error = squares;
+  if (f.force) error = std::max(squares, sum_with_signs(f));
+  f.band = std::max({safety * error, safety_of_jitter * f.jitter, safety_of_chance * *f.chance});
 }
 
 double force_jitter(const Case& data, const Frame& last) {

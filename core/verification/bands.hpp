@@ -4,29 +4,34 @@
 //
 //   b, q   factors of element size and speed between siblings;  d  difference of two runs
 //   mesh       d / (b^p - 1), p = 1.6
-//   inertia    d / (q^r - 1), r = 2 for shear and lengths, 3 for forces
+//   inertia    d / (q^2 - 1) for shear and lengths; of forces, with g the least share of one that
+//              is left at q times the speed, among all that count,
+//              d (g^(-1 / (q^3 - 1)) - 1) / (1 - g), at most d / (q - 1)                    (1)
 //   softening  d: proportional, twice the softening; d / (1 - 1/2) of half of it, without chance
 //   chance     d, the largest of all twins
-// with r = 1 where either of the two flies (core/solver/ply_motion.hpp) or has lost more than half
-// of a force: such errors follow no power of the speed. b < 1, of a finer mesh: d / (1 - b^p), if
-// both err alike; fields of shear do so in part, and take the geometric mean of that and of
-// d / sqrt(1 + b^2p), if the errors are independent (two stacks differed by as much at a factor of
-// 1.3 as at 2). A
-// part without a sibling is not measured, and a figure without all parts has no band; of shear what
-// is predicted for mesh and softening may stand in, and the verification says so.
+// with d / (q - 1) where either of the two flies (core/solver/ply_motion.hpp) or speed has made a
+// force half as large again: such errors follow no power of the speed. (1): a tool cannot lose more
+// than its force, so what is left falls as exp(-c v^3), and F (g^(-1 / (q^3 - 1)) - 1) is what the
+// slower run has lost of F. Of small ones it is Richardson's d / (q^3 - 1); where nothing is left
+// it is unknown and taken for d / (q - 1). b < 1, of a finer mesh: d / (1 - b^p), if both err
+// alike; fields of shear do so in part, and take the geometric mean of that and of d / sqrt(1 +
+// b^2p), if the errors are independent (two stacks differed by as much at a factor of 1.3 as at 2).
+// A part without a sibling is not measured, and a figure without all parts has no band; of shear
+// what is predicted for mesh and softening may stand in, and the verification says so.
 //   of shear and lengths  e = sqrt(mesh^2 + inertia^2 + softening^2 + chance^2)
 //   of a force            e = max(that, |mesh + inertia + softening|), which have signs
 //   band = max(k e, c), k = 1.65, c = 2 chance, of forces at least 3 times the jitter
-// r: of strokes from 0.1 to 0.01 s (four small hemispheres of one ply and two) errors of shear go
-// with the speed to the 1.1 to 3.2, 2.2 in the median, until they are as large as 2 degrees; those
-// of the punch's force to the 1.8 to 3.7, 2.9 in the median, until it is lost. k: grid-convergence
-// practice takes 1.25 with an order observed on three meshes, 3 with one assumed on two; here it is
-// one of many scenes (docs/users/accuracy.md). A single length may agree by accident on two meshes:
-// it takes the mean square over its kind (the draw-ins of all plies). So may a single force: at the
-// end the forces of all tools are in balance, what one carries is what the others do, and each part
-// of its error is the root mean square of both. Not that of a tool pushed by a force, which it
-// keeps, nor where boundaries carry, too. Jitter: what a tool pushed by a force has on its
-// face beyond that force.
+// Orders of inertia: of strokes from 0.1 to 0.01 s (four small hemispheres of one ply and two)
+// errors of shear go with the speed to the 1.1 to 3.2, 2.2 in the median, until they are as large
+// as 2 degrees; those of the punch's force to the 1.8 to 3.7, 2.9 in the median, until it is lost.
+// k: grid-convergence practice takes 1.25 with an order observed on three meshes, 3 with one
+// assumed on two; here it is one of many scenes (docs/users/accuracy.md). A single length may agree
+// by accident on two meshes: it takes the mean square over its kind (the draw-ins of all plies). So
+// may a single force: at the end the forces of all tools are in balance, what one carries is what
+// the others do, and each part of its error is the root mean square of both. So is their sum: each
+// estimate adds up its own parts, as signs of one say nothing of the other. Not that of a tool
+// pushed by a force, which it keeps, nor where boundaries carry, too. Jitter: what a tool pushed by
+// a force has on its face beyond that force.
 #pragma once
 
 #include "core/accuracy/error_model.hpp"

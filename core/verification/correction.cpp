@@ -56,12 +56,17 @@ std::string list_of_fixed(const std::array<bool, causes>& stays) {
 
 /// flew: the run that the parts are of.
 void scale(VerifiedFigure& f, const AskedAccuracy& asked, bool flew = false) {
-  if (f.mesh) *f.mesh *= std::pow(asked.element_size, order_of_mesh);
   const double power = flew      ? order_outside_premise
                        : f.force ? order_of_inertia_of_forces
                                  : order_of_inertia;
-  if (f.inertia) *f.inertia *= std::pow(asked.duration, -power);
-  if (f.softening) *f.softening *= std::pow(asked.softening, order_of_softening);
+  const double mesh = std::pow(asked.element_size, order_of_mesh);
+  const double inertia = std::pow(asked.duration, -power);
+  const double softening = std::pow(asked.softening, order_of_softening);
+  if (f.mesh) *f.mesh *= mesh;
+  if (f.inertia) *f.inertia *= inertia;
+  if (f.softening) *f.softening *= softening;
+  for (SignedErrors& one : f.estimates)
+    one = {mesh * one.mesh, inertia * one.inertia, softening * one.softening};
 }
 
 } // namespace

@@ -109,6 +109,20 @@ TEST(Correction, GoesNoFurtherThanTheOrdersWereMeasured) {
   EXPECT_GT(a.expected_deg, 0.1); // and is told so
 }
 
+TEST(Correction, ScalesEachEstimateOfAForce) {
+  Verification first = with_errors(1.0, 1.0, 1.0);
+  VerifiedFigure& f = first.figures.emplace_back();
+  f.name = "force of punch", f.unit = "N", f.force = true;
+  f.mesh = f.inertia = f.softening = f.chance = 0.0; // their sums alone make the band
+  f.estimates = {{8.0, 8.0, 8.0}, {-8.0, 8.0, 8.0}};
+  AskedAccuracy asked;
+  asked.element_size = std::pow(0.5, 1.0 / order_of_mesh), asked.duration = 2.0;
+  asked.softening = 0.25;
+  const Verification now = after_correction(first, asked, {}, {});
+  // 8 / 2, 8 / 2^3 and 8 / 4, with their signs
+  EXPECT_NEAR(now.figures[0].band.value(), safety * std::sqrt(0.5 * (49.0 + 1.0)), 1e-12);
+}
+
 /// Root mean square difference in shear to a run of half the element size, half the speed and half
 /// the softening of `data`, degrees.
 double error_of(const RunResult& run, Case data) {
