@@ -4,7 +4,9 @@
 
 #include "contact/geometry.hpp"
 
+#include <cstddef>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,12 +38,50 @@ enum class MeshKind {
   file,        ///< read from `file`
 };
 
+enum class ZoneKind {
+  circle,  ///< a disc, or a ring if it has an inner radius
+  polygon, ///< inside an outline of straight sides
+  tool,    ///< about the places of a tool where it is tightly rounded, seen from above
+};
+
+/// A disc about a tightly rounded place of a tool, seen from above. mm, in space.
+struct ToolPlace {
+  Vec2 at;
+  double reach;
+};
+
+/// A part of a blank that has smaller elements. Circles and polygons are seen from the blank's
+/// origin, as its outline. Lengths in mm.
+struct MeshZone {
+  ZoneKind kind = ZoneKind::circle;
+  double element_size = 0.0; ///< as BlankSpec::element_size
+  Vec2 centre = Vec2::Zero();
+  double radius = 0.0, inner_radius = 0.0;
+  std::vector<Vec2> outline{};     ///< of a polygon
+  int tool = -1;                   ///< index into Case::tools
+  std::vector<ToolPlace> places{}; ///< of the tool: core/mesh/tool_zone.hpp
+};
+
+/// Wanted element sizes (mm) on a grid of points in the blank's plane, seen from its origin:
+/// size[row columns + column] at origin + spacing (column, row), bilinear between, and beyond the
+/// grid as on its rim.
+struct SizeGrid {
+  Vec2 origin = Vec2::Zero(); ///< mm
+  double spacing = 0.0;       ///< mm
+  int columns = 0, rows = 0;  ///< at least one each
+  std::vector<double> size;   ///< mm, above 0
+};
+
+/// The element size wanted at a place is the least of element_size, that of the zones that hold the
+/// place, and that of the grid.
 struct BlankSpec {
   Outline outline;
   MeshKind mesh = MeshKind::diagonal;
   double element_size = 0.0;  ///< mm: side of a square or cell; mean edge of a free mesh
   std::filesystem::path file; ///< STL, OBJ, PLY or OFF whose z is constant; for MeshKind::file
   std::string drawing{};      ///< what the outline was read from, in words; empty: the case file
+  std::vector<MeshZone> zones{};
+  std::optional<SizeGrid> sizes{};
 };
 
 } // namespace plyform
