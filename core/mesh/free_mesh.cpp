@@ -32,6 +32,35 @@ using Triangulation = CGAL::Constrained_Delaunay_triangulation_2<Kernel, Storage
 using Criteria = CGAL::Delaunay_mesh_size_criteria_2<Triangulation>;
 using Face = Triangulation::Face_handle;
 
+/// The criteria of CGAL with a bound of the edges that differs from face to face.
+class LocalCriteria : public Criteria {
+public:
+  LocalCriteria(double aspect_bound, const LongestSide& longest_side)
+      : Criteria(aspect_bound), longest(longest_side) {}
+
+  class Is_bad : public Criteria::Is_bad {
+  public:
+    Is_bad(const LocalCriteria& criteria)
+        : Criteria::Is_bad(criteria.bound(), 0.0, criteria.traits), all(criteria) {}
+
+    using Criteria::Is_bad::operator();
+    CGAL::Mesh_2::Face_badness operator()(const Face& f, Quality& quality) const {
+      std::array<Vec2, 3> corners;
+      for (int k = 0; k < 3; ++k)
+        corners[at(k)] = Vec2(f->vertex(k)->point().x(), f->vertex(k)->point().y());
+      return Criteria::Is_bad(all.bound(), all.longest(corners), all.traits)(f, quality);
+    }
+
+  private:
+    const LocalCriteria& all;
+  };
+
+  Is_bad is_bad_object() const { return Is_bad(*this); }
+
+private:
+  const LongestSide& longest;
+};
+
 Triangulation triangulate(const Region& region) {
   Triangulation t;
   std::vector<Triangulation::Vertex_handle> v;
@@ -63,14 +92,8 @@ void mark_region(Triangulation& t) {
   }
 }
 
-} // namespace
-
-BlankMesh refine(const Region& region, double min_angle, double max_edge) {
-  Triangulation t = triangulate(region);
-  mark_region(t);
-  const double sine = std::sin(min_angle);
-  CGAL::refine_Delaunay_mesh_2(t, Criteria(sine * sine, max_edge), true);
-
+/// The triangles inside the region. Nodes of the region keep their numbers.
+BlankMesh mesh_of(const Region& region, Triangulation& t) {
   BlankMesh mesh{region.x, {}};
   for (const auto v : t.finite_vertex_handles())
     if (v->info().value < 0) {
@@ -82,6 +105,24 @@ BlankMesh refine(const Region& region, double min_angle, double max_edge) {
       mesh.triangles.push_back(
           {f->vertex(0)->info().value, f->vertex(1)->info().value, f->vertex(2)->info().value});
   return mesh;
+}
+
+} // namespace
+
+BlankMesh refine(const Region& region, double min_angle, double max_edge) {
+  Triangulation t = triangulate(region);
+  mark_region(t);
+  const double sine = std::sin(min_angle);
+  CGAL::refine_Delaunay_mesh_2(t, Criteria(sine * sine, max_edge), true);
+  return mesh_of(region, t);
+}
+
+BlankMesh refine(const Region& region, double min_angle, const LongestSide& longest_side) {
+  Triangulation t = triangulate(region);
+  mark_region(t);
+  const double sine = std::sin(min_angle);
+  CGAL::refine_Delaunay_mesh_2(t, LocalCriteria(sine * sine, longest_side), true);
+  return mesh_of(region, t);
 }
 
 } // namespace plyform

@@ -2,6 +2,7 @@
 #include "core/mesh/mesh_blank.hpp"
 
 #include "core/mesh/mesher_parts.hpp"
+#include "core/mesh/size_field.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -31,14 +32,16 @@ CellDirections cell_directions(MeshKind mesh, double warp, double weft) {
   return {a, b};
 }
 
-BlankMesh free_blank(const BlankSpec& spec) {
-  // The mesher bounds the longest edge; measured on squares, circles and pierced polygons, 1.42 h
-  // gives a mean edge within 2 % of h.
-  constexpr double longest = 1.42;
-  constexpr double min_angle = 20.5; // degrees; up to 20.7 the termination of the mesher is proven
-  return refine(sample_outline(spec.outline, spec.element_size), min_angle * std::numbers::pi / 180,
-                longest * spec.element_size);
+namespace {
+
+BlankMesh uniform_blank(const BlankSpec& spec, double warp, double weft) {
+  if (spec.mesh == MeshKind::file) return blank_from_file(spec.file);
+  const CellDirections directions = cell_directions(spec.mesh, warp, weft);
+  if (auto grid = structured_blank(spec, directions)) return *std::move(grid);
+  return cut_blank(spec, directions);
 }
+
+} // namespace
 
 bool takes_elements(const BlankSpec& spec) {
   try {
@@ -50,12 +53,11 @@ bool takes_elements(const BlankSpec& spec) {
 }
 
 BlankMesh mesh_blank(const BlankSpec& spec, double warp, double weft) {
-  if (spec.mesh == MeshKind::file) return blank_from_file(spec.file);
-  check_outline(spec.outline, spec.element_size);
+  if (spec.mesh != MeshKind::file) check_outline(spec.outline, spec.element_size);
+  check_zones(spec);
   if (spec.mesh == MeshKind::free) return free_blank(spec);
-  const CellDirections directions = cell_directions(spec.mesh, warp, weft);
-  if (auto grid = structured_blank(spec, directions)) return *std::move(grid);
-  return cut_blank(spec, directions);
+  BlankMesh mesh = uniform_blank(spec, warp, weft);
+  return is_graded(spec) ? graded(std::move(mesh), spec) : mesh;
 }
 
 } // namespace plyform

@@ -22,12 +22,15 @@ struct BlankMesh {
 /// through the middle of the bounding box that lie wholly inside are joined to the outline by a
 /// band of triangles; the outline keeps every corner and is divided at about element_size between
 /// them. Angles in the band and in free meshes are 20 degrees at least, except at sharper corners
-/// of the outline. Arcs are divided into equal pieces of about element_size, and of 45 degrees at
-/// most, with nodes on the arc. Equal nodes of a file are merged and its triangles oriented
-/// anticlockwise. Throws std::runtime_error (what is wrong, what to do): outline not simple or not
-/// closed properly, hole outside or touching, element larger than the blank or far too small, fibre
-/// directions less than 25 degrees apart, file unreadable, empty, not flat, not of triangles, not
-/// manifold or not in one piece.
+/// of the outline. Zones and grid bisect the triangles of all kinds but free ones until they are at
+/// most 2^(1/4) times as large as wanted anywhere in them (core/mesh/bisection.hpp): no angle gets
+/// smaller than half of its triangle's smallest. Arcs are divided into equal pieces of about
+/// element_size, and of 45 degrees at most, with nodes on the arc. Equal nodes of a file are merged
+/// and its triangles oriented anticlockwise. Throws std::runtime_error (what is wrong, what to do):
+/// outline not simple or not closed properly, hole outside or touching, element larger than the
+/// blank or far too small, zones that ask for far too many triangles, fibre directions less than 25
+/// degrees apart, file unreadable, empty, not flat, not of triangles, not manifold or not in one
+/// piece.
 BlankMesh mesh_blank(const BlankSpec& spec, double warp, double weft);
 
 /// Appends a closed chain of lines and arcs (contact/shapes/tool_shape.hpp) to the outline, the
@@ -45,6 +48,12 @@ std::vector<Vec2> points_of(const Outline& outline, double largest_turn);
 
 /// Moves all of the outline.
 void shift(Outline& outline, const Vec2& by);
+
+/// Triangles of the blank's mesh, roughly; 0 for one from a file.
+double expected_triangles(const BlankSpec& spec);
+
+/// The smallest element size (mm) that the blank's zones and grid ask for, or its own.
+double smallest_wanted(const BlankSpec& spec);
 
 /// Whether the outline can be meshed with its element_size: false if mesh_blank would throw for it.
 bool takes_elements(const BlankSpec& spec);

@@ -5,6 +5,7 @@
 #include "core/mesh/mesh_blank.hpp"
 
 #include <array>
+#include <functional>
 #include <numbers>
 #include <optional>
 #include <vector>
@@ -42,15 +43,29 @@ inline bool is_skew(const CellDirections& d) {
 /// Throws std::runtime_error unless the outline can be meshed with elements of this size.
 void check_outline(const Outline& outline, double element_size);
 
+/// rad: most that a piece of an arc turns.
+inline constexpr double coarsest_turn = std::numbers::pi / 4.0;
+
 /// The loops of the outline divided into pieces of about `spacing` (mm), equal between two corners;
 /// every corner is a point. Arcs have pieces of `largest_turn` (rad) at most, ends on the arc.
-Region sample_outline(const Outline& outline, double spacing,
-                      double largest_turn = std::numbers::pi / 4.0);
+Region sample_outline(const Outline& outline, double spacing, double largest_turn = coarsest_turn);
 
 /// Points of a loop, `hole` as in OutlineArc: corners, and between them those that divide sides and
 /// arcs as sample_outline.
 std::vector<Vec2> sample_loop(const Outline& outline, int hole, double spacing,
                               double largest_turn);
+
+/// A side of a loop, divided: its first corner and the points up to the next one, `end`; arc: that
+/// it is, or null.
+struct SampledSide {
+  std::vector<Vec2> points;
+  Vec2 end;
+  const OutlineArc* arc;
+};
+
+/// The sides of a loop as sample_loop divides them. Arcs point into the outline.
+std::vector<SampledSide> sample_sides(const Outline& outline, int hole, double spacing,
+                                      double largest_turn);
 
 /// Appends the two or four triangles of the cell p00 p10 p11 p01 (node numbers); `centre` is the
 /// node in its middle, for MeshKind::crossed. The diagonal is p00-p11, or with other_diagonal
@@ -65,8 +80,20 @@ std::optional<BlankMesh> structured_blank(const BlankSpec& spec, const CellDirec
 /// Whole cells inside, a band of triangles along the outline (cut_mesh.cpp).
 BlankMesh cut_blank(const BlankSpec& spec, const CellDirections& directions);
 
-/// Delaunay mesh of the whole outline, with a mean edge of about element_size.
+/// More triangles are rejected as a probable mistake in an element size: one time step of them
+/// would take seconds.
+inline constexpr double most_triangles = 1e7;
+
+/// Delaunay mesh of the whole outline, with a mean edge of about element_size, or of what zones and
+/// grid ask for.
 BlankMesh free_blank(const BlankSpec& spec);
+
+/// Throws std::runtime_error if zones and grid ask for far too small or too many triangles.
+void check_zones(const BlankSpec& spec);
+
+/// Bisects triangles until they are as small as the blank's zones and grid ask for
+/// (graded_mesh.cpp).
+BlankMesh graded(BlankMesh mesh, const BlankSpec& spec);
 
 /// Mesh from an STL, OBJ, PLY or OFF file. Throws std::runtime_error as mesh_blank.
 BlankMesh blank_from_file(const std::filesystem::path& file);
@@ -75,5 +102,11 @@ BlankMesh blank_from_file(const std::filesystem::path& file);
 /// numbers; edges may be split. min_angle: rad, at most 20.7 degrees (beyond, termination is not
 /// proven); smaller angles of the region itself remain. max_edge: mm, 0 for no bound.
 BlankMesh refine(const Region& region, double min_angle, double max_edge);
+
+/// The longest side (mm, above 0) that a triangle with these corners may have.
+using LongestSide = std::function<double(const std::array<Vec2, 3>&)>;
+
+/// The same with sides bounded from place to place.
+BlankMesh refine(const Region& region, double min_angle, const LongestSide& longest_side);
 
 } // namespace plyform

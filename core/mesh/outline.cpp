@@ -26,9 +26,6 @@ struct Loop : std::vector<Kernel::Point_2> {
   bool pieces = false;
 };
 
-/// More triangles are rejected as a probable mistake in element_size: one time step of them would
-/// take seconds.
-constexpr double most_triangles = 1e7;
 /// Points of an outline and its holes; drawings have as many lines and arcs at most.
 constexpr std::size_t most_points = 100'000;
 /// A loop whose width is below this fraction of its length counts as a line without area.

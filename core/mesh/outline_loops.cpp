@@ -94,15 +94,24 @@ void shift(Outline& outline, const Vec2& by) {
 
 std::vector<Vec2> sample_loop(const Outline& outline, int hole, double spacing,
                               double largest_turn) {
+  std::vector<Vec2> points;
+  for (const SampledSide& side : sample_sides(outline, hole, spacing, largest_turn))
+    points.insert(points.end(), side.points.begin(), side.points.end());
+  return points;
+}
+
+std::vector<SampledSide> sample_sides(const Outline& outline, int hole, double spacing,
+                                      double largest_turn) {
   const std::vector<Vec2>& corners = corners_of(outline, hole);
   const auto pieces = [spacing](double length) {
     return std::max(1, static_cast<int>(std::lround(length / spacing)));
   };
   const std::vector<const OutlineArc*> arcs = arcs_of(outline, hole);
-  std::vector<Vec2> points;
+  std::vector<SampledSide> sides;
   for (std::size_t k = 0; k < corners.size(); ++k) {
     const Vec2 p = corners[k], q = corners[(k + 1) % corners.size()], along = q - p;
     const OutlineArc* arc = arcs[k];
+    std::vector<Vec2>& points = sides.emplace_back(SampledSide{{}, q, arc}).points;
     if (!arc) {
       const int n = pieces(along.norm());
       for (int i = 0; i < n; ++i)
@@ -121,7 +130,7 @@ std::vector<Vec2> sample_loop(const Outline& outline, int hole, double spacing,
                                          (1.0 + share * (ratio - 1.0)));
     }
   }
-  return points;
+  return sides;
 }
 
 Region sample_outline(const Outline& outline, double spacing, double largest_turn) {

@@ -10,19 +10,12 @@
 namespace plyform {
 namespace {
 
-double triangles_of(const BlankSpec& blank) {
-  if (blank.mesh == MeshKind::file || !(blank.element_size > 0.0)) return 0.0;
-  const double cells =
-      std::max(area_of(blank.outline), 0.0) / (blank.element_size * blank.element_size);
-  return cells * (blank.mesh == MeshKind::crossed ? 4.0 : 2.0);
-}
-
 /// Steps, by the time that a wave of tension takes through an element. The ratio is that of
 /// cases/hemisphere_0, and holds to a factor of two or so.
 double steps_of(const Case& data, const Ply& ply) {
   constexpr double elements_a_step = 0.7;
   const Fabric& fabric = data.fabrics[ply.fabric];
-  const double size = data.blanks[ply.blank].element_size;
+  const double size = smallest_wanted(data.blanks[ply.blank]);
   if (!fabric.has_yarns() || !(size > 0.0)) return 0.0;
   const double stiffness = std::max(fabric.warp.largest_slope() * fabric.warp_density,
                                     fabric.weft.largest_slope() * fabric.weft_density) /
@@ -39,7 +32,7 @@ SizeAhead size_ahead(const Case& data, int threads) {
   SizeAhead size;
   double steps = 0.0, most = 0.0;
   for (const Ply& ply : data.plies) {
-    const double triangles = triangles_of(data.blanks[ply.blank]);
+    const double triangles = expected_triangles(data.blanks[ply.blank]);
     size.triangles += triangles;
     if (triangles > most) most = triangles, size.largest = ply.blank;
     steps = std::max(steps, steps_of(data, ply));
