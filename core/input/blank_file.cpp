@@ -114,8 +114,10 @@ BlankSpec read_blank(const TableView& section, const std::filesystem::path& fold
   if (text(section, "mesh").empty()) return blank;
   if (blank.mesh != MeshKind::file) {
     read_outline(section, folder, blank, diagnostics);
+    read_zones(section, blank, diagnostics);
     return blank;
   }
+  read_zones(section, blank, diagnostics);
   const TomlNode* file = given(section, "file");
   if (!file) return blank;
   blank.file = resolve_path(*file, folder).lexically_normal();

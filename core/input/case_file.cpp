@@ -139,6 +139,7 @@ Case build_case(const TableView& root, const std::filesystem::path& folder,
     built.blanks.push_back(read_blank(section, folder, diagnostics));
   built.plies = read_plies(root, built.fabrics, diagnostics);
   built.tools = read_tools(root, folder, diagnostics);
+  place_tool_zones(root, built, diagnostics);
   built.boundaries = read_boundaries(root, built.plies, built.tools, diagnostics);
   Numbers bodies = number_bodies(root, diagnostics);
   const TableView contact = subsection(root, "contact");

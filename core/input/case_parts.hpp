@@ -22,6 +22,14 @@ std::vector<Fabric> read_fabrics(const TableView& root, Diagnostics& diagnostics
 BlankSpec read_blank(const TableView& section, const std::filesystem::path& folder,
                      Diagnostics& diagnostics);
 
+/// core/input/zone_file.cpp: the zones of a blank that has its outline; those along tools without
+/// their places. Reports zones beside the blank, or with larger elements than its own.
+void read_zones(const TableView& section, BlankSpec& blank, Diagnostics& diagnostics);
+
+/// core/input/zone_file.cpp: the places of zones along tools. Reports names of no tool, and zones
+/// beside a ply that has the blank.
+void place_tool_zones(const TableView& root, Case& built, Diagnostics& diagnostics);
+
 /// core/input/tool_file.cpp: tools, their shapes, places and motions. `folder` is the case file's.
 std::vector<Tool> read_tools(const TableView& root, const std::filesystem::path& folder,
                              Diagnostics& diagnostics);

@@ -57,6 +57,68 @@ Rows drawing_rows() {
                       .meaning = "mm per unit of the drawing"})};
 }
 
+/// Row of one of the keys of which a zone has one.
+KeyRow zone_kind(KeyRow row) {
+  for (const char* other : {"radius", "outline", "tool"})
+    if (row.key != other) row.instead.emplace_back(other);
+  row.key = "blanks.NAME.zone[]." + row.key;
+  return row;
+}
+
+Rows zone_rows() {
+  return {{.key = "blanks.NAME.zone",
+           .kind = K::tables,
+           .fallback = "[]",
+           .meaning = "parts of the blank with smaller elements, one [[blanks.NAME.zone]] each; "
+                      "where several lie, the smallest hold"},
+          {.key = "blanks.NAME.zone[].element_size",
+           .unit = "mm",
+           .ranges = {length_range},
+           .meaning = "element size in the zone, at most the blank's, to 2^(1/4); elements around "
+                      "grow at once",
+           .members = {to(&MeshZone::element_size)}},
+          zone_kind({.key = "radius",
+                     .unit = "mm",
+                     .ranges = {length_range},
+                     .meaning = "radius of a round zone",
+                     .members = {to(&MeshZone::radius)}}),
+          {.key = "blanks.NAME.zone[].inner_radius",
+           .unit = "mm",
+           .fallback = "0.0",
+           .ranges = {length_or_zero},
+           .meaning = "radius inside which a round zone does not lie, so that it is a ring",
+           .members = {to(&MeshZone::inner_radius)}},
+          {.key = "blanks.NAME.zone[].centre",
+           .kind = K::numbers,
+           .unit = "mm",
+           .fallback = "[0.0, 0.0]",
+           .ranges = {place_range},
+           .count = 2,
+           .meaning = "place of the middle of a round zone; of [0, 0] of an outline; as that of "
+                      "holes"},
+          zone_kind({.key = "outline",
+                     .kind = K::pairs,
+                     .unit = "mm",
+                     .ranges = {place_range},
+                     .least_items = 3,
+                     .meaning = "corners [x, y] of a zone, in order"}),
+          zone_kind({.key = "tool",
+                     .kind = K::name,
+                     .meaning = "name of a tool, along whose tight radii the zone lies, seen from "
+                                "above, with all where it is at the start"}),
+          {.key = "blanks.NAME.zone[].below_radius",
+           .unit = "mm",
+           .otherwise = "twice the tool's tightest rounding, or a tenth of its diagonal if that is "
+                        "more",
+           .ranges = {length_range},
+           .meaning = "largest outward radius of the tool that counts"},
+          {.key = "blanks.NAME.zone[].distance",
+           .unit = "mm",
+           .otherwise = "twice the tool's radius there, at least two elements",
+           .ranges = {length_range},
+           .meaning = "distance to which the zone reaches from the tool's tight radii, in plan"}};
+}
+
 } // namespace
 
 Rows blank_rows() {
@@ -138,6 +200,7 @@ Rows blank_rows() {
                  .with = {"file"},
                  .meaning = "mesh file of the flat blank (STL, OBJ, PLY or OFF, in mm, z "
                             "constant)"}});
+  append(rows, zone_rows());
   return rows;
 }
 

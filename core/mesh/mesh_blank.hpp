@@ -5,6 +5,7 @@
 #include "contact/shapes/tool_shape.hpp"
 #include "core/model/blank_spec.hpp"
 
+#include <string>
 #include <vector>
 
 namespace plyform {
@@ -39,6 +40,10 @@ void append_loop(Outline& outline, const Profile& chain);
 
 /// Appends a circle.
 void append_circle(Outline& outline, const Vec2& centre, double radius);
+
+/// Throws std::runtime_error (what is wrong, what to do) unless the polygon is simple and has an
+/// area. name: what messages call it.
+void check_polygon(const std::vector<Vec2>& corners, const std::string& name);
 
 /// Area (mm^2) that the outline encloses, arcs as they are.
 double area_of(const Outline& outline);

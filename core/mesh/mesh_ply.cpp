@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mesh/mesh_ply.hpp"
 
+#include "core/mesh/tool_zone.hpp"
+
 namespace plyform {
 
 BlankMesh mesh_ply(const Case& data, const Ply& ply) {
   const double warp = ply.angle - ply.rotation; // as seen from the blank
-  BlankMesh mesh =
-      mesh_blank(data.blanks[ply.blank], warp, warp + data.fabrics[ply.fabric].fibre_angle);
+  BlankSpec blank = data.blanks[ply.blank];
+  for (MeshZone& zone : blank.zones)
+    zone = seen_from_blank(std::move(zone), ply);
+  BlankMesh mesh = mesh_blank(blank, warp, warp + data.fabrics[ply.fabric].fibre_angle);
   if (ply.rotation == 0.0 && ply.seed.isZero(0.0)) return mesh;
   const Eigen::Rotation2Dd turn(ply.rotation);
   for (Vec2& x : mesh.x)

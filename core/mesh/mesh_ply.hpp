@@ -8,7 +8,8 @@
 namespace plyform {
 
 /// Meshes the ply's blank, turns it by the ply's rotation and moves its origin to the seed. The
-/// mesh turns with the blank; the yarns stay at the ply's angle. Throws as mesh_blank.
+/// mesh turns with the blank, but for zones along tools, which stay with these; the yarns stay at
+/// the ply's angle. Throws as mesh_blank.
 BlankMesh mesh_ply(const Case& data, const Ply& ply);
 
 } // namespace plyform

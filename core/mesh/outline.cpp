@@ -32,7 +32,7 @@ constexpr std::size_t most_points = 100'000;
 constexpr double line = 1e-9;
 
 [[noreturn]] void fail(const std::string& message) {
-  throw std::runtime_error("blank outline: " + message);
+  throw std::runtime_error(message);
 }
 
 std::string text(const Kernel::Point_2& p) {
@@ -246,9 +246,7 @@ std::vector<Loop> checked_loops(const Outline& outline, double spacing, double l
   return loops;
 }
 
-} // namespace
-
-void check_outline(const Outline& outline, double element_size) {
+void check_whole_outline(const Outline& outline, double element_size) {
   std::size_t points = outline.boundary.size();
   for (const std::vector<Vec2>& hole : outline.holes)
     points += hole.size();
@@ -265,6 +263,20 @@ void check_outline(const Outline& outline, double element_size) {
   };
   check_size(check(std::numeric_limits<double>::infinity(), fine), element_size);
   if (!outline.arcs.empty()) check(element_size, coarse); // as it is meshed
+}
+
+} // namespace
+
+void check_outline(const Outline& outline, double element_size) {
+  try {
+    check_whole_outline(outline, element_size);
+  } catch (const std::runtime_error& error) {
+    throw std::runtime_error(std::string("blank outline: ") + error.what());
+  }
+}
+
+void check_polygon(const std::vector<Vec2>& corners, const std::string& name) {
+  checked_loop(corners, name, false);
 }
 
 } // namespace plyform

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mesh/size_field.hpp"
 
+#include "contact/shapes/fill_polygon.hpp"
 #include "core/mesh/mesher_parts.hpp"
 
 #include <algorithm>
@@ -229,6 +230,19 @@ double least_wanted(const SizeField& field, const std::array<Vec2, 3>& triangle)
     if (overlaps(zone, triangle, box)) return zone.zone.element_size;
   }
   return size;
+}
+
+bool lies_on(const MeshZone& zone, const Outline& outline) {
+  const FieldZone field = make_field_zone(zone);
+  const std::vector<Vec2> corners = points_of(outline, coarsest_turn);
+  const std::vector<Triangle> triangles = fill_polygon(corners);
+  return std::any_of(triangles.begin(), triangles.end(), [&](const Triangle& t) {
+    const Corners x{corners[at(t[0])], corners[at(t[1])], corners[at(t[2])]};
+    Eigen::AlignedBox2d box;
+    for (const Vec2& p : x)
+      box.extend(p);
+    return overlaps(field, x, box);
+  });
 }
 
 double area_of(const FieldZone& field) {

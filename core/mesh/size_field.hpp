@@ -45,6 +45,9 @@ double wanted_size(const SizeField& field, const Vec2& p);
 /// own points inside.
 double least_wanted(const SizeField& field, const std::array<Vec2, 3>& triangle);
 
+/// Whether a zone, as seen from the blank, lies on a part of it; holes count as blank.
+bool lies_on(const MeshZone& zone, const Outline& outline);
+
 /// Area (mm^2) of a zone, roughly for one about a tool.
 double area_of(const FieldZone& zone);
 

@@ -54,6 +54,26 @@ TEST(LockingLong, AveragedElementIsWithinFivePercentAtTwentyElementsAWidth) {
   judge(0.05 * width, 0.05, 15); // the angles between: locking_study angles
 }
 
+/// A band of small elements aslant across the zone that shears, and a ring of them.
+TEST(LockingLong, AveragedElementOnGradedMeshesIsWithinFivePercentOfTheory) {
+  const ShearTest test = shear_test(BiasSpecimen{length, width});
+  for (const MeshKind kind : {MeshKind::diagonal, MeshKind::alternating, MeshKind::free}) {
+    BlankSpec spec = rectangle(length, width, 10.0, kind);
+    MeshZone band, ring;
+    band.kind = ZoneKind::polygon, band.outline = {{-70, -60}, {-20, -60}, {60, 60}, {10, 60}};
+    ring.centre = {70, 20}, ring.radius = 25.0, ring.inner_radius = 12.0;
+    band.element_size = ring.element_size = 5.0;
+    spec.zones = {band, ring};
+    const std::vector<double> found =
+        bias_loads(mesh_blank(spec, 0.0, 0.5 * std::numbers::pi), glass_weave(), length, width,
+                   ElementKind::averaged, angles);
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      EXPECT_NEAR(found[i] / test_load(test, glass_weave(), extension_at(test, angles[i])), 1.0,
+                  0.05)
+          << static_cast<int>(kind) << ' ' << i;
+  }
+}
+
 TEST(LockingLong, PlainElementIsNot) {
   const std::vector<double> converged = converged_loads();
   const std::vector<double> found =

@@ -43,14 +43,25 @@ double from_rim(const Vec2& p, double width = side) {
   return std::min(0.5 * side - std::abs(p.x()), 0.5 * width - std::abs(p.y()));
 }
 
+/// Squares with elements a third as large in a disc that is not in the middle.
+BlankMesh graded_rectangle(double width, double element) {
+  BlankSpec spec = rectangle(side, width, element, MeshKind::alternating);
+  MeshZone zone;
+  zone.centre = {0.1 * side, 0.1 * width}, zone.radius = 0.25 * width;
+  zone.element_size = element / 3.0;
+  spec.zones = {zone};
+  return mesh_blank(spec, 0.0, 0.0);
+}
+
 /// Squares with so many elements a side, with one diagonal, with every kind of them, and with inner
-/// nodes moved at random by a quarter of an element, and free triangles.
+/// nodes moved at random by a quarter of an element, free triangles, and graded ones.
 std::vector<NamedMesh> meshes(int elements, double width = side) {
   const double element = side / elements;
   std::vector<NamedMesh> all{{"diagonal", rectangle_of(MeshKind::diagonal, width, element)},
                              {"alternating", rectangle_of(MeshKind::alternating, width, element)},
                              {"crossed", rectangle_of(MeshKind::crossed, width, element)},
                              {"free", rectangle_of(MeshKind::free, width, element)},
+                             {"graded", graded_rectangle(width, element)},
                              {"shaken", rectangle_of(MeshKind::diagonal, width, element)}};
   Random random(3);
   for (Vec2& p : all.back().mesh.x)
