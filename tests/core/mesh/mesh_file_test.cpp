@@ -122,6 +122,18 @@ std::string as_ply(const BlankMesh& mesh, double z) {
   return text;
 }
 
+TEST(BlankFromFile, IsBisectedWhereAZoneAsksForSmallerElements) {
+  const TestFile file("off", as_off(pierced_mesh(), 0.0));
+  BlankSpec spec{{}, MeshKind::file, 0, file.path};
+  spec.zones.resize(1);
+  spec.zones[0].centre = {250, 75}, spec.zones[0].radius = 20, spec.zones[0].element_size = 3;
+  const BlankMesh coarse = read(file.path), fine = mesh_blank(spec, 0, 0);
+  expect_sound(fine, pierced_l(), "bisected");
+  EXPECT_GT(fine.triangles.size(), coarse.triangles.size() + 190); // 2 pi 20^2 over 2^(1/2) 3^2
+  for (std::size_t n = 0; n < coarse.x.size(); ++n)
+    EXPECT_EQ(fine.x[n], coarse.x[n]);
+}
+
 TEST(BlankFromFile, EveryFormatGivesTheMeshBack) {
   const BlankMesh mesh = pierced_mesh();
   for (const auto& [extension, content] :
