@@ -5,7 +5,8 @@
 // Error: root mean square, over all plies, of the difference in shear angle to a run that has
 // converged (docs/users/accuracy.md: how it was measured, the cases that (E) was fitted to and
 // those it was validated with). Three causes, each a power of a dimensionless number:
-//   inertia    I = 1/2 rho v^2 / w       rho t/mm^2, v = stroke / duration, w N/mm
+//   inertia    I = 1/2 rho v^2 / w       rho t/mm^2, v = stroke / duration, w N/mm; rho with
+//                                        what element mass scaling adds
 //   softening  S = s w / (d k)           s effective_softening, k N a yarn, d yarns per mm
 //   mesh       M = h / L                 element size over stroke, mm
 //   plies      n                         in a stack: the outer ones are supported on one side only,
@@ -36,8 +37,11 @@ struct PredictedError {
 };
 
 /// (E) for a case with a stroke (of driven tools or boundaries); NaN without one. With several
-/// fabrics and blanks the largest errors count.
+/// fabrics and blanks the largest errors count. mass_factor: of rho in I, by element mass scaling
+/// (effective_mass_factor, core/solver/element_mass_scaling.hpp); without it what the share that
+/// solver.element_mass_scaling allows may come to.
 PredictedError predicted_error(const Case& data);
+PredictedError predicted_error(const Case& data, double mass_factor);
 
 /// One line for the user; promised: degrees, or NaN, and `unknown` says why; coarsening: as
 /// pick_cost_parameters returned it.

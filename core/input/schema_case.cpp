@@ -169,6 +169,13 @@ Rows solver_rows() {
            .meaning = "largest share of a ply's mass added at nodes of stiff contacts, for larger "
                       "steps; 0: none",
            .members = {to(&SolverOptions::mass_scaling)}},
+          {.key = "solver.element_mass_scaling",
+           .fallback = toml(solver.element_mass_scaling),
+           .ranges = {share},
+           .usual = {{.least = 0.0, .most = 0.5}},
+           .meaning = "largest share of a ply's mass added to its small elements at the start, for "
+                      "larger steps; 0: none",
+           .members = {to(&SolverOptions::element_mass_scaling)}},
           {.key = "solver.max_balance_error",
            .fallback = toml(solver.max_balance_error),
            .ranges = {{.least = 1e-12, .most = 1e6}},

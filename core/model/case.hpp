@@ -108,6 +108,7 @@ struct SolverOptions {
   double fibre_damping = 0.05;       ///< fraction of critical of the stiffest element mode
   double mass_damping = 0.0;         ///< 1/s, acceleration -mass_damping * velocity
   double mass_scaling = 0.01;        ///< largest share of a ply's mass added at stiff contacts
+  double element_mass_scaling = 0.0; ///< largest share of a ply's mass added to small elements
   double max_balance_error = 0.1;    ///< stop above this relative energy balance error
   int outputs = 20;                  ///< states written, evenly over the stroke
   double checkpoint_interval = 60.0; ///< s of wall time

@@ -92,6 +92,18 @@ std::string estimated_values(const Fabric& f) {
   return joined(parts);
 }
 
+/// That a tool with a mass switches solver.mass_scaling off (core/solver/mass_scaling.hpp); empty
+/// if none does.
+std::string describe_mass_scaling(const Case& data) {
+  if (data.solver.mass_scaling == 0.0) return {};
+  for (const Tool& tool : taking_part(data).tools)
+    if (tool.mass > 0.0)
+      return fmt::format("no mass is added at stiff contacts (solver.mass_scaling), since tool {} "
+                         "has a mass and swings on them",
+                         tool.name);
+  return {};
+}
+
 } // namespace
 
 double usual_compression(const TensionLaw& law) {
@@ -181,6 +193,7 @@ std::vector<std::string> assumptions(const Case& data) {
   std::vector<std::string> lines = describe_estimates(data);
   for (std::string& line : describe_softening(data))
     lines.push_back(std::move(line));
+  if (std::string line = describe_mass_scaling(data); !line.empty()) lines.push_back(line);
   return lines;
 }
 

@@ -49,24 +49,6 @@ double largest_omega2(const Bending& b, const Eigen::VectorXd& root, const Of& o
   return upper_bound(largest_ritz_value(apply, start, ritz_steps));
 }
 
-/// Bound of the largest eigenvalue of M^-1 K, 1/s^2, of (E) + (G). In a flat sheet out-of-plane and
-/// in-plane motions are not coupled, so the larger of the two is enough. In the plane warp and weft
-/// are taken to bend along the same direction, which they approach in a sheared ply: there they are
-/// coupled the most.
-double bound(const Bending& b, std::span<const double> node_mass) {
-  const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(
-                                   node_mass.data(), static_cast<Eigen::Index>(node_mass.size()))
-                                   .cwiseSqrt();
-  const CurvatureStiffness across{
-      {b.law.warp.largest_slope(), b.law.weft.largest_slope(), b.law.twist}, b.law.coupling};
-  double found = largest_omega2(b, root, [&](std::size_t) { return across; });
-  if (!b.in_plane.empty())
-    found = std::max(found, largest_omega2(b, root, [&](std::size_t e) {
-                       return CurvatureStiffness{{b.in_plane[e][0], b.in_plane[e][1], 0.0}, 0.0};
-                     }));
-  return found;
-}
-
 /// In-plane curvature of one family of yarns at one node.
 struct YarnCurvature {
   Vec3 across;         ///< c / l^2
@@ -154,8 +136,45 @@ Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& trian
   Bending b;
   b.law = law;
   fit_stencils(b, x, triangles, warp, weft);
-  b.omega2 = bound(b, node_mass);
+  b.omega2 = bending_omega2(b, node_mass);
   return b;
+}
+
+double bending_omega2(const Bending& b, std::span<const double> node_mass) {
+  // In a flat sheet out-of-plane and in-plane motions are not coupled, so the larger of the two is
+  // enough. In the plane warp and weft are taken to bend along the same direction, which they
+  // approach in a sheared ply: there they are coupled the most.
+  const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(
+                                   node_mass.data(), static_cast<Eigen::Index>(node_mass.size()))
+                                   .cwiseSqrt();
+  const CurvatureStiffness across{
+      {b.law.warp.largest_slope(), b.law.weft.largest_slope(), b.law.twist}, b.law.coupling};
+  double found = largest_omega2(b, root, [&](std::size_t) { return across; });
+  if (!b.in_plane.empty())
+    found = std::max(found, largest_omega2(b, root, [&](std::size_t e) {
+                       return CurvatureStiffness{{b.in_plane[e][0], b.in_plane[e][1], 0.0}, 0.0};
+                     }));
+  return found;
+}
+
+std::vector<double> stencil_omega2(const Bending& b, std::span<const double> node_mass) {
+  const std::array<double, 3> across{b.law.warp.largest_slope(), b.law.weft.largest_slope(),
+                                     b.law.twist};
+  std::vector<double> omega2;
+  for (std::size_t n = 0; n < b.area.size(); ++n) {
+    std::array<double, 3> squares{}; // of B over the masses
+    for (auto i = static_cast<std::size_t>(b.begin[n]);
+         i < static_cast<std::size_t>(b.begin[n + 1]); ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        squares[k] += b.b[i][k] * b.b[i][k] / node_mass[b.node[i]];
+    double sheet = 0.0, plane = 0.0;
+    for (std::size_t k = 0; k < 3; ++k)
+      sheet += across[k] * squares[k];
+    for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
+      plane += b.in_plane[n][k] * squares[k];
+    omega2.push_back(b.area[n] * std::max(sheet, plane));
+  }
+  return omega2;
 }
 
 std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int node) {

@@ -101,6 +101,15 @@ Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& trian
                      const BendingLaw& law, double warp, double weft,
                      std::span<const double> node_mass);
 
+/// Bound of the largest eigenvalue of M^-1 K, 1/s^2, of (E) + (G) in the undeformed shape, by
+/// Lanczos' iteration. node_mass: t, one per node.
+double bending_omega2(const Bending& b, std::span<const double> node_mass);
+
+/// Of each stencil the sum of the eigenvalues, 1/s^2, of its own stiffness with the whole masses
+/// (t) of its nodes: what it would give without the stencils around, no bound. Coupling does not
+/// count.
+std::vector<double> stencil_omega2(const Bending& b, std::span<const double> node_mass);
+
 /// Curvatures (K) kappa_11, kappa_22, kappa_12 (1/mm) at one node. x: mm, one per node.
 std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int node);
 

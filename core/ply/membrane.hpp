@@ -97,19 +97,23 @@ struct Membrane {
   double omega0 = 0.0;                       ///< rad
   double cells_per_area = 0.0;               ///< n_c, 1/mm^2
   FibreViscosity viscosity;
-  std::array<SideStiffness, 2> side{};    ///< warp, weft
-  std::vector<Triangle> triangles;        ///< m, those of a strain group successive
-  std::vector<std::int32_t> group_begin;  ///< groups + 1, into triangles
-  std::vector<FibreGradients> c;          ///< m
-  std::vector<double> area;               ///< m, A0
-  std::vector<double> node_area;          ///< n, mm^2, a third of the triangles around the node
-  std::vector<double> node_mass;          ///< n, t
+  std::array<SideStiffness, 2> side{};   ///< warp, weft
+  std::vector<Triangle> triangles;       ///< m, those of a strain group successive
+  std::vector<std::int32_t> group_begin; ///< groups + 1, into triangles
+  std::vector<FibreGradients> c;         ///< m
+  std::vector<double> area;              ///< m, A0
+  std::vector<double> node_area;         ///< n, mm^2, a third of the triangles around the node
+  std::vector<double> node_mass;         ///< n, t, with what density_factor adds
+  /// m, factor of each triangle's mass (core/solver/element_mass_scaling.hpp); empty: 1
+  std::vector<double> density_factor;
   std::vector<std::int32_t> gather_begin; ///< n + 1, into gather
   std::vector<std::int32_t> gather;       ///< per node: 3 * triangle + corner, ascending
   // State variables of the viscosity, per group: mean stretches and viscous tensions (N) of the
   // last step; empty if core/ply/membrane_simd.hpp computes the forces.
   std::vector<std::array<double, 2>> last_lambda, last_viscous;
 
+  /// t, of the cloth alone at a node.
+  double cloth_mass(std::size_t n) const { return fabric.surface_density * node_area[n]; }
   int groups() const { return static_cast<int>(group_begin.size()) - 1; }
 };
 

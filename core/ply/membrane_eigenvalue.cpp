@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace plyform {
 namespace {
@@ -43,6 +44,12 @@ Gram gram(const FibreGradients& c) {
           c10 * c20 + c.c11 * c.c21 + c.c12 * c.c22};
 }
 
+/// 3/rho of a triangle, mm^2/t: over its area the inverse of the mass that it gives each corner.
+double corners_per_mass(const Membrane& m, std::size_t e) {
+  const double per_mass = 3.0 / m.fabric.surface_density;
+  return m.density_factor.empty() ? per_mass : per_mass / m.density_factor[e];
+}
+
 /// Shear and geometric part of H (see eigenvalue_bound), N/mm, bounded by norms; the second
 /// derivative of the angle is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2).
 double soft_stiffness(const Membrane& m, const FibreState& s) {
@@ -53,6 +60,53 @@ double soft_stiffness(const Membrane& m, const FibreState& s) {
   return std::max({0.0, n1, n2}) +
          m.cells_per_area * inv2 *
              (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
+}
+
+/// What a strain group gives a node: its mass, t, and its area times mean gradients, mm.
+struct GroupNode {
+  double mass = 0.0, b1 = 0.0, b2 = 0.0;
+};
+
+/// The nodes of strain group p.
+std::map<int, GroupNode> nodes_of_group(const Membrane& m, std::size_t p) {
+  std::map<int, GroupNode> nodes;
+  for (auto e = static_cast<std::size_t>(m.group_begin[p]);
+       e < static_cast<std::size_t>(m.group_begin[p + 1]); ++e) {
+    const FibreGradients& c = m.c[e];
+    const std::array<double, 3> c1{-c.c11 - c.c12, c.c11, c.c12}, c2{-c.c21 - c.c22, c.c21, c.c22};
+    for (std::size_t k = 0; k < 3; ++k) {
+      GroupNode& node = nodes[m.triangles[e][k]];
+      node.mass += m.area[e] / corners_per_mass(m, e);
+      node.b1 += m.area[e] * c1[k];
+      node.b2 += m.area[e] * c2[k];
+    }
+  }
+  return nodes;
+}
+
+/// 1/s^2, of group_omega2. As the bound of a triangle, with the nodes and mean gradients of the
+/// group: K_g = A sum_a k_a b_a b_a^T x f_a f_a^T, M_g the masses that it gives its nodes.
+double omega2_of_group(const Membrane& m, std::span<const Vec3> x, std::size_t p) {
+  Gram g{0.0, 0.0, 0.0}; // (A b)^2 over the masses, mm^2/t
+  for (const auto& [n, node] : nodes_of_group(m, p)) {
+    g.g11 += node.b1 * node.b1 / node.mass;
+    g.g22 += node.b2 * node.b2 / node.mass;
+    g.g12 += node.b1 * node.b2 / node.mass;
+  }
+  const InPlaneLaw& law = in_plane_law(m.fabric);
+  double area = 0.0, soft = 0.0, cos_omega = 0.0;
+  for (auto e = static_cast<std::size_t>(m.group_begin[p]);
+       e < static_cast<std::size_t>(m.group_begin[p + 1]); ++e) {
+    const FibreState s = fibre_state(m, x, static_cast<int>(e));
+    const Gram of = gram(m.c[e]);
+    const double sheet = law.stiffness ? law.stiffness(m, s, of) : 0.0;
+    soft = std::max(soft, corners_per_mass(m, e) *
+                              (sheet + soft_stiffness(m, s) * largest(of.g11, of.g22, of.g12)));
+    area += m.area[e];
+    cos_omega = s.cos_omega;
+  }
+  const auto [s1, s2] = yarn_stiffness(m);
+  return largest(s1 * g.g11, s2 * g.g22, std::sqrt(s1 * s2) * g.g12 * cos_omega) / area + soft;
 }
 
 } // namespace
@@ -68,13 +122,13 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
   const double v1 = m.fabric.warp_density * m.viscosity.warp;
   const double v2 = m.fabric.weft_density * m.viscosity.weft;
   bound.viscous = std::max(s1 > 0.0 ? v1 / s1 : 0.0, s2 > 0.0 ? v2 / s2 : 0.0);
-  const double per_mass = 3.0 / m.fabric.surface_density;
   // the collapse penalty of a triangle adds to the stiffness of the taut yarns of its pair
   const bool paired = is_paired(m);
   const double g1 = m.fabric.warp_density * m.side[0].collapse_penalty;
   const double g2 = m.fabric.weft_density * m.side[1].collapse_penalty;
   constexpr double considerable = 0.2; // of the yarn stiffness: step_factor covers less
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+    const double per_mass = corners_per_mass(m, e);
     const Gram g = gram(m.c[e]);
     const FibreState s = fibre_state(m, x, static_cast<int>(e));
     const auto [d1, d2] = deviation_stiffness(m, s);
@@ -101,6 +155,14 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
     bound.damping = std::max(bound.damping, per_mass * viscous);
   }
   return bound;
+}
+
+std::vector<double> group_omega2(const Membrane& m, std::span<const Vec3> x) {
+  std::vector<double> omega2;
+  omega2.reserve(m.triangles.size());
+  for (std::size_t p = 0; p < static_cast<std::size_t>(m.groups()); ++p)
+    omega2.resize(static_cast<std::size_t>(m.group_begin[p + 1]), omega2_of_group(m, x, p));
+  return omega2;
 }
 
 YarnStiffness::YarnStiffness(const Membrane& m, std::span<const Vec3> x, double stiffness,

@@ -32,6 +32,11 @@ struct EigenvalueBound {
 /// Element bounds at positions x (mm, n).
 EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x);
 
+/// Of each triangle the largest omega^2 (1/s^2) of its strain group by itself, with the masses that
+/// it gives its nodes, at positions x (mm, n): as Irons' bound of elements, but of pairs, whose one
+/// mean strain is less stiff than two. The deviations within a pair do not count.
+std::vector<double> group_omega2(const Membrane& m, std::span<const Vec3> x);
+
 /// Products of vectors with (stiffness K + damping C) of taut yarns at one shape x (mm), active
 /// collapse penalties included. stiffness, damping: factors (damping in 1/s). Not for a sheet
 /// without yarns. Keeps a reference to the membrane, which must outlive it.

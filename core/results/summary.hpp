@@ -82,6 +82,7 @@ struct Summary {
   long steps = 0;
   double min_step_s = 0, max_step_s = 0;
   double largest_added_mass = 0; ///< by mass scaling, share of the mass of any ply, at any time
+  double element_added_mass = 0; ///< to small elements, largest share of the mass of any ply
   int threads = 1;
   AccuracyReport accuracy;
   double motion_share = 0; ///< largest_motion (core/solver/ply_motion.hpp) at the end

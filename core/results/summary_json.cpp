@@ -280,6 +280,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
               {"steps", summary.steps},
               {"time_step_s", time_step_object(summary)},
               {"largest_added_mass", rounded(summary.largest_added_mass)},
+              {"element_added_mass", rounded(summary.element_added_mass)},
               {"threads", summary.threads},
               {"elements", elements},
               {"nodes", nodes},

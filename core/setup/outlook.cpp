@@ -9,6 +9,7 @@
 #include "core/setup/boundaries_ahead.hpp"
 #include "core/setup/size_ahead.hpp"
 #include "core/setup/tool_cuts.hpp"
+#include "core/solver/element_mass_scaling.hpp"
 #include "core/solver/facet_penetration.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"
@@ -372,7 +373,10 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
       s.ply_contacts.size(), s.skin);
   say(lines, "stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s", bound.dt,
       s.plies[bound.ply].name, bound.triangle, s.next_dt);
-  const PredictedError error = predicted_error(data);
+  if (data.solver.element_mass_scaling > 0.0)
+    say(lines, "small elements: {:.2g} % of a ply's mass added at most",
+        100.0 * largest_added_element_mass(s));
+  const PredictedError error = predicted_error(data, effective_mass_factor(s));
   lines.push_back(
       describe_accuracy(error, error.promised(data), prepared.coarsening, error.unknown(data)));
   lines.insert(lines.end(), prepared.notes.begin(), prepared.notes.end());

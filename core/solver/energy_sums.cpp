@@ -24,7 +24,7 @@ double work_of_gravity(const PlyState& ply, const Vec3& gravity) {
   double sum = 0.0;
   if (gravity.isZero(0)) return sum;
   for (std::size_t n = 0; n < ply.x.size(); ++n)
-    sum += ply.membrane.node_mass[n] * gravity.dot(ply.x[n] - ply.x0[n]);
+    sum += ply.membrane.cloth_mass(n) * gravity.dot(ply.x[n] - ply.x0[n]);
   return sum;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/mass_scaling.hpp"
 
+#include "core/solver/omega_cap.hpp"
 #include "core/solver/stable_time_step.hpp"
 
 #include <algorithm>
@@ -23,26 +24,12 @@ constexpr double least_gain = 1.2;
 /// it brings less than least_gain.
 double largest_contact_omega2(const std::vector<ContactRow>& rows, const std::vector<double>& mass,
                               double least, double budget) {
-  struct Node {
-    double omega2, stiffness, mass;
-  };
-  std::vector<Node> stiff;
+  std::vector<StiffMass> stiff;
   for (std::size_t n = 0; n < rows.size(); ++n)
-    if (rows[n].stiffness > least * mass[n])
-      stiff.push_back({rows[n].stiffness / mass[n], rows[n].stiffness, mass[n]});
-  std::sort(stiff.begin(), stiff.end(),
-            [](const Node& a, const Node& b) { return a.omega2 > b.omega2; });
-  // with kappa between the omega^2 of nodes k and k + 1 the first k get c / kappa - m each
-  double stiffness = 0.0, own = 0.0;
-  for (std::size_t k = 0; k < stiff.size(); ++k) {
-    stiffness += stiff[k].stiffness, own += stiff[k].mass;
-    const double kappa = stiffness / (own + budget);
-    const double next = k + 1 < stiff.size() ? stiff[k + 1].omega2 : least;
-    const double found = std::max(kappa, least);
-    if (found >= next)
-      return stiff[0].omega2 < least_gain * found ? std::numeric_limits<double>::infinity() : found;
-  }
-  return std::numeric_limits<double>::infinity(); // there are none
+    if (rows[n].stiffness > least * mass[n]) stiff.push_back({rows[n].stiffness, mass[n]});
+  const OmegaCap cap = lowest_cap(std::move(stiff), least, budget);
+  return cap.before < least_gain * cap.omega2 ? std::numeric_limits<double>::infinity()
+                                              : cap.omega2;
 }
 
 } // namespace

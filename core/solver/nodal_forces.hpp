@@ -28,7 +28,7 @@ void sum_forces(const PlyState& ply, int begin, int end, Vec3* f);
 inline Vec3 acceleration(const PlyState& ply, std::size_t n, const Vec3& force,
                          const MassLoads& loads) {
   const double mass = ply.mass[n];
-  return force / mass + (ply.membrane.node_mass[n] / mass) * loads.gravity -
+  return force / mass + (ply.membrane.cloth_mass(n) / mass) * loads.gravity -
          loads.damping * ply.velocity[n];
 }
 

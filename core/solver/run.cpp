@@ -7,6 +7,7 @@
 #include "core/model/fabric_estimates.hpp"
 #include "core/model/motion.hpp"
 #include "core/solver/checkpoint.hpp"
+#include "core/solver/element_mass_scaling.hpp"
 #include "core/solver/facet_penetration.hpp"
 #include "core/solver/output_state.hpp"
 #include "core/solver/ply_motion.hpp"
@@ -166,8 +167,9 @@ std::string unsettled_forces(const Scene& s, const Dwell& dwell) {
 }
 
 /// What is predicted, unless the premise of the rule does not hold.
-AccuracyReport accuracy_of(const Case& data, bool flies) {
-  const PredictedError error = predicted_error(data);
+AccuracyReport accuracy_of(const Scene& s, bool flies) {
+  const Case& data = s.data;
+  const PredictedError error = predicted_error(data, effective_mass_factor(s));
   AccuracyReport accuracy{error.inertia, error.softening,    error.mesh, error.promised(data),
                           1.0,           error.unknown(data)};
   if (!flies) return accuracy;
@@ -189,11 +191,12 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
   sum.min_step_s = s.min_dt;
   sum.max_step_s = s.max_dt;
   sum.largest_added_mass = s.largest_added_mass;
+  sum.element_added_mass = largest_added_element_mass(s);
   sum.threads = pool.size();
   const LargestMotion motion = largest_motion(s, motion_of_plies(s), result.last.energy.external);
   sum.motion_share = motion.share;
   sum.flies = !motion.flying.empty();
-  sum.accuracy = accuracy_of(s.data, !motion.flying.empty());
+  sum.accuracy = accuracy_of(s, !motion.flying.empty());
   sum.contact = audit(s, good, pool);
   const std::vector<ToolCut> cuts = cuts_between_nodes(s, pool);
   sum.contact.max_tool_penetration_between_nodes_mm = deepest(cuts);

@@ -6,6 +6,7 @@
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/motion.hpp"
 #include "core/model/reach_ahead.hpp"
+#include "core/solver/element_mass_scaling.hpp"
 #include "core/solver/facet_penetration.hpp"
 
 #include <algorithm>
@@ -32,6 +33,18 @@ std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
     face.push_back(
         static_cast<char>(std::any_of(t.begin(), t.end(), [&](int n) { return node[n] != 0; })));
   return face;
+}
+
+/// Sets the bound of a ply's frequency at the start and the viscosity of yarns that follows from
+/// it.
+void set_frequency(const Case& data, PlyState& body) {
+  body.bound = eigenvalue_bound(body.membrane, body.x);
+  const double omega = std::sqrt(body.bound.omega2);
+  // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
+  const auto& [warp, weft] = body.membrane.yarn;
+  body.membrane.viscosity = {2.0 * data.solver.fibre_damping * warp.largest_slope() / omega,
+                             2.0 * data.solver.fibre_damping * weft.largest_slope() / omega};
+  body.bound = eigenvalue_bound(body.membrane, body.x); // with viscosity
 }
 
 /// alike: a ply of the same fabric, angle and mesh, or null.
@@ -67,13 +80,7 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const
   body.edges = sheet_edges(body.membrane.triangles, body.x0);
   body.touches_boundary_edge = faces_on_rim(body.edges.all, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
-  body.bound = eigenvalue_bound(body.membrane, body.x);
-  const double omega = std::sqrt(body.bound.omega2);
-  // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
-  const auto& [warp, weft] = body.membrane.yarn;
-  body.membrane.viscosity = {2.0 * data.solver.fibre_damping * warp.largest_slope() / omega,
-                             2.0 * data.solver.fibre_damping * weft.largest_slope() / omega};
-  body.bound = eigenvalue_bound(body.membrane, body.x); // with viscosity
+  set_frequency(data, body);
   body.mass = body.membrane.node_mass;
   return body;
 }
@@ -311,6 +318,11 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   s.data = data;
   s.plies = make_plies(data, meshes, threads);
   set_reach(data, s.plies);
+  if (data.solver.element_mass_scaling > 0.0) {
+    scale_element_masses(data, s.plies);
+    for (PlyState& ply : s.plies)
+      if (!ply.membrane.density_factor.empty()) set_frequency(data, ply);
+  }
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
   set_lengths(s);

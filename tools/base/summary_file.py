@@ -30,7 +30,7 @@ PLY = {"name": TEXT, "wrinkle_at_mm": POINT, "excess_length_at_mm": POINT, "no_d
 SUMMARY = {
     **dict.fromkeys(("title", "version", "status", "message"), TEXT),
     **dict.fromkeys(("time_s", "stroke_mm", "wall_time_s", "steps", "threads", "elements", "nodes",
-                     "searches", "largest_added_mass"), NUMBER),
+                     "searches", "largest_added_mass", "element_added_mass"), NUMBER),
     "plies": (PLY,), "tools": (BODY,), "boundaries": (BODY,), "energy": {...: NUMBER},
     "accuracy": {key: NUMBER for key in ("promised_shear_error_deg", "inertia_deg", "mesh_deg",
                                          "softening_deg", "element_size_factor")},

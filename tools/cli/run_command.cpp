@@ -106,6 +106,9 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   if (r.summary.largest_added_mass > 0.0)
     fmt::print("  mass scaling: {:.2g} % of a ply's mass added at most\n",
                100.0 * r.summary.largest_added_mass);
+  if (r.summary.element_added_mass > 0.0)
+    fmt::print("  small elements: {:.2g} % of a ply's mass added at most\n",
+               100.0 * r.summary.element_added_mass);
   const ContactReport& c = r.summary.contact;
   fmt::print("  penetration {:.3f} mm into tools, {:.3f} mm between plies; triangles crossing: {} "
              "between plies, {} within\n",

@@ -37,6 +37,16 @@ TEST(Accuracy, EveryDialHasItsError) {
   EXPECT_EQ(fine.inertia, as_is.inertia);
 }
 
+TEST(Accuracy, MassOnSmallElementsCountsAsInertia) {
+  const Case data = case_at(five);
+  const PredictedError as_is = predicted_error(data), heavier = predicted_error(data, 2.0);
+  EXPECT_NEAR(heavier.inertia, std::pow(2.0, 1.5) * as_is.inertia, 1e-12 * heavier.inertia);
+  EXPECT_EQ(heavier.mesh, as_is.mesh);
+  const PredictedError allowed =
+      predicted_error(case_at(five, {{"solver.element_mass_scaling", "0.1"}}));
+  EXPECT_GT(allowed.inertia, as_is.inertia);
+}
+
 TEST(Accuracy, PicksTheLeastWorkOfAllDialsThatKeepThePromise) {
   for (const double wanted : {1.0, 2.0, 3.0}) {
     Case data = case_at(five);

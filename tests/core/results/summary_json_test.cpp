@@ -42,23 +42,12 @@ Frame unequal(double most, double rest) {
 }
 
 Summary made_up_summary() {
-  Summary summary{"a title",
-                  "1.2.3",
-                  "done",
-                  "",
-                  12.5,
-                  1000,
-                  1e-6,
-                  2e-6,
-                  0.004,
-                  4,
-                  {0.25, 0.5, 0.75, 1.5, 1.0, {}},
-                  0.0625,
-                  {},
-                  {0.01, 0.02, 0.05, 3, 4},
-                  {},
-                  {},
-                  {},
+  Summary summary{"a title", "1.2.3", "done",
+                  "",        12.5,    1000,
+                  1e-6,      2e-6,    0.004,
+                  0.125,     4,       {0.25, 0.5, 0.75, 1.5, 1.0, {}},
+                  0.0625,    {},      {0.01, 0.02, 0.05, 3, 4},
+                  {},        {},      {},
                   {}};
   summary.work = {0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7}}, {"bending: small"},
                   {}};
@@ -83,6 +72,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "steps": 1000,
   "time_step_s": {"min": 1e-06, "max": 2e-06},
   "largest_added_mass": 0.004,
+  "element_added_mass": 0.125,
   "threads": 4,
   "elements": 2,
   "nodes": 4,
