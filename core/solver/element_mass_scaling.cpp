@@ -32,6 +32,10 @@ std::vector<char> small_triangles(const Membrane& m) {
   return small;
 }
 
+/// Of omega^2: what would fall by less is left as it is, so that free meshes, whose elements differ
+/// a little, keep their masses for steps that would be 5 % longer at most.
+constexpr double least_fall = 1.1;
+
 Bending bending_of(const PlyState& ply) {
   std::vector<Vec2> x;
   for (const Vec3& p : ply.x0)
@@ -111,12 +115,15 @@ void scale_element_masses(const Case& data, std::vector<PlyState>& plies) {
   const double share = data.solver.element_mass_scaling;
   if (share == 0.0) return;
   std::vector<Grading> gradings(plies.size());
-  double kappa = 0.0;
+  double kappa = 0.0, before = 0.0;
   for (std::size_t p = 0; p < plies.size(); ++p) {
     if (plies[p].left_alone) continue;
     gradings[p] = grading_of(plies[p]);
+    const std::vector<double>& omega2 = gradings[p].omega2;
+    before = std::max(before, *std::max_element(omega2.begin(), omega2.end()));
     kappa = std::max(kappa, cap_of(plies[p], gradings[p], share));
   }
+  if (before < least_fall * kappa) return;
   for (std::size_t p = 0; p < plies.size(); ++p)
     if (!plies[p].left_alone) add_mass(plies[p], gradings[p], kappa);
 }

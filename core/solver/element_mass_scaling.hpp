@@ -11,12 +11,13 @@
 // Small is a triangle of less than small_share of the area of the ply's usual triangle, the one in
 // which the middle of its mass is. kappa is as low as the ply with the least to spare allows: no
 // ply gets more than a share of its mass, and none is below the largest w_e of a triangle that is
-// not small. A uniform mesh has none that is small and keeps its masses bit by bit.
+// not small. Where the largest w_e would fall by less than a tenth nothing is added. A uniform mesh
+// has no small triangle and keeps its masses bit by bit.
 //
 // Masses change once, before the first step, so that no energy comes with them. Gravity acts on the
 // mass of the cloth. Stiffness and damping of contacts, and the viscosity of yarns, follow from the
 // frequency that is left, as they do on a coarser mesh. Mass scaling by elements: Hallquist,
-// LS-DYNA Theory Manual; Olovsson, Simonsson, Unosson 2005.
+// LS-DYNA Theory Manual.
 #pragma once
 
 #include "core/solver/scene.hpp"
@@ -24,8 +25,9 @@
 namespace plyform {
 
 /// Adds mass by (E), at most solver.element_mass_scaling of each ply's, to Membrane::node_mass and
-/// PlyStability::mass, and brings up to date what follows from a ply's frequency. Plies that
-/// nothing moves keep theirs. Before tools and contacts are made.
+/// PlyStability::mass, and bounds the frequency of bending anew; that of the membrane, and what
+/// follows from it, is left to the caller. Plies that nothing moves keep their masses. Before tools
+/// and contacts are made.
 void scale_element_masses(const Case& data, std::vector<PlyState>& plies);
 
 /// The mass added to a ply's elements over that of its cloth.

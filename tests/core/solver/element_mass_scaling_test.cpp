@@ -133,6 +133,11 @@ TEST(ElementMassScaling, StopsWhereElementsOfUsualSizeSetTheStep) {
   EXPECT_GT(stable_dt(all), 0.9 * usual);
 }
 
+TEST(ElementMassScaling, AddsNothingWhereTheStepWouldHardlyBeLonger) {
+  // a tenth of the mass by a twentieth heavier
+  EXPECT_EQ(largest_share(graded(plies(0.005))), 0.0);
+}
+
 TEST(ElementMassScaling, MakesTheStepOfAGradedMeshLonger) {
   Scene without = graded(plies(0.0)), with = graded(plies(0.3));
   const double before = stable_dt(without), after = stable_dt(with);
