@@ -2,10 +2,11 @@
 // Keys, mistakes, and cases as they were checked.
 #include "core/accuracy/error_model.hpp"
 #include "core/base/text.hpp"
+#include "core/base/thread_pool.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/setup/key_value.hpp"
 #include "core/setup/outlook.hpp"
-#include "core/setup/prepare_case.hpp"
+#include "core/setup/scene_mesh.hpp"
 #include "python/bindings.hpp"
 
 #include <cmath>
@@ -143,7 +144,9 @@ void bind_case(py::module_& m) {
   bind_outlook(m);
   const auto prepare = [](const std::filesystem::path& file,
                           const std::vector<Override>& overrides) {
-    return prepare_case(file, overrides);
+    PreparedCase prepared = prepare_case(file, overrides);
+    if (prepared.value) mesh_from_scene(prepared, available_cores());
+    return prepared;
   };
   m.def("prepare", prepare, py::arg("file"), py::arg("overrides"),
         py::call_guard<py::gil_scoped_release>(),

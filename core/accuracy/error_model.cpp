@@ -311,7 +311,7 @@ bool may_coarsen(const Case& data, double by) {
     const double thickness = data.fabrics[ply.fabric].thickness;
     BlankSpec blank = data.blanks[ply.blank];
     if (blank.mesh == MeshKind::file) return false;
-    blank.element_size *= by;
+    scale_elements(blank, by);
     if (blank.element_size > std::min(longest, most_thicknesses * thickness)) return false;
     if (!takes_elements(blank)) return false;
   }
@@ -322,7 +322,7 @@ bool may_refine(const Case& data, double by) {
   return data.boundaries.empty() &&
          std::all_of(data.plies.begin(), data.plies.end(), [&](const Ply& ply) {
            BlankSpec blank = data.blanks[ply.blank];
-           blank.element_size *= by;
+           scale_elements(blank, by);
            return blank.mesh != MeshKind::file && takes_elements(blank);
          });
 }
@@ -359,7 +359,7 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
   data.solver.duration = best.duration;
   data.solver.fibre_softening = best.softening;
   for (BlankSpec& blank : data.blanks)
-    blank.element_size *= best.coarsening;
+    scale_elements(blank, best.coarsening);
   return best.coarsening;
 }
 

@@ -194,6 +194,13 @@ Rows blank_rows() {
                             .ranges = {length_range},
                             .meaning = "side of a square or cell, mean edge of a free mesh",
                             .members = {to(&BlankSpec::element_size)}}),
+                of_outline({.key = "mesh_from",
+                            .kind = K::text,
+                            .otherwise = "element_size and zones alone",
+                            .meaning = "what else makes elements smaller: \"scene\", where tools "
+                                       "are round and shear bends sharply, found by a fast run "
+                                       "with elements of element_size; or the folder of a run "
+                                       "whose sizes are taken"}),
                 {.key = "blanks.NAME.file",
                  .kind = K::path,
                  .of = "mesh",

@@ -81,7 +81,12 @@ struct BlankSpec {
   std::filesystem::path file; ///< STL, OBJ, PLY or OFF whose z is constant; for MeshKind::file
   std::string drawing{};      ///< what the outline was read from, in words; empty: the case file
   std::vector<MeshZone> zones{};
+  /// "scene", or a file or folder of results whose sizes are taken; empty: neither, as above
+  std::string mesh_from{};
   std::optional<SizeGrid> sizes{};
 };
+
+/// Makes all elements larger by the factor `by`: element_size, zones and grid.
+void scale_elements(BlankSpec& blank, double by);
 
 } // namespace plyform

@@ -2,6 +2,7 @@
 #include "core/results/replace_run.hpp"
 
 #include "core/results/result_fields.hpp"
+#include "core/results/size_file.hpp"
 
 #include <fmt/format.h>
 #include <stdexcept>
@@ -35,7 +36,8 @@ void move_results(const fs::path& from, const fs::path& to) {
 std::vector<fs::path> files_of_run(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code error;
-  for (const char* name : {"summary.json", "history.csv", "results.xdmf", "results.h5"})
+  for (const char* name :
+       {"summary.json", "history.csv", "results.xdmf", "results.h5", size_file_name})
     if (fs::exists(folder / name, error)) files.emplace_back(name);
   for (const fs::directory_entry& entry : fs::directory_iterator(folder / "plies", error))
     if (entry.is_regular_file() && entry.path().extension() == ".csv")

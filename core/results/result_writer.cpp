@@ -173,6 +173,7 @@ void remove_former_run(const fs::path& directory) {
   remove_file(directory / "history.csv");
   remove_file(directory / "results.xdmf");
   remove_file(directory / "results.h5");
+  remove_file(directory / size_file_name);
   remove_file(directory / "checkpoint");
   remove_states(directory);
   std::vector<fs::path> tables;
@@ -222,6 +223,7 @@ struct ResultWriter::Impl {
   StateFiles states;
   std::string history; ///< all of history.csv so far
   XdmfText xdmf;
+  std::vector<PlySizes> sizes; ///< of meshes from the scene
   double last_time = 0;
   long last_step = 0;
 };
@@ -230,10 +232,15 @@ ResultWriter::ResultWriter(const fs::path& directory) : impl_(new Impl(directory
 
 ResultWriter::~ResultWriter() = default;
 
+void ResultWriter::keep_sizes(std::vector<PlySizes> sizes) {
+  impl_->sizes = std::move(sizes);
+}
+
 void ResultWriter::write_frame(const Frame& frame) {
   check_frame(frame);
   if (impl_->states.frames() == 0) {
     remove_former_run(impl_->directory);
+    if (!impl_->sizes.empty()) write_sizes(impl_->directory / size_file_name, impl_->sizes);
     impl_->history = history_header(frame);
   }
   const std::size_t index = impl_->states.frames();

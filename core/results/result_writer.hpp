@@ -7,6 +7,7 @@
 #pragma once
 
 #include "core/results/frame.hpp"
+#include "core/results/size_file.hpp"
 #include "core/results/summary.hpp"
 
 #include <filesystem>
@@ -32,6 +33,9 @@ public:
   /// also if another run writes into it.
   explicit ResultWriter(const std::filesystem::path& directory);
   ~ResultWriter();
+
+  /// Element sizes that the meshes were made by: a file beside the first frame, if there are any.
+  void keep_sizes(std::vector<PlySizes> sizes);
 
   /// One row of history.csv and one time of results.h5/.xdmf. The first one removes the results of
   /// a former run. Throws std::runtime_error naming the path and the reason (a full disk, names

@@ -211,12 +211,13 @@ void describe_cut(const Scene& s, std::size_t tool, Lines& lines) {
     worst->radius = own;
   const bool warns = sharp || worst->depth > round * worst->radius;
   say(lines,
-      "    {}: tool {}, {} at ({:.3g}, {:.3g}, {:.3g}): triangles have sides up to {:.3g} mm and "
+      "    {}: tool {}, {} at ({:.3g}, {:.3g}, {:.3g}): triangles that pass there have sides up to "
+      "{:.3g} mm and "
       "touch at nodes only, so that ply {} drawn over it may be cut {:.2g} mm deep between them{}; "
       "sides up to {:.2g} mm keep that below half its thickness",
       warns ? "warning" : "note", s.tools[tool].name,
       sharp ? std::string("sharp edge") : fmt::format("radius {:.3g} mm", worst->radius),
-      worst->where.x(), worst->where.y(), worst->where.z(), longest_side(*cut_ply), cut_ply->name,
+      worst->where.x(), worst->where.y(), worst->where.z(), worst->side, cut_ply->name,
       worst->depth, warns ? ", and that forces over it, of friction above all, are the mesh's" : "",
       worst->good_side);
 }

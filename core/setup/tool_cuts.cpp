@@ -2,6 +2,8 @@
 #include "core/setup/tool_cuts.hpp"
 
 #include "core/input/initial_scene.hpp"
+#include "core/model/motion.hpp"
+#include "core/setup/draws.hpp"
 #include "core/solver/facet_penetration.hpp"
 
 #include <algorithm>
@@ -106,31 +108,6 @@ struct Chords {
   static constexpr double longer = 1.1547005383792515; ///< 2 / sqrt(3)
 };
 
-/// Where things that move plies go, relative to the tool: unit vectors. A pushed tool stays about
-/// where it is if another one is driven.
-std::vector<Vec3> draws_on(const Case& data, std::size_t tool) {
-  const bool driven = std::any_of(data.tools.begin(), data.tools.end(),
-                                  [](const Tool& t) { return t.motion == Motion::driven; });
-  const auto motion = [&](const Tool& t) {
-    if (t.motion == Motion::driven) return Vec3(t.direction);
-    return t.motion == Motion::force && !driven ? Vec3(t.direction) : Vec3(Vec3::Zero());
-  };
-  std::vector<Vec3> ways;
-  const Vec3 own = motion(data.tools[tool]);
-  for (std::size_t t = 0; t < data.tools.size(); ++t)
-    if (t != tool) ways.push_back(motion(data.tools[t]) - own);
-  ways.push_back(data.gravity);
-  for (const Boundary& boundary : data.boundaries) {
-    if (boundary.stroke != 0.0 || boundary.force != 0.0) ways.push_back(boundary.direction - own);
-    if (boundary.kind != BoundaryKind::frame && boundary.kind != BoundaryKind::symmetry)
-      ways.push_back(-own); // held while the tool comes
-  }
-  std::erase_if(ways, [](const Vec3& way) { return way.norm() < 1e-9; });
-  for (Vec3& way : ways)
-    way.normalize();
-  return ways;
-}
-
 /// Direction from the tool to the part of the ply that is closest to it.
 Vec3 side_of(const Tool& tool, const PlyState& ply) {
   double least = std::numeric_limits<double>::infinity();
@@ -144,13 +121,80 @@ Vec3 side_of(const Tool& tool, const PlyState& ply) {
   return side;
 }
 
+/// The longest sides of a flat ply's triangles from place to place, on squares that divide its box.
+class SidesInPlan {
+public:
+  explicit SidesInPlan(const PlyState& ply) : longest_(longest_side(ply)) {
+    for (const Vec3& x : ply.x0)
+      box_.extend(Vec2(x.head<2>()));
+    square_ = std::max(0.5 * longest_, box_.sizes().maxCoeff() / most_squares);
+    columns_ = 1 + static_cast<int>(box_.sizes().x() / square_);
+    rows_ = 1 + static_cast<int>(box_.sizes().y() / square_);
+    sides_.assign(at(columns_ * rows_), 0.0);
+    for (const Triangle& t : ply.membrane.triangles)
+      enter(ply.x0[at(t[0])], ply.x0[at(t[1])], ply.x0[at(t[2])]);
+  }
+
+  double longest() const { return longest_; }
+
+  /// The longest side, mm, from p for `way` (mm) in direction u, a unit vector.
+  double longest_along(const Vec2& p, const Vec2& u, double way) const {
+    double side = 0.0;
+    for (double gone = 0.0; gone <= way; gone += 0.5 * square_) {
+      const Vec2 x = p + gone * u;
+      if (box_.contains(x)) side = std::max(side, sides_[square_at(x)]);
+    }
+    return side;
+  }
+
+private:
+  static constexpr double most_squares = 400.0; // a way
+
+  std::size_t square_at(const Vec2& x) const {
+    const Vec2 place = (x - box_.min()) / square_;
+    return at(std::clamp(static_cast<int>(place.y()), 0, rows_ - 1) * columns_ +
+              std::clamp(static_cast<int>(place.x()), 0, columns_ - 1));
+  }
+
+  void enter(const Vec3& a, const Vec3& b, const Vec3& c) {
+    const double side = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
+    for (const auto& w : {Vec3(1, 1, 1), Vec3(4, 1, 1), Vec3(1, 4, 1), Vec3(1, 1, 4), Vec3(3, 3, 0),
+                          Vec3(0, 3, 3), Vec3(3, 0, 3)}) {
+      const Vec3 x = (w[0] * a + w[1] * b + w[2] * c) / w.sum();
+      double& there = sides_[square_at(x.head<2>())];
+      there = std::max(there, side);
+    }
+  }
+
+  double longest_, square_ = 0.0; ///< mm
+  Eigen::AlignedBox2d box_;
+  int columns_ = 0, rows_ = 0;
+  std::vector<double> sides_; ///< mm
+};
+
+/// mm: how far cloth may be drawn over a place of a tool: half of what drives it, about as much as
+/// over the fillet of a hemisphere's die.
+double draw_of(const Case& data) {
+  const Strokes strokes = longest_strokes(data);
+  return 0.5 * std::max(strokes.tool, strokes.boundary);
+}
+
+/// The longest side that passes a ridge: from there on to where the cloth comes from, against the
+/// way that the ridge leans.
+double side_over(const SidesInPlan& sides, const Ridge& ridge, double draw) {
+  const Vec2 leans = ridge.n.head<2>();
+  const Vec2 from = leans.norm() > 1e-6 ? Vec2(-leans.normalized()) : Vec2(Vec2::UnitX());
+  return sides.longest_along(ridge.q.head<2>(), from, draw);
+}
+
 } // namespace
 
 std::optional<CutAhead> cut_ahead(const Scene& scene, std::size_t t, std::size_t p) {
   constexpr double askew = 0.1; // cosine from which a place faces a direction
   const Tool& tool = scene.data.tools[t];
   const PlyState& ply = scene.plies[p];
-  const double side = longest_side(ply), half = 0.5 * ply.thickness;
+  const SidesInPlan sides(ply);
+  const double half = 0.5 * ply.thickness, draw = draw_of(scene.data);
   const std::vector<Vec3> ways = draws_on(scene.data, t);
   Box3 box;
   for (const Vec3& x : ply.x0)
@@ -159,15 +203,15 @@ std::optional<CutAhead> cut_ahead(const Scene& scene, std::size_t t, std::size_t
   const Vec3 to_ply = side_of(tool, ply);
   const Chords chords{tool, half, {}};
   std::optional<CutAhead> worst;
-  for (const Ridge& ridge : ridges_of(tool_surface(tool, 0.5 * side, reach))) {
-    const bool over = std::any_of(ways.begin(), ways.end(),
-                                  [&](const Vec3& way) { return way.dot(ridge.n) < -askew; });
+  for (const Ridge& ridge : ridges_of(tool_surface(tool, 0.5 * sides.longest(), reach))) {
+    const bool over = draws_over(ways, ridge.n);
     const Eigen::AlignedBox2d plan(Vec2(box.min().head<2>()), Vec2(box.max().head<2>()));
     if (!over || ridge.n.dot(to_ply) < askew || !plan.contains(ridge.q.head<2>())) continue;
-    if (worst && !chords.may_exceed(ridge, side, worst->depth)) continue;
+    const double side = side_over(sides, ridge, draw);
+    if (side == 0.0 || (worst && !chords.may_exceed(ridge, side, worst->depth))) continue;
     const double depth = chords.deepest(ridge, side);
     if (worst && depth <= worst->depth) continue;
-    worst = CutAhead{depth, ridge.q, 0.0, side};
+    worst = CutAhead{depth, ridge.q, 0.0, side, side};
     if (!(depth > half)) continue;
     const double near = 4.0 * half, there = chords.cut(ridge, ridge.across, near);
     const double radius = (0.25 * near * near + there * there) / (2.0 * there) - half;

@@ -3,7 +3,8 @@
 // at nodes only, and a side of a triangle is a chord over what is round or sharp.
 //
 // Asked are edges between faces of the tool's tessellated surface, at their middle q, with n the
-// mean of the normals of both faces. A chord of the ply's longest side L, across the edge and at
+// mean of the normals of both faces. A chord of the longest side L that the ply has there and for
+// half a stroke on, where what will pass there comes from, across the edge and at
 // half a thickness from the tool, is lowered along -n until an end touches the tool: the way is the
 // cut. On a cylinder, a fillet of 90 degrees and a sharp edge that is
 // core/solver/facet_penetration.hpp, (1) and (2), and it takes any tool, meshes too. A ply is drawn
@@ -22,6 +23,7 @@ struct CutAhead {
   Vec3 where{0, 0, 0};    ///< mm, in space
   double radius = 0.0;    ///< mm, that would cut as deep; 0: an edge sharper than the thickness
   double good_side = 0.0; ///< mm, with which the cut is half a thickness
+  double side = 0.0;      ///< mm, L
 };
 
 /// The deepest cut of the tool into the ply; nothing if the ply is drawn over no part of it.

@@ -102,7 +102,7 @@ CorrectedCase corrected_case(const Case& data, const Verification& verification,
   set_band(after);
   asked.expected_deg = *after.band;
   for (BlankSpec& blank : corrected.data.blanks)
-    blank.element_size *= asked.element_size;
+    scale_elements(blank, asked.element_size);
   corrected.data.solver.duration *= asked.duration;
   corrected.data.solver.fibre_softening *= asked.softening;
   if (!corrected.changed())

@@ -79,7 +79,7 @@ struct OtherMesh {
 std::optional<OtherMesh> with_elements(const Case& data, const Meshes& own, double by) {
   OtherMesh other{data, {}};
   for (BlankSpec& blank : other.data.blanks)
-    blank.element_size *= by;
+    scale_elements(blank, by);
   try {
     for (std::size_t p = 0; p < data.plies.size(); ++p) {
       const bool file = data.blanks[data.plies[p].blank].mesh == MeshKind::file;

@@ -9,8 +9,9 @@
 namespace plyform {
 
 int check_command(const CaseArguments& arguments) {
-  const PreparedCase prepared = load_case(arguments);
+  PreparedCase prepared = load_case(arguments);
   if (!prepared.value) return exit_case_wrong;
+  load_meshes(prepared, available_cores());
   const Outlook outlook = look_ahead(prepared, available_cores());
   for (const std::string& line : outlook.lines)
     fmt::print("{}\n", line);

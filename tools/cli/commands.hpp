@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/setup/prepare_case.hpp"
+#include "core/setup/scene_mesh.hpp"
 
 #include <limits>
 #include <string>
@@ -31,6 +32,7 @@ struct RunArguments {
   bool report = false; ///< make report.html of the results
   bool resume = false; ///< goes on from the folder's checkpoint
   bool verify = false; ///< runs siblings, for the bands of figures
+  double budget = 0.0; ///< s; 0: any
 };
 
 /// A shear test: bias or frame; NaN where not given.
@@ -86,6 +88,10 @@ struct TheoryArguments {
 
 /// prepare_case; prints warnings and errors to standard error. Has no value if there was an error.
 PreparedCase load_case(const CaseArguments& arguments);
+
+/// mesh_from_scene; shows the progress of its scout, and prints errors to standard error, after
+/// which the case has no value. known: as there.
+SceneMesh load_meshes(PreparedCase& prepared, int threads, const std::filesystem::path& known = {});
 
 int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);

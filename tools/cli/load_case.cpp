@@ -2,7 +2,10 @@
 #include "core/accuracy/error_model.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/ending_signals.hpp"
+#include "tools/cli/progress_line.hpp"
 
+#include <cstdio>
 #include <filesystem>
 #include <fmt/format.h>
 
@@ -30,6 +33,22 @@ PreparedCase load_case(const CaseArguments& arguments) {
   for (const CaseError& error : prepared.errors)
     fmt::print(stderr, "{}\n", error.text());
   return prepared;
+}
+
+SceneMesh load_meshes(PreparedCase& prepared, int threads, const std::filesystem::path& known) {
+  ProgressLine line;
+  ScoutHooks hooks;
+  hooks.begins = [] {
+    fmt::print("looking where small elements are needed: a fast run with coarse ones\n");
+    std::fflush(stdout);
+  };
+  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.interrupt = &interrupted();
+  SceneMesh found = mesh_from_scene(prepared, threads, hooks, known);
+  line.end();
+  if (!found.sizes.empty()) fmt::print("{}\n", prepared.notes.back());
+  std::fflush(stdout);
+  return found;
 }
 
 } // namespace plyform

@@ -76,6 +76,10 @@ void add_case_commands(CLI::App& app, Arguments& to, std::vector<Command>& comma
   run->add_flag("--report", to.run.report, "make report.html of the results, for any browser");
   run->add_flag("--resume", to.run.resume,
                 "go on where this run was killed or interrupted, with the same results");
+  run->add_option("--budget", to.run.budget,
+                  "seconds: refuse a run that would take longer, and say what it would take")
+      ->type_name("S")
+      ->check(CLI::PositiveNumber);
   run->add_flag(
       "--verify", to.run.verify,
       "give each figure a band, from siblings of the case with coarser parameters; if the "

@@ -4,6 +4,7 @@
 #include "core/base/thread_pool.hpp"
 #include "core/base/version.hpp"
 #include "core/input/schema.hpp"
+#include "core/setup/outlook.hpp"
 #include "core/solver/run.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/ending_signals.hpp"
@@ -177,6 +178,25 @@ void leave_summary(ResultWriter& writer, const PreparedCase& prepared, const Fra
   }
 }
 
+/// Says what a run with meshes from the scene will take, and whether any is within the budget.
+bool within_budget(const PreparedCase& prepared, const RunArguments& arguments, int threads,
+                   bool from_scene) {
+  if (arguments.budget == 0.0 && !from_scene) return true;
+  const Outlook ahead = look_ahead(prepared, threads);
+  if (from_scene) fmt::print("about {:.0f} steps, {:.2g} s\n", ahead.steps, ahead.seconds);
+  std::fflush(stdout);
+  if (arguments.budget == 0.0 || ahead.seconds <= arguments.budget) return true;
+  double triangles = 0.0;
+  for (const BlankMesh& mesh : prepared.meshes)
+    triangles += static_cast<double>(mesh.triangles.size());
+  fmt::print(stderr,
+             "plyform: error: --budget {:g}: this run would take about {:.2g} s, for {:.0f} steps "
+             "of {:.0f} triangles; give it as much, a lower --accuracy, larger elements or a "
+             "shorter solver.duration\n",
+             arguments.budget, ahead.seconds, ahead.steps, triangles);
+  return false;
+}
+
 /// Runs the case and writes its results; `trace`, unless null, gets what `verify` asks of the run.
 RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter& writer,
                         const std::optional<Resume>& resume, Trace* trace) {
@@ -214,12 +234,16 @@ RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter&
 } // namespace
 
 int run_command(const RunArguments& arguments) {
-  const PreparedCase prepared = load_case(arguments.input);
+  PreparedCase prepared = load_case(arguments.input);
   if (!prepared.value) return exit_case_wrong;
   const int threads = arguments.threads > 0 ? arguments.threads : available_cores();
   const std::filesystem::path folder = output_folder(arguments);
   ResultWriter writer(folder);
   catch_ending_signals();
+  const bool goes_on = arguments.resume && std::filesystem::exists(folder / size_file_name);
+  std::vector<PlySizes> sizes = load_meshes(prepared, threads, goes_on ? folder : "").sizes;
+  if (!within_budget(prepared, arguments, threads, !sizes.empty())) return exit_case_wrong;
+  writer.keep_sizes(std::move(sizes));
   std::optional<Resume> resume;
   if (arguments.resume) {
     resume = find_checkpoint(writer, folder, prepared.identity);

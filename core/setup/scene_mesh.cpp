@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/setup/scene_mesh.hpp"
+
+#include "core/accuracy/error_model.hpp"
+#include "core/mesh/mesh_ply.hpp"
+#include "core/results/checkpoint_file.hpp"
+#include "core/setup/size_grid.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <limits>
+
+namespace plyform {
+namespace {
+
+constexpr const char* from_scene = "scene";
+// Degrees: the error of the mesh that is aimed at where none is asked for, that of --accuracy
+// standard.
+constexpr double usual_error = 1.0;
+constexpr double share_of_mesh = 0.75; // of the squares of the error, where the mesh costs the most
+
+const BlankSpec& blank_of(const Case& data, std::size_t ply) {
+  return data.blanks[at(data.plies[ply].blank)];
+}
+
+double error_of_mesh(const Case& data) {
+  const double asked = data.accuracy.shear_error / degree;
+  return std::sqrt(share_of_mesh) * (asked > 0.0 ? asked : usual_error);
+}
+
+/// Takes a ply's sizes from those of a run before.
+SizeGrid sizes_of_before(const std::vector<PlySizes>& before, const std::string& ply,
+                         const std::filesystem::path& path) {
+  const auto found = std::find_if(before.begin(), before.end(),
+                                  [&](const PlySizes& sizes) { return sizes.ply == ply; });
+  if (found == before.end())
+    throw std::runtime_error(fmt::format("{} has no sizes of a ply \"{}\"; give the folder of a "
+                                         "run of the same plies",
+                                         path.string(), ply));
+  return found->sizes;
+}
+
+/// Finds the sizes of every ply that asks for some.
+SceneMesh find_sizes(const Case& data, int threads, const ScoutHooks& hooks,
+                     const std::filesystem::path& known) {
+  SceneMesh found;
+  Scouted scouted;
+  for (std::size_t p = 0; p < data.plies.size(); ++p) {
+    const std::string& from = blank_of(data, p).mesh_from;
+    if (from.empty()) continue;
+    const std::filesystem::path path = from == from_scene ? known : std::filesystem::path(from);
+    if (!path.empty()) {
+      found.sizes.push_back(
+          {data.plies[p].name, sizes_of_before(read_sizes(path), data.plies[p].name, path)});
+      continue;
+    }
+    if (scouted.sizes.empty()) {
+      scouted = scout(data, error_of_mesh(data), threads, hooks);
+      if (!scouted.fault.empty())
+        throw std::runtime_error("the run with coarse elements that looks where small ones are "
+                                 "needed (mesh_from = \"scene\") did not go to its end: " +
+                                 scouted.fault + "; give zones by hand instead");
+      found.scouted = true;
+      found.scout_work = scouted.work;
+      found.scout_seconds = scouted.seconds;
+    }
+    found.sizes.push_back({data.plies[p].name, scouted.sizes[p]});
+  }
+  return found;
+}
+
+/// Gives each of these plies a blank of its own with its sizes, and a mesh of it.
+void give_sizes(PreparedCase& prepared, const std::vector<PlySizes>& sizes) {
+  Case& data = *prepared.value;
+  for (std::size_t p = 0; p < data.plies.size(); ++p) {
+    const auto found = std::find_if(sizes.begin(), sizes.end(), [&](const PlySizes& of) {
+      return of.ply == data.plies[p].name;
+    });
+    if (found == sizes.end()) continue;
+    BlankSpec blank = blank_of(data, p);
+    blank.sizes = found->sizes;
+    blank.element_size = aligned_size(found->sizes, blank.element_size);
+    data.plies[p].blank = static_cast<int>(data.blanks.size());
+    data.blanks.push_back(std::move(blank));
+    prepared.meshes[p] = mesh_ply(data, data.plies[p]);
+  }
+}
+
+void measure(const PreparedCase& prepared, SceneMesh& found) {
+  found.smallest = std::numeric_limits<double>::infinity();
+  for (const BlankMesh& mesh : prepared.meshes) {
+    found.triangles += static_cast<double>(mesh.triangles.size());
+    for (const Triangle& t : mesh.triangles) {
+      const Vec2 u = mesh.x[at(t[1])] - mesh.x[at(t[0])], v = mesh.x[at(t[2])] - mesh.x[at(t[0])];
+      const double size = std::sqrt(std::abs(u.x() * v.y() - u.y() * v.x()));
+      found.smallest = std::min(found.smallest, size);
+      found.largest = std::max(found.largest, size);
+    }
+  }
+}
+
+} // namespace
+
+SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const ScoutHooks& hooks,
+                          const std::filesystem::path& known) {
+  const Case& data = *prepared.value;
+  bool asked = false;
+  for (std::size_t p = 0; p < data.plies.size(); ++p)
+    asked = asked || !blank_of(data, p).mesh_from.empty();
+  if (!asked) return {};
+  SceneMesh found = find_sizes(data, threads, hooks, known);
+  give_sizes(prepared, found.sizes);
+  measure(prepared, found);
+  prepared.identity += fmt::format("mesh sizes: {:016x}\n", checkpoint_sum(text_of(found.sizes)));
+  prepared.notes.push_back(fmt::format(
+      "mesh from the scene: {:.0f} triangles, elements of {:.3g} to {:.3g} mm, {}", found.triangles,
+      found.smallest, found.largest,
+      found.scouted ? fmt::format("by a run with coarse elements and a fast stroke, {:.2g} million "
+                                  "element-steps",
+                                  1e-6 * found.scout_work)
+                    : std::string("by the sizes of a run before")));
+  return found;
+}
+
+} // namespace plyform

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A run with coarse elements and a fast stroke that says what element sizes the scene needs where:
+// in the cloth that passes over what is round in a tool (core/setup/chord_sizes.hpp), and where
+// shear bends sharply (core/setup/shear_sizes.hpp).
+#pragma once
+
+#include "core/solver/run.hpp"
+
+#include <vector>
+
+namespace plyform {
+
+struct ScoutHooks {
+  std::function<void()> begins = {};
+  std::function<void(const Progress&)> progress = {}; ///< as in RunHooks
+  const std::atomic<bool>* interrupt = nullptr;       ///< as in RunHooks
+};
+
+struct Scouted {
+  std::vector<SizeGrid> sizes; ///< one per ply; empty if the scout did not go to its end
+  std::string fault;           ///< why it did not
+  double work = 0.0;           ///< triangles times steps
+  double seconds = 0.0;        ///< wall time
+};
+
+/// The case that scouts for `data`: elements 1.4 times as large as its largest (as large, where
+/// boundaries hold nodes), zones and grids left out, and the fastest stroke and softest fibres of a
+/// draft.
+Case scout_case(const Case& data);
+
+/// Scouts. threads >= 1; the result does not depend on it. shear_error: degrees, the part of the
+/// mesh. Throws std::runtime_error as run_case.
+Scouted scout(const Case& data, double shear_error, int threads, const ScoutHooks& hooks);
+
+} // namespace plyform

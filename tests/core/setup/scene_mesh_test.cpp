@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Meshes from the scene: the scout's sizes, the same for any number of threads, and taken from the
+// file of a run before.
+#include "core/setup/scene_mesh.hpp"
+#include "support/case_files.hpp"
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+namespace plyform::scene_mesh_test {
+namespace {
+
+PreparedCase small_hemisphere(const std::string& from) {
+  return prepare_case(PLYFORM_CASES "/verify/hemisphere_small.toml",
+                      {{"blanks.square.mesh_from", from},
+                       {"blanks.square.element_size", "8.5"},
+                       {"tool.1.points", "[[34.0, -60.0], [34.0, 0.0, 8.0], [160.0, 0.0]]"}});
+}
+
+bool same(const std::vector<BlankMesh>& a, const std::vector<BlankMesh>& b) {
+  for (std::size_t p = 0; p < a.size(); ++p)
+    if (a[p].x != b[p].x || a[p].triangles != b[p].triangles) return false;
+  return a.size() == b.size();
+}
+
+TEST(SceneMesh, IsFineOverTheDieTheSameForAnyThreadsAndTakenFromAFile) {
+  PreparedCase one = small_hemisphere("scene"), two = small_hemisphere("scene");
+  ASSERT_TRUE(one.value) << all_texts(one);
+  const std::string before = one.identity;
+  const SceneMesh found = mesh_from_scene(one, 1), again = mesh_from_scene(two, 2);
+  EXPECT_TRUE(found.scouted);
+  EXPECT_LT(found.smallest, 4.5); // a fillet of 8 mm
+  EXPECT_GT(found.largest, 5.0);
+  EXPECT_LT(found.largest, 8.6); // cells are as many as go into a side
+  EXPECT_TRUE(same(one.meshes, two.meshes));
+  EXPECT_EQ(one.identity, two.identity);
+  EXPECT_NE(one.identity, before);
+
+  const fs::path file =
+      fs::temp_directory_path() / ("plyform_scene_mesh_" + std::to_string(getpid()));
+  write_sizes(file, found.sizes);
+  PreparedCase later = small_hemisphere(file.string());
+  const SceneMesh taken = mesh_from_scene(later, 1);
+  fs::remove(file);
+  EXPECT_FALSE(taken.scouted);
+  EXPECT_TRUE(same(one.meshes, later.meshes));
+}
+
+} // namespace
+} // namespace plyform::scene_mesh_test
