@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/chord_sizes.hpp"
 
-#include "contact/forces/tool_ply.hpp"
 #include "core/model/reach_ahead.hpp"
 #include "core/setup/draws.hpp"
 
@@ -27,14 +26,18 @@ double thickness_of(const Case& data, std::size_t ply) {
 class ChordDepths {
 public:
   ChordDepths(const Case& data, std::size_t tool, const Vec3& displacement)
-      : body_{data.tools[tool].shape, data.tools[tool].position, data.tools[tool].rotation,
-              displacement},
+      : tool_(data.tools[tool]), place_(data.tools[tool].position + displacement),
         draws_(draws_on(data, tool)) {}
 
   /// Whether plies are drawn over a place with this normal.
   bool drawn_over(const Vec3& normal) const { return draws_over(draws_, normal); }
 
-  SurfacePoint at(const Vec3& x) { return distance_to_tool(body_, x, hint_); }
+  SurfacePoint at(const Vec3& x) {
+    SurfacePoint found =
+        signed_distance(tool_.shape, tool_.rotation.transpose() * (x - place_), hint_);
+    found.normal = tool_.rotation * found.normal;
+    return found;
+  }
 
   /// c of (1), mm, at the place p with normal n; above: o, mm.
   double depth(const Vec3& p, const Vec3& n, double above, double size) {
@@ -50,7 +53,8 @@ public:
   }
 
 private:
-  ToolBody body_;
+  const Tool& tool_;
+  Vec3 place_; ///< mm, of the tool's origin
   std::vector<Vec3> draws_;
   SurfaceHint hint_;
 };
