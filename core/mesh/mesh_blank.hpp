@@ -25,13 +25,13 @@ struct BlankMesh {
 /// them. Angles in the band and in free meshes are 20 degrees at least, except at sharper corners
 /// of the outline. Zones and grid bisect the triangles of all kinds but free ones until they are at
 /// most 2^(1/4) times as large as wanted anywhere in them (core/mesh/bisection.hpp): no angle gets
-/// smaller than half of its triangle's smallest. Arcs are divided into equal pieces of about
-/// element_size, and of 45 degrees at most, with nodes on the arc. Equal nodes of a file are merged
-/// and its triangles oriented anticlockwise. Throws std::runtime_error (what is wrong, what to do):
-/// outline not simple or not closed properly, hole outside or touching, element larger than the
-/// blank or far too small, zones that ask for far too many triangles, fibre directions less than 25
-/// degrees apart, file unreadable, empty, not flat, not of triangles, not manifold or not in one
-/// piece.
+/// smaller than half of its triangle's smallest, but beside arcs, on which new nodes lie. Arcs are
+/// divided into equal pieces of about element_size, and of 45 degrees at most, with nodes on the
+/// arc. Equal nodes of a file are merged and its triangles oriented anticlockwise. Throws
+/// std::runtime_error (what is wrong, what to do): outline not simple or not closed properly, hole
+/// outside or touching, element larger than the blank or far too small, zones that ask for far too
+/// many triangles, fibre directions less than 25 degrees apart, file unreadable, empty, not flat,
+/// not of triangles, not manifold or not in one piece.
 BlankMesh mesh_blank(const BlankSpec& spec, double warp, double weft);
 
 /// Appends a closed chain of lines and arcs (contact/shapes/tool_shape.hpp) to the outline, the
