@@ -3,6 +3,7 @@
 
 #include "contact/shapes/mesh_shape.hpp"
 #include "core/model/motion.hpp"
+#include "core/solver/step_faults.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,9 +16,6 @@ namespace {
 void expect(bool fits, const char* what) {
   if (!fits) throw std::runtime_error(fmt::format("does not fit its scene: {}", what));
 }
-
-constexpr double furthest_place =
-    1e9; // mm, a thousand kilometres: squares of it are finite in floats
 
 bool sound(double x) {
   return std::isfinite(x);

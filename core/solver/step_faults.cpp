@@ -47,9 +47,11 @@ std::string remedy_for(const Scene& s, const char* advice) {
 std::optional<Stop> find_not_finite(const Scene& s) {
   for (const PlyState& ply : s.plies)
     for (std::size_t n = 0; n < ply.x.size(); ++n)
-      if (!ply.x[n].allFinite())
-        return Stop{fmt::format("{}: ply {}, node {}: position is not finite; a smaller "
-                                "solver.step_factor or more damping may help",
+      if (!ply.x[n].allFinite() || ply.x[n].cwiseAbs().maxCoeff() > furthest_place ||
+          ply.motion[n].cwiseAbs().maxCoeff() > furthest_place)
+        return Stop{fmt::format("{}: ply {}, node {}: position is not finite, or a thousand "
+                                "kilometres away; a smaller solver.step_factor or more damping may "
+                                "help",
                                 when(s), ply.name, n)};
   return std::nullopt;
 }

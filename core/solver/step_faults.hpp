@@ -9,7 +9,11 @@
 
 namespace plyform {
 
-/// A position that is not finite.
+/// mm, a thousand kilometres: nothing is formed there, and squares of it are finite in floats,
+/// which the search computes with.
+constexpr double furthest_place = 1e9;
+
+/// A position that is not finite, or further away than `furthest_place`; or a way in one step.
 std::optional<Stop> find_not_finite(const Scene& s);
 
 /// A node of a ply on the other side of another ply, or beyond the depth limit of contact.

@@ -264,17 +264,19 @@ TEST(Step, StopsAtACollapsedTriangle) {
   }
 }
 
-TEST(Step, StopsAtAPositionThatIsNotFinite) {
-  Scene s = make_scene(free_ply(0.0));
-  ThreadPool pool(1);
-  start(s, pool);
-  ASSERT_FALSE(compute_forces(s, pool));
-  s.plies[0].velocity[17].y() = std::nan("");
-  move_plies(s, pool);
-  const auto stop = compute_forces(s, pool); // in the very next step
-  ASSERT_TRUE(stop);
-  for (const char* part : {"stopped at step 1", "time ", "ply ply1, node 17", "not finite"})
-    EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
+TEST(Step, StopsAtAPositionThatIsNotFiniteOrEndlesslyFar) {
+  for (const double velocity : {std::nan(""), 1e16, 1e200, 1e308}) { // mm/s
+    Scene s = make_scene(free_ply(0.0));
+    ThreadPool pool(1);
+    start(s, pool);
+    ASSERT_FALSE(compute_forces(s, pool));
+    s.plies[0].velocity[17].y() = velocity;
+    move_plies(s, pool);
+    const auto stop = compute_forces(s, pool); // in the very next step
+    ASSERT_TRUE(stop) << velocity;
+    for (const char* part : {"stopped at step 1", "time ", "ply ply1, node 17", "not finite"})
+      EXPECT_NE(stop->message.find(part), std::string::npos) << stop->message;
+  }
 }
 
 } // namespace
