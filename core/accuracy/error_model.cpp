@@ -9,6 +9,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <numbers>
 
 namespace plyform {
 namespace {
@@ -92,11 +93,15 @@ bool bears_compression(const Case& data) {
   });
 }
 
+bool has_sizes(const BlankSpec& blank) {
+  return !blank.zones.empty() || blank.sizes.has_value();
+}
+
 /// Mean element size of a blank, mm: side of a square of two triangles; of a file as it is.
 double element_size_of(const BlankSpec& blank) {
-  if (blank.mesh != MeshKind::file) return blank.element_size;
+  if (blank.mesh != MeshKind::file && !has_sizes(blank)) return blank.element_size;
   try {
-    const BlankMesh mesh = mesh_blank(blank, 0.0, 0.0);
+    const BlankMesh mesh = mesh_blank(blank, 0.0, 0.5 * std::numbers::pi);
     double twice = 0.0; // mm^2, of the area
     for (const Triangle& t : mesh.triangles) {
       const Vec2 a = mesh.x[t[1]] - mesh.x[t[0]], b = mesh.x[t[2]] - mesh.x[t[0]];
@@ -169,6 +174,18 @@ double mesh_error(const Numbers& n) {
 
 } // namespace
 
+double mesh_share(double error) {
+  constexpr double share = 0.75; // of the squares, where the mesh costs the most
+  return std::sqrt(share) * error;
+}
+
+bool awaits_scene(const Case& data) {
+  return std::any_of(data.plies.begin(), data.plies.end(), [&](const Ply& ply) {
+    const BlankSpec& blank = data.blanks[ply.blank];
+    return !blank.mesh_from.empty() && !blank.sizes;
+  });
+}
+
 double PredictedError::total() const {
   return std::sqrt(inertia * inertia + softening * softening + mesh * mesh);
 }
@@ -226,8 +243,7 @@ std::string missed_accuracy(const Case& data) {
                   "is what this "
                   "run can promise: inertia {:.2g}, softened fibres {:.2g}, mesh {:.2g}",
                   wanted, promised, error.inertia, error.softening, error.mesh);
-  constexpr double share_of_mesh = 0.75; // of the squares, where the mesh costs the most
-  const double left = std::sqrt(share_of_mesh) * wanted;
+  const double left = mesh_share(wanted);
   if (error.mesh > left)
     text +=
         fmt::format("; elements {:.2g} times as large would keep it, and take some {:.2g} times "
@@ -312,7 +328,8 @@ bool may_coarsen(const Case& data, double by) {
     BlankSpec blank = data.blanks[ply.blank];
     if (blank.mesh == MeshKind::file) return false;
     scale_elements(blank, by);
-    if (blank.element_size > std::min(longest, most_thicknesses * thickness)) return false;
+    // what goes round a tool are the smallest
+    if (smallest_wanted(blank) > std::min(longest, most_thicknesses * thickness)) return false;
     if (!takes_elements(blank)) return false;
   }
   return data.boundaries.empty(); // the nodes that they prescribe depend on the mesh
@@ -331,14 +348,16 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
   Numbers n = numbers_of(data, assumed_mass_factor(data));
   const double wanted = degrees(data.accuracy.shear_error);
   n.max_inertia *= std::sqrt(std::min(wanted / most_inertia_at, 1.0));
+  const bool from_scene = awaits_scene(data);
   if (!(wanted > 0.0) || n.inertia == 0.0) return 1.0;
   CostParameters best;
   for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4, 0.95, 0.9}) { // (E) was not measured beyond
-    const bool keep = fixed.element_size || n.few_ply_mesh_factor > 1.0;
+    const bool keep = fixed.element_size || n.few_ply_mesh_factor > 1.0 || from_scene;
     if (by > 1.0 && (keep || !may_coarsen(data, by))) continue;
     // smaller ones only for an error that is out of reach without
     if (by < 1.0 && (keep || best.excess == 0.0 || !may_refine(data, by))) continue;
-    const double mesh = std::isnan(n.mesh) ? 0.0 : mesh_error(n) * std::pow(by, p_mesh);
+    double mesh = std::isnan(n.mesh) ? 0.0 : mesh_error(n) * std::pow(by, p_mesh);
+    if (from_scene) mesh = std::min(mesh, mesh_share(wanted));
     double left2 = wanted * wanted - mesh * mesh;
     const double least2 = 0.25 * wanted * wanted;
     if (left2 < least2 && by > 1.0) continue;

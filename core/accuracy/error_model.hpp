@@ -25,8 +25,8 @@
 
 namespace plyform {
 
-/// The terms of (E) by cause, degrees rms. Of a mesh from a file the mean size of its elements
-/// counts; the mesh term is NaN if the file cannot be read.
+/// The terms of (E) by cause, degrees rms. Of a mesh from a file, or with zones or a grid of sizes,
+/// the mean size of its elements counts; the mesh term is NaN if the file cannot be read.
 struct PredictedError {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
   double total() const;
@@ -51,6 +51,13 @@ std::string describe_accuracy(const PredictedError& error, double promised, doub
 /// What to say before a run of a case whose predicted error is more than its accuracy.shear_deg: by
 /// how much, which cause, and what helps; empty if it is kept or none was asked for.
 std::string missed_accuracy(const Case& data);
+
+/// The part of an error (degrees) that is left to the mesh.
+double mesh_share(double error);
+
+/// Whether a mesh is still to come from the scene (core/setup/scene_mesh.hpp), which keeps
+/// mesh_share of the error asked for where that is possible.
+bool awaits_scene(const Case& data);
 
 /// The error (degrees) of a preset of --accuracy; 0 for a word that is not a preset.
 double preset_error(const std::string& word);

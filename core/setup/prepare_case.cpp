@@ -132,7 +132,8 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
     return picked;
   }
   picked.coarsening = pick_cost_parameters(*picked.reading.value, fixed);
-  if (const std::string missed = missed_accuracy(*picked.reading.value); !missed.empty())
+  if (const std::string missed = missed_accuracy(*picked.reading.value);
+      !missed.empty() && !awaits_scene(*picked.reading.value))
     picked.reading.warnings.push_back(file.string() + ": warning: " + missed);
   if (picked.reading.value->accuracy.shear_error > 0.0 && !keys.empty())
     picked.notes.push_back(

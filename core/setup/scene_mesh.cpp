@@ -18,7 +18,6 @@ constexpr const char* from_scene = "scene";
 // Degrees: the error of the mesh that is aimed at where none is asked for, that of --accuracy
 // standard.
 constexpr double usual_error = 1.0;
-constexpr double share_of_mesh = 0.75; // of the squares of the error, where the mesh costs the most
 
 const BlankSpec& blank_of(const Case& data, std::size_t ply) {
   return data.blanks[at(data.plies[ply].blank)];
@@ -26,7 +25,7 @@ const BlankSpec& blank_of(const Case& data, std::size_t ply) {
 
 double error_of_mesh(const Case& data) {
   const double asked = data.accuracy.shear_error / degree;
-  return std::sqrt(share_of_mesh) * (asked > 0.0 ? asked : usual_error);
+  return mesh_share(asked > 0.0 ? asked : usual_error);
 }
 
 /// Takes a ply's sizes from those of a run before.
@@ -120,6 +119,7 @@ SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const ScoutHooks&
                                   "element-steps",
                                   1e-6 * found.scout_work)
                     : std::string("by the sizes of a run before")));
+  if (std::string missed = missed_accuracy(data); !missed.empty()) found.warning = missed;
   return found;
 }
 

@@ -17,6 +17,7 @@ struct SceneMesh {
   double scout_seconds = 0.0;  ///< wall time
   double triangles = 0.0;      ///< of all plies
   double smallest = 0.0, largest = 0.0; ///< mm, sides of the squares of two triangles
+  std::string warning;                  ///< of an accuracy that is out of reach; else empty
 };
 
 /// Gives the plies of `prepared` that ask for it sizes and meshes; its identity tells the sizes, a

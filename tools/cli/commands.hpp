@@ -91,7 +91,8 @@ PreparedCase load_case(const CaseArguments& arguments);
 
 /// mesh_from_scene; shows the progress of its scout, and prints errors to standard error, after
 /// which the case has no value. known: as there.
-SceneMesh load_meshes(PreparedCase& prepared, int threads, const std::filesystem::path& known = {});
+SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, int threads,
+                      const std::filesystem::path& known = {});
 
 int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);

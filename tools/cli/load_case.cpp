@@ -35,7 +35,8 @@ PreparedCase load_case(const CaseArguments& arguments) {
   return prepared;
 }
 
-SceneMesh load_meshes(PreparedCase& prepared, int threads, const std::filesystem::path& known) {
+SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, int threads,
+                      const std::filesystem::path& known) {
   ProgressLine line;
   ScoutHooks hooks;
   hooks.begins = [] {
@@ -48,6 +49,8 @@ SceneMesh load_meshes(PreparedCase& prepared, int threads, const std::filesystem
   line.end();
   if (!found.sizes.empty()) fmt::print("{}\n", prepared.notes.back());
   std::fflush(stdout);
+  if (!found.warning.empty())
+    fmt::print(stderr, "{}: warning: {}\n", arguments.file, found.warning);
   return found;
 }
 
