@@ -108,13 +108,16 @@ void read_outline(const TableView& section, const std::filesystem::path& folder,
 /// mesh_from, and whether there is a run at it.
 void read_mesh_from(const TableView& section, const std::filesystem::path& folder, BlankSpec& blank,
                     Diagnostics& diagnostics) {
-  blank.mesh_from = text(section, "mesh_from");
-  if (blank.mesh_from.empty() || blank.mesh_from == "scene") return;
+  const std::string from = text(section, "mesh_from");
+  if (from.empty() || from == "element_size") return;
+  blank.mesh_from = from;
+  if (from == "scene") return;
   const std::filesystem::path path =
       resolve_path(*given(section, "mesh_from"), folder).lexically_normal();
   if (std::error_code none; !std::filesystem::exists(path, none)) // others: when it is read
     value_error(section, "mesh_from",
-                "is neither \"scene\" nor the folder of a run: there is no " + path.string(),
+                "is neither \"scene\", \"element_size\" nor the folder of a run: there is no " +
+                    path.string(),
                 "write \"scene\", or give the folder of results, seen from the file that names it",
                 diagnostics);
   blank.mesh_from = path.string();

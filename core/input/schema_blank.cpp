@@ -196,11 +196,11 @@ Rows blank_rows() {
                             .members = {to(&BlankSpec::element_size)}}),
                 of_outline({.key = "mesh_from",
                             .kind = K::text,
-                            .otherwise = "element_size and zones alone",
-                            .meaning = "what else makes elements smaller: \"scene\", where tools "
-                                       "are round and shear bends sharply, found by a fast run "
-                                       "with elements of element_size; or the folder of a run "
-                                       "whose sizes are taken"}),
+                            .fallback = "\"element_size\"",
+                            .meaning = "what makes elements smaller beside zones: \"scene\", where "
+                                       "tools are round and shear bends sharply, found by a fast "
+                                       "run with coarse elements; or the folder of a run whose "
+                                       "sizes are taken; \"element_size\": nothing"}),
                 {.key = "blanks.NAME.file",
                  .kind = K::path,
                  .of = "mesh",

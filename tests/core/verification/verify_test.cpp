@@ -26,7 +26,8 @@ std::vector<Cause> causes(const Siblings& siblings) {
 }
 
 TEST(Siblings, DifferFromAnotherRunInOneParameter) {
-  const Case data = shipped("hemisphere_0");
+  const Case data = shipped("hemisphere_0", {{"blanks.square.mesh_from", "element_size"},
+                                             {"blanks.square.element_size", "6.8"}});
   const Siblings siblings = siblings_of(data);
   ASSERT_EQ(causes(siblings),
             (std::vector{Cause::mesh, Cause::inertia, Cause::softening, Cause::chance,
@@ -51,7 +52,7 @@ TEST(Siblings, DifferFromAnotherRunInOneParameter) {
 
 TEST(Siblings, AreStifferWhereTwiceTheSofteningDoesNothing) {
   // compression limits the softening of a stack of real cloth: half of what acts shows its error
-  const Case data = shipped("hemisphere_five_ply");
+  const Case data = shipped("hemisphere_five_ply", {{"blanks.square.element_size", "6.8"}});
   const Siblings siblings = siblings_of(data);
   ASSERT_EQ(siblings.runs[2].cause, Cause::softening);
   EXPECT_LT(siblings.runs[2].data.solver.fibre_softening, 0.6 * data.solver.fibre_softening);
