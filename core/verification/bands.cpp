@@ -240,6 +240,24 @@ void leave_out_unknown(std::vector<VerifiedFigure>& forces, const RunEnd& run) {
 
 } // namespace
 
+namespace {
+
+/// Takes the parts from a force that both runs compared have lost: that they agree shows nothing.
+void leave_out_lost(VerifiedFigure& f, std::size_t tool, const RunEnd& run, const Ends& siblings,
+                    const Siblings& made) {
+  constexpr double lost = 0.05; // of the run's force
+  const auto has_lost = [&](const RunEnd& end) {
+    return std::abs(end.last.tools[tool].force_N) < lost * std::abs(f.value);
+  };
+  for (const auto& [cause, part] : {std::pair(Cause::mesh, &VerifiedFigure::mesh),
+                                    std::pair(Cause::softening, &VerifiedFigure::softening)}) {
+    const Compared c = compared(cause, run, siblings, made);
+    if (c && has_lost(*c.one) && has_lost(*c.other)) (f.*part).reset();
+  }
+}
+
+} // namespace
+
 std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& siblings,
                                              const Siblings& made,
                                              const PredictedError& predicted) {
@@ -276,7 +294,10 @@ std::vector<VerifiedFigure> verified_figures(const RunEnd& run, const Ends& sibl
     estimate(f, run, siblings, made, [t](const RunEnd& a, const RunEnd& b) {
       return a.last.tools[t].force_N - b.last.tools[t].force_N;
     });
-    if (run.balance_N.empty()) continue;
+    if (run.balance_N.empty()) {
+      leave_out_lost(f, t, run, siblings, made);
+      continue;
+    }
     VerifiedFigure by_balance = f;
     estimate(by_balance, run, siblings, made,
              [t](const RunEnd& a, const RunEnd& b) { return a.balance_N[t] - b.balance_N[t]; });

@@ -10,7 +10,7 @@ trap 'rm -rf "$folder"' EXIT
 cd "$folder"
 
 cp -r "$cases" cases
-short=(--set blanks.square.element_size=34 --set solver.duration=0.002 --set tool.0.stroke=0.5)
+short=(--set blanks.square.mesh_from=element_size --set blanks.square.element_size=34 --set solver.duration=0.002 --set tool.0.stroke=0.5)
 expect 0 plyform version
 expect 0 'tool[].radius' keys
 expect 1 'subcommand is required'

@@ -177,7 +177,8 @@ def check_wrong(results):
 def main():
     with tempfile.TemporaryDirectory() as name:
         results = Path(name) / "run"
-        call("run", CASES / "hemisphere_two_ply", "--set", "blanks.square.element_size=34", "--set",
+        call("run", CASES / "hemisphere_two_ply", "--set",
+             "blanks.square.mesh_from=element_size", "--set", "blanks.square.element_size=34", "--set",
              "solver.duration=0.02", "--set", "solver.outputs=2", "--threads", "1", "-o", results)
         with h5py.File(results / "results.h5") as file:
             check_states(results, file)

@@ -410,7 +410,8 @@ def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         results = folder / "run"
-        call("run", CASES / "hemisphere_two_ply", "--set", "blanks.square.element_size=17", "--set",
+        call("run", CASES / "hemisphere_two_ply", "--set",
+             "blanks.square.mesh_from=element_size", "--set", "blanks.square.element_size=17", "--set",
              "solver.duration=0.02", "--set", "solver.outputs=2", "--threads", "1", "-o", results)
         check_own(results, folder / "own")
         check_two(results, folder / "two")

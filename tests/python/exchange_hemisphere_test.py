@@ -83,6 +83,7 @@ def main():
         for angle in (30.0, 60.0):
             results = folder / f"run{angle:g}"
             call("run", CASES / "hemisphere_0", "--set", f"ply.0.angle={angle:g}", "--set",
+                 "blanks.square.mesh_from=element_size", "--set", "blanks.square.element_size=6.8", "--set",
                  "solver.outputs=1", "--threads", "1", "-o", results)
             (ply,) = read_formed(results).plies
             smooth = SmoothPly(ply)

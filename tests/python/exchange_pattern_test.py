@@ -31,7 +31,8 @@ except ImportError as error:
 
 PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:4])
 TRIM = 115.0  # mm: radius on the flange of the hemisphere
-SETTINGS = ("--set", "solver.outputs=1", "--threads", "1")
+SETTINGS = ("--set", "solver.outputs=1", "--set", "blanks.square.mesh_from=element_size",
+            "--set", "blanks.square.element_size=6.8", "--threads", "1")
 
 
 def call(*words, code=0):

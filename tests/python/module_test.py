@@ -27,7 +27,8 @@ from raised_exception import raised  # noqa: E402
 
 HEMISPHERE = source / "cases/hemisphere_0"
 FABRIC = source / "cases/fabrics/glass_plain_weave.toml"
-COARSE = {"blanks.square.element_size": 17.0, "solver.outputs": 4, "contact.friction": 0.3}
+COARSE = {"blanks.square.mesh_from": "element_size", "blanks.square.element_size": 17.0,
+          "solver.outputs": 4, "contact.friction": 0.3}
 
 
 def coarse(**more):

@@ -88,7 +88,8 @@ def shown(browser, folder):
 
 def killed_run(folder):
     """A stack with tools, killed after its third state."""
-    settings = ("blanks.square.element_size=34", "solver.duration=0.02")
+    settings = ("blanks.square.mesh_from=element_size", "blanks.square.element_size=34",
+                "solver.duration=0.02")
     words = [word for setting in settings for word in ("--set", setting)]
     process = subprocess.Popen([PROGRAM, "run", CASES / "hemisphere_two_ply", *words, "-o", folder],
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)

@@ -20,7 +20,8 @@ import h5py
 import numpy as np
 
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:5])
-COARSE = ["blanks.square.element_size=34", "solver.outputs=4", "solver.duration=0.02"]
+COARSE = ["blanks.square.mesh_from=element_size", "blanks.square.element_size=34",
+          "solver.outputs=4", "solver.duration=0.02"]
 
 
 def run(folder, *settings):

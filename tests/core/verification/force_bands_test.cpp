@@ -50,6 +50,21 @@ TEST(Bands, OfForcesTakeTheirOwnErrorAndThatOfAllOthers) {
   EXPECT_TRUE(forces_by_balance(data, run.last).empty());
 }
 
+TEST(Bands, OfForcesThatBothRunsComparedHaveLostHaveNoPart) {
+  Siblings made;
+  made.coarsening = 1.4;
+  const RunEnd run = end_with(1, 30.0, 20.0, 100.0);
+  for (const double left :
+       {0.0, 40.0}) { // N, of the faster stroke on the coarser mesh, and of more
+    const Ends siblings{{Cause::inertia, end_with(1, 30.0, 20.0, left)},
+                        {Cause::softening, end_with(1, 30.0, 20.0, 0.9 * left)},
+                        {Cause::mesh, end_with(1, 30.0, 20.0, 95.0)}};
+    const VerifiedFigure f = named(verified_figures(run, siblings, made, {}), "force of punch");
+    EXPECT_EQ(f.softening.has_value(), left > 0.0) << left;
+    EXPECT_TRUE(f.mesh.has_value());
+  }
+}
+
 TEST(Bands, OfForcesAreNotBelowTheJitterOfAPushedTool) {
   Case data;
   data.tools.resize(2);
