@@ -97,17 +97,21 @@ bool has_sizes(const BlankSpec& blank) {
   return !blank.zones.empty() || blank.sizes.has_value();
 }
 
-/// Mean element size of a blank, mm: side of a square of two triangles; of a file as it is.
+/// Element size of a blank, mm: side of a square of two triangles. Of a mesh that may have
+/// different ones, from a file, by zones or sizes, that of the uniform mesh with the same error:
+/// errors go with h^p_mesh place by place, and their squares add up over the area.
 double element_size_of(const BlankSpec& blank) {
   if (blank.mesh != MeshKind::file && !has_sizes(blank)) return blank.element_size;
   try {
     const BlankMesh mesh = mesh_blank(blank, 0.0, 0.5 * std::numbers::pi);
-    double twice = 0.0; // mm^2, of the area
+    double area = 0.0, sum = 0.0;
     for (const Triangle& t : mesh.triangles) {
       const Vec2 a = mesh.x[t[1]] - mesh.x[t[0]], b = mesh.x[t[2]] - mesh.x[t[0]];
-      twice += std::abs(a.x() * b.y() - a.y() * b.x());
+      const double twice = std::abs(a.x() * b.y() - a.y() * b.x());
+      area += twice;
+      sum += twice * std::pow(twice, p_mesh); // h^2 = twice
     }
-    return std::sqrt(twice / static_cast<double>(mesh.triangles.size()));
+    return std::pow(sum / area, 0.5 / p_mesh);
   } catch (const std::runtime_error&) { // told where the case is checked
     return std::numeric_limits<double>::quiet_NaN();
   }

@@ -26,7 +26,8 @@
 namespace plyform {
 
 /// The terms of (E) by cause, degrees rms. Of a mesh from a file, or with zones or a grid of sizes,
-/// the mean size of its elements counts; the mesh term is NaN if the file cannot be read.
+/// the error of each place counts, as the root mean square over the area; the mesh term is NaN if
+/// the file cannot be read.
 struct PredictedError {
   double inertia = 0.0, softening = 0.0, mesh = 0.0;
   double total() const;

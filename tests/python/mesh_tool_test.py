@@ -235,11 +235,13 @@ def shear(folder, name):
 
 def check_formed(folder, shipped):
     for case, build, place, plies, size in (
-            ("hemisphere_0", half_ball, "position = [0.0, 0.0, 75.6], stroke = 75.0", ["ply"], 10.0),
+            ("hemisphere_0", half_ball, "position = [0.0, 0.0, 75.6], stroke = 75.0", ["ply"],
+             (6.8, 10.0)),
             ("square_box", filleted_box, "position = [0.0, 0.0, 31.2], stroke = 35.0",
-             ["lower", "upper"], 7.5)):
-        coarse = [] if shipped else ["--set", f"blanks.square.element_size={size}",
-                                     "--set", "solver.duration=0.05"]
+             ["lower", "upper"], (5.0, 7.5))):
+        mesh = ["--set", "blanks.square.mesh_from=element_size",  # the same for both tools
+                "--set", f"blanks.square.element_size={size[0] if shipped else size[1]}"]
+        coarse = mesh if shipped else [*mesh, "--set", "solver.duration=0.05"]
         part = folder / f"{case}.step"
         write_step(part, build)
         stl, _, said = made(part)

@@ -80,7 +80,7 @@ TEST(HemisphereLong, OnePlyOnAMeshFromTheSceneIsDone) {
   const RunResult run = run_case(*prepared.value, 2, {}, prepared.meshes);
   EXPECT_EQ(run.summary.status, "done") << run.summary.message;
   EXPECT_LT(mesh.triangles, 10000.0);                       // 20 000 of 3.4 mm end so, too
-  EXPECT_NEAR(tool(run.last, "punch").force_N, 114.0, 2.3); // 2 %; 114.5 of 3.4 mm
+  EXPECT_NEAR(tool(run.last, "punch").force_N, 113.7, 2.3); // 2 % of that with 3.4 mm throughout
 }
 
 TEST(HemisphereLong, FivePliesFormSoundly) {

@@ -151,11 +151,14 @@ TEST(Accuracy, AMeshFromTheSceneKeepsItsSizeAndItsShareOfTheError) {
   EXPECT_EQ(pick_cost_parameters(data), 1.0);
   const PredictedError left = predicted_error(data);
   EXPECT_NEAR(std::hypot(left.inertia, left.softening, mesh_share(1.0)), 1.0, 0.15);
-  // half of the elements in a tenth of the blank: the mean of their areas counts
+  // squares add up over the area: without error in a third of it the root of two thirds is left
+  data.plies.resize(1);
   data.blanks[0].zones.resize(1);
-  data.blanks[0].zones[0].radius = 60.0;
-  data.blanks[0].zones[0].element_size = 2.0;
-  EXPECT_LT(predicted_error(data).mesh, 0.7 * left.mesh);
+  data.blanks[0].zones[0].radius = std::sqrt(340.0 * 340.0 / 3.0 / std::numbers::pi);
+  data.blanks[0].zones[0].element_size = 0.2 * data.blanks[0].element_size;
+  const double with = predicted_error(data).mesh;
+  data.blanks[0].zones.clear();
+  EXPECT_NEAR(with / predicted_error(data).mesh, std::sqrt(2.0 / 3.0), 0.03); // bisected around it
 }
 
 TEST(Accuracy, KeepsWhatOverridesSetAndSaysSo) {
