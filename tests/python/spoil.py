@@ -154,7 +154,7 @@ def spoil_link(file, name, found, chance) -> None:
         return
     if way == 1:
         other = chance.choice(found)
-        if other in file:
+        if other in file and name + "2" not in file:
             file[name + "2"] = file[other]
         return
     del file[name]

@@ -38,6 +38,15 @@ def is_value(value) -> bool:
         isinstance(value, list) and all(map(is_value, value))
 
 
+def holds(right, value) -> bool:
+    """right(value), and False for a value of a kind that it cannot be asked about: a list or a
+    table, say, of which no set knows whether it is in it."""
+    try:
+        return bool(right(value))
+    except TypeError:
+        return False
+
+
 class Reader:
     """One table of the file; whatever is wrong goes to the mistakes, a usable value comes out."""
 
@@ -67,7 +76,7 @@ class Reader:
                 self.fail(key, "is missing", remedy)
             return default
         value = self.table[key]
-        if right(value):
+        if holds(right, value):
             return value
         self.fail(key, rule, remedy, value if is_number(value) or isinstance(value, str) else None)
         return default
@@ -97,7 +106,7 @@ class Reader:
                           required)
         kept = []
         for i, value in enumerate(values):
-            if not right(value):
+            if not holds(right, value):
                 self.fail(f"{key}.{i}", rule, remedy, value if is_number(value) else None)
             elif value in kept and not twice:
                 self.fail(f"{key}.{i}", "stands twice", "take one of the two out",
