@@ -87,6 +87,8 @@ WRONG = {  # what is put in the place of what, and the one message that comes
     ('"tools.', '"most tools.'): "study.toml:3: error: figures.punch_N: must be a path",
     ("[[vary]]", "[limits]\nforce = 3\n[[vary]]"): "limits.force: there is no force; there are",
     ("[[vary]]", "[[picture]]\nkind = 'cost'\n[[vary]]"): "picture.0.kind = 'cost': needs errors",
+    ("[[vary]]", "[reference]\nfields = [['shear']]\n[[vary]]"):
+    "reference.fields.0: must be",
     ("[[vary]]", "[reference]\n[[picture]]\nkind = 'cost'\nfigure = 'punch'\n[[vary]]"):
     "picture.0.figure = 'punch': is no figure of the study; name one of",
     ("[figures]", "method = 'gird'\n[figures]"): "study.toml:2: error: method = 'gird': must be",

@@ -158,7 +158,8 @@ TEST(Accuracy, AMeshFromTheSceneKeepsItsSizeAndItsShareOfTheError) {
   data.blanks[0].zones[0].element_size = 0.2 * data.blanks[0].element_size;
   const double with = predicted_error(data).mesh;
   data.blanks[0].zones.clear();
-  EXPECT_NEAR(with / predicted_error(data).mesh, std::sqrt(2.0 / 3.0), 0.06); // elements around it are bisected, too
+  EXPECT_NEAR(with / predicted_error(data).mesh, std::sqrt(2.0 / 3.0),
+              0.06); // elements around it are bisected, too
 }
 
 TEST(Accuracy, KeepsWhatOverridesSetAndSaysSo) {
