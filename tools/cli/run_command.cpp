@@ -240,7 +240,8 @@ int run_command(const RunArguments& arguments) {
   const std::filesystem::path folder = output_folder(arguments);
   ResultWriter writer(folder);
   catch_ending_signals();
-  const bool goes_on = arguments.resume && std::filesystem::exists(folder / size_file_name);
+  const bool goes_on = arguments.resume && std::filesystem::exists(folder / "checkpoint") &&
+                       std::filesystem::exists(folder / size_file_name);
   std::vector<PlySizes> sizes =
       load_meshes(arguments.input, prepared, threads, goes_on ? folder : "").sizes;
   if (!within_budget(prepared, arguments, threads, !sizes.empty())) return exit_case_wrong;
