@@ -268,8 +268,11 @@ private:
 
   /// The last output state before a resume must be of this scene.
   void check_last(const Frame& last) const {
+    const auto told = std::count_if( // planes of symmetry are not
+        s_.data.boundaries.begin(), s_.data.boundaries.end(),
+        [](const Boundary& b) { return b.kind != BoundaryKind::symmetry; });
     bool fits = last.plies.size() == s_.plies.size() && last.tools.size() == s_.tools.size() &&
-                last.boundaries.size() == s_.boundaries.size() && last.step <= s_.step;
+                last.boundaries.size() == static_cast<std::size_t>(told) && last.step <= s_.step;
     for (std::size_t p = 0; fits && p < s_.plies.size(); ++p)
       fits = last.plies[p].name == s_.plies[p].name &&
              last.plies[p].x0.size() == s_.plies[p].x0.size() &&

@@ -2,8 +2,9 @@
 // A scene that is saved between two searches and loaded into a new one. Whole runs that are killed
 // and resumed: tests/cli/resume_test.sh.
 #include "core/solver/checkpoint.hpp"
+#include "core/solver/run.hpp"
 #include "core/solver/step.hpp"
-#include "support/scene_checks.hpp"
+#include "support/boundary_scenes.hpp"
 
 #include <algorithm>
 #include <cstring>
@@ -61,6 +62,25 @@ TEST(Checkpoint, LoadedSceneHasTheBoxesOfTheLastSearchAndGoesOnTheSameWay) {
   EXPECT_EQ(scene.plies[0].x, loaded.plies[0].x);
   EXPECT_EQ(scene.plies[1].x, loaded.plies[1].x);
   EXPECT_LT(closest, glass_weave().thickness) << "they have not met";
+}
+
+// Planes of symmetry are boundaries that states do not tell.
+TEST(Checkpoint, OfAPartWithPlanesOfSymmetryGoesOnTheSameWay) {
+  const Case data = pushed_square(0.0, MeshKind::alternating, true);
+  Resume middle;
+  Frame latest;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& frame) { latest = frame; };
+  hooks.marks = {2, [&](int number, const Scene&, const std::function<std::string()>& state) {
+                   if (number == 1) middle = {state(), latest};
+                 }};
+  const RunResult whole = run_case(data, 1, hooks);
+  ASSERT_FALSE(middle.state.empty());
+  RunHooks again;
+  again.resume = &middle;
+  const RunResult gone_on = run_case(data, 1, again);
+  EXPECT_EQ(gone_on.last.plies[0].x, whole.last.plies[0].x);
+  EXPECT_EQ(gone_on.summary.steps, whole.summary.steps);
 }
 
 /// Two plies that lie on each other, in themselves and on a mesh, held by a grip, some steps on.
