@@ -45,10 +45,13 @@ set(public_headers
   core/results/frame.hpp
   core/results/ply_frame.hpp
   core/results/result_writer.hpp
+  core/results/size_file.hpp
   core/results/summary.hpp
   core/results/verification.hpp
   core/results/wrinkles.hpp
   core/setup/prepare_case.hpp
+  core/setup/scene_mesh.hpp
+  core/setup/scout.hpp
   core/solver/run.hpp)
 foreach(header ${public_headers})
   cmake_path(GET header PARENT_PATH folder)

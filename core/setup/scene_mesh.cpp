@@ -112,13 +112,9 @@ SceneMesh mesh_from_scene(PreparedCase& prepared, int threads, const ScoutHooks&
   give_sizes(prepared, found.sizes);
   measure(prepared, found);
   prepared.identity += fmt::format("mesh sizes: {:016x}\n", checkpoint_sum(text_of(found.sizes)));
-  prepared.notes.push_back(fmt::format(
-      "mesh from the scene: {:.0f} triangles, elements of {:.3g} to {:.3g} mm, {}", found.triangles,
-      found.smallest, found.largest,
-      found.scouted ? fmt::format("by a run with coarse elements and a fast stroke, {:.2g} million "
-                                  "element-steps",
-                                  1e-6 * found.scout_work)
-                    : std::string("by the sizes of a run before")));
+  prepared.notes.push_back(
+      fmt::format("mesh from the scene: {:.0f} triangles, elements of {:.3g} to {:.3g} mm",
+                  found.triangles, found.smallest, found.largest));
   if (std::string missed = missed_accuracy(data); !missed.empty()) found.warning = missed;
   return found;
 }

@@ -40,6 +40,7 @@ Case scout_case(const Case& data) {
   pick_cost_parameters(fast, {.element_size = true});
   fast.solver.duration = std::min(fast.solver.duration, data.solver.duration);
   fast.solver.dwell = 0.0;
+  fast.solver.max_balance_error = SolverOptions{}.max_balance_error; // the run's is for the run
   fast.solver.outputs = looks;
   return fast;
 }

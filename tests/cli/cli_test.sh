@@ -97,7 +97,8 @@ expect 3 'last good state' run cases/hemisphere_0 -o stopped --set solver.max_ba
 [ -s stopped/summary.json ] || { echo "a stopped run left nothing"; failures=$((failures + 1)); }
 # Large elements on a fillet of 10 mm: it ends, and says what not to trust.
 expect 0 'die cuts into it between nodes' \
-  run cases/hemisphere_0 --accuracy draft --set blanks.square.element_size=9 -o doubtful
+  run cases/hemisphere_0 --accuracy draft --set blanks.square.mesh_from=element_size \
+  --set blanks.square.element_size=9 -o doubtful
 if ! grep -q '"status": "doubtful"' doubtful/summary.json; then
   echo "the summary of a doubtful run does not say so"
   failures=$((failures + 1))

@@ -11,7 +11,8 @@ cd "$folder"
 . "$tests/expect.sh"
 
 # Five plies; two seconds of one core.
-stack=("$cases/hemisphere_five_ply" --set blanks.square.element_size=26 --set solver.duration=0.02
+stack=("$cases/hemisphere_five_ply" --set blanks.square.mesh_from=element_size
+  --set blanks.square.element_size=26 --set solver.duration=0.02
   --set tool.0.stroke=30 --set solver.checkpoint_interval=0.05)
 # A frame that shears a ply: boundaries and their reactions.
 frame=("$cases/picture_frame" --set blanks.square.element_size=20 --set solver.duration=0.05
@@ -41,8 +42,12 @@ awk 'BEGIN {
 }' >die.off
 sed -e 's|"../fabrics|"'"$cases"'/fabrics|' -e '/^points = /d' -e 's|^shape = "profile"|shape = "mesh"\nfile = "die.off"|' \
   "$cases/hemisphere_0/case.toml" >mesh.toml
-mesh=(mesh.toml --set blanks.square.element_size=13.6 --set solver.duration=0.03
+mesh=(mesh.toml --set blanks.square.mesh_from=element_size --set blanks.square.element_size=13.6 --set solver.duration=0.03
   --set solver.checkpoint_interval=0.02)
+
+# Two plies whose meshes come from the scene: what goes on does not look for them again.
+scene=("$cases/verify/hemisphere_small.toml" --set blanks.square.mesh_from=scene
+  --set solver.duration=0.01 --set solver.checkpoint_interval=0.02)
 
 # run FOLDER ARGUMENT...: in the background; its process in $process.
 run() {
@@ -59,7 +64,7 @@ readable() {
 }
 
 killed=0
-for case in stack frame table springs mesh; do
+for case in stack frame table springs mesh scene; do
   declare -n arguments=$case
   rm -rf whole again
   begin=$EPOCHREALTIME

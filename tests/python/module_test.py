@@ -67,8 +67,11 @@ def check_values(_):
     assert "numbered from 0 to 2" in str(raised(KeyError, case.get, "tool.3.name"))
     raised(TypeError, case.set, "title", None)
     raised(ValueError, plyform.Case, HEMISPHERE, accuracy="rough")
-    outlook = plyform.Case(HEMISPHERE, {"ply.0.angle": 45.0}).outlook(threads=1)
-    told = subprocess.run([program, "check", HEMISPHERE, "--set", "ply.0.angle=45"], check=True,
+    squares = {"blanks.square.mesh_from": "element_size", "blanks.square.element_size": 6.8}
+    outlook = plyform.Case(HEMISPHERE, {"ply.0.angle": 45.0, **squares}).outlook(threads=1)
+    told = subprocess.run([program, "check", HEMISPHERE, "--set", "ply.0.angle=45",
+                           *(word for key, value in squares.items()
+                             for word in ("--set", f"{key}={value}"))], check=True,
                           capture_output=True, text=True).stdout.splitlines()
     assert outlook.lines[:-1] == told[:-2] and "time" in outlook.lines[-1]
     assert any(line.startswith("    note: tool die") for line in outlook.lines), outlook.lines

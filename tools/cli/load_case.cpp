@@ -48,6 +48,9 @@ SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, in
   SceneMesh found = mesh_from_scene(prepared, threads, hooks, known);
   line.end();
   if (!found.sizes.empty()) fmt::print("{}\n", prepared.notes.back());
+  if (found.scouted)
+    fmt::print("found with {:.2g} million element-steps in {:.1f} s\n", 1e-6 * found.scout_work,
+               found.scout_seconds);
   std::fflush(stdout);
   if (!found.warning.empty())
     fmt::print(stderr, "{}: warning: {}\n", arguments.file, found.warning);
