@@ -2,6 +2,7 @@
 #include "core/accuracy/error_model.hpp"
 
 #include "core/mesh/mesh_blank.hpp"
+#include "core/mesh/size_field.hpp"
 #include "core/model/motion.hpp"
 #include "core/model/reach_ahead.hpp"
 
@@ -93,15 +94,11 @@ bool bears_compression(const Case& data) {
   });
 }
 
-bool has_sizes(const BlankSpec& blank) {
-  return !blank.zones.empty() || blank.sizes.has_value();
-}
-
 /// Element size of a blank, mm: side of a square of two triangles. Of a mesh that may have
 /// different ones, from a file, by zones or sizes, that of the uniform mesh with the same error:
 /// errors go with h^p_mesh place by place, and their squares add up over the area.
 double element_size_of(const BlankSpec& blank) {
-  if (blank.mesh != MeshKind::file && !has_sizes(blank)) return blank.element_size;
+  if (blank.mesh != MeshKind::file && !is_graded(blank)) return blank.element_size;
   try {
     const BlankMesh mesh = mesh_blank(blank, 0.0, 0.5 * std::numbers::pi);
     double area = 0.0, sum = 0.0;

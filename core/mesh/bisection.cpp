@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/mesh/bisection.hpp"
 
+#include "core/mesh/mesher_parts.hpp"
+
 #include <algorithm>
 #include <tuple>
 
@@ -77,12 +79,11 @@ Vec2 middle_of(Bisection& b, const SideNodes& side, std::int32_t number) {
   const Vec2 &p = b.mesh.x[at(side.first)], &q = b.mesh.x[at(side.second)];
   const auto arc = b.arc_centre.find(side);
   if (arc == b.arc_centre.end()) return 0.5 * (p + q);
-  const Vec2 centre = arc->second, u = p - centre, v = q - centre;
+  const Vec2 centre = arc->second;
   b.arc_centre.erase(arc);
   b.arc_centre.emplace(SideNodes(side.first, number), centre); // numbers of new nodes are higher
   b.arc_centre.emplace(SideNodes(side.second, number), centre);
-  // The radii of both ends may differ by the rounding of a drawing's numbers.
-  return centre + 0.5 * (u.norm() + v.norm()) * (u + v).normalized();
+  return middle_on_arc(p, q, centre);
 }
 
 /// Triangles of the next mesh, with all that is known of each.

@@ -36,9 +36,7 @@ Rim rim_of(const BlankSpec& spec, int hole) {
 }
 
 Vec2 middle_of_piece(const RimPiece& piece, const Vec2& end) {
-  if (!piece.centre) return 0.5 * (piece.x + end);
-  const Vec2 u = piece.x - *piece.centre, v = end - *piece.centre;
-  return *piece.centre + 0.5 * (u.norm() + v.norm()) * (u + v).normalized();
+  return piece.centre ? middle_on_arc(piece.x, end, *piece.centre) : Vec2(0.5 * (piece.x + end));
 }
 
 /// Halves the pieces for which too_long(first, middle, end) holds, until there are none.

@@ -19,6 +19,13 @@ inline double cross(const Vec2& a, const Vec2& b) {
   return a.x() * b.y() - a.y() * b.x();
 }
 
+/// The middle of a piece of an arc from p to q about `centre`, mm. The radii of both ends may
+/// differ by the rounding of a drawing's numbers.
+inline Vec2 middle_on_arc(const Vec2& p, const Vec2& q, const Vec2& centre) {
+  const Vec2 u = p - centre, v = q - centre;
+  return centre + 0.5 * (u.norm() + v.norm()) * (u + v).normalized();
+}
+
 /// Points joined by edges. The region to mesh is the set of points separated from infinity by an
 /// odd number of edges.
 struct Region {

@@ -166,7 +166,7 @@ Vec2 on_grid(const SizeGrid& grid, const Vec2& p) {
 }
 
 double grid_point(const SizeGrid& grid, int column, int row) {
-  return grid.size[at(row) * at(grid.columns) + at(column)];
+  return grid.size[grid.index(column, row)];
 }
 
 double grid_size(const SizeGrid& grid, const Vec2& p) {

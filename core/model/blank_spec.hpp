@@ -70,6 +70,11 @@ struct SizeGrid {
   double spacing = 0.0;       ///< mm
   int columns = 0, rows = 0;  ///< at least one each
   std::vector<double> size;   ///< mm, above 0
+
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+           static_cast<std::size_t>(column);
+  }
 };
 
 /// The element size wanted at a place is the least of element_size, that of the zones that hold the

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
+#include <map>
 
 namespace plyform {
 namespace {
@@ -45,13 +46,15 @@ SceneMesh find_sizes(const Case& data, int threads, const ScoutHooks& hooks,
                      const std::filesystem::path& known) {
   SceneMesh found;
   Scouted scouted;
+  std::map<std::filesystem::path, std::vector<PlySizes>> before; // each file is read once
   for (std::size_t p = 0; p < data.plies.size(); ++p) {
     const std::string& from = blank_of(data, p).mesh_from;
     if (from.empty()) continue;
     const std::filesystem::path path = from == from_scene ? known : std::filesystem::path(from);
     if (!path.empty()) {
+      if (!before.contains(path)) before[path] = read_sizes(path);
       found.sizes.push_back(
-          {data.plies[p].name, sizes_of_before(read_sizes(path), data.plies[p].name, path)});
+          {data.plies[p].name, sizes_of_before(before[path], data.plies[p].name, path)});
       continue;
     }
     if (scouted.sizes.empty()) {

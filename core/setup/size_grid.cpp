@@ -28,17 +28,12 @@ Window window(const SizeGrid& grid, const Vec2& at, double reach) {
           clamped(std::floor(high.y() / grid.spacing), grid.rows)};
 }
 
-std::size_t index(const SizeGrid& grid, int column, int row) {
-  return static_cast<std::size_t>(row) * static_cast<std::size_t>(grid.columns) +
-         static_cast<std::size_t>(column);
-}
-
 void lower(SizeGrid& grid, const Vec2& at, double reach, double size) {
   const Window w = window(grid, at, reach);
   for (int row = w.first_row; row <= w.last_row; ++row)
     for (int column = w.first_column; column <= w.last_column; ++column) {
       const Vec2 point = grid.origin + grid.spacing * Vec2(column, row);
-      double& there = grid.size[index(grid, column, row)];
+      double& there = grid.size[grid.index(column, row)];
       if ((point - at).norm() <= reach) there = std::min(there, size);
     }
 }
@@ -49,10 +44,10 @@ void bound_growth(SizeGrid& grid) {
   const double straight = size_growth * grid.spacing, across = std::numbers::sqrt2 * straight;
   const auto take = [&](double& size, int column, int row, double rise) {
     if (column < 0 || column >= grid.columns || row < 0 || row >= grid.rows) return;
-    size = std::min(size, grid.size[index(grid, column, row)] + rise);
+    size = std::min(size, grid.size[grid.index(column, row)] + rise);
   };
   const auto pass = [&](int column, int row, int way) {
-    double& size = grid.size[index(grid, column, row)];
+    double& size = grid.size[grid.index(column, row)];
     take(size, column - way, row, straight);
     take(size, column, row - way, straight);
     take(size, column - way, row - way, across);
