@@ -16,6 +16,7 @@
 #include <optional>
 #include <set>
 #include <stdexcept>
+#include <string_view>
 
 namespace plyform {
 namespace {
@@ -61,6 +62,9 @@ public:
   void processCodeValuePair(unsigned int code, const std::string& value) override {
     lines_ += 2;
     if (ended) throw EndOfDrawing{};
+    if (code == 9 && section_ != "HEADER") // begins an entity for dxflib
+      throw std::runtime_error(
+          fmt::format("line {} sets a variable (group 9) outside of the header", lines_ - 1));
     if (code == 0)
       begin(value);
     else
@@ -75,16 +79,18 @@ public:
   void setVariableInt(const std::string& key, int value, int) override {
     if (key == "$INSUNITS") unit = value;
   }
-  void addLine(const DL_LineData& d) override { add({d.x1, d.y1, d.x2, d.y2}, d.z1 - d.z2); }
-  void addArc(const DL_ArcData& d) override {
-    add({d.cx, d.cy, d.radius, d.angle1, d.angle2}, 0.0);
+  void addLine(const DL_LineData& d) override {
+    add("LINE", {d.x1, d.y1, d.x2, d.y2}, d.z1 - d.z2);
   }
-  void addCircle(const DL_CircleData& d) override { add({d.cx, d.cy, d.radius}, 0.0); }
+  void addArc(const DL_ArcData& d) override {
+    add("ARC", {d.cx, d.cy, d.radius, d.angle1, d.angle2}, 0.0);
+  }
+  void addCircle(const DL_CircleData& d) override { add("CIRCLE", {d.cx, d.cy, d.radius}, 0.0); }
   void addEllipse(const DL_EllipseData& d) override {
-    add({d.cx, d.cy, d.mx, d.my, d.ratio, d.angle1, d.angle2}, d.mz);
+    add("ELLIPSE", {d.cx, d.cy, d.mx, d.my, d.ratio, d.angle1, d.angle2}, d.mz);
   }
   void addSpline(const DL_SplineData& d) override {
-    add({static_cast<double>(d.degree)}, 0.0);
+    add("SPLINE", {static_cast<double>(d.degree)}, 0.0);
     if (open_) entities.back().flags = d.flags;
     height_.reset();
   }
@@ -99,16 +105,17 @@ public:
     spline.numbers.insert(spline.numbers.end(), {d.x, d.y, d.w});
   }
   void addPolyline(const DL_PolylineData& d) override {
-    add({}, 0.0);
+    add(before_.name == "LWPOLYLINE" ? "LWPOLYLINE" : "POLYLINE", {}, 0.0);
     if (open_) entities.back().flags = d.flags;
   }
   void addBlock(const DL_BlockData& d) override {
     block_ = d.name;
-    add({d.bpx, d.bpy}, 0.0);
+    add("BLOCK", {d.bpx, d.bpy}, 0.0);
   }
   void endBlock() override { block_.clear(); }
   void addInsert(const DL_InsertData& d) override {
-    add({d.ipx, d.ipy, d.sx, d.sy, d.angle, static_cast<double>(d.cols),
+    add("INSERT",
+        {d.ipx, d.ipy, d.sx, d.sy, d.angle, static_cast<double>(d.cols),
          static_cast<double>(d.rows)},
         0.0);
     if (open_) entities.back().inserted = d.name;
@@ -151,9 +158,13 @@ private:
     return before_.section == "ENTITIES" || (before_.section == "BLOCKS" && !block_.empty());
   }
 
-  void add(std::vector<double> numbers, double rise) {
+  /// Takes the numbers that dxflib gives of an entity of this kind.
+  void add(std::string_view kind, std::vector<double> numbers, double rise) {
     open_ = is_geometry();
     if (!open_) return;
+    if (before_.name != kind)
+      throw std::runtime_error(fmt::format("the {} in line {} would be taken for a {}",
+                                           shown(before_.name, 30), before_.line, kind));
     RawEntity e{before_.name, before_.layer, block_, "", before_.line};
     const double* normal = getExtrusion()->getDirection();
     // lines and splines are in world coordinates, as are the axes of ellipses
