@@ -345,7 +345,16 @@ bool may_refine(const Case& data, double by) {
          });
 }
 
+bool largest_elements_suffice(const Case& data) {
+  const double wanted = degrees(data.accuracy.shear_error);
+  const Numbers n = numbers_of(data, 1.0);
+  return wanted > 0.0 && n.inertia_factor > 0.0 && mesh_error(n) <= mesh_share(wanted); // NaN: no
+}
+
 double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
+  if (!fixed.element_size && largest_elements_suffice(data))
+    for (BlankSpec& blank : data.blanks)
+      if (blank.mesh_from == mesh_from_scene_word) blank.mesh_from.clear();
   Numbers n = numbers_of(data, assumed_mass_factor(data));
   const double wanted = degrees(data.accuracy.shear_error);
   n.max_inertia *= std::sqrt(std::min(wanted / most_inertia_at, 1.0));

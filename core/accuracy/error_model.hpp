@@ -60,6 +60,10 @@ double mesh_share(double error);
 /// mesh_share of the error asked for where that is possible.
 bool awaits_scene(const Case& data);
 
+/// Whether all of them may be of the largest elements for the error asked for: those leave no more
+/// than mesh_share of it, so that smaller ones would cost time for the sake of fillets alone.
+bool largest_elements_suffice(const Case& data);
+
 /// The error (degrees) of a preset of --accuracy; 0 for a word that is not a preset.
 double preset_error(const std::string& word);
 
@@ -84,8 +88,9 @@ struct FixedParameters {
 /// reach without (not with boundaries). If the mesh term leaves less than half of the error,
 /// inertia and softening get half of it. Does nothing without accuracy.shear_deg
 /// or a stroke. Fixed parameters are not changed; the others compensate for them as far as
-/// possible, with at least half of the requested error. Returns the ratio of the new element sizes
-/// to the old ones.
+/// possible, with at least half of the requested error. A mesh that would come from the scene is
+/// made of the largest elements throughout where they suffice (unless element sizes are fixed).
+/// Returns the ratio of the new element sizes to the old ones.
 double pick_cost_parameters(Case& data, const FixedParameters& fixed = {});
 
 } // namespace plyform

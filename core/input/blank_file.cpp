@@ -111,7 +111,7 @@ void read_mesh_from(const TableView& section, const std::filesystem::path& folde
   const std::string from = text(section, "mesh_from");
   if (from.empty() || from == "element_size") return;
   blank.mesh_from = from;
-  if (from == "scene") return;
+  if (from == mesh_from_scene_word) return;
   const std::filesystem::path path =
       resolve_path(*given(section, "mesh_from"), folder).lexically_normal();
   if (std::error_code none; !std::filesystem::exists(path, none)) // others: when it is read

@@ -77,6 +77,9 @@ struct SizeGrid {
   }
 };
 
+/// The word for it in BlankSpec::mesh_from.
+constexpr const char* mesh_from_scene_word = "scene";
+
 /// The element size wanted at a place is the least of element_size, that of the zones that hold the
 /// place, and that of the grid.
 struct BlankSpec {

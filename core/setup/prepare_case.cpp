@@ -131,7 +131,11 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
                               "stroke, by which duration, softening and mesh would be picked");
     return picked;
   }
+  const bool awaited_scene = awaits_scene(*picked.reading.value);
   picked.coarsening = pick_cost_parameters(*picked.reading.value, fixed);
+  if (awaited_scene && !awaits_scene(*picked.reading.value))
+    picked.notes.emplace_back("accuracy asked for: the largest elements keep it throughout, so "
+                              "that none are made smaller for what is round in tools");
   if (const std::string missed = missed_accuracy(*picked.reading.value);
       !missed.empty() && !awaits_scene(*picked.reading.value))
     picked.reading.warnings.push_back(file.string() + ": warning: " + missed);

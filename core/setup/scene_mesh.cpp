@@ -15,7 +15,6 @@
 namespace plyform {
 namespace {
 
-constexpr const char* from_scene = "scene";
 // Degrees: the error of the mesh that is aimed at where none is asked for, that of --accuracy
 // standard.
 constexpr double usual_error = 1.0;
@@ -50,7 +49,8 @@ SceneMesh find_sizes(const Case& data, int threads, const ScoutHooks& hooks,
   for (std::size_t p = 0; p < data.plies.size(); ++p) {
     const std::string& from = blank_of(data, p).mesh_from;
     if (from.empty()) continue;
-    const std::filesystem::path path = from == from_scene ? known : std::filesystem::path(from);
+    const std::filesystem::path path =
+        from == mesh_from_scene_word ? known : std::filesystem::path(from);
     if (!path.empty()) {
       if (!before.contains(path)) before[path] = read_sizes(path);
       found.sizes.push_back(

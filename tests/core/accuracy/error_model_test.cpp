@@ -162,6 +162,22 @@ TEST(Accuracy, AMeshFromTheSceneKeepsItsSizeAndItsShareOfTheError) {
               0.06); // elements around it are bisected, too
 }
 
+TEST(Accuracy, ADraftTakesTheLargestElementsWhereTheyKeepIt) {
+  const auto awaits = [](double degrees_asked, const FixedParameters& fixed) {
+    Case data = case_at(PLYFORM_CASES "/hemisphere_five_ply/case.toml");
+    data.accuracy.shear_error = degrees_asked * degree;
+    pick_cost_parameters(data, fixed);
+    return awaits_scene(data);
+  };
+  EXPECT_FALSE(awaits(3.0, {}));
+  EXPECT_TRUE(awaits(3.0, {.element_size = true}));
+  EXPECT_TRUE(awaits(1.0, {})); // 10 mm throughout: 2.1 degrees by (E)
+  const PickedCase picked =
+      pick_case(PLYFORM_CASES "/hemisphere_five_ply/case.toml", {{"accuracy.shear_deg", "3"}});
+  ASSERT_EQ(picked.notes.size(), 1u);
+  EXPECT_NE(picked.notes[0].find("the largest elements keep it"), std::string::npos);
+}
+
 TEST(Accuracy, KeepsWhatOverridesSetAndSaysSo) {
   const std::vector<Override> asked{{"accuracy.shear_deg", "3"}};
   const PreparedCase plain = prepare_case(five, asked);
