@@ -63,7 +63,8 @@ install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform)
 # the programs of their names.
 install(PROGRAMS tools/study tools/report tools/map tools/pattern tools/export DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
 install(FILES tools/area_means.py tools/compare.py DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
-install(PROGRAMS tools/mesh_tool.py tools/check_bands.py DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
+install(PROGRAMS tools/mesh_tool.py tools/check_bands.py tools/check_predictions.py
+        DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools)
 install(DIRECTORY tools/base tools/studies tools/plotting tools/reporting tools/exchange
         DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform/tools
         USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)

@@ -158,18 +158,26 @@ def halved(scene: Scene, program: Path, folder: Path) -> tuple[str, ...]:
     return tuple(settings)
 
 
+def version_of(program: Path) -> str:
+    return subprocess.run([program, "version"], capture_output=True, text=True,
+                          check=True).stdout.strip()
+
+
+def folder_of(scene: Scene, kind: str, settings: tuple[str, ...], version: str,
+              files: FileHash | None = None) -> str:
+    """What changes a run changes its folder's name."""
+    name = "".join(c if c.isalnum() or c in "._" else "_" for c in scene.name)
+    return f"{name}-{kind}-{(files or FileHash()).of(scene.case, settings, version)}"
+
+
 def runs_of(scenes: list[Scene], folder: Path, program: Path) -> list[tuple[Run, Run]]:
-    """Of each scene the run with bands and the one with everything halved; what changes a run
-    changes its folder's name."""
-    version = subprocess.run([program, "version"], capture_output=True, text=True,
-                             check=True).stdout.strip()
-    files, pairs = FileHash(), []
+    """Of each scene the run with bands and the one with everything halved."""
+    version, files, pairs = version_of(program), FileHash(), []
     for scene in scenes:
         def run(kind: str, more: tuple[str, ...], verify: bool, scene: Scene = scene) -> Run:
             settings = ("solver.outputs=1", *scene.settings, *more)
-            name = "".join(c if c.isalnum() or c in "._" else "_" for c in scene.name)
-            return Run(scene, folder / f"{name}-{kind}-{files.of(scene.case, settings, version)}",
-                       settings, verify)
+            return Run(scene, folder / folder_of(scene, kind, settings, version, files), settings,
+                       verify)
         pairs.append((run("verified", (), True), run("halved", halved(scene, program, folder), False)))
     return pairs
 

@@ -1,0 +1,121 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Whether the predicted error of shear angles holds: each scene of a list is run as it is and again
+with the settings of a reference, and the difference of the two stands beside the prediction.
+
+    check_predictions.py SCENES.toml [-o DIR] [--jobs N] [--program PLYFORM] [--doc TEXT]
+
+SCENES.toml has `reference`, a list of KEY=VALUE, and tables [[scene]] as check_bands.py reads them.
+The difference is the root mean square over all plies (plyform difference). DIR [results/NAME of
+SCENES.toml] gets a folder a run. What has ended is not repeated. --doc fills the table into a text
+in Markdown, between <!-- table: NAME --> and <!-- end -->.
+
+Exit codes: 0 done; 1 a run is missing, was stopped, or cannot be read; 2 wrong arguments or scenes.
+"""
+
+import argparse
+import csv
+import shutil
+import subprocess
+import sys
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+
+try:
+    from base.ending import Mistake, ended
+    from base.files import read_toml
+    from check_bands import TOOLS, Run, do_run, fill, folder_of, read_scenes, summary_of, version_of
+    from compare import table
+    from plotting.reading import Trouble
+except ImportError as error:
+    sys.exit(f"check_predictions.py: error: {error}; install python3-h5py")
+
+
+def reference_of(file: Path) -> tuple[str, ...]:
+    settings = read_toml(file).get("reference")
+    if not isinstance(settings, list) or not all(isinstance(text, str) for text in settings):
+        raise Mistake(f"{file}: reference must be a list of texts KEY=VALUE")
+    return tuple(settings)
+
+
+def difference(program: Path, run: Run, reference: Run) -> float:
+    """Of shear angles, degrees rms."""
+    told = subprocess.run([program, "difference", run.folder, reference.folder],
+                          capture_output=True, text=True, check=False)
+    if told.returncode != 0:
+        raise Trouble(told.stderr.strip())
+    return next(float(row["rms"]) for row in csv.DictReader(told.stdout.splitlines())
+                if row["field"] == "shear_angle_deg")
+
+
+def row_of(program: Path, run: Run, reference: Run) -> list:
+    """Name, triangles, steps, status, predicted and measured error."""
+    told, fine = summary_of(run), summary_of(reference)
+    for one, summary in ((run, told), (reference, fine)):
+        if summary.get("status") not in ("done", "doubtful"):
+            raise Trouble(f"{one.folder}: {summary.get('message') or 'is missing'}")
+    return [run.scene.name, told["elements"], told["steps"], told["status"],
+            told["accuracy"]["promised_shear_error_deg"], difference(program, run, reference)]
+
+
+def markdown(rows: list[list]) -> str:
+    inside = sum(row[-1] <= row[-2] for row in rows)
+    shown = [[*(str(cell) for cell in row[:4]), f"{row[4]:.2f}°", f"{row[5]:.2f}°"] for row in rows]
+    head = ["scene", "triangles", "steps", "status", "predicted", "measured"]
+    return (table(head, shown, 1) +
+            f"\n\nOf {len(rows)} scenes {inside} are within what was predicted.")
+
+
+def check(options: argparse.Namespace) -> int:
+    program = shutil.which(options.program)
+    if not program:
+        raise Trouble(f"{options.program} is no program; build it (tools/build.sh) or give --program")
+    program, scenes = Path(program).resolve(), read_scenes(options.scenes)
+    reference = reference_of(options.scenes)
+    folder = (options.output or Path("results") / options.scenes.stem).resolve()
+    version = version_of(program)
+
+    def run(scene, kind: str, more: tuple[str, ...]) -> Run:
+        settings = ("solver.outputs=1", *scene.settings, *more)
+        return Run(scene, folder / folder_of(scene, kind, settings, version), settings, False)
+
+    pairs = [(run(scene, "graded", ()), run(scene, "reference", reference)) for scene in scenes]
+    with ThreadPoolExecutor(options.jobs) as pool:
+        list(pool.map(lambda one: do_run(one, program), [one for pair in pairs for one in pair]))
+    rows, missing = [], []
+    for pair in pairs:
+        try:
+            rows.append(row_of(program, *pair))
+        except Trouble as problem:
+            missing.append(str(problem))
+    for line in missing:
+        print(f"check_predictions.py: {line}", file=sys.stderr)
+    if not rows:
+        return 1
+    print(markdown(rows))
+    if options.doc:
+        fill(options.doc, options.scenes.stem, markdown(rows))
+    return 1 if missing else 0
+
+
+def arguments() -> argparse.Namespace:
+    parser = argparse.ArgumentParser(prog="check_predictions.py",
+                                     description=__doc__.split("\n\n", 1)[0])
+    parser.add_argument("scenes", type=Path, metavar="SCENES.toml")
+    parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="[results/SCENES]")
+    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="at a time [1]")
+    parser.add_argument("--program", default=TOOLS.parent / "build/release/tools/plyform",
+                        metavar="PLYFORM")
+    parser.add_argument("--doc", type=Path, metavar="TEXT", help="fill the table into a text, too")
+    options = parser.parse_args()
+    if options.jobs < 1:
+        parser.error("--jobs must be at least 1")
+    return options
+
+
+def main() -> None:
+    ended("check_predictions.py", lambda: check(arguments()))
+
+
+if __name__ == "__main__":
+    main()
