@@ -88,8 +88,8 @@ public:
 
   py::object plies() const {
     py::list list;
-    for (PlyState& ply : scene_->plies)
-      list.append(py::cast(std::shared_ptr<PlyState>(scene_, &ply)));
+    for (PlyBody& ply : scene_->plies)
+      list.append(py::cast(std::shared_ptr<PlyBody>(scene_, &ply)));
     return parts(list);
   }
 
@@ -141,35 +141,35 @@ private:
 
 /// An array of the scene's own.
 template <class Part, class Value>
-void add_live(py::class_<PlyState, std::shared_ptr<PlyState>>& ply, const char* name,
+void add_live(py::class_<PlyBody, std::shared_ptr<PlyBody>>& ply, const char* name,
               std::vector<Value> Part::*values, bool writable, const char* doc) {
   ply.def_property_readonly(
       name,
       [values, writable](const py::object& self) {
-        return shared_array(self.cast<const PlyState&>().*values, self, writable);
+        return shared_array(self.cast<const PlyBody&>().*values, self, writable);
       },
       doc);
 }
 
 void bind_live_ply(py::module_& m) {
-  py::class_<PlyState, std::shared_ptr<PlyState>> ply(
+  py::class_<PlyBody, std::shared_ptr<PlyBody>> ply(
       m, "LivePly",
       "A ply of a simulation: n nodes, m triangles; its arrays are those computed on.");
   ply.def_property_readonly(
-      "name", [](const PlyState& p) { return p.name; }, "Name in the case.");
+      "name", [](const PlyBody& p) { return p.name; }, "Name in the case.");
   ply.def_property_readonly(
-      "angle_deg", [](const PlyState& p) { return p.angle * 180.0 / std::numbers::pi; },
+      "angle_deg", [](const PlyBody& p) { return p.angle * 180.0 / std::numbers::pi; },
       "From x to the warp, before forming.");
   ply.def_property_readonly(
-      "thickness_mm", [](const PlyState& p) { return p.thickness; }, "mm, before forming.");
-  add_live(ply, "positions", &PlyKinematics::x, true, "float64, (n, 3), mm: where the nodes are.");
-  add_live(ply, "velocities", &PlyKinematics::velocity, true,
+      "thickness_mm", [](const PlyBody& p) { return p.thickness; }, "mm, before forming.");
+  add_live(ply, "positions", &PlyState::x, true, "float64, (n, 3), mm: where the nodes are.");
+  add_live(ply, "velocities", &PlyState::velocity, true,
            "float64, (n, 3), mm/s, at the time of the positions.");
   add_live(ply, "x0", &PlyModel::x0, false, "float64, (n, 3), mm: before forming.");
   ply.def_property_readonly(
       "triangles",
       [](const py::object& self) {
-        return shared_array(self.cast<const PlyState&>().membrane.triangles, self, false);
+        return shared_array(self.cast<const PlyBody&>().membrane.triangles, self, false);
       },
       "int32, (m, 3): nodes, from 0.");
 }

@@ -84,6 +84,20 @@ struct ContactTotals {
   double step_ratio = std::numeric_limits<double>::infinity();
 };
 
+/// For checkpoints: core/base/archive.hpp.
+template <class F>
+void each_member(ContactTotals& sums, F&& f) {
+  auto& [elastic, friction, damping, penetration, deepest, slip, touching, step_ratio] = sums;
+  f("elastic", elastic);
+  f("friction", friction);
+  f("damping", damping);
+  f("penetration", penetration);
+  f("deepest", deepest);
+  f("slip", slip);
+  f("touching", touching);
+  f("step_ratio", step_ratio);
+}
+
 /// Resets the sums that describe the present state, at the begin of the force loop of a step.
 inline void clear_present(ContactTotals& sums) {
   sums.elastic = sums.penetration = 0.0;

@@ -77,6 +77,17 @@ struct EdgeEdgeContact {
   EdgeMeasurements measurements;
 };
 
+/// For checkpoints: core/base/archive.hpp.
+template <class F>
+void each_member(EdgeEdgeContact& c, F&& f) {
+  auto& [law, distance, candidates, groups, pairs, renew_depth, sums, time, measurements] = c;
+  f("candidates", candidates);
+  f("groups", groups);
+  f("pairs", pairs);
+  f("renew_depth", renew_depth);
+  f("sums", sums);
+}
+
 /// A sheet whose edges are in contact.
 struct EdgeSheet {
   SurfaceKinematics state;

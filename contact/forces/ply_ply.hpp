@@ -65,6 +65,35 @@ struct PlyPlyContact {
   ContactTime time;
 };
 
+/// For checkpoints: core/base/archive.hpp.
+template <class F>
+void each_member(PlyPlyPoint& point, F&& f) {
+  auto& [memory, area, gap, w, other, gap_when_deactivated, node, face, first_face, end_face,
+         side] = point;
+  f("memory", memory);
+  f("area", area);
+  f("gap", gap);
+  f("w", w);
+  f("other", other);
+  f("gap_when_deactivated", gap_when_deactivated);
+  f("node", node);
+  f("face", face);
+  f("first_face", first_face);
+  f("end_face", end_face);
+  f("side", side);
+}
+
+template <class F>
+void each_member(PlyPlyContact& c, F&& f) {
+  auto& [law, distance, points, faces, face_distance, list, renew_depth, sums, fault, time] = c;
+  f("points", points);
+  f("faces", faces);
+  f("face_distance", face_distance);
+  f("list", list);
+  f("renew_depth", renew_depth);
+  f("sums", sums);
+}
+
 /// Relative motion of two sheets, mm. max_displacement: upper bound of the displacement, since the
 /// last search, of any node of one relative to any node of the other. path_length: as of
 /// contact/search/active_list.hpp.

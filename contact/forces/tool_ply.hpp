@@ -23,19 +23,33 @@
 
 namespace plyform {
 
+/// How far a rigid tool has gone and how it moves.
+struct ToolMotion {
+  Vec3 displacement = Vec3::Zero(); ///< mm, since the start
+  Vec3 motion = Vec3::Zero();       ///< mm, of the last step
+  double force = 0.0;               ///< N, only for a tool pushed by a force; so speed
+  double speed = 0.0;               ///< mm/s along its direction
+};
+
+/// For checkpoints: core/base/archive.hpp.
+template <class F>
+void each_member(ToolMotion& tool, F&& f) {
+  auto& [displacement, motion, force, speed] = tool;
+  f("displacement", displacement);
+  f("motion", motion);
+  f("force", force);
+  f("speed", speed);
+}
+
 /// Where a rigid tool is and how it moves.
-struct ToolBody {
+struct ToolBody : ToolMotion {
   ToolShape shape;
   Vec3 position = Vec3::Zero();                           ///< mm, of the tool frame at the start
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< tool frame to space
-  Vec3 displacement = Vec3::Zero();                       ///< mm, since the start
-  Vec3 motion = Vec3::Zero();                             ///< mm, of the last step
   // Only for a tool pushed by a force:
   bool force_controlled = false;
   Vec3 direction = Vec3::Zero();
-  double force = 0.0;              ///< N
   double mass = 0.0;               ///< t; 0: in equilibrium at every step
-  double speed = 0.0;              ///< mm/s along direction
   double max_approach_speed = 0.0; ///< mm/s, limit of its speed, reached where nothing resists
 };
 
@@ -66,6 +80,19 @@ struct ToolPlyContact {
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again
   ContactTime time; ///< s, without the equilibrium of a pushed tool, which all its plies share
 };
+
+/// For checkpoints: core/base/archive.hpp.
+template <class F>
+void each_member(ToolPlyContact& c, F&& f) {
+  auto& [law, half_thickness, points, list, free, hints, force, sums, renew_depth, time] = c;
+  f("points", points);
+  f("list", list);
+  f("free", free);
+  f("hints", hints);
+  f("force", force);
+  f("sums", sums);
+  f("renew_depth", renew_depth);
+}
 
 /// Position and motion of the mid-surface of a ply: spans over its nodes.
 struct SurfaceKinematics {

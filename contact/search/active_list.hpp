@@ -23,6 +23,17 @@ struct ActiveList {
   double ahead = 0.0;               ///< mm, path length of two steps like the last one
 };
 
+/// All that lives from step to step, for checkpoints (core/base/archive.hpp); so below.
+template <class F>
+void each_member(ActiveList& list, F&& f) {
+  auto& [free_until, active, until, last_path, ahead] = list;
+  f("free_until", free_until);
+  f("active", active);
+  f("until", until);
+  f("last_path", last_path);
+  f("ahead", ahead);
+}
+
 /// Removes all pairs, before a search lists them anew.
 inline void clear(ActiveList& list) {
   list.free_until.clear();

@@ -13,8 +13,8 @@ struct InPlaneLaw {
   bool yarns; ///< whether strain groups may be pairs and the SIMD kernel can be used
 
   /// q of (Q) for groups [begin, end), as element_forces (core/ply/membrane.hpp).
-  GroupReport (*forces)(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
-                        std::span<ElementForce> q);
+  GroupReport (*forces)(const Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+                        const LawStates<YarnMemory>& states, std::span<ElementForce> q);
   /// (E) summed over all triangles.
   MembraneEnergy (*energy)(const Membrane& m, std::span<const Vec3> x);
   /// Bound of the largest eigenvalue of H (G x I), N/mm^3, of a triangle of a sheet without yarns;

@@ -78,8 +78,6 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   Gather gather = make_gather(corners, mesh.x.size());
   m.gather_begin = std::move(gather.begin);
   m.gather = std::move(gather.gather);
-  m.last_lambda.assign(static_cast<std::size_t>(m.groups()), {1.0, 1.0});
-  m.last_viscous.assign(static_cast<std::size_t>(m.groups()), {0.0, 0.0});
   return m;
 }
 
@@ -108,9 +106,10 @@ bool collapsed(const FibreState& s) {
            s.sin_omega > least_sine_between);
 }
 
-GroupReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin,
+                           int end, const LawStates<YarnMemory>& states,
                            std::span<ElementForce> q) {
-  return in_plane_law(m.fabric).forces(m, x, dt, begin, end, q);
+  return in_plane_law(m.fabric).forces(m, x, dt, begin, end, states, q);
 }
 
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {

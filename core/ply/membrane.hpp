@@ -88,8 +88,22 @@ struct SideStiffness {
   double stabilisation = 0.0, collapse_penalty = 0.0;
 };
 
-/// One ply's membrane; nodes and triangles are numbered within the ply. Constant but for the state
-/// variables of the viscosity. Sizes: n nodes, m triangles.
+/// What the yarns of one strain group remember from step to step: mean stretches and viscous
+/// tensions (N), warp and weft.
+struct YarnMemory {
+  std::array<double, 2> stretch{1.0, 1.0}, viscous{};
+};
+
+/// What the laws at the points of a ply remember: at the begin of a step, which its forces read,
+/// and at its end, which they write. Both may be the same array.
+template <class State>
+struct LawStates {
+  std::span<const State> begin;
+  std::span<State> end;
+};
+
+/// One ply's membrane; nodes and triangles are numbered within the ply. Constant. Sizes: n nodes,
+/// m triangles.
 struct Membrane {
   Fabric fabric;                             ///< as given, not softened
   std::array<TensionLaw, 2> yarn;            ///< W_a of warp and weft: those of `fabric`, softened
@@ -108,9 +122,6 @@ struct Membrane {
   std::vector<double> density_factor;
   std::vector<std::int32_t> gather_begin; ///< n + 1, into gather
   std::vector<std::int32_t> gather;       ///< per node: 3 * triangle + corner, ascending
-  // State variables of the viscosity, per group: mean stretches and viscous tensions (N) of the
-  // last step; empty if core/ply/membrane_simd.hpp computes the forces.
-  std::vector<std::array<double, 2>> last_lambda, last_viscous;
 
   /// t, of the cloth alone at a node.
   double cloth_mass(std::size_t n) const { return fabric.surface_density * node_area[n]; }
@@ -161,10 +172,10 @@ struct GroupReport {
 };
 
 /// (Q) for groups [begin, end) at positions x (mm, n), viscous forces included. dt: s, the time
-/// step that led to x; 0 leaves the viscosity out. q: N mm, m, of which those of the groups are
-/// written.
-GroupReport element_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
-                           std::span<ElementForce> q);
+/// step that led to x; 0 leaves the viscosity out. states: one per group, not used by a sheet
+/// without yarns. q: N mm, m, of which those of the groups are written.
+GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin,
+                           int end, const LawStates<YarnMemory>& states, std::span<ElementForce> q);
 
 /// (F): internal force on a node, N, from all its triangles in fixed order.
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);

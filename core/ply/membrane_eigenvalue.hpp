@@ -29,6 +29,19 @@ struct EigenvalueBound {
   int triangle = -1;    ///< the triangle with the largest omega2
 };
 
+/// For checkpoints: core/base/archive.hpp.
+template <class F>
+void each_member(EigenvalueBound& bound, F&& f) {
+  auto& [omega2, yarns, soft, penalty_acts, damping, viscous, triangle] = bound;
+  f("omega2", omega2);
+  f("yarns", yarns);
+  f("soft", soft);
+  f("penalty_acts", penalty_acts);
+  f("damping", damping);
+  f("viscous", viscous);
+  f("triangle", triangle);
+}
+
 /// Element bounds at positions x (mm, n).
 EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x);
 

@@ -52,7 +52,7 @@ public:
     block.first_node = static_cast<int>(out.nodes.size());
     block.nodes = static_cast<int>(list.size());
     block.first_triangles = static_cast<int>(triangles.size());
-    block.first_group = static_cast<int>(out.viscosity.size());
+    block.first_group = out.packs;
     block.pair_packs = add_groups(pairs, 2);
     block.single_packs = add_groups(singles, 1);
     out.blocks.push_back(block);
@@ -83,12 +83,8 @@ private:
           set(t, lane, group, first(group) + i, filler);
         }
       }
-      SimdViscosity& v = out.viscosity.emplace_back();
-      for (std::size_t lane = 0; lane < simd_width; ++lane) {
-        v.lambda[0][lane] = v.lambda[1][lane] = 1.0;
-        v.tension[0][lane] = v.tension[1][lane] = 0.0;
-      }
     }
+    out.packs += static_cast<int>(packs);
     return static_cast<int>(packs);
   }
 
@@ -181,13 +177,14 @@ KernelLaw kernel_law(const Membrane& m) {
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double)); // the kernel reads positions as doubles
 
-/// The kernel's view of block b. viscosity, force: arrays of all blocks, or null if not needed.
-KernelBlock kernel_block(const MembraneSimd& l, const SimdBlock& b, SimdViscosity* viscosity,
-                         SimdForce* force) {
+/// The kernel's view of block b. states, force: arrays of all blocks, or empty if not needed.
+KernelBlock kernel_block(const MembraneSimd& l, const SimdBlock& b,
+                         const LawStates<SimdViscosity>& states, SimdForce* force) {
   return {l.nodes.data() + b.first_node,
           b.nodes,
           l.triangles->data() + b.first_triangles,
-          viscosity ? viscosity + b.first_group : nullptr,
+          states.end.empty() ? nullptr : states.begin.data() + b.first_group,
+          states.end.empty() ? nullptr : states.end.data() + b.first_group,
           b.pair_packs,
           b.single_packs,
           force ? force + b.first_node : nullptr};
@@ -206,16 +203,23 @@ MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {
   for (const int group : ordered_groups(m, x))
     maker.add(group);
   maker.close();
-  triangles.shrink_to_fit(), out.viscosity.shrink_to_fit(), out.nodes.shrink_to_fit();
+  triangles.shrink_to_fit(), out.nodes.shrink_to_fit();
   out.triangles = std::make_shared<const std::vector<SimdTriangles>>(std::move(triangles));
   find_node_forces(out, x.size());
   return out;
 }
 
+std::vector<SimdViscosity> states_at_start(const MembraneSimd& l) {
+  SimdViscosity state{};
+  for (auto& lambda : state.lambda)
+    std::fill(std::begin(lambda), std::end(lambda), 1.0);
+  return std::vector<SimdViscosity>(static_cast<std::size_t>(l.packs), state);
+}
+
 GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3> x, double dt,
-                        int block) {
+                        int block, const LawStates<SimdViscosity>& states) {
   const SimdBlock& b = l.blocks[block];
-  const KernelBlock kernel = kernel_block(l, b, l.viscosity.data(), l.force.data());
+  const KernelBlock kernel = kernel_block(l, b, states, l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_kernel_generic, membrane_kernel_avx2, membrane_kernel_avx512);
   const KernelReport report = run(kernel, kernel_law(m), x.data()->data(), per_dt);
@@ -225,7 +229,7 @@ GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3
 MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
                            int block) {
   const SimdBlock& b = l.blocks[block];
-  const KernelBlock kernel = kernel_block(l, b, nullptr, nullptr);
+  const KernelBlock kernel = kernel_block(l, b, {}, nullptr);
   const auto run = fastest(membrane_energy_generic, membrane_energy_avx2, membrane_energy_avx512);
   const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data());
   return {energy.fibre, energy.shear};

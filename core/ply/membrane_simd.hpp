@@ -27,7 +27,7 @@ struct SimdBlock {
 struct MembraneSimd : BlockForces {
   std::vector<SimdBlock> blocks;
   SharedConstants<SimdTriangles> triangles; ///< of the blocks, pairs first
-  std::vector<SimdViscosity> viscosity;     ///< one per pack
+  int packs = 0;                            ///< of all blocks
 };
 
 /// Whether the kernel can compute this membrane: only if it has yarns.
@@ -37,11 +37,14 @@ bool fits_simd(const Membrane& m);
 /// Requires fits_simd(m).
 MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x);
 
+/// What its yarns remember at the start, one per pack.
+std::vector<SimdViscosity> states_at_start(const MembraneSimd& simd);
+
 /// Internal forces (F), N, of a block's groups, viscous ones included, stored in simd.force;
-/// simd_force (core/ply/block_forces.hpp) sums them. x: mm, n; dt and report: as of element_forces
-/// (core/ply/membrane.hpp).
+/// simd_force (core/ply/block_forces.hpp) sums them. x: mm, n; dt, states (one per pack) and
+/// report: as of element_forces (core/ply/membrane.hpp).
 GroupReport simd_forces(MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x, double dt,
-                        int block);
+                        int block, const LawStates<SimdViscosity>& states);
 
 /// (E) of a block's groups, N mm; summed over the blocks it is membrane_energy. x: mm, n.
 MembraneEnergy simd_energy(const MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x,

@@ -56,23 +56,30 @@ PLYFORM_INLINE Doubles simd_secant(const SimdBlockWork& w, Doubles measure2) {
   return by_quads(measure2, [&](const double* at, double* p) { w.law.secant(w.law, at, p); });
 }
 
+/// What the yarns of some packs remember at the begin of the step and at its end.
+struct StatesOfQuads {
+  OfQuads<const SimdViscosity> begin;
+  OfQuads<SimdViscosity> end;
+};
+
 /// Adds the viscous tensions of groups to n1 and n2 (N/mm), and twice their work (N mm) to w.work.
-PLYFORM_INLINE void add_viscosity(SimdBlockWork& w, const OfQuads<SimdViscosity>& v, Doubles mean1,
+PLYFORM_INLINE void add_viscosity(SimdBlockWork& w, const StatesOfQuads& v, Doubles mean1,
                                   Doubles mean2, Doubles area, Doubles& n1, Doubles& n2) {
   const auto lambda = [&](int family) {
-    return numbers([&](int q) { return v.of[q]->lambda[family]; });
+    return numbers([&](int q) { return v.begin.of[q]->lambda[family]; });
   };
   const auto tension = [&](int family) {
-    return numbers([&](int q) { return v.of[q]->tension[family]; });
+    return numbers([&](int q) { return v.begin.of[q]->tension[family]; });
   };
   const Doubles change1 = mean1 - lambda(0), change2 = mean2 - lambda(1);
   const Doubles now1 = n1 > 0.0 ? w.lane.yarns[0].viscosity * change1 : all(0.0);
   const Doubles now2 = n2 > 0.0 ? w.lane.yarns[1].viscosity * change2 : all(0.0);
   const Doubles work = area * ((now1 + tension(0)) * change1 + (now2 + tension(1)) * change2);
-  for (int q = 0; q < v.count; ++q) {
+  for (int q = 0; q < v.end.count; ++q) {
+    SimdViscosity& end = *v.end.of[q];
     w.work += quad(work, q);
-    store(v.of[q]->lambda[0], quad(mean1, q)), store(v.of[q]->lambda[1], quad(mean2, q));
-    store(v.of[q]->tension[0], quad(now1, q)), store(v.of[q]->tension[1], quad(now2, q));
+    store(end.lambda[0], quad(mean1, q)), store(end.lambda[1], quad(mean2, q));
+    store(end.tension[0], quad(now1, q)), store(end.tension[1], quad(now2, q));
   }
   n1 += now1, n2 += now2;
 }
@@ -117,7 +124,7 @@ PLYFORM_INLINE void add_collapse_penalty(const SimdLaw& law, const SimdState& s,
 
 template <bool general>
 PLYFORM_INLINE void single_packs(SimdBlockWork& w, const TrianglesOfQuads& t, const SimdState& s,
-                                 bool needs_penalty, const OfQuads<SimdViscosity>& v) {
+                                 bool needs_penalty, const StatesOfQuads& v) {
   Doubles n1 = yarn_tension<general>(w, 0, s.lambda1 - 1.0);
   Doubles n2 = yarn_tension<general>(w, 1, s.lambda2 - 1.0);
   add_viscosity(w, v, s.lambda1, s.lambda2, area_of(t), n1, n2);
@@ -130,7 +137,7 @@ PLYFORM_INLINE void single_packs(SimdBlockWork& w, const TrianglesOfQuads& t, co
 
 template <bool general>
 PLYFORM_INLINE void pair_packs(SimdBlockWork& w, const TrianglesOfQuads* t, const SimdState* s,
-                               bool needs_penalty, const OfQuads<SimdViscosity>& v) {
+                               bool needs_penalty, const StatesOfQuads& v) {
   const Doubles share[2] = {share_of(t[0]), share_of(t[1])};
   const Doubles mean1 = share[0] * s[0].lambda1 + share[1] * s[1].lambda1;
   const Doubles mean2 = share[0] * s[0].lambda2 + share[1] * s[1].lambda2;
@@ -208,11 +215,12 @@ PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelL
             [&](int pack, const auto* t, const auto* s, auto of, bool needs_penalty) {
               for (int i = 0; needs_penalty && i < of; ++i)
                 collapsed |= simd_collapsed(s[i]);
-              const auto viscosity = of_quads(block.viscosity + pack, 1, t->count);
+              const StatesOfQuads states{of_quads(block.begin + pack, 1, t->count),
+                                         of_quads(block.end + pack, 1, t->count)};
               if constexpr (of == 2)
-                pair_packs<general>(w, t, s, needs_penalty, viscosity);
+                pair_packs<general>(w, t, s, needs_penalty, states);
               else
-                single_packs<general>(w, *t, *s, needs_penalty, viscosity);
+                single_packs<general>(w, *t, *s, needs_penalty, states);
             });
   return {0.5 * sum(w.work), any(collapsed)}; // trapezoidal rule
 }

@@ -56,7 +56,8 @@ struct KernelBlock {
   const std::int32_t* nodes; ///< node numbers in the ply
   int node_count;            ///< at most most_block_nodes
   const SimdTriangles* triangles;
-  SimdViscosity* viscosity; ///< one per pack
+  const SimdViscosity* begin; ///< one per pack, of the begin of the step
+  SimdViscosity* end;         ///< one per pack, of its end
   int pair_packs, single_packs;
   SimdForce* force; ///< N, one per node of the block
 };
@@ -71,7 +72,7 @@ struct KernelEnergy {
   double fibre, shear;
 };
 
-/// Forces (F), N, of a block's groups on its nodes, stored in block.force; updates block.viscosity.
+/// Forces (F), N, of a block's groups on its nodes, stored in block.force; writes block.end.
 /// x: mm, 3 numbers per node of the ply; per_dt: 1/s, inverse of the time step that led to x, or 0.
 KernelReport membrane_kernel_generic(const KernelBlock& block, const KernelLaw& law,
                                      const double* x, double per_dt);
@@ -80,7 +81,7 @@ KernelReport membrane_kernel_avx2(const KernelBlock& block, const KernelLaw& law
 KernelReport membrane_kernel_avx512(const KernelBlock& block, const KernelLaw& law, const double* x,
                                     double per_dt);
 
-/// (E) of a block's groups; block.viscosity and block.force are not used.
+/// (E) of a block's groups; block.begin, end and force are not used.
 KernelEnergy membrane_energy_generic(const KernelBlock& block, const KernelLaw& law,
                                      const double* x);
 KernelEnergy membrane_energy_avx2(const KernelBlock& block, const KernelLaw& law, const double* x);

@@ -11,8 +11,8 @@ SheetResponse response(const Membrane& m, const Vec3& k1, const Vec3& k2) {
 }
 
 /// (q) of triangles [begin, end); each triangle is a strain group of its own.
-GroupReport sheet_forces(Membrane& m, std::span<const Vec3> x, double, int begin, int end,
-                         std::span<ElementForce> q) {
+GroupReport sheet_forces(const Membrane& m, std::span<const Vec3> x, double, int begin, int end,
+                         const LawStates<YarnMemory>&, std::span<ElementForce> q) {
   GroupReport report;
   for (int e = begin; e < end; ++e) {
     const FibreState s = fibre_state(m, x, e);

@@ -93,8 +93,8 @@ void group_forces(const Membrane& m, const GroupState& s, double n1, double n2,
 }
 
 /// (Q) of groups [begin, end).
-GroupReport yarn_forces(Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
-                        std::span<ElementForce> q) {
+GroupReport yarn_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
+                        const LawStates<YarnMemory>& states, std::span<ElementForce> q) {
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   GroupReport report;
@@ -103,15 +103,13 @@ GroupReport yarn_forces(Membrane& m, std::span<const Vec3> x, double dt, int beg
     double n1 = m.yarn[0].at(s.mean1 - 1.0).value;
     double n2 = m.yarn[1].at(s.mean2 - 1.0).value;
     // Viscosity of taut fibres; its work by the trapezoidal rule over the step that led to x.
-    auto& last = m.last_lambda[p];
-    auto& viscous = m.last_viscous[p];
-    const double dl1 = s.mean1 - last[0], dl2 = s.mean2 - last[1];
+    const YarnMemory& last = states.begin[p];
+    const double dl1 = s.mean1 - last.stretch[0], dl2 = s.mean2 - last.stretch[1];
     const double v1 = n1 > 0.0 ? m.viscosity.warp * dl1 * per_dt : 0.0;
     const double v2 = n2 > 0.0 ? m.viscosity.weft * dl2 * per_dt : 0.0;
     report.viscous_work +=
-        0.5 * s.area * (d1 * (v1 + viscous[0]) * dl1 + d2 * (v2 + viscous[1]) * dl2);
-    last = {s.mean1, s.mean2};
-    viscous = {v1, v2};
+        0.5 * s.area * (d1 * (v1 + last.viscous[0]) * dl1 + d2 * (v2 + last.viscous[1]) * dl2);
+    states.end[p] = {{s.mean1, s.mean2}, {v1, v2}};
     n1 += v1;
     n2 += v2;
     group_forces(m, s, n1, n2, q);

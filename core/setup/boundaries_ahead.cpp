@@ -38,7 +38,7 @@ std::string nodes_held(const Scene& s, int boundary) {
 bool holds_bending_ply(const Scene& s, const Boundary& boundary) {
   if (boundary.ply >= 0) return s.plies[boundary.ply].bending.has_value();
   return std::any_of(s.plies.begin(), s.plies.end(),
-                     [](const PlyState& ply) { return ply.bending.has_value(); });
+                     [](const PlyBody& ply) { return ply.bending.has_value(); });
 }
 
 /// "spring of 0.5 N/mm", "gripper"
@@ -93,12 +93,12 @@ std::string action_text(const Scene& s, int boundary) {
 /// get shorter by it.
 void describe_stiff(const Scene& s, const Attachment& attached, std::vector<std::string>& lines) {
   ContactRows rows;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     rows.emplace_back(ply.x.size());
   add_attachment_stiffness(s, rows);
   double ratio = 0.0; // of omega^2
   for (const AttachedNode& node : attached.nodes) {
-    const PlyState& ply = s.plies[node.ply];
+    const PlyBody& ply = s.plies[node.ply];
     ratio = std::max(ratio, rows[node.ply][node.node].stiffness / ply.mass[node.node] /
                                 element_omega2(ply));
   }

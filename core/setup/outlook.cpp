@@ -34,7 +34,7 @@ void say(Lines& lines, fmt::format_string<Arguments...> text, Arguments&&... arg
 }
 
 /// The bending stiffness of a ply as text, or "no bending".
-std::string bending_text(const PlyState& ply) {
+std::string bending_text(const PlyBody& ply) {
   if (!ply.bending) return "no bending";
   const Fabric& fabric = ply.membrane.fabric;
   const BendingLaw& law = ply.bending->law;
@@ -73,7 +73,7 @@ std::string element_text(const Membrane& m, ElementKind asked) {
 }
 
 void describe_plies(const Scene& s, Lines& lines) {
-  for (const PlyState& ply : s.plies) {
+  for (const PlyBody& ply : s.plies) {
     const Membrane& m = ply.membrane;
     Box3 box;
     for (const Vec3& x : ply.x0)
@@ -104,13 +104,13 @@ void describe_fabrics(const Case& data, Lines& lines) {
 }
 
 /// Area of a ply before forming, mm^2.
-double area_of(const PlyState& ply) {
+double area_of(const PlyBody& ply) {
   const std::vector<double>& areas = ply.membrane.node_area;
   return std::accumulate(areas.begin(), areas.end(), 0.0);
 }
 
 /// Mean element size (mm): side of a square of two triangles.
-double element_size(const PlyState& ply) {
+double element_size(const PlyBody& ply) {
   return std::sqrt(2.0 * area_of(ply) / static_cast<double>(ply.membrane.triangles.size()));
 }
 
@@ -193,7 +193,7 @@ void describe_wrinkles(const Scene& s, Lines& lines) {
 void describe_cut(const Scene& s, std::size_t tool, Lines& lines) {
   constexpr double round = 0.5; // of the radius
   std::optional<CutAhead> worst;
-  const PlyState* cut_ply = nullptr;
+  const PlyBody* cut_ply = nullptr;
   std::set<std::pair<int, int>> seen;
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     if (!seen.emplace(s.data.plies[p].fabric, s.data.plies[p].blank).second) continue;
@@ -248,7 +248,7 @@ double depth_of_stiffness(const ContactLaw& law, double ratio) {
 void describe_pressure(const Scene& s, std::size_t tool, const ToolWay& way, Lines& lines) {
   constexpr double stiff = 25.0; // times the first touch: 2.5 times the stiffest element
   const Tool& t = s.data.tools[tool];
-  const PlyState& ply = s.plies[way.first];
+  const PlyBody& ply = s.plies[way.first];
   if (t.motion != Motion::force || t.force == 0.0) return;
   double area = 0.0;
   SurfaceHint hint;
@@ -320,7 +320,7 @@ double steps_over_first(const Scene& s) {
   const double speed =
       strokes.tool > 0.0 ? peak_speed_ratio * strokes.at_full_speed / s.data.solver.duration : 0.0;
   double thinnest = std::numeric_limits<double>::max();
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     thinnest = std::min(thinnest, ply.thickness);
   const double way = speed * s.next_dt / (0.5 * thinnest); // a step's, over the contact distance
   return sheared + each_ply * static_cast<double>(s.plies.size() - 1) +
@@ -329,7 +329,7 @@ double steps_over_first(const Scene& s) {
 
 std::string memory_text(const Scene& s) {
   double triangles = 0.0;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     triangles += static_cast<double>(ply.membrane.triangles.size());
   return fmt::format("{:.0f} triangles, about {:.0f} MB of memory", triangles,
                      std::ceil(bytes_for(triangles) / 1e6));

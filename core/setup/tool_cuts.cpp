@@ -109,7 +109,7 @@ struct Chords {
 };
 
 /// Direction from the tool to the part of the ply that is closest to it.
-Vec3 side_of(const Tool& tool, const PlyState& ply) {
+Vec3 side_of(const Tool& tool, const PlyBody& ply) {
   double least = std::numeric_limits<double>::infinity();
   Vec3 side = Vec3::UnitZ();
   SurfaceHint hint;
@@ -124,7 +124,7 @@ Vec3 side_of(const Tool& tool, const PlyState& ply) {
 /// The longest sides of a flat ply's triangles from place to place, on squares that divide its box.
 class SidesInPlan {
 public:
-  explicit SidesInPlan(const PlyState& ply) : longest_(longest_side(ply)) {
+  explicit SidesInPlan(const PlyBody& ply) : longest_(longest_side(ply)) {
     for (const Vec3& x : ply.x0)
       box_.extend(Vec2(x.head<2>()));
     square_ = std::max(0.5 * longest_, box_.sizes().maxCoeff() / most_squares);
@@ -192,7 +192,7 @@ double side_over(const SidesInPlan& sides, const Ridge& ridge, double draw) {
 std::optional<CutAhead> cut_ahead(const Scene& scene, std::size_t t, std::size_t p) {
   constexpr double askew = 0.1; // cosine from which a place faces a direction
   const Tool& tool = scene.data.tools[t];
-  const PlyState& ply = scene.plies[p];
+  const PlyBody& ply = scene.plies[p];
   const SidesInPlan sides(ply);
   const double half = 0.5 * ply.thickness, draw = draw_of(scene.data);
   const std::vector<Vec3> ways = draws_on(scene.data, t);

@@ -7,7 +7,7 @@
 namespace plyform {
 namespace {
 
-std::vector<Vec3> unit_normals(const PlyState& ply) {
+std::vector<Vec3> unit_normals(const PlyBody& ply) {
   std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3& a = at(ply.x, t[0]);

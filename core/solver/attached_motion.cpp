@@ -66,7 +66,7 @@ Stiff stiffness_of(const Scene& s, const Attachment& attached) {
 } // namespace
 
 void pull_springs(Scene& s) {
-  for (PlyState& ply : s.plies)
+  for (PlyBody& ply : s.plies)
     std::fill(ply.pull.begin(), ply.pull.end(), Vec3::Zero());
   for (const Attachment& attached : s.attachments) {
     if (boundary_of(s, attached).kind != BoundaryKind::spring) continue;
@@ -74,7 +74,7 @@ void pull_springs(Scene& s) {
     const Vec3 force = pull_of(s, attached, state);
     Vec3 motion = Vec3::Zero();
     for (const AttachedNode& node : attached.nodes) {
-      PlyState& ply = s.plies[node.ply];
+      PlyBody& ply = s.plies[node.ply];
       ply.pull[node.node] += node.share * force;
       motion += node.share * ply.motion[node.node];
     }
@@ -89,7 +89,7 @@ void move_gripper(Scene& s, const Attachment& clamp) {
   const MassLoads loads = mass_loads(s);
   // All nodes have gone the same way at the same speed: the first one stands for the gripper.
   const AttachedNode& first = clamp.nodes.front();
-  const PlyState& of_first = s.plies[first.ply];
+  const PlyBody& of_first = s.plies[first.ply];
   const Vec3 gone = of_first.x[first.node] - of_first.x0[first.node];
   const Vec3 velocity = of_first.velocity[first.node], motion = of_first.motion[first.node];
   state.displacement = gone.dot(gripper.direction);
@@ -97,7 +97,7 @@ void move_gripper(Scene& s, const Attachment& clamp) {
   double mass = gripper.mass;
   std::vector<Vec3> free;
   for (const AttachedNode& node : clamp.nodes) {
-    PlyState& ply = s.plies[node.ply];
+    PlyBody& ply = s.plies[node.ply];
     ply.reaction[node.node].setZero();
     free.push_back(acceleration(ply, node.node, loads));
     sum += ply.mass[node.node] * free.back();
@@ -111,7 +111,7 @@ void move_gripper(Scene& s, const Attachment& clamp) {
   Vec3 force = Vec3::Zero();
   for (std::size_t j = 0; j < clamp.nodes.size(); ++j) {
     const auto n = static_cast<std::size_t>(clamp.nodes[j].node);
-    PlyState& ply = s.plies[clamp.nodes[j].ply];
+    PlyBody& ply = s.plies[clamp.nodes[j].ply];
     const Vec3 wanted = ((ply.x0[n] + goes - ply.x[n]) / s.next_dt - ply.velocity[n]) / span;
     ply.reaction[n] = ply.mass[n] * (wanted - free[j]);
     force += ply.reaction[n];

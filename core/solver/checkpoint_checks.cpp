@@ -9,11 +9,12 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <stdexcept>
+#include <string_view>
 
 namespace plyform {
 namespace {
 
-void expect(bool fits, const char* what) {
+void expect(bool fits, std::string_view what) {
   if (!fits) throw std::runtime_error(fmt::format("does not fit its scene: {}", what));
 }
 
@@ -22,9 +23,6 @@ bool sound(double x) {
 }
 bool sound(const Vec3& x) {
   return x.allFinite();
-}
-bool sound(const std::array<double, 2>& x) {
-  return sound(x[0]) && sound(x[1]);
 }
 bool sound(const ContactRow& row) {
   return sound(row.stiffness) && sound(row.damping); // of shares on an edge, below 0 by rounding
@@ -35,6 +33,13 @@ bool sound(const ContactHistory& h) {
 }
 bool sound(const ForceFilter& f) {
   return sound(f.once) && sound(f.twice);
+}
+bool sound(const ToolMotion& t) {
+  return sound(t.displacement) && t.displacement.cwiseAbs().maxCoeff() <= furthest_place &&
+         sound(t.motion) && sound(t.force) && sound(t.speed);
+}
+bool sound(const ToolLoad& t) {
+  return sound(t.force) && sound(t.filter) && sound(t.work);
 }
 bool sound(const Energies& e) {
   return std::all_of(energy_terms.begin(), energy_terms.end(),
@@ -82,18 +87,36 @@ bool near_enough(const std::vector<Vec3>& x) {
   });
 }
 
-void check(const PlyKinematics& p, std::size_t n, std::size_t reactions) {
-  expect(p.x.size() == n && p.velocity.size() == n && p.motion.size() == n &&
-             p.reaction.size() == reactions,
-         "the number of nodes");
-  expect(near_enough(p.x) && near_enough(p.motion), "a node's place");
-  expect(near_enough(p.velocity), "a velocity"); // in a second: a step's way is finite then
-  expect(all_sound(p.reaction), "a force");
+/// visit(name, array) for each array of the list.
+template <class Visit>
+void visit_arrays(const PlyState& ply, const Visit& visit) {
+  each_array(const_cast<PlyState&>(ply), [&](const char* name, On place, const auto& values) {
+    if constexpr (requires { values.size(); })
+      visit(name, values);
+    else
+      expect(place == On::ply, name);
+  });
 }
 
-void check(const Scene& s, const PlyState& ply, const PlyArrays& made) {
+ArraySizes sizes_of(const PlyState& ply) {
+  ArraySizes sizes;
+  visit_arrays(ply, [&](const char*, const auto& values) { sizes.push_back(values.size()); });
+  return sizes;
+}
+
+void check(const PlyState& p, const ArraySizes& made) {
+  std::size_t next = 0;
+  visit_arrays(p, [&](const char* name, const auto& values) {
+    expect(values.size() == made[next++], fmt::format("the size of {} of a ply", name));
+    expect(all_sound(values), fmt::format("a value in {} of a ply", name));
+  });
+  expect(near_enough(p.x) && near_enough(p.motion), "a node's place");
+  expect(near_enough(p.velocity), "a velocity"); // in a second: a step's way is finite then
+}
+
+void check(const Scene& s, const PlyBody& ply, const ArraySizes& made) {
   const std::size_t n = ply.x0.size(), m = ply.membrane.triangles.size();
-  check(ply, n, made.reaction);
+  check(static_cast<const PlyState&>(ply), made);
   expect(ply.x_search.size() == n && near_enough(ply.x_search), "places at the last search");
   expect(ply.max_displacement >= 0.0 && sound(ply.max_displacement) && ply.path_length >= 0.0 &&
              sound(ply.path_length) && ply.fold_motion >= 0.0 && sound(ply.fold_motion),
@@ -117,16 +140,8 @@ void check(const Scene& s, const PlyState& ply, const PlyArrays& made) {
          "the bound of eigenvalues");
   expect(ply.eigenvalue_ratio > 0.0 && ply.eigenvalue_ratio <= 1.0 && sound(ply.lanczos_contacts),
          "the ratio of eigenvalues");
-  expect(ply.mass.size() == n, "the number of masses");
   for (std::size_t i = 0; i < n; ++i)
-    expect(ply.mass[i] >= ply.membrane.node_mass[i] && sound(ply.mass[i]), "a mass");
-  expect(ply.membrane.last_lambda.size() == made.last_lambda &&
-             ply.membrane.last_viscous.size() == made.last_viscous &&
-             all_sound(ply.membrane.last_lambda) && all_sound(ply.membrane.last_viscous),
-         "viscosity");
-  if (ply.simd)
-    expect(ply.simd->viscosity.size() == made.viscosity && all_sound(ply.simd->viscosity),
-           "viscosity");
+    expect(ply.mass[i] >= ply.membrane.node_mass[i], "a mass");
 }
 
 void check(const ActiveList& list, std::size_t count) {
@@ -181,16 +196,14 @@ void check(const ToolState& tool, const ToolPlyContact& c, std::size_t n) {
 void check(const Scene& s, std::size_t index, double before) {
   const ToolState& t = s.tools[index];
   const ToolBody& body = t.body;
-  expect(sound(body.displacement) && body.displacement.cwiseAbs().maxCoeff() <= furthest_place &&
-             sound(body.motion) && sound(body.force) && sound(body.speed),
-         "the motion of a tool");
+  expect(sound(static_cast<const ToolMotion&>(body)), "the motion of a tool");
   constexpr double rounding = 1e-6; // mm
   if (!body.force_controlled)
     expect((body.displacement -
             motion_at(s.data.tools[index], before, s.data.solver.duration) * body.direction)
                    .norm() <= rounding,
            "the way of a tool at its time");
-  expect(sound(t.filter) && sound(t.force) && sound(t.displacement_search) && sound(t.work),
+  expect(sound(static_cast<const ToolLoad&>(t)) && sound(t.displacement_search),
          "forces of a tool");
   expect(t.max_displacement >= 0.0 && sound(t.max_displacement) && t.path_length >= 0.0 &&
              sound(t.path_length) && t.ply_paths.size() == s.plies.size() && all_sound(t.ply_paths),
@@ -240,8 +253,8 @@ void check_groups(const EdgeEdgeContact& c, const SheetEdges& a, const SheetEdge
 
 void check(const Scene& s, const PlyEdgeContact& pair) {
   const EdgeEdgeContact& c = pair.contact;
-  const PlyState &a = s.plies[static_cast<std::size_t>(pair.a)],
-                 &b = s.plies[static_cast<std::size_t>(pair.b)];
+  const PlyBody &a = s.plies[static_cast<std::size_t>(pair.a)],
+                &b = s.plies[static_cast<std::size_t>(pair.b)];
   for (const EdgeCandidate& e : c.candidates)
     expect(within(e.edge[0], a.edges.all.size()) && within(e.edge[1], b.edges.all.size()) &&
                known(e.free_until),
@@ -281,6 +294,17 @@ void check(const Scene& s, const PlyPair& pair) {
          "stiffnesses between plies");
 }
 
+void check_sums(const Scene& s, const SceneProgress& progress) {
+  const SceneProgress& p = progress;
+  expect(p.bound_displacement >= 0.0 && sound(p.bound_displacement) && p.time_step_gain >= 1.0 &&
+             sound(p.time_step_gain) && sound(p.start_energy) && sound(p.mass_damping_work) &&
+             sound(p.mass_scaling_work) && p.largest_added_mass >= 0.0 &&
+             sound(p.largest_added_mass),
+         "sums of the run");
+  expect(p.group_sums.size() == s.group_blocks.size() && all_sound(p.group_sums),
+         "sums of the elements");
+}
+
 void check_progress(const Scene& s) {
   const SolverOptions& solver = s.data.solver;
   expect(s.step > 0 && s.searches > 0 && s.searches <= s.step + 1 && s.next_lanczos >= 0,
@@ -295,36 +319,30 @@ void check_progress(const Scene& s) {
              s.time <= steps * s.max_dt * (1.0 + rounding) &&
              s.time <= solver.duration * (1.0 + solver.dwell) + 2.0 * s.max_dt,
          "the time");
-  expect(s.bound_displacement >= 0.0 && sound(s.bound_displacement) && s.time_step_gain >= 1.0 &&
-             sound(s.time_step_gain) && sound(s.start_energy) && sound(s.mass_damping_work) &&
-             sound(s.mass_scaling_work) && s.largest_added_mass >= 0.0 &&
-             sound(s.largest_added_mass),
-         "sums of the run");
-  expect(s.group_sums.size() == s.group_blocks.size() && all_sound(s.group_sums),
-         "sums of the elements");
+  check_sums(s, s);
   for (const NodeSums& n : s.node_sums)
     expect(sound(n.damping) && sound(n.moved2) && sound(n.step2), "sums of the nodes");
 }
 
-void check(const Scene& s, const Snapshot& good, const std::vector<PlyArrays>& made) {
-  expect(good.time >= 0.0 && good.time <= s.time && good.step >= 0 && good.step <= s.step &&
+void check(const Scene& s, const Snapshot& good, const std::vector<ArraySizes>& made) {
+  const SceneProgress& then = good.progress;
+  expect(then.time >= 0.0 && then.time <= s.time && then.step >= 0 && then.step <= s.step &&
              sound(good.energy) && sound(good.tool_penetration) && sound(good.ply_penetration),
          "the last good state");
-  if (good.plies.empty() && good.boundaries.empty() && good.tool_displacement.empty() &&
-      good.tool_force.empty() && good.tool_filter.empty())
+  if (good.plies.empty() && good.boundaries.empty() && good.tool_motions.empty() &&
+      good.tool_loads.empty())
     return; // none was kept yet
   expect(good.plies.size() == s.plies.size() && good.boundaries.size() == s.boundaries.size() &&
-             good.tool_displacement.size() == s.tools.size() &&
-             good.tool_force.size() == s.tools.size() && good.tool_filter.size() == s.tools.size(),
+             good.tool_motions.size() == s.tools.size() && good.tool_loads.size() == s.tools.size(),
          "the last good state");
+  check_sums(s, then);
   for (std::size_t p = 0; p < good.plies.size(); ++p)
-    check(good.plies[p], s.plies[p].x0.size(), made[p].reaction);
-  expect(all_sound(good.boundaries) && all_sound(good.tool_displacement) &&
-             all_sound(good.tool_force) && all_sound(good.tool_filter),
+    check(good.plies[p], made[p]);
+  expect(all_sound(good.boundaries) && all_sound(good.tool_motions) && all_sound(good.tool_loads),
          "the last good state");
 }
 
-void check(const Scene& s, const RunState& run, const std::vector<PlyArrays>& made) {
+void check(const Scene& s, const RunState& run, const std::vector<ArraySizes>& made) {
   check(s, run.good, made);
   const Dwell& dwell = run.dwell;
   const auto each_tool = [&](const std::vector<double>& values) {
@@ -341,15 +359,14 @@ void check(const Scene& s, const RunState& run, const std::vector<PlyArrays>& ma
 
 } // namespace
 
-std::vector<PlyArrays> arrays_of(const Scene& s) {
-  std::vector<PlyArrays> arrays;
-  for (const PlyState& ply : s.plies)
-    arrays.push_back({ply.reaction.size(), ply.membrane.last_lambda.size(),
-                      ply.membrane.last_viscous.size(), ply.simd ? ply.simd->viscosity.size() : 0});
-  return arrays;
+std::vector<ArraySizes> sizes_of(const Scene& s) {
+  std::vector<ArraySizes> sizes;
+  for (const PlyBody& ply : s.plies)
+    sizes.push_back(sizes_of(static_cast<const PlyState&>(ply)));
+  return sizes;
 }
 
-void check_loaded(const Scene& s, const RunState& run, const std::vector<PlyArrays>& made) {
+void check_loaded(const Scene& s, const RunState& run, const std::vector<ArraySizes>& made) {
   check_progress(s);
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     check(s, s.plies[p], made[p]);

@@ -9,16 +9,14 @@
 
 namespace plyform {
 
-/// Sizes of arrays of a ply that its scene was made with and that nothing else of it tells.
-struct PlyArrays {
-  std::size_t reaction, last_lambda, last_viscous, viscosity;
-};
+/// Sizes of the arrays of a PlyState as its scene was made, in the order of their list.
+using ArraySizes = std::vector<std::size_t>;
 
-std::vector<PlyArrays> arrays_of(const Scene& scene);
+std::vector<ArraySizes> sizes_of(const Scene& scene); ///< one per ply
 
 /// Throws std::runtime_error ("does not fit its scene: ...") if a size, an index, a count or a
 /// choice is not one that the scene can have, a number is not finite or of the wrong sign, or
 /// times, steps and motions contradict each other. made: of the scene before it was loaded.
-void check_loaded(const Scene& scene, const RunState& run, const std::vector<PlyArrays>& made);
+void check_loaded(const Scene& scene, const RunState& run, const std::vector<ArraySizes>& made);
 
 } // namespace plyform

@@ -16,7 +16,7 @@ void visit_contacts(SomeScene& s, const PlyPair& pair, const Visit& visit) {
 }
 
 void renew_rows(Scene& s, PlyPair& pair) {
-  const PlyState &a = s.plies[pair.a], &b = s.plies[pair.b];
+  const PlyBody &a = s.plies[pair.a], &b = s.plies[pair.b];
   pair.rows_a.clear(), pair.rows_b.clear();
   const auto begin = [&] {
     pair.rows_a.resize(a.x.size());
@@ -27,7 +27,7 @@ void renew_rows(Scene& s, PlyPair& pair) {
     if (c.contact.points.empty()) continue;
     begin();
     const bool up = c.slave == pair.a;
-    const PlyState& master = up ? b : a;
+    const PlyBody& master = up ? b : a;
     add_ply_ply_stiffness(c.contact, master.state(), master.membrane.triangles, s.bound_margin,
                           up ? pair.rows_a : pair.rows_b, up ? pair.rows_b : pair.rows_a);
   }
@@ -78,7 +78,7 @@ ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
   ContactRows c(s.plies.size());
   pool.run(static_cast<int>(c.size()), [&](int i) {
     const auto p = static_cast<std::size_t>(i);
-    const PlyState& ply = s.plies[p];
+    const PlyBody& ply = s.plies[p];
     std::vector<ContactRow>& rows = c[p];
     rows.resize(ply.x.size());
     for (const ToolState& tool : s.tools)

@@ -38,8 +38,8 @@ void search_tool(Scene& s, ToolState& t) {
 }
 
 void search_plies(Scene& s, PlyContact& pair) {
-  const PlyState& slave = s.plies[pair.slave];
-  const PlyState& master = s.plies[pair.master];
+  const PlyBody& slave = s.plies[pair.slave];
+  const PlyBody& master = s.plies[pair.master];
   const Stopwatch watch(pair.contact.time.search);
   // also nodes that have passed through within the step, which find_pass_through then detects
   const double reach = std::max(pair.contact.distance + s.skin, step_displacement(s, pair));
@@ -68,22 +68,22 @@ void allocate_forces(const Scene& s, PlyPair& pair) {
   pair.force_b.assign(s.plies[pair.b].x.size(), Vec3::Zero());
 }
 
-void find_ply_unfolded(const Scene& s, PlyState& ply) {
+void find_ply_unfolded(const Scene& s, PlyBody& ply) {
   if (ply.self_contact)
     find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x, ply.thickness,
                   s.skin, ply.unfolded);
 }
 
-void find_ply_ridges(const Scene& s, PlyState& ply) {
+void find_ply_ridges(const Scene& s, PlyBody& ply) {
   if (!s.edge_contacts.empty()) find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
 }
 
-void refit_tree(const Scene&, PlyState& ply) {
+void refit_tree(const Scene&, PlyBody& ply) {
   ply.tree->refit(ply.x);
   ply.x_search = ply.x;
 }
 
-void find_fold_bounds(const Scene& s, PlyState& ply) {
+void find_fold_bounds(const Scene& s, PlyBody& ply) {
   if (!s.ply_contacts.empty()) renew_fold_bounds(ply); // only contacts between plies use them
 }
 
@@ -94,7 +94,7 @@ constexpr std::array search_parts{&find_ply_unfolded, &find_ply_ridges, &refit_t
 
 } // namespace
 
-void renew_fold_bounds(PlyState& ply) {
+void renew_fold_bounds(PlyBody& ply) {
   fold_bounds(ply.x, ply.membrane.triangles, ply.fold_bound);
   ply.fold_motion = 0.0;
 }
@@ -129,7 +129,7 @@ double largest_displacement(const Scene& s) {
     if (!(max_displacement <= furthest) && !std::isnan(furthest))
       furthest = max_displacement; // NaN stays
   };
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     grow(ply.max_displacement);
   for (const ToolState& t : s.tools)
     grow(t.max_displacement);
@@ -167,7 +167,7 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     allocate_forces(s, pair);
   for (NodeSums& n : s.node_sums)
     n.moved2 = 0.0;
-  for (PlyState& ply : s.plies)
+  for (PlyBody& ply : s.plies)
     ply.max_displacement = 0.0;
   find_far_tools(s);
   for (ToolState& t : s.tools) // what it may still move in this step

@@ -19,8 +19,8 @@ double path_length_ahead(const Scene& scene, const ToolState& tool);
 /// finite.
 double largest_displacement(const Scene& scene);
 
-/// Computes PlySearch::fold_bound anew.
-void renew_fold_bounds(PlyState& ply);
+/// Computes PlyCache::fold_bound anew.
+void renew_fold_bounds(PlyBody& ply);
 
 /// Lists every pair of nodes and tools, nodes and faces, and edges within contact distance + skin.
 /// Until something has moved by half the skin no other pair can touch.

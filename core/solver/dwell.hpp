@@ -20,6 +20,15 @@ struct Dwell {
   bool settled = false;
 };
 
+template <class F>
+void each_member(Dwell& dwell, F&& f) {
+  auto& [low, high, window_end, settled] = dwell;
+  f("low", low);
+  f("high", high);
+  f("window_end", window_end);
+  f("settled", settled);
+}
+
 /// Whether a run whose stroke is over may end, asked at each step when its forces are known.
 bool dwell_ends(Dwell& dwell, const Scene& s, ThreadPool& pool);
 

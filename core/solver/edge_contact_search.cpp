@@ -12,7 +12,7 @@ namespace {
 /// Numbers of the edges of a ply that may touch the ply `other`: all but those with both nodes
 /// occluded, as of occluded_nodes.
 std::vector<std::int32_t> open_edges(const Scene& s, int ply, int other, double reach) {
-  const PlyState& body = s.plies[ply];
+  const PlyBody& body = s.plies[ply];
   const std::span<const char> occluded = occluded_nodes(s, ply, other, reach);
   std::vector<std::int32_t> open;
   for (std::size_t i = 0; i < body.edges.all.size(); ++i) {
@@ -36,7 +36,7 @@ struct EdgeQuery {
     // the contact distance of edges is half that of nodes
     if (pair.a == pair.b) self = {a.x0, neighbourhood * 2.0 * pair.contact.distance};
   }
-  const PlyState &a, &b;
+  const PlyBody &a, &b;
   double skin; ///< mm
   std::vector<std::int32_t> open_a, open_b;
   SelfEdges self;

@@ -36,7 +36,7 @@ std::vector<char> small_triangles(const Membrane& m) {
 /// a little, keep their masses for steps that would be 5 % longer at most.
 constexpr double least_fall = 1.1;
 
-Bending bending_of(const PlyState& ply) {
+Bending bending_of(const PlyBody& ply) {
   std::vector<Vec2> x;
   for (const Vec3& p : ply.x0)
     x.push_back(p.head<2>());
@@ -46,7 +46,7 @@ Bending bending_of(const PlyState& ply) {
 }
 
 /// w_e of (E).
-std::vector<double> element_frequencies(const PlyState& ply, const std::optional<Bending>& b) {
+std::vector<double> element_frequencies(const PlyBody& ply, const std::optional<Bending>& b) {
   const Membrane& m = ply.membrane;
   std::vector<double> of = group_omega2(m, ply.x);
   const double whole = kink_factor(m) * highest_omega2(ply.bound, eigenvalue_ratio(m, ply.x));
@@ -70,7 +70,7 @@ struct Grading {
   std::vector<double> omega2; ///< w_e of (E)
 };
 
-Grading grading_of(const PlyState& ply) {
+Grading grading_of(const PlyBody& ply) {
   Grading of{small_triangles(ply.membrane), std::nullopt, {}};
   if (ply.bending) of.bending = bending_of(ply);
   of.omega2 = element_frequencies(ply, of.bending);
@@ -78,7 +78,7 @@ Grading grading_of(const PlyState& ply) {
 }
 
 /// kappa of (E) for one ply.
-double cap_of(const PlyState& ply, const Grading& of, double share) {
+double cap_of(const PlyBody& ply, const Grading& of, double share) {
   const Membrane& m = ply.membrane;
   double least = 0.0;
   for (std::size_t e = 0; e < m.area.size(); ++e)
@@ -93,7 +93,7 @@ double cap_of(const PlyState& ply, const Grading& of, double share) {
   return stiff.empty() ? least : lowest_cap(std::move(stiff), least, share * cloth).omega2;
 }
 
-void add_mass(PlyState& ply, const Grading& of, double kappa) {
+void add_mass(PlyBody& ply, const Grading& of, double kappa) {
   Membrane& m = ply.membrane;
   std::vector<double> factor(m.triangles.size(), 1.0);
   bool any = false;
@@ -111,7 +111,7 @@ void add_mass(PlyState& ply, const Grading& of, double kappa) {
 
 } // namespace
 
-void scale_element_masses(const Case& data, std::vector<PlyState>& plies) {
+void scale_element_masses(const Case& data, std::vector<PlyBody>& plies) {
   const double share = data.solver.element_mass_scaling;
   if (share == 0.0) return;
   std::vector<Grading> gradings(plies.size());
@@ -140,14 +140,14 @@ double added_element_mass(const Membrane& m) {
 
 double largest_added_element_mass(const Scene& s) {
   double share = 0.0;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     share = std::max(share, added_element_mass(ply.membrane));
   return share;
 }
 
 double effective_mass_factor(const Scene& s) {
   double most = 1.0;
-  for (const PlyState& ply : s.plies) {
+  for (const PlyBody& ply : s.plies) {
     const Membrane& m = ply.membrane;
     double cubes = 0.0, area = 0.0;
     for (std::size_t e = 0; e < m.density_factor.size(); ++e) {

@@ -25,10 +25,10 @@
 namespace plyform {
 
 /// Adds mass by (E), at most solver.element_mass_scaling of each ply's, to Membrane::node_mass and
-/// PlyStability::mass, and bounds the frequency of bending anew; that of the membrane, and what
+/// PlyState::mass, and bounds the frequency of bending anew; that of the membrane, and what
 /// follows from it, is left to the caller. Plies that nothing moves keep their masses. Before tools
 /// and contacts are made.
-void scale_element_masses(const Case& data, std::vector<PlyState>& plies);
+void scale_element_masses(const Case& data, std::vector<PlyBody>& plies);
 
 /// The mass added to a ply's elements over that of its cloth.
 double added_element_mass(const Membrane& membrane);

@@ -7,7 +7,7 @@
 namespace plyform {
 namespace {
 
-double kinetic_energy(const PlyState& ply, double dt, double next_dt, const MassLoads& loads) {
+double kinetic_energy(const PlyBody& ply, double dt, double next_dt, const MassLoads& loads) {
   double sum = 0.0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     // From the velocities half a step before and after: their product if both steps are equal,
@@ -20,7 +20,7 @@ double kinetic_energy(const PlyState& ply, double dt, double next_dt, const Mass
   return sum;
 }
 
-double work_of_gravity(const PlyState& ply, const Vec3& gravity) {
+double work_of_gravity(const PlyBody& ply, const Vec3& gravity) {
   double sum = 0.0;
   if (gravity.isZero(0)) return sum;
   for (std::size_t n = 0; n < ply.x.size(); ++n)
@@ -37,11 +37,11 @@ Energies current_energies(const Scene& s, ThreadPool& pool) {
   pool.run(plies + static_cast<int>(of_block.size()), [&](int i) {
     if (i >= plies) {
       const Block& block = s.group_blocks[i - plies];
-      const PlyState& ply = s.plies[block.ply];
+      const PlyBody& ply = s.plies[block.ply];
       if (ply.simd) of_block[i - plies] = simd_energy(*ply.simd, ply.membrane, ply.x, block.begin);
       return;
     }
-    const PlyState& ply = s.plies[i];
+    const PlyBody& ply = s.plies[i];
     Energies& e = of_ply[i];
     if (!ply.simd) {
       const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);

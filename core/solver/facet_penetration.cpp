@@ -14,7 +14,7 @@ constexpr int most_halvings = 8;    // of a quarter of a side: 0.01 mm where a s
 /// Search for the deepest point of one ply in one tool.
 class Search {
 public:
-  Search(const PlyState& ply, const ToolBody& tool)
+  Search(const PlyBody& ply, const ToolBody& tool)
       : ply_(ply), tool_(tool), half_(0.5 * ply.thickness) {}
 
   double deepest() {
@@ -80,7 +80,7 @@ private:
       divide({piece[k], side[k], side[(k + 2) % 3]}, halvings - 1);
   }
 
-  const PlyState& ply_;
+  const PlyBody& ply_;
   const ToolBody& tool_;
   double half_;
   double depth_ = 0.0;
@@ -89,7 +89,7 @@ private:
 
 } // namespace
 
-double longest_side(const PlyState& ply) {
+double longest_side(const PlyBody& ply) {
   double longest = 0.0;
   for (const SheetEdge& e : ply.edges.all)
     longest = std::max(longest, (ply.x[e.a] - ply.x[e.b]).norm());
@@ -112,7 +112,7 @@ std::vector<ToolCut> cuts_between_nodes(const Scene& s, ThreadPool& pool) {
   std::vector<ToolCut> cuts(s.tools.size() * s.plies.size());
   pool.run(static_cast<int>(cuts.size()), [&](int i) {
     const ToolState& tool = s.tools[at(i) / s.plies.size()];
-    const PlyState& ply = s.plies[at(i) % s.plies.size()];
+    const PlyBody& ply = s.plies[at(i) % s.plies.size()];
     cuts[at(i)] = {tool.name, ply.name, Search(ply, tool.body).deepest(), ply.thickness};
   });
   return cuts;

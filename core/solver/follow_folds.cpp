@@ -20,7 +20,7 @@ std::vector<std::int32_t> new_ridges(std::span<const char> before, std::span<con
 
 /// Renews the fold bounds of a ply when one of its sides may have turned by half of fold_margin:
 /// both nodes of a side are in one patch. element_size: mm.
-void follow_fold_bounds(PlyState& ply, double element_size) {
+void follow_fold_bounds(PlyBody& ply, double element_size) {
   double furthest = 0.0; // mm
   for (const Box3& patch : ply.patch_motion)
     furthest = std::max(furthest, patch.sizes().squaredNorm());
@@ -34,7 +34,7 @@ void follow_folds(Scene& s, ThreadPool& pool, bool searched) {
   if (s.edge_contacts.empty()) return;
   std::vector<std::vector<std::int32_t>> grown(s.plies.size());
   pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyState& ply = s.plies[p];
+    PlyBody& ply = s.plies[p];
     patch_motions(ply.edges, ply.motion, ply.patch_motion);
     if (searched) return;
     const Stopwatch watch(ply.search_seconds);

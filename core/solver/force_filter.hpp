@@ -29,4 +29,11 @@ struct ForceFilter {
   }
 };
 
+template <class F>
+void each_member(ForceFilter& filter, F&& f) {
+  auto& [once, twice] = filter;
+  f("once", once);
+  f("twice", twice);
+}
+
 } // namespace plyform

@@ -39,10 +39,10 @@ void scale_masses(Scene& s, const ContactRows& touching) {
   const auto swings = [](const ToolState& tool) { return tool.body.mass > 0.0 && !tool.far; };
   if (share == 0.0 || std::any_of(s.tools.begin(), s.tools.end(), swings)) return;
   double elements = 0.0;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     if (!ply.resting) elements = std::max(elements, element_omega2(ply));
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    PlyState& ply = s.plies[p];
+    PlyBody& ply = s.plies[p];
     if (ply.resting) continue;
     const std::vector<double>& own = ply.membrane.node_mass;
     const double whole = std::accumulate(own.begin(), own.end(), 0.0);

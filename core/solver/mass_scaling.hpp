@@ -23,7 +23,7 @@ namespace plyform {
 
 constexpr int mass_scaling_interval = 50; ///< steps
 
-/// Changes PlyStability::mass towards (M), and adds to SceneProgress::mass_scaling_work and
+/// Changes PlyState::mass towards (M), and adds to SceneProgress::mass_scaling_work and
 /// largest_added_mass.
 void scale_masses(Scene& scene, const ContactRows& touching);
 

@@ -14,7 +14,7 @@ void collect_forces(Scene& s) {
   const auto list = [&](int ply) -> auto& {
     return s.plies[ply].nodal_forces;
   };
-  for (PlyState& ply : s.plies) {
+  for (PlyBody& ply : s.plies) {
     ply.nodal_forces.clear();
     if (!ply.reaction.empty()) ply.nodal_forces.push_back(&ply.reaction);
     if (!ply.pull.empty()) ply.nodal_forces.push_back(&ply.pull);
@@ -37,11 +37,11 @@ void pair_forces(Scene& s, PlyPair& pair) {
     std::fill(pair.force_b.begin(), pair.force_b.end(), Vec3::Zero());
   }
   pair.loaded = false;
-  const PlyState &a = s.plies[pair.a], &b = s.plies[pair.b];
+  const PlyBody &a = s.plies[pair.a], &b = s.plies[pair.b];
   for (const int i : pair.contacts) {
     const bool up = s.ply_contacts[i].slave == pair.a;
     PlyPlyContact& contact = s.ply_contacts[i].contact;
-    const PlyState &slave = up ? a : b, &master = up ? b : a;
+    const PlyBody &slave = up ? a : b, &master = up ? b : a;
     ply_ply_forces(contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
                    {a.max_displacement + b.max_displacement, a.path_length + b.path_length},
                    up ? pair.force_a : pair.force_b, up ? pair.force_b : pair.force_a);
@@ -100,22 +100,23 @@ void element_and_contact_forces(Scene& s, ThreadPool& pool) {
   const auto group_task = [&](int i) {
     Block& block = s.group_blocks[i];
     const Stopwatch watch(block.seconds);
-    PlyState& ply = s.plies[block.ply];
+    PlyBody& ply = s.plies[block.ply];
     const GroupReport report =
-        ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, s.dt, block.begin)
-                 : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, ply.q);
+        ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, s.dt, block.begin,
+                               {ply.viscosity, ply.viscosity})
+                 : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, {}, ply.q);
     s.group_sums[i] += report.viscous_work;
     s.group_collapsed[i] = report.collapsed;
   };
   const auto bending_task = [&](int i) {
     Block& block = s.bending_blocks[i];
     const Stopwatch watch(block.seconds);
-    PlyState& ply = s.plies[block.ply];
+    PlyBody& ply = s.plies[block.ply];
     bending_forces(*ply.bending, ply.x, block.begin);
   };
   const ForceTasks tasks(s);
   s.ply_states.clear();
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     s.ply_states.push_back(ply.state());
   if (s.force_shares.size() != static_cast<std::size_t>(pool.size()))
     s.force_shares = share_forces(s, pool.size());
@@ -136,7 +137,7 @@ MassLoads mass_loads(const Scene& s) {
   return {s.data.gravity, s.data.solver.mass_damping};
 }
 
-void sum_forces(const PlyState& ply, int begin, int end, Vec3* f) {
+void sum_forces(const PlyBody& ply, int begin, int end, Vec3* f) {
   for (int n = begin; n < end; ++n) {
     Vec3& sum = f[n - begin];
     sum = ply.simd ? simd_force(*ply.simd, static_cast<std::size_t>(n))
@@ -150,7 +151,7 @@ void sum_forces(const PlyState& ply, int begin, int end, Vec3* f) {
   }
 }
 
-Vec3 acceleration(const PlyState& ply, int node, const MassLoads& loads) {
+Vec3 acceleration(const PlyBody& ply, int node, const MassLoads& loads) {
   Vec3 force;
   sum_forces(ply, node, node + 1, &force);
   return acceleration(ply, static_cast<std::size_t>(node), force, loads);

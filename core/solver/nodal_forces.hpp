@@ -22,10 +22,10 @@ MassLoads mass_loads(const Scene& scene);
 /// Sum of all forces (N) on nodes begin .. end - 1, stored in f[0 ..]. The arrays are added one
 /// after the other; a node's terms are added in the same order however its ply is divided into
 /// blocks.
-void sum_forces(const PlyState& ply, int begin, int end, Vec3* f);
+void sum_forces(const PlyBody& ply, int begin, int end, Vec3* f);
 
 /// Acceleration (mm/s^2) of a node by (17) of core/solver/step.hpp. force: sum of its forces, N.
-inline Vec3 acceleration(const PlyState& ply, std::size_t n, const Vec3& force,
+inline Vec3 acceleration(const PlyBody& ply, std::size_t n, const Vec3& force,
                          const MassLoads& loads) {
   const double mass = ply.mass[n];
   return force / mass + (ply.membrane.cloth_mass(n) / mass) * loads.gravity -
@@ -33,6 +33,6 @@ inline Vec3 acceleration(const PlyState& ply, std::size_t n, const Vec3& force,
 }
 
 /// The same, with the sum of the present forces.
-Vec3 acceleration(const PlyState& ply, int node, const MassLoads& loads);
+Vec3 acceleration(const PlyBody& ply, int node, const MassLoads& loads);
 
 } // namespace plyform

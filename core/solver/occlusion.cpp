@@ -15,7 +15,7 @@ bool neighbours(const PlyContact& pair) {
   return pair.slave != pair.master && pair.master == next_ply(pair.slave, pair.master);
 }
 
-void mark_occluded(PlyState& slave, const PlyContact& pair, const PlyState& master) {
+void mark_occluded(PlyBody& slave, const PlyContact& pair, const PlyBody& master) {
   const double path_length = slave.path_length + master.path_length;
   std::vector<char>& occluded = slave.occluded[pair.master > pair.slave];
   occluded.assign(slave.x.size(), 0);
@@ -29,11 +29,11 @@ void mark_occluded(PlyState& slave, const PlyContact& pair, const PlyState& mast
 }
 
 std::span<const char> occluded_nodes(const Scene& s, int slave_ply, int master_ply, double reach) {
-  const PlyState& slave = s.plies[slave_ply];
+  const PlyBody& slave = s.plies[slave_ply];
   if (slave_ply == master_ply)
     return reach > slave.thickness + s.skin ? std::span<const char>() : slave.unfolded;
   if (next_ply(slave_ply, master_ply) == master_ply) return {};
-  const PlyState& between = s.plies[next_ply(slave_ply, master_ply)];
+  const PlyBody& between = s.plies[next_ply(slave_ply, master_ply)];
   // Occluding plies were searched within contact distance + skin only: not valid for a larger
   // reach.
   if (reach > 0.5 * (slave.thickness + between.thickness) + s.skin) return {};

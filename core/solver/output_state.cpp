@@ -12,7 +12,7 @@ namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
 
-std::vector<Vec3> node_normals(const PlyState& ply) {
+std::vector<Vec3> node_normals(const PlyBody& ply) {
   std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3& a = ply.x[t[0]];
@@ -35,7 +35,7 @@ struct SideForces {
 };
 
 PlyFrame make_ply_frame(const Scene& scene, int index) {
-  const PlyState& ply = scene.plies[index];
+  const PlyBody& ply = scene.plies[index];
   PlyFrame f;
   f.name = ply.name;
   f.angle_deg = std::round(ply.angle * degrees * 1e9) / 1e9; // 30 for 29.999999999999996
@@ -67,7 +67,7 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
 
 TriMesh surface_of(const Scene& scene, const ToolBody& body) {
   double extent = 0.0; // mm, largest distance of a ply's node from the tool
-  for (const PlyState& ply : scene.plies)
+  for (const PlyBody& ply : scene.plies)
     for (const Vec3& x : ply.x0)
       extent = std::max(extent, (x - body.position).norm());
   constexpr double facet = 5.0; // mm, for pictures; of a tool of more than 1.5 m longer, of one of
@@ -98,7 +98,7 @@ ToolFrame make_tool_frame(const ToolState& tool, const TriMesh& surface) {
 
 std::vector<double> contact_pressure(const Scene& scene, int index) {
   const auto p = static_cast<std::size_t>(index);
-  const PlyState& ply = scene.plies[p];
+  const PlyBody& ply = scene.plies[p];
   SideForces sides{node_normals(ply), std::vector<double>(ply.x.size(), 0.0), {}};
   sides.below = sides.above;
   for (const ToolState& tool : scene.tools)
@@ -107,7 +107,7 @@ std::vector<double> contact_pressure(const Scene& scene, int index) {
   for (const PlyContact& pair : scene.ply_contacts)
     for (const PlyPlyPoint& c : pair.contact.points) {
       if (c.memory.normal_force == 0.0 || (pair.slave != index && pair.master != index)) continue;
-      const PlyState& master = scene.plies[pair.master];
+      const PlyBody& master = scene.plies[pair.master];
       const std::vector<Triangle>& triangles = master.membrane.triangles;
       const Vec3 normal = contact_normal(c, scene.plies[pair.slave].x, master.x, triangles);
       if (pair.slave == index) sides.add(c.node, normal, c.memory.normal_force);

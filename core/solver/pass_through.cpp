@@ -24,8 +24,8 @@ std::string when_and_who(const Scene& s, std::size_t ply, int node) {
 std::optional<Stop> find_pass_through(const Scene& s, const PlyContact& pair) {
   // A node cannot pass unless it moves by more than h/2: the contact law keeps 3/4 of h at least.
   if (!(step_displacement(s, pair) > 0.5 * pair.contact.distance)) return std::nullopt;
-  const PlyState& slave = s.plies[pair.slave];
-  const PlyState& master = s.plies[pair.master];
+  const PlyBody& slave = s.plies[pair.slave];
+  const PlyBody& master = s.plies[pair.master];
   for (const PlyPlyPoint& c : pair.contact.points) {
     const Triangle& t = master.membrane.triangles[c.face];
     Vec3 u = at(slave.x, c.node), r = at(slave.motion, c.node);

@@ -11,7 +11,7 @@
 namespace plyform {
 namespace {
 
-double kinetic_of(const PlyState& ply) {
+double kinetic_of(const PlyBody& ply) {
   double sum = 0.0;
   for (std::size_t n = 0; n < ply.velocity.size(); ++n)
     sum += 0.5 * ply.mass[n] * ply.velocity[n].squaredNorm();
@@ -20,7 +20,7 @@ double kinetic_of(const PlyState& ply) {
 
 /// Elastic energy without contact, N mm.
 double elastic_of(const Scene& s, std::size_t number) {
-  const PlyState& ply = s.plies[number];
+  const PlyBody& ply = s.plies[number];
   double sum = ply.bending ? bending_energy(*ply.bending, ply.x) : 0.0;
   if (!ply.simd) {
     const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
@@ -53,7 +53,7 @@ std::vector<std::string> doubts_of_flight(const Scene& s, const Frame& last) {
 /// The box around the bodies at the start, and around driven ones over their strokes, mm.
 Box3 box_of_scene(const Scene& s, const Frame& last) {
   Box3 box;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     for (const Vec3& x : ply.x0)
       box.extend(x);
   for (std::size_t t = 0; t < last.tools.size(); ++t)

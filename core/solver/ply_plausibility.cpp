@@ -230,7 +230,7 @@ std::vector<std::string> doubts_of_edges(const Scene& s, const std::vector<Astra
 std::vector<std::string> doubts_of_reach(const Scene& s) {
   std::vector<std::string> found;
   for (const PlyContact& c : s.ply_contacts) {
-    const PlyState &a = s.plies[c.slave], &b = s.plies[c.master];
+    const PlyBody &a = s.plies[c.slave], &b = s.plies[c.master];
     if (c.slave > c.master || a.stack == b.stack || !(c.contact.sums.deepest > 0.0)) continue;
     found.push_back(
         fmt::format("do not trust {} and {} where they press each other: they began too "

@@ -11,7 +11,7 @@ namespace {
 /// (R) of core/model/boundary.hpp for one node: the reaction that moves it to its prescribed
 /// position at the end of the step. Adds to force, load and work of its boundaries.
 void hold_node(Scene& s, const PrescribedNode& held) {
-  PlyState& ply = s.plies[held.ply];
+  PlyBody& ply = s.plies[held.ply];
   const auto n = static_cast<std::size_t>(held.node);
   const Vec3 before = ply.reaction[n];
   ply.reaction[n].setZero();

@@ -10,7 +10,7 @@ namespace {
 
 constexpr double pressing = 0.1; // of a tool's force, from which on that is not the cloth's
 
-std::vector<Vec3> normals_of(const PlyState& ply) {
+std::vector<Vec3> normals_of(const PlyBody& ply) {
   std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3& a = at(ply.x, t[0]);
@@ -46,7 +46,7 @@ double at_side(const Sums& sums, const Side& s) {
 class Flow {
 public:
   explicit Flow(const Scene& s) : scene_(s) {
-    for (const PlyState& ply : s.plies)
+    for (const PlyBody& ply : s.plies)
       normals_.push_back(normals_of(ply));
     all_ = zero();
     for (std::size_t t = 0; t < s.tools.size(); ++t)
@@ -119,7 +119,7 @@ private:
   }
 
   void add_pair(const PlyContact& pair) {
-    const PlyState &slave = scene_.plies[pair.slave], &master = scene_.plies[pair.master];
+    const PlyBody &slave = scene_.plies[pair.slave], &master = scene_.plies[pair.master];
     for (const PlyPlyPoint& c : pair.contact.points) {
       if (!(c.memory.normal_force > 0.0)) continue;
       const Vec3 n = contact_normal(c, slave.x, master.x, master.membrane.triangles);

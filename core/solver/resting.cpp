@@ -11,7 +11,7 @@
 namespace plyform {
 namespace {
 
-bool is_as_it_began(const PlyState& ply) {
+bool is_as_it_began(const PlyBody& ply) {
   return ply.x == ply.x0 && std::all_of(ply.velocity.begin(), ply.velocity.end(),
                                         [](const Vec3& v) { return v.isZero(0.0); });
 }
@@ -69,14 +69,14 @@ void find_far_tools(Scene& s) {
 
 void find_resting(Scene& s) {
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
-    PlyState& ply = s.plies[p];
+    PlyBody& ply = s.plies[p];
     ply.resting = ply.left_alone && is_as_it_began(ply) && !tool_is_near(s, p);
   }
   bool news = true; // what is woken may wake others
   while (news) {
     news = false;
     for (const PlyPair& pair : s.ply_pairs) {
-      PlyState &a = s.plies[pair.a], &b = s.plies[pair.b];
+      PlyBody &a = s.plies[pair.a], &b = s.plies[pair.b];
       if (!a.resting && !b.resting) continue;
       const bool both = a.resting && b.resting;
       const auto wakes = [&](int i) {

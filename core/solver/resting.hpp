@@ -12,7 +12,7 @@
 
 namespace plyform {
 
-/// Sets PlyRest::resting, after a search.
+/// Sets PlyState::resting, after a search.
 void find_resting(Scene& scene);
 
 /// Sets ToolState::far, after a search.

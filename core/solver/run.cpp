@@ -35,55 +35,13 @@ double seconds_since(Clock::time_point t) {
   return std::chrono::duration<double>(Clock::now() - t).count();
 }
 
-/// Sets the penetrations of the present state.
-void keep_penetrations(const Scene& s, Snapshot& snapshot) {
-  snapshot.tool_penetration = snapshot.ply_penetration = 0.0;
-  for (const ToolState& t : s.tools)
-    for (const ToolPlyContact& c : t.contacts)
-      snapshot.tool_penetration = std::max(snapshot.tool_penetration, c.sums.penetration);
-  for (const PlyContact& pair : s.ply_contacts)
-    snapshot.ply_penetration = std::max(snapshot.ply_penetration, pair.contact.sums.penetration);
-}
-
-void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
-  snapshot.plies.resize(s.plies.size());
-  for (std::size_t p = 0; p < s.plies.size(); ++p)
-    snapshot.plies[p] = s.plies[p]; // copies into existing arrays
-  snapshot.boundaries = s.boundaries;
-  snapshot.tool_displacement.clear();
-  snapshot.tool_force.clear();
-  snapshot.tool_filter.clear();
-  for (const ToolState& t : s.tools) {
-    snapshot.tool_displacement.push_back(t.body.displacement);
-    snapshot.tool_force.push_back(t.force);
-    snapshot.tool_filter.push_back(t.filter);
-  }
-  snapshot.energy = energy;
-  keep_penetrations(s, snapshot);
-  snapshot.time = s.time;
-  snapshot.step = s.step;
-}
-
-void restore(Scene& s, const Snapshot& snapshot) {
-  for (std::size_t p = 0; p < s.plies.size(); ++p)
-    static_cast<PlyKinematics&>(s.plies[p]) = snapshot.plies[p];
-  s.boundaries = snapshot.boundaries;
-  for (std::size_t t = 0; t < s.tools.size(); ++t) {
-    s.tools[t].body.displacement = snapshot.tool_displacement[t];
-    s.tools[t].force = snapshot.tool_force[t];
-    s.tools[t].filter = snapshot.tool_filter[t];
-  }
-  s.time = snapshot.time;
-  s.step = snapshot.step;
-}
-
 /// Energy (N mm) below which the balance is not checked, since its error is then a ratio of
 /// rounding errors: a hundredth of the stack's kinetic energy at the peak speed of the fastest
 /// driven tool or grip, plus the work of the force of each pushed tool, gripper and spring and of
 /// the weight over a tenth of a millimetre.
 double balance_floor(const Scene& s) {
   double mass = 0.0, force_controlled = 0.0;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     for (double m : ply.membrane.node_mass)
       mass += m;
   for (const ToolState& t : s.tools)
@@ -127,7 +85,7 @@ ContactReport audit(const Scene& s, const Snapshot& good, ThreadPool& pool) {
   r.max_tool_penetration_mm = good.tool_penetration;
   r.max_ply_penetration_mm = good.ply_penetration;
   std::vector<MeshView> sheets;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     sheets.push_back({ply.x, ply.membrane.triangles});
   const Intersections found =
       find_intersections(sheets, [&pool](int count, const auto& task) { pool.run(count, task); });
@@ -298,8 +256,7 @@ private:
     const RunHooks::Checkpoint& checkpoint = hooks_.checkpoint;
     if (!checkpoint.save || s_.step == 0) return;
     if (!interrupted && seconds_since(saved_) < checkpoint.interval) return;
-    RunState state = now();
-    checkpoint.save(save_state(s_, state));
+    checkpoint.save(save_state(s_, now()));
     saved_ = Clock::now();
   }
 
@@ -315,10 +272,7 @@ private:
     if (!marks.reached || marks.count == 0) return;
     const double share = s_.time / s_.data.solver.duration * marks.count;
     for (; next_mark_ <= marks.count && share >= next_mark_ * (1.0 - 1e-12); ++next_mark_)
-      marks.reached(next_mark_, s_, [this] {
-        RunState state = now();
-        return save_state(s_, state);
-      });
+      marks.reached(next_mark_, s_, [this] { return save_state(s_, now()); });
   }
 
   std::optional<Stop> steps() {

@@ -59,7 +59,7 @@ RunResult run_case(const Case& data, int threads, const RunHooks& hooks,
                    const std::vector<BlankMesh>& meshes = {});
 
 /// The same from a scene of make_scene, whose plies may have been given other initial positions
-/// (PlyState::x, and x0 where boundaries prescribe them) and velocities. The scene is left in the
+/// (PlyBody::x, and x0 where boundaries prescribe them) and velocities. The scene is left in the
 /// last good state, but its contacts in that of the last step computed.
 RunResult run_scene(Scene& scene, int threads, const RunHooks& hooks);
 

@@ -68,7 +68,7 @@ Times times_of(const Scene& s) {
     t.elements += b.seconds;
   for (const Block& b : s.node_blocks)
     t.motion += b.seconds;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     t.search += ply.search_seconds;
   for (const ToolState& tool : s.tools) {
     t.contact += tool.seconds;
@@ -89,7 +89,7 @@ std::string named(const PairReport& pair) {
 std::vector<std::string> too_much(const Scene& s, const Energies& e, const WorkReport& w) {
   std::vector<std::string> found;
   const bool bending = std::any_of(s.plies.begin(), s.plies.end(),
-                                   [](const PlyState& ply) { return ply.bending.has_value(); });
+                                   [](const PlyBody& ply) { return ply.bending.has_value(); });
   const double deformation = e.shear + e.fibre;
   if (bending && deformation > e.floor && e.bending < small_bending * deformation)
     found.push_back(fmt::format("bending: {:.2g} % of the deformation energy; without the fabric's "
@@ -127,7 +127,7 @@ std::pair<double, std::string> longest_yarn(const Frame& last) {
 /// Effective softening factor of a ply's yarns, that of the softer family.
 double largest_softening(const Scene& s, const std::string& name) {
   double largest = 1.0;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     if (ply.name == name)
       largest = std::max({largest, ply.membrane.softening[0], ply.membrane.softening[1]});
   return largest;

@@ -37,7 +37,7 @@ std::vector<char> faces_on_rim(std::span<const SheetEdge> edges,
 
 /// Sets the bound of a ply's frequency at the start and the viscosity of yarns that follows from
 /// it.
-void set_frequency(const Case& data, PlyState& body) {
+void set_frequency(const Case& data, PlyBody& body) {
   body.bound = eigenvalue_bound(body.membrane, body.x);
   const double omega = std::sqrt(body.bound.omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
@@ -48,8 +48,8 @@ void set_frequency(const Case& data, PlyState& body) {
 }
 
 /// alike: a ply of the same fabric, angle and mesh, or null.
-PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const PlyState* alike) {
-  PlyState body;
+PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const PlyBody* alike) {
+  PlyBody body;
   const Fabric& fabric = data.fabrics[ply.fabric];
   body.name = ply.name;
   body.angle = ply.angle;
@@ -73,7 +73,7 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const
   body.motion = body.velocity;
   if (fits_simd(body.membrane)) {
     body.simd = make_membrane_simd(body.membrane, body.x);
-    body.membrane.last_lambda = body.membrane.last_viscous = {}; // body.simd has its own
+    body.viscosity = states_at_start(*body.simd);
   } else {
     body.q.resize(mesh.triangles.size());
   }
@@ -86,7 +86,7 @@ PlyState make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const
 }
 
 /// Mean area (mm^2) of two triangles, the square of the element size.
-double cell_area(const PlyState& ply) {
+double cell_area(const PlyBody& ply) {
   double area = 0.0;
   for (const double a : ply.membrane.node_area)
     area += a;
@@ -101,7 +101,7 @@ double cell_area(const PlyState& ply) {
 ///
 /// In a stack the penalty falls with the stiffness of softened yarns only down to a softening of
 /// 100 (`stack_softening`), as the pressure between plies does not decrease with softening.
-double penalty_per_area(const PlyState& ply, double fraction, bool stack) {
+double penalty_per_area(const PlyBody& ply, double fraction, bool stack) {
   constexpr double fine = 12.5, most = 2.5, stack_softening = 100.0;
   const auto& softening = ply.membrane.softening;
   if (stack) fraction *= std::max(1.0, std::max(softening[0], softening[1]) / stack_softening);
@@ -125,7 +125,7 @@ ContactLaw make_law(const ContactOptions& options, double penalty, double densit
   return {penalty, 2.0 * options.damping * std::sqrt(penalty * density), mu, max_depth};
 }
 
-ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyState>& plies) {
+ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBody>& plies) {
   const Tool& tool = data.tools[index];
   ToolState t;
   t.name = tool.name;
@@ -151,9 +151,9 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlySt
   return t;
 }
 
-PlyContact make_pair(const Case& data, const std::vector<PlyState>& plies, int a, int b) {
-  const PlyState& slave = plies[a];
-  const PlyState& master = plies[b];
+PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a, int b) {
+  const PlyBody& slave = plies[a];
+  const PlyBody& master = plies[b];
   PlyContact pair;
   pair.slave = a;
   pair.master = b;
@@ -193,12 +193,12 @@ std::vector<PlyPair> make_pairs(const Scene& s) {
 }
 
 /// Sets what follows from which bodies may meet.
-void set_reach(const Case& data, std::vector<PlyState>& plies) {
+void set_reach(const Case& data, std::vector<PlyBody>& plies) {
   const ReachAhead ahead = reach_ahead(data);
   const bool any_moves =
       std::find(ahead.ply_moves.begin(), ahead.ply_moves.end(), 1) != ahead.ply_moves.end();
   for (std::size_t p = 0; p < plies.size(); ++p) {
-    PlyState& ply = plies[p];
+    PlyBody& ply = plies[p];
     ply.stack = ahead.stack[p];
     ply.stacked = ahead.plies_in_stack(p) > 1;
     ply.left_alone = any_moves && !ahead.ply_moves[p];
@@ -211,7 +211,7 @@ void set_reach(const Case& data, std::vector<PlyState>& plies) {
 /// Sets the lengths that the smallest element and the thinnest ply decide, of those that move.
 void set_lengths(Scene& s) {
   double element = std::numeric_limits<double>::max(), thickness = element;
-  for (const PlyState& ply : s.plies) {
+  for (const PlyBody& ply : s.plies) {
     if (ply.left_alone) continue;
     element = std::min(element, std::sqrt(cell_area(ply)));
     thickness = std::min(thickness, ply.thickness);
@@ -226,14 +226,14 @@ void set_lengths(Scene& s) {
 /// Springs and grippers, and the arrays that their forces need.
 void make_attachments(Scene& s) {
   std::vector<SheetBefore> sheets;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     sheets.push_back({ply.x0, ply.membrane.triangles});
   for (std::size_t b = 0; b < s.data.boundaries.size(); ++b) {
     if (prescribes(s.data.boundaries[b])) continue;
     s.attachments.push_back(attach(s.data.boundaries, b, sheets));
     const bool spring = s.data.boundaries[b].kind == BoundaryKind::spring;
     for (const AttachedNode& node : s.attachments.back().nodes) {
-      PlyState& ply = s.plies[node.ply];
+      PlyBody& ply = s.plies[node.ply];
       (spring ? ply.pull : ply.reaction).resize(ply.x0.size(), Vec3::Zero());
     }
   }
@@ -241,7 +241,7 @@ void make_attachments(Scene& s) {
 
 /// Whether a ply on this mesh is of the same fabric, angle and mesh as another, which has been
 /// made.
-bool is_alike(const Ply& ply, const BlankMesh& mesh, const Ply& other, const PlyState& made) {
+bool is_alike(const Ply& ply, const BlankMesh& mesh, const Ply& other, const PlyBody& made) {
   return ply.fabric == other.fabric && ply.angle == other.angle &&
          mesh.triangles == made.membrane.triangles && mesh.x.size() == made.x0.size() &&
          std::equal(mesh.x.begin(), mesh.x.end(), made.x0.begin(),
@@ -249,10 +249,10 @@ bool is_alike(const Ply& ply, const BlankMesh& mesh, const Ply& other, const Ply
 }
 
 /// Lets a ply hold the constants of its kernels in common with those laid before it.
-void share_constants(std::vector<PlyState>& plies, std::size_t p) {
-  PlyState& ply = plies[p];
+void share_constants(std::vector<PlyBody>& plies, std::size_t p) {
+  PlyBody& ply = plies[p];
   for (std::size_t i = 0; i < p; ++i) {
-    const PlyState& other = plies[i];
+    const PlyBody& other = plies[i];
     if (ply.simd && other.simd) share(ply.simd->triangles, other.simd->triangles);
     if (ply.bending && other.bending) share(ply.bending->constants, other.bending->constants);
   }
@@ -262,9 +262,9 @@ void share_constants(std::vector<PlyState>& plies, std::size_t p) {
 /// two sheets closer by L f / 4, here by 3/8 of the contact distance h; nodes and faces keep three
 /// quarters of it, so that 3/8 are left, of which edges use the half beyond h/4.
 void limit_ridges(Scene& s) {
-  for (PlyState& ply : s.plies) {
+  for (PlyBody& ply : s.plies) {
     double longest = 0.0;
-    for (const PlyState& other : s.plies)
+    for (const PlyBody& other : s.plies)
       if (other.stack == ply.stack) longest = std::max(longest, longest_side(other));
     ply.ridge_limit = 1.5 * ply.thickness / longest;
   }
@@ -272,9 +272,9 @@ void limit_ridges(Scene& s) {
 
 /// Makes as many plies at a time as there are threads, so that few hold constants of their own that
 /// they will share.
-std::vector<PlyState> make_plies(const Case& data, const std::vector<BlankMesh>& meshes,
-                                 int threads) {
-  std::vector<PlyState> plies(data.plies.size());
+std::vector<PlyBody> make_plies(const Case& data, const std::vector<BlankMesh>& meshes,
+                                int threads) {
+  std::vector<PlyBody> plies(data.plies.size());
   ThreadPool pool(threads);
   for (std::size_t first = 0; first < plies.size(); first += static_cast<std::size_t>(threads)) {
     const std::size_t end = std::min(plies.size(), first + static_cast<std::size_t>(threads));
@@ -282,7 +282,7 @@ std::vector<PlyState> make_plies(const Case& data, const std::vector<BlankMesh>&
       const std::size_t p = first + static_cast<std::size_t>(i);
       const Ply& ply = data.plies[p];
       const BlankMesh mesh = meshes.empty() ? mesh_ply(data, ply) : meshes[p];
-      const PlyState* alike = nullptr;
+      const PlyBody* alike = nullptr;
       for (std::size_t q = 0; q < first && !alike; ++q)
         if (is_alike(ply, mesh, data.plies[q], plies[q])) alike = &plies[q];
       plies[p] = make_ply(data, ply, mesh, alike);
@@ -297,10 +297,10 @@ std::vector<PlyState> make_plies(const Case& data, const std::vector<BlankMesh>&
 
 namespace {
 
-double energy_floor_of(const std::vector<PlyState>& plies) {
+double energy_floor_of(const std::vector<PlyBody>& plies) {
   constexpr double strain = 1e-7; // a millionth of what forms cloth, a billion roundings
   double floor = 0.0;
-  for (const PlyState& ply : plies) {
+  for (const PlyBody& ply : plies) {
     const Membrane& m = ply.membrane;
     double stiffness = m.fabric.warp_density * m.yarn[0].largest_slope() +
                        m.fabric.weft_density * m.yarn[1].largest_slope(); // N/mm
@@ -320,7 +320,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   set_reach(data, s.plies);
   if (data.solver.element_mass_scaling > 0.0) {
     scale_element_masses(data, s.plies);
-    for (PlyState& ply : s.plies)
+    for (PlyBody& ply : s.plies)
       if (!ply.membrane.density_factor.empty()) set_frequency(data, ply);
   }
   for (std::size_t t = 0; t < data.tools.size(); ++t)
@@ -344,7 +344,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   limit_ridges(s);
   s.ply_pairs = make_pairs(s);
   for (int p = 0; p < n; ++p) {
-    const PlyState& ply = s.plies[p];
+    const PlyBody& ply = s.plies[p];
     if (ply.simd)
       add_blocks(s.group_blocks, p, ply.simd->blocks.size(), 1);
     else
@@ -353,7 +353,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
     if (ply.bending) add_blocks(s.bending_blocks, p, ply.bending->blocks.size(), 1);
   }
   for (int p = 0; p < n; ++p) {
-    PlyState& ply = s.plies[p];
+    PlyBody& ply = s.plies[p];
     const std::vector<PrescribedNode> held = prescribed_nodes(data.boundaries, p, ply.x0);
     if (!held.empty()) ply.reaction.assign(ply.x0.size(), Vec3::Zero());
     s.held.insert(s.held.end(), held.begin(), held.end());

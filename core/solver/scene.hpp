@@ -3,118 +3,64 @@
 // constant; the arrays change step by step (core/solver/step.hpp).
 #pragma once
 
-#include "contact/forces/edge_edge.hpp"
 #include "contact/forces/ply_ply.hpp"
-#include "contact/forces/tool_ply.hpp"
-#include "contact/search/fold_bound.hpp"
+#include "core/base/archive.hpp"
 #include "core/model/attachment.hpp"
 #include "core/model/boundary.hpp"
-#include "core/ply/bending_simd.hpp"
-#include "core/ply/membrane_eigenvalue.hpp"
-#include "core/ply/membrane_simd.hpp"
 #include "core/solver/force_filter.hpp"
+#include "core/solver/ply_body.hpp"
 
 #include <algorithm>
-#include <memory>
-#include <optional>
 #include <string>
 #include <vector>
 
 namespace plyform {
 
-// A ply is made of parts, each with one purpose. Arrays of n nodes.
+// What a checkpoint keeps of each type stands beside its members: each_member calls f(name,
+// member). Where a type has no base it unpacks all members: one more, and it does not compile until
+// somebody has said whether it is kept.
 
-/// Model of a ply: constant from the first step on, except for the state variables of viscosity.
-struct PlyModel {
-  std::string name;
-  double angle = 0.0;     ///< rad, warp from x, before forming
-  double thickness = 0.0; ///< mm
-  std::vector<Vec3> x0;   ///< mm, before forming
-  Membrane membrane;
-  std::optional<MembraneSimd> simd;   ///< SIMD version of the membrane; none without yarns
-  std::optional<BendingSimd> bending; ///< none without bending stiffness
-  SheetEdges edges;
-  double ridge_limit = 0.0;                ///< contact/search/sheet_ridges.hpp
-  std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
-  // What follows from which bodies may meet: core/model/reach_ahead.hpp.
-  int stack = 0;             ///< the lowest ply of its stack
-  bool stacked = false;      ///< whether its stack has other plies
-  bool left_alone = false;   ///< nothing may move it, but something moves others
-  bool self_contact = false; ///< whether it is in contact with itself, too
-  bool convex = false;       ///< contact/search/unfolded.hpp; not asked without self-contact
+/// Forces of a tool: with ToolMotion all that its later steps depend on, but for its contacts.
+struct ToolLoad {
+  Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
+  ForceFilter filter;        ///< of `force`
+  double work = 0.0;         ///< N mm, done by the tool on the plies since the start
 };
 
-/// Position and velocity of a ply: the state that a restart must keep.
-struct PlyKinematics {
-  std::vector<Vec3> x;        ///< mm
-  std::vector<Vec3> velocity; ///< mm/s, half a step before the time of x
-  std::vector<Vec3> motion;   ///< mm, displacement in the last step
-  std::vector<Vec3> reaction; ///< N, of boundaries on each node; empty if none prescribes any
-};
-
-/// Data of the last contact search, and the displacements since.
-struct PlySearch {
-  std::vector<Vec3> x_search;    ///< mm, x at the last contact search
-  double max_displacement = 0.0; ///< mm, largest distance of any node from x_search since then
-  double path_length = 0.0;      ///< mm, contact/search/active_list.hpp
-  std::unique_ptr<SheetTree> tree;
-  std::vector<double> fold_bound; ///< contact/search/fold_bound.hpp, one per triangle
-  /// mm, sum over the steps since it was computed of the largest relative displacement of two nodes
-  /// of a patch of edges
-  double fold_motion = 0.0;
-  std::array<std::vector<char>, 2> occluded; ///< per node, by the adjacent ply below [0], above [1]
-  SheetRidges ridges;         ///< contact/search/sheet_ridges.hpp; of a single ply none
-  std::vector<char> unfolded; ///< per node, contact/search/unfolded.hpp; empty without self-contact
-  double search_seconds = 0.0; ///< s, refitting the tree, computing fold bounds
-};
-
-/// Bounds that limit the stable time step (core/solver/stable_time_step.hpp).
-struct PlyStability {
-  EigenvalueBound bound;         ///< of the membrane, updated at least every 200 steps
-  double eigenvalue_ratio = 1.0; ///< core/ply/membrane_eigenvalue.hpp, updated every 1000 steps
-  double lanczos_contacts = 0.0; ///< 1/s^2, bound of contacts when time_step_gain was computed
-  std::vector<double> mass;      ///< t, one per node, with what core/solver/mass_scaling.hpp adds
-};
-
-/// Whether a ply is part of the motion: core/solver/resting.hpp.
-struct PlyRest {
-  bool resting = false; ///< at rest where it began, with nothing near that moves
-};
-
-/// Temporary data of one step.
-struct PlyWorkspace {
-  std::vector<ElementForce> q;    ///< forces without simd, one per triangle
-  std::vector<Box3> patch_motion; ///< mm, as of patch_motions, of the last step
-  /// Arrays of reaction and contact forces that are not zero in this step, in fixed order.
-  std::vector<const std::vector<Vec3>*> nodal_forces;
-  std::vector<Vec3> pull; ///< N, of springs on each node; empty if none hangs on it
-};
-
-/// A ply and its state.
-struct PlyState : PlyModel, PlyKinematics, PlySearch, PlyStability, PlyRest, PlyWorkspace {
-  SurfaceKinematics state() const {
-    return {x, motion, membrane.node_area, fold_bound, edges.faces_across};
-  }
-  EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }
-};
+template <class F>
+void each_member(ToolLoad& t, F&& f) {
+  auto& [force, filter, work] = t;
+  f("force", force);
+  f("filter", filter);
+  f("work", work);
+}
 
 /// One tool with its contacts: contacts[i] is with ply i.
-struct ToolState {
+struct ToolState : ToolLoad {
   std::string name;
   ToolBody body;
   double force_on = 0.0; ///< N, prescribed force at full load, 0 unless pushed
   std::vector<ToolPlyContact> contacts;
-  Vec3 force = Vec3::Zero(); ///< N, of the plies on the tool, now
-  ForceFilter filter;        ///< of `force`
   Vec3 displacement_search = Vec3::Zero();
   double max_displacement = 0.0; ///< mm, largest distance from displacement_search, with what it
                                  ///< may still move in this step
   double path_length = 0.0;      ///< mm, contact/search/active_list.hpp
   bool far = false; ///< core/solver/resting.hpp: it cannot touch a ply before the next search
   std::vector<double> ply_paths; ///< mm, with each ply, with what it may still move in this step
-  double work = 0.0;             ///< N mm, done by the tool on the plies since the start
   double seconds = 0.0;          ///< s, computing time of its forces
 };
+
+template <class F>
+void each_member(ToolState& t, F&& f) {
+  each_member(static_cast<ToolLoad&>(t), f);
+  f("motion", static_cast<ToolMotion&>(t.body));
+  f("displacement_search", t.displacement_search);
+  f("max_displacement", t.max_displacement);
+  f("path_length", t.path_length);
+  f("ply_paths", t.ply_paths);
+  f("far", t.far);
+  f("contacts", of_fixed_size(t.contacts));
+}
 
 /// One pass of the node-to-face contact between two plies, or of a ply with itself.
 struct PlyContact {
@@ -122,11 +68,21 @@ struct PlyContact {
   PlyPlyContact contact;
 };
 
+template <class F>
+void each_member(PlyContact& pair, F&& f) {
+  f("contact", pair.contact);
+}
+
 /// Edge-edge contact of two plies, a < b, or of one with itself.
 struct PlyEdgeContact {
   int a = 0, b = 0;
   EdgeEdgeContact contact;
 };
+
+template <class F>
+void each_member(PlyEdgeContact& pair, F&& f) {
+  f("contact", pair.contact);
+}
 
 /// All contacts of two plies, a < b, or of one with itself, and their forces on the nodes.
 struct PlyPair {
@@ -138,6 +94,16 @@ struct PlyPair {
   std::vector<ContactRow> rows_a,
       rows_b; ///< core/solver/contact_rows.hpp; empty if nothing is near
 };
+
+template <class F>
+void each_member(PlyPair& pair, F&& f) {
+  auto& [a, b, contacts, edges, force_a, force_b, loaded, rows_a, rows_b] = pair;
+  f("force_a", force_a); // all zero unless loaded
+  f("force_b", force_b);
+  f("loaded", loaded);
+  f("rows_a", rows_a);
+  f("rows_b", rows_b);
+}
 
 /// State of a boundary (Case::boundaries).
 struct BoundaryState {
@@ -151,6 +117,16 @@ struct BoundaryState {
   Vec3 force = Vec3::Zero(); ///< N, sum of its forces on the nodes
   double work = 0.0;         ///< N mm, done on the plies since the start
 };
+
+template <class F>
+void each_member(BoundaryState& boundary, F&& f) {
+  auto& [displacement, next_displacement, load, force, work] = boundary;
+  f("displacement", displacement);
+  f("next_displacement", next_displacement);
+  f("load", load);
+  f("force", force);
+  f("work", work);
+}
 
 /// Nodes per block: enough to outweigh the scheduling, few enough to balance the threads.
 constexpr int node_block = 512;
@@ -184,9 +160,9 @@ struct SceneModel {
   double energy_floor = 0.0;
 };
 
-/// Plies, tools, boundaries and the contacts between them.
+/// Plies, tools, boundaries and the contacts between them: arrays whose sizes the case gives.
 struct SceneBodies {
-  std::vector<PlyState> plies;
+  std::vector<PlyBody> plies;
   std::vector<ToolState> tools;
   std::vector<BoundaryState> boundaries; ///< one per entry of Case::boundaries
   std::vector<PlyContact> ply_contacts;
@@ -213,6 +189,29 @@ struct SceneProgress {
   long searches = 0;               ///< number of contact searches so far
 };
 
+template <class F>
+void each_member(SceneProgress& progress, F&& f) {
+  auto& [time, step, dt, next_dt, stable_dt, min_dt, max_dt, bound_displacement, time_step_gain,
+         next_lanczos, start_energy, mass_damping_work, mass_scaling_work, largest_added_mass,
+         group_sums, searches] = progress;
+  f("time", time);
+  f("step", step);
+  f("dt", dt);
+  f("next_dt", next_dt);
+  f("stable_dt", stable_dt);
+  f("min_dt", min_dt);
+  f("max_dt", max_dt);
+  f("bound_displacement", bound_displacement);
+  f("time_step_gain", time_step_gain);
+  f("next_lanczos", next_lanczos);
+  f("start_energy", start_energy);
+  f("mass_damping_work", mass_damping_work);
+  f("mass_scaling_work", mass_scaling_work);
+  f("largest_added_mass", largest_added_mass);
+  f("group_sums", group_sums);
+  f("searches", searches);
+}
+
 /// Temporary data of one step.
 struct SceneWorkspace {
   std::vector<SurfaceKinematics> ply_states; ///< views of the plies
@@ -223,9 +222,21 @@ struct SceneWorkspace {
 
 struct Scene : SceneModel, SceneBodies, SceneProgress, SceneWorkspace {};
 
+template <class F>
+void each_member(Scene& s, F&& f) {
+  f("plies", of_fixed_size(s.plies));
+  f("tools", of_fixed_size(s.tools));
+  f("boundaries", of_fixed_size(s.boundaries));
+  f("ply_contacts", of_fixed_size(s.ply_contacts));
+  f("edge_contacts", of_fixed_size(s.edge_contacts));
+  f("ply_pairs", of_fixed_size(s.ply_pairs));
+  f("node_sums", of_fixed_size(s.node_sums));
+  f("progress", static_cast<SceneProgress&>(s));
+}
+
 inline bool any_self_contact(const Scene& s) {
   return std::any_of(s.plies.begin(), s.plies.end(),
-                     [](const PlyState& ply) { return ply.self_contact; });
+                     [](const PlyBody& ply) { return ply.self_contact; });
 }
 
 /// Builds the scene of a case: meshes, membranes, bending, contacts with their stiffnesses, and the

@@ -36,7 +36,7 @@ struct PlyBound {
 };
 
 PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
-  const PlyState& ply = s.plies[p];
+  const PlyBody& ply = s.plies[p];
   const EigenvalueBound& b = ply.bound;
   PlyBound of;
   of.elements = {element_omega2(ply),
@@ -63,7 +63,7 @@ double time_step_gain_of(const Scene& s, double dt, ThreadPool& pool) {
 
 } // namespace
 
-double element_omega2(const PlyState& ply) {
+double element_omega2(const PlyBody& ply) {
   return kink_factor(ply.membrane) * highest_omega2(ply.bound, ply.eigenvalue_ratio) +
          (ply.bending ? ply.bending->omega2 : 0.0);
 }
@@ -86,7 +86,7 @@ StepBound stable_step(const Scene& s, const ContactRows& touching) {
 void update_stable_step(Scene& s, ThreadPool& pool) {
   const bool lanczos_due = s.step >= s.next_lanczos;
   pool.run(static_cast<int>(s.plies.size()), [&](int p) {
-    PlyState& ply = s.plies[p];
+    PlyBody& ply = s.plies[p];
     const Stopwatch watch(ply.search_seconds);
     ply.bound = eigenvalue_bound(ply.membrane, ply.x);
     if (lanczos_due) ply.eigenvalue_ratio = eigenvalue_ratio(ply.membrane, ply.x);

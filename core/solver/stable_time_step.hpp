@@ -42,15 +42,15 @@ struct StepBound {
   double omega2 = 0.0; ///< 1/s^2, of the bound of that ply
   int ply = -1, triangle = -1;
 };
-/// The stable time step from PlyStability::bound, the gain, and the contacts at their present
+/// The stable time step from PlyCache::bound, the gain, and the contacts at their present
 /// positions: those that are closed or within Scene::bound_margin of closing. step_factor covers
 /// their sliding until the next update.
 StepBound stable_step(const Scene& scene, const ContactRows& touching);
 
 /// Bound of omega^2, 1/s^2, of the elements and the bending of a ply.
-double element_omega2(const PlyState& ply);
+double element_omega2(const PlyBody& ply);
 
-/// Updates PlyStability::bound at the present shape, and if due PlyStability::eigenvalue_ratio and
+/// Updates PlyCache::bound at the present shape, and if due PlyCache::eigenvalue_ratio and
 /// SceneProgress::time_step_gain.
 void update_stable_step(Scene& scene, ThreadPool& pool);
 

@@ -64,7 +64,7 @@ std::optional<Stop> find_faults(const Scene& s) {
 }
 
 /// (15)-(17) for one block of nodes.
-NodeSums move_nodes(PlyState& ply, const Block& block, double dt, double next_dt,
+NodeSums move_nodes(PlyBody& ply, const Block& block, double dt, double next_dt,
                     const MassLoads& loads) {
   NodeSums sums;
   std::array<Vec3, node_block> force;

@@ -25,7 +25,7 @@ std::string when(const Scene& s) {
 
 /// Whether triangles of a ply intersect each other: the side of its faces on which a node is then
 /// has no meaning.
-bool crosses_itself(const PlyState& ply) {
+bool crosses_itself(const PlyBody& ply) {
   if (!std::all_of(ply.x.begin(), ply.x.end(), [](const Vec3& x) { return x.allFinite(); }))
     return false;
   const std::vector<MeshView> sheet{{ply.x, ply.membrane.triangles}};
@@ -35,7 +35,7 @@ bool crosses_itself(const PlyState& ply) {
 /// What to do about plies that are where they cannot be: `advice`, unless a ply has folded through
 /// itself, which its neighbours feel as well.
 std::string remedy_for(const Scene& s, const char* advice) {
-  const auto folded = std::find_if(s.plies.begin(), s.plies.end(), [](const PlyState& ply) {
+  const auto folded = std::find_if(s.plies.begin(), s.plies.end(), [](const PlyBody& ply) {
     return !ply.self_contact && crosses_itself(ply);
   });
   if (folded == s.plies.end()) return advice;
@@ -45,7 +45,7 @@ std::string remedy_for(const Scene& s, const char* advice) {
 } // namespace
 
 std::optional<Stop> find_not_finite(const Scene& s) {
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     for (std::size_t n = 0; n < ply.x.size(); ++n)
       if (!ply.x[n].allFinite() || ply.x[n].cwiseAbs().maxCoeff() > furthest_place ||
           ply.motion[n].cwiseAbs().maxCoeff() > furthest_place)
@@ -60,7 +60,7 @@ std::optional<Stop> find_fault(const Scene& s) {
   for (const PlyContact& pair : s.ply_contacts) {
     const ContactFault& fault = pair.contact.fault;
     if (fault.node < 0) continue;
-    const PlyState &slave = s.plies[pair.slave], &master = s.plies[pair.master];
+    const PlyBody &slave = s.plies[pair.slave], &master = s.plies[pair.master];
     return Stop{fmt::format(
         "{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm apart, thickness "
         "{:.3g} mm; {}",
@@ -108,7 +108,7 @@ std::optional<Stop> find_squeezed(const Scene& s) {
 }
 
 std::optional<Stop> find_collapsed(const Scene& s) {
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e) {
       const FibreState f = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
       if (!collapsed(f)) continue;

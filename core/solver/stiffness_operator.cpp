@@ -12,14 +12,14 @@ namespace plyform {
 
 StiffnessOperator::StiffnessOperator(const Scene& s, double dt)
     : s_(s), factors_{dt * dt, 2.0 * dt} {
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     add_ply(ply, dt);
   f_ = y_;
   for (const PlyPair& pair : s.ply_pairs)
     add_pair(pair);
 }
 
-void StiffnessOperator::add_ply(const PlyState& ply, double dt) {
+void StiffnessOperator::add_ply(const PlyBody& ply, double dt) {
   const std::size_t p = y_.size();
   first_.push_back(size_);
   if (ply.resting) { // no part of what moves: without degrees of freedom
@@ -45,11 +45,11 @@ void StiffnessOperator::add_ply(const PlyState& ply, double dt) {
 
 void StiffnessOperator::add_pair(const PlyPair& pair) {
   Pair to{static_cast<std::size_t>(pair.a), static_cast<std::size_t>(pair.b), {}, {}, {}, {}};
-  const PlyState &a = s_.plies[to.a], &b = s_.plies[to.b];
+  const PlyBody &a = s_.plies[to.a], &b = s_.plies[to.b];
   for (const int i : pair.contacts) {
     const PlyContact& c = s_.ply_contacts[i];
     const bool up = c.slave == pair.a;
-    const PlyState &slave = up ? a : b, &master = up ? b : a;
+    const PlyBody &slave = up ? a : b, &master = up ? b : a;
     append_tangents(c.contact, slave.state(), master.state(), master.membrane.triangles,
                     s_.bound_margin, factors_, up ? to.up : to.down);
   }

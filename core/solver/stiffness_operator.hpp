@@ -34,7 +34,7 @@ private:
     std::vector<Vec3> force_a, force_b;
   };
 
-  void add_ply(const PlyState& ply, double dt);
+  void add_ply(const PlyBody& ply, double dt);
   void add_pair(const PlyPair& pair);
   Eigen::Index degrees_of_freedom(std::size_t p) const; ///< of ply p, 3 per node
   void scale(const Eigen::VectorXd& v, std::size_t p);

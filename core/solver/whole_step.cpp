@@ -9,7 +9,7 @@ VelocitiesAtPositions::VelocitiesAtPositions(Scene& scene)
     : scene_(scene), plies_(scene.plies.size()) {
   const MassLoads loads = mass_loads(scene);
   for (std::size_t p = 0; p < plies_.size(); ++p) {
-    PlyState& ply = scene.plies[p];
+    PlyBody& ply = scene.plies[p];
     OfPly& of = plies_[p];
     of.behind = ply.velocity;
     of.half.assign(ply.x.size(), Vec3::Zero());
@@ -25,7 +25,7 @@ VelocitiesAtPositions::VelocitiesAtPositions(Scene& scene)
 
 VelocitiesAtPositions::~VelocitiesAtPositions() {
   for (std::size_t p = 0; p < plies_.size() && !keep_; ++p) {
-    PlyState& ply = scene_.plies[p];
+    PlyBody& ply = scene_.plies[p];
     const OfPly& of = plies_[p];
     bool written = false;
     for (std::size_t n = 0; n < ply.x.size(); ++n) {

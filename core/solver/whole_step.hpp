@@ -7,7 +7,7 @@
 
 namespace plyform {
 
-/// While it lives, PlyKinematics::velocity of all plies is that at the time of their x. Then it is
+/// While it lives, PlyState::velocity of all plies is that at the time of their x. Then it is
 /// half a step behind again: with its bits where nothing was written to it, and with what was
 /// written elsewhere. To be used after the forces of x have been computed.
 class VelocitiesAtPositions {

@@ -50,7 +50,7 @@ void watch(RunHooks& hooks, Trace& trace, bool with_states) {
                                               const std::function<std::string()>& state) {
     Moment& moment = trace[static_cast<std::size_t>(number - 1)];
     moment.time = scene.time, moment.stroke_mm = current_stroke(scene), moment.step = scene.step;
-    for (const PlyState& ply : scene.plies)
+    for (const PlyBody& ply : scene.plies)
       moment.x.push_back(ply.x);
     if (with_states &&
         std::find(starts_of_twins.begin(), starts_of_twins.end(), number) != starts_of_twins.end())

@@ -67,7 +67,7 @@ Stack& stack(std::int64_t size, std::int64_t steps) {
   go(s, steps, pool);
   malloc_trim(0);
   s.bytes = resident_bytes() - before;
-  for (const PlyState& ply : s.scene.plies)
+  for (const PlyBody& ply : s.scene.plies)
     s.triangles += static_cast<double>(ply.membrane.triangles.size());
   return s;
 }
@@ -76,7 +76,7 @@ Stack& stack(std::int64_t size, std::int64_t steps) {
 Traffic step_traffic(const Scene& s) {
   Traffic t;
   const auto nodes = [&s](int ply) { return s.plies[ply].x.size(); };
-  for (const PlyState& ply : s.plies) {
+  for (const PlyBody& ply : s.plies) {
     if (ply.simd) t += lane_traffic(*ply.simd, ply.x.size());
     t += traffic(ply.x.size(), 2 * sizeof(Vec3), 2.0);             // place, velocity
     t += traffic(ply.x.size(), 2 * sizeof(Vec3) + sizeof(double)); // motion, x_search, mass

@@ -65,13 +65,7 @@ Saved saved_run() {
     move_plies(scene, pool);
   }
   RunState run;
-  run.good.plies.assign(scene.plies.begin(), scene.plies.end());
-  run.good.boundaries = scene.boundaries;
-  for (const ToolState& tool : scene.tools) {
-    run.good.tool_displacement.push_back(tool.body.displacement);
-    run.good.tool_force.push_back(tool.force);
-    run.good.tool_filter.push_back(tool.filter);
-  }
+  keep(scene, run.energy, run.good);
   run.outputs_written = 0;
   WriterState writer;
   writer.states = {{"a", "c"},

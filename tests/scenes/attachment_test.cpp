@@ -215,7 +215,7 @@ TEST(Attachments, GripperMovesItsNodesAsOnePiece) {
   for (const bool guided : {false, true}) {
     gripper.guided = guided;
     const EndedRun run = run_on_any_threads([&] { return make_scene(data); });
-    const PlyState& ply = run.scene.plies[0];
+    const PlyBody& ply = run.scene.plies[0];
     const std::vector<AttachedNode>& nodes = run.scene.attachments.at(0).nodes;
     ASSERT_GT(nodes.size(), 10u);
     const Vec3 gone = ply.x[nodes[0].node] - ply.x0[nodes[0].node];
@@ -280,7 +280,7 @@ TEST(Attachments, PullOfASpringIsTheGradientOfItsEnergy) {
   data.solver.duration = 1e-9; // the preload has come up
   Scene s = make_scene(data);
   s.time = 1.0;
-  PlyState& ply = s.plies[0];
+  PlyBody& ply = s.plies[0];
   const Attachment& attached = s.attachments.at(0);
   Random random(3);
   std::vector<std::vector<Vec3>> y(1, std::vector<Vec3>(ply.x.size(), Vec3::Zero()));

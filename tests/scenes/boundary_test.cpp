@@ -26,14 +26,14 @@ Boundary square_frame(double side, double stroke) {
   return f;
 }
 
-Vec3 momentum(const PlyState& ply) {
+Vec3 momentum(const PlyBody& ply) {
   Vec3 sum = Vec3::Zero();
   for (std::size_t n = 0; n < ply.x.size(); ++n)
     sum += ply.membrane.node_mass[n] * ply.velocity[n];
   return sum;
 }
 
-double mass_of(const PlyState& ply) {
+double mass_of(const PlyBody& ply) {
   double sum = 0.0;
   for (const double m : ply.membrane.node_mass)
     sum += m;
@@ -44,7 +44,7 @@ double mass_of(const PlyState& ply) {
 double largest_slip(const Scene& s) {
   double largest = 0.0;
   for (const PrescribedNode& held : s.held) {
-    const PlyState& ply = s.plies[held.ply];
+    const PlyBody& ply = s.plies[held.ply];
     const auto n = static_cast<std::size_t>(held.node);
     for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
       const Boundary& b = s.data.boundaries[held.boundary[i]];
@@ -138,7 +138,7 @@ TEST(BoundaryScene, ImpulseOfReactionsAndGravityIsTheGainOfMomentum) {
   Scene s = make_scene(data);
   ThreadPool pool(1);
   start(s, pool);
-  const PlyState& ply = s.plies[0];
+  const PlyBody& ply = s.plies[0];
   Vec3 impulse = Vec3::Zero();
   double scale = 0.0;
   while (s.time < 0.6 * data.solver.duration) { // in the middle of the motion

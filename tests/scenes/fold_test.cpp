@@ -46,7 +46,7 @@ Scene folded_strip(const std::vector<double>& folds, bool self) {
   const double top = folded_place(-30.0, folds, 30.0).y() + 0.5 * fabric.thickness;
   data.tools[1].position.z() = top + 5.0;
   Scene s = make_scene(data);
-  PlyState& ply = s.plies[0];
+  PlyBody& ply = s.plies[0];
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const Vec2 place = folded_place(-30.0, folds, ply.x0[n].x());
     ply.x[n] = Vec3(place.x(), ply.x0[n].y(), place.y());

@@ -102,7 +102,7 @@ Case stack_in_the_air(int plies) {
 }
 
 /// Turns a flat ply about y through its middle and gives it a velocity.
-void throw_ply(PlyState& ply, const Vec3& velocity, double tilt) {
+void throw_ply(PlyBody& ply, const Vec3& velocity, double tilt) {
   const Eigen::AngleAxisd turn(tilt, Vec3::UnitY());
   const Vec3 middle = ply.x0.front().z() * Vec3::UnitZ();
   for (Vec3& x : ply.x)

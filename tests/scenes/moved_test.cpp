@@ -15,7 +15,7 @@ struct Placement {
 /// Everything that has a place or a direction, carried along. Boundaries hold along x, y and z, so
 /// only those that hold all three can be: their axes then do not matter.
 void carry(Scene& s, const Placement& to) {
-  for (PlyState& ply : s.plies) {
+  for (PlyBody& ply : s.plies) {
     for (std::vector<Vec3>* x : {&ply.x0, &ply.x, &ply.x_search})
       for (Vec3& p : *x)
         p = to.turn * p + to.way;

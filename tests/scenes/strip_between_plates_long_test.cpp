@@ -167,7 +167,7 @@ Case press_case(const Pressed& pressed, const Press& press) {
 }
 
 /// Puts the nodes into the waves of the row, with noise.
-void set_waves(PlyState& ply, const Pressed& pressed, const Press& press) {
+void set_waves(PlyBody& ply, const Pressed& pressed, const Press& press) {
   Random random(1);
   const std::vector<Vec2>& row = press.row;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {

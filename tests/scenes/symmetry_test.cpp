@@ -39,7 +39,7 @@ TEST(SymmetryScene, QuarterIsAQuarterOfTheWhole) {
                                     std::pair(0.25 * std::numbers::pi, MeshKind::crossed)}) {
     const Scene whole = run_by_elements(pushed_square(angle, mesh, false));
     const Scene quarter = run_by_elements(pushed_square(angle, mesh, true));
-    const PlyState &all = whole.plies[0], &part = quarter.plies[0];
+    const PlyBody &all = whole.plies[0], &part = quarter.plies[0];
     ASSERT_EQ(4 * part.membrane.triangles.size(), all.membrane.triangles.size());
     double largest = 0.0, deepest = 0.0;
     for (std::size_t n = 0; n < part.x.size(); ++n) {

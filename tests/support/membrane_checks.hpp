@@ -75,9 +75,12 @@ inline std::vector<Vec3> random_state(const BlankMesh& mesh, double stretch, dou
   return x;
 }
 
-inline std::vector<Vec3> nodal_forces(Membrane& m, const std::vector<Vec3>& x, double dt = 0.0) {
+/// From the state at the start.
+inline std::vector<Vec3> nodal_forces(const Membrane& m, const std::vector<Vec3>& x,
+                                      double dt = 0.0) {
   std::vector<ElementForce> q(m.triangles.size());
-  element_forces(m, x, dt, 0, m.groups(), q);
+  std::vector<YarnMemory> states(static_cast<std::size_t>(m.groups()));
+  element_forces(m, x, dt, 0, m.groups(), {states, states}, q);
   std::vector<Vec3> f;
   for (std::size_t n = 0; n < x.size(); ++n)
     f.push_back(node_force(m, q, static_cast<int>(n)));

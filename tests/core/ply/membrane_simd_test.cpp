@@ -39,10 +39,11 @@ struct Sums {
   bool collapsed = false;
 };
 
-Sums by_simd(MembraneSimd& simd, const Membrane& m, const std::vector<Vec3>& x, double dt) {
+Sums by_simd(MembraneSimd& simd, const Membrane& m, const std::vector<Vec3>& x, double dt,
+             std::vector<SimdViscosity>& states) {
   Sums sums;
   for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b) {
-    const GroupReport report = simd_forces(simd, m, x, dt, b);
+    const GroupReport report = simd_forces(simd, m, x, dt, b, {states, states});
     sums.work += report.viscous_work;
     sums.collapsed |= report.collapsed;
   }
@@ -51,9 +52,10 @@ Sums by_simd(MembraneSimd& simd, const Membrane& m, const std::vector<Vec3>& x, 
   return sums;
 }
 
-Sums one_by_one(Membrane& m, const std::vector<Vec3>& x, double dt) {
+Sums one_by_one(const Membrane& m, const std::vector<Vec3>& x, double dt,
+                std::vector<YarnMemory>& states) {
   std::vector<ElementForce> q(m.triangles.size());
-  const GroupReport report = element_forces(m, x, dt, 0, m.groups(), q);
+  const GroupReport report = element_forces(m, x, dt, 0, m.groups(), {states, states}, q);
   Sums sums{{}, report.viscous_work, report.collapsed};
   for (std::size_t n = 0; n < x.size(); ++n)
     sums.force.push_back(node_force(m, q, static_cast<int>(n)));
@@ -85,10 +87,12 @@ TEST(MembraneSimd, AgreeWithTheMembraneOneByOne) {
         for (const Vec2& p : mesh.x)
           x0.emplace_back(p.x(), p.y(), 0.0);
         MembraneSimd simd = make_membrane_simd(m, x0);
+        std::vector<SimdViscosity> of_packs = states_at_start(simd);
+        std::vector<YarnMemory> of_groups(static_cast<std::size_t>(m.groups()));
         for (const double dt : {0.0, 1e-5, 2e-5}) { // the state of the viscosity goes along
           const double stretch = i % 3 == 2 ? 0.85 : i % 3 ? 1.0 : 1.1;
           const std::vector<Vec3> x = random_state(mesh, stretch, 0.3, random);
-          expect_near(by_simd(simd, m, x, dt), one_by_one(m, x, dt));
+          expect_near(by_simd(simd, m, x, dt, of_packs), one_by_one(m, x, dt, of_groups));
         }
       }
 }
@@ -141,7 +145,9 @@ TEST(MembraneSimd, ManyBlocksHoldEveryTriangleOnce) {
   EXPECT_GT(singles, 0);
   for (const Vec3& p : x0)
     x.emplace_back(1.01 * p.x() + 0.3 * p.y(), 1.02 * p.y(), 0.01 * p.x() * p.y() / 100.0);
-  expect_near(by_simd(simd, m, x, 0.0), one_by_one(m, x, 0.0));
+  std::vector<SimdViscosity> of_packs = states_at_start(simd);
+  std::vector<YarnMemory> of_groups(static_cast<std::size_t>(m.groups()));
+  expect_near(by_simd(simd, m, x, 0.0, of_packs), one_by_one(m, x, 0.0, of_groups));
 }
 
 TEST(MembraneSimd, SeeTrianglesCollapse) {
@@ -152,13 +158,14 @@ TEST(MembraneSimd, SeeTrianglesCollapse) {
   for (const Vec2& p : mesh.x)
     x.emplace_back(p.x(), p.y(), 0.0);
   MembraneSimd simd = make_membrane_simd(m, x);
-  EXPECT_FALSE(by_simd(simd, m, x, 0.0).collapsed);
+  std::vector<SimdViscosity> states = states_at_start(simd);
+  EXPECT_FALSE(by_simd(simd, m, x, 0.0, states).collapsed);
   std::vector<Vec3> flat = x, lost = x;
   for (Vec3& p : flat)
     p = Vec3(p.x(), p.x(), p.x() * 1e-3);
-  EXPECT_TRUE(by_simd(simd, m, flat, 0.0).collapsed);
+  EXPECT_TRUE(by_simd(simd, m, flat, 0.0, states).collapsed);
   lost[5].x() = std::nan("");
-  EXPECT_TRUE(by_simd(simd, m, lost, 0.0).collapsed);
+  EXPECT_TRUE(by_simd(simd, m, lost, 0.0, states).collapsed);
 }
 
 /// What a copy of the kernel makes of a block of some packs of pairs and of single triangles.
@@ -213,7 +220,8 @@ TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
     const auto run = [&](auto* forces, auto* energy) {
       KernelRun r;
       r.viscosity.assign(static_cast<std::size_t>(pairs + singles), state);
-      const KernelBlock block{nodes, 6, t.data(), r.viscosity.data(), pairs, singles, r.force};
+      const KernelBlock block{nodes, 6,       t.data(), r.viscosity.data(), r.viscosity.data(),
+                              pairs, singles, r.force};
       r.report = forces(block, law, x, 1e5);
       r.energy = energy(block, law, x);
       return r;

@@ -5,8 +5,10 @@
 #include "core/solver/run.hpp"
 #include "core/solver/step.hpp"
 #include "support/boundary_scenes.hpp"
+#include "support/kill_checks.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <gtest/gtest.h>
 #include <limits>
@@ -104,6 +106,104 @@ Case touching_plies() {
   return data;
 }
 
+/// Reads as LoadArchive, but leaves one member as it was, as if nobody had listed it.
+class ForgetfulArchive : public LoadArchive {
+public:
+  ForgetfulArchive(std::string_view text, std::string forgotten)
+      : LoadArchive(text), forgotten_(std::move(forgotten)) {}
+  void enter(std::string_view name) { path_.emplace_back(name); }
+  void leave() { path_.pop_back(); }
+  void bytes(void* data, std::size_t size) {
+    std::vector<char> read(size);
+    LoadArchive::bytes(read.data(), size);
+    if (std::find(path_.begin(), path_.end(), forgotten_) == path_.end())
+      std::copy(read.begin(), read.end(), static_cast<char*>(data));
+  }
+
+private:
+  std::string forgotten_;
+  std::vector<std::string> path_;
+};
+
+/// What is loaded goes on as what was saved: the comparison at its end finds each member that the
+/// lists would lack, by what it has changed.
+TEST(Checkpoint, AMemberThatNobodyListedIsFoundByComparing) {
+  ThreadPool pool(1);
+  Case data = coarse_hemisphere({0.0, 0.25 * std::numbers::pi});
+  data.solver.duration = 0.03;
+  Scene scene = make_scene(data);
+  start(scene, pool);
+  const auto closed = [&] { // and yarns are taut
+    return scene.tools[0].contacts[1].sums.touching > 0 && scene.group_sums[0] > 0.0 &&
+           scene.ply_contacts[0].contact.sums.touching > 0;
+  };
+  for (int i = 0; i < 5000 && !closed(); ++i)
+    step(scene, pool);
+  ASSERT_TRUE(closed());
+  const std::string begin = save_state(scene, RunState{});
+  for (int i = 0; i < 10; ++i)
+    step(scene, pool);
+  const std::string end = save_state(scene, RunState{});
+  const auto difference = [&](const char* forgotten) {
+    Scene loaded = make_scene(data);
+    ForgetfulArchive archive(begin, forgotten);
+    visit(archive, loaded);
+    for (PlyBody& ply : loaded.plies)
+      ply.tree->refit(ply.x_search);
+    for (int i = 0; i < 10; ++i) {
+      if (compute_forces(loaded, pool)) return std::string("a stop");
+      move_plies(loaded, pool);
+    }
+    return first_difference(loaded, end);
+  };
+  EXPECT_EQ(difference("nothing"), "");
+  EXPECT_EQ(difference("velocity"), "plies.0.x");
+  for (const char* member : {"x", "motion", "viscosity", "memory", "gap", "filter", "work", "dt",
+                             "group_sums", "path_length", "sums"})
+    EXPECT_NE(difference(member), "") << member;
+}
+
+TEST(Checkpoint, HashTellsStatesApart) {
+  ThreadPool pool(1);
+  Scene scene = make_scene(falling_ply()), other = make_scene(falling_ply());
+  start(scene, pool), start(other, pool);
+  EXPECT_EQ(state_hash(scene), state_hash(other));
+  EXPECT_EQ(first_difference(scene, save_state(other, RunState{})), "");
+  double& v = other.plies[1].velocity[3].y();
+  v = std::nextafter(v, 1.0);
+  EXPECT_NE(state_hash(scene), state_hash(other));
+  EXPECT_EQ(first_difference(scene, save_state(other, RunState{})), "plies.1.velocity");
+}
+
+TEST(Checkpoint, StateAfterKillsIsThatOfARunNeverStopped) {
+  Case data = coarse_hemisphere({0.0, 0.25 * std::numbers::pi});
+  data.tools[0].stroke = 20.0;
+  data.solver.duration = 0.005;
+  data.solver.mass_damping = 100.0;
+  expect_the_same_after_kills(data, 5);
+}
+
+/// The laws of a scene that has stopped remember what they did at the state it went back to.
+TEST(Checkpoint, WhatLawsRememberIsTakenBackAfterAStop) {
+  Case data = coarse_hemisphere({0.0, 0.25 * std::numbers::pi});
+  data.solver.duration = 0.03;
+  data.solver.outputs = 5;
+  Scene scene = make_scene(data);
+  RunHooks hooks;
+  std::vector<SimdViscosity> kept;
+  hooks.progress = [&](const Progress&) { kept = scene.plies[0].viscosity; };
+  hooks.frame = [&](const Frame& frame) {
+    if (frame.step > 500) scene.plies[1].velocity[0] = {1e9, 0.0, 0.0}; // goes wrong
+  };
+  const RunResult result = run_scene(scene, 1, hooks);
+  ASSERT_EQ(result.summary.status, "stopped") << result.summary.message;
+  ASSERT_FALSE(kept.empty());
+  EXPECT_GT(scene.step, 500);
+  EXPECT_EQ(std::memcmp(kept.data(), scene.plies[0].viscosity.data(),
+                        kept.size() * sizeof(SimdViscosity)),
+            0);
+}
+
 /// A state with one field changed, as somebody does who then makes the checksum right: refused, or
 /// a scene that can be computed on.
 class ChangedState : public ::testing::Test {
@@ -183,7 +283,7 @@ TEST_F(ChangedState, IndicesSizesAndChoicesAreChecked) {
   refuses("a place", [](Scene& s, RunState&) {
     s.plies[1].x[3].x() = std::numeric_limits<double>::quiet_NaN();
   });
-  refuses("viscosity", [](Scene& s, RunState&) { s.plies[0].simd->viscosity.pop_back(); });
+  refuses("viscosity", [](Scene& s, RunState&) { s.plies[0].viscosity.pop_back(); });
   refuses("a ridge", [](Scene& s, RunState&) { s.plies[0].ridges.sides[0] = 7; });
   refuses("sums", [](Scene& s, RunState&) { s.group_sums.clear(); });
   refuses("the step", [](Scene& s, RunState&) { s.step = -1; });

@@ -23,7 +23,7 @@ struct Touching {
 };
 
 /// Distance (mm) of every face of a ply to a point, by asking each.
-std::vector<double> distances(const PlyState& master, const Vec3& p) {
+std::vector<double> distances(const PlyBody& master, const Vec3& p) {
   std::vector<double> all;
   for (const Triangle& t : master.membrane.triangles)
     all.push_back(std::sqrt(
@@ -34,8 +34,8 @@ std::vector<double> distances(const PlyState& master, const Vec3& p) {
 /// Every face within contact distance of a slave node belongs to one of its points, and the nearest
 /// one tells that node's gap.
 void expect_all_faces(const Scene& s, const PlyContact& pair, Touching& touching) {
-  const PlyState& slave = s.plies[pair.slave];
-  const PlyState& master = s.plies[pair.master];
+  const PlyBody& slave = s.plies[pair.slave];
+  const PlyBody& master = s.plies[pair.master];
   const double h = 0.5 * (slave.thickness + master.thickness);
   auto point = pair.contact.points.begin();
   for (std::size_t n = 0; n < slave.x.size(); ++n) {
@@ -191,7 +191,7 @@ TEST(ContactSearch, NoPairIsAbsentAroundTheRimOfAPlyBetween) {
 }
 
 /// rad, the largest angle between each face and those that share a node with it.
-std::vector<double> folds(const PlyState& ply) {
+std::vector<double> folds(const PlyBody& ply) {
   std::vector<Vec3> normal;
   std::vector<std::vector<std::size_t>> around(ply.x.size());
   for (const Triangle& t : ply.membrane.triangles) {
@@ -217,7 +217,7 @@ TEST(ContactSearch, BoundsOfFoldsHoldBetweenSearches) {
   data.contact.skin = 6.0;
   set_friction(data, 0.2);
   Scene s = make_scene(data);
-  PlyState& ply = s.plies[1];
+  PlyBody& ply = s.plies[1];
   for (std::size_t n = 0; n < ply.x.size(); ++n)
     ply.velocity[n] = Vec3(5000.0, 0.0, 3000.0 * std::cos(M_PI * (ply.x[n].x() - 30.0) / 6.0));
   ThreadPool pool(1);

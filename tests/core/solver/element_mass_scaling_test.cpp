@@ -67,7 +67,7 @@ Scene graded(const Case& data, int parts = 4) {
 
 double largest_share(const Scene& s) {
   double share = 0.0;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     share = std::max(share, added_element_mass(ply.membrane));
   return share;
 }
@@ -108,7 +108,7 @@ TEST(ElementMassScaling, AddsNoMoreThanItsShareToAnyPlyAndToSmallElementsOnly) {
   for (const double share : {0.02, 0.3}) {
     const Scene s = graded(plies(share));
     EXPECT_NEAR(largest_share(s), share, 1e-12);
-    for (const PlyState& ply : s.plies) {
+    for (const PlyBody& ply : s.plies) {
       EXPECT_EQ(ply.mass, ply.membrane.node_mass);
       for (std::size_t n = 0; n < ply.x.size(); ++n) {
         const double cloth = ply.membrane.cloth_mass(n);
@@ -158,7 +158,7 @@ TEST(ElementMassScaling, LeavesAUniformMeshAsItIs) {
 TEST(ElementMassScaling, StaysStableAndKeepsTheEnergy) {
   Scene s = graded(plies(0.3));
   Random random(1);
-  for (PlyState& ply : s.plies)
+  for (PlyBody& ply : s.plies)
     for (Vec3& v : ply.velocity)
       v = 100.0 * random_vector(random);
   ThreadPool pool(1);
@@ -169,7 +169,7 @@ TEST(ElementMassScaling, StaysStableAndKeepsTheEnergy) {
 TEST(ElementMassScaling, WeightStaysThatOfTheCloth) {
   const Scene s = graded(plies(0.3));
   const MassLoads loads{{0.0, 0.0, -9810.0}, 0.0};
-  for (const PlyState& ply : s.plies) {
+  for (const PlyBody& ply : s.plies) {
     double weight = 0.0;
     for (std::size_t n = 0; n < ply.x.size(); ++n)
       weight -= ply.mass[n] * acceleration(ply, n, Vec3::Zero(), loads).z();
@@ -182,7 +182,7 @@ TEST(ElementMassScaling, CountsElementByElementInThePredictedInertia) {
   EXPECT_EQ(effective_mass_factor(graded(plies(0.0))), 1.0);
   const Scene s = graded(plies(0.3));
   double most = 1.0;
-  for (const PlyState& ply : s.plies)
+  for (const PlyBody& ply : s.plies)
     for (const double factor : ply.membrane.density_factor)
       most = std::max(most, factor);
   EXPECT_GT(effective_mass_factor(s), 1.3); // the mean

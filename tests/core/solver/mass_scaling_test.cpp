@@ -26,7 +26,7 @@ struct Touched {
     Case data = stack_of({0.0}, rectangle(100.0, 100.0, 10.0));
     data.solver.mass_scaling = mass_scaling;
     scene = make_scene(data);
-    const PlyState& ply = scene.plies[0];
+    const PlyBody& ply = scene.plies[0];
     elements = element_omega2(ply);
     rows.emplace_back(ply.x.size());
     for (std::size_t n = 0; n < 5; ++n)
@@ -38,14 +38,14 @@ struct Touched {
   }
   double omega2(std::size_t n) const { return rows[0][n].stiffness / scene.plies[0].mass[n]; }
   double added() const {
-    const PlyState& ply = scene.plies[0];
+    const PlyBody& ply = scene.plies[0];
     return sum(ply.mass) / sum(ply.membrane.node_mass) - 1.0;
   }
 };
 
 TEST(MassScaling, BringsStiffContactsToHalfOfTheElements) {
   Touched t(0.9);
-  PlyState& ply = t.scene.plies[0];
+  PlyBody& ply = t.scene.plies[0];
   for (Vec3& v : ply.velocity)
     v = {0.0, 3.0, 4.0};
   scale_masses(t.scene, t.rows); // a quarter at a time

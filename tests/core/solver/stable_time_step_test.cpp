@@ -27,7 +27,7 @@ std::optional<Stop> let_a_taut_ply_vibrate(ElementKind element, double step_fact
   data.solver.fibre_damping = 0.0;
   data.solver.step_factor = step_factor;
   Scene s = make_scene(data);
-  PlyState& ply = s.plies[0];
+  PlyBody& ply = s.plies[0];
   Random random(2);
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     ply.x[n].head<2>() *= 1.005;
@@ -124,7 +124,7 @@ double let_a_pressed_stack_vibrate(double damping, double step_factor, double& s
   data.solver.step_factor = step_factor;
   Scene s = make_scene(data);
   Random random(2);
-  for (PlyState& ply : s.plies)
+  for (PlyBody& ply : s.plies)
     for (std::size_t n = 0; n < ply.x.size(); ++n) {
       ply.x[n].head<2>() *= 1.005;
       ply.x[n].z() *= 0.97;

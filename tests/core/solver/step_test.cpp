@@ -38,7 +38,7 @@ struct Momenta {
 };
 
 /// At the half step that led to x: x can be taken before or after it, x_(i+1) - x_i runs along v.
-Momenta momenta_of(const PlyState& ply) {
+Momenta momenta_of(const PlyBody& ply) {
   Momenta m;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const Vec3 p = ply.membrane.node_mass[n] * ply.velocity[n];
@@ -53,7 +53,7 @@ Momenta momenta_of(const PlyState& ply) {
 /// energy.
 double fly(const Case& data) {
   Scene s = make_scene(data);
-  PlyState& ply = s.plies[0];
+  PlyBody& ply = s.plies[0];
   Random random(1);
   double kinetic = 0.0;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
@@ -154,7 +154,7 @@ Scene taut_strip(double strain, ElementKind element) {
   data.solver.fibre_damping = 0.0;
   data.solver.step_factor = 0.2;
   Scene s = make_scene(data);
-  PlyState& ply = s.plies[0];
+  PlyBody& ply = s.plies[0];
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     ply.x[n].x() *= 1.0 + strain;
     if (std::abs(ply.x0[n].x()) > 49.0) ply.mass[n] = ply.membrane.node_mass[n] = 1e9; // t: a wall
@@ -165,7 +165,7 @@ Scene taut_strip(double strain, ElementKind element) {
 /// Angular frequency (rad/s) of the first mode along `direction`, from the times at which its
 /// amplitude passes zero upwards.
 double measured_frequency(Scene& s, const Vec3& direction, double speed) {
-  PlyState& ply = s.plies[0];
+  PlyBody& ply = s.plies[0];
   const std::vector<Vec3> rest = ply.x;
   std::vector<double> mode;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {

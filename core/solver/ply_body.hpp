@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A ply in motion, in three parts. Its model does not change. Its state is all that its later
+// motion depends on: a run that goes back takes it back. Its cache follows from both; without it a
+// search and new bounds come first, and only the last digits of what follows differ.
+//
+// Model and cache are parts of each ply, not shared: plies differ in height and reach, and what
+// most of a stack has in common, the constants of the kernels, is shared already
+// (core/ply/shared_constants.hpp).
+#pragma once
+
+#include "contact/forces/edge_edge.hpp"
+#include "contact/forces/tool_ply.hpp"
+#include "contact/search/fold_bound.hpp"
+#include "contact/search/sheet_bvh.hpp"
+#include "core/ply/bending_simd.hpp"
+#include "core/ply/membrane_eigenvalue.hpp"
+#include "core/ply/membrane_simd.hpp"
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+// Arrays of n nodes.
+
+/// Model of a ply: constant from the first step on, but for the forces that kernels leave in their
+/// blocks.
+struct PlyModel {
+  std::string name;
+  double angle = 0.0;     ///< rad, warp from x, before forming
+  double thickness = 0.0; ///< mm
+  std::vector<Vec3> x0;   ///< mm, before forming
+  Membrane membrane;
+  std::optional<MembraneSimd> simd;   ///< SIMD version of the membrane; none without yarns
+  std::optional<BendingSimd> bending; ///< none without bending stiffness
+  SheetEdges edges;
+  double ridge_limit = 0.0;                ///< contact/search/sheet_ridges.hpp
+  std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
+  // What follows from which bodies may meet: core/model/reach_ahead.hpp.
+  int stack = 0;             ///< the lowest ply of its stack
+  bool stacked = false;      ///< whether its stack has other plies
+  bool left_alone = false;   ///< nothing may move it, but something moves others
+  bool self_contact = false; ///< whether it is in contact with itself, too
+  bool convex = false;       ///< contact/search/unfolded.hpp; not asked without self-contact
+};
+
+/// What an array has an entry for.
+enum class On { ply, node, triangle, pack, edge, patch };
+
+/// State of a ply.
+struct PlyState {
+  std::vector<Vec3> x;        ///< mm
+  std::vector<Vec3> velocity; ///< mm/s, half a step before the time of x
+  std::vector<Vec3> motion;   ///< mm, displacement in the last step
+  std::vector<Vec3> reaction; ///< N, of boundaries on each node; empty if none prescribes any
+  std::vector<double> mass;   ///< t, with what core/solver/mass_scaling.hpp adds
+  std::vector<SimdViscosity> viscosity; ///< what yarns remember; empty without yarns
+  /// At rest where it began, with nothing near that moves (core/solver/resting.hpp).
+  bool resting = false;
+};
+
+/// The one list of a ply's state: f(name, place, values) for each member. Checkpoint, comparison
+/// and hash walk it, and what is loaded is checked by it. A member that is not listed does not
+/// compile.
+template <class F>
+void each_array(PlyState& ply, F&& f) {
+  auto& [x, velocity, motion, reaction, mass, viscosity, resting] = ply;
+  f("x", On::node, x);
+  f("velocity", On::node, velocity);
+  f("motion", On::node, motion);
+  f("reaction", On::node, reaction);
+  f("mass", On::node, mass);
+  f("viscosity", On::pack, viscosity);
+  f("resting", On::ply, resting);
+}
+
+/// Cache of a ply: what the last search found, bounds of the stable time step, workspace.
+struct PlyCache {
+  std::vector<Vec3> x_search;     ///< mm, x at the last contact search
+  double max_displacement = 0.0;  ///< mm, largest distance of any node from x_search since then
+  double path_length = 0.0;       ///< mm, contact/search/active_list.hpp
+  std::vector<double> fold_bound; ///< contact/search/fold_bound.hpp, one per triangle
+  /// mm, sum over the steps since it was computed of the largest relative displacement of two nodes
+  /// of a patch of edges
+  double fold_motion = 0.0;
+  std::array<std::vector<char>, 2> occluded; ///< per node, by the adjacent ply below [0], above [1]
+  SheetRidges ridges;         ///< contact/search/sheet_ridges.hpp; of a single ply none
+  std::vector<char> unfolded; ///< per node, contact/search/unfolded.hpp; empty without self-contact
+  EigenvalueBound bound;      ///< of the membrane, updated at least every 200 steps
+  double eigenvalue_ratio = 1.0; ///< core/ply/membrane_eigenvalue.hpp, updated every 1000 steps
+  double lanczos_contacts = 0.0; ///< 1/s^2, bound of contacts when time_step_gain was computed
+  // Not in the list:
+  std::unique_ptr<SheetTree> tree; ///< follows from x_search
+  double search_seconds = 0.0;     ///< s, refitting the tree, computing fold bounds
+  std::vector<ElementForce> q;     ///< forces without simd, one per triangle
+  std::vector<Box3> patch_motion;  ///< mm, as of patch_motions, of the last step
+  /// Arrays of reaction and contact forces that are not zero in this step, in fixed order.
+  std::vector<const std::vector<Vec3>*> nodal_forces;
+  std::vector<Vec3> pull; ///< N, of springs on each node; empty if none hangs on it
+};
+
+/// The list of what a checkpoint keeps of the cache, so that a run goes on with the same bits.
+template <class F>
+void each_array(PlyCache& ply, F&& f) {
+  auto& [x_search, max_displacement, path_length, fold_bound, fold_motion, occluded, ridges,
+         unfolded, bound, eigenvalue_ratio, lanczos_contacts, tree, search_seconds, q, patch_motion,
+         nodal_forces, pull] = ply;
+  f("x_search", On::node, x_search);
+  f("max_displacement", On::ply, max_displacement);
+  f("path_length", On::ply, path_length);
+  f("fold_bound", On::triangle, fold_bound);
+  f("fold_motion", On::ply, fold_motion);
+  f("occluded_below", On::node, occluded[0]);
+  f("occluded_above", On::node, occluded[1]);
+  f("ridges.sides", On::edge, ridges.sides);
+  f("ridges.room", On::patch, ridges.room);
+  f("unfolded", On::node, unfolded);
+  f("bound", On::ply, bound);
+  f("eigenvalue_ratio", On::ply, eigenvalue_ratio);
+  f("lanczos_contacts", On::ply, lanczos_contacts);
+}
+
+/// A ply in motion.
+struct PlyBody : PlyModel, PlyState, PlyCache {
+  SurfaceKinematics state() const {
+    return {x, motion, membrane.node_area, fold_bound, edges.faces_across};
+  }
+  EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }
+};
+
+template <class F>
+void each_member(PlyBody& ply, F&& f) {
+  const auto without_place = [&f](const char* name, On, auto& values) { f(name, values); };
+  each_array(static_cast<PlyState&>(ply), without_place);
+  each_array(static_cast<PlyCache&>(ply), without_place);
+}
+
+template <class F>
+void each_member(PlyState& ply, F&& f) {
+  each_array(ply, [&f](const char* name, On, auto& values) { f(name, values); });
+}
+
+} // namespace plyform

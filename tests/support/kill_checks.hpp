@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Runs that are given up and gone on with must end in the state of one that never stopped.
+#pragma once
+
+#include "core/solver/checkpoint.hpp"
+#include "core/solver/run.hpp"
+
+#include <gtest/gtest.h>
+#include <memory>
+
+namespace plyform {
+
+/// Runs to the end from `resume`, saves at each step, and is given up after `steps` of them.
+struct GivenUp {};
+inline std::string saved_until(Scene& scene, const Resume* resume, long steps, Frame& last) {
+  std::string saved;
+  RunHooks hooks;
+  hooks.resume = resume;
+  hooks.frame = [&](const Frame& frame) { last = frame; };
+  hooks.checkpoint.interval = 0.0;
+  hooks.checkpoint.save = [&](const std::string& state) {
+    saved = state;
+    if (--steps == 0) throw GivenUp();
+  };
+  try {
+    run_scene(scene, 1 + static_cast<int>(steps % 2), hooks);
+  } catch (const GivenUp&) {
+  }
+  return saved;
+}
+
+/// A run given up `kills` times, in the middle of whatever follows, ends in the state of one that
+/// never was.
+inline void expect_the_same_after_kills(const Case& data, int kills) {
+  Scene whole = make_scene(data);
+  const long steps = run_scene(whole, 1, {}).summary.steps;
+  ASSERT_GT(steps, kills);
+  std::unique_ptr<Resume> resume;
+  Frame last;
+  for (int i = 0; i < kills; ++i) {
+    Scene killed = make_scene(data);
+    const std::string saved = saved_until(killed, resume.get(), steps / (kills + 1), last);
+    ASSERT_FALSE(saved.empty());
+    resume = std::make_unique<Resume>(Resume{saved, last});
+  }
+  Scene again = make_scene(data);
+  RunHooks hooks;
+  hooks.resume = resume.get();
+  EXPECT_EQ(run_scene(again, 2, hooks).summary.steps, steps);
+  EXPECT_EQ(state_hash(again), state_hash(whole));
+  EXPECT_EQ(first_difference(again, save_state(whole, RunState{})), "");
+}
+
+} // namespace plyform
