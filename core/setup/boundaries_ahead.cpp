@@ -93,9 +93,10 @@ std::string action_text(const Scene& s, int boundary) {
 /// get shorter by it.
 void describe_stiff(const Scene& s, const Attachment& attached, std::vector<std::string>& lines) {
   ContactRows rows;
-  for (const PlyBody& ply : s.plies)
-    rows.emplace_back(ply.x.size());
-  add_attachment_stiffness(s, rows);
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    rows.emplace_back(s.plies[p].x.size());
+    add_attachment_stiffness(s, p, rows.back());
+  }
   double ratio = 0.0; // of omega^2
   for (const AttachedNode& node : attached.nodes) {
     const PlyBody& ply = s.plies[node.ply];

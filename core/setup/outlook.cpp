@@ -371,7 +371,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   outlook.step = s.next_dt;
   outlook.steps = steps_over_first(s) * data.solver.duration / s.next_dt; // without a dwell
   say(lines, "contact: {} directed ply pairs searched, tools against every ply; skin {:g} mm",
-      s.ply_contacts.size(), s.skin);
+      s.pass_order.size(), s.skin);
   say(lines, "stable step {:.3g} s, set by ply {}, triangle {}; used {:.3g} s", bound.dt,
       s.plies[bound.ply].name, bound.triangle, s.next_dt);
   if (data.solver.element_mass_scaling > 0.0)

@@ -121,11 +121,12 @@ void move_gripper(Scene& s, const Attachment& clamp) {
   state.load = force.dot(gripper.direction);
 }
 
-void add_attachment_stiffness(const Scene& s, ContactRows& rows) {
+void add_attachment_stiffness(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
   for (const Attachment& attached : s.attachments) {
     const Stiff of = stiffness_of(s, attached);
     for (std::size_t j = 0; j < of.share.size(); ++j)
-      rows[attached.nodes[j].ply][attached.nodes[j].node].stiffness += of.stiffness * of.share[j];
+      if (at(attached.nodes[j].ply) == ply)
+        rows[at(attached.nodes[j].node)].stiffness += of.stiffness * of.share[j];
   }
 }
 

@@ -14,8 +14,8 @@ void pull_springs(Scene& scene);
 /// the jaws on the plies. To be called after all other forces.
 void move_gripper(Scene& scene, const Attachment& clamp);
 
-/// Adds the row sums of the stiffness of springs and of grippers' drives.
-void add_attachment_stiffness(const Scene& scene, ContactRows& rows);
+/// Adds the row sums of the stiffness of springs and of grippers' drives on the nodes of a ply.
+void add_attachment_stiffness(const Scene& scene, std::size_t ply, std::span<ContactRow> rows);
 
 /// Adds to the forces f (N) what springs and drives exert, `factor` times their stiffness, when all
 /// nodes are displaced by y (mm); both per ply and node.

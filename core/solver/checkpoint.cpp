@@ -62,8 +62,9 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
   for (const ToolState& t : s.tools)
     for (const ToolPlyContact& c : t.contacts)
       snapshot.tool_penetration = std::max(snapshot.tool_penetration, c.sums.penetration);
-  for (const PlyContact& pair : s.ply_contacts)
-    snapshot.ply_penetration = std::max(snapshot.ply_penetration, pair.contact.sums.penetration);
+  each_pass(s, [&](const PlyContact& pass) {
+    snapshot.ply_penetration = std::max(snapshot.ply_penetration, pass.contact.sums.penetration);
+  });
 }
 
 void restore(Scene& s, const Snapshot& snapshot) {

@@ -121,9 +121,9 @@ void check(const Scene& s, const PlyBody& ply, const ArraySizes& made) {
   expect(ply.max_displacement >= 0.0 && sound(ply.max_displacement) && ply.path_length >= 0.0 &&
              sound(ply.path_length) && ply.fold_motion >= 0.0 && sound(ply.fold_motion),
          "a way of a ply");
-  expect(ply.fold_bound.size() == (s.ply_contacts.empty() ? 0 : m) && all_known(ply.fold_bound),
+  expect(ply.fold_bound.size() == (s.ply_pairs.empty() ? 0 : m) && all_known(ply.fold_bound),
          "bounds of folds");
-  const bool edges = !s.edge_contacts.empty();
+  const bool edges = !s.ply_pairs.empty();
   expect(ply.ridges.sides.size() == (edges ? ply.edges.all.size() : 0) &&
              all_up_to(ply.ridges.sides, ridge_both),
          "ridges");
@@ -280,11 +280,9 @@ void check(const Scene& s, const PlyEdgeContact& pair) {
 void check(const Scene& s, const PlyPair& pair) {
   const std::size_t a = s.plies[static_cast<std::size_t>(pair.a)].x0.size(),
                     b = s.plies[static_cast<std::size_t>(pair.b)].x0.size();
-  bool near = pair.loaded;
-  for (const int i : pair.contacts)
-    near = near || !s.ply_contacts[static_cast<std::size_t>(i)].contact.points.empty();
-  for (const int i : pair.edges)
-    near = near || !s.edge_contacts[static_cast<std::size_t>(i)].contact.groups.empty();
+  bool near = pair.loaded || !pair.edges.contact.groups.empty();
+  for (const PlyContact& pass : pair.passes)
+    near = near || !pass.contact.points.empty();
   const bool none = !near && pair.force_a.empty() && pair.force_b.empty();
   expect(none || (pair.force_a.size() == a && pair.force_b.size() == b), "forces between plies");
   expect(all_sound(pair.force_a) && all_sound(pair.force_b), "a force between plies");
@@ -373,12 +371,12 @@ void check_loaded(const Scene& s, const RunState& run, const std::vector<ArraySi
   for (std::size_t t = 0; t < s.tools.size(); ++t)
     check(s, t, s.time - s.dt);
   expect(all_sound(s.boundaries), "a boundary");
-  for (const PlyContact& pair : s.ply_contacts)
+  for (const PlyPair& pair : s.ply_pairs) {
+    for (const PlyContact& pass : pair.passes)
+      check(s, pass);
+    check(s, pair.edges);
     check(s, pair);
-  for (const PlyEdgeContact& pair : s.edge_contacts)
-    check(s, pair);
-  for (const PlyPair& pair : s.ply_pairs)
-    check(s, pair);
+  }
   check(s, run, made);
 }
 

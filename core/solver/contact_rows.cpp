@@ -1,50 +1,46 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/contact_rows.hpp"
 
-#include "core/solver/attached_motion.hpp"
+#include "core/solver/force_kinds.hpp"
 
 namespace plyform {
 namespace {
 
 /// Calls visit(contact) for the contacts of a pair, of nodes and edges.
-template <class SomeScene, class Visit>
-void visit_contacts(SomeScene& s, const PlyPair& pair, const Visit& visit) {
-  for (const int i : pair.contacts)
-    visit(s.ply_contacts[i].contact);
-  for (const int i : pair.edges)
-    visit(s.edge_contacts[i].contact);
+template <class SomePair, class Visit>
+void visit_contacts(SomePair& pair, const Visit& visit) {
+  for (auto& pass : pair.passes)
+    visit(pass.contact);
+  visit(pair.edges.contact);
 }
 
-void renew_rows(Scene& s, PlyPair& pair) {
-  const PlyBody &a = s.plies[pair.a], &b = s.plies[pair.b];
+void renew_rows(const Scene& s, PlyPair& pair) {
+  const PlyBody &a = s.plies[at(pair.a)], &b = s.plies[at(pair.b)];
   pair.rows_a.clear(), pair.rows_b.clear();
   const auto begin = [&] {
     pair.rows_a.resize(a.x.size());
     pair.rows_b.resize(b.x.size());
   };
-  for (const int i : pair.contacts) {
-    const PlyContact& c = s.ply_contacts[i];
-    if (c.contact.points.empty()) continue;
+  for (const PlyContact& pass : pair.passes) {
+    if (pass.contact.points.empty()) continue;
     begin();
-    const bool up = c.slave == pair.a;
+    const bool up = pass.slave == pair.a;
     const PlyBody& master = up ? b : a;
-    add_ply_ply_stiffness(c.contact, master.state(), master.membrane.triangles, s.bound_margin,
+    add_ply_ply_stiffness(pass.contact, master.state(), master.membrane.triangles, s.bound_margin,
                           up ? pair.rows_a : pair.rows_b, up ? pair.rows_b : pair.rows_a);
   }
-  for (const int i : pair.edges) {
-    const EdgeEdgeContact& contact = s.edge_contacts[i].contact;
-    if (contact.groups.empty()) continue;
+  if (!pair.edges.contact.groups.empty()) {
     begin();
-    add_edge_stiffness(contact, edge_margin(s), pair.rows_a, pair.rows_b);
+    add_edge_stiffness(pair.edges.contact, edge_margin(s), pair.rows_a, pair.rows_b);
   }
-  visit_contacts(s, pair, [](auto& contact) {
+  visit_contacts(pair, [](auto& contact) {
     contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
   });
 }
 
-bool has_deepened(const Scene& s, const PlyPair& pair) {
+bool has_deepened(const PlyPair& pair) {
   bool deepened = false;
-  visit_contacts(s, pair, [&](const auto& contact) {
+  visit_contacts(pair, [&](const auto& contact) {
     deepened = deepened || contact.sums.penetration > contact.renew_depth;
   });
   return deepened;
@@ -59,11 +55,6 @@ void renew_rows_if(Scene& s, ThreadPool& pool, const Due& due) {
   });
 }
 
-void add(const std::vector<ContactRow>& rows, std::vector<ContactRow>& to) {
-  for (std::size_t n = 0; n < rows.size(); ++n)
-    to[n] += rows[n];
-}
-
 } // namespace
 
 void renew_rows(Scene& s, ThreadPool& pool) {
@@ -71,24 +62,16 @@ void renew_rows(Scene& s, ThreadPool& pool) {
 }
 
 void renew_deepened_rows(Scene& s, ThreadPool& pool) {
-  renew_rows_if(s, pool, [&s](const PlyPair& pair) { return has_deepened(s, pair); });
+  renew_rows_if(s, pool, has_deepened);
 }
 
 ContactRows contact_rows(const Scene& s, ThreadPool& pool) {
   ContactRows c(s.plies.size());
-  pool.run(static_cast<int>(c.size()), [&](int i) {
-    const auto p = static_cast<std::size_t>(i);
-    const PlyBody& ply = s.plies[p];
-    std::vector<ContactRow>& rows = c[p];
-    rows.resize(ply.x.size());
-    for (const ToolState& tool : s.tools)
-      add_tool_ply_stiffness(tool.contacts[p], ply.membrane.node_area, s.bound_margin, rows);
-    for (const PlyPair& pair : s.ply_pairs) {
-      if (pair.a == i) add(pair.rows_a, rows);
-      if (pair.b == i) add(pair.rows_b, rows);
-    }
+  pool.run(static_cast<int>(c.size()), [&](int p) {
+    std::vector<ContactRow>& rows = c[at(p)];
+    rows.resize(s.plies[at(p)].x.size());
+    each_kind<SumsOfForces>([&]<class K>() { K::add_rows(s, at(p), rows); });
   });
-  add_attachment_stiffness(s, c);
   return c;
 }
 

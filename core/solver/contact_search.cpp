@@ -58,11 +58,9 @@ void search_plies(Scene& s, PlyContact& pair) {
 /// Allocates the force arrays of two plies as soon as anything of them may touch: most pairs of a
 /// stack never do.
 void allocate_forces(const Scene& s, PlyPair& pair) {
-  const auto may_touch = [&s](int i) { return !s.ply_contacts[i].contact.points.empty(); };
-  const auto may_cross = [&s](int i) { return !s.edge_contacts[i].contact.groups.empty(); };
-  if (!pair.force_a.empty() ||
-      !(std::any_of(pair.contacts.begin(), pair.contacts.end(), may_touch) ||
-        std::any_of(pair.edges.begin(), pair.edges.end(), may_cross)))
+  const auto may_touch = [](const PlyContact& pass) { return !pass.contact.points.empty(); };
+  if (!pair.force_a.empty() || (std::none_of(pair.passes.begin(), pair.passes.end(), may_touch) &&
+                                pair.edges.contact.groups.empty()))
     return;
   pair.force_a.assign(s.plies[pair.a].x.size(), Vec3::Zero());
   pair.force_b.assign(s.plies[pair.b].x.size(), Vec3::Zero());
@@ -75,7 +73,7 @@ void find_ply_unfolded(const Scene& s, PlyBody& ply) {
 }
 
 void find_ply_ridges(const Scene& s, PlyBody& ply) {
-  if (!s.edge_contacts.empty()) find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
+  if (!s.ply_pairs.empty()) find_ridges(ply.edges, ply.x, ply.ridge_limit, ply.ridges);
 }
 
 void refit_tree(const Scene&, PlyBody& ply) {
@@ -84,7 +82,7 @@ void refit_tree(const Scene&, PlyBody& ply) {
 }
 
 void find_fold_bounds(const Scene& s, PlyBody& ply) {
-  if (!s.ply_contacts.empty()) renew_fold_bounds(ply); // only contacts between plies use them
+  if (!s.ply_pairs.empty()) renew_fold_bounds(ply); // only contacts between plies use them
 }
 
 /// What of a ply is found anew at a search, the longest first. None depends on another: a task
@@ -147,8 +145,9 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     s.plies[i % s.plies.size()].search_seconds += seconds[i];
   // Adjacent plies first: the nodes that they occlude are skipped for the plies beyond.
   std::array<std::vector<PlyContact*>, 2> pairs;
-  for (PlyContact& pair : s.ply_contacts)
-    pairs[neighbours(pair) ? 0 : 1].push_back(&pair);
+  each_pass(s, [&](PlyContact& pass) { pairs[neighbours(pass) ? 0 : 1].push_back(&pass); });
+  std::vector<PlyEdgeContact*> edge_contacts;
+  each_edge_contact(s, [&](PlyEdgeContact& edges) { edge_contacts.push_back(&edges); });
   const int near = static_cast<int>(pairs[0].size());
   pool.run(near + static_cast<int>(s.tools.size()), [&](int i) {
     if (i < near)
@@ -156,10 +155,10 @@ void search_contacts(Scene& s, ThreadPool& pool) {
     else
       search_tool(s, s.tools[i - near]);
   });
-  const int edges = static_cast<int>(s.edge_contacts.size());
+  const int edges = static_cast<int>(edge_contacts.size());
   pool.run(edges + static_cast<int>(pairs[1].size()), [&](int i) { // longest tasks first
     if (i < edges)
-      search_edges(s, s.edge_contacts[i]);
+      search_edges(s, *edge_contacts[at(i)]);
     else
       search_plies(s, *pairs[1][i - edges]);
   });

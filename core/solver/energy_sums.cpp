@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Energies and work of a scene: stored energies are computed from the present state, work and
 // dissipation have been accumulated step by step.
+#include "core/solver/force_kinds.hpp"
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/step.hpp"
 
@@ -32,48 +33,15 @@ double work_of_gravity(const PlyBody& ply, const Vec3& gravity) {
 
 Energies current_energies(const Scene& s, ThreadPool& pool) {
   std::vector<Energies> of_ply(s.plies.size());
-  std::vector<MembraneEnergy> of_block(s.group_blocks.size());
-  const int plies = static_cast<int>(s.plies.size());
-  pool.run(plies + static_cast<int>(of_block.size()), [&](int i) {
-    if (i >= plies) {
-      const Block& block = s.group_blocks[i - plies];
-      const PlyBody& ply = s.plies[block.ply];
-      if (ply.simd) of_block[i - plies] = simd_energy(*ply.simd, ply.membrane, ply.x, block.begin);
-      return;
-    }
-    const PlyBody& ply = s.plies[i];
-    Energies& e = of_ply[i];
-    if (!ply.simd) {
-      const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
-      e.fibre = m.fibre, e.shear = m.shear;
-    }
-    if (ply.bending) e.bending = bending_energy(*ply.bending, ply.x);
-    e.kinetic = kinetic_energy(ply, s.dt, s.next_dt, mass_loads(s));
-    e.external = work_of_gravity(ply, s.data.gravity);
+  pool.run(static_cast<int>(of_ply.size()), [&](int p) {
+    const PlyBody& ply = s.plies[at(p)];
+    of_ply[at(p)].kinetic = kinetic_energy(ply, s.dt, s.next_dt, mass_loads(s));
+    of_ply[at(p)].external = work_of_gravity(ply, s.data.gravity);
   });
   Energies e;
-  for (const MembraneEnergy& block : of_block)
-    e.fibre += block.fibre, e.shear += block.shear;
   for (const Energies& ply : of_ply)
     e += ply;
-  const auto add = [&e](const ContactTotals& c) {
-    e.contact += c.elastic;
-    e.friction += c.friction;
-    e.damping += c.damping;
-  };
-  for (const ToolState& t : s.tools) {
-    for (const ToolPlyContact& c : t.contacts)
-      add(c.sums);
-    e.external += t.work;
-  }
-  for (const BoundaryState& b : s.boundaries)
-    e.external += b.work;
-  for (const PlyContact& pair : s.ply_contacts)
-    add(pair.contact.sums);
-  for (const PlyEdgeContact& pair : s.edge_contacts)
-    add(pair.contact.sums);
-  for (double viscous : s.group_sums)
-    e.damping += viscous;
+  each_kind<SumsOfForces>([&]<class K>() { K::add_energies(s, pool, e); });
   e.damping += s.mass_damping_work;
   e.mass_scaling = s.mass_scaling_work;
   e.external += s.start_energy;

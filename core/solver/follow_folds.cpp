@@ -31,7 +31,7 @@ void follow_fold_bounds(PlyBody& ply, double element_size) {
 } // namespace
 
 void follow_folds(Scene& s, ThreadPool& pool, bool searched) {
-  if (s.edge_contacts.empty()) return;
+  if (s.ply_pairs.empty()) return;
   std::vector<std::vector<std::int32_t>> grown(s.plies.size());
   pool.run(static_cast<int>(s.plies.size()), [&](int p) {
     PlyBody& ply = s.plies[p];
@@ -45,8 +45,9 @@ void follow_folds(Scene& s, ThreadPool& pool, bool searched) {
     grown[static_cast<std::size_t>(p)] = new_ridges(before, ply.ridges.sides);
   });
   std::vector<PlyEdgeContact*> due;
-  for (PlyEdgeContact& pair : s.edge_contacts)
+  each_edge_contact(s, [&](PlyEdgeContact& pair) {
     if (!grown[at(pair.a)].empty() || !grown[at(pair.b)].empty()) due.push_back(&pair);
+  });
   pool.run(static_cast<int>(due.size()), [&](int i) {
     PlyEdgeContact& pair = *due[static_cast<std::size_t>(i)];
     search_new_ridges(s, pair, grown[at(pair.a)], grown[at(pair.b)]);

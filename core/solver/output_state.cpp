@@ -104,19 +104,20 @@ std::vector<double> contact_pressure(const Scene& scene, int index) {
   for (const ToolState& tool : scene.tools)
     for (const ToolPlyPoint& c : tool.contacts[p].points)
       sides.add(c.node, normal_of(c), c.memory.normal_force);
-  for (const PlyContact& pair : scene.ply_contacts)
+  each_pass(scene, [&](const PlyContact& pair) {
     for (const PlyPlyPoint& c : pair.contact.points) {
       if (c.memory.normal_force == 0.0 || (pair.slave != index && pair.master != index)) continue;
-      const PlyBody& master = scene.plies[pair.master];
+      const PlyBody& master = scene.plies[at(pair.master)];
       const std::vector<Triangle>& triangles = master.membrane.triangles;
-      const Vec3 normal = contact_normal(c, scene.plies[pair.slave].x, master.x, triangles);
+      const Vec3 normal = contact_normal(c, scene.plies[at(pair.slave)].x, master.x, triangles);
       if (pair.slave == index) sides.add(c.node, normal, c.memory.normal_force);
       if (pair.master != index) continue;
-      const Triangle& t = triangles[c.face];
+      const Triangle& t = triangles[at(c.face)];
       const std::array<double, 3> w = weights_of(c);
       for (std::size_t j = 0; j < 3; ++j)
         sides.add(t[j], -normal, w[j] * c.memory.normal_force);
     }
+  });
   std::vector<double> pressure(ply.x.size());
   for (std::size_t n = 0; n < pressure.size(); ++n)
     pressure[n] = std::max(sides.above[n], sides.below[n]) / ply.membrane.node_area[n];

@@ -107,8 +107,11 @@ double step_displacement(const Scene& s, int ply, const ToolState& tool) {
 }
 
 std::optional<Stop> find_pass_through(const Scene& s) {
-  for (const PlyContact& pair : s.ply_contacts)
-    if (auto stop = find_pass_through(s, pair)) return stop;
+  std::optional<Stop> found;
+  each_pass(s, [&](const PlyContact& pass) {
+    if (!found) found = find_pass_through(s, pass);
+  });
+  if (found) return found;
   for (const ToolState& tool : s.tools)
     for (std::size_t p = 0; p < s.plies.size(); ++p)
       if (auto stop = find_pass_through(s, tool, p)) return stop;

@@ -3,6 +3,7 @@
 
 #include "core/base/text.hpp"
 #include "core/model/motion.hpp"
+#include "core/solver/force_kinds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -19,19 +20,8 @@ double kinetic_of(const PlyBody& ply) {
 }
 
 /// Elastic energy without contact, N mm.
-double elastic_of(const Scene& s, std::size_t number) {
-  const PlyBody& ply = s.plies[number];
-  double sum = ply.bending ? bending_energy(*ply.bending, ply.x) : 0.0;
-  if (!ply.simd) {
-    const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
-    return sum + m.fibre + m.shear;
-  }
-  for (const Block& block : s.group_blocks)
-    if (block.ply == static_cast<int>(number)) {
-      const MembraneEnergy m = simd_energy(*ply.simd, ply.membrane, ply.x, block.begin);
-      sum += m.fibre + m.shear;
-    }
-  return sum;
+double elastic_of(const Scene& s, std::size_t ply) {
+  return BendingForces::elastic(s, ply) + ElementForces::elastic(s, ply);
 }
 
 std::vector<std::string> doubts_of_flight(const Scene& s, const Frame& last) {

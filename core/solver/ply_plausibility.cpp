@@ -229,16 +229,16 @@ std::vector<std::string> doubts_of_edges(const Scene& s, const std::vector<Astra
 /// Plies that touched, though they were taken to be out of reach of each other.
 std::vector<std::string> doubts_of_reach(const Scene& s) {
   std::vector<std::string> found;
-  for (const PlyContact& c : s.ply_contacts) {
+  each_pass(s, [&](const PlyContact& c) {
     const PlyBody &a = s.plies[c.slave], &b = s.plies[c.master];
-    if (c.slave > c.master || a.stack == b.stack || !(c.contact.sums.deepest > 0.0)) continue;
+    if (c.slave > c.master || a.stack == b.stack || !(c.contact.sums.deepest > 0.0)) return;
     found.push_back(
         fmt::format("do not trust {} and {} where they press each other: they began too "
                     "far apart to be taken for a stack, for which compression and "
                     "bending of yarns are estimated; let them begin nearer, or give "
                     "their fabrics these keys",
                     a.name, b.name));
-  }
+  });
   return found;
 }
 

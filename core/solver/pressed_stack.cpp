@@ -51,8 +51,7 @@ public:
     all_ = zero();
     for (std::size_t t = 0; t < s.tools.size(); ++t)
       add_tool(t);
-    for (const PlyContact& pair : s.ply_contacts)
-      add_pair(pair);
+    each_pass(s, [this](const PlyContact& pass) { add_pair(pass); });
     for (const Link& link : links_) {
       at_side(all_, link.a) += link.force;
       if (link.tool < 0) at_side(all_, link.b) += link.force;

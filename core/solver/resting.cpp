@@ -79,16 +79,12 @@ void find_resting(Scene& s) {
       PlyBody &a = s.plies[pair.a], &b = s.plies[pair.b];
       if (!a.resting && !b.resting) continue;
       const bool both = a.resting && b.resting;
-      const auto wakes = [&](int i) {
-        const auto& points = s.ply_contacts[i].contact.points;
+      const auto wakes = [&](const PlyContact& pass) {
+        const auto& points = pass.contact.points;
         return both ? any_closed(points) : !points.empty();
       };
-      const auto edges_wake = [&](int i) {
-        return !both && !s.edge_contacts[i].contact.groups.empty();
-      };
-      if (std::none_of(pair.contacts.begin(), pair.contacts.end(), wakes) &&
-          std::none_of(pair.edges.begin(), pair.edges.end(), edges_wake))
-        continue;
+      const bool edges_wake = !both && !pair.edges.contact.groups.empty();
+      if (!edges_wake && std::none_of(pair.passes.begin(), pair.passes.end(), wakes)) continue;
       a.resting = b.resting = false;
       news = true;
     }

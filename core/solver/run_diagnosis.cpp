@@ -2,6 +2,7 @@
 #include "core/solver/run_diagnosis.hpp"
 
 #include "core/base/text.hpp"
+#include "core/solver/force_kinds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -20,65 +21,39 @@ constexpr double deep = 0.9;          // of the depth limit of a contact (core/s
 constexpr double high_inertia = 0.05; // kinetic over shear energy at the end
 constexpr double long_strain = 0.005; // softened yarns; woven ones break at 0.02 to 0.04
 
-void add(PairReport& pair, const ContactTotals& sums, const ContactTime& time) {
-  pair.time_share += time.forces + time.search; // in seconds here, divided by the total later
-  pair.deepest_mm = std::max(pair.deepest_mm, sums.deepest);
-  pair.slip_mm = std::max(pair.slip_mm, sums.slip);
-  pair.friction_mJ += sums.friction;
+std::vector<PairSeen> all_seen(const Scene& s) {
+  std::vector<PairSeen> seen;
+  each_kind<SumsOfForces>([&]<class K>() { K::add_seen(s, seen); });
+  return seen;
 }
 
 /// Tools with plies, then plies with plies; time_share in seconds.
 std::vector<PairReport> pairs_of(const Scene& s) {
   std::vector<PairReport> pairs;
-  for (const ToolState& t : s.tools)
-    for (std::size_t p = 0; p < s.plies.size(); ++p) {
-      PairReport pair{.a = t.name, .b = s.plies[p].name};
-      pair.friction_coefficient = t.contacts[p].law.friction;
-      add(pair, t.contacts[p].sums, t.contacts[p].time);
-      pairs.push_back(pair);
-    }
-  const auto of_plies = [&](int a, int b) -> PairReport& {
-    const std::string &low = s.plies[std::min(a, b)].name, &high = s.plies[std::max(a, b)].name;
+  const auto report = [&](const std::string& a, const std::string& b) -> PairReport& {
     for (PairReport& pair : pairs)
-      if (pair.a == low && pair.b == high) return pair;
-    pairs.push_back({.a = low, .b = high});
+      if (pair.a == a && pair.b == b) return pair;
+    pairs.push_back({.a = a, .b = b});
     return pairs.back();
   };
-  for (const PlyContact& c : s.ply_contacts) {
-    PairReport& pair = of_plies(c.slave, c.master);
-    pair.friction_coefficient = c.contact.law.friction;
-    add(pair, c.contact.sums, c.contact.time);
+  for (const PairSeen& seen : all_seen(s)) {
+    PairReport& pair = report(seen.a, seen.b);
+    if (!seen.of_edges) pair.friction_coefficient = seen.law.friction;
+    pair.time_share += seen.seconds; // divided by the total later
+    pair.deepest_mm = std::max(pair.deepest_mm, seen.sums.deepest);
+    pair.slip_mm = std::max(pair.slip_mm, seen.sums.slip);
+    pair.friction_mJ += seen.sums.friction;
   }
-  for (const PlyEdgeContact& c : s.edge_contacts)
-    add(of_plies(c.a, c.b), c.contact.sums, c.contact.time);
   return pairs;
 }
 
-/// Computing time (s) of all threads by kind of work.
-struct Times {
-  double elements = 0.0, contact = 0.0, search = 0.0, motion = 0.0;
-  double sum() const { return elements + contact + search + motion; }
-};
-
 Times times_of(const Scene& s) {
   Times t;
-  for (const Block& b : s.group_blocks)
-    t.elements += b.seconds;
-  for (const Block& b : s.bending_blocks)
-    t.elements += b.seconds;
   for (const Block& b : s.node_blocks)
     t.motion += b.seconds;
   for (const PlyBody& ply : s.plies)
     t.search += ply.search_seconds;
-  for (const ToolState& tool : s.tools) {
-    t.contact += tool.seconds;
-    for (const ToolPlyContact& c : tool.contacts)
-      t.search += c.time.search;
-  }
-  for (const PlyContact& c : s.ply_contacts)
-    t.contact += c.contact.time.forces, t.search += c.contact.time.search;
-  for (const PlyEdgeContact& c : s.edge_contacts)
-    t.contact += c.contact.time.forces, t.search += c.contact.time.search;
+  each_kind<SumsOfForces>([&]<class K>() { K::add_times(s, t); });
   return t;
 }
 
@@ -138,17 +113,11 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
   std::vector<std::string> found;
   // depth and limit, mm
   std::map<std::pair<std::string, std::string>, std::pair<double, double>> deepest;
-  const auto add_depth = [&deepest](const std::string& a, const std::string& b,
-                                    const ContactTotals& sums, const ContactLaw& law) {
-    auto& [depth, limit] = deepest[std::minmax(a, b)];
-    if (sums.deepest >= depth) depth = sums.deepest, limit = law.max_depth;
-  };
-  for (const ToolState& t : s.tools)
-    for (std::size_t p = 0; p < s.plies.size(); ++p)
-      add_depth(t.name, s.plies[p].name, t.contacts[p].sums, t.contacts[p].law);
-  for (const PlyContact& pair : s.ply_contacts) // both directions
-    add_depth(s.plies[pair.slave].name, s.plies[pair.master].name, pair.contact.sums,
-              pair.contact.law);
+  for (const PairSeen& seen : all_seen(s)) { // of plies both directions
+    if (seen.of_edges) continue;
+    auto& [depth, limit] = deepest[std::minmax(seen.a, seen.b)];
+    if (seen.sums.deepest >= depth) depth = seen.sums.deepest, limit = seen.law.max_depth;
+  }
   for (const auto& [names, depth] : deepest)
     if (depth.first > deep * depth.second)
       found.push_back(fmt::format("{} with {}: {:.3f} mm deep at some time, of {:.3g} mm that "

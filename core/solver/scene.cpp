@@ -12,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace plyform {
 namespace {
@@ -151,7 +150,7 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBo
   return t;
 }
 
-PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a, int b) {
+PlyContact make_pass(const Case& data, const std::vector<PlyBody>& plies, int a, int b) {
   const PlyBody& slave = plies[a];
   const PlyBody& master = plies[b];
   PlyContact pair;
@@ -167,29 +166,42 @@ PlyContact make_pair(const Case& data, const std::vector<PlyBody>& plies, int a,
   return pair;
 }
 
-/// The pairs of plies, adjacent ones first, which take longest to compute.
-std::vector<PlyPair> make_pairs(const Scene& s) {
-  using Numbers = std::array<std::vector<int>, 2>; // of contacts of nodes, and of edges
-  std::map<std::pair<int, int>, Numbers> of;
-  for (std::size_t i = 0; i < s.ply_contacts.size(); ++i)
-    of[std::minmax(s.ply_contacts[i].slave, s.ply_contacts[i].master)][0].push_back(
-        static_cast<int>(i));
-  for (std::size_t i = 0; i < s.edge_contacts.size(); ++i)
-    of[{s.edge_contacts[i].a, s.edge_contacts[i].b}][1].push_back(static_cast<int>(i));
+/// The pairs of plies, adjacent ones first, which take longest to compute, and those of a ply with
+/// itself last.
+std::vector<PlyPair> make_pairs(const Case& data, const std::vector<PlyBody>& plies) {
   std::vector<PlyPair> pairs;
-  const int n = static_cast<int>(s.plies.size());
+  const int n = static_cast<int>(plies.size());
   for (int apart = 1; apart <= n; ++apart)
     for (int a = 0; a < n; ++a) {
-      const int b = a + apart % n; // pairs of a ply with itself last
-      if (b >= n) continue;
+      const int b = a + apart % n;
+      if (b >= n || (a == b && !plies[at(a)].self_contact)) continue;
       PlyPair pair;
       pair.a = a, pair.b = b;
-      pair.contacts = of[{a, b}][0];
-      pair.edges = of[{a, b}][1];
-      if (pair.contacts.empty()) continue;
+      pair.passes.push_back(make_pass(data, plies, a, b));
+      if (a != b) pair.passes.push_back(make_pass(data, plies, b, a));
+      const PlyPlyContact& contact = pair.passes[0].contact;
+      pair.edges.a = a, pair.edges.b = b;
+      pair.edges.contact.law = contact.law;
+      pair.edges.contact.law.max_depth = deepest_of_edges * contact.distance;
+      pair.edges.contact.distance = 0.5 * contact.distance;
       pairs.push_back(std::move(pair));
     }
   return pairs;
+}
+
+/// SceneModel::pass_order.
+std::vector<PassPlace> order_of_passes(const std::vector<PlyPair>& pairs) {
+  std::vector<PassPlace> order;
+  for (std::size_t i = 0; i < pairs.size(); ++i)
+    for (std::size_t k = 0; k < pairs[i].passes.size(); ++k)
+      order.push_back({static_cast<int>(i), static_cast<int>(k)});
+  const auto key = [&](const PassPlace& place) {
+    const PlyContact& c = pairs[at(place.pair)].passes[at(place.pass)];
+    return std::array<int, 3>{c.slave == c.master ? 1 : 0, c.slave, c.master};
+  };
+  std::sort(order.begin(), order.end(),
+            [&](const PassPlace& one, const PassPlace& other) { return key(one) < key(other); });
+  return order;
 }
 
 /// Sets what follows from which bodies may meet.
@@ -328,21 +340,9 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   set_lengths(s);
   s.energy_floor = energy_floor_of(s.plies);
   const int n = static_cast<int>(s.plies.size());
-  for (int a = 0; a < n; ++a)
-    for (int b = 0; b < n; ++b)
-      if (a != b) s.ply_contacts.push_back(make_pair(data, s.plies, a, b));
-  for (int a = 0; a < n; ++a)
-    if (s.plies[a].self_contact) s.ply_contacts.push_back(make_pair(data, s.plies, a, a));
-  for (const PlyContact& pair : s.ply_contacts)
-    if (pair.slave <= pair.master) {
-      PlyEdgeContact edges{pair.slave, pair.master, {}};
-      edges.contact.law = pair.contact.law;
-      edges.contact.law.max_depth = deepest_of_edges * pair.contact.distance;
-      edges.contact.distance = 0.5 * pair.contact.distance;
-      s.edge_contacts.push_back(std::move(edges));
-    }
+  s.ply_pairs = make_pairs(data, s.plies);
+  s.pass_order = order_of_passes(s.ply_pairs);
   limit_ridges(s);
-  s.ply_pairs = make_pairs(s);
   for (int p = 0; p < n; ++p) {
     const PlyBody& ply = s.plies[p];
     if (ply.simd)

@@ -87,8 +87,8 @@ void each_member(PlyEdgeContact& pair, F&& f) {
 /// All contacts of two plies, a < b, or of one with itself, and their forces on the nodes.
 struct PlyPair {
   int a = 0, b = 0;
-  std::vector<int> contacts;          ///< in Scene::ply_contacts
-  std::vector<int> edges;             ///< in Scene::edge_contacts
+  std::vector<PlyContact> passes; ///< both ways, a as the slave first; of a ply with itself one
+  PlyEdgeContact edges;
   std::vector<Vec3> force_a, force_b; ///< N, sums over the contacts; empty until anything may touch
   bool loaded = false;                ///< whether any contact is closed; else the forces are zero
   std::vector<ContactRow> rows_a,
@@ -97,13 +97,20 @@ struct PlyPair {
 
 template <class F>
 void each_member(PlyPair& pair, F&& f) {
-  auto& [a, b, contacts, edges, force_a, force_b, loaded, rows_a, rows_b] = pair;
+  auto& [a, b, passes, edges, force_a, force_b, loaded, rows_a, rows_b] = pair;
+  f("passes", of_fixed_size(passes));
+  f("edges", edges);
   f("force_a", force_a); // all zero unless loaded
   f("force_b", force_b);
   f("loaded", loaded);
   f("rows_a", rows_a);
   f("rows_b", rows_b);
 }
+
+/// Which pass of which pair: Scene::pass_order.
+struct PassPlace {
+  int pair = 0, pass = 0;
+};
 
 /// State of a boundary (Case::boundaries).
 struct BoundaryState {
@@ -151,6 +158,9 @@ struct SceneModel {
   std::vector<PrescribedNode> held;    ///< ascending by ply and node
   std::vector<Attachment> attachments; ///< springs and grippers, ascending by boundary
   std::vector<Block> group_blocks, node_blocks, bending_blocks;
+  /// The passes of all ply_pairs ascending by slave and master, those of a ply with itself last:
+  /// the order of sums over them.
+  std::vector<PassPlace> pass_order;
   double element_size = 0.0; ///< mm, the smallest of the mean element sizes of plies that move
   double skin = 0.0;         ///< mm, that of the case, or from the element size
   /// mm: gap up to which open contacts count in the stable time step, which is computed again when
@@ -165,9 +175,7 @@ struct SceneBodies {
   std::vector<PlyBody> plies;
   std::vector<ToolState> tools;
   std::vector<BoundaryState> boundaries; ///< one per entry of Case::boundaries
-  std::vector<PlyContact> ply_contacts;
-  std::vector<PlyEdgeContact> edge_contacts;
-  std::vector<PlyPair> ply_pairs;
+  std::vector<PlyPair> ply_pairs;        ///< adjacent plies first, which take longest to compute
 };
 
 /// Time, step sizes and accumulated sums of the run: a restart must keep them.
@@ -227,11 +235,24 @@ void each_member(Scene& s, F&& f) {
   f("plies", of_fixed_size(s.plies));
   f("tools", of_fixed_size(s.tools));
   f("boundaries", of_fixed_size(s.boundaries));
-  f("ply_contacts", of_fixed_size(s.ply_contacts));
-  f("edge_contacts", of_fixed_size(s.edge_contacts));
   f("ply_pairs", of_fixed_size(s.ply_pairs));
   f("node_sums", of_fixed_size(s.node_sums));
   f("progress", static_cast<SceneProgress&>(s));
+}
+
+/// visit(pass) for every PlyContact, in pass_order. scene: a Scene, const or not.
+template <class SomeScene, class Visit>
+void each_pass(SomeScene& scene, const Visit& visit) {
+  for (const PassPlace& at : scene.pass_order)
+    visit(scene.ply_pairs[static_cast<std::size_t>(at.pair)]
+              .passes[static_cast<std::size_t>(at.pass)]);
+}
+
+/// visit(edges) for every PlyEdgeContact, in the same order.
+template <class SomeScene, class Visit>
+void each_edge_contact(SomeScene& scene, const Visit& visit) {
+  for (const PassPlace& at : scene.pass_order)
+    if (at.pass == 0) visit(scene.ply_pairs[static_cast<std::size_t>(at.pair)].edges);
 }
 
 inline bool any_self_contact(const Scene& s) {

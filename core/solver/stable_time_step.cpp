@@ -2,6 +2,7 @@
 #include "core/solver/stable_time_step.hpp"
 
 #include "core/base/lanczos.hpp"
+#include "core/solver/force_kinds.hpp"
 #include "core/solver/stiffness_operator.hpp"
 
 #include <algorithm>
@@ -37,11 +38,8 @@ struct PlyBound {
 
 PlyBound bound_of(const Scene& s, const ContactRows& touching, std::size_t p) {
   const PlyBody& ply = s.plies[p];
-  const EigenvalueBound& b = ply.bound;
   PlyBound of;
-  of.elements = {element_omega2(ply),
-                 b.penalty_acts ? b.damping
-                                : std::min(b.damping, ply.eigenvalue_ratio * b.yarns * b.viscous)};
+  each_kind([&]<class K>() { K::add_bound(ply, of.elements); });
   of.elements.damping += s.data.solver.mass_damping;
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const ContactRow& row = touching[p][n];
@@ -64,8 +62,9 @@ double time_step_gain_of(const Scene& s, double dt, ThreadPool& pool) {
 } // namespace
 
 double element_omega2(const PlyBody& ply) {
-  return kink_factor(ply.membrane) * highest_omega2(ply.bound, ply.eigenvalue_ratio) +
-         (ply.bending ? ply.bending->omega2 : 0.0);
+  Frequencies of;
+  each_kind([&]<class K>() { K::add_bound(ply, of); });
+  return of.omega2;
 }
 
 StepBound stable_step(const Scene& s, const ContactRows& touching) {

@@ -2,9 +2,9 @@
 #include "core/solver/step.hpp"
 
 #include "core/model/motion.hpp"
-#include "core/solver/attached_motion.hpp"
 #include "core/solver/contact_search.hpp"
 #include "core/solver/follow_folds.hpp"
+#include "core/solver/force_kinds.hpp"
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/pass_through.hpp"
 #include "core/solver/prescribed_motion.hpp"
@@ -55,10 +55,11 @@ void filter_forces(Scene& s) {
 }
 
 std::optional<Stop> find_faults(const Scene& s) {
-  // at every step, as small triangles can invert within a few
-  if (std::find(s.group_collapsed.begin(), s.group_collapsed.end(), 1) != s.group_collapsed.end())
-    if (auto stop = find_collapsed(s)) return stop;
-  if (auto stop = find_fault(s)) return stop;
+  std::optional<Stop> fault;
+  each_kind([&]<class K>() {
+    if (!fault) fault = K::fault(s);
+  });
+  if (fault) return fault;
   if (auto stop = find_pass_through(s)) return stop;
   return find_squeezed(s);
 }
@@ -104,7 +105,6 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   if (due) update_stable_step(s, pool);
   follow_folds(s, pool, searched);
   element_and_contact_forces(s, pool);
-  pull_springs(s);
   filter_forces(s);
   if (due || s.step % contacts_every == 0 ||
       largest_displacement(s) - s.bound_displacement > 0.5 * s.bound_margin)

@@ -2,6 +2,7 @@
 #include "core/solver/step_faults.hpp"
 
 #include "contact/intersections.hpp"
+#include "core/solver/force_kinds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -57,19 +58,20 @@ std::optional<Stop> find_not_finite(const Scene& s) {
 }
 
 std::optional<Stop> find_fault(const Scene& s) {
-  for (const PlyContact& pair : s.ply_contacts) {
-    const ContactFault& fault = pair.contact.fault;
-    if (fault.node < 0) continue;
-    const PlyBody &slave = s.plies[pair.slave], &master = s.plies[pair.master];
-    return Stop{fmt::format(
-        "{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm apart, thickness "
-        "{:.3g} mm; {}",
-        when(s), slave.name, fault.node, master.name, fault.face, fault.distance,
-        pair.contact.distance,
-        remedy_for(s, "give the stack more room between the tools, a slower stroke, or a smaller "
-                      "solver.step_factor"))};
-  }
-  return std::nullopt;
+  const PlyContact* found = nullptr;
+  each_pass(s, [&](const PlyContact& pass) {
+    if (!found && pass.contact.fault.node >= 0) found = &pass;
+  });
+  if (!found) return std::nullopt;
+  const ContactFault& fault = found->contact.fault;
+  const PlyBody &slave = s.plies[at(found->slave)], &master = s.plies[at(found->master)];
+  return Stop{fmt::format(
+      "{}: ply {}, node {} has gone through ply {}, triangle {}: {:.3g} mm apart, thickness "
+      "{:.3g} mm; {}",
+      when(s), slave.name, fault.node, master.name, fault.face, fault.distance,
+      found->contact.distance,
+      remedy_for(s, "give the stack more room between the tools, a slower stroke, or a smaller "
+                    "solver.step_factor"))};
 }
 
 std::optional<Stop> find_squeezed(const Scene& s) {
@@ -77,29 +79,9 @@ std::optional<Stop> find_squeezed(const Scene& s) {
   if (s.next_dt > least * s.max_dt) return std::nullopt;
   std::string who = "plies";
   double ratio = std::numeric_limits<double>::infinity();
-  const auto first = [&ratio](const ContactTotals& sums) {
-    const bool closer = sums.step_ratio < ratio;
-    if (closer) ratio = sums.step_ratio;
-    return closer;
-  };
-  const auto deepest = [](const auto& points) {
-    return std::min_element(points.begin(), points.end(),
-                            [](const auto& a, const auto& b) { return a.gap < b.gap; })
-        ->node;
-  };
-  const auto ply = [&s](int p) -> const std::string& { return s.plies[p].name; };
-  for (const ToolState& t : s.tools)
-    for (std::size_t p = 0; p < s.plies.size(); ++p)
-      if (first(t.contacts[p].sums))
-        who = fmt::format("ply {}, node {}, and tool {}", s.plies[p].name,
-                          deepest(t.contacts[p].points), t.name);
-  for (const PlyContact& pair : s.ply_contacts)
-    if (first(pair.contact.sums))
-      who = fmt::format("ply {}, node {}, and ply {}", ply(pair.slave),
-                        deepest(pair.contact.points), ply(pair.master));
-  for (const PlyEdgeContact& pair : s.edge_contacts)
-    if (first(pair.contact.sums))
-      who = fmt::format("edges of plies {} and {}", ply(pair.a), ply(pair.b));
+  each_contact(s, [&](const auto& contact, const auto& between) {
+    if (contact.sums.step_ratio < ratio) ratio = contact.sums.step_ratio, who = between();
+  });
   return Stop{fmt::format("{}: {} are squeezed: the step in which they keep apart has fallen from "
                           "{:.2g} to {:.2g} s; {}",
                           when(s), who, s.max_dt, s.next_dt,

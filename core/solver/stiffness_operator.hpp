@@ -5,12 +5,13 @@
 // sheets without yarns.
 #pragma once
 
-#include "contact/forces/contact_tangent.hpp"
 #include "core/base/thread_pool.hpp"
+#include "core/solver/force_kinds.hpp"
 #include "core/solver/scene.hpp"
 
 #include <Eigen/Core>
-#include <memory>
+#include <tuple>
+#include <vector>
 
 namespace plyform {
 
@@ -27,30 +28,23 @@ public:
   Eigen::VectorXd start() const;
 
 private:
-  /// Linearised contacts of two plies: both passes of node-to-face contact, and edge-edge contact.
-  struct Pair {
-    std::size_t a, b;
-    std::vector<ContactTangent> up, down; ///< own nodes are of a; of b
-    std::vector<Vec3> force_a, force_b;
-  };
+  /// f(product) of each kind, in the order in which forces are added on a node.
+  template <class F>
+  void each_product(const F& f) {
+    std::apply([&f](auto&... product) { (f(product), ...); }, products_);
+  }
 
-  void add_ply(const PlyBody& ply, double dt);
-  void add_pair(const PlyPair& pair);
   Eigen::Index degrees_of_freedom(std::size_t p) const; ///< of ply p, 3 per node
   void scale(const Eigen::VectorXd& v, std::size_t p);
   void on_ply(std::size_t p);
-  void on_pair(Pair& pair);
   void gather(std::size_t p, Eigen::VectorXd& w);
 
   const Scene& s_;
-  TangentFactors factors_;
+  ProductsOf<Forces> products_;
   Eigen::Index size_ = 0;
   std::vector<double> bounded_; ///< per ply, the bounded parts' share of the left side of (S)
   std::vector<Eigen::Index> first_;
-  std::vector<std::unique_ptr<YarnStiffness>> yarns_;
-  std::vector<std::vector<ContactTangent>> on_ply_;
-  std::vector<Pair> pairs_;
-  std::vector<std::vector<Vec3>> y_, f_;
+  PerPly y_, f_;
 };
 
 } // namespace plyform

@@ -2,6 +2,7 @@
 #include "core/solver/time_step.hpp"
 
 #include "core/solver/contact_search.hpp"
+#include "core/solver/force_kinds.hpp"
 #include "core/solver/mass_scaling.hpp"
 #include "core/solver/stable_time_step.hpp"
 
@@ -10,18 +11,6 @@
 
 namespace plyform {
 namespace {
-
-/// Calls visit(contact) for every ToolPlyContact, PlyPlyContact and EdgeEdgeContact of the scene.
-template <class SomeScene, class Visit>
-void visit_contacts(SomeScene& s, const Visit& visit) {
-  for (auto& tool : s.tools)
-    for (auto& contact : tool.contacts)
-      visit(contact);
-  for (auto& pair : s.ply_contacts)
-    visit(pair.contact);
-  for (auto& pair : s.edge_contacts)
-    visit(pair.contact);
-}
 
 /// Of a step over the one before. Nodes that a deep contact has thrown back move fast towards the
 /// next one; the step must not be long again before that one has felt them.
@@ -32,9 +21,9 @@ void use_rows(Scene& s, ThreadPool& pool) {
   const ContactRows touching = contact_rows(s, pool);
   if (s.step % mass_scaling_interval == 0) scale_masses(s, touching);
   s.stable_dt = s.data.solver.step_factor * stable_step(s, touching).dt;
-  for (ToolState& tool : s.tools)
-    for (ToolPlyContact& contact : tool.contacts)
-      contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
+  ToolContacts::each_contact(s, [](ToolPlyContact& contact, const auto&) {
+    contact.renew_depth = depth_ahead(contact.law, contact.sums.penetration);
+  });
 }
 
 } // namespace
@@ -52,7 +41,7 @@ void renew_deepened_step(Scene& s, ThreadPool& pool) {
 
 bool contacts_deepened(const Scene& s) {
   bool deepened = false;
-  visit_contacts(s, [&](const auto& contact) {
+  each_contact(s, [&](const auto& contact, const auto&) {
     deepened = deepened || contact.sums.penetration > contact.renew_depth;
   });
   return deepened;
@@ -60,7 +49,9 @@ bool contacts_deepened(const Scene& s) {
 
 void set_step(Scene& s) {
   double ratio = std::numeric_limits<double>::infinity();
-  visit_contacts(s, [&](const auto& contact) { ratio = std::min(ratio, contact.sums.step_ratio); });
+  each_contact(s, [&](const auto& contact, const auto&) {
+    ratio = std::min(ratio, contact.sums.step_ratio);
+  });
   s.next_dt =
       s.dt > 0.0 ? std::min(s.stable_dt, s.dt * std::min(ratio, largest_growth)) : s.stable_dt;
   s.min_dt = s.min_dt > 0.0 ? std::min(s.min_dt, s.next_dt) : s.next_dt;

@@ -82,9 +82,10 @@ Traffic step_traffic(const Scene& s) {
     t += traffic(ply.x.size(), 2 * sizeof(Vec3) + sizeof(double)); // motion, x_search, mass
     t += traffic(ply.nodal_forces.size() * ply.x.size(), sizeof(Vec3));
   }
-  for (const PlyContact& pair : s.ply_contacts)
-    if (!pair.contact.points.empty())
-      t += sheet_traffic(pair.contact, nodes(pair.slave), nodes(pair.master));
+  each_pass(s, [&](const PlyContact& pass) {
+    if (!pass.contact.points.empty())
+      t += sheet_traffic(pass.contact, nodes(pass.slave), nodes(pass.master));
+  });
   for (const ToolState& tool : s.tools)
     for (const ToolPlyContact& c : tool.contacts) {
       if (c.points.empty()) continue;
@@ -97,10 +98,10 @@ Traffic step_traffic(const Scene& s) {
 /// Share of the points of sheet contacts that touch.
 double touching(const Scene& s) {
   double touch = 0.0, points = 0.0;
-  for (const PlyContact& pair : s.ply_contacts) {
-    touch += pair.contact.sums.touching;
-    points += static_cast<double>(pair.contact.points.size());
-  }
+  each_pass(s, [&](const PlyContact& pass) {
+    touch += pass.contact.sums.touching;
+    points += static_cast<double>(pass.contact.points.size());
+  });
   return points > 0.0 ? touch / points : 0.0;
 }
 

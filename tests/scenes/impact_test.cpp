@@ -55,8 +55,9 @@ double of_one_blow(const Scene& s) {
   };
   for (const ToolState& tool : s.tools)
     add(tool.contacts[0].law, s.plies[0].membrane.fabric.surface_density);
-  for (const PlyContact& pair : s.ply_contacts) // both ways, against the mass of both in series
-    add(pair.contact.law, 0.25 * s.plies[0].membrane.fabric.surface_density);
+  each_pass(s, [&](const PlyContact& pass) { // both ways, against the mass of both in series
+    add(pass.contact.law, 0.25 * s.plies[0].membrane.fabric.surface_density);
+  });
   return worst;
 }
 

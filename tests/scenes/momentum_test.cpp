@@ -84,8 +84,7 @@ Worst follow(const Case& data) {
       EXPECT_TRUE(std::isfinite(sums.lever));
     }
     double friction = 0.0;
-    for (const PlyContact& pair : s.ply_contacts)
-      friction += pair.contact.sums.friction;
+    each_pass(s, [&](const PlyContact& pass) { friction += pass.contact.sums.friction; });
     for (const ToolState& t : s.tools)
       for (const ToolPlyContact& c : t.contacts)
         friction += c.sums.friction;

@@ -119,7 +119,8 @@ TEST(Stress, FineAndCoarsePlyCarryThePressure) {
       EXPECT_GT(low, fine ? 0.90 : 0.98);
       EXPECT_LT(high, fine ? 2.0 : 1.02); // a fine node may bear a whole coarse one's force
     }
-    const double k = make_scene(data).ply_contacts[0].contact.law.stiffness; // N/mm^3, each way
+    // N/mm^3, each way
+    const double k = make_scene(data).ply_pairs[0].passes[0].contact.law.stiffness;
     const double even = 30.0 / 1e4 / (2.0 * k), depth = run.summary.contact.max_ply_penetration_mm;
     fmt::print("floor {:.5f} N, deepest {:.4f} mm, {:.4f} if even\n", run.last.tools[0].force.z(),
                depth, even);

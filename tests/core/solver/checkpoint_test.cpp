@@ -135,7 +135,7 @@ TEST(Checkpoint, AMemberThatNobodyListedIsFoundByComparing) {
   start(scene, pool);
   const auto closed = [&] { // and yarns are taut
     return scene.tools[0].contacts[1].sums.touching > 0 && scene.group_sums[0] > 0.0 &&
-           scene.ply_contacts[0].contact.sums.touching > 0;
+           scene.ply_pairs[0].passes[0].contact.sums.touching > 0;
   };
   for (int i = 0; i < 5000 && !closed(); ++i)
     step(scene, pool);
@@ -258,27 +258,33 @@ TEST_F(ChangedState, IndicesSizesAndChoicesAreChecked) {
     std::string bytes = save_state(other, state);
     EXPECT_TRUE(refused(bytes)) << what;
   };
-  ASSERT_FALSE(scene.ply_contacts[0].contact.points.empty());
+  ASSERT_FALSE(scene.ply_pairs[0].passes[0].contact.points.empty());
   ASSERT_FALSE(scene.tools[0].contacts[0].points.empty());
-  ASSERT_FALSE(scene.edge_contacts[0].contact.candidates.empty());
-  refuses("a face", [](Scene& s, RunState&) { s.ply_contacts[0].contact.points[0].face = 1000; });
-  refuses("a node", [](Scene& s, RunState&) { s.ply_contacts[0].contact.points[0].node = -1; });
-  refuses("faces", [](Scene& s, RunState&) { s.ply_contacts[0].contact.faces[0] = 1 << 20; });
-  refuses("a range",
-          [](Scene& s, RunState&) { s.ply_contacts[0].contact.points[0].end_face = 1 << 20; });
+  ASSERT_FALSE(scene.ply_pairs[0].edges.contact.candidates.empty());
+  refuses("a face",
+          [](Scene& s, RunState&) { s.ply_pairs[0].passes[0].contact.points[0].face = 1000; });
+  refuses("a node",
+          [](Scene& s, RunState&) { s.ply_pairs[0].passes[0].contact.points[0].node = -1; });
+  refuses("faces",
+          [](Scene& s, RunState&) { s.ply_pairs[0].passes[0].contact.faces[0] = 1 << 20; });
+  refuses("a range", [](Scene& s, RunState&) {
+    s.ply_pairs[0].passes[0].contact.points[0].end_face = 1 << 20;
+  });
   refuses("distances",
-          [](Scene& s, RunState&) { s.ply_contacts[0].contact.face_distance.pop_back(); });
-  refuses("an active one",
-          [](Scene& s, RunState&) { s.ply_contacts[0].contact.list.active.push_back(1 << 20); });
+          [](Scene& s, RunState&) { s.ply_pairs[0].passes[0].contact.face_distance.pop_back(); });
+  refuses("an active one", [](Scene& s, RunState&) {
+    s.ply_pairs[0].passes[0].contact.list.active.push_back(1 << 20);
+  });
   refuses("a node at a tool",
           [](Scene& s, RunState&) { s.tools[0].contacts[0].points[0].node = 1 << 20; });
   refuses("a facet",
           [](Scene& s, RunState&) { s.tools[0].contacts[0].points[0].hint.nearest = 1 << 20; });
   refuses("forces", [](Scene& s, RunState&) { s.tools[0].contacts[0].force.pop_back(); });
-  refuses("an edge",
-          [](Scene& s, RunState&) { s.edge_contacts[0].contact.candidates[0].edge[1] = 1 << 20; });
+  refuses("an edge", [](Scene& s, RunState&) {
+    s.ply_pairs[0].edges.contact.candidates[0].edge[1] = 1 << 20;
+  });
   refuses("a patch",
-          [](Scene& s, RunState&) { s.edge_contacts[0].contact.groups[0].patch[0] = -1; });
+          [](Scene& s, RunState&) { s.ply_pairs[0].edges.contact.groups[0].patch[0] = -1; });
   refuses("nodes", [](Scene& s, RunState&) { s.plies[1].x.pop_back(); });
   refuses("a place", [](Scene& s, RunState&) {
     s.plies[1].x[3].x() = std::numeric_limits<double>::quiet_NaN();

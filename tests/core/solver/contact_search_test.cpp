@@ -96,8 +96,9 @@ Touching follow(Scene& s, int every) {
     if (stop || s.time >= s.data.solver.duration) break;
     if (s.step % every == 0) {
       ++looks;
-      for (const PlyContact& pair : s.ply_contacts)
-        if (pair.slave != pair.master) expect_all_faces(s, pair, touching);
+      each_pass(s, [&](const PlyContact& pass) {
+        if (pass.slave != pass.master) expect_all_faces(s, pass, touching);
+      });
       for (const ToolState& tool : s.tools)
         expect_all_nodes(s, tool, touching);
       if (::testing::Test::HasFailure()) {
@@ -185,9 +186,11 @@ TEST(ContactSearch, NoPairIsAbsentAroundTheRimOfAPlyBetween) {
     v = Vec3(4000.0, 2000.0, -3000.0);
   const Touching touching = follow(s, 40);
   EXPECT_GT(touching.plies, 300);
-  EXPECT_GT(s.ply_contacts[1].contact.sums.deepest, 0.0); // of the lowest and the uppermost
-  ASSERT_EQ(s.ply_contacts[1].slave, 0);
-  ASSERT_EQ(s.ply_contacts[1].master, 2);
+  const PassPlace second = s.pass_order[1]; // of the lowest and the uppermost
+  const PlyContact& pass = s.ply_pairs[at(second.pair)].passes[at(second.pass)];
+  EXPECT_GT(pass.contact.sums.deepest, 0.0);
+  ASSERT_EQ(pass.slave, 0);
+  ASSERT_EQ(pass.master, 2);
 }
 
 /// rad, the largest angle between each face and those that share a node with it.

@@ -90,8 +90,8 @@ TEST(ContactRows, OnlyOfPairsThatHaveDeepenedAreComputedAnew) {
     return stiffness;
   };
   PlyPair& first = s.ply_pairs[0];
-  for (const int i : first.contacts) { // as if all its points had been pressed in
-    PlyPlyContact& contact = s.ply_contacts[i].contact;
+  for (PlyContact& pass : first.passes) { // as if all its points had been pressed in
+    PlyPlyContact& contact = pass.contact;
     for (PlyPlyPoint& point : contact.points)
       point.gap = -0.5 * contact.law.max_depth;
     contact.sums.penetration = 0.5 * contact.law.max_depth;
@@ -99,10 +99,8 @@ TEST(ContactRows, OnlyOfPairsThatHaveDeepenedAreComputedAnew) {
   renew_deepened_rows(s, pool);
   EXPECT_GT(sum(first.rows_a), 1.5 * sum(before[0].rows_a));
   EXPECT_GT(sum(first.rows_b), 1.5 * sum(before[0].rows_b));
-  for (const int i : first.contacts) {
-    const PlyPlyContact& contact = s.ply_contacts[i].contact;
-    EXPECT_GT(contact.renew_depth, contact.sums.penetration);
-  }
+  for (const PlyContact& pass : first.passes)
+    EXPECT_GT(pass.contact.renew_depth, pass.contact.sums.penetration);
   for (std::size_t p = 1; p < before.size(); ++p)
     EXPECT_EQ(sum(s.ply_pairs[p].rows_a), sum(before[p].rows_a)) << p;
   renew_rows(s, pool); // nothing else had changed

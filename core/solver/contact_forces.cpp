@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Contacts of tools and of plies, and boundaries, as kinds of force.
+#include "contact/stopwatch.hpp"
+#include "core/solver/attached_motion.hpp"
+#include "core/solver/contact_search.hpp"
+#include "core/solver/force_kinds.hpp"
+#include "core/solver/step_faults.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace plyform {
+namespace {
+
+void add_sums(const ContactTotals& sums, Energies& e) {
+  e.contact += sums.elastic;
+  e.friction += sums.friction;
+  e.damping += sums.damping;
+}
+
+void add(const std::vector<ContactRow>& rows, std::span<ContactRow> to) {
+  for (std::size_t n = 0; n < rows.size(); ++n)
+    to[n] += rows[n];
+}
+
+/// The node of the deepest of some points.
+template <class Points>
+int deepest_node(const Points& points) {
+  return std::min_element(points.begin(), points.end(),
+                          [](const auto& a, const auto& b) { return a.gap < b.gap; })
+      ->node;
+}
+
+const std::string& name_of(const Scene& s, int ply) {
+  return s.plies[at(ply)].name;
+}
+
+} // namespace
+
+double ToolContacts::place(const Scene& s, int task) {
+  return static_cast<double>(task) / static_cast<double>(s.tools.size());
+}
+
+void ToolContacts::run(Scene& s, int task) {
+  ToolState& t = s.tools[at(task)];
+  const Stopwatch watch(t.seconds);
+  const Vec3 before = t.force;
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    t.ply_paths[p] = path_length_ahead(s, t) + s.plies[p].path_length;
+  t.force = tool_ply_forces(t.body, t.contacts, s.ply_states, t.ply_paths, s.dt);
+  t.work -= 0.5 * (before + t.force).dot(t.body.motion);
+}
+
+void ToolContacts::list_arrays(Scene& s) {
+  for (const ToolState& t : s.tools)
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      if (!t.contacts[p].list.active.empty())
+        s.plies[p].nodal_forces.push_back(&t.contacts[p].force);
+}
+
+void ToolContacts::add_energies(const Scene& s, ThreadPool&, Energies& e) {
+  for (const ToolState& t : s.tools) {
+    for (const ToolPlyContact& c : t.contacts)
+      add_sums(c.sums, e);
+    e.external += t.work;
+  }
+}
+
+void ToolContacts::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
+  for (const ToolState& tool : s.tools)
+    add_tool_ply_stiffness(tool.contacts[ply], s.plies[ply].membrane.node_area, s.bound_margin,
+                           rows);
+}
+
+void ToolContacts::add_times(const Scene& s, Times& times) {
+  for (const ToolState& tool : s.tools) {
+    times.contact += tool.seconds;
+    for (const ToolPlyContact& c : tool.contacts)
+      times.search += c.time.search;
+  }
+}
+
+void ToolContacts::add_seen(const Scene& s, std::vector<PairSeen>& seen) {
+  for (const ToolState& t : s.tools)
+    for (std::size_t p = 0; p < s.plies.size(); ++p) {
+      const ToolPlyContact& c = t.contacts[p];
+      seen.push_back({t.name, s.plies[p].name, c.law, c.sums, c.time.forces + c.time.search});
+    }
+}
+
+std::string ToolContacts::who(const Scene& s, std::size_t tool, std::size_t ply) {
+  return fmt::format("ply {}, node {}, and tool {}", s.plies[ply].name,
+                     deepest_node(s.tools[tool].contacts[ply].points), s.tools[tool].name);
+}
+
+double PlyContacts::place(const Scene& s, int task) {
+  const PlyPair& pair = s.ply_pairs[at(task)];
+  return 0.5 * (pair.a + pair.b + 1) / static_cast<double>(s.plies.size());
+}
+
+void PlyContacts::run(Scene& s, int task) {
+  PlyPair& pair = s.ply_pairs[at(task)];
+  if (pair.loaded) {
+    std::fill(pair.force_a.begin(), pair.force_a.end(), Vec3::Zero());
+    std::fill(pair.force_b.begin(), pair.force_b.end(), Vec3::Zero());
+  }
+  pair.loaded = false;
+  const PlyBody &a = s.plies[at(pair.a)], &b = s.plies[at(pair.b)];
+  for (PlyContact& pass : pair.passes) {
+    const bool up = pass.slave == pair.a;
+    const PlyBody &slave = up ? a : b, &master = up ? b : a;
+    ply_ply_forces(pass.contact, slave.state(), master.state(), master.membrane.triangles, s.dt,
+                   {a.max_displacement + b.max_displacement, a.path_length + b.path_length},
+                   up ? pair.force_a : pair.force_b, up ? pair.force_b : pair.force_a);
+    pair.loaded = pair.loaded || pass.contact.sums.touching > 0;
+  }
+  EdgeEdgeContact& edges = pair.edges.contact;
+  edge_forces(edges, a.edge_sheet(), b.edge_sheet(), s.dt, pair.force_a, pair.force_b);
+  pair.loaded = pair.loaded || edges.sums.touching > 0;
+}
+
+void PlyContacts::list_arrays(Scene& s) {
+  for (const PlyPair& pair : s.ply_pairs) {
+    if (!pair.loaded) continue;
+    s.plies[at(pair.a)].nodal_forces.push_back(&pair.force_a);
+    s.plies[at(pair.b)].nodal_forces.push_back(&pair.force_b);
+  }
+}
+
+void PlyContacts::add_energies(const Scene& s, ThreadPool&, Energies& e) {
+  each_pass(s, [&](const PlyContact& pass) { add_sums(pass.contact.sums, e); });
+  each_edge_contact(s, [&](const PlyEdgeContact& edges) { add_sums(edges.contact.sums, e); });
+}
+
+void PlyContacts::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
+  for (const PlyPair& pair : s.ply_pairs) {
+    if (at(pair.a) == ply) add(pair.rows_a, rows);
+    if (at(pair.b) == ply) add(pair.rows_b, rows);
+  }
+}
+
+std::optional<Stop> PlyContacts::fault(const Scene& s) {
+  return find_fault(s);
+}
+
+void PlyContacts::add_times(const Scene& s, Times& times) {
+  each_contact(s, [&](const auto& contact, const auto&) {
+    times.contact += contact.time.forces, times.search += contact.time.search;
+  });
+}
+
+void PlyContacts::add_seen(const Scene& s, std::vector<PairSeen>& seen) {
+  const auto add = [&](int a, int b, const auto& contact, bool of_edges) {
+    seen.push_back({name_of(s, std::min(a, b)), name_of(s, std::max(a, b)), contact.law,
+                    contact.sums, contact.time.forces + contact.time.search, of_edges});
+  };
+  each_pass(s, [&](const PlyContact& c) { add(c.slave, c.master, c.contact, false); });
+  each_edge_contact(s, [&](const PlyEdgeContact& c) { add(c.a, c.b, c.contact, true); });
+}
+
+std::string PlyContacts::who(const Scene& s, const PlyContact& pass) {
+  return fmt::format("ply {}, node {}, and ply {}", name_of(s, pass.slave),
+                     deepest_node(pass.contact.points), name_of(s, pass.master));
+}
+
+std::string PlyContacts::who(const Scene& s, const PlyEdgeContact& edges) {
+  return fmt::format("edges of plies {} and {}", name_of(s, edges.a), name_of(s, edges.b));
+}
+
+void BoundaryForces::finish(Scene& s) {
+  pull_springs(s);
+}
+
+void BoundaryForces::list_arrays(Scene& s) {
+  for (PlyBody& ply : s.plies) {
+    if (!ply.reaction.empty()) ply.nodal_forces.push_back(&ply.reaction);
+    if (!ply.pull.empty()) ply.nodal_forces.push_back(&ply.pull);
+  }
+}
+
+void BoundaryForces::add_energies(const Scene& s, ThreadPool&, Energies& e) {
+  for (const BoundaryState& b : s.boundaries)
+    e.external += b.work;
+}
+
+void BoundaryForces::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
+  add_attachment_stiffness(s, ply, rows);
+}
+
+} // namespace plyform

@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Elements and bending as kinds of force.
+#include "contact/stopwatch.hpp"
+#include "core/ply/in_plane_law.hpp"
+#include "core/solver/force_kinds.hpp"
+#include "core/solver/step_faults.hpp"
+
+#include <algorithm>
+
+namespace plyform {
+namespace {
+
+double place_among(int task, std::size_t tasks) {
+  return static_cast<double>(task) / static_cast<double>(tasks);
+}
+
+MembraneEnergy energy_of(const Scene& s, const Block& block) {
+  const PlyBody& ply = s.plies[at(block.ply)];
+  if (ply.simd) return simd_energy(*ply.simd, ply.membrane, ply.x, block.begin);
+  return block.begin > 0 ? MembraneEnergy{} : membrane_energy(ply.membrane, ply.x); // of all blocks
+}
+
+double seconds_of(const std::vector<Block>& blocks) {
+  double sum = 0.0;
+  for (const Block& block : blocks)
+    sum += block.seconds;
+  return sum;
+}
+
+} // namespace
+
+double ElementForces::place(const Scene& s, int task) {
+  return place_among(task, s.group_blocks.size());
+}
+
+void ElementForces::run(Scene& s, int task) {
+  Block& block = s.group_blocks[at(task)];
+  const Stopwatch watch(block.seconds);
+  PlyBody& ply = s.plies[at(block.ply)];
+  const GroupReport report =
+      ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, s.dt, block.begin,
+                             {ply.viscosity, ply.viscosity})
+               : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, {}, ply.q);
+  s.group_sums[at(task)] += report.viscous_work;
+  s.group_collapsed[at(task)] = report.collapsed;
+}
+
+void ElementForces::add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f) {
+  for (int n = begin; n < end; ++n)
+    f[n - begin] = ply.simd ? simd_force(*ply.simd, at(n)) : node_force(ply.membrane, ply.q, n);
+}
+
+void ElementForces::add_energies(const Scene& s, ThreadPool& pool, Energies& e) {
+  std::vector<MembraneEnergy> of(s.group_blocks.size());
+  pool.run(static_cast<int>(of.size()),
+           [&](int i) { of[at(i)] = energy_of(s, s.group_blocks[at(i)]); });
+  for (const MembraneEnergy& block : of)
+    e.fibre += block.fibre, e.shear += block.shear;
+  for (const double viscous : s.group_sums)
+    e.damping += viscous;
+}
+
+double ElementForces::elastic(const Scene& s, std::size_t ply) {
+  double sum = 0.0;
+  for (const Block& block : s.group_blocks)
+    if (at(block.ply) == ply) {
+      const MembraneEnergy m = energy_of(s, block);
+      sum += m.fibre + m.shear;
+    }
+  return sum;
+}
+
+void ElementForces::add_bound(const PlyBody& ply, Frequencies& of) {
+  const EigenvalueBound& b = ply.bound;
+  of.omega2 += kink_factor(ply.membrane) * highest_omega2(b, ply.eigenvalue_ratio);
+  of.damping +=
+      b.penalty_acts ? b.damping : std::min(b.damping, ply.eigenvalue_ratio * b.yarns * b.viscous);
+}
+
+void ElementForces::add_bound_of_rest(const PlyBody& ply, Frequencies& of) {
+  of.omega2 += ply.bound.soft;
+  if (!in_plane_law(ply.membrane.fabric).yarns) of.omega2 += ply.bound.yarns;
+}
+
+std::optional<Stop> ElementForces::fault(const Scene& s) {
+  // at every step, as small triangles can invert within a few
+  if (std::find(s.group_collapsed.begin(), s.group_collapsed.end(), 1) == s.group_collapsed.end())
+    return std::nullopt;
+  return find_collapsed(s);
+}
+
+void ElementForces::add_times(const Scene& s, Times& times) {
+  times.elements += seconds_of(s.group_blocks);
+}
+
+double BendingForces::place(const Scene& s, int task) {
+  return place_among(task, s.bending_blocks.size());
+}
+
+void BendingForces::run(Scene& s, int task) {
+  Block& block = s.bending_blocks[at(task)];
+  const Stopwatch watch(block.seconds);
+  PlyBody& ply = s.plies[at(block.ply)];
+  bending_forces(*ply.bending, ply.x, block.begin);
+}
+
+void BendingForces::add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f) {
+  if (!ply.bending) return;
+  for (int n = begin; n < end; ++n)
+    f[n - begin] += simd_force(*ply.bending, at(n));
+}
+
+void BendingForces::add_energies(const Scene& s, ThreadPool& pool, Energies& e) {
+  std::vector<double> of(s.plies.size());
+  pool.run(static_cast<int>(of.size()), [&](int p) { of[at(p)] = elastic(s, at(p)); });
+  for (const double ply : of)
+    e.bending += ply;
+}
+
+double BendingForces::elastic(const Scene& s, std::size_t ply) {
+  const PlyBody& body = s.plies[ply];
+  return body.bending ? bending_energy(*body.bending, body.x) : 0.0;
+}
+
+void BendingForces::add_bound(const PlyBody& ply, Frequencies& of) {
+  if (ply.bending) of.omega2 += ply.bending->omega2;
+}
+
+void BendingForces::add_times(const Scene& s, Times& times) {
+  times.elements += seconds_of(s.bending_blocks);
+}
+
+} // namespace plyform
