@@ -24,7 +24,7 @@ StrainGroups single_triangles(std::size_t triangles);
 /// Pairs triangles across shared sides: longest sides first, which pairs the two halves of a
 /// square, then by re-pairing along chains of neighbours until hardly a triangle is single. Single
 /// triangles stiffen the mesh, groups of three would soften it: see the table in
-/// docs/developers.md. Triangles marked in `alone` (one per triangle, or empty) stay single.
+/// docs/tried.md. Triangles marked in `alone` (one per triangle, or empty) stay single.
 StrainGroups pair_triangles(const BlankMesh& mesh, const std::vector<char>& alone = {});
 
 /// Marks (1, else 0) the triangles for which the plain element does not lock: those that have, as

@@ -23,7 +23,7 @@ Strokes longest_strokes(const Case& data);
 /// tool (mm) or the force of a pushed one (N). The rate rises over the first quarter of the time as
 /// w^2 (3 - 2 w), is constant, and falls likewise over the last quarter, so that the acceleration
 /// is continuous. Compared with a polynomial over the whole time, whose peak speed is higher,
-/// stacks come as close to the result of a slow run in a tenth less time (docs/developers.md).
+/// stacks come as close to the result of a slow run in a tenth less time (docs/tried.md).
 double smooth_step(double end, double t, double duration);
 
 /// Displacement (mm) of a driven tool along its direction, or the force (N) on a pushed one, at

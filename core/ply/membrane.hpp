@@ -54,7 +54,7 @@
 // One mean strain per family and pair of triangles leaves two constraints per node. By convexity a
 // pair is never stiffer than its triangles. Why deviations count as shear: the modes that a pair
 // leaves unconstrained (hourglass-like) must cost as much energy as the shear that they could
-// replace, at any shear angle, and no more: docs/developers.md has figures.
+// replace, at any shear angle, and no more: docs/tried.md has figures.
 #pragma once
 
 #include "contact/geometry.hpp"
