@@ -12,8 +12,8 @@
 namespace plyform::real_cloth_long_test {
 namespace {
 
-/// hemisphere_five_ply with cells of 10 mm, and zones of sheared yarns that these carry (docs/
-/// verification/real_cloth.md): 28 mm wide.
+/// hemisphere_five_ply with cells of 10 mm, and zones of sheared yarns that these carry (cases/
+/// random_stacks/README.md): 28 mm wide.
 Case coarse_five_plies() {
   const std::string path = std::string(PLYFORM_CASES) + "/hemisphere_five_ply/case.toml";
   const PreparedCase reading = prepare_case(path, {{"blanks.square.element_size", "10.0"}});
