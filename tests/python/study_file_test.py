@@ -91,6 +91,8 @@ WRONG = {  # what is put in the place of what, and the one message that comes
     "reference.fields.0: must be",
     ("[[vary]]", "[reference]\n[[picture]]\nkind = 'cost'\nfigure = 'punch'\n[[vary]]"):
     "picture.0.figure = 'punch': is no figure of the study; name one of",
+    ("[[vary]]", "[reference]\n[[picture]]\nkind = 'cost'\nx = 'steps'\n[[vary]]"):
+    "picture.0.x = 'steps': must be one of wall_time_s, cpu_s",
     ("[figures]", "method = 'gird'\n[figures]"): "study.toml:2: error: method = 'gird': must be",
     ("[figures]", "set = ['3']\n[figures]"): "study.toml:2: error: set.0: must be a text KEY=VALUE",
     ('key = "contact', 'keys = "contact'): "vary.0.keys = 'contact.friction': must be a list",

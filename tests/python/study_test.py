@@ -144,6 +144,7 @@ kind = "cost"
 kind = "cost"
 file = "angle.png"
 figure = "largest_shear_deg"
+x = "cpu_s"
 """
 
 

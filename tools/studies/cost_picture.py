@@ -57,11 +57,13 @@ def errors_of_figure(name: str, rows: list[dict]) -> dict[int, float]:
 
 
 def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict]):
-    from studies.results import main_error
-    time = "wall_time_s"
+    from studies.results import main_error, mark_front
+    time = picture.x
     if not picture.figure:
         error, field = main_error(study), FIELDS[study.reference.fields[0]]
         shown = f"error of the {field.label} against the reference, rms, {field.unit}"
+        rows = [dict(row) for row in rows]
+        mark_front(rows, error, time)
     else:
         error = f"{picture.figure}, % off"
         shown = f"error of {picture.figure} against the reference, %"
@@ -110,7 +112,7 @@ def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict]
                           textcoords="offset points", ha="right", fontsize=7)
         if row["status"] == "stopped" and is_number(row[time]):
             axes.plot(row[time], 1, "x", **edge)
-    axes.set_xlabel("wall time, s")
+    axes.set_xlabel("wall time, s" if time == "wall_time_s" else "processor time, s")
     axes.set_ylabel(shown)
     axes.set_title(picture.title)
     axes.legend()

@@ -108,13 +108,13 @@ def differences(study: Study, planner: Planner, runs: list[Run], folder: Path) -
     return told
 
 
-def mark_front(rows: list[dict], error: str) -> None:
+def mark_front(rows: list[dict], error: str, time: str = FRONT) -> None:
     """1 where no other run is as fast and as near to the reference, and better in one of both."""
     points = [row for row in rows if row["status"] in SOUND and is_number(row.get(error))]
     for row in rows:
         row["on_front"] = int(any(row is one for one in points) and not any(
-            one[FRONT] <= row[FRONT] and one[error] <= row[error] and
-            (one[FRONT] < row[FRONT] or one[error] < row[error]) for one in points))
+            one[time] <= row[time] and one[error] <= row[error] and
+            (one[time] < row[time] or one[error] < row[error]) for one in points))
 
 
 def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path) -> list[dict]:

@@ -11,6 +11,7 @@ from studies.reader import Reader, is_number, is_word
 
 PICTURES = {"cost": (), "map": ("x", "y", "figure"), "scatter": ("x", "y"), "window": ("x", "y"),
             "plies": ("x",)}
+TIMES = ("wall_time_s", "cpu_s")  # of a picture of costs
 FIGURES = {"steps": "steps", "elements": "elements",
            "largest_shear_deg": "max plies.*.max_shear_deg",
            "promised_error_deg": "accuracy.promised_shear_error_deg"}
@@ -166,7 +167,8 @@ def read_picture(table: dict, number: int, study) -> Picture:
         one.figure = reader.word("figure", "name a figure")
         if one.figure and one.figure not in study.figures:
             reader.fail("figure", "is no figure of the study", "name one of [figures]", one.figure)
-    allowed = {"figure"} if kind == "cost" else set(PICTURES[kind])
+        one.x = reader.choice("x", TIMES, TIMES[0])
+    allowed = {"figure", "x"} if kind == "cost" else set(PICTURES[kind])
     for key in {"x", "y", "figure"} & table.keys() - allowed:
         reader.fail(key, f"a picture of kind {kind} has none", "take it out")
     if kind == "plies":
