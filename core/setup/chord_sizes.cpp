@@ -39,17 +39,16 @@ public:
     return found;
   }
 
-  /// c of (1), mm, at the place p with normal n; above: o, mm.
-  double depth(const Vec3& p, const Vec3& n, double above, double size) {
+  /// Whether c of (1) is more than `limit` (mm) at the place p with normal n; above: o, mm.
+  bool deeper(const Vec3& p, const Vec3& n, double above, double size, double limit) {
     const Vec3 a = n.unitOrthogonal(), b = n.cross(a);
-    double deepest = 0.0;
     for (int k = 0; k < chord_directions; ++k) {
       const double turn = k * std::numbers::pi / chord_directions;
       const Vec3 half = 0.5 * chord_of_size * size * (std::cos(turn) * a + std::sin(turn) * b);
       const double middle = 0.5 * (at(p + half).distance + at(p - half).distance);
-      deepest = std::max(deepest, std::abs(middle - above));
+      if (std::abs(middle - above) > limit) return true;
     }
-    return deepest;
+    return false;
   }
 
 private:
@@ -81,12 +80,12 @@ std::vector<Offsets> offsets_of(const Case& data) {
 /// The largest size between least and most (mm) whose chord is `limit` (mm) deep at most.
 double size_of_depth(ChordDepths& chords, const Vec3& p, const Vec3& n, double above, double limit,
                      double least, double most) {
-  if (chords.depth(p, n, above, most) <= limit) return most;
+  if (!chords.deeper(p, n, above, most, limit)) return most;
   least = std::min(least, most);
-  if (chords.depth(p, n, above, least) > limit) return least;
+  if (chords.deeper(p, n, above, least, limit)) return least;
   while (most > size_grain * least) {
     const double between = std::sqrt(least * most);
-    (chords.depth(p, n, above, between) <= limit ? least : most) = between;
+    (chords.deeper(p, n, above, between, limit) ? most : least) = between;
   }
   return least;
 }

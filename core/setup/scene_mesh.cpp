@@ -80,11 +80,7 @@ void give_sizes(PreparedCase& prepared, const std::vector<PlySizes>& sizes) {
       return of.ply == data.plies[p].name;
     });
     if (found == sizes.end()) continue;
-    BlankSpec blank = blank_of(data, p);
-    blank.sizes = found->sizes;
-    blank.element_size = aligned_size(found->sizes, blank.element_size);
-    data.plies[p].blank = static_cast<int>(data.blanks.size());
-    data.blanks.push_back(std::move(blank));
+    set_sizes(data, p, found->sizes);
     prepared.meshes[p] = mesh_ply(data, data.plies[p]);
   }
 }

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A run with coarse elements and a fast stroke that says what element sizes the scene needs where:
 // in the cloth that passes over what is round in a tool (core/setup/chord_sizes.hpp), and where
-// shear bends sharply (core/setup/shear_sizes.hpp).
+// shear bends sharply (core/setup/shear_sizes.hpp). Where its elements are so coarse that they do
+// not say where (a small pocket in a large blank), it runs again with elements twice as large as
+// those it has found, until they do.
 #pragma once
 
 #include "core/solver/run.hpp"
@@ -17,9 +19,9 @@ struct ScoutHooks {
 };
 
 struct Scouted {
-  std::vector<SizeGrid> sizes; ///< one per ply; empty if the scout did not go to its end
+  std::vector<SizeGrid> sizes; ///< one per ply; of no use if the scout did not go to its end
   std::string fault;           ///< why it did not
-  double work = 0.0;           ///< triangles times steps
+  double work = 0.0;           ///< triangles times steps, of all its runs
   double seconds = 0.0;        ///< wall time
 };
 

@@ -5,9 +5,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace plyform {
 namespace {
+
+// The error that is aimed at over what kinks leave with elements as small as they may get: nearer
+// to that all elements would become as small.
+constexpr double over_kinks = 1.5;
 
 Vec2 side(const PlyFrame& ply, std::size_t t, std::size_t to) {
   const Triangle& n = ply.triangles[t];
@@ -37,19 +42,20 @@ std::array<std::vector<double>, 2> gradients(const PlyFrame& ply,
 struct Estimate {
   double size, error, area; ///< mm, degrees, mm^2
   double lowered;           ///< mm, what is asked for already
+  double least;             ///< mm: for the sake of shear no less
 };
 
 /// h' of (2), mm.
-double size_of(const Estimate& e, double mu, double finest) {
+double size_of(const Estimate& e, double mu) {
   const double size = e.error > 0.0 ? e.size * std::cbrt(mu / e.error) : e.lowered;
-  return std::min(e.lowered, std::max(size, finest * e.size));
+  return std::min(e.lowered, std::max(size, e.least));
 }
 
 /// The root mean square error of all with this mu, degrees.
-double error_of(const std::vector<Estimate>& all, double mu, double finest) {
+double error_of(const std::vector<Estimate>& all, double mu) {
   double sum = 0.0, area = 0.0;
   for (const Estimate& e : all) {
-    const double share = size_of(e, mu, finest) / e.size, left = e.error * share * share;
+    const double share = size_of(e, mu) / e.size, left = e.error * share * share;
     sum += e.area * left * left;
     area += e.area;
   }
@@ -57,20 +63,32 @@ double error_of(const std::vector<Estimate>& all, double mu, double finest) {
 }
 
 /// The largest mu, degrees, whose error is `wanted` at most; 0 if none is.
-double find_mu(const std::vector<Estimate>& all, double wanted, double finest) {
+double find_mu(const std::vector<Estimate>& all, double wanted) {
   double low = 0.0, high = 0.0;
   for (const Estimate& e : all)
     high = std::max(high, e.error * std::pow(e.lowered / e.size, 3.0));
-  if (error_of(all, high, finest) <= wanted) return high;
+  if (error_of(all, high) <= wanted) return high;
   constexpr int halvings = 40; // beyond what sizes are kept to
   for (int i = 0; i < halvings; ++i) {
     const double between = 0.5 * (low + high);
-    (error_of(all, between, finest) <= wanted ? low : high) = between;
+    (error_of(all, between) <= wanted ? low : high) = between;
   }
   return low;
 }
 
+double smallest_of(const std::vector<AskedSizes>& sizes) {
+  double smallest = std::numeric_limits<double>::infinity();
+  for (const AskedSizes& of_ply : sizes)
+    for (const auto& places : of_ply)
+      smallest = std::min(smallest, *std::min_element(places.begin(), places.end()));
+  return smallest;
+}
+
 } // namespace
+
+double square_side(const PlyFrame& ply, std::size_t t) {
+  return std::sqrt(std::abs(twice_area(ply, t)));
+}
 
 std::vector<double> shear_error_estimates(const PlyFrame& ply) {
   const auto g = gradients(ply, nodal_means(ply, ply.shear_deg));
@@ -92,19 +110,26 @@ std::vector<double> shear_error_estimates(const PlyFrame& ply) {
 void lower_to_shear(const Frame& last, double error, double finest,
                     std::vector<AskedSizes>& sizes) {
   std::vector<Estimate> all;
+  double smallest = smallest_of(sizes), coarsest = 0.0;
+  for (const PlyFrame& ply : last.plies)
+    for (std::size_t t = 0; t < ply.triangles.size(); ++t)
+      coarsest = std::max(coarsest, square_side(ply, t));
+  smallest = std::min(smallest, finest * coarsest);
   for (std::size_t p = 0; p < last.plies.size(); ++p) {
     const std::vector<double> errors = shear_error_estimates(last.plies[p]);
     for (std::size_t t = 0; t < errors.size(); ++t) {
-      const double twice = std::abs(twice_area(last.plies[p], t));
-      all.push_back({std::sqrt(twice), errors[t], 0.5 * twice,
-                     *std::max_element(sizes[p][t].begin(), sizes[p][t].end())});
+      const double own = square_side(last.plies[p], t);
+      all.push_back({own, errors[t], 0.5 * own * own,
+                     *std::max_element(sizes[p][t].begin(), sizes[p][t].end()),
+                     std::max(finest * own, smallest)});
     }
   }
-  const double mu = find_mu(all, error, finest);
+  const double kinks = error_of(all, 0.0);
+  const double mu = find_mu(all, std::max(error, over_kinks * kinks));
   std::size_t i = 0;
   for (AskedSizes& of_ply : sizes)
     for (auto& places : of_ply) {
-      const double size = size_of(all[i++], mu, finest);
+      const double size = size_of(all[i++], mu);
       for (double& place : places)
         place = std::min(place, size);
     }

@@ -21,8 +21,14 @@ namespace plyform {
 /// (1) of each triangle, degrees.
 std::vector<double> shear_error_estimates(const PlyFrame& ply);
 
+/// mm: the side of a square of two such triangles before forming, of one triangle of a ply.
+double square_side(const PlyFrame& ply, std::size_t triangle);
+
 /// Lowers `sizes` of all plies to (2) with e = `error`, degrees, over all of them. What is lower
-/// already counts as it is; no size gets below `finest` of the triangle's own.
+/// already counts as it is. For the sake of shear no size gets below `finest` of the triangle's
+/// own; nor, where the mesh is graded, below the smallest of all that are there already, which set
+/// the step, or `finest` of the largest triangle. What is left with elements that small (at kinks,
+/// which no mesh resolves) may be two thirds of e, and e grows with it beyond.
 void lower_to_shear(const Frame& last, double error, double finest, std::vector<AskedSizes>& sizes);
 
 } // namespace plyform

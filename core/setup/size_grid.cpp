@@ -9,7 +9,6 @@ namespace plyform {
 namespace {
 
 constexpr double finest_spacing = 0.5;    // of the smallest size
-constexpr double held_around = 0.3;       // of a side: how far a size holds
 constexpr double most_points_a_way = 600; // a blank of 1.2 m has 2 mm
 
 /// The part of the grid within `reach` (mm) of a place.
@@ -77,7 +76,8 @@ SizeGrid empty_grid(const std::vector<Vec2>& nodes, double smallest, double larg
 
 } // namespace
 
-SizeGrid size_grid(const PlyFrame& ply, const Ply& place, const AskedSizes& sizes, double largest) {
+SizeGrid size_grid(const PlyFrame& ply, const Ply& place, const AskedSizes& sizes, double largest,
+                   double held) {
   const Eigen::Rotation2Dd back(-place.rotation);
   std::vector<Vec2> nodes;
   for (const Vec3& x : ply.x0)
@@ -90,7 +90,7 @@ SizeGrid size_grid(const PlyFrame& ply, const Ply& place, const AskedSizes& size
     const Triangle& n = ply.triangles[t];
     const Vec2 &a = nodes[at(n[0])], &b = nodes[at(n[1])], &c = nodes[at(n[2])];
     const Vec2 u = b - a, v = c - a;
-    const double reach = held_around * std::sqrt(std::abs(u.x() * v.y() - u.y() * v.x()));
+    const double reach = held * std::sqrt(std::abs(u.x() * v.y() - u.y() * v.x()));
     for (std::size_t k = 0; k < asked_places.size(); ++k) {
       const auto& w = asked_places[k];
       if (sizes[t][k] < largest)
@@ -105,6 +105,14 @@ double aligned_size(const SizeGrid& grid, double largest) {
   const double least = *std::min_element(grid.size.begin(), grid.size.end()) / asked_share;
   if (!(least < largest)) return largest;
   return least * std::exp2(0.5 * std::floor(2.0 * std::log2(largest / least)));
+}
+
+void set_sizes(Case& data, std::size_t ply, SizeGrid sizes) {
+  BlankSpec blank = data.blanks[at(data.plies[ply].blank)];
+  blank.element_size = aligned_size(sizes, blank.element_size);
+  blank.sizes = std::move(sizes);
+  data.plies[ply].blank = static_cast<int>(data.blanks.size());
+  data.blanks.push_back(std::move(blank));
 }
 
 } // namespace plyform

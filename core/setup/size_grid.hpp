@@ -14,10 +14,11 @@
 namespace plyform {
 
 /// The grid of a ply, seen from the origin of its blank. sizes: of each triangle of `ply`; largest:
-/// mm. A size holds within 0.3 of a side of the triangle's square: its places are as far apart, and
-/// stand for their neighbours between two states that were looked at. Farther off sizes grow by
-/// size_growth.
-SizeGrid size_grid(const PlyFrame& ply, const Ply& place, const AskedSizes& sizes, double largest);
+/// mm. A size holds within `held` of a side of the triangle's square: at 0.3 its places are as far
+/// apart, and stand for their neighbours between two states that were looked at. Farther off sizes
+/// grow by size_growth.
+SizeGrid size_grid(const PlyFrame& ply, const Ply& place, const AskedSizes& sizes, double largest,
+                   double held);
 
 /// The share of wanted sizes that a grid has.
 constexpr double asked_share = 0.92;
@@ -25,6 +26,9 @@ constexpr double asked_share = 0.92;
 /// mm: the largest size up to `largest` from which bisections lead to the least that the grid was
 /// made for.
 double aligned_size(const SizeGrid& grid, double largest);
+
+/// Gives a ply a blank of its own with these sizes, and the largest size that aligned_size says.
+void set_sizes(Case& data, std::size_t ply, SizeGrid sizes);
 
 /// mm per mm: how fast sizes may grow from place to place. A bisected mesh doubles them within two
 /// or three elements, which is as steep.

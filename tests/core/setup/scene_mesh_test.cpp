@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Meshes from the scene: the scout's sizes, the same for any number of threads, and taken from the
 // file of a run before.
+#include "core/mesh/size_field.hpp"
 #include "core/setup/scene_mesh.hpp"
 #include "support/case_files.hpp"
 
+#include <cmath>
 #include <gtest/gtest.h>
+#include <limits>
+#include <numbers>
 #include <unistd.h>
 
 namespace plyform::scene_mesh_test {
@@ -44,6 +48,33 @@ TEST(SceneMesh, IsFineOverTheDieTheSameForAnyThreadsAndTakenFromAFile) {
   fs::remove(file);
   EXPECT_FALSE(taken.scouted);
   EXPECT_TRUE(same(one.meshes, later.meshes));
+}
+
+/// The least size that is asked for on a ray from the middle of the blank.
+double least_on_ray(const SizeGrid& grid, double angle) {
+  SizeField field;
+  field.largest = std::numeric_limits<double>::infinity();
+  field.grid = grid;
+  double least = field.largest;
+  for (double r = 30.0; r < 68.0; r += 0.5)
+    least = std::min(least, wanted_size(field, r * Vec2(std::cos(angle), std::sin(angle))));
+  return least;
+}
+
+// Elements of 50 mm over a punch of 30 mm see little: two of their four places per triangle are in
+// the hole. What is found must be fine on every ray all the same.
+TEST(SceneMesh, LooksAgainWhereElementsAreTooCoarseToSayWhere) {
+  PreparedCase coarse =
+      prepare_case(PLYFORM_CASES "/verify/hemisphere_small.toml",
+                   {{"blanks.square.mesh_from", "scene"},
+                    {"blanks.square.element_size", "34"},
+                    {"tool.1.points", "[[34.0, -60.0], [34.0, 0.0, 4.0], [160.0, 0.0]]"}});
+  ASSERT_TRUE(coarse.value) << all_texts(coarse);
+  const SceneMesh found = mesh_from_scene(coarse, 1);
+  EXPECT_GT(found.largest, 3.0 * found.smallest);
+  EXPECT_LT(found.smallest, 2.5); // a fillet of 4 mm
+  for (int k = 0; k < 16; ++k)
+    EXPECT_LT(least_on_ray(found.sizes[0].sizes, k * std::numbers::pi / 8.0), 2.5) << k;
 }
 
 } // namespace

@@ -46,7 +46,7 @@ TEST(SizeGrid, KeepsWhatIsAskedForWhereverThePlyLies) {
   for (const double rotation : {0.0, 0.7}) {
     const Placed p = placed(rotation, {100.0, -30.0});
     BlankSpec blank = rectangle(40.0, 40.0, largest);
-    blank.sizes = size_grid(p.ply, p.place, p.sizes, largest);
+    blank.sizes = size_grid(p.ply, p.place, p.sizes, largest, 0.3);
     const SizeField field = make_size_field(blank);
     for (const Vec2& x : p.small_at)
       EXPECT_LE(wanted_size(field, x), 1.1 * small); // between points of the grid
@@ -56,7 +56,7 @@ TEST(SizeGrid, KeepsWhatIsAskedForWhereverThePlyLies) {
 
 TEST(SizeGrid, BisectionsOfTheAlignedSizeLeadToTheLeast) {
   const Placed p = placed(0.0, Vec2::Zero());
-  SizeGrid grid = size_grid(p.ply, p.place, p.sizes, largest);
+  SizeGrid grid = size_grid(p.ply, p.place, p.sizes, largest, 0.3);
   EXPECT_NEAR(aligned_size(grid, largest), largest, 1e-9); // 4 is 1 bisected four times
   EXPECT_NEAR(aligned_size(grid, 0.99 * largest), 2.0 * std::numbers::sqrt2, 1e-9);
   for (double& size : grid.size)
@@ -66,7 +66,7 @@ TEST(SizeGrid, BisectionsOfTheAlignedSizeLeadToTheLeast) {
 
 TEST(SizeGrid, GrowsNoFasterThanAMeshCan) {
   const Placed p = placed(0.0, Vec2::Zero());
-  const SizeGrid grid = size_grid(p.ply, p.place, p.sizes, largest);
+  const SizeGrid grid = size_grid(p.ply, p.place, p.sizes, largest, 0.3);
   for (int row = 0; row < grid.rows; ++row)
     for (int column = 0; column + 1 < grid.columns; ++column) {
       const auto i = static_cast<std::size_t>(row * grid.columns + column);
