@@ -110,6 +110,8 @@ for name in hemisphere_0 hemisphere_45 hemisphere_two_ply hemisphere_five_ply sq
   "$program" check "cases/$name" >said 2>&1 || fail "plyform check cases/$name fails"
   grep -q 'warning: ' said && fail "plyform check cases/$name warns: $(grep 'warning: ' said)"
 done
+# A small pocket in a large blank: the scout finds its fillets of 4 mm from elements of 49 mm on.
+expect 0 'triangles, elements of 2.19 to 35 mm' check cases/pocket
 expect 0 'touches ply ply; 600 x 600 x 10 mm, from (-300, -300, 0.6) to (300, 300, 10.6)' \
   check cases/hemisphere_0
 expect 0 '20 mm from ply ply, first contact with ply ply after 20 mm' check cases/hemisphere_0 \

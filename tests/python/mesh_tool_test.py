@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Tools from STEP and IGES files: closed, outward, within the deflection of shapes that are known;
-what is wrong with a file told in one line; and plies that form over them as over the primitives.
+what is wrong with a file told in one line; and plies that form over them as over the primitives. The
+tools of cases/double_dome.
 
     mesh_tool_test.py files|formed|shipped TOOLS PROGRAM CASES
 
@@ -260,12 +261,48 @@ def check_formed(folder, shipped):
             assert np.abs(one).max() > 20 and rms <= 0.3
 
 
+def check_double_dome(folder):
+    """The tools of cases/double_dome are drawn as its README says, and the case is sound with them."""
+    case = folder / "double_dome"
+    case.mkdir()
+    done = subprocess.run([sys.executable, CASES / "double_dome" / "draw_tools.py", case],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and done.stdout.count("\n") == 3, done
+    stadium = {r: math.pi * r ** 2 + 150 * 2 * r for r in (60, 64, 72)}  # mm2
+    plate, corner = 560 * 360, 1 - math.pi / 4  # mm2; of a fillet's square, what it takes away
+
+    def opened(radius, height, fillet):
+        centroid = (10 - 3 * math.pi) / (12 - 3 * math.pi) * fillet  # of what it takes, from the edge
+        along = 2 * 150 + 2 * math.pi * (radius + centroid)
+        return height * (plate - stadium[radius]) - corner * fillet ** 2 * along
+    for name, low, high, volume in (
+            ("punch", (-135, -60, 0), (135, 60, 80),
+             2 / 3 * math.pi * 60 ** 3 + math.pi / 2 * 60 ** 2 * 150 + 20 * stadium[60]),
+            ("die", (-280, -180, -75), (280, 180, 0), opened(64, 75, 6)),
+            ("blank_holder", (-280, -180, 0), (280, 180, 20), opened(72, 20, 8))):
+        _, corners, said = made(case / f"{name}.step", "--deflection", 0.2)
+        places = corners.reshape(-1, 3)
+        assert np.abs(places.min(axis=0) - low).max() < 0.2, (name, places.min(axis=0))
+        assert np.abs(places.max(axis=0) - high).max() < 0.2, (name, places.max(axis=0))
+        exact = float(said.split("that of the part ")[1].split()[0])
+        assert abs(exact / volume - 1) < 1e-5, (name, exact, volume)
+    fabrics = CASES / "fabrics" / "glass_plain_weave.toml"
+    text = (CASES / "double_dome" / "case.toml").read_text(encoding="utf-8")
+    (case / "case.toml").write_text(text.replace("../fabrics/glass_plain_weave.toml", str(fabrics)))
+    done = subprocess.run([PROGRAM, "check", case, "--set", "blanks.sheet.mesh_from=element_size"],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and "the case is sound" in done.stdout, done
+    for said in ("touches ply lower", "touches ply upper", "driven 60 mm"):
+        assert said in done.stdout, done
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         if WHAT == "files":
             check_parts(folder)
             check_faults(folder)
+            check_double_dome(folder)
         else:
             check_formed(folder, WHAT == "shipped")
 
