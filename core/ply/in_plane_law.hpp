@@ -15,8 +15,9 @@ struct InPlaneLaw {
   /// q of (Q) for groups [begin, end), as element_forces (core/ply/membrane.hpp).
   GroupReport (*forces)(const Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                         const LawStates<YarnMemory>& states, std::span<ElementForce> q);
-  /// (E) summed over all triangles.
-  MembraneEnergy (*energy)(const Membrane& m, std::span<const Vec3> x);
+  /// (E) summed over all triangles, as membrane_energy.
+  MembraneEnergy (*energy)(const Membrane& m, std::span<const Vec3> x,
+                           std::span<const YarnMemory> states, double dt);
   /// Bound of the largest eigenvalue of H (G x I), N/mm^3, of a triangle of a sheet without yarns;
   /// null for yarns, whose bound is in membrane_eigenvalue.cpp.
   double (*stiffness)(const Membrane& m, const FibreState& s, const Gram& g);

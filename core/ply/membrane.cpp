@@ -112,8 +112,16 @@ GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt
   return in_plane_law(m.fabric).forces(m, x, dt, begin, end, states, q);
 }
 
-MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x) {
-  return in_plane_law(m.fabric).energy(m, x);
+MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
+                               std::span<const YarnMemory> states, double dt) {
+  return in_plane_law(m.fabric).energy(m, x, states, dt);
+}
+
+std::vector<YarnMemory> memory_at_start(const Membrane& m) {
+  YarnMemory start{};
+  for (std::size_t family = 0; family < 2; ++family)
+    start_state(m.law(family), start[family].data());
+  return std::vector<YarnMemory>(static_cast<std::size_t>(m.groups()), start);
 }
 
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node) {

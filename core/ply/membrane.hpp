@@ -60,6 +60,7 @@
 #include "contact/geometry.hpp"
 #include "core/mesh/mesh_blank.hpp"
 #include "core/model/case.hpp"
+#include "core/model/yarn_law.hpp"
 
 #include <span>
 #include <vector>
@@ -88,14 +89,12 @@ struct SideStiffness {
   double stabilisation = 0.0, collapse_penalty = 0.0;
 };
 
-/// What the yarns of one strain group remember from step to step: mean stretches and viscous
-/// tensions (N), warp and weft.
-struct YarnMemory {
-  std::array<double, 2> stretch{1.0, 1.0}, viscous{};
-};
+/// What the yarns of one strain group remember from step to step, warp and weft: the states of
+/// core/model/yarn_law.hpp at their mean strain.
+using YarnMemory = std::array<std::array<double, yarn_states>, 2>;
 
 /// What the laws at the points of a ply remember: at the begin of a step, which its forces read,
-/// and at its end, which they write. Both may be the same array.
+/// and at its end, which they write. Where both are the same array, each evaluation is a step.
 template <class State>
 struct LawStates {
   std::span<const State> begin;
@@ -125,6 +124,10 @@ struct Membrane {
 
   /// t, of the cloth alone at a node.
   double cloth_mass(std::size_t n) const { return fabric.surface_density * node_area[n]; }
+  /// The law of the yarns of a family: refers to this membrane.
+  AnyYarnLaw law(std::size_t family) const {
+    return ViscousYarn{yarn[family], family == 0 ? viscosity.warp : viscosity.weft};
+  }
   int groups() const { return static_cast<int>(group_begin.size()) - 1; }
 };
 
@@ -167,12 +170,15 @@ bool collapsed(const FibreState& state);
 
 /// Report of a force computation over some groups.
 struct GroupReport {
-  double viscous_work = 0.0; ///< N mm, dissipated by viscosity in the step that led to x
-  bool collapsed = false;    ///< whether a triangle has collapsed
+  double lost = 0.0;      ///< N mm, dissipated by the yarns in the step that led to x
+  bool collapsed = false; ///< whether a triangle has collapsed
 };
 
+/// What yarns remember at the start, one per strain group.
+std::vector<YarnMemory> memory_at_start(const Membrane& m);
+
 /// (Q) for groups [begin, end) at positions x (mm, n), viscous forces included. dt: s, the time
-/// step that led to x; 0 leaves the viscosity out. states: one per group, not used by a sheet
+/// step that led to x; 0 leaves rates out. states: one per group, not used by a sheet
 /// without yarns. q: N mm, m, of which those of the groups are written.
 GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin,
                            int end, const LawStates<YarnMemory>& states, std::span<ElementForce> q);
@@ -185,7 +191,9 @@ Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);
 struct MembraneEnergy {
   double fibre = 0.0, shear = 0.0; ///< N mm
 };
-/// (E) summed over all triangles. x: mm, n.
-MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x);
+/// (E) summed over all triangles. x: mm, n. states: what yarns remember of the begin of the step dt
+/// (s) that led to x, one per group; empty: from the start.
+MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
+                               std::span<const YarnMemory> states = {}, double dt = 0.0);
 
 } // namespace plyform

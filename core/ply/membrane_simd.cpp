@@ -109,22 +109,26 @@ private:
   std::vector<int> pairs, singles;
 };
 
-LawPoint on_yarn(const KernelLaw& law, int family, double strain) {
-  return law.membrane->yarn[static_cast<std::size_t>(family)].at(strain);
-}
+static_assert(most_yarn_states >= yarn_states);
 
 double density(const KernelLaw& law, int family) {
   return family == 0 ? law.membrane->fabric.warp_density : law.membrane->fabric.weft_density;
 }
 
-void tension_of_table(const KernelLaw& law, int family, const double* strain, double* n) {
-  for (int i = 0; i < simd_width; ++i)
-    n[i] = density(law, family) * on_yarn(law, family, strain[i]).value;
-}
-
-void tension_energy_of_table(const KernelLaw& law, int family, const double* strain, double* e) {
-  for (int i = 0; i < simd_width; ++i)
-    e[i] = density(law, family) * on_yarn(law, family, strain[i]).energy;
+void evaluate_yarns(const KernelLaw& law, int family, double per_dt, const double* strain,
+                    const double (*begin)[simd_width], double (*end)[simd_width],
+                    KernelAnswers& answers) {
+  const AnyYarnLaw yarns = law.membrane->law(at(family));
+  const double d = density(law, family);
+  for (std::size_t i = 0; i < simd_width; ++i) {
+    std::array<double, yarn_states> now{}, next{};
+    for (std::size_t k = 0; k < now.size(); ++k)
+      now[k] = begin[k][i];
+    const LawAnswer a = answer_of(yarns, {strain[i], per_dt}, now.data(), next.data());
+    for (std::size_t k = 0; k < next.size(); ++k)
+      end[k][i] = next[k];
+    answers.value[i] = d * a.value, answers.stored[i] = d * a.stored, answers.lost[i] = d * a.lost;
+  }
 }
 
 void secant_of_table(const KernelLaw& law, const double* measure2, double* p) {
@@ -145,7 +149,6 @@ KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosit
   k.viscosity = density * viscosity;
   k.stabilisation = density * side.stabilisation;
   k.collapse_penalty = density * side.collapse_penalty;
-  k.table = !yarn.linear();
   k.buckles = yarn.buckles();
   if (k.buckles) {
     k.buckling_strain = yarn.buckling_strain();
@@ -168,22 +171,22 @@ KernelLaw kernel_law(const Membrane& m) {
       law.shear[i] = law.cells * f.shear.k[i];
   }
   law.membrane = &m;
-  law.tension = tension_of_table;
+  law.by_law = !m.yarn[0].linear() || !m.yarn[1].linear();
+  law.evaluate = evaluate_yarns;
   law.secant = secant_of_table;
-  law.tension_energy = tension_energy_of_table;
   law.shear_energy = shear_energy_of_table;
   return law;
 }
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double)); // the kernel reads positions as doubles
 
-/// The kernel's view of block b. states, force: arrays of all blocks, or empty if not needed.
+/// The kernel's view of block b. states.end, force: arrays of all blocks, or empty if not needed.
 KernelBlock kernel_block(const MembraneSimd& l, const SimdBlock& b,
-                         const LawStates<SimdViscosity>& states, SimdForce* force) {
+                         const LawStates<SimdYarnStates>& states, SimdForce* force) {
   return {l.nodes.data() + b.first_node,
           b.nodes,
           l.triangles->data() + b.first_triangles,
-          states.end.empty() ? nullptr : states.begin.data() + b.first_group,
+          states.begin.data() + b.first_group,
           states.end.empty() ? nullptr : states.end.data() + b.first_group,
           b.pair_packs,
           b.single_packs,
@@ -209,29 +212,34 @@ MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {
   return out;
 }
 
-std::vector<SimdViscosity> states_at_start(const MembraneSimd& l) {
-  SimdViscosity state{};
-  for (auto& lambda : state.lambda)
-    std::fill(std::begin(lambda), std::end(lambda), 1.0);
-  return std::vector<SimdViscosity>(static_cast<std::size_t>(l.packs), state);
+std::vector<SimdYarnStates> states_at_start(const MembraneSimd& l, const Membrane& m) {
+  SimdYarnStates state{};
+  for (std::size_t family = 0; family < 2; ++family) {
+    std::array<double, yarn_states> start{};
+    start_state(m.law(family), start.data());
+    for (std::size_t k = 0; k < start.size(); ++k)
+      std::fill(std::begin(state.of[family][k]), std::end(state.of[family][k]), start[k]);
+  }
+  return std::vector<SimdYarnStates>(static_cast<std::size_t>(l.packs), state);
 }
 
 GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3> x, double dt,
-                        int block, const LawStates<SimdViscosity>& states) {
+                        int block, const LawStates<SimdYarnStates>& states) {
   const SimdBlock& b = l.blocks[block];
   const KernelBlock kernel = kernel_block(l, b, states, l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_kernel_generic, membrane_kernel_avx2, membrane_kernel_avx512);
   const KernelReport report = run(kernel, kernel_law(m), x.data()->data(), per_dt);
-  return {report.viscous_work, report.collapsed};
+  return {report.lost, report.collapsed};
 }
 
 MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
-                           int block) {
+                           double dt, int block, std::span<const SimdYarnStates> begin) {
   const SimdBlock& b = l.blocks[block];
-  const KernelBlock kernel = kernel_block(l, b, {}, nullptr);
+  const KernelBlock kernel = kernel_block(l, b, {begin, {}}, nullptr);
+  const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_energy_generic, membrane_energy_avx2, membrane_energy_avx512);
-  const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data());
+  const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data(), per_dt);
   return {energy.fibre, energy.shear};
 }
 

@@ -8,8 +8,9 @@ KernelReport membrane_kernel_avx2(const KernelBlock& block, const KernelLaw& law
   return membrane_kernel(block, law, x, per_dt);
 }
 
-KernelEnergy membrane_energy_avx2(const KernelBlock& block, const KernelLaw& law, const double* x) {
-  return membrane_energy_kernel(block, law, x);
+KernelEnergy membrane_energy_avx2(const KernelBlock& block, const KernelLaw& law, const double* x,
+                                  double per_dt) {
+  return membrane_energy_kernel(block, law, x, per_dt);
 }
 
 } // namespace plyform

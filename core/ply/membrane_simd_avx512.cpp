@@ -9,9 +9,9 @@ KernelReport membrane_kernel_avx512(const KernelBlock& block, const KernelLaw& l
   return membrane_kernel(block, law, x, per_dt);
 }
 
-KernelEnergy membrane_energy_avx512(const KernelBlock& block, const KernelLaw& law,
-                                    const double* x) {
-  return membrane_energy_kernel(block, law, x);
+KernelEnergy membrane_energy_avx512(const KernelBlock& block, const KernelLaw& law, const double* x,
+                                    double per_dt) {
+  return membrane_energy_kernel(block, law, x, per_dt);
 }
 
 } // namespace plyform

@@ -18,7 +18,8 @@ struct SimdBlockWork {
   const KernelLaw& law;
   const SimdLaw& lane;
   double* force;
-  Double4 work;
+  double per_dt; ///< 1/s, as of membrane_kernel
+  Double4 lost;  ///< twice the work lost
 };
 
 /// Compressive strain beyond the buckling strain; 0 for yarns that have not buckled.
@@ -26,17 +27,14 @@ PLYFORM_INLINE Doubles buckled_by(const KernelYarns& yarns, Doubles strain) {
   return larger(all(0.0), -yarns.buckling_strain - strain);
 }
 
-/// d_a W_a', N/mm. `general`: some law of the fabric is a table, or its yarns can buckle.
+/// d_a W_a', N/mm, of a law that the kernel knows. `general`: it does not know all laws of the
+/// fabric, or its yarns can buckle.
 template <bool general>
 PLYFORM_INLINE Doubles yarn_tension(const SimdBlockWork& w, int family, Doubles strain) {
   const SimdYarns& yarns = w.lane.yarns[family];
   const KernelYarns& law = w.law.yarns[family];
-  if (!general || !law.table) {
-    const Doubles n = strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
-    return general && law.buckles ? n + law.buckling_drop * buckled_by(law, strain) : n;
-  }
-  return by_quads(strain,
-                  [&](const double* at, double* n) { w.law.tension(w.law, family, at, n); });
+  const Doubles n = strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
+  return general && law.buckles ? n + law.buckling_drop * buckled_by(law, strain) : n;
 }
 
 /// n_c p, N/mm, for g^2.
@@ -58,30 +56,77 @@ PLYFORM_INLINE Doubles simd_secant(const SimdBlockWork& w, Doubles measure2) {
 
 /// What the yarns of some packs remember at the begin of the step and at its end.
 struct StatesOfQuads {
-  OfQuads<const SimdViscosity> begin;
-  OfQuads<SimdViscosity> end;
+  OfQuads<const SimdYarnStates> begin;
+  OfQuads<SimdYarnStates> end;
 };
 
-/// Adds the viscous tensions of groups to n1 and n2 (N/mm), and twice their work (N mm) to w.work.
-PLYFORM_INLINE void add_viscosity(SimdBlockWork& w, const StatesOfQuads& v, Doubles mean1,
-                                  Doubles mean2, Doubles area, Doubles& n1, Doubles& n2) {
-  const auto lambda = [&](int family) {
-    return numbers([&](int q) { return v.begin.of[q]->lambda[family]; });
-  };
-  const auto tension = [&](int family) {
-    return numbers([&](int q) { return v.begin.of[q]->tension[family]; });
-  };
-  const Doubles change1 = mean1 - lambda(0), change2 = mean2 - lambda(1);
+/// Row `row` of what a family remembers at the begin of the step.
+PLYFORM_INLINE Doubles remembered(const StatesOfQuads& states, int family, int row) {
+  return numbers([&](int q) { return states.begin.of[q]->of[family][row]; });
+}
+
+/// Tensions of yarns of linear laws, with viscosity while taut. n1, n2: d_a N, N/mm. Adds twice the
+/// work lost (N mm) to w.lost.
+template <bool general>
+PLYFORM_INLINE void viscous_tensions(SimdBlockWork& w, const StatesOfQuads& v, Doubles mean1,
+                                     Doubles mean2, Doubles area, Doubles& n1, Doubles& n2) {
+  n1 = yarn_tension<general>(w, 0, mean1 - 1.0);
+  n2 = yarn_tension<general>(w, 1, mean2 - 1.0);
+  const Doubles change1 = mean1 - remembered(v, 0, 0), change2 = mean2 - remembered(v, 1, 0);
   const Doubles now1 = n1 > 0.0 ? w.lane.yarns[0].viscosity * change1 : all(0.0);
   const Doubles now2 = n2 > 0.0 ? w.lane.yarns[1].viscosity * change2 : all(0.0);
-  const Doubles work = area * ((now1 + tension(0)) * change1 + (now2 + tension(1)) * change2);
+  const Doubles lost =
+      area * ((now1 + remembered(v, 0, 1)) * change1 + (now2 + remembered(v, 1, 1)) * change2);
   for (int q = 0; q < v.end.count; ++q) {
-    SimdViscosity& end = *v.end.of[q];
-    w.work += quad(work, q);
-    store(end.lambda[0], quad(mean1, q)), store(end.lambda[1], quad(mean2, q));
-    store(end.tension[0], quad(now1, q)), store(end.tension[1], quad(now2, q));
+    SimdYarnStates& end = *v.end.of[q];
+    w.lost += quad(lost, q);
+    store(end.of[0][0], quad(mean1, q)), store(end.of[1][0], quad(mean2, q));
+    store(end.of[0][1], quad(now1, q)), store(end.of[1][1], quad(now2, q));
   }
   n1 += now1, n2 += now2;
+}
+
+/// Answers of a family's law for some packs, whatever it is; `values`: which of them is returned.
+/// end: where it writes what it remembers.
+template <class End>
+PLYFORM_INLINE Doubles by_law(const SimdBlockWork& w, int family, Doubles strain,
+                              const OfQuads<const SimdYarnStates>& begin, const End& end,
+                              double (KernelAnswers::*values)[simd_width], Doubles* lost) {
+  alignas(sizeof(Doubles)) double strains[lanes], value[lanes] = {}, losses[lanes] = {};
+  store_lanes(strains, strain);
+  for (int q = 0; q < begin.count; ++q) {
+    KernelAnswers answers;
+    w.law.evaluate(w.law, family, w.per_dt, strains + simd_width * q, begin.of[q]->of[family],
+                   end(q), answers);
+    for (int i = 0; i < simd_width; ++i) {
+      value[simd_width * q + i] = (answers.*values)[i];
+      losses[simd_width * q + i] = answers.lost[i];
+    }
+  }
+  if (lost) *lost = numbers([&](int q) { return losses + simd_width * q; });
+  return numbers([&](int q) { return value + simd_width * q; });
+}
+
+/// The tension of a family by its law, d_a N, N/mm, and what it loses.
+PLYFORM_INLINE Doubles tension_by_law(SimdBlockWork& w, int family, const StatesOfQuads& v,
+                                      Doubles mean, Doubles area) {
+  Doubles lost;
+  const Doubles n = by_law(
+      w, family, mean - 1.0, v.begin, [&](int q) { return v.end.of[q]->of[family]; },
+      &KernelAnswers::value, &lost);
+  for (int q = 0; q < v.end.count; ++q)
+    w.lost += 2.0 * quad(area * lost, q);
+  return n;
+}
+
+/// Tensions of both families at their mean stretches, d_a N, N/mm, without what holds single
+/// triangles.
+template <bool general>
+PLYFORM_INLINE void tensions(SimdBlockWork& w, const StatesOfQuads& v, Doubles mean1, Doubles mean2,
+                             Doubles area, Doubles& n1, Doubles& n2) {
+  if (!general || !w.law.by_law) return viscous_tensions<general>(w, v, mean1, mean2, area, n1, n2);
+  n1 = tension_by_law(w, 0, v, mean1, area);
+  n2 = tension_by_law(w, 1, v, mean2, area);
 }
 
 /// (F), N, of corners 1 and 2; corner 0 gets the opposite of their sum.
@@ -125,9 +170,8 @@ PLYFORM_INLINE void add_collapse_penalty(const SimdLaw& law, const SimdState& s,
 template <bool general>
 PLYFORM_INLINE void single_packs(SimdBlockWork& w, const TrianglesOfQuads& t, const SimdState& s,
                                  bool needs_penalty, const StatesOfQuads& v) {
-  Doubles n1 = yarn_tension<general>(w, 0, s.lambda1 - 1.0);
-  Doubles n2 = yarn_tension<general>(w, 1, s.lambda2 - 1.0);
-  add_viscosity(w, v, s.lambda1, s.lambda2, area_of(t), n1, n2);
+  Doubles n1, n2;
+  tensions<general>(w, v, s.lambda1, s.lambda2, area_of(t), n1, n2);
   if (needs_penalty) add_collapse_penalty(w.lane, s, n1, n2);
   const CornerForces forces =
       corner_forces(t, s, n1, n2, simd_secant<general>(w, s.gamma * s.gamma));
@@ -141,9 +185,8 @@ PLYFORM_INLINE void pair_packs(SimdBlockWork& w, const TrianglesOfQuads* t, cons
   const Doubles share[2] = {share_of(t[0]), share_of(t[1])};
   const Doubles mean1 = share[0] * s[0].lambda1 + share[1] * s[1].lambda1;
   const Doubles mean2 = share[0] * s[0].lambda2 + share[1] * s[1].lambda2;
-  Doubles n1 = yarn_tension<general>(w, 0, mean1 - 1.0);
-  Doubles n2 = yarn_tension<general>(w, 1, mean2 - 1.0);
-  add_viscosity(w, v, mean1, mean2, area_of(t[0]) + area_of(t[1]), n1, n2);
+  Doubles n1, n2;
+  tensions<general>(w, v, mean1, mean2, area_of(t[0]) + area_of(t[1]), n1, n2);
   Doubles secant[2], held1[2], held2[2]; // n_c p delta_a
   Doubles delta1[2], delta2[2];
   for (int i = 0; i < 2; ++i) {
@@ -209,7 +252,7 @@ PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelL
   for (int i = 0; i < block.node_count; ++i)
     store(force + 4 * i, Double4{});
   const SimdLaw lane = simd_law(law, per_dt);
-  SimdBlockWork w{law, lane, force, Double4{}};
+  SimdBlockWork w{law, lane, force, per_dt, Double4{}};
   Longs collapsed{};
   for_packs(block, lane, place,
             [&](int pack, const auto* t, const auto* s, auto of, bool needs_penalty) {
@@ -222,22 +265,25 @@ PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelL
               else
                 single_packs<general>(w, *t, *s, needs_penalty, states);
             });
-  return {0.5 * sum(w.work), any(collapsed)}; // trapezoidal rule
+  return {0.5 * sum(w.lost), any(collapsed)};
 }
 
-/// d_a W_a, N/mm.
+/// d_a W_a, N/mm, what a family stores. begin: what it remembers.
 template <bool general>
-PLYFORM_INLINE Doubles yarn_energy(const SimdBlockWork& w, int family, Doubles strain) {
+PLYFORM_INLINE Doubles yarn_energy(const SimdBlockWork& w, int family, Doubles strain,
+                                   const OfQuads<const SimdYarnStates>& begin) {
   const SimdYarns& yarns = w.lane.yarns[family];
   const KernelYarns& law = w.law.yarns[family];
-  if (!general || !law.table) {
-    const Doubles e = 0.5 * strain * strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
-    if (!general || !law.buckles) return e;
-    const Doubles beyond = buckled_by(law, strain);
-    return e - 0.5 * law.buckling_drop * beyond * beyond;
+  if (general && w.law.by_law) {
+    SimdYarnStates end; // of no use: this is no step
+    return by_law(
+        w, family, strain, begin, [&](int) { return end.of[family]; }, &KernelAnswers::stored,
+        nullptr);
   }
-  return by_quads(strain,
-                  [&](const double* at, double* e) { w.law.tension_energy(w.law, family, at, e); });
+  const Doubles e = 0.5 * strain * strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
+  if (!general || !law.buckles) return e;
+  const Doubles beyond = buckled_by(law, strain);
+  return e - 0.5 * law.buckling_drop * beyond * beyond;
 }
 
 /// n_c Ws, N/mm, of g^2.
@@ -260,22 +306,23 @@ PLYFORM_INLINE Doubles side_energy(const SimdYarns& yarns, Doubles lambda, Doubl
 
 template <bool general>
 PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelLaw& law,
-                                         const double* x) {
+                                         const double* x, double per_dt) {
   alignas(32) double place[4 * most_block_nodes];
   gather_places(block.nodes, block.node_count, x, place);
   const SimdLaw lane = simd_law(law, 0.0);
-  const SimdBlockWork w{law, lane, nullptr, Double4{}};
+  const SimdBlockWork w{law, lane, nullptr, per_dt, Double4{}};
   const SimdYarns &warp = lane.yarns[0], &weft = lane.yarns[1];
   Double4 fibre{}, shear{};
-  for_packs(block, lane, place, [&](int, const auto* t, const auto* s, auto of, bool) {
+  for_packs(block, lane, place, [&](int pack, const auto* t, const auto* s, auto of, bool) {
+    const auto begin = of_quads(block.begin + pack, 1, t->count);
     Doubles area = all(0.0), mean1 = area, mean2 = area;
     for (int i = 0; i < of; ++i) {
       const Doubles share = share_of(t[i]);
       area += area_of(t[i]);
       mean1 += share * s[i].lambda1, mean2 += share * s[i].lambda2;
     }
-    const Doubles of_yarns =
-        area * (yarn_energy<general>(w, 0, mean1 - 1.0) + yarn_energy<general>(w, 1, mean2 - 1.0));
+    const Doubles of_yarns = area * (yarn_energy<general>(w, 0, mean1 - 1.0, begin) +
+                                     yarn_energy<general>(w, 1, mean2 - 1.0, begin));
     Doubles of_sides[of], of_shear[of];
     for (int i = 0; i < of; ++i) {
       const Doubles delta1 = s[i].lambda1 - mean1, delta2 = s[i].lambda2 - mean2;
@@ -295,12 +342,8 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
   return {sum(fibre), sum(shear)};
 }
 
-PLYFORM_INLINE bool is_general(const KernelYarns& yarns) {
-  return yarns.table || yarns.buckles;
-}
-
 PLYFORM_INLINE bool is_general(const KernelLaw& law) {
-  return is_general(law.yarns[0]) || is_general(law.yarns[1]) || law.shear_terms == 0;
+  return law.by_law || law.yarns[0].buckles || law.yarns[1].buckles || law.shear_terms == 0;
 }
 
 PLYFORM_INLINE KernelReport membrane_kernel(const KernelBlock& block, const KernelLaw& law,
@@ -310,8 +353,9 @@ PLYFORM_INLINE KernelReport membrane_kernel(const KernelBlock& block, const Kern
 }
 
 PLYFORM_INLINE KernelEnergy membrane_energy_kernel(const KernelBlock& block, const KernelLaw& law,
-                                                   const double* x) {
-  return is_general(law) ? block_energy<true>(block, law, x) : block_energy<false>(block, law, x);
+                                                   const double* x, double per_dt) {
+  return is_general(law) ? block_energy<true>(block, law, x, per_dt)
+                         : block_energy<false>(block, law, x, per_dt);
 }
 
 } // namespace

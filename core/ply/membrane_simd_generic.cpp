@@ -9,8 +9,8 @@ KernelReport membrane_kernel_generic(const KernelBlock& block, const KernelLaw& 
 }
 
 KernelEnergy membrane_energy_generic(const KernelBlock& block, const KernelLaw& law,
-                                     const double* x) {
-  return membrane_energy_kernel(block, law, x);
+                                     const double* x, double per_dt) {
+  return membrane_energy_kernel(block, law, x, per_dt);
 }
 
 } // namespace plyform

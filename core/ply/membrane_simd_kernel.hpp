@@ -20,17 +20,24 @@ struct alignas(32) SimdTriangles {
   std::uint16_t node[3][simd_width]; ///< byte offsets: 32 times the index in the block's list
 };
 
-/// State variables of the viscosity of four groups: mean stretches and viscous tensions (times d_a,
-/// N/mm) of the last step.
-struct alignas(32) SimdViscosity {
-  double lambda[2][simd_width], tension[2][simd_width];
+/// Numbers that a law of core/model/yarn_law.hpp may remember of a yarn. Those that the kernel
+/// knows itself: mean stretch and viscous tension, this times d_a (N/mm).
+constexpr int most_yarn_states = 2;
+
+/// What the yarns of four groups remember, per family.
+struct alignas(32) SimdYarnStates {
+  double of[2][most_yarn_states][simd_width];
+};
+
+/// Answers of a law at four points, times d_a: tension (N/mm), energy stored (N/mm), lost (N/mm).
+struct alignas(32) KernelAnswers {
+  double value[simd_width], stored[simd_width], lost[simd_width];
 };
 
 /// Constants of (N) for one family of yarns, each times their density d_a: per mm, not per yarn.
 struct KernelYarns {
   double stiffness, compression, viscosity, stabilisation, collapse_penalty;
-  bool table;             ///< call KernelLaw::tension: the law is not TensionLaw::linear
-  bool buckles;           ///< if not by table: the next two members apply
+  bool buckles;           ///< the next two members apply
   double buckling_strain; ///< -, above 0: compressive strain at which the yarn buckles
   double buckling_drop;   ///< N/mm, decrease of the slope there
 };
@@ -42,12 +49,15 @@ struct KernelLaw {
   double shear[most_shear_terms]; ///< N/mm, n_c times the coefficients of g, g^3 ..., 0 beyond
   int shear_terms;                ///< 0: a table, call `secant`
   const Membrane* membrane;       ///< whose laws the callbacks evaluate
-  double cells;                   ///< n_c
-  /// d_a N (N/mm) of four strains of a family; n_c p (N/mm) of four squared shear measures g^2.
-  void (*tension)(const KernelLaw&, int family, const double* strain, double* n);
+  bool by_law;  ///< call `evaluate`: the kernel does not know the laws of the yarns itself
+  double cells; ///< n_c
+  /// Four yarns of a family. begin, end: SimdYarnStates::of of that family; per_dt: 1/s.
+  void (*evaluate)(const KernelLaw&, int family, double per_dt, const double* strain,
+                   const double (*begin)[simd_width], double (*end)[simd_width],
+                   KernelAnswers& answers);
+  /// n_c p (N/mm) of four squared shear measures g^2.
   void (*secant)(const KernelLaw&, const double* measure2, double* p);
-  /// Likewise d_a W_a (N/mm), n_c Ws (N/mm).
-  void (*tension_energy)(const KernelLaw&, int family, const double* strain, double* energy);
+  /// Likewise n_c Ws (N/mm).
   void (*shear_energy)(const KernelLaw&, const double* measure2, double* energy);
 };
 
@@ -56,14 +66,14 @@ struct KernelBlock {
   const std::int32_t* nodes; ///< node numbers in the ply
   int node_count;            ///< at most most_block_nodes
   const SimdTriangles* triangles;
-  const SimdViscosity* begin; ///< one per pack, of the begin of the step
-  SimdViscosity* end;         ///< one per pack, of its end
+  const SimdYarnStates* begin; ///< one per pack, of the begin of the step
+  SimdYarnStates* end;         ///< one per pack, of its end
   int pair_packs, single_packs;
   SimdForce* force; ///< N, one per node of the block
 };
 
 struct KernelReport {
-  double viscous_work;
+  double lost; ///< N mm, in the step
   bool collapsed;
 };
 
@@ -81,11 +91,12 @@ KernelReport membrane_kernel_avx2(const KernelBlock& block, const KernelLaw& law
 KernelReport membrane_kernel_avx512(const KernelBlock& block, const KernelLaw& law, const double* x,
                                     double per_dt);
 
-/// (E) of a block's groups; block.begin, end and force are not used.
+/// (E) of a block's groups, its yarns with what they remember; block.end and force are not used.
 KernelEnergy membrane_energy_generic(const KernelBlock& block, const KernelLaw& law,
-                                     const double* x);
-KernelEnergy membrane_energy_avx2(const KernelBlock& block, const KernelLaw& law, const double* x);
-KernelEnergy membrane_energy_avx512(const KernelBlock& block, const KernelLaw& law,
-                                    const double* x);
+                                     const double* x, double per_dt);
+KernelEnergy membrane_energy_avx2(const KernelBlock& block, const KernelLaw& law, const double* x,
+                                  double per_dt);
+KernelEnergy membrane_energy_avx512(const KernelBlock& block, const KernelLaw& law, const double* x,
+                                    double per_dt);
 
 } // namespace plyform

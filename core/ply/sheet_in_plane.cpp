@@ -25,7 +25,8 @@ GroupReport sheet_forces(const Membrane& m, std::span<const Vec3> x, double, int
 }
 
 /// Energy of the sheet; all of it counts as shear.
-MembraneEnergy sheet_energy(const Membrane& m, std::span<const Vec3> x) {
+MembraneEnergy sheet_energy(const Membrane& m, std::span<const Vec3> x, std::span<const YarnMemory>,
+                            double) {
   MembraneEnergy sum;
   for (int e = 0; e < m.groups(); ++e) {
     const FibreState s = fibre_state(m, x, e);

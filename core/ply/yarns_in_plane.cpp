@@ -96,23 +96,17 @@ void group_forces(const Membrane& m, const GroupState& s, double n1, double n2,
 GroupReport yarn_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin, int end,
                         const LawStates<YarnMemory>& states, std::span<ElementForce> q) {
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
+  const AnyYarnLaw warp = m.law(0), weft = m.law(1);
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   GroupReport report;
   for (int p = begin; p < end; ++p) {
     const GroupState s = group_state(m, x, p);
-    double n1 = m.yarn[0].at(s.mean1 - 1.0).value;
-    double n2 = m.yarn[1].at(s.mean2 - 1.0).value;
-    // Viscosity of taut fibres; its work by the trapezoidal rule over the step that led to x.
-    const YarnMemory& last = states.begin[p];
-    const double dl1 = s.mean1 - last.stretch[0], dl2 = s.mean2 - last.stretch[1];
-    const double v1 = n1 > 0.0 ? m.viscosity.warp * dl1 * per_dt : 0.0;
-    const double v2 = n2 > 0.0 ? m.viscosity.weft * dl2 * per_dt : 0.0;
-    report.viscous_work +=
-        0.5 * s.area * (d1 * (v1 + last.viscous[0]) * dl1 + d2 * (v2 + last.viscous[1]) * dl2);
-    states.end[p] = {{s.mean1, s.mean2}, {v1, v2}};
-    n1 += v1;
-    n2 += v2;
-    group_forces(m, s, n1, n2, q);
+    const YarnMemory& now = states.begin[at(p)];
+    YarnMemory& next = states.end[at(p)];
+    const LawAnswer one = answer_of(warp, {s.mean1 - 1.0, per_dt}, now[0].data(), next[0].data());
+    const LawAnswer two = answer_of(weft, {s.mean2 - 1.0, per_dt}, now[1].data(), next[1].data());
+    report.lost += s.area * (d1 * one.lost + d2 * two.lost);
+    group_forces(m, s, one.value, two.value, q);
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i)
       report.collapsed |= collapsed(s.triangle[i]);
   }
@@ -120,13 +114,22 @@ GroupReport yarn_forces(const Membrane& m, std::span<const Vec3> x, double dt, i
 }
 
 /// (E).
-MembraneEnergy yarn_energy(const Membrane& m, std::span<const Vec3> x) {
+MembraneEnergy yarn_energy(const Membrane& m, std::span<const Vec3> x,
+                           std::span<const YarnMemory> states, double dt) {
   MembraneEnergy sum;
   const double d1 = m.fabric.warp_density, d2 = m.fabric.weft_density;
+  const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
+  std::vector<YarnMemory> start;
+  if (states.empty()) start = memory_at_start(m), states = start;
+  const auto stored = [&](std::size_t family, double mean, const YarnMemory& now) {
+    YarnMemory next{}; // of no use: this is no step
+    return answer_of(m.law(family), {mean - 1.0, per_dt}, now[family].data(), next[family].data())
+        .stored;
+  };
   for (int p = 0; p < m.groups(); ++p) {
     const GroupState s = group_state(m, x, p);
-    sum.fibre += s.area * (d1 * m.yarn[0].at(s.mean1 - 1.0).energy +
-                           d2 * m.yarn[1].at(s.mean2 - 1.0).energy);
+    sum.fibre +=
+        s.area * (d1 * stored(0, s.mean1, states[at(p)]) + d2 * stored(1, s.mean2, states[at(p)]));
     for (int i = 0; i < s.size; ++i) {
       const FibreState& t = s.triangle[i];
       const double area = m.area[s.begin + i];

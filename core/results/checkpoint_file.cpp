@@ -30,7 +30,7 @@ void visit_head(Archive& a, std::string& identity, WriterState& writer) {
         writer.last_step);
 }
 
-constexpr std::string_view first_line = "plyform checkpoint 4\n";
+constexpr std::string_view first_line = "plyform checkpoint 5\n";
 constexpr std::size_t head_bytes = first_line.size() + 2 * sizeof(std::uint64_t);
 
 [[noreturn]] void damaged(const fs::path& path, const std::string& what) {

@@ -5,6 +5,7 @@
 
 #include "core/solver/checkpoint_checks.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 
 namespace plyform {
@@ -76,6 +77,7 @@ void restore(Scene& s, const Snapshot& snapshot) {
   }
   s.boundaries = snapshot.boundaries;
   static_cast<SceneProgress&>(s) = snapshot.progress;
+  std::fill(s.group_lost.begin(), s.group_lost.end(), 0.0); // of a step that was not taken
 }
 
 } // namespace plyform

@@ -49,12 +49,12 @@ bool sound(const BoundaryState& b) {
   return sound(b.displacement) && sound(b.next_displacement) && sound(b.load) && sound(b.force) &&
          sound(b.work);
 }
-bool sound(const SimdViscosity& v) {
-  const auto all = [](const auto& rows) {
-    return std::all_of(std::begin(rows[0]), std::end(rows[0]), [](double x) { return sound(x); }) &&
-           std::all_of(std::begin(rows[1]), std::end(rows[1]), [](double x) { return sound(x); });
-  };
-  return all(v.lambda) && all(v.tension);
+bool sound(const SimdYarnStates& states) {
+  bool all = true;
+  for (const auto& family : states.of)
+    for (const auto& row : family)
+      all = all && std::all_of(std::begin(row), std::end(row), [](double x) { return sound(x); });
+  return all;
 }
 
 /// Numbers of which some may be infinite: path lengths before which nothing can touch.

@@ -6,6 +6,7 @@
 #include "core/solver/step_faults.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace plyform {
 namespace {
@@ -16,7 +17,7 @@ double place_among(int task, std::size_t tasks) {
 
 MembraneEnergy energy_of(const Scene& s, const Block& block) {
   const PlyBody& ply = s.plies[at(block.ply)];
-  if (ply.simd) return simd_energy(*ply.simd, ply.membrane, ply.x, block.begin);
+  if (ply.simd) return simd_energy(*ply.simd, ply.membrane, ply.x, s.dt, block.begin, ply.yarns);
   return block.begin > 0 ? MembraneEnergy{} : membrane_energy(ply.membrane, ply.x); // of all blocks
 }
 
@@ -39,10 +40,17 @@ void ElementForces::run(Scene& s, int task) {
   PlyBody& ply = s.plies[at(block.ply)];
   const GroupReport report =
       ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, s.dt, block.begin,
-                             {ply.viscosity, ply.viscosity})
+                             {ply.yarns, ply.yarns_end})
                : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, {}, ply.q);
-  s.group_sums[at(task)] += report.viscous_work;
+  s.group_lost[at(task)] = report.lost;
   s.group_collapsed[at(task)] = report.collapsed;
+}
+
+void ElementForces::end_step(Scene& s) {
+  for (PlyBody& ply : s.plies)
+    ply.yarns.swap(ply.yarns_end);
+  for (std::size_t b = 0; b < s.group_sums.size(); ++b)
+    s.group_sums[b] += std::exchange(s.group_lost[b], 0.0);
 }
 
 void ElementForces::add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f) {
@@ -56,8 +64,8 @@ void ElementForces::add_energies(const Scene& s, ThreadPool& pool, Energies& e) 
            [&](int i) { of[at(i)] = energy_of(s, s.group_blocks[at(i)]); });
   for (const MembraneEnergy& block : of)
     e.fibre += block.fibre, e.shear += block.shear;
-  for (const double viscous : s.group_sums)
-    e.damping += viscous;
+  for (std::size_t b = 0; b < of.size(); ++b)
+    e.damping += lost(s, b);
 }
 
 double ElementForces::elastic(const Scene& s, std::size_t ply) {

@@ -50,6 +50,9 @@ struct NoForce {
   static void run(Scene&, int) {}
   /// After all tasks, by one thread.
   static void finish(Scene&) {}
+  /// The step whose forces were computed is taken: what laws remember of its end is now that of the
+  /// begin of the next. Until then computing them again is harmless, but for contacts.
+  static void end_step(Scene&) {}
   /// Adds its forces (N) on nodes begin .. end - 1, kept by nodes in blocks, to f[0 ..].
   static void add_to_nodes(const PlyBody&, int, int, Vec3*) {}
   /// Appends its arrays of forces per node that are not zero in this step to
@@ -79,6 +82,7 @@ struct ElementForces : NoForce {
   static int tasks(const Scene& s) { return static_cast<int>(s.group_blocks.size()); }
   static double place(const Scene& s, int task);
   static void run(Scene& s, int task);
+  static void end_step(Scene& s);
   static void add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f);
   static void add_energies(const Scene& s, ThreadPool& pool, Energies& e);
   static void add_bound(const PlyBody& ply, Frequencies& of);
@@ -86,6 +90,10 @@ struct ElementForces : NoForce {
   using Product = ElementProduct;
   static std::optional<Stop> fault(const Scene& s);
   static void add_times(const Scene& s, Times& times);
+  /// N mm, lost by a block of yarns since the start, in the step computed, too.
+  static double lost(const Scene& s, std::size_t block) {
+    return s.group_sums[block] + s.group_lost[block];
+  }
   /// Elastic energy of one ply, N mm.
   static double elastic(const Scene& s, std::size_t ply);
 };
@@ -170,6 +178,7 @@ concept ForceKind = std::derived_from<K, NoForce> && std::is_empty_v<K> &&
   { K::place(seen, 0) } -> std::same_as<double>;
   K::run(s, 0);
   K::finish(s);
+  K::end_step(s);
   K::add_to_nodes(ply, 0, 0, f);
   K::list_arrays(s);
   K::add_energies(seen, pool, e);

@@ -56,7 +56,9 @@ struct PlyState {
   std::vector<Vec3> motion;   ///< mm, displacement in the last step
   std::vector<Vec3> reaction; ///< N, of boundaries on each node; empty if none prescribes any
   std::vector<double> mass;   ///< t, with what core/solver/mass_scaling.hpp adds
-  std::vector<SimdViscosity> viscosity; ///< what yarns remember; empty without yarns
+  /// What yarns remember of the begin of the step that comes, or was computed but not yet taken;
+  /// empty without yarns.
+  std::vector<SimdYarnStates> yarns;
   /// At rest where it began, with nothing near that moves (core/solver/resting.hpp).
   bool resting = false;
 };
@@ -66,13 +68,13 @@ struct PlyState {
 /// compile.
 template <class F>
 void each_array(PlyState& ply, F&& f) {
-  auto& [x, velocity, motion, reaction, mass, viscosity, resting] = ply;
+  auto& [x, velocity, motion, reaction, mass, yarns, resting] = ply;
   f("x", On::node, x);
   f("velocity", On::node, velocity);
   f("motion", On::node, motion);
   f("reaction", On::node, reaction);
   f("mass", On::node, mass);
-  f("viscosity", On::pack, viscosity);
+  f("yarns", On::pack, yarns);
   f("resting", On::ply, resting);
 }
 
@@ -99,6 +101,8 @@ struct PlyCache {
   /// Arrays of reaction and contact forces that are not zero in this step, in fixed order.
   std::vector<const std::vector<Vec3>*> nodal_forces;
   std::vector<Vec3> pull; ///< N, of springs on each node; empty if none hangs on it
+  /// What yarns will remember once the step that was computed is taken.
+  std::vector<SimdYarnStates> yarns_end;
 };
 
 /// The list of what a checkpoint keeps of the cache, so that a run goes on with the same bits.
@@ -106,7 +110,7 @@ template <class F>
 void each_array(PlyCache& ply, F&& f) {
   auto& [x_search, max_displacement, path_length, fold_bound, fold_motion, occluded, ridges,
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, tree, search_seconds, q, patch_motion,
-         nodal_forces, pull] = ply;
+         nodal_forces, pull, yarns_end] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);

@@ -72,7 +72,6 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.motion = body.velocity;
   if (fits_simd(body.membrane)) {
     body.simd = make_membrane_simd(body.membrane, body.x);
-    body.viscosity = states_at_start(*body.simd);
   } else {
     body.q.resize(mesh.triangles.size());
   }
@@ -80,6 +79,7 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.touches_boundary_edge = faces_on_rim(body.edges.all, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   set_frequency(data, body);
+  if (body.simd) body.yarns = body.yarns_end = states_at_start(*body.simd, body.membrane);
   body.mass = body.membrane.node_mass;
   return body;
 }
@@ -361,6 +361,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   make_attachments(s);
   s.boundaries.resize(data.boundaries.size());
   s.group_sums.assign(s.group_blocks.size(), 0.0);
+  s.group_lost = s.group_sums;
   s.group_collapsed.assign(s.group_blocks.size(), 0);
   s.node_sums.assign(s.node_blocks.size(), {});
   return s;

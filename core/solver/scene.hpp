@@ -193,7 +193,7 @@ struct SceneProgress {
   double mass_damping_work = 0.0;  ///< N mm, since the start
   double mass_scaling_work = 0.0;  ///< N mm, kinetic energy of the mass added, since the start
   double largest_added_mass = 0.0; ///< of the mass of any ply, at any time
-  std::vector<double> group_sums;  ///< N mm, viscous work since the start, one per group block
+  std::vector<double> group_sums;  ///< N mm, lost by yarns in the steps taken, one per group block
   long searches = 0;               ///< number of contact searches so far
 };
 
@@ -223,6 +223,7 @@ void each_member(SceneProgress& progress, F&& f) {
 /// Temporary data of one step.
 struct SceneWorkspace {
   std::vector<SurfaceKinematics> ply_states; ///< views of the plies
+  std::vector<double> group_lost;    ///< N mm, the same in the step computed, until it is taken
   std::vector<char> group_collapsed; ///< whether a triangle has collapsed, one per group block
   std::vector<NodeSums> node_sums;   ///< one per node block
   std::vector<std::vector<int>> force_shares; ///< of the tasks of forces, one share a thread

@@ -128,6 +128,7 @@ void move_plies(Scene& s, ThreadPool& pool) {
   });
   for (const NodeSums& n : s.node_sums)
     s.mass_damping_work += n.damping;
+  each_kind([&]<class K>() { K::end_step(s); });
   s.dt = s.next_dt;
   s.time += s.dt;
   ++s.step;

@@ -63,13 +63,13 @@ void count_elements(benchmark::State& state, const Sheet& s) {
 void ElementSimd(benchmark::State& state) {
   Sheet& s = sheet(state.range(0), state.range(1) != 0);
   MembraneSimd simd = make_membrane_simd(s.m, s.x0);
-  std::vector<SimdViscosity> states = states_at_start(simd);
+  std::vector<SimdYarnStates> states = states_at_start(simd, s.m), end = states;
   Traffic t = lane_traffic(simd, s.x.size());
   t += traffic(s.force.size(), sizeof(Vec3));
   const double seconds = stream_seconds(t), peak = peak_arithmetic();
   for (auto _ : state) {
     for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b)
-      simd_forces(simd, s.m, s.x, 1e-6, b, {states, states});
+      simd_forces(simd, s.m, s.x, 1e-6, b, {states, end});
     for (std::size_t n = 0; n < s.x.size(); ++n)
       s.force[n] = simd_force(simd, n);
     benchmark::DoNotOptimize(s.force.data());
@@ -93,7 +93,7 @@ BENCHMARK(ElementSimd)
 void ElementForces(benchmark::State& state) {
   Sheet& s = sheet(state.range(0), state.range(1) != 0);
   std::vector<ElementForce> q(s.m.triangles.size());
-  std::vector<YarnMemory> states(static_cast<std::size_t>(s.m.groups()));
+  std::vector<YarnMemory> states = memory_at_start(s.m);
   for (auto _ : state) {
     element_forces(s.m, s.x, 1e-6, 0, s.m.groups(), {states, states}, q);
     for (std::size_t n = 0; n < s.x.size(); ++n)
@@ -111,10 +111,11 @@ BENCHMARK(ElementForces)
 void ElementEnergy(benchmark::State& state) {
   Sheet& s = sheet(state.range(0), state.range(1) != 0);
   const MembraneSimd simd = make_membrane_simd(s.m, s.x0);
+  const std::vector<SimdYarnStates> states = states_at_start(simd, s.m);
   for (auto _ : state) {
     MembraneEnergy sum;
     for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b) {
-      const MembraneEnergy e = simd_energy(simd, s.m, s.x, b);
+      const MembraneEnergy e = simd_energy(simd, s.m, s.x, 1e-6, b, states);
       sum.fibre += e.fibre, sum.shear += e.shear;
     }
     benchmark::DoNotOptimize(sum);

@@ -11,7 +11,7 @@ namespace plyform {
 /// that several blocks share are read again only out of a cache.
 inline Traffic lane_traffic(const MembraneSimd& l, std::size_t nodes) {
   Traffic t = traffic(l.triangles->size(), sizeof(SimdTriangles));
-  t += traffic(static_cast<std::size_t>(l.packs), sizeof(SimdViscosity), 2.0); // read and written
+  t += traffic(static_cast<std::size_t>(l.packs), sizeof(SimdYarnStates), 2.0); // read and written
   t += traffic(l.nodes.size(), sizeof(std::int32_t));
   t += traffic(nodes, sizeof(Vec3));                    // places
   t += traffic(l.force.size(), sizeof(SimdForce), 2.0); // written, then read and added up

@@ -79,7 +79,7 @@ inline std::vector<Vec3> random_state(const BlankMesh& mesh, double stretch, dou
 inline std::vector<Vec3> nodal_forces(const Membrane& m, const std::vector<Vec3>& x,
                                       double dt = 0.0) {
   std::vector<ElementForce> q(m.triangles.size());
-  std::vector<YarnMemory> states(static_cast<std::size_t>(m.groups()));
+  std::vector<YarnMemory> states = memory_at_start(m);
   element_forces(m, x, dt, 0, m.groups(), {states, states}, q);
   std::vector<Vec3> f;
   for (std::size_t n = 0; n < x.size(); ++n)

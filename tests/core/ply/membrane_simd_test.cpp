@@ -40,11 +40,11 @@ struct Sums {
 };
 
 Sums by_simd(MembraneSimd& simd, const Membrane& m, const std::vector<Vec3>& x, double dt,
-             std::vector<SimdViscosity>& states) {
+             std::vector<SimdYarnStates>& states) {
   Sums sums;
   for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b) {
     const GroupReport report = simd_forces(simd, m, x, dt, b, {states, states});
-    sums.work += report.viscous_work;
+    sums.work += report.lost;
     sums.collapsed |= report.collapsed;
   }
   for (std::size_t n = 0; n < x.size(); ++n)
@@ -56,7 +56,7 @@ Sums one_by_one(const Membrane& m, const std::vector<Vec3>& x, double dt,
                 std::vector<YarnMemory>& states) {
   std::vector<ElementForce> q(m.triangles.size());
   const GroupReport report = element_forces(m, x, dt, 0, m.groups(), {states, states}, q);
-  Sums sums{{}, report.viscous_work, report.collapsed};
+  Sums sums{{}, report.lost, report.collapsed};
   for (std::size_t n = 0; n < x.size(); ++n)
     sums.force.push_back(node_force(m, q, static_cast<int>(n)));
   return sums;
@@ -87,14 +87,48 @@ TEST(MembraneSimd, AgreeWithTheMembraneOneByOne) {
         for (const Vec2& p : mesh.x)
           x0.emplace_back(p.x(), p.y(), 0.0);
         MembraneSimd simd = make_membrane_simd(m, x0);
-        std::vector<SimdViscosity> of_packs = states_at_start(simd);
-        std::vector<YarnMemory> of_groups(static_cast<std::size_t>(m.groups()));
+        std::vector<SimdYarnStates> of_packs = states_at_start(simd, m);
+        std::vector<YarnMemory> of_groups = memory_at_start(m);
         for (const double dt : {0.0, 1e-5, 2e-5}) { // the state of the viscosity goes along
           const double stretch = i % 3 == 2 ? 0.85 : i % 3 ? 1.0 : 1.1;
           const std::vector<Vec3> x = random_state(mesh, stretch, 0.3, random);
           expect_near(by_simd(simd, m, x, dt, of_packs), one_by_one(m, x, dt, of_groups));
         }
       }
+}
+
+/// A force that is asked for twice, as a line search does, is the same, and no step is taken.
+TEST(MembraneSimd, EvaluatingTwiceIsHarmless) {
+  Random random(21);
+  for (const Fabric& fabric : {glass_weave(), table_weave(), buckling_weave(true)}) {
+    const BlankMesh mesh = irregular_mesh(random);
+    Membrane m = make_membrane(mesh, fabric, 0.4, ElementKind::averaged);
+    m.viscosity = {0.02, 0.03};
+    std::vector<Vec3> x0;
+    for (const Vec2& p : mesh.x)
+      x0.emplace_back(p.x(), p.y(), 0.0);
+    MembraneSimd simd = make_membrane_simd(m, x0);
+    std::vector<SimdYarnStates> begin = states_at_start(simd, m), end = begin;
+    const auto evaluate = [&](const std::vector<Vec3>& x) {
+      const GroupReport report = simd_forces(simd, m, x, 1e-5, 0, {begin, end});
+      EXPECT_EQ(simd.blocks.size(), 1u);
+      return std::pair(report.lost, simd_force(simd, 3));
+    };
+    evaluate(random_state(mesh, 1.05, 0.1, random));
+    begin.swap(end); // a step is taken
+    const std::vector<Vec3> x = random_state(mesh, 1.1, 0.1, random);
+    const auto before = begin;
+    const auto once = evaluate(x);
+    const auto state = end;
+    evaluate(random_state(mesh, 1.2, 0.3, random)); // a try that comes to nothing
+    const auto twice = evaluate(x);
+    const std::size_t bytes = begin.size() * sizeof(SimdYarnStates);
+    EXPECT_GT(once.first, 0.0);
+    EXPECT_EQ(once.first, twice.first);
+    EXPECT_EQ(once.second, twice.second);
+    EXPECT_EQ(std::memcmp(state.data(), end.data(), bytes), 0);
+    EXPECT_EQ(std::memcmp(before.data(), begin.data(), bytes), 0);
+  }
 }
 
 TEST(MembraneSimd, EnergyAgreesWithTheMembraneOneByOne) {
@@ -112,7 +146,7 @@ TEST(MembraneSimd, EnergyAgreesWithTheMembraneOneByOne) {
         const MembraneSimd simd = make_membrane_simd(m, x);
         MembraneEnergy sum;
         for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b) {
-          const MembraneEnergy e = simd_energy(simd, m, x, b);
+          const MembraneEnergy e = simd_energy(simd, m, x, 0.0, b, states_at_start(simd, m));
           sum.fibre += e.fibre, sum.shear += e.shear;
         }
         const MembraneEnergy slow = membrane_energy(m, x);
@@ -145,8 +179,8 @@ TEST(MembraneSimd, ManyBlocksHoldEveryTriangleOnce) {
   EXPECT_GT(singles, 0);
   for (const Vec3& p : x0)
     x.emplace_back(1.01 * p.x() + 0.3 * p.y(), 1.02 * p.y(), 0.01 * p.x() * p.y() / 100.0);
-  std::vector<SimdViscosity> of_packs = states_at_start(simd);
-  std::vector<YarnMemory> of_groups(static_cast<std::size_t>(m.groups()));
+  std::vector<SimdYarnStates> of_packs = states_at_start(simd, m);
+  std::vector<YarnMemory> of_groups = memory_at_start(m);
   expect_near(by_simd(simd, m, x, 0.0, of_packs), one_by_one(m, x, 0.0, of_groups));
 }
 
@@ -158,7 +192,7 @@ TEST(MembraneSimd, SeeTrianglesCollapse) {
   for (const Vec2& p : mesh.x)
     x.emplace_back(p.x(), p.y(), 0.0);
   MembraneSimd simd = make_membrane_simd(m, x);
-  std::vector<SimdViscosity> states = states_at_start(simd);
+  std::vector<SimdYarnStates> states = states_at_start(simd, m);
   EXPECT_FALSE(by_simd(simd, m, x, 0.0, states).collapsed);
   std::vector<Vec3> flat = x, lost = x;
   for (Vec3& p : flat)
@@ -171,16 +205,16 @@ TEST(MembraneSimd, SeeTrianglesCollapse) {
 /// What a copy of the kernel makes of a block of some packs of pairs and of single triangles.
 struct KernelRun {
   alignas(32) SimdForce force[6] = {};
-  std::vector<SimdViscosity> viscosity;
+  std::vector<SimdYarnStates> viscosity;
   KernelReport report{};
   KernelEnergy energy{};
 
   void expect_same(const KernelRun& other) const {
-    EXPECT_EQ(report.viscous_work, other.report.viscous_work);
+    EXPECT_EQ(report.lost, other.report.lost);
     EXPECT_EQ(report.collapsed, other.report.collapsed);
     EXPECT_EQ(std::memcmp(force, other.force, sizeof force), 0);
     EXPECT_EQ(std::memcmp(viscosity.data(), other.viscosity.data(),
-                          viscosity.size() * sizeof(SimdViscosity)),
+                          viscosity.size() * sizeof(SimdYarnStates)),
               0);
     EXPECT_EQ(energy.fibre, other.energy.fibre);
     EXPECT_EQ(energy.shear, other.energy.shear);
@@ -208,22 +242,23 @@ TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
         for (std::size_t k = 0; k < 3; ++k)
           triangle.node[k][lane] = static_cast<std::uint16_t>(sizeof(SimdForce) * ((k + lane) % 6));
       }
-    KernelLaw law{{},      0.1,     8.0,    {0.022, 0.05, 0.062}, 3, nullptr, 0.0, nullptr,
-                  nullptr, nullptr, nullptr};
-    law.yarns[0] = law.yarns[1] = {115.0, 0.0, 2.5e-4, 0.0025, 0.025, false, false, 0.0, 0.0};
-    if (i % 2) law.yarns[1] = {115.0, 40.0, 2.5e-4, 0.0025, 0.025, false, true, 0.2, 39.6};
+    KernelLaw law{};
+    law.angle = 0.1, law.beta = 8.0, law.shear_terms = 3;
+    law.shear[0] = 0.022, law.shear[1] = 0.05, law.shear[2] = 0.062;
+    law.yarns[0] = law.yarns[1] = {115.0, 0.0, 2.5e-4, 0.0025, 0.025, false, 0.0, 0.0};
+    if (i % 2) law.yarns[1] = {115.0, 40.0, 2.5e-4, 0.0025, 0.025, true, 0.2, 39.6};
     const std::int32_t nodes[6] = {0, 1, 2, 3, 4, 5};
-    SimdViscosity state{};
+    SimdYarnStates state{};
     for (std::size_t k = 0; k < 2; ++k)
       for (std::size_t lane = 0; lane < simd_width; ++lane)
-        state.lambda[k][lane] = 1.0, state.tension[k][lane] = 0.1;
+        state.of[k][0][lane] = 1.0, state.of[k][1][lane] = 0.1;
     const auto run = [&](auto* forces, auto* energy) {
       KernelRun r;
       r.viscosity.assign(static_cast<std::size_t>(pairs + singles), state);
       const KernelBlock block{nodes, 6,       t.data(), r.viscosity.data(), r.viscosity.data(),
                               pairs, singles, r.force};
       r.report = forces(block, law, x, 1e5);
-      r.energy = energy(block, law, x);
+      r.energy = energy(block, law, x, 1e5);
       return r;
     };
     const KernelRun generic = run(membrane_kernel_generic, membrane_energy_generic);

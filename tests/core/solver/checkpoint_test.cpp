@@ -158,7 +158,7 @@ TEST(Checkpoint, AMemberThatNobodyListedIsFoundByComparing) {
   };
   EXPECT_EQ(difference("nothing"), "");
   EXPECT_EQ(difference("velocity"), "plies.0.x");
-  for (const char* member : {"x", "motion", "viscosity", "memory", "gap", "filter", "work", "dt",
+  for (const char* member : {"x", "motion", "yarns", "memory", "gap", "filter", "work", "dt",
                              "group_sums", "path_length", "sums"})
     EXPECT_NE(difference(member), "") << member;
 }
@@ -190,8 +190,8 @@ TEST(Checkpoint, WhatLawsRememberIsTakenBackAfterAStop) {
   data.solver.outputs = 5;
   Scene scene = make_scene(data);
   RunHooks hooks;
-  std::vector<SimdViscosity> kept;
-  hooks.progress = [&](const Progress&) { kept = scene.plies[0].viscosity; };
+  std::vector<SimdYarnStates> kept;
+  hooks.progress = [&](const Progress&) { kept = scene.plies[0].yarns; };
   hooks.frame = [&](const Frame& frame) {
     if (frame.step > 500) scene.plies[1].velocity[0] = {1e9, 0.0, 0.0}; // goes wrong
   };
@@ -199,9 +199,9 @@ TEST(Checkpoint, WhatLawsRememberIsTakenBackAfterAStop) {
   ASSERT_EQ(result.summary.status, "stopped") << result.summary.message;
   ASSERT_FALSE(kept.empty());
   EXPECT_GT(scene.step, 500);
-  EXPECT_EQ(std::memcmp(kept.data(), scene.plies[0].viscosity.data(),
-                        kept.size() * sizeof(SimdViscosity)),
-            0);
+  EXPECT_EQ(
+      std::memcmp(kept.data(), scene.plies[0].yarns.data(), kept.size() * sizeof(SimdYarnStates)),
+      0);
 }
 
 /// A state with one field changed, as somebody does who then makes the checksum right: refused, or
@@ -289,7 +289,7 @@ TEST_F(ChangedState, IndicesSizesAndChoicesAreChecked) {
   refuses("a place", [](Scene& s, RunState&) {
     s.plies[1].x[3].x() = std::numeric_limits<double>::quiet_NaN();
   });
-  refuses("viscosity", [](Scene& s, RunState&) { s.plies[0].viscosity.pop_back(); });
+  refuses("viscosity", [](Scene& s, RunState&) { s.plies[0].yarns.pop_back(); });
   refuses("a ridge", [](Scene& s, RunState&) { s.plies[0].ridges.sides[0] = 7; });
   refuses("sums", [](Scene& s, RunState&) { s.group_sums.clear(); });
   refuses("the step", [](Scene& s, RunState&) { s.step = -1; });

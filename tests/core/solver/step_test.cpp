@@ -2,9 +2,11 @@
 // The time step: what it must conserve, known vibrations, where it is stable, how it stops.
 #include "core/model/motion.hpp"
 #include "core/ply/membrane_eigenvalue.hpp"
+#include "core/solver/checkpoint.hpp"
+#include "core/solver/nodal_forces.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"
-#include "support/scene_checks.hpp"
+#include "support/boundary_scenes.hpp"
 
 #include <gtest/gtest.h>
 
@@ -122,6 +124,22 @@ TEST(Step, IsStableWhereBendingSetsIt) {
   ASSERT_GT(s.plies[0].bending->omega2,
             2.0 * eigenvalue_bound(s.plies[0].membrane, s.plies[0].x).omega2);
   EXPECT_LT(std::abs(fly(data)), 0.05);
+}
+
+/// Laws with a history, too: only move_plies takes a step.
+TEST(Step, ForcesAskedForTwiceAreTheSame) {
+  const Case data = strip(0.3, Vec3::UnitX(), 1.0);
+  Scene once = make_scene(data), twice = make_scene(data);
+  ThreadPool pool(1);
+  start(once, pool), start(twice, pool);
+  for (int i = 0; i < 200; ++i) {
+    ASSERT_FALSE(compute_forces(once, pool) || compute_forces(twice, pool));
+    element_and_contact_forces(twice, pool);
+    EXPECT_EQ(current_energies(once, pool).damping, current_energies(twice, pool).damping);
+    move_plies(once, pool), move_plies(twice, pool);
+  }
+  EXPECT_GT(current_energies(once, pool).damping, 0.0);
+  EXPECT_EQ(first_difference(twice, save_state(once, RunState{})), "");
 }
 
 TEST(Step, MassDampingTakesWhatTheKineticEnergyLoses) {

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws of a yarn at a point, with what they remember. A law reads the state of the begin of a step
+// and writes that of its end, so that evaluating it twice is harmless: the step is taken when the
+// states are exchanged (move_plies of core/solver/step.hpp). What it stores and what it loses come
+// out of the evaluation, so that the balance of energy holds for laws with a history, too.
+#pragma once
+
+#include "core/model/fabric.hpp"
+
+#include <algorithm>
+#include <concepts>
+#include <variant>
+
+namespace plyform {
+
+/// What a law is asked at the end of a step. How fast the strain has changed follows from the
+/// strain that the law remembers.
+struct LawInput {
+  double strain = 0.0;
+  double per_dt = 0.0; ///< 1/s, inverse of the step that led to it; 0: at the start, no rate
+};
+
+/// What it answers, per yarn.
+struct LawAnswer {
+  double value = 0.0;   ///< N, tension
+  double slope = 0.0;   ///< N, its derivative by strain
+  double damping = 0.0; ///< N s, its derivative by the rate of strain
+  double stored = 0.0;  ///< N mm per mm, elastic energy at the end of the step
+  double lost = 0.0;    ///< N mm per mm, dissipated in the step
+};
+
+/// The largest slope (N) and damping (N s), on which the stable step relies.
+struct LawBound {
+  double slope = 0.0, damping = 0.0;
+};
+
+/// now, next: `states` numbers each, of the begin and the end of the step; they may be the same.
+template <class L>
+concept YarnLaw = requires(const L law, const LawInput& in, const double* now, double* next) {
+  { L::states } -> std::convertible_to<int>;
+  L::start(next); // what it remembers at the start
+  { law.at(in, now, next) } -> std::same_as<LawAnswer>;
+  { law.bound() } -> std::same_as<LawBound>;
+};
+
+/// An elastic yarn that is viscous while it is taut: N = W' + eta d(eps)/dt. States: stretch, and
+/// viscous tension (N), whose work follows from both by the trapezoidal rule.
+struct ViscousYarn {
+  static constexpr int states = 2;
+  const TensionLaw& elastic;
+  double viscosity = 0.0; ///< eta, N s
+
+  static void start(double* state) { state[0] = 1.0, state[1] = 0.0; }
+  LawAnswer at(const LawInput& in, const double* now, double* next) const {
+    const LawPoint point = elastic.at(in.strain);
+    const double stretch = 1.0 + in.strain, change = stretch - now[0];
+    const double damping = point.value > 0.0 ? viscosity : 0.0;
+    const double viscous = damping * change * in.per_dt;
+    const double lost = 0.5 * (viscous + now[1]) * change;
+    next[0] = stretch, next[1] = viscous;
+    return {point.value + viscous, point.slope, damping, point.energy, lost};
+  }
+  LawBound bound() const { return {elastic.largest_slope(), viscosity}; }
+};
+
+/// The laws that a yarn can have.
+using AnyYarnLaw = std::variant<ViscousYarn>;
+
+/// Numbers that are kept for a yarn, and what they are at the start.
+template <class Any>
+struct StatesOf;
+template <YarnLaw... Laws>
+struct StatesOf<std::variant<Laws...>> {
+  static constexpr int most = std::max({Laws::states...});
+};
+constexpr int yarn_states = StatesOf<AnyYarnLaw>::most;
+
+inline void start_state(const AnyYarnLaw& any, double* state) {
+  std::visit([state](const auto& law) { law.start(state); }, any);
+}
+
+inline LawAnswer answer_of(const AnyYarnLaw& any, const LawInput& in, const double* now,
+                           double* next) {
+  return std::visit([&](const auto& law) { return law.at(in, now, next); }, any);
+}
+
+inline LawBound bound_of(const AnyYarnLaw& any) {
+  return std::visit([](const auto& law) { return law.bound(); }, any);
+}
+
+} // namespace plyform
