@@ -14,7 +14,8 @@
 // w = n_c Ws(1/2 rad): energy of shear by half a radian per area, the work that forms the plies.
 //   e = sqrt( (c_I I^p)^2 + (c_S n^u S^q)^2 + (c_M M^r)^2 )                                (E)
 // c_I is larger in a stack of yarns that carry tension only; so is c_M in one of fewer than five
-// plies, where it depends on the mesh which of them slide and which stick. The number of steps is
+// plies, where it depends on the mesh which of them slide and which stick. In a stack of real cloth
+// c_M grows with the plies, unless their meshes come from the scene. The number of steps is
 // proportional to duration / sqrt(softening), the cost of a mesh to h^-2.7.
 #pragma once
 
@@ -60,8 +61,8 @@ double mesh_share(double error);
 /// mesh_share of the error asked for where that is possible.
 bool awaits_scene(const Case& data);
 
-/// Whether all of them may be of the largest elements for the error asked for: those leave no more
-/// than mesh_share of it, so that smaller ones would cost time for the sake of fillets alone.
+/// Whether all of them may be of the largest elements for the error asked for, so that smaller ones
+/// would cost time for the sake of fillets alone.
 bool largest_elements_suffice(const Case& data);
 
 /// The error (degrees) of a preset of --accuracy; 0 for a word that is not a preset.

@@ -5,6 +5,7 @@
 #include "core/setup/prepare_case.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -136,9 +137,9 @@ TEST(Accuracy, RefinesTheMeshWhereTheErrorIsOutOfReachWithout) {
     return by;
   };
   const std::string cloth = PLYFORM_CASES "/hemisphere_five_ply/case.toml";
-  EXPECT_EQ(factor(cloth, 1.2, {}, uniform), 1.0); // its mesh has 1.12
-  EXPECT_EQ(factor(cloth, 1.07, {}, uniform), 0.95);
-  EXPECT_EQ(factor(cloth, 1.0, {}, uniform), 0.9);
+  EXPECT_EQ(factor(cloth, 1.54, {}, uniform), 1.0); // its mesh has 1.43
+  EXPECT_EQ(factor(cloth, 1.37, {}, uniform), 0.95);
+  EXPECT_EQ(factor(cloth, 1.29, {}, uniform), 0.9);
   EXPECT_EQ(factor(cloth, 0.3, {}, uniform), 0.9); // and no further
   EXPECT_EQ(factor(cloth, 1.0, {.element_size = true}, uniform), 1.0);
   EXPECT_EQ(factor(PLYFORM_CASES "/bias_extension/case.toml", 1.0), 1.0); // grips hold nodes
@@ -162,6 +163,28 @@ TEST(Accuracy, AMeshFromTheSceneKeepsItsSizeAndItsShareOfTheError) {
               0.06); // elements around it are bisected, too
 }
 
+TEST(Accuracy, MeshesThatCutIntoFilletsHaveMoreErrorTheMorePlies) {
+  const auto mesh_of = [](const char* name, const std::vector<Override>& overrides) {
+    return predicted_error(case_at(fmt::format("{}/{}/case.toml", PLYFORM_CASES, name), overrides))
+        .mesh;
+  };
+  // measured against 2.4 mm throughout (docs/users/accuracy.md), all causes: 0.73, 1.46, 2.83
+  // degrees
+  const std::vector<std::pair<const char*, double>> measured{
+      {"4.8", 0.70}, {"6.8", 1.45}, {"9.6", 2.82}};
+  for (const auto& [size, error] : measured)
+    EXPECT_NEAR(mesh_of("hemisphere_five_ply", {{"blanks.square.mesh_from", "element_size"},
+                                                {"blanks.square.element_size", size}}),
+                error, 0.18 * error);
+  EXPECT_LT(mesh_of("hemisphere_three_ply", uniform), mesh_of("hemisphere_four_ply", uniform));
+  EXPECT_EQ(mesh_of("hemisphere_two_ply", uniform), mesh_of("hemisphere_three_ply", uniform));
+  // meshes from the scene follow what is round
+  Case data = case_at(PLYFORM_CASES "/hemisphere_five_ply/case.toml");
+  const double throughout = predicted_error(data).mesh;
+  data.blanks[0].sizes = SizeGrid{Vec2::Zero(), 1.0, 1, 1, {data.blanks[0].element_size}};
+  EXPECT_NEAR(throughout / predicted_error(data).mesh, 1.66, 0.01);
+}
+
 TEST(Accuracy, ADraftTakesTheLargestElementsWhereTheyKeepIt) {
   const auto awaits = [](double degrees_asked, const FixedParameters& fixed) {
     Case data = case_at(PLYFORM_CASES "/hemisphere_five_ply/case.toml");
@@ -171,7 +194,7 @@ TEST(Accuracy, ADraftTakesTheLargestElementsWhereTheyKeepIt) {
   };
   EXPECT_FALSE(awaits(3.0, {}));
   EXPECT_TRUE(awaits(3.0, {.element_size = true}));
-  EXPECT_TRUE(awaits(1.0, {})); // 10 mm throughout: 2.1 degrees by (E)
+  EXPECT_TRUE(awaits(2.7, {})); // 10 mm throughout: 2.6 degrees by (E), and the rest
   const PickedCase picked =
       pick_case(PLYFORM_CASES "/hemisphere_five_ply/case.toml", {{"accuracy.shear_deg", "3"}});
   ASSERT_EQ(picked.notes.size(), 1u);
