@@ -17,7 +17,7 @@ set(public_headers
   contact/search/sheet_bvh.hpp
   contact/shapes/tool_shape.hpp
   contact/surface_hint.hpp
-  core/accuracy/error_model.hpp
+  core/accuracy/cost_parameters.hpp core/accuracy/error_model.hpp core/accuracy/error_numbers.hpp
   core/base/diagnostics.hpp
   core/base/version.hpp
   core/fit/corrections.hpp

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Error model of the cost parameters of a run (duration, fibre softening, element size), and their
-// choice for a requested accuracy.
+// Error model of the cost parameters of a run (duration, fibre softening, element size). Their
+// choice for a requested accuracy: core/accuracy/cost_parameters.hpp.
 //
 // Error: root mean square, over all plies, of the difference in shear angle to a run that has
 // converged (docs/users/accuracy.md: how it was measured, the cases that (E) was fitted to and
@@ -61,37 +61,7 @@ double mesh_share(double error);
 /// mesh_share of the error asked for where that is possible.
 bool awaits_scene(const Case& data);
 
-/// Whether all of them may be of the largest elements for the error asked for, so that smaller ones
-/// would cost time for the sake of fillets alone.
-bool largest_elements_suffice(const Case& data);
-
 /// The error (degrees) of a preset of --accuracy; 0 for a word that is not a preset.
 double preset_error(const std::string& word);
-
-/// Whether every blank may have elements larger by the factor `by`: not longer than the smallest
-/// tool radius, nor than in the measurements of contact, and its outline can be meshed with them.
-bool may_coarsen(const Case& data, double by);
-
-/// Whether every blank may have elements smaller by the factor `by`: not those from files, nor with
-/// boundaries, whose nodes depend on the mesh.
-bool may_refine(const Case& data, double by);
-
-/// Cost parameters that the user has set by hand.
-struct FixedParameters {
-  bool duration = false, softening = false, element_size = false;
-};
-
-/// Sets solver.duration, solver.fibre_softening and the element size of the blanks for the least
-/// work whose error (E) is at most accuracy.shear_deg: softening between 1 and 1000 (stacks: 300),
-/// I at most 0.36 (at 3 degrees; less for less), elements up to 1.4 times as large as the case's
-/// where tools and outlines allow it (not in stacks of two to four plies of yarns that carry
-/// tension only, where that was not measured), and down to 0.9 times where the error is out of
-/// reach without (not with boundaries). If the mesh term leaves less than half of the error,
-/// inertia and softening get half of it. Does nothing without accuracy.shear_deg
-/// or a stroke. Fixed parameters are not changed; the others compensate for them as far as
-/// possible, with at least half of the requested error. A mesh that would come from the scene is
-/// made of the largest elements throughout where they suffice (unless element sizes are fixed).
-/// Returns the ratio of the new element sizes to the old ones.
-double pick_cost_parameters(Case& data, const FixedParameters& fixed = {});
 
 } // namespace plyform

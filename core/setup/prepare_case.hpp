@@ -3,7 +3,7 @@
 // checks the whole scene and meshes the blanks.
 #pragma once
 
-#include "core/accuracy/error_model.hpp"
+#include "core/accuracy/cost_parameters.hpp"
 #include "core/input/case_file.hpp"
 
 namespace plyform {

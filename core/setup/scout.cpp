@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/scout.hpp"
 
-#include "core/accuracy/error_model.hpp"
+#include "core/accuracy/cost_parameters.hpp"
 #include "core/mesh/mesh_blank.hpp"
 #include "core/setup/chord_sizes.hpp"
 #include "core/setup/shear_sizes.hpp"

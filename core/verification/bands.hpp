@@ -35,6 +35,7 @@
 #pragma once
 
 #include "core/accuracy/error_model.hpp"
+#include "core/accuracy/error_numbers.hpp"
 #include "core/results/frame.hpp"
 #include "core/results/summary.hpp"
 #include "core/verification/siblings.hpp"
@@ -43,8 +44,7 @@
 
 namespace plyform {
 
-// Errors go with these powers of element size, speed and softening.
-constexpr double order_of_mesh = 1.6; // core/accuracy/error_model.hpp
+// Errors go with these powers of speed and softening, and with order_of_mesh of element size.
 constexpr double order_of_inertia = 2.0, order_of_inertia_of_forces = 3.0;
 constexpr double order_outside_premise = 1.0;
 constexpr double order_of_softening = 1.0;

@@ -14,7 +14,7 @@
 // it leaves to the others.
 #pragma once
 
-#include "core/accuracy/error_model.hpp"
+#include "core/accuracy/cost_parameters.hpp"
 #include "core/results/verification.hpp"
 #include "core/verification/bands.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/verification/siblings.hpp"
 
-#include "core/accuracy/error_model.hpp"
+#include "core/accuracy/cost_parameters.hpp"
 #include "core/input/bending_resolution.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/mesh/mesh_variants.hpp"

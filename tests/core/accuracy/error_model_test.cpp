@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The rule that picks cost parameters: against a search by hand, on real cases. Whether what it
 // promises holds is measured by `tools/study` (docs/users/accuracy.md).
-#include "core/accuracy/error_model.hpp"
+#include "core/accuracy/cost_parameters.hpp"
 #include "core/setup/prepare_case.hpp"
 
 #include <cmath>
