@@ -62,14 +62,16 @@ public:
   void processCodeValuePair(unsigned int code, const std::string& value) override {
     lines_ += 2;
     if (ended) throw EndOfDrawing{};
-    if (code == 9 && section_ != "HEADER") // begins an entity for dxflib
+    // at which dxflib takes an entity to end, wherever it stands; objects may have texts there
+    if (code == 9 && (section_ == "ENTITIES" || section_ == "BLOCKS") &&
+        supported.contains(now_.name))
       throw std::runtime_error(
-          fmt::format("line {} sets a variable (group 9) outside of the header", lines_ - 1));
+          fmt::format("line {} sets a variable (group 9) within a {}", lines_ - 1, now_.name));
     if (code == 0)
       begin(value);
     else
       now_.groups.add(now_.name, code, value, lines_);
-    if (code == 2 && now_.name == "SECTION") {
+    if (code == 2 && now_.name == "SECTION" && section_.empty()) { // variables have such groups too
       section_ = value;
       has_entities = has_entities || value == "ENTITIES";
     }
@@ -146,7 +148,7 @@ private:
 
   void begin(const std::string& name) {
     before_ = now_;
-    if (name == "ENDSEC") section_.clear();
+    if (name == "ENDSEC" || name == "SECTION") section_.clear();
     if (name == "SECTION") block_.clear(); // of a block without an end
     if (name == "EOF") ended = true;
     if (is_geometry() && !supported.contains(before_.name) && !no_geometry.contains(before_.name))

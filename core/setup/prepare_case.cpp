@@ -133,9 +133,6 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
   }
   const bool awaited_scene = awaits_scene(*picked.reading.value);
   picked.coarsening = pick_cost_parameters(*picked.reading.value, fixed);
-  if (awaited_scene && !awaits_scene(*picked.reading.value))
-    picked.notes.emplace_back("accuracy asked for: the largest elements keep it throughout, so "
-                              "that none are made smaller for what is round in tools");
   if (const std::string missed = missed_accuracy(*picked.reading.value);
       !missed.empty() && !awaits_scene(*picked.reading.value))
     picked.reading.warnings.push_back(file.string() + ": warning: " + missed);
@@ -143,6 +140,9 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
     picked.notes.push_back(
         fmt::format("accuracy asked for: {} as set by hand, the others picked around {}",
                     joined(keys), keys.size() == 1 ? "it" : "them"));
+  if (awaited_scene && !awaits_scene(*picked.reading.value))
+    picked.notes.emplace_back("accuracy asked for: the largest elements keep it throughout, so "
+                              "that none are made smaller for what is round in tools");
   return picked;
 }
 
