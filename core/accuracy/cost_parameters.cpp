@@ -11,6 +11,19 @@
 namespace plyform {
 namespace {
 
+// Degrees: meshes from the scene reach no less (docs/users/accuracy.md, graded meshes).
+constexpr double least_from_scene = 0.5;
+
+/// The factor of the largest elements by which they become as small as any may.
+double smallest_factor(const Case& data) {
+  constexpr double thicknesses = 3.0; // no ply bends round less
+  double factor = 0.0;
+  for (const Ply& ply : data.plies)
+    factor = std::max(factor, thicknesses * data.fabrics[ply.fabric].thickness /
+                                  data.blanks[ply.blank].element_size);
+  return std::min(factor, 1.0);
+}
+
 /// Parameters, and what they cost: CPU time over that of the case's own mesh for 1 s and
 /// softening 1.
 struct CostParameters {
@@ -88,8 +101,13 @@ bool largest_elements_suffice(const Case& data) {
   return wanted > 0.0 && n.inertia_factor > 0.0 && n.mesh_error() <= most * wanted; // NaN: no
 }
 
+bool needs_small_elements(const Case& data) {
+  const double wanted = degrees(data.accuracy.shear_error);
+  return wanted > 0.0 && wanted < least_from_scene;
+}
+
 double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
-  if (!fixed.element_size && largest_elements_suffice(data))
+  if (!fixed.element_size && (largest_elements_suffice(data) || needs_small_elements(data)))
     for (BlankSpec& blank : data.blanks)
       if (blank.mesh_from == mesh_from_scene_word) blank.mesh_from.clear();
   ErrorNumbers n = error_numbers(data, assumed_mass_factor(data));
@@ -97,17 +115,17 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
   n.hold_inertia(wanted);
   const bool from_scene = awaits_scene(data);
   if (!(wanted > 0.0) || n.inertia == 0.0) return 1.0;
+  const bool keep = fixed.element_size || n.few_ply_mesh_factor > 1.0 || from_scene;
   CostParameters best;
-  for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4, 0.95, 0.9}) { // (E) was not measured beyond
-    const bool keep = fixed.element_size || n.few_ply_mesh_factor > 1.0 || from_scene;
-    if (by > 1.0 && (keep || !may_coarsen(data, by))) continue;
+  const auto consider = [&](double by) {
+    if (by > 1.0 && (keep || !may_coarsen(data, by))) return;
     // smaller ones only for an error that is out of reach without
-    if (by < 1.0 && (keep || best.excess == 0.0 || !may_refine(data, by))) continue;
+    if (by < 1.0 && (keep || best.excess == 0.0 || !may_refine(data, by))) return;
     double mesh = std::isnan(n.mesh) ? 0.0 : n.mesh_error() * std::pow(by, order_of_mesh);
     if (from_scene) mesh = std::min(mesh, mesh_share(wanted));
     double left2 = wanted * wanted - mesh * mesh;
     const double least2 = 0.25 * wanted * wanted;
-    if (left2 < least2 && by > 1.0) continue;
+    if (left2 < least2 && by > 1.0) return;
     left2 = std::max(left2, least2);
     CostParameters parameters = cheapest(n, left2, data.solver, fixed);
     parameters.coarsening = by;
@@ -121,7 +139,12 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
     if (parameters.excess != best.excess ? parameters.excess < best.excess
                                          : parameters.cost < best.cost)
       best = parameters;
-  }
+  };
+  for (const double by : {1.0, 1.1, 1.2, 1.3, 1.4, 0.95, 0.9})
+    consider(by);
+  if (needs_small_elements(data) && best.excess > 0.0)
+    consider(std::max(std::pow(mesh_share(wanted) / n.mesh_error(), 1.0 / order_of_mesh),
+                      smallest_factor(data)));
   data.solver.duration = best.duration;
   data.solver.fibre_softening = best.softening;
   for (BlankSpec& blank : data.blanks)

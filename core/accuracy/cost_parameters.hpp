@@ -11,6 +11,10 @@ namespace plyform {
 /// would cost time for the sake of fillets alone.
 bool largest_elements_suffice(const Case& data);
 
+/// Whether the error asked for is less than meshes from the scene reach: it takes small elements
+/// throughout.
+bool needs_small_elements(const Case& data);
+
 /// Whether every blank may have elements larger by the factor `by`: not longer than the smallest
 /// tool radius, nor than in the measurements of contact, and its outline can be meshed with them.
 bool may_coarsen(const Case& data, double by);
@@ -29,11 +33,13 @@ struct FixedParameters {
 /// I at most 0.36 (at 3 degrees; less for less), elements up to 1.4 times as large as the case's
 /// where tools and outlines allow it (not in stacks of two to four plies of yarns that carry
 /// tension only, where that was not measured), and down to 0.9 times where the error is out of
-/// reach without (not with boundaries). If the mesh term leaves less than half of the error,
+/// reach without (not with boundaries); below 0.5 degrees as far down as that takes, to three
+/// thicknesses. If the mesh term leaves less than half of the error,
 /// inertia and softening get half of it. Does nothing without accuracy.shear_deg
 /// or a stroke. Fixed parameters are not changed; the others compensate for them as far as
 /// possible, with at least half of the requested error. A mesh that would come from the scene is
-/// made of the largest elements throughout where they suffice (unless element sizes are fixed).
+/// made of the largest elements throughout where they suffice, or of small ones below 0.5 degrees
+/// (unless element sizes are fixed).
 /// Returns the ratio of the new element sizes to the old ones.
 double pick_cost_parameters(Case& data, const FixedParameters& fixed = {});
 

@@ -63,7 +63,7 @@ std::string describe_accuracy(const PredictedError& error, double promised, doub
            "was measured for";
   std::string mesh = fmt::format("mesh {:.2g}", error.mesh);
   if (coarsening != 1.0)
-    mesh += fmt::format(", of elements {:g} times as large as the case's", coarsening);
+    mesh += fmt::format(", of elements {:.3g} times as large as the case's", coarsening);
   return fmt::format(
       "shear angles to {:.2g} deg rms, as predicted: inertia {:.2g}, softened fibres "
       "{:.2g}, {}",

@@ -141,8 +141,11 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
         fmt::format("accuracy asked for: {} as set by hand, the others picked around {}",
                     joined(keys), keys.size() == 1 ? "it" : "them"));
   if (awaited_scene && !awaits_scene(*picked.reading.value))
-    picked.notes.emplace_back("accuracy asked for: the largest elements keep it throughout, so "
-                              "that none are made smaller for what is round in tools");
+    picked.notes.emplace_back(needs_small_elements(*picked.reading.value)
+                                  ? "accuracy asked for: elements are small throughout, as meshes "
+                                    "from the scene do not reach it"
+                                  : "accuracy asked for: the largest elements keep it throughout, "
+                                    "so that none are made smaller for what is round in tools");
   return picked;
 }
 
