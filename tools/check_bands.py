@@ -334,19 +334,29 @@ def check(options: argparse.Namespace) -> int:
     return 1 if missing else 0
 
 
-def arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="check_bands.py", description=__doc__.split("\n\n", 1)[0])
+def parser_of(name: str, text: str) -> argparse.ArgumentParser:
+    """With the arguments that lists of scenes have in common."""
+    parser = argparse.ArgumentParser(prog=name, description=text.split("\n\n", 1)[0])
     parser.add_argument("scenes", type=Path, metavar="SCENES.toml")
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="[results/SCENES]")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="at a time [1]")
     parser.add_argument("--program", default=TOOLS.parent / "build/release/tools/plyform",
                         metavar="PLYFORM")
-    parser.add_argument("--table", action="store_true", help="of what has ended, run nothing")
     parser.add_argument("--doc", type=Path, metavar="TEXT", help="fill the table into a text, too")
+    return parser
+
+
+def parsed(parser: argparse.ArgumentParser) -> argparse.Namespace:
     options = parser.parse_args()
     if options.jobs < 1:
         parser.error("--jobs must be at least 1")
     return options
+
+
+def arguments() -> argparse.Namespace:
+    parser = parser_of("check_bands.py", __doc__)
+    parser.add_argument("--table", action="store_true", help="of what has ended, run nothing")
+    return parsed(parser)
 
 
 def main() -> None:

@@ -24,7 +24,8 @@ from pathlib import Path
 try:
     from base.ending import Mistake, ended
     from base.files import read_toml
-    from check_bands import TOOLS, Run, do_run, fill, folder_of, read_scenes, summary_of, version_of
+    from check_bands import (Run, do_run, fill, folder_of, parsed, parser_of, read_scenes, summary_of,
+                             version_of)
     from compare import table
     from plotting.reading import Trouble
 except ImportError as error:
@@ -98,23 +99,8 @@ def check(options: argparse.Namespace) -> int:
     return 1 if missing else 0
 
 
-def arguments() -> argparse.Namespace:
-    parser = argparse.ArgumentParser(prog="check_predictions.py",
-                                     description=__doc__.split("\n\n", 1)[0])
-    parser.add_argument("scenes", type=Path, metavar="SCENES.toml")
-    parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="[results/SCENES]")
-    parser.add_argument("--jobs", type=int, default=1, metavar="N", help="at a time [1]")
-    parser.add_argument("--program", default=TOOLS.parent / "build/release/tools/plyform",
-                        metavar="PLYFORM")
-    parser.add_argument("--doc", type=Path, metavar="TEXT", help="fill the table into a text, too")
-    options = parser.parse_args()
-    if options.jobs < 1:
-        parser.error("--jobs must be at least 1")
-    return options
-
-
 def main() -> None:
-    ended("check_predictions.py", lambda: check(arguments()))
+    ended("check_predictions.py", lambda: check(parsed(parser_of("check_predictions.py", __doc__))))
 
 
 if __name__ == "__main__":
