@@ -107,7 +107,8 @@ bool needs_small_elements(const Case& data) {
 }
 
 double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
-  if (!fixed.element_size && (largest_elements_suffice(data) || needs_small_elements(data)))
+  if (!fixed.element_size && awaits_scene(data) &&
+      (largest_elements_suffice(data) || needs_small_elements(data)))
     for (BlankSpec& blank : data.blanks)
       if (blank.mesh_from == mesh_from_scene_word) blank.mesh_from.clear();
   ErrorNumbers n = error_numbers(data, assumed_mass_factor(data));
