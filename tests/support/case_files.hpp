@@ -13,7 +13,7 @@ namespace plyform {
 
 namespace fs = std::filesystem;
 
-inline const fs::path data = PLYFORM_TEST_DATA;
+inline const fs::path data_folder = PLYFORM_TEST_DATA;
 
 inline std::string all_texts(const PreparedCase& reading) {
   std::string texts;

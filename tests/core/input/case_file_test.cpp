@@ -49,7 +49,7 @@ Expectation expectation(const fs::path& file) {
 
 std::vector<std::string> broken_files() {
   std::vector<std::string> names;
-  for (const fs::directory_entry& entry : fs::directory_iterator(data / "broken"))
+  for (const fs::directory_entry& entry : fs::directory_iterator(data_folder / "broken"))
     names.push_back(entry.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
@@ -58,7 +58,7 @@ std::vector<std::string> broken_files() {
 class BrokenCase : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(BrokenCase, GivesItsOneMistakeWithItsPlace) {
-  const fs::path file = data / "broken" / (GetParam() + ".toml");
+  const fs::path file = data_folder / "broken" / (GetParam() + ".toml");
   const Expectation wanted = expectation(file);
   ASSERT_GT(wanted.line, 0);
   ASSERT_FALSE(wanted.fragment.empty());
@@ -83,13 +83,13 @@ TEST(BrokenCases, HaveMessagesOfTheirOwn) {
   const std::vector<std::string> names = broken_files();
   EXPECT_GE(names.size(), 30u);
   for (const std::string& name : names)
-    for (const CaseError& e : prepare_case(data / "broken" / (name + ".toml"), {}).errors)
+    for (const CaseError& e : prepare_case(data_folder / "broken" / (name + ".toml"), {}).errors)
       EXPECT_TRUE(messages.insert(e.item + "|" + e.value + "|" + e.rule + "|" + e.remedy).second)
           << name << ": " << e.text();
 }
 
 TEST(CaseFile, ReportsAllMistakesOfAllFilesAtOnce) {
-  const PreparedCase reading = prepare_case(data / "several/five_mistakes.toml", {});
+  const PreparedCase reading = prepare_case(data_folder / "several/five_mistakes.toml", {});
   ASSERT_EQ(reading.errors.size(), 5u) << all_texts(reading);
   const std::vector<std::string> items{"ply.0.fabric", "ply.0.angle", "tool.0.radius",
                                        "contact.fricton", "fabrics.plain.thickness"};
@@ -99,8 +99,8 @@ TEST(CaseFile, ReportsAllMistakesOfAllFilesAtOnce) {
 }
 
 TEST(CaseFile, IsReportedWhenItCannotBeOpened) {
-  const PreparedCase absent = prepare_case(data / "absent.toml", {}),
-                     folder = prepare_case(data, {});
+  const PreparedCase absent = prepare_case(data_folder / "absent.toml", {}),
+                     folder = prepare_case(data_folder, {});
   ASSERT_EQ(absent.errors.size(), 1u);
   EXPECT_NE(absent.errors[0].text().find("No such file"), std::string::npos);
   ASSERT_EQ(folder.errors.size(), 1u);
@@ -138,7 +138,7 @@ TEST(CaseFile, ReadsAllShippedCasesWithoutErrorOrWarning) {
 }
 
 TEST(CaseFile, ConvertsUnitsOfFabrics) {
-  const Case c = good_case(data / "good/every_shape.toml");
+  const Case c = good_case(data_folder / "good/every_shape.toml");
   ASSERT_EQ(c.fabrics.size(), 2u);
   const Fabric &plain = c.fabrics[0], &skew = c.fabrics[1];
   EXPECT_EQ(plain.name, "plain weave");
@@ -162,7 +162,7 @@ TEST(CaseFile, ConvertsUnitsOfFabrics) {
 }
 
 TEST(CaseFile, ReadsBlanksAndLaysPliesOnEachOther) {
-  const Case c = good_case(data / "good/every_shape.toml");
+  const Case c = good_case(data_folder / "good/every_shape.toml");
   ASSERT_EQ(c.blanks.size(), 3u);
   EXPECT_EQ(c.blanks[0].outline.boundary,
             (std::vector<Vec2>{{-9, -8}, {11, -8}, {11, 12}, {-9, 12}}));
@@ -183,7 +183,7 @@ TEST(CaseFile, ReadsBlanksAndLaysPliesOnEachOther) {
 }
 
 TEST(CaseFile, ReadsOutlinesWithArcsAndDrawings) {
-  const Case c = good_case(data / "good/outlines.toml");
+  const Case c = good_case(data_folder / "good/outlines.toml");
   ASSERT_EQ(c.blanks.size(), 5u);
   const auto area = [&](std::size_t blank) { return area_of(c.blanks[blank].outline); };
   EXPECT_NEAR(area(0), pi * (400 - 16) - (16 - (1 - pi / 4)), 1e-9);
@@ -204,7 +204,7 @@ TEST(CaseFile, ReadsOutlinesWithArcsAndDrawings) {
 }
 
 TEST(CaseFile, ReadsFrictionOfPairsTheLastThatFits) {
-  const Case c = good_case(data / "good/every_shape.toml");
+  const Case c = good_case(data_folder / "good/every_shape.toml");
   ASSERT_EQ(c.friction.bodies, 3 + 8);
   EXPECT_EQ(c.friction(0, 3), 0.3);  // lower, ball
   EXPECT_EQ(c.friction(0, 1), 0.1);  // plies
@@ -215,7 +215,7 @@ TEST(CaseFile, ReadsFrictionOfPairsTheLastThatFits) {
 }
 
 TEST(CaseFile, ReadsSolverAndContactOptions) {
-  const Case c = good_case(data / "good/every_shape.toml");
+  const Case c = good_case(data_folder / "good/every_shape.toml");
   EXPECT_EQ(c.title, "every shape");
   EXPECT_EQ(c.solver.duration, 0.2);
   EXPECT_EQ(c.solver.step_factor, 0.8);
@@ -231,7 +231,7 @@ TEST(CaseFile, ReadsSolverAndContactOptions) {
 }
 
 TEST(CaseFile, ReadsGripsFramesAndPlanesOfSymmetry) {
-  const Case c = good_case(data / "good/boundaries.toml");
+  const Case c = good_case(data_folder / "good/boundaries.toml");
   ASSERT_EQ(c.boundaries.size(), 5u);
   const Boundary &middle = c.boundaries[0], &pulled = c.boundaries[1], &clamp = c.boundaries[2],
                  &bars = c.boundaries[3], &far_side = c.boundaries[4];
@@ -261,7 +261,7 @@ TEST(CaseFile, ReadsGripsFramesAndPlanesOfSymmetry) {
 }
 
 TEST(CaseFile, ReadsGravityAndIsotropicSheets) {
-  const Case c = good_case(data / "good/boundaries.toml");
+  const Case c = good_case(data_folder / "good/boundaries.toml");
   EXPECT_EQ(c.gravity, Vec3(0, 0, -9810));
   ASSERT_EQ(c.fabrics.size(), 2u);
   const auto fabric_of = [&](std::size_t ply) {
@@ -275,11 +275,11 @@ TEST(CaseFile, ReadsGravityAndIsotropicSheets) {
   EXPECT_DOUBLE_EQ(law.poissons_ratio, 0.3);
   EXPECT_DOUBLE_EQ(foil.fibre_angle, pi / 2.0);
   EXPECT_EQ(foil.warp.largest_slope(), 0.0);
-  EXPECT_TRUE(good_case(data / "good/inline.toml").gravity.isZero(0.0)); // the default
+  EXPECT_TRUE(good_case(data_folder / "good/inline.toml").gravity.isZero(0.0)); // the default
 }
 
 TEST(CaseFile, TakesTheProgramsOwnDefaults) {
-  const Case c = good_case(data / "good/inline.toml");
+  const Case c = good_case(data_folder / "good/inline.toml");
   const SolverOptions solver;
   const ContactOptions contact;
   EXPECT_EQ(c.solver.duration, solver.duration);
@@ -298,7 +298,7 @@ TEST(CaseFile, TakesTheProgramsOwnDefaults) {
 }
 
 TEST(CaseFile, HasTheFabricsBending) {
-  const Case c = good_case(data / "good/bending.toml");
+  const Case c = good_case(data_folder / "good/bending.toml");
   const Fabric &line = c.fabrics.at(0), &table = c.fabrics.at(1), &warp_only = c.fabrics.at(2);
   EXPECT_EQ(line.warp.compression, 460.0);
   EXPECT_EQ(line.weft.compression, 480.0);
@@ -319,7 +319,7 @@ TEST(CaseFile, HasTheFabricsBending) {
   EXPECT_EQ(warp_only.bending.warp.stiffness, 4.0);
   EXPECT_FALSE(warp_only.bending.weft.largest_slope() > 0.0);
   EXPECT_EQ(warp_only.bending.twist, 0.0);
-  const Fabric without = good_case(data / "good/base.toml").fabrics.at(0);
+  const Fabric without = good_case(data_folder / "good/base.toml").fabrics.at(0);
   EXPECT_FALSE(without.bending.any());
   EXPECT_EQ(without.warp.compression, 0.0);
 }

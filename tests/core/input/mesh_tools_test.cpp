@@ -32,7 +32,7 @@ fs::path ball_file() {
 TEST(MeshTools, AreTheirOwnImagesWithinTheirDeflection) {
   const std::string file = ball_file().string();
   const auto quarter = [&](double x) {
-    return prepare_case(data / "several/quarter.toml",
+    return prepare_case(data_folder / "several/quarter.toml",
                         {{"tool.0.file", fmt::format("\"{}\"", file)},
                          {"tool.0.position", fmt::format("[{}, 0.0, 60.6]", x)}});
   };

@@ -11,12 +11,12 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Case base_with(const std::vector<Override>& overrides) {
-  return good_case(data / "good/base.toml", overrides);
+  return good_case(data_folder / "good/base.toml", overrides);
 }
 
 /// The one error that an override gives.
 CaseError override_error(const std::string& key, const std::string& value) {
-  const PreparedCase reading = prepare_case(data / "good/base.toml", {{key, value}});
+  const PreparedCase reading = prepare_case(data_folder / "good/base.toml", {{key, value}});
   EXPECT_EQ(reading.errors.size(), 1u) << key << "=" << value << "\n" << all_texts(reading);
   EXPECT_FALSE(reading.value);
   return reading.errors.empty() ? CaseError{} : reading.errors.front();
@@ -48,10 +48,10 @@ TEST(Override, TakesBareWordsAsStrings) {
 }
 
 TEST(Override, MakesTablesThatAreNotThere) {
-  const Case c = good_case(data / "good/inline.toml", {{"contact.friction", "0.4"},
-                                                       {"blanks.new.size", "[4, 6]"},
-                                                       {"blanks.new.element_size", "2"},
-                                                       {"ply.0.blank", "new"}});
+  const Case c = good_case(data_folder / "good/inline.toml", {{"contact.friction", "0.4"},
+                                                              {"blanks.new.size", "[4, 6]"},
+                                                              {"blanks.new.element_size", "2"},
+                                                              {"ply.0.blank", "new"}});
   EXPECT_EQ(c.friction(0, 0), 0.4);
   ASSERT_EQ(c.blanks.size(), 2u);
   EXPECT_EQ(c.blanks[c.plies[0].blank].outline.boundary[2], Vec2(2, 3));
@@ -101,7 +101,7 @@ TEST(SceneCheck, LetsAToolStandInTheBlanksHole) {
   pin.push_back({"tool.0", "{name = 'pin', shape = 'cylinder', radius = 2, length = 30}"});
   base_with(pin);
   pin.back().second = "{name = 'pin', shape = 'cylinder', radius = 4, length = 30}";
-  const PreparedCase wide = prepare_case(data / "good/base.toml", pin);
+  const PreparedCase wide = prepare_case(data_folder / "good/base.toml", pin);
   ASSERT_EQ(wide.errors.size(), 1u) << all_texts(wide);
   EXPECT_NE(wide.errors[0].text().find("lies inside ply"), std::string::npos);
 }
@@ -109,7 +109,7 @@ TEST(SceneCheck, LetsAToolStandInTheBlanksHole) {
 TEST(SceneCheck, WarnsWhenTheStrokeLeavesLessThanTheStack) {
   // A ball of radius 7.7 in a hole of radius 8 leaves 0.3 mm, the ply is 0.5 mm thick.
   const PreparedCase reading = prepare_case(
-      data / "good/base.toml",
+      data_folder / "good/base.toml",
       {{"tool.0.radius", "7.7"}, {"tool.0.position.2", "9.0"}, {"tool.0.stroke", "11.0"}});
   ASSERT_TRUE(reading.value) << all_texts(reading);
   ASSERT_EQ(reading.warnings.size(), 1u);
@@ -121,7 +121,7 @@ TEST(SceneCheck, WarnsWhenTheStrokeLeavesLessThanTheStack) {
 TEST(SceneCheck, LetsToolsTouchThePlies) {
   base_with({{"tool.0.position.2", "5.5"}}); // ball of radius 5 on a ply whose top is at 0.5
   const PreparedCase inside =
-      prepare_case(data / "good/base.toml", {{"tool.0.position.2", "5.49"}});
+      prepare_case(data_folder / "good/base.toml", {{"tool.0.position.2", "5.49"}});
   EXPECT_EQ(inside.errors.size(), 1u) << all_texts(inside);
 }
 

@@ -43,11 +43,11 @@ TEST(CaseKeys, AreJustThoseThatGoodFilesUse) {
   Keys keys;
   for (const char* name : {"every_shape", "inline", "base", "boundaries", "bending", "accuracy",
                            "profile_shapes", "outlines", "springs", "zones"}) {
-    good_case(data / "good" / (std::string(name) + ".toml")); // each of its keys is accepted
-    keys.add(data / "good" / (std::string(name) + ".toml"), "");
+    good_case(data_folder / "good" / (std::string(name) + ".toml")); // each of its keys is accepted
+    keys.add(data_folder / "good" / (std::string(name) + ".toml"), "");
   }
   for (const char* name : {"plain", "tables"}) // the fabrics of these cases
-    keys.add(data / "fabrics" / (std::string(name) + ".toml"), "fabrics.NAME");
+    keys.add(data_folder / "fabrics" / (std::string(name) + ".toml"), "fabrics.NAME");
   EXPECT_EQ(keys.used, keys.listed);
 }
 

@@ -14,7 +14,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 TEST(ToolFile, ReadsPlacesAndMotionsOfTools) {
-  const Case c = good_case(data / "good/every_shape.toml");
+  const Case c = good_case(data_folder / "good/every_shape.toml");
   ASSERT_EQ(c.tools.size(), 8u);
   const Tool &ball = c.tools[0], &roll = c.tools[1], &block = c.tools[2], &coin = c.tools[4];
   EXPECT_EQ(ball.motion, Motion::driven);
@@ -37,7 +37,7 @@ TEST(ToolFile, ReadsPlacesAndMotionsOfTools) {
 }
 
 TEST(ToolFile, ReadsShapesOfTools) {
-  const Case c = good_case(data / "good/every_shape.toml");
+  const Case c = good_case(data_folder / "good/every_shape.toml");
   ASSERT_EQ(c.tools.size(), 8u);
   EXPECT_DOUBLE_EQ(std::get<Sphere>(c.tools[0].shape).radius, 5.0);
   EXPECT_DOUBLE_EQ(std::get<Cylinder>(c.tools[1].shape).length, 40.0);
@@ -66,7 +66,7 @@ TEST(ToolFile, ReadsShapesOfTools) {
 }
 
 TEST(ToolFile, LoadsEachMeshOfToolsOnceAndNamesThoseThatItCannot) {
-  const fs::path file = data / "several/mesh_tools.toml";
+  const fs::path file = data_folder / "several/mesh_tools.toml";
   const PreparedCase reading = prepare_case(file, {});
   ASSERT_EQ(reading.errors.size(), 2u) << all_texts(reading);
   EXPECT_EQ(reading.errors[0].item, "tool.1.file");
@@ -74,7 +74,8 @@ TEST(ToolFile, LoadsEachMeshOfToolsOnceAndNamesThoseThatItCannot) {
   EXPECT_EQ(reading.errors[1].item, "tool.3.file");
   EXPECT_NE(reading.errors[1].text().find("no faces"), std::string::npos);
 
-  const std::string sound = fmt::format("\"{}\"", (data / "meshes/tetrahedron.off").string());
+  const std::string sound =
+      fmt::format("\"{}\"", (data_folder / "meshes/tetrahedron.off").string());
   const PreparedCase mended = prepare_case(file, {{"tool.1.file", sound}, {"tool.3.file", sound}});
   ASSERT_TRUE(mended.value) << all_texts(mended);
   const auto mesh = [&](std::size_t i) {
@@ -86,7 +87,7 @@ TEST(ToolFile, LoadsEachMeshOfToolsOnceAndNamesThoseThatItCannot) {
 }
 
 TEST(ToolFile, ReadsConesToriAndExtrusions) {
-  const Case c = good_case(data / "good/profile_shapes.toml");
+  const Case c = good_case(data_folder / "good/profile_shapes.toml");
   ASSERT_EQ(c.tools.size(), 4u);
   const auto distance = [&](std::size_t tool, const Vec3& p) {
     SurfaceHint hint;

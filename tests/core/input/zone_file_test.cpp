@@ -9,7 +9,7 @@ namespace plyform::zone_file_test {
 namespace {
 
 TEST(ZoneFile, ReadsRingsPolygonsAndToolsAsSeenFromTheBlank) {
-  const Case c = good_case(data / "good/zones.toml");
+  const Case c = good_case(data_folder / "good/zones.toml");
   ASSERT_EQ(c.blanks.size(), 1u);
   const std::vector<MeshZone>& zones = c.blanks[0].zones;
   ASSERT_EQ(zones.size(), 3u);
@@ -41,7 +41,7 @@ double size_near(const BlankMesh& mesh, const Vec2& p) {
 
 /// Rings turn with the blank, what lies along a tool does not.
 TEST(ZoneFile, MeshesOfPliesHaveTheElementsOfTheirZones) {
-  const Case c = good_case(data / "good/zones.toml");
+  const Case c = good_case(data_folder / "good/zones.toml");
   const BlankMesh mesh = mesh_ply(c, c.plies[0]);
   const Eigen::Rotation2Dd turn(c.plies[0].rotation);
   const double over = std::pow(2.0, 0.25) * (1.0 + 1e-5);
@@ -59,8 +59,8 @@ TEST(ZoneFile, MeshesOfPliesHaveTheElementsOfTheirZones) {
 
 /// The size of a run is told with its zones, and too many triangles are refused before meshing.
 TEST(ZoneFile, ZonesCountForTheSizeOfARun) {
-  const PreparedCase large =
-      prepare_case(data / "good/zones.toml", {{"blanks.square.zone.0.element_size", "0.002"}});
+  const PreparedCase large = prepare_case(data_folder / "good/zones.toml",
+                                          {{"blanks.square.zone.0.element_size", "0.002"}});
   EXPECT_FALSE(large.value);
   EXPECT_NE(all_texts(large).find("triangles"), std::string::npos) << all_texts(large);
 }
