@@ -1,25 +1,25 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# cmake --install: the program, both libraries with their public headers, the cases, studies, and the package
-# that find_package(plyform) finds. Headers go to include/plyform/, so that
+# cmake --install: the program, the libraries with their public headers, the cases, studies, and the
+# package that find_package(plyform) finds. Headers go to include/plyform/, so that
 # #include "core/model/case.hpp" reads the same in other projects as here.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/plyform)
 
 install(TARGETS plyform)
-install(TARGETS plyform_contact plyform_core EXPORT plyform)
+install(TARGETS plyform_base plyform_contact plyform_core EXPORT plyform)
 install(EXPORT plyform FILE plyformTargets.cmake NAMESPACE plyform:: DESTINATION ${package_dir})
 
 # From a case to its results, shapes of tools, exact intersections, fits of measured curves; all
 # other headers may change at any time. Each includes public ones only, which tests/consumer shows.
 set(public_headers
-  contact/geometry.hpp
+  base/diagnostics.hpp
+  base/geometry.hpp
+  base/version.hpp
   contact/intersections.hpp
   contact/search/sheet_bvh.hpp
   contact/shapes/tool_shape.hpp
   contact/surface_hint.hpp
   core/accuracy/cost_parameters.hpp core/accuracy/error_model.hpp core/accuracy/error_numbers.hpp
-  core/base/diagnostics.hpp
-  core/base/version.hpp
   core/fit/corrections.hpp
   core/fit/curve_file.hpp
   core/fit/curve_table.hpp

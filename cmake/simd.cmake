@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # plyform_simd_kernel(NAME): NAME_generic.cpp and NAME_avx2.cpp of the calling folder, and
-# NAME_avx512.cpp if there is one, hold the copies of a kernel that contact/simd/simd.hpp speaks of.
+# NAME_avx512.cpp if there is one, hold the copies of a kernel that base/simd.hpp speaks of.
 # Only they get flags of their own. On other processors than x86 all are compiled alike and the first
 # is used.
 function(plyform_simd_kernel name)

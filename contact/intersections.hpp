@@ -2,7 +2,7 @@
 // Exact check for intersecting triangles of sheets in a given state (CGAL, exact predicates).
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <compare>
 #include <functional>

@@ -15,7 +15,7 @@
 // clamped to 0..1: right for degenerate triangles too, which have edges only.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 #include "contact/sliver.hpp"
 
 namespace plyform {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Keys, mistakes, and cases as they were checked.
+#include "base/text.hpp"
+#include "base/thread_pool.hpp"
 #include "core/accuracy/error_model.hpp"
-#include "core/base/text.hpp"
-#include "core/base/thread_pool.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/setup/key_value.hpp"
 #include "core/setup/outlook.hpp"

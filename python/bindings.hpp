@@ -2,8 +2,8 @@
 // The parts of the compiled module _plyform, a file each, and what they share.
 #pragma once
 
-#include "contact/geometry.hpp"
-#include "core/base/diagnostics.hpp"
+#include "base/diagnostics.hpp"
+#include "base/geometry.hpp"
 
 #include <algorithm>
 #include <pybind11/numpy.h>

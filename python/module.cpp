@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The compiled part of `import plyform`. What its users see, and how it is to be called, is in
 // python/plyform: __init__.py and, for this part, _plyform.pyi.
-#include "core/base/text.hpp"
-#include "core/base/version.hpp"
+#include "base/text.hpp"
+#include "base/version.hpp"
 #include "core/results/export.hpp"
 #include "python/bindings.hpp"
 

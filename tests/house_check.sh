@@ -16,7 +16,7 @@ breach() {
 
 mapfile -t files < <(
   find . -maxdepth 1 -type f ! -name .git
-  find .ci cases cmake contact core docs python tests tools -type f ! -path '*/__pycache__/*' 2>/dev/null
+  find .ci base cases cmake contact core docs python tests tools -type f ! -path '*/__pycache__/*' 2>/dev/null
 )
 # of REGEX: those of the files whose path matches.
 of() { printf '%s\n' "${files[@]}" | grep -E "$1" || true; }
@@ -82,7 +82,7 @@ breach "includes a file of a room that its own must not know (tests/rooms.txt)" 
       next
     }
     FNR == 1 { room = FILENAME; sub(/^\.\//, "", room); sub(/\/[^\/]*$/, "", room) }
-    /^#include "(core|contact|python|tools|support)\// {
+    /^#include "(base|core|contact|python|tools|support)\// {
       split($0, part, "\"")
       to = part[2]; sub(/\/[^\/]*$/, "", to)
       all = to; sub(/\/.*/, "/*", all)
@@ -90,7 +90,7 @@ breach "includes a file of a room that its own must not know (tests/rooms.txt)" 
       else if (to != room && !((room, to) in may) && !((room, all) in may))
         print FILENAME ":" FNR ": " part[2]
     }
-  ' tests/rooms.txt $(printf '%s\n' "${cpp[@]}" | grep -E '^\./?(core|contact|python|tools)/|^(core|contact|python|tools)/')
+  ' tests/rooms.txt $(printf '%s\n' "${cpp[@]}" | grep -E '^(\./)?(base|core|contact|python|tools)/')
 )"
 
 breach "script that cannot be executed" "$(
@@ -100,7 +100,7 @@ breach "script that cannot be executed" "$(
 )"
 
 # Commands and links in the texts. A name in capitals (tools/NAME.sh) stands for something else.
-folders='(\.ci|cases|cmake|contact|core|docs|python|tests|tools)'
+folders='(\.ci|base|cases|cmake|contact|core|docs|python|tests|tools)'
 path='(^|[[:space:]`(])(\./)?'$folders'/[[:alnum:]_./-]*[[:alnum:]_/]'
 breach "names a file that does not exist" "$(
   for file in "${texts[@]}"; do

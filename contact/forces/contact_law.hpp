@@ -34,7 +34,7 @@
 // tangential displacement is elastic and recovered on unloading, and it does not creep.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 #include "contact/simd/contact_points.hpp"
 
 #include <algorithm>
@@ -84,7 +84,7 @@ struct ContactTotals {
   double step_ratio = std::numeric_limits<double>::infinity();
 };
 
-/// For checkpoints: core/base/archive.hpp.
+/// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(ContactTotals& sums, F&& f) {
   auto& [elastic, friction, damping, penetration, deepest, slip, touching, step_ratio] = sums;

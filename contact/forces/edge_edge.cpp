@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/forces/edge_edge.hpp"
 
-#include "contact/simd/cpu_features.hpp"
+#include "base/cpu_features.hpp"
 
 #include <cmath>
 #include <limits>

@@ -77,7 +77,7 @@ struct EdgeEdgeContact {
   EdgeMeasurements measurements;
 };
 
-/// For checkpoints: core/base/archive.hpp.
+/// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(EdgeEdgeContact& c, F&& f) {
   auto& [law, distance, candidates, groups, pairs, renew_depth, sums, time, measurements] = c;

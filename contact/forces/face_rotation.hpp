@@ -11,7 +11,7 @@
 // to u_j, so that the F_j do the work of the couple; hence sum F_j = 0 and sum x_j x F_j = C.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 namespace plyform {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/forces/ply_ply.hpp"
 
-#include "contact/simd/cpu_features.hpp"
+#include "base/cpu_features.hpp"
 #include "contact/simd/ply_ply_kernel.hpp"
 
 #include <cstddef>

@@ -65,7 +65,7 @@ struct PlyPlyContact {
   ContactTime time;
 };
 
-/// For checkpoints: core/base/archive.hpp.
+/// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(PlyPlyPoint& point, F&& f) {
   auto& [memory, area, gap, w, other, gap_when_deactivated, node, face, first_face, end_face,

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/forces/tool_ply.hpp"
 
+#include "base/cpu_features.hpp"
 #include "contact/shapes/mesh_shape.hpp"
 #include "contact/shapes/shape_distance.hpp"
-#include "contact/simd/cpu_features.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
 
 #include <limits>

@@ -13,10 +13,10 @@
 // condensation) never raises the largest frequency, so the stable time step is not reduced.
 #pragma once
 
+#include "base/stopwatch.hpp"
 #include "contact/forces/contact_law.hpp"
 #include "contact/search/active_list.hpp"
 #include "contact/shapes/tool_shape.hpp"
-#include "contact/stopwatch.hpp"
 
 #include <span>
 #include <vector>
@@ -31,7 +31,7 @@ struct ToolMotion {
   double speed = 0.0;               ///< mm/s along its direction
 };
 
-/// For checkpoints: core/base/archive.hpp.
+/// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(ToolMotion& tool, F&& f) {
   auto& [displacement, motion, force, speed] = tool;
@@ -81,7 +81,7 @@ struct ToolPlyContact {
   ContactTime time; ///< s, without the equilibrium of a pushed tool, which all its plies share
 };
 
-/// For checkpoints: core/base/archive.hpp.
+/// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(ToolPlyContact& c, F&& f) {
   auto& [law, half_thickness, points, list, free, hints, force, sums, renew_depth, time] = c;

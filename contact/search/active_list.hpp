@@ -23,7 +23,7 @@ struct ActiveList {
   double ahead = 0.0;               ///< mm, path length of two steps like the last one
 };
 
-/// All that lives from step to step, for checkpoints (core/base/archive.hpp); so below.
+/// All that lives from step to step, for checkpoints (base/archive.hpp); so below.
 template <class F>
 void each_member(ActiveList& list, F&& f) {
   auto& [free_until, active, until, last_path, ahead] = list;

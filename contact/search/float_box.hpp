@@ -3,7 +3,7 @@
 // instructions without a branch, which would often be mispredicted.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #ifdef __SSE2__
 #include <emmintrin.h>

@@ -9,7 +9,7 @@
 // and a fifth to the tangent for faces that share only a node.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <span>
 #include <vector>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/search/sheet_bvh.hpp"
 
+#include "base/cpu_features.hpp"
 #include "contact/point_triangle.hpp"
 #include "contact/search/float_box.hpp"
-#include "contact/simd/cpu_features.hpp"
 #include "contact/simd/point_face_kernel.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Broad phase between two sheets: which nodes of one may touch which triangles of the other.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <memory>
 #include <span>

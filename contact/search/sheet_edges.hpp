@@ -10,8 +10,8 @@
 //   |u_a - u_b| <= |r|,   r_i = max(max_i a - min_i b, max_i b - min_i a)                    (R)
 #pragma once
 
+#include "base/geometry.hpp"
 #include "contact/face_across.hpp"
-#include "contact/geometry.hpp"
 
 #include <span>
 #include <vector>

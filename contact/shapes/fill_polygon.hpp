@@ -2,7 +2,7 @@
 // Area of a polygon, and triangles between its corners.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 namespace plyform {
 

@@ -16,7 +16,7 @@
 // one side of them. (1) is exact on spheres and across cylinders however coarse the mesh is.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <vector>
 

@@ -2,7 +2,7 @@
 // Triangles in the place of faces of more than four corners.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <cstddef>
 #include <vector>

@@ -2,7 +2,7 @@
 // Internal to contact/: polygons of a mesh file, before they are cleaned and become a tool.
 #pragma once
 
-#include "contact/shapes/polygon_file.hpp"
+#include "base/polygon_file.hpp"
 #include "contact/shapes/tool_shape.hpp"
 
 #include <string>

@@ -6,7 +6,7 @@
 // tool's `position`, local z along its `axis`.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 #include "contact/surface_hint.hpp"
 
 #include <filesystem>

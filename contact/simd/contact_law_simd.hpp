@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // (N) and (T) of contact/forces/contact_law.hpp for a contact per SIMD lane, and other functions
 // that the contact kernels share. Only those kernels may include this file, as
-// contact/simd/simd.hpp.
+// base/simd.hpp.
 #pragma once
 
+#include "base/simd.hpp"
 #include "contact/simd/contact_points.hpp"
-#include "contact/simd/simd.hpp"
 
 #include <cstddef>
 

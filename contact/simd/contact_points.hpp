@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact points and constants of contact, as search, forces and kernels share them: plain numbers
-// and no functions, since the kernels include this file (reason: contact/simd/simd.hpp).
+// and no functions, since the kernels include this file (reason: base/simd.hpp).
 //
 // A kernel loads four numbers of a point at once. Points therefore consist of rows of 32 bytes,
 // separated by the empty lines below; the kernels assert the offsets of the rows that they load.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Interface of the compiled copies of the kernel of contact/forces/edge_edge.hpp: plain numbers
-// and pointers, nothing inline (reason: contact/simd/simd.hpp).
+// and pointers, nothing inline (reason: base/simd.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Interface of the compiled copies of the kernel that measures points and triangles for
 // contact/search/sheet_bvh.hpp: plain numbers and pointers, nothing inline (reason:
-// contact/simd/simd.hpp).
+// base/simd.hpp).
 #pragma once
 
 #include <cstdint>

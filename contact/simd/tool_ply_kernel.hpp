@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Interface of the compiled copies of the kernel of contact/forces/tool_ply.hpp: plain numbers
-// and pointers, nothing inline (reason: contact/simd/simd.hpp).
+// and pointers, nothing inline (reason: base/simd.hpp).
 #pragma once
 
 #include "contact/simd/contact_points.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Which column of a table a test needs: curve_table.hpp.
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/fit/curve_table.hpp"
 
 #include <algorithm>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fit/curve_table.hpp"
 
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>

@@ -7,7 +7,7 @@
 // units.
 #pragma once
 
-#include "core/base/diagnostics.hpp"
+#include "base/diagnostics.hpp"
 #include "core/fit/units.hpp"
 
 #include <array>

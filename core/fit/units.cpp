@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/fit/units.hpp"
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // case.toml -> entries -> overrides -> check against the table of keys -> Case -> whole scene.
 #include "core/input/case_file.hpp"
 
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/input/case_identity.hpp"
 #include "core/input/case_parts.hpp"
 #include "core/input/entries.hpp"

@@ -2,7 +2,7 @@
 // Reads case.toml (and the fabric files that it names) into a Case, and reports all errors at once.
 #pragma once
 
-#include "core/base/diagnostics.hpp"
+#include "base/diagnostics.hpp"
 #include "core/mesh/mesh_blank.hpp"
 #include "core/model/case.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/case_identity.hpp"
 
-#include "core/base/text.hpp"
-#include "core/base/version.hpp"
+#include "base/text.hpp"
+#include "base/version.hpp"
 #include "core/input/overrides.hpp"
 
 #include <fmt/format.h>

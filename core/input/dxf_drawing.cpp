@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/dxf_drawing.hpp"
 
-#include "core/base/archive.hpp"
-#include "core/base/helper_process.hpp"
-#include "core/base/text.hpp"
+#include "base/archive.hpp"
+#include "base/helper_process.hpp"
+#include "base/text.hpp"
 #include "core/input/dxf_blocks.hpp"
 #include "core/input/dxf_groups.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/dxf_outline.hpp"
 
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/input/dxf_drawing.hpp"
 #include "core/mesh/mesh_blank.hpp"
 

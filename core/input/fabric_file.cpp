@@ -2,7 +2,7 @@
 // Reads fabrics: laws of tension, shear and bending, as constants or tables.
 #include "core/input/fabric_file.hpp"
 
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/input/case_parts.hpp"
 #include "core/input/key_member.hpp"
 #include "core/input/sense_checks.hpp"

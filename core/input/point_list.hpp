@@ -2,8 +2,8 @@
 // Lists of points, with fillets and arcs, in case files: profiles of tools, outlines of blanks.
 #pragma once
 
+#include "base/diagnostics.hpp"
 #include "contact/shapes/tool_shape.hpp"
-#include "core/base/diagnostics.hpp"
 #include "core/input/toml_tree.hpp"
 
 namespace plyform {

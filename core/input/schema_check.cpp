@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/schema_check.hpp"
 
-#include "core/base/names.hpp"
-#include "core/base/text.hpp"
+#include "base/names.hpp"
+#include "base/text.hpp"
 
 #include <algorithm>
 #include <cmath>

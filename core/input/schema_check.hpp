@@ -2,7 +2,7 @@
 // Checks the entries of a file against the table of keys, and returns valid values.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 #include "core/input/schema.hpp"
 #include "core/input/toml_tree.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/toml_tree.hpp"
 
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/input/toml_depth.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 // used in toml_tree.cpp only.
 #pragma once
 
-#include "core/base/diagnostics.hpp"
+#include "base/diagnostics.hpp"
 
 #include <optional>
 #include <string>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Reads the mesh of a blank from STL, OBJ, PLY or OFF as a triangle soup. Triangles are
 // oriented anticlockwise and equal nodes merged (STL repeats them); any other defect is an error.
-#include "contact/shapes/polygon_file.hpp"
+#include "base/polygon_file.hpp"
 #include "core/mesh/mesher_parts.hpp"
 
 #include <algorithm>

@@ -2,7 +2,7 @@
 // Specification of a blank: its outline and its mesh.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <cstddef>
 #include <filesystem>

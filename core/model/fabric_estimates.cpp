@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/model/fabric_estimates.hpp"
 
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/model/reach_ahead.hpp"
 
 #include <algorithm>

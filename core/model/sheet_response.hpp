@@ -3,7 +3,7 @@
 // laws.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 namespace plyform {
 

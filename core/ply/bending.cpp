@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/ply/bending.hpp"
 
-#include "core/base/lanczos.hpp"
+#include "base/lanczos.hpp"
 #include "core/ply/bending_fit.hpp"
 
 #include <Eigen/Core>

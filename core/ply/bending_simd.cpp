@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/ply/bending_simd.hpp"
 
-#include "contact/simd/cpu_features.hpp"
+#include "base/cpu_features.hpp"
 
 #include <algorithm>
 #include <stdexcept>

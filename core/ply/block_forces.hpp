@@ -5,7 +5,7 @@
 // number of threads.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 #include "core/ply/simd_kernel.hpp"
 
 #include <span>

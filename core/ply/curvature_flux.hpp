@@ -25,7 +25,7 @@
 // (2000); why integrals of the derivatives have to add up: Chen, Wu, Yoon and You (2001).
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 #include "core/model/fabric.hpp"
 
 #include <span>

@@ -57,7 +57,7 @@
 // replace, at any shear angle, and no more: docs/tried.md has figures.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 #include "core/mesh/mesh_blank.hpp"
 #include "core/model/case.hpp"
 #include "core/model/yarn_law.hpp"

@@ -11,7 +11,7 @@
 //                  makes: eps_a = f_a . sum_n c_a,n y_n                                        (K)
 #pragma once
 
-#include "core/base/lanczos.hpp"
+#include "base/lanczos.hpp"
 #include "core/mesh/pairs.hpp"
 #include "core/ply/membrane.hpp"
 
@@ -29,7 +29,7 @@ struct EigenvalueBound {
   int triangle = -1;    ///< the triangle with the largest omega2
 };
 
-/// For checkpoints: core/base/archive.hpp.
+/// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(EigenvalueBound& bound, F&& f) {
   auto& [omega2, yarns, soft, penalty_acts, damping, viscous, triangle] = bound;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/ply/membrane_simd.hpp"
 
-#include "contact/simd/cpu_features.hpp"
+#include "base/cpu_features.hpp"
 #include "core/ply/in_plane_law.hpp"
 
 #include <algorithm>

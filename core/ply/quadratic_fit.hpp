@@ -2,7 +2,7 @@
 // The quadratic polynomial nearest to values at nodes.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <span>
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Types that the kernels of membrane and bending share: plain numbers, nothing inline (reason:
-// contact/simd/simd.hpp).
+// base/simd.hpp).
 #pragma once
 
 #include <cstdint>

@@ -3,7 +3,7 @@
 // offsets of 32 times the node's index in the block's list.
 #pragma once
 
-#include "contact/simd/simd.hpp"
+#include "base/simd.hpp"
 #include "core/ply/simd_kernel.hpp"
 
 namespace plyform {

@@ -3,9 +3,9 @@
 // checksum (8 bytes), the rest.
 #include "core/results/checkpoint_file.hpp"
 
-#include "core/base/archive.hpp"
-#include "core/base/names.hpp"
-#include "core/base/text.hpp"
+#include "base/archive.hpp"
+#include "base/names.hpp"
+#include "base/text.hpp"
 
 #include <algorithm>
 #include <cmath>

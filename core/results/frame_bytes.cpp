@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/frame_bytes.hpp"
 
-#include "core/base/archive.hpp"
+#include "base/archive.hpp"
 
 #include <stdexcept>
 

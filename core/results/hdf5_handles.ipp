@@ -3,7 +3,7 @@
 // hdf5_reader.cpp only.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <charconv>
 #include <cstdint>

@@ -4,8 +4,8 @@
 // The file is not trusted: types, sizes and node numbers are checked before they are used, and
 // numbers must be finite. HDF5 itself goes down, or never comes back, on some damaged files; hence
 // it reads in a process of its own.
-#include "core/base/helper_process.hpp"
-#include "core/base/text.hpp"
+#include "base/helper_process.hpp"
+#include "base/text.hpp"
 #include "core/results/frame_bytes.hpp"
 #include "core/results/hdf5_links.ipp"
 #include "core/results/result_fields.hpp"

@@ -2,7 +2,7 @@
 // The state of one ply at one time, as it is output. Units: mm, N, degrees, N per yarn.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <array>
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/result_writer.hpp"
 
-#include "core/base/names.hpp"
-#include "core/base/text.hpp"
-#include "core/base/thread_pool.hpp"
+#include "base/names.hpp"
+#include "base/text.hpp"
+#include "base/thread_pool.hpp"
 #include "core/results/checkpoint_file.hpp"
 #include "core/results/folder_lock.hpp"
 #include "core/results/result_fields.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/size_file.hpp"
 
-#include "contact/files/read_file.hpp"
-#include "contact/files/words.hpp"
+#include "base/read_file.hpp"
+#include "base/words.hpp"
 #include "core/results/result_fields.hpp"
 
 #include <cmath>

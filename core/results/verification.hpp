@@ -2,7 +2,7 @@
 // Figures of a run with the bands that sibling runs gave them (core/verification/verify.hpp).
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <optional>
 #include <string>

@@ -36,7 +36,7 @@
 // remain: 0.2 mm of 0.6 mm with h = 6.8 mm on a fillet of 10 mm.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 #include "core/results/ply_frame.hpp"
 
 #include <vector>

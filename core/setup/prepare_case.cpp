@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/prepare_case.hpp"
 
-#include "core/base/text.hpp"
-#include "core/base/thread_pool.hpp"
+#include "base/text.hpp"
+#include "base/thread_pool.hpp"
 #include "core/input/unit_checks.hpp"
 #include "core/model/motion.hpp"
 #include "core/setup/size_ahead.hpp"

@@ -3,7 +3,7 @@
 // and is not computed anew in every step.
 #pragma once
 
-#include "core/base/archive.hpp"
+#include "base/archive.hpp"
 #include "core/model/energies.hpp"
 #include "core/results/summary.hpp"
 #include "core/solver/astray_forces.hpp"

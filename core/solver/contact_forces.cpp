@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contacts of tools and of plies, and boundaries, as kinds of force.
-#include "contact/stopwatch.hpp"
+#include "base/stopwatch.hpp"
 #include "core/solver/attached_motion.hpp"
 #include "core/solver/contact_search.hpp"
 #include "core/solver/force_kinds.hpp"

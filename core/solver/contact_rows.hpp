@@ -3,7 +3,7 @@
 // bound their eigenvalues (Gershgorin).
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
 
 namespace plyform {

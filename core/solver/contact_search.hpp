@@ -2,7 +2,7 @@
 // The contact search (broad phase), which the step loop calls when motion has used up the skin.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
 
 namespace plyform {

@@ -7,7 +7,7 @@
 // largest, and the kinetic energy is below 1 % of that of deformation.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
 
 #include <vector>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elements and bending as kinds of force.
-#include "contact/stopwatch.hpp"
+#include "base/stopwatch.hpp"
 #include "core/ply/in_plane_law.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/step_faults.hpp"

@@ -14,7 +14,7 @@
 // circle), so that 2 L/sqrt(3) replaces L. With c > t/2 the mid-surface itself penetrates the tool.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
 
 #include <string>

@@ -2,7 +2,7 @@
 // How plies fold between contact searches: what contact between plies must know at every step.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
 
 namespace plyform {

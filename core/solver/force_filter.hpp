@@ -8,7 +8,7 @@
 // times 1 / tau, is reduced to 2 / (omega tau) of itself.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <cmath>
 

@@ -7,7 +7,7 @@
 // not have, it inherits from NoForce.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/model/energies.hpp"
 #include "core/results/summary.hpp"
 #include "core/solver/contact_rows.hpp"

@@ -2,7 +2,7 @@
 // Nodal forces of elements, bending and contact, and the acceleration from their sum.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
 
 namespace plyform {

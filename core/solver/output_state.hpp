@@ -2,7 +2,7 @@
 // The state of a scene as results: fields of the plies and motion of the tools, in output units.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/results/result_writer.hpp"
 #include "core/solver/scene.hpp"
 

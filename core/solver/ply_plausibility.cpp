@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/ply_plausibility.hpp"
 
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/model/motion.hpp"
 #include "core/results/statistics.hpp"
 #include "core/solver/ply_motion.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/run.hpp"
 
+#include "base/version.hpp"
 #include "contact/intersections.hpp"
 #include "core/accuracy/error_model.hpp"
-#include "core/base/version.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/model/motion.hpp"
 #include "core/solver/checkpoint.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/run_diagnosis.hpp"
 
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/solver/force_kinds.hpp"
 
 #include <algorithm>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/scene.hpp"
 
+#include "base/thread_pool.hpp"
 #include "contact/search/unfolded.hpp"
-#include "core/base/thread_pool.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/model/motion.hpp"
 #include "core/model/reach_ahead.hpp"

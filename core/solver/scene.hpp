@@ -3,8 +3,8 @@
 // constant; the arrays change step by step (core/solver/step.hpp).
 #pragma once
 
+#include "base/archive.hpp"
 #include "contact/forces/ply_ply.hpp"
-#include "core/base/archive.hpp"
 #include "core/model/attachment.hpp"
 #include "core/model/boundary.hpp"
 #include "core/solver/force_filter.hpp"

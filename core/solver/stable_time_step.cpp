@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/stable_time_step.hpp"
 
-#include "core/base/lanczos.hpp"
+#include "base/lanczos.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/stiffness_operator.hpp"
 

@@ -21,7 +21,7 @@
 // step never exceeds that of the elements' or the contacts' bound alone.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/solver/contact_rows.hpp"
 
 #include <cmath>

@@ -6,7 +6,7 @@
 //   x_(i+1)  = x_i + v_(i+1/2) dt_i                                                        (15)
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/model/energies.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/stop.hpp"

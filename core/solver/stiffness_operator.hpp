@@ -5,7 +5,7 @@
 // sheets without yarns.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/scene.hpp"
 

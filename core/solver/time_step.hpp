@@ -2,7 +2,7 @@
 // The time step that is taken: the stable one, or a shorter one while contacts close.
 #pragma once
 
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/solver/scene.hpp"
 
 namespace plyform {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bandwidth and arithmetic of one core.
-#include "contact/simd/cpu_features.hpp"
+#include "base/cpu_features.hpp"
 #include "tests/bench/machine.hpp"
 #include "tests/bench/machine_kernel.hpp"
 

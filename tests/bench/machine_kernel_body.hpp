@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/simd/simd.hpp"
+#include "base/simd.hpp"
 #include "tests/bench/machine_kernel.hpp"
 
 namespace plyform {

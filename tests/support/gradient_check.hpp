@@ -2,7 +2,7 @@
 // Forces against central differences of the energy that they should be the slope of.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 // Sheets of square cells, put anywhere.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <functional>
 

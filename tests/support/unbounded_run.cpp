@@ -4,7 +4,7 @@
 //   unbounded_run run|check CASE [--set KEY=VALUE]... [-o FOLDER] [--threads N]
 //   unbounded_run keys|version
 // Exit codes as of plyform: 0 done, 2 the case is wrong, 3 the simulation stopped itself.
-#include "core/base/version.hpp"
+#include "base/version.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "core/solver/run.hpp"
 #include "tools/cli/commands.hpp"

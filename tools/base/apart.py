@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Reading by libraries that go down on damaged files, or never come back: in a copy of this process
-with bounds on time and memory, as core/base/helper_process.hpp has it."""
+with bounds on time and memory, as base/helper_process.hpp has it."""
 
 import os
 import pickle

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 #include "core/setup/outlook.hpp"
 #include "tools/cli/commands.hpp"
 

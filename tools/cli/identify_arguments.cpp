@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of the arguments of plyform identify and theory, and what they ask for.
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/fit/test_columns.hpp"
 #include "tools/cli/identify_parts.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plyform identify: measured curves -> law -> fabric file.
-#include "core/base/version.hpp"
+#include "base/version.hpp"
 #include "core/results/result_fields.hpp"
 #include "tools/cli/identify_parts.hpp"
 

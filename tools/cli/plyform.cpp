@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The command line: plyform run | check | chart | report | map | pattern | export | difference |
 // identify | theory | keys | version.
-#include "core/base/text.hpp"
-#include "core/base/version.hpp"
+#include "base/text.hpp"
+#include "base/version.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/standard_streams.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/text.hpp"
+#include "base/thread_pool.hpp"
+#include "base/version.hpp"
 #include "core/accuracy/error_model.hpp"
-#include "core/base/text.hpp"
-#include "core/base/thread_pool.hpp"
-#include "core/base/version.hpp"
 #include "core/input/schema.hpp"
 #include "core/setup/outlook.hpp"
 #include "core/solver/run.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "tools/cli/standard_streams.hpp"
 
-#include "contact/files/words.hpp"
+#include "base/words.hpp"
 
 #include <cerrno>
 #include <csignal>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernel that measures pairs of edges against the routine that measures one, and its copies
 // against each other.
+#include "base/cpu_features.hpp"
 #include "contact/forces/edge_edge.hpp"
-#include "contact/simd/cpu_features.hpp"
 #include "support/contact_checks.hpp"
 
 #include <cstring>

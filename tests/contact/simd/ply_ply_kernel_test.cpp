@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The copies of the kernel of nodes and faces of plies against each other.
+#include "base/cpu_features.hpp"
 #include "contact/search/sheet_edges.hpp"
-#include "contact/simd/cpu_features.hpp"
 #include "contact/simd/ply_ply_kernel.hpp"
 #include "support/contact_checks.hpp"
 

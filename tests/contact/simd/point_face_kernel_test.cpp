@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernel that measures points and triangles against the routine that measures one, and its
 // copies against each other.
+#include "base/cpu_features.hpp"
 #include "contact/point_triangle.hpp"
-#include "contact/simd/cpu_features.hpp"
 #include "contact/simd/point_face_kernel.hpp"
 #include "support/contact_checks.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernel of contacts with tools against the law one contact after the other, and its compiled
 // copies against each other.
+#include "base/cpu_features.hpp"
 #include "contact/forces/tool_ply.hpp"
-#include "contact/simd/cpu_features.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
 #include "support/contact_checks.hpp"
 

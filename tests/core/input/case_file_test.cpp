@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Good case files give the right numbers; wrong ones exactly the mistakes that stand in them.
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/input/schema_check.hpp"
 #include "core/mesh/mesh_blank.hpp"
 #include "core/setup/prepare_case.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cases that are meant to bring a program down: nested without end, huge, with names that are none.
-#include "core/base/names.hpp"
+#include "base/names.hpp"
 #include "core/input/toml_depth.hpp"
 #include "core/input/toml_tree.hpp"
 #include "support/case_files.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The table of keys: all of them are used, described, and have defaults that the reader accepts.
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 #include "core/input/schema_check.hpp"
 #include "support/case_files.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The kernel against the membrane computed one triangle after the other.
-#include "contact/simd/cpu_features.hpp"
+#include "base/cpu_features.hpp"
 #include "core/ply/membrane_simd.hpp"
 #include "support/membrane_checks.hpp"
 

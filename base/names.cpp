@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/names.hpp"
+#include "base/names.hpp"
 
-#include "contact/files/words.hpp"
+#include "base/words.hpp"
 
 #include <fmt/format.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Geometric types and small functions that contact/ and core/ share. Lengths in mm.
+// Geometric types and small functions that all rooms share. Lengths in mm.
 #pragma once
 
 #include <Eigen/Core>

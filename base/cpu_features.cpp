@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/simd/cpu_features.hpp"
+#include "base/cpu_features.hpp"
 
 namespace plyform {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 
 #include <algorithm>
 #include <numeric>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whatever happens in the helper process, this one gets to know it and goes on.
-#include "core/base/helper_process.hpp"
+#include "base/helper_process.hpp"
 
 #include <atomic>
 #include <csignal>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/files/read_file.hpp"
+#include "base/read_file.hpp"
 
 #include <algorithm>
 #include <cerrno>

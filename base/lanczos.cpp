@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/lanczos.hpp"
+#include "base/lanczos.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/helper_process.hpp"
+#include "base/helper_process.hpp"
 
 #include <cerrno>
 #include <clocale>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The team of threads: every task once, for many rounds.
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 
 #include <atomic>
 #include <chrono>

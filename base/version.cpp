@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/version.hpp"
+#include "base/version.hpp"
 
 namespace plyform {
 

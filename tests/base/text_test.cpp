@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files that are none, or cannot be read to their end.
-#include "core/base/text.hpp"
+#include "base/text.hpp"
 
 #include <filesystem>
 #include <gtest/gtest.h>

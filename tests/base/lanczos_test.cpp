@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lanczos' iteration, against eigenvalues of matrices that are small enough to have them all.
-#include "core/base/lanczos.hpp"
+#include "base/lanczos.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <cmath>

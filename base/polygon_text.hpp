@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Internal to contact/shapes: words, numbers and lines of mesh files, and readers of formats.
+// Internal to base: words, numbers and lines of mesh files, and readers of formats.
 #pragma once
 
-#include "contact/files/words.hpp"
-#include "contact/shapes/polygon_file.hpp"
+#include "base/polygon_file.hpp"
+#include "base/words.hpp"
 
 #include <cstdint>
 #include <fmt/format.h>

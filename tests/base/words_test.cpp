@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/files/words.hpp"
+#include "base/words.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

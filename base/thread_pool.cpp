@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/thread_pool.hpp"
+#include "base/thread_pool.hpp"
 
-#include "core/base/thread_choice.hpp"
+#include "base/thread_choice.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -2,8 +2,8 @@
 // Text functions: reading a file, joining words, suggesting a word for a misspelt one.
 #pragma once
 
-#include "contact/files/read_file.hpp"
-#include "contact/files/words.hpp"
+#include "base/read_file.hpp"
+#include "base/words.hpp"
 
 #include <filesystem>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How many threads are chosen beside other programs, on machines that are played: no time is
 // measured.
-#include "core/base/thread_choice.hpp"
+#include "base/thread_choice.hpp"
 
 #include <algorithm>
 #include <cmath>

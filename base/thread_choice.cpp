@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/base/thread_choice.hpp"
+#include "base/thread_choice.hpp"
 
 #include <algorithm>
 #include <cmath>

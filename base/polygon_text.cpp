@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "contact/shapes/polygon_text.hpp"
+#include "base/polygon_text.hpp"
 
 #include <charconv>
 #include <cmath>

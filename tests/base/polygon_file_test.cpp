@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What the readers of mesh formats accept, and files that go against their format.
-#include "contact/shapes/polygon_file.hpp"
+#include "base/polygon_file.hpp"
 
 #include <cstring>
 #include <gtest/gtest.h>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Mesh files by format: STL, OBJ, OFF; PLY is in polygon_ply.cpp.
-#include "contact/shapes/polygon_file.hpp"
+#include "base/polygon_file.hpp"
 
-#include "contact/files/read_file.hpp"
-#include "contact/shapes/polygon_text.hpp"
+#include "base/polygon_text.hpp"
+#include "base/read_file.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 // PLY, as text or binary in either order of bytes. A header names elements (vertex, face) with
 // their count, and the properties of each: numbers, or lists of numbers with their length before
 // them. x, y and z of vertices and the list of corners of faces are used.
-#include "contact/shapes/polygon_text.hpp"
+#include "base/polygon_text.hpp"
 
 #include <algorithm>
 #include <bit>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of others that have no end, or never begin.
-#include "contact/files/read_file.hpp"
+#include "base/read_file.hpp"
 
 #include <filesystem>
 #include <fstream>

@@ -4,7 +4,7 @@
 // format is refused with its line, never read in part.
 #pragma once
 
-#include "contact/geometry.hpp"
+#include "base/geometry.hpp"
 
 #include <filesystem>
 #include <string>
