@@ -131,6 +131,13 @@ SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3
   return edges;
 }
 
+double longest_side(const SheetEdges& edges, std::span<const Vec3> x) {
+  double longest = 0.0;
+  for (const SheetEdge& e : edges.all)
+    longest = std::max(longest, (x[at(e.a)] - x[at(e.b)]).norm());
+  return longest;
+}
+
 void patch_motions(const SheetEdges& edges, std::span<const Vec3> motion,
                    std::vector<Box3>& boxes) {
   boxes.resize(edges.patch_nodes.size());

@@ -44,6 +44,9 @@ struct SheetEdges {
 /// extents of the nodes, x0 (mm).
 SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0);
 
+/// The longest edge with the nodes at x, mm.
+double longest_side(const SheetEdges& edges, std::span<const Vec3> x);
+
 /// Boxes (mm) of the displacements of each patch's nodes in a step. motion: mm, one per node.
 void patch_motions(const SheetEdges& edges, std::span<const Vec3> motion, std::vector<Box3>& boxes);
 

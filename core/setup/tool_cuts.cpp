@@ -124,7 +124,7 @@ Vec3 side_of(const Tool& tool, const PlyBody& ply) {
 /// The longest sides of a flat ply's triangles from place to place, on squares that divide its box.
 class SidesInPlan {
 public:
-  explicit SidesInPlan(const PlyBody& ply) : longest_(longest_side(ply)) {
+  explicit SidesInPlan(const PlyBody& ply) : longest_(longest_side(ply.edges, ply.x)) {
     for (const Vec3& x : ply.x0)
       box_.extend(Vec2(x.head<2>()));
     square_ = std::max(0.5 * longest_, box_.sizes().maxCoeff() / most_squares);

@@ -89,13 +89,6 @@ private:
 
 } // namespace
 
-double longest_side(const PlyBody& ply) {
-  double longest = 0.0;
-  for (const SheetEdge& e : ply.edges.all)
-    longest = std::max(longest, (ply.x[e.a] - ply.x[e.b]).norm());
-  return longest;
-}
-
 double cut_between_nodes(double side, double radius, double thickness, double half_turn) {
   const double R = radius + 0.5 * thickness, half = 0.5 * side;
   if (half <= R * std::sin(half_turn)) return R - std::sqrt(R * R - half * half); // (1)

@@ -22,9 +22,6 @@
 
 namespace plyform {
 
-/// Longest side of the ply's triangles now, mm.
-double longest_side(const PlyBody& ply);
-
 /// (1), (2): c in mm. side, radius, thickness in mm; half_turn: a, rad, above 0 and below pi/2.
 double cut_between_nodes(double side, double radius, double thickness, double half_turn);
 

@@ -7,7 +7,6 @@
 #include "core/model/motion.hpp"
 #include "core/model/reach_ahead.hpp"
 #include "core/solver/element_mass_scaling.hpp"
-#include "core/solver/facet_penetration.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -277,7 +276,7 @@ void limit_ridges(Scene& s) {
   for (PlyBody& ply : s.plies) {
     double longest = 0.0;
     for (const PlyBody& other : s.plies)
-      if (other.stack == ply.stack) longest = std::max(longest, longest_side(other));
+      if (other.stack == ply.stack) longest = std::max(longest, longest_side(other.edges, other.x));
     ply.ridge_limit = 1.5 * ply.thickness / longest;
   }
 }

@@ -56,7 +56,7 @@ void expect_within_bound(const std::function<Scene()>& make, double radius,
   const EndedRun run = run_on_any_threads(make);
   ASSERT_TRUE(ended(run.result.summary.status)) << what << ": " << run.result.summary.message;
   const ContactReport& c = run.result.summary.contact;
-  const double side = longest_side(run.scene.plies[0]);
+  const double side = longest_side(run.scene.plies[0].edges, run.scene.plies[0].x);
   const double bound = cut_between_nodes(side, radius, 0.6, 0.5 * quarter);
   const double depth = sampled_depth(run.scene), at_nodes = c.max_tool_penetration_mm;
   const double told = c.max_tool_penetration_between_nodes_mm;
