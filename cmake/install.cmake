@@ -52,7 +52,7 @@ set(public_headers
   core/setup/prepare_case.hpp
   core/setup/scene_mesh.hpp
   core/setup/scout.hpp
-  core/solver/run.hpp)
+  core/run/run.hpp)
 foreach(header ${public_headers})
   cmake_path(GET header PARENT_PATH folder)
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plyform/${folder})

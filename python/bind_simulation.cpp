@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A simulation that Python watches, stops, and whose arrays it sees while it goes on.
 #include "core/results/result_fields.hpp"
+#include "core/run/output_state.hpp"
+#include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
-#include "core/solver/output_state.hpp"
-#include "core/solver/run.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/whole_step.hpp"
 #include "python/bindings.hpp"

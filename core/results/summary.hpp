@@ -16,7 +16,7 @@ namespace plyform {
 
 struct ContactReport {
   double max_tool_penetration_mm = 0, max_ply_penetration_mm = 0; ///< of nodes
-  double max_tool_penetration_between_nodes_mm = 0; ///< core/solver/facet_penetration.hpp
+  double max_tool_penetration_between_nodes_mm = 0; ///< core/run/facet_penetration.hpp
   long intersections_between_plies = 0, intersections_within_plies = 0;
 };
 
@@ -52,7 +52,7 @@ struct AccuracyReport {
 struct PressedYarns {
   double largest = 0;                          ///< largest compressive strain, 0.01 = 1 %; 0: none
   double share_above_2 = 0, share_above_5 = 0; ///< fraction of the area before forming, > 2, 5 %
-  double excess_mm = 0;                        ///< core/solver/ply_plausibility.hpp
+  double excess_mm = 0;                        ///< core/run/ply_plausibility.hpp
   Vec3 excess_at = Vec3::Zero();               ///< mm, formed, where that yarn is compressed most
 };
 
@@ -66,7 +66,7 @@ struct PlyReport {
 };
 
 /// Up to where the force of a tool is known: to the last output at which it did not press the plies
-/// against another tool (core/solver/pressed_stack.hpp).
+/// against another tool (core/run/pressed_stack.hpp).
 struct KnownForce {
   double stroke_mm = std::numeric_limits<double>::infinity();
   double time_s = std::numeric_limits<double>::infinity(); ///< infinite: to the end
@@ -85,7 +85,7 @@ struct Summary {
   double element_added_mass = 0; ///< to small elements, largest share of the mass of any ply
   int threads = 1;
   AccuracyReport accuracy;
-  double motion_share = 0; ///< largest_motion (core/solver/ply_motion.hpp) at the end
+  double motion_share = 0; ///< largest_motion (core/run/ply_motion.hpp) at the end
   Verification verification;
   ContactReport contact;
   WorkReport work;
@@ -94,7 +94,7 @@ struct Summary {
   /// A sentence each: estimates of values that the case does not give, and values that were limited
   /// (core/model/fabric_estimates.hpp, assumptions).
   std::vector<std::string> assumed;
-  bool flies = false; ///< a ply at the end: core/solver/ply_motion.hpp
+  bool flies = false; ///< a ply at the end: core/run/ply_motion.hpp
 };
 
 /// Whether a run with this status reached its end time.

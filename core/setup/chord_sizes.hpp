@@ -12,11 +12,11 @@
 //   L = 1.7 h
 // which is L^2 / 8R over a radius R, and holds for any shape, meshes of tools too. 1.7: sides are
 // up to sqrt(2) h long, and over what is curved both ways the middle of a triangle is 2/sqrt(3)
-// farther from its corners; measured (core/solver/facet_penetration.hpp) on five plies over a
+// farther from its corners; measured (core/run/facet_penetration.hpp) on five plies over a
 // fillet of 10 mm with elements of 3.4, 3.7, 6.8 and 10 mm cuts are 1.02, 1.05, 1.1 and 1.1 times
 // that, nodes' own depth taken off. The wanted size is the largest h with c(h) up to a depth that
 // does no harm: where the ply itself lies on the tool less than what makes a run doubtful, a
-// thickness (core/solver/facet_penetration.hpp); plies between others only come nearer to those.
+// thickness (core/run/facet_penetration.hpp); plies between others only come nearer to those.
 // Edges that a ply leaves rather than being drawn over them (core/setup/draws.hpp) count where they
 // cut into the scout all the same, and 0.7 of that depth: measured at the inner edges of holders.
 // Hollows count as ridges do, for a ply that is pressed into one: |c|.

@@ -6,11 +6,11 @@
 #include "core/input/motion_checks.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/model/motion.hpp"
+#include "core/run/facet_penetration.hpp"
 #include "core/setup/boundaries_ahead.hpp"
 #include "core/setup/size_ahead.hpp"
 #include "core/setup/tool_cuts.hpp"
 #include "core/solver/element_mass_scaling.hpp"
-#include "core/solver/facet_penetration.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"
 

@@ -6,7 +6,7 @@
 // those it has found, until they do.
 #pragma once
 
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 
 #include <vector>
 

@@ -3,8 +3,8 @@
 
 #include "core/input/initial_scene.hpp"
 #include "core/model/motion.hpp"
+#include "core/run/facet_penetration.hpp"
 #include "core/setup/draws.hpp"
-#include "core/solver/facet_penetration.hpp"
 
 #include <algorithm>
 #include <cmath>

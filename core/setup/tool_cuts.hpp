@@ -7,7 +7,7 @@
 // half a stroke on, where what will pass there comes from, across the edge and at
 // half a thickness from the tool, is lowered along -n until an end touches the tool: the way is the
 // cut. On a cylinder, a fillet of 90 degrees and a sharp edge that is
-// core/solver/facet_penetration.hpp, (1) and (2), and it takes any tool, meshes too. A ply is drawn
+// core/run/facet_penetration.hpp, (1) and (2), and it takes any tool, meshes too. A ply is drawn
 // over q if q faces it and something moves it, relative to this tool, against n: the edge of a
 // blank-holder from which a punch draws the ply away is no such place.
 #pragma once

@@ -9,7 +9,7 @@
 //              d (g^(-1 / (q^3 - 1)) - 1) / (1 - g), at most d / (q - 1)                    (1)
 //   softening  d: proportional, twice the softening; d / (1 - 1/2) of half of it, without chance
 //   chance     d, the largest of all twins
-// with d / (q - 1) where either of the two flies (core/solver/ply_motion.hpp) or speed has made a
+// with d / (q - 1) where either of the two flies (core/run/ply_motion.hpp) or speed has made a
 // force half as large again: such errors follow no power of the speed. (1): a tool cannot lose more
 // than its force, so what is left falls as exp(-c v^3), and F (g^(-1 / (q^3 - 1)) - 1) is what the
 // slower run has lost of F. Of small ones it is Richardson's d / (q^3 - 1); where nothing is left

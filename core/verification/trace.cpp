@@ -2,7 +2,7 @@
 #include "core/verification/trace.hpp"
 
 #include "core/results/field_difference.hpp"
-#include "core/solver/output_state.hpp"
+#include "core/run/output_state.hpp"
 #include "core/solver/scene.hpp"
 
 #include <algorithm>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "core/results/verification.hpp"
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "core/verification/trace.hpp"
 
 #include <atomic>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shipped case of five plies with its tools as they are, and as meshes with facets of 1 mm.
+#include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
-#include "core/solver/run.hpp"
 #include "tests/bench/machine.hpp"
 
 #include <benchmark/benchmark.h>

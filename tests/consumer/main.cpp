@@ -2,8 +2,8 @@
 // Uses of the installed core library: a case read, checked and run for one step, its results
 // written. consumer RESULT_FOLDER
 #include "core/results/result_writer.hpp"
+#include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
-#include "core/solver/run.hpp"
 
 #include <cstdio>
 

@@ -3,8 +3,8 @@
 // std::runtime_error, or a scene that is computed on. The bytes are the changes, twelve of each:
 // where (4), how (1), by what (7), so that seeds do not depend on the layout of a checkpoint.
 #include "core/results/checkpoint_file.hpp"
+#include "core/run/checkpoint.hpp"
 #include "core/setup/prepare_case.hpp"
-#include "core/solver/checkpoint.hpp"
 #include "core/solver/step.hpp"
 #include "fuzz/fuzz_file.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A strip that bends under its own weight, against the heavy elastica and Peirce's cantilever.
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "support/heavy_elastica.hpp"
 #include "support/scene_checks.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Boundaries and gravity in whole scenes: paths, forces, momentum, energy, symmetry.
 #include "core/model/motion.hpp"
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 #include "support/boundary_scenes.hpp"

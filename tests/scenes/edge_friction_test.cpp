@@ -2,7 +2,7 @@
 // A strip drawn over the edge of a block, against the capstan equation T2 = T1 exp(mu theta). Where
 // elements are longer than the edge is round, contact at nodes cannot tell the force, and the run
 // says so.
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "support/scene_checks.hpp"
 
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A ply drawn into a channel forms over one extrusion as over rounded boxes in its place.
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "support/scene_checks.hpp"
 #include "support/thread_checks.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bodies that take no part in a forming change nothing of it: not a bit.
 #include "core/model/fabric_estimates.hpp"
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "support/scene_checks.hpp"
 
 #include <fmt/format.h>

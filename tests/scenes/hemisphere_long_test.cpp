@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shipped hemisphere cases, whole, as `plyform run` computes them.
+#include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "core/setup/scene_mesh.hpp"
-#include "core/solver/run.hpp"
 
 #include <algorithm>
 #include <cmath>

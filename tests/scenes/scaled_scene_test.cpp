@@ -2,7 +2,7 @@
 // A scene with all lengths multiplied by s, and forces by s^3, so that times stay: it has the same
 // steps, as no length of the solver stands in millimetres. With s = 1/8 every number of it is
 // scaled without rounding, and so are the results.
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "support/scene_checks.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Contact with tools is at nodes; between them flat triangles cut corners, by no more than
-// core/solver/facet_penetration.hpp says.
-#include "core/solver/facet_penetration.hpp"
+// core/run/facet_penetration.hpp says.
+#include "core/run/facet_penetration.hpp"
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 

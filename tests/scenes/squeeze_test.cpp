@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plies between a driven tool and a fixed one that leave them too little room: contact does not
 // give way, and the run says who is squeezed.
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "core/solver/scene.hpp"
 #include "support/scene_checks.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tools as triangle meshes form like the shapes that they were made from.
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "core/solver/scene.hpp"
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"

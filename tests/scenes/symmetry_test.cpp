@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Planes of symmetry: a part is as good as the whole.
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 #include "support/boundary_scenes.hpp"

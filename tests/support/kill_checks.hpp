@@ -2,8 +2,8 @@
 // Runs that are given up and gone on with must end in the state of one that never stopped.
 #pragma once
 
-#include "core/solver/checkpoint.hpp"
-#include "core/solver/run.hpp"
+#include "core/run/checkpoint.hpp"
+#include "core/run/run.hpp"
 
 #include <gtest/gtest.h>
 #include <memory>

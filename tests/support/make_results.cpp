@@ -3,7 +3,7 @@
 // tests/python/results_vtk_test.py to open; and in DIR/single those of a run with one ply and no
 // tool.
 #include "core/results/export.hpp"
-#include "core/solver/ply_plausibility.hpp"
+#include "core/run/ply_plausibility.hpp"
 #include "support/example_results.hpp"
 
 #include <cstdio>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "contact/intersections.hpp"
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 
 #include <algorithm>
 #include <limits>

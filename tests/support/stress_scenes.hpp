@@ -2,7 +2,7 @@
 // What the stress table's runs are made and judged with.
 #pragma once
 
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "support/scene_checks.hpp"
 #include "support/stress_checks.hpp"
 

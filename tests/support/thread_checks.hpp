@@ -2,7 +2,7 @@
 // Runs of a scene that must give the same bits for any number of threads.
 #pragma once
 
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "core/solver/scene.hpp"
 
 #include <cstring>

@@ -5,8 +5,8 @@
 //   unbounded_run keys|version
 // Exit codes as of plyform: 0 done, 2 the case is wrong, 3 the simulation stopped itself.
 #include "base/version.hpp"
+#include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
-#include "core/solver/run.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <cstdio>

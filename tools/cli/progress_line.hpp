@@ -2,7 +2,7 @@
 // Progress of a run on standard error.
 #pragma once
 
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 
 #include <chrono>
 #include <fmt/format.h>

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "core/results/result_writer.hpp"
+#include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
-#include "core/solver/run.hpp"
 #include "core/verification/trace.hpp"
 
 #include <atomic>

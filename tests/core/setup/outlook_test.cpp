@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What check foresees of a run.
+#include "core/run/run.hpp"
 #include "core/setup/outlook.hpp"
 #include "core/setup/size_ahead.hpp"
-#include "core/solver/run.hpp"
 
 #include <gtest/gtest.h>
 

@@ -2,9 +2,9 @@
 // Whole scenes in motion: at many steps every node of a ply within contact distance of another ply
 // or of a tool, found by brute force, is among the scene's contact points, and where it should be.
 #include "contact/point_triangle.hpp"
+#include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "core/solver/contact_search.hpp"
-#include "core/solver/run.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 #include "support/scene_checks.hpp"

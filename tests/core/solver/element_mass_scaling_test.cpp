@@ -2,11 +2,11 @@
 // Mass on small elements: how much, on which, what it does to the step, and what it leaves as it
 // is.
 #include "core/model/fabric_estimates.hpp"
-#include "core/solver/checkpoint.hpp"
+#include "core/run/checkpoint.hpp"
+#include "core/run/run.hpp"
 #include "core/solver/element_mass_scaling.hpp"
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/omega_cap.hpp"
-#include "core/solver/run.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"
 #include "support/scene_checks.hpp"

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Where the step is stable: below its bound, alone and in a stack, and not above it.
 #include "core/ply/membrane_eigenvalue.hpp"
+#include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "core/solver/contact_rows.hpp"
-#include "core/solver/run.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"
 #include "support/scene_checks.hpp"

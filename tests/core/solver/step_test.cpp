@@ -2,7 +2,7 @@
 // The time step: what it must conserve, known vibrations, where it is stable, how it stops.
 #include "core/model/motion.hpp"
 #include "core/ply/membrane_eigenvalue.hpp"
-#include "core/solver/checkpoint.hpp"
+#include "core/run/checkpoint.hpp"
 #include "core/solver/nodal_forces.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A scene that is saved between two searches and loaded into a new one. Whole runs that are killed
 // and resumed: tests/cli/resume_test.sh.
-#include "core/solver/checkpoint.hpp"
-#include "core/solver/run.hpp"
+#include "core/run/checkpoint.hpp"
+#include "core/run/run.hpp"
 #include "core/solver/step.hpp"
 #include "support/boundary_scenes.hpp"
 #include "support/kill_checks.hpp"

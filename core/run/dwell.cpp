@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/dwell.hpp"
+#include "core/run/dwell.hpp"
 
 #include "core/solver/step.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/output_state.hpp"
+#include "core/run/output_state.hpp"
 
 #include "core/model/motion.hpp"
 

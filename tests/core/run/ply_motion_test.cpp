@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Plies that fly, plies that have left the scene, and energies that are rounding errors.
+#include "core/run/ply_motion.hpp"
+#include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
-#include "core/solver/ply_motion.hpp"
-#include "core/solver/run.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/astray_forces.hpp"
+#include "core/run/astray_forces.hpp"
 
 #include <algorithm>
 #include <cmath>

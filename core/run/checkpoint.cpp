@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Not kept: the models of plies, tools and boundaries, which come from the case; forces, which the
 // next step computes; times for the report.
-#include "core/solver/checkpoint.hpp"
+#include "core/run/checkpoint.hpp"
 
-#include "core/solver/checkpoint_checks.hpp"
+#include "core/run/checkpoint_checks.hpp"
 
 #include <algorithm>
 #include <stdexcept>

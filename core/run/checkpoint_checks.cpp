@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/checkpoint_checks.hpp"
+#include "core/run/checkpoint_checks.hpp"
 
 #include "contact/shapes/mesh_shape.hpp"
 #include "core/model/motion.hpp"

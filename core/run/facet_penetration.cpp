@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/facet_penetration.hpp"
+#include "core/run/facet_penetration.hpp"
 
 #include <algorithm>
 #include <array>

@@ -10,8 +10,8 @@
 #pragma once
 
 #include "core/results/result_writer.hpp"
-#include "core/solver/astray_forces.hpp"
-#include "core/solver/facet_penetration.hpp"
+#include "core/run/astray_forces.hpp"
+#include "core/run/facet_penetration.hpp"
 #include "core/solver/scene.hpp"
 
 #include <string>
@@ -26,7 +26,7 @@ constexpr double doubtful_pressed_share = 0.02;
 /// Relative energy balance error of a run beyond which its forces are doubtful.
 constexpr double doubtful_balance_error = 0.01;
 
-/// Forces astray over the edges of a tool (core/solver/astray_forces.hpp), of the load that draws
+/// Forces astray over the edges of a tool (core/run/astray_forces.hpp), of the load that draws
 /// the plies, beyond which forces are doubtful.
 constexpr double doubtful_astray_share = 0.2;
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/ply_plausibility.hpp"
+#include "core/run/ply_plausibility.hpp"
 
 #include "base/text.hpp"
 #include "core/model/motion.hpp"
 #include "core/results/statistics.hpp"
-#include "core/solver/ply_motion.hpp"
+#include "core/run/ply_motion.hpp"
 
 #include <algorithm>
 #include <array>
@@ -130,7 +130,7 @@ std::string remedy(const Fabric& fabric) {
 }
 
 /// Factor by which elements must be smaller for a penetration between nodes of at most a thickness:
-/// by (1) and (2) of core/solver/facet_penetration.hpp it grows with the square of a side on curved
+/// by (1) and (2) of core/run/facet_penetration.hpp it grows with the square of a side on curved
 /// surfaces, and linearly on sharp edges, which mesh tools may have.
 double refinement(const ToolState& tool, const ToolCut& cut) {
   const double radius = smallest_radius(tool.body.shape), excess = cut.depth / cut.thickness;

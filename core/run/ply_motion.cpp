@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/ply_motion.hpp"
+#include "core/run/ply_motion.hpp"
 
 #include "base/text.hpp"
 #include "core/model/motion.hpp"

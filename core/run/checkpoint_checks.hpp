@@ -3,7 +3,7 @@
 // reads and writes arrays by its sizes, indices and counts.
 #pragma once
 
-#include "core/solver/checkpoint.hpp"
+#include "core/run/checkpoint.hpp"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Filtered forces of tools, and the dwell after the stroke.
-#include "core/solver/dwell.hpp"
-#include "core/solver/run.hpp"
+#include "core/run/dwell.hpp"
+#include "core/run/run.hpp"
 #include "support/scene_checks.hpp"
 
 #include <cmath>

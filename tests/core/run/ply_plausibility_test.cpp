@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is said of plies with known fields, and which runs are doubtful.
-#include "core/solver/ply_plausibility.hpp"
-#include "core/solver/run.hpp"
+#include "core/run/ply_plausibility.hpp"
+#include "core/run/run.hpp"
 #include "support/ply_sheets.hpp"
 #include "support/stress_scenes.hpp"
 

@@ -6,8 +6,8 @@
 #include "base/archive.hpp"
 #include "core/model/energies.hpp"
 #include "core/results/summary.hpp"
-#include "core/solver/astray_forces.hpp"
-#include "core/solver/dwell.hpp"
+#include "core/run/astray_forces.hpp"
+#include "core/run/dwell.hpp"
 #include "core/solver/scene.hpp"
 
 #include <string>
@@ -52,8 +52,8 @@ struct RunState {
   Snapshot good;
   Energies energy; ///< last computed
   Dwell dwell;
-  std::vector<KnownForce> known_forces; ///< core/solver/pressed_stack.hpp
-  std::vector<AstrayForce> astray;      ///< core/solver/astray_forces.hpp
+  std::vector<KnownForce> known_forces; ///< core/run/pressed_stack.hpp
+  std::vector<AstrayForce> astray;      ///< core/run/astray_forces.hpp
   int outputs_written = -1;
   double elapsed = 0.0; ///< s of wall time
 };
@@ -74,7 +74,7 @@ void each_member(RunState& run, F&& f) {
 std::string save_state(const Scene& scene, const RunState& run);
 
 /// Loads what save_state saved into the scene of the same case, as make_scene made it. The bytes
-/// are not trusted (core/solver/checkpoint_checks.hpp): throws std::runtime_error if they do not
+/// are not trusted (core/run/checkpoint_checks.hpp): throws std::runtime_error if they do not
 /// fit the scene, which is of no use then.
 void load_state(const std::string& bytes, Scene& scene, RunState& run);
 

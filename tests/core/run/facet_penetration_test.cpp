@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How deep tools are in a flat ply between its nodes, against closed forms. Thickness 0.6 mm.
-#include "core/solver/facet_penetration.hpp"
+#include "core/run/facet_penetration.hpp"
 #include "support/scene_checks.hpp"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/run_diagnosis.hpp"
+#include "core/run/run_diagnosis.hpp"
 
 #include "base/text.hpp"
 #include "core/solver/force_kinds.hpp"

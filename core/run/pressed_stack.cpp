@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/solver/pressed_stack.hpp"
+#include "core/run/pressed_stack.hpp"
 
 #include <algorithm>
 #include <array>

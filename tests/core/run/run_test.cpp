@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Whole runs of small cases: same bits on any number of threads, early ends, forces through a
 // stack.
-#include "core/solver/run.hpp"
+#include "core/run/run.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
 #include "support/scene_checks.hpp"
