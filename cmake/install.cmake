@@ -6,7 +6,7 @@ include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/plyform)
 
 install(TARGETS plyform)
-install(TARGETS plyform_base plyform_contact plyform_core EXPORT plyform)
+install(TARGETS plyform_base plyform_contact plyform_core plyform_identify EXPORT plyform)
 install(EXPORT plyform FILE plyformTargets.cmake NAMESPACE plyform:: DESTINATION ${package_dir})
 
 # From a case to its results, shapes of tools, exact intersections, fits of measured curves; all
@@ -20,16 +20,16 @@ set(public_headers
   contact/shapes/tool_shape.hpp
   contact/surface_hint.hpp
   core/accuracy/cost_parameters.hpp core/accuracy/error_model.hpp core/accuracy/error_numbers.hpp
-  core/fit/corrections.hpp
-  core/fit/curve_file.hpp
-  core/fit/curve_table.hpp
-  core/fit/disturbances.hpp
-  core/fit/fit_quality.hpp
-  core/fit/fit_shear.hpp
-  core/fit/linear_law.hpp
-  core/fit/shear_tests.hpp
-  core/fit/statistics.hpp
-  core/fit/units.hpp
+  core/identify/corrections.hpp
+  core/identify/curve_file.hpp
+  core/identify/curve_table.hpp
+  core/identify/disturbances.hpp
+  core/identify/fit_quality.hpp
+  core/identify/fit_shear.hpp
+  core/identify/linear_law.hpp
+  core/identify/shear_tests.hpp
+  core/identify/statistics.hpp
+  core/identify/units.hpp
   core/input/case_file.hpp
   core/mesh/mesh_blank.hpp
   core/model/blank_spec.hpp

@@ -21,7 +21,7 @@ namespace py = pybind11;
 void bind_case(py::module_& m);       ///< python/bind_case.cpp: keys, mistakes, checked cases
 void bind_frames(py::module_& m);     ///< python/bind_frames.cpp: states, their difference
 void bind_simulation(py::module_& m); ///< python/bind_simulation.cpp
-void bind_fit(py::module_& m);        ///< python/bind_fit.cpp: laws from curves, curves from laws
+void bind_fit(py::module_& m); ///< python/identify/bind_fit.cpp: laws from curves, curves from laws
 
 /// Raises plyform.CaseError with these mistakes.
 [[noreturn]] void raise_mistakes(const std::vector<CaseError>& mistakes);

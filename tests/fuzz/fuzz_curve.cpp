@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A measured curve (CSV), columns chosen by number and by name. Refused with errors, or rows of
 // finite numbers.
-#include "core/fit/curve_file.hpp"
+#include "core/identify/curve_file.hpp"
 #include "fuzz/fuzz_file.hpp"
 
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The shipped cases of Hamila and Boisse (2008), whole, against theory.
-#include "core/fit/fit_shear.hpp"
+#include "core/identify/fit_shear.hpp"
 #include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
 

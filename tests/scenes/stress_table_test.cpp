@@ -2,7 +2,7 @@
 // The stress table: where methods fail, the element and the step are right or stop with a clear
 // message. Longer rows: stress_long_test.cpp. The figures stand in
 // docs/verification/closed_forms.md.
-#include "core/fit/shear_tests.hpp"
+#include "core/identify/shear_tests.hpp"
 #include "support/stress_scenes.hpp"
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // What tests of identification share: noise, and messages as one text.
 #pragma once
 
-#include "core/fit/curve_file.hpp"
+#include "core/identify/curve_file.hpp"
 
 #include <algorithm>
 #include <random>

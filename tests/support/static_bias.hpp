@@ -4,7 +4,7 @@
 // load converges.
 #pragma once
 
-#include "core/fit/shear_tests.hpp"
+#include "core/identify/shear_tests.hpp"
 #include "core/ply/bending.hpp"
 #include "core/ply/membrane.hpp"
 #include "support/membrane_checks.hpp"

@@ -108,8 +108,8 @@ int keys_command(bool markdown);
 int identify_command(const IdentifyArguments& arguments);
 int theory_command(const TheoryArguments& arguments);
 
-/// tools/cli/identify_options.cpp: adds a subcommand for each test, with its options, which store
-/// to `to`; that must live as long as the apps.
+/// tools/cli/identify/identify_options.cpp: adds a subcommand for each test, with its options,
+/// which store to `to`; that must live as long as the apps.
 void add_identify_tests(CLI::App& command, IdentifyArguments& to);
 void add_theory_tests(CLI::App& command, TheoryArguments& to);
 

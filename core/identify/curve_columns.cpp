@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which column of a table a test needs: curve_table.hpp.
+#include "base/text.hpp"
+#include "core/identify/curve_table.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace plyform {
+namespace {
+
+using Chosen = std::vector<std::optional<ChosenColumn>>;
+
+std::string item_of(const std::string& option) {
+  return option.substr(option.find_first_not_of('-'));
+}
+
+/// "d (length, mm), F (of unknown kind)".
+std::string description(const CurveTable& table, const std::vector<std::size_t>& columns) {
+  std::vector<std::string> texts;
+  for (const std::size_t i : columns) {
+    const ColumnMeaning meaning = table.meaning(i);
+    texts.push_back(fmt::format("{} ({}{}{})", table.name_of(i), quantity_name(meaning.quantity),
+                                meaning.unit.empty() ? "" : ", ", meaning.unit));
+  }
+  return joined(texts);
+}
+
+std::vector<std::size_t> all_columns(const CurveTable& table) {
+  std::vector<std::size_t> all(table.width());
+  for (std::size_t i = 0; i < all.size(); ++i)
+    all[i] = i;
+  return all;
+}
+
+/// "a length" or "an angle".
+std::string a_quantity(Quantity quantity) {
+  const std::string name = quantity_name(quantity);
+  if (quantity == Quantity::other) return name;
+  return (name[0] == 'a' ? "an " : "a ") + name;
+}
+
+void column_error(const ColumnRequest& request, const std::string& rule, const std::string& remedy,
+                  Diagnostics& diagnostics) {
+  diagnostics.error({request.option, 1, 1}, item_of(request.option), request.chosen.column, rule,
+                    remedy);
+}
+
+/// Index (from 0) of the column that the user names; reports an error and returns nothing if there
+/// is none.
+std::optional<std::size_t> named_column(const CurveTable& table, const ColumnRequest& request,
+                                        Diagnostics& diagnostics) {
+  const std::string& wanted = request.chosen.column;
+  const auto count = std::count(table.names.begin(), table.names.end(), wanted);
+  if (count > 1) {
+    column_error(request, fmt::format("stands {} times in the header", count),
+                 "give the number of the column, from 1", diagnostics);
+    return std::nullopt;
+  }
+  if (count == 1)
+    return static_cast<std::size_t>(std::find(table.names.begin(), table.names.end(), wanted) -
+                                    table.names.begin());
+  if (const auto number = number_in(wanted)) {
+    const bool whole = *number >= 1.0 && *number <= 10000.0 && *number == std::floor(*number);
+    if (whole && *number <= static_cast<double>(table.width()))
+      return static_cast<std::size_t>(*number) - 1;
+    if (whole)
+      column_error(
+          request,
+          fmt::format("the rows have {} column{}", table.width(), table.width() == 1 ? "" : "s"),
+          "give another column, or separate columns by comma, semicolon or tab", diagnostics);
+    else
+      column_error(request, "must be a whole number from 1",
+                   "give the number or the name of a column", diagnostics);
+  } else if (table.names.empty()) {
+    column_error(request, "names a column, but the file has no header row",
+                 "give the number of the column, from 1", diagnostics);
+  } else {
+    const std::string nearest = nearest_word(wanted, table.names);
+    column_error(request, "is no column of the header",
+                 nearest.empty() ? "it has " + joined(table.names)
+                                 : fmt::format("did you mean {}?", nearest),
+                 diagnostics);
+  }
+  return std::nullopt;
+}
+
+std::vector<std::size_t> of_quantity(const CurveTable& table, Quantity quantity) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < table.width(); ++i)
+    if (table.meaning(i).quantity == quantity) found.push_back(i);
+  return found;
+}
+
+/// The factor of a column by the unit that the user gives, or by its header; reports an error and
+/// returns nothing if that is of another quantity.
+std::optional<double> factor_of(const CurveTable& table, const ColumnRequest& request,
+                                std::size_t column, Diagnostics& diagnostics) {
+  const ColumnMeaning meaning = table.meaning(column);
+  if (!request.chosen.unit.empty()) {
+    const auto unit = find_unit(request.chosen.unit);
+    if (unit && unit->quantity == request.quantity) return unit->factor;
+    diagnostics.error({request.unit_option, 1, 1}, item_of(request.unit_option),
+                      request.chosen.unit,
+                      fmt::format("is no unit of {}", a_quantity(request.quantity)),
+                      "give one of " + units_of(request.quantity));
+    return std::nullopt;
+  }
+  if (meaning.quantity == request.quantity) return meaning.factor;
+  if (meaning.quantity == Quantity::unknown) return usual_factor(request.quantity);
+  const std::vector<std::size_t> better = of_quantity(table, request.quantity);
+  std::string remedy = request.hint;
+  if (remedy.empty())
+    remedy = better.empty()
+                 ? fmt::format("give the unit with {} if the header is wrong", request.unit_option)
+                 : fmt::format("take {} {}", request.option, table.name_of(better.front()));
+  diagnostics.error({table.file, 1, 1}, table.name_of(column), meaning.unit,
+                    fmt::format("is {}, the {} must be {}", a_quantity(meaning.quantity),
+                                request.word, a_quantity(request.quantity)),
+                    remedy);
+  return std::nullopt;
+}
+
+/// The one column of the quantity; nothing if there is none, or an error if there are several.
+std::optional<std::size_t> column_by_header(const CurveTable& table, const ColumnRequest& request,
+                                            Diagnostics& diagnostics) {
+  const std::vector<std::size_t> all = of_quantity(table, request.quantity);
+  if (all.size() == 1) return all.front();
+  if (all.empty()) return std::nullopt;
+  std::vector<std::size_t> preferred;
+  for (const std::size_t i : all)
+    if (has_word(table.name_of(i), request.preferred)) preferred.push_back(i);
+  if (preferred.size() == 1) return preferred.front();
+  diagnostics.error({table.file, 1, 1}, "", "",
+                    fmt::format("{} columns may be the {}: {}", all.size(), request.word,
+                                description(table, all)),
+                    fmt::format("name one with {}", request.option));
+  return std::nullopt;
+}
+
+/// Columns of unknown kind for the requests that are still open, from left to right, if they are as
+/// many as these; else an error.
+bool fill_from_left(const CurveTable& table, const std::vector<ColumnRequest>& requests,
+                    const std::vector<std::size_t>& open, Chosen& chosen,
+                    Diagnostics& diagnostics) {
+  std::vector<std::size_t> left;
+  for (const std::size_t i : of_quantity(table, Quantity::unknown))
+    if (std::none_of(chosen.begin(), chosen.end(),
+                     [i](const auto& column) { return column && column->index == i; }))
+      left.push_back(i);
+  for (std::size_t n = 0; n < open.size(); ++n) {
+    const ColumnRequest& request = requests[open[n]];
+    if (left.size() == open.size()) {
+      const auto factor = factor_of(table, request, left[n], diagnostics);
+      if (!factor) return false;
+      chosen[open[n]] = {left[n], *factor};
+      continue;
+    }
+    if (table.width() < requests.size() && table.names.empty() && table.width() == 1) {
+      diagnostics.error({table.file, table.rows.front().line, 1}, "", "",
+                        fmt::format("the row has 1 column, there must be at least {}", open.size()),
+                        "separate columns by comma, semicolon or tab, and give every row all of "
+                        "them");
+      return false;
+    }
+    std::string remedy = fmt::format("name it with {}, and its unit with {}, if it is there",
+                                     request.option, request.unit_option);
+    if (!request.hint.empty()) remedy += "; " + request.hint;
+    diagnostics.error({table.file, 1, 1}, "", "",
+                      fmt::format("no column says by header or unit that it is the {}, {}: the "
+                                  "columns are {}",
+                                  request.word, a_quantity(request.quantity),
+                                  description(table, all_columns(table))),
+                      remedy);
+    return false;
+  }
+  return true;
+}
+
+/// Reports columns that two requests have in common.
+bool all_different(const CurveTable& table, const std::vector<ColumnRequest>& requests,
+                   const Chosen& chosen, Diagnostics& diagnostics) {
+  for (std::size_t a = 0; a < chosen.size(); ++a)
+    for (std::size_t b = a + 1; b < chosen.size(); ++b) {
+      if (!chosen[a] || !chosen[b] || chosen[a]->index != chosen[b]->index) continue;
+      const ColumnRequest& request = requests[requests[b].chosen.column.empty() ? a : b];
+      const ColumnRequest& other = requests[requests[b].chosen.column.empty() ? b : a];
+      diagnostics.error(
+          {request.option, 1, 1}, item_of(request.option), table.name_of(chosen[a]->index),
+          fmt::format("is the column of {} too", other.option), "give two different columns");
+      return false;
+    }
+  return true;
+}
+
+} // namespace
+
+std::optional<Chosen> choose_columns(const CurveTable& table,
+                                     const std::vector<ColumnRequest>& requests,
+                                     Diagnostics& diagnostics) {
+  Chosen chosen(requests.size());
+  std::vector<std::size_t> open;
+  const std::size_t errors = diagnostics.errors.size();
+  for (std::size_t n = 0; n < requests.size(); ++n) {
+    const ColumnRequest& request = requests[n];
+    const bool named = !request.chosen.column.empty();
+    if (!named && request.optional && of_quantity(table, request.quantity).size() != 1) continue;
+    const std::size_t before = diagnostics.errors.size();
+    const auto column = named ? named_column(table, request, diagnostics)
+                              : column_by_header(table, request, diagnostics);
+    if (column) {
+      if (const auto factor = factor_of(table, request, *column, diagnostics))
+        chosen[n] = {*column, *factor};
+    } else if (diagnostics.errors.size() == before) {
+      open.push_back(n);
+    }
+  }
+  if (diagnostics.errors.size() > errors) return std::nullopt;
+  if (!fill_from_left(table, requests, open, chosen, diagnostics) ||
+      !all_different(table, requests, chosen, diagnostics))
+    return std::nullopt;
+  return chosen;
+}
+
+} // namespace plyform

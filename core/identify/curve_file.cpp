@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/identify/curve_file.hpp"
+
+#include "base/text.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numeric>
+
+namespace plyform {
+namespace {
+
+/// The number in a field, or, if it is not valid, the rule that it breaks and the remedy.
+struct Cell {
+  double value = 0.0;
+  std::string rule, remedy;
+};
+
+Cell read_cell(const std::string& text, double factor) {
+  const std::optional<double> number = number_in(text);
+  if (!number) {
+    const bool decimal_comma = text.find(',') != std::string::npos;
+    return {0.0, text.empty() ? "is empty, there must be a number" : "must be a number",
+            decimal_comma ? "write a decimal point instead of the comma"
+                          : "correct it, or take the row out or put # before it"};
+  }
+  if (!std::isfinite(*number * factor))
+    return {0.0, "must be a finite number", "take the row out or put # before it"};
+  return {*number * factor, "", ""};
+}
+
+/// A column to read, and where its numbers go.
+struct Target {
+  ChosenColumn column;
+  std::string name;
+  std::vector<double>* values;
+};
+
+/// Collects the numbers; reports the first five errors and the number of further ones.
+bool read_cells(const CurveTable& table, const std::vector<Target>& targets, Curve& curve,
+                Diagnostics& diagnostics) {
+  constexpr int shown = 5;
+  std::size_t needed = 0;
+  for (const Target& target : targets)
+    needed = std::max(needed, target.column.index + 1);
+  int mistakes = 0;
+  for (const CurveRow& row : table.rows) {
+    if (row.fields.size() < needed) {
+      if (++mistakes <= shown)
+        diagnostics.error({curve.file, row.line, 1}, "", "",
+                          fmt::format("the row has {} column{}, there must be at least {}",
+                                      row.fields.size(), row.fields.size() == 1 ? "" : "s", needed),
+                          "separate columns by comma, semicolon or tab, and give every row all of "
+                          "them");
+      continue;
+    }
+    for (const Target& target : targets) {
+      const CurveField& field = row.fields[target.column.index];
+      const Cell cell = read_cell(field.text, target.column.factor);
+      target.values->push_back(cell.value);
+      if (!cell.rule.empty() && ++mistakes <= shown)
+        diagnostics.error({curve.file, row.line, field.column}, target.name, field.text, cell.rule,
+                          cell.remedy);
+    }
+    curve.line.push_back(row.line);
+  }
+  if (mistakes > shown)
+    diagnostics.error({curve.file, table.rows.back().line, 1}, "", "",
+                      fmt::format("{} more mistakes like these", mistakes - shown),
+                      "check the separator and the columns chosen");
+  return mistakes == 0;
+}
+
+std::vector<ColumnRequest> requests_of(const CurveColumns& columns) {
+  std::vector<ColumnRequest> requests{{"--x-column", "--x-unit", columns.x, columns.x_is,
+                                       columns.x_word, columns.x_preferred, columns.x_hint,
+                                       columns.with_angle && !columns.angle.column.empty()},
+                                      {"--y-column", "--y-unit", columns.y, columns.y_is,
+                                       columns.y_word, columns.y_preferred, "", false}};
+  if (columns.with_angle)
+    requests.push_back({"--angle-column", "--angle-unit", columns.angle, Quantity::angle,
+                        "shear angle", "shear gamma", "", true});
+  return requests;
+}
+
+} // namespace
+
+std::optional<Curve> read_curve(const std::filesystem::path& file, const CurveColumns& columns,
+                                Diagnostics& diagnostics) {
+  const std::optional<CurveTable> table = read_curve_table(file, diagnostics);
+  if (!table) return std::nullopt;
+  const auto chosen = choose_columns(*table, requests_of(columns), diagnostics);
+  if (!chosen) return std::nullopt;
+  Curve curve;
+  curve.file = table->file;
+  curve.y_name = table->name_of((*chosen)[1]->index);
+  std::vector<Target> targets{{*(*chosen)[1], curve.y_name, &curve.y}};
+  if ((*chosen)[0]) {
+    curve.x_name = table->name_of((*chosen)[0]->index);
+    targets.insert(targets.begin(), {*(*chosen)[0], curve.x_name, &curve.x});
+  }
+  if (columns.with_angle && (*chosen)[2]) {
+    curve.angle_name = table->name_of((*chosen)[2]->index);
+    targets.push_back({*(*chosen)[2], curve.angle_name, &curve.angle});
+  }
+  if (!read_cells(*table, targets, curve, diagnostics)) return std::nullopt;
+  curve.x.resize(curve.y.size(), 0.0);
+  return curve;
+}
+
+Curve rows_of(const Curve& curve, const std::vector<std::size_t>& rows) {
+  Curve result{curve.file, curve.x_name, curve.y_name, {}, {}, {}, {}, curve.angle_name};
+  for (const std::size_t row : rows) {
+    result.x.push_back(curve.x[row]);
+    result.y.push_back(curve.y[row]);
+    result.line.push_back(curve.line[row]);
+    if (!curve.angle.empty()) result.angle.push_back(curve.angle[row]);
+  }
+  return result;
+}
+
+Curve sorted_by_x(const Curve& curve) {
+  std::vector<std::size_t> order(curve.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return curve.x[a] < curve.x[b]; });
+  return rows_of(curve, order);
+}
+
+} // namespace plyform

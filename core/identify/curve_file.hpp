@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A measured curve from a CSV file: two columns of numbers, or three, and the line of each row.
+// Decimal point, not comma. core/identify/curve_table.hpp says how files and columns are read.
+#pragma once
+
+#include "core/identify/curve_table.hpp"
+
+namespace plyform {
+
+struct Curve {
+  std::string file;
+  std::string x_name, y_name; ///< from the header, else "column 1"; x's empty if it is missing
+  std::vector<double> x, y;   ///< x: mm or strain; y: N; else as asked for
+  std::vector<int> line;      ///< from 1, of each row
+  /// rad, of each row; empty if not measured
+  std::vector<double> angle = {};
+  std::string angle_name = {};
+  std::size_t size() const { return x.size(); }
+};
+
+/// The columns of a curve.
+struct CurveColumns {
+  ColumnOption x, y, angle; ///< as the user chooses them
+  Quantity x_is = Quantity::length, y_is = Quantity::force;
+  std::string x_word = "extension", y_word = "load";
+  std::string x_preferred = "extension displacement crosshead stroke elongation deflection";
+  std::string y_preferred = {};
+  std::string x_hint = {}; ///< if x is of another quantity
+  bool with_angle =
+      false; ///< a column of angles is read if there is one; x may miss if it is chosen
+};
+
+/// Reads the columns, in mm, N, rad, 1. Errors go to `diagnostics` (of unreadable numbers the first
+/// five), and nothing is returned then. Never throws because of the content of the file.
+std::optional<Curve> read_curve(const std::filesystem::path& file, const CurveColumns& columns,
+                                Diagnostics& diagnostics);
+
+/// Checks the curve of a test with monotonic loading; reports an error and returns false unless
+/// - x increases; where it decreases by at most `back_share` of its span the rows are sorted, with
+///   a warning;
+/// - x is at least 0; rows below by at most that fraction are removed, with a warning;
+/// - y is not below 0 by more than `noise_share` of its largest value.
+/// `x_word` and `y_word` ("extension", "load") name the columns in messages.
+bool check_curve(Curve& curve, const std::string& x_word, const std::string& y_word,
+                 Diagnostics& diagnostics);
+/// The first of these checks, and the other two: a zero that is wrong is corrected in between.
+inline constexpr double back_share = 0.01;
+bool check_rising(Curve& curve, const std::string& x_word, Diagnostics& diagnostics,
+                  double share = back_share);
+bool check_zeros(Curve& curve, const std::string& x_word, const std::string& y_word,
+                 Diagnostics& diagnostics);
+/// Load cells are accurate to some tenths of a percent of their range, of which a test uses a part.
+inline constexpr double noise_share = 0.02;
+
+/// The rows of a curve with the numbers `rows`, in that order.
+Curve rows_of(const Curve& curve, const std::vector<std::size_t>& rows);
+
+/// The rows in ascending x, those of equal x as they were.
+Curve sorted_by_x(const Curve& curve);
+
+} // namespace plyform

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/identify/test_columns.hpp"
+
+namespace plyform {
+
+CurveColumns shear_columns() {
+  CurveColumns columns;
+  columns.with_angle = true;
+  return columns;
+}
+
+CurveColumns tension_columns(bool strain) {
+  CurveColumns columns;
+  columns.x_is = strain ? Quantity::strain : Quantity::length;
+  columns.x_word = strain ? "strain" : "displacement";
+  return columns;
+}
+
+CurveColumns three_point_columns() {
+  CurveColumns columns;
+  columns.x_word = "deflection";
+  return columns;
+}
+
+CurveColumns cantilever_columns(CantileverReading reading) {
+  const bool angle = reading == CantileverReading::chord_angle;
+  CurveColumns columns;
+  columns.x_word = "overhang";
+  columns.x_preferred = "overhang";
+  columns.y_word = angle ? "angle of the chord" : "deflection of the tip";
+  columns.y_is = angle ? Quantity::angle : Quantity::length;
+  columns.y_preferred = "deflection sag drop";
+  return columns;
+}
+
+CurveColumns zone_columns() {
+  CurveColumns columns;
+  columns.x_word = "distance along the yarn";
+  columns.x_preferred = "distance position";
+  columns.y_word = "shear angle";
+  columns.y_preferred = "shear gamma";
+  columns.y_is = Quantity::angle;
+  return columns;
+}
+
+} // namespace plyform

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the two columns of each test's curve are, for read_curve. Which ones the user chooses, and
+// hints that name options, are added by the program.
+#pragma once
+
+#include "core/identify/bending_tests.hpp"
+#include "core/identify/curve_file.hpp"
+
+namespace plyform {
+
+CurveColumns shear_columns();
+/// Tension and compression; strain: else displacement.
+CurveColumns tension_columns(bool strain);
+CurveColumns three_point_columns();
+CurveColumns cantilever_columns(CantileverReading reading);
+CurveColumns zone_columns();
+
+} // namespace plyform

@@ -1,0 +1,217 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Checks of the arguments of plyform identify and theory, and what they ask for.
+#include "base/text.hpp"
+#include "core/identify/test_columns.hpp"
+#include "tools/cli/identify/identify_parts.hpp"
+
+#include <cmath>
+#include <fmt/format.h>
+
+namespace plyform {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool same_file(const fs::path& a, const fs::path& b) {
+  std::error_code ignored;
+  return fs::weakly_canonical(a, ignored) == fs::weakly_canonical(b, ignored) ||
+         fs::equivalent(a, b, ignored);
+}
+
+void check_range(const IdentifyArguments& arguments, Diagnostics& diagnostics) {
+  const bool shear = is_shear_test(arguments.test);
+  const double most = shear ? 90.0 : std::numeric_limits<double>::infinity();
+  const char* remedy = shear                             ? "give a shear angle in degrees"
+                       : arguments.test == "three-point" ? "give a deflection over the span"
+                                                         : "give a strain";
+  if (!(arguments.from >= 0.0 && arguments.from < most))
+    option_error("--from", fmt::format("{:g}", arguments.from),
+                 shear ? "must be at least 0 and below 90" : "must be at least 0", remedy,
+                 diagnostics);
+  else if (!(arguments.to > arguments.from))
+    option_error("--to", fmt::format("{:g}", arguments.to),
+                 fmt::format("must be greater than --from, {:g}", arguments.from), remedy,
+                 diagnostics);
+}
+
+void check_positive(const std::string& option, double value, const std::string& remedy,
+                    Diagnostics& diagnostics) {
+  if (!(value > 0.0 && std::isfinite(value)))
+    option_error(option, fmt::format("{:g}", value), "must be greater than 0", remedy, diagnostics);
+}
+
+/// A number, or `fit` where that may stand.
+struct Correction {
+  std::optional<double> value;
+  bool fit = false;
+};
+
+Correction correction_of(const std::string& option, const std::string& text, bool number, bool fit,
+                         const std::string& remedy, Diagnostics& diagnostics) {
+  Correction result;
+  if (text.empty()) return result;
+  if (text == "fit" && fit) return {std::nullopt, true};
+  if (number) result.value = number_in(text);
+  if (!result.value || !std::isfinite(*result.value))
+    option_error(option, text,
+                 number ? (fit ? "must be a number or fit" : "must be a number") : "must be fit",
+                 remedy, diagnostics);
+  return result;
+}
+
+CurveColumns columns_of_test(const IdentifyArguments& a) {
+  if (is_shear_test(a.test)) return shear_columns();
+  if (a.test == "three-point") return three_point_columns();
+  if (a.test == "cantilever") return cantilever_columns(reading_of(a));
+  if (!is_tension_test(a.test)) return zone_columns();
+  const bool strain = a.gauge_length == 1.0;
+  CurveColumns columns = tension_columns(strain);
+  columns.x_hint = strain ? "give --gauge-length if it is a displacement"
+                          : "leave --gauge-length out if it is a strain";
+  return columns;
+}
+
+} // namespace
+
+void option_error(const std::string& option, const std::string& value, const std::string& rule,
+                  const std::string& remedy, Diagnostics& diagnostics) {
+  diagnostics.error({option, 1, 1}, option.substr(2), value, rule, remedy);
+}
+
+bool print_diagnostics(const Diagnostics& diagnostics) {
+  for (const std::string& warning : diagnostics.warnings)
+    fmt::print(stderr, "{}\n", warning);
+  for (const CaseError& error : diagnostics.errors)
+    fmt::print(stderr, "{}\n", error.text());
+  return !diagnostics.errors.empty();
+}
+
+void check_output(const std::string& option, const fs::path& output,
+                  const std::vector<fs::path>& others, Diagnostics& diagnostics) {
+  fs::path temporary = output;
+  temporary += ".tmp";
+  for (const fs::path& other : others)
+    if (same_file(output, other) || same_file(temporary, other))
+      option_error(option, output.string(), "would overwrite " + other.string(),
+                   "give another file", diagnostics);
+}
+
+std::optional<ShearTest> test_of(const std::string& name, const SpecimenArguments& sizes,
+                                 Diagnostics& diagnostics) {
+  const BiasSpecimen bias{sizes.length, sizes.width};
+  const FrameSpecimen frame{sizes.side};
+  const auto fault = name == "bias" ? fault_of(bias) : fault_of(frame);
+  if (!fault) return name == "bias" ? shear_test(bias) : shear_test(frame);
+  option_error("--" + fault->size, fmt::format("{:g}", fault->value), fault->rule, fault->remedy,
+               diagnostics);
+  return std::nullopt;
+}
+
+FabricReading fabric_of(const std::string& file, bool for_shear, Diagnostics& diagnostics) {
+  FabricReading reading = read_fabric_file(file, true);
+  diagnostics.errors.insert(diagnostics.errors.end(), reading.errors.begin(), reading.errors.end());
+  if (reading.value && for_shear &&
+      std::abs(reading.value->fibre_angle - 0.5 * std::numbers::pi) > 1e-6)
+    diagnostics.error({file, 1, 1}, "fibre_angle",
+                      fmt::format("{:g}", reading.value->fibre_angle / degree),
+                      "must be 90 degrees: the theory of the shear tests is for such fabrics",
+                      "take the law from a test of your own evaluation and write it in by hand");
+  return reading;
+}
+
+bool is_shear_test(const std::string& test) {
+  return test == "bias" || test == "frame";
+}
+
+bool is_tension_test(const std::string& test) {
+  return test == "warp" || test == "weft" || test == "compression";
+}
+
+void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostics& diagnostics) {
+  std::vector<fs::path> read{a.fabric};
+  for (const std::string& curve : a.curves)
+    read.insert(read.begin(), curve);
+  check_output("--output", a.output, read, diagnostics);
+  read.push_back(a.output);
+  check_output("--fit", fit, read, diagnostics);
+  check_range(a, diagnostics);
+  if (a.coefficients < 1 || a.coefficients > 6)
+    option_error("--coefficients", fmt::format("{}", a.coefficients), "must be 1 to 6",
+                 "give the number of coefficients k1, k3, k5 ..., usually 3", diagnostics);
+  check_positive("--yarns", a.yarns, "give the number of yarns that share the force", diagnostics);
+  check_positive("--gauge-length", a.gauge_length, "give the free length of the yarns, in mm",
+                 diagnostics);
+  if (a.test == "compression" && a.curves.size() > 1)
+    option_error("--curves", a.curves[1], "is one more than a compression test takes",
+                 "identify each specimen by itself", diagnostics);
+  if (a.test == "three-point") {
+    check_positive("--span", a.specimen.span, "give the distance of the supports, in mm",
+                   diagnostics);
+    check_positive("--width", a.specimen.width, "give the width of the strip, in mm", diagnostics);
+  }
+}
+
+CantileverReading reading_of(const IdentifyArguments& a) {
+  return a.reading == "angle" ? CantileverReading::chord_angle : CantileverReading::sag;
+}
+
+FitOptions fit_options(const IdentifyArguments& a, Diagnostics& diagnostics) {
+  const double unit = is_shear_test(a.test) ? degree : 1.0;
+  FitOptions options{a.coefficients, a.from * unit, a.to * unit};
+  options.doubtful = a.doubtful;
+  options.measured_angle = !a.angle.name.empty();
+  Corrections& c = options.corrections;
+  const Correction zero = correction_of("--zero", a.zero, true, true,
+                                        "give the load without a specimen in N", diagnostics);
+  const Correction toe = correction_of(
+      "--toe", a.toe, true, true,
+      "give the extension at which the specimen is taut, in mm or as strain", diagnostics);
+  const Correction slip =
+      correction_of("--slip", a.slip, false, true, "give --slip fit, or leave it out", diagnostics);
+  const Correction compliance = correction_of("--compliance", a.compliance, true, false,
+                                              "give the compliance in mm/N", diagnostics);
+  c.load_zero = zero.value;
+  c.fit_load_zero = zero.fit;
+  c.toe = toe.value;
+  c.fit_toe = toe.fit;
+  c.fit_slip = slip.fit;
+  c.compliance = compliance.value;
+  if (c.compliance && *c.compliance < 0.0)
+    option_error("--compliance", a.compliance, "must be at least 0", "give the compliance in mm/N",
+                 diagnostics);
+  const bool strain = is_tension_test(a.test) && a.gauge_length == 1.0;
+  if (c.compliance && *c.compliance > 0.0 && (strain || options.measured_angle))
+    option_error("--compliance", a.compliance,
+                 strain ? "has nothing to correct: the column is a strain"
+                        : "has nothing to correct: the angle is measured",
+                 "leave it out", diagnostics);
+  return options;
+}
+
+CurveColumns columns_of(const IdentifyArguments& a) {
+  CurveColumns columns = columns_of_test(a);
+  columns.x = {a.x.name, a.x.unit};
+  columns.y = {a.y.name, a.y.unit};
+  columns.angle = {a.angle.name, a.angle.unit};
+  return columns;
+}
+
+std::string test_words(const IdentifyArguments& a) {
+  if (a.test == "bias")
+    return fmt::format("bias-extension test, {:g} x {:g} mm, equation (40) read backwards",
+                       a.specimen.length, a.specimen.width);
+  if (a.test == "frame")
+    return fmt::format("picture frame of {:g} mm, equation (41) read backwards", a.specimen.side);
+  if (a.test == "cantilever") return "cantilever test, heavy elastica";
+  if (a.test == "three-point")
+    return fmt::format("three-point bending, span {:g} mm, width {:g} mm", a.specimen.span,
+                       a.specimen.width);
+  if (a.test == "in-plane-bending") return "transition zone in the plane";
+  std::string words =
+      fmt::format("{} test of {:g} yarn{}", a.test == "compression" ? "compression" : "tension",
+                  a.yarns, a.yarns == 1.0 ? "" : "s");
+  if (a.gauge_length != 1.0) words += fmt::format(", gauge length {:g} mm", a.gauge_length);
+  return words;
+}
+
+} // namespace plyform

@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// plyform identify: measured curves -> law -> fabric file.
+#include "base/version.hpp"
+#include "core/results/result_fields.hpp"
+#include "tools/cli/identify/identify_parts.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+#include <stdexcept>
+
+namespace plyform {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The curves; errors are reported.
+std::vector<Curve> curves_of(const IdentifyArguments& a, Diagnostics& diagnostics) {
+  std::vector<Curve> curves;
+  for (const std::string& file : a.curves)
+    if (auto curve = read_curve(file, columns_of(a), diagnostics))
+      curves.push_back(std::move(*curve));
+  return curves;
+}
+
+std::optional<Identified> identify(const IdentifyArguments& a, const FabricReading& base,
+                                   const std::optional<ShearTest>& test,
+                                   const std::vector<Curve>& curves, const FitOptions& options,
+                                   Diagnostics& diagnostics) {
+  const Fabric& fabric = *base.value;
+  if (test) {
+    const auto fit = identify_shear(curves, *test, fabric, options, diagnostics);
+    return fit ? std::optional(shear_text(*fit)) : std::nullopt;
+  }
+  if (a.test == "compression") {
+    const auto fit =
+        identify_compression(curves.front(), {a.yarns, a.gauge_length}, options, diagnostics);
+    if (!fit) return std::nullopt;
+    for (const std::string& yarns : families_of(a.direction))
+      check_compression(fit->stiffness, yarns, fabric, {a.curves.front(), 1, 1}, diagnostics);
+    return compression_text(*fit, a);
+  }
+  if (a.test == "cantilever") {
+    const auto fit = identify_cantilever(curves, reading_of(a), fabric, options, diagnostics);
+    return fit ? std::optional(bending_text(*fit, a)) : std::nullopt;
+  }
+  if (a.test == "three-point") {
+    const auto fit = identify_three_point(curves, {a.specimen.span, a.specimen.width}, fabric,
+                                          options, diagnostics);
+    return fit ? std::optional(bending_text(*fit, a)) : std::nullopt;
+  }
+  if (a.test == "in-plane-bending") {
+    const auto fit = identify_zone(curves, fabric, options, diagnostics);
+    return fit ? std::optional(zone_text(*fit, a)) : std::nullopt;
+  }
+  const auto fit = identify_tension(curves, {a.yarns, a.gauge_length}, options, diagnostics);
+  return fit ? std::optional(tension_text(*fit, a)) : std::nullopt;
+}
+
+/// Names of the files, without folders.
+std::string files_of(const IdentifyArguments& a) {
+  std::string names;
+  for (const std::string& curve : a.curves)
+    names += (names.empty() ? "" : ", ") + fs::path(curve).filename().string();
+  return names;
+}
+
+/// The comment above the law in the fabric file.
+std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fabric,
+                                    const Identified& result) {
+  std::vector<std::string> comment{
+      fmt::format("Identified by plyform {} from {}:", version(), files_of(a)),
+      test_words(a) +
+          (is_shear_test(a.test)
+               ? fmt::format(", {:g} x {:g} yarns/mm", fabric.warp_density, fabric.weft_density)
+               : "") +
+          ";"};
+  for (const std::string& figure : result.figures)
+    comment.push_back(figure + (&figure == &result.figures.back() ? "." : ";"));
+  if (result.laws.front().key == "polynomial")
+    comment.push_back("torque of one unit cell = k1 g + k3 g^3 ..., N mm, g in rad");
+  return comment;
+}
+
+void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
+                      const FabricReading& base, Identified result) {
+  std::string text = base.text;
+  for (LawText& law : result.laws) {
+    law.comment = comment_of(a, *base.value, result);
+    if (law.key == "buckling_force") law.comment.clear();
+    text = with_law(text, law);
+  }
+  write_whole(fit_file, result.fit);
+  write_whole(a.output, text);
+  fmt::print("{} of {} from {}\n", result.title, base.value->name, files_of(a));
+  fmt::print("  {}\n  {}\n", test_words(a), result.law_line);
+  for (const std::string& figure : result.figures)
+    fmt::print("  {}\n", figure);
+  for (const std::string& note : result.notes)
+    fmt::print("  {}\n", note);
+  for (const std::string& missing : base.missing)
+    if (std::find(result.provides.begin(), result.provides.end(), missing) == result.provides.end())
+      fmt::print("  still without a law: {}; no case can use the fabric before\n", missing);
+  fmt::print("written: {}, {}\n", a.output, fit_file.string());
+  fs::path picture = fit_file;
+  if (is_shear_test(a.test) || is_tension_test(a.test) ||
+      (a.test == "three-point" && result.laws.front().key == "bending_stiffness"))
+    fmt::print("plot: tools/plot.py fit {} -o {}\n", fit_file.string(),
+               picture.replace_extension(".png").string());
+}
+
+} // namespace
+
+int identify_command(const IdentifyArguments& arguments) {
+  const bool shear = is_shear_test(arguments.test);
+  const fs::path output = arguments.output;
+  const fs::path fit = arguments.fit.empty()
+                           ? output.parent_path() / (output.stem().string() + "_fit.csv")
+                           : fs::path(arguments.fit);
+  Diagnostics diagnostics;
+  check_arguments(arguments, fit, diagnostics);
+  const FitOptions options = fit_options(arguments, diagnostics);
+  const auto test = shear ? test_of(arguments.test, arguments.specimen, diagnostics) : std::nullopt;
+  const FabricReading base = fabric_of(arguments.fabric, shear, diagnostics);
+  if (arguments.test == "in-plane-bending")
+    check_zone_fabric(base.missing, {arguments.fabric, 1, 1}, diagnostics);
+  const std::vector<Curve> curves = curves_of(arguments, diagnostics);
+  std::optional<Identified> result;
+  if (diagnostics.errors.empty())
+    result = identify(arguments, base, test, curves, options, diagnostics);
+  if (print_diagnostics(diagnostics)) return exit_case_wrong;
+  if (!result) throw std::logic_error("no law and no reason for it");
+  write_and_report(arguments, fit, base, *result);
+  return exit_done;
+}
+
+} // namespace plyform

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What the sources of plyform identify and plyform theory share.
+#pragma once
+
+#include "core/identify/bending_tests.hpp"
+#include "core/identify/fit_shear.hpp"
+#include "core/identify/fit_tension.hpp"
+#include "core/input/fabric_file.hpp"
+#include "tools/cli/commands.hpp"
+
+#include <filesystem>
+#include <optional>
+
+namespace plyform {
+
+/// An identified law as text for the report and the fabric file.
+struct Identified {
+  std::string title;                 ///< "shear law"
+  std::vector<LawText> laws;         ///< without comments
+  std::vector<std::string> provides; ///< those of warp, weft, shear that have a law now
+  std::string fit;                   ///< CSV
+  std::string law_line;              ///< for the report
+  std::vector<std::string> figures;  ///< range, residuals, limits: for the report and the file
+  std::vector<std::string> notes;    ///< for the report only
+};
+
+/// tools/cli/identify/identify_arguments.cpp
+void option_error(const std::string& option, const std::string& value, const std::string& rule,
+                  const std::string& remedy, Diagnostics& diagnostics);
+/// Prints warnings, then errors; returns whether there are errors.
+bool print_diagnostics(const Diagnostics& diagnostics);
+/// Reports an error if an output file is one of the other files read or written, or if its
+/// temporary name is.
+void check_output(const std::string& option, const std::filesystem::path& output,
+                  const std::vector<std::filesystem::path>& others, Diagnostics& diagnostics);
+/// The test of the arguments; reports errors and returns nothing if its sizes are invalid.
+std::optional<ShearTest> test_of(const std::string& name, const SpecimenArguments& sizes,
+                                 Diagnostics& diagnostics);
+/// Reads the fabric; its errors are added to `diagnostics`.
+FabricReading fabric_of(const std::string& file, bool for_shear, Diagnostics& diagnostics);
+bool is_shear_test(const std::string& test);   ///< bias, frame
+bool is_tension_test(const std::string& test); ///< warp, weft, compression
+/// Checks the arguments before a curve is read.
+void check_arguments(const IdentifyArguments& arguments, const std::filesystem::path& fit,
+                     Diagnostics& diagnostics);
+/// Corrections as the user gives them; errors are reported.
+FitOptions fit_options(const IdentifyArguments& arguments, Diagnostics& diagnostics);
+CantileverReading reading_of(const IdentifyArguments& arguments);
+CurveColumns columns_of(const IdentifyArguments& arguments);
+/// "bias-extension test, 300 x 100 mm, equation (40) read backwards".
+std::string test_words(const IdentifyArguments& arguments);
+
+/// tools/cli/identify/identify_report.cpp
+Identified shear_text(const ShearFit& fit);
+Identified tension_text(const TensionFit& fit, const IdentifyArguments& arguments);
+Identified compression_text(const CompressionFit& fit, const IdentifyArguments& arguments);
+/// tools/cli/identify/identify_bending.cpp
+Identified bending_text(const BendingFit& fit, const IdentifyArguments& arguments);
+Identified zone_text(const ZoneFit& fit, const IdentifyArguments& arguments);
+/// "warp", "weft", or both.
+std::vector<std::string> families_of(const std::string& direction);
+std::string figure_of_residuals(const FitQuality& quality, const std::string& at);
+
+} // namespace plyform
