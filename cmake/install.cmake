@@ -31,6 +31,8 @@ set(public_headers
   core/identify/statistics.hpp
   core/identify/units.hpp
   core/input/case_file.hpp
+  core/input/checks/source_location.hpp
+  core/input/keys/case_keys.hpp
   core/mesh/mesh_blank.hpp
   core/model/blank_spec.hpp
   core/model/case.hpp

@@ -3,12 +3,13 @@
 #include "core/input/case_file.hpp"
 
 #include "base/text.hpp"
-#include "core/input/case_identity.hpp"
-#include "core/input/case_parts.hpp"
-#include "core/input/entries.hpp"
-#include "core/input/key_member.hpp"
-#include "core/input/overrides.hpp"
-#include "core/input/sense_checks.hpp"
+#include "core/input/checks/scene_checks.hpp"
+#include "core/input/checks/sense_checks.hpp"
+#include "core/input/keys/case_identity.hpp"
+#include "core/input/keys/entries.hpp"
+#include "core/input/keys/key_member.hpp"
+#include "core/input/keys/overrides.hpp"
+#include "core/input/parts/case_parts.hpp"
 #include "core/model/fabric_estimates.hpp"
 
 #include <algorithm>

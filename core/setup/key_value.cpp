@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/key_value.hpp"
 
-#include "core/input/entries.hpp"
+#include "core/input/keys/entries.hpp"
 
 namespace plyform {
 namespace {

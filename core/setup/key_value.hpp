@@ -2,7 +2,7 @@
 // The value that a case will run with, by its key.
 #pragma once
 
-#include "core/input/toml_tree.hpp"
+#include "core/input/keys/toml_tree.hpp"
 #include "core/setup/prepare_case.hpp"
 
 namespace plyform {

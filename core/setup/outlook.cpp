@@ -2,8 +2,8 @@
 #include "core/setup/outlook.hpp"
 
 #include "core/accuracy/error_model.hpp"
-#include "core/input/bending_resolution.hpp"
-#include "core/input/motion_checks.hpp"
+#include "core/input/checks/motion_checks.hpp"
+#include "core/model/bending_resolution.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/model/motion.hpp"
 #include "core/run/facet_penetration.hpp"

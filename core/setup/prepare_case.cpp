@@ -3,7 +3,7 @@
 
 #include "base/text.hpp"
 #include "base/thread_pool.hpp"
-#include "core/input/unit_checks.hpp"
+#include "core/input/checks/unit_checks.hpp"
 #include "core/model/motion.hpp"
 #include "core/setup/size_ahead.hpp"
 

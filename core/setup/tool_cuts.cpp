@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/tool_cuts.hpp"
 
-#include "core/input/initial_scene.hpp"
+#include "core/input/checks/initial_scene.hpp"
 #include "core/model/motion.hpp"
 #include "core/run/facet_penetration.hpp"
 #include "core/setup/draws.hpp"

@@ -2,9 +2,9 @@
 #include "core/verification/siblings.hpp"
 
 #include "core/accuracy/cost_parameters.hpp"
-#include "core/input/bending_resolution.hpp"
 #include "core/mesh/mesh_ply.hpp"
 #include "core/mesh/mesh_variants.hpp"
+#include "core/model/bending_resolution.hpp"
 #include "core/model/boundary.hpp"
 
 #include <algorithm>

@@ -3,7 +3,7 @@
 #pragma once
 
 #include "core/identify/fit_quality.hpp"
-#include "core/input/fabric_file.hpp"
+#include "core/input/parts/fabric_file.hpp"
 #include "python/bindings.hpp"
 
 #include <numbers>

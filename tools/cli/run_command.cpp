@@ -3,7 +3,7 @@
 #include "base/thread_pool.hpp"
 #include "base/version.hpp"
 #include "core/accuracy/error_model.hpp"
-#include "core/input/schema.hpp"
+#include "core/input/keys/schema.hpp"
 #include "core/run/run.hpp"
 #include "core/setup/outlook.hpp"
 #include "tools/cli/commands.hpp"

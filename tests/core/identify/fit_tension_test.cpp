@@ -35,7 +35,7 @@ double crimped(double e) { // soft until the crimp is gone
   return e < 0.004 ? 4000.0 * e + 2.1e6 * e * e : 49.6 + 20800.0 * (e - 0.004);
 }
 
-void expect_fabric_law(const TensionLaw& law) { // what core/input/fabric_file.cpp asks for
+void expect_fabric_law(const TensionLaw& law) { // what core/input/parts/fabric_file.cpp asks for
   ASSERT_GE(law.strain.size(), 2u);
   ASSERT_EQ(law.strain.size(), law.tension.size());
   EXPECT_LE(law.strain.size(), 20u);

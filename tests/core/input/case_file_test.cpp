@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Good case files give the right numbers; wrong ones exactly the mistakes that stand in them.
 #include "base/text.hpp"
-#include "core/input/schema_check.hpp"
+#include "core/input/keys/schema_check.hpp"
 #include "core/mesh/mesh_blank.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "support/case_files.hpp"

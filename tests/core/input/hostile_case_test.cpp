@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Cases that are meant to bring a program down: nested without end, huge, with names that are none.
 #include "base/names.hpp"
-#include "core/input/toml_depth.hpp"
-#include "core/input/toml_tree.hpp"
+#include "core/input/keys/toml_depth.hpp"
+#include "core/input/keys/toml_tree.hpp"
 #include "support/case_files.hpp"
 
 #include <fstream>

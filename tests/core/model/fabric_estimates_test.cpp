@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Numbers of a fabric that its file leaves out: which cases get them, which values, what is said.
-#include "core/input/bending_resolution.hpp"
+#include "core/model/bending_resolution.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "support/membrane_checks.hpp"

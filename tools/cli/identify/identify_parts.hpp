@@ -5,7 +5,7 @@
 #include "core/identify/bending_tests.hpp"
 #include "core/identify/fit_shear.hpp"
 #include "core/identify/fit_tension.hpp"
-#include "core/input/fabric_file.hpp"
+#include "core/input/parts/fabric_file.hpp"
 #include "tools/cli/commands.hpp"
 
 #include <filesystem>

@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/input/checks/sense_checks.hpp"
+#include "core/model/usual_ranges.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <optional>
+
+namespace plyform {
+namespace {
+
+struct FabricSense {
+  const TableView& section;
+  const Fabric& fabric;
+  Diagnostics& diagnostics;
+
+  void warn(const TomlNode& at, const std::string& item, const std::string& text) {
+    diagnostics.warning(at.at, fmt::format("{}: {}", item, text));
+  }
+};
+
+/// The key of the law of shear that is given.
+const TomlNode* shear_law(const TableView& shear, std::string& key) {
+  for (const char* word : {"polynomial", "table"})
+    if (const TomlNode* law = given(shear, word)) {
+      key = word;
+      return law;
+    }
+  return nullptr;
+}
+
+/// Torque of a cell over its angle and area: of cloth within usual_shear_rigidity. What is smaller
+/// by far is meant to be limp, as nets are.
+void check_rigidity(FabricSense& check, const TomlNode& law, const std::string& item) {
+  constexpr double at_angle = 10.0 * degree; // as usual_shear_rigidity
+  constexpr double limp = 1e-5;              // N/mm: a thousandth of what the softest cloth has
+  const Fabric& f = check.fabric;
+  const double rigidity =
+      f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.secant(at_angle);
+  if (!(std::abs(rigidity) > limp) || usual_shear_rigidity.holds(rigidity) || rigidity < 0.0)
+    return;
+  check.warn(law, item,
+             fmt::format("makes the fabric {:.2g} N/mm stiff in shear at 10 degrees, and cloth "
+                         "usually has {:g} to {:g}; the torque is that of one unit cell, in N mm: "
+                         "check unit and densities of the yarns",
+                         rigidity, usual_shear_rigidity.least, usual_shear_rigidity.most));
+}
+
+/// The first angle (rad) from which the torque is below 0.
+std::optional<double> turns_back_at(const ShearLaw& law) {
+  constexpr int parts = 320;
+  constexpr double most = 80.0 * degree; // hardly any fabric gets there
+  for (int i = 1; i <= parts; ++i)
+    if (const double angle = most * i / parts; law.at(angle).value < 0.0) return angle;
+  return std::nullopt;
+}
+
+void check_torque(FabricSense& check, const TomlNode& law, const std::string& item) {
+  const std::optional<double> from = turns_back_at(check.fabric.shear);
+  if (!from) return;
+  constexpr double usual = 45.0 * degree; // that formed parts reach
+  const std::string rule =
+      fmt::format("has a torque below 0 from {:.3g} degrees of shear on: a ply sheared that far "
+                  "goes on shearing by itself",
+                  *from / degree);
+  const std::string remedy = "give coefficients or rows that hold up to 60 degrees or so";
+  if (*from < usual)
+    check.diagnostics.error(law.at, item, law.source_text, rule, remedy);
+  else
+    check.warn(law, item, rule + "; " + remedy);
+}
+
+/// Angles of the table in rad.
+void check_table(FabricSense& check, const TomlNode& law, const std::string& item) {
+  constexpr double radians = 1.6; // degrees; as rad 92 degrees
+  const std::vector<double>& angles = check.fabric.shear.angle;
+  if (angles.empty() || angles.back() / degree > radians) return;
+  check.warn(law, item,
+             fmt::format("ends at {:.3g} degrees of shear; angles are in degrees, if it is in rad "
+                         "multiply them by 57.3",
+                         angles.back() / degree));
+}
+
+/// The stiffness of all yarns over their mass, (m/s)^2: that of fibres is 3e7 (glass), 1.3e8
+/// (carbon), 1.8e8 (polyethylene), and 2.4e8 of the stiffest carbon that is woven.
+void check_yarns(FabricSense& check) {
+  constexpr double most = 2.5e8; // (m/s)^2
+  constexpr double mm2_in_m2 = 1e6;
+  const Fabric& f = check.fabric;
+  const double stiffness =
+      (f.warp_density * f.warp.largest_slope() + f.weft_density * f.weft.largest_slope()) /
+      f.surface_density / mm2_in_m2;
+  const TomlNode* warp = given(check.section, "warp");
+  if (!warp || !(stiffness > most)) return;
+  check.warn(*warp, item_of(check.section, "warp"),
+             fmt::format("warp and weft together are {:.2g} N m/kg stiff for the mass of the "
+                         "fabric, and fibres have 3e7 (glass) to 2.4e8 (carbon); densities are "
+                         "yarns per mm, a tenth of those per cm, stiffness is N per yarn, "
+                         "surface_density g/m2",
+                         stiffness));
+}
+
+/// Mass per volume.
+void check_thickness(FabricSense& check) {
+  constexpr double least = 0.02, most = 8.0; // g/cm3: fleece, steel
+  constexpr double g_cm3 = 1e-9;             // t/mm3
+  const TomlNode* thickness = given(check.section, "thickness");
+  const double density = check.fabric.surface_density / check.fabric.thickness / g_cm3;
+  if (!thickness || !(density < least || density > most)) return;
+  check.warn(*thickness, item_of(check.section, "thickness"),
+             fmt::format("with its surface_density makes {:.2g} g/cm3, and fabrics have 0.3 to 2; "
+                         "thickness is in mm, surface_density in g/m2",
+                         density));
+}
+
+} // namespace
+
+void check_fabric_sense(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
+  FabricSense check{section, fabric, diagnostics};
+  check_thickness(check);
+  if (!fabric.has_yarns()) return;
+  check_yarns(check);
+  const TableView shear = subsection(section, "shear");
+  std::string key;
+  const TomlNode* law = shear_law(shear, key);
+  if (!law || (fabric.shear.k.empty() && fabric.shear.angle.empty())) return;
+  const std::string item = item_of(shear, key);
+  check_table(check, *law, item);
+  check_rigidity(check, *law, item);
+  if (fabric.shear.k.empty() || fabric.shear.k[0] >= 0.0) check_torque(check, *law, item);
+}
+
+} // namespace plyform

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/input/keys/schema.hpp"
+
+#include "base/text.hpp"
+#include "core/input/keys/case_keys.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+#include <numeric>
+
+namespace plyform {
+
+bool Range::holds(double x) const {
+  return (open_least ? x > least : x >= least) && (open_most ? x < most : x <= most);
+}
+
+std::string Range::text() const {
+  const bool below = std::isfinite(least), above = std::isfinite(most);
+  if (below && above)
+    return fmt::format("{}{:g}, {:g}{}", open_least ? '(' : '[', least, most,
+                       open_most ? ')' : ']');
+  if (below) return fmt::format("{} {:g}", open_least ? ">" : ">=", least);
+  if (above) return fmt::format("{} {:g}", open_most ? "<" : "<=", most);
+  return "";
+}
+
+std::string Range::rule() const {
+  const std::string low = fmt::format("{} {:g}", open_least ? "greater than" : "at least", least);
+  const std::string high = fmt::format("{} {:g}", open_most ? "less than" : "at most", most);
+  const bool below = std::isfinite(least), above = std::isfinite(most);
+  return "must be " + (below && above ? low + " and " + high : below ? low : high);
+}
+
+std::string Range::span() const {
+  return fmt::format("{:g} to {:g}", least, most);
+}
+
+namespace {
+
+const Range& of_column(const std::vector<Range>& ranges, std::size_t column) {
+  static const Range any;
+  return ranges.empty() ? any : ranges[std::min(column, ranges.size() - 1)];
+}
+
+} // namespace
+
+const Range& KeyRow::range_of(std::size_t column) const {
+  return of_column(ranges, column);
+}
+
+const Range& KeyRow::usual_of(std::size_t column) const {
+  return of_column(usual, column);
+}
+
+bool KeyRow::goes_with(const std::string& choice) const {
+  return of.empty() || std::find(with.begin(), with.end(), choice) != with.end();
+}
+
+const KeyRow* find_key(const std::string& pattern) {
+  for (const KeyRow& row : key_table())
+    if (row.key == pattern) return &row;
+  return nullptr;
+}
+
+std::vector<const KeyRow*> keys_below(const std::string& pattern) {
+  const std::string prefix = pattern.empty() ? "" : pattern + ".";
+  std::vector<const KeyRow*> rows;
+  for (const KeyRow& row : key_table())
+    if (row.key.starts_with(prefix) && row.key.find('.', prefix.size()) == std::string::npos)
+      rows.push_back(&row);
+  return rows;
+}
+
+std::string pattern_of(const std::string& pattern, const std::string& name) {
+  const std::string prefix = pattern.empty() ? "" : pattern + ".";
+  const KeyRow* table = find_key(pattern);
+  if (table && table->kind == KeyKind::map) return prefix + "NAME";
+  // a quoted name with dots or brackets matches no pattern
+  if (name.find_first_of(".[") != std::string::npos) return "";
+  return find_key(prefix + name) ? prefix + name : "";
+}
+
+std::string last_part(const std::string& pattern) {
+  return pattern.substr(pattern.rfind('.') + 1); // npos + 1 = 0: the whole pattern
+}
+
+namespace {
+
+double factor_of_unit(const std::string& unit) {
+  if (unit == "deg") return std::numbers::pi / 180.0;
+  if (unit == "g/m2") return 1e-12; // 1e-6 t / 1e6 mm^2
+  if (unit == "kg") return 1e-3;    // t
+  return 1.0;
+}
+
+std::string type_text(const KeyRow& row) {
+  switch (row.kind) {
+  case KeyKind::table:
+    return "table";
+  case KeyKind::tables:
+    return "list of tables";
+  case KeyKind::map:
+    return "table of tables";
+  case KeyKind::fabric:
+    return "string (a path) or table";
+  case KeyKind::text:
+    return "string";
+  case KeyKind::name:
+    return "string (letters, digits, _ and -)";
+  case KeyKind::path:
+    return "string (a path)";
+  case KeyKind::choice:
+    return "string";
+  case KeyKind::number:
+    return "number";
+  case KeyKind::boolean:
+    return "true or false";
+  case KeyKind::integer:
+    return "integer";
+  case KeyKind::numbers:
+    return row.count ? fmt::format("list of {} numbers", row.count) : "list of numbers";
+  case KeyKind::pairs:
+    return "list of [a, b]";
+  case KeyKind::outlines:
+    return "list of outlines or tables";
+  case KeyKind::names:
+    return fmt::format("list of {} strings", row.count);
+  case KeyKind::profile:
+    return "list of [a, b], [a, b, fillet] or tables";
+  }
+  return "";
+}
+
+std::string fallback_text(const KeyRow& row) {
+  if (!row.otherwise.empty()) return row.otherwise;
+  if (!row.instead.empty()) return "required, or " + joined(row.instead);
+  if (!row.fallback.empty()) return row.fallback;
+  return row.of.empty() ? "required" : fmt::format("required for {} {}", row.of, joined(row.with));
+}
+
+std::string range_text(const KeyRow& row) {
+  if (!row.choices.empty()) return "one of " + joined(row.choices);
+  std::vector<std::string> parts;
+  for (const Range& range : row.ranges)
+    parts.push_back(range.text().empty() ? "any" : range.text());
+  for (const Range& range : row.usual)
+    parts.push_back("usually " + range.span());
+  if (row.least_items) parts.push_back(fmt::format("{} items or more", row.least_items));
+  return joined(parts);
+}
+
+} // namespace
+
+double unit_factor(const KeyRow& row, std::size_t column) {
+  std::string units = row.unit;
+  for (std::size_t c = 0; c < column && units.find(", ") != std::string::npos; ++c)
+    units = units.substr(units.find(", ") + 2);
+  return factor_of_unit(units.substr(0, units.find(", ")));
+}
+
+std::vector<KeyInfo> case_keys() {
+  std::vector<KeyInfo> infos;
+  for (const KeyRow& row : key_table()) {
+    std::string meaning = row.meaning;
+    if (!row.of.empty()) meaning += fmt::format(" ({} {})", row.of, joined(row.with));
+    infos.push_back(
+        {row.key, type_text(row), row.unit, fallback_text(row), range_text(row), meaning});
+  }
+  return infos;
+}
+
+} // namespace plyform

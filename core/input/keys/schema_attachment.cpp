@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rows of the table of keys: springs and grippers of [[boundary]].
+#include "core/input/keys/key_member.hpp"
+#include "core/input/keys/schema_case.hpp"
+
+namespace plyform {
+
+using K = KeyKind;
+
+Rows attachment_rows() {
+  // N/mm: of an edge of 100 mm, glass yarns 100 mm long have some 1e4
+  const Range usual_stiffness_range{.least = 1e-3, .most = 1e3};
+  const std::vector<std::string> spring{"spring"}, gripper{"gripper"};
+  return {{.key = "boundary[].stiffness",
+           .unit = "N/mm",
+           .instead = {"force", "force_programme"},
+           .ranges = {{.least = 1e-9, .most = 1e9}},
+           .usual = {usual_stiffness_range},
+           .of = "kind",
+           .with = {"spring", "gripper"},
+           .meaning = "stiffness of a spring, or of what lies between a gripper and its drive",
+           .members = {to(&Boundary::stiffness)}},
+          {.key = "boundary[].force",
+           .unit = "N",
+           .instead = {"stiffness", "force_programme"},
+           .ranges = {{.least = 0.0, .most = force_range.most, .open_least = true}},
+           .usual = {{.least = 1e-3, .most = 1e5}},
+           .of = "kind",
+           .with = gripper,
+           .meaning = "force that pulls the gripper along its direction",
+           .members = {to(&Boundary::force)}},
+          {.key = "boundary[].force_programme",
+           .kind = K::pairs,
+           .unit = "-, N",
+           .instead = {"stiffness", "force"},
+           .ranges = {programme_share, force_range},
+           .least_items = 1,
+           .of = "kind",
+           .with = gripper,
+           .meaning = "stages [share of the duration, force reached by then]"},
+          {.key = "boundary[].mass",
+           .unit = "kg",
+           .fallback = "0.0",
+           .ranges = {{.least = 0.0, .most = 1e6}},
+           .usual = {{.least = 0.0, .most = 50.0}},
+           .of = "kind",
+           .with = gripper,
+           .meaning = "mass of the gripper, beside that of what it clamps",
+           .members = {to(&Boundary::mass)}},
+          {.key = "boundary[].guided",
+           .kind = K::boolean,
+           .fallback = "false",
+           .of = "kind",
+           .with = gripper,
+           .meaning =
+               "whether the gripper moves along its direction only, as on a rail; else it is "
+               "free to give way sideways",
+           .members = {to(&Boundary::guided)}},
+          {.key = "boundary[].anchor",
+           .kind = K::numbers,
+           .unit = "mm",
+           .ranges = {place_range},
+           .count = 3,
+           .of = "kind",
+           .with = spring,
+           .meaning = "place [x, y, z] of the spring's other end, before forming",
+           .members = {to(&Boundary::anchor)}},
+          {.key = "boundary[].carried_by",
+           .kind = K::text,
+           .otherwise = "the anchor stays",
+           .of = "kind",
+           .with = spring,
+           .meaning = "name of the driven tool with which the anchor moves"},
+          {.key = "boundary[].preload",
+           .unit = "N",
+           .otherwise = "0",
+           .instead = {"natural_length"},
+           .ranges = {force_range},
+           .usual = {{.least = 0.0, .most = 1e4}},
+           .of = "kind",
+           .with = spring,
+           .meaning = "tension of the spring before forming",
+           .members = {to(&Boundary::preload)}},
+          {.key = "boundary[].natural_length",
+           .unit = "mm",
+           .otherwise = "from preload",
+           .instead = {"preload"},
+           .ranges = {length_or_zero},
+           .of = "kind",
+           .with = spring,
+           .meaning = "length of the spring without a load, up to which it is slack",
+           .members = {to(&Boundary::natural_length)}},
+          {.key = "boundary[].max_force",
+           .unit = "N",
+           .otherwise = "no limit",
+           .ranges = {{.least = 0.0, .most = force_range.most, .open_least = true}},
+           .of = "kind",
+           .with = spring,
+           .meaning = "largest tension of the spring, which then gets longer at that force",
+           .members = {to(&Boundary::max_force)}}};
+}
+
+} // namespace plyform

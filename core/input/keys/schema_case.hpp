@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Parts of the table of keys (core/input/keys/schema.hpp). Internal to core/input.
+#pragma once
+
+#include "core/input/keys/schema.hpp"
+#include "core/model/case.hpp"
+#include "core/model/usual_ranges.hpp"
+
+#include <vector>
+
+namespace plyform {
+
+using Rows = std::vector<KeyRow>;
+
+// Ranges of numbers: far beyond any use, and narrow enough for every sum to stay finite and for
+// every mesh of a tool to stay within the memory. Lengths are in mm, to 100 m.
+inline const Range length_range{.least = 1e-6, .most = 1e5};
+inline const Range length_or_zero{.least = 0.0, .most = 1e5};
+inline const Range place_range{.least = -1e5, .most = 1e5};
+inline const Range direction_range{.least = -1e9, .most = 1e9};
+inline const Range stroke_or_zero{.least = 0.0, .most = 1e5};
+inline const Range force_range{.least = 0.0, .most = 1e9}; ///< N
+inline const Range programme_share{.least = 0.0, .most = 1.0, .open_least = true};
+inline const Range bending_range{.least = 0.0, .most = 1e7};    ///< N mm
+inline const Range yarn_force_range{.least = 0.0, .most = 1e9}; ///< N a yarn, per strain or not
+inline const Range stiffness_range{.least = 1e-6, .most = 1e9}; ///< N a yarn, of a law that has any
+
+/// The range that messages call usual.
+inline Range range_of(const UsualRange& usual) {
+  return {.least = usual.least, .most = usual.most};
+}
+
+inline void append(Rows& all, Rows part) {
+  for (KeyRow& row : part)
+    all.push_back(std::move(row));
+}
+
+/// core/input/keys/schema_bending.cpp: keys of a yarn ("warp", "weft") and of the fabric.
+Rows yarn_bending_rows(const std::string& yarn);
+Rows sheet_rows();
+
+/// core/input/keys/schema_fabric.cpp: fabrics.NAME and fabric files.
+Rows fabric_rows();
+
+/// core/input/keys/schema_blank.cpp: blanks.NAME.
+Rows blank_rows();
+
+/// core/input/keys/schema_tool.cpp: [[tool]], and its motion. Shapes:
+/// core/input/keys/tool_shapes.cpp.
+Rows tool_rows();
+Rows shape_rows();
+Rows motion_rows();
+
+/// core/input/keys/schema_boundary.cpp: [[boundary]]; and the keys of its springs and grippers,
+/// core/input/keys/schema_attachment.cpp.
+Rows boundary_rows();
+Rows attachment_rows();
+
+} // namespace plyform

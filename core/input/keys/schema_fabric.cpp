@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rows of the table of keys: fabrics.NAME and fabric files; those of bending are in
+// schema_bending.cpp.
+#include "core/input/keys/key_member.hpp"
+#include "core/input/keys/schema_case.hpp"
+#include "core/input/keys/sheet_laws.hpp"
+
+namespace plyform {
+
+using K = KeyKind;
+
+Rows fabric_rows() {
+  Rows rows{
+      {.key = "fabrics", .kind = K::map, .meaning = "fabrics, each under a name of your choice"},
+      {.key = "fabrics.NAME", .kind = K::fabric, .meaning = "fabric file, or its keys in a table"},
+      {.key = "fabrics.NAME.name",
+       .kind = K::text,
+       .otherwise = "the NAME",
+       .meaning = "fabric's name in results",
+       .members = {to(&Fabric::name)}},
+      {.key = "fabrics.NAME.surface_density",
+       .unit = "g/m2",
+       .ranges = {{.least = 1e-3, .most = 1e6}},
+       .usual = {{.least = 20.0, .most = 5000.0}},
+       .meaning = "mass per area of the unformed fabric",
+       .members = {to(&Fabric::surface_density)}},
+      {.key = "fabrics.NAME.thickness",
+       .unit = "mm",
+       .ranges = {{.least = 1e-4, .most = 100.0}},
+       .usual = {{.least = 0.02, .most = 20.0}},
+       .meaning = "thickness of the unformed fabric",
+       .members = {to(&Fabric::thickness)}},
+      {.key = "fabrics.NAME.fibre_angle",
+       .unit = "deg",
+       .fallback = "90.0",
+       .ranges = {{.least = 0.0, .most = 180.0, .open_least = true, .open_most = true}},
+       .of = "law",
+       .with = {"woven"},
+       .meaning = "angle from warp to weft before forming",
+       .members = {to(&Fabric::fibre_angle)}},
+      {.key = "fabrics.NAME.law",
+       .kind = K::choice,
+       .fallback = "\"woven\"",
+       .choices = fabric_laws(),
+       .meaning =
+           "kind of sheet: yarns in two directions (woven or non-crimp), or a foil without"}};
+  append(rows, sheet_law_rows());
+  for (const std::string yarn : {"warp", "weft"}) {
+    const std::string table = "fabrics.NAME." + yarn;
+    append(rows, {{.key = table,
+                   .kind = K::table,
+                   .of = "law",
+                   .with = {"woven"},
+                   .meaning = yarn + " yarns"},
+                  {.key = table + ".density",
+                   .unit = "yarns/mm",
+                   .ranges = {{.least = 1e-4, .most = 1e3}},
+                   .usual = {{.least = 0.02, .most = 20.0}},
+                   .meaning = "number of " + yarn + " yarns per mm across them",
+                   .members = {to(yarn == "warp" ? &Fabric::warp_density : &Fabric::weft_density)}},
+                  {.key = table + ".stiffness",
+                   .unit = "N/yarn",
+                   .instead = {"table"},
+                   .ranges = {stiffness_range},
+                   .usual = {range_of(usual_stiffness)},
+                   .meaning = "tension of one yarn divided by its strain",
+                   .members = {to(&TensionLaw::stiffness)}},
+                  {.key = table + ".table",
+                   .kind = K::pairs,
+                   .unit = "-, N/yarn",
+                   .instead = {"stiffness"},
+                   .ranges = {{.least = 0.0, .most = 10.0}, yarn_force_range},
+                   .least_items = 2,
+                   .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}});
+    append(rows, yarn_bending_rows(yarn));
+  }
+  append(rows,
+         {{.key = "fabrics.NAME.shear",
+           .kind = K::table,
+           .of = "law",
+           .with = {"woven"},
+           .meaning = "law of in-plane shear"},
+          {.key = "fabrics.NAME.shear.polynomial",
+           .kind = K::numbers,
+           .unit = "N mm",
+           .instead = {"table"},
+           .ranges = {{.least = -1e9, .most = 1e9}},
+           .least_items = 1,
+           .meaning = "coefficients k1, k3, k5 ... of the torque of one unit cell, "
+                      "k1 g + k3 g^3 + k5 g^5 ..., g the shear angle in rad"},
+          {.key = "fabrics.NAME.shear.table",
+           .kind = K::pairs,
+           .unit = "deg, N mm",
+           .instead = {"polynomial"},
+           .ranges = {{.least = 0.0, .most = 90.0, .open_most = true}, {.least = 0.0, .most = 1e9}},
+           .least_items = 2,
+           .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
+                      "same with minus sign for negative angles"}});
+  append(rows, sheet_rows());
+  return rows;
+}
+
+} // namespace plyform
