@@ -2,8 +2,7 @@
 // A simulation that Python watches, stops, and whose arrays it sees while it goes on.
 #include "core/results/result_fields.hpp"
 #include "core/run/output_state.hpp"
-#include "core/run/run.hpp"
-#include "core/setup/prepare_case.hpp"
+#include "core/setup/run_prepared.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/whole_step.hpp"
 #include "python/bindings.hpp"
@@ -118,12 +117,9 @@ public:
     hooks.interrupt = &callbacks.stop;
     RunResult result = [&] {
       const py::gil_scoped_release others;
-      return run_scene(*scene_, threads_, hooks);
+      return run_prepared(prepared_, *scene_, threads_, hooks);
     }();
     if (result.summary.status != "stopped") VelocitiesAtPositions(*scene_).keep();
-    result.summary.accuracy.coarsening = prepared_.coarsening;
-    result.summary.assumed.insert(result.summary.assumed.begin(), prepared_.notes.begin(),
-                                  prepared_.notes.end());
     if (writer) writer->write_final(result.last, result.summary);
     const std::string summary = summary_json(result.last, result.summary);
     return {std::make_shared<Frame>(std::move(result.last)), summary, callbacks.error};

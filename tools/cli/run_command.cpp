@@ -4,8 +4,8 @@
 #include "base/version.hpp"
 #include "core/accuracy/error_model.hpp"
 #include "core/input/keys/schema.hpp"
-#include "core/run/run.hpp"
 #include "core/setup/outlook.hpp"
+#include "core/setup/run_prepared.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/ending_signals.hpp"
 #include "tools/cli/progress_line.hpp"
@@ -215,10 +215,7 @@ RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter&
   hooks.resume = resume ? &*resume : nullptr;
   if (trace) watch(hooks, *trace, true);
   try {
-    RunResult result = run_case(*prepared.value, threads, hooks, prepared.meshes);
-    result.summary.accuracy.coarsening = prepared.coarsening;
-    result.summary.assumed.insert(result.summary.assumed.begin(), prepared.notes.begin(),
-                                  prepared.notes.end());
+    RunResult result = run_prepared(prepared, threads, hooks);
     if (result.summary.status == "interrupted") result.summary.message += ", by " + ending_signal();
     line.end();
     writer.write_final(result.last, result.summary);

@@ -2,6 +2,7 @@
 #include "tools/cli/verify_and_correct.hpp"
 
 #include "core/results/replace_run.hpp"
+#include "core/setup/run_prepared.hpp"
 #include "core/setup/size_ahead.hpp"
 #include "core/verification/correction.hpp"
 #include "core/verification/verify.hpp"
@@ -75,11 +76,17 @@ void run_again(const PreparedCase& prepared, const VerifyOptions& options,
   hooks.frame = [&](const Frame& frame) { writer.write_frame(frame); };
   hooks.progress = [&](const Progress& p) { line.show(p); };
   hooks.interrupt = options.interrupt;
-  RunResult second = run_case(corrected.data, options.threads, hooks);
+  const PreparedCase finer{.value = corrected.data,
+                           .meshes = {}, // as the corrected case asks for
+                           .coarsening = prepared.coarsening * asked.element_size,
+                           .identity = {},
+                           .errors = {},
+                           .warnings = {},
+                           .notes = prepared.notes,
+                           .fixed = {}};
+  RunResult second = run_prepared(finer, options.threads, hooks);
   line.end();
   Summary& summary = second.summary;
-  summary.accuracy.coarsening = prepared.coarsening * asked.element_size;
-  summary.assumed.insert(summary.assumed.begin(), prepared.notes.begin(), prepared.notes.end());
   AskedAccuracy said = asked;
   if (ended(summary.status)) {
     said.corrected = true;
