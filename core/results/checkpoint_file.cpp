@@ -6,6 +6,7 @@
 #include "base/archive.hpp"
 #include "base/names.hpp"
 #include "base/text.hpp"
+#include "base/write_whole.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,6 +2,7 @@
 // States in formats that other programs read: VTK XML (.vtu), binary STL and CSV.
 #include "core/results/export.hpp"
 
+#include "base/write_whole.hpp"
 #include "core/results/result_fields.hpp"
 
 #include <bit>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/replace_run.hpp"
 
-#include "core/results/result_fields.hpp"
+#include "base/write_whole.hpp"
 #include "core/results/size_file.hpp"
 
 #include <fmt/format.h>

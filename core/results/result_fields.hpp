@@ -1,28 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Internal to core/results and its tests: functions and classes that result_writer.hpp is made of.
+// What result_writer.hpp is made of: texts and files of results, and their reader.
 #pragma once
 
 #include "core/results/result_writer.hpp"
 
 #include <cstdint>
 #include <filesystem>
-#include <initializer_list>
 #include <string>
-#include <string_view>
-#include <system_error>
 #include <vector>
 
 namespace plyform {
-
-/// Writes `content` to `path` + ".tmp" and renames it to `path` when it is complete. Throws
-/// std::runtime_error naming the path and the system's reason; the temporary file is then removed.
-void write_whole(const std::filesystem::path& path, std::string_view content);
-/// Likewise all parts, one after the other.
-void write_whole(const std::filesystem::path& path, std::initializer_list<std::string_view> parts);
-
-/// Throws std::runtime_error: "PATH: cannot WHAT: the system's reason".
-[[noreturn]] void throw_cannot(const std::filesystem::path& path, const char* what,
-                               const std::error_code& error);
 
 /// Throws std::runtime_error when a name cannot stand as a file name or stands twice, and
 /// std::logic_error when an array of a ply has not as many entries as its nodes or triangles.

@@ -4,6 +4,7 @@
 #include "base/names.hpp"
 #include "base/text.hpp"
 #include "base/thread_pool.hpp"
+#include "base/write_whole.hpp"
 #include "core/results/checkpoint_file.hpp"
 #include "core/results/folder_lock.hpp"
 #include "core/results/result_fields.hpp"

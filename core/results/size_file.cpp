@@ -3,7 +3,7 @@
 
 #include "base/read_file.hpp"
 #include "base/words.hpp"
-#include "core/results/result_fields.hpp"
+#include "base/write_whole.hpp"
 
 #include <cmath>
 #include <fmt/format.h>

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/write_whole.hpp"
 #include "core/results/result_fields.hpp"
 
 #include <fmt/format.h>

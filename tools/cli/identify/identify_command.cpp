@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plyform identify: measured curves -> law -> fabric file.
 #include "base/version.hpp"
-#include "core/results/result_fields.hpp"
+#include "base/write_whole.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
 
 #include <algorithm>

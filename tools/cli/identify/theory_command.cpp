@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plyform theory: fabric file -> the curve that a shear test should give.
-#include "core/results/result_fields.hpp"
+#include "base/write_whole.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
 
 #include <fmt/format.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "core/results/result_fields.hpp"
+#include "base/write_whole.hpp"
 
 #include <cerrno>
 #include <cstdio>
