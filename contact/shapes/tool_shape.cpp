@@ -65,17 +65,6 @@ double smallest(const ExtrudedProfile& profile) {
   return smallest(profile.segments);
 }
 
-bool both_ways(const Sphere&) {
-  return true;
-}
-bool both_ways(const Box& b) {
-  return b.edge_radius > 0.0;
-}
-template <class Shape>
-bool both_ways(const Shape&) {
-  return false;
-}
-
 } // namespace
 
 SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, SurfaceHint& hint) {
@@ -86,10 +75,6 @@ SurfacePoint signed_distance(const ToolShape& shape, const Vec3& p, SurfaceHint&
     return extruded(p, profile->length,
                     [&](const Vec2& q) { return section_distance(profile->segments, q); });
   return std::visit([&](const auto& s) { return distance_of(s)(p, hint); }, shape);
-}
-
-bool curves_both_ways(const ToolShape& shape) {
-  return std::visit([](const auto& s) { return both_ways(s); }, shape);
 }
 
 double smallest_radius(const ToolShape& shape) {

@@ -123,10 +123,6 @@ double radius_near(const ToolShape& shape, const Vec3& p);
 /// tool frame); 0 of other shapes.
 double deflection_near(const ToolShape& shape, const Vec3& p);
 
-/// Whether the surface at smallest_radius is doubly curved (a sphere, the rounded corner of a box):
-/// a flat triangle then penetrates deeper than on a singly curved one.
-bool curves_both_ways(const ToolShape& shape);
-
 /// The profile through points {r, z, fillet radius} (mm): straight lines, each corner rounded by
 /// its fillet. If the last point repeats the first the profile is a ring, with that corner sharp.
 /// Throws std::invalid_argument (saying which corner and why) if a fillet does not fit or stands at
@@ -160,11 +156,11 @@ struct MeshReport {
   std::size_t removed_degenerate = 0; ///< zero-area faces dropped
 };
 
-/// Reads STL (ASCII or binary), OBJ, PLY or OFF through CGAL, merges duplicated points, orients it
-/// consistently, turns closed meshes outward (inner shells inward), scales coordinates by `scale` >
-/// 0 and builds the search tree. Throws std::runtime_error with what is wrong and what to do: file
-/// missing, of another kind, truncated or unreadable, no faces, not orientable, non-finite
-/// coordinates, self-intersecting closed mesh.
+/// Reads STL (ASCII or binary), OBJ, PLY or OFF (base/polygon_file.hpp), merges duplicated points,
+/// orients it consistently, turns closed meshes outward (inner shells inward), scales coordinates
+/// by `scale` > 0 and builds the search tree. Throws std::runtime_error with what is wrong and what
+/// to do: file missing, of another kind, truncated or unreadable, no faces, not orientable,
+/// non-finite coordinates, self-intersecting closed mesh.
 MeshShapePtr load_tool_mesh(const std::filesystem::path& file, double scale, MeshReport* report);
 
 /// As load_tool_mesh, from triangles in memory (mm), for tests and generated tools.

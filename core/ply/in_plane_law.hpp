@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// In-plane law of a ply as a table of functions, and the one place that selects it: yarns
-// (yarns_in_plane.cpp; SIMD version in membrane_simd.hpp) or a sheet without yarns
-// (sheet_in_plane.cpp).
+// In-plane law of a ply as a table of functions: of yarns (yarns_in_plane.cpp; membrane_simd.hpp
+// computes several elements at a time) or of a sheet without yarns (sheet_in_plane.cpp).
 #pragma once
 
 #include "core/ply/membrane.hpp"

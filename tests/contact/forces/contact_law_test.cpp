@@ -2,6 +2,7 @@
 // The force law of one contact: penalty, damping, Coulomb friction with stick.
 #include "contact/forces/contact_law.hpp"
 #include "support/contact_checks.hpp"
+#include "support/contact_oracles.hpp"
 
 #include <cmath>
 #include <gtest/gtest.h>

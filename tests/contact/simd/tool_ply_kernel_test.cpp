@@ -5,6 +5,7 @@
 #include "contact/forces/tool_ply.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
 #include "support/contact_checks.hpp"
+#include "support/contact_oracles.hpp"
 
 #include <cstring>
 #include <gtest/gtest.h>
