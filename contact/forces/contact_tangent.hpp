@@ -13,6 +13,7 @@
 #include "contact/forces/edge_edge.hpp"
 #include "contact/forces/face_rotation.hpp"
 #include "contact/forces/ply_ply.hpp"
+#include "contact/forces/tool_ply.hpp"
 
 #include <optional>
 #include <span>

@@ -15,10 +15,11 @@
 // Edge-edge contact has no friction: node-to-face contacts of the nodes around carry it.
 #pragma once
 
+#include "base/stopwatch.hpp"
 #include "contact/forces/contact_law.hpp"
-#include "contact/forces/tool_ply.hpp"
 #include "contact/search/sheet_ridges.hpp"
 #include "contact/simd/edge_edge_kernel.hpp"
+#include "contact/surface_kinematics.hpp"
 
 #include <span>
 #include <vector>

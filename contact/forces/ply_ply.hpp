@@ -25,10 +25,11 @@
 // face found late would be closer than the one before, and each such change would add energy.
 #pragma once
 
+#include "base/stopwatch.hpp"
 #include "contact/forces/contact_law.hpp"
-#include "contact/forces/tool_ply.hpp"
 #include "contact/search/active_list.hpp"
 #include "contact/search/sheet_bvh.hpp"
+#include "contact/surface_kinematics.hpp"
 
 #include <span>
 #include <vector>

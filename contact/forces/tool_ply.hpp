@@ -17,6 +17,7 @@
 #include "contact/forces/contact_law.hpp"
 #include "contact/search/active_list.hpp"
 #include "contact/shapes/tool_shape.hpp"
+#include "contact/surface_kinematics.hpp"
 
 #include <span>
 #include <vector>
@@ -93,17 +94,6 @@ void each_member(ToolPlyContact& c, F&& f) {
   f("sums", sums);
   f("renew_depth", renew_depth);
 }
-
-/// Position and motion of the mid-surface of a ply: spans over its nodes.
-struct SurfaceKinematics {
-  std::span<const Vec3> x;      ///< mm
-  std::span<const Vec3> motion; ///< mm, displacement in the last step
-  std::span<const double> area; ///< mm^2, tributary area of a node
-  std::span<const double>
-      fold_bound; ///< per face (contact/search/fold_bound.hpp); empty: not known
-  /// per face, of SheetEdges; needed only with fold_bound
-  std::span<const std::array<std::int32_t, 3>> faces_across = {};
-};
 
 /// Signed distance (mm) and normal at x (mm), in the global frame, of a tool in its present
 /// position. hint: as of signed_distance.

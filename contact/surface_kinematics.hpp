@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "base/geometry.hpp"
+
+#include <array>
+#include <span>
+
+namespace plyform {
+
+/// Position and motion of the mid-surface of a ply: spans over its nodes.
+struct SurfaceKinematics {
+  std::span<const Vec3> x;      ///< mm
+  std::span<const Vec3> motion; ///< mm, displacement in the last step
+  std::span<const double> area; ///< mm^2, tributary area of a node
+  std::span<const double>
+      fold_bound; ///< per face (contact/search/fold_bound.hpp); empty: not known
+  /// per face, of SheetEdges; needed only with fold_bound
+  std::span<const std::array<std::int32_t, 3>> faces_across = {};
+};
+
+} // namespace plyform
