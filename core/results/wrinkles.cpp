@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/wrinkles.hpp"
 
+#include "base/node_normals.hpp"
 #include "contact/forces/tool_ply.hpp"
 
 #include <algorithm>
@@ -27,19 +28,6 @@ double mean_side(const PlyFrame& ply) {
   return sum / (3.0 * static_cast<double>(ply.triangles.size()));
 }
 
-std::vector<Vec3> node_normals(const PlyFrame& ply) {
-  std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
-  for (const Triangle& t : ply.triangles) {
-    const Vec3& a = ply.x[at(t[0])];
-    const Vec3 n = (ply.x[at(t[1])] - a).cross(ply.x[at(t[2])] - a);
-    for (const std::int32_t k : t)
-      normals[at(k)] += n;
-  }
-  for (Vec3& n : normals)
-    n.stableNormalize();
-  return normals;
-}
-
 /// A point of the formed ply, located by its position in the undeformed one.
 struct Place {
   Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
@@ -49,7 +37,10 @@ struct Place {
 /// Places on a square grid of the undeformed ply whose rows run along the warp.
 class Grid {
 public:
-  Grid(const PlyFrame& ply, double step) : step_(step), ply_(ply), normals_(node_normals(ply)) {
+  Grid(const PlyFrame& ply, double step)
+      : step_(step), ply_(ply), normals_(area_normals(ply.x, ply.triangles)) {
+    for (Vec3& n : normals_)
+      n.stableNormalize();
     const double angle = -ply.angle_deg * std::numbers::pi / 180.0;
     for (const Vec3& x : ply.x0)
       flat_.push_back(Eigen::Rotation2Dd(angle) * x.head<2>());

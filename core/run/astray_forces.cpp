@@ -1,24 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/astray_forces.hpp"
 
+#include "base/node_normals.hpp"
+
 #include <algorithm>
 #include <cmath>
 
 namespace plyform {
 namespace {
-
-std::vector<Vec3> unit_normals(const PlyBody& ply) {
-  std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
-  for (const Triangle& t : ply.membrane.triangles) {
-    const Vec3& a = at(ply.x, t[0]);
-    const Vec3 n = (at(ply.x, t[1]) - a).cross(at(ply.x, t[2]) - a).stableNormalized();
-    for (const std::int32_t k : t)
-      normals[at(k)] += n; // by sides, not areas: a bend is half of what is before and behind it
-  }
-  for (Vec3& n : normals)
-    n.stableNormalize();
-  return normals;
-}
 
 /// L, N.
 double drawing_load(const Scene& s) {
@@ -41,7 +30,7 @@ std::vector<double> forces_astray(const Scene& s) {
     std::vector<Vec3> normals;
     for (std::size_t t = 0; t < s.tools.size(); ++t) {
       if (s.tools[t].contacts[p].sums.touching == 0) continue;
-      if (normals.empty()) normals = unit_normals(s.plies[p]);
+      if (normals.empty()) normals = mean_normals(s.plies[p].x, s.plies[p].membrane.triangles);
       for (const ToolPlyPoint& c : s.tools[t].contacts[p].points)
         astray[t] += c.memory.normal_force * normal_of(c).cross(normals[at(c.node)]).norm();
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/output_state.hpp"
 
+#include "base/node_normals.hpp"
 #include "core/model/motion.hpp"
 
 #include <algorithm>
@@ -11,17 +12,6 @@ namespace plyform {
 namespace {
 
 constexpr double degrees = 180.0 / std::numbers::pi;
-
-std::vector<Vec3> node_normals(const PlyBody& ply) {
-  std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
-  for (const Triangle& t : ply.membrane.triangles) {
-    const Vec3& a = ply.x[t[0]];
-    const Vec3 n = (ply.x[t[1]] - a).cross(ply.x[t[2]] - a);
-    for (int k : t)
-      normals[k] += n;
-  }
-  return normals;
-}
 
 /// Normal contact forces on the nodes of one ply, N, on its upper and lower side separately.
 struct SideForces {
@@ -99,7 +89,8 @@ ToolFrame make_tool_frame(const ToolState& tool, const TriMesh& surface) {
 std::vector<double> contact_pressure(const Scene& scene, int index) {
   const auto p = static_cast<std::size_t>(index);
   const PlyBody& ply = scene.plies[p];
-  SideForces sides{node_normals(ply), std::vector<double>(ply.x.size(), 0.0), {}};
+  SideForces sides{
+      area_normals(ply.x, ply.membrane.triangles), std::vector<double>(ply.x.size(), 0.0), {}};
   sides.below = sides.above;
   for (const ToolState& tool : scene.tools)
     for (const ToolPlyPoint& c : tool.contacts[p].points)

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/run/pressed_stack.hpp"
 
+#include "base/node_normals.hpp"
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -9,17 +11,6 @@ namespace plyform {
 namespace {
 
 constexpr double pressing = 0.1; // of a tool's force, from which on that is not the cloth's
-
-std::vector<Vec3> normals_of(const PlyBody& ply) {
-  std::vector<Vec3> normals(ply.x.size(), Vec3::Zero());
-  for (const Triangle& t : ply.membrane.triangles) {
-    const Vec3& a = at(ply.x, t[0]);
-    const Vec3 n = (at(ply.x, t[1]) - a).cross(at(ply.x, t[2]) - a);
-    for (const std::int32_t k : t)
-      normals[at(k)] += n;
-  }
-  return normals;
-}
 
 /// A node, and the side of its ply, 0 below, 1 above, on which a force acts.
 struct Side {
@@ -47,7 +38,7 @@ class Flow {
 public:
   explicit Flow(const Scene& s) : scene_(s) {
     for (const PlyBody& ply : s.plies)
-      normals_.push_back(normals_of(ply));
+      normals_.push_back(area_normals(ply.x, ply.membrane.triangles));
     all_ = zero();
     for (std::size_t t = 0; t < s.tools.size(); ++t)
       add_tool(t);

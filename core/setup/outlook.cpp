@@ -19,7 +19,6 @@
 #include <cmath>
 #include <fmt/format.h>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <string>
 
@@ -101,17 +100,6 @@ void describe_drawings(const Case& data, Lines& lines) {
 void describe_fabrics(const Case& data, Lines& lines) {
   for (const std::string& line : assumptions(data))
     say(lines, "fabric {}", line);
-}
-
-/// Area of a ply before forming, mm^2.
-double area_of(const PlyBody& ply) {
-  const std::vector<double>& areas = ply.membrane.node_area;
-  return std::accumulate(areas.begin(), areas.end(), 0.0);
-}
-
-/// Mean element size (mm): side of a square of two triangles.
-double element_size(const PlyBody& ply) {
-  return std::sqrt(2.0 * area_of(ply) / static_cast<double>(ply.membrane.triangles.size()));
 }
 
 /// Warns of plies that lock slightly: those of averaged elements whose yarns bear compression, with

@@ -16,7 +16,9 @@
 #include "core/ply/membrane_eigenvalue.hpp"
 #include "core/ply/membrane_simd.hpp"
 
+#include <cmath>
 #include <memory>
+#include <numeric>
 #include <optional>
 #include <string>
 #include <vector>
@@ -133,6 +135,22 @@ struct PlyBody : PlyModel, PlyState, PlyCache {
   }
   EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }
 };
+
+/// Area of a ply before forming, mm^2.
+inline double area_of(const PlyModel& ply) {
+  const std::vector<double>& areas = ply.membrane.node_area;
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
+
+/// Mean area (mm^2) of two triangles, the square of the element size.
+inline double cell_area(const PlyModel& ply) {
+  return 2.0 * area_of(ply) / static_cast<double>(ply.membrane.triangles.size());
+}
+
+/// Mean element size (mm): side of a square of two triangles.
+inline double element_size(const PlyModel& ply) {
+  return std::sqrt(cell_area(ply));
+}
 
 template <class F>
 void each_member(PlyBody& ply, F&& f) {

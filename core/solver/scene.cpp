@@ -83,14 +83,6 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   return body;
 }
 
-/// Mean area (mm^2) of two triangles, the square of the element size.
-double cell_area(const PlyBody& ply) {
-  double area = 0.0;
-  for (const double a : ply.membrane.node_area)
-    area += a;
-  return 2.0 * area / static_cast<double>(ply.membrane.triangles.size());
-}
-
 /// Penalty stiffness per area, N/mm^3, with which omega^2 of a free node in contact is `fraction`
 /// of that of the elements. The latter falls with the square of the element size, while penetration
 /// should not grow on a coarse mesh: therefore the penalty is at least that for elements of 12.5
@@ -224,7 +216,7 @@ void set_lengths(Scene& s) {
   double element = std::numeric_limits<double>::max(), thickness = element;
   for (const PlyBody& ply : s.plies) {
     if (ply.left_alone) continue;
-    element = std::min(element, std::sqrt(cell_area(ply)));
+    element = std::min(element, element_size(ply));
     thickness = std::min(thickness, ply.thickness);
   }
   s.element_size = element;

@@ -9,6 +9,11 @@ namespace {
 
 using K = KeyKind;
 
+/// Its keys, of the material.
+struct IsotropicKeys {
+  double youngs_modulus, poissons_ratio; ///< N/mm^2, -
+};
+
 Rows isotropic_rows() {
   return {{.key = "fabrics.NAME.isotropic",
            .kind = K::table,
@@ -20,11 +25,11 @@ Rows isotropic_rows() {
            .ranges = {{.least = 1e-6, .most = 1e7}},
            .usual = {{.least = 0.01, .most = 1e6}},
            .meaning = "Young's modulus, multiplied by the thickness",
-           .members = {to(&IsotropicLaw::modulus)}},
+           .members = {to(&IsotropicKeys::youngs_modulus)}},
           {.key = "fabrics.NAME.isotropic.poissons_ratio",
            .ranges = {{.least = 0.0, .most = 0.5}},
            .meaning = "Poisson's ratio",
-           .members = {to(&IsotropicLaw::poissons_ratio)}},
+           .members = {to(&IsotropicKeys::poissons_ratio)}},
           {.key = "fabrics.NAME.isotropic.bending",
            .kind = K::choice,
            .fallback = "\"none\"",
@@ -44,9 +49,9 @@ BendingLaw plate_bending(const IsotropicLaw& law, double thickness) {
 }
 
 void read_isotropic(const TableView& section, Fabric& fabric) {
-  IsotropicLaw law;
-  read_members(section, law);
-  law.modulus *= fabric.thickness;
+  IsotropicKeys keys{};
+  read_members(section, keys);
+  const IsotropicLaw law{keys.youngs_modulus * fabric.thickness, keys.poissons_ratio};
   if (text(section, "bending") == "plate") fabric.bending = plate_bending(law, fabric.thickness);
   fabric.sheet = law;
 }
