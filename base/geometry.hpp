@@ -18,8 +18,10 @@ using Vec2 = Eigen::Vector2d;
 using Vec3 = Eigen::Vector3d;
 using Box3 = Eigen::AlignedBox3d;
 
-/// In rad, as all angles of the program.
+/// In rad, as all angles of the program: x * degree of one in degrees, x / degree in degrees.
 inline constexpr double degree = std::numbers::pi / 180.0;
+/// For angles of results, which keep the last digit that this factor gives.
+inline constexpr double degrees_per_radian = 180.0 / std::numbers::pi;
 
 /// Node numbers of a triangle, counter-clockwise seen from its outer (upper) side.
 using Triangle = std::array<std::int32_t, 3>;

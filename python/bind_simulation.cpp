@@ -7,7 +7,6 @@
 #include "core/solver/whole_step.hpp"
 #include "python/bindings.hpp"
 
-#include <numbers>
 #include <stdexcept>
 #include <unistd.h>
 
@@ -154,7 +153,7 @@ void bind_live_ply(py::module_& m) {
   ply.def_property_readonly(
       "name", [](const PlyBody& p) { return p.name; }, "Name in the case.");
   ply.def_property_readonly(
-      "angle_deg", [](const PlyBody& p) { return p.angle * 180.0 / std::numbers::pi; },
+      "angle_deg", [](const PlyBody& p) { return p.angle / degree; },
       "From x to the warp, before forming.");
   ply.def_property_readonly(
       "thickness_mm", [](const PlyBody& p) { return p.thickness; }, "mm, before forming.");

@@ -95,14 +95,14 @@ bool may_refine(const Case& data, double by) {
 }
 
 bool largest_elements_suffice(const Case& data) {
-  const double wanted = degrees(data.accuracy.shear_error);
+  const double wanted = data.accuracy.shear_error / degree;
   const ErrorNumbers n = error_numbers(data, 1.0);
   constexpr double most = 0.95; // at their limits inertia and softening leave less than the rest
   return wanted > 0.0 && n.inertia_factor > 0.0 && n.mesh_error() <= most * wanted; // NaN: no
 }
 
 bool needs_small_elements(const Case& data) {
-  const double wanted = degrees(data.accuracy.shear_error);
+  const double wanted = data.accuracy.shear_error / degree;
   return wanted > 0.0 && wanted < least_from_scene;
 }
 
@@ -112,7 +112,7 @@ double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
     for (BlankSpec& blank : data.blanks)
       if (blank.mesh_from == mesh_from_scene_word) blank.mesh_from.clear();
   ErrorNumbers n = error_numbers(data, assumed_mass_factor(data));
-  const double wanted = degrees(data.accuracy.shear_error);
+  const double wanted = data.accuracy.shear_error / degree;
   n.hold_inertia(wanted);
   const bool from_scene = awaits_scene(data);
   if (!(wanted > 0.0) || n.inertia == 0.0) return 1.0;

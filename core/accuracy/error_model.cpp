@@ -29,7 +29,7 @@ double PredictedError::total() const {
 
 double PredictedError::promised(const Case& data) const {
   const double predicted = total(); // NaN stays
-  return predicted < degrees(data.accuracy.shear_error) ? degrees(data.accuracy.shear_error)
+  return predicted < data.accuracy.shear_error / degree ? data.accuracy.shear_error / degree
                                                         : predicted;
 }
 
@@ -72,7 +72,7 @@ std::string describe_accuracy(const PredictedError& error, double promised, doub
 
 std::string missed_accuracy(const Case& data) {
   const PredictedError error = predicted_error(data);
-  const double wanted = degrees(data.accuracy.shear_error), promised = error.promised(data);
+  const double wanted = data.accuracy.shear_error / degree, promised = error.promised(data);
   constexpr double rounding = 1.01; // of what is printed with two digits
   if (!(wanted > 0.0) || !(promised > rounding * wanted)) return {};
   std::string text =

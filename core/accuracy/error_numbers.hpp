@@ -13,10 +13,6 @@ namespace plyform {
 /// r of (E): errors go with this power of the element size.
 constexpr double order_of_mesh = 1.6;
 
-inline double degrees(double radians) {
-  return radians * 180.0 / M_PI;
-}
-
 /// A family of yarns: S of (E) for softening 1, and its largest effective softening.
 struct YarnNumbers {
   double softening, most;

@@ -11,7 +11,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <utility>
 
 namespace plyform {
@@ -233,7 +232,7 @@ BlankMesh cut_blank(const BlankSpec& spec, const CellDirections& directions) {
     Region region = unstepped;
     for (const Step& s : steps)
       region.edges.push_back(s.edge);
-    band = refine(region, min_angle * std::numbers::pi / 180, 0.0);
+    band = refine(region, min_angle * degree, 0.0);
     whole = !drop_split_cells(steps, cells, band, use);
   }
 

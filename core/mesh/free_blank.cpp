@@ -16,7 +16,7 @@ namespace {
 /// gives a mean edge within 2 % of h.
 constexpr double longest_over_mean = 1.42;
 /// rad; up to 20.7 degrees the termination of the mesher is proven.
-constexpr double free_angle = 20.5 * std::numbers::pi / 180;
+constexpr double free_angle = 20.5 * degree;
 
 /// A piece of the rim from x to the next piece's, on an arc about `centre` or straight.
 struct RimPiece {

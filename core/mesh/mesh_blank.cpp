@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 #include <stdexcept>
 
 namespace plyform {
@@ -23,7 +22,7 @@ CellDirections cell_directions(MeshKind mesh, double warp, double weft) {
   // Degrees. The band is refined until its angles are at least 20 degrees; cells with an angle near
   // that would all be split and removed (measured: none is from 22 degrees on).
   constexpr double least = 25.0;
-  const double angle = std::asin(std::min(1.0, cross(a, b))) * 180 / std::numbers::pi;
+  const double angle = std::asin(std::min(1.0, cross(a, b))) / degree;
   if (!(angle >= least))
     throw std::runtime_error(fmt::format(
         "blank mesh \"fibres\": warp and weft are only {:.3g} degrees apart, at least {:.3g} are "

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 #include <map>
-#include <numbers>
 #include <numeric>
 #include <optional>
 #include <utility>
@@ -121,9 +120,8 @@ DrawIn draw_in(const PlyFrame& ply, double fibre_angle_deg) {
     low = low.cwiseMin(x.head<2>()), high = high.cwiseMax(x.head<2>());
   const Vec2 middle = 0.5 * (low + high);
   for (std::size_t k = 0; k < 4; ++k) {
-    constexpr double radians = std::numbers::pi / 180.0;
-    told.yarns[k] = draw_in_of_walk(ply, *loop, middle, radians * told.yarns_deg[k]);
-    told.bisectors[k] = draw_in_of_walk(ply, *loop, middle, radians * told.bisectors_deg[k]);
+    told.yarns[k] = draw_in_of_walk(ply, *loop, middle, degree * told.yarns_deg[k]);
+    told.bisectors[k] = draw_in_of_walk(ply, *loop, middle, degree * told.bisectors_deg[k]);
   }
   if (!std::isfinite(told.mean())) told.unknown = "the middle of its bounding box is outside";
   return told;

@@ -41,7 +41,7 @@ public:
       : step_(step), ply_(ply), normals_(area_normals(ply.x, ply.triangles)) {
     for (Vec3& n : normals_)
       n.stableNormalize();
-    const double angle = -ply.angle_deg * std::numbers::pi / 180.0;
+    const double angle = -ply.angle_deg * degree;
     for (const Vec3& x : ply.x0)
       flat_.push_back(Eigen::Rotation2Dd(angle) * x.head<2>());
     low_ = flat_.front();

@@ -6,12 +6,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
 namespace plyform {
 namespace {
-
-constexpr double degrees = 180.0 / std::numbers::pi;
 
 /// Normal contact forces on the nodes of one ply, N, on its upper and lower side separately.
 struct SideForces {
@@ -28,7 +25,7 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   const PlyBody& ply = scene.plies[index];
   PlyFrame f;
   f.name = ply.name;
-  f.angle_deg = std::round(ply.angle * degrees * 1e9) / 1e9; // 30 for 29.999999999999996
+  f.angle_deg = std::round(ply.angle * degrees_per_radian * 1e9) / 1e9; // 30 for 29.999999999999996
   f.x0 = ply.x0;
   f.x = ply.x;
   f.triangles = ply.membrane.triangles;
@@ -39,7 +36,7 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
     const auto [warp_strain, weft_strain] = strains[e];
     f.warp.push_back(s.f1);
     f.weft.push_back(s.f2);
-    f.shear_deg.push_back(s.gamma * degrees);
+    f.shear_deg.push_back(s.gamma * degrees_per_radian);
     f.warp_strain.push_back(warp_strain);
     f.weft_strain.push_back(weft_strain);
     f.warp_tension.push_back(tensions[e][0]);

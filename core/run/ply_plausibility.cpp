@@ -12,7 +12,6 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
-#include <numbers>
 
 namespace plyform {
 namespace {
@@ -24,7 +23,6 @@ double line_spacing(const std::vector<double>& areas) {
     whole += area;
   return std::min(2.0, std::sqrt(whole / static_cast<double>(areas.size())));
 }
-constexpr double degrees_per_rad = 180.0 / std::numbers::pi;
 
 Vec3 formed_centroid(const PlyFrame& ply, std::size_t t) {
   const Triangle& n = ply.triangles[t];
@@ -99,8 +97,7 @@ PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas
   }
   result.share_above_2 = area_share_above(pressed, 0.02, areas);
   result.share_above_5 = area_share_above(pressed, 0.05, areas);
-  const double warp = ply.angle_deg / degrees_per_rad,
-               weft = warp + fibre_angle_deg / degrees_per_rad;
+  const double warp = ply.angle_deg * degree, weft = warp + fibre_angle_deg * degree;
   for (const YarnLine& line : {worst_line(ply, ply.warp_strain, areas, warp),
                                worst_line(ply, ply.weft_strain, areas, weft)})
     if (line.excess > result.excess_mm) {
@@ -276,8 +273,8 @@ std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
   std::vector<PlyReport> result;
   for (std::size_t p = 0; p < last.plies.size(); ++p) {
     const Fabric& fabric = s.data.fabrics[s.data.plies[p].fabric];
-    PlyNature nature{fabric.fibre_angle * degrees_per_rad, fabric.has_yarns(), std::nullopt};
-    if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle * degrees_per_rad;
+    PlyNature nature{fabric.fibre_angle / degree, fabric.has_yarns(), std::nullopt};
+    if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle / degree;
     result.push_back(report_ply(last.plies[p], nature, tools));
   }
   return result;

@@ -85,7 +85,7 @@ void describe_plies(const Scene& s, Lines& lines) {
       continue;
     }
     say(lines, "ply {}: {}, {} nodes, {} triangles, warp at {:.10g} degrees; {}; {}", ply.name,
-        size, ply.x.size(), m.triangles.size(), ply.angle * 180.0 / M_PI,
+        size, ply.x.size(), m.triangles.size(), ply.angle / degree,
         element_text(m, s.data.solver.element), bending_text(ply));
   }
 }

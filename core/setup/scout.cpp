@@ -8,7 +8,6 @@
 #include "core/setup/size_grid.hpp"
 
 #include <algorithm>
-#include <numbers>
 
 namespace plyform {
 namespace {
@@ -46,7 +45,7 @@ Case scout_case(const Case& data) {
     scale_elements(coarse, scout_coarsening);
     if (data.boundaries.empty() && takes_elements(coarse)) blank = coarse;
   }
-  fast.accuracy = {preset_error("draft") * std::numbers::pi / 180.0, false};
+  fast.accuracy = {preset_error("draft") * degree, false};
   pick_cost_parameters(fast, {.element_size = true});
   fast.solver.duration = std::min(fast.solver.duration, data.solver.duration);
   fast.solver.dwell = 0.0;

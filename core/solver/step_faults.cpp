@@ -94,7 +94,7 @@ std::optional<Stop> find_collapsed(const Scene& s) {
     for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e) {
       const FibreState f = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
       if (!collapsed(f)) continue;
-      const double shear = std::abs(f.gamma) * 180.0 / M_PI;
+      const double shear = std::abs(f.gamma) / degree;
       return Stop{fmt::format("{}: ply {}, triangle {} has collapsed: stretch {:.3g} along warp, "
                               "{:.3g} along weft, sheared by {:.3g} degrees{}",
                               when(s), ply.name, e, f.lambda1, f.lambda2, shear,

@@ -76,7 +76,7 @@ CorrectedCase corrected_case(const Case& data, const Verification& verification,
   CorrectedCase corrected{data, {}};
   AskedAccuracy& asked = corrected.asked;
   const VerifiedFigure& shear = verification.shear;
-  asked.wanted_deg = data.accuracy.shear_error * 180.0 / M_PI;
+  asked.wanted_deg = data.accuracy.shear_error / degree;
   asked.measured_deg = asked.expected_deg =
       shear.band.value_or(std::numeric_limits<double>::quiet_NaN());
   if (asked.kept()) return corrected;

@@ -78,11 +78,11 @@ py::dict zone_law(const std::vector<Curve>& curves, const std::filesystem::path&
   all["limits"] = fit->stiffness_limits;
   all["length_mm"] = fit->length;
   all["length_limits_mm"] = fit->length_limits;
-  all["plateau_deg"] = fit->plateau / deg;
+  all["plateau_deg"] = fit->plateau / degree;
   all["lengths_mm"] = fit->lengths;
   all["distance_mm"] = array_of(fit->x);
-  all["measured_deg"] = array_of(fit->measured, deg);
-  all["fitted_deg"] = array_of(fit->fitted, deg);
+  all["measured_deg"] = array_of(fit->measured, degree);
+  all["fitted_deg"] = array_of(fit->fitted, degree);
   all["warnings"] = diagnostics.warnings;
   return all;
 }

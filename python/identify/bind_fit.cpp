@@ -46,7 +46,7 @@ Curve curve_of(const std::vector<double>& x, const std::vector<double>& y,
   Curve curve{"curve", "x", "y", x, y, {}};
   if (!angle_deg.empty()) curve.angle_name = "angle";
   for (const double angle : angle_deg)
-    curve.angle.push_back(angle * deg);
+    curve.angle.push_back(angle * degree);
   for (std::size_t i = 0; i < x.size(); ++i)
     curve.line.push_back(static_cast<int>(i) + 1);
   return curve;
@@ -138,17 +138,17 @@ py::dict shear_law(const std::vector<Curve>& curves, const ShearTest& test,
                    const std::filesystem::path& fabric, int coefficients, double from_deg,
                    double to_deg, bool measured_angle, const py::dict& corrections) {
   Diagnostics diagnostics;
-  FitOptions options{coefficients, from_deg * deg, to_deg * deg};
+  FitOptions options{coefficients, from_deg * degree, to_deg * degree};
   options.measured_angle = measured_angle;
   put_corrections(corrections, options);
   const auto fit = identify_shear(curves, test, fabric_for_fit(fabric, {.right_angle = true}),
                                   options, diagnostics);
   if (!fit) raise_mistakes(diagnostics.errors);
-  py::dict all = quality_of(fit->quality, deg);
+  py::dict all = quality_of(fit->quality, degree);
   put_sureness(*fit, all);
   all["coefficients"] = fit->law.k;
   all["extension_mm"] = array_of(fit->extension);
-  all["shear_deg"] = array_of(fit->angle, deg);
+  all["shear_deg"] = array_of(fit->angle, degree);
   all["measured_N"] = array_of(fit->measured);
   all["fitted_N"] = array_of(fit->fitted);
   all["warnings"] = diagnostics.warnings;
@@ -182,7 +182,7 @@ py::dict shear_curve(const ShearTest& test, const std::filesystem::path& file, d
     throw py::value_error("to_deg must be above 0 and below 90");
   if (points < 1 || points > 1000000) throw py::value_error("points must be 1 to 1000000");
   const Fabric fabric = fabric_for_fit(file, {.shear_law = true, .right_angle = true});
-  const double end = extension_at(test, to_deg * deg);
+  const double end = extension_at(test, to_deg * degree);
   const double bending = in_plane_bending_share(test, fabric).mean();
   std::vector<double> extension, angle, load;
   for (int i = 0; i <= points; ++i) {
@@ -193,7 +193,7 @@ py::dict shear_curve(const ShearTest& test, const std::filesystem::path& file, d
   }
   py::dict all;
   all["displacement_mm"] = array_of(extension);
-  all["shear_deg"] = array_of(angle, deg);
+  all["shear_deg"] = array_of(angle, degree);
   all["force_N"] = array_of(load);
   return all;
 }

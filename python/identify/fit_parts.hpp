@@ -6,11 +6,7 @@
 #include "core/input/parts/fabric_file.hpp"
 #include "python/bindings.hpp"
 
-#include <numbers>
-
 namespace plyform {
-
-inline constexpr double deg = std::numbers::pi / 180.0;
 
 /// An array of `values` / unit.
 py::array array_of(std::vector<double> values, double unit = 1.0);

@@ -5,7 +5,6 @@
 
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 
 namespace plyform {
 
@@ -102,15 +101,14 @@ void check_fibres(BoundaryCheck& check, std::size_t index) {
     const bool exchanged =
         same_line(2.0 * along - warp, weft) && same_line(2.0 * along - weft, warp);
     if (exchanged && balanced(fabric)) continue;
-    constexpr double degrees = 180.0 / std::numbers::pi;
     check.fail(index,
                exchanged
                    ? fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror "
                                  "image has warp and weft exchanged, and in fabric {} they differ",
-                                 ply.name, ply.angle * degrees, fabric.name)
+                                 ply.name, ply.angle / degree, fabric.name)
                    : fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror "
                                  "image has the fibres in other directions",
-                                 ply.name, ply.angle * degrees),
+                                 ply.name, ply.angle / degree),
                "model the whole blank");
   }
 }

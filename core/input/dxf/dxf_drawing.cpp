@@ -12,7 +12,6 @@
 #include <dxflib/dl_creationadapter.h>
 #include <dxflib/dl_dxf.h>
 #include <fmt/format.h>
-#include <numbers>
 #include <optional>
 #include <set>
 #include <stdexcept>
@@ -193,7 +192,7 @@ std::string packed(const std::filesystem::path& file) {
 
 ProfileSegment arc_of(const Vec2& centre, double radius, double from, double to, bool mirrored) {
   const auto at = [&](double degrees) {
-    const double angle = degrees * std::numbers::pi / 180.0;
+    const double angle = degrees * degree;
     const double x = centre.x() + radius * std::cos(angle);
     return Vec2(mirrored ? -x : x, centre.y() + radius * std::sin(angle));
   };
@@ -269,12 +268,9 @@ DxfEntity entity_of(const RawEntity& e) {
   if (e.name == "ELLIPSE")
     set_curve(DxfEllipse{{n[0], n[1]}, {n[2], n[3]}, n[4], n[5], n[6], e.mirrored}, made);
   if (e.name == "INSERT")
-    made.insert = DxfInsert{e.inserted,
-                            {n[0], n[1]},
-                            {n[2], n[3]},
-                            n[4] * std::numbers::pi / 180.0,
-                            n[5] > 1.0 || n[6] > 1.0,
-                            e.mirrored};
+    made.insert =
+        DxfInsert{e.inserted, {n[0], n[1]}, {n[2], n[3]}, n[4] * degree, n[5] > 1.0 || n[6] > 1.0,
+                  e.mirrored};
   if (e.name == "SPLINE") {
     set_curve(spline_of(e), made);
     made.marked_closed = (e.flags & 1) != 0;

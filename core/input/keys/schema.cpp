@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/input/keys/schema.hpp"
 
+#include "base/geometry.hpp"
 #include "base/text.hpp"
 #include "core/input/keys/case_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
-#include <numbers>
 #include <numeric>
 
 namespace plyform {
@@ -89,7 +89,7 @@ std::string last_part(const std::string& pattern) {
 namespace {
 
 double factor_of_unit(const std::string& unit) {
-  if (unit == "deg") return std::numbers::pi / 180.0;
+  if (unit == "deg") return degree;
   if (unit == "g/m2") return 1e-12; // 1e-6 t / 1e6 mm^2
   if (unit == "kg") return 1e-3;    // t
   return 1.0;

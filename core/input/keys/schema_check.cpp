@@ -33,10 +33,10 @@ struct Check {
 
 /// Warns of an angle that is 15, 30, 45 ... degrees if it is taken for rad.
 void warn_of_radians(const Check& check, const TomlNode& value, const std::string& item) {
-  constexpr double degrees_a_radian = 57.29577951308232, round = 15.0; // degrees
+  constexpr double round = 15.0;                  // degrees
   constexpr double rounding = 0.3;                // degrees: of two or three digits that are given
   const double most = check.row.range_of(0).most; // of a direction, not of an error
-  const double as_rad = std::abs(value.number) * degrees_a_radian;
+  const double as_rad = std::abs(value.number) / degree;
   const double nearest = round * std::round(as_rad / round);
   if (check.row.unit != "deg" || check.row.kind != KeyKind::number || most < 90.0) return;
   if (nearest == 0.0 || nearest > 360.0 || std::abs(as_rad - nearest) > rounding) return;
