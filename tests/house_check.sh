@@ -22,6 +22,7 @@ mapfile -t files < <(
 of() { printf '%s\n' "${files[@]}" | grep -E "$1" || true; }
 mapfile -t sources < <(of '\.([ch]pp|cmake|cmake\.in|sh|pyi?|js|css|html)$|/CMakeLists\.txt$|^\./\.ci/run$')
 mapfile -t cpp < <(of '\.[ch]pp$')
+mapfile -t housed < <(of '^(\./)?(base|contact|core|python|tools)/.*\.[chi]pp$')
 mapfile -t js < <(of '\.(js|css|html)$')
 mapfile -t build < <(of '\.(cmake|sh)$|/CMakeLists\.txt$|/CMakePresets\.json$|^\./\.ci/run$')
 mapfile -t scripts < <(of '\.sh$|^\./\.ci/run$')
@@ -90,7 +91,44 @@ breach "includes a file of a room that its own must not know (tests/rooms.txt)" 
       else if (to != room && !((room, to) in may) && !((room, all) in may))
         print FILENAME ":" FNR ": " part[2]
     }
-  ' tests/rooms.txt $(printf '%s\n' "${cpp[@]}" | grep -E '^(\./)?(base|core|contact|python|tools)/')
+  ' tests/rooms.txt "${housed[@]}"
+)"
+
+# Within a room headers make no circle, nor do sources, each taken with the header of its name.
+breach "files of a room include one another in a circle" "$(
+  awk '
+    FNR == 1 {
+      unit = FILENAME; sub(/^\.\//, "", unit)
+      kind = unit ~ /\.cpp$/ ? "sources" : "headers"
+      sub(/\.[a-z]+$/, "", unit)
+      room = unit; sub(/\/[^\/]*$/, "", room)
+    }
+    /^#include "/ {
+      split($0, part, "\"")
+      to = part[2]; sub(/\.[a-z]+$/, "", to)
+      of = to; sub(/\/[^\/]*$/, "", of)
+      if (of == room && to != unit) arrow[kind SUBSEP unit SUBSEP to]
+    }
+    END { # what includes nothing that is left, or is included by nothing, is in no circle
+      do {
+        split("", includes); split("", included); taken = 0
+        for (a in arrow) {
+          split(a, end, SUBSEP)
+          includes[end[1], end[2]]; included[end[1], end[3]]
+        }
+        for (a in arrow) {
+          split(a, end, SUBSEP)
+          if ((end[1], end[3]) in includes && (end[1], end[2]) in included) continue
+          delete arrow[a]
+          taken = 1
+        }
+      } while (taken)
+      for (a in arrow) {
+        split(a, end, SUBSEP)
+        print end[1] ": " end[2] " -> " end[3]
+      }
+    }
+  ' "${housed[@]}" | sort
 )"
 
 breach "script that cannot be executed" "$(

@@ -2,7 +2,7 @@
 // Contacts of tools and of plies, and boundaries, as kinds of force.
 #include "base/stopwatch.hpp"
 #include "core/solver/attached_motion.hpp"
-#include "core/solver/contact_search.hpp"
+#include "core/solver/displacements.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/step_faults.hpp"
 

@@ -3,6 +3,7 @@
 
 #include "contact/point_triangle.hpp"
 #include "contact/search/unfolded.hpp"
+#include "core/solver/displacements.hpp"
 #include "core/solver/edge_contact_search.hpp"
 #include "core/solver/occlusion.hpp"
 #include "core/solver/pass_through.hpp"
@@ -95,43 +96,6 @@ constexpr std::array search_parts{&find_ply_unfolded, &find_ply_ridges, &refit_t
 void renew_fold_bounds(PlyBody& ply) {
   fold_bounds(ply.x, ply.membrane.triangles, ply.fold_bound);
   ply.fold_motion = 0.0;
-}
-
-bool track_displacements(Scene& s) {
-  // Between searches the maxima never decrease, also if a body moves back.
-  const auto grow = [](double& max_displacement, double now) {
-    if (!(now <= max_displacement) && !std::isnan(max_displacement))
-      max_displacement = now; // NaN stays
-  };
-  for (std::size_t i = 0; i < s.node_blocks.size(); ++i)
-    grow(s.plies[s.node_blocks[i].ply].max_displacement, std::sqrt(s.node_sums[i].moved2));
-  for (std::size_t p = 0; p < s.plies.size(); ++p)
-    s.plies[p].path_length += step_displacement(s, static_cast<int>(p));
-  for (ToolState& t : s.tools) {
-    // A pushed tool moves later in this step, when its forces are computed.
-    const double ahead = t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0;
-    t.path_length += t.body.motion.norm();
-    if (t.far) continue;
-    grow(t.max_displacement, (t.body.displacement - t.displacement_search).norm() + ahead);
-  }
-  return largest_displacement(s) <= 0.5 * s.skin;
-}
-
-double path_length_ahead(const Scene& s, const ToolState& t) {
-  return t.path_length + (t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0);
-}
-
-double largest_displacement(const Scene& s) {
-  double furthest = 0.0;
-  const auto grow = [&furthest](double max_displacement) {
-    if (!(max_displacement <= furthest) && !std::isnan(furthest))
-      furthest = max_displacement; // NaN stays
-  };
-  for (const PlyBody& ply : s.plies)
-    grow(ply.max_displacement);
-  for (const ToolState& t : s.tools)
-    grow(t.max_displacement);
-  return furthest;
 }
 
 void search_contacts(Scene& s, ThreadPool& pool) {

@@ -11,8 +11,8 @@
 #include "core/model/energies.hpp"
 #include "core/results/summary.hpp"
 #include "core/solver/contact_rows.hpp"
+#include "core/solver/frequencies.hpp"
 #include "core/solver/scene.hpp"
-#include "core/solver/stable_time_step.hpp"
 #include "core/solver/stiffness_products.hpp"
 #include "core/solver/stop.hpp"
 

@@ -2,7 +2,7 @@
 #include "core/solver/resting.hpp"
 
 #include "core/model/motion.hpp"
-#include "core/solver/contact_search.hpp"
+#include "core/solver/displacements.hpp"
 
 #include <algorithm>
 #include <cmath>

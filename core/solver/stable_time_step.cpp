@@ -3,6 +3,7 @@
 
 #include "base/lanczos.hpp"
 #include "core/solver/force_kinds.hpp"
+#include "core/solver/frequencies.hpp"
 #include "core/solver/stiffness_operator.hpp"
 
 #include <algorithm>

@@ -24,17 +24,7 @@
 #include "base/thread_pool.hpp"
 #include "core/solver/contact_rows.hpp"
 
-#include <cmath>
-
 namespace plyform {
-
-/// k and c of (S), 1/s^2 and 1/s; stability_lhs is the left side of (S), step the largest dt, s.
-struct Frequencies {
-  double omega2 = 0.0, damping = 0.0;
-
-  double stability_lhs(double dt) const { return dt * dt * omega2 + 2.0 * dt * damping; }
-  double step() const { return (std::sqrt(damping * damping + 4.0 * omega2) - damping) / omega2; }
-};
 
 /// The stable time step, and where it is limited.
 struct StepBound {

@@ -3,6 +3,7 @@
 
 #include "core/model/motion.hpp"
 #include "core/solver/contact_search.hpp"
+#include "core/solver/displacements.hpp"
 #include "core/solver/follow_folds.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/nodal_forces.hpp"

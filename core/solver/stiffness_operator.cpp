@@ -2,7 +2,6 @@
 #include "core/solver/stiffness_operator.hpp"
 
 #include "core/ply/mass_normalise.hpp"
-#include "core/solver/stable_time_step.hpp"
 
 namespace plyform {
 

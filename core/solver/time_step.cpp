@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/time_step.hpp"
 
-#include "core/solver/contact_search.hpp"
+#include "core/solver/displacements.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/mass_scaling.hpp"
 #include "core/solver/stable_time_step.hpp"
