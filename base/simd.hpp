@@ -22,8 +22,8 @@
 namespace plyform {
 namespace {
 
-/// Numbers that a kernel computes at a time, one per SIMD lane: four, or eight in a file that
-/// defines PLYFORM_LANES so before it includes the kernel's body. A quad is four successive lanes.
+/// Numbers that a kernel computes at a time, one per SIMD lane: four, or eight where
+/// cmake/simd.cmake says so. A quad is four successive lanes.
 #ifndef PLYFORM_LANES
 #define PLYFORM_LANES 4
 #endif
@@ -47,6 +47,12 @@ using Vector4 = VectorsOf<Double4>;
 using Vectors = VectorsOf<Doubles>;
 
 #define PLYFORM_INLINE [[gnu::always_inline]] inline
+
+/// The name of a function in each copy of a kernel: f_generic, f_avx2, f_avx512. cmake/simd.cmake
+/// says which copy is compiled (PLYFORM_COPY).
+#define PLYFORM_COPY_OF(function) PLYFORM_JOINED(function, PLYFORM_COPY)
+#define PLYFORM_JOINED(function, copy) PLYFORM_JOINED_NAMES(function, copy)
+#define PLYFORM_JOINED_NAMES(function, copy) function##_##copy
 
 PLYFORM_INLINE Doubles all(double a) {
   return a - Doubles{};

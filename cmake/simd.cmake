@@ -1,25 +1,32 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-# plyform_simd_kernel(NAME): NAME_generic.cpp and NAME_avx2.cpp of the calling folder, and
-# NAME_avx512.cpp if there is one, hold the copies of a kernel that base/simd.hpp speaks of.
-# Only they get flags of their own. On other processors than x86 all are compiled alike and the first
-# is used.
-function(plyform_simd_kernel name)
-  # nothing reads errno or changes the rounding (which CGAL asks for); the vectors stay inside
-  set(options -fno-math-errno -fno-rounding-math -Wno-psabi)
+# plyform_simd_kernels(TARGET FILE... [COPIES COPY...]): compiles each file once a copy of the kernel
+# that base/simd.hpp speaks of (generic, avx2 and avx512 unless told), and links all to TARGET. Only
+# they get flags of their own. On other processors than x86 all are compiled alike and the first is
+# used.
+function(plyform_simd_kernels target)
+  cmake_parse_arguments(PARSE_ARGV 1 kernel "" "" "COPIES")
+  if(NOT kernel_COPIES)
+    set(kernel_COPIES generic avx2 avx512)
+  endif()
   set(generic "")
   set(avx2 -mavx2)
   # kernels say themselves where vectors hold eight numbers (PLYFORM_LANES), not the compiler
   set(avx512 -mavx512f -mavx512vl -mavx512dq -mprefer-vector-width=256)
-  foreach(copy generic avx2 avx512)
-    if(NOT EXISTS ${CMAKE_CURRENT_SOURCE_DIR}/${name}_${copy}.cpp)
-      continue()
+  foreach(copy ${kernel_COPIES})
+    set(objects ${target}_${copy})
+    add_library(${objects} OBJECT ${kernel_UNPARSED_ARGUMENTS})
+    set_target_properties(${objects} PROPERTIES UNITY_BUILD OFF)
+    target_include_directories(${objects} PRIVATE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(${objects} PRIVATE plyform_options)
+    target_compile_definitions(${objects} PRIVATE PLYFORM_COPY=${copy})
+    if(copy STREQUAL avx512)
+      target_compile_definitions(${objects} PRIVATE PLYFORM_LANES=8)
     endif()
-    set(flags ${options})
+    # nothing reads errno or changes the rounding (which CGAL asks for); the vectors stay inside
+    target_compile_options(${objects} PRIVATE -fno-math-errno -fno-rounding-math -Wno-psabi)
     if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
-      list(APPEND flags ${${copy}})
+      target_compile_options(${objects} PRIVATE ${${copy}})
     endif()
-    # precompiled headers are compiled without these flags, and kernels include none of them
-    set_source_files_properties(${name}_${copy}.cpp PROPERTIES COMPILE_OPTIONS "${flags}"
-                                SKIP_PRECOMPILE_HEADERS ON)
+    target_sources(${target} PRIVATE $<TARGET_OBJECTS:${objects}>)
   endforeach()
 endfunction()

@@ -15,7 +15,7 @@ faults=(
   "normals of tools point inward | contact/forces/tool_ply.cpp | s/normal_of(c) = s.normal;/normal_of(c) = -s.normal;/"
   "normals beside edges of profiles point to the edge, inside as outside | contact/shapes/profile.cpp | s/d \* (sign \/ length)}/d \/ length}/"
   "normals beside edges of mesh tools point to the edge, inside as outside | contact/shapes/mesh_shape.cpp | s/d \* (sign \/ length)}/d \/ length}/"
-  "normal force between plies pulls | contact/simd/ply_ply_body.hpp | s/SimdForces f{p.memory.normal_force \* normal/SimdForces f{-p.memory.normal_force * normal/"
+  "normal force between plies pulls | contact/simd/ply_ply_kernel.cpp | s/SimdForces f{p.memory.normal_force \* normal/SimdForces f{-p.memory.normal_force * normal/"
   "boxes of the search: one triangle in 64 is never a candidate | contact/search/sheet_bvh.cpp | s/if (candidate.distance2 <= reach \* reach)/if (candidate.distance2 <= reach * reach \&\& face % 64 != 7)/"
   "boxes of the search are not brought up to date | core/solver/contact_search.cpp | s/^ *ply.tree->refit(ply.x);//"
   "contacts of plies are listed without the skin | core/solver/contact_search.cpp | s/pair.contact.distance + s.skin/pair.contact.distance/"
@@ -37,8 +37,8 @@ faults=(
   "edges push towards each other | contact/forces/edge_edge.cpp | s/return pair.side \* along_a/return -pair.side * along_a/"
   "the balance of a pushed tool takes contact for linear | contact/forces/tool_ply.cpp | s/const double rate = stiffness \* per_room \* per_room;/const double rate = stiffness;/"
   "the stable step knows no couples of friction | contact/forces/contact_tangent.cpp | s/if (spring.across > 0.0)/if (spring.across < 0.0)/"
-  "friction takes tools for standing still | contact/simd/tool_ply_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g)/"
-  "friction takes tools to move the other way | contact/simd/tool_ply_body.hpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
+  "friction takes tools for standing still | contact/simd/tool_ply_kernel.cpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g)/"
+  "friction takes tools to move the other way | contact/simd/tool_ply_kernel.cpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
 )
 filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeEdgeContact*'
 

@@ -19,8 +19,8 @@ inline Traffic lane_traffic(const MembraneSimd& l, std::size_t nodes) {
   return t;
 }
 
-/// Operations on doubles a triangle, counted by hand in core/ply/membrane_simd_body.hpp for a shear
-/// law of three terms and yarns of one stiffness; a division or a root counts as one.
+/// Operations on doubles a triangle, counted by hand in core/ply/membrane_simd_kernel.cpp for a
+/// shear law of three terms and yarns of one stiffness; a division or a root counts as one.
 inline double element_operations(bool averaged) {
   return averaged ? 183.0 : 168.0;
 }

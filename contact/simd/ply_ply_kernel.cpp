@@ -366,4 +366,9 @@ PLYFORM_INLINE PlyPlyKernelTotals sheet_kernel(const PlyPlyKernelContact& k) {
 }
 
 } // namespace
+
+PlyPlyKernelTotals PLYFORM_COPY_OF(ply_ply_kernel)(const PlyPlyKernelContact& contact) {
+  return sheet_kernel(contact);
+}
+
 } // namespace plyform

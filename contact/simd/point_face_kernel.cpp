@@ -2,8 +2,9 @@
 // (1) to (3) of contact/point_triangle.hpp, a pair of a point and a triangle per lane, with the
 // operations of closest_point_on_triangle in its order: of all regions, of which each lane then
 // takes the one that its point is in.
-#include "contact/simd/contact_law_simd.hpp"
 #include "contact/simd/point_face_kernel.hpp"
+
+#include "contact/simd/contact_law_simd.hpp"
 #include "contact/sliver.hpp"
 
 namespace plyform {
@@ -74,4 +75,10 @@ PLYFORM_INLINE void measure_point_faces(const PointFaceKernelPairs& k, PointFace
 }
 
 } // namespace
+
+void PLYFORM_COPY_OF(point_face_kernel)(const PointFaceKernelPairs& pairs,
+                                        PointFaceDistance* distances) {
+  measure_point_faces(pairs, distances);
+}
+
 } // namespace plyform

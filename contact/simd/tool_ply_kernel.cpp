@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Forces between a tool and nodes, one per lane, whose gaps and normals have been measured.
-#include "contact/simd/contact_law_simd.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
+
+#include "contact/simd/contact_law_simd.hpp"
 
 namespace plyform {
 namespace {
@@ -141,4 +142,9 @@ PLYFORM_INLINE ToolPlyKernelTotals tool_kernel(const ToolPlyKernelContact& k) {
 }
 
 } // namespace
+
+ToolPlyKernelTotals PLYFORM_COPY_OF(tool_ply_kernel)(const ToolPlyKernelContact& contact) {
+  return tool_kernel(contact);
+}
+
 } // namespace plyform

@@ -6,8 +6,9 @@
 // which holds for the segments if both are in 0..1. Else an end of a segment whose value is not,
 // and the point of the other segment closest to it are (Ericson, Real-Time Collision
 // Detection, 5.1.9); of parallel edges one of the four ends and the point closest to it.
-#include "contact/simd/contact_law_simd.hpp"
 #include "contact/simd/edge_edge_kernel.hpp"
+
+#include "contact/simd/contact_law_simd.hpp"
 
 namespace plyform {
 namespace {
@@ -81,4 +82,10 @@ PLYFORM_INLINE void measure_edges(const EdgeEdgeKernelPairs& k, EdgeEdgeDistance
 }
 
 } // namespace
+
+void PLYFORM_COPY_OF(edge_edge_kernel)(const EdgeEdgeKernelPairs& pairs,
+                                       EdgeEdgeDistance* distances) {
+  measure_edges(pairs, distances);
+}
+
 } // namespace plyform

@@ -7,6 +7,7 @@
 //   F_i = sum_ab B_ab,i V_ab + sum_a A_a,i U_a + (d_{i-1} - d_{i+1}) x v
 //   V_aa = -A0 (m_aa n + M_g c/l^2),  V_12 = -A0 m_12 n,  U_a = -A0 M_g (q x n),  v = A0 h_t / |N|
 #include "core/ply/bending_simd_kernel.hpp"
+
 #include "core/ply/simd_kernel_body.hpp"
 
 namespace plyform {
@@ -220,4 +221,10 @@ PLYFORM_INLINE void bending_kernel(const BendingKernelBlock& block, const Bendin
 }
 
 } // namespace
+
+void PLYFORM_COPY_OF(bending_kernel)(const BendingKernelBlock& block, const BendingKernelLaw& law,
+                                     const double* x) {
+  bending_kernel(block, law, x);
+}
+
 } // namespace plyform

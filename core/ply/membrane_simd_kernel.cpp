@@ -359,4 +359,15 @@ PLYFORM_INLINE KernelEnergy membrane_energy_kernel(const KernelBlock& block, con
 }
 
 } // namespace
+
+KernelReport PLYFORM_COPY_OF(membrane_kernel)(const KernelBlock& block, const KernelLaw& law,
+                                              const double* x, double per_dt) {
+  return membrane_kernel(block, law, x, per_dt);
+}
+
+KernelEnergy PLYFORM_COPY_OF(membrane_energy)(const KernelBlock& block, const KernelLaw& law,
+                                              const double* x, double per_dt) {
+  return membrane_energy_kernel(block, law, x, per_dt);
+}
+
 } // namespace plyform

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "base/simd.hpp"
 #include "tests/bench/machine_kernel.hpp"
+
+#include "base/simd.hpp"
 
 namespace plyform {
 namespace {
@@ -34,4 +35,14 @@ PLYFORM_INLINE double chains(double* at, std::size_t rounds) {
 }
 
 } // namespace
+
+void PLYFORM_COPY_OF(triad)(double* a, const double* b, const double* c, double s,
+                            std::size_t count) {
+  triad(a, b, c, s, count);
+}
+
+double PLYFORM_COPY_OF(chains)(double* at, std::size_t rounds) {
+  return chains(at, rounds);
+}
+
 } // namespace plyform
