@@ -10,8 +10,9 @@ namespace {
 
 /// Sets the shares of nodes on an edge: half the way to the neighbours on either side, mm. All to 1
 /// if there is one node only.
-void share_by_length(const Boundary& b, std::span<const Vec3> x0, std::vector<AttachedNode>& on) {
-  const Vec2 along = (b.place[1] - b.place[0]).normalized();
+void share_by_length(const HeldPlace& edge, std::span<const Vec3> x0,
+                     std::vector<AttachedNode>& on) {
+  const Vec2 along = (edge.ends[1] - edge.ends[0]).normalized();
   std::vector<std::pair<double, AttachedNode*>> order;
   for (AttachedNode& node : on)
     order.emplace_back(along.dot(x0[node.node].head<2>()), &node);
@@ -47,16 +48,17 @@ void add_axis(std::vector<Vec3>& held, Vec3 axis) {
 
 /// The directions in which a gripper cannot move: normals of the planes of symmetry that hold nodes
 /// of it, and those at right angles to its guide.
-std::vector<Vec3> held_directions(const std::vector<Boundary>& boundaries, const Boundary& gripper,
+std::vector<Vec3> held_directions(const std::vector<Boundary>& boundaries, const Gripper& gripper,
                                   const std::vector<AttachedNode>& nodes,
                                   const std::vector<SheetBefore>& plies) {
   std::vector<Vec3> held;
   for (const Boundary& b : boundaries) {
-    if (b.kind != BoundaryKind::symmetry) continue;
+    const auto* plane = std::get_if<SymmetryPlane>(&b.kind);
+    if (!plane) continue;
     if (std::any_of(nodes.begin(), nodes.end(), [&](const AttachedNode& n) {
           return holds(b, n.ply, plies[n.ply].x0[n.node].head<2>());
         }))
-      add_axis(held, {b.normal.x(), b.normal.y(), 0.0});
+      add_axis(held, {plane->normal.x(), plane->normal.y(), 0.0});
   }
   if (!gripper.guided) return held;
   std::vector<Vec3> all{gripper.direction};
@@ -73,6 +75,7 @@ std::vector<Vec3> held_directions(const std::vector<Boundary>& boundaries, const
 Attachment attach(const std::vector<Boundary>& boundaries, std::size_t index,
                   const std::vector<SheetBefore>& plies) {
   const Boundary& b = boundaries[index];
+  const HeldPlace& place = *place_of(b);
   Attachment found;
   found.boundary = static_cast<int>(index);
   double sum = 0.0;
@@ -81,8 +84,8 @@ Attachment attach(const std::vector<Boundary>& boundaries, std::size_t index,
     std::vector<AttachedNode> nodes;
     for (std::size_t n = 0; n < plies[p].x0.size(); ++n)
       if (holds(b, ply, plies[p].x0[n].head<2>())) nodes.push_back({ply, static_cast<int>(n), 0.0});
-    if (b.on_edge)
-      share_by_length(b, plies[p].x0, nodes);
+    if (place.on_edge)
+      share_by_length(place, plies[p].x0, nodes);
     else
       share_by_area(plies[p], nodes);
     for (const AttachedNode& node : nodes)
@@ -94,16 +97,18 @@ Attachment attach(const std::vector<Boundary>& boundaries, std::size_t index,
     node.share = sum > 0.0 ? node.share / sum : equal;
     found.start += node.share * plies[node.ply].x0[node.node];
   }
-  if (b.kind == BoundaryKind::gripper) {
-    found.held = held_directions(boundaries, b, found.nodes, plies);
+  if (const auto* gripper = std::get_if<Gripper>(&b.kind)) {
+    found.held = held_directions(boundaries, *gripper, found.nodes, plies);
     return found;
   }
-  found.length = (b.anchor - found.start).norm();
-  found.natural_length = b.natural_length.value_or(found.length - b.preload / b.stiffness);
+  const auto& spring = b.as<TensionSpring>();
+  found.length = (spring.anchor - found.start).norm();
+  found.natural_length =
+      spring.natural_length.value_or(found.length - spring.preload / spring.stiffness);
   return found;
 }
 
-double spring_tension(const Boundary& spring, const Attachment& attached, double length,
+double spring_tension(const TensionSpring& spring, const Attachment& attached, double length,
                       double risen) {
   const double first =
       std::max(0.0, spring.stiffness * (attached.length - attached.natural_length));

@@ -54,7 +54,7 @@ Attachment attach(const std::vector<Boundary>& boundaries, std::size_t index,
                   const std::vector<SheetBefore>& plies);
 
 /// (T), N, of a spring that is `length` mm long; `risen`: r.
-double spring_tension(const Boundary& spring, const Attachment& attached, double length,
+double spring_tension(const TensionSpring& spring, const Attachment& attached, double length,
                       double risen);
 
 } // namespace plyform

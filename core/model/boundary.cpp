@@ -25,7 +25,7 @@ struct Bars {
   Vec2 u, v, du, dv;
 };
 
-Bars bars_at(const Boundary& frame, double d) {
+Bars bars_at(const HingedFrame& frame, double d) {
   const auto& p = frame.hinges;
   const Vec2 diagonal = p[2] - p[0], e = diagonal.normalized(), across(-e.y(), e.x());
   const double a = (p[1] - p[0]).norm(), b = (p[2] - p[1]).norm();
@@ -42,7 +42,7 @@ Bars bars_at(const Boundary& frame, double d) {
 }
 
 /// X = P0 + s (P1 - P0) + t (P3 - P0)
-Vec2 frame_coordinates(const Boundary& frame, const Vec2& X) {
+Vec2 frame_coordinates(const HingedFrame& frame, const Vec2& X) {
   Eigen::Matrix2d sides;
   sides << frame.hinges[1] - frame.hinges[0], frame.hinges[3] - frame.hinges[0];
   return sides.inverse() * (X - frame.hinges[0]);
@@ -61,53 +61,111 @@ void hold_axis(PrescribedNode& node, Vec3 axis, int boundary) {
 }
 
 void hold_by(PrescribedNode& node, const Boundary& boundary, int index) {
-  if (boundary.kind == BoundaryKind::symmetry)
-    return hold_axis(node, {boundary.normal.x(), boundary.normal.y(), 0.0}, index);
-  for (int k = 0; k < 3; ++k)
-    if (boundary.kind == BoundaryKind::frame || boundary.held[k])
-      hold_axis(node, Vec3::Unit(k), index);
+  if (const auto* plane = std::get_if<SymmetryPlane>(&boundary.kind))
+    return hold_axis(node, {plane->normal.x(), plane->normal.y(), 0.0}, index);
+  for (std::size_t k = 0; k < 3; ++k)
+    if (boundary.is<HingedFrame>() || boundary.as<Grip>().held[k])
+      hold_axis(node, Vec3::Unit(static_cast<Eigen::Index>(k)), index);
 }
 
-} // namespace
+bool holds(const HeldPlace& place, const Vec2& X) {
+  return place.on_edge ? near_segment(X, place.ends[0], place.ends[1]) : in_box(X, place.ends);
+}
 
-bool holds(const Boundary& b, int ply, const Vec2& X) {
-  if (b.ply >= 0 && b.ply != ply) return false;
-  switch (b.kind) {
-  case BoundaryKind::grip:
-  case BoundaryKind::spring:
-  case BoundaryKind::gripper:
-    return b.on_edge ? near_segment(X, b.place[0], b.place[1]) : in_box(X, b.place);
-  case BoundaryKind::frame:
-    for (std::size_t i = 0; i < 4; ++i)
-      if (near_segment(X, b.hinges[i], b.hinges[(i + 1) % 4])) return true;
-    return false;
-  case BoundaryKind::symmetry:
-    return std::abs((X - b.point).dot(b.normal)) <= on_line;
-  }
+template <class Kind>
+bool kind_holds(const Kind& kind, const Vec2& X) {
+  return holds(kind.place, X);
+}
+bool kind_holds(const HingedFrame& frame, const Vec2& X) {
+  for (std::size_t i = 0; i < 4; ++i)
+    if (near_segment(X, frame.hinges[i], frame.hinges[(i + 1) % 4])) return true;
   return false;
 }
+bool kind_holds(const SymmetryPlane& plane, const Vec2& X) {
+  return std::abs((X - plane.point).dot(plane.normal)) <= on_line;
+}
 
-Vec3 prescribed_position(const Boundary& b, const Vec3& X, double d) {
-  if (b.kind == BoundaryKind::grip || b.kind == BoundaryKind::gripper) return X + d * b.direction;
-  if (b.kind != BoundaryKind::frame || d == 0.0) return X;
-  const Vec2 st = frame_coordinates(b, X.head<2>());
-  const Bars bars = bars_at(b, d);
+template <class Kind>
+Vec3 position(const Kind&, const Vec3& X, double) {
+  return X;
+}
+Vec3 position(const Grip& grip, const Vec3& X, double d) {
+  return X + d * grip.direction;
+}
+Vec3 position(const Gripper& gripper, const Vec3& X, double d) {
+  return X + d * gripper.direction;
+}
+Vec3 position(const HingedFrame& frame, const Vec3& X, double d) {
+  if (d == 0.0) return X;
+  const Vec2 st = frame_coordinates(frame, X.head<2>());
+  const Bars bars = bars_at(frame, d);
   Vec3 x = X;
-  x.head<2>() = b.hinges[0] + st.x() * bars.u + st.y() * bars.v;
+  x.head<2>() = frame.hinges[0] + st.x() * bars.u + st.y() * bars.v;
   return x;
 }
 
-Vec3 prescribed_slope(const Boundary& b, const Vec3& X, double d) {
-  if (b.kind == BoundaryKind::grip || b.kind == BoundaryKind::gripper) return b.direction;
+template <class Kind>
+Vec3 slope(const Kind&, const Vec3&, double) {
+  return Vec3::Zero();
+}
+Vec3 slope(const Grip& grip, const Vec3&, double) {
+  return grip.direction;
+}
+Vec3 slope(const Gripper& gripper, const Vec3&, double) {
+  return gripper.direction;
+}
+Vec3 slope(const HingedFrame& frame, const Vec3& X, double d) {
+  const Vec2 st = frame_coordinates(frame, X.head<2>());
+  const Bars bars = bars_at(frame, d);
   Vec3 slope = Vec3::Zero();
-  if (b.kind != BoundaryKind::frame) return slope;
-  const Vec2 st = frame_coordinates(b, X.head<2>());
-  const Bars bars = bars_at(b, d);
   slope.head<2>() = st.x() * bars.du + st.y() * bars.dv;
   return slope;
 }
 
-double longest_stroke(const Boundary& frame) {
+} // namespace
+
+double stroke_of(const Boundary& b) {
+  const auto stroke = [](const auto& kind) {
+    if constexpr (requires { kind.stroke; }) return kind.stroke;
+    return 0.0;
+  };
+  return std::visit(stroke, b.kind);
+}
+
+double force_of(const Boundary& b) {
+  return b.is<Gripper>() ? b.as<Gripper>().force : 0.0;
+}
+
+std::span<const Stage> programme_of(const Boundary& b) {
+  const auto programme = [](const auto& kind) -> std::span<const Stage> {
+    if constexpr (requires { kind.programme; }) return kind.programme;
+    return {};
+  };
+  return std::visit(programme, b.kind);
+}
+
+const HeldPlace* place_of(const Boundary& b) {
+  const auto place = [](const auto& kind) -> const HeldPlace* {
+    if constexpr (requires { kind.place; }) return &kind.place;
+    return nullptr;
+  };
+  return std::visit(place, b.kind);
+}
+
+bool holds(const Boundary& b, int ply, const Vec2& X) {
+  if (b.ply >= 0 && b.ply != ply) return false;
+  return std::visit([&](const auto& kind) { return kind_holds(kind, X); }, b.kind);
+}
+
+Vec3 prescribed_position(const Boundary& b, const Vec3& X, double d) {
+  return std::visit([&](const auto& kind) { return position(kind, X, d); }, b.kind);
+}
+
+Vec3 prescribed_slope(const Boundary& b, const Vec3& X, double d) {
+  return std::visit([&](const auto& kind) { return slope(kind, X, d); }, b.kind);
+}
+
+double longest_stroke(const HingedFrame& frame) {
   const auto& p = frame.hinges;
   return (p[1] - p[0]).norm() + (p[2] - p[1]).norm() - (p[2] - p[0]).norm();
 }
@@ -115,17 +173,17 @@ double longest_stroke(const Boundary& frame) {
 std::vector<PrescribedNode> prescribed_nodes(const std::vector<Boundary>& boundaries, int ply,
                                              std::span<const Vec3> x0) {
   std::vector<PrescribedNode> held;
-  const auto by = [&](BoundaryKind kind, const Vec3& X) {
+  const auto by_gripper = [&](const Vec3& X) {
     return std::any_of(boundaries.begin(), boundaries.end(), [&](const Boundary& b) {
-      return b.kind == kind && holds(b, ply, X.head<2>());
+      return b.is<Gripper>() && holds(b, ply, X.head<2>());
     });
   };
   for (std::size_t n = 0; n < x0.size(); ++n) {
-    if (by(BoundaryKind::gripper, x0[n])) continue;
+    if (by_gripper(x0[n])) continue;
     PrescribedNode node{ply, static_cast<int>(n)};
     for (const bool planes : {false, true})
       for (std::size_t b = 0; b < boundaries.size(); ++b)
-        if (prescribes(boundaries[b]) && (boundaries[b].kind == BoundaryKind::symmetry) == planes &&
+        if (prescribes(boundaries[b]) && boundaries[b].is<SymmetryPlane>() == planes &&
             holds(boundaries[b], ply, x0[n].head<2>()))
           hold_by(node, boundaries[b], static_cast<int>(b));
     if (node.count > 0) held.push_back(node);

@@ -32,8 +32,20 @@ struct PrescribedNode {
 
 /// Whether a boundary prescribes where its nodes are.
 inline bool prescribes(const Boundary& b) {
-  return b.kind != BoundaryKind::spring && b.kind != BoundaryKind::gripper;
+  return !b.is<TensionSpring>() && !b.is<Gripper>();
 }
+
+/// mm, of grips, frames and the drives of grippers; else 0.
+double stroke_of(const Boundary& boundary);
+
+/// N, of a gripper that is pulled by one; else 0.
+double force_of(const Boundary& boundary);
+
+/// Of stroke or force; empty if it is one stage, or the kind has none.
+std::span<const Stage> programme_of(const Boundary& boundary);
+
+/// Where a grip, spring or gripper holds its ply; else null.
+const HeldPlace* place_of(const Boundary& boundary);
 
 /// Whether a boundary has a node at `X` (mm) in the undeformed ply number `ply`.
 bool holds(const Boundary& boundary, int ply, const Vec2& X);
@@ -46,7 +58,7 @@ Vec3 prescribed_position(const Boundary& boundary, const Vec3& X, double d);
 Vec3 prescribed_slope(const Boundary& boundary, const Vec3& X, double d);
 
 /// Longest stroke (mm) that the bars of a frame allow: D0 + stroke < sum of two bars.
-double longest_stroke(const Boundary& frame);
+double longest_stroke(const HingedFrame& frame);
 
 /// The prescribed nodes of one ply with undeformed positions `x0` (mm), ascending. Axes that an
 /// earlier boundary prescribes already are not prescribed again; grips and frames precede planes of

@@ -12,6 +12,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <variant>
 #include <vector>
 
 namespace plyform {
@@ -53,44 +54,80 @@ struct Tool {
   double mass = 0.0;               ///< t, for Motion::force
 };
 
-enum class BoundaryKind {
-  grip,     ///< rigid: all its nodes move by one displacement
-  frame,    ///< four bars hinged at their ends, pulled along a diagonal
-  symmetry, ///< a vertical plane of symmetry
-  spring,   ///< a tension spring from its nodes to an anchor: core/model/attachment.hpp
-  gripper,  ///< clamps its nodes to one piece, and pulls it
+/// Nodes of the undeformed plies that a boundary holds: on a line, or in a box.
+struct HeldPlace {
+  bool on_edge = false;
+  /// mm, ends of the line, corners of the box
+  std::array<Vec2, 2> ends = {Vec2::Zero(), Vec2::Zero()};
 };
+
+/// Rigid: all its nodes move by one displacement.
+struct Grip {
+  HeldPlace place;
+  std::array<bool, 3> held = {{true, true, true}}; ///< prescribed along x, y, z; else free
+  Vec3 direction = Vec3::UnitX();                  ///< unit vector
+  double stroke = 0.0;                             ///< mm; the largest of a programme
+  std::vector<Stage> programme;                    ///< in order of time; empty: one stage
+};
+
+/// Four bars hinged at their ends, pulled along a diagonal.
+struct HingedFrame {
+  /// mm, in order; the first is fixed, the third moves away from it
+  std::array<Vec2, 4> hinges = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()};
+  double stroke = 0.0;          ///< mm, along the diagonal; the largest of a programme
+  std::vector<Stage> programme; ///< as of a grip
+};
+
+/// A vertical plane.
+struct SymmetryPlane {
+  Vec2 point = Vec2::Zero(), normal = Vec2::UnitX(); ///< mm; unit vector
+};
+
+/// A tension spring from its nodes to an anchor.
+struct TensionSpring {
+  HeldPlace place;
+  double stiffness = 0.0;               ///< N/mm
+  Vec3 anchor = Vec3::Zero();           ///< mm
+  int carrier = -1;                     ///< index into Case::tools that takes the anchor along
+  double preload = 0.0;                 ///< N, at the start
+  std::optional<double> natural_length; ///< mm; else from the preload
+  double max_force = std::numeric_limits<double>::infinity(); ///< N
+};
+
+/// Clamps its nodes to one piece, and pulls it, by a force or a drive.
+struct Gripper {
+  HeldPlace place;
+  Vec3 direction = Vec3::UnitX(); ///< unit vector
+  double stiffness = 0.0;         ///< N/mm, of the drive; 0: pulled by a force
+  double stroke = 0.0;            ///< mm, of the drive; the largest of a programme
+  double force = 0.0;             ///< N; likewise
+  std::vector<Stage> programme;   ///< of stroke or force, as of a grip
+  double mass = 0.0;              ///< t
+  bool guided = false;            ///< whether it moves along its direction only
+};
+
+using BoundaryKind = std::variant<Grip, HingedFrame, SymmetryPlane, TensionSpring, Gripper>;
 
 /// Nodes whose motion is prescribed (core/model/boundary.hpp), or that springs and grippers pull
 /// (core/model/attachment.hpp), selected in the undeformed plies.
 struct Boundary {
   std::string name;
-  BoundaryKind kind = BoundaryKind::grip;
   int ply = -1; ///< index into Case::plies; -1: all
-  // grip, spring, gripper
-  bool on_edge = false; ///< nodes on a line, else in a box
-  /// mm, ends of the line, corners of the box
-  std::array<Vec2, 2> place = {Vec2::Zero(), Vec2::Zero()};
-  std::array<bool, 3> held = {{true, true, true}}; ///< prescribed along x, y, z; else free
-  Vec3 direction = Vec3::UnitX();                  ///< unit vector, of stroke or force
-  // frame: hinges in order; the first is fixed, the third moves away from it
-  std::array<Vec2, 4> hinges = {Vec2::Zero(), Vec2::Zero(), Vec2::Zero(), Vec2::Zero()}; ///< mm
-  // symmetry
-  Vec2 point = Vec2::Zero(), normal = Vec2::UnitX(); ///< mm; unit vector
-  /// mm, of a grip and of a gripper's drive along the direction, of a frame along its diagonal; the
-  /// largest of a programme
-  double stroke = 0.0;
-  std::vector<Stage> programme; ///< of stroke or force, in order of time; empty: one stage
-  // spring, gripper
-  double stiffness = 0.0;     ///< N/mm, of the spring, of the gripper's drive; 0: pulled by a force
-  double force = 0.0;         ///< N, on the gripper; the largest of a programme
-  double mass = 0.0;          ///< t, of the gripper
-  bool guided = false;        ///< whether the gripper moves along its direction only
-  Vec3 anchor = Vec3::Zero(); ///< mm, of the spring
-  int carrier = -1;           ///< index into Case::tools that takes the anchor along
-  double preload = 0.0;       ///< N, of the spring at the start
-  std::optional<double> natural_length; ///< mm, of the spring; else from the preload
-  double max_force = std::numeric_limits<double>::infinity(); ///< N, of the spring
+  BoundaryKind kind;
+
+  template <class Kind>
+  bool is() const {
+    return std::holds_alternative<Kind>(kind);
+  }
+  /// Throws std::bad_variant_access unless it is of that kind.
+  template <class Kind>
+  const Kind& as() const {
+    return std::get<Kind>(kind);
+  }
+  template <class Kind>
+  Kind& as() {
+    return std::get<Kind>(kind);
+  }
 };
 
 enum class ElementKind {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/model/motion.hpp"
 
+#include "core/model/boundary.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -17,8 +19,10 @@ std::vector<Stage> stages_of(const Tool& tool) {
 }
 
 std::vector<Stage> stages_of(const Boundary& b) {
-  if (!b.programme.empty()) return b.programme;
-  return {b.force > 0.0 ? Stage{force_rise, b.force} : Stage{1.0, b.stroke}};
+  if (const auto programme = programme_of(b); !programme.empty())
+    return {programme.begin(), programme.end()};
+  const double force = force_of(b);
+  return {force > 0.0 ? Stage{force_rise, force} : Stage{1.0, stroke_of(b)}};
 }
 
 double value_at(const std::vector<Stage>& stages, double t, double duration) {
@@ -49,7 +53,7 @@ double whole_stroke(const Case& data) {
   for (const Tool& t : data.tools)
     if (t.motion == Motion::driven && t.stroke != 0.0) return t.stroke;
   for (const Boundary& b : data.boundaries)
-    if (b.stroke != 0.0) return b.stroke;
+    if (const double stroke = stroke_of(b); stroke != 0.0) return stroke;
   return 0.0;
 }
 
@@ -61,8 +65,9 @@ Strokes longest_strokes(const Case& data) {
     s.at_full_speed = std::max(s.at_full_speed, fastest(stages_of(t)));
   }
   for (const Boundary& b : data.boundaries) {
-    if (b.stroke == 0.0) continue;
-    s.boundary = std::max(s.boundary, b.stroke);
+    const double stroke = stroke_of(b);
+    if (stroke == 0.0) continue;
+    s.boundary = std::max(s.boundary, stroke);
     s.at_full_speed = std::max(s.at_full_speed, fastest(stages_of(b)));
   }
   return s;

@@ -86,33 +86,37 @@ double bulge(const Body& ply) {
 }
 
 /// How far a boundary may move the ply it holds, mm.
-Box3 way_of(const Case& data, const Boundary& b, const Body& ply) {
-  Box3 way{Vec3::Zero(), Vec3::Zero()};
-  const double size = ply.box.sizes().maxCoeff();
-  switch (b.kind) {
-  case BoundaryKind::symmetry:
-    break;
-  case BoundaryKind::frame:
-    way = grown(way, std::abs(b.stroke));
-    break;
-  case BoundaryKind::grip:
-    extend(way, b.stroke, b.programme, b.direction);
-    break;
-  case BoundaryKind::gripper: // by a force it goes where it can
-    extend(way, b.stiffness > 0.0 ? b.stroke : size,
-           b.stiffness > 0.0 ? b.programme : std::vector<Stage>{}, b.direction);
-    break;
-  case BoundaryKind::spring:
-    way.extend(b.anchor - ply.box.center());
-    if (b.carrier >= 0) {
-      const Box3 tool = body_of(data, data.tools[static_cast<std::size_t>(b.carrier)]).way;
-      way.extend(b.anchor - ply.box.center() + tool.min());
-      way.extend(b.anchor - ply.box.center() + tool.max());
-    }
-    break;
+struct WayOf {
+  const Case& data;
+  const Body& ply;
+
+  Box3 operator()(const SymmetryPlane&) const { return {Vec3::Zero(), Vec3::Zero()}; }
+  Box3 operator()(const HingedFrame& frame) const {
+    return grown({Vec3::Zero(), Vec3::Zero()}, std::abs(frame.stroke));
   }
-  return way;
-}
+  Box3 operator()(const Grip& grip) const {
+    Box3 way{Vec3::Zero(), Vec3::Zero()};
+    extend(way, grip.stroke, grip.programme, grip.direction);
+    return way;
+  }
+  Box3 operator()(const Gripper& gripper) const { // by a force it goes where it can
+    Box3 way{Vec3::Zero(), Vec3::Zero()};
+    const bool drive = gripper.stiffness > 0.0;
+    extend(way, drive ? gripper.stroke : ply.box.sizes().maxCoeff(),
+           drive ? gripper.programme : std::vector<Stage>{}, gripper.direction);
+    return way;
+  }
+  Box3 operator()(const TensionSpring& spring) const {
+    Box3 way{Vec3::Zero(), Vec3::Zero()};
+    way.extend(spring.anchor - ply.box.center());
+    if (spring.carrier >= 0) {
+      const Box3 tool = body_of(data, data.tools[at(spring.carrier)]).way;
+      way.extend(spring.anchor - ply.box.center() + tool.min());
+      way.extend(spring.anchor - ply.box.center() + tool.max());
+    }
+    return way;
+  }
+};
 
 /// All bodies of a case, whose ways and stacks grow until nothing new is reached.
 struct Bodies {
@@ -126,7 +130,7 @@ struct Bodies {
       for (const Boundary& b : data.boundaries) {
         if (b.ply != -1 && b.ply != static_cast<int>(p)) continue;
         moves = true;
-        body.way.extend(way_of(data, b, body));
+        body.way.extend(std::visit(WayOf{data, body}, b.kind));
       }
       plies.push_back(body);
       found.ply_moves.push_back(moves);

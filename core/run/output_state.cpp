@@ -117,7 +117,7 @@ double current_stroke(const Scene& scene) {
   for (const Tool& tool : scene.data.tools)
     if (tool.motion == Motion::driven) return motion_at(tool, scene.time, duration);
   for (const Boundary& boundary : scene.data.boundaries)
-    if (boundary.stroke != 0.0) return motion_at(boundary, scene.time, duration);
+    if (stroke_of(boundary) != 0.0) return motion_at(boundary, scene.time, duration);
   return 0.0;
 }
 
@@ -144,7 +144,7 @@ Frame make_frame(const Scene& scene, const std::vector<TriMesh>& surfaces, const
     f.tools.push_back(make_tool_frame(scene.tools[t], surfaces[t]));
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {
     const BoundaryState& state = scene.boundaries[b];
-    if (scene.data.boundaries[b].kind != BoundaryKind::symmetry)
+    if (!scene.data.boundaries[b].is<SymmetryPlane>())
       f.boundaries.push_back(
           {scene.data.boundaries[b].name, state.displacement, state.load, state.force});
   }

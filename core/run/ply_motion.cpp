@@ -89,7 +89,7 @@ std::vector<std::string> doubts_of_grippers(const Scene& s, const Frame& last) {
   std::vector<std::string> names;
   double work = 0.0;
   for (std::size_t b = 0; b < s.boundaries.size(); ++b) {
-    if (s.data.boundaries[b].force == 0.0) continue;
+    if (force_of(s.data.boundaries[b]) == 0.0) continue;
     names.push_back(s.data.boundaries[b].name);
     work += s.boundaries[b].work;
   }

@@ -47,7 +47,7 @@ double balance_floor(const Scene& s) {
   for (const ToolState& t : s.tools)
     force_controlled += 0.1 * std::abs(t.force_on);
   for (const Boundary& b : s.data.boundaries)
-    force_controlled += 0.1 * (b.force + b.preload);
+    force_controlled += 0.1 * (b.is<TensionSpring>() ? b.as<TensionSpring>().preload : force_of(b));
   force_controlled += 0.1 * mass * s.data.gravity.norm();
   const double peak_speed =
       peak_speed_ratio * longest_strokes(s.data).at_full_speed / s.data.solver.duration;
@@ -73,7 +73,7 @@ int outputs_due(const Scene& s) {
                        std::any_of(s.data.tools.begin(), s.data.tools.end(),
                                    [](const Tool& tool) { return !tool.programme.empty(); }) ||
                        std::any_of(s.data.boundaries.begin(), s.data.boundaries.end(),
-                                   [](const Boundary& b) { return !b.programme.empty(); });
+                                   [](const Boundary& b) { return !programme_of(b).empty(); });
   const double done = by_time ? s.time / s.data.solver.duration : current_stroke(s) / stroke;
   const int due = static_cast<int>(std::floor(done * s.data.solver.outputs + 1e-9));
   return std::min(due, s.data.solver.outputs - 1); // the last one is due at the end
@@ -228,7 +228,7 @@ private:
   void check_last(const Frame& last) const {
     const auto told = std::count_if( // planes of symmetry are not
         s_.data.boundaries.begin(), s_.data.boundaries.end(),
-        [](const Boundary& b) { return b.kind != BoundaryKind::symmetry; });
+        [](const Boundary& b) { return !b.is<SymmetryPlane>(); });
     bool fits = last.plies.size() == s_.plies.size() && last.tools.size() == s_.tools.size() &&
                 last.boundaries.size() == static_cast<std::size_t>(told) && last.step <= s_.step;
     for (std::size_t p = 0; fits && p < s_.plies.size(); ++p)

@@ -41,53 +41,50 @@ bool holds_bending_ply(const Scene& s, const Boundary& boundary) {
                      [](const PlyBody& ply) { return ply.bending.has_value(); });
 }
 
-/// "spring of 0.5 N/mm", "gripper"
-std::string kind_text(const Boundary& b) {
-  switch (b.kind) {
-  case BoundaryKind::grip:
-    return "grip";
-  case BoundaryKind::frame:
-    return "frame";
-  case BoundaryKind::symmetry:
-    return "plane of symmetry";
-  case BoundaryKind::spring:
-    return fmt::format("spring of {:g} N/mm", b.stiffness);
-  case BoundaryKind::gripper:
-    return b.guided ? "gripper on a rail" : "gripper";
-  }
-  return {};
-}
+/// What the line of a boundary says of its kind, and of what it does.
+struct KindAhead {
+  const Scene& s;
+  int boundary;
 
-std::string stages_text(const Boundary& b) {
-  if (b.programme.empty()) return {};
-  return fmt::format(" at most, in {} {}", b.programme.size(),
-                     b.programme.size() == 1 ? "stage" : "stages");
-}
-
-/// ", moves 20 mm": what a boundary does; empty for a plane of symmetry.
-std::string action_text(const Scene& s, int boundary) {
-  const Boundary& b = s.data.boundaries[boundary];
-  const auto along = [&b] {
-    return fmt::format(" along ({:.3g}, {:.3g}, {:.3g})", b.direction.x(), b.direction.y(),
-                       b.direction.z());
+  struct Words {
+    std::string kind;   ///< "spring of 0.5 N/mm", "gripper"
+    std::string action; ///< ", moves 20 mm"; empty for a plane of symmetry
   };
-  if (b.kind == BoundaryKind::symmetry) return {};
-  if (b.kind == BoundaryKind::spring) {
-    const Attachment& spring = *attachment_of(s, boundary);
+
+  Words operator()(const Grip& grip) const { return {"grip", moves(grip.stroke, {})}; }
+  Words operator()(const HingedFrame& frame) const { return {"frame", moves(frame.stroke, {})}; }
+  Words operator()(const SymmetryPlane&) const { return {"plane of symmetry", {}}; }
+  Words operator()(const TensionSpring& spring) const {
+    const Attachment& attached = *attachment_of(s, boundary);
     std::string text = fmt::format(", {:.4g} mm long, {:.4g} mm without a load, {:.4g} N at the "
                                    "start",
-                                   spring.length, spring.natural_length,
-                                   spring_tension(b, spring, spring.length, 1.0));
-    if (b.carrier >= 0) text += ", carried by " + s.data.tools[b.carrier].name;
-    return text;
+                                   attached.length, attached.natural_length,
+                                   spring_tension(spring, attached, attached.length, 1.0));
+    if (spring.carrier >= 0) text += ", carried by " + s.data.tools[spring.carrier].name;
+    return {fmt::format("spring of {:g} N/mm", spring.stiffness), text};
   }
-  if (b.force > 0.0) return fmt::format(", pulled by {:g} N{}{}", b.force, along(), stages_text(b));
-  const std::string on =
-      b.kind == BoundaryKind::gripper ? fmt::format(", on {:g} N/mm", b.stiffness) : std::string();
-  if (b.stroke == 0.0) return on + ", stays";
-  return fmt::format("{}, moves {:g} mm{}{}", on, b.stroke,
-                     b.kind == BoundaryKind::gripper ? along() : std::string(), stages_text(b));
-}
+  Words operator()(const Gripper& gripper) const {
+    const Vec3& way = gripper.direction;
+    const std::string along =
+        fmt::format(" along ({:.3g}, {:.3g}, {:.3g})", way.x(), way.y(), way.z());
+    const std::string action =
+        gripper.force > 0.0
+            ? fmt::format(", pulled by {:g} N{}{}", gripper.force, along, stages())
+            : fmt::format(", on {:g} N/mm{}", gripper.stiffness, moves(gripper.stroke, along));
+    return {gripper.guided ? "gripper on a rail" : "gripper", action};
+  }
+
+private:
+  std::string moves(double stroke, const std::string& along) const {
+    if (stroke == 0.0) return ", stays";
+    return fmt::format(", moves {:g} mm{}{}", stroke, along, stages());
+  }
+  std::string stages() const {
+    const std::size_t count = programme_of(s.data.boundaries[boundary]).size();
+    if (count == 0) return {};
+    return fmt::format(" at most, in {} {}", count, count == 1 ? "stage" : "stages");
+  }
+};
 
 /// Warns of a spring or drive that is stiffer, for the mass of its nodes, than any element: steps
 /// get shorter by it.
@@ -105,13 +102,14 @@ void describe_stiff(const Scene& s, const Attachment& attached, std::vector<std:
   }
   if (ratio <= 1.0) return;
   const Boundary& b = s.data.boundaries[attached.boundary];
+  const bool spring = b.is<TensionSpring>();
   lines.push_back(fmt::format("    warning: {:g} N/mm on so little mass shorten the step, of "
                               "elements alone {:.2g} times as "
                               "long; {}",
-                              b.stiffness, std::sqrt(1.0 + ratio),
-                              b.kind == BoundaryKind::spring
-                                  ? "less stiffness, or more of the edge for it, avoid it"
-                                  : "less stiffness, or the mass of the gripper, avoid it"));
+                              spring ? b.as<TensionSpring>().stiffness : b.as<Gripper>().stiffness,
+                              std::sqrt(1.0 + ratio),
+                              spring ? "less stiffness, or more of the edge for it, avoid it"
+                                     : "less stiffness, or the mass of the gripper, avoid it"));
 }
 
 } // namespace
@@ -122,11 +120,12 @@ std::vector<std::string> boundaries_ahead(const Scene& s) {
   for (std::size_t b = 0; b < s.data.boundaries.size(); ++b) {
     const Boundary& boundary = s.data.boundaries[b];
     const int index = static_cast<int>(b);
-    const bool plane = boundary.kind == BoundaryKind::symmetry;
+    const bool plane = boundary.is<SymmetryPlane>();
     part = part || plane;
     hinge = hinge || (plane && holds_bending_ply(s, boundary));
-    lines.push_back(fmt::format("boundary {}: {}, holds {}{}", boundary.name, kind_text(boundary),
-                                nodes_held(s, index), action_text(s, index)));
+    const KindAhead::Words words = std::visit(KindAhead{s, index}, boundary.kind);
+    lines.push_back(fmt::format("boundary {}: {}, holds {}{}", boundary.name, words.kind,
+                                nodes_held(s, index), words.action));
     if (const Attachment* attached = attachment_of(s, index)) describe_stiff(s, *attached, lines);
   }
   if (part)

@@ -1,9 +1,27 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/draws.hpp"
 
+#include "core/model/boundary.hpp"
+
 #include <algorithm>
 
 namespace plyform {
+namespace {
+
+/// Of what a boundary moves; of a frame the diagonal along which it is pulled.
+Vec3 direction_of(const Boundary& boundary) {
+  const auto direction = [](const auto& kind) -> Vec3 {
+    if constexpr (requires { kind.direction; }) return kind.direction;
+    if constexpr (requires { kind.hinges; }) {
+      const Vec2 diagonal = (kind.hinges[2] - kind.hinges[0]).normalized();
+      return {diagonal.x(), diagonal.y(), 0.0};
+    }
+    return Vec3::Zero();
+  };
+  return std::visit(direction, boundary.kind);
+}
+
+} // namespace
 
 std::vector<Vec3> draws_on(const Case& data, std::size_t tool) {
   const bool driven = std::any_of(data.tools.begin(), data.tools.end(),
@@ -18,9 +36,9 @@ std::vector<Vec3> draws_on(const Case& data, std::size_t tool) {
     if (t != tool) ways.push_back(motion(data.tools[t]) - own);
   ways.push_back(data.gravity);
   for (const Boundary& boundary : data.boundaries) {
-    if (boundary.stroke != 0.0 || boundary.force != 0.0) ways.push_back(boundary.direction - own);
-    if (boundary.kind != BoundaryKind::frame && boundary.kind != BoundaryKind::symmetry)
-      ways.push_back(-own); // held while the tool comes
+    if (stroke_of(boundary) != 0.0 || force_of(boundary) != 0.0)
+      ways.push_back(direction_of(boundary) - own);
+    if (place_of(boundary)) ways.push_back(-own); // held while the tool comes
   }
   std::erase_if(ways, [](const Vec3& way) { return way.norm() < 1e-9; });
   for (Vec3& way : ways)

@@ -13,7 +13,7 @@ const Boundary& boundary_of(const Scene& s, const Attachment& attached) {
 
 /// The spring's force on its nodes (F), added up, N.
 Vec3 pull_of(const Scene& s, const Attachment& attached, BoundaryState& state) {
-  const Boundary& spring = boundary_of(s, attached);
+  const auto& spring = boundary_of(s, attached).as<TensionSpring>();
   Vec3 way = spring.anchor;
   if (spring.carrier >= 0) way += s.tools[spring.carrier].body.displacement;
   for (const AttachedNode& node : attached.nodes)
@@ -30,12 +30,13 @@ Vec3 pull_of(const Scene& s, const Attachment& attached, BoundaryState& state) {
 /// N, P of (G).
 double pull_along(const Scene& s, const Boundary& gripper, double gone) {
   const double now = motion_at(gripper, s.time, s.data.solver.duration);
-  return gripper.stiffness > 0.0 ? gripper.stiffness * (now - gone) : now;
+  const double stiffness = gripper.as<Gripper>().stiffness;
+  return stiffness > 0.0 ? stiffness * (now - gone) : now;
 }
 
 /// t, of a gripper and its nodes.
 double whole_mass(const Scene& s, const Attachment& clamp) {
-  double mass = boundary_of(s, clamp).mass;
+  double mass = boundary_of(s, clamp).as<Gripper>().mass;
   for (const AttachedNode& node : clamp.nodes)
     mass += s.plies[node.ply].membrane.node_mass[node.node];
   return mass;
@@ -50,13 +51,14 @@ struct Stiff {
 
 Stiff stiffness_of(const Scene& s, const Attachment& attached) {
   const Boundary& b = boundary_of(s, attached);
-  Stiff of{b.stiffness, {}};
-  if (b.kind == BoundaryKind::spring) {
+  if (b.is<TensionSpring>()) {
+    Stiff of{b.as<TensionSpring>().stiffness, {}};
     for (const AttachedNode& node : attached.nodes)
       of.share.push_back(node.share);
     return of;
   }
-  const double whole = whole_mass(s, attached), nodes = whole - b.mass;
+  Stiff of{b.as<Gripper>().stiffness, {}};
+  const double whole = whole_mass(s, attached), nodes = whole - b.as<Gripper>().mass;
   for (const AttachedNode& node : attached.nodes)
     of.share.push_back(s.plies[node.ply].membrane.node_mass[node.node] / nodes);
   of.stiffness *= nodes / whole; // so that omega^2 is k over the whole mass
@@ -69,7 +71,7 @@ void pull_springs(Scene& s) {
   for (PlyBody& ply : s.plies)
     std::fill(ply.pull.begin(), ply.pull.end(), Vec3::Zero());
   for (const Attachment& attached : s.attachments) {
-    if (boundary_of(s, attached).kind != BoundaryKind::spring) continue;
+    if (!boundary_of(s, attached).is<TensionSpring>()) continue;
     BoundaryState& state = s.boundaries[attached.boundary];
     const Vec3 force = pull_of(s, attached, state);
     Vec3 motion = Vec3::Zero();
@@ -84,7 +86,7 @@ void pull_springs(Scene& s) {
 }
 
 void move_gripper(Scene& s, const Attachment& clamp) {
-  const Boundary& gripper = boundary_of(s, clamp);
+  const auto& gripper = boundary_of(s, clamp).as<Gripper>();
   BoundaryState& state = s.boundaries[clamp.boundary];
   const MassLoads loads = mass_loads(s);
   // All nodes have gone the same way at the same speed: the first one stands for the gripper.
@@ -93,7 +95,7 @@ void move_gripper(Scene& s, const Attachment& clamp) {
   const Vec3 gone = of_first.x[first.node] - of_first.x0[first.node];
   const Vec3 velocity = of_first.velocity[first.node], motion = of_first.motion[first.node];
   state.displacement = gone.dot(gripper.direction);
-  Vec3 sum = pull_along(s, gripper, state.displacement) * gripper.direction;
+  Vec3 sum = pull_along(s, boundary_of(s, clamp), state.displacement) * gripper.direction;
   double mass = gripper.mass;
   std::vector<Vec3> free;
   for (const AttachedNode& node : clamp.nodes) {
@@ -138,7 +140,8 @@ void add_attachment_forces(const Scene& s, double factor, const std::vector<std:
     Vec3 mean = Vec3::Zero();
     for (std::size_t j = 0; j < of.share.size(); ++j)
       mean += of.share[j] * y[attached.nodes[j].ply][attached.nodes[j].node];
-    if (b.kind == BoundaryKind::gripper) mean = b.direction.dot(mean) * b.direction;
+    if (const auto* gripper = std::get_if<Gripper>(&b.kind))
+      mean = gripper->direction.dot(mean) * gripper->direction;
     for (std::size_t j = 0; j < of.share.size(); ++j)
       f[attached.nodes[j].ply][attached.nodes[j].node] +=
           factor * of.stiffness * of.share[j] * mean;

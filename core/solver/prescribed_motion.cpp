@@ -55,8 +55,7 @@ void prescribe_nodes(Scene& s) {
   for (const PrescribedNode& held : s.held)
     hold_node(s, held);
   for (const Attachment& attached : s.attachments)
-    if (s.data.boundaries[attached.boundary].kind == BoundaryKind::gripper)
-      move_gripper(s, attached);
+    if (s.data.boundaries[attached.boundary].is<Gripper>()) move_gripper(s, attached);
 }
 
 } // namespace plyform

@@ -234,7 +234,7 @@ void make_attachments(Scene& s) {
   for (std::size_t b = 0; b < s.data.boundaries.size(); ++b) {
     if (prescribes(s.data.boundaries[b])) continue;
     s.attachments.push_back(attach(s.data.boundaries, b, sheets));
-    const bool spring = s.data.boundaries[b].kind == BoundaryKind::spring;
+    const bool spring = s.data.boundaries[b].is<TensionSpring>();
     for (const AttachedNode& node : s.attachments.back().nodes) {
       PlyBody& ply = s.plies[node.ply];
       (spring ? ply.pull : ply.reaction).resize(ply.x0.size(), Vec3::Zero());

@@ -11,6 +11,7 @@
 #include "support/thread_checks.hpp"
 
 #include <cmath>
+#include <type_traits>
 
 namespace plyform::attachment_test {
 namespace {
@@ -34,16 +35,16 @@ double strip_stiffness(const Case& data) {
   return fabric.warp_density * width * fabric.warp.stiffness / softening;
 }
 
-Boundary at_end(BoundaryKind kind, double x, double stiffness) {
-  Boundary b;
-  b.name = x < 0.0 ? "left" : "right";
-  b.kind = kind;
-  b.on_edge = true;
-  b.place = {Vec2(x, -0.5 * width), Vec2(x, 0.5 * width)};
-  b.direction = Vec3(x < 0.0 ? -1.0 : 1.0, 0.0, 0.0);
-  b.anchor = Vec3(x < 0.0 ? x - 40.0 : x + 40.0, 0.0, 0.3);
-  b.stiffness = stiffness;
-  return b;
+template <class Kind>
+Boundary at_end(double x, double stiffness) {
+  Kind kind;
+  kind.place = {true, {Vec2(x, -0.5 * width), Vec2(x, 0.5 * width)}};
+  kind.stiffness = stiffness;
+  if constexpr (std::is_same_v<Kind, Gripper>)
+    kind.direction = Vec3(x < 0.0 ? -1.0 : 1.0, 0.0, 0.0);
+  else
+    kind.anchor = Vec3(x < 0.0 ? x - 40.0 : x + 40.0, 0.0, 0.3);
+  return {x < 0.0 ? "left" : "right", -1, kind};
 }
 
 const BoundaryFrame& named(const Frame& f, const std::string& name) {
@@ -62,9 +63,8 @@ RunResult run_on_two(const Case& data) {
 TEST(Attachments, ForceOfASpringAndADriveInSeriesWithTheStrip) {
   for (const double size : {10.0, 5.0}) {
     Case data = free_strip(size);
-    data.boundaries = {at_end(BoundaryKind::spring, -50.0, 2.0),
-                       at_end(BoundaryKind::gripper, 50.0, 5.0)};
-    data.boundaries[1].stroke = 8.0;
+    data.boundaries = {at_end<TensionSpring>(-50.0, 2.0), at_end<Gripper>(50.0, 5.0)};
+    data.boundaries[1].as<Gripper>().stroke = 8.0;
     const RunResult run = run_on_two(data);
     const double in_series = 1.0 / (1.0 / 2.0 + 1.0 / 5.0 + length / strip_stiffness(data));
     const double wanted = in_series * 8.0;
@@ -81,12 +81,11 @@ TEST(Attachments, ForceOfASpringAndADriveInSeriesWithTheStrip) {
 
 TEST(Attachments, GripperUnderAForceGoesAsFarAsSpringAndStripGiveWay) {
   Case data = free_strip(10.0);
-  data.boundaries = {at_end(BoundaryKind::spring, -50.0, 2.0),
-                     at_end(BoundaryKind::gripper, 50.0, 0.0)};
-  data.boundaries[0].preload = 3.0;
-  data.boundaries[1].force = 10.0;
-  data.boundaries[1].programme = {{0.1, 3.0}, {0.5, 10.0}};
-  data.boundaries[1].mass = 1e-6; // t: of its own, as much as four strips have
+  data.boundaries = {at_end<TensionSpring>(-50.0, 2.0), at_end<Gripper>(50.0, 0.0)};
+  data.boundaries[0].as<TensionSpring>().preload = 3.0;
+  data.boundaries[1].as<Gripper>().force = 10.0;
+  data.boundaries[1].as<Gripper>().programme = {{0.1, 3.0}, {0.5, 10.0}};
+  data.boundaries[1].as<Gripper>().mass = 1e-6; // t: of its own, as much as four strips have
   const RunResult run = run_on_two(data);
   const BoundaryFrame &spring = named(run.last, "left"), &gripper = named(run.last, "right");
   const double gone = (10.0 - 3.0) / 2.0, longer = 10.0 * length / strip_stiffness(data);
@@ -99,9 +98,9 @@ TEST(Attachments, GripperUnderAForceGoesAsFarAsSpringAndStripGiveWay) {
 TEST(Attachments, GripperThatThrowsAPlyIsDoubtful) {
   Case data = free_strip(10.0);
   data.solver.mass_damping = 0.0;
-  data.boundaries = {at_end(BoundaryKind::spring, -50.0, 0.01), // some 0.1 N against 10
-                     at_end(BoundaryKind::gripper, 50.0, 0.0)};
-  data.boundaries[1].force = 10.0;
+  data.boundaries = {at_end<TensionSpring>(-50.0, 0.01), // some 0.1 N against 10
+                     at_end<Gripper>(50.0, 0.0)};
+  data.boundaries[1].as<Gripper>().force = 10.0;
   data.solver.duration = 0.005;
   const RunResult run = run_case(data, 1, {});
   EXPECT_EQ(run.summary.status, "doubtful");
@@ -143,10 +142,9 @@ TEST(Attachments, FourHoldersPressWithTheirOwnForces) {
 
 TEST(Attachments, SpringAtItsLimitGivesWayAtThatForce) {
   Case data = free_strip(10.0);
-  data.boundaries = {at_end(BoundaryKind::spring, -50.0, 2.0),
-                     at_end(BoundaryKind::gripper, 50.0, 5.0)};
-  data.boundaries[0].max_force = 4.0;
-  data.boundaries[1].stroke = 8.0;
+  data.boundaries = {at_end<TensionSpring>(-50.0, 2.0), at_end<Gripper>(50.0, 5.0)};
+  data.boundaries[0].as<TensionSpring>().max_force = 4.0;
+  data.boundaries[1].as<Gripper>().stroke = 8.0;
   const RunResult run = run_on_two(data);
   EXPECT_NEAR(named(run.last, "left").force_N, 4.0, 1e-9);
   EXPECT_NEAR(named(run.last, "right").force_N, 4.0, 0.04);
@@ -158,11 +156,10 @@ TEST(Attachments, SpringsTurnTowardsTheirAnchors) {
   // Two springs of 1 N/mm and 30 mm at right angles to each other, preloaded, on one end; a grip
   // holds the other.
   Case data = free_strip(10.0);
-  data.boundaries = {at_end(BoundaryKind::spring, 50.0, 1.0),
-                     at_end(BoundaryKind::spring, 50.0, 1.0)};
+  data.boundaries = {at_end<TensionSpring>(50.0, 1.0), at_end<TensionSpring>(50.0, 1.0)};
   data.boundaries[1].name = "other";
   for (int k = 0; k < 2; ++k) {
-    Boundary& spring = data.boundaries[k];
+    auto& spring = data.boundaries[k].as<TensionSpring>();
     spring.anchor = {50.0 + 30.0 * M_SQRT1_2, (k == 0 ? 30.0 : -30.0) * M_SQRT1_2, 0.3};
     spring.preload = 5.0;
   }
@@ -193,9 +190,8 @@ TEST(Attachments, CarriedAnchorMovesWithItsTool) {
   cart.stroke = 6.0;
   data.tools = {cart};
   set_friction(data, 0.0);
-  data.boundaries = {at_end(BoundaryKind::spring, -50.0, 2.0),
-                     at_end(BoundaryKind::spring, 50.0, 2.0)};
-  data.boundaries[1].carrier = 0;
+  data.boundaries = {at_end<TensionSpring>(-50.0, 2.0), at_end<TensionSpring>(50.0, 2.0)};
+  data.boundaries[1].as<TensionSpring>().carrier = 0;
   const RunResult run = run_on_two(data);
   const double wanted = 6.0 / (1.0 / 2.0 + 1.0 / 2.0 + length / strip_stiffness(data));
   EXPECT_NEAR(named(run.last, "left").force_N, wanted, 0.01 * wanted);
@@ -205,11 +201,9 @@ TEST(Attachments, CarriedAnchorMovesWithItsTool) {
 TEST(Attachments, GripperMovesItsNodesAsOnePiece) {
   Case data = free_strip(5.0);
   data.boundaries = {hold("grip", {-50, -10}, {-50, 10}, Vec3::UnitX(), 0.0),
-                     at_end(BoundaryKind::gripper, 50.0, 0.0)};
-  Boundary& gripper = data.boundaries[1];
-  gripper.on_edge = false;
-  gripper.place = {Vec2(30.0, -3.0),
-                   Vec2(50.0, 10.0)}; // off the middle: the strip would turn there
+                     at_end<Gripper>(50.0, 0.0)};
+  auto& gripper = data.boundaries[1].as<Gripper>();
+  gripper.place = {false, {Vec2(30.0, -3.0), Vec2(50.0, 10.0)}}; // the strip would turn there
   gripper.force = 5.0;
   gripper.direction = Vec3(0.8, 0.6, 0.0);
   for (const bool guided : {false, true}) {
@@ -231,21 +225,22 @@ TEST(Attachments, GripperMovesItsNodesAsOnePiece) {
 }
 
 TEST(Attachments, StiffSpringsAndDrivesAreInTheStableStep) {
-  for (const BoundaryKind kind : {BoundaryKind::spring, BoundaryKind::gripper}) {
+  for (const bool spring : {true, false}) {
     Case data = free_strip(10.0);
     data.solver.step_factor = 0.95;
     data.solver.mass_scaling = data.solver.mass_damping = data.solver.fibre_damping = 0.0;
     data.solver.duration = 0.002;
     data.boundaries = {hold("grip", {-50, -10}, {-50, 10}, Vec3::UnitX(), 0.0),
-                       at_end(kind, 50.0, 0.0)};
+                       spring ? at_end<TensionSpring>(50.0, 0.0) : at_end<Gripper>(50.0, 0.0)};
     Boundary& puller = data.boundaries[1];
     double steps[2] = {0.0, 0.0};
     for (int stiff = 0; stiff < 2; ++stiff) {
-      puller.stiffness = stiff == 1 ? 1e5 : 1e-6;
-      if (kind == BoundaryKind::spring)
-        puller.preload = 0.1 * puller.stiffness;
+      const double stiffness = stiff == 1 ? 1e5 : 1e-6;
+      if (spring)
+        puller.as<TensionSpring>().stiffness = stiffness,
+        puller.as<TensionSpring>().preload = 0.1 * stiffness;
       else
-        puller.stroke = 0.1;
+        puller.as<Gripper>().stiffness = stiffness, puller.as<Gripper>().stroke = 0.1;
       Scene s = make_scene(data);
       double mass = 0.0, least = 1.0; // t, of the nodes; the lightest over its share
       for (const AttachedNode& node : s.attachments[0].nodes)
@@ -258,7 +253,7 @@ TEST(Attachments, StiffSpringsAndDrivesAreInTheStableStep) {
       EXPECT_EQ(said.back().find("shorten the step") != std::string::npos, stiff == 1);
       if (stiff == 0) continue;
       // As one piece, or with every node by its share: both have mass/k, as shares follow masses.
-      least = 2.0 * std::sqrt(mass / puller.stiffness);
+      least = 2.0 * std::sqrt(mass / stiffness);
       EXPECT_LE(steps[1], least * 1.0001);
       EXPECT_GT(steps[1], 0.5 * least);
       const RunResult run = run_scene(s, 1, {});
@@ -273,10 +268,10 @@ TEST(Attachments, StiffSpringsAndDrivesAreInTheStableStep) {
 /// Minus the gradient of 1/2 k (l - ln)^2, and no more of it than the stable step reckons with.
 TEST(Attachments, PullOfASpringIsTheGradientOfItsEnergy) {
   Case data = free_strip(10.0);
-  Boundary spring = at_end(BoundaryKind::spring, 50.0, 2.0);
+  data.boundaries = {at_end<TensionSpring>(50.0, 2.0)};
+  auto& spring = data.boundaries[0].as<TensionSpring>();
   spring.anchor = {80.0, 20.0, 15.0};
   spring.preload = 7.0;
-  data.boundaries = {spring};
   data.solver.duration = 1e-9; // the preload has come up
   Scene s = make_scene(data);
   s.time = 1.0;
@@ -325,16 +320,12 @@ TEST(Attachments, HalfAGripperOnAPlaneOfSymmetryIsHalfTheWhole) {
   const auto pulled = [](bool half) {
     Case data = free_strip(10.0);
     if (half) data.blanks[0].outline.boundary = {{-50, 0}, {50, 0}, {50, 10}, {-50, 10}};
-    data.boundaries = {at_end(BoundaryKind::spring, -50.0, half ? 1.0 : 2.0),
-                       at_end(BoundaryKind::gripper, 50.0, half ? 2.5 : 5.0)};
-    data.boundaries[1].stroke = 8.0;
+    data.boundaries = {at_end<TensionSpring>(-50.0, half ? 1.0 : 2.0),
+                       at_end<Gripper>(50.0, half ? 2.5 : 5.0)};
+    data.boundaries[1].as<Gripper>().stroke = 8.0;
     if (half) {
-      data.boundaries[0].anchor.y() = 5.0; // before the middle of the half edge
-      Boundary plane;
-      plane.name = "plane";
-      plane.kind = BoundaryKind::symmetry;
-      plane.normal = Vec2::UnitY();
-      data.boundaries.push_back(plane);
+      data.boundaries[0].as<TensionSpring>().anchor.y() = 5.0; // before the middle of the half edge
+      data.boundaries.push_back({"plane", -1, SymmetryPlane{Vec2::Zero(), Vec2::UnitY()}});
     }
     return run_on_two(data);
   };
@@ -363,7 +354,8 @@ TEST(Attachments, DrawOfTheShippedCaseFollowsHoldersAndSprings) {
     if (south.stroke_mm < 1.5) return; // mm: sticks, or still swings from having come loose
     ++judged;
     // N: of the preload and of how much longer the springs are; one gives way at its limit
-    const Boundary &a = data.boundaries[0], &b = data.boundaries[1];
+    const auto &a = data.boundaries[0].as<TensionSpring>(),
+               &b = data.boundaries[1].as<TensionSpring>();
     const double first = a.preload + a.stiffness * south.stroke_mm;
     const double second = std::min(b.preload + b.stiffness * north.stroke_mm, b.max_force);
     EXPECT_NEAR(south.force_N, first, 1e-6 * first);

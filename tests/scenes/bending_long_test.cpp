@@ -26,10 +26,9 @@ Tip hang_strip(const Fabric& fabric, MeshKind mesh, double angle, double softeni
   Case data = stack_of({angle}, rectangle(110.0, 20.0, 5.0));
   data.blanks[0].mesh = mesh;
   data.fabrics[0] = fabric;
-  Boundary clamp;
-  clamp.name = "clamp";
-  clamp.place = {Vec2(-55.0, -10.0), Vec2(-45.0, 10.0)}; // two cells: place and slope
-  data.boundaries = {clamp};
+  Grip clamp;
+  clamp.place.ends = {Vec2(-55.0, -10.0), Vec2(-45.0, 10.0)}; // two cells: place and slope
+  data.boundaries = {{"clamp", -1, clamp}};
   data.gravity = {0.0, 0.0, -9810.0};
   set_friction(data, 0.0);
   data.solver.fibre_softening = softening;

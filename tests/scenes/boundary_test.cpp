@@ -17,13 +17,11 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Boundary square_frame(double side, double stroke) {
-  Boundary f;
-  f.name = "frame";
-  f.kind = BoundaryKind::frame;
+  HingedFrame f;
   const double a = 0.5 * side;
   f.hinges = {Vec2(-a, -a), Vec2(a, -a), Vec2(a, a), Vec2(-a, a)};
   f.stroke = stroke;
-  return f;
+  return {"frame", -1, f};
 }
 
 Vec3 momentum(const PlyBody& ply) {
@@ -48,7 +46,7 @@ double largest_slip(const Scene& s) {
     const auto n = static_cast<std::size_t>(held.node);
     for (std::size_t i = 0; i < static_cast<std::size_t>(held.count); ++i) {
       const Boundary& b = s.data.boundaries[held.boundary[i]];
-      const double d = smooth_step(b.stroke, s.time, s.data.solver.duration);
+      const double d = smooth_step(stroke_of(b), s.time, s.data.solver.duration);
       const double slip =
           std::abs(held.axis[i].dot(ply.x[n] - prescribed_position(b, ply.x0[n], d)));
       if (!(slip <= largest) && !std::isnan(largest)) largest = slip;
@@ -61,7 +59,7 @@ TEST(BoundaryScene, HeldNodesFollowTheirPathsAtEveryStep) {
   Case pulled = strip(0.4, Vec3(0.6, 0.0, 0.8), 3.0); // lifts the end as it pulls
   pulled.gravity = {100.0, -200.0, -9810.0};
   Case half = strip(0.4, Vec3::UnitY(), 3.0);
-  half.boundaries[1].held = {false, true, false}; // free to come nearer
+  half.boundaries[1].as<Grip>().held = {false, true, false}; // free to come nearer
   Case sheared = stack_of({0.2}, rectangle(100.0, 100.0, 25.0));
   sheared.boundaries = {square_frame(100.0, 30.0)};
   set_friction(sheared, 0.0);
@@ -81,7 +79,7 @@ TEST(BoundaryScene, HeldNodesFollowTheirPathsAtEveryStep) {
     EXPECT_LT(slip, 1e-9); // mm
     EXPECT_GT(s.step, 100);
     ASSERT_FALSE(compute_forces(s, pool));
-    EXPECT_EQ(s.boundaries.back().displacement, data.boundaries.back().stroke);
+    EXPECT_EQ(s.boundaries.back().displacement, stroke_of(data.boundaries.back()));
   }
 }
 
@@ -133,7 +131,7 @@ TEST(BoundaryScene, FreePlyFallsByGravityAlone) {
 
 TEST(BoundaryScene, ImpulseOfReactionsAndGravityIsTheGainOfMomentum) {
   Case data = strip(0.4, Vec3(0.6, 0.0, 0.8), 3.0);
-  data.boundaries[0].held = {true, false, true};
+  data.boundaries[0].as<Grip>().held = {true, false, true};
   data.gravity = {0.0, 500.0, -9810.0};
   Scene s = make_scene(data);
   ThreadPool pool(1);
@@ -241,10 +239,10 @@ TEST(BoundaryScene, PictureFrameHasTheLoadOfTheCellsAndNoStrain) {
 TEST(BoundaryScene, GivesTheSameBitsForAnyNumberOfThreads) {
   Case data = pushed_square(0.0, MeshKind::alternating, true);
   data.blanks[0].element_size = 1.25; // several blocks of nodes and triangles
-  data.boundaries.back().direction = Vec3(0.0, 0.6, 0.8);
-  data.boundaries.back().stroke = 1.0;
-  data.boundaries[2].held = {true, false, true}; // not drawn apart in the corner
-  data.boundaries[2].place[1].y() = 35.0;
+  data.boundaries.back().as<Grip>().direction = Vec3(0.0, 0.6, 0.8);
+  data.boundaries.back().as<Grip>().stroke = 1.0;
+  data.boundaries[2].as<Grip>().held = {true, false, true}; // not drawn apart in the corner
+  data.boundaries[2].as<Grip>().place.ends[1].y() = 35.0;
   data.solver.duration = 1e-3;
   data.solver.fibre_softening = 1000.0;
   const RunResult one = run_case(data, 1, {});

@@ -19,7 +19,7 @@ TEST(InPlaneBendingLong, ShearComesUpFromAClampOverTheWidthOfItsLayer) {
     const double half = 0.5 * (strip.free_length + strip.size); // mm
     const double gamma = 1e-3; // rad, far from the clamps; yarns stretch by gamma^2/2
     Case data = strip_case(strip);
-    Boundary& right = data.boundaries[1];
+    Grip& right = data.boundaries[1].as<Grip>();
     right.direction = Vec3::UnitY();
     right.stroke = 2.0 * gamma * (half - layer * std::tanh(half / layer));
     hold_all(data, {true, false, true}); // else the wefts turn, as sections of a beam do
@@ -55,7 +55,7 @@ TEST(InPlaneBendingLong, ShearComesUpFromAClampOverTheWidthOfItsLayer) {
 double buckling_load(const Strip& strip, const Vec3& sideways, double theory) {
   Case data = strip_case(strip);
   const double yarns = 0.25 * strip.yarn; // N/mm
-  data.boundaries[1].stroke = -(theory / yarns + 0.004) * strip.free_length;
+  data.boundaries[1].as<Grip>().stroke = -(theory / yarns + 0.004) * strip.free_length;
   if (sideways.z() == 0.0) hold_all(data, {false, false, true});
   data.solver.mass_damping = 400.0;     // 1/s
   data.solver.duration = 0.3;           // s

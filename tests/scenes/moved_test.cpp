@@ -28,7 +28,7 @@ void carry(Scene& s, const Placement& to) {
     t.body.direction = to.turn * t.body.direction;
   }
   for (Boundary& b : s.data.boundaries)
-    b.direction = to.turn * b.direction;
+    b.as<Grip>().direction = to.turn * b.as<Grip>().direction;
   s.data.gravity = to.turn * s.data.gravity;
 }
 

@@ -31,7 +31,7 @@ Boundary grip(int ply, bool front, double stroke) {
                      : hold("back", low, {low.x(), high.y()}, Vec3::UnitX(), stroke);
   b.name += std::to_string(ply);
   b.ply = ply;
-  b.held = {true, true, false};
+  b.as<Grip>().held = {true, true, false};
   return b;
 }
 

@@ -20,7 +20,7 @@ Case over_the_rim(bool fine_above, double stroke) {
   Boundary goes = hold("goes", {-30.0, -30.0}, {-24.0, 30.0}, Vec3::UnitX(), stroke);
   stays.ply = 0;
   goes.ply = 1;
-  stays.held = goes.held = {true, true, false};
+  stays.as<Grip>().held = goes.as<Grip>().held = {true, true, false};
   data.boundaries = {stays, goes};
   data.solver.mass_damping = 500.0; // 1/s
   data.solver.duration = 0.03;

@@ -24,7 +24,7 @@ Scene drawn_over(const ToolShape& shape, const Vec3& position, const Eigen::Matr
   set_friction(data, 0.0);
   data.boundaries = {hold("pull", {60.0, -10.0}, {60.0, 10.0}, Vec3(-0.28, 0.0, -0.96), 50.0),
                      hold("level", {-60.0, -10.0}, {-60.0, 10.0}, Vec3::UnitX(), 0.0)};
-  data.boundaries[1].held = {false, true, true};
+  data.boundaries[1].as<Grip>().held = {false, true, true};
   data.gravity = {0.0, 0.0, -1e5}; // mm/s^2
   data.solver.fibre_softening = 100.0;
   data.solver.mass_damping = 500.0; // 1/s

@@ -112,12 +112,10 @@ Case frame_case(const FrameTest& t, const BlankSpec& blank) {
   data.fabrics = {t.fabric};
   const double omega0 = t.fabric.fibre_angle, a = t.side;
   const Vec2 u(a, 0.0), v(a * std::cos(omega0), a * std::sin(omega0)), middle = 0.5 * (u + v);
-  Boundary f;
-  f.name = "frame";
-  f.kind = BoundaryKind::frame;
+  HingedFrame f;
   f.hinges = {Vec2(-middle), Vec2(u - middle), Vec2(u + v - middle), Vec2(v - middle)};
   f.stroke = 2.0 * a * (std::cos(0.5 * (omega0 - t.to)) - std::cos(0.5 * omega0));
-  data.boundaries = {f};
+  data.boundaries = {{"frame", -1, f}};
   set_friction(data, 0.0);
   data.solver.element = t.element;
   data.solver.fibre_softening = t.softening;
@@ -128,7 +126,7 @@ Case frame_case(const FrameTest& t, const BlankSpec& blank) {
 /// The rhombus in cells.
 BlankSpec rhombus(const FrameTest& t, double size) {
   BlankSpec blank;
-  const Boundary f = frame_case(t, blank).boundaries[0];
+  const HingedFrame f = frame_case(t, blank).boundaries[0].as<HingedFrame>();
   blank.outline.boundary = {f.hinges.begin(), f.hinges.end()};
   blank.mesh = MeshKind::fibres;
   blank.element_size = size;

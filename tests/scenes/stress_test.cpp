@@ -136,7 +136,7 @@ TEST(Stress, FinePlyDrawnOverCoarseOneFeelsItsFriction) {
     data.boundaries[0].ply = 0;
     data.boundaries[1].ply = 1;
     for (Boundary& b : data.boundaries)
-      b.held = {true, true, false};
+      b.as<Grip>().held = {true, true, false};
     data.solver.mass_damping = 100.0;
     data.solver.duration = 0.06; // s: the shake of the pull's start has died down at 1 mm
     double least = 1e9, most = 0.0;

@@ -149,7 +149,7 @@ Press make_press(const Pressed& pressed) {
 Case press_case(const Pressed& pressed, const Press& press) {
   Case data = strip_case(press.strip);
   hold_all(data, {false, true, false});
-  data.boundaries[1].stroke = press.nearer - pressed.shortening * pressed.length;
+  data.boundaries[1].as<Grip>().stroke = press.nearer - pressed.shortening * pressed.length;
   Tool floor;
   floor.name = "floor";
   floor.shape = Box{{2.0 * pressed.length, 2.0 * press.strip.width, 10.0}};

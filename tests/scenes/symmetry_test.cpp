@@ -65,8 +65,8 @@ TEST(SymmetryScene, QuarterIsAQuarterOfTheWhole) {
 TEST(SymmetryScene, GripsOffThePlaneMayCrossIt) {
   // Half of a strip that is pulled at both ends.
   Case whole = strip(0.0, Vec3::UnitX(), 0.2);
-  whole.boundaries[0].direction = -Vec3::UnitX();
-  whole.boundaries[0].stroke = 0.2;
+  whole.boundaries[0].as<Grip>().direction = -Vec3::UnitX();
+  whole.boundaries[0].as<Grip>().stroke = 0.2;
   Case half = whole;
   half.blanks[0].outline.boundary = {{0, -10}, {50, -10}, {50, 10}, {0, 10}};
   half.boundaries[0] = plane("middle", Vec2::UnitX());

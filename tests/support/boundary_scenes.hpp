@@ -8,21 +8,15 @@ namespace plyform {
 
 inline Boundary grip(const std::string& name, const Vec2& a, const Vec2& b, const Vec3& direction,
                      double stroke) {
-  Boundary g;
-  g.name = name;
-  g.on_edge = true;
-  g.place = {a, b};
+  Grip g;
+  g.place = {true, {a, b}};
   g.direction = direction;
   g.stroke = stroke;
-  return g;
+  return {name, -1, g};
 }
 
 inline Boundary plane(const std::string& name, const Vec2& normal) {
-  Boundary p;
-  p.name = name;
-  p.kind = BoundaryKind::symmetry;
-  p.normal = normal;
-  return p;
+  return {name, -1, SymmetryPlane{Vec2::Zero(), normal}};
 }
 
 /// 100 x 20 mm between x = -50 and 50, held at the left, pulled at the right.

@@ -20,12 +20,11 @@ inline std::filesystem::path scratch(const std::string& name) {
 /// Holds the nodes in a box, in all directions.
 inline Boundary hold(const std::string& name, const Vec2& low, const Vec2& high,
                      const Vec3& direction, double stroke) {
-  Boundary g;
-  g.name = name;
-  g.place = {low, high};
+  Grip g;
+  g.place = {false, {low, high}};
   g.direction = direction;
   g.stroke = stroke;
-  return g;
+  return {name, -1, g};
 }
 
 /// Relative error of the ledger; none where all of it is rounding, below 1e-6 N mm.

@@ -39,7 +39,7 @@ inline Case strip_case(const Strip& strip) {
 /// Keeps all nodes where they are along some axes.
 inline void hold_all(Case& data, const std::array<bool, 3>& axes) {
   Boundary all = hold("all", {-1e3, -1e3}, {1e3, 1e3}, Vec3::UnitX(), 0.0);
-  all.held = axes;
+  all.as<Grip>().held = axes;
   data.boundaries.push_back(all);
 }
 

@@ -26,7 +26,7 @@ struct AttachmentCheck {
 /// A spring must have a direction, and a natural length above 0.
 void check_length(AttachmentCheck& check, const Attachment& attached) {
   constexpr double least = 0.1; // mm: as long as a spring must be to have a direction
-  const Boundary& spring = check.scene.boundaries[attached.boundary];
+  const auto& spring = check.scene.boundaries[attached.boundary].as<TensionSpring>();
   const Vec3& c = attached.start;
   if (attached.length < least)
     return check.fail(attached,
@@ -48,10 +48,8 @@ void check_length(AttachmentCheck& check, const Attachment& attached) {
 void check_alone(AttachmentCheck& check, const Attachment& clamp) {
   const std::vector<Boundary>& all = check.scene.boundaries;
   for (std::size_t b = 0; b < all.size(); ++b) {
-    const bool later_gripper =
-        all[b].kind == BoundaryKind::gripper && b < static_cast<std::size_t>(clamp.boundary);
-    if (all[b].kind != BoundaryKind::grip && all[b].kind != BoundaryKind::frame && !later_gripper)
-      continue;
+    const bool later_gripper = all[b].is<Gripper>() && b < static_cast<std::size_t>(clamp.boundary);
+    if (!all[b].is<Grip>() && !all[b].is<HingedFrame>() && !later_gripper) continue;
     for (const AttachedNode& node : clamp.nodes) {
       const Vec2 x = check.x0[node.ply][node.node].head<2>();
       if (holds(all[b], node.ply, x))
@@ -67,14 +65,13 @@ void check_alone(AttachmentCheck& check, const Attachment& clamp) {
 /// A force on a ply that nothing else holds or touches moves it away for ever.
 void check_resisted(AttachmentCheck& check, const Attachment& clamp) {
   const Case& scene = check.scene;
-  const auto others =
-      std::count_if(scene.boundaries.begin(), scene.boundaries.end(),
-                    [](const Boundary& b) { return b.kind != BoundaryKind::symmetry; });
-  if (scene.boundaries[clamp.boundary].force == 0.0 || others > 1 || !scene.tools.empty()) return;
+  const auto others = std::count_if(scene.boundaries.begin(), scene.boundaries.end(),
+                                    [](const Boundary& b) { return !b.is<SymmetryPlane>(); });
+  const double force = force_of(scene.boundaries[clamp.boundary]);
+  if (force == 0.0 || others > 1 || !scene.tools.empty()) return;
   check.fail(clamp,
              fmt::format("pulls ply {} by {:g} N, and nothing holds it: it would go on for ever",
-                         scene.plies[clamp.nodes.front().ply].name,
-                         scene.boundaries[clamp.boundary].force),
+                         scene.plies[clamp.nodes.front().ply].name, force),
              "hold it with a grip, a spring or a blank-holder, or draw it by a drive (stiffness, "
              "stroke)");
 }
@@ -82,10 +79,10 @@ void check_resisted(AttachmentCheck& check, const Attachment& clamp) {
 /// Warns of a pull that goes into the ply rather than off its edge.
 void warn_of_inward(AttachmentCheck& check, const Attachment& attached) {
   const Boundary& b = check.scene.boundaries[attached.boundary];
-  const bool spring = b.kind == BoundaryKind::spring;
-  Vec2 way = (spring ? Vec3(b.anchor - attached.start) : b.direction).head<2>();
+  const auto* spring = std::get_if<TensionSpring>(&b.kind);
+  Vec2 way = (spring ? Vec3(spring->anchor - attached.start) : b.as<Gripper>().direction).head<2>();
   constexpr double beyond = 0.1;             // mm: any little way
-  if (way.norm() < beyond && spring) return; // up or down
+  if (spring && way.norm() < beyond) return; // up or down
   if (way.norm() < 1e-3) return;
   way.normalize();
   const Vec2 c = attached.start.head<2>();
@@ -124,7 +121,7 @@ void check_attachments(const Case& scene, const CaseParts& parts, const std::vec
     if (prescribes(scene.boundaries[b])) continue;
     const Attachment attached = attach(scene.boundaries, b, sheets);
     if (attached.nodes.empty()) continue; // reported: check_boundaries
-    if (scene.boundaries[b].kind == BoundaryKind::spring)
+    if (scene.boundaries[b].is<TensionSpring>())
       check_length(check, attached);
     else
       check_alone(check, attached), check_resisted(check, attached);

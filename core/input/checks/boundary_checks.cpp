@@ -31,23 +31,23 @@ void check_holds_something(BoundaryCheck& check, std::size_t index) {
              "lines inside the blank");
 }
 
+/// Of grips and frames.
 bool share_an_axis(const Boundary& a, const Boundary& b) {
-  for (std::size_t k = 0; k < 3; ++k) {
-    const bool of_a = a.kind == BoundaryKind::frame || a.held[k];
-    const bool of_b = b.kind == BoundaryKind::frame || b.held[k];
-    if (of_a && of_b) return true;
-  }
+  const auto holds_along = [](const Boundary& x, std::size_t k) {
+    return x.is<HingedFrame>() || x.as<Grip>().held[k];
+  };
+  for (std::size_t k = 0; k < 3; ++k)
+    if (holds_along(a, k) && holds_along(b, k)) return true;
   return false;
 }
 
 /// Two boundaries that prescribe one node along the same axis must agree: both must be at rest.
 void check_no_conflict(BoundaryCheck& check, std::size_t a, std::size_t b) {
   const Boundary &first = check.scene.boundaries[a], &second = check.scene.boundaries[b];
-  const auto of_place = [](const Boundary& x) {
-    return x.kind == BoundaryKind::grip || x.kind == BoundaryKind::frame;
-  };
+  const auto of_place = [](const Boundary& x) { return x.is<Grip>() || x.is<HingedFrame>(); };
   if (!of_place(first) || !of_place(second)) return;
-  if ((first.stroke == 0.0 && second.stroke == 0.0) || !share_an_axis(first, second)) return;
+  if ((stroke_of(first) == 0.0 && stroke_of(second) == 0.0) || !share_an_axis(first, second))
+    return;
   for (std::size_t p = 0; p < check.plies.size(); ++p)
     for (const Vec2& x : check.plies[p].mesh.x)
       if (holds(first, static_cast<int>(p), x) && holds(second, static_cast<int>(p), x))
@@ -58,15 +58,16 @@ void check_no_conflict(BoundaryCheck& check, std::size_t a, std::size_t b) {
                           "let their boxes, edges or bars not meet, or hold different directions");
 }
 
-Vec3 normal_of(const Boundary& plane) {
+Vec3 normal_of(const SymmetryPlane& plane) {
   return {plane.normal.x(), plane.normal.y(), 0.0};
 }
 
 /// The blanks must lie on one side of the plane of symmetry and have nodes on it.
 void check_half_blank(BoundaryCheck& check, std::size_t index) {
-  const Boundary& plane = check.scene.boundaries[index];
+  const Boundary& boundary = check.scene.boundaries[index];
+  const auto& plane = boundary.as<SymmetryPlane>();
   for (std::size_t p = 0; p < check.plies.size(); ++p) {
-    if (plane.ply >= 0 && plane.ply != static_cast<int>(p)) continue;
+    if (boundary.ply >= 0 && boundary.ply != static_cast<int>(p)) continue;
     double least = 0.0, most = 0.0;
     for (const Vec2& x : check.plies[p].mesh.x) {
       const double side = (x - plane.point).dot(plane.normal);
@@ -89,10 +90,11 @@ bool same_line(double a, double b) {
 
 /// The fibre directions of each ply must be symmetric to the plane.
 void check_fibres(BoundaryCheck& check, std::size_t index) {
-  const Boundary& plane = check.scene.boundaries[index];
+  const Boundary& boundary = check.scene.boundaries[index];
+  const auto& plane = boundary.as<SymmetryPlane>();
   const double along = std::atan2(plane.normal.x(), -plane.normal.y());
   for (std::size_t p = 0; p < check.scene.plies.size(); ++p) {
-    if (plane.ply >= 0 && plane.ply != static_cast<int>(p)) continue;
+    if (boundary.ply >= 0 && boundary.ply != static_cast<int>(p)) continue;
     const Ply& ply = check.scene.plies[p];
     const Fabric& fabric = check.scene.fabrics[ply.fabric];
     if (!fabric.has_yarns()) continue;
@@ -120,7 +122,8 @@ struct Difference {
   double beyond = 0.0, all = 0.0, of_facets = 0.0; ///< mm
 };
 
-Difference difference_to_image(const Tool& tool, const TriMesh& surface, const Boundary& plane) {
+Difference difference_to_image(const Tool& tool, const TriMesh& surface,
+                               const SymmetryPlane& plane) {
   const Vec3 normal = normal_of(plane), point(plane.point.x(), plane.point.y(), 0.0);
   const auto own_frame = [&](const Vec3& x) {
     return Vec3(tool.rotation.transpose() * (x - tool.position));
@@ -143,7 +146,7 @@ Difference difference_to_image(const Tool& tool, const TriMesh& surface, const B
 /// Tools must be symmetric to the plane and remain so when they move.
 void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
                           const std::vector<TriMesh>& surfaces) {
-  const Boundary& plane = check.scene.boundaries[index];
+  const auto& plane = check.scene.boundaries[index].as<SymmetryPlane>();
   // a fiftieth of a thickness, less than any contact depth
   const double same = 20.0 * touch_depth(check.plies);
   for (std::size_t t = 0; t < check.scene.tools.size(); ++t) {
@@ -167,14 +170,15 @@ void check_mirrored_tools(BoundaryCheck& check, std::size_t index,
 
 /// Whether a boundary that moves has a stroke or, as a gripper, a force.
 bool moves(const Boundary& b) {
-  return b.kind != BoundaryKind::symmetry && (b.stroke > 0.0 || b.force > 0.0);
+  return stroke_of(b) > 0.0 || force_of(b) > 0.0;
 }
 
 /// Whether a boundary moves a node of the plane of symmetry out of it, or pulls it. (Those away
 /// from the plane may move in any direction: the other half has their mirror images.)
 bool crosses(const BoundaryCheck& check, const Boundary& plane, const Boundary& other) {
-  const Vec3 normal = normal_of(plane);
-  const double reach = other.stroke > 0.0 ? other.stroke : 1.0; // mm; of a force any length
+  const Vec3 normal = normal_of(plane.as<SymmetryPlane>());
+  const double stroke = stroke_of(other);
+  const double reach = stroke > 0.0 ? stroke : 1.0; // mm; of a force any length
   for (std::size_t p = 0; p < check.plies.size(); ++p)
     for (const Vec2& x : check.plies[p].mesh.x) {
       const int ply = static_cast<int>(p);
@@ -189,7 +193,8 @@ bool crosses(const BoundaryCheck& check, const Boundary& plane, const Boundary& 
 
 void check_mirrored_loads(BoundaryCheck& check, std::size_t index) {
   const Boundary& plane = check.scene.boundaries[index];
-  if (std::abs(check.scene.gravity.dot(normal_of(plane))) > 1e-6 * check.scene.gravity.norm())
+  if (std::abs(check.scene.gravity.dot(normal_of(plane.as<SymmetryPlane>()))) >
+      1e-6 * check.scene.gravity.norm())
     check.fail(index, "is crossed by gravity", "turn it along the plane, or model the whole");
   for (const Boundary& other : check.scene.boundaries)
     if (moves(other) && crosses(check, plane, other))
@@ -207,7 +212,7 @@ void check_boundaries(const Case& scene, const CaseParts& parts, const std::vect
     check_holds_something(check, b);
     for (std::size_t a = 0; a < b; ++a)
       check_no_conflict(check, a, b);
-    if (scene.boundaries[b].kind != BoundaryKind::symmetry) continue;
+    if (!scene.boundaries[b].is<SymmetryPlane>()) continue;
     check_half_blank(check, b);
     check_fibres(check, b);
     check_mirrored_tools(check, b, surfaces);

@@ -86,7 +86,7 @@ bool plies_move_without(const MotionCheck& check, std::size_t but) {
     if (t != but && arrives(scene.tools[t], check.ways[t])) return true;
   return scene.gravity.norm() > 0.0 ||
          std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
-                     [](const Boundary& b) { return b.stroke != 0.0 || !prescribes(b); });
+                     [](const Boundary& b) { return stroke_of(b) != 0.0 || !prescribes(b); });
 }
 
 void check_driven(MotionCheck& check, std::size_t t) {

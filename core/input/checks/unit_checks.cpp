@@ -3,6 +3,7 @@
 
 #include "core/input/dxf/dxf_outline.hpp"
 #include "core/mesh/mesh_ply.hpp"
+#include "core/model/boundary.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -138,7 +139,7 @@ SceneSizes measure(const Case& scene) {
   }
   Eigen::AlignedBox2d all;
   const bool part = std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
-                                [](const auto& b) { return b.kind == BoundaryKind::symmetry; });
+                                [](const Boundary& b) { return b.is<SymmetryPlane>(); });
   for (std::size_t b = 0; b < boxes.size(); ++b) {
     const BlankSpec& blank = scene.blanks[b];
     sizes.bodies.push_back(
@@ -155,11 +156,12 @@ SceneSizes measure(const Case& scene) {
     body.reaches_centre =
         ((body.centre - centre).cwiseAbs() - 0.5 * body.sizes).maxCoeff() < 0.1 * body.size();
   for (const Boundary& b : scene.boundaries) {
-    if (b.kind == BoundaryKind::symmetry) continue;
-    const bool frame = b.kind == BoundaryKind::frame;
-    for (std::size_t k = 0; k < (frame ? 4u : 2u); ++k)
-      sizes.reach =
-          std::max(sizes.reach, 2.0 * ((frame ? b.hinges[k] : b.place[k]) - all.center()).norm());
+    const auto reach = [&](std::span<const Vec2> places) {
+      for (const Vec2& x : places)
+        sizes.reach = std::max(sizes.reach, 2.0 * (x - all.center()).norm());
+    };
+    if (const auto* frame = std::get_if<HingedFrame>(&b.kind)) reach(frame->hinges);
+    if (const HeldPlace* place = place_of(b)) reach(place->ends);
   }
   if (!sizes.driven.empty()) measure_opening(sizes, centre, bottom, stack);
   return sizes;

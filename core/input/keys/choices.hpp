@@ -33,12 +33,6 @@ inline constexpr Choice<Motion> motion_choices[] = {
 inline constexpr Choice<SelfContact> self_choices[] = {
     {"auto", SelfContact::automatic}, {"off", SelfContact::off}, {"on", SelfContact::on}};
 
-inline constexpr Choice<BoundaryKind> boundary_choices[] = {{"grip", BoundaryKind::grip},
-                                                            {"frame", BoundaryKind::frame},
-                                                            {"symmetry", BoundaryKind::symmetry},
-                                                            {"spring", BoundaryKind::spring},
-                                                            {"gripper", BoundaryKind::gripper}};
-
 /// The words, in the order of the table.
 template <class Value, std::size_t count>
 std::vector<std::string> words_of(const Choice<Value> (&choices)[count]) {

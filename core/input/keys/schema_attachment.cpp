@@ -19,7 +19,7 @@ Rows attachment_rows() {
            .of = "kind",
            .with = {"spring", "gripper"},
            .meaning = "stiffness of a spring, or of what lies between a gripper and its drive",
-           .members = {to(&Boundary::stiffness)}},
+           .members = {to(&TensionSpring::stiffness), to(&Gripper::stiffness)}},
           {.key = "boundary[].force",
            .unit = "N",
            .instead = {"stiffness", "force_programme"},
@@ -28,7 +28,7 @@ Rows attachment_rows() {
            .of = "kind",
            .with = gripper,
            .meaning = "force that pulls the gripper along its direction",
-           .members = {to(&Boundary::force)}},
+           .members = {to(&Gripper::force)}},
           {.key = "boundary[].force_programme",
            .kind = K::pairs,
            .unit = "-, N",
@@ -46,7 +46,7 @@ Rows attachment_rows() {
            .of = "kind",
            .with = gripper,
            .meaning = "mass of the gripper, beside that of what it clamps",
-           .members = {to(&Boundary::mass)}},
+           .members = {to(&Gripper::mass)}},
           {.key = "boundary[].guided",
            .kind = K::boolean,
            .fallback = "false",
@@ -55,7 +55,7 @@ Rows attachment_rows() {
            .meaning =
                "whether the gripper moves along its direction only, as on a rail; else it is "
                "free to give way sideways",
-           .members = {to(&Boundary::guided)}},
+           .members = {to(&Gripper::guided)}},
           {.key = "boundary[].anchor",
            .kind = K::numbers,
            .unit = "mm",
@@ -64,7 +64,7 @@ Rows attachment_rows() {
            .of = "kind",
            .with = spring,
            .meaning = "place [x, y, z] of the spring's other end, before forming",
-           .members = {to(&Boundary::anchor)}},
+           .members = {to(&TensionSpring::anchor)}},
           {.key = "boundary[].carried_by",
            .kind = K::text,
            .otherwise = "the anchor stays",
@@ -80,7 +80,7 @@ Rows attachment_rows() {
            .of = "kind",
            .with = spring,
            .meaning = "tension of the spring before forming",
-           .members = {to(&Boundary::preload)}},
+           .members = {to(&TensionSpring::preload)}},
           {.key = "boundary[].natural_length",
            .unit = "mm",
            .otherwise = "from preload",
@@ -89,7 +89,7 @@ Rows attachment_rows() {
            .of = "kind",
            .with = spring,
            .meaning = "length of the spring without a load, up to which it is slack",
-           .members = {to(&Boundary::natural_length)}},
+           .members = {to(&TensionSpring::natural_length)}},
           {.key = "boundary[].max_force",
            .unit = "N",
            .otherwise = "no limit",
@@ -97,7 +97,7 @@ Rows attachment_rows() {
            .of = "kind",
            .with = spring,
            .meaning = "largest tension of the spring, which then gets longer at that force",
-           .members = {to(&Boundary::max_force)}}};
+           .members = {to(&TensionSpring::max_force)}}};
 }
 
 } // namespace plyform

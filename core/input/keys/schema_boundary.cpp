@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of the table of keys: [[boundary]], and its grips, frames and planes of symmetry.
+#include "core/input/keys/boundary_kinds.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/schema_case.hpp"
 
@@ -39,11 +40,10 @@ Rows boundary_rows() {
        .members = {to(&Boundary::name)}},
       {.key = "boundary[].kind",
        .kind = K::choice,
-       .choices = words_of(boundary_choices),
+       .choices = boundary_words(),
        .meaning = "kind of boundary: a rigid grip that moves (or stays) as one piece; four "
                   "hinged bars pulled along a diagonal; a vertical plane of symmetry; a "
-                  "tension spring to an anchor; a gripper pulled by a force or a drive",
-       .members = {to(&Boundary::kind, boundary_choices)}},
+                  "tension spring to an anchor; a gripper pulled by a force or a drive"},
       {.key = "boundary[].ply",
        .kind = K::text,
        .otherwise = "all plies",
@@ -79,7 +79,7 @@ Rows boundary_rows() {
        .with = moved,
        .meaning = "stroke over the duration; of a grip and of a gripper's drive along the "
                   "direction, of a frame along the diagonal from the first hinge to the third",
-       .members = {to(&Boundary::stroke)}},
+       .members = {to(&Grip::stroke), to(&HingedFrame::stroke), to(&Gripper::stroke)}},
       {.key = "boundary[].stroke_programme",
        .kind = K::pairs,
        .unit = "-, mm",

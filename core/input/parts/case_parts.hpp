@@ -4,7 +4,7 @@
 // what is valid: the case is used only if there was no error at all.
 #pragma once
 
-#include "core/input/keys/schema_check.hpp"
+#include "core/input/keys/motion_keys.hpp"
 #include "core/model/case.hpp"
 
 #include <filesystem>
@@ -31,14 +31,6 @@ void place_tool_zones(const TableView& root, Case& built, Diagnostics& diagnosti
 /// file's.
 std::vector<Tool> read_tools(const TableView& root, const std::filesystem::path& folder,
                              Diagnostics& diagnostics);
-
-/// A direction of the section as a unit vector; reports an error for the zero vector.
-Vec3 read_direction(const TableView& section, const std::string& key, Diagnostics& diagnostics);
-
-/// The stages of a programme of the section; reports those that are not in order of time. `largest`
-/// becomes the largest value, if that is larger.
-std::vector<Stage> read_programme(const TableView& section, const std::string& key, double& largest,
-                                  Diagnostics& diagnostics);
 
 /// core/input/parts/boundary_file.cpp: grips, frames, planes of symmetry, springs and grippers.
 std::vector<Boundary> read_boundaries(const TableView& root, const std::vector<Ply>& plies,

@@ -235,29 +235,27 @@ TEST(CaseFile, ReadsGripsFramesAndPlanesOfSymmetry) {
   ASSERT_EQ(c.boundaries.size(), 5u);
   const Boundary &middle = c.boundaries[0], &pulled = c.boundaries[1], &clamp = c.boundaries[2],
                  &bars = c.boundaries[3], &far_side = c.boundaries[4];
-  EXPECT_EQ(middle.kind, BoundaryKind::symmetry);
-  EXPECT_EQ(middle.normal, Vec2(1, 0)); // given as (2, 0)
-  EXPECT_EQ(middle.point, Vec2(0, 0));
+  EXPECT_EQ(middle.as<SymmetryPlane>().normal, Vec2(1, 0)); // given as (2, 0)
+  EXPECT_EQ(middle.as<SymmetryPlane>().point, Vec2(0, 0));
   EXPECT_EQ(middle.ply, -1);
   EXPECT_EQ(pulled.name, "pulled");
-  EXPECT_EQ(pulled.kind, BoundaryKind::grip);
-  EXPECT_TRUE(pulled.on_edge);
-  EXPECT_EQ(pulled.place[1], Vec2(20, 20));
-  EXPECT_EQ(pulled.held, (std::array<bool, 3>{true, false, true}));
-  EXPECT_TRUE(pulled.direction.isApprox(Vec3(0.6, 0, 0.8), 1e-15)); // given as (3, 0, 4)
-  EXPECT_EQ(pulled.stroke, 2.0);
-  EXPECT_FALSE(clamp.on_edge);
+  const Grip &pulling = pulled.as<Grip>(), &clamping = clamp.as<Grip>();
+  EXPECT_TRUE(pulling.place.on_edge);
+  EXPECT_EQ(pulling.place.ends[1], Vec2(20, 20));
+  EXPECT_EQ(pulling.held, (std::array<bool, 3>{true, false, true}));
+  EXPECT_TRUE(pulling.direction.isApprox(Vec3(0.6, 0, 0.8), 1e-15)); // given as (3, 0, 4)
+  EXPECT_EQ(pulling.stroke, 2.0);
+  EXPECT_FALSE(clamping.place.on_edge);
   EXPECT_EQ(clamp.ply, 1);
-  EXPECT_EQ(clamp.place[0], Vec2(10, -5)); // corners in any order
-  EXPECT_EQ(clamp.held, (std::array<bool, 3>{true, true, true}));
-  EXPECT_EQ(clamp.direction, Vec3(1, 0, 0));
-  EXPECT_EQ(clamp.stroke, 0.0);
-  EXPECT_EQ(bars.kind, BoundaryKind::frame);
+  EXPECT_EQ(clamping.place.ends[0], Vec2(10, -5)); // corners in any order
+  EXPECT_EQ(clamping.held, (std::array<bool, 3>{true, true, true}));
+  EXPECT_EQ(clamping.direction, Vec3(1, 0, 0));
+  EXPECT_EQ(clamping.stroke, 0.0);
   EXPECT_EQ(bars.ply, 0);
-  EXPECT_EQ(bars.hinges[2], Vec2(15, 10));
-  EXPECT_EQ(bars.stroke, 3.0);
-  EXPECT_EQ(far_side.normal, Vec2(0, 1));
-  EXPECT_EQ(far_side.point, Vec2(3, -20));
+  EXPECT_EQ(bars.as<HingedFrame>().hinges[2], Vec2(15, 10));
+  EXPECT_EQ(bars.as<HingedFrame>().stroke, 3.0);
+  EXPECT_EQ(far_side.as<SymmetryPlane>().normal, Vec2(0, 1));
+  EXPECT_EQ(far_side.as<SymmetryPlane>().point, Vec2(3, -20));
 }
 
 TEST(CaseFile, ReadsGravityAndIsotropicSheets) {

@@ -13,11 +13,9 @@ namespace {
 
 constexpr double nan = std::numeric_limits<double>::quiet_NaN();
 
-Boundary spring_on(const Vec2& a, const Vec2& b, bool edge) {
-  Boundary s;
-  s.kind = BoundaryKind::spring;
-  s.on_edge = edge;
-  s.place = {a, b};
+TensionSpring spring_on(const Vec2& a, const Vec2& b, bool edge) {
+  TensionSpring s;
+  s.place = {edge, {a, b}};
   s.stiffness = 2.0;
   s.anchor = {-60.0, 0.0, 0.0};
   return s;
@@ -36,13 +34,13 @@ Sheet sheet(MeshKind kind, double size) {
   return s;
 }
 
-Attachment attached(const Boundary& b, const Sheet& s) {
+Attachment attached(const TensionSpring& spring, const Sheet& s) {
   const std::vector<SheetBefore> plies{{s.x, s.mesh.triangles}};
-  return attach({b}, 0, plies);
+  return attach({{"spring", -1, spring}}, 0, plies);
 }
 
 TEST(Attachment, SharesAddUpAndMeetInTheMiddleOfTheEdge) {
-  const Boundary b = spring_on({-50.0, -20.0}, {-50.0, 20.0}, true);
+  const TensionSpring b = spring_on({-50.0, -20.0}, {-50.0, 20.0}, true);
   for (const MeshKind kind : {MeshKind::alternating, MeshKind::free})
     for (const double size : {10.0, 4.0}) {
       const Attachment a = attached(b, sheet(kind, size));
@@ -89,7 +87,7 @@ TEST(Attachment, OneNodeHasAllOfIt) {
 }
 
 TEST(Attachment, SpringPullsBetweenSlackAndItsLimit) {
-  Boundary b = spring_on({-50.0, -20.0}, {-50.0, 20.0}, true);
+  TensionSpring b = spring_on({-50.0, -20.0}, {-50.0, 20.0}, true);
   const Sheet s = sheet(MeshKind::alternating, 10.0);
   b.preload = 6.0;
   b.max_force = 9.0;
@@ -110,22 +108,21 @@ TEST(Attachment, SpringPullsBetweenSlackAndItsLimit) {
 }
 
 TEST(Attachment, GripperIsHeldByPlanesOfSymmetryAndItsGuide) {
-  Boundary plane;
-  plane.kind = BoundaryKind::symmetry;
-  plane.normal = Vec2::UnitY();
-  plane.point = {0.0, -20.0};
-  Boundary gripper = spring_on({40.0, -20.0}, {50.0, 0.0}, false);
-  gripper.kind = BoundaryKind::gripper;
+  const Boundary plane{"plane", -1, SymmetryPlane{{0.0, -20.0}, Vec2::UnitY()}};
+  Gripper gripper;
+  gripper.place = {false, {Vec2(40.0, -20.0), Vec2(50.0, 0.0)}};
   gripper.direction = Vec3::UnitX();
   const Sheet s = sheet(MeshKind::alternating, 10.0);
   const std::vector<SheetBefore> plies{{s.x, s.mesh.triangles}};
-  const auto held = [&](const Boundary& g) { return attach({plane, g}, 1, plies).held; };
+  const auto held = [&](const Gripper& g) {
+    return attach({plane, {"gripper", -1, g}}, 1, plies).held;
+  };
   ASSERT_EQ(held(gripper).size(), 1u);
   EXPECT_NEAR(std::abs(held(gripper)[0].y()), 1.0, 1e-12);
-  Boundary away = gripper;
-  away.place = {Vec2(40.0, 0.0), Vec2(50.0, 20.0)};
+  Gripper away = gripper;
+  away.place.ends = {Vec2(40.0, 0.0), Vec2(50.0, 20.0)};
   EXPECT_TRUE(held(away).empty());
-  for (Boundary g : {gripper, away}) {
+  for (Gripper g : {gripper, away}) {
     g.guided = true;
     ASSERT_EQ(held(g).size(), 2u);
     for (const Vec3& axis : held(g))

@@ -12,11 +12,10 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 Boundary frame_of(const Vec2& p0, const Vec2& u, const Vec2& v, double stroke = 0.0) {
-  Boundary b;
-  b.kind = BoundaryKind::frame;
-  b.hinges = {p0, p0 + u, p0 + u + v, p0 + v};
-  b.stroke = stroke;
-  return b;
+  HingedFrame f;
+  f.hinges = {p0, p0 + u, p0 + u + v, p0 + v};
+  f.stroke = stroke;
+  return {"frame", -1, f};
 }
 
 /// A square, a rhombus that is open already, a parallelogram, and that one listed clockwise.
@@ -33,7 +32,7 @@ Vec3 flat(const Vec2& p, double z) {
 
 /// Displacements from none to nearly all that the bars allow.
 std::vector<double> strokes_of(const Boundary& frame) {
-  const double most = longest_stroke(frame);
+  const double most = longest_stroke(frame.as<HingedFrame>());
   return {0.0, 1e-6 * most, 0.3 * most, 0.7 * most, 0.99 * most};
 }
 
@@ -41,7 +40,8 @@ TEST(Boundary, BarsOfAFrameKeepTheirLengths) {
   for (const Boundary& frame : frames())
     for (const double d : strokes_of(frame))
       for (std::size_t k = 0; k < 4; ++k) {
-        const Vec3 a = flat(frame.hinges[k], 4.0), b = flat(frame.hinges[(k + 1) % 4], 4.0);
+        const auto& hinges = frame.as<HingedFrame>().hinges;
+        const Vec3 a = flat(hinges[k], 4.0), b = flat(hinges[(k + 1) % 4], 4.0);
         const double before = (b - a).norm();
         for (const double s : {0.25, 1.0}) { // from the hinge to a point of the bar
           const Vec3 p = prescribed_position(frame, a, d),
@@ -55,7 +55,8 @@ TEST(Boundary, BarsOfAFrameKeepTheirLengths) {
 TEST(Boundary, FirstHingeOfAFrameStaysAndTheThirdGoesAlongTheDiagonal) {
   for (const Boundary& frame : frames())
     for (const double d : strokes_of(frame)) {
-      const Vec3 p0 = flat(frame.hinges[0], 0.0), p2 = flat(frame.hinges[2], 0.0);
+      const auto& hinges = frame.as<HingedFrame>().hinges;
+      const Vec3 p0 = flat(hinges[0], 0.0), p2 = flat(hinges[2], 0.0);
       EXPECT_NEAR((prescribed_position(frame, p0, d) - p0).norm(), 0.0, 1e-12);
       const Vec3 wanted = p2 + d * (p2 - p0).normalized();
       EXPECT_NEAR((prescribed_position(frame, p2, d) - wanted).norm(), 0.0, 1e-12 * 100);
@@ -64,17 +65,16 @@ TEST(Boundary, FirstHingeOfAFrameStaysAndTheThirdGoesAlongTheDiagonal) {
 
 TEST(Boundary, SlopeIsTheDerivativeOfThePlace) {
   std::vector<Boundary> all = frames();
-  Boundary grip;
+  Grip grip;
   grip.direction = Vec3(0.6, 0.0, -0.8);
-  all.push_back(grip);
-  Boundary plane;
-  plane.kind = BoundaryKind::symmetry;
-  all.push_back(plane);
+  all.push_back({"grip", -1, grip});
+  all.push_back({"plane", -1, SymmetryPlane{}});
   for (const Boundary& b : all)
     for (const double share : {0.1, 0.5, 0.9}) {
-      const bool frame = b.kind == BoundaryKind::frame;
-      const double d = share * (frame ? longest_stroke(b) : 10.0), h = 1e-4;
-      for (const Vec3& X : {Vec3(7, 11, 3), Vec3(-20, 30, 0), flat(b.hinges[1], 0.0)}) {
+      const auto* frame = std::get_if<HingedFrame>(&b.kind);
+      const double d = share * (frame ? longest_stroke(*frame) : 10.0), h = 1e-4;
+      const Vec3 hinge = frame ? flat(frame->hinges[1], 0.0) : Vec3(Vec3::Zero());
+      for (const Vec3& X : {Vec3(7, 11, 3), Vec3(-20, 30, 0), hinge}) {
         const Vec3 difference =
             (prescribed_position(b, X, d + h) - prescribed_position(b, X, d - h)) / (2.0 * h);
         // h^2 times the third derivative, and 1e-14 of 100 mm over h
@@ -95,28 +95,23 @@ TEST(Boundary, SquareFrameShearsByTheClosedForm) {
     EXPECT_NEAR(std::asin(u.dot(v) / (a * a)), gamma, 1e-12) << degrees;
     EXPECT_GT(u.cross(v).z(), 0.0); // not turned over
   }
-  EXPECT_NEAR(longest_stroke(frame), (2.0 - std::numbers::sqrt2) * a, 1e-12);
+  EXPECT_NEAR(longest_stroke(frame.as<HingedFrame>()), (2.0 - std::numbers::sqrt2) * a, 1e-12);
 }
 
 Boundary grip_on(const Vec2& a, const Vec2& b, std::array<bool, 3> held = {true, true, true}) {
-  Boundary grip;
-  grip.on_edge = true;
-  grip.place = {a, b};
+  Grip grip;
+  grip.place = {true, {a, b}};
   grip.held = held;
-  return grip;
+  return {"grip", -1, grip};
 }
 
 Boundary plane_through(const Vec2& point, const Vec2& normal) {
-  Boundary plane;
-  plane.kind = BoundaryKind::symmetry;
-  plane.point = point;
-  plane.normal = normal.normalized();
-  return plane;
+  return {"plane", -1, SymmetryPlane{point, normal.normalized()}};
 }
 
 TEST(Boundary, HoldsWhatLiesInItsBoxOnItsEdgeOrOnItsPlane) {
-  Boundary box; // corners in any order
-  box.place = {Vec2(4, -1), Vec2(-2, 3)};
+  Boundary box{"box", -1, Grip{}}; // corners in any order
+  box.as<Grip>().place.ends = {Vec2(4, -1), Vec2(-2, 3)};
   EXPECT_TRUE(holds(box, 0, {0, 0}));
   EXPECT_TRUE(holds(box, 7, {4, 3}));       // the rim, any ply
   EXPECT_TRUE(holds(box, 0, {4.00005, 0})); // rounding

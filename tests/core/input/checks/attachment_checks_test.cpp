@@ -27,21 +27,21 @@ const std::string springs = std::string(PLYFORM_TEST_DATA) + "/good/springs.toml
 TEST(AttachmentChecks, ReadsSpringsAndGrippers) {
   const Case c = good_case(springs);
   ASSERT_EQ(c.boundaries.size(), 5u);
-  const Boundary &hung = c.boundaries[0], &slack = c.boundaries[1], &cylinder = c.boundaries[2],
-                 &pulsed = c.boundaries[3], &drive = c.boundaries[4];
-  EXPECT_EQ(hung.kind, BoundaryKind::spring);
-  EXPECT_TRUE(hung.on_edge);
+  const auto &hung = c.boundaries[0].as<TensionSpring>(),
+             &slack = c.boundaries[1].as<TensionSpring>();
+  const auto &cylinder = c.boundaries[2].as<Gripper>(), &pulsed = c.boundaries[3].as<Gripper>(),
+             &drive = c.boundaries[4].as<Gripper>();
+  EXPECT_TRUE(hung.place.on_edge);
   EXPECT_EQ(hung.anchor, Vec3(-50, 0, 5));
   EXPECT_EQ(hung.carrier, 0);
   EXPECT_EQ(hung.stiffness, 0.5);
   EXPECT_EQ(hung.preload, 4.0);
   EXPECT_FALSE(hung.natural_length);
   EXPECT_EQ(hung.max_force, 9.0);
-  EXPECT_EQ(slack.ply, 0);
+  EXPECT_EQ(c.boundaries[1].ply, 0);
   EXPECT_EQ(slack.carrier, -1);
   EXPECT_EQ(slack.natural_length, 60.0);
   EXPECT_TRUE(std::isinf(slack.max_force));
-  EXPECT_EQ(cylinder.kind, BoundaryKind::gripper);
   EXPECT_EQ(cylinder.direction, Vec3(1, 0, 0)); // given as (2, 0, 0)
   EXPECT_EQ(cylinder.force, 12.0);
   EXPECT_EQ(cylinder.stiffness, 0.0);
