@@ -4,6 +4,7 @@
 #include "core/results/result_fields.hpp"
 #include "python/bindings.hpp"
 
+#include <fmt/format.h>
 #include <limits>
 #include <memory>
 
@@ -23,31 +24,39 @@ py::object parts_of(const SharedFrame& frame, std::vector<Part>& items) {
   return parts(list);
 }
 
-/// An attribute of the ply's that is one of its arrays; None where it is empty and may be.
+/// An attribute of the ply's that is one of its arrays.
 template <class Value>
-void add_column(PartClass<PlyFrame>& ply, const char* name, std::vector<Value> PlyFrame::*values,
-                const std::string& doc, bool may_lack = false) {
+void add_array(PartClass<PlyFrame>& ply, const char* name, std::vector<Value> PlyFrame::*values,
+               const char* doc) {
   ply.def_property_readonly(
       name,
-      [values, may_lack](const py::object& self) -> py::object {
-        const PlyFrame& frame = self.cast<const PlyFrame&>();
-        if (may_lack && (frame.*values).empty()) return py::none();
-        return shared_array(frame.*values, self, false);
+      [values](const py::object& self) {
+        return shared_array(self.cast<const PlyFrame&>().*values, self, false);
       },
-      doc.c_str());
+      doc);
 }
 
-/// Adds the columns of one table, and their names to a list.
-template <class Table>
-void add_columns(PartClass<PlyFrame>& ply, const Table& table, const char* shape, bool may_lack,
-                 py::list& names) {
-  for (const auto& column : table) {
-    add_column(ply, column.name, column.values,
-               std::string("float64, ") + shape + (may_lack ? ", or None" : "") +
-                   ": as in docs/users/results.md; the unit is in the name (pressure: N/mm2).",
-               may_lack);
-    names.append(column.name);
-  }
+/// A column by its name; None where it is left out. Raises AttributeError.
+py::object column_of(const py::object& self, const std::string& name) {
+  py::object found;
+  each_column(self.cast<const PlyFrame&>(), [&](const Column& column, const auto& values) {
+    if (column.name != name) return;
+    if (column.may_lack && values.empty())
+      found = py::none();
+    else
+      found = shared_array(values, self, false);
+  });
+  if (!found) throw py::attribute_error(fmt::format("a ply without the column {}", name));
+  return found;
+}
+
+/// Names of the columns of one place.
+py::tuple names_at(const PlyFrame& ply, Location place) {
+  py::list names;
+  each_column(ply, [&](const Column& column, const auto&) {
+    if (column.place == place) names.append(column.name);
+  });
+  return py::tuple(names);
 }
 
 void bind_ply(py::module_& m) {
@@ -55,16 +64,33 @@ void bind_ply(py::module_& m) {
                           "A ply at one time: n nodes, m triangles; arrays can only be read.");
   ply.def_readonly("name", &PlyFrame::name, "Name in the case.");
   ply.def_readonly("angle_deg", &PlyFrame::angle_deg, "From x to the warp, before forming.");
-  add_column(ply, "x0", &PlyFrame::x0, "float64, (n, 3), mm: positions before forming.");
-  add_column(ply, "x", &PlyFrame::x, "float64, (n, 3), mm: positions now.");
-  add_column(ply, "triangles", &PlyFrame::triangles, "int32, (m, 3): nodes, from 0.");
-  py::list cells, nodes;
-  add_columns(ply, cell_scalars, "(m,)", false, cells);
-  add_columns(ply, cell_vectors, "(m, 3)", false, cells);
-  add_columns(ply, node_scalars, "(n,)", false, nodes);
-  add_columns(ply, node_vectors, "(n, 3)", true, nodes);
-  ply.attr("cell_fields") = py::tuple(cells);
-  ply.attr("node_fields") = py::tuple(nodes);
+  add_array(ply, "x0", &PlyFrame::x0, "float64, (n, 3), mm: positions before forming.");
+  add_array(ply, "x", &PlyFrame::x, "float64, (n, 3), mm: positions now.");
+  add_array(ply, "triangles", &PlyFrame::triangles, "int32, (m, 3): nodes, from 0.");
+  ply.def_property_readonly(
+      "families",
+      [](const PlyFrame& p) {
+        py::list names;
+        for (const FamilyFrame& family : p.families)
+          names.append(family.name);
+        return py::tuple(names);
+      },
+      "Names of its families of yarns, which begin the names of their columns.");
+  ply.def_property_readonly(
+      "cell_fields", [](const PlyFrame& p) { return names_at(p, Location::triangle); },
+      "Names of its columns with a row a triangle.");
+  ply.def_property_readonly(
+      "node_fields", [](const PlyFrame& p) { return names_at(p, Location::node); },
+      "Names of its columns with a row a node.");
+  ply.def("__getattr__", &column_of,
+          "A column by its name: float64, (m,), (m, 3), (n,) or (n, 3), as in "
+          "docs/users/results.md, or None.");
+  ply.def("__dir__", [](const py::object& self) {
+    py::list names = py::module_::import("builtins").attr("object").attr("__dir__")(self);
+    each_column(self.cast<const PlyFrame&>(),
+                [&](const Column& column, const auto&) { names.append(column.name); });
+    return names;
+  });
   ply.def_property_readonly(
       "areas_before", [](const PlyFrame& p) { return py::array(py::cast(areas_before(p))); },
       "float64, (m,), mm2: area of each triangle before forming.");

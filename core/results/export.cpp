@@ -56,21 +56,28 @@ struct VtuFile {
   std::string xml;
 
   template <class T>
-  void array(const char* name, const char* type, std::size_t components, const T* values,
+  void array(const std::string& name, const char* type, std::size_t components, const T* values,
              std::size_t count) {
     xml += fmt::format("<DataArray Name=\"{}\" type=\"{}\" NumberOfComponents=\"{}\" "
                        "format=\"ascii\">\n",
-                       name, type, components);
+                       xml_text(name), type, components);
     for (std::size_t i = 0; i < count; ++i)
       fmt::format_to(std::back_inserter(xml), "{}{}", values[i],
                      (i + 1) % components == 0 ? '\n' : ' ');
     xml += "</DataArray>\n";
   }
-  void scalars(const char* name, const std::vector<double>& values) {
+  void numbers(const std::string& name, const std::vector<double>& values) {
     array(name, "Float64", 1, values.data(), values.size());
   }
-  void vectors(const char* name, const std::vector<Vec3>& values) {
+  void numbers(const std::string& name, const std::vector<Vec3>& values) {
     array(name, "Float64", 3, values.empty() ? nullptr : values.front().data(), 3 * values.size());
+  }
+  /// The columns of one place.
+  void columns(const PlyFrame& ply, Location place) {
+    each_column(ply, [&](const Column& column, const auto& values) {
+      if (column.place == place && (!column.may_lack || !values.empty()))
+        numbers(column.name, values);
+    });
   }
 };
 
@@ -93,20 +100,14 @@ std::string vtu(const PlyFrame& ply) {
              "byte_order=\"LittleEndian\">\n<UnstructuredGrid>\n";
   file.xml += fmt::format("<Piece NumberOfPoints=\"{}\" NumberOfCells=\"{}\">\n<Points>\n",
                           ply.x.size(), ply.triangles.size());
-  file.vectors("Points", ply.x);
+  file.numbers("Points", ply.x);
   file.xml += "</Points>\n";
   put_cells(file, ply.triangles);
   file.xml += "<PointData>\n";
-  file.vectors("x0", ply.x0);
-  for (const auto& field : node_scalars)
-    file.scalars(field.name, ply.*field.values);
-  for (const auto& field : node_vectors)
-    if (!(ply.*field.values).empty()) file.vectors(field.name, ply.*field.values);
+  file.numbers("x0", ply.x0);
+  file.columns(ply, Location::node);
   file.xml += "</PointData>\n<CellData>\n";
-  for (const auto& field : cell_vectors)
-    file.vectors(field.name, ply.*field.values);
-  for (const auto& field : cell_scalars)
-    file.scalars(field.name, ply.*field.values);
+  file.columns(ply, Location::triangle);
   return file.xml + "</CellData>\n</Piece>\n</UnstructuredGrid>\n</VTKFile>\n";
 }
 

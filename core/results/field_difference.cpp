@@ -141,6 +141,20 @@ std::vector<double> node_areas(const PlyFrame& ply) {
 
 } // namespace
 
+namespace {
+
+/// Throws std::invalid_argument, which lists the names, if the ply has no such field.
+const std::vector<double>& values_of(const PlyFrame& ply, const std::string& field) {
+  if (const std::vector<double>* values = triangle_values(ply, field)) return *values;
+  std::string names;
+  for (const Column& column : columns_of(ply))
+    if (triangle_values(ply, column.name)) names += (names.empty() ? "" : ", ") + column.name;
+  throw std::invalid_argument(
+      fmt::format("{} is no field of triangles of ply {}; there are {}", field, ply.name, names));
+}
+
+} // namespace
+
 std::vector<double> nodal_means(const PlyFrame& ply, const std::vector<double>& values) {
   std::vector<double> sums(ply.x0.size(), 0.0), areas(ply.x0.size(), 0.0);
   for (std::size_t t = 0; t < ply.triangles.size(); ++t) {
@@ -171,7 +185,7 @@ std::vector<double> interpolate(const PlyFrame& ply, const std::vector<double>& 
 }
 
 FieldDifference field_difference(const Frame& run, const Frame& reference,
-                                 std::vector<double> PlyFrame::*field) {
+                                 const std::string& field) {
   if (run.plies.size() != reference.plies.size())
     throw std::runtime_error(fmt::format("a run of {} plies cannot be compared with one of {}",
                                          run.plies.size(), reference.plies.size()));
@@ -179,8 +193,8 @@ FieldDifference field_difference(const Frame& run, const Frame& reference,
   std::vector<double> d, w;
   for (std::size_t p = 0; p < run.plies.size(); ++p) {
     const PlyFrame &ply = run.plies[p], &other = reference.plies[p];
-    const std::vector<double> wanted = nodal_means(other, other.*field);
-    std::vector<double> found = interpolate(ply, nodal_means(ply, ply.*field), other.x0);
+    const std::vector<double> wanted = nodal_means(other, values_of(other, field));
+    std::vector<double> found = interpolate(ply, nodal_means(ply, values_of(ply, field)), other.x0);
     const std::vector<double> areas = node_areas(other);
     for (std::size_t i = 0; i < wanted.size(); ++i)
       found[i] -= wanted[i];
@@ -198,17 +212,6 @@ FieldDifference field_difference(const Frame& run, const Frame& reference,
   return result;
 }
 
-FieldDifference field_difference(const Frame& run, const Frame& reference,
-                                 const std::string& field) {
-  for (const auto& column : cell_scalars)
-    if (field == column.name) return field_difference(run, reference, column.values);
-  std::string names;
-  for (const auto& column : cell_scalars)
-    names += (names.empty() ? "" : ", ") + std::string(column.name);
-  throw std::invalid_argument(
-      fmt::format("{} is no field of triangles; there are {}", field, names));
-}
-
 Frame only_ply(const Frame& frame, std::size_t ply) {
   Frame one;
   one.plies = {frame.plies[ply]};
@@ -216,7 +219,7 @@ Frame only_ply(const Frame& frame, std::size_t ply) {
 }
 
 FieldError shear_error(const Frame& run, const Frame& reference) {
-  return field_difference(run, reference, &PlyFrame::shear_deg).error;
+  return field_difference(run, reference, "shear_angle_deg").error;
 }
 
 } // namespace plyform

@@ -24,15 +24,11 @@ struct FieldDifference {
   std::vector<std::vector<double>> at_nodes; ///< of each ply, one a node of the reference
 };
 
-/// A value a triangle: the run's less the reference's, each evened out by nodal_means, at all nodes
-/// of all plies of the reference before forming, weighted by the area of each node there. Errors
-/// are NaN if any of them is. Throws std::runtime_error if the two have not the same number of
-/// plies.
-FieldDifference field_difference(const Frame& run, const Frame& reference,
-                                 std::vector<double> PlyFrame::*field);
-
-/// The same of a field by its name in results.h5, shear_angle_deg say. Throws
-/// std::invalid_argument, which lists the names, if plies have no such field.
+/// A value a triangle by its name in results.h5, shear_angle_deg say: the run's less the
+/// reference's, each evened out by nodal_means, at all nodes of all plies of the reference before
+/// forming, weighted by the area of each node there. Errors are NaN if any of them is. Throws
+/// std::runtime_error if the two have not the same number of plies, std::invalid_argument, which
+/// lists the names, if a ply has no such field.
 FieldDifference field_difference(const Frame& run, const Frame& reference,
                                  const std::string& field);
 

@@ -10,16 +10,19 @@ namespace plyform {
 // Each part with all that results.h5 has of it.
 
 template <class Archive>
+void visit(Archive& a, FamilyFrame& family) {
+  visit(a, family.name, family.angle_deg);
+}
+
+template <class Archive>
+void visit(Archive& a, CrossingFrame& crossing) {
+  visit(a, crossing.suffix);
+}
+
+template <class Archive>
 void visit(Archive& a, PlyFrame& ply) {
-  visit(a, ply.name, ply.angle_deg, ply.x0, ply.x, ply.triangles);
-  for (const auto& field : cell_vectors)
-    visit(a, ply.*field.values);
-  for (const auto& field : cell_scalars)
-    visit(a, ply.*field.values);
-  for (const auto& field : node_scalars)
-    visit(a, ply.*field.values);
-  for (const auto& field : node_vectors)
-    visit(a, ply.*field.values);
+  visit(a, ply.name, ply.angle_deg, ply.x0, ply.x, ply.triangles, ply.families, ply.crossings);
+  each_column(ply, [&](const Column&, auto& values) { visit(a, values); });
 }
 
 template <class Archive>

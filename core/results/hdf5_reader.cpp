@@ -5,6 +5,7 @@
 // numbers must be finite. HDF5 itself goes down, or never comes back, on some damaged files; hence
 // it reads in a process of its own.
 #include "base/helper_process.hpp"
+#include "base/names.hpp"
 #include "base/text.hpp"
 #include "core/results/frame_bytes.hpp"
 #include "core/results/hdf5_links.ipp"
@@ -143,6 +144,17 @@ struct Reader {
     expect_finite(where + ":" + name, value.data(), 3);
   }
 
+  std::vector<double> numbers(const std::string& where, const char* name,
+                              std::size_t entries) const {
+    const Handle found = attribute(where, name, entries);
+    std::vector<double> values(std::max<std::size_t>(entries, 1)); // HDF5 takes no null
+    if (H5Aread(found.id(), memory_type<double>(), values.data()) < 0)
+      broken(where + ":" + name, "cannot be read");
+    values.resize(entries);
+    expect_finite(where + ":" + name, values.data(), entries);
+    return values;
+  }
+
   std::vector<std::string> texts(const std::string& where, const char* name) const {
     const Handle found(H5Aopen_by_name(file, where.c_str(), name, H5P_DEFAULT, H5P_DEFAULT),
                        H5Aclose);
@@ -169,6 +181,20 @@ struct Reader {
   }
 };
 
+/// What the columns of a ply are named by.
+void read_families(const Reader& in, const std::string& where, PlyFrame& ply) {
+  for (const std::string& name : in.texts(where, "families"))
+    ply.families.push_back({name, 0.0, {}, {}, {}});
+  const std::vector<double> angles = in.numbers(where, "family_angles_deg", ply.families.size());
+  for (std::size_t i = 0; i < angles.size(); ++i)
+    ply.families[i].angle_deg = angles[i];
+  for (const std::string& suffix : in.texts(where, "further_crossings"))
+    ply.crossings.push_back({suffix, {}});
+  for (const Column& column : columns_of(ply))
+    if (const std::string fault = fault_of_file_name(column.name); !fault.empty())
+      in.broken(where, fmt::format("names a column that {}", fault));
+}
+
 PlyFrame read_ply(const Reader& in, const std::string& group, const std::string& name) {
   PlyFrame ply;
   ply.name = name;
@@ -179,14 +205,11 @@ PlyFrame read_ply(const Reader& in, const std::string& group, const std::string&
   ply.triangles = in.triangles(fixed + "/triangles", n);
   const std::size_t m = ply.triangles.size();
   ply.x = in.dataset<Vec3>(now + "x", n);
-  for (const auto& field : node_scalars)
-    ply.*field.values = in.dataset<double>(now + field.name, n);
-  for (const auto& field : node_vectors)
-    if (in.has(now + field.name)) ply.*field.values = in.dataset<Vec3>(now + field.name, n);
-  for (const auto& field : cell_vectors)
-    ply.*field.values = in.dataset<Vec3>(now + field.name, m);
-  for (const auto& field : cell_scalars)
-    ply.*field.values = in.dataset<double>(now + field.name, m);
+  read_families(in, fixed, ply);
+  each_column(ply, [&]<class Value>(const Column& column, std::vector<Value>& values) {
+    if (!column.may_lack || in.has(now + column.name))
+      values = in.dataset<Value>(now + column.name, column.place == Location::node ? n : m);
+  });
   return ply;
 }
 

@@ -71,6 +71,15 @@ struct Writer {
     attribute(where, name, file_type<Vec3>(), memory_type<Vec3>(), space, value.data());
   }
 
+  void numbers(const std::string& where, const char* name,
+               const std::vector<double>& values) const {
+    const hsize_t size = values.size();
+    const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
+    const double none = 0.0; // HDF5 takes no null, not even for no numbers
+    attribute(where, name, file_type<double>(), memory_type<double>(), space,
+              values.empty() ? &none : values.data());
+  }
+
   void texts(const std::string& where, const char* name,
              const std::vector<std::string>& values) const {
     std::size_t length = 1; // bytes of the longest
@@ -92,17 +101,27 @@ struct Writer {
   }
 };
 
+/// Attributes of a ply: what its columns are named by.
+void write_families(const Writer& out, const std::string& where, const PlyFrame& ply) {
+  std::vector<std::string> families, crossings;
+  std::vector<double> angles;
+  for (const FamilyFrame& family : ply.families) {
+    families.push_back(family.name);
+    angles.push_back(family.angle_deg);
+  }
+  for (const CrossingFrame& crossing : ply.crossings)
+    crossings.push_back(crossing.suffix);
+  out.texts(where, "families", families);
+  out.numbers(where, "family_angles_deg", angles);
+  out.texts(where, "further_crossings", crossings);
+}
+
 void write_ply(const Writer& out, const std::string& where, const PlyFrame& ply) {
   out.group(where);
   out.dataset(where + "/x", ply.x);
-  for (const auto& field : node_scalars)
-    out.dataset(where + "/" + field.name, ply.*field.values);
-  for (const auto& field : node_vectors)
-    if (!(ply.*field.values).empty()) out.dataset(where + "/" + field.name, ply.*field.values);
-  for (const auto& field : cell_vectors)
-    out.dataset(where + "/" + field.name, ply.*field.values);
-  for (const auto& field : cell_scalars)
-    out.dataset(where + "/" + field.name, ply.*field.values);
+  each_column(ply, [&](const Column& column, const auto& values) {
+    if (!column.may_lack || !values.empty()) out.dataset(where + "/" + column.name, values);
+  });
 }
 
 void write_tool(const Writer& out, const std::string& where, const ToolFrame& tool) {
@@ -210,6 +229,7 @@ void write_constants(const fs::path& path, const Frame& frame) {
     out.dataset(where + "/x0", ply.x0);
     out.dataset(where + "/triangles", ply.triangles);
     out.number(where, "angle_deg", ply.angle_deg);
+    write_families(out, where, ply);
   }
   for (const ToolFrame& tool : frame.tools) {
     const std::string where = "/tools/" + tool.name;

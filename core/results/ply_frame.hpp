@@ -4,55 +4,79 @@
 
 #include "base/geometry.hpp"
 
-#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plyform {
 
-/// One ply at one time. Sizes: n nodes, m triangles.
+/// One family of yarns of a ply of m triangles.
+struct FamilyFrame {
+  std::string name;            ///< begins the names of its columns: warp
+  double angle_deg = 0;        ///< from x to its fibres before forming
+  std::vector<Vec3> direction; ///< m, unit vectors of the fibres now
+  std::vector<double> strain;  ///< m
+  std::vector<double> tension; ///< m, N per yarn
+};
+
+/// A crossing of two families that is not the first of its fabric.
+struct CrossingFrame {
+  std::string suffix;            ///< of both families, "A_B": ends the name of its column
+  std::vector<double> shear_deg; ///< m, signed
+};
+
+/// One ply at one time. Sizes: n nodes, m triangles. Plies of a run may have different families.
 struct PlyFrame {
   std::string name;
   double angle_deg = 0;
-  std::vector<Vec3> x0, x;                        ///< n, mm: before and now
-  std::vector<Triangle> triangles;                ///< m
-  std::vector<Vec3> warp, weft;                   ///< m, unit vectors of the fibres now
-  std::vector<double> shear_deg;                  ///< m, signed
-  std::vector<double> warp_strain, weft_strain;   ///< m
-  std::vector<double> warp_tension, weft_tension; ///< m, N per yarn
-  std::vector<double> thickness;                  ///< m, mm, from constant volume
+  std::vector<Vec3> x0, x;              ///< n, mm: before and now
+  std::vector<Triangle> triangles;      ///< m
+  std::vector<FamilyFrame> families;    ///< any number
+  std::vector<double> shear_deg;        ///< m, signed, of the first crossing
+  std::vector<CrossingFrame> crossings; ///< those behind the first
+  std::vector<double> thickness;        ///< m, mm, from constant volume
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
   std::vector<Vec3> reaction;           ///< n, N, of boundaries; empty where there are none
 };
 
-/// A column of the results: its name in every file, and its member of PlyFrame.
-template <class Value>
+/// What the values of a column belong to.
+enum class Location { node, triangle };
+
+/// What a column of the results is, beside its values.
 struct Column {
-  const char* name;
-  std::vector<Value> PlyFrame::*values;
+  std::string name; ///< in every file
+  Location place = Location::triangle;
+  bool may_lack = false; ///< left out of the files of plies for which it is empty
 };
 
-// Fields of a ply that files contain besides positions and triangles; a new field needs an entry
-// here.
-inline constexpr std::array<Column<double>, 6> cell_scalars = {{
-    {"shear_angle_deg", &PlyFrame::shear_deg},
-    {"warp_strain", &PlyFrame::warp_strain},
-    {"weft_strain", &PlyFrame::weft_strain},
-    {"warp_tension_N", &PlyFrame::warp_tension},
-    {"weft_tension_N", &PlyFrame::weft_tension},
-    {"thickness_mm", &PlyFrame::thickness},
-}};
-inline constexpr std::array<Column<Vec3>, 2> cell_vectors = {{
-    {"warp", &PlyFrame::warp},
-    {"weft", &PlyFrame::weft},
-}};
-inline constexpr std::array<Column<double>, 1> node_scalars = {{
-    {"contact_pressure", &PlyFrame::contact_pressure},
-}};
-/// Columns that are left out of the files of plies for which they are empty.
-inline constexpr std::array<Column<Vec3>, 1> node_vectors = {{
-    {"reaction_N", &PlyFrame::reaction},
-}};
+/// Calls visit(Column, values) for each column of a ply, in the order of files: values is one of
+/// its vectors, of doubles or of Vec3. Every file, reader and module follows this list; a new
+/// column needs an entry here.
+template <class AnyPly, class Visit>
+void each_column(AnyPly& ply, Visit&& visit) {
+  visit(Column{"contact_pressure", Location::node}, ply.contact_pressure);
+  visit(Column{"reaction_N", Location::node, true}, ply.reaction);
+  for (auto& family : ply.families)
+    visit(Column{family.name}, family.direction);
+  visit(Column{"shear_angle_deg"}, ply.shear_deg);
+  for (auto& crossing : ply.crossings)
+    visit(Column{"shear_angle_deg_" + crossing.suffix}, crossing.shear_deg);
+  for (auto& family : ply.families)
+    visit(Column{family.name + "_strain"}, family.strain);
+  for (auto& family : ply.families)
+    visit(Column{family.name + "_tension_N"}, family.tension);
+  visit(Column{"thickness_mm"}, ply.thickness);
+}
+
+/// The columns of a ply whose files have them.
+std::vector<Column> columns_of(const PlyFrame& ply);
+
+/// The values of a ply's column of one number a triangle; nullptr if it has none of that name.
+const std::vector<double>* triangle_values(const PlyFrame& ply, const std::string& name);
+
+/// Two columns, or a column and the positions of nodes, that would have one name; empty if there
+/// are none. A family may be called anything that makes no such pair.
+std::string name_used_twice(const PlyFrame& ply);
 
 /// Area of each triangle before forming, mm^2; m of them.
 std::vector<double> areas_before(const PlyFrame& ply);

@@ -21,6 +21,9 @@ std::string ply_table(const PlyFrame& ply);
 /// The content of summary.json: always valid JSON, numbers that are not finite as null.
 std::string summary_json(const Frame& last, const Summary& summary);
 
+/// A name that has passed check_frame as it stands in XML.
+std::string xml_text(std::string_view name);
+
 /// Text of results.xdmf, to which each frame is added.
 struct XdmfText {
   std::vector<std::string> names; ///< of the plies, then of the tools

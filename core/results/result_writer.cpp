@@ -13,6 +13,7 @@
 #include <cmath>
 #include <fmt/compile.h>
 #include <fmt/format.h>
+#include <functional>
 #include <iterator>
 #include <set>
 #include <stdexcept>
@@ -33,17 +34,23 @@ void check_name(const std::string& name, const char* kind) {
                     kind, shown(name), fault, kind));
 }
 
+void check_columns(const PlyFrame& ply) {
+  for (const Column& column : columns_of(ply))
+    check_name(column.name, "column");
+  if (const std::string name = name_used_twice(ply); !name.empty())
+    throw std::runtime_error(
+        fmt::format("ply \"{}\": two of its columns would be called {}; rename the family in the "
+                    "fabric file",
+                    ply.name, shown(name)));
+}
+
 void check_sizes(const PlyFrame& ply) {
   const std::size_t n = ply.x0.size(), m = ply.triangles.size();
   bool fits = ply.x.size() == n;
-  for (const auto& field : node_scalars)
-    fits = fits && (ply.*field.values).size() == n;
-  for (const auto& field : node_vectors)
-    fits = fits && ((ply.*field.values).empty() || (ply.*field.values).size() == n);
-  for (const auto& field : cell_scalars)
-    fits = fits && (ply.*field.values).size() == m;
-  for (const auto& field : cell_vectors)
-    fits = fits && (ply.*field.values).size() == m;
+  each_column(ply, [&](const Column& column, const auto& values) {
+    fits = fits && ((column.may_lack && values.empty()) ||
+                    values.size() == (column.place == Location::node ? n : m));
+  });
   if (!fits)
     throw std::logic_error(fmt::format(
         "ply \"{}\": an array has not one entry for each of its {} nodes or {} triangles", ply.name,
@@ -65,6 +72,7 @@ void check_frame(const Frame& frame) {
   };
   for (const PlyFrame& ply : frame.plies) {
     take(ply.name, "ply");
+    check_columns(ply);
     check_sizes(ply);
   }
   for (const ToolFrame& tool : frame.tools)
@@ -99,6 +107,15 @@ Vec3 centroid(const std::vector<Vec3>& x, const Triangle& t) {
 /// A column heading; one with a comma in quotes (names hold no quotes, see check_name).
 std::string heading(const std::string& text) {
   return text.find(',') == std::string::npos ? text : fmt::format("\"{}\"", text);
+}
+
+/// Of the numbers of a value.
+template <class Value>
+std::vector<std::string> headings_of(const std::string& name) {
+  if constexpr (std::is_same_v<Value, Vec3>)
+    return {name + "_x", name + "_y", name + "_z"};
+  else
+    return {name};
 }
 
 std::string history_header(const Frame& frame) {
@@ -139,17 +156,20 @@ std::string history_row(const Frame& frame) {
 
 std::string ply_table(const PlyFrame& ply) {
   Buffer out;
-  out.append(std::string_view("x0,y0,z0,x,y,z,warp_x,warp_y,warp_z,weft_x,weft_y,weft_z,"));
-  for (const auto& field : cell_scalars)
-    fmt::format_to(std::back_inserter(out), "{},", field.name);
+  out.append(std::string_view("x0,y0,z0,x,y,z,"));
+  std::vector<std::function<void(std::size_t)>> cells; // of a row
+  each_column(ply, [&]<class Value>(const Column& column, const std::vector<Value>& values) {
+    if (column.place != Location::triangle) return;
+    for (const std::string& name : headings_of<Value>(column.name))
+      fmt::format_to(std::back_inserter(out), "{},", heading(name));
+    cells.emplace_back([&out, &values](std::size_t i) { put(out, values[i]); });
+  });
   end_row(out);
   for (std::size_t i = 0; i < ply.triangles.size(); ++i) {
     put(out, centroid(ply.x0, ply.triangles[i]));
     put(out, centroid(ply.x, ply.triangles[i]));
-    for (const auto& field : cell_vectors)
-      put(out, (ply.*field.values)[i]);
-    for (const auto& field : cell_scalars)
-      put(out, (ply.*field.values)[i]);
+    for (const auto& cell : cells)
+      cell(i);
     end_row(out);
   }
   return fmt::to_string(out);

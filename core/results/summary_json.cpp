@@ -98,16 +98,18 @@ Json report_keys(const PlyReport& report) {
   return keys;
 }
 
-/// Values of both families of yarns in one list.
-std::vector<double> of_both(std::vector<double> warp, const std::vector<double>& weft) {
-  warp.insert(warp.end(), weft.begin(), weft.end());
-  return warp;
+/// Values of all families of yarns in one list.
+std::vector<double> of_all(const PlyFrame& ply, std::vector<double> FamilyFrame::*values) {
+  std::vector<double> all;
+  for (const FamilyFrame& family : ply.families)
+    all.insert(all.end(), (family.*values).begin(), (family.*values).end());
+  return all;
 }
 
 Json ply_object(const PlyFrame& ply) {
   const std::vector<double> areas = areas_before(ply);
-  const std::vector<double> strains = of_both(ply.warp_strain, ply.weft_strain);
-  const std::vector<double> tensions = of_both(ply.warp_tension, ply.weft_tension);
+  const std::vector<double> strains = of_all(ply, &FamilyFrame::strain);
+  const std::vector<double> tensions = of_all(ply, &FamilyFrame::tension);
   return {{"name", ply.name},
           {"angle_deg", rounded(ply.angle_deg)},
           {"max_shear_deg", rounded(largest_magnitude(ply.shear_deg))},

@@ -11,8 +11,6 @@
 
 namespace plyform {
 
-namespace {
-
 std::string xml_text(std::string_view text) {
   std::string out;
   for (const char c : text) {
@@ -26,6 +24,8 @@ std::string xml_text(std::string_view text) {
   return out;
 }
 
+namespace {
+
 std::string data_item(std::size_t rows, std::size_t columns, const char* type, int bytes,
                       const std::string& dataset) {
   const std::string size =
@@ -35,10 +35,10 @@ std::string data_item(std::size_t rows, std::size_t columns, const char* type, i
                      size, type, bytes, xml_text(dataset));
 }
 
-std::string attribute(const char* name, const char* type, const char* centre,
+std::string attribute(const std::string& name, const char* type, const char* centre,
                       const std::string& item) {
   return fmt::format("<Attribute Name=\"{}\" AttributeType=\"{}\" Center=\"{}\">{}</Attribute>\n",
-                     name, type, centre, item);
+                     xml_text(name), type, centre, item);
 }
 
 /// Topology element of m triangles in a dataset.
@@ -79,16 +79,12 @@ std::string ply_grid(const PlyFrame& ply, const std::string& group, double time)
   const std::string here = group + "/plies/" + ply.name + "/";
   std::string out = grid_start(ply.name, time) + topology(m, "/plies/" + ply.name + "/triangles") +
                     geometry(n, here + "x");
-  for (const auto& field : cell_vectors)
-    out += attribute(field.name, "Vector", "Cell", data_item(m, 3, "Float", 8, here + field.name));
-  for (const auto& field : cell_scalars)
-    out += attribute(field.name, "Scalar", "Cell", data_item(m, 1, "Float", 8, here + field.name));
-  for (const auto& field : node_scalars)
-    out += attribute(field.name, "Scalar", "Node", data_item(n, 1, "Float", 8, here + field.name));
-  for (const auto& field : node_vectors)
-    if (!(ply.*field.values).empty())
-      out +=
-          attribute(field.name, "Vector", "Node", data_item(n, 3, "Float", 8, here + field.name));
+  each_column(ply, [&]<class Value>(const Column& column, const std::vector<Value>& values) {
+    if (column.may_lack && values.empty()) return;
+    const bool vector = std::is_same_v<Value, Vec3>, nodes = column.place == Location::node;
+    out += attribute(column.name, vector ? "Vector" : "Scalar", nodes ? "Node" : "Cell",
+                     data_item(nodes ? n : m, vector ? 3 : 1, "Float", 8, here + column.name));
+  });
   return out + "</Grid>\n";
 }
 

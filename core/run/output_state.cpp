@@ -10,6 +10,11 @@
 namespace plyform {
 namespace {
 
+/// 30 for 29.999999999999996.
+double in_degrees(double angle) {
+  return std::round(angle * degrees_per_radian * 1e9) / 1e9;
+}
+
 /// Normal contact forces on the nodes of one ply, N, on its upper and lower side separately.
 struct SideForces {
   std::vector<Vec3> normals;
@@ -25,22 +30,23 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   const PlyBody& ply = scene.plies[index];
   PlyFrame f;
   f.name = ply.name;
-  f.angle_deg = std::round(ply.angle * degrees_per_radian * 1e9) / 1e9; // 30 for 29.999999999999996
+  f.angle_deg = in_degrees(ply.angle);
   f.x0 = ply.x0;
   f.x = ply.x;
   f.triangles = ply.membrane.triangles;
+  const double fibre_angle = scene.data.fabrics[scene.data.plies[at(index)].fabric].fibre_angle;
+  f.families = {{"warp", f.angle_deg, {}, {}, {}},
+                {"weft", in_degrees(ply.angle + fibre_angle), {}, {}, {}}};
   const auto strains = yarn_strains(ply.membrane, ply.x);
   const auto tensions = yarn_tensions(ply.membrane, ply.x);
   for (std::size_t e = 0; e < f.triangles.size(); ++e) {
     const FibreState s = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
-    const auto [warp_strain, weft_strain] = strains[e];
-    f.warp.push_back(s.f1);
-    f.weft.push_back(s.f2);
     f.shear_deg.push_back(s.gamma * degrees_per_radian);
-    f.warp_strain.push_back(warp_strain);
-    f.weft_strain.push_back(weft_strain);
-    f.warp_tension.push_back(tensions[e][0]);
-    f.weft_tension.push_back(tensions[e][1]);
+    for (std::size_t k = 0; k < 2; ++k) {
+      f.families[k].direction.push_back(k == 0 ? s.f1 : s.f2);
+      f.families[k].strain.push_back(strains[e][k]);
+      f.families[k].tension.push_back(tensions[e][k]);
+    }
     const double area_ratio = s.lambda1 * s.lambda2 * s.sin_omega / std::sin(ply.membrane.omega0);
     f.thickness.push_back(ply.thickness / area_ratio);
   }

@@ -82,28 +82,26 @@ YarnLine worst_line(const PlyFrame& ply, const std::vector<double>& strain,
   });
 }
 
-PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas,
-                           double fibre_angle_deg) {
+PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas) {
   PressedYarns result;
-  // compressive strain of the family that is compressed more
+  // compressive strain of the family that is compressed most
   std::vector<double> pressed(ply.triangles.size());
   for (std::size_t t = 0; t < pressed.size(); ++t) {
-    pressed[t] = std::max({0.0, -ply.warp_strain[t], -ply.weft_strain[t]});
-    if (std::isnan(ply.warp_strain[t] + ply.weft_strain[t]))
-      pressed[t] = std::numeric_limits<double>::quiet_NaN();
+    for (const FamilyFrame& family : ply.families)
+      if (!std::isnan(pressed[t]) && !(family.strain[t] >= -pressed[t]))
+        pressed[t] = -family.strain[t];
     result.largest = std::isnan(result.largest) || std::isnan(pressed[t])
                          ? std::numeric_limits<double>::quiet_NaN()
                          : std::max(result.largest, pressed[t]);
   }
   result.share_above_2 = area_share_above(pressed, 0.02, areas);
   result.share_above_5 = area_share_above(pressed, 0.05, areas);
-  const double warp = ply.angle_deg * degree, weft = warp + fibre_angle_deg * degree;
-  for (const YarnLine& line : {worst_line(ply, ply.warp_strain, areas, warp),
-                               worst_line(ply, ply.weft_strain, areas, weft)})
-    if (line.excess > result.excess_mm) {
-      result.excess_mm = line.excess;
-      result.excess_at = formed_centroid(ply, line.triangle);
-    }
+  for (const FamilyFrame& family : ply.families) {
+    const YarnLine line = worst_line(ply, family.strain, areas, family.angle_deg * degree);
+    if (!(line.excess > result.excess_mm)) continue;
+    result.excess_mm = line.excess;
+    result.excess_at = formed_centroid(ply, line.triangle);
+  }
   return result;
 }
 
@@ -253,7 +251,7 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
                      const std::vector<const ToolBody*>& tools) {
   PlyReport result;
   const std::vector<double> areas = areas_before(ply);
-  if (nature.woven) result.pressed = pressed_yarns(ply, areas, nature.fibre_angle_deg);
+  if (nature.woven) result.pressed = pressed_yarns(ply, areas);
   result.wrinkle = highest_wrinkle(ply, tools);
   if (nature.locking_angle_deg) {
     std::vector<double> shear = ply.shear_deg;

@@ -93,8 +93,8 @@ std::vector<std::string> too_much(const Scene& s, const Energies& e, const WorkR
 std::pair<double, std::string> longest_yarn(const Frame& last) {
   std::pair<double, std::string> found{0.0, ""};
   for (const PlyFrame& ply : last.plies)
-    for (const std::vector<double>* strains : {&ply.warp_strain, &ply.weft_strain})
-      for (const double strain : *strains)
+    for (const FamilyFrame& family : ply.families)
+      for (const double strain : family.strain)
         if (strain > found.first) found = {strain, ply.name};
   return found;
 }

@@ -36,7 +36,9 @@ def write_h5(path: Path, plies=("lower", "upper"), tools=("punch",), grips=("gri
         file["time_s"], file["stroke_mm"], file["step"] = [0.0, 0.1], [0.0, 5.0], [0, 10]
         for name in plies:
             file[f"plies/{name}/x0"], file[f"plies/{name}/triangles"] = x0, triangles
-            file[f"plies/{name}"].attrs["angle_deg"] = 0.0
+            ply = file[f"plies/{name}"].attrs
+            ply["angle_deg"], ply["family_angles_deg"] = 0.0, [0.0, 90.0]
+            ply["families"], ply["further_crossings"] = texts(["warp", "weft"]), texts([], 1)
         for name in tools:
             file[f"tools/{name}/x0"], file[f"tools/{name}/triangles"] = x0 + (0, 0, 9), triangles
         for k in (0, 1):

@@ -47,7 +47,7 @@ Tip hang_strip(const Fabric& fabric, MeshKind mesh, double angle, double softeni
     }
   tip.sag /= ends;
   tip.drawn_in /= ends;
-  for (const auto& strains : {ply.warp_strain, ply.weft_strain})
+  for (const std::vector<double>& strains : {ply.families[0].strain, ply.families[1].strain})
     for (const double strain : strains) {
       tip.shortest = std::min(tip.shortest, strain);
       tip.longest = std::max(tip.longest, strain);

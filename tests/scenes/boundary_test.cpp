@@ -210,8 +210,8 @@ TEST(BoundaryScene, PictureFrameHasTheLoadOfTheCellsAndNoStrain) {
   for (const Frame& frame : frames) {
     const PlyFrame& ply = frame.plies[0];
     for (std::size_t e = 0; e < ply.triangles.size(); ++e) {
-      EXPECT_LT(std::abs(ply.warp_strain[e]), 1e-4);
-      EXPECT_LT(std::abs(ply.weft_strain[e]), 1e-4);
+      EXPECT_LT(std::abs(ply.families[0].strain[e]), 1e-4);
+      EXPECT_LT(std::abs(ply.families[1].strain[e]), 1e-4);
     }
     const double d = frame.boundaries.at(0).stroke_mm;
     const double gamma = 0.5 * pi - 2.0 * std::acos((side * std::sqrt(2.0) + d) / (2.0 * side));
@@ -223,8 +223,8 @@ TEST(BoundaryScene, PictureFrameHasTheLoadOfTheCellsAndNoStrain) {
     for (std::size_t n = 0; n < ply.x.size(); ++n) {
       const bool across_x = std::abs(ply.x0[n].x()) > 49.0,
                  across_y = std::abs(ply.x0[n].y()) > 49.0;
-      if (across_x == across_y) continue;                        // inside, or a hinge
-      const Vec3& ending = across_x ? ply.warp[0] : ply.weft[0]; // uniform
+      if (across_x == across_y) continue;                               // inside, or a hinge
+      const Vec3& ending = ply.families[across_x ? 0 : 1].direction[0]; // uniform
       EXPECT_GT(ply.reaction[n].norm(), 1e-3);
       EXPECT_LE(std::abs(ply.reaction[n].dot(ending)), 1e-6 * ply.reaction[n].norm()) << gamma;
     }

@@ -166,7 +166,7 @@ TEST(PaperLong, PictureFrameFollowsTheory) {
   EXPECT_LT(std::abs(error), 0.005);
   double strain = 0.0;
   for (const Frame& f : once)
-    for (const auto* values : {&f.plies[0].warp_strain, &f.plies[0].weft_strain})
+    for (const auto* values : {&f.plies[0].families[0].strain, &f.plies[0].families[1].strain})
       for (const double s : *values)
         if (!(std::abs(s) <= strain)) strain = std::abs(s);
   EXPECT_LT(strain, 1e-4);

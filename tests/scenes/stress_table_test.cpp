@@ -154,7 +154,8 @@ FrameFound run_frame(const FrameTest& t, const BlankSpec& blank) {
     const double omega = 2.0 * std::acos(0.5 * D / a), gamma = omega0 - omega;
     const PlyFrame& ply = frame.plies[0];
     for (std::size_t e = 0; e < ply.triangles.size(); ++e) {
-      worst(found.strain, std::max(std::abs(ply.warp_strain[e]), std::abs(ply.weft_strain[e])));
+      worst(found.strain,
+            std::max(std::abs(ply.families[0].strain[e]), std::abs(ply.families[1].strain[e])));
       worst(found.angle, ply.shear_deg[e] * degree - gamma);
     }
     worst(found.force, frame.boundaries[0].force_N);

@@ -61,7 +61,7 @@ double final_push(const Case& data) {
   double least = 1.0;
   for (std::size_t e = 0; e < ply.triangles.size(); ++e) {
     EXPECT_GT(twice_area(ply, ply.triangles[e]), 0.0) << e;
-    least = std::min(least, 1.0 + ply.warp_strain[e]);
+    least = std::min(least, 1.0 + ply.families[0].strain[e]);
   }
   fmt::print("push {:.5g} N, balance {:.1e}, least stretch {:.3g}\n",
              run.last.boundaries.at(1).force_N, imbalance(run.last.energy), least);

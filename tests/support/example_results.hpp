@@ -38,18 +38,20 @@ inline PlyFrame ply(const std::string& name, int cells, int index, double time) 
     p.x[i] += time * Vec3(0.1 * p.x[i].y(), 0.01 * p.x[i].x(), std::sin(p.x[i].x()) / 3.0);
     p.contact_pressure.push_back(time * (0.001 * static_cast<double>(i) + index));
   }
+  FamilyFrame warp{"warp", p.angle_deg, {}, {}, {}}, weft{"weft", p.angle_deg + 90.0, {}, {}, {}};
   for (std::size_t i = 0; i < p.triangles.size(); ++i) {
     const double k = static_cast<double>(i) + 100.0 * index;
     const double shear = (i % 2 ? -1 : 1) * time * (1.0 + k / 7.0);
     p.shear_deg.push_back(shear);
-    p.warp.emplace_back(std::cos(0.01 * k), std::sin(0.01 * k), 0.0);
-    p.weft.emplace_back(-std::sin(0.02 * k), std::cos(0.02 * k), 0.0);
-    p.warp_strain.push_back(1e-4 * time * k);
-    p.weft_strain.push_back(-2e-4 * time * k);
-    p.warp_tension.push_back(3.0 * time * k);
-    p.weft_tension.push_back(5.0 * time * k);
+    warp.direction.emplace_back(std::cos(0.01 * k), std::sin(0.01 * k), 0.0);
+    weft.direction.emplace_back(-std::sin(0.02 * k), std::cos(0.02 * k), 0.0);
+    warp.strain.push_back(1e-4 * time * k);
+    weft.strain.push_back(-2e-4 * time * k);
+    warp.tension.push_back(3.0 * time * k);
+    weft.tension.push_back(5.0 * time * k);
     p.thickness.push_back(0.3 + 0.001 * k);
   }
+  p.families = {warp, weft};
   return p;
 }
 

@@ -35,9 +35,12 @@ inline PlyFrame sheet(int columns, int rows, double h, double angle_deg,
     }
   const std::size_t m = ply.triangles.size();
   ply.shear_deg.assign(m, 0.0);
-  ply.warp_strain = ply.weft_strain = ply.warp_tension = ply.weft_tension = ply.shear_deg;
-  ply.warp.assign(m, Vec3(turn.toRotationMatrix()(0, 0), turn.toRotationMatrix()(1, 0), 0.0));
-  ply.weft.assign(m, Vec3(turn.toRotationMatrix()(0, 1), turn.toRotationMatrix()(1, 1), 0.0));
+  for (const bool weft : {false, true}) {
+    const Vec2 along = turn * (weft ? Vec2(0.0, 1.0) : Vec2(1.0, 0.0));
+    ply.families.push_back({weft ? "weft" : "warp", angle_deg + (weft ? 90.0 : 0.0),
+                            std::vector<Vec3>(m, Vec3(along.x(), along.y(), 0.0)), ply.shear_deg,
+                            ply.shear_deg});
+  }
   ply.thickness.assign(m, 0.6);
   ply.contact_pressure.assign(ply.x.size(), 0.0);
   return ply;

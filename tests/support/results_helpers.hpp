@@ -10,6 +10,7 @@
 #include <fstream>
 #include <gtest/gtest.h>
 #include <iterator>
+#include <map>
 #include <sstream>
 #include <stdexcept>
 #include <string>
@@ -93,12 +94,23 @@ inline void expect_same(const PlyFrame& a, const PlyFrame& b) {
   EXPECT_EQ(a.x0, b.x0);
   EXPECT_EQ(a.x, b.x);
   EXPECT_EQ(a.triangles, b.triangles);
-  EXPECT_EQ(a.contact_pressure, b.contact_pressure);
-  EXPECT_EQ(a.reaction, b.reaction);
-  for (const auto& field : cell_vectors)
-    EXPECT_EQ(a.*field.values, b.*field.values) << field.name;
-  for (const auto& field : cell_scalars)
-    EXPECT_EQ(a.*field.values, b.*field.values) << field.name;
+  ASSERT_EQ(a.families.size(), b.families.size());
+  for (std::size_t i = 0; i < a.families.size(); ++i)
+    EXPECT_EQ(a.families[i].angle_deg, b.families[i].angle_deg);
+  std::map<std::string, std::string> columns; // bytes of the values by name
+  const auto bytes_of = [](const auto& values) {
+    return std::string(reinterpret_cast<const char*>(values.data()),
+                       values.size() * sizeof(values[0]));
+  };
+  each_column(a, [&](const Column& column, const auto& values) {
+    columns[column.name] = bytes_of(values);
+  });
+  each_column(b, [&](const Column& column, const auto& values) {
+    ASSERT_EQ(columns.count(column.name), 1u) << column.name;
+    EXPECT_EQ(columns[column.name], bytes_of(values)) << column.name;
+    columns.erase(column.name);
+  });
+  EXPECT_TRUE(columns.empty());
 }
 
 inline void expect_same(const ToolFrame& a, const ToolFrame& b) {

@@ -88,10 +88,11 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
              r.last.stroke_mm, r.summary.steps, r.summary.wall_time_s);
   for (const PlyFrame& ply : r.last.plies) {
     double shear = 0.0, tension = 0.0;
-    for (std::size_t i = 0; i < ply.triangles.size(); ++i) {
-      shear = std::max(shear, std::abs(ply.shear_deg[i]));
-      tension = std::max({tension, ply.warp_tension[i], ply.weft_tension[i]});
-    }
+    for (const double angle : ply.shear_deg)
+      shear = std::max(shear, std::abs(angle));
+    for (const FamilyFrame& family : ply.families)
+      for (const double of_triangle : family.tension)
+        tension = std::max(tension, of_triangle);
     fmt::print("  {:16} largest shear {:5.1f} deg, largest tension {:6.2f} N per yarn\n", ply.name,
                shear, tension);
   }

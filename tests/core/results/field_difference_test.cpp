@@ -120,7 +120,7 @@ TEST(FieldError, GivesTheDifferenceAtTheNodesOfTheReference) {
   const auto five = [](double, double) { return 5.0; };
   const Frame run = frame_of({with_shear(rectangle(7, 3, 0.3), two)});
   const Frame reference = frame_of({with_shear(rectangle(5, 2, 0.2), five)});
-  const FieldDifference found = field_difference(run, reference, &PlyFrame::shear_deg);
+  const FieldDifference found = field_difference(run, reference, "shear_angle_deg");
   ASSERT_EQ(found.at_nodes.size(), 1u);
   ASSERT_EQ(found.at_nodes[0].size(), reference.plies[0].x0.size());
   for (const double difference : found.at_nodes[0])

@@ -109,14 +109,14 @@ TEST_F(Results, PlyTableHasOneRowATriangleInTheNamedColumns) {
       const std::string axis(1, "xyz"[k]);
       is(axis + "0", before[k]);
       is(axis, now[k]);
-      is("warp_" + axis, ply.warp[i][k]);
-      is("weft_" + axis, ply.weft[i][k]);
+      is("warp_" + axis, ply.families[0].direction[i][k]);
+      is("weft_" + axis, ply.families[1].direction[i][k]);
     }
     is("shear_angle_deg", ply.shear_deg[i]);
-    is("warp_strain", ply.warp_strain[i]);
-    is("weft_strain", ply.weft_strain[i]);
-    is("warp_tension_N", ply.warp_tension[i]);
-    is("weft_tension_N", ply.weft_tension[i]);
+    is("warp_strain", ply.families[0].strain[i]);
+    is("weft_strain", ply.families[1].strain[i]);
+    is("warp_tension_N", ply.families[0].tension[i]);
+    is("weft_tension_N", ply.families[1].tension[i]);
     is("thickness_mm", ply.thickness[i]);
   }
 }

@@ -32,10 +32,8 @@ Frame unequal(double most, double rest) {
   ply.x = ply.x0;
   ply.triangles = {{0, 1, 2}, {0, 2, 3}};
   ply.shear_deg = {most, rest};
-  ply.warp_strain = {0.001, -0.004};
-  ply.weft_strain = {0.002, 0.003};
-  ply.warp_tension = {-9, 1};
-  ply.weft_tension = {2, 7};
+  ply.families = {{"warp", 0, {}, {0.001, -0.004}, {-9, 1}},
+                  {"weft", 90, {}, {0.002, 0.003}, {2, 7}}};
   Frame frame;
   frame.plies = {ply};
   return frame;
@@ -186,8 +184,8 @@ TEST(SummaryJson, PercentileOfShearIsWeightedByAreaNotByNumber) {
 
 TEST(SummaryJson, NumbersThatAreNotFiniteBecomeNull) {
   Frame frame = unequal(nan_value, 20);
-  frame.plies[0].weft_strain[1] = nan_value;
-  frame.plies[0].warp_tension[1] = std::numeric_limits<double>::infinity();
+  frame.plies[0].families[1].strain[1] = nan_value;
+  frame.plies[0].families[0].tension[1] = std::numeric_limits<double>::infinity();
   frame.energy.shear = nan_value;
   Summary summary;
   summary.work.search_share = nan_value;

@@ -17,8 +17,8 @@ using sheets::sheet;
 void strain(PlyFrame& ply, const std::function<double(const Vec2&)>& warp,
             const std::function<double(const Vec2&)>& weft) {
   for (std::size_t t = 0; t < ply.triangles.size(); ++t) {
-    ply.warp_strain[t] = warp(sheets::centre(ply, t));
-    ply.weft_strain[t] = weft(sheets::centre(ply, t));
+    ply.families[0].strain[t] = warp(sheets::centre(ply, t));
+    ply.families[1].strain[t] = weft(sheets::centre(ply, t));
   }
 }
 
@@ -42,14 +42,15 @@ TEST(PlyPlausibility, EitherFamilyPressesItsShareOfTheArea) {
 /// over the triangles as they are, so that only the steps of the field count.
 TEST(PlyPlausibility, ExcessLengthIsTheIntegralAlongTheYarn) {
   PlyFrame ply = sheet(100, 100, 2.0, 0.0, sheets::flat);
-  ply.angle_deg = 30.0;
+  ply.families[0].angle_deg = 30.0;
+  ply.families[1].angle_deg = 100.0;
   const Vec2 middle(20.0, 10.0);
   const auto spot = [&](const Vec2& p) {
     return -0.1 * std::max(0.0, 1.0 - (p - middle).norm() / 30.0); // a cone
   };
   strain(
       ply, [](const Vec2&) { return 0.0; }, spot);
-  const PlyReport told = report_ply(ply, {.fibre_angle_deg = 70.0}, {});
+  const PlyReport told = report_ply(ply, {}, {});
   EXPECT_NEAR(told.pressed->excess_mm, 0.1 * 30.0, 0.03); // through the tip: half of 0.1 x 60 mm
   EXPECT_LT((told.pressed->excess_at.head<2>() - middle).norm(), 3.0);
 }
@@ -64,7 +65,7 @@ TEST(PlyPlausibility, NothingPressedIsNothing) {
 
 TEST(PlyPlausibility, NumbersThatAreNotFiniteAreNotLost) {
   PlyFrame ply = sheet(5, 5, 10.0, 0.0, sheets::flat);
-  ply.weft_strain[7] = std::numeric_limits<double>::quiet_NaN();
+  ply.families[1].strain[7] = std::numeric_limits<double>::quiet_NaN();
   const PlyReport told = report_ply(ply, {}, {});
   EXPECT_TRUE(std::isnan(told.pressed->largest));
   EXPECT_TRUE(std::isnan(told.pressed->share_above_5));
