@@ -42,6 +42,7 @@ set(public_headers
   core/model/sheet_law.hpp
   core/model/sheet_response.hpp
   core/model/usual_ranges.hpp
+  core/results/description.hpp
   core/results/draw_in.hpp
   core/results/export.hpp
   core/results/frame.hpp

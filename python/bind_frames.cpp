@@ -54,7 +54,7 @@ py::object column_of(const py::object& self, const std::string& name) {
 py::tuple names_at(const PlyFrame& ply, Location place) {
   py::list names;
   each_column(ply, [&](const Column& column, const auto&) {
-    if (column.place == place) names.append(column.name);
+    if (column.location == place) names.append(column.name);
   });
   return py::tuple(names);
 }

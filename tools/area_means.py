@@ -31,7 +31,7 @@ try:
     import numpy as np
     from base.ending import EXIT_OTHER, ended
     from plotting.numbers import edges_of
-    from plotting.reading import FIELDS, Ply, Trouble, read_state
+    from plotting.reading import SHEAR, Ply, Trouble, read_state
     from plotting.whole_file import write_whole
 except ImportError as error:
     sys.exit(f"area_means.py: error: {error}; install python3-h5py")
@@ -150,15 +150,15 @@ def roughness(ply: Ply) -> dict:
 
 
 def compare(first: Path, second: Path, radius: float, quarters: int) -> list[dict]:
-    a = read_state(first, FIELDS["shear"]).plies
-    b = {ply.name: turned(ply, quarters) for ply in read_state(second, FIELDS["shear"]).plies}
-    told = []
+    a = read_state(first, SHEAR).plies
+    b = {ply.name: turned(ply, quarters) for ply in read_state(second, SHEAR).plies}
+    rows = []
     for ply in a:
         if ply.name not in b:
             raise Trouble(f"{second} has no ply {ply.name}: it has {', '.join(b)}")
-        told.append({"name": ply.name, **difference(ply, b[ply.name], radius),
+        rows.append({"name": ply.name, **difference(ply, b[ply.name], radius),
                      "a": roughness(ply), "b": roughness(b[ply.name])})
-    return told
+    return rows
 
 
 def table(plies: list[dict]) -> str:
@@ -188,11 +188,11 @@ def run() -> None:
         parser.error("--radius must be above 0 and at most 1e6 mm")
     if options.second is None and options.turn == 0:
         parser.error("a second folder or --turn is needed")
-    told = compare(options.first, options.second or options.first, options.radius,
+    rows = compare(options.first, options.second or options.first, options.radius,
                    options.turn // 90)
     if options.json:
-        write_whole(options.json, json.dumps(told, indent=2, ensure_ascii=False) + "\n")
-    print(table(told))
+        write_whole(options.json, json.dumps(rows, indent=2, ensure_ascii=False) + "\n")
+    print(table(rows))
 
 
 def main() -> None:

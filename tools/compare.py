@@ -24,7 +24,7 @@ try:
     import numpy as np
     from plotting.numbers import values_at
     from base.ending import EXIT_OTHER, ended, one_line
-    from plotting.reading import FIELDS, Ply, Trouble, read_state, read_summary
+    from plotting.reading import SHEAR, Ply, Trouble, read_state, read_summary
     from plotting.reading import ended as has_ended
     from plotting.whole_file import write_whole
 except ImportError as error:
@@ -52,14 +52,14 @@ def read_reference(folder: Path) -> dict[str, tuple[Ply, float | None]]:
     tensions = {ply["name"]: ply.get("max_tension_N_per_yarn")
                 for ply in read_summary(folder)["plies"]}
     return {ply.name: (ply, tensions.get(ply.name))
-            for ply in read_state(folder, FIELDS["shear"]).plies}
+            for ply in read_state(folder, SHEAR).plies}
 
 
 def read_run(folder: Path, reference: dict[str, tuple[Ply, float | None]]) -> dict:
     """The summary and the folder and, of each ply that the reference has, how far it is from
     that."""
     run = {"folder": one_line(folder), **read_summary(folder)}
-    plies = {ply.name: ply for ply in read_state(folder, FIELDS["shear"]).plies}
+    plies = {ply.name: ply for ply in read_state(folder, SHEAR).plies}
     if list(plies) != [ply.get("name") for ply in run["plies"]]:
         raise Trouble(f"{folder}: summary.json and results.h5 have different plies: "
                       "are they of one run?")
@@ -75,8 +75,8 @@ def read_run(folder: Path, reference: dict[str, tuple[Ply, float | None]]) -> di
 def labels(folders: list[Path]) -> list[str]:
     """Last part of each path, or the paths where two have the same."""
     names = [folder.resolve().name for folder in folders]
-    told = names if len(set(names)) == len(names) else [str(folder) for folder in folders]
-    return [one_line(name) for name in told]
+    shown = names if len(set(names)) == len(names) else [str(folder) for folder in folders]
+    return [one_line(name) for name in shown]
 
 
 def number(value, form: str, factor: float = 1.0) -> str:
@@ -87,11 +87,11 @@ def number(value, form: str, factor: float = 1.0) -> str:
     return format(factor * value, form)
 
 
-def with_spread(told: dict | None) -> str:
-    if told is None:
+def with_spread(walks: dict | None) -> str:
+    if walks is None:
         return NONE
-    mean = number(told.get("mean"), ".1f")
-    return f"{'0.0' if mean == '-0.0' else mean} ({number(told.get('spread'), '.1f')})"
+    mean = number(walks.get("mean"), ".1f")
+    return f"{'0.0' if mean == '-0.0' else mean} ({number(walks.get('spread'), '.1f')})"
 
 
 def table(head: list[str], rows: list[list[str]], texts: int) -> str:

@@ -21,7 +21,7 @@ from pathlib import Path
 try:
     from base.ending import EXIT_OTHER, ended
     from plotting import draw_fit, draw_folds, draw_history, draw_plies, draw_section, draw_setup
-    from plotting.reading import FIELDS
+    from plotting.reading import SHEAR
     from plotting.whole_file import make_whole
 except ImportError as error:
     sys.exit(f"plot.py: error: {error}; install python3-h5py and python3-matplotlib")
@@ -128,7 +128,9 @@ def arguments() -> argparse.Namespace:
     of_state = [plies, section, folds]
     of_folders = [*of_state, *add_histories(commands)]
     for command in (plies, section):
-        command.add_argument("--field", choices=tuple(FIELDS), default="shear")
+        command.add_argument("--field", default=SHEAR, metavar="WORD",
+                             help="shear, warp-strain, weft-tension, thickness, ... or the name of a "
+                             "column; one that there is none of lists all")
     for command in of_state:
         command.add_argument("--ply", action="append", metavar="NAME",
                              help="only this ply; may be given several times")

@@ -24,24 +24,24 @@ struct Energies {
   Energies& operator+=(const Energies& more);
 };
 
-/// A term: its name in files, and its sign in the balance: stored or dissipated +1, external work
-/// -1.
+/// A term: its name in files and in words, and its sign in the balance: stored or dissipated +1,
+/// external work -1.
 struct EnergyTerm {
-  const char* name;
+  const char *name, *label;
   double Energies::*value;
   double sign;
 };
 
 inline constexpr std::array<EnergyTerm, 9> energy_terms = {{
-    {"kinetic", &Energies::kinetic, 1.0},
-    {"fibre", &Energies::fibre, 1.0},
-    {"shear", &Energies::shear, 1.0},
-    {"bending", &Energies::bending, 1.0},
-    {"contact", &Energies::contact, 1.0},
-    {"friction", &Energies::friction, 1.0},
-    {"damping", &Energies::damping, 1.0},
-    {"external", &Energies::external, -1.0},
-    {"mass_scaling", &Energies::mass_scaling, -1.0},
+    {"kinetic", "kinetic", &Energies::kinetic, 1.0},
+    {"fibre", "fibres", &Energies::fibre, 1.0},
+    {"shear", "shear", &Energies::shear, 1.0},
+    {"bending", "bending", &Energies::bending, 1.0},
+    {"contact", "contact", &Energies::contact, 1.0},
+    {"friction", "friction", &Energies::friction, 1.0},
+    {"damping", "damping", &Energies::damping, 1.0},
+    {"external", "external work", &Energies::external, -1.0},
+    {"mass_scaling", "mass scaling", &Energies::mass_scaling, -1.0},
 }};
 
 } // namespace plyform

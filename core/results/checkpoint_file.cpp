@@ -26,12 +26,12 @@ template <class Archive>
 void visit_head(Archive& a, std::string& identity, WriterState& writer) {
   StateIndex& states = writer.states;
   visit(a, identity, states.plies, states.tools, states.boundaries, states.time, states.stroke,
-        states.step, states.shape);
+        states.step, states.shape, states.history);
   visit(a, writer.history, writer.xdmf.names, writer.xdmf.grids, writer.last_time,
         writer.last_step);
 }
 
-constexpr std::string_view first_line = "plyform checkpoint 5\n";
+constexpr std::string_view first_line = "plyform checkpoint 6\n";
 constexpr std::size_t head_bytes = first_line.size() + 2 * sizeof(std::uint64_t);
 
 [[noreturn]] void damaged(const fs::path& path, const std::string& what) {
@@ -83,6 +83,16 @@ std::string fault_of(const WriterState& writer) {
   drawn.insert(drawn.end(), states.tools.begin(), states.tools.end());
   if (writer.xdmf.names != drawn || writer.xdmf.grids.size() != drawn.size())
     return "its pictures are not those of its bodies";
+  for (const Series& series : states.history) {
+    const StateNumber& what = series.what;
+    if (series.values.size() != frames) return "its numbers are not as many as its states";
+    if (!fault_of_file_name(what.name).empty() ||
+        (!what.body.empty() && !fault_of_file_name(what.body).empty()) || what.label.empty() ||
+        what.word.empty() || what.unit.empty() || what.location < Location::node ||
+        what.location > Location::run || what.scale < Scale::from_zero ||
+        what.scale > Scale::magnitude)
+      return "its numbers are not described";
+  }
   const auto rows = std::count(writer.history.begin(), writer.history.end(), '\n');
   return static_cast<std::size_t>(rows) == frames + 1 ? "" : "its history has other states";
 }

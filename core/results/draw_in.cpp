@@ -104,27 +104,28 @@ double DrawIn::largest() const {
                   *std::max_element(bisectors.begin(), bisectors.end()));
 }
 
-DrawIn draw_in(const PlyFrame& ply, double fibre_angle_deg) {
-  DrawIn told;
-  const double warp = ply.angle_deg, weft = warp + fibre_angle_deg;
-  told.yarns_deg = {warp, weft, warp + 180.0, weft + 180.0};
+DrawIn draw_in(const PlyFrame& ply) {
+  DrawIn found;
+  const double warp = ply.families.empty() ? ply.angle_deg : ply.families[0].angle_deg;
+  const double weft = ply.families.size() > 1 ? ply.families[1].angle_deg : warp + 90.0;
+  found.yarns_deg = {warp, weft, warp + 180.0, weft + 180.0};
   for (std::size_t k = 0; k < 4; ++k)
-    told.bisectors_deg[k] = 0.5 * (warp + weft) + 90.0 * static_cast<double>(k);
+    found.bisectors_deg[k] = 0.5 * (warp + weft) + 90.0 * static_cast<double>(k);
   const std::optional<Loop> loop = outer_border(ply);
   if (!loop) {
-    told.unknown = "its border meets itself";
-    return told;
+    found.unknown = "its border meets itself";
+    return found;
   }
   Vec2 low = ply.x0.front().head<2>(), high = low;
   for (const Vec3& x : ply.x0)
     low = low.cwiseMin(x.head<2>()), high = high.cwiseMax(x.head<2>());
   const Vec2 middle = 0.5 * (low + high);
   for (std::size_t k = 0; k < 4; ++k) {
-    told.yarns[k] = draw_in_of_walk(ply, *loop, middle, degree * told.yarns_deg[k]);
-    told.bisectors[k] = draw_in_of_walk(ply, *loop, middle, degree * told.bisectors_deg[k]);
+    found.yarns[k] = draw_in_of_walk(ply, *loop, middle, degree * found.yarns_deg[k]);
+    found.bisectors[k] = draw_in_of_walk(ply, *loop, middle, degree * found.bisectors_deg[k]);
   }
-  if (!std::isfinite(told.mean())) told.unknown = "the middle of its bounding box is outside";
-  return told;
+  if (!std::isfinite(found.mean())) found.unknown = "the middle of its bounding box is outside";
+  return found;
 }
 
 } // namespace plyform

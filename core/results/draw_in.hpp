@@ -23,7 +23,8 @@ struct DrawIn {
   double largest() const;
 };
 
-/// The draw-in of a ply. fibre_angle_deg: from warp to weft before forming, about +z.
-DrawIn draw_in(const PlyFrame& ply, double fibre_angle_deg);
+/// The draw-in of a ply. Its two yarns are the first two families; across the fibres where there is
+/// one family alone, across angle_deg where there is none.
+DrawIn draw_in(const PlyFrame& ply);
 
 } // namespace plyform

@@ -75,7 +75,7 @@ struct VtuFile {
   /// The columns of one place.
   void columns(const PlyFrame& ply, Location place) {
     each_column(ply, [&](const Column& column, const auto& values) {
-      if (column.place == place && (!column.may_lack || !values.empty()))
+      if (column.location == place && (!column.may_lack || !values.empty()))
         numbers(column.name, values);
     });
   }

@@ -116,7 +116,7 @@ template <class T>
 constexpr hsize_t columns = std::is_same_v<T, Vec3> || std::is_same_v<T, Triangle> ? 3 : 1;
 
 /// Of the layout that docs/users/results.md describes.
-constexpr std::int64_t layout_version = 2;
+constexpr std::int64_t layout_version = 3;
 
 /// Strings of `length` bytes, shorter ones filled up with zeros.
 inline Handle utf8_type(std::size_t length) {

@@ -208,7 +208,7 @@ PlyFrame read_ply(const Reader& in, const std::string& group, const std::string&
   read_families(in, fixed, ply);
   each_column(ply, [&]<class Value>(const Column& column, std::vector<Value>& values) {
     if (!column.may_lack || in.has(now + column.name))
-      values = in.dataset<Value>(now + column.name, column.place == Location::node ? n : m);
+      values = in.dataset<Value>(now + column.name, column.location == Location::node ? n : m);
   });
   return ply;
 }

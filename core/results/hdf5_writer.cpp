@@ -7,6 +7,7 @@
 #include "core/results/result_fields.hpp"
 
 #include <algorithm>
+#include <map>
 #include <stdexcept>
 #include <system_error>
 
@@ -40,8 +41,10 @@ struct Writer {
     const hsize_t size[2] = {values.size(), columns<T>};
     const Handle space(H5Screate_simple(columns<T> == 1 ? 1 : 2, size, nullptr), H5Sclose);
     const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    const Handle links(H5Pcreate(H5P_LINK_CREATE), H5Pclose);
+    H5Pset_create_intermediate_group(links.id(), 1);
     H5Pset_obj_track_times(layout.id(), false); // the same bytes whenever it is written
-    Handle set(H5Dcreate2(file, where.c_str(), file_type<T>(), space.id(), H5P_DEFAULT, layout.id(),
+    Handle set(H5Dcreate2(file, where.c_str(), file_type<T>(), space.id(), links.id(), layout.id(),
                           H5P_DEFAULT),
                H5Dclose);
     require(set.valid() && H5Dwrite(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
@@ -101,6 +104,19 @@ struct Writer {
   }
 };
 
+/// Attributes of a dataset: what its values are.
+void describe(const Writer& out, const std::string& where, const Description& what,
+              Location location) {
+  out.text(where, "place", word_of(location));
+  out.text(where, "label", what.label);
+  out.text(where, "word", what.word);
+  out.text(where, "unit", what.unit);
+  out.number<std::int64_t>(where, "digits", what.digits);
+  out.number(where, "precision", what.precision);
+  out.text(where, "scale", word_of(what.scale));
+  if (!what.note.empty()) out.text(where, "note", what.note);
+}
+
 /// Attributes of a ply: what its columns are named by.
 void write_families(const Writer& out, const std::string& where, const PlyFrame& ply) {
   std::vector<std::string> families, crossings;
@@ -114,13 +130,21 @@ void write_families(const Writer& out, const std::string& where, const PlyFrame&
   out.texts(where, "families", families);
   out.numbers(where, "family_angles_deg", angles);
   out.texts(where, "further_crossings", crossings);
+  std::vector<std::string> columns;
+  for (const Column& column : columns_of(ply))
+    columns.push_back(column.name);
+  out.texts(where, "columns", columns);
 }
 
 void write_ply(const Writer& out, const std::string& where, const PlyFrame& ply) {
   out.group(where);
   out.dataset(where + "/x", ply.x);
   each_column(ply, [&](const Column& column, const auto& values) {
-    if (!column.may_lack || !values.empty()) out.dataset(where + "/" + column.name, values);
+    if (column.may_lack && values.empty()) return;
+    const std::string path = where + "/" + column.name;
+    out.dataset(path, values);
+    describe(out, path, column, column.location);
+    if (!column.quantity.empty()) out.text(path, "quantity", column.quantity);
   });
 }
 
@@ -179,7 +203,23 @@ private:
   bool complete_ = false;
 };
 
-/// Attributes of the file, and an entry a frame of times.
+/// Where the series of a number stands; those of the run itself stand at the top.
+std::string path_of(const StateNumber& number) {
+  if (number.energy) return "/history/energies/" + number.name;
+  const std::string rest = "/" + number.body + "/" + number.name;
+  switch (number.location) {
+  case Location::ply:
+    return "/history/plies" + rest;
+  case Location::tool:
+    return "/history/tools" + rest;
+  case Location::boundary:
+    return "/history/boundaries" + rest;
+  default:
+    return "/" + number.name;
+  }
+}
+
+/// Attributes of the file, and an entry a frame of its numbers.
 void write_index(const Writer& out, const StateIndex& index) {
   out.text("/", "format", "plyform results");
   out.number<std::int64_t>("/", "format_version", layout_version);
@@ -187,9 +227,19 @@ void write_index(const Writer& out, const StateIndex& index) {
   out.texts("/", "plies", index.plies);
   out.texts("/", "tools", index.tools);
   out.texts("/", "boundaries", index.boundaries);
-  out.dataset("/time_s", index.time);
-  out.dataset("/stroke_mm", index.stroke);
   out.dataset("/step", index.step);
+  for (const char* group :
+       {"/history/energies", "/history/plies", "/history/tools", "/history/boundaries"})
+    out.group(group);
+  std::map<std::string, std::vector<std::string>> names; // by group, in order
+  for (const Series& series : index.history) {
+    const std::string where = path_of(series.what);
+    out.dataset(where, series.values);
+    describe(out, where, series.what, series.what.location);
+    names[where.substr(0, where.rfind('/'))].push_back(series.what.name);
+  }
+  for (const auto& [group, own] : names)
+    out.texts(group.empty() ? "/" : group, "numbers", own);
 }
 
 /// What an index refers to: path of a file from the folder of results.h5, of a group in it, and of

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "base/geometry.hpp"
+#include "core/results/description.hpp"
 
 #include <string>
 #include <utility>
@@ -37,35 +38,70 @@ struct PlyFrame {
   std::vector<double> thickness;        ///< m, mm, from constant volume
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
   std::vector<Vec3> reaction;           ///< n, N, of boundaries; empty where there are none
+  std::vector<double> wrinkle_height;   ///< n, mm: wrinkles.hpp; empty if not looked for
 };
 
-/// What the values of a column belong to.
-enum class Location { node, triangle };
-
-/// What a column of the results is, beside its values.
-struct Column {
-  std::string name; ///< in every file
-  Location place = Location::triangle;
-  bool may_lack = false; ///< left out of the files of plies for which it is empty
+/// A column of the results beside its values.
+struct Column : Description {
+  Location location = Location::triangle;
+  std::string quantity = {}; ///< what columns of several families share; empty: none
+  bool may_lack = false;     ///< left out of the files of plies for which it is empty
 };
 
 /// Calls visit(Column, values) for each column of a ply, in the order of files: values is one of
-/// its vectors, of doubles or of Vec3. Every file, reader and module follows this list; a new
-/// column needs an entry here.
+/// its vectors, of doubles or of Vec3. Every file, reader, report and plot follows this list; a new
+/// column needs an entry here, and is filled in output_state.cpp.
 template <class AnyPly, class Visit>
 void each_column(AnyPly& ply, Visit&& visit) {
-  visit(Column{"contact_pressure", Location::node}, ply.contact_pressure);
-  visit(Column{"reaction_N", Location::node, true}, ply.reaction);
+  visit(Column{{"contact_pressure", "pressure", "contact pressure", "N/mm²", 4, 1e-6,
+                Scale::from_zero, "normal force of all contacts over the node's area"},
+               Location::node},
+        ply.contact_pressure);
+  visit(Column{{"reaction_N", "reaction", "reaction", "N", 3, 1e-4, Scale::both_ways,
+                "of what holds or pulls the ply"},
+               Location::node,
+               "",
+               true},
+        ply.reaction);
+  visit(Column{{"wrinkle_height_mm", "wrinkle", "wrinkle height", "mm", 2, 1e-3, Scale::from_zero,
+                "from valley to crest, of the waves that the mesh shows and no tool has"},
+               Location::node,
+               "",
+               true},
+        ply.wrinkle_height);
   for (auto& family : ply.families)
-    visit(Column{family.name}, family.direction);
-  visit(Column{"shear_angle_deg"}, ply.shear_deg);
+    visit(Column{{family.name, family.name, "direction of " + family.name, "1", 3, 1e-6,
+                  Scale::both_ways},
+                 Location::triangle,
+                 "direction"},
+          family.direction);
+  const auto visit_shear = [&](const std::string& suffix, auto& values) {
+    const std::string word = suffix.empty() ? "" : "-" + suffix, end = suffix.empty() ? "" : "_";
+    visit(Column{{"shear_angle_deg" + end + suffix, "shear" + word,
+                  "shear angle" + (suffix.empty() ? "" : " of " + suffix), "deg", 2, 0.005,
+                  Scale::magnitude, "negative: the angle between the fibres opens"},
+                 Location::triangle,
+                 "shear"},
+          values);
+  };
+  visit_shear("", ply.shear_deg);
   for (auto& crossing : ply.crossings)
-    visit(Column{"shear_angle_deg_" + crossing.suffix}, crossing.shear_deg);
+    visit_shear(crossing.suffix, crossing.shear_deg);
   for (auto& family : ply.families)
-    visit(Column{family.name + "_strain"}, family.strain);
+    visit(Column{{family.name + "_strain", family.name + "-strain", family.name + " strain", "1", 3,
+                  5e-6, Scale::both_ways, "negative: shorter"},
+                 Location::triangle,
+                 "strain"},
+          family.strain);
   for (auto& family : ply.families)
-    visit(Column{family.name + "_tension_N"}, family.tension);
-  visit(Column{"thickness_mm"}, ply.thickness);
+    visit(Column{{family.name + "_tension_N", family.name + "-tension", family.name + " tension",
+                  "N per yarn", 3, 1e-4, Scale::from_zero, "negative: compression"},
+                 Location::triangle,
+                 "tension"},
+          family.tension);
+  visit(Column{{"thickness_mm", "thickness", "thickness", "mm", 3, 1e-5, Scale::whole,
+                "from constant volume"}},
+        ply.thickness);
 }
 
 /// The columns of a ply whose files have them.

@@ -2,6 +2,7 @@
 // What result_writer.hpp is made of: texts and files of results, and their reader.
 #pragma once
 
+#include "core/results/history.hpp"
 #include "core/results/result_writer.hpp"
 
 #include <cstdint>
@@ -43,6 +44,7 @@ struct StateIndex {
   std::vector<double> time, stroke;
   std::vector<std::int64_t> step;
   std::string shape; ///< names and mesh sizes, which do not change during a run
+  std::vector<Series> history{};
 };
 
 // While a run is in progress, each state is a file of its own, states/000012.h5, and results.h5
@@ -90,7 +92,7 @@ private:
 void remove_states(const std::filesystem::path& directory, std::size_t first = 0);
 
 /// A whole frame of a results.h5: from 0, or -1 for the last, -2 for the one before. The energies
-/// are not stored and stay 0. Throws std::runtime_error naming the path and what is wrong with it.
+/// are not read and stay 0. Throws std::runtime_error naming the path and what is wrong with it.
 Frame read_frame(const std::filesystem::path& path, long index);
 /// How many frames a results.h5 has. Throws as read_frame.
 long count_frames(const std::filesystem::path& path);

@@ -49,7 +49,7 @@ void check_sizes(const PlyFrame& ply) {
   bool fits = ply.x.size() == n;
   each_column(ply, [&](const Column& column, const auto& values) {
     fits = fits && ((column.may_lack && values.empty()) ||
-                    values.size() == (column.place == Location::node ? n : m));
+                    values.size() == (column.location == Location::node ? n : m));
   });
   if (!fits)
     throw std::logic_error(fmt::format(
@@ -118,36 +118,19 @@ std::vector<std::string> headings_of(const std::string& name) {
     return {name};
 }
 
-std::string history_header(const Frame& frame) {
-  std::string line = "time_s,stroke_mm";
-  for (const ToolFrame& tool : frame.tools)
-    line +=
-        fmt::format(",{},{},{}", heading(tool.name + "_force_N"),
-                    heading(tool.name + "_force_raw_N"), heading(tool.name + "_displacement_mm"));
-  for (const BoundaryFrame& b : frame.boundaries)
-    line +=
-        fmt::format(",{},{}", heading(b.name + "_force_N"), heading(b.name + "_displacement_mm"));
-  for (const EnergyTerm& term : energy_terms)
-    line += fmt::format(",{}_mJ", term.name);
-  return line + ",balance_error\n";
+std::string history_header(const std::vector<Series>& history) {
+  Buffer out;
+  for (const Series& series : history)
+    if (series.what.in_table)
+      fmt::format_to(std::back_inserter(out), "{},", heading(series.heading()));
+  end_row(out);
+  return fmt::to_string(out);
 }
 
-std::string history_row(const Frame& frame) {
+std::string history_row(const std::vector<Series>& history) {
   Buffer out;
-  put(out, frame.time);
-  put(out, frame.stroke_mm);
-  for (const ToolFrame& tool : frame.tools) {
-    put(out, tool.force_N);
-    put(out, tool.force_raw_N);
-    put(out, tool.stroke_mm);
-  }
-  for (const BoundaryFrame& b : frame.boundaries) {
-    put(out, b.force_N);
-    put(out, b.stroke_mm);
-  }
-  for (const EnergyTerm& term : energy_terms)
-    put(out, frame.energy.*term.value);
-  put(out, frame.energy.balance_error());
+  for (const Series& series : history)
+    if (series.what.in_table) put(out, series.values.back());
   end_row(out);
   return fmt::to_string(out);
 }
@@ -159,7 +142,7 @@ std::string ply_table(const PlyFrame& ply) {
   out.append(std::string_view("x0,y0,z0,x,y,z,"));
   std::vector<std::function<void(std::size_t)>> cells; // of a row
   each_column(ply, [&]<class Value>(const Column& column, const std::vector<Value>& values) {
-    if (column.place != Location::triangle) return;
+    if (column.location != Location::triangle) return;
     for (const std::string& name : headings_of<Value>(column.name))
       fmt::format_to(std::back_inserter(out), "{},", heading(name));
     cells.emplace_back([&out, &values](std::size_t i) { put(out, values[i]); });
@@ -262,11 +245,12 @@ void ResultWriter::write_frame(const Frame& frame) {
   if (impl_->states.frames() == 0) {
     remove_former_run(impl_->directory);
     if (!impl_->sizes.empty()) write_sizes(impl_->directory / size_file_name, impl_->sizes);
-    impl_->history = history_header(frame);
   }
   const std::size_t index = impl_->states.frames();
   impl_->states.append(frame);
-  impl_->history += history_row(frame);
+  const std::vector<Series>& history = impl_->states.index().history;
+  if (index == 0) impl_->history = history_header(history);
+  impl_->history += history_row(history);
   impl_->xdmf.add(frame, index);
   impl_->last_time = frame.time;
   impl_->last_step = frame.step;

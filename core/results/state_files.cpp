@@ -57,6 +57,7 @@ void StateFiles::append(const Frame& frame) {
   next.time.push_back(frame.time);
   next.stroke.push_back(frame.stroke_mm);
   next.step.push_back(frame.step);
+  append_state(next.history, frame);
   write_linked(directory_ / "results.h5", next);
   index_ = std::move(next);
 }

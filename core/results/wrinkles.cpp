@@ -31,7 +31,9 @@ double mean_side(const PlyFrame& ply) {
 /// A point of the formed ply, located by its position in the undeformed one.
 struct Place {
   Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
+  std::size_t triangle = 0;
   bool inside = false; ///< whether the ply covers this point
+  double height = 0.0; ///< mm, the largest H found here; 0 of less than least_wrinkle
 };
 
 /// Places on a square grid of the undeformed ply whose rows run along the warp.
@@ -53,7 +55,7 @@ public:
     // The remainder is divided between both sides, so that rounding puts no column onto the border.
     low_ += 0.5 * (high - low_ - step * Vec2(columns_ - 1, rows_ - 1));
     places_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-    for (const Triangle& t : ply.triangles)
+    for (std::size_t t = 0; t < ply.triangles.size(); ++t)
       fill(t);
   }
 
@@ -61,10 +63,20 @@ public:
   int rows() const { return rows_; }
   double step() const { return step_; }
   /// Null outside the grid and where the ply does not cover it.
-  const Place* find(int i, int j) const {
+  Place* find(int i, int j) {
     if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return nullptr;
-    const Place& p = places_[index(i, j)];
+    Place& p = places_[index(i, j)];
     return p.inside ? &p : nullptr;
+  }
+
+  /// The heights at the nodes of the triangles that the places are in.
+  std::vector<double> heights_at_nodes() const {
+    std::vector<double> heights(ply_.x.size(), 0.0);
+    for (const Place& p : places_)
+      if (p.height > 0.0)
+        for (const std::int32_t node : ply_.triangles[p.triangle])
+          heights[at(node)] = std::max(heights[at(node)], p.height);
+    return heights;
   }
 
 private:
@@ -74,7 +86,8 @@ private:
   }
 
   /// (2)
-  Place place(const Triangle& t, const Vec3& w) const {
+  Place place(std::size_t triangle, const Vec3& w) const {
+    const Triangle& t = ply_.triangles[triangle];
     Vec3 p = Vec3::Zero(), q = Vec3::Zero(), n = Vec3::Zero();
     for (std::size_t k = 0; k < 3; ++k)
       p += w[static_cast<int>(k)] * ply_.x[at(t[k])];
@@ -83,10 +96,11 @@ private:
       q += w[static_cast<int>(k)] * (p - normal.dot(p - ply_.x[at(t[k])]) * normal);
       n += w[static_cast<int>(k)] * normal;
     }
-    return {0.5 * (p + q), n.stableNormalized(), true};
+    return {0.5 * (p + q), n.stableNormalized(), triangle, true};
   }
 
-  void fill(const Triangle& t) {
+  void fill(std::size_t triangle) {
+    const Triangle& t = ply_.triangles[triangle];
     const Vec2 &a = flat_[at(t[0])], &b = flat_[at(t[1])], &c = flat_[at(t[2])];
     const auto cross = [](const Vec2& u, const Vec2& v) { return u.x() * v.y() - u.y() * v.x(); };
     const double whole = cross(b - a, c - a);
@@ -100,7 +114,7 @@ private:
         // tolerance of a weight, so that points on a side are found
         constexpr double rounding = 1e-9;
         if (std::min({1.0 - wb - wc, wb, wc}) < -rounding) continue;
-        places_[index(i, j)] = place(t, {1.0 - wb - wc, wb, wc});
+        places_[index(i, j)] = place(triangle, {1.0 - wb - wc, wb, wc});
       }
   }
 
@@ -113,7 +127,7 @@ private:
   std::vector<Place> places_;
 };
 
-using Line = std::array<const Place*, 5>;
+using Line = std::array<Place*, 5>;
 
 /// (1) from D_-1, D_0, D_1
 double height(double before, double here, double after) {
@@ -194,8 +208,9 @@ double share_of_tools(const Line& line, const std::vector<const ToolBody*>& tool
   return share;
 }
 
-/// Updates `best` with the highest wrinkle of all lines whose points are (di, dj) grid steps apart.
-void search_along(const Grid& grid, int di, int dj, const std::vector<const ToolBody*>& tools,
+/// Updates the heights of places, and `best` with the highest wrinkle, of all lines whose points
+/// are (di, dj) grid steps apart.
+void search_along(Grid& grid, int di, int dj, const std::vector<const ToolBody*>& tools,
                   Wrinkle& best) {
   const double half_wave = grid.step() * std::hypot(di, dj);
   for (int j = 0; j < grid.rows(); ++j)
@@ -207,16 +222,19 @@ void search_along(const Grid& grid, int di, int dj, const std::vector<const Tool
         whole = line[k + 2] != nullptr;
       }
       if (!whole) continue;
+      double& here = line[2]->height;
+      const double needed = std::min(best.height, std::max(here, least_wrinkle));
       double found = height_of_shape(line);
-      if (found <= best.height) continue;
+      if (found <= needed) continue;
       found = std::min(found, height_above_tools(line, tools, half_wave));
-      if (found > best.height) found *= 1.0 - share_of_tools(line, tools, half_wave);
+      if (found > needed) found *= 1.0 - share_of_tools(line, tools, half_wave);
       if (found > best.height) best = {found, 2.0 * half_wave, line[2]->x};
+      if (found >= least_wrinkle) here = std::max(here, found);
     }
 }
 
 /// The highest wrinkle of all four directions at about this half wavelength, mm.
-Wrinkle search_at(const Grid& grid, double half_wave, const std::vector<const ToolBody*>& tools,
+Wrinkle search_at(Grid& grid, double half_wave, const std::vector<const ToolBody*>& tools,
                   Wrinkle best) {
   const double steps = half_wave / grid.step();
   const int straight = static_cast<int>(std::lround(steps));
@@ -230,13 +248,14 @@ Wrinkle search_at(const Grid& grid, double half_wave, const std::vector<const To
 
 } // namespace
 
-Wrinkle highest_wrinkle(const PlyFrame& ply, const std::vector<const ToolBody*>& tools) {
-  Wrinkle best;
-  if (ply.triangles.empty()) return best;
+Wrinkles wrinkles_of(const PlyFrame& ply, const std::vector<const ToolBody*>& tools) {
+  Wrinkles result{{}, std::vector<double>(ply.x.size(), 0.0)};
+  Wrinkle& best = result.highest;
+  if (ply.triangles.empty()) return result;
   for (const Vec3& x : ply.x)
-    if (!x.allFinite()) return best;
+    if (!x.allFinite()) return result;
   const double side = mean_side(ply);
-  const Grid grid(ply, 0.5 * side);
+  Grid grid(ply, 0.5 * side);
   const double longest = std::max(longest_half * side, longest_half_mm);
   // A wave is nearly as high along oblique lines or with a slightly wrong wavelength: the
   // wavelength reported is the shortest one at which it has at least 95 % of its height.
@@ -246,7 +265,8 @@ Wrinkle highest_wrinkle(const PlyFrame& ply, const std::vector<const ToolBody*>&
     best.height = found.height;
     if (found.height > length_of / 0.95) best = found, length_of = found.height;
   }
-  return best;
+  result.at_nodes = grid.heights_at_nodes();
+  return result;
 }
 
 } // namespace plyform

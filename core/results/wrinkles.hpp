@@ -51,7 +51,16 @@ struct Wrinkle {
   Vec3 at = Vec3::Zero();  ///< mm, its crest or valley, in the formed ply
 };
 
-/// The wrinkle with the largest H of a ply. tools: those whose shape (1) compares with; not owned.
-Wrinkle highest_wrinkle(const PlyFrame& ply, const std::vector<const ToolBody*>& tools);
+/// Waves lower than this (mm) are 0 in a field of heights: they are of the mesh, on fillets.
+constexpr double least_wrinkle = 0.3;
+
+struct Wrinkles {
+  Wrinkle highest;
+  /// n, mm: of each node the largest H whose crest or valley is in a triangle at it.
+  std::vector<double> at_nodes;
+};
+
+/// H all over a ply. tools: those whose shape (1) compares with; not owned.
+Wrinkles wrinkles_of(const PlyFrame& ply, const std::vector<const ToolBody*>& tools);
 
 } // namespace plyform

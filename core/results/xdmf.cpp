@@ -81,7 +81,7 @@ std::string ply_grid(const PlyFrame& ply, const std::string& group, double time)
                     geometry(n, here + "x");
   each_column(ply, [&]<class Value>(const Column& column, const std::vector<Value>& values) {
     if (column.may_lack && values.empty()) return;
-    const bool vector = std::is_same_v<Value, Vec3>, nodes = column.place == Location::node;
+    const bool vector = std::is_same_v<Value, Vec3>, nodes = column.location == Location::node;
     out += attribute(column.name, vector ? "Vector" : "Scalar", nodes ? "Node" : "Cell",
                      data_item(nodes ? n : m, vector ? 3 : 1, "Float", 8, here + column.name));
   });

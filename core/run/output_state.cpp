@@ -3,6 +3,7 @@
 
 #include "base/node_normals.hpp"
 #include "core/model/motion.hpp"
+#include "core/results/wrinkles.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -55,6 +56,10 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   f.reaction.resize(ply.pull.empty() ? f.reaction.size() : ply.pull.size(), Vec3::Zero());
   for (std::size_t n = 0; n < ply.pull.size(); ++n)
     f.reaction[n] += ply.pull[n];
+  std::vector<const ToolBody*> tools;
+  for (const ToolState& tool : scene.tools)
+    tools.push_back(&tool.body);
+  f.wrinkle_height = wrinkles_of(f, tools).at_nodes;
   return f;
 }
 

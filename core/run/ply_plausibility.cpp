@@ -252,7 +252,7 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
   PlyReport result;
   const std::vector<double> areas = areas_before(ply);
   if (nature.woven) result.pressed = pressed_yarns(ply, areas);
-  result.wrinkle = highest_wrinkle(ply, tools);
+  result.wrinkle = wrinkles_of(ply, tools).highest;
   if (nature.locking_angle_deg) {
     std::vector<double> shear = ply.shear_deg;
     for (double& angle : shear)
@@ -260,7 +260,7 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
     result.locking_angle_deg = nature.locking_angle_deg;
     result.beyond_locking_share = area_share_above(shear, *nature.locking_angle_deg, areas);
   }
-  result.draw_in = draw_in(ply, nature.fibre_angle_deg);
+  result.draw_in = draw_in(ply);
   return result;
 }
 
@@ -271,7 +271,7 @@ std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
   std::vector<PlyReport> result;
   for (std::size_t p = 0; p < last.plies.size(); ++p) {
     const Fabric& fabric = s.data.fabrics[s.data.plies[p].fabric];
-    PlyNature nature{fabric.fibre_angle / degree, fabric.has_yarns(), std::nullopt};
+    PlyNature nature{fabric.has_yarns(), std::nullopt};
     if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle / degree;
     result.push_back(report_ply(last.plies[p], nature, tools));
   }

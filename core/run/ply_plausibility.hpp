@@ -32,8 +32,7 @@ constexpr double doubtful_astray_share = 0.2;
 
 /// Properties of a ply that report_ply needs besides its frame.
 struct PlyNature {
-  double fibre_angle_deg = 90.0; ///< from warp to weft before forming
-  bool woven = true;             ///< has yarns
+  bool woven = true; ///< has yarns
   std::optional<double> locking_angle_deg = std::nullopt;
 };
 

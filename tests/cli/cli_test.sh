@@ -13,13 +13,16 @@ cp -r "$cases" cases
 short=(--set blanks.square.mesh_from=element_size --set blanks.square.element_size=34 --set solver.duration=0.002 --set tool.0.stroke=0.5)
 expect 0 plyform version
 expect 0 'tool[].radius' keys
+expect 0 'weft_strain,weft-strain,weft strain,1,triangle,1' columns
+expect 0 'stitch_tension_N,stitch-tension' columns stitch
+expect 1 'two columns would be called x: give a family another name' columns x
 expect 1 'subcommand is required'
 expect 1 'subcommand is required' frob
 expect 1 'threads' run cases/hemisphere_0 --threads 0
 # A standard output that takes nothing is told, by every command that prints there.
 if [ -e /dev/full ]; then
   "$program" export results_of_nothing >/dev/null 2>&1 || true
-  full=("version" "keys" "keys --markdown" "--help" "run --help" "check cases/hemisphere_0 ${short[*]}"
+  full=("version" "columns" "keys" "keys --markdown" "--help" "run --help" "check cases/hemisphere_0 ${short[*]}"
     "run cases/hemisphere_0 -o full ${short[*]}" "export full" "difference full full"
     "theory frame --side 200 --fabric cases/fabrics/glass_plain_weave.toml --to 50 -o frame.csv")
   for arguments in "${full[@]}"; do

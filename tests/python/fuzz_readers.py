@@ -53,7 +53,7 @@ from exchange.write_csv import csv_files
 from exchange.write_drape import openradioss_files, optistruct_files
 from exchange.write_gltf import glb_of
 from exchange.write_lsdyna import lsdyna_files
-from plotting.reading import FIELDS, read_history, read_state
+from plotting.reading import SHEAR, read_history, read_state
 from reporting.page import page_of
 from reporting.reading_run import read_run
 from studies.figures import figures_of
@@ -112,7 +112,7 @@ def read_h5(run):
             files(layup)
     for state in read_states(run, "all"):
         glb_of(state)
-    read_state(run, FIELDS["shear"], -1, True)
+    read_state(run, SHEAR, -1, True)
     area_means.table(area_means.compare(run, run, 10.0, 1))
     page_of([read_run(run)])
 

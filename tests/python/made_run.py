@@ -8,7 +8,10 @@ from pathlib import Path
 import h5py
 import numpy as np
 
+from described import put_columns, put_numbers, put_ply, texts
+
 CELLS = ("warp_strain", "weft_strain", "warp_tension_N", "weft_tension_N")
+COLUMNS = ("contact_pressure", "warp", "weft", "shear_angle_deg", *CELLS, "thickness_mm")
 
 
 def square(cells=4, size=100.0):
@@ -21,26 +24,27 @@ def square(cells=4, size=100.0):
     return np.column_stack([x.ravel(), y.ravel(), 0.0 * x.ravel()]), triangles.astype(np.int32)
 
 
-def texts(words, length=None):
-    kind = h5py.string_dtype("utf-8", length or max(len(word.encode()) for word in words))
-    return np.array([word.encode() for word in words], dtype=kind)
-
-
 def write_h5(path: Path, plies=("lower", "upper"), tools=("punch",), grips=("grip",)) -> None:
     x0, triangles = square()
     along = x0[triangles].mean(axis=1)
     with h5py.File(path, "w") as file:
-        file.attrs["format"], file.attrs["format_version"] = "plyform results", 2
+        file.attrs["format"], file.attrs["format_version"] = "plyform results", 3
         for bodies, names in (("plies", plies), ("tools", tools), ("boundaries", grips)):
             file.attrs[bodies] = texts(names)
         file["time_s"], file["stroke_mm"], file["step"] = [0.0, 0.1], [0.0, 5.0], [0, 10]
         for name in plies:
             file[f"plies/{name}/x0"], file[f"plies/{name}/triangles"] = x0, triangles
-            ply = file[f"plies/{name}"].attrs
-            ply["angle_deg"], ply["family_angles_deg"] = 0.0, [0.0, 90.0]
-            ply["families"], ply["further_crossings"] = texts(["warp", "weft"]), texts([], 1)
+            put_ply(file[f"plies/{name}"], COLUMNS)
+            put_numbers(file.create_group(f"history/plies/{name}"),
+                        {"rms_shear_deg": ([0.0, 5.0], "deg"), "draw_in_mm": ([0.0, 1.0], "mm")}, "ply")
         for name in tools:
             file[f"tools/{name}/x0"], file[f"tools/{name}/triangles"] = x0 + (0, 0, 9), triangles
+        for bodies, place, names in (("tools", "tool", tools), ("boundaries", "boundary", grips)):
+            for name in names:
+                put_numbers(file.create_group(f"history/{bodies}/{name}"),
+                            {"force_N": ([0.0, 9.0], "N"), "displacement_mm": ([0.0, 5.0], "mm")}, place)
+        put_numbers(file.create_group("history/energies"), {
+            "kinetic_mJ": ([0.0, 0.1], "mJ"), "fibre_mJ": ([0.0, 2.0], "mJ")}, "run")
         for k in (0, 1):
             put_state(file.create_group(f"frames/{k:06}"), k, x0, along, plies, tools, grips)
 
@@ -54,12 +58,10 @@ def put_state(now, k, x0, along, plies, tools, grips) -> None:
         ply = now.create_group(f"plies/{name}")
         ply["x"] = x0 + np.column_stack([0 * x0[:, 0], 0 * x0[:, 0],
                                          0.6 * level - 0.001 * k * (x0**2).sum(axis=1)])
-        ply["contact_pressure"] = np.zeros(len(x0))
-        ply["shear_angle_deg"], ply["thickness_mm"] = shear, np.full(count, 0.6)
-        ply["warp"] = np.tile([1.0, 0.0, 0.0], (count, 1))
-        ply["weft"] = np.tile([0.0, 1.0, 0.0], (count, 1))
-        for field in CELLS:
-            ply[field] = 0.001 * shear
+        put_columns(ply, {"shear_angle_deg": shear, "thickness_mm": np.full(count, 0.6),
+                          "warp": np.tile([1.0, 0.0, 0.0], (count, 1)),
+                          "weft": np.tile([0.0, 1.0, 0.0], (count, 1)),
+                          **{field: 0.001 * shear for field in CELLS}}, np.zeros(len(x0)))
     for name in tools:
         tool = now.create_group(f"tools/{name}")
         tool.attrs["displacement_mm"], tool.attrs["force_vector_N"] = [0, 0, -5.0 * k], [0, 0, 9.0]

@@ -6,6 +6,8 @@ import csv
 import h5py
 import numpy as np
 
+from described import put_columns, put_ply
+
 
 def grid(cells, size):
     """A flat square round the origin: `cells` x `cells` squares, diagonals alternating."""
@@ -52,6 +54,7 @@ def write(folder, plies, history=None):
     """`plies`: name -> (x0, x, triangles, shear angles in degrees); `history`: columns by name."""
     folder.mkdir(parents=True)
     with h5py.File(folder / "results.h5", "w") as file:
+        file.attrs["format_version"] = 3
         file.attrs["plies"] = np.array([name.encode() for name in plies],
                                        dtype=h5py.string_dtype("utf-8", 40))
         file.attrs["tools"] = np.array([], dtype=h5py.string_dtype("utf-8", 1))
@@ -60,12 +63,14 @@ def write(folder, plies, history=None):
         now.attrs["stroke_mm"] = 12.0
         for name, (x0, x, triangles, shear) in plies.items():
             fixed, ply = file.create_group(f"plies/{name}"), now.create_group(f"plies/{name}")
-            fixed.attrs["angle_deg"] = 0.0
             fixed["x0"], fixed["triangles"] = x0, triangles
-            ply["x"], ply["shear_angle_deg"] = x, shear
+            columns = {"shear_angle_deg": shear}
             for k, other in enumerate(("warp_strain", "weft_strain", "warp_tension_N",
                                        "weft_tension_N", "thickness_mm")):
-                ply[other] = 0.001 * shear + 0.1 * k
+                columns[other] = 0.001 * shear + 0.1 * k
+            put_ply(fixed, list(columns))
+            ply["x"] = x
+            put_columns(ply, columns)
     if history:
         write_table(folder / "history.csv", history)
 

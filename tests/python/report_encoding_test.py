@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of reports without a browser: what is written comes back, tools keep their shape when they
-are simplified, draw-in and rms are those of a known motion.
+are simplified.
 
     report_encoding_test.py TOOLS
 """
@@ -17,12 +17,9 @@ except ImportError as problem:
     sys.exit(77)
 
 sys.path.insert(0, sys.argv[1])
-from reporting import series  # noqa: E402
 from reporting.encode import Blocks  # noqa: E402
-from reporting.reading_run import PlyStates  # noqa: E402
 from reporting import simplify  # noqa: E402
 from reporting.simplify import simplified  # noqa: E402
-import plot_folders  # noqa: E402
 
 
 def decoded(blocks, told):
@@ -74,19 +71,5 @@ def check_simplified():
     assert abs(fewer[:, 2].min()) < 0.3 and abs(fewer[:, 2].max() - 100.0) < 0.3  # the rims stay
 
 
-def check_series():
-    x0, triangles = plot_folders.grid(10, 100.0)
-    x = np.stack([x0, x0 * [0.9, 0.8, 1.0]])  # 5 mm along x, 10 mm along y, at each border
-    flat = np.zeros((2, len(triangles)))
-    cells = {"shear_angle_deg": np.stack([flat[0], flat[0] - 3.0])}
-    ply = PlyStates("p", 0.0, x0, triangles, x, cells, {}, np.array([1.0, 0, 0]), np.array([0, 1.0, 0]))
-    diagonal = np.hypot(50.0, 50.0) - np.hypot(45.0, 40.0)
-    expected = (2 * 5.0 + 2 * 10.0 + 4 * diagonal) / 8
-    assert abs(series.draw_in(ply) - [0.0, expected]).max() < 1e-9
-    assert (series.largest_shear(ply) == [0.0, 3.0]).all()
-    assert abs(series.rms_shear(ply) - [0.0, 3.0]).max() < 1e-12
-
-
 check_encoding()
 check_simplified()
-check_series()

@@ -91,7 +91,7 @@ def check_hdf5(folder):
         assert list(file["step"]) == [0, 500, 1000]
         names = {key: [name.decode() for name in file.attrs[key]]
                  for key in ("plies", "tools", "boundaries")}
-        assert file.attrs["format_version"] == 2
+        assert file.attrs["format_version"] == 3
         assert set(names["plies"]) == set(tables(folder)), names
         assert names["tools"] == list(TOOLS)
         assert not any("x" in file[f"frames/000002/tools/{tool}"] for tool in TOOLS)
@@ -109,8 +109,42 @@ def check_hdf5(folder):
                       lambda f: now[f][:], now.keys())
             before = fixed["x0"][:][fixed["triangles"][:]].mean(axis=1)
             equal(before, np.column_stack([ply["x0"], ply["y0"], ply["z0"]]), f"{name}: x0")
+        check_descriptions(folder, file)
         check_xdmf_references(folder, file)
     check_summary(folder)
+
+
+def check_descriptions(folder, file):
+    """Every column and number says what it is, and history.csv has the numbers of /history."""
+    def unit_of(data, place):
+        told = data.attrs
+        assert told["place"].decode() == place and told["label"] and told["word"], data.name
+        assert told["digits"] >= 0 and told["precision"] > 0.0, data.name
+        assert told["scale"].decode() in ("from zero", "whole", "both ways", "magnitude"), data.name
+        return told["unit"].decode()
+
+    for name in file["plies"]:
+        fixed, now = file["plies"][name], file["frames/000002/plies"][name]
+        assert [one.decode() for one in fixed.attrs["families"]] == ["warp", "weft"]
+        assert {one.decode() for one in fixed.attrs["columns"]} == set(now) - {"x"}
+        for column, data in ((column, data) for column, data in now.items() if column != "x"):
+            unit = unit_of(data, "node" if column in (PRESSURE, REACTION) else "triangle")
+            ends = {"_deg": "deg", "_mm": "mm", "on_N": "N per yarn" if "tension" in column else "N"}
+            wanted = [unit for end, unit in ends.items() if column.endswith(end)]
+            assert not wanted or unit == wanted[0], (column, unit)
+        assert abs(file[f"history/plies/{name}/rms_shear_deg"][0]) == 0.0
+        unit_of(file[f"history/plies/{name}/draw_in_mm"], "ply")
+    history = table(folder / "history.csv")
+    for heading, values in history.items():
+        paths = [heading, f"history/energies/{heading}"]
+        for bodies in ("tools", "boundaries"):
+            paths += [f"history/{bodies}/{name}/{heading[len(name) + 1:]}"
+                      for name in file[f"history/{bodies}"] if heading.startswith(f"{name}_")]
+        found = [file[path] for path in paths if path in file]
+        assert len(found) == 1, heading
+        equal(found[0][:], values, heading)
+        unit_of(found[0], {"tools": "tool", "boundaries": "boundary"}.get(
+            found[0].name.split("/")[2] if found[0].name.count("/") > 2 else "", "run"))
 
 
 def check_xdmf_references(folder, file):

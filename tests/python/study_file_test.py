@@ -17,7 +17,7 @@ from studies import plan, study_file
 def planned(scene: Scene, study: str) -> list:
     scene.write(study)
     read = study_file.read_study(scene.folder / "study.toml")
-    assert not read.mistakes.told, read.mistakes.texts()
+    assert not read.mistakes.found, read.mistakes.texts()
     return plan.Planner(read, scene.program, "version", 1).runs(scene.results)
 
 

@@ -133,7 +133,7 @@ class Shown(Scene):
         planner = plan.Planner(study, self.program, "plyform made-up", 1)
         runs = planner.runs(self.results)
         results.check_columns(study, planner)
-        assert not study.mistakes.told, study.mistakes.texts()
+        assert not study.mistakes.found, study.mistakes.texts()
         return planner, {run.label: run for run in runs}
 
     def made(self, orders: dict) -> None:
@@ -287,7 +287,7 @@ def check_shipped(_folder: Path) -> None:
         planner = plan.Planner(study, PLYFORM, "version", 1)
         runs = planner.runs(Path("none"))
         results.check_columns(study, planner)
-        assert not study.mistakes.told and runs, study.mistakes.texts()
+        assert not study.mistakes.found and runs, study.mistakes.texts()
     study = study_file.read_study(CASES / "studies/real_cloth/stack_5.toml")
     runs = plan.Planner(study, PLYFORM, "version", 1).runs(Path("none"))
     draw = random.Random(3005)

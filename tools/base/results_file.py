@@ -5,6 +5,7 @@ not trusted: it is numbers of its own, of the shapes and kinds that plyform writ
 import re
 import stat
 from collections.abc import Callable
+from dataclasses import dataclass
 from pathlib import Path
 
 import h5py
@@ -17,6 +18,9 @@ from base.names import SEPARATORS, checked
 
 # of a run in progress, whose states are files of their own
 STATE_FILE = re.compile(r"states/[A-Za-z0-9_]+\.h5")
+VERSION = 3  # of the layout
+SCALES = ("from zero", "whole", "both ways", "magnitude")
+MOST_TEXT = 4096  # bytes
 FARTHEST = 1e9  # mm, and any other unit: no result is larger
 MOST_NAMES = 100000
 
@@ -25,15 +29,47 @@ class Broken(Exception):
     """What is wrong inside of the file; one line."""
 
 
+@dataclass(frozen=True)
+class Column:
+    """What results.h5 says of a column of a ply, or of a number of each state."""
+    name: str         # in every file
+    word: str         # in options and study files
+    label: str
+    unit: str         # "1": a ratio
+    place: str        # node, triangle, ply, tool, boundary, run
+    digits: int       # after the point, where one value is shown
+    precision: float  # in its unit; finer steps say nothing
+    scale: str        # one of SCALES
+    note: str = ""
+    quantity: str = ""  # what columns of several families share
+    size: int = 1       # numbers in a row
+
+    @property
+    def factor(self) -> float:
+        """From the file's unit to the one that readers are shown."""
+        return 100.0 if self.unit == "1" else 1.0
+
+    @property
+    def shown_unit(self) -> str:
+        return {"1": "%", "deg": "degrees"}.get(self.unit, self.unit)
+
+
 class Results:
     """An open results.h5, of t states; plies by name. All raise Broken."""
 
     def __init__(self, path: Path, file: h5py.File):
         self.path, self.folder, self.file = path, path.parent, file
         self.seen: set[tuple] = set()
+        self.check_version()
         self.check_links(file, "/", False)
         self.time_s = self.numbers(file, "time_s", (None,))
         self.count = len(self.time_s)
+
+    def check_version(self) -> None:
+        version = int(self.number(self.file, "format_version"))
+        if version != VERSION:
+            raise Trouble(f"{self.path}: its layout is version {version}, this plyform reads version "
+                          f"{VERSION}: run the case again, or read it with h5py")
 
     def check_links(self, group: h5py.Group, where: str, linked: bool) -> None:
         """All data lies in this file, or in states/ beside it while the run is in progress."""
@@ -47,11 +83,11 @@ class Results:
             at = group.get(name)
             if at is None:
                 raise Broken(f"{here} leads nowhere")
-            told = h5py.h5o.get_info(at.id)
-            if (told.fileno, told.addr) in self.seen:
+            place = h5py.h5o.get_info(at.id)
+            if (place.fileno, place.addr) in self.seen:
                 raise Broken(f"{here} is a link to what stands elsewhere too, which plyform does "
                              "not write")
-            self.seen.add((told.fileno, told.addr))
+            self.seen.add((place.fileno, place.addr))
             if isinstance(at, h5py.Group):
                 self.check_links(at, here + "/", linked or away)
             elif not isinstance(at, h5py.Dataset):
@@ -111,21 +147,77 @@ class Results:
     def number(self, group: h5py.Group, name: str) -> float:
         return float(self.attribute(group, name))
 
+    def texts(self, group: h5py.Group, name: str, kind: str) -> list[str]:
+        """Names of things of one kind; none stands twice."""
+        where = f"{group.name}:{name}"
+        if name not in group.attrs:
+            raise Broken(f"{where} is missing")
+        kept = group.attrs.get_id(name)
+        if len(kept.shape or ()) != 1 or kept.shape[0] > MOST_NAMES or \
+                kept.dtype.kind != "S" or h5py.check_string_dtype(kept.dtype) is None:
+            raise Broken(f"{where} is no list of names")
+        found = [text.decode() for text in group.attrs[name]]
+        for text in found:
+            checked(text, kind, self.path, SEPARATORS)
+        if len(set(found)) < len(found):
+            raise Broken(f"{where} has a name twice")
+        return found
+
+    def text(self, data: h5py.Dataset, name: str) -> str:
+        """An attribute of one line; empty if there is none."""
+        if name not in data.attrs:
+            return ""
+        kept = data.attrs.get_id(name)
+        if kept.shape != () or kept.dtype.kind != "S" or kept.dtype.itemsize > MOST_TEXT:
+            raise Broken(f"{data.name}:{name} is no text")
+        found = bytes(data.attrs[name]).rstrip(b"\0").decode()
+        if not found.isprintable():
+            raise Broken(f"{data.name}:{name} is no line of text")
+        return found
+
     def names(self, bodies: str) -> list[str]:
         """Of "plies", from the bottom of the stack, "tools" or "boundaries"."""
-        if bodies not in self.file.attrs:
-            raise Broken(f"/:{bodies} is missing")
-        kept = self.file.attrs.get_id(bodies)
-        if len(kept.shape or ()) != 1 or kept.shape[0] > MOST_NAMES or \
-                kept.dtype.kind not in "SO" or h5py.check_string_dtype(kept.dtype) is None:
-            raise Broken(f"/:{bodies} is no list of names")
-        # texts of any length in files of layout 1
-        told = [name if isinstance(name, str) else name.decode() for name in self.file.attrs[bodies]]
-        for name in told:
-            checked(name, {"plies": "ply"}.get(bodies, bodies[:-1]), self.path, SEPARATORS)
-        if len(set(told)) < len(told):
-            raise Broken(f"/:{bodies} has a name twice")
-        return told
+        return self.texts(self.file, bodies, {"plies": "ply"}.get(bodies, bodies[:-1]))
+
+    def families(self, ply: str) -> list[str]:
+        """Names of its families of yarns."""
+        return self.texts(self.group("plies", ply), "families", "family")
+
+    def description(self, group: h5py.Group, name: str) -> Column:
+        data = self.member(group, name, h5py.Dataset)
+        words = {key: self.text(data, key) for key in
+                 ("word", "label", "unit", "place", "scale", "note", "quantity")}
+        lacking = [key for key in ("word", "label", "unit", "place") if not words[key]]
+        if lacking or words["scale"] not in SCALES:
+            raise Broken(f"{data.name}:{(lacking or ['scale'])[0]} is missing or unknown")
+        digits, precision = self.number(data, "digits"), self.number(data, "precision")
+        if not 0 <= digits <= 17 or digits != int(digits) or precision < 0.0:
+            raise Broken(f"{data.name}: its digits or its precision are none")
+        return Column(name, digits=int(digits), precision=precision, **words,
+                      size=data.shape[1] if len(data.shape or ()) == 2 else 1)
+
+    def columns(self, ply: str) -> list[Column]:
+        """What a ply has in every state, in the order of its table."""
+        now = self.in_state(0, "plies", ply)
+        found = [self.description(now, name)
+                 for name in self.texts(self.group("plies", ply), "columns", "column")]
+        for column in found:
+            if column.place not in ("node", "triangle"):
+                raise Broken(f"{now.name}/{column.name}:place is none of a ply")
+        return found
+
+    def column(self, number: int, ply: str, column: Column, count: int) -> np.ndarray:
+        """Values of a state, of `count` nodes or triangles."""
+        return self.numbers(self.in_state(number, "plies", ply), column.name,
+                            (count,) if column.size == 1 else (count, column.size))
+
+    def history(self, *steps: str) -> dict[str, tuple[Column, np.ndarray]]:
+        """The numbers of each state, with NaN where one is not known, by name: "energies", or
+        "plies", "tools" or "boundaries" and one of them."""
+        group = self.group("history", *steps)
+        return {name: (self.description(group, name),
+                       self.numbers(group, name, (self.count,), finite=False))
+                for name in self.texts(group, "numbers", "number")}
 
     def frame_number(self, frame: int) -> int:
         """From 0, of a number that may count from the end. Raises Trouble."""

@@ -47,6 +47,7 @@ struct Arguments {
   IdentifyArguments identify;
   TheoryArguments theory;
   bool markdown = false; ///< keys as a page
+  std::vector<std::string> families{"warp", "weft"};
 };
 
 /// A command, and the function that runs it after its arguments were parsed and returns the exit
@@ -138,6 +139,11 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
   CLI::App* keys = app.add_subcommand("keys", "list every key of case and fabric files");
   keys->add_flag("--markdown", to.markdown, "as a page of tables");
   commands.push_back({keys, [&to] { return keys_command(to.markdown); }});
+
+  CLI::App* columns = app.add_subcommand("columns", "list the columns that results have of a ply");
+  columns->add_option("families", to.families, "names of its families of yarns")
+      ->capture_default_str();
+  commands.push_back({columns, [&to] { return columns_command(to.families); }});
 
   CLI::App* print_version = app.add_subcommand("version", "print the version");
   commands.push_back({print_version, [] {

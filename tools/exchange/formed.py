@@ -60,6 +60,19 @@ def stack_of(results: Results, folder: Path, frame: int, only: list[str]) -> For
     return FormedStack(folder, number, results.number(results.state(number), "stroke_mm"), plies)
 
 
+def directions_of(results: Results, number: int, name: str, x: np.ndarray,
+                  triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Unit vectors of the first two families; across the fibres where there is one alone."""
+    families = results.families(name)
+    if not families:
+        raise Trouble(f"{results.folder}: ply {name} has no fibres, whose directions could be mapped")
+    now, shape = results.in_state(number, "plies", name), (len(triangles), 3)
+    one = results.numbers(now, families[0], shape)
+    if len(families) > 1:
+        return one, results.numbers(now, families[1], shape)
+    return one, np.cross(triangle_normals(x, triangles)[0], one)
+
+
 def ply_of(results: Results, number: int, name: str) -> FormedPly:
     fixed, now = results.group("plies", name), results.in_state(number, "plies", name)
     x0, triangles = results.body("plies", name)
@@ -67,7 +80,8 @@ def ply_of(results: Results, number: int, name: str) -> FormedPly:
     down = triangle_normals(x0, triangles)[0][:, 2] < 0
     triangles[down] = triangles[down][:, [0, 2, 1]]
     count = len(triangles)
-    warp, weft = (results.numbers(now, yarns, (count, 3)) for yarns in ("warp", "weft"))
+    x = results.numbers(now, "x", (len(x0), 3))
+    warp, weft = directions_of(results, number, name, x, triangles)
     shear, thickness = (results.numbers(now, field, (count,))
                         for field in ("shear_angle_deg", "thickness_mm"))
     flat = results.numbers(results.in_state(0, "plies", name), "thickness_mm", (count,))
@@ -75,5 +89,5 @@ def ply_of(results: Results, number: int, name: str) -> FormedPly:
     if not (thickness > 0).all() or not (flat > 0).all():
         raise Broken(f"{now.name}/thickness_mm is not above 0 everywhere")
     return FormedPly(name, results.number(fixed, "angle_deg"), x0,
-                     results.numbers(now, "x", (len(x0), 3)), triangles, warp, weft, shear,
+                     x, triangles, warp, weft, shear,
                      thickness, float(flat.mean()), float(np.median(angle + shear)))

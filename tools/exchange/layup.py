@@ -28,7 +28,7 @@ class Layup:
     source: str  # of the state, in words
     own: bool    # the mesh is the ply's own, and goes into the files too
     notes: tuple[str, ...] = ()  # of the part mesh: what of it was not used
-    told: list[str] = field(default_factory=list)  # what formats have to tell of their files
+    remarks: list[str] = field(default_factory=list)  # what formats have to tell of their files
 
     @cached_property
     def normals(self) -> np.ndarray:

@@ -29,13 +29,6 @@ class State:
     bodies: list[Body]  # plies from the bottom of the stack, then tools
 
 
-# columns a triangle and a node (core/results/ply_frame.hpp): how many numbers
-CELLS = {"shear_angle_deg": 1, "warp_strain": 1, "weft_strain": 1, "warp_tension_N": 1,
-         "weft_tension_N": 1, "thickness_mm": 1, "warp": 3, "weft": 3}
-NODES = {"contact_pressure": 1, "reaction_N": 3}
-OPTIONAL = "reaction_N"  # only of plies that something holds
-
-
 def read_states(folder: Path, frame: str) -> list[State]:
     """One state, by its number from 0 (-1: the last), or "all". Raises Trouble."""
     asked = None if frame == "all" else whole(frame)
@@ -51,11 +44,10 @@ def whole(word: str) -> int:
         raise Trouble(f"--frame {word}: a number from 0, -1 for the last, or all") from None
 
 
-def fields_of(results: Results, number: int, name: str, count: int,
-              columns: dict[str, int]) -> dict[str, np.ndarray]:
-    now = results.in_state(number, "plies", name)
-    return {key: results.numbers(now, key, (count,) if size == 1 else (count, size))
-            for key, size in columns.items() if key != OPTIONAL or key in now}
+def fields_of(results: Results, number: int, name: str, place: str,
+              count: int) -> dict[str, np.ndarray]:
+    return {column.name: results.column(number, name, column, count)
+            for column in results.columns(name) if column.place == place}
 
 
 def state_of(results: Results, number: int) -> State:
@@ -64,9 +56,9 @@ def state_of(results: Results, number: int) -> State:
     for name in results.names("plies"):
         x0, triangles = results.body("plies", name)
         points = results.numbers(results.in_state(number, "plies", name), "x", x0.shape)
-        nodes = {**fields_of(results, number, name, len(x0), NODES), "x0": x0}
+        nodes = {**fields_of(results, number, name, "node", len(x0)), "x0": x0}
         bodies.append(Body(name, points, triangles, nodes,
-                           fields_of(results, number, name, len(triangles), CELLS), False))
+                           fields_of(results, number, name, "triangle", len(triangles)), False))
     for name in results.names("tools"):
         x0, triangles = results.body("tools", name)
         shift = results.attribute(results.in_state(number, "tools", name), "displacement_mm", (3,))

@@ -29,7 +29,7 @@ def calculix_files(layup: Layup) -> dict[str, str]:
     rows = np.flatnonzero(np.any([ply.covered() for ply in layup.plies], axis=0))
     bare = np.setdiff1d(np.arange(len(mesh.labels)), rows)
     name = ("" if not layup.own else layup.plies[0].name + "_") + "layup_calculix.inp"
-    layup.told.append(f"{name}: {middle_words(full)}")
+    layup.remarks.append(f"{name}: {middle_words(full)}")
     lines = ["** " + line for line in layup.head(
         ["nodes and shells take the place of those of the same number in your mesh; "
          + middle_words(full),

@@ -10,11 +10,11 @@ from matplotlib.figure import Figure
 
 from .folds import Folds, Line, border_line, find_folds, ring_line
 from .looks import COLOURS, finish, folder_labels
-from .reading import FIELDS, Ply, Trouble, read_states
+from .reading import SHEAR, Ply, Trouble, read_states
 
 
 def draw(options: argparse.Namespace) -> Figure:
-    states = read_states(options.folders, FIELDS["shear"], options.ply, options.frame)
+    states = read_states(options.folders, SHEAR, options.ply, options.frame)
     measured, records = [], []
     for state, label in zip(states, folder_labels(options.folders)):
         for ply in state.plies:

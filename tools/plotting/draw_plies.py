@@ -14,36 +14,38 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from mpl_toolkits.mplot3d.art3d import Poly3DCollection
 
+from base.results_file import Column
+
 from .looks import folder_labels
 from .numbers import outline
-from .reading import FIELDS, Field, State, Trouble, read_states
+from .reading import State, Trouble, read_states
 
 
 
 @dataclass
 class Scale:
     """What all axes have in common."""
-    field: Field
+    field: Column
     colours: ScalarMappable
     low: np.ndarray   # 3, mm: corners of the box round all plies of all folders
     high: np.ndarray
 
 
-def seen(values: np.ndarray, field: Field) -> np.ndarray:
-    """Shear angles as magnitudes: left- and right-handed shear are as bad."""
-    return abs(values) if field.dataset == "shear_angle_deg" else values
+def seen(values: np.ndarray, field: Column) -> np.ndarray:
+    """Without signs where both are as bad: shear to the left and to the right."""
+    return abs(values) if field.scale == "magnitude" else values
 
 
-def colours_of(states: list[State], field: Field, limit: float | None) -> ScalarMappable:
+def colours_of(states: list[State], field: Column, limit: float | None) -> ScalarMappable:
     values = [seen(ply.value, field) for state in states for ply in state.plies]
     least, largest = min(v.min() for v in values), max(v.max() for v in values)
-    if field.dataset == "shear_angle_deg":
+    if field.quantity == "shear":
         return ScalarMappable(Normalize(0.0, limit or max(5.0 * math.ceil(largest / 5.0), 5.0)),
                               "viridis")
-    if field.signed:  # white is zero
+    if field.scale == "both ways":  # white is zero
         top = limit or max(nice_range(0.0, max(largest, -least))[1], 1e-6)
         return ScalarMappable(Normalize(-top, top), "RdBu_r")
-    if field.dataset != "thickness_mm":
+    if field.scale != "whole":
         least = min(least, 0.0)
     low, high = nice_range(least, limit or largest)
     if low >= high:
@@ -60,11 +62,11 @@ def nice_range(low: float, high: float) -> tuple[float, float]:
     return float(ticks[ticks <= low + 1e-12].max(initial=ticks[0])), float(ticks[-1])
 
 
-def summary_of(values: np.ndarray, field: Field) -> str:
-    if field.dataset == "shear_angle_deg":
+def summary_of(values: np.ndarray, field: Column) -> str:
+    if field.quantity == "shear":
         return f"shear up to {values.max():.1f}°"
     ends = f"{values.min():.3g} to {values.max():.3g}".replace("-", "−")
-    return f"{field.label} {ends} {field.unit}"
+    return f"{field.label} {ends} {field.shown_unit}"
 
 
 def turned(points: np.ndarray, degrees: float) -> np.ndarray:
@@ -96,7 +98,7 @@ def draw_ply(axes, state: State, number: int, edges: list[np.ndarray], scale: Sc
     axes.set(xlim=(scale.low[0] - margin, scale.high[0] + margin),
              ylim=(scale.low[1] - margin, scale.high[1] + margin),
              aspect="equal", xlabel="x (mm)", ylabel="y (mm)")
-    short = scale.field.dataset == "shear_angle_deg"
+    short = scale.field.quantity == "shear"
     apart = ", " if short else "\n"
     axes.set_title(f"{ply.name} at {ply.angle_deg:g}°{apart}"
                    f"{summary_of(values, scale.field)}{turn_note(state)}",
@@ -132,7 +134,7 @@ def draw_stack(axes, state: State, scale: Scale, options: argparse.Namespace) ->
     gap = options.gap
     apart = f",\nplies drawn {gap:g} mm further apart" if gap and len(state.plies) > 1 else ""
     axes.set_title(f"{state.stroke_mm:.1f} mm of stroke{apart}{turn_note(state)}",
-                   fontsize="large" if scale.field.dataset == "shear_angle_deg" else "medium")
+                   fontsize="large" if scale.field.quantity == "shear" else "medium")
 
 
 def zoom_for(size: np.ndarray, elevation: float, azimuth: float) -> float:
@@ -152,8 +154,8 @@ def box_of(states: list[State], gap: float) -> tuple[np.ndarray, np.ndarray]:
 
 
 def draw(options: argparse.Namespace) -> Figure:
-    field = FIELDS[options.field]
-    states = read_states(options.folders, field, options.ply, options.frame, options.tools)
+    states = read_states(options.folders, options.field, options.ply, options.frame, options.tools)
+    field = states[0].field
     turn_states(states, options.turn)
     scale = Scale(field, colours_of(states, field, options.limit), *box_of(states, options.gap))
     above, stack = options.only != "3d", options.only != "above"
@@ -164,7 +166,7 @@ def draw(options: argparse.Namespace) -> Figure:
     columns = cells if in_rows else together if together < 4 else math.ceil(math.sqrt(together))
     rows = len(states) if in_rows else math.ceil(together / columns)
     flat = (scale.high - scale.low)[:2] / (scale.high - scale.low)[:2].max()
-    height_of_words = 1.1 if field.dataset == "shear_angle_deg" and not options.turn else 1.4
+    height_of_words = 1.1 if field.quantity == "shear" and not options.turn else 1.4
     width, height = 0.9 + 2.8 * max(flat[0], 0.55), height_of_words + 3.0 * max(flat[1], 0.55)
     width = max(width, 3.7) if above else 3.7  # a title has to fit
     figure = pyplot.figure(figsize=(width * columns + 0.8, height * rows), layout="constrained")
@@ -184,11 +186,11 @@ def draw(options: argparse.Namespace) -> Figure:
             every[first].set_ylabel(f"{labels[k]}\ny (mm)")
         elif len(states) > 1:
             every[first].set_title(f"{labels[k]}, {every[first].get_title()}", fontsize="medium")
-    what = "magnitude of the shear angle" if field.dataset == "shear_angle_deg" else field.label
+    what = f"magnitude of the {field.label}" if field.scale == "magnitude" else field.label
     if figure.get_figheight() < 3.6:
         what = what.replace("of the ", "of the\n")  # else longer than the scale
     figure.colorbar(scale.colours, ax=every, shrink=0.8, aspect=35, pad=0.02,
-                    extend=extend_of(states, scale), label=f"{what} ({field.unit})")
+                    extend=extend_of(states, scale), label=f"{what} ({field.shown_unit})")
     return figure
 
 

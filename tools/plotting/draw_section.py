@@ -7,17 +7,19 @@ import numpy as np
 from matplotlib import pyplot
 from matplotlib.figure import Figure
 
+from base.results_file import Column
+
 from .looks import CURVE_STYLES, finish, folder_labels, line_looks
 from .numbers import Section, polar_angle, section
-from .reading import FIELDS, Trouble, read_states, read_table
+from .reading import Trouble, read_states, read_table
 
 
 def draw(options: argparse.Namespace) -> Figure:
-    field = FIELDS[options.field]
     angle = options.against == "angle"
     if angle != (options.centre is not None):
         raise Trouble("--against angle and --centre X Y Z go together")
-    states = read_states(options.folders, field, options.ply, options.frame)
+    states = read_states(options.folders, options.field, options.ply, options.frame)
+    field = states[0].field
     looks = line_looks([[ply.name for ply in state.plies] for state in states])
     figure, axes = pyplot.subplots(2, 1, figsize=(8.5, 7.5), layout="constrained")
     for state, label, styles in zip(states, folder_labels(options.folders), looks):
@@ -32,11 +34,11 @@ def draw(options: argparse.Namespace) -> Figure:
             axes[0].plot(*steps(x, abs(cut.value) if options.magnitude else cut.value, cut),
                          label=name, lw=1.3, **look)
             axes[1].plot(*profile(cut, options), label=name, lw=1.3, **look)
-    add_curves(axes[0], options)
+    add_curves(axes[0], field, options)
     axes[0].set_xlabel(f"polar angle seen from ({', '.join(f'{c:g}' for c in options.centre)}) mm "
                        "(degrees)" if angle else distance_label(options))
     axes[0].set_ylabel(f"{'magnitude of the ' if options.magnitude else ''}{field.label} "
-                       f"({field.unit})")
+                       f"({field.shown_unit})")
     axes[0].legend(loc="upper left", bbox_to_anchor=(1.01, 1.0))
     axes[1].set(xlabel="horizontal distance along the section, formed (mm)", ylabel="height z (mm)")
     axes[1].set_aspect("equal", adjustable="datalim")
@@ -68,10 +70,9 @@ def gaps(cut: Section) -> np.ndarray:
     return cut.ends[1:, 0] - cut.ends[:-1, 1] > 1e-6 * np.ptp(cut.ends)
 
 
-def add_curves(axis, options: argparse.Namespace) -> None:
-    field = FIELDS[options.field]
+def add_curves(axis, field: Column, options: argparse.Namespace) -> None:
     where = "angle_deg" if options.against == "angle" else "distance_mm"
-    column = field.column or field.dataset
+    column = "shear_deg" if field.name == "shear_angle_deg" else field.name  # as tests call it
     for i, path in enumerate(options.curve):
         curve = read_table(path, [where, column])
         y = curve[column] * field.factor

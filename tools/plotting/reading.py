@@ -9,32 +9,14 @@ import numpy as np
 
 from base.ending import Trouble
 from base.files import TABLE, check_file, read_text
-from base.results_file import Results, read_results
+from base.results_file import Column, Results, read_results
 from base.summary_file import known_to_s, read_summary
 
-__all__ = ["FIELDS", "Field", "Ply", "State", "Tool", "Trouble", "ended", "file_in", "read_history",
+__all__ = ["SHEAR", "Ply", "State", "Tool", "Trouble", "ended", "file_in", "read_history",
            "read_state", "read_states", "read_summary", "read_table"]
 
 
-@dataclass(frozen=True)
-class Field:
-    """A value a triangle, as results.h5 and pictures call it."""
-    dataset: str
-    label: str
-    unit: str
-    factor: float = 1.0   # picture's unit over the file's
-    column: str = ""      # of a table with measured or computed values; "" as dataset
-    signed: bool = False  # either sign matters where it is seen from above
-
-
-FIELDS = {
-    "shear": Field("shear_angle_deg", "shear angle", "degrees", column="shear_deg"),
-    "warp-strain": Field("warp_strain", "warp strain", "%", 100.0, signed=True),
-    "weft-strain": Field("weft_strain", "weft strain", "%", 100.0, signed=True),
-    "warp-tension": Field("warp_tension_N", "warp tension", "N per yarn"),
-    "weft-tension": Field("weft_tension_N", "weft tension", "N per yarn"),
-    "thickness": Field("thickness_mm", "thickness", "mm"),
-}
+SHEAR = "shear"  # the field that pictures show unless told
 
 
 @dataclass
@@ -44,7 +26,7 @@ class Ply:
     x0: np.ndarray         # n x 3, mm, before forming
     x: np.ndarray          # n x 3, mm
     triangles: np.ndarray  # m x 3
-    value: np.ndarray      # m: the field, in its picture's unit
+    value: np.ndarray      # m: the field, in the unit it is shown in
 
 
 @dataclass
@@ -60,6 +42,7 @@ class State:
     stroke_mm: float
     plies: list[Ply]
     tools: list[Tool]      # empty unless asked for
+    field: Column
     turn_deg: float = 0.0  # by which the picture turns plies and tools
 
 
@@ -69,9 +52,9 @@ def file_in(folder: Path, name: str) -> Path:
     return check_file(folder / name)
 
 
-def read_states(folders: list[Path], field: Field, names: list[str] | None = None, frame: int = -1,
+def read_states(folders: list[Path], field: str, names: list[str] | None = None, frame: int = -1,
                 tools: bool = False) -> list[State]:
-    """A state of each folder, of the plies `names` if any: each has to be in one folder at least,
+    """A state of each folder with the field of this word or name, of the plies `names` if any: each has to be in one folder at least,
     and each folder has to have one at least."""
     states = [read_state(folder, field, frame, tools) for folder in folders]
     there = [ply.name for state in states for ply in state.plies]
@@ -88,26 +71,46 @@ def read_states(folders: list[Path], field: Field, names: list[str] | None = Non
     return states
 
 
-def read_state(folder: Path, field: Field, frame: int = -1, tools: bool = False) -> State:
+def read_state(folder: Path, field: str, frame: int = -1, tools: bool = False) -> State:
     return read_results(folder, lambda results: state_of(results, field, frame, tools))
 
 
-def state_of(results: Results, field: Field, frame: int, tools: bool) -> State:
+def column_called(results: Results, ply: str, field: str) -> Column:
+    columns = [column for column in results.columns(ply) if column.size == 1]
+    for column in columns:
+        if field in (column.word, column.name):
+            return column
+    raise Trouble(f"{results.folder}: ply {ply} has no field {field}: it has "
+                  f"{', '.join(column.word for column in columns)}")
+
+
+def values_of(results: Results, number: int, ply: str, column: Column, nodes: int,
+              triangles: np.ndarray) -> np.ndarray:
+    """A value a triangle in the unit that is shown, of what is at nodes the mean of its corners."""
+    count = nodes if column.place == "node" else len(triangles)
+    values = column.factor * results.column(number, ply, column, count)
+    return values[triangles].mean(axis=1) if column.place == "node" else values
+
+
+def state_of(results: Results, field: str, frame: int, tools: bool) -> State:
     number = results.frame_number(frame)
     now = results.state(number)
-    plies = []
+    plies, column = [], None
     for name in results.names("plies"):
         x0, triangles = results.body("plies", name)
         ply = results.in_state(number, "plies", name)
+        column = column_called(results, name, field)
         plies.append(Ply(name, results.number(results.group("plies", name), "angle_deg"), x0,
                          results.numbers(ply, "x", x0.shape), triangles,
-                         field.factor * results.numbers(ply, field.dataset, (len(triangles),))))
+                         values_of(results, number, name, column, len(x0), triangles)))
+    if column is None:
+        raise Trouble(f"{results.folder} has no ply")
     bodies = []
     for name in results.names("tools") if tools else []:
         x0, triangles = results.body("tools", name)
         tool = results.in_state(number, "tools", name)
         bodies.append(Tool(name, x0 + results.attribute(tool, "displacement_mm", (3,)), triangles))
-    return State(results.folder, results.number(now, "stroke_mm"), plies, bodies)
+    return State(results.folder, results.number(now, "stroke_mm"), plies, bodies, column)
 
 
 def ended(summary: dict) -> bool:

@@ -8,7 +8,6 @@ import numpy as np
 from markupsafe import Markup
 
 from .reading_run import PlyStates, Run
-from .series import of_states
 
 WRINKLE = 1.0    # mm: lower waves are not called wrinkles; the page says so
 PRESSED = 0.02   # of the length: the more pressed yarns count as buckled
@@ -89,10 +88,10 @@ def shear(run: Run, index: int) -> Answer:
     k = int(np.argmax([one.max() for one in angles]))
     ply, triangle = run.plies[k], int(angles[k].argmax())
     text = Markup("Most in <b>{}</b> at {}").format(ply.name, at_place(middle(ply, triangle)))
-    if (p99 := run.told(ply.name).get("p99_shear_deg")) is not None:
+    if (p99 := run.summary_of(ply.name).get("p99_shear_deg")) is not None:
         text += Markup("; 99&nbsp;% of that ply has at most {}°").format(number(p99, 1))
-    beyond = [(one.name, told["area_share_beyond_locking_angle"]) for one in run.plies
-              if (told := run.told(one.name)).get("area_share_beyond_locking_angle") is not None]
+    beyond = [(one.name, summary["area_share_beyond_locking_angle"]) for one in run.plies
+              if (summary := run.summary_of(one.name)).get("area_share_beyond_locking_angle") is not None]
     over = [(name, share) for name, share in beyond if share > 0.0]
     answer = Answer("Shear angle", Markup("{}°").format(number(float(angles[k].max()), 1)), text,
                     Place(index, k, triangle, "shear"), bool(over))
@@ -120,24 +119,24 @@ def nearest(ply: PlyStates, point) -> int:
 
 
 def highest(run: Run, key: str) -> tuple[int, dict] | None:
-    told = [(k, run.told(ply.name)) for k, ply in enumerate(run.plies)]
-    told = [(k, one) for k, one in told if one.get(key) is not None]
-    return max(told, key=lambda one: one[1][key]) if told else None
+    plies = [(k, run.summary_of(ply.name)) for k, ply in enumerate(run.plies)]
+    plies = [(k, one) for k, one in plies if one.get(key) is not None]
+    return max(plies, key=lambda one: one[1][key]) if plies else None
 
 
 def wrinkles(run: Run, index: int) -> Answer | None:
     if not (most := highest(run, "wrinkle_height_mm")):
         return None
-    k, told = most
-    height, name = told["wrinkle_height_mm"], run.plies[k].name
+    k, summary = most
+    height, name = summary["wrinkle_height_mm"], run.plies[k].name
     value = Markup("{}&nbsp;mm").format(number(height, 1))
-    place = told.get("wrinkle_at_mm", [None])
+    place = summary.get("wrinkle_at_mm", [None])
     if height <= 0.0 or None in place:
         return Answer("Wrinkles", value, Markup("None that the mesh shows."))
     text = Markup("Highest wave in <b>{}</b>, {}&nbsp;mm long, at {}. ").format(
-        name, number(told.get("wrinkle_length_mm"), 0), at_place(place))
+        name, number(summary.get("wrinkle_length_mm"), 0), at_place(place))
     high = [run.plies[i].name for i, ply in enumerate(run.plies)
-            if (run.told(ply.name).get("wrinkle_height_mm") or 0.0) >= WRINKLE]
+            if (run.summary_of(ply.name).get("wrinkle_height_mm") or 0.0) >= WRINKLE]
     text += Markup("From {}&nbsp;mm it is called a wrinkle: {}.").format(
         number(WRINKLE, 0), "yes, in " + ", ".join(high) if high else "no ply has one")
     return Answer("Wrinkles" if high else "Wrinkles: none", value, text,
@@ -148,8 +147,7 @@ def wrinkles(run: Run, index: int) -> Answer | None:
 
 def force(run: Run) -> Answer | None:
     bodies = [(tool.name, tool.force_N, np.ptp(tool.stroke_mm)) for tool in run.tools]
-    bodies += [(name, force, 1.0) for name in run.grips
-               if (force := of_states(run, f"{name}_force_N")) is not None]
+    bodies += [(name, numbers["force_N"][1], 1.0) for name, numbers in run.grips.items()]
     bodies = [(name, force_N, way) for name, force_N, way in bodies if np.isfinite(force_N).all()]
     if not bodies:
         return None
@@ -184,12 +182,13 @@ def digits_of(value: float) -> int:
 
 
 def pressed(run: Run, index: int) -> Answer | None:
-    if not (most := highest(run, "max_pressed_strain")):
+    most = highest(run, "max_pressed_strain")
+    if not most or not run.plies[most[0]].families:
         return None
-    k, told = most
-    ply, largest = run.plies[k], told["max_pressed_strain"]
-    strain = np.minimum(ply.cells["warp_strain"][-1], ply.cells["weft_strain"][-1])
-    share = max(run.told(one.name).get("area_share_pressed_over_2_percent") or 0.0
+    k, summary = most
+    ply, largest = run.plies[k], summary["max_pressed_strain"]
+    strain = np.min([values[-1] for values in ply.of_quantity("strain")], axis=0)
+    share = max(run.summary_of(one.name).get("area_share_pressed_over_2_percent") or 0.0
                 for one in run.plies)
     text = Markup("Most in <b>{}</b>. Over 2&nbsp;%, where yarns buckle, it is on {}&nbsp;% of "
                   "the area of the worst ply.").format(ply.name, number(100.0 * share, 1))
@@ -200,11 +199,12 @@ def pressed(run: Run, index: int) -> Answer | None:
 
 
 def drawn_in(run: Run) -> Answer | None:
-    told = [(ply.name, drawn) for ply in run.plies
-            if (drawn := run.told(ply.name).get("draw_in_mm")) and drawn.get("largest") is not None]
-    if not told:
+    draw_ins = [(ply.name, drawn) for ply in run.plies
+                if (drawn := run.summary_of(ply.name).get("draw_in_mm"))
+                and drawn.get("largest") is not None]
+    if not draw_ins:
         return None
-    name, drawn = max(told, key=lambda one: one[1]["largest"])
+    name, drawn = max(draw_ins, key=lambda one: one[1]["largest"])
     return Answer("Draw-in", Markup("{}&nbsp;mm").format(number(drawn["largest"], 1)),
                   Markup("Most in <b>{}</b>; its mean over eight directions is {}&nbsp;mm."
                          ).format(name, number(drawn.get("mean"), 1)))
@@ -213,12 +213,12 @@ def drawn_in(run: Run) -> Answer | None:
 def accuracy(run: Run) -> Answer | None:
     if not run.summary or "accuracy" not in run.summary:
         return None
-    told = run.summary["accuracy"]
-    error = told.get("promised_shear_error_deg")
+    predicted = run.summary["accuracy"]
+    error = predicted.get("promised_shear_error_deg")
     if error is None:
         return None
     causes = Markup("inertia {}°, softened fibres {}°, mesh {}°").format(
-        *(number(told.get(f"{cause}_deg"), 2) for cause in ("inertia", "softening", "mesh")))
+        *(number(predicted.get(f"{cause}_deg"), 2) for cause in ("inertia", "softening", "mesh")))
     balance = run.summary["energy"].get("balance_error")
     text = Markup("Predicted, rms over all plies and not of single places: {}. The energy balance closes to {}&nbsp;%."
                   ).format(causes, number(100.0 * abs(balance or 0.0), 3))

@@ -10,6 +10,7 @@ import numpy as np
 
 from base.ending import one_line
 from base.files import read_text
+from base.results_file import Column
 from plotting.reading import Trouble
 
 from . import answers, series
@@ -20,26 +21,27 @@ from .simplify import simplified
 WEB = Path(__file__).resolve().parent / "web"
 THREE = Path("/usr/share/javascript/three/three.min.js")
 TOOL_TOLERANCE = 0.3     # mm, of simplify: nearer than a tenth of a millimetre
-# steps finer than these say nothing, and errors larger than these are not allowed
-CELLS = {"shear_angle_deg": (0.005, 0.02), "warp_strain": (5e-6, 1e-4), "weft_strain": (5e-6, 1e-4),
-         "warp_tension_N": (0.0, np.inf), "weft_tension_N": (0.0, np.inf),
-         "thickness_mm": (1e-5, 1e-3)}
+MOST = 4.0  # times the precision of a column: errors larger than that are not allowed
 POSITION = (0.002, 0.009)  # mm
 
 
 def page_of(runs: list[Run]) -> str:
     blocks, titles = Blocks(), titles_of(runs)
-    scene = {"runs": [scene_of(run, blocks) for run in runs]}
+    columns = {column.name: column for run in runs for ply in run.plies for column in ply.columns}
+    scene = {"runs": [scene_of(run, blocks) for run in runs],
+             "columns": [shown_as(column) for column in columns.values()]}
     for one, title in zip(scene["runs"], titles):
         one["title"] = title
     shelf = jinja2.Environment(loader=jinja2.FileSystemLoader(WEB), autoescape=True,
                                trim_blocks=True, lstrip_blocks=True,
                                undefined=jinja2.StrictUndefined)
     shelf.globals.update(number=answers.number, percent=answers.percent, small=answers.small, sentence=answers.sentence)
-    told = [told_of(run, k) | {"title": title} for k, (run, title) in enumerate(zip(runs, titles))]
+    texts = [texts_of(run, k) | {"title": title} for k, (run, title) in enumerate(zip(runs, titles))]
     ids = {chart["id"]: chart for run in scene["runs"] for chart in run["charts"]}
     return shelf.get_template("report.html").render(
-        runs=told, charts=list(ids.values()), errors=blocks.errors, blocks=blocks.texts,
+        runs=texts, yarns=yarns_of(runs), charts=list(ids.values()), place_error=blocks.errors["place"],
+        errors=[(column["label"].lower(), column["factor"] * blocks.errors[column["name"]],
+                 column["unit"]) for column in scene["columns"]], blocks=blocks.texts,
         scene=json_in_script(scene), style=(WEB / "report.css").read_text(encoding="utf-8"),
         imports=imports(), three=in_script(three()), tool_tolerance=TOOL_TOLERANCE)
 
@@ -86,14 +88,14 @@ def imports():
     return json_in_script({"imports": named})
 
 
-def told_of(run: Run, index: int) -> dict:
+def texts_of(run: Run, index: int) -> dict:
     """What the texts and tables of the page say of a run."""
     found = answers.answers_of(run, index)
     status, words = answers.verdict(run, found)
     return {"folder": run.name(), "status": status,
             "verdict": words, "answers": found, "doubts": answers.doubts(run),
             "summary": run.summary, "run": run, "triangles": sum(len(p.triangles) for p in run.plies),
-            "plies": [(ply, run.told(ply.name)) for ply in run.plies],
+            "plies": [(ply, run.summary_of(ply.name)) for ply in run.plies],
             "tools": [(tool, np.nanmax(abs(tool.force_N), initial=0.0)) for tool in run.tools]}
 
 
@@ -104,27 +106,50 @@ def scene_of(run: Run, blocks: Blocks) -> dict:
             "charts": series.charts_of(run)}
 
 
+def yarns_of(runs: list[Run]) -> str:
+    """The colours in which families of yarns are drawn (web/shaders.js)."""
+    parts = []
+    for k, colour in enumerate(("white", "black", "yellow", "blue")):
+        names = dict.fromkeys(list(ply.families)[k] for run in runs for ply in run.plies
+                              if len(ply.families) > k)
+        if names:
+            parts.append(f"{' or '.join(names)} {colour}")
+    return ", ".join(parts)
+
+
+def shown_as(column: Column) -> dict:
+    """A column for fields.js."""
+    return {"name": column.name, "word": column.word,
+            "label": column.label[:1].upper() + column.label[1:],
+            "unit": series.UNITS.get(column.unit, column.unit), "factor": column.factor,
+            "digits": column.digits, "scale": column.scale, "note": column.note,
+            "quantity": column.quantity, "place": column.place}
+
+
 def rounded(values: np.ndarray) -> list:
     return [float(f"{value:.7g}") for value in np.ravel(values)]
 
 
 def ply_of(run: Run, ply: PlyStates, blocks: Blocks) -> dict:
-    told = run.told(ply.name)
-    across = ply.warp[0] * ply.weft[1] - ply.warp[1] * ply.weft[0]
+    summary = run.summary_of(ply.name)
     return {
         "name": ply.name, "thickness": ply.thickness(),
-        "size": float(np.ptp(ply.x0, axis=0).max()), "warp": rounded(ply.warp),
-        "weft": rounded(ply.weft), "woven": not run.summary or "max_pressed_strain" in told,
-        "locking_angle": told.get("locking_angle_deg"),
-        "fibre_angle": float(np.degrees(np.arctan2(across, ply.warp @ ply.weft))),
+        "size": float(np.ptp(ply.x0, axis=0).max()),
+        "families": [{"name": name, "direction": rounded(along)}
+                     for name, along in ply.families.items()],
+        "woven": not run.summary or "max_pressed_strain" in summary,
+        "locking_angle": summary.get("locking_angle_deg"),
         "x0": blocks.add(ply.x0[None], "place", *POSITION),
         "triangles": blocks.add_integers(ply.triangles),
         "x": blocks.add(ply.x, "place", *POSITION),
-        "cells": {name: blocks.add(values, name, *CELLS[name])
-                  for name, values in ply.cells.items()},
-        "nodes": {name: blocks.add(values, name, 0.0, np.inf)
-                  for name, values in ply.nodes.items()},
+        "cells": blocks_of(ply, ply.cells, blocks), "nodes": blocks_of(ply, ply.nodes, blocks),
     }
+
+
+def blocks_of(ply: PlyStates, values: dict[str, np.ndarray], blocks: Blocks) -> dict:
+    return {column.name: blocks.add(values[column.name], column.name, column.precision,
+                                    MOST * column.precision)
+            for column in ply.columns if column.name in values}
 
 
 def scene_of_tool(run: Run, tool: ToolStates, blocks: Blocks) -> dict:

@@ -8,14 +8,13 @@ from pathlib import Path
 import numpy as np
 
 from base.ending import one_line
-from base.results_file import Broken, Results, read_results
+from base.results_file import Broken, Column, Results, read_results
 from base.summary_file import known_to_s
-from plotting.reading import Trouble, read_history, read_summary
+from plotting.reading import Trouble, read_summary
 
 # of summary.json, without which there is no report
 NEEDED = ("status", "message", "version", "steps", "wall_time_s", "plies", "tools", "energy", "contact")
-CELL_FIELDS = ["shear_angle_deg", "warp_strain", "weft_strain", "warp_tension_N",
-               "weft_tension_N", "thickness_mm"]
+Numbers = dict[str, tuple[Column, np.ndarray]]  # t each, by name, as results.h5 describes them
 
 
 @dataclass
@@ -26,15 +25,20 @@ class PlyStates:
     x0: np.ndarray                   # n x 3, mm, before forming
     triangles: np.ndarray            # m x 3
     x: np.ndarray                    # t x n x 3, mm
-    cells: dict[str, np.ndarray]     # t x m each, by the name in results.h5
+    columns: list[Column]            # of one number a triangle or node
+    cells: dict[str, np.ndarray]     # t x m each, by name
     nodes: dict[str, np.ndarray]     # t x n each
-    warp: np.ndarray                 # 3, unit vectors of the flat ply
-    weft: np.ndarray
+    families: dict[str, np.ndarray]  # 3 each, unit vectors of the flat ply
+    history: Numbers
     area: np.ndarray = field(init=False)  # m, mm², before forming
 
     def __post_init__(self):
         a, b, c = (self.x0[self.triangles[:, k]] for k in range(3))
         self.area = 0.5 * np.linalg.norm(np.cross(b - a, c - a), axis=1)
+
+    def of_quantity(self, quantity: str) -> list[np.ndarray]:
+        """The cells of all families, t x m each."""
+        return [self.cells[column.name] for column in self.columns if column.quantity == quantity]
 
     def thickness(self) -> float:
         return float(self.cells["thickness_mm"][0].mean())
@@ -54,14 +58,14 @@ class ToolStates:
 class Run:
     folder: Path
     summary: dict | None   # none: the run goes on, or was killed
-    history: dict | None   # columns of history.csv
     time_s: np.ndarray     # t
     stroke_mm: np.ndarray  # t
     plies: list[PlyStates]
     tools: list[ToolStates]
-    grips: list[str]
+    grips: dict[str, Numbers]
+    energies: Numbers
 
-    def told(self, name: str) -> dict:
+    def summary_of(self, name: str) -> dict:
         """What the summary says of a ply."""
         plies = self.summary["plies"] if self.summary else []
         return next((ply for ply in plies if ply["name"] == name), {})
@@ -84,16 +88,14 @@ def read_run(folder: Path) -> Run:
             if tool.name in known:
                 after = run.time_s > known[tool.name] * (1.0 + 1e-6)
                 tool.force_N = np.where(after, np.nan, tool.force_N)
-    if (folder / "history.csv").exists():
-        run.history = read_history(folder)
     return run
 
 
 def check_bodies(run: Run) -> None:
     """Whether summary.json and results.h5 are of one run. Raises Trouble."""
     for kind, own in (("plies", run.plies), ("tools", run.tools)):
-        told = [body["name"] for body in run.summary[kind]]
-        if told != [body.name for body in own]:
+        names = [body["name"] for body in run.summary[kind]]
+        if names != [body.name for body in own]:
             raise Trouble(f"{run.folder}: summary.json and results.h5 have different {kind}: are "
                           "they of one run?")
 
@@ -105,26 +107,41 @@ def run_of(results: Results) -> Run:
     tools = [tool_of(results, name) for name in results.names("tools")]
     if not plies:
         raise Broken("/:plies is empty")
-    return Run(results.folder, None, None, results.time_s, stroke_mm, plies, tools,
-               results.names("boundaries"))
+    return Run(results.folder, None, results.time_s, stroke_mm, plies, tools,
+               {name: grip_of(results, name) for name in results.names("boundaries")},
+               results.history("energies"))
 
 
 def ply_of(results: Results, name: str) -> PlyStates:
     x0, triangles = results.body("plies", name)
     states = [results.in_state(k, "plies", name) for k in range(results.count)]
-    count = len(triangles)
+    columns = [column for column in results.columns(name) if column.size == 1]
+    for needed in ("shear_angle_deg", "thickness_mm"):
+        if needed not in [column.name for column in columns if column.place == "triangle"]:
+            raise Broken(f"/plies/{name}:columns has no {needed}")
+    sizes = {"node": len(x0), "triangle": len(triangles)}
 
-    def over_time(dataset: str, shape: tuple) -> np.ndarray:
-        return np.stack([results.numbers(state, dataset, shape) for state in states])
+    def over_time(place: str) -> dict[str, np.ndarray]:
+        return {column.name: np.stack([results.column(k, name, column, sizes[place])
+                                       for k in range(results.count)])
+                for column in columns if column.place == place}
 
-    def direction(dataset: str) -> np.ndarray:
-        mean = results.numbers(states[0], dataset, (count, 3)).mean(axis=0)
+    def direction(family: str) -> np.ndarray:
+        mean = results.numbers(states[0], family, triangles.shape).mean(axis=0)
         return mean / max(float(np.linalg.norm(mean)), 1e-30)
 
     return PlyStates(name, results.number(results.group("plies", name), "angle_deg"), x0, triangles,
-                     over_time("x", x0.shape), {one: over_time(one, (count,)) for one in CELL_FIELDS},
-                     {"contact_pressure": over_time("contact_pressure", (len(x0),))},
-                     direction("warp"), direction("weft"))
+                     np.stack([results.numbers(state, "x", x0.shape) for state in states]), columns,
+                     over_time("triangle"), over_time("node"),
+                     {family: direction(family) for family in results.families(name)},
+                     results.history("plies", name))
+
+
+def grip_of(results: Results, name: str) -> Numbers:
+    numbers = results.history("boundaries", name)
+    if "force_N" not in numbers:
+        raise Broken(f"/history/boundaries/{name} has no force_N")
+    return numbers
 
 
 def tool_of(results: Results, name: str) -> ToolStates:

@@ -48,16 +48,16 @@ def ask(program: Path, run: Run) -> tuple[int, str, str]:
     return done.returncode, done.stdout, done.stderr
 
 
-def tell(study: Study, item: str, run: Run, text: str, told: set[str]) -> None:
+def tell(study: Study, item: str, run: Run, text: str, said: set[str]) -> None:
     """The first mistake that plyform found, at the place of the study that brings it in."""
     found = next(filter(None, map(ERROR.match, text.splitlines())), None)
     words = found["text"] if found else (text.strip().splitlines() or ["no reason given"])[-1]
     key = words.split(": ")[0].split(" = ")[0]
     if ": unknown key" in words and ".values" in item:  # of all its values once
         item = item.rpartition(".values")[0] + ".key"
-    if (mistake := f"{item.rpartition('.')[0]} {words}") in told:
+    if (mistake := f"{item.rpartition('.')[0]} {words}") in said:
         return
-    told.add(mistake)
+    said.add(mistake)
     for number, setting in enumerate(study.settings):
         if split_setting(setting)[0] == key and item == "case":
             item = f"set.{number}"
@@ -75,20 +75,20 @@ def check_runs(study: Study, planner: Planner, runs: list[Run], folder: Path, jo
     new = [i for i, key in enumerate(keys) if key not in known]
     with ThreadPoolExecutor(jobs) as pool:
         answers = list(pool.map(lambda i: ask(planner.program, asked[i][1]), new))
-    told: set[str] = set()
+    said: set[str] = set()
     for i, (code, out, err) in zip(new, answers):
         if code == REFUSED and i == 0 and not study.settings:
-            study.mistakes.told += [(0, line) for line in err.splitlines()]
+            study.mistakes.found += [(0, line) for line in err.splitlines()]
             break
         if code == REFUSED:
-            tell(study, asked[i][0], asked[i][1], err, told)
+            tell(study, asked[i][0], asked[i][1], err, said)
             if i == 0:  # the case itself: all others would say it again
                 break
         elif code < 0:
             raise Trouble(f"{planner.program} check was ended by signal {-code}")
         estimate = TIME.search(out)
         known[keys[i]] = max(float(estimate[1]), LEAST_S) if estimate else LEAST_S
-    if not study.mistakes.told:
+    if not study.mistakes.found:
         folder.mkdir(parents=True, exist_ok=True)
         memory.write_text(json.dumps(known), encoding="utf-8")
     return known.get(keys[0], LEAST_S)

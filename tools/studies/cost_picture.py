@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.ticker import LogFormatter
 from matplotlib.transforms import Bbox
 from plotting.looks import colour, finish
-from plotting.reading import FIELDS
+from studies.errors import main_error, mark_front
 from studies.plan import Planner
 from studies.ranking import is_number
 from studies.shown import Picture
@@ -57,11 +57,10 @@ def errors_of_figure(name: str, rows: list[dict]) -> dict[int, float]:
 
 
 def draw_cost(study: Study, planner: Planner, picture: Picture, rows: list[dict]):
-    from studies.results import main_error, mark_front
     time = picture.x
     if not picture.figure:
-        error, field = main_error(study), FIELDS[study.reference.fields[0]]
-        shown = f"error of the {field.label} against the reference, rms, {field.unit}"
+        error, field = main_error(study), study.fields[study.reference.fields[0]]
+        shown = f"error of the {field.label} against the reference, rms, {field.shown_unit}"
         rows = [dict(row) for row in rows]
         mark_front(rows, error, time)
     else:

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from studies.case_values import CaseValues, FileHash, split_setting
+from studies.fields import fields_of
 from studies.reader import is_number
 from studies.shown import COLUMN
 from studies.study_file import CASE, DRAWN, Study, Vary, case_file
@@ -52,10 +53,23 @@ class Planner:
                     study.mistakes.add(f"{one.item}.{'each' if one.each else 'key'}",
                                        "fits no key of the case", "write it as in the case file",
                                        key)
+        self.know_fields()
         for name, _ in COLUMN.findall(study.run_name):
             if name not in (known := [one.name for one in self.vary]):
                 study.mistakes.add("run_name", f"there is no [[vary]] {name}",
                                    f"there are {', '.join(known)}")
+
+    def know_fields(self) -> None:
+        """What the program says of the fields that runs are compared by."""
+        asked = self.study.reference.fields if self.study.reference else []
+        self.study.fields = fields_of(self.program, asked)
+        for i, word in enumerate(asked):
+            if word not in self.study.fields:
+                self.study.mistakes.add(f"reference.fields.{i}",
+                                        f"must be one of {', '.join(self.study.fields)}",
+                                        "name fields to compare", word)
+        if asked:
+            self.study.reference.fields = [word for word in asked if word in self.study.fields]
 
     def case_values(self, case: Path, settings: tuple[str, ...]) -> CaseValues:
         return CaseValues(case, settings, self.program)
@@ -166,11 +180,11 @@ class Planner:
         return runs
 
     def label_of_choice(self, number: int, choice: list[tuple[Vary, tuple]]) -> str:
-        told = {one.name: label_of(one, row) for one, row in choice}
+        labels = {one.name: label_of(one, row) for one, row in choice}
         if self.study.run_name:
-            return COLUMN.sub(lambda match: told[match[1]], self.study.run_name)
+            return COLUMN.sub(lambda match: labels[match[1]], self.study.run_name)
         return str(number) if self.study.method in DRAWN else \
-            ", ".join(f"{name}={text}" for name, text in told.items())
+            ", ".join(f"{name}={text}" for name, text in labels.items())
 
     def choices(self) -> list[list[tuple[Vary, tuple]]]:
         """Values of what is varied, by run, for all methods but one at a time."""
@@ -203,7 +217,7 @@ class Planner:
             runs += [self.run(one.name, label_of(one, row), [(one, row)], item=f"{one.item}.{i}")
                      for i, row in enumerate(one.values)]
         if not single and self.vary:
-            for i, choice in enumerate(() if study.mistakes.told else self.choices()):
+            for i, choice in enumerate(() if study.mistakes.found else self.choices()):
                 runs.append(self.run(study.method, self.label_of_choice(i + 1, choice), choice,
                                      item="vary"))
         runs += self.extra()

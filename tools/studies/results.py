@@ -10,9 +10,10 @@ from pathlib import Path
 
 from base.ending import Trouble
 from base.summary_file import read_summary
-from plotting.reading import FIELDS
 from studies.discs import COLUMNS, area_means
 from studies.engine import ended, killed
+from studies.errors import SOUND, main_error, mark_front
+from studies.fields import Field
 from studies.figures import figures_of
 from studies.plan import Planner, Run
 from studies.ranking import is_number, rank, ranking_lines
@@ -23,28 +24,13 @@ from studies.study_file import Study
 from studies.text_table import fill
 from studies.verdicts import breaks, title, verdicts
 
-SOUND = ("done", "doubtful")
-UNITS = {"degrees": "deg", "%": "percent", "N per yarn": "N_per_yarn", "mm": "mm"}
-FRONT = "wall_time_s"
 ON_KEYS = ("map", "window", "plies")  # pictures whose axes are keys
-
-
-def error_columns(field: str) -> dict[str, str]:
-    """Column of each number that a difference has."""
-    return {kind: f"{kind}_{field.replace('-', '_')}_error_{UNITS[FIELDS[field].unit]}"
-            for kind in ("rms", "p99", "max")}
-
-
-def main_error(study: Study) -> str:
-    """Column of the error that pictures show; empty without a reference."""
-    fields = study.reference.fields if study.reference else []
-    return error_columns(fields[0])["rms"] if fields else ""
 
 
 def known_columns(study: Study, planner: Planner) -> tuple[list[str], list[str]]:
     """Names of what is varied, and of the figures that the table will have."""
     errors = [name for field in (study.reference.fields if study.reference else [])
-              for name in error_columns(field).values()]
+              for name in study.fields[field].error_columns().values()]
     means = COLUMNS if study.area_means else ()
     return [one.name for one in planner.vary], ["wall_time_s", "cpu_s", *study.figures, *means,
                                                 *errors]
@@ -75,16 +61,16 @@ def check_columns(study: Study, planner: Planner) -> None:
             study.mistakes.add(item, f"there is no {name}", f"there are {', '.join(allowed)}")
 
 
-def difference(program: Path, run: Path, reference: Path, fields: list[str]) -> dict:
+def difference(program: Path, run: Path, reference: Path, fields: list[Field]) -> dict:
     """Columns of errors of these fields, by plyform itself."""
-    words = [word for field in fields for word in ("--field", FIELDS[field].dataset)]
-    told = subprocess.run([program, "difference", run, reference, *words], capture_output=True,
+    words = [word for field in fields for word in ("--field", field.name)]
+    done = subprocess.run([program, "difference", run, reference, *words], capture_output=True,
                           text=True, check=False)
-    if told.returncode != 0:
-        raise Trouble(told.stderr.strip().removeprefix("plyform: error: "))
-    return {column: FIELDS[field].factor * float(numbers[kind])
-            for field, numbers in zip(fields, csv.DictReader(told.stdout.splitlines()))
-            for kind, column in error_columns(field).items()}
+    if done.returncode != 0:
+        raise Trouble(done.stderr.strip().removeprefix("plyform: error: "))
+    return {column: field.factor * float(numbers[kind])
+            for field, numbers in zip(fields, csv.DictReader(done.stdout.splitlines()))
+            for kind, column in field.error_columns().items()}
 
 
 def differences(study: Study, planner: Planner, runs: list[Run], folder: Path) -> dict:
@@ -93,41 +79,33 @@ def differences(study: Study, planner: Planner, runs: list[Run], folder: Path) -
     reference = next((run for run in runs if run.name == planner.reference_name), None)
     if not fields or ended(folder, reference).get("status") not in SOUND:
         return {}
-    told = {}
+    errors = {}
     for run in runs:
         if run.line == "reference" or ended(folder, run).get("status") not in SOUND:
             continue
         place = folder / "runs" / run.name
         memory = place / f"difference-{reference.name.rpartition('-')[2]}.json"
         row = {name: value for name, value in read_json(memory).items() if is_number(value)}
-        missing = [field for field in fields if error_columns(field)["rms"] not in row]
+        missing = [field for field in map(study.fields.get, fields)
+                   if field.error_columns()["rms"] not in row]
         if missing:
             row |= difference(planner.program, place, folder / "runs" / reference.name, missing)
             memory.write_text(json.dumps(row), encoding="utf-8")
-        told[run.name] = row
-    return told
-
-
-def mark_front(rows: list[dict], error: str, time: str = FRONT) -> None:
-    """1 where no other run is as fast and as near to the reference, and better in one of both."""
-    points = [row for row in rows if row["status"] in SOUND and is_number(row.get(error))]
-    for row in rows:
-        row["on_front"] = int(any(row is one for one in points) and not any(
-            one[time] <= row[time] and one[error] <= row[error] and
-            (one[time] < row[time] or one[error] < row[error]) for one in points))
+        errors[run.name] = row
+    return errors
 
 
 def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path) -> list[dict]:
     errors, rows = differences(study, planner, runs, folder), []
     means = area_means(study.area_means, planner, runs, folder)
     for run in runs:
-        told = ended(folder, run)
+        end = ended(folder, run)
         row = {"line": run.line, "setting": run.label,
                **{one.name: run.values[one.name] for one in planner.vary},
-               "status": told.get("status", "missing"), "wall_time_s": told.get("wall_time_s", ""),
-               "cpu_s": told.get("cpu_s", "")}
+               "status": end.get("status", "missing"), "wall_time_s": end.get("wall_time_s", ""),
+               "cpu_s": end.get("cpu_s", "")}
         place = folder / "runs" / run.name
-        message = told.get("message", "") or killed(folder, run)
+        message = end.get("message", "") or killed(folder, run)
         try:
             summary = read_summary(place, ()) if (place / "summary.json").exists() else {}
             row |= figures_of(study.figures, summary, place)
@@ -193,7 +171,7 @@ def tell(study: Study, planner: Planner, runs: list[Run], folder: Path,
     if ways := reach(study, planner, rows):
         write_csv(ways, list(ways[0]), folder / "reach.csv")
     if study.pictures:
-        from studies.pictures import draw_all
+        from studies.pictures import draw_all  # matplotlib takes a second to load
         draw_all(study, planner, rows, folder)
     print(screen(rows, study))
     print("\n".join(ranking_lines(ranks, main_error(study) or "largest_shear_deg")))

@@ -10,8 +10,8 @@ from pathlib import Path
 
 from base.ending import Trouble, one_line
 from base.files import is_file, parsed_toml, read_text
-from plotting.reading import FIELDS
 from studies import shown
+from studies.fields import Field
 from studies.reader import Reader, is_number, is_value, is_word
 from studies.toml_place import Mistakes, lines_of
 
@@ -90,6 +90,7 @@ class Study:
     vary: list[Vary] = field(default_factory=list)
     extra: list[ExtraRun] = field(default_factory=list)
     reference: Reference | None = None
+    fields: dict[str, Field] = field(default_factory=dict)  # by word, once the program is known
     area_means: float | None = None  # mm, radius of the discs
     figures: dict[str, str] = field(default_factory=dict)
     limits: dict[str, shown.Limit] = field(default_factory=dict)
@@ -208,8 +209,8 @@ def read_reference(table, study: Study) -> Reference | None:
         if not (is_number(value) and value > 0):
             reader.fail("factors", f"{key} must be a number above 0",
                         "give a factor of the case's own value")
-    fields = reader.items("fields", lambda one: one in FIELDS,
-                          f"must be one of {', '.join(FIELDS)}", "name fields to compare")
+    fields = reader.items("fields", is_word,
+                          "must be a word", 'name fields to compare, as fields = ["shear"]')
     right = {key: value for key, value in factors.items() if is_number(value)}
     return Reference(read_chosen(reader, study), reader.settings(), right,
                      reader.choice("accuracy", PRESETS),
@@ -308,7 +309,7 @@ def read_study(file: Path) -> Study:
     try:
         root = parsed_toml(file, text)
     except Trouble as problem:
-        mistakes.told.append((0, str(problem)))
+        mistakes.found.append((0, str(problem)))
         return study
     root = included(root, mistakes)
     reader = Reader(root, "", "", mistakes)

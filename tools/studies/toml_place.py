@@ -53,7 +53,7 @@ class Mistakes:
     """Of a study file, each one line: place, item, rule and remedy."""
     file: Path
     lines: dict[str, int]
-    told: list[tuple[int, str]] = field(default_factory=list)
+    found: list[tuple[int, str]] = field(default_factory=list)
     also: tuple[Path, dict[str, int]] | None = None  # a file that the study includes
 
     def place(self, item: str) -> tuple[Path, int]:
@@ -68,7 +68,7 @@ class Mistakes:
     def add(self, item: str, rule: str, remedy: str, value=None) -> None:
         equals = "" if value is None else f" = {toml_text(value)}"
         file, line = self.place(item)
-        self.told.append((line, f"{file}:{line}: error: {item}{equals}: {rule}; {remedy}"))
+        self.found.append((line, f"{file}:{line}: error: {item}{equals}: {rule}; {remedy}"))
 
     def texts(self) -> list[str]:
-        return [text for _, text in sorted(self.told, key=lambda one: one[0])]
+        return [text for _, text in sorted(self.found, key=lambda one: one[0])]

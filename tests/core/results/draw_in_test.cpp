@@ -26,7 +26,7 @@ TEST(DrawIn, OfASquareThatIsNotRoundTheOrigin) {
     ply.x[i] = off + Vec3(0.9 * ply.x0[i].x(), 0.8 * ply.x0[i].y(), -25.0);
     ply.x0[i] += off;
   }
-  const DrawIn told = draw_in(ply, 90.0);
+  const DrawIn told = draw_in(ply);
   ASSERT_EQ(told.unknown, "");
   const double diagonal = 100.0 * (std::hypot(1.0, 1.0) - std::hypot(0.9, 0.8));
   for (std::size_t k = 0; k < 4; ++k) {
@@ -43,7 +43,7 @@ TEST(DrawIn, OfAPlyThatOnlyMovesIsWhatOneEndComesNearer) {
   PlyFrame ply = sheet(10, 10, 20.0, 0.0, sheets::flat);
   for (Vec3& x : ply.x)
     x.x() += 5.0;
-  const DrawIn told = draw_in(ply, 90.0);
+  const DrawIn told = draw_in(ply);
   const double side = 100.0 - std::hypot(100.0, 5.0);
   const double expected[] = {-5.0, side, 5.0, side};
   for (std::size_t k = 0; k < 4; ++k)
@@ -55,8 +55,9 @@ TEST(DrawIn, OfYarnsAtAnyAngleToTheMeshAndToEachOther) {
   PlyFrame ply = sheet(7, 7, 200.0 / 7.0, 0.0, [&](const Vec2& p) -> Vec3 {
     return {(matrix * p).x(), (matrix * p).y(), 0.0};
   });
-  ply.angle_deg = 20.0;
-  const DrawIn told = draw_in(ply, 70.0);
+  ply.families[0].angle_deg = 20.0;
+  ply.families[1].angle_deg = 90.0;
+  const DrawIn told = draw_in(ply);
   for (std::size_t k = 0; k < 4; ++k) {
     const double yarn[] = {20.0, 90.0, 200.0, 270.0};
     EXPECT_NEAR(told.yarns[k], of_square(100.0, matrix, yarn[k]), rounding);
@@ -91,11 +92,10 @@ TEST(DrawIn, WalksOverHolesAndEndsAtNotches) {
     return {0.9 * p.x(), 0.9 * p.y(), 0.0};
   });
   const DrawIn over_hole =
-      draw_in(without(whole, [](const Vec2& p) { return p.cwiseAbs().maxCoeff() < 30.0; }), 90.0);
+      draw_in(without(whole, [](const Vec2& p) { return p.cwiseAbs().maxCoeff() < 30.0; }));
   ASSERT_EQ(over_hole.unknown, "");
   const DrawIn at_notch = draw_in(
-      without(whole, [](const Vec2& p) { return std::abs(p.x() - 20.0) < 10.0 && p.y() > -20.0; }),
-      90.0);
+      without(whole, [](const Vec2& p) { return std::abs(p.x() - 20.0) < 10.0 && p.y() > -20.0; }));
   const double notched[] = {1.0, 5.0, 5.0, 5.0};
   for (std::size_t k = 0; k < 4; ++k) {
     EXPECT_NEAR(over_hole.yarns[k], 5.0, rounding);
@@ -106,10 +106,9 @@ TEST(DrawIn, WalksOverHolesAndEndsAtNotches) {
 TEST(DrawIn, SaysWhyThereIsNone) {
   const PlyFrame whole = sheet(4, 4, 25.0, 0.0, sheets::flat);
   const auto corner = [](const Vec2& p) { return p.x() > -20.0 && p.y() > -20.0; };
-  EXPECT_EQ(draw_in(without(whole, corner), 90.0).unknown,
-            "the middle of its bounding box is outside");
+  EXPECT_EQ(draw_in(without(whole, corner)).unknown, "the middle of its bounding box is outside");
   const auto touching = [](const Vec2& p) { return p.x() * p.y() > 0.0; };
-  EXPECT_EQ(draw_in(without(whole, touching), 90.0).unknown, "its border meets itself");
+  EXPECT_EQ(draw_in(without(whole, touching)).unknown, "its border meets itself");
 }
 
 } // namespace

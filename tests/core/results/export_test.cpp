@@ -90,7 +90,7 @@ TEST_F(ResultsExport, ExportSaysWhatItCannotReadOfOtherLayouts) {
     H5Sclose(space);
   };
   change("format_version", "format_version is missing", [](hid_t) {});
-  change("format_version", "version 1, this plyform reads version 2: run the case again",
+  change("format_version", "version 1, this plyform reads version 3: run the case again",
          [&](hid_t file) {
            const std::int64_t before = 1;
            make(file, "format_version", H5T_NATIVE_INT64, 1, &before);

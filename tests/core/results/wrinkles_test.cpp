@@ -16,7 +16,7 @@ constexpr double h = 6.8, pi = std::numbers::pi;
 
 Wrinkle highest(double angle_deg, const std::function<Vec3(const Vec2&)>& shape,
                 const std::vector<const ToolBody*>& tools = {}) {
-  return highest_wrinkle(sheet(40, 40, h, angle_deg, shape), tools);
+  return wrinkles_of(sheet(40, 40, h, angle_deg, shape), tools).highest;
 }
 
 /// A sheet along a profile in x that starts flat, turns down by `turn` (rad) on a radius, and goes
@@ -64,7 +64,7 @@ TEST(Wrinkles, ShapesOfToolsAreNone) {
       return Vec3(p.x() / r * radius * std::sin(a), p.y() / r * radius * std::sin(a),
                   radius * std::cos(a));
     });
-    const Wrinkle on_ball = highest_wrinkle(ball, {});
+    const Wrinkle on_ball = wrinkles_of(ball, {}).highest;
     const Wrinkle at_fillet =
         highest(angle_deg, [](const Vec2& p) { return over_fillet(p, 10.0, 0.5 * pi); });
     const Wrinkle in_s = highest(angle_deg, [](const Vec2& p) {

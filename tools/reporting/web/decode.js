@@ -22,10 +22,10 @@ function fromPlanes(planes, bits) {
 }
 
 /** Undoes the differences, first along the second axis, then from state to state. */
-function sumUp(numbers, told) {
-  const [states, second] = told.shape;
+function sumUp(numbers, block) {
+  const [states, second] = block.shape;
   const perState = numbers.length / Math.max(states, 1);
-  if (told.differences === "place" && told.shape.length > 1) {
+  if (block.differences === "place" && block.shape.length > 1) {
     const stride = perState / Math.max(second, 1);
     for (let state = 0; state < states; ++state) {
       const end = (state + 1) * perState;
@@ -36,16 +36,16 @@ function sumUp(numbers, told) {
 }
 
 /** A block with `state(k)`, the values of a state. */
-export async function loadBlock(told) {
-  const place = document.getElementById(`block-${told.block}`);
-  const numbers = fromPlanes(await inflated(place.textContent.trim()), told.bits);
-  sumUp(numbers, told);
-  const perState = numbers.length / Math.max(told.shape[0], 1);
+export async function loadBlock(block) {
+  const place = document.getElementById(`block-${block.block}`);
+  const numbers = fromPlanes(await inflated(place.textContent.trim()), block.bits);
+  sumUp(numbers, block);
+  const perState = numbers.length / Math.max(block.shape[0], 1);
   return {
-    shape: told.shape,
+    shape: block.shape,
     state(k) {
       const values = new Float32Array(perState);
-      for (let i = 0; i < perState; ++i) values[i] = told.low + told.step * numbers[k * perState + i];
+      for (let i = 0; i < perState; ++i) values[i] = block.low + block.step * numbers[k * perState + i];
       return values;
     },
     integers: () => Uint32Array.from(numbers),

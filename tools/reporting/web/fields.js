@@ -1,72 +1,83 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What plies are coloured by, and how it follows from what results.h5 holds.
+// What plies are coloured by: the columns that results.h5 describes, and what follows from them.
 //
-// needs: names of stored arrays, a value a triangle (cells) or a node (nodes); of: from these to the
-// value shown; digits: decimals in numbers; signed: a scale with zero in its middle.
+// of: from the values of the columns of a ply to the value shown; digits: decimals in numbers; signed:
+// a scale with zero in its middle.
 
 import { nodalMeans } from "plyform/difference.js";
 
-const largest = (a, b) => Math.max(a, b);
+const largest = (values) => Math.max(...values);
+const first = ([value]) => value;
 
-export const FIELDS = [
-  { id: "shear", label: "Shear angle", unit: "°", digits: 2, cells: ["shear_angle_deg"],
-    of: (shear) => Math.abs(shear), note: "magnitude of the change of the angle between warp and weft" },
-  { id: "shear-signed", label: "Shear angle, signed", unit: "°", digits: 2, signed: true,
-    cells: ["shear_angle_deg"], of: (shear) => shear, note: "negative: the angle opens" },
-  { id: "pressed", label: "Pressed strain", unit: "%", digits: 3, yarns: true,
-    cells: ["warp_strain", "weft_strain"], of: (warp, weft) => 100 * largest(0, -Math.min(warp, weft)),
-    note: "by how much the more pressed yarn, warp or weft, is shorter" },
-  { id: "tensile", label: "Tensile strain", unit: "%", digits: 3,
-    cells: ["warp_strain", "weft_strain"], of: (warp, weft) => 100 * largest(0, largest(warp, weft)),
-    note: "by how much the more stretched yarn is longer" },
-  { id: "warp-strain", label: "Warp strain", unit: "%", digits: 3, signed: true,
-    cells: ["warp_strain"], of: (warp) => 100 * warp, note: "negative: shorter" },
-  { id: "weft-strain", label: "Weft strain", unit: "%", digits: 3, signed: true,
-    cells: ["weft_strain"], of: (weft) => 100 * weft, note: "negative: shorter" },
-  { id: "tension", label: "Tension", unit: "N per yarn", digits: 3,
-    cells: ["warp_tension_N", "weft_tension_N"], of: largest, note: "the larger of warp and weft" },
-  { id: "warp-tension", label: "Warp tension", unit: "N per yarn", digits: 3, signed: true,
-    cells: ["warp_tension_N"], of: (warp) => warp, note: "negative: compression" },
-  { id: "weft-tension", label: "Weft tension", unit: "N per yarn", digits: 3, signed: true,
-    cells: ["weft_tension_N"], of: (weft) => weft, note: "negative: compression" },
-  { id: "wrinkle", label: "Wrinkle height", unit: "mm", digits: 2, computed: "wrinkles",
-    note: "from valley to crest, of the waves that the mesh shows and no tool has; under 0.3 mm as 0" },
-  { id: "gap", label: "Gap to the nearest tool", unit: "mm", digits: 2, computed: "gap",
-    note: "from the face of the ply; of inner plies, other plies included; 30 mm and more are alike" },
-  { id: "pressure", label: "Contact pressure", unit: "N/mm²", digits: 4,
-    nodes: ["contact_pressure"], of: (pressure) => pressure,
-    note: "normal force of all contacts over the node's area" },
-  { id: "thickness", label: "Thickness", unit: "mm", digits: 3, cells: ["thickness_mm"],
-    of: (thickness) => thickness, note: "from constant volume" },
-];
+/** Fields of the families' columns of one quantity, taken together. */
+const TOGETHER = {
+  strain: [
+    { id: "pressed", label: "Pressed strain", yarns: true, of: (strains) => Math.max(0, -Math.min(...strains)),
+      note: "by how much the most pressed family of yarns is shorter" },
+    { id: "tensile", label: "Tensile strain", of: (strains) => Math.max(0, ...strains),
+      note: "by how much the most stretched family of yarns is longer" }],
+  tension: [{ id: "tension", label: "Tension", of: largest, note: "the largest of all families" }],
+};
 
-export const fieldCalled = (id) => FIELDS.find((field) => field.id === id);
+const GAP = { id: "gap", label: "Gap to the nearest tool", unit: "mm", digits: 2, computed: "gap",
+  note: "from the face of the ply; of inner plies, other plies included; 30 mm and more are alike" };
+
+/** The fields that a column is shown as. */
+function fieldsOfColumn(column) {
+  const field = { ...column, id: column.word, names: () => [column.name], of: first,
+    signed: column.scale === "both ways" };
+  if (column.scale !== "magnitude") return [field];
+  return [
+    { ...field, of: ([value]) => Math.abs(value), note: "magnitude, without the sign" },
+    { ...field, id: `${column.word}-signed`, label: `${column.label}, signed`, signed: true }];
+}
+
+/** All fields of a page. columns: as its data describe them. */
+export function fieldsOf(columns) {
+  const fields = [];
+  const seen = new Set();
+  const sorted = [...columns].sort((a, b) => (a.place === "node") - (b.place === "node"));
+  for (const column of sorted) {
+    if (!seen.has(column.quantity)) {
+      seen.add(column.quantity);
+      const same = sorted.filter((other) => other.quantity === column.quantity).map((other) => other.name);
+      for (const field of TOGETHER[column.quantity] || []) {
+        const names = (ply) => same.filter((name) => name in ply.data.cells);
+        fields.push({ ...column, signed: false, ...field, names });
+      }
+    }
+    fields.push(...fieldsOfColumn(column));
+  }
+  return [...fields, GAP];
+}
 
 /** Whether a ply has what a field needs. */
 export function has(ply, field) {
-  if (field.computed === "gap") return ply.run.tools.length > 0;
-  if (field.computed) return true;
-  if (field.yarns && !ply.told.woven) return false;
-  return (field.cells || []).every((name) => name in ply.told.cells) &&
-    (field.nodes || []).every((name) => name in ply.told.nodes);
+  if (field.computed) return ply.run.tools.length > 0;
+  if (field.yarns && !ply.data.woven) return false;
+  const names = field.names(ply);
+  return names.length > 0 && names.every((name) => name in ply.data.cells || name in ply.data.nodes);
+}
+
+/** Values of the columns of a field in a state, an array each. */
+async function columnsOf(ply, field, state) {
+  const blocks = await Promise.all(field.names(ply).map((name) => ply.block(name)));
+  return blocks.map((block) => block.state(state));
+}
+
+function combined(field, arrays) {
+  return arrays[0].map((_, i) => field.factor * field.of(arrays.map((values) => values[i])));
 }
 
 /** Values of a field at the nodes of a ply: what it is made of is evened out first. */
 export async function nodalValuesOf(ply, field, state) {
-  if (!field.cells) return (await valuesOf(ply, field, state)).values;
-  const blocks = await Promise.all(field.cells.map((name) => ply.block(name)));
-  const arrays = blocks.map((block) => nodalMeans(ply, block.state(state)));
-  const [values, other = values] = arrays;
-  return values.map((value, i) => field.of(value, other[i]));
+  if (field.computed || field.place === "node") return (await valuesOf(ply, field, state)).values;
+  const arrays = await columnsOf(ply, field, state);
+  return combined(field, arrays.map((values) => nodalMeans(ply, values)));
 }
 
 /** Values of a field in a state, and whether they are of triangles or nodes. */
 export async function valuesOf(ply, field, state) {
   if (field.computed) return { of: "node", values: ply.computed(field.computed, state).slice() };
-  const cells = Boolean(field.cells);
-  const blocks = await Promise.all((field.cells || field.nodes).map((name) => ply.block(name)));
-  const arrays = blocks.map((block) => block.state(state));
-  const [values, other = values] = arrays;
-  for (let i = 0; i < values.length; ++i) values[i] = field.of(values[i], other[i]);
-  return { of: cells ? "triangle" : "node", values };
+  return { of: field.place, values: combined(field, await columnsOf(ply, field, state)) };
 }

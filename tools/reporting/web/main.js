@@ -3,18 +3,17 @@
 
 import { Chart } from "plyform/charts.js";
 import { connect, showPlace } from "plyform/controls.js";
-import { fieldCalled } from "plyform/fields.js";
 import { localise, written } from "plyform/numbers.js";
 import { Page } from "plyform/page.js";
 import { preparePrint } from "plyform/print.js";
 import { showContact } from "plyform/tool_contact.js";
 import { Report } from "plyform/report.js";
 
-function drawCharts(report, told) {
-  const ids = [...new Set(told.runs.flatMap((run) => run.charts.map((chart) => chart.id)))];
+function drawCharts(report, scene) {
+  const ids = [...new Set(scene.runs.flatMap((run) => run.charts.map((chart) => chart.id)))];
   const charts = ids.map((id) => {
-    const of = told.runs.map((run) => run.charts.find((chart) => chart.id === id));
-    const runs = told.runs.map((run, r) => ({ stroke: run.stroke, lines: of[r] ? of[r].lines : [] }));
+    const of = scene.runs.map((run) => run.charts.find((chart) => chart.id === id));
+    const runs = scene.runs.map((run, r) => ({ stroke: run.stroke, lines: of[r] ? of[r].lines : [] }));
     return new Chart(document.getElementById(`chart-${id}`), of.find(Boolean), runs,
       (stroke) => report.goToStroke(stroke));
   });
@@ -38,7 +37,7 @@ function hints(report) {
       const probe = report.under(view, event.clientX, event.clientY);
       const value = probe ? await report.hint(probe) : null;
       if (value === null || mine !== asked) return;
-      const field = fieldCalled(report.settings.field);
+      const field = report.field();
       hint.textContent = `${written(value, field.digits)} ${field.unit}`;
       hint.dataset.value = value;
       Object.assign(hint.style, { left: `${event.clientX + 14}px`, top: `${event.clientY + 14}px` });
@@ -52,12 +51,12 @@ async function start() {
   if (!window.WebGLRenderingContext || !window.DecompressionStream) {
     throw new Error("this browser lacks WebGL or DecompressionStream: take one of 2023 or later");
   }
-  const told = JSON.parse(document.getElementById("scene").textContent);
-  const report = new Report(told, new Page());
+  const scene = JSON.parse(document.getElementById("scene").textContent);
+  const report = new Report(scene, new Page());
   await report.load();
   document.documentElement.dataset.picture = String(Math.round(performance.now()));
   connect(report);
-  drawCharts(report, told);
+  drawCharts(report, scene);
   hints(report);
   preparePrint(report);
   await report.change({});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The page around the pictures: what it shows follows the settings.
 
-import { fieldCalled } from "plyform/fields.js";
 import { fittingDigits, written } from "plyform/numbers.js";
 import { gradient } from "plyform/colours.js";
 
@@ -20,7 +19,7 @@ export class Page {
   /** Controls and legends as the settings are. */
   show(report) {
     const { settings, scale } = report;
-    const field = fieldCalled(settings.field);
+    const field = report.field();
     const set = { field: settings.field, colours: settings.colours, steps: settings.steps,
       stroke: settings.state, apart: settings.apart, yarns: settings.yarns, tools: settings.tools,
       "flat-ply": settings.flatPly, "section-angle": settings.section.angle };

@@ -2,7 +2,6 @@
 // A ply of a run: its stored arrays, and what follows from them.
 
 import { loadBlock } from "plyform/decode.js";
-import { Wrinkles } from "plyform/wrinkles.js";
 
 /** Nodes of the edges that one triangle has, in pairs. */
 export function borderEdges(triangles) {
@@ -23,25 +22,26 @@ export function borderEdges(triangles) {
   return edges;
 }
 
-/** Of each node of the flat ply, mm: place along weft and along warp, in directions of the yarns. */
-function yarnPlaces(flat, warp, weft) {
-  const across = warp[0] * weft[1] - warp[1] * weft[0];
-  const sine = Math.abs(across) > 1e-6 ? across : 1;
-  const places = new Float32Array((flat.length / 3) * 2);
-  for (let i = 0; 3 * i < flat.length; ++i) {
-    const [x, y] = [flat[3 * i], flat[3 * i + 1]];
-    // distances from the lines through the origin along warp and along weft
-    places[2 * i] = (warp[0] * y - warp[1] * x) * Math.sign(sine);
-    places[2 * i + 1] = (x * weft[1] - y * weft[0]) * Math.sign(sine);
-  }
+export const MOST_FAMILIES = 4; // of yarns that are drawn
+const NO_YARN = 1e9; // mm, where there is no such family: as shaders.js has it
+
+/** Of each node of the flat ply, mm: its distance from the line through the origin along the yarns of
+ * each family. */
+function yarnPlaces(flat, families) {
+  const places = new Float32Array((flat.length / 3) * MOST_FAMILIES).fill(NO_YARN);
+  families.slice(0, MOST_FAMILIES).forEach(({ direction: [u, v] }, k) => {
+    for (let i = 0; 3 * i < flat.length; ++i) {
+      places[MOST_FAMILIES * i + k] = u * flat[3 * i + 1] - v * flat[3 * i];
+    }
+  });
   return places;
 }
 
 export class Ply {
-  constructor(run, told) {
+  constructor(run, data) {
     this.run = run;
-    this.told = told;
-    this.name = told.name;
+    this.data = data;
+    this.name = data.name;
     this.blocks = new Map();
     this.computedOfState = new Map();
   }
@@ -49,23 +49,23 @@ export class Ply {
   /** Geometry, needed for the first picture. */
   async load() {
     const [flat, triangles, places] = await Promise.all(
-      [this.told.x0, this.told.triangles, this.told.x].map(loadBlock));
+      [this.data.x0, this.data.triangles, this.data.x].map(loadBlock));
     this.flat = flat.state(0);
     this.triangles = triangles.integers();
     this.places = places;
     this.border = borderEdges(this.triangles);
-    this.yarns = yarnPlaces(this.flat, this.told.warp, this.told.weft);
+    this.yarns = yarnPlaces(this.flat, this.data.families);
   }
 
   /** A stored array by its name in results.h5, decoded once. */
   block(name) {
     if (!this.blocks.has(name)) {
-      this.blocks.set(name, loadBlock(this.told.cells[name] || this.told.nodes[name]));
+      this.blocks.set(name, loadBlock(this.data.cells[name] || this.data.nodes[name]));
     }
     return this.blocks.get(name);
   }
 
-  /** A field of nodes that is not stored, in a state, computed once: gap or wrinkles. */
+  /** A field of nodes that is not stored, in a state, computed once: the gap. */
   computed(what, state) {
     const key = `${what} ${state}`;
     if (!this.computedOfState.has(key)) this.computedOfState.set(key, this[what](state));
@@ -76,13 +76,8 @@ export class Ply {
   gap(state) {
     const values = new Float32Array(this.flat.length / 3).fill(30);
     const x = this.places.state(state);
-    for (const tool of this.run.tools) tool.nearest(x, tool.told.shift[state], values);
-    const half = 0.5 * this.told.thickness;
+    for (const tool of this.run.tools) tool.nearest(x, tool.data.shift[state], values);
+    const half = 0.5 * this.data.thickness;
     return values.map((distance) => distance - half);
-  }
-
-  wrinkles(state) {
-    if (!this.searcher) this.searcher = new Wrinkles(this);
-    return this.searcher.heights(state);
   }
 }

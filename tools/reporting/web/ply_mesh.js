@@ -2,6 +2,7 @@
 // A ply as three.js draws it: three vertices of its own for each triangle, so that a value a
 // triangle is one colour.
 
+import { MOST_FAMILIES } from "plyform/ply.js";
 import { plyMaterial } from "plyform/shaders.js";
 
 const THREE = window.THREE;
@@ -46,7 +47,7 @@ export class PlyMesh {
     geometry.setAttribute("normal", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
     geometry.setAttribute("value", new THREE.BufferAttribute(new Float32Array(count), 1));
     geometry.setAttribute("yarn",
-      new THREE.BufferAttribute(spread(ply.yarns, ply.triangles, 2), 2));
+      new THREE.BufferAttribute(spread(ply.yarns, ply.triangles, MOST_FAMILIES), MOST_FAMILIES));
     this.surface = new THREE.Mesh(geometry, plyMaterial(uniforms));
     const line = new THREE.BufferGeometry();
     this.outline = flat

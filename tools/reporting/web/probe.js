@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The numbers of the place that the reader has clicked.
 
-import { FIELDS, has, valuesOf } from "plyform/fields.js";
+import { has, valuesOf } from "plyform/fields.js";
 import { written } from "plyform/numbers.js";
 
 const mean = (x, ply, probe) => [0, 1, 2].map((c) => [0, 1, 2].reduce(
@@ -25,8 +25,13 @@ function row(table, name, value, unit, raw) {
   if (raw !== undefined) [line.dataset.field, line.dataset.value] = raw;
 }
 
+/** From one family of yarns to another before forming, degrees. */
+function flatAngle({ direction: a }, { direction: b }) {
+  return (Math.atan2(a[0] * b[1] - a[1] * b[0], a[0] * b[0] + a[1] * b[1]) * 180) / Math.PI;
+}
+
 /** Fills the panel. `probe`: run, index of the ply, triangle, weights. */
-export async function showProbe(panel, run, probe, state) {
+export async function showProbe(panel, run, probe, state, fields) {
   const ply = run.plies[probe.index];
   const table = document.createElement("table");
   const flat = mean(ply.flat, ply, probe);
@@ -34,12 +39,13 @@ export async function showProbe(panel, run, probe, state) {
   const place = (x) => x.map((c) => written(c, 1)).join("  /  ");
   row(table, "In the flat blank, x / y", place(flat.slice(0, 2)), "mm");
   row(table, "In the part, x / y / z", place(formed), "mm");
-  for (const field of FIELDS) {
+  for (const field of fields) {
     if (!has(ply, field)) continue;
     const value = await valueAt(ply, field, state, probe);
     row(table, field.label, written(value, field.digits), field.unit, [field.id, value]);
-    if (field.id === "shear-signed" && ply.told.woven) {
-      row(table, "Angle between warp and weft", written(ply.told.fibre_angle - value, 1), "°");
+    const [one, two] = ply.data.families;
+    if (field.id === "shear-signed" && ply.data.woven && two) {
+      row(table, `Angle between ${one.name} and ${two.name}`, written(flatAngle(one, two) - value, 1), "°");
     }
   }
   const head = document.createElement("h3");

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The report as a whole: settings, what follows from them, what is shown.
 
-import { FIELDS, fieldCalled, has, nodalValuesOf, valuesOf } from "plyform/fields.js";
+import { fieldsOf, has, nodalValuesOf, valuesOf } from "plyform/fields.js";
 import { Difference } from "plyform/difference.js";
 import { firstMet } from "plyform/pick.js";
 import { Ply } from "plyform/ply.js";
@@ -14,17 +14,18 @@ import { View } from "plyform/view.js";
 
 const THREE = window.THREE;
 
-function runOf(told) {
-  const run = { ...told };
-  run.plies = told.plies.map((ply) => new Ply(run, ply));
-  run.tools = told.tools.map((tool) => new Tool(run, tool));
+function runOf(data) {
+  const run = { ...data };
+  run.plies = data.plies.map((ply) => new Ply(run, ply));
+  run.tools = data.tools.map((tool) => new Tool(run, tool));
   return run;
 }
 
 export class Report {
-  constructor(told, page) {
+  constructor(data, page) {
     this.page = page;
-    this.runs = told.runs.map(runOf);
+    this.runs = data.runs.map(runOf);
+    this.allFields = fieldsOf(data.columns);
     const [first] = this.runs;
     this.settings = {
       state: first.stroke.length - 1, field: "shear", colours: "viridis", steps: 0, low: null,
@@ -101,12 +102,18 @@ export class Report {
   }
 
   usualLimit() {
-    const angles = this.runs.flatMap((run) => run.plies.map((ply) => ply.told.locking_angle)).filter(Boolean);
+    const angles = this.runs.flatMap((run) => run.plies.map((ply) => ply.data.locking_angle)).filter(Boolean);
     return this.settings.field === "shear" && angles.length ? Math.min(...angles) : null;
   }
 
+  /** The field that is set. */
+  field() {
+    return this.allFields.find((field) => field.id === this.settings.field);
+  }
+
+  /** Those that any ply has. */
   fields() {
-    return FIELDS.filter((field) => this.runs.some((run) => run.plies.some((ply) => has(ply, field))));
+    return this.allFields.filter((field) => this.runs.some((run) => run.plies.some((ply) => has(ply, field))));
   }
 
   async show(keys) {
@@ -134,7 +141,7 @@ export class Report {
   }
 
   async colour() {
-    const field = fieldCalled(this.settings.field);
+    const field = this.field();
     const zero = (ply) => ({ of: "node", values: new Float32Array(ply.flat.length / 3) });
     this.values = await Promise.all(this.runs.map((run, r) => Promise.all(run.plies.map(
       (ply) => (has(ply, field) ? valuesOf(ply, field, this.states()[r]) : zero(ply))))));
@@ -157,7 +164,7 @@ export class Report {
   /** The scale that is set, where it is; else from the values of the plies that are shown. */
   findScale(anew) {
     const { settings } = this;
-    const field = fieldCalled(settings.field);
+    const field = this.field();
     if (anew) {
       const range = [Infinity, -Infinity];
       this.values.forEach((run, r) => run.forEach(({ values }, i) => {
@@ -171,7 +178,7 @@ export class Report {
     }
     let [low, high] = this.range;
     if (field.signed) [low, high] = [-Math.max(-low, high), Math.max(-low, high)];
-    else if (low >= 0 && field.id !== "thickness") low = 0;
+    else if (low >= 0 && field.scale !== "whole") low = 0;
     if (high <= low) high = low + (field.signed ? 1 : 1e-3);
     if (settings.low !== null) ({ low } = settings);
     if (settings.high !== null) ({ high } = settings);
@@ -213,13 +220,14 @@ export class Report {
   }
 
   tellProbe() {
-    return showProbe(this.page.probe, this.runs[this.probe.run], this.probe, this.states()[this.probe.run]);
+    return showProbe(this.page.probe, this.runs[this.probe.run], this.probe, this.states()[this.probe.run],
+      this.allFields);
   }
 
   /** Value of the field shown at a place, for the hint beside the cursor. */
   hint(probe) {
     const ply = this.runs[probe.run].plies[probe.index];
-    const field = fieldCalled(this.settings.field);
+    const field = this.field();
     if (!has(ply, field)) return null;
     return valueAt(ply, field, this.states()[probe.run], probe);
   }

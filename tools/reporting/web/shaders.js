@@ -5,10 +5,10 @@ const THREE = window.THREE;
 
 const VERTEX = `
 attribute float value;
-attribute vec2 yarn;       // mm: along weft (across warp yarns), along warp
+attribute vec4 yarn;       // mm: across the yarns of each family; 1e9: no such family
 uniform vec3 towards_eye;
 varying float v_value, v_facing;
-varying vec2 v_yarn;
+varying vec4 v_yarn;
 #ifdef SECTION
 varying vec3 v_place;
 #endif
@@ -29,11 +29,12 @@ uniform float low, high, limit, limit_on, spacing, line_width, lit;
 uniform vec4 plane;        // kept: dot(place, xyz) <= w
 uniform float plane_on;
 varying float v_value, v_facing;
-varying vec2 v_yarn;
+varying vec4 v_yarn;
 #ifdef SECTION
 varying vec3 v_place;
 #endif
 float line_at(float along, float wide) {
+  if (along > 1e8) return 0.0;
   float apart = abs(fract(along / spacing + 0.5) - 0.5) * spacing;
   float pixel = fwidth(along);
   float covered = clamp((wide - apart) / max(pixel, 1e-6) + 0.5, 0.0, 1.0);
@@ -52,6 +53,8 @@ void main() {
   if (spacing > 0.0) {
     colour = mix(colour, vec3(1.0), 0.9 * line_at(v_yarn.x, line_width));
     colour = mix(colour, vec3(0.05), 0.8 * line_at(v_yarn.y, line_width));
+    colour = mix(colour, vec3(1.0, 0.85, 0.2), 0.9 * line_at(v_yarn.z, line_width));
+    colour = mix(colour, vec3(0.1, 0.3, 0.9), 0.8 * line_at(v_yarn.w, line_width));
   }
   gl_FragColor = vec4(colour * mix(1.0, 0.55 + 0.45 * v_facing, lit), 1.0);
 }`;

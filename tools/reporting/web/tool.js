@@ -55,14 +55,14 @@ function withoutBits(lines, x, least) {
 }
 
 export class Tool {
-  constructor(run, told) {
+  constructor(run, data) {
     this.run = run;
-    this.told = told;
-    this.name = told.name;
+    this.data = data;
+    this.name = data.name;
   }
 
   async load() {
-    const [x, triangles] = await Promise.all([this.told.x0, this.told.triangles].map(loadBlock));
+    const [x, triangles] = await Promise.all([this.data.x0, this.data.triangles].map(loadBlock));
     this.x = x.state(0);
     this.triangles = triangles.integers();
     this.size = new THREE.Box3().setFromArray(this.x).getSize(new THREE.Vector3()).length();

@@ -13,14 +13,14 @@ const REACH = 0.15;   // of the tool's size: further is not faced
 function faced(ply, tool, state) {
   const x = ply.places.state(state);
   const normals = nodeNormals(x, ply.triangles);
-  const shift = tool.told.shift[state];
+  const shift = tool.data.shift[state];
   const nodes = [];
   for (let i = 0; 3 * i < x.length; ++i) {
     const away = tool.away(x[3 * i] - shift[0], x[3 * i + 1] - shift[1], x[3 * i + 2] - shift[2], REACH * tool.size);
     if (!away) continue;
     const cosine = away.along.reduce((sum, c, k) => sum + c * normals[3 * i + k], 0);
     if (away.distance > 1e-6 && Math.abs(cosine) < FACING) continue;
-    nodes.push({ node: i, gap: away.distance - 0.5 * ply.told.thickness });
+    nodes.push({ node: i, gap: away.distance - 0.5 * ply.data.thickness });
   }
   return nodes;
 }
@@ -29,7 +29,7 @@ function faced(ply, tool, state) {
 export function liesOnTools(run) {
   const last = run.stroke.length - 1;
   const lines = [];
-  for (const tool of run.tools.filter((one) => one.told.driven)) {
+  for (const tool of run.tools.filter((one) => one.data.driven)) {
     const all = [0, run.plies.length - 1].map((i) => ({ i, nodes: faced(run.plies[i], tool, last) }));
     const least = ({ nodes }) => nodes.reduce((low, { gap }) => Math.min(low, gap), Infinity);
     const { i, nodes } = least(all[0]) < least(all[1]) ? all[0] : all[1];

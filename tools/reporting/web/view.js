@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // One picture: a run formed, or one of its flat blanks, or the difference of two runs.
 
+import { MOST_FAMILIES } from "plyform/ply.js";
 import { PlyMesh } from "plyform/ply_mesh.js";
 import { bands, cutsOf } from "plyform/section.js";
 import { cutting, plane, plyMaterial, sharedUniforms } from "plyform/shaders.js";
@@ -58,7 +59,7 @@ export class View {
     for (const tool of this.tools) {
       tool.solid.visible = settings.tools === "solid";
       tool.outline.visible = settings.tools === "outlines";
-      const up = tool.tool.told.shift[this.state];
+      const up = tool.tool.data.shift[this.state];
       tool.object.position.fromArray(up);
       if (settings.apart > 0) tool.object.position.z += this.liftOf(tool.tool, settings.apart);
     }
@@ -67,14 +68,14 @@ export class View {
   /** Tools above the stack go up with the uppermost ply when plies are drawn apart. */
   liftOf(tool, apart) {
     const last = this.run.plies.length - 1;
-    return tool.told.above ? last * apart : 0;
+    return tool.data.above ? last * apart : 0;
   }
 
   move(state) {
     this.state = state;
     this.x = this.run.plies.map((ply) => ply.places.state(state));
     this.plies.forEach((mesh, i) => {
-      if (this.flat) mesh.drawFormedOutline(this.x[i], mesh.ply.flat[2] + 0.5, mesh.ply.told.size / 150);
+      if (this.flat) mesh.drawFormedOutline(this.x[i], mesh.ply.flat[2] + 0.5, mesh.ply.data.size / 150);
       else mesh.move(this.x[i]);
     });
   }
@@ -102,7 +103,7 @@ export class View {
   }
 
   addBand(mesh, cuts, normal, lift) {
-    const { positions, of } = bands(cuts, normal, mesh.ply.told.thickness);
+    const { positions, of } = bands(cuts, normal, mesh.ply.data.thickness);
     const values = mesh.surface.geometry.getAttribute("value").array;
     const geometry = new THREE.BufferGeometry();
     geometry.setAttribute("position", new THREE.BufferAttribute(positions, 3));
@@ -110,7 +111,8 @@ export class View {
       new THREE.BufferAttribute(new Float32Array(positions.length).fill(1), 3));
     geometry.setAttribute("value",
       new THREE.BufferAttribute(Float32Array.from(of, (triangle) => values[3 * triangle]), 1));
-    geometry.setAttribute("yarn", new THREE.BufferAttribute(new Float32Array(2 * of.length), 2));
+    const yarns = new Float32Array(MOST_FAMILIES * of.length);
+    geometry.setAttribute("yarn", new THREE.BufferAttribute(yarns, MOST_FAMILIES));
     const uniforms = { ...this.uniforms, spacing: { value: 0 }, plane_on: { value: 0 }, lit: { value: 0 } };
     const band = new THREE.Mesh(geometry, plyMaterial(uniforms));
     band.frustumCulled = false;
