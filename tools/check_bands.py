@@ -185,11 +185,11 @@ def runs_of(scenes: list[Scene], folder: Path, program: Path) -> list[tuple[Run,
 def summary_of(run: Run) -> dict:
     """Empty if the run has not ended, or has no bands where it should."""
     try:
-        told = read_summary(run.folder, ("status", "plies", "tools"))
+        summary = read_summary(run.folder, ("status", "plies", "tools"))
     except Trouble:
         return {}
-    missing = told["status"] == "interrupted" or (run.verify and "verification" not in told)
-    return {} if missing else told
+    missing = summary["status"] == "interrupted" or (run.verify and "verification" not in summary)
+    return {} if missing else summary
 
 
 def do_run(run: Run, program: Path) -> None:
@@ -202,18 +202,18 @@ def do_run(run: Run, program: Path) -> None:
                            "--resume", *words, *(["--verify"] if run.verify else [])],
                           capture_output=True, text=True, check=False)
     said = done.stderr.strip().splitlines()
-    told = summary_of(run)
-    state = f"{told['status']}, {told.get('steps')} steps" if told else said[-1] if said else "no results"
+    summary = summary_of(run)
+    state = f"{summary['status']}, {summary.get('steps')} steps" if summary else said[-1] if said else "no results"
     print(f"{run.folder.name}: {state}", file=sys.stderr, flush=True)
 
 
 def shear_differences(program: Path, run: Run, other: Run) -> dict[str, float]:
     """Degrees rms, by ply."""
-    told = subprocess.run([program, "difference", run.folder, other.folder, "--by-ply"],
+    done = subprocess.run([program, "difference", run.folder, other.folder, "--by-ply"],
                           capture_output=True, text=True, check=False)
-    if told.returncode != 0:
-        raise Trouble(told.stderr.strip())
-    return {row["ply"]: float(row["rms"]) for row in csv.DictReader(told.stdout.splitlines())}
+    if done.returncode != 0:
+        raise Trouble(done.stderr.strip())
+    return {row["ply"]: float(row["rms"]) for row in csv.DictReader(done.stdout.splitlines())}
 
 
 def scalars(summary: dict) -> dict[str, float]:
@@ -229,9 +229,9 @@ def scalars(summary: dict) -> dict[str, float]:
 def figures_of(program: Path, first: Run, second: Run) -> list[Figure]:
     """Those of a scene, by (1)."""
     one, two = summary_of(first), summary_of(second)
-    for run, told in ((first, one), (second, two)):
-        if told.get("status") not in ("done", "doubtful"):
-            raise Trouble(f"{run.folder}: {told.get('message') or 'is missing'}")
+    for run, summary in ((first, one), (second, two)):
+        if summary.get("status") not in ("done", "doubtful"):
+            raise Trouble(f"{run.folder}: {summary.get('message') or 'is missing'}")
     apart = {f"shear of {ply}": by for ply, by in shear_differences(program, first, second).items()}
     a, b = scalars(one), scalars(two)
     apart |= {name: abs(a[name] - b[name]) for name in a

@@ -41,22 +41,22 @@ def reference_of(file: Path) -> tuple[str, ...]:
 
 def difference(program: Path, run: Run, reference: Run) -> float:
     """Of shear angles, degrees rms."""
-    told = subprocess.run([program, "difference", run.folder, reference.folder],
+    done = subprocess.run([program, "difference", run.folder, reference.folder],
                           capture_output=True, text=True, check=False)
-    if told.returncode != 0:
-        raise Trouble(told.stderr.strip())
-    return next(float(row["rms"]) for row in csv.DictReader(told.stdout.splitlines())
+    if done.returncode != 0:
+        raise Trouble(done.stderr.strip())
+    return next(float(row["rms"]) for row in csv.DictReader(done.stdout.splitlines())
                 if row["field"] == "shear_angle_deg")
 
 
 def row_of(program: Path, run: Run, reference: Run) -> list:
     """Name, triangles, steps, status, predicted and measured error."""
-    told, fine = summary_of(run), summary_of(reference)
-    for one, summary in ((run, told), (reference, fine)):
+    coarse, fine = summary_of(run), summary_of(reference)
+    for one, summary in ((run, coarse), (reference, fine)):
         if summary.get("status") not in ("done", "doubtful"):
             raise Trouble(f"{one.folder}: {summary.get('message') or 'is missing'}")
-    return [run.scene.name, told["elements"], told["steps"], told["status"],
-            told["accuracy"]["promised_shear_error_deg"], difference(program, run, reference)]
+    return [run.scene.name, coarse["elements"], coarse["steps"], coarse["status"],
+            coarse["accuracy"]["promised_shear_error_deg"], difference(program, run, reference)]
 
 
 def markdown(rows: list[list]) -> str:

@@ -19,10 +19,10 @@ def read_text(path: Path) -> str:
     try:
         opened = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
         with open(opened, "rb") as file:
-            told = os.fstat(opened)
-            if not stat.S_ISREG(told.st_mode) or told.st_size > _MOST:
+            status = os.fstat(opened)
+            if not stat.S_ISREG(status.st_mode) or status.st_size > _MOST:
                 raise Error(f"{path}: is no regular file of at most {_MOST // _MIB} MiB")
-            return file.read(told.st_size).decode("utf-8")
+            return file.read(status.st_size).decode("utf-8")
     except FileNotFoundError:
         raise
     except (OSError, UnicodeDecodeError) as problem:

@@ -36,13 +36,13 @@ def help_and_leave(act: Callable[[], object], size: int, to: int) -> None:
     try:
         limits(size)
         try:
-            told = (True, act())
+            outcome = (True, act())
         except BaseException as problem:  # the parent raises it
             if not isinstance(problem, Trouble):
                 problem.place = place_of(problem)
-            told = (False, problem)
+            outcome = (False, problem)
         with open(to, "wb") as pipe:
-            pickle.dump(told, pipe, protocol=5)
+            pickle.dump(outcome, pipe, protocol=5)
         code = 0
     finally:
         os._exit(code)  # nothing of this copy is to be flushed or written at exit
@@ -70,7 +70,7 @@ def read_apart(path: Path, act: Callable[[], object]):
         why = "takes too long" if ended in ("SIGXCPU", "SIGALRM") else f"ends with {ended}"
         raise Trouble(f"{path} cannot be read: HDF5 {why} on it: the file is damaged, or there is "
                       "not enough memory; run the case again")
-    good, told = pickle.loads(content)
+    good, outcome = pickle.loads(content)
     if good:
-        return told
-    raise told
+        return outcome
+    raise outcome

@@ -29,8 +29,8 @@ class NotReached(Exception):
 def one_line(text: object, most: int = LONGEST) -> str:
     """Any text in one line that a terminal, a deck or a script can take: what controls them, ends
     lines or is no character is written out, as \\x1b is."""
-    told = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(text))
-    return told if len(told) <= most else told[:most] + " ..."
+    line = "".join(c if c.isprintable() else ascii(c)[1:-1] for c in str(text))
+    return line if len(line) <= most else line[:most] + " ..."
 
 
 def words_of(problem: BaseException) -> str:

@@ -19,25 +19,25 @@ KINDS = ((stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, 
          (stat.S_ISCHR, "a device"), (stat.S_ISBLK, "a device"))
 
 
-def checked_size(path: Path, told: os.stat_result, most: int) -> None:
-    if not stat.S_ISREG(told.st_mode):
-        kind = next((word for test, word in KINDS if test(told.st_mode)), "something else")
+def checked_size(path: Path, status: os.stat_result, most: int) -> None:
+    if not stat.S_ISREG(status.st_mode):
+        kind = next((word for test, word in KINDS if test(status.st_mode)), "something else")
         raise Trouble(f"{path} is {kind}, not a file")
-    if told.st_size > most:
-        raise Trouble(f"{path} has {told.st_size / MIB:.0f} MiB, more than the {most / MIB:.0f} that "
+    if status.st_size > most:
+        raise Trouble(f"{path} has {status.st_size / MIB:.0f} MiB, more than the {most / MIB:.0f} that "
                       "such a file can have")
 
 
 def check_file(path: Path, most: int = BINARY) -> Path:
     """For libraries that open it themselves. Raises Trouble."""
     try:
-        told = os.stat(path)
+        status = os.stat(path)
     except FileNotFoundError:
         raise Trouble(f"{path} is missing") from None
     except (OSError, ValueError) as problem:
         raise Trouble(f"{path} cannot be read: {getattr(problem, 'strerror', None) or problem}") \
             from problem
-    checked_size(path, told, most)
+    checked_size(path, status, most)
     return path
 
 
@@ -55,9 +55,9 @@ def read_bytes(path: Path, most: int = TEXT) -> bytes:
     try:
         opened = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
         with open(opened, "rb") as file:
-            told = os.fstat(opened)
-            checked_size(path, told, most)
-            return file.read(told.st_size) or b""
+            status = os.fstat(opened)
+            checked_size(path, status, most)
+            return file.read(status.st_size) or b""
     except OSError as problem:
         raise Trouble(f"{path} cannot be read: {problem.strerror or problem}") from problem
 
@@ -100,9 +100,9 @@ def read_json(path: Path, most: int = TEXT):
     """Numbers are finite, texts have characters only. Raises Trouble, a Mistake with its place."""
     text = read_text(path, most)
     try:
-        told = json.loads(text, parse_float=plain_number, parse_int=whole_number,
+        data = json.loads(text, parse_float=plain_number, parse_int=whole_number,
                           parse_constant=no_constant)
-        json.dumps(told, ensure_ascii=False).encode()  # \ud800 is no character
+        json.dumps(data, ensure_ascii=False).encode()  # \ud800 is no character
     except json.JSONDecodeError as problem:
         raise Mistake(f"{path}:{problem.lineno}:{problem.colno}: {problem.msg}: this is no JSON") \
             from problem
@@ -111,7 +111,7 @@ def read_json(path: Path, most: int = TEXT):
     except (RecursionError, ValueError) as problem:
         why = "it nests too deep" if isinstance(problem, RecursionError) else problem
         raise Mistake(f"{path}: {why}: this is no JSON") from problem
-    return told
+    return data
 
 
 def read_toml(path: Path) -> dict:

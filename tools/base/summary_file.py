@@ -77,12 +77,12 @@ def check(path: Path, where: str, kind, value) -> None:
 
 def check_bodies(path: Path, summary: dict) -> None:
     for kind, what in (("plies", "ply"), ("tools", "tool"), ("boundaries", "boundary")):
-        told = summary.get(kind, [])
-        for i, body in enumerate(told):
+        bodies = summary.get(kind, [])
+        for i, body in enumerate(bodies):
             if "name" not in body:
                 raise broken(path, f"{kind}.{i}.name is missing")
             checked(body["name"], what, path, SEPARATORS)
-        if len({body["name"] for body in told}) < len(told):
+        if len({body["name"] for body in bodies}) < len(bodies):
             raise broken(path, f"{kind} has a name twice")
 
 

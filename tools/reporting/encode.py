@@ -31,8 +31,8 @@ class Blocks:
         numbers = np.rint((values - low) / step).astype(np.int64)
         error = float(abs(low + step * numbers - values).max(initial=0.0))
         self.errors[kind] = max(self.errors.get(kind, 0.0), error)
-        told = self.pack(numbers, bits)
-        return {**told, "low": low, "step": step, "shape": list(values.shape), "kind": kind}
+        packed = self.pack(numbers, bits)
+        return {**packed, "low": low, "step": step, "shape": list(values.shape), "kind": kind}
 
     def add_integers(self, numbers: np.ndarray) -> dict:
         return {**self.pack(numbers.astype(np.int64)[None], 32), "low": 0, "step": 1,

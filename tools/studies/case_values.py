@@ -21,14 +21,14 @@ def split_setting(setting: str) -> tuple[str, str]:
 @functools.lru_cache(maxsize=None)
 def defaults(program: Path) -> dict[str, object]:
     """Of the keys that have one, as `plyform keys` tells them; lists are KEY[]."""
-    told, key = {}, ""
+    values, key = {}, ""
     out = subprocess.run([program, "keys"], capture_output=True, text=True, check=True).stdout
     for line in out.splitlines():
         if not line.startswith(" "):
             key = line.strip()
-        elif key not in told and "; default " in line:
-            told[key] = toml_value(line.split("; default ", 1)[1].split("; ")[0].strip())
-    return told
+        elif key not in values and "; default " in line:
+            values[key] = toml_value(line.split("; default ", 1)[1].split("; ")[0].strip())
+    return values
 
 
 def number_in(at, step: str) -> int | None:

@@ -45,11 +45,11 @@ def area_means(radius: float | None, planner: Planner, runs: list[Run], folder: 
     """Columns by run's name; of what has not ended, or was stopped, none."""
     if radius is None:
         return {}
-    told, sound = {}, {run.name for run in runs if ended(folder, run).get("status") in SOUND}
+    columns, sound = {}, {run.name for run in runs if ended(folder, run).get("status") in SOUND}
     for run in runs:
         other = other_of(run, runs, planner.reference_name)
-        told[run.name] = {"against": other.label} if other else {}
+        columns[run.name] = {"against": other.label} if other else {}
         if run.name in sound:
             there = other if other and other.name in sound else None
-            told[run.name] |= columns_of(folder, run, there, radius)
-    return told
+            columns[run.name] |= columns_of(folder, run, there, radius)
+    return columns

@@ -44,10 +44,10 @@ class Options:
 
 def ended(folder: Path, run: Run) -> dict:
     """What the run left; empty if it has not ended."""
-    told = read_json(folder / "runs" / run.name / ENDED)
-    right = isinstance(told.get("status"), str) and isinstance(told.get("message", ""), str) and \
-        all(is_number(told.get(key, 0.0)) for key in ("cpu_s", "wall_time_s"))
-    return told if right else {}
+    end = read_json(folder / "runs" / run.name / ENDED)
+    right = isinstance(end.get("status"), str) and isinstance(end.get("message", ""), str) and \
+        all(is_number(end.get(key, 0.0)) for key in ("cpu_s", "wall_time_s"))
+    return end if right else {}
 
 
 def killed(folder: Path, run: Run) -> str:
@@ -58,8 +58,8 @@ def killed(folder: Path, run: Run) -> str:
 
 def snakemake_version() -> int:
     try:
-        told = subprocess.run(["snakemake", "--version"], capture_output=True, text=True, check=True)
-        return int(told.stdout.strip().partition(".")[0])
+        done = subprocess.run(["snakemake", "--version"], capture_output=True, text=True, check=True)
+        return int(done.stdout.strip().partition(".")[0])
     except FileNotFoundError:
         raise Trouble("there is no snakemake; install the package snakemake") from None
     except (OSError, ValueError, subprocess.CalledProcessError) as problem:
@@ -92,8 +92,8 @@ def check_profile(name: str, version: int) -> None:
 
 def has_plugin() -> bool:
     """Snakemake may be of another Python than this one: its help lists the executors it has."""
-    told = subprocess.run(["snakemake", "--help"], capture_output=True, text=True, check=False)
-    return "cluster-generic" in told.stdout
+    done = subprocess.run(["snakemake", "--help"], capture_output=True, text=True, check=False)
+    return "cluster-generic" in done.stdout
 
 
 def check_plain(folder: Path) -> None:
@@ -116,13 +116,13 @@ class Progress:
 
     def __init__(self, all_runs: int, missing: int):
         self.all, self.missing, self.begin = all_runs, missing, time.monotonic()
-        self.terminal, self.told = sys.stderr.isatty(), -1
+        self.terminal, self.shown_tenth = sys.stderr.isatty(), -1
 
     def tell(self, left: int, last: bool = False) -> None:
         tenth = 10 * (self.missing - left) // max(self.missing, 1)
-        if not (self.terminal or last or tenth > self.told):
+        if not (self.terminal or last or tenth > self.shown_tenth):
             return
-        self.told = tenth
+        self.shown_tenth = tenth
         passed = time.monotonic() - self.begin
         new = self.missing - left
         words = f"{self.all - left}/{self.all} runs, {clock(passed)}"
@@ -141,7 +141,7 @@ class Engine:
 
     def time_of_run(self) -> float:
         """Measured, where some have ended."""
-        times = [told.get("cpu_s", 0.0) for run in self.runs if (told := ended(self.options.folder, run))]
+        times = [end.get("cpu_s", 0.0) for run in self.runs if (end := ended(self.options.folder, run))]
         return sum(times) / len(times) if times else self.estimate_s
 
     def batches(self, missing: list[Run]) -> dict[str, list[str]]:
@@ -159,11 +159,11 @@ class Engine:
     def write_jobs(self, missing: list[Run]) -> None:
         folder = self.options.folder
         shutil.rmtree(folder / "jobs", ignore_errors=True)
-        told = {"program": str(self.options.program), "threads": self.options.threads,
+        jobs = {"program": str(self.options.program), "threads": self.options.threads,
                 "jobs": self.batches(missing),
                 "runs": {run.name: {"words": run.words(), "line": run.line, "label": run.label}
                          for run in missing}}
-        (folder / "jobs.json").write_text(json.dumps(told, indent=1), encoding="utf-8")
+        (folder / "jobs.json").write_text(json.dumps(jobs, indent=1), encoding="utf-8")
         # Snakemake sees no path but this file's: whatever a folder is called, no shell reads it
         words = shlex.join([sys.executable or "python3", "-S", str(HERE / "run_job.py")])
         (folder / "job.sh").write_bytes(os.fsencode(f'exec {words} jobs.json "$1"\n'))
@@ -233,10 +233,10 @@ class Engine:
 
     def why_not(self, missing: list[Run]) -> str:
         folder = self.options.folder
-        told = [f"runs/{run.name} was {words}" for run in missing if (words := killed(folder, run))]
-        if told:
-            more = f", and {len(told) - 3} more" if len(told) > 3 else ""
-            return ", ".join(told[:3]) + more + "; the same command does them again"
+        ended_runs = [f"runs/{run.name} was {words}" for run in missing if (words := killed(folder, run))]
+        if ended_runs:
+            more = f", and {len(ended_runs) - 3} more" if len(ended_runs) > 3 else ""
+            return ", ".join(ended_runs[:3]) + more + "; the same command does them again"
         lines = (folder / "snakemake.log").read_text(encoding="utf-8", errors="replace").split("\n")
         return " / ".join([line.strip() for line in lines if line.strip()][-6:]) or \
             "Snakemake has said nothing"

@@ -42,13 +42,13 @@ def standardised(columns: list[np.ndarray], figure: np.ndarray) -> tuple[list[fl
 
 
 def one_at_a_time(names: list[str], rows: list[dict], figure: str) -> list[dict]:
-    told = []
+    effects = []
     for name in names:
         own = [row for row in rows if row["line"] in (name, "case") and is_number(row.get(figure))]
         if len({str(row[name]) for row in own}) > 1:
-            told.append({"figure": figure, "key": name, "runs": len(own), "effect": effect_of(
+            effects.append({"figure": figure, "key": name, "runs": len(own), "effect": effect_of(
                 [row[name] for row in own], np.array([row[figure] for row in own], dtype=float))})
-    return told
+    return effects
 
 
 def together(study: Study, names: list[str], rows: list[dict], figure: str) -> list[dict]:
@@ -73,14 +73,14 @@ def rank(study: Study, names: list[str], rows: list[dict]) -> list[dict]:
     ended = [row for row in rows if row["status"] in ("done", "doubtful")]
     figures = dict.fromkeys(name for row in ended for name, value in row.items()
                             if name not in (*SKIPPED, *names) and is_number(value))
-    told = []
+    effects = []
     for figure in figures:
         found = one_at_a_time(names, ended, figure) if study.method == "one at a time" else \
             together(study, names, ended, figure)
         drawn = study.method in DRAWN
-        told += sorted(found, key=lambda row: -abs(row.get("standardised", 0.0) if drawn else
+        effects += sorted(found, key=lambda row: -abs(row.get("standardised", 0.0) if drawn else
                                                    row["effect"]))
-    return told
+    return effects
 
 
 def ranking_lines(ranks: list[dict], figure: str) -> list[str]:

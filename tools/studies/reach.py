@@ -26,17 +26,17 @@ def numbers_and_names(planner: Planner, rows: list[dict]) -> tuple[dict, list[st
 
 def one_way(rows: list[dict], key: str, own: float, up: bool) -> dict:
     """The last value that keeps all limits, the next one and what breaks there."""
-    told = {"last_within": "", "next": "", "breaks": ""}
+    ways = {"last_within": "", "next": "", "breaks": ""}
     there = sorted((row for row in rows if same(row[key], own) or (row[key] > own) == up),
                    key=lambda row: row[key], reverse=not up)
     for row in there:
         if row["status"] in LOST:
             break
         if row["breaks"]:
-            return told | {"next": row[key],
+            return ways | {"next": row[key],
                            "breaks": f"{row['breaks']} {row.get('stop', '')}".strip()}
-        told["last_within"] = row[key]
-    return told
+        ways["last_within"] = row[key]
+    return ways
 
 
 def reach(study: Study, planner: Planner, rows: list[dict]) -> list[dict]:
@@ -45,7 +45,7 @@ def reach(study: Study, planner: Planner, rows: list[dict]) -> list[dict]:
     if not (rows and study.limits):
         return []
     numbers, names = numbers_and_names(planner, rows)
-    told = []
+    ways = []
     for key, own in numbers.items():
         for up in (False, True):
             for group in dict.fromkeys(tuple(row[name] for name in names) for row in rows):
@@ -53,9 +53,9 @@ def reach(study: Study, planner: Planner, rows: list[dict]) -> list[dict]:
                          all(same(row[name], value) for name, value in numbers.items()
                              if name != key)]
                 if along:
-                    told.append({"key": key, "own": own, "direction": "up" if up else "down",
+                    ways.append({"key": key, "own": own, "direction": "up" if up else "down",
                                  **dict(zip(names, group)), **one_way(along, key, own, up)})
-    return told
+    return ways
 
 
 def cell(row: dict) -> str:

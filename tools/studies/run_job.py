@@ -34,10 +34,10 @@ def die_with_parent() -> None:
 def read_json(file: Path) -> dict:
     """Empty for what is no file of this program."""
     try:
-        told = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
+        data = json.loads(file.read_text(encoding="utf-8")) if file.is_file() else {}
     except (OSError, ValueError, RecursionError):
         return {}
-    return told if isinstance(told, dict) else {}
+    return data if isinstance(data, dict) else {}
 
 
 def end_of_log(work: Path) -> str:
@@ -103,9 +103,9 @@ def do_run(name: str, run: dict, study: dict) -> bool:
         killed.unlink(missing_ok=True)
         message = summary.get("message") or "" if status in ("done", "doubtful", "stopped") else \
             f"{how(code)}: {end_of_log(work)}"
-        told = {"status": status, "exit_code": code, "cpu_s": cpu,
+        end = {"status": status, "exit_code": code, "cpu_s": cpu,
                 "wall_time_s": summary.get("wall_time_s", wall), "message": message, **run}
-        (work / ENDED).write_text(json.dumps(told, indent=1), encoding="utf-8")
+        (work / ENDED).write_text(json.dumps(end, indent=1), encoding="utf-8")
         work.rename(final)
     return True
 

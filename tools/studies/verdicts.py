@@ -55,8 +55,8 @@ def fits(wanted, value) -> bool:
 
 
 def concerns(limit: Limit, row: dict) -> bool:
-    told = row | {"run": row["setting"]}
-    return not limit.where or any(all(fits(wanted, told.get(name, "")) for name, wanted in
+    values = row | {"run": row["setting"]}
+    return not limit.where or any(all(fits(wanted, values.get(name, "")) for name, wanted in
                                       one.items()) for one in limit.where)
 
 
@@ -106,10 +106,10 @@ def verdict(limit: Limit, rows: list[dict]) -> tuple[str, str]:
         return "fails", f"{limit.text}: {len(bad)} of {len(judged)}, {value:.3g} in {title(row)}"
     words = limit.text
     if judged:
-        told = [value for value, _ in judged]
-        range_ = f"{max(told):.3g} at most" if math.isinf(limit.at_least) else \
-            f"{min(told):.3g} at least" if math.isinf(limit.at_most) else \
-            f"{min(told):.3g} to {max(told):.3g}"
+        values = [value for value, _ in judged]
+        range_ = f"{max(values):.3g} at most" if math.isinf(limit.at_least) else \
+            f"{min(values):.3g} at least" if math.isinf(limit.at_most) else \
+            f"{min(values):.3g} to {max(values):.3g}"
         words += f" ({range_}, {len(judged)} judged)"
     missing = len(own) - len(judged)
     return (f"open, {missing} missing" if missing else "holds"), words
