@@ -17,7 +17,10 @@ def text(word):
 
 def put(group, name, values, place, unit, scale="from zero", quantity=""):
     """A dataset with its attributes."""
-    word = name.removesuffix("_angle_deg").removesuffix("_mm").removesuffix("_N").replace("_", "-")
+    word = name
+    for end in ("_angle_deg", "_deg", "_mm", "_N"):
+        word = word.removesuffix(end)
+    word = word.replace("_", "-")
     group[name] = values
     attributes = group[name].attrs
     for key, value in (("word", word), ("label", word.replace("-", " ")), ("unit", unit),
@@ -28,11 +31,11 @@ def put(group, name, values, place, unit, scale="from zero", quantity=""):
 
 
 def put_columns(ply, columns, pressure=None):
-    """Columns of a woven ply by name: all that are there."""
+    """Columns by name: all that are there."""
     if pressure is not None:
         put(ply, "contact_pressure", pressure, "node", "N/mm²")
     for name, values in columns.items():
-        if name in ("warp", "weft"):
+        if np.ndim(values) == 2:
             put(ply, name, values, "triangle", "1", "both ways", "direction")
         elif name.endswith("_strain"):
             put(ply, name, values, "triangle", "1", "both ways", "strain")

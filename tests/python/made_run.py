@@ -10,8 +10,13 @@ import numpy as np
 
 from described import put_columns, put_numbers, put_ply, texts
 
-CELLS = ("warp_strain", "weft_strain", "warp_tension_N", "weft_tension_N")
-COLUMNS = ("contact_pressure", "warp", "weft", "shear_angle_deg", *CELLS, "thickness_mm")
+WOVEN = ("warp", "weft")
+
+
+def columns_of(families):
+    """Names of a ply's columns, in order."""
+    return ["contact_pressure", *families, "shear_angle_deg", *(f"{one}_strain" for one in families),
+            *(f"{one}_tension_N" for one in families), "thickness_mm"]
 
 
 def square(cells=4, size=100.0):
@@ -24,7 +29,10 @@ def square(cells=4, size=100.0):
     return np.column_stack([x.ravel(), y.ravel(), 0.0 * x.ravel()]), triangles.astype(np.int32)
 
 
-def write_h5(path: Path, plies=("lower", "upper"), tools=("punch",), grips=("grip",)) -> None:
+def write_h5(path: Path, plies=("lower", "upper"), tools=("punch",), grips=("grip",),
+             families=None) -> None:
+    """`families`: of plies that are not woven, by name."""
+    own = {name: (families or {}).get(name, WOVEN) for name in plies}
     x0, triangles = square()
     along = x0[triangles].mean(axis=1)
     with h5py.File(path, "w") as file:
@@ -34,7 +42,7 @@ def write_h5(path: Path, plies=("lower", "upper"), tools=("punch",), grips=("gri
         file["time_s"], file["stroke_mm"], file["step"] = [0.0, 0.1], [0.0, 5.0], [0, 10]
         for name in plies:
             file[f"plies/{name}/x0"], file[f"plies/{name}/triangles"] = x0, triangles
-            put_ply(file[f"plies/{name}"], COLUMNS)
+            put_ply(file[f"plies/{name}"], columns_of(own[name]), own[name])
             put_numbers(file.create_group(f"history/plies/{name}"),
                         {"rms_shear_deg": ([0.0, 5.0], "deg"), "draw_in_mm": ([0.0, 1.0], "mm")}, "ply")
         for name in tools:
@@ -46,7 +54,7 @@ def write_h5(path: Path, plies=("lower", "upper"), tools=("punch",), grips=("gri
         put_numbers(file.create_group("history/energies"), {
             "kinetic_mJ": ([0.0, 0.1], "mJ"), "fibre_mJ": ([0.0, 2.0], "mJ")}, "run")
         for k in (0, 1):
-            put_state(file.create_group(f"frames/{k:06}"), k, x0, along, plies, tools, grips)
+            put_state(file.create_group(f"frames/{k:06}"), k, x0, along, own, tools, grips)
 
 
 def put_state(now, k, x0, along, plies, tools, grips) -> None:
@@ -54,14 +62,16 @@ def put_state(now, k, x0, along, plies, tools, grips) -> None:
     for key, value in (("time_s", 0.1 * k), ("stroke_mm", 5.0 * k), ("step", 10 * k)):
         now.attrs[key] = value
     shear = 10.0 * k * np.sin(along[:, 0] / 30.0)
-    for level, name in enumerate(plies):
+    for level, (name, families) in enumerate(plies.items()):
         ply = now.create_group(f"plies/{name}")
         ply["x"] = x0 + np.column_stack([0 * x0[:, 0], 0 * x0[:, 0],
                                          0.6 * level - 0.001 * k * (x0**2).sum(axis=1)])
-        put_columns(ply, {"shear_angle_deg": shear, "thickness_mm": np.full(count, 0.6),
-                          "warp": np.tile([1.0, 0.0, 0.0], (count, 1)),
-                          "weft": np.tile([0.0, 1.0, 0.0], (count, 1)),
-                          **{field: 0.001 * shear for field in CELLS}}, np.zeros(len(x0)))
+        columns = {"shear_angle_deg": shear, "thickness_mm": np.full(count, 0.6)}
+        for i, family in enumerate(families):
+            angle = np.pi * i / max(len(families), 2)
+            columns[family] = np.tile([np.cos(angle), np.sin(angle), 0.0], (count, 1))
+            columns[f"{family}_strain"] = columns[f"{family}_tension_N"] = 0.001 * (i + 1) * shear
+        put_columns(ply, columns, np.zeros(len(x0)))
     for name in tools:
         tool = now.create_group(f"tools/{name}")
         tool.attrs["displacement_mm"], tool.attrs["force_vector_N"] = [0, 0, -5.0 * k], [0, 0, 9.0]
@@ -109,9 +119,9 @@ HISTORY = """time_s,stroke_mm,punch_force_N,grip_force_N,fibre_mJ,shear_mJ,kinet
 """
 
 
-def write(folder: Path, **names) -> Path:
+def write(folder: Path, families=None, **names) -> Path:
     folder.mkdir(parents=True, exist_ok=True)
-    write_h5(folder / "results.h5", **names)
+    write_h5(folder / "results.h5", families=families, **names)
     (folder / "summary.json").write_text(json.dumps(summary(**names)), encoding="utf-8")
     (folder / "history.csv").write_text(HISTORY, encoding="utf-8")
     return folder

@@ -1,23 +1,35 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers of reports without a browser: what is written comes back, tools keep their shape when they
-are simplified.
+are simplified; any families of yarns are shown.
 
     report_encoding_test.py TOOLS
 """
 
 import base64
+import json
+import re
 import sys
+import tempfile
 import zlib
+from pathlib import Path
 
 try:
-    import h5py  # noqa: F401, the readers need it
+    import h5py
+    import jinja2  # noqa: F401, the page needs it
     import numpy as np
 except ImportError as problem:
     print("SKIPPED:", problem)
     sys.exit(77)
 
 sys.path.insert(0, sys.argv[1])
+import made_run  # noqa: E402
+from base.ending import Trouble  # noqa: E402
+from exchange.formed import read_formed  # noqa: E402
+from exchange.states import read_states  # noqa: E402
+from plotting.reading import read_state  # noqa: E402
 from reporting.encode import Blocks  # noqa: E402
+from reporting.page import page_of  # noqa: E402
+from reporting.reading_run import read_run  # noqa: E402
 from reporting import simplify  # noqa: E402
 from reporting.simplify import simplified  # noqa: E402
 
@@ -71,5 +83,55 @@ def check_simplified():
     assert abs(fewer[:, 2].min()) < 0.3 and abs(fewer[:, 2].max() - 100.0) < 0.3  # the rims stay
 
 
+def check_families():
+    """Plies of no family, of one, of two and of three: all of their columns are in a report, in
+    plots and in exports; what has fibres is mapped, and what has none says so."""
+    families = {"foil": (), "tape": ("tape",), "braid": ("a", "b", "c")}
+    with tempfile.TemporaryDirectory() as name:
+        run = made_run.write(Path(name) / "run", plies=(*families, "weave"), families=families)
+        data = json.loads(re.search(r'id="scene">(.*?)</script>', page_of([read_run(run)]), re.S)[1])
+        words = [column["word"] for column in data["columns"]]
+        for family in ("tape", "a", "b", "c", "warp", "weft"):
+            assert f"{family}-strain" in words and f"{family}-tension" in words, words
+        plies = {ply["name"]: ply for ply in data["runs"][0]["plies"]}
+        assert [one["name"] for one in plies["braid"]["families"]] == ["a", "b", "c"]
+        assert "c_strain" in plies["braid"]["cells"] and "c_strain" not in plies["tape"]["cells"]
+        assert [line["name"] for line in charts(data, "rms-shear")] == [*families, "weave"]
+        assert [line["name"] for line in charts(data, "energies")] == ["kinetic mJ", "fibre mJ"]
+        assert read_state(run, "shear").field.name == "shear_angle_deg"
+        expect(lambda: read_state(run, "c-strain"), "ply foil has no field c-strain: it has ")
+        body = next(body for body in read_states(run, "-1")[0].bodies if body.name == "braid")
+        assert {"a", "b", "c", "a_strain", "c_tension_N"} <= set(body.cells)
+        tape = read_formed(run, only=["tape"]).plies[0]
+        assert abs((tape.warp * tape.weft).sum(axis=1)).max() < 1e-9  # across the fibres
+        expect(lambda: read_formed(run), "ply foil has no fibres")
+
+
+def charts(data, word):
+    return next(one["lines"] for one in data["runs"][0]["charts"] if one["id"] == word)
+
+
+def expect(act, words):
+    try:
+        act()
+    except Trouble as problem:
+        assert words in str(problem), problem
+        return
+    raise AssertionError(f"nothing says: {words}")
+
+
+def check_layout():
+    """A file of another layout is refused with what to do, by whatever reads it."""
+    with tempfile.TemporaryDirectory() as name:
+        run = made_run.write(Path(name) / "run")
+        with h5py.File(run / "results.h5", "r+") as file:
+            file.attrs["format_version"] = 2
+        for read in (read_run, read_formed, lambda run: read_state(run, "shear")):
+            expect(lambda: read(run), "its layout is version 2, this plyform reads version 3: run the "
+                   "case again")
+
+
 check_encoding()
 check_simplified()
+check_families()
+check_layout()
