@@ -9,6 +9,7 @@
 #include "core/input/keys/entries.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/overrides.hpp"
+#include "core/input/keys/schema_case.hpp"
 #include "core/input/parts/case_parts.hpp"
 #include "core/model/fabric_estimates.hpp"
 
@@ -152,6 +153,7 @@ Case build_case(const TableView& root, const std::filesystem::path& folder,
   read_members(contact, built.contact);
   read_members(subsection(root, "solver"), built.solver);
   read_members(subsection(root, "accuracy"), built.accuracy);
+  read_further_parts(root, built, diagnostics);
   return built;
 }
 

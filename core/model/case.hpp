@@ -138,7 +138,7 @@ enum class ElementKind {
 
 struct SolverOptions {
   ElementKind element = ElementKind::automatic;
-  double duration = 0.1;             ///< s, simulated time of the stroke
+  double duration = 0.1;             ///< s, simulated time of the stroke: a cost parameter
   double dwell = 0.0;                ///< of the duration, at most, until forces have settled
   double step_factor = 0.5;          ///< fraction of the stable time step
   double fibre_softening = 1.0;      ///< fibre stiffness is divided by this
@@ -155,6 +155,11 @@ enum class SelfContact {
   automatic, ///< in a stack of two plies or more
   off,
   on,
+};
+
+/// The real process. What is simulated in solver.duration takes this long in it.
+struct ProcessOptions {
+  std::optional<double> duration; ///< s, of the stroke; needed where laws have rates
 };
 
 struct ContactOptions {
@@ -187,8 +192,14 @@ struct Case {
   Vec3 gravity = Vec3::Zero(); ///< mm/s^2
   FrictionTable friction;
   SolverOptions solver;
+  ProcessOptions process;
   ContactOptions contact;
   AccuracyOptions accuracy;
+
+  /// s of the process in each simulated second; 1 if it is not said how long the process takes
+  double process_time() const {
+    return process.duration.value_or(solver.duration) / solver.duration;
+  }
 };
 
 } // namespace plyform

@@ -14,10 +14,15 @@
 namespace plyform {
 
 /// What a law is asked at the end of a step. How fast the strain has changed follows from the
-/// strain that the law remembers.
+/// strain that the law remembers and one of two clocks. Rates of a material, and all else that
+/// takes time in it, go by the process: what they do must not change with solver.duration, which
+/// says how fast the process is simulated and costs accuracy by inertia alone. What is there for
+/// the sake of the simulation, as damping of its vibrations, goes by simulated time.
 struct LawInput {
   double strain = 0.0;
-  double per_dt = 0.0; ///< 1/s, inverse of the step that led to it; 0: at the start, no rate
+  double per_dt = 0.0; ///< 1/s, inverse of the simulated step that led to it; 0: at the start
+  /// 1/s, inverse of the time that this step takes in the process; 0 at the start
+  double per_process_dt = 0.0;
 };
 
 /// What it answers, per yarn.
@@ -35,18 +40,23 @@ struct LawBound {
 };
 
 /// now, next: `states` numbers each, of the begin and the end of the step; they may be the same.
+/// has_rates: whether it uses per_process_dt, so that a case needs process.duration.
 template <class L>
 concept YarnLaw = requires(const L law, const LawInput& in, const double* now, double* next) {
   { L::states } -> std::convertible_to<int>;
+  { L::has_rates } -> std::convertible_to<bool>;
   L::start(next); // what it remembers at the start
   { law.at(in, now, next) } -> std::same_as<LawAnswer>;
   { law.bound() } -> std::same_as<LawBound>;
 };
 
 /// An elastic yarn that is viscous while it is taut: N = W' + eta d(eps)/dt. States: stretch, and
-/// viscous tension (N), whose work follows from both by the trapezoidal rule.
+/// viscous tension (N), whose work follows from both by the trapezoidal rule. The viscosity is
+/// solver.fibre_damping, a fraction of critical of the stiffest mode of the mesh: it is there to
+/// damp vibrations of the simulation, no property of cloth, and sees simulated time.
 struct ViscousYarn {
   static constexpr int states = 2;
+  static constexpr bool has_rates = false;
   const TensionLaw& elastic;
   double viscosity = 0.0; ///< eta, N s
 
@@ -86,6 +96,22 @@ inline LawAnswer answer_of(const AnyYarnLaw& any, const LawInput& in, const doub
 
 inline LawBound bound_of(const AnyYarnLaw& any) {
   return std::visit([](const auto& law) { return law.bound(); }, any);
+}
+
+/// The law of a yarn. viscosity: N s, of the simulation.
+inline AnyYarnLaw yarn_law(const TensionLaw& elastic, double viscosity) {
+  return ViscousYarn{elastic, viscosity};
+}
+
+/// Whether a law sees rates of the process.
+template <YarnLaw... Laws>
+bool has_rates(const std::variant<Laws...>& any) {
+  return std::visit([](const auto& law) { return law.has_rates; }, any);
+}
+
+/// The same of any law of a fabric. Laws of sheets have no rates.
+inline bool has_rates(const Fabric& f) {
+  return f.has_yarns() && (has_rates(yarn_law(f.warp, 0.0)) || has_rates(yarn_law(f.weft, 0.0)));
 }
 
 } // namespace plyform

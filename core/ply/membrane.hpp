@@ -110,6 +110,7 @@ struct Membrane {
   double omega0 = 0.0;                       ///< rad
   double cells_per_area = 0.0;               ///< n_c, 1/mm^2
   FibreViscosity viscosity;
+  double process_time = 1.0; ///< s of the process in each simulated second: Case::process_time
   std::array<SideStiffness, 2> side{};   ///< warp, weft
   std::vector<Triangle> triangles;       ///< m, those of a strain group successive
   std::vector<std::int32_t> group_begin; ///< groups + 1, into triangles
@@ -126,7 +127,11 @@ struct Membrane {
   double cloth_mass(std::size_t n) const { return fabric.surface_density * node_area[n]; }
   /// The law of the yarns of a family: refers to this membrane.
   AnyYarnLaw law(std::size_t family) const {
-    return ViscousYarn{yarn[family], family == 0 ? viscosity.warp : viscosity.weft};
+    return yarn_law(yarn[family], family == 0 ? viscosity.warp : viscosity.weft);
+  }
+  /// What it is asked. per_dt: 1/s, inverse of the simulated step.
+  LawInput input(double strain, double per_dt) const {
+    return {strain, per_dt, per_dt / process_time};
   }
   int groups() const { return static_cast<int>(group_begin.size()) - 1; }
 };

@@ -124,7 +124,8 @@ void evaluate_yarns(const KernelLaw& law, int family, double per_dt, const doubl
     std::array<double, yarn_states> now{}, next{};
     for (std::size_t k = 0; k < now.size(); ++k)
       now[k] = begin[k][i];
-    const LawAnswer a = answer_of(yarns, {strain[i], per_dt}, now.data(), next.data());
+    const LawAnswer a =
+        answer_of(yarns, law.membrane->input(strain[i], per_dt), now.data(), next.data());
     for (std::size_t k = 0; k < next.size(); ++k)
       end[k][i] = next[k];
     answers.value[i] = d * a.value, answers.stored[i] = d * a.stored, answers.lost[i] = d * a.lost;

@@ -103,8 +103,10 @@ GroupReport yarn_forces(const Membrane& m, std::span<const Vec3> x, double dt, i
     const GroupState s = group_state(m, x, p);
     const YarnMemory& now = states.begin[at(p)];
     YarnMemory& next = states.end[at(p)];
-    const LawAnswer one = answer_of(warp, {s.mean1 - 1.0, per_dt}, now[0].data(), next[0].data());
-    const LawAnswer two = answer_of(weft, {s.mean2 - 1.0, per_dt}, now[1].data(), next[1].data());
+    const LawAnswer one =
+        answer_of(warp, m.input(s.mean1 - 1.0, per_dt), now[0].data(), next[0].data());
+    const LawAnswer two =
+        answer_of(weft, m.input(s.mean2 - 1.0, per_dt), now[1].data(), next[1].data());
     report.lost += s.area * (d1 * one.lost + d2 * two.lost);
     group_forces(m, s, one.value, two.value, q);
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i)
@@ -123,7 +125,8 @@ MembraneEnergy yarn_energy(const Membrane& m, std::span<const Vec3> x,
   if (states.empty()) start = memory_at_start(m), states = start;
   const auto stored = [&](std::size_t family, double mean, const YarnMemory& now) {
     YarnMemory next{}; // of no use: this is no step
-    return answer_of(m.law(family), {mean - 1.0, per_dt}, now[family].data(), next[family].data())
+    return answer_of(m.law(family), m.input(mean - 1.0, per_dt), now[family].data(),
+                     next[family].data())
         .stored;
   };
   for (int p = 0; p < m.groups(); ++p) {

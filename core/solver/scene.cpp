@@ -54,6 +54,7 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.thickness = fabric.thickness;
   body.membrane =
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
+  body.membrane.process_time = data.process_time();
   BendingLaw bending = fabric.bending;
   if (!fabric.has_yarns()) bending.in_plane = {}; // no yarns that could bend in its plane
   body.x0.reserve(mesh.x.size());

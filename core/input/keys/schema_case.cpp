@@ -216,6 +216,8 @@ Rows accuracy_rows() {
            .members = {to(&AccuracyOptions::verify)}}};
 }
 
+constexpr FurtherPart further_parts[] = {{process_rows, read_process}};
+
 Rows all_rows() {
   Rows rows{{.key = "title",
              .kind = K::text,
@@ -242,10 +244,17 @@ Rows all_rows() {
   append(rows, contact_rows());
   append(rows, solver_rows());
   append(rows, accuracy_rows());
+  for (const FurtherPart& part : further_parts)
+    append(rows, part.rows());
   return rows;
 }
 
 } // namespace
+
+void read_further_parts(const TableView& root, Case& built, Diagnostics& diagnostics) {
+  for (const FurtherPart& part : further_parts)
+    part.read(root, built, diagnostics);
+}
 
 const std::vector<KeyRow>& key_table() {
   static const std::vector<KeyRow> rows = all_rows();

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "core/input/keys/schema.hpp"
+#include "core/input/keys/schema_check.hpp"
 #include "core/model/case.hpp"
 #include "core/model/usual_ranges.hpp"
 
@@ -50,6 +51,22 @@ Rows blank_rows();
 Rows tool_rows();
 Rows shape_rows();
 Rows motion_rows();
+
+/// A part of a case that has a file of its own with its rows and its reader, which is called when
+/// fabrics, plies, tools and boundaries are read. The list: core/input/keys/schema_case.cpp.
+struct FurtherPart {
+  Rows (*rows)();
+  void (*read)(const TableView& root, Case& built, Diagnostics& diagnostics);
+};
+void read_further_parts(const TableView& root, Case& built, Diagnostics& diagnostics);
+
+/// core/input/keys/process_clock.cpp: the clock of the process.
+Rows process_rows();
+void read_process(const TableView& root, Case& built, Diagnostics& diagnostics);
+/// Reports a fabric whose laws have rates, as `rated` says, without process.duration; warns of one
+/// that does nothing.
+void check_clock(const TableView& root, const Case& built, bool (*rated)(const Fabric&),
+                 Diagnostics& diagnostics);
 
 /// core/input/keys/schema_boundary.cpp: [[boundary]]; and the keys of its springs and grippers,
 /// core/input/keys/schema_attachment.cpp.

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/model/case.hpp"
 #include "core/model/yarn_law.hpp"
+#include "core/ply/membrane.hpp"
 
 #include <array>
 #include <cmath>
@@ -11,11 +13,13 @@ namespace {
 /// A spring and a damper in a row, of one state: the stretch of the damper. A law that no file has.
 struct MaxwellYarn {
   static constexpr int states = 1;
+  static constexpr bool has_rates = true;
   double stiffness, time; ///< N, s
 
   static void start(double* state) { state[0] = 0.0; }
   LawAnswer at(const LawInput& in, const double* now, double* next) const {
-    const double share = in.per_dt > 0.0 ? 1.0 / (1.0 + time * in.per_dt) : 0.0; // implicit
+    const double per_dt = in.per_process_dt;
+    const double share = per_dt > 0.0 ? 1.0 / (1.0 + time * per_dt) : 0.0; // implicit
     const double gone = share * (in.strain - now[0]), left = in.strain - now[0] - gone;
     next[0] = now[0] + gone;
     return {stiffness * left, stiffness * (1.0 - share), 0.0, 0.5 * stiffness * left * left,
@@ -42,7 +46,7 @@ Balance follow(const Law& law, int steps) {
   now = next;
   Balance sum{0.0, -last.stored, 0.0};
   for (int i = 1; i <= steps; ++i) {
-    const LawInput in{strain_at(i, steps), 1e3 * steps};
+    const LawInput in{strain_at(i, steps), 1e3 * steps, 1e3 * steps};
     const LawAnswer answer = law.at(in, now.data(), next.data());
     const LawAnswer again = law.at(in, now.data(), next.data()); // no step
     EXPECT_EQ(answer.value, again.value);
@@ -90,6 +94,52 @@ TEST(YarnLaw, AnswersHaveTheirSlopeAndDamping) {
   EXPECT_EQ(law.at({-0.001, per_dt}, now.data(), next.data()).damping, 0.0); // slack
   EXPECT_EQ(next[1], 0.0);
   EXPECT_EQ(law.bound().slope, elastic.largest_slope());
+}
+
+/// N, tension of a yarn drawn to 1 % by a constant rate, simulated in so many seconds.
+template <YarnLaw Law>
+double tension_after(const Law& law, double simulated, double process) {
+  constexpr int steps = 1000;
+  Membrane membrane;
+  Case data;
+  data.solver.duration = simulated, data.process.duration = process;
+  membrane.process_time = data.process_time();
+  std::array<double, 2> now{}, next{};
+  law.start(now.data());
+  double tension = 0.0;
+  for (int i = 0; i <= steps; ++i) {
+    const double per_dt = i > 0 ? steps / simulated : 0.0;
+    tension = law.at(membrane.input(0.01 * i / steps, per_dt), now.data(), next.data()).value;
+    now = next;
+  }
+  return tension;
+}
+
+TEST(YarnLaw, RatesAreThoseOfTheProcessWhateverIsSimulated) {
+  const MaxwellYarn law{460.0, 2.0};
+  const double slow = tension_after(law, 0.1, 10.0), fast = tension_after(law, 0.02, 10.0);
+  EXPECT_NEAR(fast, slow, 1e-9 * slow);
+  const double rate = 0.01 / 10.0; // k theta rate (1 - exp(-t / theta))
+  EXPECT_NEAR(slow, 460.0 * 2.0 * rate * (1.0 - std::exp(-5.0)), 1e-3 * slow);
+  EXPECT_GT(tension_after(law, 0.1, 1.0), 2.0 * slow);
+}
+
+TEST(YarnLaw, DampingOfTheSimulationDoesNotSeeTheProcess) {
+  TensionLaw elastic;
+  elastic.stiffness = 460.0;
+  const ViscousYarn law{elastic, 0.02};
+  EXPECT_EQ(tension_after(law, 0.1, 10.0), tension_after(law, 0.1, 1000.0));
+  EXPECT_GT(tension_after(law, 0.001, 10.0), tension_after(law, 0.1, 10.0));
+}
+
+TEST(YarnLaw, SaysWhetherItHasRates) {
+  Fabric woven, foil;
+  foil.sheet = IsotropicLaw{};
+  EXPECT_FALSE(has_rates(woven));
+  EXPECT_FALSE(has_rates(foil));
+  using Laws = std::variant<ViscousYarn, MaxwellYarn>;
+  EXPECT_TRUE(has_rates(Laws(MaxwellYarn{1.0, 1.0})));
+  EXPECT_FALSE(has_rates(Laws(ViscousYarn{woven.warp, 1.0})));
 }
 
 } // namespace

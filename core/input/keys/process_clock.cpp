@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The clock of the process: [process].
+#include "core/input/keys/key_member.hpp"
+#include "core/input/keys/schema_case.hpp"
+#include "core/model/yarn_law.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace plyform {
+
+Rows process_rows() {
+  return {{.key = "process",
+           .kind = KeyKind::table,
+           .fallback = "{}",
+           .meaning = "the real process, of which the simulation is a faster one"},
+          {.key = "process.duration",
+           .unit = "s",
+           .otherwise = "not known; fabrics whose laws have rates need it",
+           .ranges = {{.least = 1e-6, .most = 1e9}},
+           .usual = {{.least = 0.1, .most = 1e5}},
+           .meaning = "time that the stroke takes in the real process, by which rates of materials "
+                      "go; solver.duration is what is simulated of it",
+           .members = {to(&ProcessOptions::duration)}}};
+}
+
+void check_clock(const TableView& root, const Case& built, bool (*rated)(const Fabric&),
+                 Diagnostics& diagnostics) {
+  const TableView process = subsection(root, "process");
+  const auto fabric = std::find_if(built.fabrics.begin(), built.fabrics.end(), rated);
+  const bool any = fabric != built.fabrics.end();
+  if (const TomlNode* duration = given(process, "duration"); duration && !any)
+    diagnostics.warning(duration->at,
+                        fmt::format("process.duration = {}: does nothing, as no law of these "
+                                    "fabrics depends on rates",
+                                    duration->source_text));
+  if (!built.process.duration && any)
+    diagnostics.error(
+        root.entry->at, "process.duration", "",
+        fmt::format("is missing, and laws of fabric {} depend on rates", fabric->name),
+        "give [process] a duration, the seconds that the real stroke takes");
+}
+
+void read_process(const TableView& root, Case& built, Diagnostics& diagnostics) {
+  read_members(subsection(root, "process"), built.process);
+  check_clock(root, built, has_rates, diagnostics);
+}
+
+} // namespace plyform
