@@ -115,8 +115,10 @@ void bind_outlook(py::module_& m) {
 
 void bind_case(py::module_& m) {
   bind_mistakes(m);
-  py::class_<PredictedError>(m, "PredictedError",
-                             "Predicted error of the shear angle, rms over all plies, by cause.")
+  py::class_<PredictedError>(
+      m, "PredictedError",
+      "Predicted error of the shear angle, rms over all plies, by cause; nan where "
+      "the rule was not measured.")
       .def_readonly("inertia_deg", &PredictedError::inertia, "Degrees, from the duration.")
       .def_readonly("softening_deg", &PredictedError::softening, "Degrees, from softened fibres.")
       .def_readonly("mesh_deg", &PredictedError::mesh, "Degrees, from the element size.")

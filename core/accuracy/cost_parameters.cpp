@@ -107,6 +107,7 @@ bool needs_small_elements(const Case& data) {
 }
 
 double pick_cost_parameters(Case& data, const FixedParameters& fixed) {
+  if (!not_measured(data).empty()) return 1.0;
   if (!fixed.element_size && awaits_scene(data) &&
       (largest_elements_suffice(data) || needs_small_elements(data)))
     for (BlankSpec& blank : data.blanks)

@@ -36,11 +36,11 @@ struct FixedParameters {
 /// reach without (not with boundaries); below 0.5 degrees as far down as that takes, to three
 /// thicknesses. If the mesh term leaves less than half of the error,
 /// inertia and softening get half of it. Does nothing without accuracy.shear_deg
-/// or a stroke. Fixed parameters are not changed; the others compensate for them as far as
-/// possible, with at least half of the requested error. A mesh that would come from the scene is
-/// made of the largest elements throughout where they suffice, or of small ones below 0.5 degrees
-/// (unless element sizes are fixed).
-/// Returns the ratio of the new element sizes to the old ones.
+/// or a stroke, or where (E) was not_measured. Fixed parameters are not changed; the others
+/// compensate for them as far as possible, with at least half of the requested error. A mesh that
+/// would come from the scene is made of the largest elements throughout where they suffice, or of
+/// small ones below 0.5 degrees (unless element sizes are fixed). Returns the ratio of the new
+/// element sizes to the old ones.
 double pick_cost_parameters(Case& data, const FixedParameters& fixed = {});
 
 } // namespace plyform

@@ -3,6 +3,8 @@
 
 #include "core/accuracy/error_numbers.hpp"
 #include "core/model/motion.hpp"
+#include "core/model/reach_ahead.hpp"
+#include "core/model/yarn_law.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,13 +35,29 @@ double PredictedError::promised(const Case& data) const {
                                                         : predicted;
 }
 
+std::string not_measured(const Case& all) {
+  const Case data = taking_part(all);
+  for (const Ply& ply : data.plies) {
+    const Fabric& f = data.fabrics[at(ply.fabric)];
+    const char* odd = !f.has_yarns()         ? "is a sheet without yarns"
+                      : has_rates(f)         ? "has laws that depend on rates"
+                      : !has_shear_energy(f) ? "has no stiffness in shear"
+                                             : nullptr;
+    if (odd) return fmt::format("not measured: {} {}", f.name, odd);
+  }
+  for (const Push& push : pushes(data))
+    if (!push.measured)
+      return fmt::format("not measured: {} acts on ply {}", push.name, data.plies[push.ply].name);
+  return {};
+}
+
 PredictedError predicted_error(const Case& data) {
   return predicted_error(data, assumed_mass_factor(data));
 }
 
 PredictedError predicted_error(const Case& data, double mass_factor) {
   const ErrorNumbers n = error_numbers(data, mass_factor);
-  if (n.inertia_factor == 0.0) {
+  if (n.inertia_factor == 0.0 || !not_measured(data).empty()) {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
     return {unknown, unknown, unknown};
   }
@@ -49,9 +67,9 @@ PredictedError predicted_error(const Case& data, double mass_factor) {
 
 std::string PredictedError::unknown(const Case& data) const {
   if (!std::isnan(total())) return {};
-  return longest_strokes(data).longest() == 0.0
-             ? "nothing has a stroke"
-             : "the size of the elements of a mesh file is not known";
+  if (longest_strokes(data).longest() == 0.0) return "nothing has a stroke";
+  const std::string odd = not_measured(data);
+  return odd.empty() ? "the size of the elements of a mesh file is not known" : odd;
 }
 
 std::string describe_accuracy(const PredictedError& error, double promised, double coarsening,

@@ -38,7 +38,13 @@ struct PredictedError {
   std::string unknown(const Case& data) const;
 };
 
-/// (E) for a case with a stroke (of driven tools or boundaries); NaN without one. With several
+/// Why (E) says nothing of a case: it has a part that none of the cases had that (E) was fitted to,
+/// which were dry cloth of two families of yarns, sheared, formed by tools or pulled by grips.
+/// Empty if it has none.
+std::string not_measured(const Case& data);
+
+/// (E) for a case with a stroke (of driven tools or boundaries); NaN without one, and where it was
+/// not_measured. With several
 /// fabrics and blanks the largest errors count. mass_factor: of rho in I, by element mass scaling
 /// (effective_mass_factor, core/solver/element_mass_scaling.hpp); without it what the share that
 /// solver.element_mass_scaling allows may come to.

@@ -36,6 +36,11 @@ constexpr double most_inertia = 0.36, most_inertia_at = 3.0;
 // Limit for stacks, from stacks of yarns that carry tension only; not checked on real cloth.
 constexpr double measured_max_softening_of_stack = 300.0;
 
+/// w, N/mm.
+double shear_energy_of(const Fabric& f) {
+  return f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.at(half_radian).energy;
+}
+
 /// w: energy of shear per area, N/mm.
 void add_families(ErrorNumbers& n, const Fabric& f, double w) {
   constexpr double any = std::numeric_limits<double>::infinity();
@@ -100,6 +105,10 @@ double element_size_of(const BlankSpec& blank) {
 
 } // namespace
 
+bool has_shear_energy(const Fabric& fabric) {
+  return shear_energy_of(fabric) > 0.0;
+}
+
 ErrorNumbers error_numbers(const Case& all, double mass_factor) {
   ErrorNumbers n;
   n.max_inertia = most_inertia, n.max_softening = measured_max_softening;
@@ -129,9 +138,8 @@ ErrorNumbers error_numbers(const Case& all, double mass_factor) {
     const Fabric& f = data.fabrics[ply.fabric];
     const double mesh = element_size_of(data.blanks[ply.blank]) / stroke;
     if (std::isnan(mesh) || mesh > n.mesh) n.mesh = mesh; // NaN stays
-    const double w =
-        f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.at(half_radian).energy;
-    if (!(w > 0.0)) continue; // no shear stiffness: nothing to compare with
+    const double w = shear_energy_of(f);
+    if (!(w > 0.0)) continue; // nothing to compare with
     n.inertia = std::max(n.inertia, 0.5 * mass_factor * f.surface_density * fast * fast / w);
     add_families(n, f, w);
   }

@@ -45,6 +45,9 @@ struct ErrorNumbers {
   void hold_inertia(double wanted);
 };
 
+/// Whether w, which I and S are over, is more than 0.
+bool has_shear_energy(const Fabric& fabric);
+
 /// mass_factor: of the mass that counts in I, by element mass scaling.
 ErrorNumbers error_numbers(const Case& all, double mass_factor);
 

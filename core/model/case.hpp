@@ -202,4 +202,13 @@ struct Case {
   }
 };
 
+/// What moves a ply without touching it.
+struct Push {
+  std::size_t ply;
+  Vec3 way;         ///< mm, how far it may take the ply
+  std::string name; ///< "gravity"
+  bool measured;    ///< whether scenes that the error model was fitted to have it
+};
+std::vector<Push> pushes(const Case& data);
+
 } // namespace plyform

@@ -123,10 +123,15 @@ struct Bodies {
   explicit Bodies(const Case& data) : tools(), plies() {
     for (const Tool& tool : data.tools)
       tools.push_back(body_of(data, tool));
+    const std::vector<Push> pushed = pushes(data);
     for (std::size_t p = 0; p < data.plies.size(); ++p) {
       Body body{box_of_ply(data, data.plies[p])};
-      bool moves = !data.gravity.isZero(0.0);
-      body.way.extend(0.5 * time_of(data) * time_of(data) * data.gravity);
+      bool moves = false;
+      for (const Push& push : pushed) {
+        if (push.ply != p) continue;
+        moves = true;
+        body.way.extend(push.way);
+      }
       for (const Boundary& b : data.boundaries) {
         if (b.ply != -1 && b.ply != static_cast<int>(p)) continue;
         moves = true;

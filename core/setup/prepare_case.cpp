@@ -125,11 +125,15 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
   if (!picked.reading.value) return picked;
   const auto [fixed, keys] = parameters_set(picked.reading.overridden);
   picked.fixed = fixed;
-  if (picked.reading.value->accuracy.shear_error > 0.0 &&
-      longest_strokes(*picked.reading.value).longest() == 0.0) {
-    picked.notes.emplace_back("accuracy asked for: it does nothing, since nothing is driven by a "
-                              "stroke, by which duration, softening and mesh would be picked");
-    return picked;
+  if (picked.reading.value->accuracy.shear_error > 0.0) {
+    if (longest_strokes(*picked.reading.value).longest() == 0.0)
+      picked.notes.emplace_back("accuracy asked for: it does nothing, since nothing is driven by a "
+                                "stroke, by which duration, softening and mesh would be picked");
+    else if (const std::string odd = not_measured(*picked.reading.value); !odd.empty())
+      picked.notes.push_back("accuracy asked for: it does nothing, since the rule by which "
+                             "duration, softening and mesh would be picked was " +
+                             odd);
+    if (!picked.notes.empty()) return picked;
   }
   const bool awaited_scene = awaits_scene(*picked.reading.value);
   picked.coarsening = pick_cost_parameters(*picked.reading.value, fixed);

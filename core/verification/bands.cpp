@@ -205,7 +205,10 @@ double force_jitter(const Case& data, const Frame& last) {
 }
 
 std::vector<double> forces_by_balance(const Case& data, const Frame& last) {
-  if (!data.boundaries.empty()) return {};
+  const std::vector<Push> pushed = pushes(data);
+  if (!data.boundaries.empty() ||
+      std::any_of(pushed.begin(), pushed.end(), [](const Push& push) { return !push.measured; }))
+    return {};
   Vec3 all = Vec3::Zero();
   for (const ToolFrame& tool : last.tools)
     all += tool.force;

@@ -135,6 +135,7 @@ def check_sheets(browser, folder):
     assert len(browser.driver.find_elements("css selector", "#plies input")) == 20
     words, fields = shown(browser, sheets(folder / "foil", "A foil", FOIL, 1))
     assert "pressed" not in fields and "Pressed yarns".upper() not in words
+    assert "predicted: not measured: cloth is a sheet without yarns." in words
 
 
 def check_messages(folder):

@@ -84,7 +84,7 @@ bool plies_move_without(const MotionCheck& check, std::size_t but) {
   const Case& scene = check.scene;
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     if (t != but && arrives(scene.tools[t], check.ways[t])) return true;
-  return scene.gravity.norm() > 0.0 ||
+  return !pushes(scene).empty() ||
          std::any_of(scene.boundaries.begin(), scene.boundaries.end(),
                      [](const Boundary& b) { return stroke_of(b) != 0.0 || !prescribes(b); });
 }

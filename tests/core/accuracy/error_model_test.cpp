@@ -285,6 +285,31 @@ TEST(Accuracy, StaysWhereTheRuleWasMeasured) {
             "accuracy is not predicted: nothing has a stroke");
 }
 
+TEST(Accuracy, IsNotToldOfWhatTheRuleWasNotFittedTo) {
+  const auto told = [](const Case& data) {
+    const PredictedError error = predicted_error(data);
+    EXPECT_TRUE(std::isnan(error.total()));
+    EXPECT_TRUE(std::isnan(error.promised(data)));
+    return describe_accuracy(error, error.promised(data), 1.0, error.unknown(data));
+  };
+  Case asked = case_at(five);
+  EXPECT_EQ(not_measured(asked), "");
+  asked.accuracy.shear_error = 0.02;
+  const double duration = asked.solver.duration;
+  Case foil = asked;
+  foil.fabrics[0] = Fabric{};
+  foil.fabrics[0].name = "foil", foil.fabrics[0].thickness = asked.fabrics[0].thickness;
+  foil.fabrics[0].sheet = IsotropicLaw{100.0, 0.3};
+  EXPECT_EQ(told(foil), "accuracy is not predicted: not measured: foil is a sheet without yarns");
+  pick_cost_parameters(foil);
+  EXPECT_EQ(foil.solver.duration, duration);
+  Case limp = asked;
+  limp.fabrics[0].shear = {};
+  EXPECT_NE(told(limp).find("has no stiffness in shear"), std::string::npos);
+  pick_cost_parameters(asked);
+  EXPECT_NE(asked.solver.duration, duration);
+}
+
 TEST(Accuracy, AMeshTooCoarseLeavesHalfToTheOtherDials) {
   Case data = case_at(five, {{"blanks.square.element_size", "40"}});
   data.accuracy.shear_error = 1.0 * std::numbers::pi / 180.0;
