@@ -202,6 +202,10 @@ struct Case {
   }
 };
 
+/// Takes out all plies but those for which keep (one per ply) is not 0, and numbers anew those that
+/// boundaries name. Nothing may act on what is taken out.
+void keep_plies(Case& data, const std::vector<char>& keep);
+
 /// What moves a ply without touching it.
 struct Push {
   std::size_t ply;

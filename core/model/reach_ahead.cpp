@@ -216,9 +216,8 @@ Case taking_part(const Case& data) {
   Case part = data;
   if (std::find(ahead.ply_moves.begin(), ahead.ply_moves.end(), 1) == ahead.ply_moves.end())
     return part;
-  part.plies.clear(), part.tools.clear();
-  for (std::size_t p = 0; p < data.plies.size(); ++p)
-    if (ahead.ply_moves[p]) part.plies.push_back(data.plies[p]);
+  keep_plies(part, ahead.ply_moves);
+  part.tools.clear();
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     if (ahead.tool_reaches[t]) part.tools.push_back(data.tools[t]);
   return part;

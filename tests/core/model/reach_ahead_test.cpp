@@ -84,5 +84,18 @@ TEST(ReachAhead, CostParametersAreThoseOfWhatTakesPart) {
   EXPECT_EQ(predicted_error(beside).total(), predicted_error(alone).total());
 }
 
+TEST(ReachAhead, BoundariesKeepTheirPliesWhenOthersAreTakenOut) {
+  Case data = with_another(500.0);
+  std::swap(data.plies[0], data.plies[1]); // the far one first: nothing moves it
+  Boundary held;
+  held.ply = 1;
+  data.boundaries = {held};
+  const Case part = taking_part(data);
+  ASSERT_EQ(part.plies.size(), 1u);
+  EXPECT_EQ(part.plies[0].name, data.plies[1].name);
+  EXPECT_EQ(part.boundaries[0].ply, 0);
+  EXPECT_TRUE(reach_ahead(part).ply_moves[0]);
+}
+
 } // namespace
 } // namespace plyform::reach_ahead_test
