@@ -25,17 +25,6 @@ std::vector<Stage> stages_of(const Boundary& b) {
   return {force > 0.0 ? Stage{force_rise, force} : Stage{1.0, stroke_of(b)}};
 }
 
-double value_at(const std::vector<Stage>& stages, double t, double duration) {
-  Stage before{0.0, 0.0};
-  for (const Stage& stage : stages) {
-    const double begin = before.share * duration, length = (stage.share - before.share) * duration;
-    if (t < begin + length)
-      return before.value + smooth_step(stage.value - before.value, t - begin, length);
-    before = stage;
-  }
-  return before.value;
-}
-
 /// Largest mean speed of a stage, as the way that it would take over the whole duration, mm.
 double fastest(const std::vector<Stage>& stages) {
   double most = 0.0;
@@ -48,6 +37,17 @@ double fastest(const std::vector<Stage>& stages) {
 }
 
 } // namespace
+
+double programme_value(const std::vector<Stage>& stages, double t, double duration) {
+  Stage before{0.0, 0.0};
+  for (const Stage& stage : stages) {
+    const double begin = before.share * duration, length = (stage.share - before.share) * duration;
+    if (t < begin + length)
+      return before.value + smooth_step(stage.value - before.value, t - begin, length);
+    before = stage;
+  }
+  return before.value;
+}
 
 double whole_stroke(const Case& data) {
   for (const Tool& t : data.tools)
@@ -86,11 +86,11 @@ double smooth_step(double end, double t, double duration) {
 }
 
 double motion_at(const Tool& tool, double t, double duration) {
-  return value_at(stages_of(tool), t, duration);
+  return programme_value(stages_of(tool), t, duration);
 }
 
 double motion_at(const Boundary& boundary, double t, double duration) {
-  return value_at(stages_of(boundary), t, duration);
+  return programme_value(stages_of(boundary), t, duration);
 }
 
 double force_share(double t, double duration) {

@@ -26,6 +26,10 @@ Strokes longest_strokes(const Case& data);
 /// stacks come as close to the result of a slow run in a tenth less time (docs/tried.md).
 double smooth_step(double end, double t, double duration);
 
+/// Value of a programme at time t (s) of `duration` (s): one stage after the other, each by
+/// smooth_step from the value before to its own; what comes after the last one stays.
+double programme_value(const std::vector<Stage>& stages, double t, double duration);
+
 /// Displacement (mm) of a driven tool along its direction, or the force (N) on a pushed one, at
 /// time t (s) of `duration` (s). One stage after the other, each by smooth_step from the value
 /// before to its own; what comes after the last one stays. Without a programme a stroke takes the

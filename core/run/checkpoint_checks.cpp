@@ -94,7 +94,7 @@ void visit_arrays(const PlyState& ply, const Visit& visit) {
     if constexpr (requires { values.size(); })
       visit(name, values);
     else
-      expect(place == On::ply, name);
+      expect(place == On::ply && sound(values), name);
   });
 }
 

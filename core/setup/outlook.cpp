@@ -11,6 +11,7 @@
 #include "core/setup/size_ahead.hpp"
 #include "core/setup/tool_cuts.hpp"
 #include "core/solver/element_mass_scaling.hpp"
+#include "core/solver/force_kinds.hpp"
 #include "core/solver/stable_time_step.hpp"
 #include "core/solver/step.hpp"
 
@@ -354,6 +355,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   describe_tools(s, prepared.meshes, lines);
   for (std::string& line : boundaries_ahead(s))
     lines.push_back(std::move(line));
+  each_kind([&]<class K>() { K::describe(s, lines); });
   const StepBound bound = stable_step(s, contact_rows(s, pool));
   outlook.stable_step = bound.dt;
   outlook.step = s.next_dt;

@@ -75,6 +75,8 @@ struct NoForce {
   static std::optional<Stop> fault(const Scene&) { return std::nullopt; }
   static void add_times(const Scene&, Times&) {}
   static void add_seen(const Scene&, std::vector<PairSeen>&) {}
+  /// What `plyform check` says of it before a run, a line each.
+  static void describe(const Scene&, std::vector<std::string>&) {}
 };
 
 /// Membranes of plies: alone to know whether a ply is computed by packs or one by one.
@@ -173,7 +175,7 @@ template <class K>
 concept ForceKind = std::derived_from<K, NoForce> && std::is_empty_v<K> &&
     requires(const Scene& seen, Scene& s, const PlyBody& ply, ThreadPool& pool, Vec3* f,
              Energies& e, std::span<ContactRow> rows, Times& times, std::vector<PairSeen>& pairs,
-             Frequencies& of) {
+             Frequencies& of, std::vector<std::string>& lines) {
   { K::tasks(seen) } -> std::same_as<int>;
   { K::place(seen, 0) } -> std::same_as<double>;
   K::run(s, 0);
@@ -189,6 +191,7 @@ concept ForceKind = std::derived_from<K, NoForce> && std::is_empty_v<K> &&
   { K::fault(seen) } -> std::same_as<std::optional<Stop>>;
   K::add_times(seen, times);
   K::add_seen(seen, pairs);
+  K::describe(seen, lines);
 };
 
 /// f.operator()<K>() for each kind K of a list, in its order.
