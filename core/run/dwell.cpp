@@ -44,7 +44,7 @@ bool dwell_ends(Dwell& dwell, const Scene& s, ThreadPool& pool) {
   const SolverOptions& solver = s.data.solver;
   if (s.time < solver.duration) return false;
   if (solver.dwell == 0.0) return true;
-  if (dwell.low.empty()) begin_window(dwell, s);
+  if (dwell.window_end == 0.0) begin_window(dwell, s); // low and high are empty without tools
   for (std::size_t t = 0; t < s.tools.size(); ++t) {
     const double force = force_of(s.tools[t]);
     dwell.low[t] = std::min(dwell.low[t], force);

@@ -4,6 +4,7 @@
 #include "core/run/run.hpp"
 #include "support/scene_checks.hpp"
 
+#include <atomic>
 #include <cmath>
 #include <gtest/gtest.h>
 #include <numbers>
@@ -51,6 +52,21 @@ TEST(Dwell, WaitsUntilForcesHaveSettled) {
   EXPECT_LE(kinetic(some), 0.01);
   for (const std::string& line : some.summary.work.missing)
     EXPECT_EQ(line.find("not settled"), std::string::npos) << line;
+}
+
+TEST(Dwell, EndsWithoutToolsToo) {
+  Case data = stack_of({0.0}, rectangle(40.0, 40.0, 10.0));
+  data.gravity = {0.0, 0.0, -9810.0}; // it falls: never at rest
+  set_friction(data, 0.0);
+  data.solver.duration = 0.002;
+  data.solver.dwell = 0.2;
+  RunHooks hooks;
+  std::atomic<bool> endless = false;
+  hooks.interrupt = &endless;
+  hooks.progress = [&](const Progress& now) { endless = endless || now.step > 100000; };
+  const RunResult run = run_case(data, 1, hooks);
+  ASSERT_TRUE(ended(run.summary.status)) << run.summary.message;
+  EXPECT_NEAR(run.last.time, 0.0024, 1e-4);
 }
 
 TEST(Dwell, SaysThatForcesHaveNotSettled) {
