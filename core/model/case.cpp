@@ -14,6 +14,8 @@ void keep_plies(Case& data, const std::vector<char>& keep) {
   data.plies = std::move(kept);
   for (Boundary& b : data.boundaries)
     if (b.ply >= 0) b.ply = number[static_cast<std::size_t>(b.ply)];
+  for (PressureLoad& load : data.loads)
+    load.ply = number[static_cast<std::size_t>(load.ply)];
 }
 
 std::vector<Push> pushes(const Case& data) {
@@ -21,6 +23,14 @@ std::vector<Push> pushes(const Case& data) {
   const double time = (1.0 + data.solver.dwell) * data.solver.duration;
   for (std::size_t p = 0; p < data.plies.size() && !data.gravity.isZero(0.0); ++p)
     found.push_back({p, 0.5 * time * time * data.gravity, "gravity", true});
+  for (const PressureLoad& load : data.loads) { // as far as a ply flies that nothing holds
+    const auto p = static_cast<std::size_t>(load.ply);
+    const double density =
+        data.fabrics[static_cast<std::size_t>(data.plies[p].fabric)].surface_density;
+    const double up = load.side == PlyFace::below ? 1.0 : -1.0;
+    found.push_back(
+        {p, 0.5 * time * time * up * load.pressure / density * Vec3::UnitZ(), "a pressure", false});
+  }
   return found;
 }
 

@@ -130,6 +130,22 @@ struct Boundary {
   }
 };
 
+/// Which face of a ply: that which is up at the start, or the other.
+enum class PlyFace { above, below };
+
+/// A pressure on a face of a ply. It stays normal to the surface as that deforms, and pushes
+/// against it.
+struct PressureLoad {
+  int ply = 0; ///< index into Case::plies
+  PlyFace side = PlyFace::above;
+  double pressure = 0.0;        ///< N/mm^2; the largest of a programme
+  std::vector<Stage> programme; ///< of it, in order of time; empty: it rises over the duration
+
+  std::vector<Stage> stages() const {
+    return programme.empty() ? std::vector<Stage>{{1.0, pressure}} : programme;
+  }
+};
+
 enum class ElementKind {
   automatic, ///< plain where sides run along both fibre families, averaged elsewhere
   plain,     ///< the paper's element
@@ -189,6 +205,7 @@ struct Case {
   std::vector<Ply> plies;
   std::vector<Tool> tools;
   std::vector<Boundary> boundaries;
+  std::vector<PressureLoad> loads;
   Vec3 gravity = Vec3::Zero(); ///< mm/s^2
   FrictionTable friction;
   SolverOptions solver;
@@ -203,14 +220,14 @@ struct Case {
 };
 
 /// Takes out all plies but those for which keep (one per ply) is not 0, and numbers anew those that
-/// boundaries name. Nothing may act on what is taken out.
+/// boundaries and loads name. Nothing may act on what is taken out.
 void keep_plies(Case& data, const std::vector<char>& keep);
 
 /// What moves a ply without touching it.
 struct Push {
   std::size_t ply;
   Vec3 way;         ///< mm, how far it may take the ply
-  std::string name; ///< "gravity"
+  std::string name; ///< "gravity", "a pressure"
   bool measured;    ///< whether scenes that the error model was fitted to have it
 };
 std::vector<Push> pushes(const Case& data);

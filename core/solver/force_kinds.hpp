@@ -162,14 +162,40 @@ struct PlyContacts : NoForce {
   }
 };
 
+/// Bound of the stiffness of pressures, at each node.
+class PressureProduct : public NoProduct {
+public:
+  PressureProduct(const Scene& s, const TangentFactors& factors);
+  void add_on_ply(std::size_t ply, const PerPly& y, PerPly& f) const;
+
+private:
+  std::vector<std::vector<double>> on_ply_; ///< N/mm, times the factor; empty without a pressure
+};
+
+/// Pressures on faces of plies. A task a ply: core/solver/pressure_forces.cpp.
+struct PressureForces : NoForce {
+  static int tasks(const Scene& s) {
+    return s.data.loads.empty() ? 0 : static_cast<int>(s.plies.size());
+  }
+  static double place(const Scene& s, int task);
+  static void run(Scene& s, int task);
+  static void end_step(Scene& s);
+  static void list_arrays(Scene& s);
+  static void add_energies(const Scene& s, ThreadPool&, Energies& e);
+  static void add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows);
+  using Product = PressureProduct;
+  static void describe(const Scene& s, std::vector<std::string>& lines);
+};
+
 /// The list, in the order in which forces are added on a node. The first kind sets them.
-using Forces = std::tuple<ElementForces, BendingForces, BoundaryForces, ToolContacts, PlyContacts>;
+using Forces = std::tuple<ElementForces, BendingForces, BoundaryForces, PressureForces,
+                          ToolContacts, PlyContacts>;
 /// The order in which threads begin them, the longest first.
-using TasksOfForces =
-    std::tuple<PlyContacts, ToolContacts, ElementForces, BendingForces, BoundaryForces>;
+using TasksOfForces = std::tuple<PlyContacts, ToolContacts, ElementForces, BendingForces,
+                                 PressureForces, BoundaryForces>;
 /// The order of sums over kinds.
-using SumsOfForces =
-    std::tuple<ToolContacts, PlyContacts, ElementForces, BendingForces, BoundaryForces>;
+using SumsOfForces = std::tuple<ToolContacts, PlyContacts, ElementForces, BendingForces,
+                                BoundaryForces, PressureForces>;
 
 template <class K>
 concept ForceKind = std::derived_from<K, NoForce> && std::is_empty_v<K> &&

@@ -63,6 +63,8 @@ struct PlyState {
   std::vector<SimdYarnStates> yarns;
   /// At rest where it began, with nothing near that moves (core/solver/resting.hpp).
   bool resting = false;
+  /// N mm, done by pressures since the start, but for what PlyCache::last_load_work has.
+  double load_work = 0.0;
 };
 
 /// The one list of a ply's state: f(name, place, values) for each member. Checkpoint, comparison
@@ -70,7 +72,7 @@ struct PlyState {
 /// compile.
 template <class F>
 void each_array(PlyState& ply, F&& f) {
-  auto& [x, velocity, motion, reaction, mass, yarns, resting] = ply;
+  auto& [x, velocity, motion, reaction, mass, yarns, resting, load_work] = ply;
   f("x", On::node, x);
   f("velocity", On::node, velocity);
   f("motion", On::node, motion);
@@ -78,6 +80,7 @@ void each_array(PlyState& ply, F&& f) {
   f("mass", On::node, mass);
   f("yarns", On::pack, yarns);
   f("resting", On::ply, resting);
+  f("load_work", On::ply, load_work);
 }
 
 /// Cache of a ply: what the last search found, bounds of the stable time step, workspace.
@@ -102,7 +105,9 @@ struct PlyCache {
   std::vector<Box3> patch_motion;  ///< mm, as of patch_motions, of the last step
   /// Arrays of reaction and contact forces that are not zero in this step, in fixed order.
   std::vector<const std::vector<Vec3>*> nodal_forces;
-  std::vector<Vec3> pull; ///< N, of springs on each node; empty if none hangs on it
+  std::vector<Vec3> pull;      ///< N, of springs on each node; empty if none hangs on it
+  std::vector<Vec3> load;      ///< N, of pressures on each node; empty if there is none
+  double last_load_work = 0.0; ///< N mm, of these forces over the half of the step that led to them
   /// What yarns will remember once the step that was computed is taken.
   std::vector<SimdYarnStates> yarns_end;
 };
@@ -112,7 +117,7 @@ template <class F>
 void each_array(PlyCache& ply, F&& f) {
   auto& [x_search, max_displacement, path_length, fold_bound, fold_motion, occluded, ridges,
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, tree, search_seconds, q, patch_motion,
-         nodal_forces, pull, yarns_end] = ply;
+         nodal_forces, pull, load, last_load_work, yarns_end] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);

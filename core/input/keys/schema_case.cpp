@@ -216,7 +216,7 @@ Rows accuracy_rows() {
            .members = {to(&AccuracyOptions::verify)}}};
 }
 
-constexpr FurtherPart further_parts[] = {{process_rows, read_process}};
+constexpr FurtherPart further_parts[] = {{load_rows, read_loads}, {process_rows, read_process}};
 
 Rows all_rows() {
   Rows rows{{.key = "title",

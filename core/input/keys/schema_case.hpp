@@ -68,6 +68,10 @@ void read_process(const TableView& root, Case& built, Diagnostics& diagnostics);
 void check_clock(const TableView& root, const Case& built, bool (*rated)(const Fabric&),
                  Diagnostics& diagnostics);
 
+/// core/input/keys/loads.cpp: [[load]].
+Rows load_rows();
+void read_loads(const TableView& root, Case& built, Diagnostics& diagnostics);
+
 /// core/input/keys/schema_boundary.cpp: [[boundary]]; and the keys of its springs and grippers,
 /// core/input/keys/schema_attachment.cpp.
 Rows boundary_rows();

@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Pressures on plies as a kind of force. A pressure p (positive upwards, against the face below)
+// does the work p dV with V the volume beneath a ply, of which a triangle of nodes x1, x2, x3, in
+// order about its upper side, has x1 . (x2 x x3) / 6. So each of its nodes gets
+//
+//   f = p / 6 (x2 - x1) x (x3 - x1)                                                    (P)
+//
+// a third of p times area times normal. Its stiffness has blocks of p / 6 times the cross product
+// with the sides of the triangle: symmetric within a sheet, not at free edges. A sum of absolute
+// values bounds its eigenvalues (Gershgorin): a row of a node has, of each triangle, at most
+//
+//   |p| / 6 (|x2 - x1| + |x3 - x2| + |x1 - x3|)                                        (K)
+//
+// The product with K has that in the place of the matrix. p is the largest that a programme has, so
+// that a quick rise between two updates of the stable step is in it.
+//
+// Work by the trapezoidal rule, as of all forces: half of a step's motion times the forces at its
+// end (last_load_work, when they are computed), half times those at its begin (when it is taken).
+#include "core/model/motion.hpp"
+#include "core/solver/force_kinds.hpp"
+
+#include <algorithm>
+#include <fmt/format.h>
+
+namespace plyform {
+namespace {
+
+bool is_on(const PressureLoad& load, std::size_t ply) {
+  return at(load.ply) == ply;
+}
+
+bool any_on(const Scene& s, std::size_t ply) {
+  return std::any_of(s.data.loads.begin(), s.data.loads.end(),
+                     [ply](const PressureLoad& load) { return is_on(load, ply); });
+}
+
+/// p on a ply at the present time, N/mm^2, upwards.
+double pressure_now(const Scene& s, std::size_t ply) {
+  double sum = 0.0;
+  for (const PressureLoad& load : s.data.loads) {
+    if (!is_on(load, ply)) continue;
+    const double p = programme_value(load.stages(), s.time, s.data.solver.duration);
+    sum += load.side == PlyFace::below ? p : -p;
+  }
+  return sum;
+}
+
+/// |p| on a ply at most, N/mm^2.
+double largest_pressure(const Scene& s, std::size_t ply) {
+  double sum = 0.0;
+  for (const PressureLoad& load : s.data.loads)
+    if (is_on(load, ply)) sum += load.pressure;
+  return sum;
+}
+
+double half_work(const PlyBody& ply) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < ply.load.size(); ++n)
+    sum += 0.5 * ply.load[n].dot(ply.motion[n]);
+  return sum;
+}
+
+/// (K) of each node: add(node, N/mm).
+template <class Add>
+void each_row(const Scene& s, std::size_t p, const Add& add) {
+  const double sixth = largest_pressure(s, p) / 6.0;
+  const PlyBody& ply = s.plies[p];
+  for (const Triangle& t : ply.membrane.triangles) {
+    const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];
+    const double row = sixth * ((b - a).norm() + (c - b).norm() + (a - c).norm());
+    for (const int n : t)
+      add(at(n), row);
+  }
+}
+
+} // namespace
+
+double PressureForces::place(const Scene& s, int task) {
+  return static_cast<double>(task) / static_cast<double>(s.plies.size());
+}
+
+void PressureForces::run(Scene& s, int task) {
+  if (!any_on(s, at(task))) return;
+  PlyBody& ply = s.plies[at(task)];
+  const double sixth = pressure_now(s, at(task)) / 6.0;
+  ply.load.assign(ply.x.size(), Vec3::Zero());
+  for (const Triangle& t : ply.membrane.triangles) {
+    const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];
+    const Vec3 force = sixth * (b - a).cross(c - a); // (P)
+    for (const int n : t)
+      ply.load[at(n)] += force;
+  }
+  ply.last_load_work = half_work(ply);
+}
+
+void PressureForces::end_step(Scene& s) {
+  for (PlyBody& ply : s.plies)
+    if (!ply.load.empty()) {
+      ply.load_work += ply.last_load_work + half_work(ply);
+      ply.last_load_work = 0.0;
+    }
+}
+
+void PressureForces::list_arrays(Scene& s) {
+  for (PlyBody& ply : s.plies)
+    if (!ply.load.empty()) ply.nodal_forces.push_back(&ply.load);
+}
+
+void PressureForces::add_energies(const Scene& s, ThreadPool&, Energies& e) {
+  for (const PlyBody& ply : s.plies)
+    e.external += ply.load_work + ply.last_load_work;
+}
+
+void PressureForces::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
+  if (any_on(s, ply))
+    each_row(s, ply, [&](std::size_t n, double row) { rows[n].stiffness += row; });
+}
+
+PressureProduct::PressureProduct(const Scene& s, const TangentFactors& factors)
+    : on_ply_(s.plies.size()) {
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    if (s.plies[p].resting || !any_on(s, p)) continue;
+    on_ply_[p].assign(s.plies[p].x.size(), 0.0);
+    each_row(s, p, [&](std::size_t n, double row) { on_ply_[p][n] += factors.stiffness * row; });
+  }
+}
+
+void PressureProduct::add_on_ply(std::size_t ply, const PerPly& y, PerPly& f) const {
+  for (std::size_t n = 0; n < on_ply_[ply].size(); ++n)
+    f[ply][n] += on_ply_[ply][n] * y[ply][n];
+}
+
+void PressureForces::describe(const Scene& s, std::vector<std::string>& lines) {
+  for (const PressureLoad& load : s.data.loads) {
+    const PlyBody& ply = s.plies[at(load.ply)];
+    double area = 0.0;
+    for (const double a : ply.membrane.node_area)
+      area += a;
+    lines.push_back(fmt::format("pressure {} ply {}: {:g} N/mm2{}, {:.3g} N on it as it lies",
+                                load.side == PlyFace::above ? "above" : "below", ply.name,
+                                load.pressure, load.programme.empty() ? "" : " at most",
+                                load.pressure * area));
+  }
+}
+
+} // namespace plyform

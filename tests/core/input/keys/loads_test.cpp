@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Loads as a case file gives them; wrong ones are in tests/data/broken.
+#include "core/accuracy/error_model.hpp"
+#include "core/model/motion.hpp"
+#include "support/case_files.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plyform::loads_test {
+namespace {
+
+TEST(Loads, AreReadWithTheirProgrammes) {
+  const Case read = good_case(data_folder / "good" / "loads.toml");
+  ASSERT_EQ(read.loads.size(), 2u);
+  EXPECT_EQ(read.loads[0].ply, 0);
+  EXPECT_EQ(read.loads[0].side, PlyFace::below);
+  EXPECT_EQ(read.loads[0].pressure, 0.01);
+  EXPECT_NEAR(programme_value(read.loads[0].stages(), 0.5, 1.0), 0.005, 1e-15); // over all of it
+  EXPECT_EQ(read.loads[1].side, PlyFace::above);
+  EXPECT_EQ(read.loads[1].pressure, 0.02); // the largest
+  EXPECT_EQ(programme_value(read.loads[1].stages(), 0.5, 1.0), 0.02);
+  EXPECT_EQ(programme_value(read.loads[1].stages(), 1.0, 1.0), 0.005);
+}
+
+TEST(Loads, KeepTheirPliesWhenOthersAreTakenOut) {
+  Case data = good_case(data_folder / "good" / "loads.toml");
+  data.plies.insert(data.plies.begin(), data.plies[0]);
+  for (PressureLoad& load : data.loads)
+    load.ply = 1;
+  keep_plies(data, {0, 1});
+  EXPECT_EQ(data.loads[0].ply, 0);
+  EXPECT_EQ(data.loads[1].ply, 0);
+}
+
+TEST(Loads, AreNotWhatErrorsWereMeasuredFor) {
+  Case read = good_case(data_folder / "good" / "loads.toml");
+  read.boundaries[1].stroke = 1.0;
+  EXPECT_EQ(not_measured(read), "not measured: a pressure acts on ply ply");
+  read.loads.clear();
+  EXPECT_EQ(not_measured(read), "");
+}
+
+} // namespace
+} // namespace plyform::loads_test
