@@ -7,8 +7,8 @@
 
 namespace plyform {
 
-/// Energies, and work done since the start, N mm (mJ). external: work of tools, boundaries and
-/// gravity on the plies, and the energy of the plies at the start. mass_scaling: kinetic energy
+/// Energies, and work done since the start, N mm (mJ). external: work of tools, boundaries, loads
+/// and gravity on the plies, and the energy of the plies at the start. mass_scaling: kinetic energy
 /// that came with added mass.
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, bending = 0, contact = 0, friction = 0, damping = 0,
