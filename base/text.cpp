@@ -42,10 +42,10 @@ std::string nearest_word(const std::string& word, const std::vector<std::string>
   return nearest;
 }
 
-std::string joined(const std::vector<std::string>& words) {
+std::string joined(const std::vector<std::string>& words, const std::string& between) {
   std::string text; // not fmt::join: GCC 12 warns of an overflow inside fmt 9 there
   for (const std::string& word : words)
-    text += (text.empty() ? "" : ", ") + word;
+    text += (text.empty() ? "" : between) + word;
   return text;
 }
 

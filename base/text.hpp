@@ -15,8 +15,8 @@ namespace plyform {
 /// The word of `known` nearest to `word` by edit distance; empty if that exceeds 1 + length / 4.
 std::string nearest_word(const std::string& word, const std::vector<std::string>& known);
 
-/// "a, b, c"
-std::string joined(const std::vector<std::string>& words);
+/// "a, b, c", or with other text between them.
+std::string joined(const std::vector<std::string>& words, const std::string& between = ", ");
 
 /// The content of a case or fabric file, as of read_file.
 std::optional<std::string> read_text(const std::filesystem::path& file, std::string& reason);

@@ -38,17 +38,19 @@ constexpr double measured_max_softening_of_stack = 300.0;
 
 /// w, N/mm.
 double shear_energy_of(const Fabric& f) {
-  return f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.at(half_radian).energy;
+  double w = 0.0;
+  for (const Crossing& c : f.crossings)
+    w += cells_per_area(f, c) * c.shear.at(half_radian).energy;
+  return w;
 }
 
 /// w: energy of shear per area, N/mm.
 void add_families(ErrorNumbers& n, const Fabric& f, double w) {
   constexpr double any = std::numeric_limits<double>::infinity();
-  for (const auto& [law, density] :
-       {std::pair(&f.warp, f.warp_density), std::pair(&f.weft, f.weft_density)}) {
-    const double stiffness = density * law->largest_slope();
+  for (const YarnFamily& family : f.families) {
+    const double stiffness = family.density * family.tension.largest_slope();
     if (!(stiffness > 0.0)) continue;
-    n.families.push_back({w / stiffness, effective_softening(*law, any)});
+    n.families.push_back({w / stiffness, effective_softening(family.tension, any)});
     n.softening = std::max(n.softening, w / stiffness);
   }
 }
@@ -60,10 +62,10 @@ double useful_softening(const Case& data) {
   double tension = 0.0, compression = 0.0; // N mm/t
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[ply.fabric];
-    for (const auto& [law, density] :
-         {std::pair(&f.warp, f.warp_density), std::pair(&f.weft, f.weft_density)}) {
-      tension = std::max(tension, density * law->largest_slope() / f.surface_density);
-      compression = std::max(compression, density * law->compression / f.surface_density);
+    for (const YarnFamily& family : f.families) {
+      const double per_mass = family.density / f.surface_density;
+      tension = std::max(tension, per_mass * family.tension.largest_slope());
+      compression = std::max(compression, per_mass * family.tension.compression);
     }
   }
   return compression > 0.0 ? tension / compression : std::numeric_limits<double>::infinity();
@@ -72,8 +74,7 @@ double useful_softening(const Case& data) {
 /// Whether the yarns of all plies bear compression.
 bool bears_compression(const Case& data) {
   return std::all_of(data.plies.begin(), data.plies.end(), [&](const Ply& ply) {
-    const Fabric& f = data.fabrics[ply.fabric];
-    return f.warp.compression > 0.0 && f.weft.compression > 0.0;
+    return plyform::bears_compression(data.fabrics[ply.fabric]);
   });
 }
 

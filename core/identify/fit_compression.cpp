@@ -70,7 +70,7 @@ std::optional<CompressionFit> identify_compression(Curve curve, const Strip& str
 
 void check_compression(double stiffness, const std::string& yarns, const Fabric& fabric,
                        const Place& at, Diagnostics& diagnostics) {
-  const double pulled = (yarns == "warp" ? fabric.warp : fabric.weft).largest_slope();
+  const double pulled = fabric.families[yarns == "warp" ? 0 : 1].tension.largest_slope();
   if (pulled > 0.0 && stiffness > pulled)
     diagnostics.error(at, yarns + ".compression_stiffness", fmt::format("{:.5g}", stiffness),
                       fmt::format("must be at most the stiffness in tension, {:.5g}", pulled),

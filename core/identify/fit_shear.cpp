@@ -37,9 +37,9 @@ ShearSolution solve(const LoadRows& rows, double end, const ShearTest& test, con
     const double before = s.share.mean();
     s.law = linear_shear({test, fabric, coefficients, end, 1.0 + before});
     s.fit = fit_linear(s.law.loads(rows.x), rows.y, rows.weights);
-    s.fabric.shear = {};
-    s.fabric.shear.k = unscaled(s.fit.k, end);
-    clear_rounding(s.fabric.shear, end);
+    s.fabric.crossings[0].shear = {};
+    s.fabric.crossings[0].shear.k = unscaled(s.fit.k, end);
+    clear_rounding(s.fabric.crossings[0].shear, end);
     s.share = in_plane_bending_share(test, s.fabric);
     if (std::abs(s.share.mean() - before) <= 1e-9) break;
   }
@@ -88,7 +88,8 @@ bool valid(const Curve& curve, const ShearLaw& law, const FitQuality& quality,
 bool usual(const Curve& curve, const Fabric& found, double end, bool doubtful,
            Diagnostics& diagnostics) {
   const double angle = std::min(10.0 * degree, end);
-  const double rigidity = found.warp_density * found.weft_density * found.shear.secant(angle);
+  const double rigidity = found.families[0].density * found.families[1].density *
+                          found.crossings[0].shear.secant(angle);
   return check_usual(place_of(curve), "shear stiffness", rigidity, usual_shear_rigidity, "N/mm",
                      doubtful, diagnostics);
 }
@@ -108,7 +109,8 @@ void check_options(const Fabric& fabric, const FitOptions& options) {
     throw std::invalid_argument("coefficients must be 1 to 6");
   if (!(options.from >= 0.0 && options.to > options.from))
     throw std::invalid_argument("the range must start at 0 or above and end above its start");
-  if (std::abs(fabric.fibre_angle - 0.5 * std::numbers::pi) > 1e-6)
+  if (!is_weave(fabric) ||
+      std::abs(material_axes(fabric).between() - 0.5 * std::numbers::pi) > 1e-6)
     throw std::invalid_argument("the theory of the shear tests needs fibres at 90 degrees");
 }
 
@@ -139,7 +141,7 @@ std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const 
   rows.weights = s.fit.weights;
   const CurveWords words = words_of(options);
   if (!check_disturbances(curve, s.law, rows, options, words, diagnostics)) return std::nullopt;
-  SpecimenLaw law{curve.file, s.fabric.shear.k, {}, specimen.corrected, {}};
+  SpecimenLaw law{curve.file, s.fabric.crossings[0].shear.k, {}, specimen.corrected, {}};
   law.quality =
       quality_of(specimen.angle, {rows.y.begin(), rows.y.end()}, fitted_loads(s, test, rows.x));
   const bool good = check_quality(
@@ -147,7 +149,7 @@ std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const 
       "check columns and specimen, smooth the curve, take more --coefficients, or leave out "
       "slipping and wrinkling with --to",
       diagnostics);
-  if (!good || !valid(curve, s.fabric.shear, law.quality, diagnostics) ||
+  if (!good || !valid(curve, s.fabric.crossings[0].shear, law.quality, diagnostics) ||
       !usual(curve, s.fabric, law.quality.to, options.doubtful, diagnostics))
     return std::nullopt;
   law.sensitive = sensitivities(s.law, rows, words.length, common_compliance);
@@ -224,7 +226,7 @@ std::optional<ShearFit> identify_shear(const std::vector<Curve>& curves, const S
   const LoadRows rows = all_rows(specimens, result);
   const double end = *std::max_element(result.angle.begin(), result.angle.end());
   const ShearSolution all = solve(rows, end, test, fabric, options.coefficients);
-  result.law = all.fabric.shear;
+  result.law = all.fabric.crossings[0].shear;
   result.in_plane = all.share;
   result.fitted = fitted_loads(all, test, rows.x);
   result.quality = quality_of(result.angle, result.measured, result.fitted);

@@ -72,22 +72,22 @@ double extension_at(const ShearTest& test, double angle) {
 TorqueWeights torque_weights(const ShearTest& test, const Fabric& fabric, double extension) {
   const double e = extension / test.diagonal, angle = shear_angle(test, extension);
   const double rate = 2.0 * (1.0 + e) / (test.diagonal * std::cos(angle)); // (b)
-  const double cells = fabric.warp_density * fabric.weft_density;
+  const double cells = fabric.families[0].density * fabric.families[1].density;
   return {angle, cells * test.whole_area * rate, 0.5 * cells * test.half_area * rate};
 }
 
 double test_load(const ShearTest& test, const Fabric& fabric, double extension) {
   const TorqueWeights weights = torque_weights(test, fabric, extension);
-  return weights.whole * fabric.shear.at(weights.angle).value +
-         weights.half * fabric.shear.at(0.5 * weights.angle).value; // (40, 41)
+  return weights.whole * fabric.crossings[0].shear.at(weights.angle).value +
+         weights.half * fabric.crossings[0].shear.at(0.5 * weights.angle).value; // (40, 41)
 }
 
 BendingShare in_plane_bending_share(const ShearTest& test, const Fabric& fabric) {
   const double rigidity = shear_rigidity(fabric);
   if (test.half_area == 0.0 || !(rigidity > 0.0)) return {};
   double length = 0.0; // l, mm
-  for (const double stiffness : fabric.bending.in_plane)
-    length += 0.5 * std::sqrt(stiffness / rigidity);
+  for (const YarnFamily& family : fabric.families)
+    length += 0.5 * std::sqrt(family.in_plane_bending / rigidity);
   const double most = 2.0 * sqrt2 * length / test.diagonal;
   return {0.5 * most, most};
 }

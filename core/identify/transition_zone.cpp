@@ -115,8 +115,8 @@ std::optional<ZoneFit> identify_zone(const std::vector<Curve>& curves, const Fab
     own_limits = profile.limits;
   }
   result.length_limits = curves.size() > 1 ? spread_of(result.lengths).limits : own_limits;
-  const double rigidity =
-      fabric.warp_density * fabric.weft_density * fabric.shear.at(result.plateau).slope;
+  const double rigidity = fabric.families[0].density * fabric.families[1].density *
+                          fabric.crossings[0].shear.at(result.plateau).slope;
   result.stiffness = rigidity * result.length * result.length;
   result.stiffness_limits = 2.0 * result.stiffness * result.length_limits / result.length;
   result.quality.rows = result.x.size();

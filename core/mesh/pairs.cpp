@@ -115,7 +115,7 @@ StrainGroups single_triangles(std::size_t triangles) {
   return p;
 }
 
-std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle) {
+std::vector<char> along_fibres(const BlankMesh& mesh, std::span<const double> yarns) {
   constexpr double parallel = 1e-3; // rad
   const auto along = [&](const Triangle& t, double angle) {
     const Vec2 f(std::cos(angle), std::sin(angle));
@@ -127,7 +127,8 @@ std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double 
   };
   std::vector<char> aligned;
   for (const Triangle& t : mesh.triangles)
-    aligned.push_back(along(t, warp_angle) && along(t, weft_angle));
+    aligned.push_back(
+        std::all_of(yarns.begin(), yarns.end(), [&](double angle) { return along(t, angle); }));
   std::vector<char> inside = aligned;
   for (const SharedSide& s : shared_sides(mesh)) {
     const auto a = static_cast<std::size_t>(s.a), b = static_cast<std::size_t>(s.b);

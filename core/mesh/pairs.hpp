@@ -6,6 +6,7 @@
 #include "core/mesh/mesh_blank.hpp"
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 namespace plyform {
@@ -28,9 +29,9 @@ StrainGroups single_triangles(std::size_t triangles);
 StrainGroups pair_triangles(const BlankMesh& mesh, const std::vector<char>& alone = {});
 
 /// Marks (1, else 0) the triangles for which the plain element does not lock: those that have, as
-/// all their neighbours, a side along the warp and one along the weft (to 1e-3 rad), so that
-/// neighbours share their constraints; and those that touch such a triangle, since the band between
-/// whole cells and the boundary edge is too narrow to lock. warp_angle, weft_angle: rad from x.
-std::vector<char> along_fibres(const BlankMesh& mesh, double warp_angle, double weft_angle);
+/// all their neighbours, a side along each family of yarns (to 1e-3 rad), so that neighbours share
+/// their constraints; and those that touch such a triangle, since the band between whole cells and
+/// the boundary edge is too narrow to lock. yarns: directions of the families, rad from x.
+std::vector<char> along_fibres(const BlankMesh& mesh, std::span<const double> yarns);
 
 } // namespace plyform

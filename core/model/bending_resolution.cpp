@@ -13,11 +13,6 @@ namespace {
 constexpr double pressed_with = 0.2;   // N/mm
 constexpr double excess_length = 0.01; // eps
 
-struct FamilyLaw {
-  const TensionLaw& tension;
-  double density, bending, in_plane; ///< 1/mm, N mm, N mm
-};
-
 void keep_least(std::optional<double>& least, double value) {
   least = least ? std::min(*least, value) : value;
 }
@@ -28,19 +23,16 @@ BendingLengths bending_lengths(const Fabric& f, double pressure) {
   BendingLengths lengths;
   if (!f.has_yarns()) return lengths;
   const double rigidity = shear_rigidity(f);
-  for (const FamilyLaw& yarn :
-       {FamilyLaw{f.warp, f.warp_density, f.bending.warp.at(0.0).slope, f.bending.in_plane[0]},
-        FamilyLaw{f.weft, f.weft_density, f.bending.weft.at(0.0).slope, f.bending.in_plane[1]}}) {
-    if (yarn.in_plane > 0.0 && rigidity > 0.0)
-      keep_least(lengths.layer, std::sqrt(yarn.in_plane / rigidity));
+  for (const YarnFamily& yarn : f.families) {
+    const double in_plane = yarn.in_plane_bending, bending = yarn.bending.at(0.0).slope;
+    if (in_plane > 0.0 && rigidity > 0.0) keep_least(lengths.layer, std::sqrt(in_plane / rigidity));
     if (yarn.tension.compression == 0.0) continue;
     const double force = std::min(pressed_with, yarn.density * yarn.tension.buckling_force);
     if (force > rigidity)
-      keep_least(lengths.sideways,
-                 2.0 * M_PI * std::sqrt(2.0 * yarn.in_plane / (force - rigidity)));
-    if (yarn.bending > 0.0 && pressure > 0.0)
+      keep_least(lengths.sideways, 2.0 * M_PI * std::sqrt(2.0 * in_plane / (force - rigidity)));
+    if (bending > 0.0 && pressure > 0.0)
       keep_least(lengths.upwards,
-                 2.0 * M_PI * std::cbrt(0.5 * yarn.bending * std::sqrt(excess_length) / pressure));
+                 2.0 * M_PI * std::cbrt(0.5 * bending * std::sqrt(excess_length) / pressure));
   }
   return lengths;
 }

@@ -147,7 +147,7 @@ struct PressureLoad {
 };
 
 enum class ElementKind {
-  automatic, ///< plain where sides run along both fibre families, averaged elsewhere
+  automatic, ///< plain where sides run along the fibres, averaged elsewhere
   plain,     ///< the paper's element
   averaged,  ///< fibre strains averaged over strain groups of two triangles: does not lock
 };

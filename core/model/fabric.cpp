@@ -3,9 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace plyform {
 namespace {
+
+constexpr double right_angle = 0.5 * std::numbers::pi;
 
 /// Piecewise linear law through (x, y), both starting at 0, beyond the end with the last slope.
 LawPoint on_table(const std::vector<double>& x, const std::vector<double>& y, double at) {
@@ -33,6 +36,16 @@ double steepest(const std::vector<double>& x, const std::vector<double>& y) {
 LawPoint odd(const std::vector<double>& x, const std::vector<double>& y, double at) {
   const LawPoint r = on_table(x, y, std::abs(at));
   return {std::copysign(r.value, at), r.slope, r.energy};
+}
+
+/// Stiffness of a bending law whose families have the slopes slope_of(law).
+template <class SlopeOf>
+Eigen::Matrix3d stiffness_of(const BendingLaw& law, const SlopeOf& slope_of) {
+  Eigen::Matrix3d d = Eigen::Matrix3d::Zero();
+  for (const FamilyBending& family : law.families)
+    d += slope_of(family.law) * (family.of_axes() * family.of_axes().transpose());
+  d(0, 1) += law.coupling, d(1, 0) += law.coupling, d(2, 2) += law.twist;
+  return d;
 }
 
 } // namespace
@@ -98,20 +111,107 @@ double MomentLaw::largest_slope() const {
 }
 
 bool BendingLaw::any() const {
-  return warp.largest_slope() > 0.0 || weft.largest_slope() > 0.0 || twist > 0.0 ||
-         in_plane[0] > 0.0 || in_plane[1] > 0.0;
+  return twist > 0.0 || in_plane() ||
+         std::any_of(families.begin(), families.end(),
+                     [](const FamilyBending& f) { return f.law.largest_slope() > 0.0; });
+}
+
+bool BendingLaw::in_plane() const {
+  return std::any_of(families.begin(), families.end(),
+                     [](const FamilyBending& f) { return f.in_plane > 0.0; });
+}
+
+Eigen::Matrix3d BendingLaw::stiffness_at_rest() const {
+  return stiffness_of(*this, [](const MomentLaw& m) { return m.at(0.0).slope; });
+}
+
+Eigen::Matrix3d BendingLaw::largest_stiffness() const {
+  return stiffness_of(*this, [](const MomentLaw& m) { return m.largest_slope(); });
+}
+
+Vec2 MaterialAxes::components(double angle) const {
+  if (angle == first) return Vec2::UnitX(); // exactly
+  if (angle == second) return Vec2::UnitY();
+  const double of_second = std::sin(angle - first) / std::sin(between());
+  return {std::cos(angle - first) - of_second * std::cos(between()), of_second};
+}
+
+Fabric woven_fabric() {
+  Fabric fabric;
+  fabric.families.resize(2);
+  fabric.families[0].name = "warp";
+  fabric.families[1].name = "weft";
+  fabric.families[1].angle = right_angle;
+  fabric.crossings.resize(1);
+  return fabric;
+}
+
+bool is_weave(const Fabric& fabric) {
+  return fabric.families.size() == 2 && fabric.crossings.size() == 1 && !fabric.sheet;
+}
+
+MaterialAxes material_axes(const Fabric& fabric) {
+  MaterialAxes axes;
+  if (fabric.families.empty()) return axes;
+  axes.first = fabric.families[0].angle;
+  axes.second = axes.first + right_angle;
+  double most = 1e-3; // sine of the angle between them
+  for (const YarnFamily& family : fabric.families)
+    if (const double sine = std::sin(family.angle - axes.first); sine > (1.0 + 1e-9) * most) {
+      axes.second = family.angle;
+      most = sine;
+    }
+  return axes;
+}
+
+double crossing_angle(const Fabric& fabric, const Crossing& crossing) {
+  return std::abs(fabric.families[crossing.second].angle - fabric.families[crossing.first].angle);
+}
+
+double cells_per_area(const Fabric& fabric, const Crossing& crossing) {
+  return fabric.families[crossing.first].density * fabric.families[crossing.second].density *
+         std::sin(crossing_angle(fabric, crossing));
+}
+
+std::pair<std::string, std::string> axes_words(const Fabric& fabric) {
+  if (fabric.families.empty()) return {"x", "along y"};
+  const double second = material_axes(fabric).second;
+  for (const YarnFamily& family : fabric.families)
+    if (family.angle == second) return {fabric.families[0].name, "along " + family.name};
+  return {fabric.families[0].name, "across"};
+}
+
+BendingLaw bending_law(const Fabric& fabric) {
+  BendingLaw law;
+  const MaterialAxes axes = material_axes(fabric);
+  for (const YarnFamily& family : fabric.families)
+    law.families.push_back(
+        {axes.components(family.angle), family.bending, family.in_plane_bending});
+  if (fabric.plate > 0.0)
+    for (const Vec2& axis : {Vec2(Vec2::UnitX()), Vec2(Vec2::UnitY())})
+      law.families.push_back({axis, {fabric.plate, {}, {}}, 0.0});
+  law.coupling = fabric.plate_coupling;
+  law.twist = fabric.twist;
+  return law;
+}
+
+bool bears_compression(const Fabric& fabric) {
+  return fabric.has_yarns() &&
+         std::all_of(fabric.families.begin(), fabric.families.end(),
+                     [](const YarnFamily& family) { return family.tension.compression > 0.0; });
 }
 
 bool balanced(const Fabric& fabric) {
-  const auto same = [](const TensionLaw& a, const TensionLaw& b) {
+  const auto same = [](const YarnFamily& p, const YarnFamily& q) {
+    const TensionLaw &a = p.tension, &b = q.tension;
     return a.stiffness == b.stiffness && a.strain == b.strain && a.tension == b.tension &&
-           a.compression == b.compression && a.buckling_force == b.buckling_force;
+           a.compression == b.compression && a.buckling_force == b.buckling_force &&
+           p.bending.stiffness == q.bending.stiffness &&
+           p.bending.curvature == q.bending.curvature && p.bending.moment == q.bending.moment &&
+           p.in_plane_bending == q.in_plane_bending && p.density == q.density;
   };
-  const MomentLaw &a = fabric.bending.warp, &b = fabric.bending.weft;
-  const auto& in_plane = fabric.bending.in_plane;
-  const bool bend = a.stiffness == b.stiffness && a.curvature == b.curvature &&
-                    a.moment == b.moment && in_plane[0] == in_plane[1];
-  return bend && same(fabric.warp, fabric.weft) && fabric.warp_density == fabric.weft_density;
+  return std::all_of(fabric.families.begin(), fabric.families.end(),
+                     [&](const YarnFamily& f) { return same(f, fabric.families.front()); });
 }
 
 } // namespace plyform

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A woven or biaxial non-crimp fabric: its laws of tension, shear and bending.
+// A fabric: families of parallel yarns with their laws of tension and bending, crossings of two of
+// them with a law of shear, and a law of the sheet beside them. A weave has two families, warp and
+// weft, and one crossing; a unidirectional fabric one family and a sheet law; a triaxial one three
+// and three; a foil a sheet law alone.
 //
 // Units inside the program: mm, N, s, t (1 t = 1 N s^2/mm). Source of the law's form: Hamila and
 // Boisse 2008, section 3.5 and table 1.
 #pragma once
 
+#include "base/geometry.hpp"
 #include "core/model/sheet_law.hpp"
 
 #include <array>
@@ -12,6 +16,7 @@
 #include <limits>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plyform {
@@ -53,7 +58,7 @@ double effective_softening(const TensionLaw& law, double asked);
 /// changed.
 TensionLaw softened(TensionLaw law, double asked);
 
-/// Torque that warp and weft exert on each other in one unit cell against the shear angle: odd
+/// Torque that two families exert on each other in one unit cell against the shear angle: odd
 /// polynomial k[0] g + k[1] g^3 + k[2] g^5 ..., or an odd table (given for g >= 0).
 struct ShearLaw {
   std::vector<double> k;             ///< N mm, coefficients of g, g^3, g^5 ...
@@ -72,12 +77,28 @@ struct MomentLaw {
   double largest_slope() const; ///< N mm
 };
 
-/// Bending of a sheet: core/ply/bending.hpp (M). All zero: none.
+/// Bending of one family of yarns, or of a plate along one direction.
+struct FamilyBending {
+  Vec2 along = Vec2::UnitX(); ///< v: direction in the fabric's axes, MaterialAxes
+  MomentLaw law;              ///< per width across it
+  double in_plane = 0.0;      ///< D_g, N mm
+  /// Its curvature from those in the axes, kappa_11, kappa_22 and kappa_12: the sum of the
+  /// products.
+  Vec3 of_axes() const {
+    return {along.x() * along.x(), along.y() * along.y(), 2.0 * along.x() * along.y()};
+  }
+};
+
+/// Bending of a sheet: core/ply/bending.hpp (M). Nothing: none.
 struct BendingLaw {
-  MomentLaw warp, weft;
-  double coupling = 0.0, twist = 0.0; ///< D_c, D_t, N mm
-  std::array<double, 2> in_plane{};   ///< D_g of warp and weft, N mm
+  std::vector<FamilyBending> families;
+  double coupling = 0.0, twist = 0.0; ///< D_c, D_t, N mm, of the curvatures in the fabric's axes
   bool any() const;
+  bool in_plane() const; ///< whether any family has D_g
+  /// N mm, moments m_11, m_22, m_12 against curvatures in the axes: at no curvature, and the
+  /// largest.
+  Eigen::Matrix3d stiffness_at_rest() const;
+  Eigen::Matrix3d largest_stiffness() const;
 };
 
 /// Where a number of a fabric comes from.
@@ -96,27 +117,81 @@ struct YarnSources {
 /// mm/s^2, turns mass per area into weight.
 inline constexpr double standard_gravity = 9810.0;
 
+/// Yarns (or stitches) that lie parallel to each other in the fabric before forming.
+struct YarnFamily {
+  std::string name; ///< in files and columns of results: warp, weft ...
+  /// rad, from the ply's angle to these yarns; of a fabric's families within half a turn from the
+  /// first one's on
+  double angle = 0.0;
+  double density = 0.0;          ///< d, yarns per mm across the yarns
+  TensionLaw tension;            ///< of one yarn
+  MomentLaw bending;             ///< M, per width across the yarns
+  double in_plane_bending = 0.0; ///< D_g, N mm
+  YarnSources sources;
+};
+
+/// Two families that resist a change of the angle between them.
+struct Crossing {
+  std::size_t first = 0, second = 1; ///< indices into Fabric::families
+  ShearLaw shear;                    ///< torque of one unit cell
+};
+
+/// What a fabric may have at most. Kernels keep as many numbers at hand.
+constexpr std::size_t most_families = 8, most_crossings = 8;
+
+/// The two directions of a fabric before forming by which its strains are computed: the first
+/// family, and that which is furthest from parallel to it; of one family it and the line across it;
+/// of none the ply's angle and the line across it.
+struct MaterialAxes {
+  double first = 0.0, second = 1.5707963267948966;  ///< rad, from the ply's angle
+  double between() const { return second - first; } ///< in (0, pi)
+  /// Components of the unit vector at `angle` (rad, from the ply's angle): e = v[0] e_1 + v[1] e_2.
+  Vec2 components(double angle) const;
+};
+
 struct Fabric {
   std::string name;
-  TensionLaw warp, weft;
-  double warp_density = 0.0, weft_density = 0.0; ///< d1, d2: yarns per mm across the yarns
-  ShearLaw shear;
-  BendingLaw bending;
-  double surface_density = 0.0;            ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
-  double thickness = 0.0;                  ///< mm
-  double fibre_angle = 1.5707963267948966; ///< rad from warp to weft before forming, in (0, pi)
-  std::optional<double> locking_angle;     ///< rad, shear angle beyond which the fabric wrinkles
-  std::array<YarnSources, 2> sources;      ///< of warp and weft
-  bool twist_given = true;                 ///< else bending.twist is usual_twist
-  /// Law of a sheet without yarns: then the laws and densities above are all zero, and warp and
-  /// weft are two orthogonal material directions without mechanical meaning.
+  std::vector<YarnFamily> families; ///< at most most_families
+  std::vector<Crossing> crossings;  ///< at most most_crossings
+  /// Law of the sheet beside the yarns: what holds them together, or a foil that has none.
   std::optional<SheetLaw> sheet;
+  double surface_density = 0.0;        ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
+  double thickness = 0.0;              ///< mm
+  std::optional<double> locking_angle; ///< rad, shear angle beyond which the fabric wrinkles
+  double twist = 0.0;                  ///< D_t, N mm
+  bool twist_given = true;             ///< else `twist` is usual_twist
+  /// Bending of a plate of the sheet's law (N mm): D, the same along both axes, and D_c. Zero in a
+  /// fabric with yarns, which bend by themselves.
+  double plate = 0.0, plate_coupling = 0.0;
 
-  bool has_yarns() const { return !sheet; }
+  bool has_yarns() const { return !families.empty(); }
   double weight() const { return surface_density * standard_gravity; } ///< N/mm^2
 };
 
-/// Whether warp and weft have the same yarns at the same density.
+/// Whether it has two families and one crossing of them, warp and weft, and nothing else.
+bool is_weave(const Fabric& fabric);
+
+/// A fabric of two families at right angles, `warp` and `weft`, and their crossing.
+Fabric woven_fabric();
+
+MaterialAxes material_axes(const Fabric& fabric);
+
+/// d_1 d_2 sin(angle between them) of a crossing, 1/mm^2: unit cells per area.
+double cells_per_area(const Fabric& fabric, const Crossing& crossing);
+
+/// rad, between the two families of a crossing before forming, in (0, pi).
+double crossing_angle(const Fabric& fabric, const Crossing& crossing);
+
+/// What lies along its axes, for messages: "warp", "along weft"; "fibre", "across"; of a foil "x",
+/// "along y".
+std::pair<std::string, std::string> axes_words(const Fabric& fabric);
+
+BendingLaw bending_law(const Fabric& fabric);
+
+/// Whether the yarns of all families bear compression; of a foil false.
+bool bears_compression(const Fabric& fabric);
+
+/// Whether all families have the same yarns at the same density.
 bool balanced(const Fabric& fabric);
 
 } // namespace plyform

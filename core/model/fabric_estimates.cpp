@@ -18,58 +18,53 @@ constexpr double bending_length = 70.0;    // mm
 constexpr double zone_in_cells = 2.5;
 constexpr double shear_scale_at = 0.5; // rad
 
-/// Laws of warp (0) or weft (1).
-TensionLaw& tension_of(Fabric& f, std::size_t family) {
-  return family == 0 ? f.warp : f.weft;
-}
-MomentLaw& moments_of(Fabric& f, std::size_t family) {
-  return family == 0 ? f.bending.warp : f.bending.weft;
-}
-
 /// Estimates C of a family whose file does not give it.
-void estimate_compression(Fabric& f, std::size_t family) {
-  ValueSource& source = f.sources[family].compression;
+void estimate_compression(YarnFamily& family) {
+  ValueSource& source = family.sources.compression;
   if (source != ValueSource::missing) return;
-  TensionLaw& law = tension_of(f, family);
-  law.compression = usual_compression(law);
+  family.tension.compression = usual_compression(family.tension);
   source = ValueSource::estimated;
 }
 
 void estimate_for_stack(Fabric& f) {
-  for (const std::size_t family : {0u, 1u}) {
-    estimate_compression(f, family);
-    if (tension_of(f, family).compression == 0.0) continue;
-    YarnSources& sources = f.sources[family];
+  for (YarnFamily& family : f.families) {
+    estimate_compression(family);
+    if (family.tension.compression == 0.0) continue;
+    YarnSources& sources = family.sources;
     if (sources.bending == ValueSource::missing) {
-      moments_of(f, family).stiffness = usual_bending(f);
+      family.bending.stiffness = usual_bending(f);
       sources.bending = ValueSource::estimated;
     }
     if (sources.in_plane_bending == ValueSource::missing && usual_in_plane_bending(f) > 0.0) {
-      f.bending.in_plane[family] = usual_in_plane_bending(f);
+      family.in_plane_bending = usual_in_plane_bending(f);
       sources.in_plane_bending = ValueSource::estimated;
     }
   }
-  if (!f.twist_given) f.bending.twist = usual_twist(f.bending);
+  if (!f.twist_given) f.twist = usual_twist(f);
 }
 
 void estimate_for_one_ply(Fabric& f) {
-  for (const std::size_t family : {0u, 1u})
-    if (moments_of(f, family).largest_slope() > 0.0 ||
-        std::isfinite(tension_of(f, family).buckling_force))
-      estimate_compression(f, family);
+  for (YarnFamily& family : f.families)
+    if (family.bending.largest_slope() > 0.0 || std::isfinite(family.tension.buckling_force))
+      estimate_compression(family);
 }
 
-/// "460 / 480" of both families, "460 along the warp" if only that is estimated, "" if none is.
-std::string both(const std::array<YarnSources, 2>& sources, ValueSource YarnSources::*which,
-                 double warp, double weft, const char* unit, const char* format) {
-  const bool first = sources[0].*which == ValueSource::estimated,
-             second = sources[1].*which == ValueSource::estimated;
-  const auto number = [&](double value) { return fmt::format(fmt::runtime(format), value); };
-  if (!first && !second) return "";
-  if (!second) return fmt::format("{} {} along the warp", number(warp), unit);
-  if (!first) return fmt::format("{} {} along the weft", number(weft), unit);
-  if (number(warp) == number(weft)) return fmt::format("{} {}", number(warp), unit);
-  return fmt::format("{} / {} {}", number(warp), number(weft), unit);
+/// "460 / 480 N mm" of all families, "460 N mm along the warp" of those that are estimated if not
+/// all are, "" if none is.
+template <class ValueOf>
+std::string of_families(const Fabric& f, ValueSource YarnSources::*which, const ValueOf& value_of,
+                        const char* unit, const char* format) {
+  std::vector<std::string> numbers, along;
+  for (const YarnFamily& family : f.families) {
+    if (family.sources.*which != ValueSource::estimated) continue;
+    numbers.push_back(fmt::format(fmt::runtime(format), value_of(family)));
+    along.push_back(fmt::format("{} {} along the {}", numbers.back(), unit, family.name));
+  }
+  if (numbers.empty()) return "";
+  if (numbers.size() < f.families.size()) return joined(along);
+  const bool same = std::all_of(numbers.begin(), numbers.end(),
+                                [&](const std::string& n) { return n == numbers[0]; });
+  return fmt::format("{} {}", same ? numbers[0] : joined(numbers, " / "), unit);
 }
 
 std::string estimated_values(const Fabric& f) {
@@ -78,16 +73,19 @@ std::string estimated_values(const Fabric& f) {
     if (!values.empty()) parts.push_back(fmt::format("{} {} ({})", what, values, reason));
   };
   add("compression",
-      both(f.sources, &YarnSources::compression, f.warp.compression, f.weft.compression,
-           "N per yarn", "{:.4g}"),
+      of_families(
+          f, &YarnSources::compression, [](const YarnFamily& y) { return y.tension.compression; },
+          "N per yarn", "{:.4g}"),
       "1 % of tension");
   add("bending",
-      both(f.sources, &YarnSources::bending, f.bending.warp.stiffness, f.bending.weft.stiffness,
-           "N mm", "{:.2g}"),
+      of_families(
+          f, &YarnSources::bending, [](const YarnFamily& y) { return y.bending.stiffness; }, "N mm",
+          "{:.2g}"),
       fmt::format("bending length {:g} mm", bending_length));
   add("in-plane bending",
-      both(f.sources, &YarnSources::in_plane_bending, f.bending.in_plane[0], f.bending.in_plane[1],
-           "N mm", "{:.2g}"),
+      of_families(
+          f, &YarnSources::in_plane_bending, [](const YarnFamily& y) { return y.in_plane_bending; },
+          "N mm", "{:.2g}"),
       fmt::format("zones of {:.3g} mm", usual_zone_width(f)));
   return joined(parts);
 }
@@ -110,8 +108,10 @@ double usual_compression(const TensionLaw& law) {
   return compression_share * law.largest_slope();
 }
 
-double usual_twist(const BendingLaw& law) {
-  return std::sqrt(law.warp.at(0.0).slope * law.weft.at(0.0).slope);
+double usual_twist(const Fabric& fabric) {
+  if (fabric.families.size() != 2) return 0.0;
+  return std::sqrt(fabric.families[0].bending.at(0.0).slope *
+                   fabric.families[1].bending.at(0.0).slope);
 }
 
 double usual_bending(const Fabric& fabric) {
@@ -119,14 +119,19 @@ double usual_bending(const Fabric& fabric) {
 }
 
 double usual_zone_width(const Fabric& fabric) {
-  return zone_in_cells * 2.0 / std::sqrt(fabric.warp_density * fabric.weft_density);
+  if (fabric.crossings.empty()) return 0.0;
+  const Crossing& c = fabric.crossings[0];
+  return zone_in_cells * 2.0 /
+         std::sqrt(fabric.families[c.first].density * fabric.families[c.second].density);
 }
 
 double shear_rigidity(const Fabric& fabric) {
-  const double cells =
-      fabric.warp_density * fabric.weft_density * std::sin(fabric.fibre_angle); // n_c
-  const double start = fabric.shear.at(0.0).slope;
-  return cells * (start > 0.0 ? start : fabric.shear.secant(shear_scale_at));
+  double rigidity = 0.0;
+  for (const Crossing& c : fabric.crossings) {
+    const double start = c.shear.at(0.0).slope;
+    rigidity += cells_per_area(fabric, c) * (start > 0.0 ? start : c.shear.secant(shear_scale_at));
+  }
+  return rigidity;
 }
 
 double usual_in_plane_bending(const Fabric& fabric) {
@@ -178,13 +183,19 @@ std::vector<std::string> describe_softening(const Case& data) {
   const double asked = data.solver.fibre_softening;
   std::vector<std::string> lines;
   for (const Fabric& f : data.fabrics) {
-    const double warp = effective_softening(f.warp, asked),
-                 weft = effective_softening(f.weft, asked);
-    if (warp == asked && weft == asked) continue;
-    lines.push_back(fmt::format("{}: solver.fibre_softening = {:g} divides the tension of warp and "
-                                "weft by {:.3g} and {:.3g} only: they are then as stiff as in "
-                                "compression, which is not softened",
-                                f.name, asked, warp, weft));
+    std::vector<std::string> names, factors;
+    bool limited = false;
+    for (const YarnFamily& family : f.families) {
+      const double factor = effective_softening(family.tension, asked);
+      limited = limited || factor != asked;
+      names.push_back(family.name);
+      factors.push_back(fmt::format("{:.3g}", factor));
+    }
+    if (!limited) continue;
+    lines.push_back(fmt::format("{}: solver.fibre_softening = {:g} divides the tension of {} by {} "
+                                "only: they are then as stiff as in compression, which is not "
+                                "softened",
+                                f.name, asked, joined(names, " and "), joined(factors, " and ")));
   }
   return lines;
 }

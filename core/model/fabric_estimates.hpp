@@ -28,25 +28,25 @@ namespace plyform {
 /// C of a yarn with this law of tension, N.
 double usual_compression(const TensionLaw& law);
 
-/// D_t, N mm, of a fabric whose file has no twist stiffness: the root of the product of both
-/// bending stiffnesses at small curvature, half of Huber's estimate for plates
-/// (docs/theory/bending.md).
-double usual_twist(const BendingLaw& law);
+/// D_t, N mm, of a fabric whose file has no twist stiffness: of two families the root of the
+/// product of both bending stiffnesses at small curvature, half of Huber's estimate for plates
+/// (docs/theory/bending.md); 0 of any other number.
+double usual_twist(const Fabric& fabric);
 
 /// B = w c^3, N mm.
 double usual_bending(const Fabric& fabric);
 
-/// l, mm.
+/// l, mm, by the first crossing; 0 without one.
 double usual_zone_width(const Fabric& fabric);
 
-/// n_c Cs'(0), N/mm per rad of shear; for a law with Cs'(0) = 0 n_c times its secant at half a
-/// radian.
+/// n_c Cs'(0), N/mm per rad of shear, of all crossings; for a law with Cs'(0) = 0 n_c times its
+/// secant at half a radian.
 double shear_rigidity(const Fabric& fabric);
 
 /// D_g, N mm; 0 for a fabric without shear stiffness.
 double usual_in_plane_bending(const Fabric& fabric);
 
-/// Estimates the ValueSource::missing properties of the woven fabrics of a case's plies, and marks
+/// Estimates the ValueSource::missing properties of the yarns of a case's plies, and marks
 /// them ValueSource::estimated. Of plies that others may press (core/model/reach_ahead.hpp): C, and
 /// B and D_g of yarns that bear compression. Of a ply that lies alone: C of yarns whose file has a
 /// bending stiffness or buckling force, as both need it; if plies in a stack are of its fabric too,

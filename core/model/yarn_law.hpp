@@ -111,7 +111,9 @@ bool has_rates(const std::variant<Laws...>& any) {
 
 /// The same of any law of a fabric. Laws of sheets have no rates.
 inline bool has_rates(const Fabric& f) {
-  return f.has_yarns() && (has_rates(yarn_law(f.warp, 0.0)) || has_rates(yarn_law(f.weft, 0.0)));
+  return std::any_of(f.families.begin(), f.families.end(), [](const YarnFamily& family) {
+    return has_rates(yarn_law(family.tension, 0.0));
+  });
 }
 
 } // namespace plyform

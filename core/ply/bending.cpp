@@ -12,14 +12,9 @@
 namespace plyform {
 namespace {
 
-/// Stiffnesses (N mm) of the curvatures 11, 22 and 12 of a stencil, and between the first two.
-struct CurvatureStiffness {
-  std::array<double, 3> own;
-  double coupling;
-};
-
 /// Bound of omega^2, 1/s^2, of nodes that move along one common direction, with the curvatures of
-/// that motion and the stiffnesses of(stencil); Lanczos' iteration. root: of the masses, t^1/2.
+/// that motion and the stiffnesses (N mm) of(stencil); Lanczos' iteration. root: of the masses,
+/// t^1/2.
 template <class Of>
 double largest_omega2(const Bending& b, const Eigen::VectorXd& root, const Of& of) {
   const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
@@ -32,10 +27,12 @@ double largest_omega2(const Bending& b, const Eigen::VectorXd& root, const Of& o
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t k = 0; k < 3; ++k)
           kappa[k] += b.b[i][k] * y[b.node[i]];
-      const CurvatureStiffness d = of(e);
-      const std::array<double, 3> moment{d.own[0] * kappa[0] + d.coupling * kappa[1],
-                                         d.own[1] * kappa[1] + d.coupling * kappa[0],
-                                         d.own[2] * kappa[2]};
+      const Eigen::Matrix3d d = of(e);
+      std::array<double, 3> moment{};
+      for (std::size_t k = 0; k < 3; ++k)
+        moment[k] = d(static_cast<Eigen::Index>(k), 0) * kappa[0] +
+                    d(static_cast<Eigen::Index>(k), 1) * kappa[1] +
+                    d(static_cast<Eigen::Index>(k), 2) * kappa[2];
       for (std::size_t i = begin; i < end; ++i)
         for (std::size_t k = 0; k < 3; ++k)
           force[b.node[i]] += b.area[e] * b.b[i][k] * moment[k];
@@ -80,36 +77,75 @@ StencilShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t ste
   return s;
 }
 
-/// (T) of a family of yarns whose D_g is `stiffness` (N mm); `family` 0 the warp, 1 the weft.
-YarnCurvature yarn_curvature(const StencilShape& s, std::size_t family, double stiffness) {
+/// D_g of the families at a node, N mm; none without in-plane bending.
+std::span<const double> in_plane_at(const Bending& b, std::size_t node) {
+  const std::size_t families = b.law.families.size();
+  return b.in_plane.empty() ? std::span<const double>()
+                            : std::span(b.in_plane).subspan(node * families, families);
+}
+
+/// First derivative along a family.
+Vec3 first_along(const FamilyBending& family, const StencilShape& s) {
+  return family.along.x() * s.first[0] + family.along.y() * s.first[1];
+}
+
+/// (T) of a family of yarns whose D_g is `stiffness` (N mm).
+YarnCurvature yarn_curvature(const StencilShape& s, const FamilyBending& family, double stiffness) {
   YarnCurvature t;
-  const Vec3 c = s.normal.cross(s.first[family]);
+  const Vec3 p = family.of_axes(),
+             second = p[0] * s.second[0] + p[1] * s.second[1] + p[2] * s.second[2];
+  const Vec3 c = s.normal.cross(first_along(family, s));
   constexpr double least = 1e-12; // lower limit of l^2, below which a yarn has no direction
   const double l2 = std::max(least, c.squaredNorm());
   t.across = c / l2;
-  t.kappa = s.second[family].dot(t.across);
-  t.slope = s.second[family] / l2 - 2.0 * t.kappa * t.across;
+  t.kappa = second.dot(t.across);
+  t.slope = second / l2 - 2.0 * t.kappa * t.across;
   t.moment = stiffness * t.kappa;
   return t;
 }
 
+/// kappa_f of (K).
+double family_curvature(const FamilyBending& family, const std::array<double, 3>& kappa) {
+  const Vec3 p = family.of_axes();
+  return p[0] * kappa[0] + p[1] * kappa[1] + p[2] * kappa[2];
+}
+
 /// (M)
 std::array<double, 3> moments(const BendingLaw& law, const std::array<double, 3>& kappa) {
-  return {law.warp.at(kappa[0]).value + law.coupling * kappa[1],
-          law.weft.at(kappa[1]).value + law.coupling * kappa[0], law.twist * kappa[2]};
+  std::array<double, 3> m{law.coupling * kappa[1], law.coupling * kappa[0], law.twist * kappa[2]};
+  for (const FamilyBending& family : law.families) {
+    const Vec3 of = family.law.at(family_curvature(family, kappa)).value * family.of_axes();
+    for (std::size_t k = 0; k < 3; ++k)
+      m[k] += of[static_cast<Eigen::Index>(k)];
+  }
+  return m;
 }
 
 /// Adds (I) of one family to the forces on the nodes of a stencil, except for the term of the
 /// rotation of the normal: its contribution to h, N/mm, is returned.
 Vec3 add_in_plane(const Bending& b, const StencilShape& s, std::size_t stencil, std::size_t family,
                   std::vector<Vec3>& force) {
-  const YarnCurvature t = yarn_curvature(s, family, b.in_plane[stencil][family]);
-  const Vec3 turned = t.slope.cross(s.normal);
+  const FamilyBending& of = b.law.families[family];
+  const YarnCurvature t = yarn_curvature(s, of, in_plane_at(b, stencil)[family]);
+  const Vec3 turned = t.slope.cross(s.normal), p = of.of_axes();
   for (auto i = static_cast<std::size_t>(b.begin[stencil]);
-       i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
-    force[b.node[i]] -=
-        b.area[stencil] * t.moment * (b.b[i][family] * t.across + b.a[i][family] * turned);
-  return t.moment * s.first[family].cross(t.slope);
+       i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i) {
+    const double second = p[0] * b.b[i][0] + p[1] * b.b[i][1] + p[2] * b.b[i][2];
+    const double first = of.along.x() * b.a[i][0] + of.along.y() * b.a[i][1];
+    force[b.node[i]] -= b.area[stencil] * t.moment * (second * t.across + first * turned);
+  }
+  return t.moment * first_along(of, s).cross(t.slope);
+}
+
+/// Stiffness (N mm) of the families in their plane at a node against the second derivatives along
+/// the axes.
+Eigen::Matrix3d in_plane_stiffness(const Bending& b, std::size_t node) {
+  Eigen::Matrix3d d = Eigen::Matrix3d::Zero();
+  for (std::size_t a = 0; a < b.law.families.size(); ++a) {
+    const Vec3 p = b.law.families[a].of_axes();
+    d += in_plane_at(b, node)[a] * (p * p.transpose());
+  }
+  return d;
 }
 
 /// Adds the last term of (F), - dN/dx_i . `along`, to the forces on the nodes of a stencil; `along`
@@ -131,47 +167,49 @@ void add_normal_rotation(const Bending& b, std::span<const Vec3> x, std::size_t 
 } // namespace
 
 Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& triangles,
-                     const BendingLaw& law, double warp, double weft,
+                     const BendingLaw& law, double axis1, double axis2,
                      std::span<const double> node_mass) {
   Bending b;
   b.law = law;
-  fit_stencils(b, x, triangles, warp, weft);
+  fit_stencils(b, x, triangles, axis1, axis2);
   b.omega2 = bending_omega2(b, node_mass);
   return b;
 }
 
 double bending_omega2(const Bending& b, std::span<const double> node_mass) {
   // In a flat sheet out-of-plane and in-plane motions are not coupled, so the larger of the two is
-  // enough. In the plane warp and weft are taken to bend along the same direction, which they
+  // enough. In the plane all families are taken to bend along the same direction, which they
   // approach in a sheared ply: there they are coupled the most.
   const Eigen::VectorXd root = Eigen::Map<const Eigen::VectorXd>(
                                    node_mass.data(), static_cast<Eigen::Index>(node_mass.size()))
                                    .cwiseSqrt();
-  const CurvatureStiffness across{
-      {b.law.warp.largest_slope(), b.law.weft.largest_slope(), b.law.twist}, b.law.coupling};
+  const Eigen::Matrix3d across = b.law.largest_stiffness();
   double found = largest_omega2(b, root, [&](std::size_t) { return across; });
   if (!b.in_plane.empty())
-    found = std::max(found, largest_omega2(b, root, [&](std::size_t e) {
-                       return CurvatureStiffness{{b.in_plane[e][0], b.in_plane[e][1], 0.0}, 0.0};
-                     }));
+    found = std::max(
+        found, largest_omega2(b, root, [&](std::size_t e) { return in_plane_stiffness(b, e); }));
   return found;
 }
 
 std::vector<double> stencil_omega2(const Bending& b, std::span<const double> node_mass) {
-  const std::array<double, 3> across{b.law.warp.largest_slope(), b.law.weft.largest_slope(),
-                                     b.law.twist};
   std::vector<double> omega2;
   for (std::size_t n = 0; n < b.area.size(); ++n) {
-    std::array<double, 3> squares{}; // of B over the masses
-    for (auto i = static_cast<std::size_t>(b.begin[n]);
-         i < static_cast<std::size_t>(b.begin[n + 1]); ++i)
-      for (std::size_t k = 0; k < 3; ++k)
-        squares[k] += b.b[i][k] * b.b[i][k] / node_mass[b.node[i]];
+    // squares of the constants of `of`, a combination of B_11, B_22 and B_12, over the masses
+    const auto squares = [&](const Vec3& of) {
+      double sum = 0.0;
+      for (auto i = static_cast<std::size_t>(b.begin[n]);
+           i < static_cast<std::size_t>(b.begin[n + 1]); ++i) {
+        const double constant = of[0] * b.b[i][0] + of[1] * b.b[i][1] + of[2] * b.b[i][2];
+        sum += constant * constant / node_mass[b.node[i]];
+      }
+      return sum;
+    };
     double sheet = 0.0, plane = 0.0;
-    for (std::size_t k = 0; k < 3; ++k)
-      sheet += across[k] * squares[k];
-    for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
-      plane += b.in_plane[n][k] * squares[k];
+    for (const FamilyBending& family : b.law.families)
+      sheet += family.law.largest_slope() * squares(family.of_axes());
+    sheet += b.law.twist * squares(Vec3::UnitZ());
+    for (std::size_t a = 0; a < b.law.families.size() && !b.in_plane.empty(); ++a)
+      plane += in_plane_at(b, n)[a] * squares(b.law.families[a].of_axes());
     omega2.push_back(b.area[n] * std::max(sheet, plane));
   }
   return omega2;
@@ -184,7 +222,7 @@ std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int 
 double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family) {
   const auto n = static_cast<std::size_t>(node);
   const auto yarns = static_cast<std::size_t>(family);
-  return yarn_curvature(shape_of(b, x, n), yarns, b.in_plane[n][yarns]).kappa;
+  return yarn_curvature(shape_of(b, x, n), b.law.families[yarns], in_plane_at(b, n)[yarns]).kappa;
 }
 
 std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x) {
@@ -197,7 +235,7 @@ std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec
       force[b.node[i]] -=
           b.area[n] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal; // (F)
     Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
-    for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
+    for (std::size_t k = 0; k < b.law.families.size() && !b.in_plane.empty(); ++k)
       h += add_in_plane(b, s, n, k, force);
     add_normal_rotation(b, x, n, (b.area[n] / s.size) * (h - h.dot(s.normal) * s.normal), force);
   }
@@ -211,14 +249,16 @@ void set_normal(StencilShape& s, const Vec3& sum) {
     s.kappa[k] = s.normal.dot(s.second[k]); // (K)
 }
 
-double bending_energy(const BendingLaw& law, const std::array<double, 2>& in_plane,
+double bending_energy(const BendingLaw& law, std::span<const double> in_plane,
                       const StencilShape& s) {
   const std::array<double, 3>& k = s.kappa;
-  double sum = law.warp.at(k[0]).energy + law.weft.at(k[1]).energy + law.coupling * k[0] * k[1] +
-               0.5 * law.twist * k[2] * k[2]; // (E)
-  for (std::size_t f = 0; f < 2; ++f)
-    if (in_plane[f] > 0.0) {
-      const YarnCurvature t = yarn_curvature(s, f, in_plane[f]);
+  double sum = 0.0;
+  for (const FamilyBending& family : law.families)
+    sum += family.law.at(family_curvature(family, k)).energy;
+  sum = sum + law.coupling * k[0] * k[1] + 0.5 * law.twist * k[2] * k[2]; // (E)
+  for (std::size_t a = 0; a < in_plane.size(); ++a)
+    if (in_plane[a] > 0.0) {
+      const YarnCurvature t = yarn_curvature(s, law.families[a], in_plane[a]);
       sum += 0.5 * t.moment * t.kappa; // (G)
     }
   return sum;
@@ -226,11 +266,8 @@ double bending_energy(const BendingLaw& law, const std::array<double, 2>& in_pla
 
 double bending_energy(const Bending& b, std::span<const Vec3> x) {
   double sum = 0.0;
-  for (std::size_t n = 0; n < b.area.size(); ++n) {
-    const std::array<double, 2> in_plane =
-        b.in_plane.empty() ? std::array<double, 2>{} : b.in_plane[n];
-    sum += b.area[n] * bending_energy(b.law, in_plane, shape_of(b, x, n));
-  }
+  for (std::size_t n = 0; n < b.area.size(); ++n)
+    sum += b.area[n] * bending_energy(b.law, in_plane_at(b, n), shape_of(b, x, n));
   return sum;
 }
 

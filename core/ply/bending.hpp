@@ -3,7 +3,9 @@
 // Active only if the fabric has a bending stiffness. Two kinds: out-of-plane bending of the sheet,
 // and in-plane bending of the yarns.
 //
-//   r_1, r_2   mm     lengths along warp and weft in the undeformed ply
+//   r_1, r_2   mm     lengths along the material axes in the undeformed ply: those of warp and weft
+//                     in a weave (MaterialAxes of core/model/fabric.hpp)
+//   v_a        -      components of a family's direction in these axes
 //   A_a,i      1/mm   first and
 //   B_ab,i     1/mm^2 second derivatives at a node from the nodes i of a stencil: dx/dr_a = sum_i
 //                     A_a,i x_i, of the nearest quadratic polynomial; d^2 x / dr_a dr_b = sum_i
@@ -13,21 +15,25 @@
 //   N          mm^2   sum of the area vectors (twice) of the triangles around the node; n = N/|N|
 //   A0         mm^2   a third of the undeformed triangles around the node: its cell
 //
-// Out-of-plane bending, with s_ab = sum_i B_ab,i x_i:
-//   kappa_ab   1/mm   n . s_ab                                                                 (K)
-//   m_1 = M_1(kappa_11) + D_c kappa_22,  m_2 likewise,  m_12 = D_t kappa_12         N          (M)
-//   E = A0 [ W_1(kappa_11) + W_2(kappa_22) + D_c kappa_11 kappa_22 + D_t/2 kappa_12^2 ]        (E)
+// Out-of-plane bending, with s_ab = sum_i B_ab,i x_i and, of a family f along v,
+// p = (v_1^2, v_2^2, 2 v_1 v_2):
+//   kappa_ab   1/mm   n . s_ab;  kappa_f = p_1 kappa_11 + p_2 kappa_22 + p_3 kappa_12          (K)
+//   (m_11, m_22, m_12) = sum_f M_f(kappa_f) p
+//                        + (D_c kappa_22, D_c kappa_11, D_t kappa_12)               N          (M)
+//   E = A0 [ sum_f W_f(kappa_f) + D_c kappa_11 kappa_22 + D_t/2 kappa_12^2 ]                   (E)
 //   h = sum_ab m_ab s_ab,  h_t = h - (h . n) n
 //   F_i = -A0 [ (sum_ab m_ab B_ab,i) n + dN/dx_i . h_t / |N| ]                                 (F)
 //
 // In-plane bending, for each family a of yarns by itself (geodesic curvature, per undeformed
 // length):
-//   d = sum_i A_a,i x_i,  c = n x d,  l = |c|         d: the yarn's stretched unit length; c lies
+//   d = sum_i A_i x_i,  c = n x d,  l = |c|           d: the yarn's stretched unit length; c lies
 //                                                     across it in the sheet
-//   kappa_g = s_aa . c / l^2                          1/mm, in-plane curvature of the yarn     (T)
+//   A = v_1 A_1 + v_2 A_2,  B = sum_k p_k B_k,  s = sum_i B_i x_i          first and second
+//                                                     derivatives along the yarn
+//   kappa_g = s . c / l^2                             1/mm, in-plane curvature of the yarn     (T)
 //   E = A0 D_g/2 kappa_g^2,  M_g = D_g kappa_g        D_g N mm, in_plane of the fabric         (G)
-//   q = s_aa / l^2 - 2 kappa_g c / l^2
-//   F_i = -A0 M_g [ B_aa,i c / l^2 + A_a,i (q x n) ]   and h of (F) has M_g (d x q) more       (I)
+//   q = s / l^2 - 2 kappa_g c / l^2
+//   F_i = -A0 M_g [ B_i c / l^2 + A_i (q x n) ]        and h of (F) has M_g (d x q) more       (I)
 //
 // (I) is the gradient of (G): d kappa_g = ds . c/l^2 + dc . q, since d(1/l^2) = -2 c . dc / l^4;
 // and with dc = dn x d + n x dd it is dc . q = dn . (d x q) + dd . (q x n). The part of s along the
@@ -43,7 +49,7 @@
 //   n_c Cs' gamma - D_g gamma'' = const:  gamma(s) = gamma_inf (1 - exp(-s/l)),
 //   l = sqrt(D_g / (n_c Cs'))                                                                  (L)
 //
-// M: moment per width against curvature, linear or by table. The yarns of a fabric bend
+// M: moment per width against curvature, linear or by table. The families of a fabric bend
 // independently of each other: D_c = 0. An isotropic plate has M = D kappa, D_c = nu D, D_t = 2 (1
 // - nu) D, D = E t^3 / (12 (1 - nu^2)), and no in-plane bending. Curvatures are sampled at nodes,
 // one sample of each per node, to match the one deflection that each node has. Sampled at
@@ -71,19 +77,20 @@ struct Bending {
   std::vector<std::int32_t> node;       ///< per stencil: its centre node, then the others
   std::vector<std::array<double, 3>> b; ///< B_11, B_22, B_12 of each stencil node
   std::vector<std::array<double, 2>> a; ///< A_1, A_2 likewise; empty without in-plane bending
-  std::vector<std::array<double, 2>> in_plane; ///< n, D_g of warp and weft (N mm) where (T) is
-                                               ///< defined, else 0; empty without in-plane bending
-  std::vector<std::int32_t> fan_begin;         ///< n + 1, into fan
+  /// D_g (N mm) of the families at the first node, at the second ... where (T) is defined, else 0;
+  /// empty without in-plane bending.
+  std::vector<double> in_plane;
+  std::vector<std::int32_t> fan_begin; ///< n + 1, into fan
   std::vector<Triangle> fan; ///< triangles around each node; corners: indices within the stencil
   double omega2 = 0.0; ///< 1/s^2, bound of the largest eigenvalue of M^-1 K in the undeformed shape
 };
 
-/// Normal and derivatives of the position along the yarns at one node.
+/// Normal and derivatives of the position along the axes at one node.
 struct StencilShape {
   Vec3 normal{};
   double size = 0.0;                                                    ///< |N|
   std::array<Vec3, 3> second{Vec3::Zero(), Vec3::Zero(), Vec3::Zero()}; ///< s_11, s_22, s_12
-  std::array<Vec3, 2> first{Vec3::Zero(), Vec3::Zero()};                ///< d of warp and weft
+  std::array<Vec3, 2> first{Vec3::Zero(), Vec3::Zero()};                ///< along the axes
   std::array<double, 3> kappa{};                                        ///< 1/mm
 };
 
@@ -91,14 +98,14 @@ struct StencilShape {
 /// mm^2.
 void set_normal(StencilShape& s, const Vec3& sum);
 
-/// (E) + (G) at one node per area A0, N; in_plane: D_g of warp and weft there, N mm.
-double bending_energy(const BendingLaw& law, const std::array<double, 2>& in_plane,
+/// (E) + (G) at one node per area A0, N; in_plane: D_g of the families there, N mm, or none.
+double bending_energy(const BendingLaw& law, std::span<const double> in_plane,
                       const StencilShape& s);
 
 /// Fits all stencils (core/ply/bending_fit.hpp) and bounds omega2. x: undeformed positions, mm;
-/// node_mass: t, one per node; warp, weft: directions in rad from x.
+/// node_mass: t, one per node; axis1, axis2: material axes, rad from x.
 Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& triangles,
-                     const BendingLaw& law, double warp, double weft,
+                     const BendingLaw& law, double axis1, double axis2,
                      std::span<const double> node_mass);
 
 /// Bound of the largest eigenvalue of M^-1 K, 1/s^2, of (E) + (G) in the undeformed shape, by
@@ -113,8 +120,8 @@ std::vector<double> stencil_omega2(const Bending& b, std::span<const double> nod
 /// Curvatures (K) kappa_11, kappa_22, kappa_12 (1/mm) at one node. x: mm, one per node.
 std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int node);
 
-/// (T), 1/mm, of the warp (family 0) or weft (1) at one node. Requires that b has in-plane bending
-/// (D_g > 0 of either family). x: mm, one per node.
+/// (T), 1/mm, of a family at one node. Requires that b has in-plane bending (D_g > 0 of any
+/// family). x: mm, one per node.
 double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family);
 
 /// (F) + (I) on each node, N, one stencil after the other. x: mm. Reference implementation against

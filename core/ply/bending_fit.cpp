@@ -52,16 +52,19 @@ void balance(std::vector<std::array<double, size>>& constants, std::size_t first
 /// Appends the constants A_a,i of a stencil with these nodes.
 void append_slopes(Bending& b, const UndeformedSheet& sheet, const std::vector<int>& nodes) {
   const auto own = static_cast<std::size_t>(nodes[0]);
-  const Vec2 weft(std::cos(sheet.fibre_angle), std::sin(sheet.fibre_angle));
+  const Vec2 axis2(std::cos(sheet.axes_angle), std::sin(sheet.axes_angle));
   const QuadraticFit fit = fit_quadratic(sheet.x, nodes, sheet.x[own], std::sqrt(sheet.area[own]));
   const std::size_t first = b.a.size();
   for (Eigen::Index i = 0; i < fit.rows.cols(); ++i)
-    b.a.push_back({fit.rows(1, i), weft.x() * fit.rows(1, i) + weft.y() * fit.rows(2, i)});
+    b.a.push_back({fit.rows(1, i), axis2.x() * fit.rows(1, i) + axis2.y() * fit.rows(2, i)});
   balance(b.a, first);
-  const std::array<Vec2, 2> yarns{Vec2(1.0, 0.0), weft};
   const std::vector<int> around = nodes_around(sheet, nodes[0]);
-  for (std::size_t k = 0; k < 2; ++k)
-    b.in_plane[own][k] = follows(sheet, around, yarns[k]) ? b.law.in_plane[k] : 0.0;
+  for (std::size_t a = 0; a < b.law.families.size(); ++a) {
+    const FamilyBending& family = b.law.families[a];
+    const Vec2 yarn = family.along.x() * Vec2::UnitX() + family.along.y() * axis2;
+    b.in_plane[own * b.law.families.size() + a] =
+        follows(sheet, around, yarn) ? family.in_plane : 0.0;
+  }
 }
 
 /// Appends nodes and constants of one node's stencil to `b`.
@@ -75,7 +78,7 @@ void append_stencil(Bending& b, const UndeformedSheet& sheet, int node, const Cu
   for (const auto& [n, h] : row)
     if (std::any_of(h.begin(), h.end(), [&](double v) { return std::abs(v) > rounding * largest; }))
       if (std::find(nodes.begin(), nodes.end(), n) == nodes.end()) nodes.push_back(n);
-  const Eigen::Matrix3d turn = along_yarns(sheet.fibre_angle);
+  const Eigen::Matrix3d turn = along_axes(sheet.axes_angle);
   const std::size_t first = b.b.size();
   for (const int n : nodes) {
     const auto at =
@@ -101,9 +104,9 @@ void append_stencil(Bending& b, const UndeformedSheet& sheet, int node, const Cu
 } // namespace
 
 void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangle>& triangles,
-                  double warp, double weft) {
-  UndeformedSheet sheet{{}, triangles, std::vector<std::vector<int>>(x.size()), {}, weft - warp};
-  const Vec2 e1(std::cos(warp), std::sin(warp)), e2(-e1.y(), e1.x());
+                  double axis1, double axis2) {
+  UndeformedSheet sheet{{}, triangles, std::vector<std::vector<int>>(x.size()), {}, axis2 - axis1};
+  const Vec2 e1(std::cos(axis1), std::sin(axis1)), e2(-e1.y(), e1.x());
   for (const Vec2& p : x)
     sheet.x.emplace_back(p.dot(e1), p.dot(e2));
   sheet.area.assign(x.size(), 0.0);
@@ -118,7 +121,7 @@ void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangl
   }
   b.begin = b.fan_begin = {0};
   b.area = sheet.area;
-  if (b.law.in_plane[0] > 0.0 || b.law.in_plane[1] > 0.0) b.in_plane.assign(x.size(), {0.0, 0.0});
+  if (b.law.in_plane()) b.in_plane.assign(x.size() * b.law.families.size(), 0.0);
   const std::vector<CurvatureRow> rows = curvature_rows(sheet, b.law);
   for (std::size_t n = 0; n < x.size(); ++n)
     append_stencil(b, sheet, static_cast<int>(n), rows[n]);

@@ -8,9 +8,9 @@
 namespace plyform {
 
 /// Fills the stencils of `b` (begin, node, b, a, fan), b.area and, by b.law, b.in_plane. x:
-/// undeformed positions, mm; warp, weft: directions in rad from x. A stencil holds the nodes of the
-/// triangles around its node and, where cells are not of parallelograms, those next to them.
+/// undeformed positions, mm; axis1, axis2: material axes, rad from x. A stencil holds the nodes of
+/// the triangles around its node and, where cells are not of parallelograms, those next to them.
 void fit_stencils(Bending& b, std::span<const Vec2> x, const std::vector<Triangle>& triangles,
-                  double warp, double weft);
+                  double axis1, double axis2);
 
 } // namespace plyform

@@ -144,12 +144,14 @@ private:
     const std::size_t first = out.slots.size();
     out.slots.resize(first + simd_width * (ring + others));
     constants.resize(out.slots.size() / simd_width * slot_numbers());
+    const std::size_t first_yarns = out.of_yarns.size();
+    if (!b.in_plane.empty()) out.of_yarns.resize(first_yarns + b.law.families.size());
     for (std::size_t lane = 0; lane < simd_width; ++lane) {
       const StencilSlots& p = four[lane] ? *four[lane] : *four[0];
       const auto n = static_cast<std::size_t>(p.stencil);
       group.area[lane] = four[lane] ? b.area[n] : 0.0;
-      for (std::size_t k = 0; k < 2; ++k)
-        group.in_plane[k][lane] = b.in_plane.empty() ? 0.0 : b.in_plane[n][k];
+      for (std::size_t k = 0; k < b.law.families.size() && !b.in_plane.empty(); ++k)
+        out.of_yarns[first_yarns + k].of[lane] = b.in_plane[n * b.law.families.size() + k];
       group.own[lane] = at(p, 0);
       // padded by repeating the last node: its triangle is degenerate
       std::vector<int> padded = p.ring;
@@ -196,23 +198,43 @@ private:
 
 void moment_of_table(const BendingKernelLaw& law, int family, const double* kappa, double* m) {
   for (int i = 0; i < simd_width; ++i)
-    m[i] = (family == 0 ? law.law->warp : law.law->weft).at(kappa[i]).value;
+    m[i] = law.law->families[at(family)].law.at(kappa[i]).value;
+}
+
+BendingKernelFamily kernel_family(const FamilyBending& family) {
+  const Vec3 p = family.of_axes();
+  return {{family.along.x(), family.along.y()}, {p[0], p[1], p[2]}, !family.law.curvature.empty()};
 }
 
 BendingKernelLaw kernel_law(const BendingSimd& l) {
   const BendingLaw& law = l.law;
-  const bool table = !law.warp.curvature.empty() || !law.weft.curvature.empty();
-  return {{law.warp.stiffness, law.weft.stiffness},
-          law.coupling,
-          law.twist,
-          table,
-          l.in_plane,
-          &law,
-          moment_of_table};
+  BendingKernelLaw k; // only as many families are set as there are
+  BendingLaw linear{{}, law.coupling, law.twist};
+  k.families = static_cast<int>(law.families.size());
+  k.table = false;
+  for (std::size_t a = 0; a < law.families.size(); ++a) {
+    k.family[a] = kernel_family(law.families[a]);
+    k.table = k.table || k.family[a].table;
+    if (!k.family[a].table) linear.families.push_back(law.families[a]);
+  }
+  const Eigen::Matrix3d d = linear.stiffness_at_rest();
+  k.stiffness[0] = d(0, 0), k.stiffness[1] = d(1, 1), k.coupling = d(0, 1);
+  k.oblique[0] = d(0, 2), k.oblique[1] = d(1, 2), k.twist = d(2, 2);
+  k.weave = law.families.size() == 2 && law.families[0].along == Vec2::UnitX() &&
+            law.families[1].along == Vec2::UnitY();
+  k.in_plane = l.in_plane;
+  k.law = &law;
+  k.moment = moment_of_table;
+  return k;
 }
 
 std::size_t slot_numbers(const BendingSimd& l) {
   return l.in_plane ? 5 : 3;
+}
+
+/// Where D_g of a group stand in `of_yarns`.
+std::size_t in_plane_begin(const BendingSimd& l, int group) {
+  return l.in_plane ? at(group) * l.law.families.size() : 0;
 }
 
 /// The shape of the stencil in one SIMD lane. slot: number of the group's first slot.
@@ -247,6 +269,8 @@ StencilShape shape_in_lane(const BendingSimd& l, const BendingBlock& block, cons
 } // namespace
 
 BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
+  if (b.law.families.size() > most_kernel_families)
+    throw std::length_error("bending: too many families");
   BendingSimd out;
   out.law = b.law;
   out.in_plane = !b.in_plane.empty();
@@ -259,7 +283,7 @@ BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
   for (const int node : morton_order(x, box))
     maker.add(node);
   maker.close();
-  out.nodes.shrink_to_fit(), out.stencils.shrink_to_fit();
+  out.nodes.shrink_to_fit(), out.stencils.shrink_to_fit(), out.of_yarns.shrink_to_fit();
   constants.shrink_to_fit(), out.slots.shrink_to_fit();
   out.constants = std::make_shared<const std::vector<SimdNumbers>>(std::move(constants));
   find_node_forces(out, x.size());
@@ -275,6 +299,7 @@ void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block) {
                                   of.groups,
                                   l.constants->data() + of.first_slot * slot_numbers(l),
                                   l.slots.data() + of.first_slot * simd_width,
+                                  l.of_yarns.data() + in_plane_begin(l, of.first_group),
                                   l.force.data() + of.first_node};
   const auto run = fastest(bending_kernel_generic, bending_kernel_avx2, bending_kernel_avx512);
   run(kernel, law, x.data()->data());
@@ -282,14 +307,18 @@ void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block) {
 
 double bending_energy(const BendingSimd& l, std::span<const Vec3> x) {
   double sum = 0.0;
+  std::vector<double> in_plane(l.in_plane ? l.law.families.size() : 0);
   for (const BendingBlock& block : l.blocks) {
     std::size_t slot = block.first_slot;
     for (int g = block.first_group; g < block.first_group + block.groups; ++g) {
       const SimdStencils& p = l.stencils[static_cast<std::size_t>(g)];
-      for (std::size_t lane = 0; lane < simd_width; ++lane)
-        if (p.area[lane] > 0.0)
-          sum += p.area[lane] * bending_energy(l.law, {p.in_plane[0][lane], p.in_plane[1][lane]},
-                                               shape_in_lane(l, block, p, slot, lane, x));
+      for (std::size_t lane = 0; lane < simd_width; ++lane) {
+        if (!(p.area[lane] > 0.0)) continue;
+        for (std::size_t a = 0; a < in_plane.size(); ++a)
+          in_plane[a] = l.of_yarns[in_plane_begin(l, g) + a].of[lane];
+        sum += p.area[lane] *
+               bending_energy(l.law, in_plane, shape_in_lane(l, block, p, slot, lane, x));
+      }
       slot += static_cast<std::size_t>(p.slots);
     }
   }

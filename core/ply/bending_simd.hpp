@@ -29,6 +29,7 @@ struct BendingSimd : BlockForces {
   double omega2 = 0.0;   ///< 1/s^2, as of Bending
   std::vector<BendingBlock> blocks;
   std::vector<SimdStencils> stencils;
+  std::vector<SimdNumbers> of_yarns;      ///< of `stencils`: BendingKernelBlock::in_plane
   SharedConstants<SimdNumbers> constants; ///< of `slots`, as in BendingKernelBlock
   std::vector<std::uint16_t> slots;       ///< of `stencils`, four nodes each
 };

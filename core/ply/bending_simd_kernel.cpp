@@ -5,7 +5,8 @@
 // minus the sum of the forces on the others:
 //   N = sum_k d_k x d_{k+1}            over the ring, from its last back to its first
 //   F_i = sum_ab B_ab,i V_ab + sum_a A_a,i U_a + (d_{i-1} - d_{i+1}) x v
-//   V_aa = -A0 (m_aa n + M_g c/l^2),  V_12 = -A0 m_12 n,  U_a = -A0 M_g (q x n),  v = A0 h_t / |N|
+//   V_k = -A0 (m_k n + sum_f M_g p_k c/l^2),  U_a = -A0 sum_f M_g v_a (q x n),  v = A0 h_t / |N|
+// with V and m in the order 11, 22, 12.
 #include "core/ply/bending_simd_kernel.hpp"
 
 #include "core/ply/simd_kernel_body.hpp"
@@ -19,6 +20,7 @@ struct SimdGroups {
   const SimdStencils* stencils[quads];
   const SimdNumbers* constants[quads];
   const std::uint16_t* slots[quads];
+  const SimdNumbers* in_plane[quads];
   int ring, slot_count, count;
 };
 
@@ -26,7 +28,7 @@ struct SimdGroups {
 struct SimdShape {
   Vectors sum;       ///< N
   Vectors second[3]; ///< s_11, s_22, s_12
-  Vectors first[2];  ///< d of warp and weft
+  Vectors first[2];  ///< along the axes
 };
 
 /// Factors of the constants in the forces.
@@ -86,46 +88,96 @@ PLYFORM_INLINE SimdShape find_shape(const SimdGroups& g, const double* place, Ve
   return s;
 }
 
-/// M_1 or M_2, N, of curvatures (1/mm).
-template <bool tables>
-PLYFORM_INLINE Doubles yarn_moment(const BendingKernelLaw& law, int family, Doubles kappa) {
-  if (!tables) return law.stiffness[family] * kappa;
-  return by_quads(kappa, [&](const double* at, double* m) { law.moment(law, family, at, m); });
+/// Adds the moments (N) of tabulated laws to m_11, m_22, m_12 by the curvatures along the axes.
+template <class Of>
+PLYFORM_INLINE void add_tables(const BendingKernelLaw& law, const Doubles* kappa, Doubles* m) {
+  const auto moment = [&](int family, Doubles at_kappa) {
+    return by_quads(at_kappa,
+                    [&](const double* at, double* out) { law.moment(law, family, at, out); });
+  };
+  for_families<Of>(law.families, [&](auto a) {
+    if (!law.family[a].table) return;
+    if constexpr (Of::weave) {
+      m[a] += moment(a, kappa[a]);
+    } else {
+      const double* p = law.family[a].of_axes;
+      const Doubles of = moment(a, p[0] * kappa[0] + p[1] * kappa[1] + p[2] * kappa[2]);
+      for (int k = 0; k < 3; ++k)
+        m[k] += p[k] * of;
+    }
+  });
+}
+
+/// First and second derivatives along a family.
+struct AlongFamily {
+  Vectors first, second;
+};
+
+template <class Of, class Family>
+PLYFORM_INLINE AlongFamily along_family(const BendingKernelLaw& law, const SimdShape& s, Family a) {
+  if constexpr (Of::weave) {
+    return {s.first[a], s.second[a]};
+  } else {
+    const BendingKernelFamily& f = law.family[a];
+    AlongFamily along{none(), none()};
+    for (int k = 0; k < 2; ++k)
+      add_to(along.first, all(f.along[k]), s.first[k]);
+    for (int k = 0; k < 3; ++k)
+      add_to(along.second, all(f.of_axes[k]), s.second[k]);
+    return along;
+  }
 }
 
 /// (I) of one family: adds to the factors, and to h.
-PLYFORM_INLINE void add_in_plane(const SimdShape& s, const Vectors& normal, Doubles area,
-                                 Doubles stiffness, int family, SimdFactors& f, Vectors& h) {
+template <class Of, class Family>
+PLYFORM_INLINE void add_in_plane(const BendingKernelLaw& law, const SimdShape& s,
+                                 const Vectors& normal, Doubles area, Doubles stiffness, Family a,
+                                 SimdFactors& f, Vectors& h) {
   constexpr double least = 1e-12; // lower limit of l^2, below which a yarn has no direction
-  const Vectors &along = s.first[family], &second = s.second[family];
-  const Vectors c = cross(normal, along);
+  const AlongFamily along = along_family<Of>(law, s, a);
+  const Vectors c = cross(normal, along.first);
   const Doubles per_l2 = 1.0 / larger(all(least), dot(c, c));
   const Vectors across = per_l2 * c;
-  const Doubles kappa = dot(second, across), moment = stiffness * kappa;
-  const Vectors q = per_l2 * second - (kappa + kappa) * across;
+  const Doubles kappa = dot(along.second, across), moment = stiffness * kappa;
+  const Vectors q = per_l2 * along.second - (kappa + kappa) * across;
   const Doubles factor = -(area * moment);
-  add_to(f.second[family], factor, across);
-  f.first[family] = factor * cross(q, normal);
-  add_to(h, moment, cross(along, q));
+  if constexpr (Of::weave) {
+    add_to(f.second[a], factor, across);
+    f.first[a] = factor * cross(q, normal);
+  } else {
+    const BendingKernelFamily& of = law.family[a];
+    for (int k = 0; k < 3; ++k)
+      add_to(f.second[k], of.of_axes[k] * factor, across);
+    for (int k = 0; k < 2; ++k)
+      add_to(f.first[k], of.along[k] * factor, cross(q, normal));
+  }
+  add_to(h, moment, cross(along.first, q));
 }
 
-template <bool in_plane, bool tables>
+template <class Of, bool in_plane, bool tables>
 PLYFORM_INLINE SimdFactors find_factors(const SimdGroups& g, const SimdShape& s,
                                         const BendingKernelLaw& law) {
   const Doubles area = numbers([&](int q) { return g.stencils[q]->area; });
   const Doubles per_size = 1.0 / root(dot(s.sum, s.sum));
   const Vectors normal = per_size * s.sum;
-  const Doubles kappa1 = dot(normal, s.second[0]), kappa2 = dot(normal, s.second[1]);
-  const Doubles m1 = yarn_moment<tables>(law, 0, kappa1) + law.coupling * kappa2;
-  const Doubles m2 = yarn_moment<tables>(law, 1, kappa2) + law.coupling * kappa1;
-  const Doubles m12 = law.twist * dot(normal, s.second[2]);
-  Vectors h = m1 * s.second[0] + m2 * s.second[1] + m12 * s.second[2];
-  SimdFactors f{{(-(area * m1)) * normal, (-(area * m2)) * normal, (-(area * m12)) * normal},
+  const Doubles kappa[3] = {dot(normal, s.second[0]), dot(normal, s.second[1]),
+                            dot(normal, s.second[2])};
+  Doubles m[3] = {law.stiffness[0] * kappa[0] + law.coupling * kappa[1],
+                  law.stiffness[1] * kappa[1] + law.coupling * kappa[0], law.twist * kappa[2]};
+  if constexpr (!Of::weave) {
+    m[0] += law.oblique[0] * kappa[2], m[1] += law.oblique[1] * kappa[2];
+    m[2] += law.oblique[0] * kappa[0] + law.oblique[1] * kappa[1];
+  }
+  if (tables) add_tables<Of>(law, kappa, m);
+  Vectors h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
+  SimdFactors f{{(-(area * m[0])) * normal, (-(area * m[1])) * normal, (-(area * m[2])) * normal},
                 {none(), none()},
                 none()};
-  for (int k = 0; k < 2 && in_plane; ++k)
-    add_in_plane(s, normal, area, numbers([&](int q) { return g.stencils[q]->in_plane[k]; }), k, f,
-                 h);
+  if (in_plane)
+    for_families<Of>(law.families, [&](auto a) {
+      add_in_plane<Of>(law, s, normal, area, numbers([&](int q) { return g.in_plane[q][a].of; }), a,
+                       f, h);
+    });
   f.turn = (area * per_size) * (h - dot(h, normal) * normal);
   return f;
 }
@@ -172,7 +224,7 @@ PLYFORM_INLINE void add_forces(const SimdGroups& g, const SimdFactors& f, const 
 
 /// The group at `first`, and the next if the lanes have room for it and it has as many slots.
 template <bool in_plane>
-PLYFORM_INLINE SimdGroups groups_at(const BendingKernelBlock& block, int first,
+PLYFORM_INLINE SimdGroups groups_at(const BendingKernelBlock& block, int families, int first,
                                     const SimdNumbers* constants, const std::uint16_t* slots) {
   const SimdStencils *p = block.stencils + first, *next = p + 1;
   const bool joined = quads == 2 && first + 1 < block.groups && p->ring == next->ring &&
@@ -184,11 +236,12 @@ PLYFORM_INLINE SimdGroups groups_at(const BendingKernelBlock& block, int first,
     g.stencils[q] = p + group;
     g.constants[q] = constants + group * slot_numbers<in_plane> * p->slots;
     g.slots[q] = slots + group * simd_width * p->slots;
+    g.in_plane[q] = in_plane ? block.in_plane + families * (first + group) : nullptr;
   }
   return g;
 }
 
-template <bool in_plane, bool tables>
+template <class Of, bool in_plane, bool tables>
 PLYFORM_INLINE void block_forces(const BendingKernelBlock& block, const BendingKernelLaw& law,
                                  const double* x, double* place) {
   gather_places(block.nodes, block.node_count, x, place);
@@ -199,9 +252,9 @@ PLYFORM_INLINE void block_forces(const BendingKernelBlock& block, const BendingK
   const SimdNumbers* constants = block.constants;
   const std::uint16_t* slots = block.slots;
   for (int group = 0; group < block.groups;) {
-    const SimdGroups g = groups_at<in_plane>(block, group, constants, slots);
+    const SimdGroups g = groups_at<in_plane>(block, law.families, group, constants, slots);
     const SimdShape s = find_shape<in_plane>(g, place, d);
-    const SimdFactors f = find_factors<in_plane, tables>(g, s, law);
+    const SimdFactors f = find_factors<Of, in_plane, tables>(g, s, law);
     add_forces<in_plane>(g, f, d, force);
     group += g.count;
     constants += g.count * slot_numbers<in_plane> * g.slot_count;
@@ -212,12 +265,15 @@ PLYFORM_INLINE void block_forces(const BendingKernelBlock& block, const BendingK
 PLYFORM_INLINE void bending_kernel(const BendingKernelBlock& block, const BendingKernelLaw& law,
                                    const double* x) {
   alignas(32) double place[4 * most_bending_nodes];
-  if (law.table)
-    law.in_plane ? block_forces<true, true>(block, law, x, place)
-                 : block_forces<false, true>(block, law, x, place);
+  if (!law.weave)
+    law.in_plane ? block_forces<AnyFabric, true, true>(block, law, x, place)
+                 : block_forces<AnyFabric, false, true>(block, law, x, place);
+  else if (law.table)
+    law.in_plane ? block_forces<Weave, true, true>(block, law, x, place)
+                 : block_forces<Weave, false, true>(block, law, x, place);
   else
-    law.in_plane ? block_forces<true, false>(block, law, x, place)
-                 : block_forces<false, false>(block, law, x, place);
+    law.in_plane ? block_forces<Weave, true, false>(block, law, x, place)
+                 : block_forces<Weave, false, false>(block, law, x, place);
 }
 
 } // namespace

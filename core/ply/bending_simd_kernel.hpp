@@ -17,19 +17,31 @@ constexpr int most_bending_nodes = most_stencil_slots + 1;
 /// The slots of the ring come first: the triangles around the centre node consist of it and two
 /// successive ring slots, cyclically.
 struct alignas(32) SimdStencils {
-  double area[simd_width];        ///< mm^2, A0; 0 in SIMD lanes without a stencil
-  double in_plane[2][simd_width]; ///< N mm, D_g of warp and weft at the stencil's node
-  std::uint16_t own[simd_width];  ///< centre node as byte offset: 32 times its index in the block
-  std::int32_t ring, slots;       ///< number of slots in the ring, in all (<= most_stencil_slots)
+  double area[simd_width];       ///< mm^2, A0; 0 in SIMD lanes without a stencil
+  std::uint16_t own[simd_width]; ///< centre node as byte offset: 32 times its index in the block
+  std::int32_t ring, slots;      ///< number of slots in the ring, in all (<= most_stencil_slots)
 };
 
-/// Constants of (M), N mm, or the callback for tabulated laws.
+/// A family, or direction of a plate.
+struct BendingKernelFamily {
+  double along[2];   ///< v_f
+  double of_axes[3]; ///< p of (M)
+  bool table;        ///< call `moment`: its law is not in `stiffness`
+};
+
+/// Constants of (M), N mm, and the callback for tabulated laws.
 struct BendingKernelLaw {
-  double stiffness[2], coupling, twist;
-  bool table; ///< call `moment` instead of using `stiffness`
+  /// Of all linear laws together: m_11 and m_22 against their own curvature, against the other's,
+  /// and against kappa_12.
+  double stiffness[2], coupling, oblique[2];
+  double twist; ///< m_12 against kappa_12
+  int families;
+  BendingKernelFamily family[most_kernel_families];
+  bool weave; ///< two families along the axes: `oblique` is zero
+  bool table; ///< whether any family has one
   bool in_plane;
   const BendingLaw* law;
-  /// M_1 or M_2 (N) of four curvatures (1/mm).
+  /// M_f (N) of four curvatures (1/mm).
   void (*moment)(const BendingKernelLaw&, int family, const double* kappa, double* m);
 };
 
@@ -41,7 +53,9 @@ struct BendingKernelBlock {
   int groups;
   const SimdNumbers* constants; ///< per slot: B_11, B_22, B_12 and, with in_plane, A_1, A_2
   const std::uint16_t* slots;   ///< per slot: four nodes, as SimdStencils::own
-  SimdForce* force;             ///< N, one per node of the block
+  /// With in_plane: D_g (N mm) of the families at the nodes of the first group, of the second ...
+  const SimdNumbers* in_plane;
+  SimdForce* force; ///< N, one per node of the block
 };
 
 /// (F) + (I), N, of a block's stencils, summed in block.force. x: mm, 3 numbers per node of the

@@ -170,12 +170,9 @@ void add_side(std::vector<CurvatureRow>& rows, const UndeformedSheet& sheet, con
 }
 
 /// Stiffness (N mm) of the law at no curvature against those in the sheet's axes.
-Eigen::Matrix3d stiffness_of(const BendingLaw& law, double fibre_angle) {
-  Eigen::Matrix3d d = Eigen::Matrix3d::Zero();
-  d(0, 0) = law.warp.at(0.0).slope, d(1, 1) = law.weft.at(0.0).slope;
-  d(0, 1) = d(1, 0) = law.coupling, d(2, 2) = law.twist;
-  const Eigen::Matrix3d turn = along_yarns(fibre_angle);
-  d = turn.transpose() * d * turn;
+Eigen::Matrix3d stiffness_of(const BendingLaw& law, double axes_angle) {
+  const Eigen::Matrix3d turn = along_axes(axes_angle);
+  const Eigen::Matrix3d d = turn.transpose() * law.stiffness_at_rest() * turn;
   // A millionth of the stiffness of a plate beside it: where the law has none, nothing is added.
   constexpr double share = 1e-6;
   const double largest = d.cwiseAbs().maxCoeff();
@@ -207,8 +204,8 @@ void release(CurvatureRow& row, std::vector<Vec2> normals, const Eigen::Matrix3d
 
 } // namespace
 
-Eigen::Matrix3d along_yarns(double fibre_angle) {
-  const double c = std::cos(fibre_angle), s = std::sin(fibre_angle);
+Eigen::Matrix3d along_axes(double axes_angle) {
+  const double c = std::cos(axes_angle), s = std::sin(axes_angle);
   Eigen::Matrix3d turn;
   turn << 1.0, 0.0, 0.0, c * c, s * s, 2.0 * c * s, c, 0.0, s;
   return turn;
@@ -225,7 +222,7 @@ std::vector<CurvatureRow> curvature_rows(const UndeformedSheet& sheet, const Ben
     for (const int n : {side.n, side.m})
       normals[n].push_back(Vec2(along.y(), -along.x()).normalized());
   }
-  const Eigen::Matrix3d stiffness = stiffness_of(law, sheet.fibre_angle);
+  const Eigen::Matrix3d stiffness = stiffness_of(law, sheet.axes_angle);
   for (std::size_t n = 0; n < rows.size(); ++n)
     if (!normals[n].empty()) release(rows[n], normals[n], stiffness);
   return rows;

@@ -34,22 +34,23 @@
 
 namespace plyform {
 
-/// The undeformed ply, in axes along the warp and normal to it.
+/// The undeformed ply, in coordinates along the first material axis and normal to it.
 struct UndeformedSheet {
   std::vector<Vec2> x; ///< mm
   const std::vector<Triangle>& triangles;
   std::vector<std::vector<int>> around; ///< triangles of each node
   std::vector<double> area;             ///< mm^2, A0
-  double fibre_angle;                   ///< rad, from warp to weft
+  double axes_angle;                    ///< rad, from the first material axis to the second
 };
 
 /// Weights of nodes in H_11, H_22, H_12 at one node, 1/mm^2.
 using CurvatureRow = std::vector<std::pair<int, std::array<double, 3>>>;
 
-/// (H) with (R) of each node, in the sheet's axes.
+/// (H) with (R) of each node, in the sheet's coordinates.
 std::vector<CurvatureRow> curvature_rows(const UndeformedSheet& sheet, const BendingLaw& law);
 
-/// Second derivatives in yarn directions of those in the sheet's axes: rows 11, 22 and 12.
-Eigen::Matrix3d along_yarns(double fibre_angle);
+/// Second derivatives along the material axes from those in the sheet's coordinates: rows 11, 22
+/// and 12.
+Eigen::Matrix3d along_axes(double axes_angle);
 
 } // namespace plyform

@@ -4,7 +4,6 @@
 #include "core/mesh/incidence.hpp"
 #include "core/mesh/pairs.hpp"
 #include "core/ply/element_limits.hpp"
-#include "core/ply/in_plane_law.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -18,34 +17,57 @@ constexpr double most_of_shear = 0.1;     // s_a over the stiffness that shear g
 constexpr double shear_scale_at = 0.5;    // rad: at this angle, as the law may start from zero
 constexpr double collapse_penalty = 1e-3; // g_a over yarn stiffness: far above that of shear
 
-/// s_a and g_a of a family of yarns softened by `softening`, see (E).
-SideStiffness side_stiffness(const Membrane& m, const TensionLaw& yarn, double density,
-                             double softening) {
-  const double soft = yarn.largest_slope(), stiff = softening * soft;
-  const double secant = m.fabric.shear.at(shear_scale_at).value / shear_scale_at;
-  const double by_shear = density > 0.0 ? m.cells_per_area * deviation_weight * secant / density
-                                        : 0.0; // a sheet without yarns has none
+/// s_a and g_a of the family `index`, see (E).
+SideStiffness side_stiffness(const Membrane& m, std::size_t index) {
+  const MembraneFamily& family = m.families[index];
+  const double soft = family.yarn.largest_slope(), stiff = family.softening * soft;
+  double by_shear = 0.0;
+  for (const MembraneCrossing& c : m.crossings)
+    if (c.first == index || c.second == index) {
+      const double secant = c.shear.at(shear_scale_at).value / shear_scale_at;
+      by_shear += c.cells * deviation_weight * secant / family.density;
+    }
   SideStiffness side{stabilisation * stiff, std::min(collapse_penalty * stiff, soft)};
   if (by_shear > 0.0) side.stabilisation = std::min(side.stabilisation, most_of_shear * by_shear);
   return side;
 }
 
+void set_laws(Membrane& m, const Fabric& fabric, const MaterialAxes& axes, double softening) {
+  if (fabric.families.size() > most_families || fabric.crossings.size() > most_crossings)
+    throw std::invalid_argument("a fabric of too many families or crossings");
+  m.fabric = fabric;
+  m.omega0 = axes.between();
+  m.across = axes.components(axes.first + MaterialAxes{}.second);
+  for (const YarnFamily& f : fabric.families)
+    m.families.push_back({axes.components(f.angle),
+                          f.density,
+                          softened(f.tension, softening),
+                          effective_softening(f.tension, softening),
+                          0.0,
+                          {}});
+  for (const Crossing& c : fabric.crossings)
+    m.crossings.push_back(
+        {c.first, c.second, crossing_angle(fabric, c), cells_per_area(fabric, c), c.shear});
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    m.families[a].side = side_stiffness(m, a);
+}
+
 } // namespace
 
-Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
-                       ElementKind kind, double softening) {
+Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double angle, ElementKind kind,
+                       double softening) {
   Membrane m;
-  m.fabric = fabric;
-  m.softening = {effective_softening(fabric.warp, softening),
-                 effective_softening(fabric.weft, softening)};
-  m.yarn = {softened(fabric.warp, softening), softened(fabric.weft, softening)};
-  m.omega0 = fabric.fibre_angle;
-  m.cells_per_area = fabric.warp_density * fabric.weft_density * std::sin(m.omega0);
-  m.side = {side_stiffness(m, m.yarn[0], fabric.warp_density, m.softening[0]),
-            side_stiffness(m, m.yarn[1], fabric.weft_density, m.softening[1])};
-  if (!in_plane_law(fabric).yarns) kind = ElementKind::plain; // without yarns nothing locks
+  const MaterialAxes axes = material_axes(fabric);
+  set_laws(m, fabric, axes, softening);
+  if (!fabric.has_yarns()) kind = ElementKind::plain; // without yarns nothing locks
+  const double axis1 = angle + axes.first, axis2 = angle + axes.second;
   std::vector<char> alone; // triangles of the plain element: where it does not lock
-  if (kind == ElementKind::automatic) alone = along_fibres(mesh, warp_angle, warp_angle + m.omega0);
+  if (kind == ElementKind::automatic) {
+    std::vector<double> yarns;
+    for (const YarnFamily& family : fabric.families)
+      yarns.push_back(angle + family.angle);
+    alone = along_fibres(mesh, yarns);
+  }
   const StrainGroups groups = kind == ElementKind::plain ? single_triangles(mesh.triangles.size())
                                                          : pair_triangles(mesh, alone);
   m.group_begin = groups.begin;
@@ -55,8 +77,8 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   m.node_area.assign(mesh.x.size(), 0.0);
   m.c.reserve(m.triangles.size()), m.area.reserve(m.triangles.size());
   m.node_mass.reserve(mesh.x.size());
-  const Vec2 e1(std::cos(warp_angle), std::sin(warp_angle));
-  const Vec2 e2(std::cos(warp_angle + m.omega0), std::sin(warp_angle + m.omega0));
+  const Vec2 e1(std::cos(axis1), std::sin(axis1));
+  const Vec2 e2(std::cos(axis2), std::sin(axis2));
   for (const Triangle& t : m.triangles) {
     const Vec2 g1 = mesh.x[t[1]] - mesh.x[t[0]];
     const Vec2 g2 = mesh.x[t[2]] - mesh.x[t[0]];
@@ -81,47 +103,62 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_
   return m;
 }
 
-FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle) {
+AxesState axes_state(const Membrane& m, std::span<const Vec3> x, int triangle) {
   const auto e = static_cast<std::size_t>(triangle);
   const Triangle& t = m.triangles[e];
-  const FibreGradients& c = m.c[e];
+  const AxesGradients& c = m.c[e];
   const Vec3& x0 = x[t[0]];
   const Vec3 g1 = x[t[1]] - x0;
   const Vec3 g2 = x[t[2]] - x0;
-  FibreState s;
+  AxesState s;
   s.f1 = c.c11 * g1 + c.c12 * g2; // k_1 (11), normalised below
   s.f2 = c.c21 * g1 + c.c22 * g2;
   s.lambda1 = s.f1.norm();
   s.lambda2 = s.f2.norm();
   s.f1 /= s.lambda1;
   s.f2 /= s.lambda2;
-  s.cos_omega = s.f1.dot(s.f2);
-  s.sin_omega = std::max(least_sine, std::sqrt(std::max(0.0, 1.0 - s.cos_omega * s.cos_omega)));
-  s.gamma = m.omega0 - std::atan2(s.sin_omega, s.cos_omega);
+  const CrossingState c12 = crossing_state(s.f1, s.f2, m.omega0);
+  s.cos_omega = c12.cos_omega, s.sin_omega = c12.sin_omega, s.gamma = c12.gamma;
   return s;
 }
 
-bool collapsed(const FibreState& s) {
+FamilyState family_state(const AxesState& axes, const Vec2& along) {
+  if (along == Vec2::UnitX()) return {axes.f1, axes.lambda1};
+  if (along == Vec2::UnitY()) return {axes.f2, axes.lambda2};
+  const Vec3 k = along.x() * axes.k1() + along.y() * axes.k2();
+  const double lambda = k.norm();
+  return {k / lambda, lambda};
+}
+
+CrossingState crossing_state(const Vec3& f_a, const Vec3& f_b, double omega0) {
+  CrossingState s;
+  s.cos_omega = f_a.dot(f_b);
+  s.sin_omega = std::max(least_sine, std::sqrt(std::max(0.0, 1.0 - s.cos_omega * s.cos_omega)));
+  s.gamma = omega0 - std::atan2(s.sin_omega, s.cos_omega);
+  return s;
+}
+
+CrossingState crossing_state(const Membrane& m, const MembraneCrossing& c, const AxesState& axes) {
+  return crossing_state(family_state(axes, m.families[c.first].along).f,
+                        family_state(axes, m.families[c.second].along).f, c.omega0);
+}
+
+double shown_shear(const Membrane& m, const AxesState& axes) {
+  if (!m.crossings.empty()) return crossing_state(m, m.crossings.front(), axes).gamma;
+  return crossing_state(axes.f1, family_state(axes, m.across).f, MaterialAxes{}.between()).gamma;
+}
+
+bool collapsed(const AxesState& s) {
   return !(s.lambda1 > least_stretch && s.lambda2 > least_stretch &&
            s.sin_omega > least_sine_between);
 }
 
-GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin,
-                           int end, const LawStates<YarnMemory>& states,
-                           std::span<ElementForce> q) {
-  return in_plane_law(m.fabric).forces(m, x, dt, begin, end, states, q);
-}
-
-MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
-                               std::span<const YarnMemory> states, double dt) {
-  return in_plane_law(m.fabric).energy(m, x, states, dt);
-}
-
 std::vector<YarnMemory> memory_at_start(const Membrane& m) {
-  YarnMemory start{};
-  for (std::size_t family = 0; family < 2; ++family)
-    start_state(m.law(family), start[family].data());
-  return std::vector<YarnMemory>(static_cast<std::size_t>(m.groups()), start);
+  std::vector<YarnMemory> states;
+  for (int p = 0; p < m.groups(); ++p)
+    for (const MembraneFamily& family : m.families)
+      start_state(family.law(), states.emplace_back().data());
+  return states;
 }
 
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node) {
@@ -130,7 +167,7 @@ Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node) {
   for (auto i = static_cast<std::size_t>(m.gather_begin[n]);
        i < static_cast<std::size_t>(m.gather_begin[n + 1]); ++i) {
     const auto e = static_cast<std::size_t>(m.gather[i] / 3);
-    const FibreGradients& c = m.c[e];
+    const AxesGradients& c = m.c[e];
     double c1 = -c.c11 - c.c12, c2 = -c.c21 - c.c22;
     switch (m.gather[i] % 3) {
     case 1:

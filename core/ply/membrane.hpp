@@ -1,53 +1,63 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The semi-discrete three-node membrane of Hamila and Boisse (2008), in energy form.
+// The semi-discrete three-node membrane of Hamila and Boisse (2008), in energy form, for any number
+// of families of yarns, crossings between them, and a law of the sheet beside them.
 //
 //               2
 //              / \               0 1 2  nodes, anticlockwise seen from the upper side
-//             /   \              f_1    unit vector along the warp yarns
-//            /     \             f_2    unit vector along the weft yarns
-//           /   ^   \            omega  angle from f_1 to f_2
-//          /   / f_2 \           f_1, f_2 and omega are constant in a triangle and
-//         /   / ) omega          change as it deforms. Before forming warp and weft
-//        /   +----> f_1\         may lie at any angle to its sides and to each
+//             /   \              f_a    unit vector along the yarns of family a
+//            /     \             omega  angle from f_a to f_b of two families that cross
+//           /   ^   \            f_a and omega are constant in a triangle
+//          /   / f_b \           and change as it deforms. Before forming
+//         /   / ) omega          the yarns may lie at any angle to its sides
+//        /   +----> f_a\         and to each
 //       /               \        other.
 //      0-----------------1
 //
 //   x_n      mm      positions of the triangle's nodes, n = 0 1 2
-//   c_a,n    1/mm    gradient of N_n along fibre family a (1 warp, 2 weft), sums to 0 over n
-//   k_a      -       k_a = sum_n c_a,n x_n                                              (1)(11)
+//   e_i              material axes, i = 1 2: two directions of the sheet before forming, those of
+//                    the two families of a weave (MaterialAxes of core/model/fabric.hpp)
+//   c_i,n    1/mm    gradient of N_n along e_i, sums to 0 over n
+//   k_i      -       image of e_i, k_i = sum_n c_i,n x_n                                    (1)(11)
+//   v_a,i    -       components of a family's direction before forming: e_a = sum_i v_a,i e_i
+//   k_a      -       its image, k_a = sum_i v_a,i k_i
 //   lambda_a -       |k_a|;  eps_a = lambda_a - 1;  f_a = k_a / lambda_a
-//   omega    rad     angle from f_1 to f_2, omega0 before forming; gamma = omega0 - omega
-//   N_a      N       tension of one yarn;  Cs  N mm  torque of one unit cell
-//   d_a      1/mm    yarns per mm;  n_c = d_1 d_2 sin(omega0)  1/mm^2  unit cells per area
+//   omega    rad     angle from f_a to f_b, omega0 before forming; gamma = omega0 - omega
+//   N_a      N       tension of one yarn;  Cs  N mm  torque of one unit cell of a crossing
+//   d_a      1/mm    yarns per mm;  n_c = d_a d_b sin(omega0)  1/mm^2  unit cells per area
+//   psi      N/mm    energy per area of the sheet's law (core/model/sheet_law.hpp)
 //   A0       mm^2    initial area
 //
 //   P        -       group: a pair of triangles that share a mean strain, or one alone
 //   A        mm^2    sum of A0 over the group; mean: average over the group weighted by area
 //   delta_a  -       eps_a - mean eps_a, zero for a triangle alone
-//   g        rad     sqrt(gamma^2 + beta (delta_1^2 + delta_2^2)): deviations count as shear
+//   g_c      rad     sqrt(gamma^2 + beta (delta_a^2 + delta_b^2)): deviations count as shear of the
+//                    crossings of their families; without crossing the sheet's law resists them
 //   beta     -       8
 //   s_a      N       stabilisation of the deviations, for fabrics without shear stiffness: 1e-6 of
 //                    the yarn stiffness, and, if there is shear stiffness, no more than a tenth of
-//                    the stiffness n_c beta p / d_a that it gives the deviations at half a radian;
-//                    else very stiff yarns would lock
+//                    the stiffness sum_c n_c beta p / d_a that it gives the deviations at half a
+//                    radian; else very stiff yarns would lock
 //   g_a      N       collapse penalty, against folding a triangle flat, acts below a stretch of one
 //                    half: 1e-3 of the yarn stiffness, and no more than the (softened) yarn's own,
 //                    which is slack there unless it bears compression or its group is taut
 //
 // clang-format off
-//   E_P = A [ d_1 W_1(mean eps_1) + d_2 W_2(mean eps_2) ]
-//         + sum over P of A0 [ n_c Ws(g) + sum_a d_a ( s_a/2 delta_a^2
-//                                                    + g_a/2 max(0, 1/2 - lambda_a)^2 ) ]    (E)
-//   p   = Cs(g) / g, N mm: secant stiffness of the cell;  t_a = n_c beta p delta_a / d_a
-//   N_a = W_a'(mean eps_a) + s_a delta_a + t_a - mean t_a - g_a max(0, 1/2 - lambda_a)       (N)
-//   q_a = A0 [ d_a N_a f_a + n_c p gamma (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]    (Q)
-//   F_n = -( c_1,n q_1 + c_2,n q_2 )                                            (31)(32)(39)(F)
+//   E_P = A sum_a d_a W_a(mean eps_a)
+//         + sum over P of A0 [ sum_c n_c Ws(g_c) + psi
+//                              + sum_a d_a ( s_a/2 delta_a^2 + g_a/2 max(0, 1/2 - lambda_a)^2 ) ]  (E)
+//   p   = Cs(g_c) / g_c, N mm: secant stiffness of a cell;  t_a = sum_c n_c beta p delta_a / d_a
+//   N_a = W_a'(mean eps_a) + s_a delta_a + t_a - mean t_a - g_a max(0, 1/2 - lambda_a)             (N)
+//   p_a = A0 [ d_a N_a f_a + sum_c n_c p gamma (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]    (P)
+//   q_i = sum_a v_a,i p_a + A0 dpsi/dk_i                                                           (Q)
+//   F_n = -( c_1,n q_1 + c_2,n q_2 )                                                   (31)(32)(39)(F)
 // clang-format on
 //
-// Numbers in brackets: the corresponding equations of the paper. With groups of one triangle this
-// is the paper's element exactly, except for the collapse penalty, which acts only where no result
-// is valid; for omega0 = 90 degrees (Q) is then the sum of (31), (32) and (39). The element only
-// needs k_1 and k_2, so the fibres may lie at any angle to the sides and to each other.
+// Sums over a run over all families, sums over c over all crossings (in (P), those of family a).
+// Numbers in brackets: the corresponding equations of the paper. With two families and groups of
+// one triangle this is the paper's element exactly, except for the collapse penalty, which acts
+// only where no result is valid; for omega0 = 90 degrees (Q) is then the sum of (31), (32) and
+// (39). The element only needs k_1 and k_2, so the fibres may lie at any angle to the sides and to
+// each other.
 //
 // Why pairs: two stiff fibre strains per triangle are about four constraints per node, twice the
 // number of its in-plane degrees of freedom; the mesh locks unless sides run along both families.
@@ -69,8 +79,8 @@ namespace plyform {
 
 constexpr double deviation_weight = 8.0; ///< beta of (E)
 
-/// Fibre family constants of one triangle: c_a,1 and c_a,2 (c_a,0 = -c_a,1 - c_a,2).
-struct FibreGradients {
+/// Constants of the material axes in one triangle: c_i,1 and c_i,2 (c_i,0 = -c_i,1 - c_i,2).
+struct AxesGradients {
   double c11, c12, c21, c22;
 };
 
@@ -79,19 +89,34 @@ struct ElementForce {
   Vec3 q1, q2;
 };
 
-/// Fibre viscosity, in tension only: N += eta d(eps)/dt, eta in N s per yarn.
-struct FibreViscosity {
-  double warp = 0.0, weft = 0.0;
-};
-
 /// Stiffnesses of one family besides that of the yarn: s_a and g_a, N.
 struct SideStiffness {
   double stabilisation = 0.0, collapse_penalty = 0.0;
 };
 
-/// What the yarns of one strain group remember from step to step, warp and weft: the states of
+/// A family of yarns in a membrane.
+struct MembraneFamily {
+  Vec2 along = Vec2::UnitX(); ///< v_a
+  double density = 0.0;       ///< d_a, 1/mm
+  TensionLaw yarn;            ///< W_a: that of the fabric, softened
+  double softening = 1.0;     ///< by this: effective_softening
+  double viscosity = 0.0;     ///< eta, N s per yarn, in tension only: N += eta d(eps)/dt
+  SideStiffness side;
+  /// Its law: refers to this family.
+  AnyYarnLaw law() const { return yarn_law(yarn, viscosity); }
+};
+
+/// A crossing of two families in a membrane.
+struct MembraneCrossing {
+  std::size_t first = 0, second = 1; ///< families a and b
+  double omega0 = 0.0;               ///< rad
+  double cells = 0.0;                ///< n_c, 1/mm^2
+  ShearLaw shear;                    ///< Cs
+};
+
+/// What the yarns of one family in one strain group remember from step to step: the states of
 /// core/model/yarn_law.hpp at their mean strain.
-using YarnMemory = std::array<std::array<double, yarn_states>, 2>;
+using YarnMemory = std::array<double, yarn_states>;
 
 /// What the laws at the points of a ply remember: at the begin of a step, which its forces read,
 /// and at its end, which they write. Where both are the same array, each evaluation is a step.
@@ -104,17 +129,15 @@ struct LawStates {
 /// One ply's membrane; nodes and triangles are numbered within the ply. Constant. Sizes: n nodes,
 /// m triangles.
 struct Membrane {
-  Fabric fabric;                             ///< as given, not softened
-  std::array<TensionLaw, 2> yarn;            ///< W_a of warp and weft: those of `fabric`, softened
-  std::array<double, 2> softening{1.0, 1.0}; ///< factors of that: effective_softening
-  double omega0 = 0.0;                       ///< rad
-  double cells_per_area = 0.0;               ///< n_c, 1/mm^2
-  FibreViscosity viscosity;
+  Fabric fabric; ///< as given, not softened
+  std::vector<MembraneFamily> families;
+  std::vector<MembraneCrossing> crossings;
   double process_time = 1.0; ///< s of the process in each simulated second: Case::process_time
-  std::array<SideStiffness, 2> side{};   ///< warp, weft
+  double omega0 = 0.0;                   ///< rad, between the axes before forming
+  Vec2 across = Vec2::UnitY();           ///< components of the direction across e_1
   std::vector<Triangle> triangles;       ///< m, those of a strain group successive
   std::vector<std::int32_t> group_begin; ///< groups + 1, into triangles
-  std::vector<FibreGradients> c;         ///< m
+  std::vector<AxesGradients> c;          ///< m
   std::vector<double> area;              ///< m, A0
   std::vector<double> node_area;         ///< n, mm^2, a third of the triangles around the node
   std::vector<double> node_mass;         ///< n, t, with what density_factor adds
@@ -125,53 +148,75 @@ struct Membrane {
 
   /// t, of the cloth alone at a node.
   double cloth_mass(std::size_t n) const { return fabric.surface_density * node_area[n]; }
-  /// The law of the yarns of a family: refers to this membrane.
-  AnyYarnLaw law(std::size_t family) const {
-    return yarn_law(yarn[family], family == 0 ? viscosity.warp : viscosity.weft);
-  }
-  /// What it is asked. per_dt: 1/s, inverse of the simulated step.
+  /// What a law of its yarns is asked. per_dt: 1/s, inverse of the simulated step.
   LawInput input(double strain, double per_dt) const {
     return {strain, per_dt, per_dt / process_time};
   }
   int groups() const { return static_cast<int>(group_begin.size()) - 1; }
 };
 
-/// Strains and directions of one triangle.
-struct FibreState {
+/// The images of the material axes in one triangle.
+struct AxesState {
   Vec3 f1, f2;             ///< unit vectors
   double lambda1, lambda2; ///< stretches
   double cos_omega, sin_omega, gamma;
+  Vec3 k1() const { return lambda1 * f1; }
+  Vec3 k2() const { return lambda2 * f2; }
 };
 
-/// Builds the membrane of a ply. warp_angle: rad from x. The yarns of `fabric` are softened by
-/// `softening` as far as effective_softening allows; s_a and g_a follow the stiffness before
+/// The yarns of a family in one triangle.
+struct FamilyState {
+  Vec3 f;        ///< unit vector
+  double lambda; ///< stretch
+};
+
+/// Two directions that cross in one triangle.
+struct CrossingState {
+  double cos_omega, sin_omega, gamma;
+};
+
+/// Builds the membrane of a ply. angle: rad from x, of the ply. The yarns of `fabric` are softened
+/// by `softening` as far as effective_softening allows; s_a and g_a follow the stiffness before
 /// softening. With `kind` automatic the triangles that along_fibres (core/mesh/pairs.hpp) marks are
-/// plain, the others averaged. Triangles are reordered by strain group. Throws
-/// std::invalid_argument for a triangle of zero or negative area.
-Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double warp_angle,
-                       ElementKind kind, double softening = 1.0);
+/// plain, the others averaged; a fabric without yarns is plain. Triangles are reordered by strain
+/// group. Throws std::invalid_argument for a triangle of zero or negative area, and for more
+/// families or crossings than most_families and most_crossings.
+Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double angle, ElementKind kind,
+                       double softening = 1.0);
 
-/// (1), (11): strains and directions of a triangle. x: positions, mm, n.
-FibreState fibre_state(const Membrane& m, std::span<const Vec3> x, int triangle);
+/// (1), (11): the axes in a triangle. x: positions, mm, n.
+AxesState axes_state(const Membrane& m, std::span<const Vec3> x, int triangle);
 
-/// Stiffness per area, N/mm, of the deviations in (E) at shear angle gamma (rad): beta n_c times
-/// the larger of Cs'(gamma) and Cs(gamma)/gamma.
-double deviation_stiffness(const Membrane& m, double gamma);
+/// The yarns of a family whose components are `along`.
+FamilyState family_state(const AxesState& axes, const Vec2& along);
 
-/// Yarn strains {warp, weft} of all m triangles: mean eps_a of the strain group of each. x: mm, n.
-std::vector<std::array<double, 2>> yarn_strains(const Membrane& m, std::span<const Vec3> x);
+/// Two directions with these unit vectors, omega0 (rad) apart before forming.
+CrossingState crossing_state(const Vec3& f_a, const Vec3& f_b, double omega0);
+CrossingState crossing_state(const Membrane& m, const MembraneCrossing& c, const AxesState& axes);
 
-/// Tensions {warp, weft} (N per yarn) of all m triangles, for output. For triangles alone W_a' at
+/// rad, what is shown as shear of a triangle: gamma of the first crossing; of a fabric without one
+/// the change of the right angle between e_1 and the line across it.
+double shown_shear(const Membrane& m, const AxesState& axes);
+
+/// Stiffness per area, N/mm, that a crossing gives the deviations in (E) at shear angle gamma
+/// (rad): beta n_c times the larger of Cs'(gamma) and Cs(gamma)/gamma.
+double deviation_stiffness(const MembraneCrossing& c, double gamma);
+
+/// Yarn strains of each family in all m triangles: mean eps_a of the strain group of each. x: mm,
+/// n.
+std::vector<std::vector<double>> yarn_strains(const Membrane& m, std::span<const Vec3> x);
+
+/// Tensions (N per yarn) of each family in all m triangles, for output. For triangles alone W_a' at
 /// their strain. Those of pairs oscillate from pair to pair, as do the multipliers of any element
 /// with as many constraints as degrees of freedom: they are smoothed by two passes of nodal
 /// averages, as is usual for the pressures of such elements (docs/verification/locking.md). x: mm,
 /// n.
-std::vector<std::array<double, 2>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
+std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
 
-/// Whether a triangle has collapsed: shrunk to a tenth along a yarn, or the yarns within 1.1
+/// Whether a triangle has collapsed: shrunk to a tenth along an axis, or the axes within 1.1
 /// degrees of parallel, which a triangle that inverts in its plane passes through. Limits:
 /// element_limits.hpp.
-bool collapsed(const FibreState& state);
+bool collapsed(const AxesState& state);
 
 /// Report of a force computation over some groups.
 struct GroupReport {
@@ -179,12 +224,12 @@ struct GroupReport {
   bool collapsed = false; ///< whether a triangle has collapsed
 };
 
-/// What yarns remember at the start, one per strain group.
+/// What yarns remember at the start: families of the first strain group, of the second ...
 std::vector<YarnMemory> memory_at_start(const Membrane& m);
 
 /// (Q) for groups [begin, end) at positions x (mm, n), viscous forces included. dt: s, the time
-/// step that led to x; 0 leaves rates out. states: one per group, not used by a sheet
-/// without yarns. q: N mm, m, of which those of the groups are written.
+/// step that led to x; 0 leaves rates out. states: as memory_at_start. q: N mm, m, of which those
+/// of the groups are written.
 GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin,
                            int end, const LawStates<YarnMemory>& states, std::span<ElementForce> q);
 
@@ -192,12 +237,12 @@ GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);
 
 /// Energy of the fibres (with stabilisation and collapse penalty) and of shear. All energy of a
-/// sheet without yarns counts as shear.
+/// sheet's law counts as shear.
 struct MembraneEnergy {
   double fibre = 0.0, shear = 0.0; ///< N mm
 };
 /// (E) summed over all triangles. x: mm, n. states: what yarns remember of the begin of the step dt
-/// (s) that led to x, one per group; empty: from the start.
+/// (s) that led to x, as memory_at_start; empty: from the start.
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
                                std::span<const YarnMemory> states = {}, double dt = 0.0);
 

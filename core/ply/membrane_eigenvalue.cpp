@@ -2,9 +2,9 @@
 #include "core/ply/membrane_eigenvalue.hpp"
 
 #include "core/ply/element_limits.hpp"
-#include "core/ply/in_plane_law.hpp"
 #include "core/ply/mass_normalise.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -22,23 +22,61 @@ double largest(double a, double b, double off) {
   return 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + off * off);
 }
 
-/// Stiffness of both families per area, N/mm, in tension or in compression, whichever is stiffer.
-std::array<double, 2> yarn_stiffness(const Membrane& m) {
-  const auto slope = [](const TensionLaw& yarn, const SideStiffness& side) {
-    return std::max(yarn.largest_slope(), yarn.compression + side.collapse_penalty);
-  };
-  return {m.fabric.warp_density * slope(m.yarn[0], m.side[0]),
-          m.fabric.weft_density * slope(m.yarn[1], m.side[1])};
+/// One number a family.
+using OfFamilies = std::array<double, most_families>;
+
+/// Largest eigenvalue of K_ab = sqrt(k_a k_b) (v_a . G v_b) cos(f_a, f_b), that of the families'
+/// part of H (G x I) with stiffnesses k (N/mm); N/mm^3 for a Gram matrix in 1/mm^2.
+double largest_of_families(const Membrane& m, const AxesState& axes, const Gram& g,
+                           const OfFamilies& k) {
+  const std::size_t n = m.families.size();
+  std::array<FamilyState, most_families> yarn;
+  for (std::size_t a = 0; a < n; ++a)
+    yarn[a] = family_state(axes, m.families[a].along);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, static_cast<int>(most_families),
+                static_cast<int>(most_families)>
+      matrix(n, n);
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b <= a; ++b) {
+      const Vec2 &v = m.families[a].along, &w = m.families[b].along;
+      const double vgw =
+          v.x() * w.x() * g.g11 + v.y() * w.y() * g.g22 + (v.x() * w.y() + v.y() * w.x()) * g.g12;
+      const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
+      matrix(row, column) =
+          a == b ? k[a] * vgw : std::sqrt(k[a] * k[b]) * vgw * yarn[a].f.dot(yarn[b].f);
+    }
+  if (n == 0) return 0.0;
+  if (n == 1) return matrix(0, 0);
+  if (n == 2) return largest(matrix(0, 0), matrix(1, 1), matrix(1, 0));
+  return Eigen::SelfAdjointEigenSolver<decltype(matrix)>(matrix, Eigen::EigenvaluesOnly)
+      .eigenvalues()
+      .maxCoeff();
+}
+
+/// Stiffness of the families per area, N/mm, in tension or in compression, whichever is stiffer.
+OfFamilies yarn_stiffness(const Membrane& m) {
+  OfFamilies k{};
+  for (std::size_t a = 0; a < m.families.size(); ++a) {
+    const MembraneFamily& f = m.families[a];
+    k[a] =
+        f.density * std::max(f.yarn.largest_slope(), f.yarn.compression + f.side.collapse_penalty);
+  }
+  return k;
 }
 
 /// Stiffness per area of the deviations within a group, N/mm.
-std::array<double, 2> deviation_stiffness(const Membrane& m, const FibreState& s) {
-  const double shear = deviation_stiffness(m, s.gamma);
-  return {m.fabric.warp_density * m.side[0].stabilisation + shear,
-          m.fabric.weft_density * m.side[1].stabilisation + shear};
+OfFamilies deviation_stiffness(const Membrane& m, const AxesState& s) {
+  OfFamilies k{};
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    k[a] = m.families[a].density * m.families[a].side.stabilisation;
+  for (const MembraneCrossing& c : m.crossings) {
+    const double shear = deviation_stiffness(c, crossing_state(m, c, s).gamma);
+    k[c.first] += shear, k[c.second] += shear;
+  }
+  return k;
 }
 
-Gram gram(const FibreGradients& c) {
+Gram gram(const AxesGradients& c) {
   const double c10 = -c.c11 - c.c12, c20 = -c.c21 - c.c22;
   return {c10 * c10 + c.c11 * c.c11 + c.c12 * c.c12, c20 * c20 + c.c21 * c.c21 + c.c22 * c.c22,
           c10 * c20 + c.c11 * c.c21 + c.c12 * c.c22};
@@ -50,16 +88,50 @@ double corners_per_mass(const Membrane& m, std::size_t e) {
   return m.density_factor.empty() ? per_mass : per_mass / m.density_factor[e];
 }
 
+/// Largest eigenvalue of sum_a v_a v_a^T over the two families of a crossing: 1 for the axes.
+double largest_of_crossing(const Membrane& m, const MembraneCrossing& c) {
+  const Vec2 &v = m.families[c.first].along, &w = m.families[c.second].along;
+  return largest(v.x() * v.x() + w.x() * w.x(), v.y() * v.y() + w.y() * w.y(),
+                 v.x() * v.y() + w.x() * w.y());
+}
+
 /// Shear and geometric part of H (see eigenvalue_bound), N/mm, bounded by norms; the second
-/// derivative of the angle is below 2/sin(omega) (1/lambda1^2 + 1/lambda2^2).
-double soft_stiffness(const Membrane& m, const FibreState& s) {
-  const LawPoint shear = m.fabric.shear.at(s.gamma);
-  const double inv2 = 1.0 / (s.lambda1 * s.lambda1) + 1.0 / (s.lambda2 * s.lambda2);
-  const double n1 = m.fabric.warp_density * m.yarn[0].at(s.lambda1 - 1.0).value / s.lambda1;
-  const double n2 = m.fabric.weft_density * m.yarn[1].at(s.lambda2 - 1.0).value / s.lambda2;
-  return std::max({0.0, n1, n2}) +
-         m.cells_per_area * inv2 *
-             (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / s.sin_omega);
+/// derivative of the angle is below 2/sin(omega) (1/lambda_a^2 + 1/lambda_b^2).
+double soft_stiffness(const Membrane& m, const AxesState& s) {
+  std::array<double, 2> pull{}; // of families along the axes
+  double oblique = 0.0;         // of the others
+  for (const MembraneFamily& f : m.families) {
+    const double lambda = family_state(s, f.along).lambda;
+    const double n = std::max(0.0, f.density * f.yarn.at(lambda - 1.0).value / lambda);
+    if (f.along == Vec2::UnitX())
+      pull[0] += n;
+    else if (f.along == Vec2::UnitY())
+      pull[1] += n;
+    else
+      oblique += n * f.along.squaredNorm();
+  }
+  double sum = std::max(pull[0], pull[1]) + oblique;
+  for (const MembraneCrossing& c : m.crossings) {
+    const double lambda1 = family_state(s, m.families[c.first].along).lambda,
+                 lambda2 = family_state(s, m.families[c.second].along).lambda;
+    const CrossingState crossing = crossing_state(m, c, s);
+    const LawPoint shear = c.shear.at(crossing.gamma);
+    const double inv2 = 1.0 / (lambda1 * lambda1) + 1.0 / (lambda2 * lambda2);
+    sum += largest_of_crossing(m, c) * c.cells * inv2 *
+           (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / crossing.sin_omega);
+  }
+  return sum;
+}
+
+/// Bound of the part of the sheet's law in H (G x I), N/mm^3.
+double sheet_stiffness(const Membrane& m, const AxesState& s, const Gram& g) {
+  if (!m.fabric.sheet) return 0.0;
+  const double x = m.across.x(), y = m.across.y();
+  const Gram turned{g.g11, x * x * g.g11 + 2.0 * x * y * g.g12 + y * y * g.g22,
+                    x * g.g11 + y * g.g12};
+  const Vec3 across = x * s.k1() + y * s.k2();
+  return std::visit([&](const auto& law) { return law.stiffness_bound(s.k1(), across, turned); },
+                    *m.fabric.sheet);
 }
 
 /// What a strain group gives a node: its mass, t, and its area times mean gradients, mm.
@@ -72,7 +144,7 @@ std::map<int, GroupNode> nodes_of_group(const Membrane& m, std::size_t p) {
   std::map<int, GroupNode> nodes;
   for (auto e = static_cast<std::size_t>(m.group_begin[p]);
        e < static_cast<std::size_t>(m.group_begin[p + 1]); ++e) {
-    const FibreGradients& c = m.c[e];
+    const AxesGradients& c = m.c[e];
     const std::array<double, 3> c1{-c.c11 - c.c12, c.c11, c.c12}, c2{-c.c21 - c.c22, c.c21, c.c22};
     for (std::size_t k = 0; k < 3; ++k) {
       GroupNode& node = nodes[m.triangles[e][k]];
@@ -93,20 +165,18 @@ double omega2_of_group(const Membrane& m, std::span<const Vec3> x, std::size_t p
     g.g22 += node.b2 * node.b2 / node.mass;
     g.g12 += node.b1 * node.b2 / node.mass;
   }
-  const InPlaneLaw& law = in_plane_law(m.fabric);
-  double area = 0.0, soft = 0.0, cos_omega = 0.0;
+  double area = 0.0, soft = 0.0;
+  AxesState axes{};
   for (auto e = static_cast<std::size_t>(m.group_begin[p]);
        e < static_cast<std::size_t>(m.group_begin[p + 1]); ++e) {
-    const FibreState s = fibre_state(m, x, static_cast<int>(e));
+    axes = axes_state(m, x, static_cast<int>(e));
     const Gram of = gram(m.c[e]);
-    const double sheet = law.stiffness ? law.stiffness(m, s, of) : 0.0;
     soft = std::max(soft, corners_per_mass(m, e) *
-                              (sheet + soft_stiffness(m, s) * largest(of.g11, of.g22, of.g12)));
+                              (sheet_stiffness(m, axes, of) +
+                               soft_stiffness(m, axes) * largest(of.g11, of.g22, of.g12)));
     area += m.area[e];
-    cos_omega = s.cos_omega;
   }
-  const auto [s1, s2] = yarn_stiffness(m);
-  return largest(s1 * g.g11, s2 * g.g22, std::sqrt(s1 * s2) * g.g12 * cos_omega) / area + soft;
+  return largest_of_families(m, axes, g, yarn_stiffness(m)) / area + soft;
 }
 
 } // namespace
@@ -114,40 +184,41 @@ double omega2_of_group(const Membrane& m, std::span<const Vec3> x, std::size_t p
 EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
   // K_e = A0 B^T H B with B = [c_1; c_2] x I. Its non-zero eigenvalues are those of H (G x I),
   // and each node has a mass of at least rho A0 / 3: so omega^2 <= 3/rho times the largest of them.
-  // The fibre part of H is exact, a 2 x 2 problem. A sheet without yarns has only the part of its
-  // own law (core/model/sheet_law.hpp).
+  // The fibre part of H, sum_a k_a (v_a v_a^T) x (f_a f_a^T), is exact. The sheet's law has a part
+  // of its own (core/model/sheet_law.hpp); where there are yarns it counts as soft.
   EigenvalueBound bound;
-  const InPlaneLaw& law = in_plane_law(m.fabric);
-  const auto [s1, s2] = yarn_stiffness(m);
-  const double v1 = m.fabric.warp_density * m.viscosity.warp;
-  const double v2 = m.fabric.weft_density * m.viscosity.weft;
-  bound.viscous = std::max(s1 > 0.0 ? v1 / s1 : 0.0, s2 > 0.0 ? v2 / s2 : 0.0);
+  const OfFamilies yarns = yarn_stiffness(m);
+  OfFamilies viscosity{}, penalty{};
+  for (std::size_t a = 0; a < m.families.size(); ++a) {
+    const MembraneFamily& f = m.families[a];
+    viscosity[a] = f.density * f.viscosity;
+    penalty[a] = f.density * f.side.collapse_penalty;
+    if (yarns[a] > 0.0) bound.viscous = std::max(bound.viscous, viscosity[a] / yarns[a]);
+  }
   // the collapse penalty of a triangle adds to the stiffness of the taut yarns of its pair
   const bool paired = is_paired(m);
-  const double g1 = m.fabric.warp_density * m.side[0].collapse_penalty;
-  const double g2 = m.fabric.weft_density * m.side[1].collapse_penalty;
   constexpr double considerable = 0.2; // of the yarn stiffness: step_factor covers less
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const double per_mass = corners_per_mass(m, e);
     const Gram g = gram(m.c[e]);
-    const FibreState s = fibre_state(m, x, static_cast<int>(e));
-    const auto [d1, d2] = deviation_stiffness(m, s);
-    const double k1 = s1 + d1 + (paired && s.lambda1 < collapse_reach ? g1 : 0.0);
-    const double k2 = s2 + d2 + (paired && s.lambda2 < collapse_reach ? g2 : 0.0);
-    const double fibre = largest(k1 * g.g11, k2 * g.g22, std::sqrt(k1 * k2) * g.g12 * s.cos_omega);
-    const double viscous =
-        largest(v1 * g.g11, v2 * g.g22, std::sqrt(v1 * v2) * g.g12 * s.cos_omega);
-    const double sheet = law.stiffness ? law.stiffness(m, s, g) : 0.0;
-    const double soft = soft_stiffness(m, s) * largest(g.g11, g.g22, g.g12);
-    for (std::size_t a = 0; a < 2; ++a) {
-      const double lambda = a == 0 ? s.lambda1 : s.lambda2;
-      bound.penalty_acts = bound.penalty_acts ||
-                           (lambda < collapse_reach &&
-                            m.side[a].collapse_penalty > considerable * m.yarn[a].largest_slope());
+    const AxesState s = axes_state(m, x, static_cast<int>(e));
+    OfFamilies k = deviation_stiffness(m, s);
+    for (std::size_t a = 0; a < m.families.size(); ++a) {
+      const MembraneFamily& f = m.families[a];
+      const bool folded = family_state(s, f.along).lambda < collapse_reach;
+      k[a] = yarns[a] + k[a] + (paired && folded ? penalty[a] : 0.0);
+      bound.penalty_acts =
+          bound.penalty_acts ||
+          (folded && f.side.collapse_penalty > considerable * f.yarn.largest_slope());
     }
-    bound.yarns = std::max(bound.yarns, per_mass * (fibre + sheet));
+    const double fibre = largest_of_families(m, s, g, k);
+    const double viscous = largest_of_families(m, s, g, viscosity);
+    const double sheet = sheet_stiffness(m, s, g);
+    const bool foil = m.families.empty();
+    const double soft = soft_stiffness(m, s) * largest(g.g11, g.g22, g.g12) + (foil ? 0.0 : sheet);
+    bound.yarns = std::max(bound.yarns, per_mass * (fibre + (foil ? sheet : 0.0)));
     bound.soft = std::max(bound.soft, per_mass * soft);
-    const double omega2 = per_mass * (fibre + sheet + soft);
+    const double omega2 = per_mass * (fibre + (foil ? sheet : 0.0) + soft);
     if (!(omega2 <= bound.omega2)) {
       bound.omega2 = omega2;
       bound.triangle = static_cast<int>(e);
@@ -167,53 +238,57 @@ std::vector<double> group_omega2(const Membrane& m, std::span<const Vec3> x) {
 
 YarnStiffness::YarnStiffness(const Membrane& m, std::span<const Vec3> x, double stiffness,
                              double damping)
-    : m_(m), q_(m.triangles.size()) {
-  const auto yarn = yarn_stiffness(m);
-  taut_ = {stiffness * yarn[0] + damping * m.fabric.warp_density * m.viscosity.warp,
-           stiffness * yarn[1] + damping * m.fabric.weft_density * m.viscosity.weft};
-  const std::array<double, 2> collapse_penalty{
-      stiffness * m.fabric.warp_density * m.side[0].collapse_penalty,
-      stiffness * m.fabric.weft_density * m.side[1].collapse_penalty};
+    : m_(m), taut_(m.families.size()), q_(m.triangles.size()) {
+  const OfFamilies yarns = yarn_stiffness(m);
+  const bool paired = is_paired(m);
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    taut_[a] = stiffness * yarns[a] + damping * m.families[a].density * m.families[a].viscosity;
+  rows_.reserve(m.triangles.size() * m.families.size());
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
-    const FibreState s = fibre_state(m, x, static_cast<int>(e));
-    const auto [d1, d2] = deviation_stiffness(m, s);
-    const bool paired = is_paired(m);
-    rows_.push_back({s.f1,
-                     s.f2,
-                     {stiffness * d1, stiffness * d2},
-                     {paired && s.lambda1 < collapse_reach ? collapse_penalty[0] : 0.0,
-                      paired && s.lambda2 < collapse_reach ? collapse_penalty[1] : 0.0}});
+    const AxesState s = axes_state(m, x, static_cast<int>(e));
+    const OfFamilies deviation = deviation_stiffness(m, s);
+    for (std::size_t a = 0; a < m.families.size(); ++a) {
+      const MembraneFamily& f = m.families[a];
+      const FamilyState yarn = family_state(s, f.along);
+      const bool folded = paired && yarn.lambda < collapse_reach;
+      rows_.push_back({yarn.f, stiffness * deviation[a],
+                       folded ? stiffness * f.density * f.side.collapse_penalty : 0.0});
+    }
   }
 }
 
 void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
   const auto begin = static_cast<std::size_t>(m_.group_begin[group]),
              end = static_cast<std::size_t>(m_.group_begin[group + 1]);
+  const std::size_t families = m_.families.size();
   double area = 0.0;
-  std::array<double, 2> mean{};
-  std::array<std::array<double, 2>, most_in_group> strain{};
+  OfFamilies mean{};
+  std::array<OfFamilies, most_in_group> strain{};
   for (std::size_t e = begin; e < end; ++e) {
-    const FibreGradients& c = m_.c[e];
+    const AxesGradients& c = m_.c[e];
     const Triangle& t = m_.triangles[e];
     const Vec3& y0 = y[t[0]];
     const Vec3 g1 = y[t[1]] - y0, g2 = y[t[2]] - y0;
-    strain[e - begin] = {rows_[e].f1.dot(c.c11 * g1 + c.c12 * g2),
-                         rows_[e].f2.dot(c.c21 * g1 + c.c22 * g2)};
+    const Vec3 k1 = c.c11 * g1 + c.c12 * g2, k2 = c.c21 * g1 + c.c22 * g2;
     area += m_.area[e];
-    for (std::size_t a = 0; a < 2; ++a)
+    for (std::size_t a = 0; a < families; ++a) {
+      const Vec2& along = m_.families[a].along;
+      strain[e - begin][a] = rows_[e * families + a].f.dot(along.x() * k1 + along.y() * k2);
       mean[a] += m_.area[e] * strain[e - begin][a];
+    }
   }
   for (double& value : mean)
     value /= area;
   for (std::size_t e = begin; e < end; ++e) {
-    const Row& row = rows_[e];
-    std::array<double, 2> pull;
-    for (std::size_t a = 0; a < 2; ++a) {
+    q_[e] = {Vec3::Zero(), Vec3::Zero()};
+    for (std::size_t a = 0; a < families; ++a) {
+      const Row& row = rows_[e * families + a];
       const double own = strain[e - begin][a];
-      pull[a] = m_.area[e] * (taut_[a] * mean[a] + row.deviation[a] * (own - mean[a]) +
-                              row.collapse_penalty[a] * own);
+      const double pull = m_.area[e] * (taut_[a] * mean[a] + row.deviation * (own - mean[a]) +
+                                        row.collapse_penalty * own);
+      q_[e].q1 += m_.families[a].along.x() * (pull * row.f);
+      q_[e].q2 += m_.families[a].along.y() * (pull * row.f);
     }
-    q_[e] = {pull[0] * row.f1, pull[1] * row.f2};
   }
 }
 
@@ -229,7 +304,7 @@ Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x) {
   RandomNumbers scatter;
   for (std::size_t n = 0; n < x.size(); ++n) {
     const int triangle = m.gather[m.gather_begin[n]] / 3;
-    const FibreState s = fibre_state(m, x, triangle);
+    const AxesState s = axes_state(m, x, triangle);
     const double along1 = scatter.next(), along2 = scatter.next(), across = scatter.next();
     v.segment<3>(static_cast<Eigen::Index>(3 * n)) =
         along1 * s.f1 + along2 * s.f2 + across * s.f1.cross(s.f2);
@@ -238,7 +313,7 @@ Eigen::VectorXd scattered_motion(const Membrane& m, std::span<const Vec3> x) {
 }
 
 double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x) {
-  if (!in_plane_law(m.fabric).yarns) return 1.0;
+  if (m.families.empty()) return 1.0;
   YarnStiffness stiffness(m, x, 1.0, 0.0);
   std::vector<Vec3> y(x.size()), f(x.size());
   const auto apply = [&](const Eigen::VectorXd& v) { // M^-1/2 K M^-1/2
@@ -255,9 +330,9 @@ double eigenvalue_ratio(const Membrane& m, std::span<const Vec3> x) {
 
 double kink_factor(const Membrane& m) {
   double most = 0.0;
-  for (const TensionLaw& yarn : m.yarn) {
-    const double tension = yarn.largest_slope(), compression = yarn.compression;
-    if (!(tension > 0.0)) continue; // no yarns
+  for (const MembraneFamily& family : m.families) {
+    const double tension = family.yarn.largest_slope(), compression = family.yarn.compression;
+    if (!(tension > 0.0)) continue;
     const double r = std::min(tension, compression) / std::max(tension, compression);
     most = std::max(most, r * (1.0 - r));
   }

@@ -8,7 +8,7 @@
 //   M        t     lumped masses;  K  N/mm  tangent stiffness with all yarns in tension (or in
 //                  compression, if that is stiffer)
 //   y        mm    K y = - sum of (F) of core/ply/membrane.hpp with N_a of the small strains that y
-//                  makes: eps_a = f_a . sum_n c_a,n y_n                                        (K)
+//                  makes: eps_a = f_a . sum_i,n v_a,i c_i,n y_n (K)
 #pragma once
 
 #include "base/lanczos.hpp"
@@ -20,8 +20,8 @@ namespace plyform {
 /// Element bounds (Irons) of the eigenvalues of one ply's membrane at its present shape.
 struct EigenvalueBound {
   double omega2 = 0.0; ///< 1/s^2
-  double yarns = 0.0;  ///< 1/s^2, largest with the yarns' stiffness alone
-  double soft = 0.0;   ///< 1/s^2, largest with shear and geometric stiffness alone
+  double yarns = 0.0;  ///< 1/s^2, largest with the yarns' stiffness alone; of a foil its sheet's
+  double soft = 0.0;   ///< 1/s^2, largest with shear, sheet and geometric stiffness alone
   /// Whether a collapse penalty of more than 0.2 yarn stiffness acts on any triangle.
   bool penalty_acts = false;
   double damping = 0.0; ///< 1/s, of M^-1 C
@@ -51,8 +51,8 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x);
 std::vector<double> group_omega2(const Membrane& m, std::span<const Vec3> x);
 
 /// Products of vectors with (stiffness K + damping C) of taut yarns at one shape x (mm), active
-/// collapse penalties included. stiffness, damping: factors (damping in 1/s). Not for a sheet
-/// without yarns. Keeps a reference to the membrane, which must outlive it.
+/// collapse penalties included. stiffness, damping: factors (damping in 1/s). Keeps a reference to
+/// the membrane, which must outlive it.
 class YarnStiffness {
 public:
   YarnStiffness(const Membrane& m, std::span<const Vec3> x, double stiffness, double damping);
@@ -61,15 +61,15 @@ public:
   void add_to(std::span<const Vec3> y, std::span<Vec3> f);
 
 private:
-  struct Row {
-    Vec3 f1, f2;
-    std::array<double, 2> deviation, collapse_penalty; ///< N/mm
+  struct Row { // of one family in one triangle
+    Vec3 f;
+    double deviation, collapse_penalty; ///< N/mm
   };
   void strain_group(std::span<const Vec3> y, std::size_t group);
 
   const Membrane& m_;
-  std::array<double, 2> taut_; ///< N/mm
-  std::vector<Row> rows_;      ///< one per triangle
+  std::vector<double> taut_; ///< N/mm, one per family
+  std::vector<Row> rows_;    ///< families of the first triangle, of the second ...
   std::vector<ElementForce> q_;
 };
 

@@ -2,7 +2,6 @@
 #include "core/ply/membrane_simd.hpp"
 
 #include "base/cpu_features.hpp"
-#include "core/ply/in_plane_law.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -90,7 +89,7 @@ private:
 
   void set(SimdTriangles& t, std::size_t lane, int group, int triangle, bool filler) const {
     const auto e = static_cast<std::size_t>(triangle);
-    const FibreGradients& c = m.c[e];
+    const AxesGradients& c = m.c[e];
     t.c11[lane] = c.c11, t.c12[lane] = c.c12, t.c21[lane] = c.c21, t.c22[lane] = c.c22;
     double group_area = 0.0;
     for (int i = first(group); i < first(group) + size(group); ++i)
@@ -110,16 +109,14 @@ private:
 };
 
 static_assert(most_yarn_states >= yarn_states);
-
-double density(const KernelLaw& law, int family) {
-  return family == 0 ? law.membrane->fabric.warp_density : law.membrane->fabric.weft_density;
-}
+static_assert(most_kernel_families == most_families && most_kernel_crossings == most_crossings);
 
 void evaluate_yarns(const KernelLaw& law, int family, double per_dt, const double* strain,
                     const double (*begin)[simd_width], double (*end)[simd_width],
                     KernelAnswers& answers) {
-  const AnyYarnLaw yarns = law.membrane->law(at(family));
-  const double d = density(law, family);
+  const MembraneFamily& of = law.membrane->families[at(family)];
+  const AnyYarnLaw yarns = of.law();
+  const double d = of.density;
   for (std::size_t i = 0; i < simd_width; ++i) {
     std::array<double, yarn_states> now{}, next{};
     for (std::size_t k = 0; k < now.size(); ++k)
@@ -132,63 +129,102 @@ void evaluate_yarns(const KernelLaw& law, int family, double per_dt, const doubl
   }
 }
 
-void secant_of_table(const KernelLaw& law, const double* measure2, double* p) {
+void secant_of_table(const KernelLaw& law, int crossing, const double* measure2, double* p) {
+  const MembraneCrossing& c = law.membrane->crossings[at(crossing)];
   for (int i = 0; i < simd_width; ++i)
-    p[i] = law.cells * law.membrane->fabric.shear.secant(std::sqrt(measure2[i]));
+    p[i] = c.cells * c.shear.secant(std::sqrt(measure2[i]));
 }
 
-void shear_energy_of_table(const KernelLaw& law, const double* measure2, double* e) {
+void shear_energy_of_table(const KernelLaw& law, int crossing, const double* measure2, double* e) {
+  const MembraneCrossing& c = law.membrane->crossings[at(crossing)];
   for (int i = 0; i < simd_width; ++i)
-    e[i] = law.cells * law.membrane->fabric.shear.at(std::sqrt(measure2[i])).energy;
+    e[i] = c.cells * c.shear.at(std::sqrt(measure2[i])).energy;
 }
 
-KernelYarns kernel_yarns(const TensionLaw& yarn, double density, double viscosity,
-                         const SideStiffness& side) {
+/// The law takes k_1 and the image k of the line across it; here in the plane of both, with k_1
+/// along x. Its stresses are turned to the axes: k = across_1 k_1 + across_2 k_2.
+void sheet_of_membrane(const KernelLaw& law, const double* a, const double* b, const double* d,
+                       SheetAnswers& answers) {
+  const Membrane& m = *law.membrane;
+  const double u = m.across.x(), v = m.across.y();
+  for (int i = 0; i < simd_width; ++i) {
+    const double length = std::sqrt(a[i]);
+    const Vec3 k1(length, 0.0, 0.0),
+        k2(d[i] / length, std::sqrt(std::max(0.0, b[i] - d[i] * d[i] / a[i])), 0.0);
+    const SheetResponse r = std::visit(
+        [&](const auto& sheet) { return sheet.at(k1, u * k1 + v * k2); }, *m.fabric.sheet);
+    answers.s11[i] = r.s11 + 2.0 * u * r.s12 + u * u * r.s22;
+    answers.s12[i] = v * (r.s12 + u * r.s22);
+    answers.s22[i] = v * v * r.s22;
+    answers.energy[i] = r.energy;
+  }
+}
+
+KernelYarns kernel_yarns(const MembraneFamily& f) {
   KernelYarns k{};
-  k.stiffness = density * yarn.stiffness;
-  k.compression = density * yarn.compression;
-  k.viscosity = density * viscosity;
-  k.stabilisation = density * side.stabilisation;
-  k.collapse_penalty = density * side.collapse_penalty;
-  k.buckles = yarn.buckles();
+  k.along[0] = f.along.x(), k.along[1] = f.along.y();
+  k.stiffness = f.density * f.yarn.stiffness;
+  k.compression = f.density * f.yarn.compression;
+  k.viscosity = f.density * f.viscosity;
+  k.stabilisation = f.density * f.side.stabilisation;
+  k.collapse_penalty = f.density * f.side.collapse_penalty;
+  k.buckles = f.yarn.buckles();
   if (k.buckles) {
-    k.buckling_strain = yarn.buckling_strain();
+    k.buckling_strain = f.yarn.buckling_strain();
     k.buckling_drop = (1.0 - buckled_share) * k.compression;
   }
   return k;
 }
 
-KernelLaw kernel_law(const Membrane& m) {
-  const Fabric& f = m.fabric;
-  KernelLaw law{};
-  law.yarns[0] = kernel_yarns(m.yarn[0], f.warp_density, m.viscosity.warp, m.side[0]);
-  law.yarns[1] = kernel_yarns(m.yarn[1], f.weft_density, m.viscosity.weft, m.side[1]);
-  law.angle = m.omega0 - 0.5 * M_PI;
-  law.cells = m.cells_per_area;
-  law.beta = deviation_weight;
-  if (f.shear.angle.empty() && f.shear.k.size() <= most_shear_terms) {
-    law.shear_terms = static_cast<int>(f.shear.k.size());
-    for (std::size_t i = 0; i < f.shear.k.size(); ++i)
-      law.shear[i] = law.cells * f.shear.k[i];
+KernelCrossing kernel_crossing(const Membrane& m, const MembraneCrossing& c) {
+  const Vec2 &v = m.families[c.first].along, &w = m.families[c.second].along;
+  KernelCrossing k{};
+  k.first = static_cast<int>(c.first), k.second = static_cast<int>(c.second);
+  k.angle = c.omega0 - 0.5 * M_PI;
+  k.sine = std::abs(v.x() * w.y() - v.y() * w.x());
+  if (c.shear.angle.empty() && c.shear.k.size() <= most_shear_terms) {
+    k.shear_terms = static_cast<int>(c.shear.k.size());
+    for (std::size_t i = 0; i < c.shear.k.size(); ++i)
+      k.shear[i] = c.cells * c.shear.k[i];
   }
+  return k;
+}
+
+KernelLaw kernel_law(const Membrane& m) {
+  KernelLaw law; // only as many families and crossings are set as there are
+  law.families = static_cast<int>(m.families.size());
+  law.crossings = static_cast<int>(m.crossings.size());
+  law.by_law = false;
+  for (std::size_t a = 0; a < m.families.size(); ++a) {
+    law.yarns[a] = kernel_yarns(m.families[a]);
+    law.by_law = law.by_law || !m.families[a].yarn.linear();
+  }
+  for (std::size_t c = 0; c < m.crossings.size(); ++c)
+    law.crossing[c] = kernel_crossing(m, m.crossings[c]);
+  law.sheet = m.fabric.sheet.has_value();
+  law.weave = law.families == 2 && law.crossings == 1 && !law.sheet &&
+              m.families[0].along == Vec2::UnitX() && m.families[1].along == Vec2::UnitY() &&
+              law.crossing[0].first == 0 && law.crossing[0].second == 1;
+  law.beta = deviation_weight;
   law.membrane = &m;
-  law.by_law = !m.yarn[0].linear() || !m.yarn[1].linear();
   law.evaluate = evaluate_yarns;
   law.secant = secant_of_table;
   law.shear_energy = shear_energy_of_table;
+  law.sheet_law = sheet_of_membrane;
   return law;
 }
 
 static_assert(sizeof(Vec3) == 3 * sizeof(double)); // the kernel reads positions as doubles
 
 /// The kernel's view of block b. states.end, force: arrays of all blocks, or empty if not needed.
-KernelBlock kernel_block(const MembraneSimd& l, const SimdBlock& b,
+KernelBlock kernel_block(const MembraneSimd& l, const Membrane& m, const SimdBlock& b,
                          const LawStates<SimdYarnStates>& states, SimdForce* force) {
+  const std::size_t first_state = m.families.size() * at(b.first_group);
   return {l.nodes.data() + b.first_node,
           b.nodes,
           l.triangles->data() + b.first_triangles,
-          states.begin.data() + b.first_group,
-          states.end.empty() ? nullptr : states.end.data() + b.first_group,
+          states.begin.data() + first_state,
+          states.end.empty() ? nullptr : states.end.data() + first_state,
           b.pair_packs,
           b.single_packs,
           force ? force + b.first_node : nullptr};
@@ -197,7 +233,7 @@ KernelBlock kernel_block(const MembraneSimd& l, const SimdBlock& b,
 } // namespace
 
 bool fits_simd(const Membrane& m) {
-  return in_plane_law(m.fabric).yarns;
+  return m.fabric.has_yarns();
 }
 
 MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {
@@ -214,20 +250,25 @@ MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x) {
 }
 
 std::vector<SimdYarnStates> states_at_start(const MembraneSimd& l, const Membrane& m) {
-  SimdYarnStates state{};
-  for (std::size_t family = 0; family < 2; ++family) {
+  std::vector<SimdYarnStates> of_pack;
+  for (const MembraneFamily& family : m.families) {
     std::array<double, yarn_states> start{};
-    start_state(m.law(family), start.data());
+    start_state(family.law(), start.data());
+    SimdYarnStates& state = of_pack.emplace_back();
     for (std::size_t k = 0; k < start.size(); ++k)
-      std::fill(std::begin(state.of[family][k]), std::end(state.of[family][k]), start[k]);
+      std::fill(std::begin(state.of[k]), std::end(state.of[k]), start[k]);
   }
-  return std::vector<SimdYarnStates>(static_cast<std::size_t>(l.packs), state);
+  std::vector<SimdYarnStates> states;
+  states.reserve(at(l.packs) * of_pack.size());
+  for (int pack = 0; pack < l.packs; ++pack)
+    states.insert(states.end(), of_pack.begin(), of_pack.end());
+  return states;
 }
 
 GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block, const LawStates<SimdYarnStates>& states) {
   const SimdBlock& b = l.blocks[block];
-  const KernelBlock kernel = kernel_block(l, b, states, l.force.data());
+  const KernelBlock kernel = kernel_block(l, m, b, states, l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_kernel_generic, membrane_kernel_avx2, membrane_kernel_avx512);
   const KernelReport report = run(kernel, kernel_law(m), x.data()->data(), per_dt);
@@ -237,7 +278,7 @@ GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3
 MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
                            double dt, int block, std::span<const SimdYarnStates> begin) {
   const SimdBlock& b = l.blocks[block];
-  const KernelBlock kernel = kernel_block(l, b, {begin, {}}, nullptr);
+  const KernelBlock kernel = kernel_block(l, m, b, {begin, {}}, nullptr);
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_energy_generic, membrane_energy_avx2, membrane_energy_avx512);
   const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data(), per_dt);

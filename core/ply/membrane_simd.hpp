@@ -37,17 +37,17 @@ bool fits_simd(const Membrane& m);
 /// Requires fits_simd(m).
 MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x);
 
-/// What its yarns remember at the start, one per pack.
+/// What its yarns remember at the start: families of the first pack, of the second ...
 std::vector<SimdYarnStates> states_at_start(const MembraneSimd& simd, const Membrane& m);
 
 /// Internal forces (F), N, of a block's groups, viscous ones included, stored in simd.force;
-/// simd_force (core/ply/block_forces.hpp) sums them. x: mm, n; dt, states (one per pack) and
-/// report: as of element_forces (core/ply/membrane.hpp).
+/// simd_force (core/ply/block_forces.hpp) sums them. x: mm, n; dt, states (as at start)
+/// and report: as of element_forces (core/ply/membrane.hpp).
 GroupReport simd_forces(MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block, const LawStates<SimdYarnStates>& states);
 
 /// (E) of a block's groups, N mm; summed over the blocks it is membrane_energy. x: mm, n; begin:
-/// one per pack, what yarns remember of the begin of the step dt (s).
+/// what yarns remember of the begin of the step dt (s).
 MembraneEnergy simd_energy(const MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x,
                            double dt, int block, std::span<const SimdYarnStates> begin);
 

@@ -14,7 +14,7 @@ constexpr int most_shear_terms = 8; ///< longer polynomials are evaluated by cal
 /// One triangle of each of four strain groups.
 struct alignas(32) SimdTriangles {
   double c11[simd_width], c12[simd_width], c21[simd_width],
-      c22[simd_width];               ///< 1/mm, FibreGradients
+      c22[simd_width];               ///< 1/mm, AxesGradients
   double area[simd_width];           ///< mm^2, A0; 0 in SIMD lanes without a triangle
   double share[simd_width];          ///< A0 / A of the group
   std::uint16_t node[3][simd_width]; ///< byte offsets: 32 times the index in the block's list
@@ -24,9 +24,9 @@ struct alignas(32) SimdTriangles {
 /// knows itself: mean stretch and viscous tension, this times d_a (N/mm).
 constexpr int most_yarn_states = 2;
 
-/// What the yarns of four groups remember, per family.
+/// What the yarns of one family in four groups remember.
 struct alignas(32) SimdYarnStates {
-  double of[2][most_yarn_states][simd_width];
+  double of[most_yarn_states][simd_width];
 };
 
 /// Answers of a law at four points, times d_a: tension (N/mm), energy stored (N/mm), lost (N/mm).
@@ -34,31 +34,52 @@ struct alignas(32) KernelAnswers {
   double value[simd_width], stored[simd_width], lost[simd_width];
 };
 
+/// Answers of a sheet's law at four points: stresses S_11, S_22, S_12 with respect to the material
+/// axes (N/mm) and energy (N/mm).
+struct alignas(32) SheetAnswers {
+  double s11[simd_width], s22[simd_width], s12[simd_width], energy[simd_width];
+};
+
 /// Constants of (N) for one family of yarns, each times their density d_a: per mm, not per yarn.
 struct KernelYarns {
+  double along[2]; ///< v_a
   double stiffness, compression, viscosity, stabilisation, collapse_penalty;
   bool buckles;           ///< the next two members apply
   double buckling_strain; ///< -, above 0: compressive strain at which the yarn buckles
   double buckling_drop;   ///< N/mm, decrease of the slope there
 };
 
-struct KernelLaw {
-  KernelYarns yarns[2];
+/// A crossing of the families `first` and `second`.
+struct KernelCrossing {
+  int first, second;
   double angle; ///< rad, omega0 - pi/2
-  double beta;
+  double sine;  ///< area between v_first and v_second over that between the axes, above 0
   double shear[most_shear_terms]; ///< N/mm, n_c times the coefficients of g, g^3 ..., 0 beyond
   int shear_terms;                ///< 0: a table, call `secant`
-  const Membrane* membrane;       ///< whose laws the callbacks evaluate
-  bool by_law;  ///< call `evaluate`: the kernel does not know the laws of the yarns itself
-  double cells; ///< n_c
-  /// Four yarns of a family. begin, end: SimdYarnStates::of of that family; per_dt: 1/s.
+};
+
+struct KernelLaw {
+  int families, crossings;
+  KernelYarns yarns[most_kernel_families];
+  KernelCrossing crossing[most_kernel_crossings];
+  /// Two families, along the axes, with one crossing and no law of the sheet: no more has to be
+  /// computed.
+  bool weave;
+  double beta;
+  const Membrane* membrane; ///< whose laws the callbacks evaluate
+  bool by_law;              ///< call `evaluate`: the kernel does not know the laws of the yarns
+  bool sheet;               ///< call `sheet_law`
+  /// Four yarns of a family. begin, end: SimdYarnStates::of; per_dt: 1/s.
   void (*evaluate)(const KernelLaw&, int family, double per_dt, const double* strain,
                    const double (*begin)[simd_width], double (*end)[simd_width],
                    KernelAnswers& answers);
   /// n_c p (N/mm) of four squared shear measures g^2.
-  void (*secant)(const KernelLaw&, const double* measure2, double* p);
+  void (*secant)(const KernelLaw&, int crossing, const double* measure2, double* p);
   /// Likewise n_c Ws (N/mm).
-  void (*shear_energy)(const KernelLaw&, const double* measure2, double* energy);
+  void (*shear_energy)(const KernelLaw&, int crossing, const double* measure2, double* energy);
+  /// Four triangles with a = k_1.k_1, b = k_2.k_2, d = k_1.k_2.
+  void (*sheet_law)(const KernelLaw&, const double* a, const double* b, const double* d,
+                    SheetAnswers& answers);
 };
 
 /// Strain groups that share a list of nodes; pairs first. All arrays are those of the block.
@@ -66,8 +87,8 @@ struct KernelBlock {
   const std::int32_t* nodes; ///< node numbers in the ply
   int node_count;            ///< at most most_block_nodes
   const SimdTriangles* triangles;
-  const SimdYarnStates* begin; ///< one per pack, of the begin of the step
-  SimdYarnStates* end;         ///< one per pack, of its end
+  const SimdYarnStates* begin; ///< families of the first pack, of the second ...: before the step
+  SimdYarnStates* end;         ///< likewise, at its end
   int pair_packs, single_packs;
   SimdForce* force; ///< N, one per node of the block
 };

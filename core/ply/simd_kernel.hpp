@@ -11,6 +11,9 @@ constexpr int simd_width = 4; ///< triangles or nodes of a group, one per SIMD l
 /// Limit of nodes in a block: their positions and forces, 24 kB, fit into a 32 kB cache.
 constexpr int most_block_nodes = 384;
 
+/// Limits of families and crossings: those of core/model/fabric.hpp.
+constexpr int most_kernel_families = 8, most_kernel_crossings = 8;
+
 /// One number per SIMD lane.
 struct alignas(32) SimdNumbers {
   double of[simd_width];

@@ -34,6 +34,35 @@ PLYFORM_INLINE OfQuads<T> of_quads(T* first, int stride, int left) {
   return some;
 }
 
+/// A compile-time integer, passed as an argument.
+template <int n>
+struct Count {
+  constexpr operator int() const { return n; }
+};
+
+/// What a kernel is compiled for: two families along the axes (of a membrane with one crossing and
+/// no law of the sheet), whose loops are unrolled; or any fabric.
+struct Weave {
+  static constexpr int most_families = 2, most_crossings = 1;
+  static constexpr bool weave = true;
+};
+struct AnyFabric {
+  static constexpr int most_families = most_kernel_families;
+  static constexpr int most_crossings = most_kernel_crossings;
+  static constexpr bool weave = false;
+};
+
+/// Calls each(a) for all families.
+template <class Of, class Each>
+PLYFORM_INLINE void for_families(int families, const Each& each) {
+  if constexpr (Of::weave) {
+    each(Count<0>{}), each(Count<1>{});
+  } else {
+    for (int a = 0; a < families; ++a)
+      each(a);
+  }
+}
+
 /// Numbers of all lanes; numbers_of: quad to four numbers.
 template <class Numbers>
 PLYFORM_INLINE Doubles numbers(const Numbers& numbers_of) {

@@ -51,9 +51,8 @@ bool sound(const BoundaryState& b) {
 }
 bool sound(const SimdYarnStates& states) {
   bool all = true;
-  for (const auto& family : states.of)
-    for (const auto& row : family)
-      all = all && std::all_of(std::begin(row), std::end(row), [](double x) { return sound(x); });
+  for (const auto& row : states.of)
+    all = all && std::all_of(std::begin(row), std::end(row), [](double x) { return sound(x); });
   return all;
 }
 

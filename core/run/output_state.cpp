@@ -27,6 +27,53 @@ struct SideForces {
   }
 };
 
+/// Directions, strains and tensions of the families; of a foil its axes, which files call warp and
+/// weft.
+std::vector<FamilyFrame> family_frames(const PlyBody& ply) {
+  const Membrane& m = ply.membrane;
+  std::vector<FamilyFrame> frames;
+  for (const YarnFamily& family : m.fabric.families)
+    frames.push_back({family.name, in_degrees(ply.angle + family.angle), {}, {}, {}});
+  if (m.families.empty()) {
+    const std::vector<double> none(m.triangles.size(), 0.0);
+    for (const YarnFamily& axis : woven_fabric().families)
+      frames.push_back({axis.name, in_degrees(ply.angle + axis.angle), {}, {}, none});
+    return frames;
+  }
+  std::vector<std::vector<double>> strains = yarn_strains(m, ply.x),
+                                   tensions = yarn_tensions(m, ply.x);
+  for (std::size_t a = 0; a < frames.size(); ++a) {
+    frames[a].strain = std::move(strains[a]);
+    frames[a].tension = std::move(tensions[a]);
+  }
+  return frames;
+}
+
+/// Fills what follows from the shape of each triangle: directions, shear, thickness.
+void add_yarns(const PlyBody& ply, PlyFrame& f) {
+  const Membrane& m = ply.membrane;
+  f.families = family_frames(ply);
+  for (std::size_t c = 1; c < m.crossings.size(); ++c)
+    f.crossings.push_back({m.fabric.families[m.crossings[c].first].name + "_" +
+                               m.fabric.families[m.crossings[c].second].name,
+                           {}});
+  for (std::size_t e = 0; e < f.triangles.size(); ++e) {
+    const AxesState s = axes_state(m, ply.x, static_cast<int>(e));
+    f.shear_deg.push_back(shown_shear(m, s) * degrees_per_radian);
+    for (std::size_t c = 1; c < m.crossings.size(); ++c)
+      f.crossings[c - 1].shear_deg.push_back(crossing_state(m, m.crossings[c], s).gamma * degrees_per_radian);
+    for (std::size_t a = 0; a < m.families.size(); ++a)
+      f.families[a].direction.push_back(family_state(s, m.families[a].along).f);
+    if (m.families.empty())
+      for (std::size_t a = 0; a < 2; ++a) {
+        f.families[a].direction.push_back(a == 0 ? s.f1 : s.f2);
+        f.families[a].strain.push_back((a == 0 ? s.lambda1 : s.lambda2) - 1.0);
+      }
+    const double area_ratio = s.lambda1 * s.lambda2 * s.sin_omega / std::sin(m.omega0);
+    f.thickness.push_back(ply.thickness / area_ratio);
+  }
+}
+
 PlyFrame make_ply_frame(const Scene& scene, int index) {
   const PlyBody& ply = scene.plies[index];
   PlyFrame f;
@@ -35,22 +82,7 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   f.x0 = ply.x0;
   f.x = ply.x;
   f.triangles = ply.membrane.triangles;
-  const double fibre_angle = scene.data.fabrics[scene.data.plies[at(index)].fabric].fibre_angle;
-  f.families = {{"warp", f.angle_deg, {}, {}, {}},
-                {"weft", in_degrees(ply.angle + fibre_angle), {}, {}, {}}};
-  const auto strains = yarn_strains(ply.membrane, ply.x);
-  const auto tensions = yarn_tensions(ply.membrane, ply.x);
-  for (std::size_t e = 0; e < f.triangles.size(); ++e) {
-    const FibreState s = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
-    f.shear_deg.push_back(s.gamma * degrees_per_radian);
-    for (std::size_t k = 0; k < 2; ++k) {
-      f.families[k].direction.push_back(k == 0 ? s.f1 : s.f2);
-      f.families[k].strain.push_back(strains[e][k]);
-      f.families[k].tension.push_back(tensions[e][k]);
-    }
-    const double area_ratio = s.lambda1 * s.lambda2 * s.sin_omega / std::sin(ply.membrane.omega0);
-    f.thickness.push_back(ply.thickness / area_ratio);
-  }
+  add_yarns(ply, f);
   f.contact_pressure = contact_pressure(scene, index);
   f.reaction = ply.reaction;
   f.reaction.resize(ply.pull.empty() ? f.reaction.size() : ply.pull.size(), Vec3::Zero());

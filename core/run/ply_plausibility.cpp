@@ -105,10 +105,6 @@ PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas
   return result;
 }
 
-bool bears_compression(const Fabric& fabric) {
-  return fabric.warp.compression > 0.0 && fabric.weft.compression > 0.0;
-}
-
 /// What the excess length of compressed yarns would be in reality, and what to do about it.
 std::string remedy(const Fabric& fabric) {
   if (!bears_compression(fabric))
@@ -116,7 +112,9 @@ std::string remedy(const Fabric& fabric) {
            "that "
            "makes wrinkles of it";
   std::string result;
-  if (std::isfinite(fabric.warp.buckling_force) || std::isfinite(fabric.weft.buckling_force))
+  if (std::any_of(fabric.families.begin(), fabric.families.end(), [](const YarnFamily& family) {
+        return std::isfinite(family.tension.buckling_force);
+      }))
     result = "they gave way at buckling_force, in wrinkles that the mesh does not show, and whose "
              "place it does not know; ";
   return result +
@@ -251,7 +249,7 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
                      const std::vector<const ToolBody*>& tools) {
   PlyReport result;
   const std::vector<double> areas = areas_before(ply);
-  if (nature.woven) result.pressed = pressed_yarns(ply, areas);
+  if (nature.has_yarns) result.pressed = pressed_yarns(ply, areas);
   result.wrinkle = wrinkles_of(ply, tools).highest;
   if (nature.locking_angle_deg) {
     std::vector<double> shear = ply.shear_deg;

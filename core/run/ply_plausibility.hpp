@@ -32,7 +32,7 @@ constexpr double doubtful_astray_share = 0.2;
 
 /// Properties of a ply that report_ply needs besides its frame.
 struct PlyNature {
-  bool woven = true; ///< has yarns
+  bool has_yarns = true;
   std::optional<double> locking_angle_deg = std::nullopt;
 };
 

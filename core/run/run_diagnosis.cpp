@@ -99,12 +99,13 @@ std::pair<double, std::string> longest_yarn(const Frame& last) {
   return found;
 }
 
-/// Effective softening factor of a ply's yarns, that of the softer family.
+/// Effective softening factor of a ply's yarns, that of the softest family.
 double largest_softening(const Scene& s, const std::string& name) {
   double largest = 1.0;
   for (const PlyBody& ply : s.plies)
     if (ply.name == name)
-      largest = std::max({largest, ply.membrane.softening[0], ply.membrane.softening[1]});
+      for (const MembraneFamily& family : ply.membrane.families)
+        largest = std::max(largest, family.softening);
   return largest;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/setup/outlook.hpp"
 
+#include "base/text.hpp"
 #include "core/accuracy/error_model.hpp"
 #include "core/input/checks/motion_checks.hpp"
 #include "core/model/bending_resolution.hpp"
@@ -38,21 +39,28 @@ std::string bending_text(const PlyBody& ply) {
   if (!ply.bending) return "no bending";
   const Fabric& fabric = ply.membrane.fabric;
   const BendingLaw& law = ply.bending->law;
-  if (!fabric.has_yarns()) return fmt::format("bends as a plate, {:.3g} N mm", law.warp.stiffness);
+  if (!fabric.has_yarns()) return fmt::format("bends as a plate, {:.3g} N mm", fabric.plate);
   const auto along = [](const MomentLaw& moments) {
     return moments.curvature.empty() ? fmt::format("{:.3g}", moments.stiffness)
                                      : fmt::format("{:.3g} by table", moments.at(0.0).slope);
   };
-  std::string text = fmt::format(
-      "bending {} N mm along warp, {} along weft, {:.3g} in twist, {:.3g} and {:.3g} in "
-      "their plane, yarns compressed by {:.3g} and {:.3g} N per strain",
-      along(law.warp), along(law.weft), law.twist, law.in_plane[0], law.in_plane[1],
-      fabric.warp.compression, fabric.weft.compression);
   const auto force = [](const TensionLaw& yarn) {
     return yarn.buckles() ? fmt::format("{:.3g} N", yarn.buckling_force) : std::string("no force");
   };
-  if (fabric.warp.buckles() || fabric.weft.buckles())
-    text += fmt::format(", buckling at {} and {}", force(fabric.warp), force(fabric.weft));
+  std::vector<std::string> bent, in_plane, compressed, buckling;
+  bool buckles = false;
+  for (const YarnFamily& f : fabric.families) {
+    bent.push_back(
+        fmt::format("{}{} along {}", along(f.bending), bent.empty() ? " N mm" : "", f.name));
+    in_plane.push_back(fmt::format("{:.3g}", f.in_plane_bending));
+    compressed.push_back(fmt::format("{:.3g}", f.tension.compression));
+    buckling.push_back(force(f.tension));
+    buckles = buckles || f.tension.buckles();
+  }
+  std::string text = fmt::format(
+      "bending {}, {:.3g} in twist, {} in their plane, yarns compressed by {} N per strain",
+      joined(bent, ", "), law.twist, joined(in_plane, " and "), joined(compressed, " and "));
+  if (buckles) text += fmt::format(", buckling at {}", joined(buckling, " and "));
   return text;
 }
 
@@ -63,11 +71,11 @@ std::string element_text(const Membrane& m, ElementKind asked) {
   if (asked != ElementKind::automatic) return fmt::format("{}: as solver.element says", name);
   constexpr double few = 0.01; // fraction of a band along the edge, or of single triangles
   const double plain = static_cast<double>(triangles - 2 * pairs) / triangles;
-  if (plain > 1.0 - few) return "plain element: sides run along both fibre families";
+  if (plain > 1.0 - few) return "plain element: sides run along the fibres";
   if (plain < few)
-    return "averaged element: sides do not run along both fibre families, the plain element would "
+    return "averaged element: sides do not run along the fibres, the plain element would "
            "lock";
-  return fmt::format("plain element where sides run along both fibre families ({:.0f} % of the "
+  return fmt::format("plain element where sides run along the fibres ({:.0f} % of the "
                      "triangles), averaged element elsewhere, where it would lock",
                      100.0 * plain);
 }
@@ -85,8 +93,9 @@ void describe_plies(const Scene& s, Lines& lines) {
           ply.x.size(), m.triangles.size(), bending_text(ply));
       continue;
     }
-    say(lines, "ply {}: {}, {} nodes, {} triangles, warp at {:.10g} degrees; {}; {}", ply.name,
-        size, ply.x.size(), m.triangles.size(), ply.angle / degree,
+    say(lines, "ply {}: {}, {} nodes, {} triangles, {} at {:.10g} degrees; {}; {}", ply.name, size,
+        ply.x.size(), m.triangles.size(), m.fabric.families[0].name,
+        (ply.angle + m.fabric.families[0].angle) / degree,
         element_text(m, s.data.solver.element), bending_text(ply));
   }
 }
@@ -112,7 +121,7 @@ void describe_locking(const Scene& s, Lines& lines) {
   for (std::size_t p = 0; p < s.plies.size(); ++p) {
     const Membrane& m = s.plies[p].membrane;
     const bool averaged = m.groups() < static_cast<int>(m.triangles.size());
-    const bool push = m.fabric.warp.compression > 0.0 && m.fabric.weft.compression > 0.0;
+    const bool push = bears_compression(m.fabric);
     const Ply& ply = s.data.plies[p];
     if (!averaged || !push || !seen.emplace(ply.fabric, ply.blank).second) continue;
     Eigen::AlignedBox3d box;
@@ -140,10 +149,12 @@ void describe_limp(const Scene& s, Lines& lines) {
     const double averaged = 2.0 * (triangles - m.groups()) / triangles;
     constexpr double few = 0.05; // along an edge
     const Ply& ply = s.data.plies[p];
-    if (!f.has_yarns() || averaged < few || !seen.emplace(ply.fabric, ply.blank).second) continue;
+    if (f.crossings.empty() || averaged < few || !seen.emplace(ply.fabric, ply.blank).second)
+      continue;
     const Fabric& whole = s.data.fabrics[ply.fabric]; // not softened
-    const double yarns = std::min(whole.warp_density * whole.warp.largest_slope(),
-                                  whole.weft_density * whole.weft.largest_slope());
+    double yarns = std::numeric_limits<double>::infinity();
+    for (const YarnFamily& family : whole.families)
+      yarns = std::min(yarns, family.density * family.tension.largest_slope());
     const double ratio = shear_rigidity(whole) / yarns;
     if (ratio > limp) continue;
     say(lines,

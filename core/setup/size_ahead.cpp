@@ -17,9 +17,10 @@ double steps_of(const Case& data, const Ply& ply) {
   const Fabric& fabric = data.fabrics[ply.fabric];
   const double size = smallest_wanted(data.blanks[ply.blank]);
   if (!fabric.has_yarns() || !(size > 0.0)) return 0.0;
-  const double stiffness = std::max(fabric.warp.largest_slope() * fabric.warp_density,
-                                    fabric.weft.largest_slope() * fabric.weft_density) /
-                           data.solver.fibre_softening; // N/mm
+  double stiffness = 0.0; // N/mm
+  for (const YarnFamily& family : fabric.families)
+    stiffness = std::max(stiffness, family.tension.largest_slope() * family.density /
+                                        data.solver.fibre_softening);
   const double speed = std::sqrt(stiffness / fabric.surface_density);
   return data.solver.duration * speed / (elements_a_step * size);
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Elements and bending as kinds of force.
 #include "base/stopwatch.hpp"
-#include "core/ply/in_plane_law.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/step_faults.hpp"
 
@@ -87,7 +86,7 @@ void ElementForces::add_bound(const PlyBody& ply, Frequencies& of) {
 
 void ElementForces::add_bound_of_rest(const PlyBody& ply, Frequencies& of) {
   of.omega2 += ply.bound.soft;
-  if (!in_plane_law(ply.membrane.fabric).yarns) of.omega2 += ply.bound.yarns;
+  if (!ply.membrane.fabric.has_yarns()) of.omega2 += ply.bound.yarns;
 }
 
 std::optional<Stop> ElementForces::fault(const Scene& s) {

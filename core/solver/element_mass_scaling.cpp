@@ -41,8 +41,9 @@ Bending bending_of(const PlyBody& ply) {
   for (const Vec3& p : ply.x0)
     x.push_back(p.head<2>());
   const Membrane& m = ply.membrane;
-  return make_bending(x, m.triangles, ply.bending->law, ply.angle, ply.angle + m.fabric.fibre_angle,
-                      m.node_mass);
+  const MaterialAxes axes = material_axes(m.fabric);
+  return make_bending(x, m.triangles, ply.bending->law, ply.angle + axes.first,
+                      ply.angle + axes.second, m.node_mass);
 }
 
 /// w_e of (E).

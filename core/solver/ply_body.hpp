@@ -31,7 +31,7 @@ namespace plyform {
 /// blocks.
 struct PlyModel {
   std::string name;
-  double angle = 0.0;     ///< rad, warp from x, before forming
+  double angle = 0.0;     ///< rad, from x, before forming
   double thickness = 0.0; ///< mm
   std::vector<Vec3> x0;   ///< mm, before forming
   Membrane membrane;

@@ -39,9 +39,8 @@ void set_frequency(const Case& data, PlyBody& body) {
   body.bound = eigenvalue_bound(body.membrane, body.x);
   const double omega = std::sqrt(body.bound.omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
-  const auto& [warp, weft] = body.membrane.yarn;
-  body.membrane.viscosity = {2.0 * data.solver.fibre_damping * warp.largest_slope() / omega,
-                             2.0 * data.solver.fibre_damping * weft.largest_slope() / omega};
+  for (MembraneFamily& family : body.membrane.families)
+    family.viscosity = 2.0 * data.solver.fibre_damping * family.yarn.largest_slope() / omega;
   body.bound = eigenvalue_bound(body.membrane, body.x); // with viscosity
 }
 
@@ -55,18 +54,18 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.membrane =
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
   body.membrane.process_time = data.process_time();
-  BendingLaw bending = fabric.bending;
-  if (!fabric.has_yarns()) bending.in_plane = {}; // no yarns that could bend in its plane
+  const BendingLaw bending = bending_law(fabric);
+  const MaterialAxes axes = material_axes(fabric);
   body.x0.reserve(mesh.x.size());
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
   if (bending.any() && alike)
     body.bending = alike->bending;
   else if (bending.any())
-    body.bending =
-        make_bending_simd(make_bending(mesh.x, body.membrane.triangles, bending, ply.angle,
-                                       ply.angle + fabric.fibre_angle, body.membrane.node_mass),
-                          body.x0);
+    body.bending = make_bending_simd(make_bending(mesh.x, body.membrane.triangles, bending,
+                                                  ply.angle + axes.first, ply.angle + axes.second,
+                                                  body.membrane.node_mass),
+                                     body.x0);
   body.x = body.x_search = body.x0;
   body.velocity.assign(body.x.size(), Vec3::Zero());
   body.motion = body.velocity;
@@ -94,8 +93,10 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
 /// 100 (`stack_softening`), as the pressure between plies does not decrease with softening.
 double penalty_per_area(const PlyBody& ply, double fraction, bool stack) {
   constexpr double fine = 12.5, most = 2.5, stack_softening = 100.0;
-  const auto& softening = ply.membrane.softening;
-  if (stack) fraction *= std::max(1.0, std::max(softening[0], softening[1]) / stack_softening);
+  double softening = 1.0;
+  for (const MembraneFamily& family : ply.membrane.families)
+    if (stack) softening = std::max(softening, family.softening / stack_softening);
+  fraction *= softening;
   const double coarse = cell_area(ply) / (fine * fine * ply.thickness * ply.thickness);
   return std::clamp(coarse, 1.0, most) * fraction * ply.membrane.fabric.surface_density *
          ply.bound.omega2;
@@ -306,9 +307,10 @@ double energy_floor_of(const std::vector<PlyBody>& plies) {
   double floor = 0.0;
   for (const PlyBody& ply : plies) {
     const Membrane& m = ply.membrane;
-    double stiffness = m.fabric.warp_density * m.yarn[0].largest_slope() +
-                       m.fabric.weft_density * m.yarn[1].largest_slope(); // N/mm
-    if (m.fabric.sheet) stiffness = std::get<IsotropicLaw>(*m.fabric.sheet).modulus;
+    double stiffness = 0.0; // N/mm
+    for (const MembraneFamily& family : m.families)
+      stiffness += family.density * family.yarn.largest_slope();
+    if (m.fabric.sheet) stiffness += std::get<IsotropicLaw>(*m.fabric.sheet).modulus;
     for (const double area : m.node_area)
       floor += 0.5 * stiffness * strain * strain * area;
   }

@@ -92,12 +92,13 @@ std::optional<Stop> find_squeezed(const Scene& s) {
 std::optional<Stop> find_collapsed(const Scene& s) {
   for (const PlyBody& ply : s.plies)
     for (std::size_t e = 0; e < ply.membrane.triangles.size(); ++e) {
-      const FibreState f = fibre_state(ply.membrane, ply.x, static_cast<int>(e));
+      const AxesState f = axes_state(ply.membrane, ply.x, static_cast<int>(e));
       if (!collapsed(f)) continue;
       const double shear = std::abs(f.gamma) / degree;
-      return Stop{fmt::format("{}: ply {}, triangle {} has collapsed: stretch {:.3g} along warp, "
-                              "{:.3g} along weft, sheared by {:.3g} degrees{}",
-                              when(s), ply.name, e, f.lambda1, f.lambda2, shear,
+      const auto [along, across] = axes_words(ply.membrane.fabric);
+      return Stop{fmt::format("{}: ply {}, triangle {} has collapsed: stretch {:.3g} along {}, "
+                              "{:.3g} {}, sheared by {:.3g} degrees{}",
+                              when(s), ply.name, e, f.lambda1, along, f.lambda2, across, shear,
                               shear < sheared_too_far ? "" : sheared_remedy)};
     }
   return std::nullopt;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/stiffness_products.hpp"
 
-#include "core/ply/in_plane_law.hpp"
 #include "core/solver/attached_motion.hpp"
 #include "core/solver/contact_rows.hpp"
 
@@ -12,7 +11,7 @@ namespace plyform {
 ElementProduct::ElementProduct(const Scene& s, const TangentFactors& factors) {
   for (const PlyBody& ply : s.plies) {
     std::unique_ptr<YarnStiffness>& yarns = yarns_.emplace_back();
-    if (!ply.resting && in_plane_law(ply.membrane.fabric).yarns)
+    if (!ply.resting && ply.membrane.fabric.has_yarns())
       yarns = std::make_unique<YarnStiffness>(
           ply.membrane, ply.x, kink_factor(ply.membrane) * factors.stiffness, factors.damping);
   }

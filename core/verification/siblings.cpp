@@ -102,9 +102,9 @@ double softening_of(const Case& data, double asked) {
   double most = 1.0;
   for (const Ply& ply : data.plies) {
     const Fabric& fabric = data.fabrics[ply.fabric];
-    for (const TensionLaw* law : {&fabric.warp, &fabric.weft})
-      if (fabric.has_yarns() && law->largest_slope() > 0.0)
-        most = std::max(most, effective_softening(*law, asked));
+    for (const YarnFamily& family : fabric.families)
+      if (family.tension.largest_slope() > 0.0)
+        most = std::max(most, effective_softening(family.tension, asked));
   }
   return most;
 }

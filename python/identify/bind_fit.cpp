@@ -112,8 +112,11 @@ Fabric fabric_for_fit(const std::filesystem::path& file, FabricNeeds needs) {
   for (const std::string& missing : reading.missing)
     if (needs.shear_law && missing == "shear")
       wrong("shear", "is missing", "give the law of shear, or identify it from a measured curve");
-  if (needs.right_angle && reading.value &&
-      !(std::abs(reading.value->fibre_angle - 0.5 * std::numbers::pi) < 1e-6))
+  if (reading.value && !is_weave(*reading.value))
+    wrong("law", "must be woven: the tests are of warp and weft",
+          "write the laws of other fabrics in by hand");
+  else if (needs.right_angle && reading.value &&
+           !(std::abs(material_axes(*reading.value).between() - 0.5 * std::numbers::pi) < 1e-6))
     wrong("fibre_angle", "must be 90 degrees: the theory of the shear tests is for such fabrics",
           "take the law from a test of your own evaluation and write it in by hand");
   if (!reading.errors.empty()) raise_mistakes(reading.errors);

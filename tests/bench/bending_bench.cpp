@@ -2,6 +2,7 @@
 // Bending: forces of all nodes, four side by side as the step does it and one after the other, out
 // of the sheet alone and with yarns that bend in it.
 #include "core/ply/bending_simd.hpp"
+#include "support/bending_laws.hpp"
 
 #include <benchmark/benchmark.h>
 #include <cmath>
@@ -25,9 +26,11 @@ BentSheet bent_sheet(std::int64_t cells, std::int64_t mesh_kind, bool in_plane) 
   blank.element_size = 6.8;
   blank.mesh = static_cast<MeshKind>(mesh_kind);
   const BlankMesh mesh = mesh_blank(blank, 0.0, 0.5 * std::numbers::pi);
-  BendingLaw law;
-  law.warp.stiffness = law.weft.stiffness = law.twist = 2.0;
-  if (in_plane) law.in_plane = {8.0, 8.0};
+  BendingLaw law = weave_bending();
+  law.families[0].law.stiffness = law.families[1].law.stiffness = law.twist = 2.0;
+  if (in_plane) {
+    law.families[0].in_plane = 8.0, law.families[1].in_plane = 8.0;
+  }
   BentSheet s;
   const std::vector<double> masses(mesh.x.size(), 1e-8);
   s.bending = make_bending(mesh.x, mesh.triangles, law, 0.0, 0.5 * std::numbers::pi, masses);

@@ -11,11 +11,11 @@ namespace plyform {
 namespace {
 
 Fabric glass() {
-  Fabric f;
-  f.warp.stiffness = 46000.0;
-  f.weft.stiffness = 48000.0;
-  f.warp_density = f.weft_density = 0.25;
-  f.shear.k = {0.37044, 0.84105, 1.03113};
+  Fabric f = woven_fabric();
+  f.families[0].tension.stiffness = 46000.0;
+  f.families[1].tension.stiffness = 48000.0;
+  f.families[0].density = f.families[1].density = 0.25;
+  f.crossings[0].shear.k = {0.37044, 0.84105, 1.03113};
   f.surface_density = 6e-10;
   return f;
 }

@@ -22,7 +22,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const Fabric& fabric = prepared.value->fabrics[0];
   if (fabric.has_yarns())
     for (const double strain : {-0.1, 0.0, 1e-3, 0.2})
-      for (const TensionLaw& law : {fabric.warp, fabric.weft})
+      for (const TensionLaw& law : {fabric.families[0].tension, fabric.families[1].tension})
         if (!std::isfinite(law.at(strain).value)) std::abort();
   return 0;
 }

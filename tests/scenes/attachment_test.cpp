@@ -32,7 +32,7 @@ Case free_strip(double size) {
 /// N per strain, of the whole width.
 double strip_stiffness(const Case& data) {
   const Fabric& fabric = data.fabrics[0];
-  return fabric.warp_density * width * fabric.warp.stiffness / softening;
+  return fabric.families[0].density * width * fabric.families[0].tension.stiffness / softening;
 }
 
 template <class Kind>

@@ -58,12 +58,12 @@ Tip hang_strip(const Fabric& fabric, MeshKind mesh, double angle, double softeni
 
 /// A plate without Poisson's effect, which is a beam.
 Fabric plate(double stiffness) {
-  Fabric fabric;
+  Fabric fabric = woven_fabric();
   fabric.surface_density = glass_weave().surface_density;
   fabric.thickness = glass_weave().thickness;
   fabric.sheet = IsotropicLaw{12.0 * stiffness / (fabric.thickness * fabric.thickness), 0.0};
-  fabric.bending.warp.stiffness = fabric.bending.weft.stiffness = stiffness;
-  fabric.bending.twist = 2.0 * stiffness;
+  fabric.families[0].bending.stiffness = fabric.families[1].bending.stiffness = stiffness;
+  fabric.twist = 2.0 * stiffness;
   return fabric;
 }
 
@@ -71,11 +71,11 @@ Fabric plate(double stiffness) {
 /// are then softened by 1000, and no more.
 Fabric weave(double warp, double weft, double compression = 0.001) {
   Fabric fabric = glass_weave();
-  fabric.bending.warp.stiffness = warp;
-  fabric.bending.weft.stiffness = weft;
-  fabric.bending.twist = std::sqrt(warp * weft);
-  fabric.warp.compression = compression * fabric.warp.stiffness;
-  fabric.weft.compression = compression * fabric.weft.stiffness;
+  fabric.families[0].bending.stiffness = warp;
+  fabric.families[1].bending.stiffness = weft;
+  fabric.twist = std::sqrt(warp * weft);
+  fabric.families[0].tension.compression = compression * fabric.families[0].tension.stiffness;
+  fabric.families[1].tension.compression = compression * fabric.families[1].tension.stiffness;
   return fabric;
 }
 
@@ -123,7 +123,7 @@ TEST(BendingLong, WovenStripHangsByTheStiffnessOfItsOwnYarns) {
 
 TEST(BendingLong, FibresAtAnAngleToStripAndMeshBendAsTheEqualPlate) {
   Fabric fabric = weave(5.0, 5.0);
-  fabric.bending.twist = 10.0; // a plate without Poisson's effect: 5 N mm in every direction
+  fabric.twist = 10.0; // a plate without Poisson's effect: 5 N mm in every direction
   const double theory = elastica_sag(strip_length, weight, 5.0);
   for (const MeshKind mesh : {MeshKind::alternating, MeshKind::free})
     for (const double angle : {right_angle / 3.0, 0.5 * right_angle}) {
@@ -136,13 +136,13 @@ TEST(BendingLong, FibresAtAnAngleToStripAndMeshBendAsTheEqualPlate) {
 
 TEST(BendingLong, StripFollowsATableOfMoments) {
   Fabric line = weave(4.0, 4.0), same = line, bent = line;
-  same.bending.warp.curvature = {0.0, 0.004, 0.02};
-  same.bending.warp.moment = {0.0, 0.016, 0.08};
+  same.families[0].bending.curvature = {0.0, 0.004, 0.02};
+  same.families[0].bending.moment = {0.0, 0.016, 0.08};
   const double sag = hang_strip(line, MeshKind::alternating, 0.0, softening).sag;
   EXPECT_NEAR(hang_strip(same, MeshKind::alternating, 0.0, softening).sag, sag, 1e-6 * sag);
   // Half as stiff beyond a curvature of 0.002/mm: 0.008 N of the clamp's 0.03.
-  bent.bending.warp.curvature = {0.0, 0.002, 0.02};
-  bent.bending.warp.moment = {0.0, 0.008, 0.044};
+  bent.families[0].bending.curvature = {0.0, 0.002, 0.02};
+  bent.families[0].bending.moment = {0.0, 0.008, 0.044};
   const double bent_sag = hang_strip(bent, MeshKind::alternating, 0.0, softening).sag;
   const double theory = elastica_sag(strip_length, weight, [](double moment) {
     return moment < 0.008 ? moment / 4.0 : 0.002 + (moment - 0.008) / 2.0;

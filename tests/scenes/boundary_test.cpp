@@ -189,8 +189,8 @@ TEST(BoundaryScene, StripAlongTheYarnsPullsWithItsStiffness) {
 /// The paper's (41), with the energy of all cells: F = A n_c Cs dgamma/dd.
 double frame_load(double side, double gamma) {
   const Fabric f = glass_weave();
-  const double cells = f.warp_density * f.weft_density * side * side;
-  return cells * f.shear.at(gamma).value / (side * std::sin(0.25 * pi - 0.5 * gamma));
+  const double cells = f.families[0].density * f.families[1].density * side * side;
+  return cells * f.crossings[0].shear.at(gamma).value / (side * std::sin(0.25 * pi - 0.5 * gamma));
 }
 
 TEST(BoundaryScene, PictureFrameHasTheLoadOfTheCellsAndNoStrain) {

@@ -13,8 +13,8 @@ namespace {
 /// A coarse hemisphere whose fabric leaves to estimates what it can.
 Case forming(const std::vector<double>& angles) {
   Case data = coarse_hemisphere(angles);
-  for (YarnSources& yarn : data.fabrics[0].sources)
-    yarn = {ValueSource::missing, ValueSource::missing, ValueSource::missing};
+  for (YarnFamily& family : data.fabrics[0].families)
+    family.sources = {ValueSource::missing, ValueSource::missing, ValueSource::missing};
   data.solver.duration = 0.02;
   data.solver.outputs = 4;
   return data;
@@ -24,7 +24,7 @@ Case forming(const std::vector<double>& angles) {
 /// and tools further up, of which one moves fast and one swings with a mass of its own.
 Case with_far_bodies(Case data) {
   Fabric stiff = data.fabrics[0];
-  stiff.name = "stiff", stiff.warp.stiffness *= 4.0, stiff.thickness = 0.2;
+  stiff.name = "stiff", stiff.families[0].tension.stiffness *= 4.0, stiff.thickness = 0.2;
   data.fabrics.push_back(stiff);
   data.blanks.push_back(rectangle(340.0, 340.0, 10.0));
   data.plies.push_back({"far", 1, 1, 0.3, 500.0});

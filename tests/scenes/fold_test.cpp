@@ -38,7 +38,8 @@ Vec2 folded_place(double start, const std::vector<double>& folds, double materia
 /// The strip and the plate, ready to run.
 Scene folded_strip(const std::vector<double>& folds, bool self) {
   Fabric fabric = glass_weave();
-  fabric.warp.compression = fabric.weft.compression = 460.0; // N: walls lean over, not shorten
+  fabric.families[0].tension.compression = fabric.families[1].tension.compression =
+      460.0; // N: walls lean over, not shorten
   Case data = stack_of({0.0}, rectangle(60.0, 20.0, cell));
   data.fabrics = {fabric};
   press_by_plate(data);

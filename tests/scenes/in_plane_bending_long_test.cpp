@@ -110,7 +110,8 @@ std::vector<double> bias_shares(double in_plane, double size) {
   constexpr double length = 300.0, width = 100.0; // mm
   const std::vector<double> angles{10.0 * degree, 30.0 * degree};
   Fabric fabric = glass_weave();
-  fabric.bending.in_plane = {in_plane, in_plane};
+  for (YarnFamily& family : fabric.families)
+    family.in_plane_bending = in_plane;
   std::vector<double> shares =
       bias_loads(strip_mesh({MeshKind::crossed, size, 0.0, 0.0}, length, width), fabric, length,
                  width, ElementKind::plain, angles, 1e-9);
@@ -137,7 +138,8 @@ TEST(InPlaneBendingLong, LayersBetweenItsZonesAddToTheLoadOfTheBiasTest) {
   }
   // what identify takes off, between half and all of the layers of a net of inextensible yarns
   Fabric fabric = glass_weave();
-  fabric.bending.in_plane = {8.0, 8.0};
+  for (YarnFamily& family : fabric.families)
+    family.in_plane_bending = 8.0;
   const BendingShare share = in_plane_bending_share(shear_test(BiasSpecimen{300.0, 100.0}), fabric);
   const std::vector<double> fine = bias_shares(8.0, 0.5 * size);
   for (std::size_t i = 0; i < 2; ++i) { // over the load at the same angle without layers

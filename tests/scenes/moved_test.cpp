@@ -38,8 +38,9 @@ void carry(Scene& s, const Placement& to) {
 /// rounding, too.
 Case busy_case() {
   Case data = stack_of({0.0, 0.35}, rectangle(100.0, 100.0, 10.0));
-  data.fabrics[0].bending.warp.stiffness = data.fabrics[0].bending.weft.stiffness = 20.0; // N mm
-  data.fabrics[0].bending.twist = 5.0;
+  data.fabrics[0].families[0].bending.stiffness = data.fabrics[0].families[1].bending.stiffness =
+      20.0; // N mm
+  data.fabrics[0].twist = 5.0;
   press_by_plate(data);
   data.tools[0].motion = Motion::driven;
   data.tools[0].direction = Vec3::UnitX();

@@ -91,9 +91,9 @@ double error_of_identified_law(const std::vector<Frame>& frames, const std::stri
   }
   double largest = 0.0;
   for (double g = 5.0; g <= to; g += 1.0)
-    largest = std::max(
-        largest,
-        std::abs(fit->law.at(g / degrees).value / fabric.shear.at(g / degrees).value - 1.0));
+    largest = std::max(largest, std::abs(fit->law.at(g / degrees).value /
+                                             fabric.crossings[0].shear.at(g / degrees).value -
+                                         1.0));
   return largest;
 }
 
@@ -266,7 +266,7 @@ TEST(PaperLong, HemisphereTurnedBy45DegreesIsTheSame) {
   Case straight = shipped("hemisphere_0/case.toml", uniform),
        turned = shipped("hemisphere_45/case.toml", uniform);
   for (Case* data : {&straight, &turned})
-    data->fabrics[0].weft = data->fabrics[0].warp;
+    data->fabrics[0].families[1].tension = data->fabrics[0].families[0].tension;
   const double reach = 170.0 * std::numbers::sqrt2;
   turned.blanks[0].outline.boundary = {{reach, 0}, {0, reach}, {-reach, 0}, {0, -reach}};
   const PlyFrame a = frames_of(straight, 2).back().plies[0];

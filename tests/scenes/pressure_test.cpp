@@ -174,10 +174,9 @@ void clamp_rim(Case& data) {
   const BlankMesh mesh = mesh_blank(data.blanks[0], 0.0, 0.5 * std::numbers::pi);
   for (const Vec2& x : mesh.x) {
     if (x.norm() < radius * (1.0 - 1e-6)) continue;
-    Boundary b;
-    b.name = "rim" + std::to_string(data.boundaries.size());
-    b.place = {x - Vec2::Constant(1e-3), x + Vec2::Constant(1e-3)};
-    data.boundaries.push_back(b);
+    Grip grip;
+    grip.place = {false, {x - Vec2::Constant(1e-3), x + Vec2::Constant(1e-3)}};
+    data.boundaries.push_back({"rim" + std::to_string(data.boundaries.size()), -1, grip});
   }
 }
 
@@ -331,7 +330,7 @@ TEST(Pressure, StripBetweenTwoEdgesIsAnArcWithItsTension) {
       const double tension = right.force.norm() / 20.0; // N/mm
       const Fabric& f = data.fabrics[0];
       const double angle = half_angle(p, [&](double l) {
-        if (yarns) return f.warp_density * f.warp.stiffness / 100.0 * (l - 1.0);
+        if (yarns) return f.families[0].density * f.families[0].tension.stiffness / 100.0 * (l - 1.0);
         return l * stretch_stiffness / (1.0 - nu * nu) * 0.5 * (l * l - 1.0);
       });
       const double theory = 50.0 / std::sin(angle);

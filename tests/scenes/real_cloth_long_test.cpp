@@ -21,7 +21,8 @@ Case coarse_five_plies() {
     ADD_FAILURE() << error.text();
   Case data = reading.value.value();
   for (Fabric& fabric : data.fabrics)
-    fabric.bending.in_plane = {18.0, 18.0};
+    for (YarnFamily& family : fabric.families)
+      family.in_plane_bending = 18.0;
   return data;
 }
 
@@ -68,9 +69,9 @@ TEST(RealClothLong, ContactHoldsWhereItGaveWay) {
   for (const double friction : {0.05, 0.4}) {
     Case data = coarse_five_plies();
     for (Fabric& fabric : data.fabrics) {
-      fabric.warp.compression = fabric.weft.compression = 46.0;
-      fabric.bending.warp.stiffness = fabric.bending.weft.stiffness = 0.5;
-      fabric.bending.twist = 0.5;
+      fabric.families[0].tension.compression = fabric.families[1].tension.compression = 46.0;
+      fabric.families[0].bending.stiffness = fabric.families[1].bending.stiffness = 0.5;
+      fabric.twist = 0.5;
     }
     set_friction(data, friction);
     data.contact.stiffness = 0.025;

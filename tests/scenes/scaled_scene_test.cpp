@@ -14,10 +14,10 @@ namespace {
 Case scaled_hemisphere(double s, const std::vector<double>& angles, bool holder) {
   Case data = coarse_hemisphere(angles);
   Fabric& f = data.fabrics[0];
-  for (TensionLaw* yarn : {&f.warp, &f.weft})
+  for (TensionLaw* yarn : {&f.families[0].tension, &f.families[1].tension})
     yarn->stiffness *= s * s * s; // N per yarn
-  f.warp_density /= s, f.weft_density /= s, f.thickness *= s;
-  for (double& k : f.shear.k)
+  f.families[0].density /= s, f.families[1].density /= s, f.thickness *= s;
+  for (double& k : f.crossings[0].shear.k)
     k *= s * s * s * s; // N mm
   data.blanks[0] = rectangle(340.0 * s, 340.0 * s, 20.0 * s);
   for (Ply& ply : data.plies)

@@ -53,7 +53,8 @@ TEST(StressLong, YarnsThatBearCompressionNeedAFinerMesh) {
   judge(fabric, 5.0, 0.1);
   // Bending of yarns in their plane bears a part of the load that does not lock, no more.
   NamedFabric bent{fabric.name + ", bent in their plane", fabric.fabric};
-  bent.fabric.bending.in_plane = {8.0, 8.0}; // N mm
+  for (YarnFamily& family : bent.fabric.families)
+    family.in_plane_bending = 8.0; // N mm
   judge(bent, 10.0, 0.12);
   judge(bent, 5.0, 0.07);
 }

@@ -41,9 +41,9 @@ struct UniformErrors {
 
 void judge_uniform(const NamedFabric& f, const BlankMesh& mesh, ElementKind kind, double angle,
                    YarnState state, UniformErrors& worst) {
-  if (state.omega < 0.0) state.omega = f.fabric.fibre_angle;
+  if (state.omega < 0.0) state.omega = f.fabric.families[1].angle;
   Membrane m = make_membrane(mesh, f.fabric, angle, kind);
-  const Eigen::Matrix2d map = map_to(state, angle, f.fabric.fibre_angle);
+  const Eigen::Matrix2d map = map_to(state, angle, f.fabric.families[1].angle);
   const UniformAnswer answer = uniform_answer(f.fabric, angle, state);
   std::vector<Vec3> x;
   for (const Vec2& p : mesh.x)
@@ -52,8 +52,9 @@ void judge_uniform(const NamedFabric& f, const BlankMesh& mesh, ElementKind kind
   for (const double a : m.area)
     area += a;
   const MembraneEnergy e = membrane_energy(m, x);
-  const double d = std::max(f.fabric.warp_density, f.fabric.weft_density);
-  const double yarns = d * std::max(f.fabric.warp.stiffness, f.fabric.weft.stiffness);
+  const double d = std::max(f.fabric.families[0].density, f.fabric.families[1].density);
+  const double yarns =
+      d * std::max(f.fabric.families[0].tension.stiffness, f.fabric.families[1].tension.stiffness);
   // Coordinates round to 1e-14 mm and strains, on sides down to 1 mm, to 1e-13.
   const double rounding = 1e-12 * yarns;
   EXPECT_NEAR(e.fibre, area * answer.fibre, 1e-9 * area * answer.fibre + rounding) << f.name;
@@ -88,11 +89,11 @@ TEST(Stress, StiffYarnsDoNotStiffenWhatHoldsPairs) {
   const BlankMesh mesh = slivers(side, 4);
   for (const NamedFabric& f : extreme_fabrics()) {
     const Membrane m = make_membrane(mesh, f.fabric, 0.7, ElementKind::averaged);
-    const double secant = f.fabric.shear.at(0.5).value / 0.5; // N mm
-    const double of_shear = m.cells_per_area * 8.0 * secant / f.fabric.warp_density;
-    const double of_yarns = 1e-6 * f.fabric.warp.stiffness;
+    const double secant = f.fabric.crossings[0].shear.at(0.5).value / 0.5; // N mm
+    const double of_shear = m.crossings[0].cells * 8.0 * secant / f.fabric.families[0].density;
+    const double of_yarns = 1e-6 * f.fabric.families[0].tension.stiffness;
     const double wanted = secant > 0.0 ? std::min(0.1 * of_shear, of_yarns) : of_yarns;
-    EXPECT_NEAR(m.side[0].stabilisation, wanted, 1e-12 * wanted) << f.name;
+    EXPECT_NEAR(m.families[0].side.stabilisation, wanted, 1e-12 * wanted) << f.name;
   }
 }
 
@@ -110,7 +111,7 @@ struct FrameTest {
 Case frame_case(const FrameTest& t, const BlankSpec& blank) {
   Case data = stack_of({0.0}, blank);
   data.fabrics = {t.fabric};
-  const double omega0 = t.fabric.fibre_angle, a = t.side;
+  const double omega0 = t.fabric.families[1].angle, a = t.side;
   const Vec2 u(a, 0.0), v(a * std::cos(omega0), a * std::sin(omega0)), middle = 0.5 * (u + v);
   HingedFrame f;
   f.hinges = {Vec2(-middle), Vec2(u - middle), Vec2(u + v - middle), Vec2(v - middle)};
@@ -142,7 +143,7 @@ struct FrameFound {
 /// Runs it and judges each state past 10 degrees: load over A n_c Cs dgamma/dd, which is (41) for
 /// yarns at a right angle; shear angle of every triangle; strain of yarns.
 FrameFound run_frame(const FrameTest& t, const BlankSpec& blank) {
-  const double omega0 = t.fabric.fibre_angle, a = t.side;
+  const double omega0 = t.fabric.families[1].angle, a = t.side;
   FrameFound found;
   int judged = 0;
   RunHooks hooks;
@@ -161,9 +162,10 @@ FrameFound run_frame(const FrameTest& t, const BlankSpec& blank) {
     worst(found.force, frame.boundaries[0].force_N);
     if (std::abs(gamma) < 10.0 * degree) return;
     ++judged;
-    const double cells = t.fabric.warp_density * t.fabric.weft_density * std::sin(omega0);
-    const double wanted = cells * a * a * std::sin(omega0) * t.fabric.shear.at(gamma).value /
-                          (a * std::sin(0.5 * omega));
+    const double cells =
+        t.fabric.families[0].density * t.fabric.families[1].density * std::sin(omega0);
+    const double wanted = cells * a * a * std::sin(omega0) *
+                          t.fabric.crossings[0].shear.at(gamma).value / (a * std::sin(0.5 * omega));
     if (wanted != 0.0) worst(found.load, frame.boundaries[0].force_N / wanted - 1.0);
   };
   found.run = run_case(frame_case(t, blank), 1, hooks);
@@ -202,13 +204,13 @@ TEST(Stress, FrameHasItsLoadWithEveryFabric) {
       FrameTest t;
       t.fabric = f.fabric;
       t.element = element;
-      t.to = f.fabric.fibre_angle - 25.0 * degree;
-      t.softening = 1e4 * std::max(1.0, f.fabric.warp.stiffness / 46000.0);
+      t.to = f.fabric.families[1].angle - 25.0 * degree;
+      t.softening = 1e4 * std::max(1.0, f.fabric.families[0].tension.stiffness / 46000.0);
       if (t.to > 80.0 * degree) t.softening = 1000.0; // or the yarns are too soft for its torque
       const bool averaged = element == ElementKind::averaged;
       const FrameFound found = run_frame(t, rhombus(t, 25.0));
       expect_sound(found, f.name + (averaged ? ", averaged" : ", plain"));
-      if (f.fabric.shear.k[0] == 0.0) {
+      if (f.fabric.crossings[0].shear.k[0] == 0.0) {
         EXPECT_LT(found.force, 1e-4) << "N";
       }
     }
@@ -247,7 +249,7 @@ TEST(Stress, StopsWhenWarpAndWeftCoincide) {
       expect_collapse(run_frame(t, rhombus(t, 25.0)).run, fmt::format("{} in {} s", to, duration));
     }
   FrameTest t;
-  t.fabric.fibre_angle = 120.0 * degree;
+  t.fabric.families[1].angle = 120.0 * degree;
   t.to = -59.9 * degree; // to 180 degrees between them
   expect_collapse(run_frame(t, rhombus(t, 25.0)).run, "yarns that come to point at each other");
 }

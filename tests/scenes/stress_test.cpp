@@ -24,7 +24,7 @@ TEST(Stress, PulledObliquelyEveryFabricKeepsItsLedger) {
           f.name + (element == ElementKind::averaged ? ", averaged" : ", plain");
       EXPECT_TRUE(ended(run.summary.status)) << what << ": " << run.summary.message;
       EXPECT_LE(imbalance(run.last.energy), 0.01) << what;
-      if (f.fabric.shear.k[0] == 0.0) {
+      if (f.fabric.crossings[0].shear.k[0] == 0.0) {
         EXPECT_LT(std::abs(run.last.boundaries[1].force_N), 0.02) << what; // inertia
       }
       fmt::print("{}: load {:.4g} N, balance {:.1e}, {} steps, {:.2f} s\n", what,
@@ -71,7 +71,7 @@ double final_push(const Case& data) {
 TEST(Stress, PressedYarnsGiveWayAndTheGuardHolds) {
   EXPECT_NEAR(final_push(pressed_strip(30.0, 0.1, glass_weave())), 0.0, 0.01);
   Fabric stiff = glass_weave();
-  stiff.shear.k = {37.0}; // N mm: the strip does not buckle sideways
+  stiff.crossings[0].shear.k = {37.0}; // N mm: the strip does not buckle sideways
   // all of it at a stretch of 0.4: five yarns with the guard, 1e-3 of 46000 N, 0.1 below one half
   EXPECT_NEAR(final_push(pressed_strip(60.0, 0.1, stiff)), 5 * 46.0 * 0.1, 0.01 * 23.0);
   EXPECT_GT(final_push(pressed_strip(60.0, 0.1, glass_weave())), 0.0); // this one may
@@ -81,10 +81,10 @@ TEST(Stress, PressedYarnsGiveWayAndTheGuardHolds) {
 
 TEST(Stress, PressedYarnsThatBearCompressionPushWithIt) {
   Fabric f = glass_weave();
-  f.warp.compression = 460.0;
-  f.shear.k = {37.0}; // N mm: no buckling sideways, n_c Cs' > d_1 N
+  f.families[0].tension.compression = 460.0;
+  f.crossings[0].shear.k = {37.0}; // N mm: no buckling sideways, n_c Cs' > d_1 N
   EXPECT_NEAR(final_push(pressed_strip(1.0, 0.1, f)), 5 * 460.0 * 0.01, 0.01 * 23.0);
-  f.shear = glass_weave().shear;
+  f.crossings[0].shear = glass_weave().crossings[0].shear;
   final_push(pressed_strip(20.0, 0.1, f)); // buckles; whatever it does, the ledger is closed
 }
 

@@ -33,7 +33,8 @@ inline Case strip(double angle, const Vec3& direction, double stroke, double siz
 /// A square of 80 mm clamped all round, or the quarter of it beyond x = 0 and y = 0, under a ball.
 inline Case pushed_square(double angle, MeshKind mesh, bool quarter) {
   Case data = stack_of({angle}, rectangle(80.0, 80.0, 10.0, mesh));
-  data.fabrics[0].weft = data.fabrics[0].warp; // balanced, for 45 degrees
+  data.fabrics[0].families[1].tension =
+      data.fabrics[0].families[0].tension; // balanced, for 45 degrees
   if (quarter) {
     data.blanks[0].outline.boundary = {{0, 0}, {40, 0}, {40, 40}, {0, 40}};
     data.boundaries = {plane("x0", Vec2::UnitX()), plane("y0", Vec2::UnitY())};

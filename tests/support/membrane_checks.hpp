@@ -5,6 +5,7 @@
 #include "core/ply/membrane.hpp"
 
 #include <cmath>
+#include <initializer_list>
 #include <numbers>
 #include <random>
 
@@ -12,15 +13,71 @@ namespace plyform {
 
 /// The paper's glass plain weave (Hamila and Boisse 2008, table 1).
 inline Fabric glass_weave() {
-  Fabric f;
+  Fabric f = woven_fabric();
   f.name = "glass";
-  f.warp.stiffness = 46000.0;
-  f.weft.stiffness = 48000.0;
-  f.warp_density = f.weft_density = 0.25;
-  f.shear.k = {0.37044, 0.84105, 1.03113};
+  f.families[0].tension.stiffness = 46000.0;
+  f.families[1].tension.stiffness = 48000.0;
+  f.families[0].density = f.families[1].density = 0.25;
+  f.crossings[0].shear.k = {0.37044, 0.84105, 1.03113};
   f.surface_density = 6e-10;
   f.thickness = 0.6;
   return f;
+}
+
+/// Yarns of glass in one direction at 20 degrees to the ply's angle, in a sheet.
+inline Fabric unidirectional() {
+  Fabric f;
+  f.families.resize(1);
+  f.families[0].name = "tow";
+  f.families[0].angle = 0.35;
+  f.families[0].density = 0.5;
+  f.families[0].tension.stiffness = 46000.0;
+  f.sheet = IsotropicLaw{3.0, 0.2};
+  f.surface_density = 5e-10;
+  f.thickness = 0.5;
+  return f;
+}
+
+/// Three families at 60 degrees to each other that all cross.
+inline Fabric triaxial() {
+  Fabric f = glass_weave();
+  f.families[1].angle = std::numbers::pi / 3.0;
+  f.families.push_back(f.families[0]);
+  f.families[2].name = "third";
+  f.families[2].angle = 2.0 * std::numbers::pi / 3.0;
+  f.families[2].tension.compression = 400.0;
+  f.crossings.push_back({0, 2, {{0.2, 0.5}, {}, {}}});
+  f.crossings.push_back({2, 1, {{}, {0.0, 0.3, 0.9}, {0.0, 0.1, 1.2}}});
+  return f;
+}
+
+/// Two families at 80 degrees without a crossing, a third between that is soft, in a sheet.
+inline Fabric stitched() {
+  Fabric f = glass_weave();
+  f.families[1].angle = 1.4;
+  f.families.push_back(f.families[0]);
+  f.families[2].name = "stitch";
+  f.families[2].angle = 0.6;
+  f.families[2].tension.stiffness = 20.0;
+  f.crossings.clear();
+  f.sheet = IsotropicLaw{2.0, 0.3};
+  return f;
+}
+
+/// A sheet without yarns.
+inline Fabric foil() {
+  Fabric f;
+  f.sheet = IsotropicLaw{20.0, 0.3};
+  f.surface_density = 1e-10;
+  f.thickness = 0.1;
+  return f;
+}
+
+/// Viscosity (N s per yarn) of the families, in their order.
+inline void set_viscosity(Membrane& m, std::initializer_list<double> eta) {
+  auto family = m.families.begin();
+  for (const double of : eta)
+    if (family != m.families.end()) (family++)->viscosity = of;
 }
 
 /// Rectangle about the origin, meshed.

@@ -121,8 +121,8 @@ private:
       value /= area;
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6 * size, 6 * size);
     for (std::size_t a = 0; a < 2; ++a) {
-      const double d = a == 0 ? m.fabric.warp_density : m.fabric.weft_density;
-      const LawPoint yarn = m.yarn[a].at(mean[a] - 1.0);
+      const double d = a == 0 ? m.fabric.families[0].density : m.fabric.families[1].density;
+      const LawPoint yarn = m.families[a].yarn.at(mean[a] - 1.0);
       Eigen::VectorXd g = Eigen::VectorXd::Zero(6 * size);
       for (int i = 0; i < size; ++i) {
         const PlaneState& s = t[i];
@@ -148,8 +148,8 @@ private:
     constexpr double beta = deviation_weight;
     std::array<double, 2> delta{s.lambda[0] - mean[0], s.lambda[1] - mean[1]};
     const double g2 = s.gamma * s.gamma + beta * (delta[0] * delta[0] + delta[1] * delta[1]);
-    const double g = std::sqrt(g2), cells = m.cells_per_area * s.area;
-    const LawPoint law = m.fabric.shear.at(g);
+    const double g = std::sqrt(g2), cells = m.crossings[0].cells * s.area;
+    const LawPoint law = m.fabric.crossings[0].shear.at(g);
     const double secant = g > 1e-9 ? law.value / g : law.slope;
     Eigen::VectorXd by_g2 = Eigen::VectorXd::Zero(k.rows()); // half the gradient of g^2
     Eigen::VectorXd by_gamma = by_g2;
@@ -158,8 +158,9 @@ private:
     k += cells * secant * by_gamma * by_gamma.transpose();
     k.block<6, 6>(6 * triangle, 6 * triangle) += cells * secant * s.gamma * s.bend_gamma;
     for (std::size_t a = 0; a < 2; ++a) {
-      const double d = a == 0 ? m.fabric.warp_density : m.fabric.weft_density;
-      const double side = s.area * d * m.side[a].stabilisation, held = cells * beta * secant;
+      const double d = a == 0 ? m.fabric.families[0].density : m.fabric.families[1].density;
+      const double side = s.area * d * m.families[a].side.stabilisation,
+                   held = cells * beta * secant;
       Eigen::VectorXd by_delta = Eigen::VectorXd::Zero(k.rows());
       for (std::size_t j = 0; j < t.size(); ++j) {
         const double share = (j == i ? 1.0 : 0.0) - t[j].area / area;
@@ -183,12 +184,12 @@ private:
 
   PlaneState plane_state(const std::vector<Vec3>& x, int triangle) const {
     const auto e = static_cast<std::size_t>(triangle);
-    const FibreGradients& c = m.c[e];
-    const FibreState f = fibre_state(m, x, triangle);
+    const AxesGradients& c = m.c[e];
+    const AxesState f = axes_state(m, x, triangle);
     PlaneState s;
     s.area = m.area[e];
     s.lambda = {f.lambda1, f.lambda2};
-    // fibre_state has no sign of the angle beyond 0 to 180 degrees, which is all that occurs
+    // axes_state has no sign of the angle beyond 0 to 180 degrees, which is all that occurs
     s.gamma = f.gamma;
     s.by_gamma.setZero();
     s.bend_gamma.setZero();
@@ -219,7 +220,7 @@ private:
       for (std::size_t k = 0; k < 2; ++k) {
         const auto begin = static_cast<std::size_t>(b.begin[n]),
                    end = static_cast<std::size_t>(b.begin[n + 1]);
-        const double stiffness = b.area[n] * b.in_plane[n][k];
+        const double stiffness = b.area[n] * b.in_plane[2 * n + k];
         if (stiffness == 0.0) continue;
         Vec2 d = Vec2::Zero(), s = d;
         for (std::size_t i = begin; i < end; ++i) {
@@ -336,9 +337,9 @@ inline std::vector<double> bias_loads(const BlankMesh& mesh, const Fabric& fabri
   start = x;
   Membrane membrane = make_membrane(mesh, fabric, 0.25 * std::numbers::pi, element);
   std::optional<Bending> bending;
-  if (fabric.bending.in_plane != std::array{0.0, 0.0})
-    bending = make_bending(mesh.x, mesh.triangles, fabric.bending, 0.25 * std::numbers::pi,
-                           0.25 * std::numbers::pi + fabric.fibre_angle, membrane.node_mass);
+  if (const BendingLaw law = bending_law(fabric); law.in_plane())
+    bending = make_bending(mesh.x, mesh.triangles, law, 0.25 * std::numbers::pi,
+                           0.25 * std::numbers::pi + fabric.families[1].angle, membrane.node_mass);
   FlatMembrane strip(std::move(membrane), held, std::move(bending));
   std::vector<double> loads;
   double before = 0.0, before_step = 0.0, angle = 0.0;

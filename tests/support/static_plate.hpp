@@ -23,8 +23,8 @@ inline StaticPlate make_plate(const BlankMesh& mesh, const BendingLaw& law, doub
                            std::vector<double>(mesh.x.size(), 1e-8));
   const Bending& b = p.bending;
   Eigen::Matrix3d d;
-  d << law.warp.stiffness, law.coupling, 0.0, law.coupling, law.weft.stiffness, 0.0, 0.0, 0.0,
-      law.twist;
+  d << law.families[0].law.stiffness, law.coupling, 0.0, law.coupling,
+      law.families[1].law.stiffness, 0.0, 0.0, 0.0, law.twist;
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t n = 0; n < mesh.x.size(); ++n)
     for (std::int32_t i = b.begin[n]; i < b.begin[n + 1]; ++i)

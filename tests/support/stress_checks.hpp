@@ -15,26 +15,26 @@ namespace plyform {
 
 struct NamedFabric {
   std::string name;
-  Fabric fabric;
+  Fabric fabric = woven_fabric();
 };
 
 /// The glass weave, and what it becomes at the edges of the table.
 inline std::vector<NamedFabric> extreme_fabrics() {
   std::vector<NamedFabric> all(7, {"glass", glass_weave()});
   all[1].name = "warp 100 times the weft";
-  all[1].fabric.weft.stiffness = 0.01 * all[1].fabric.warp.stiffness;
+  all[1].fabric.families[1].tension.stiffness = 0.01 * all[1].fabric.families[0].tension.stiffness;
   all[2].name = "yarns at 60 degrees";
-  all[2].fabric.fibre_angle = 60.0 * degree;
+  all[2].fabric.families[1].angle = 60.0 * degree;
   all[3].name = "yarns at 120 degrees";
-  all[3].fabric.fibre_angle = 120.0 * degree;
+  all[3].fabric.families[1].angle = 120.0 * degree;
   all[4].name = "no shear stiffness";
-  all[4].fabric.shear.k = {0.0};
+  all[4].fabric.crossings[0].shear.k = {0.0};
   all[5].name = "yarns 100 times as stiff";
-  all[5].fabric.warp.stiffness *= 100.0;
-  all[5].fabric.weft.stiffness *= 100.0;
+  all[5].fabric.families[0].tension.stiffness *= 100.0;
+  all[5].fabric.families[1].tension.stiffness *= 100.0;
   all[6].name = "yarns that bear compression";
-  all[6].fabric.warp.compression = 4600.0;
-  all[6].fabric.weft.compression = 480.0;
+  all[6].fabric.families[0].tension.compression = 4600.0;
+  all[6].fabric.families[1].tension.compression = 480.0;
   return all;
 }
 
@@ -106,15 +106,16 @@ struct UniformAnswer {
 
 inline UniformAnswer uniform_answer(const Fabric& f, double warp_angle, const YarnState& s) {
   UniformAnswer a;
-  const double cells = f.warp_density * f.weft_density * std::sin(f.fibre_angle);
-  const LawPoint shear = f.shear.at(f.fibre_angle - s.omega);
+  const double cells =
+      f.families[0].density * f.families[1].density * std::sin(f.families[1].angle);
+  const LawPoint shear = f.crossings[0].shear.at(f.families[1].angle - s.omega);
   a.shear = cells * shear.energy;
   Eigen::Matrix2d before, force; // columns: warp, weft
   for (int i = 0; i < 2; ++i) {
-    const TensionLaw& law = i == 0 ? f.warp : f.weft;
-    const double d = i == 0 ? f.warp_density : f.weft_density;
+    const TensionLaw& law = i == 0 ? f.families[0].tension : f.families[1].tension;
+    const double d = i == 0 ? f.families[0].density : f.families[1].density;
     const double lambda = i == 0 ? s.lambda1 : s.lambda2;
-    const double at0 = warp_angle + i * f.fibre_angle, at = s.along + i * s.omega;
+    const double at0 = warp_angle + i * f.families[1].angle, at = s.along + i * s.omega;
     const LawPoint yarn = law.at(lambda - 1.0);
     const double folded = std::max(0.0, 0.5 - lambda),
                  collapse_penalty = 1e-3 * law.stiffness; // g_a of (E)

@@ -23,15 +23,16 @@ inline Case strip_case(const Strip& strip) {
   const double length = strip.free_length + 4.0 * strip.size;
   Case data = stack_of({0.0}, rectangle(length, strip.width, strip.size));
   Fabric& fabric = data.fabrics[0];
-  fabric.warp.compression = fabric.weft.compression = strip.yarn;
-  fabric.bending.warp.stiffness = fabric.bending.weft.stiffness = fabric.bending.twist =
+  fabric.families[0].tension.compression = fabric.families[1].tension.compression = strip.yarn;
+  fabric.families[0].bending.stiffness = fabric.families[1].bending.stiffness = fabric.twist =
       strip.bending;
-  fabric.bending.in_plane = {strip.in_plane, strip.in_plane};
+  for (YarnFamily& family : fabric.families)
+    family.in_plane_bending = strip.in_plane;
   const double end = 0.5 * length, side = 0.5 * strip.width, clamp = 0.5 * strip.free_length;
   data.boundaries = {hold("left", {-end, -side}, {-clamp, side}, Vec3::UnitX(), 0.0),
                      hold("right", {clamp, -side}, {end, side}, Vec3::UnitX(), 0.0)};
   set_friction(data, 0.0);
-  data.solver.fibre_softening = fabric.warp.stiffness / strip.yarn;
+  data.solver.fibre_softening = fabric.families[0].tension.stiffness / strip.yarn;
   data.solver.step_factor = 0.9;
   return data;
 }

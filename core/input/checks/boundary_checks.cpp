@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Checks of boundaries that need the meshes of the plies.
+#include "base/text.hpp"
 #include "core/input/checks/scene_checks.hpp"
 #include "core/model/boundary.hpp"
 
@@ -98,16 +99,26 @@ void check_fibres(BoundaryCheck& check, std::size_t index) {
     const Ply& ply = check.scene.plies[p];
     const Fabric& fabric = check.scene.fabrics[ply.fabric];
     if (!fabric.has_yarns()) continue;
-    const double warp = ply.angle, weft = ply.angle + fabric.fibre_angle;
-    if (same_line(2.0 * along - warp, warp) && same_line(2.0 * along - weft, weft)) continue;
-    const bool exchanged =
-        same_line(2.0 * along - warp, weft) && same_line(2.0 * along - weft, warp);
+    const auto image_is_family = [&](const YarnFamily& family, const YarnFamily& other) {
+      return same_line(2.0 * along - ply.angle - family.angle, ply.angle + other.angle);
+    };
+    const std::vector<YarnFamily>& families = fabric.families;
+    if (std::all_of(families.begin(), families.end(),
+                    [&](const YarnFamily& f) { return image_is_family(f, f); }))
+      continue;
+    const bool exchanged = std::all_of(families.begin(), families.end(), [&](const YarnFamily& f) {
+      return std::any_of(families.begin(), families.end(),
+                         [&](const YarnFamily& other) { return image_is_family(f, other); });
+    });
     if (exchanged && balanced(fabric)) continue;
+    std::vector<std::string> names;
+    for (const YarnFamily& family : families)
+      names.push_back(family.name);
     check.fail(index,
                exchanged
                    ? fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror "
-                                 "image has warp and weft exchanged, and in fabric {} they differ",
-                                 ply.name, ply.angle / degree, fabric.name)
+                                 "image has {} exchanged, and in fabric {} they differ",
+                                 ply.name, ply.angle / degree, joined(names, " and "), fabric.name)
                    : fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror "
                                  "image has the fibres in other directions",
                                  ply.name, ply.angle / degree),

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include "base/text.hpp"
 #include "core/input/checks/sense_checks.hpp"
 #include "core/model/usual_ranges.hpp"
 
@@ -13,6 +14,7 @@ namespace {
 struct FabricSense {
   const TableView& section;
   const Fabric& fabric;
+  const Crossing& crossing; ///< that is looked at
   Diagnostics& diagnostics;
 
   void warn(const TomlNode& at, const std::string& item, const std::string& text) {
@@ -35,9 +37,8 @@ const TomlNode* shear_law(const TableView& shear, std::string& key) {
 void check_rigidity(FabricSense& check, const TomlNode& law, const std::string& item) {
   constexpr double at_angle = 10.0 * degree; // as usual_shear_rigidity
   constexpr double limp = 1e-5;              // N/mm: a thousandth of what the softest cloth has
-  const Fabric& f = check.fabric;
   const double rigidity =
-      f.warp_density * f.weft_density * std::sin(f.fibre_angle) * f.shear.secant(at_angle);
+      cells_per_area(check.fabric, check.crossing) * check.crossing.shear.secant(at_angle);
   if (!(std::abs(rigidity) > limp) || usual_shear_rigidity.holds(rigidity) || rigidity < 0.0)
     return;
   check.warn(law, item,
@@ -57,7 +58,7 @@ std::optional<double> turns_back_at(const ShearLaw& law) {
 }
 
 void check_torque(FabricSense& check, const TomlNode& law, const std::string& item) {
-  const std::optional<double> from = turns_back_at(check.fabric.shear);
+  const std::optional<double> from = turns_back_at(check.crossing.shear);
   if (!from) return;
   constexpr double usual = 45.0 * degree; // that formed parts reach
   const std::string rule =
@@ -74,7 +75,7 @@ void check_torque(FabricSense& check, const TomlNode& law, const std::string& it
 /// Angles of the table in rad.
 void check_table(FabricSense& check, const TomlNode& law, const std::string& item) {
   constexpr double radians = 1.6; // degrees; as rad 92 degrees
-  const std::vector<double>& angles = check.fabric.shear.angle;
+  const std::vector<double>& angles = check.crossing.shear.angle;
   if (angles.empty() || angles.back() / degree > radians) return;
   check.warn(law, item,
              fmt::format("ends at {:.3g} degrees of shear; angles are in degrees, if it is in rad "
@@ -88,17 +89,21 @@ void check_yarns(FabricSense& check) {
   constexpr double most = 2.5e8; // (m/s)^2
   constexpr double mm2_in_m2 = 1e6;
   const Fabric& f = check.fabric;
-  const double stiffness =
-      (f.warp_density * f.warp.largest_slope() + f.weft_density * f.weft.largest_slope()) /
-      f.surface_density / mm2_in_m2;
-  const TomlNode* warp = given(check.section, "warp");
-  if (!warp || !(stiffness > most)) return;
-  check.warn(*warp, item_of(check.section, "warp"),
-             fmt::format("warp and weft together are {:.2g} N m/kg stiff for the mass of the "
+  double stiffness = 0.0;
+  std::vector<std::string> names;
+  for (const YarnFamily& family : f.families) {
+    stiffness += family.density * family.tension.largest_slope() / f.surface_density / mm2_in_m2;
+    names.push_back(family.name);
+  }
+  const char* key = given(check.section, "warp") ? "warp" : "family";
+  const TomlNode* first = given(check.section, key);
+  if (!first || !(stiffness > most)) return;
+  check.warn(*first, item_of(check.section, key),
+             fmt::format("{} together are {:.2g} N m/kg stiff for the mass of the "
                          "fabric, and fibres have 3e7 (glass) to 2.4e8 (carbon); densities are "
                          "yarns per mm, a tenth of those per cm, stiffness is N per yarn, "
                          "surface_density g/m2",
-                         stiffness));
+                         joined(names, " and "), stiffness));
 }
 
 /// Mass per volume.
@@ -114,21 +119,29 @@ void check_thickness(FabricSense& check) {
                          density));
 }
 
-} // namespace
-
-void check_fabric_sense(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
-  FabricSense check{section, fabric, diagnostics};
-  check_thickness(check);
-  if (!fabric.has_yarns()) return;
-  check_yarns(check);
-  const TableView shear = subsection(section, "shear");
+void check_shear(FabricSense check, const TableView& shear) {
+  const ShearLaw& of = check.crossing.shear;
   std::string key;
   const TomlNode* law = shear_law(shear, key);
-  if (!law || (fabric.shear.k.empty() && fabric.shear.angle.empty())) return;
+  if (!law || (of.k.empty() && of.angle.empty())) return;
   const std::string item = item_of(shear, key);
   check_table(check, *law, item);
   check_rigidity(check, *law, item);
-  if (fabric.shear.k.empty() || fabric.shear.k[0] >= 0.0) check_torque(check, *law, item);
+  if (of.k.empty() || of.k[0] >= 0.0) check_torque(check, *law, item);
+}
+
+} // namespace
+
+void check_fabric_sense(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
+  static const Crossing none;
+  FabricSense check{section, fabric, none, diagnostics};
+  check_thickness(check);
+  if (!fabric.has_yarns()) return;
+  check_yarns(check);
+  std::vector<TableView> tables{subsection(section, "shear")};
+  if (!tables[0].entry) tables = subsections(section, "crossing");
+  for (std::size_t c = 0; c < std::min(tables.size(), fabric.crossings.size()); ++c)
+    check_shear({section, fabric, fabric.crossings[c], diagnostics}, tables[c]);
 }
 
 } // namespace plyform

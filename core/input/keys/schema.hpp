@@ -59,8 +59,11 @@ struct KeyMember {
 struct KeyRow {
   std::string key; ///< pattern
   KeyKind kind = KeyKind::number;
-  std::string unit = "-";  ///< of each column: "deg, N mm"
-  std::string fallback{};  ///< TOML value taken when the key is not given
+  std::string unit = "-"; ///< of each column: "deg, N mm"
+  std::string fallback{}; ///< TOML value taken when the key is not given
+  /// Another default in a table that has one of these keys: the keys, then the value.
+  std::vector<std::string> implied_by{};
+  std::string implied{};
   std::string otherwise{}; ///< default in words, if it is not a value
   /// Alternative keys, of which each names all others: two must not be given, and one must be
   /// unless they have an `otherwise`.

@@ -2,11 +2,11 @@
 // Rows of the table of keys: compression and bending of yarns.
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/schema_case.hpp"
+#include "core/input/keys/sheet_laws.hpp"
 
 namespace plyform {
 
-Rows yarn_bending_rows(const std::string& yarn) {
-  const std::string table = "fabrics.NAME." + yarn;
+Rows yarn_bending_rows(const std::string& table, const std::string& yarn) {
   const std::string bending = "none of a ply alone, in a stack an estimate for yarns that bear "
                               "compression: a bending length of 70 mm";
   return {{.key = table + ".compression_stiffness",
@@ -50,7 +50,8 @@ Rows yarn_bending_rows(const std::string& yarn) {
            .ranges = {bending_range},
            .meaning = "moment per width divided by the curvature of the " + yarn +
                       " within the cloth's surface (N mm2/mm): what makes the zones between "
-                      "regions of different shear as wide as they are"}};
+                      "regions of different shear as wide as they are",
+           .members = {to(&YarnFamily::in_plane_bending)}}};
 }
 
 Rows sheet_rows() {
@@ -59,16 +60,17 @@ Rows sheet_rows() {
            .otherwise = "not known",
            .ranges = {{.least = 0.0, .most = 90.0, .open_least = true}},
            .of = "law",
-           .with = {"woven"},
+           .with = {"woven", families_word},
            .meaning = "shear angle beyond which the fabric wrinkles; results say where it is "
                       "exceeded, forces do not depend on it",
            .members = {to(&Fabric::locking_angle)}},
           {.key = "fabrics.NAME.twist_stiffness",
            .unit = "N mm",
-           .otherwise = "root of the product of both bending stiffnesses (at small curvature)",
+           .otherwise = "root of the product of both bending stiffnesses (at small curvature); "
+                        "0 of fabrics that have not two families",
            .ranges = {bending_range},
            .of = "law",
-           .with = {"woven"},
+           .with = {"woven", families_word},
            .meaning = "sum of the twisting moments per width on both cuts, over the twist of the "
                       "surface between warp and weft (2 (1 - nu) D of an isotropic plate); "
                       "with 0 a ply bends freely to a saddle, and a strip cut at 45 degrees hangs "

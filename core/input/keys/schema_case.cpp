@@ -138,7 +138,7 @@ Rows solver_rows() {
            .choices = words_of(element_choices),
            .meaning =
                "plain: the paper's; averaged: does not lock; auto: plain where sides run along "
-               "both fibre families",
+               "the fibres",
            .members = {to(&SolverOptions::element, element_choices)}},
           {.key = "solver.step_factor",
            .fallback = toml(solver.step_factor),

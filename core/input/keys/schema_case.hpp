@@ -36,8 +36,8 @@ inline void append(Rows& all, Rows part) {
     all.push_back(std::move(row));
 }
 
-/// core/input/keys/schema_bending.cpp: keys of a yarn ("warp", "weft") and of the fabric.
-Rows yarn_bending_rows(const std::string& yarn);
+/// core/input/keys/schema_bending.cpp: keys of the yarns ("warp") in a table and of the fabric.
+Rows yarn_bending_rows(const std::string& table, const std::string& yarn);
 Rows sheet_rows();
 
 /// core/input/keys/schema_fabric.cpp: fabrics.NAME and fabric files.

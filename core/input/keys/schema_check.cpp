@@ -260,7 +260,10 @@ void report_other_choice(const TableView& section, const KeyRow& row, TomlNode& 
 
 void add_default(TomlNode& table, const KeyRow& row) {
   std::string reason;
-  std::optional<TomlNode> value = parse_value(row.fallback, table.at.file, 1, reason);
+  const bool implied = std::any_of(row.implied_by.begin(), row.implied_by.end(),
+                                   [&](const std::string& key) { return table.find(key); });
+  std::optional<TomlNode> value =
+      parse_value(implied ? row.implied : row.fallback, table.at.file, 1, reason);
   value->key = last_part(row.key);
   value->at = value->key_at = table.at;
   table.children.push_back(std::move(*value));

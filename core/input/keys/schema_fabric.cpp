@@ -9,6 +9,91 @@ namespace plyform {
 
 using K = KeyKind;
 
+namespace {
+
+/// Keys of a family of yarns in a table; it is called `yarn` in their meanings: "warp".
+Rows yarn_rows(const std::string& table, const std::string& yarn) {
+  Rows rows{{.key = table + ".density",
+             .unit = "yarns/mm",
+             .ranges = {{.least = 1e-4, .most = 1e3}},
+             .usual = {{.least = 0.02, .most = 20.0}},
+             .meaning = "number of " + yarn + " yarns per mm across them",
+             .members = {to(&YarnFamily::density)}},
+            {.key = table + ".stiffness",
+             .unit = "N/yarn",
+             .instead = {"table"},
+             .ranges = {stiffness_range},
+             .usual = {range_of(usual_stiffness)},
+             .meaning = "tension of one yarn divided by its strain",
+             .members = {to(&TensionLaw::stiffness)}},
+            {.key = table + ".table",
+             .kind = K::pairs,
+             .unit = "-, N/yarn",
+             .instead = {"stiffness"},
+             .ranges = {{.least = 0.0, .most = 10.0}, yarn_force_range},
+             .least_items = 2,
+             .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}};
+  append(rows, yarn_bending_rows(table, yarn));
+  return rows;
+}
+
+Rows shear_rows(const std::string& table) {
+  return {{.key = table + ".polynomial",
+           .kind = K::numbers,
+           .unit = "N mm",
+           .instead = {"table"},
+           .ranges = {{.least = -1e9, .most = 1e9}},
+           .least_items = 1,
+           .meaning = "coefficients k1, k3, k5 ... of the torque of one unit cell, "
+                      "k1 g + k3 g^3 + k5 g^5 ..., g the shear angle in rad"},
+          {.key = table + ".table",
+           .kind = K::pairs,
+           .unit = "deg, N mm",
+           .instead = {"polynomial"},
+           .ranges = {{.least = 0.0, .most = 90.0, .open_most = true}, {.least = 0.0, .most = 1e9}},
+           .least_items = 2,
+           .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
+                      "same with minus sign for negative angles"}};
+}
+
+/// Keys of a fabric by its families.
+Rows family_rows() {
+  Rows rows{{.key = "fabrics.NAME.family",
+             .kind = K::tables,
+             .fallback = "[]",
+             .most_items = most_families,
+             .of = "law",
+             .with = {families_word},
+             .meaning = "families of parallel yarns, one [[family]] each; "
+                        "none of a foil"},
+            {.key = "fabrics.NAME.family[].name",
+             .kind = K::name,
+             .meaning = "name in columns of results: NAME_strain",
+             .members = {to(&YarnFamily::name)}},
+            {.key = "fabrics.NAME.family[].angle",
+             .unit = "deg",
+             .ranges = {{.least = -180.0, .most = 180.0}},
+             .meaning = "angle from the ply's angle to the yarns, before forming",
+             .members = {to(&YarnFamily::angle)}}};
+  append(rows, yarn_rows("fabrics.NAME.family[]", "family"));
+  append(rows, {{.key = "fabrics.NAME.crossing",
+                 .kind = K::tables,
+                 .fallback = "[]",
+                 .most_items = most_crossings,
+                 .of = "law",
+                 .with = {families_word},
+                 .meaning = "two families that resist shear, one [[crossing]] each"},
+                {.key = "fabrics.NAME.crossing[].families",
+                 .kind = K::names,
+                 .count = 2,
+                 .meaning = "names of the two families"}});
+  append(rows, shear_rows("fabrics.NAME.crossing[]"));
+  append(rows, sheet_beside_rows());
+  return rows;
+}
+
+} // namespace
+
 Rows fabric_rows() {
   Rows rows{
       {.key = "fabrics", .kind = K::map, .meaning = "fabrics, each under a name of your choice"},
@@ -36,14 +121,15 @@ Rows fabric_rows() {
        .ranges = {{.least = 0.0, .most = 180.0, .open_least = true, .open_most = true}},
        .of = "law",
        .with = {"woven"},
-       .meaning = "angle from warp to weft before forming",
-       .members = {to(&Fabric::fibre_angle)}},
+       .meaning = "angle from warp to weft before forming"},
       {.key = "fabrics.NAME.law",
        .kind = K::choice,
        .fallback = "\"woven\"",
+       .implied_by = {"family", "sheet"},
+       .implied = "\"families\"",
        .choices = fabric_laws(),
-       .meaning =
-           "kind of sheet: yarns in two directions (woven or non-crimp), or a foil without"}};
+       .meaning = "kind of sheet: yarns in two directions, warp and weft; any number of families "
+                  "of yarns; or a foil without"}};
   append(rows, sheet_law_rows());
   for (const std::string yarn : {"warp", "weft"}) {
     const std::string table = "fabrics.NAME." + yarn;
@@ -51,51 +137,16 @@ Rows fabric_rows() {
                    .kind = K::table,
                    .of = "law",
                    .with = {"woven"},
-                   .meaning = yarn + " yarns"},
-                  {.key = table + ".density",
-                   .unit = "yarns/mm",
-                   .ranges = {{.least = 1e-4, .most = 1e3}},
-                   .usual = {{.least = 0.02, .most = 20.0}},
-                   .meaning = "number of " + yarn + " yarns per mm across them",
-                   .members = {to(yarn == "warp" ? &Fabric::warp_density : &Fabric::weft_density)}},
-                  {.key = table + ".stiffness",
-                   .unit = "N/yarn",
-                   .instead = {"table"},
-                   .ranges = {stiffness_range},
-                   .usual = {range_of(usual_stiffness)},
-                   .meaning = "tension of one yarn divided by its strain",
-                   .members = {to(&TensionLaw::stiffness)}},
-                  {.key = table + ".table",
-                   .kind = K::pairs,
-                   .unit = "-, N/yarn",
-                   .instead = {"stiffness"},
-                   .ranges = {{.least = 0.0, .most = 10.0}, yarn_force_range},
-                   .least_items = 2,
-                   .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}});
-    append(rows, yarn_bending_rows(yarn));
+                   .meaning = yarn + " yarns"}});
+    append(rows, yarn_rows(table, yarn));
   }
-  append(rows,
-         {{.key = "fabrics.NAME.shear",
-           .kind = K::table,
-           .of = "law",
-           .with = {"woven"},
-           .meaning = "law of in-plane shear"},
-          {.key = "fabrics.NAME.shear.polynomial",
-           .kind = K::numbers,
-           .unit = "N mm",
-           .instead = {"table"},
-           .ranges = {{.least = -1e9, .most = 1e9}},
-           .least_items = 1,
-           .meaning = "coefficients k1, k3, k5 ... of the torque of one unit cell, "
-                      "k1 g + k3 g^3 + k5 g^5 ..., g the shear angle in rad"},
-          {.key = "fabrics.NAME.shear.table",
-           .kind = K::pairs,
-           .unit = "deg, N mm",
-           .instead = {"polynomial"},
-           .ranges = {{.least = 0.0, .most = 90.0, .open_most = true}, {.least = 0.0, .most = 1e9}},
-           .least_items = 2,
-           .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
-                      "same with minus sign for negative angles"}});
+  append(rows, {{.key = "fabrics.NAME.shear",
+                 .kind = K::table,
+                 .of = "law",
+                 .with = {"woven"},
+                 .meaning = "law of in-plane shear"}});
+  append(rows, shear_rows("fabrics.NAME.shear"));
+  append(rows, family_rows());
   append(rows, sheet_rows());
   return rows;
 }

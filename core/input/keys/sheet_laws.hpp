@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of sheets without yarns in a fabric file: for each the word of the key `law`, its keys and
-// its reader.
+// Laws of sheets in a fabric file, without yarns or beside them: for each the word of the key
+// `law`, its keys and its reader.
 #pragma once
 
 #include "core/input/keys/schema_case.hpp"
@@ -8,7 +8,10 @@
 
 namespace plyform {
 
-/// Words of fabrics.NAME.law: woven, then the laws of sheets.
+/// The word of fabrics.NAME.law for a fabric by its families.
+constexpr const char* families_word = "families";
+
+/// Words of fabrics.NAME.law: woven, families, then the laws of sheets without yarns.
 std::vector<std::string> fabric_laws();
 
 /// Rows below fabrics.NAME.
@@ -17,5 +20,10 @@ Rows sheet_law_rows();
 /// Reads the law of a sheet and its bending into a fabric whose thickness has been read; false if
 /// the fabric has yarns.
 bool read_sheet(const TableView& section, Fabric& fabric);
+
+/// Rows below fabrics.NAME of a sheet beside yarns, and its reader, into a fabric whose thickness
+/// has been read.
+Rows sheet_beside_rows();
+void read_sheet_beside(const TableView& section, Fabric& fabric);
 
 } // namespace plyform

@@ -304,7 +304,7 @@ TEST(Accuracy, IsNotToldOfWhatTheRuleWasNotFittedTo) {
   pick_cost_parameters(foil);
   EXPECT_EQ(foil.solver.duration, duration);
   Case limp = asked;
-  limp.fabrics[0].shear = {};
+  limp.fabrics[0].crossings[0].shear = {};
   EXPECT_NE(told(limp).find("has no stiffness in shear"), std::string::npos);
   pick_cost_parameters(asked);
   EXPECT_NE(asked.solver.duration, duration);

@@ -167,7 +167,7 @@ TEST(TransitionZone, GivesTheWidthAndTheStiffness) {
       const auto fit = identify_zone({curve_of(s, angle)}, glass(), {}, diagnostics);
       ASSERT_TRUE(fit) << texts(diagnostics);
       EXPECT_NEAR(fit->length, l, 1e-3 * l);
-      const double rigidity = 0.0625 * glass().shear.at(8.0 * degree).slope;
+      const double rigidity = 0.0625 * glass().crossings[0].shear.at(8.0 * degree).slope;
       EXPECT_NEAR(fit->stiffness, rigidity * l * l, 3e-3 * rigidity * l * l);
     }
 }

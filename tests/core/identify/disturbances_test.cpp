@@ -31,9 +31,9 @@ Curve glass_curve(unsigned seed, double from = 0.0, double of_load = 0.003,
 double wrong_by(const ShearLaw& law) {
   double largest = 0.0;
   for (double g = 5.0; g <= 55.0; g += 0.5)
-    largest = std::max(
-        largest,
-        std::abs(law.at(g * degree).value / glass_weave().shear.at(g * degree).value - 1.0));
+    largest = std::max(largest, std::abs(law.at(g * degree).value /
+                                             glass_weave().crossings[0].shear.at(g * degree).value -
+                                         1.0));
   return largest;
 }
 

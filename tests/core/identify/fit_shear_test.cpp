@@ -15,9 +15,9 @@ namespace plyform::fit_shear_test {
 namespace {
 
 Fabric glass() { // Hamila and Boisse 2008, table 1
-  Fabric fabric;
-  fabric.warp_density = fabric.weft_density = 0.25;
-  fabric.shear.k = {0.37044, 0.84105, 1.03113};
+  Fabric fabric = woven_fabric();
+  fabric.families[0].density = fabric.families[1].density = 0.25;
+  fabric.crossings[0].shear.k = {0.37044, 0.84105, 1.03113};
   return fabric;
 }
 
@@ -74,7 +74,8 @@ TEST(IdentifyShear, FollowsTheCurveNotTheTruth) {
     y *= 0.98;
   const ShearFit fit = found(low, strip);
   for (const double g : {5.0, 20.0, 50.0})
-    EXPECT_NEAR(fit.law.at(g * degree).value / glass().shear.at(g * degree).value, 0.98, 1e-9);
+    EXPECT_NEAR(fit.law.at(g * degree).value / glass().crossings[0].shear.at(g * degree).value,
+                0.98, 1e-9);
 }
 
 TEST(IdentifyShear, OnePercentOfNoiseMovesTheLawByAFewTenths) {
@@ -83,7 +84,7 @@ TEST(IdentifyShear, OnePercentOfNoiseMovesTheLawByAFewTenths) {
   for (unsigned seed = 1; seed <= 100; ++seed)
     for (const ShearTest& test : {strip, frame}) {
       const ShearFit fit = found(noisy_curve(theory(test, glass()), 0.01, 0.0, seed), test);
-      const double error = difference(fit.law, glass().shear);
+      const double error = difference(fit.law, glass().crossings[0].shear);
       EXPECT_LT(error, 0.03) << seed;
       EXPECT_GT(error, 1e-5) << seed; // the noise is there
       EXPECT_NEAR(fit.quality.rms, 0.007, 0.003) << seed;
@@ -102,24 +103,25 @@ TEST(IdentifyShear, NoiseDoesNotPullTheLawDown) {
         identify_shear(noisy_curve(theory(strip, glass()), 0.05, 0.0, seed), strip, glass(),
                        {.coefficients = 3, .from = 0.0, .to = 1.0}, diagnostics);
     ASSERT_TRUE(fit) << texts(diagnostics);
-    mean += fit->law.at(30.0 * degree).value / glass().shear.at(30.0 * degree).value / tests;
+    mean += fit->law.at(30.0 * degree).value / glass().crossings[0].shear.at(30.0 * degree).value /
+            tests;
   }
   EXPECT_NEAR(mean, 1.0, 0.002); // scatter of one about 1 %, of the mean 0.05 %
 }
 
 TEST(IdentifyShear, SettlesForFewerCoefficients) {
   Fabric linear = glass();
-  linear.shear.k = {0.5};
+  linear.crossings[0].shear.k = {0.5};
   for (int n = 1; n <= 4; ++n) {
     const ShearFit fit = found(theory(strip, linear, 40.0), strip, {.coefficients = n});
     EXPECT_EQ(fit.law.k.size(), static_cast<std::size_t>(n));
-    EXPECT_LT(difference(fit.law, linear.shear, 1.0, 40.0), 1e-9);
+    EXPECT_LT(difference(fit.law, linear.crossings[0].shear, 1.0, 40.0), 1e-9);
   }
 }
 
 TEST(IdentifyShear, AcceptsALawThatStartsWithoutStiffness) {
   Fabric soft = glass();
-  soft.shear.k = {0.0, 0.8};
+  soft.crossings[0].shear.k = {0.0, 0.8};
   const ShearFit fit = found(theory(strip, soft), strip, {.coefficients = 2});
   EXPECT_GE(fit.law.k[0], 0.0); // rounding must not make it negative: fabric files refuse that
   EXPECT_LT(fit.law.k[0], 1e-9);
@@ -134,7 +136,7 @@ TEST(IdentifyShear, TakesTheRowsOfTheRangeOnly) {
   }
   const ShearFit fit =
       found(curve, strip, {.coefficients = 3, .from = 3.0 * degree, .to = 40.0 * degree});
-  EXPECT_LT(difference(fit.law, glass().shear), 1e-7);
+  EXPECT_LT(difference(fit.law, glass().crossings[0].shear), 1e-7);
   EXPECT_GE(fit.quality.from, 3.0 * degree);
   EXPECT_LE(fit.quality.to, 40.0 * degree);
   EXPECT_LT(fit.quality.rows, 50u);
@@ -145,7 +147,7 @@ TEST(IdentifyShear, GivesTheRowsForPlotting) {
   const ShearFit fit = found(curve, frame);
   ASSERT_EQ(fit.measured.size(), curve.size());
   Fabric fabric = glass();
-  fabric.shear = fit.law;
+  fabric.crossings[0].shear = fit.law;
   double largest = 0.0;
   for (std::size_t i = 0; i < curve.size(); ++i) {
     EXPECT_EQ(fit.extension[i], curve.x[i]);
@@ -187,7 +189,7 @@ TEST(IdentifyShear, RefusesExtensionsBeyondLocking) {
                  "test.csv:99:1: error: d = 83: the extension must be less than 82.84 mm, where "
                  "the specimen would shear by 90 degrees; check the size of the specimen");
   EXPECT_LT(difference(found(curve, strip, {.coefficients = 3, .from = 0.0, .to = 1.2}).law,
-                       glass().shear),
+                       glass().crossings[0].shear),
             1e-8);
 }
 
@@ -208,7 +210,7 @@ TEST(IdentifyShear, RefusesAndWarnsOfNoiseWithItsSize) {
 TEST(IdentifyShear, RefusesTorqueThatFallsOrIsNegative) {
   Curve curve = theory(strip, glass(), 40.0);
   Fabric falling = glass();
-  falling.shear.k = {1.0, -1.0}; // falls from sqrt(1/3) rad = 33.1 degrees on
+  falling.crossings[0].shear.k = {1.0, -1.0}; // falls from sqrt(1/3) rad = 33.1 degrees on
   for (std::size_t i = 0; i < curve.size(); ++i)
     curve.y[i] = test_load(strip, falling, curve.x[i]);
   expect_refused(curve, strip, {.coefficients = 2},
@@ -218,7 +220,7 @@ TEST(IdentifyShear, RefusesTorqueThatFallsOrIsNegative) {
 
 TEST(IdentifyShear, WarnsOfWhatLiesOutsideTheRange) {
   Fabric falling = glass();
-  falling.shear.k = {1.0, -0.2}; // falls from 74 degrees on
+  falling.crossings[0].shear.k = {1.0, -0.2}; // falls from 74 degrees on
   Diagnostics diagnostics;
   ASSERT_TRUE(
       identify_shear(theory(strip, falling), strip, falling, {.coefficients = 2}, diagnostics));
@@ -241,7 +243,7 @@ TEST(IdentifyShear, ThrowsForOptionsOutOfRange) {
   Diagnostics diagnostics;
   const Curve curve = theory(strip, glass());
   Fabric oblique = glass();
-  oblique.fibre_angle = 1.0;
+  oblique.families[1].angle = 1.0;
   EXPECT_THROW(identify_shear(curve, strip, glass(), {.coefficients = 0}, diagnostics),
                std::invalid_argument);
   EXPECT_THROW(identify_shear(curve, strip, glass(), {.coefficients = 3, .from = 1.0, .to = 1.0},

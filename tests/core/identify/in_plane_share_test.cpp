@@ -13,7 +13,8 @@ const ShearTest bias = shear_test(BiasSpecimen{300.0, 100.0});
 
 Fabric with_bending(double stiffness) {
   Fabric fabric = glass_weave();
-  fabric.bending.in_plane = {stiffness, stiffness};
+  for (YarnFamily& family : fabric.families)
+    family.in_plane_bending = stiffness;
   return fabric;
 }
 
@@ -32,8 +33,8 @@ Curve curve_of(const ShearTest& test, const Fabric& fabric, double factor) {
 
 TEST(InPlaneShare, IsTwoLayersOfEachYarnBetweenTheClamps) {
   const Fabric fabric = with_bending(2.0);
-  const double cells = fabric.warp_density * fabric.weft_density;
-  const double layer = std::sqrt(2.0 / (cells * fabric.shear.k[0])); // mm
+  const double cells = fabric.families[0].density * fabric.families[1].density;
+  const double layer = std::sqrt(2.0 / (cells * fabric.crossings[0].shear.k[0])); // mm
   EXPECT_NEAR(layer, 9.3, 0.05);
   const BendingShare share = in_plane_bending_share(bias, fabric);
   EXPECT_NEAR(share.most, 2.0 * layer / (200.0 / std::numbers::sqrt2), 1e-12);
@@ -52,7 +53,7 @@ TEST(InPlaneShare, IsTakenOffTheLoadThatALawIsFoundFrom) {
     const Fabric truth = with_bending(stiffness);
     const double share = in_plane_bending_share(bias, truth).mean();
     Fabric base = truth;
-    base.shear.k = {5.0}; // whatever stands there before
+    base.crossings[0].shear.k = {5.0}; // whatever stands there before
     Diagnostics diagnostics;
     FitOptions options;
     options.corrections.compliance = 0.0;
@@ -61,7 +62,9 @@ TEST(InPlaneShare, IsTakenOffTheLoadThatALawIsFoundFrom) {
     ASSERT_TRUE(fit) << stiffness;
     EXPECT_NEAR(fit->in_plane.mean(), share, 1e-7);
     for (std::size_t i = 0; i < 3; ++i)
-      EXPECT_NEAR(fit->law.k[i], truth.shear.k[i], 1e-6 * truth.shear.k[i]) << stiffness;
+      EXPECT_NEAR(fit->law.k[i], truth.crossings[0].shear.k[i],
+                  1e-6 * truth.crossings[0].shear.k[i])
+          << stiffness;
     EXPECT_LT(fit->quality.largest, 1e-6);
     EXPECT_EQ(diagnostics.warnings.size(), 0u);
   }

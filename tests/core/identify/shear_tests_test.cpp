@@ -16,9 +16,9 @@ using std::numbers::sqrt2;
 constexpr double deg = pi / 180.0;
 
 Fabric glass() { // Hamila and Boisse 2008, table 1
-  Fabric fabric;
-  fabric.warp_density = fabric.weft_density = 0.25;
-  fabric.shear.k = {0.37044, 0.84105, 1.03113};
+  Fabric fabric = woven_fabric();
+  fabric.families[0].density = fabric.families[1].density = 0.25;
+  fabric.crossings[0].shear.k = {0.37044, 0.84105, 1.03113};
   return fabric;
 }
 
@@ -29,11 +29,12 @@ TEST(ShearTests, LoadIsTheDerivativeOfTheCellsEnergy) {
   const Fabric fabric = glass();
   const auto bias_energy = [&](double d) { // zones by (40), each with its own angle
     const double angle = shear_angle(shear_test(strip), d);
-    return 0.0625 * (100.0 * (600.0 - 300.0) / 2.0 * fabric.shear.at(angle).energy +
-                     100.0 * 100.0 * fabric.shear.at(0.5 * angle).energy);
+    return 0.0625 * (100.0 * (600.0 - 300.0) / 2.0 * fabric.crossings[0].shear.at(angle).energy +
+                     100.0 * 100.0 * fabric.crossings[0].shear.at(0.5 * angle).energy);
   };
   const auto frame_energy = [&](double d) {
-    return 0.0625 * 200.0 * 200.0 * fabric.shear.at(shear_angle(shear_test(frame), d)).energy;
+    return 0.0625 * 200.0 * 200.0 *
+           fabric.crossings[0].shear.at(shear_angle(shear_test(frame), d)).energy;
   };
   constexpr double h = 1e-3; // mm: cut-off 1e-8 relative at most, rounding 1e-10
   for (const double angle : {0.5, 5.0, 20.0, 40.0, 60.0, 80.0}) {
@@ -61,8 +62,8 @@ TEST(ShearTests, PictureFrameLoadIsEquation41) {
   const Fabric fabric = glass();
   for (const double angle : {0.0, 3.0, 30.0, 60.0, 85.0}) {
     const double g = angle * deg;
-    const double expected =
-        0.0625 * 200.0 * sqrt2 * fabric.shear.at(g).value / (std::cos(0.5 * g) - std::sin(0.5 * g));
+    const double expected = 0.0625 * 200.0 * sqrt2 * fabric.crossings[0].shear.at(g).value /
+                            (std::cos(0.5 * g) - std::sin(0.5 * g));
     const double d = extension_at(shear_test(frame), g);
     EXPECT_NEAR(test_load(shear_test(frame), fabric, d), expected, 1e-11 * expected);
   }

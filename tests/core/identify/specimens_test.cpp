@@ -49,8 +49,9 @@ TEST(Specimens, CountTheSameHoweverManyRowsTheyHave) {
                                   glass_weave(), stiff_machine(), diagnostics);
   ASSERT_TRUE(fit) << texts(diagnostics);
   for (const double g : {10.0, 30.0, 50.0}) // weights by the fitted load draw neither way
-    EXPECT_NEAR(fit->law.at(g * degree).value / glass_weave().shear.at(g * degree).value, 1.0,
-                0.01);
+    EXPECT_NEAR(fit->law.at(g * degree).value /
+                    glass_weave().crossings[0].shear.at(g * degree).value,
+                1.0, 0.01);
   ASSERT_EQ(fit->specimens.size(), 2u);
   EXPECT_NEAR(fit->specimens[0].coefficients[0], 0.9 * 0.37044, 1e-6);
   EXPECT_NEAR(fit->specimens[1].coefficients[2], 1.1 * 1.03113, 1e-6);
@@ -73,7 +74,7 @@ TEST(Specimens, LimitsOfOneHoldTheLawInNineteenOfTwentyCurves) {
     ASSERT_TRUE(fit) << texts(diagnostics);
     coefficient += std::abs(fit->law.k[0] - 0.37044) <= fit->confidence.coefficient[0];
     const double at = fit->confidence.law_at;
-    law += std::abs(fit->law.at(at).value / glass_weave().shear.at(at).value - 1.0) <=
+    law += std::abs(fit->law.at(at).value / glass_weave().crossings[0].shear.at(at).value - 1.0) <=
            fit->confidence.law;
   }
   EXPECT_NEAR(coefficient / static_cast<double>(curves), 0.95, 0.04); // 3 standard errors

@@ -144,21 +144,21 @@ TEST(CaseFile, ConvertsUnitsOfFabrics) {
   EXPECT_EQ(plain.name, "plain weave");
   EXPECT_DOUBLE_EQ(plain.surface_density, 600e-12); // 600 g/m2 in t/mm2
   EXPECT_DOUBLE_EQ(plain.thickness, 0.5);
-  EXPECT_DOUBLE_EQ(plain.fibre_angle, pi / 2.0);
-  EXPECT_DOUBLE_EQ(plain.warp.stiffness, 46000.0);
-  EXPECT_DOUBLE_EQ(plain.weft.stiffness, 48000.0);
-  EXPECT_DOUBLE_EQ(plain.warp_density, 0.25);
-  EXPECT_EQ(plain.shear.k, (std::vector<double>{0.4, 0.8, 1.0}));
-  EXPECT_TRUE(plain.warp.strain.empty() && plain.shear.angle.empty());
-  EXPECT_DOUBLE_EQ(skew.fibre_angle, pi / 3.0);
-  EXPECT_DOUBLE_EQ(skew.weft_density, 0.4);
-  EXPECT_EQ(skew.warp.strain, (std::vector<double>{0.0, 0.005, 0.01}));
-  EXPECT_EQ(skew.warp.tension, (std::vector<double>{0.0, 10.0, 200.0}));
-  ASSERT_EQ(skew.shear.angle.size(), 3u);
-  EXPECT_DOUBLE_EQ(skew.shear.angle[1], pi / 6.0);
-  EXPECT_DOUBLE_EQ(skew.shear.angle[2], pi / 4.0);
-  EXPECT_EQ(skew.shear.torque, (std::vector<double>{0.0, 0.5, 1.5}));
-  EXPECT_TRUE(skew.shear.k.empty());
+  EXPECT_DOUBLE_EQ(plain.families[1].angle, pi / 2.0);
+  EXPECT_DOUBLE_EQ(plain.families[0].tension.stiffness, 46000.0);
+  EXPECT_DOUBLE_EQ(plain.families[1].tension.stiffness, 48000.0);
+  EXPECT_DOUBLE_EQ(plain.families[0].density, 0.25);
+  EXPECT_EQ(plain.crossings[0].shear.k, (std::vector<double>{0.4, 0.8, 1.0}));
+  EXPECT_TRUE(plain.families[0].tension.strain.empty() && plain.crossings[0].shear.angle.empty());
+  EXPECT_DOUBLE_EQ(skew.families[1].angle, pi / 3.0);
+  EXPECT_DOUBLE_EQ(skew.families[1].density, 0.4);
+  EXPECT_EQ(skew.families[0].tension.strain, (std::vector<double>{0.0, 0.005, 0.01}));
+  EXPECT_EQ(skew.families[0].tension.tension, (std::vector<double>{0.0, 10.0, 200.0}));
+  ASSERT_EQ(skew.crossings[0].shear.angle.size(), 3u);
+  EXPECT_DOUBLE_EQ(skew.crossings[0].shear.angle[1], pi / 6.0);
+  EXPECT_DOUBLE_EQ(skew.crossings[0].shear.angle[2], pi / 4.0);
+  EXPECT_EQ(skew.crossings[0].shear.torque, (std::vector<double>{0.0, 0.5, 1.5}));
+  EXPECT_TRUE(skew.crossings[0].shear.k.empty());
 }
 
 TEST(CaseFile, ReadsBlanksAndLaysPliesOnEachOther) {
@@ -271,8 +271,8 @@ TEST(CaseFile, ReadsGravityAndIsotropicSheets) {
   const auto& law = std::get<IsotropicLaw>(*foil.sheet);
   EXPECT_DOUBLE_EQ(law.modulus, 3000.0 * 0.2); // N/mm: times the thickness
   EXPECT_DOUBLE_EQ(law.poissons_ratio, 0.3);
-  EXPECT_DOUBLE_EQ(foil.fibre_angle, pi / 2.0);
-  EXPECT_EQ(foil.warp.largest_slope(), 0.0);
+  EXPECT_FALSE(foil.has_yarns());
+  EXPECT_DOUBLE_EQ(material_axes(foil).between(), pi / 2.0);
   EXPECT_TRUE(good_case(data_folder / "good/inline.toml").gravity.isZero(0.0)); // the default
 }
 
@@ -295,31 +295,54 @@ TEST(CaseFile, TakesTheProgramsOwnDefaults) {
   EXPECT_TRUE(c.tools.empty());
 }
 
+TEST(CaseFile, ReadsFabricsOfAnyNumberOfFamilies) {
+  const Case c = good_case(data_folder / "good/families.toml");
+  const Fabric &tape = c.fabrics.at(0), &triaxial = c.fabrics.at(1), &film = c.fabrics.at(2);
+  ASSERT_EQ(tape.families.size(), 1u);
+  EXPECT_EQ(tape.families[0].name, "tow");
+  EXPECT_EQ(tape.families[0].tension.compression, 400.0);
+  EXPECT_EQ(tape.families[0].in_plane_bending, 4.0);
+  EXPECT_DOUBLE_EQ(std::get<IsotropicLaw>(tape.sheet.value()).modulus, 2.0 * 0.3); // N/mm
+  EXPECT_EQ(tape.twist, 0.2);
+  EXPECT_TRUE(tape.crossings.empty());
+  ASSERT_EQ(triaxial.families.size(), 3u);
+  ASSERT_EQ(triaxial.crossings.size(), 2u);
+  EXPECT_NEAR(triaxial.families[1].angle, 2.0 * pi / 3.0,
+              1e-15); // 120 for -60: no sense of its own
+  EXPECT_EQ(triaxial.crossings[1].first, 1u);
+  EXPECT_EQ(triaxial.crossings[1].second, 2u);
+  EXPECT_NEAR(crossing_angle(triaxial, triaxial.crossings[1]), pi / 3.0, 1e-15);
+  EXPECT_EQ(triaxial.twist, 0.0);
+  EXPECT_FALSE(triaxial.sheet);
+  EXPECT_FALSE(film.has_yarns());
+  EXPECT_TRUE(film.sheet);
+}
+
 TEST(CaseFile, HasTheFabricsBending) {
   const Case c = good_case(data_folder / "good/bending.toml");
   const Fabric &line = c.fabrics.at(0), &table = c.fabrics.at(1), &warp_only = c.fabrics.at(2);
-  EXPECT_EQ(line.warp.compression, 460.0);
-  EXPECT_EQ(line.weft.compression, 480.0);
-  EXPECT_EQ(line.bending.warp.stiffness, 4.0);
-  EXPECT_EQ(line.bending.weft.stiffness, 1.0);
-  EXPECT_EQ(line.bending.twist, 3.0);
-  EXPECT_EQ(line.bending.coupling, 0.0);
-  EXPECT_EQ(line.bending.in_plane[0], 8.0);
-  EXPECT_EQ(line.warp.buckling_force, 5.0);
-  EXPECT_FALSE(line.weft.buckles());
+  EXPECT_EQ(line.families[0].tension.compression, 460.0);
+  EXPECT_EQ(line.families[1].tension.compression, 480.0);
+  EXPECT_EQ(line.families[0].bending.stiffness, 4.0);
+  EXPECT_EQ(line.families[1].bending.stiffness, 1.0);
+  EXPECT_EQ(line.twist, 3.0);
+  EXPECT_EQ(line.plate_coupling, 0.0);
+  EXPECT_EQ(line.families[0].in_plane_bending, 8.0);
+  EXPECT_EQ(line.families[0].tension.buckling_force, 5.0);
+  EXPECT_FALSE(line.families[1].tension.buckles());
   EXPECT_NEAR(line.locking_angle.value(), 50.0 * pi / 180.0, 1e-15);
   EXPECT_FALSE(table.locking_angle);
-  EXPECT_EQ(table.bending.in_plane[1], 2.0);
-  EXPECT_TRUE(table.weft.buckles());
-  EXPECT_EQ(table.bending.warp.curvature, (std::vector<double>{0.0, 0.01, 0.05}));
-  EXPECT_EQ(table.bending.warp.moment, (std::vector<double>{0.0, 0.04, 0.08}));
-  EXPECT_DOUBLE_EQ(table.bending.twist, 2.0); // root of 4 times 1
-  EXPECT_EQ(warp_only.bending.warp.stiffness, 4.0);
-  EXPECT_FALSE(warp_only.bending.weft.largest_slope() > 0.0);
-  EXPECT_EQ(warp_only.bending.twist, 0.0);
+  EXPECT_EQ(table.families[1].in_plane_bending, 2.0);
+  EXPECT_TRUE(table.families[1].tension.buckles());
+  EXPECT_EQ(table.families[0].bending.curvature, (std::vector<double>{0.0, 0.01, 0.05}));
+  EXPECT_EQ(table.families[0].bending.moment, (std::vector<double>{0.0, 0.04, 0.08}));
+  EXPECT_DOUBLE_EQ(table.twist, 2.0); // root of 4 times 1
+  EXPECT_EQ(warp_only.families[0].bending.stiffness, 4.0);
+  EXPECT_FALSE(warp_only.families[1].bending.largest_slope() > 0.0);
+  EXPECT_EQ(warp_only.twist, 0.0);
   const Fabric without = good_case(data_folder / "good/base.toml").fabrics.at(0);
-  EXPECT_FALSE(without.bending.any());
-  EXPECT_EQ(without.warp.compression, 0.0);
+  EXPECT_FALSE(bending_law(without).any());
+  EXPECT_EQ(without.families[0].tension.compression, 0.0);
 }
 
 } // namespace

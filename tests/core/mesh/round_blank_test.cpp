@@ -128,8 +128,7 @@ TEST(RoundBlank, ArcsThatWouldCrossWhenMeshedAreRejected) {
 
 Case one_ply(MeshKind kind) {
   Case data;
-  data.fabrics.emplace_back();
-  data.fabrics[0].fibre_angle = 0.5 * pi;
+  data.fabrics = {woven_fabric()};
   BlankSpec blank;
   blank.outline = {rectangle(-30, -10, 30, 10), {}};
   blank.mesh = kind;

@@ -52,13 +52,13 @@ Case case_of(const Stack& stack) {
 TEST(Estimates, AreGivenToAStackWithTheirReasons) {
   const Case data = case_of({});
   const Fabric& f = data.fabrics.at(0);
-  EXPECT_EQ(f.warp.compression, 460.0);
-  EXPECT_EQ(f.weft.compression, 480.0);
-  EXPECT_NEAR(f.bending.warp.stiffness, 6e-10 * 9810.0 * 343000.0, 1e-12); // 2.02 N mm
-  EXPECT_EQ(f.bending.weft.stiffness, f.bending.warp.stiffness);
-  EXPECT_NEAR(f.bending.twist, f.bending.warp.stiffness, 1e-12);
-  EXPECT_NEAR(f.bending.in_plane[0], 0.0625 * 0.37044 * 400.0, 1e-12); // 9.26 N mm
-  EXPECT_EQ(f.bending.in_plane[1], f.bending.in_plane[0]);
+  EXPECT_EQ(f.families[0].tension.compression, 460.0);
+  EXPECT_EQ(f.families[1].tension.compression, 480.0);
+  EXPECT_NEAR(f.families[0].bending.stiffness, 6e-10 * 9810.0 * 343000.0, 1e-12); // 2.02 N mm
+  EXPECT_EQ(f.families[1].bending.stiffness, f.families[0].bending.stiffness);
+  EXPECT_NEAR(f.twist, f.families[0].bending.stiffness, 1e-12);
+  EXPECT_NEAR(f.families[0].in_plane_bending, 0.0625 * 0.37044 * 400.0, 1e-12); // 9.26 N mm
+  EXPECT_EQ(f.families[1].in_plane_bending, f.families[0].in_plane_bending);
   EXPECT_EQ(describe_estimates(data).at(0),
             "glass: compression 460 / 480 N per yarn (1 % of tension), bending 2 N mm (bending "
             "length 70 mm), in-plane bending 9.3 N mm (zones of 20 mm): estimated, since a stack "
@@ -68,28 +68,29 @@ TEST(Estimates, AreGivenToAStackWithTheirReasons) {
 
 TEST(Estimates, LeaveOnePlyAsItsFileHasIt) {
   const Case data = case_of({.plies = 1});
-  EXPECT_EQ(data.fabrics[0].warp.compression, 0.0);
-  EXPECT_FALSE(data.fabrics[0].bending.any());
+  EXPECT_EQ(data.fabrics[0].families[0].tension.compression, 0.0);
+  EXPECT_FALSE(bending_law(data.fabrics[0]).any());
   EXPECT_TRUE(describe_estimates(data).empty());
 }
 
 TEST(Estimates, DoNotFollowTheElements) {
   const Fabric fine = case_of({.size = 3.0}).fabrics[0],
                coarse = case_of({.size = 20.0}).fabrics[0];
-  EXPECT_EQ(fine.bending.warp.stiffness, coarse.bending.warp.stiffness);
-  EXPECT_EQ(fine.bending.in_plane, coarse.bending.in_plane);
+  EXPECT_EQ(fine.families[0].bending.stiffness, coarse.families[0].bending.stiffness);
+  for (std::size_t a = 0; a < 2; ++a)
+    EXPECT_EQ(fine.families[a].in_plane_bending, coarse.families[a].in_plane_bending);
 }
 
 TEST(Estimates, StayAwayFromYarnsThatCarryTensionOnly) {
   const Case both =
       case_of({.warp = "compression_stiffness = 0", .weft = "compression_stiffness = 0.0"});
-  EXPECT_EQ(both.fabrics[0].warp.compression, 0.0);
-  EXPECT_FALSE(both.fabrics[0].bending.any());
+  EXPECT_EQ(both.fabrics[0].families[0].tension.compression, 0.0);
+  EXPECT_FALSE(bending_law(both.fabrics[0]).any());
   EXPECT_TRUE(describe_estimates(both).empty());
   const Case one = case_of({.warp = "compression_stiffness = 0.0"});
-  EXPECT_EQ(one.fabrics[0].bending.in_plane[0], 0.0);
-  EXPECT_GT(one.fabrics[0].bending.in_plane[1], 0.0);
-  EXPECT_EQ(one.fabrics[0].bending.twist, 0.0);
+  EXPECT_EQ(one.fabrics[0].families[0].in_plane_bending, 0.0);
+  EXPECT_GT(one.fabrics[0].families[1].in_plane_bending, 0.0);
+  EXPECT_EQ(one.fabrics[0].twist, 0.0);
   EXPECT_NE(describe_estimates(one).at(0).find("compression 480 N per yarn along the weft"),
             std::string::npos);
 }
@@ -99,32 +100,33 @@ TEST(Estimates, FillInOnlyWhatIsMissing) {
                             .weft = "compression_stiffness = 50.0\nbending_stiffness = 8.0",
                             .fabric = "twist_stiffness = 0.0"})
                        .fabrics[0];
-  EXPECT_EQ(f.warp.compression, 460.0);
-  EXPECT_EQ(f.bending.warp.stiffness, 0.0);
-  EXPECT_EQ(f.bending.in_plane[0], 0.0);
-  EXPECT_EQ(f.weft.compression, 50.0);
-  EXPECT_EQ(f.bending.weft.stiffness, 8.0);
-  EXPECT_GT(f.bending.in_plane[1], 0.0);
-  EXPECT_EQ(f.bending.twist, 0.0); // as given
+  EXPECT_EQ(f.families[0].tension.compression, 460.0);
+  EXPECT_EQ(f.families[0].bending.stiffness, 0.0);
+  EXPECT_EQ(f.families[0].in_plane_bending, 0.0);
+  EXPECT_EQ(f.families[1].tension.compression, 50.0);
+  EXPECT_EQ(f.families[1].bending.stiffness, 8.0);
+  EXPECT_GT(f.families[1].in_plane_bending, 0.0);
+  EXPECT_EQ(f.twist, 0.0); // as given
 }
 
 TEST(Estimates, GiveYarnsThatBendOrBuckleTheirCompressionInOnePlyToo) {
   const Case data =
       case_of({.plies = 1, .warp = "bending_stiffness = 2.0", .weft = "buckling_force = 3"});
-  EXPECT_EQ(data.fabrics[0].warp.compression, 460.0);
-  EXPECT_EQ(data.fabrics[0].weft.compression, 480.0);
-  EXPECT_EQ(data.fabrics[0].bending.in_plane[0], 0.0);
+  EXPECT_EQ(data.fabrics[0].families[0].tension.compression, 460.0);
+  EXPECT_EQ(data.fabrics[0].families[1].tension.compression, 480.0);
+  EXPECT_EQ(data.fabrics[0].families[0].in_plane_bending, 0.0);
   EXPECT_NE(describe_estimates(data).at(0).find("since yarns that bend"), std::string::npos);
 }
 
 TEST(Estimates, OfInPlaneBendingTakeTheSecantWhereShearStartsWithNothing) {
   const Fabric table =
       case_of({.shear = "table = [[0.0, 0.0], [10.0, 0.0], [40.0, 0.6]]"}).fabrics[0];
-  EXPECT_NEAR(table.bending.in_plane[0], 0.0625 * table.shear.secant(0.5) * 400.0, 1e-12);
-  EXPECT_GT(table.bending.in_plane[0], 0.0);
+  EXPECT_NEAR(table.families[0].in_plane_bending,
+              0.0625 * table.crossings[0].shear.secant(0.5) * 400.0, 1e-12);
+  EXPECT_GT(table.families[0].in_plane_bending, 0.0);
   const Fabric none = case_of({.shear = "polynomial = [0.0]"}).fabrics[0];
-  EXPECT_EQ(none.bending.in_plane[0], 0.0);
-  EXPECT_GT(none.bending.warp.stiffness, 0.0);
+  EXPECT_EQ(none.families[0].in_plane_bending, 0.0);
+  EXPECT_GT(none.families[0].bending.stiffness, 0.0);
 }
 
 TEST(Estimates, SofteningIsSaidWhereCompressionLimitsIt) {
@@ -138,16 +140,18 @@ TEST(Resolution, LengthsAreThoseOfTheirFormulas) {
   Fabric f = glass_weave();
   const BendingLengths none = bending_lengths(f, 0.003);
   EXPECT_FALSE(none.layer || none.sideways || none.upwards);
-  f.warp.compression = f.weft.compression = 460.0;
-  f.bending.warp.stiffness = f.bending.weft.stiffness = 2.0;
-  f.bending.in_plane = {2.0, 8.0};
+  f.families[0].tension.compression = f.families[1].tension.compression = 460.0;
+  f.families[0].bending.stiffness = f.families[1].bending.stiffness = 2.0;
+  f.families[0].in_plane_bending = 2.0;
+  f.families[1].in_plane_bending = 8.0;
   const BendingLengths lengths = bending_lengths(f, 0.0034);
   const double rigidity = 0.0625 * 0.37044;
   EXPECT_NEAR(lengths.layer.value(), std::sqrt(2.0 / rigidity), 1e-12); // 9.3 mm
   EXPECT_NEAR(lengths.sideways.value(), 2.0 * M_PI * std::sqrt(4.0 / (0.2 - rigidity)), 1e-12);
   EXPECT_NEAR(lengths.upwards.value(), 2.0 * M_PI * std::cbrt(0.1 / 0.0034), 1e-12);
   EXPECT_NEAR(element_size_needed(lengths), lengths.layer.value() / 2.5, 1e-12);
-  f.warp.buckling_force = f.weft.buckling_force = 0.05; // less than shear holds: straight
+  f.families[0].tension.buckling_force = f.families[1].tension.buckling_force =
+      0.05; // less than shear holds: straight
   EXPECT_FALSE(bending_lengths(f, 0.0).sideways);
   EXPECT_FALSE(bending_lengths(f, 0.0).upwards);
 }

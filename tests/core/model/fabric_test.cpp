@@ -115,7 +115,7 @@ TEST(ShearLaw, SlopeAndEnergyBelongToTheTorqueAndItIsOdd) {
   ShearLaw table;
   table.angle = {0.0, 0.3, 0.8};
   table.torque = {0.0, 0.1, 0.9};
-  for (const ShearLaw& law : {glass_weave().shear, table})
+  for (const ShearLaw& law : {glass_weave().crossings[0].shear, table})
     for (const double angle : {-1.2, -0.5, -0.2, -0.01, 0.01, 0.25, 0.6, 0.9, 1.5}) {
       expect_consistent(law, angle, 10.0);
       const LawPoint p = law.at(angle), mirrored = law.at(-angle);
@@ -132,7 +132,7 @@ TEST(ShearLaw, SlopeAndEnergyBelongToTheTorqueAndItIsOdd) {
 
 TEST(ShearLaw, IsThePapersPolynomial) {
   // Hamila and Boisse 2008, table 1, at 0.5 rad, by hand
-  const LawPoint p = glass_weave().shear.at(0.5);
+  const LawPoint p = glass_weave().crossings[0].shear.at(0.5);
   EXPECT_NEAR(p.value, 0.18522 + 0.10513125 + 0.0322228125, 1e-12);
   EXPECT_NEAR(p.energy, 0.046305 + 0.01314140625 + 0.002685234375, 1e-12);
 }

@@ -15,8 +15,8 @@ Case with_another(double z, const Vec2& seed = Vec2::Zero()) {
   Case data = coarse_hemisphere({0.0});
   data.plies.push_back({"other", 0, 0, 0.0, z});
   data.plies.back().seed = seed;
-  for (YarnSources& yarn : data.fabrics[0].sources)
-    yarn = {ValueSource::missing, ValueSource::missing, ValueSource::missing};
+  for (YarnFamily& family : data.fabrics[0].families)
+    family.sources = {ValueSource::missing, ValueSource::missing, ValueSource::missing};
   set_friction(data, 0.2);
   return data;
 }
@@ -63,14 +63,14 @@ TEST(ReachAhead, EstimatesAreForPliesThatPress) {
   Case far = with_another(500.0);
   estimate_missing(far);
   EXPECT_EQ(far.fabrics.size(), 1u);
-  EXPECT_EQ(far.fabrics[0].warp.compression, 0.0);
+  EXPECT_EQ(far.fabrics[0].families[0].tension.compression, 0.0);
   EXPECT_TRUE(describe_estimates(far).empty());
   Case three = with_another(0.9);
   three.plies.push_back({"far", 0, 0, 0.0, 500.0});
   estimate_missing(three);
   ASSERT_EQ(three.fabrics.size(), 2u); // the far ply's yarns are as it would have them alone
-  EXPECT_EQ(three.fabrics[0].warp.compression, 460.0);
-  EXPECT_EQ(three.fabrics[at(three.plies[2].fabric)].warp.compression, 0.0);
+  EXPECT_EQ(three.fabrics[0].families[0].tension.compression, 460.0);
+  EXPECT_EQ(three.fabrics[at(three.plies[2].fabric)].families[0].tension.compression, 0.0);
   EXPECT_EQ(describe_estimates(three).size(), 1u);
 }
 

@@ -139,7 +139,7 @@ TEST(YarnLaw, SaysWhetherItHasRates) {
   EXPECT_FALSE(has_rates(foil));
   using Laws = std::variant<ViscousYarn, MaxwellYarn>;
   EXPECT_TRUE(has_rates(Laws(MaxwellYarn{1.0, 1.0})));
-  EXPECT_FALSE(has_rates(Laws(ViscousYarn{woven.warp, 1.0})));
+  EXPECT_FALSE(has_rates(Laws(ViscousYarn{woven.families[0].tension, 1.0})));
 }
 
 } // namespace

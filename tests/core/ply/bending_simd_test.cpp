@@ -2,6 +2,7 @@
 // The kernel against bending computed one node after the other.
 #include "base/cpu_features.hpp"
 #include "core/ply/bending_simd.hpp"
+#include "support/bending_laws.hpp"
 #include "support/membrane_checks.hpp"
 
 #include <array>
@@ -15,9 +16,9 @@ namespace {
 constexpr double warp = 0.3, weft = 1.55; // rad
 
 BendingLaw cloth() {
-  BendingLaw law;
-  law.warp.stiffness = 5.0; // N mm
-  law.weft.stiffness = 0.5;
+  BendingLaw law = weave_bending();
+  law.families[0].law.stiffness = 5.0; // N mm
+  law.families[1].law.stiffness = 0.5;
   law.coupling = 0.2;
   law.twist = 0.3;
   return law;
@@ -25,14 +26,19 @@ BendingLaw cloth() {
 
 /// Alone and together: bending out of the sheet by line and by table, and in it.
 std::vector<BendingLaw> laws() {
-  BendingLaw table = cloth(), both = cloth(), in_plane;
-  table.weft.curvature = {0.0, 0.01, 0.03}; // 1/mm
-  table.weft.moment = {0.0, 0.05, 0.07};    // N
-  both.in_plane = {8.0, 2.0};               // N mm
-  in_plane.in_plane = {0.0, 3.0};
+  BendingLaw table = cloth(), both = cloth(), in_plane = weave_bending();
+  table.families[1].law.curvature = {0.0, 0.01, 0.03};              // 1/mm
+  table.families[1].law.moment = {0.0, 0.05, 0.07};                 // N
+  both.families[0].in_plane = 8.0, both.families[1].in_plane = 2.0; // N mm
+  in_plane.families[0].in_plane = 0.0, in_plane.families[1].in_plane = 3.0;
   BendingLaw all = table;
-  all.in_plane = both.in_plane;
-  return {cloth(), table, both, in_plane, all};
+  for (std::size_t a = 0; a < 2; ++a)
+    all.families[a].in_plane = both.families[a].in_plane;
+  BendingLaw three = all, oblique = cloth(), one;
+  three.families.push_back({Vec2(-0.6, 1.1), table.families[1].law, 4.0});
+  oblique.families.push_back({Vec2(0.8, 0.5), {1.5, {}, {}}, 0.0});
+  one.families = {{Vec2::UnitX(), {2.0, {}, {}}, 3.0}};
+  return {cloth(), table, both, in_plane, all, three, oblique, one};
 }
 
 std::vector<Vec3> unformed(const BlankMesh& mesh) {
@@ -120,10 +126,11 @@ struct StencilBlock {
   static constexpr std::int32_t nodes = 8;
   std::vector<SimdStencils> stencils;
   std::vector<SimdNumbers> constants; // as many as with bending in the plane
+  std::vector<SimdNumbers> in_plane;  // of as many families as there can be
   std::vector<std::uint16_t> slots;
   std::vector<double> x;
 
-  StencilBlock(Random& random, int groups) {
+  StencilBlock(Random& random, int groups, int families) {
     for (int n = 0; n < 3 * nodes; ++n)
       x.push_back(3.0 * signed_unit(random));
     constexpr std::array<std::int32_t, 2> sizes[] = {{5, 7}, {5, 7}, {5, 7},
@@ -132,9 +139,11 @@ struct StencilBlock {
       const auto [ring, slot_count] = sizes[random() % std::size(sizes)];
       SimdStencils& p = stencils.emplace_back();
       p.ring = ring, p.slots = slot_count;
+      for (int a = 0; a < families; ++a)
+        for (double& stiffness : in_plane.emplace_back().of)
+          stiffness = 8.0 - 3.0 * a;
       for (std::size_t lane = 0; lane < simd_width; ++lane) {
         p.area[lane] = 2.0 + signed_unit(random);
-        p.in_plane[0][lane] = 8.0, p.in_plane[1][lane] = 2.0;
         p.own[lane] = node(lane + random() % 2);
       }
       for (std::int32_t k = 0; k < slot_count; ++k)
@@ -155,7 +164,7 @@ struct StencilBlock {
     const std::int32_t list[nodes] = {0, 1, 2, 3, 4, 5, 6, 7};
     std::array<SimdForce, nodes> force;
     kernel({list, nodes, stencils.data(), int(stencils.size()), constants.data(), slots.data(),
-            force.data()},
+            in_plane.data(), force.data()},
            law, x.data());
     return force;
   }
@@ -166,15 +175,29 @@ void saturating(const BendingKernelLaw&, int family, const double* kappa, double
     moment[i] = (1.0 + family) * kappa[i] / (1.0 + std::abs(kappa[i]));
 }
 
+/// A law of two families along the axes, or of one or three.
+BendingKernelLaw kernel_law(int families, bool table, bool in_plane) {
+  BendingKernelLaw law{{5.0, 0.5},    0.2,   {0.0, 0.0}, 0.3,     families,  {},
+                       families == 2, table, in_plane,   nullptr, saturating};
+  if (!law.weave) law.oblique[0] = 0.1, law.oblique[1] = -0.2;
+  const Vec2 along[] = {Vec2::UnitX(), Vec2::UnitY(), Vec2(-1.0, 1.0)};
+  for (int a = 0; a < families; ++a) {
+    const Vec3 p = FamilyBending{along[a], {}, 0.0}.of_axes();
+    law.family[a] = {{along[a].x(), along[a].y()}, {p[0], p[1], p[2]}, table};
+  }
+  return law;
+}
+
 /// All copies of the kernel: no processor answers differently.
 TEST(BendingSimd, GiveTheSameBitsOnEveryProcessor) {
   if (!has_avx2()) GTEST_SKIP() << "this processor has no AVX2";
   Random random(8);
   for (int i = 0; i < 200; ++i) {
-    const StencilBlock block(random, 1 + i % 9);
+    const int families = 1 + i % 3;
+    const StencilBlock block(random, 1 + i % 9, families);
     for (const bool in_plane : {false, true})
       for (const bool table : {false, true}) {
-        const BendingKernelLaw law{{5.0, 0.5}, 0.2, 0.3, table, in_plane, nullptr, saturating};
+        const BendingKernelLaw law = kernel_law(families, table, in_plane);
         const auto generic = block.forces(bending_kernel_generic, law);
         const auto avx2 = block.forces(bending_kernel_avx2, law);
         ASSERT_TRUE(std::isfinite(generic[0].x));

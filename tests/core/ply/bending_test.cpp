@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Bending: curvatures of known surfaces, forces from energy, momentum, the step's bound.
 #include "core/ply/bending.hpp"
+#include "support/bending_laws.hpp"
 #include "support/gradient_check.hpp"
 #include "support/scene_checks.hpp"
 
@@ -11,11 +12,24 @@ namespace plyform::bending_test {
 namespace {
 
 BendingLaw cloth() {
-  BendingLaw law;
-  law.warp.stiffness = 5.0; // N mm
-  law.weft.stiffness = 0.5;
+  BendingLaw law = weave_bending();
+  law.families[0].law.stiffness = 5.0; // N mm
+  law.families[1].law.stiffness = 0.5;
   law.coupling = 0.2;
   law.twist = 0.3;
+  return law;
+}
+
+/// A third family askew to the axes, by a table, that bends in its plane too.
+BendingLaw three_families() {
+  BendingLaw law = cloth();
+  law.families.push_back({Vec2(-0.6, 1.1), {0.0, {0.0, 0.01, 0.03}, {0.0, 0.03, 0.05}}, 4.0});
+  return law;
+}
+
+BendingLaw one_family() {
+  BendingLaw law;
+  law.families = {{Vec2::UnitX(), {2.0, {}, {}}, 3.0}};
   return law;
 }
 
@@ -71,9 +85,9 @@ TEST(Bending, FindsTheSecondDerivativesOfAnyQuadraticInsideAnyMesh) {
 TEST(Bending, ForceIsMinusEnergyGradient) {
   const BlankMesh mesh = free_square();
   BendingLaw table = cloth();
-  table.warp.curvature = {0.0, 0.01, 0.03};
-  table.warp.moment = {0.0, 0.05, 0.07};
-  for (const BendingLaw& law : {cloth(), table}) {
+  table.families[0].law.curvature = {0.0, 0.01, 0.03};
+  table.families[0].law.moment = {0.0, 0.05, 0.07};
+  for (const BendingLaw& law : {cloth(), table, three_families(), one_family()}) {
     Bending b = bend(mesh, law, 0.3);
     std::vector<Vec3> x = wavy(mesh);
     const std::vector<Vec3> f = reference_bending_forces(b, x);
@@ -136,8 +150,8 @@ constexpr double rounding = 1e-7; // of flat_modes: finite differences
 
 TEST(Bending, BoundHoldsAndLeavesNoModeOfTheFlatSheetFree) {
   const BlankMesh mesh = mesh_blank(rectangle(40.0, 40.0, 10.0), 0.0, 0.0);
-  BendingLaw plate; // nu = 0.3
-  plate.warp.stiffness = plate.weft.stiffness = 2.0;
+  BendingLaw plate = weave_bending(); // nu = 0.3
+  plate.families[0].law.stiffness = plate.families[1].law.stiffness = 2.0;
   plate.coupling = 0.6;
   plate.twist = 2.8;
   const double mass = 1e-8; // t
@@ -157,9 +171,9 @@ TEST(Bending, BoundHoldsForAWeaveAndItsSoftestShapeIsTheSaddle) {
     for (const double warp : {0.0, 0.5}) {
       spec.mesh = kind;
       const BlankMesh mesh = mesh_blank(spec, warp, warp + 0.5 * std::numbers::pi);
-      BendingLaw law;
-      law.warp.stiffness = 2.0;
-      law.weft.stiffness = 0.5;
+      BendingLaw law = weave_bending();
+      law.families[0].law.stiffness = 2.0;
+      law.families[1].law.stiffness = 0.5;
       Bending limp = bend(mesh, law, warp, mass);
       law.twist = 1.0;
       Bending b = bend(mesh, law, warp, mass);
@@ -183,9 +197,9 @@ TEST(Bending, BoundHoldsForYarnsThatBendInThePlane) {
       for (const double across : {0.5 * std::numbers::pi, 0.2 * std::numbers::pi}) { // sheared
         spec.mesh = kind;
         const BlankMesh mesh = mesh_blank(spec, warp, warp + across);
-        BendingLaw law;
-        law.warp.stiffness = law.weft.stiffness = 0.2;
-        law.in_plane = {9.0, 3.0};
+        BendingLaw law = weave_bending();
+        law.families[0].law.stiffness = law.families[1].law.stiffness = 0.2;
+        law.families[0].in_plane = 9.0, law.families[1].in_plane = 3.0;
         const Bending b = make_bending(mesh.x, mesh.triangles, law, warp, warp + across,
                                        std::vector<double>(mesh.x.size(), mass));
         const Eigen::VectorXd omega2 = flat_modes(b, mesh, mass, {0, 1});

@@ -2,6 +2,7 @@
 // Bending of yarns in their plane: curvature of known shapes, forces from energy, momentum, what
 // must not cost anything, the step's bound.
 #include "core/ply/bending.hpp"
+#include "support/bending_laws.hpp"
 #include "support/gradient_check.hpp"
 #include "support/scene_checks.hpp"
 
@@ -16,15 +17,15 @@ constexpr double warp_angle = 0.3;   // rad, to the mesh
 constexpr double fibre_angle = 1.25; // rad, from warp to weft: 72 degrees
 
 BendingLaw in_plane_only() {
-  BendingLaw law;
-  law.in_plane = {8.0, 3.0}; // N mm
+  BendingLaw law = weave_bending();
+  law.families[0].in_plane = 8.0, law.families[1].in_plane = 3.0; // N mm
   return law;
 }
 
 BendingLaw both() {
   BendingLaw law = in_plane_only();
-  law.warp.stiffness = 5.0; // N mm
-  law.weft.stiffness = 0.5;
+  law.families[0].law.stiffness = 5.0; // N mm
+  law.families[1].law.stiffness = 0.5;
   law.twist = 0.3;
   return law;
 }
@@ -97,8 +98,8 @@ TEST(InPlaneBending, IsFreeForStraightYarnsHoweverUnevenlyTheyAreStretchedAndShe
     for (const double warp : {0.0, warp_angle}) {
       const BlankMesh mesh = square(kind);
       const Vec2 e1(std::cos(warp), std::sin(warp)), across(-e1.y(), e1.x());
-      BendingLaw law;
-      law.in_plane = {8.0, 0.0}; // the weft does turn
+      BendingLaw law = weave_bending();
+      law.families[0].in_plane = 8.0, law.families[1].in_plane = 0.0; // the weft does turn
       Bending b = bend(mesh, law, warp);
       Random random(5);
       const Eigen::Matrix3d turn = random_rotation(random);
@@ -126,13 +127,13 @@ TEST(InPlaneBending, YarnsOnAnArcTurnByOneOverItsRadius) {
   }
   int followed = 0;
   for (std::size_t n = 0; n < x.size(); ++n) {
-    if (b.in_plane[n][0] == 0.0) continue;
+    if (b.in_plane[2 * n + 0] == 0.0) continue;
     ++followed;
     // a quadratic on an arc is off by (h/R)^2 = 7e-4 at most, h = 8 mm the element; on the rim,
     // where lengths along it are fitted without their change across, by h/(4R) = 7e-3
     const double near = std::abs(mesh.x[n].y()) < 0.5 * size - 1e-6 ? 1e-3 : 1e-2;
     EXPECT_NEAR(in_plane_curvature(b, x, static_cast<int>(n), 0), 1.0 / radius, near / radius);
-    if (b.in_plane[n][1] > 0.0) {
+    if (b.in_plane[2 * n + 1] > 0.0) {
       EXPECT_NEAR(in_plane_curvature(b, x, static_cast<int>(n), 1), 0.0, 1e-3 / radius);
     }
   }
@@ -147,8 +148,8 @@ TEST(InPlaneBending, FollowsOnTheRimOnlyYarnsThatLieAlongIt) {
     for (std::size_t n = 0; n < mesh.x.size(); ++n) {
       const bool left = std::abs(mesh.x[n].x()) > rim, top = std::abs(mesh.x[n].y()) > rim;
       const bool along = !left && (!top || warp == 0.0); // no rim lies along the weft
-      EXPECT_EQ(b.in_plane[n][0], along ? 8.0 : 0.0) << mesh.x[n].transpose();
-      EXPECT_EQ(b.in_plane[n][1], !left && !top ? 3.0 : 0.0) << mesh.x[n].transpose();
+      EXPECT_EQ(b.in_plane[2 * n + 0], along ? 8.0 : 0.0) << mesh.x[n].transpose();
+      EXPECT_EQ(b.in_plane[2 * n + 1], !left && !top ? 3.0 : 0.0) << mesh.x[n].transpose();
     }
   }
 }
@@ -190,7 +191,7 @@ TEST(InPlaneBending, BoundHoldsFlatAndShearedAndIsTheLargerOfBothBendings) {
     spec.mesh = kind;
     const BlankMesh mesh = mesh_blank(spec, 0.0, 0.0);
     BendingLaw across = both();
-    across.in_plane = {};
+    across.families[0].in_plane = across.families[1].in_plane = 0.0;
     const double out = bend(mesh, across, warp_angle, fibre_angle, mass).omega2;
     const double in = bend(mesh, in_plane_only(), warp_angle, fibre_angle, mass).omega2;
     Bending b = bend(mesh, both(), warp_angle, fibre_angle, mass);

@@ -63,9 +63,9 @@ TEST(MembraneFrequency, BoundIsABound) {
     const BlankMesh mesh = irregular_mesh(random);
     Fabric fabric = glass_weave();
     const double divide = state % 3 ? 1.0 : 1e4; // the last, to see the shear and geometric part
-    fabric.warp.stiffness /= divide;
-    fabric.weft.stiffness /= divide;
-    if (state % 4 == 3) fabric.fibre_angle = right_angle / 1.5;
+    fabric.families[0].tension.stiffness /= divide;
+    fabric.families[1].tension.stiffness /= divide;
+    if (state % 4 == 3) fabric.families[1].angle = right_angle / 1.5;
     const auto kind = state % 2 ? ElementKind::plain : ElementKind::averaged;
     Membrane m = make_membrane(mesh, fabric, 3.0 * signed_unit(random), kind);
     const double stretch = state % 5 == 4 ? 0.45 : state % 5 == 3 ? 0.8 : 1.2;
@@ -84,7 +84,7 @@ TEST(MembraneFrequency, BoundHoldsForCompressedYarns) {
     const BlankMesh mesh = irregular_mesh(random);
     Fabric fabric = glass_weave();
     const double softening = state % 2 ? 1000.0 : 1.0; // then as stiff as in tension, and a guard
-    for (TensionLaw* law : {&fabric.warp, &fabric.weft}) {
+    for (TensionLaw* law : {&fabric.families[0].tension, &fabric.families[1].tension}) {
       law->compression = 0.01 * law->stiffness;
       if (state % 3 == 0) law->buckling_force = 10.0;
     }
@@ -200,7 +200,7 @@ TEST(MembraneFrequency, NoModeIsWithoutStiffness) {
         in_plane[averaged] = eigenvalues(k(flat, flat)).minCoeff();
         out_of_plane[averaged] = eigenvalues(k(up, up)).minCoeff();
         // first shear mode of a held square of side 90 mm with the cell's stiffness alone
-        shear_only = m.cells_per_area * 0.37044 / m.fabric.surface_density *
+        shear_only = m.crossings[0].cells * 0.37044 / m.fabric.surface_density *
                      std::pow(std::numbers::pi / 90.0, 2);
       }
       // no softer than shear and tension make it; the plain element is stiffer since it locks

@@ -13,23 +13,23 @@ namespace {
 /// Table laws that bend, and yarns that bear some compression.
 Fabric table_weave() {
   Fabric f = glass_weave();
-  f.fibre_angle = 1.2;
-  f.warp.strain = {0.0, 0.002, 0.01};
-  f.warp.tension = {0.0, 20.0, 400.0};
-  f.weft.compression = 50.0;
-  f.shear.angle = {0.0, 0.3, 0.9};
-  f.shear.torque = {0.0, 0.1, 1.2};
-  f.shear.k.clear();
+  f.families[1].angle = 1.2;
+  f.families[0].tension.strain = {0.0, 0.002, 0.01};
+  f.families[0].tension.tension = {0.0, 20.0, 400.0};
+  f.families[1].tension.compression = 50.0;
+  f.crossings[0].shear.angle = {0.0, 0.3, 0.9};
+  f.crossings[0].shear.torque = {0.0, 0.1, 1.2};
+  f.crossings[0].shear.k.clear();
   return f;
 }
 
 /// Yarns that buckle: the warp by numbers, the weft by a table too.
 Fabric buckling_weave(bool table) {
   Fabric f = table ? table_weave() : glass_weave();
-  f.warp.compression = 300.0;
-  f.warp.buckling_force = 12.0; // at a strain of 0.04
-  f.weft.compression = 50.0;
-  if (table) f.weft.buckling_force = 4.0;
+  f.families[0].tension.compression = 300.0;
+  f.families[0].tension.buckling_force = 12.0; // at a strain of 0.04
+  f.families[1].tension.compression = 50.0;
+  if (table) f.families[1].tension.buckling_force = 4.0;
   return f;
 }
 
@@ -76,13 +76,13 @@ void expect_near(const Sums& fast, const Sums& slow) {
 
 TEST(MembraneSimd, AgreeWithTheMembraneOneByOne) {
   Random random(11);
-  for (const Fabric& fabric :
-       {glass_weave(), table_weave(), buckling_weave(false), buckling_weave(true)})
+  for (const Fabric& fabric : {glass_weave(), table_weave(), buckling_weave(false),
+                               buckling_weave(true), unidirectional(), triaxial(), stitched()})
     for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged})
       for (int i = 0; i < 20; ++i) {
         const BlankMesh mesh = irregular_mesh(random);
         Membrane m = make_membrane(mesh, fabric, 0.4, kind);
-        m.viscosity = {0.02, 0.03};
+        set_viscosity(m, {0.02, 0.03, 0.01});
         std::vector<Vec3> x0;
         for (const Vec2& p : mesh.x)
           x0.emplace_back(p.x(), p.y(), 0.0);
@@ -100,10 +100,10 @@ TEST(MembraneSimd, AgreeWithTheMembraneOneByOne) {
 /// A force that is asked for twice, as a line search does, is the same, and no step is taken.
 TEST(MembraneSimd, EvaluatingTwiceIsHarmless) {
   Random random(21);
-  for (const Fabric& fabric : {glass_weave(), table_weave(), buckling_weave(true)}) {
+  for (const Fabric& fabric : {glass_weave(), table_weave(), buckling_weave(true), triaxial()}) {
     const BlankMesh mesh = irregular_mesh(random);
     Membrane m = make_membrane(mesh, fabric, 0.4, ElementKind::averaged);
-    m.viscosity = {0.02, 0.03};
+    set_viscosity(m, {0.02, 0.03, 0.01});
     std::vector<Vec3> x0;
     for (const Vec2& p : mesh.x)
       x0.emplace_back(p.x(), p.y(), 0.0);
@@ -134,7 +134,7 @@ TEST(MembraneSimd, EvaluatingTwiceIsHarmless) {
 TEST(MembraneSimd, EnergyAgreesWithTheMembraneOneByOne) {
   Random random(12);
   Fabric long_law = glass_weave(); // a polynomial longer than the kernel's own
-  long_law.shear.k.assign(most_shear_terms + 1, 0.1);
+  long_law.crossings[0].shear.k.assign(most_shear_terms + 1, 0.1);
   for (const Fabric& fabric :
        {glass_weave(), table_weave(), long_law, buckling_weave(false), buckling_weave(true)})
     for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged})
@@ -221,6 +221,38 @@ struct KernelRun {
   }
 };
 
+/// Stresses of a sheet that stiffens.
+void stiffening_sheet(const KernelLaw&, const double* a, const double* b, const double* d,
+                      SheetAnswers& out) {
+  for (int i = 0; i < simd_width; ++i) {
+    out.s11[i] = a[i] - 1.0, out.s22[i] = b[i] - 1.0, out.s12[i] = 0.3 * d[i];
+    out.energy[i] = 0.5 * (out.s11[i] * out.s11[i] + out.s22[i] * out.s22[i]);
+  }
+}
+
+/// Laws of a weave, by turns with yarns that buckle, or of three families, one of them askew, with
+/// two crossings and a sheet.
+KernelLaw kernel_law(int number) {
+  KernelLaw law{};
+  law.weave = number % 3 != 0;
+  law.families = law.weave ? 2 : 3, law.crossings = law.weave ? 1 : 2, law.beta = 8.0;
+  for (int a = 0; a < 3; ++a)
+    law.yarns[a] = {{a == 0 ? 1.0 : -0.4 * (a - 1), a == 0 ? 0.0 : 1.0},
+                    115.0,
+                    0.0,
+                    2.5e-4,
+                    0.0025,
+                    0.025,
+                    false,
+                    0.0,
+                    0.0};
+  if (number % 2) law.yarns[1] = {{0.0, 1.0}, 115.0, 40.0, 2.5e-4, 0.0025, 0.025, true, 0.2, 39.6};
+  law.crossing[0] = {0, 1, 0.1, 1.0, {0.022, 0.05, 0.062}, 3};
+  law.crossing[1] = {2, 1, 0.4, 0.4, {0.03, 0.01}, 2};
+  law.sheet = !law.weave, law.sheet_law = stiffening_sheet;
+  return law;
+}
+
 /// All copies of the kernel: no processor answers differently, whether packs are computed one or
 /// two at a time.
 TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
@@ -242,19 +274,14 @@ TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
         for (std::size_t k = 0; k < 3; ++k)
           triangle.node[k][lane] = static_cast<std::uint16_t>(sizeof(SimdForce) * ((k + lane) % 6));
       }
-    KernelLaw law{};
-    law.angle = 0.1, law.beta = 8.0, law.shear_terms = 3;
-    law.shear[0] = 0.022, law.shear[1] = 0.05, law.shear[2] = 0.062;
-    law.yarns[0] = law.yarns[1] = {115.0, 0.0, 2.5e-4, 0.0025, 0.025, false, 0.0, 0.0};
-    if (i % 2) law.yarns[1] = {115.0, 40.0, 2.5e-4, 0.0025, 0.025, true, 0.2, 39.6};
+    const KernelLaw law = kernel_law(i);
     const std::int32_t nodes[6] = {0, 1, 2, 3, 4, 5};
     SimdYarnStates state{};
-    for (std::size_t k = 0; k < 2; ++k)
-      for (std::size_t lane = 0; lane < simd_width; ++lane)
-        state.of[k][0][lane] = 1.0, state.of[k][1][lane] = 0.1;
+    for (std::size_t lane = 0; lane < simd_width; ++lane)
+      state.of[0][lane] = 1.0, state.of[1][lane] = 0.1;
     const auto run = [&](auto* forces, auto* energy) {
       KernelRun r;
-      r.viscosity.assign(static_cast<std::size_t>(pairs + singles), state);
+      r.viscosity.assign(at(law.families * (pairs + singles)), state);
       const KernelBlock block{nodes, 6,       t.data(), r.viscosity.data(), r.viscosity.data(),
                               pairs, singles, r.force};
       r.report = forces(block, law, x, 1e5);

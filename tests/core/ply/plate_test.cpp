@@ -2,6 +2,7 @@
 // Plates with small deflections against closed forms, on every kind of mesh: twisted by forces at
 // corners, simply supported and clamped under a uniform load, strips, and what a constant moment
 // leaves on inner nodes.
+#include "support/bending_laws.hpp"
 #include "support/scene_checks.hpp"
 #include "support/static_plate.hpp"
 
@@ -15,9 +16,9 @@ constexpr double side = 60.0;     // mm
 constexpr double pressure = 1e-6; // N/mm^2
 
 BendingLaw weave(double warp, double weft, double twist) {
-  BendingLaw law;
-  law.warp.stiffness = warp; // N mm
-  law.weft.stiffness = weft;
+  BendingLaw law = weave_bending();
+  law.families[0].law.stiffness = warp; // N mm
+  law.families[1].law.stiffness = weft;
   law.twist = twist;
   return law;
 }
@@ -146,8 +147,8 @@ double navier(const BendingLaw& law, double width) {
       const double a = m * std::numbers::pi / side, b = n * std::numbers::pi / width;
       const double sign = (m + n) % 4 == 2 ? 1.0 : -1.0; // sin(m pi/2) sin(n pi/2)
       sum += sign * 16.0 * pressure / (std::numbers::pi * std::numbers::pi * m * n) /
-             (law.warp.stiffness * std::pow(a, 4) + law.weft.stiffness * std::pow(b, 4) +
-              cross * a * a * b * b);
+             (law.families[0].law.stiffness * std::pow(a, 4) +
+              law.families[1].law.stiffness * std::pow(b, 4) + cross * a * a * b * b);
     }
   return sum;
 }

@@ -60,7 +60,7 @@ TEST(PlyPlausibility, NothingPressedIsNothing) {
   EXPECT_EQ(told.pressed->largest, 0.0);
   EXPECT_EQ(told.pressed->share_above_2, 0.0);
   EXPECT_EQ(told.pressed->excess_mm, 0.0);
-  EXPECT_FALSE(report_ply(sheet(5, 5, 10.0, 0.0, sheets::flat), {.woven = false}, {}).pressed);
+  EXPECT_FALSE(report_ply(sheet(5, 5, 10.0, 0.0, sheets::flat), {.has_yarns = false}, {}).pressed);
 }
 
 TEST(PlyPlausibility, NumbersThatAreNotFiniteAreNotLost) {
@@ -110,7 +110,8 @@ TEST(Doubtful, IsARunThatPressesWovenYarnsByMoreThanFivePercent) {
 TEST(Doubtful, IsNotARunThatPressesThemByLess) {
   Case data = pushed_together(2.0);
   data.solver.duration = 0.1; // slow enough for its energy balance
-  data.fabrics[0].warp.compression = data.fabrics[0].weft.compression = 100.0; // N
+  data.fabrics[0].families[0].tension.compression =
+      data.fabrics[0].families[1].tension.compression = 100.0; // N
   const RunResult run = run_case(data, 1, {});
   EXPECT_EQ(run.summary.status, "done") << run.summary.message;
   EXPECT_LT(run.summary.plies.at(0).pressed->excess_mm, 1.0);
@@ -120,9 +121,8 @@ TEST(Doubtful, IsNotARunThatPressesThemByLess) {
 TEST(Doubtful, IsNotASheetWithoutYarns) {
   Case data = pushed_together(12.0);
   Fabric& film = data.fabrics[0];
-  film.warp = film.weft = TensionLaw{};
-  film.shear = ShearLaw{};
-  film.warp_density = film.weft_density = 0.0;
+  film.families.clear();
+  film.crossings.clear();
   film.sheet = IsotropicLaw{10.0, 0.3}; // N/mm
   const RunResult run = run_case(data, 1, {});
   EXPECT_EQ(run.summary.status, "done") << run.summary.message;

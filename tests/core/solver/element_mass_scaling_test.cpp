@@ -42,10 +42,12 @@ BlankMesh graded_mesh(int parts = 4) {
 /// tension and compression are as stiff.
 Case plies(double share) {
   Case data = stack_of({0.0, 0.8}, rectangle(50.0, 50.0, 5.0));
-  for (TensionLaw* yarn : {&data.fabrics[0].warp, &data.fabrics[0].weft})
+  for (TensionLaw* yarn :
+       {&data.fabrics[0].families[0].tension, &data.fabrics[0].families[1].tension})
     yarn->compression = 0.01 * yarn->stiffness;
-  data.fabrics[0].bending.warp.stiffness = data.fabrics[0].bending.weft.stiffness = 2.0; // N mm
-  data.fabrics[0].bending.twist = 2.0;
+  data.fabrics[0].families[0].bending.stiffness = data.fabrics[0].families[1].bending.stiffness =
+      2.0; // N mm
+  data.fabrics[0].twist = 2.0;
   data.solver.fibre_softening = 100.0;
   data.solver.step_factor = 0.9;
   data.solver.duration = 0.01;

@@ -216,9 +216,9 @@ TEST(PressureForces, SayWhatTheyAreBeforeARun) {
 TEST(PressureForces, MoveAPlyThatNothingElseWould) {
   Case data = pressed(MeshKind::diagonal);
   data.plies[1].z = 5000.0; // far from the other, which a grip draws
-  Boundary grip;
-  grip.ply = 0, grip.place = {Vec2(-20.0, -15.0), Vec2(-20.0, 15.0)}, grip.stroke = 1.0;
-  data.boundaries = {grip};
+  Grip grip;
+  grip.place = {false, {Vec2(-20.0, -15.0), Vec2(-20.0, 15.0)}}, grip.stroke = 1.0;
+  data.boundaries = {{"grip", 0, grip}};
   data.loads[0].pressure = 1e-6;
   Scene s = make_scene(data);
   EXPECT_FALSE(s.plies[1].left_alone);

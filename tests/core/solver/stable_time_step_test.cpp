@@ -168,9 +168,9 @@ TEST(Step, OfAPressedStackIsLongerThanItsPartsSayAndStable) {
 /// A law of this stiffness in tension over that in compression.
 double factor_of_kink(double tension, double compression) {
   Membrane m;
-  m.yarn = {TensionLaw{}, TensionLaw{}};
-  m.yarn[0].stiffness = m.yarn[1].stiffness = tension;
-  m.yarn[1].compression = compression;
+  m.families.resize(2);
+  m.families[0].yarn.stiffness = m.families[1].yarn.stiffness = tension;
+  m.families[1].yarn.compression = compression;
   return kink_factor(m);
 }
 

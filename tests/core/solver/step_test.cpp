@@ -25,12 +25,12 @@ Case free_ply(double angle, double step_factor = 0.9) {
 Case bending_ply(double angle, double step_factor = 0.9) {
   Case data = free_ply(angle, step_factor);
   Fabric& fabric = data.fabrics[0];
-  fabric.bending.warp.stiffness = 20.0;
-  fabric.bending.weft.curvature = {0.0, 0.02, 0.1};
-  fabric.bending.weft.moment = {0.0, 0.2, 0.6};
-  fabric.bending.twist = 14.0;
-  fabric.warp.compression = 0.01 * fabric.warp.stiffness;
-  fabric.weft.compression = 0.01 * fabric.weft.stiffness;
+  fabric.families[0].bending.stiffness = 20.0;
+  fabric.families[1].bending.curvature = {0.0, 0.02, 0.1};
+  fabric.families[1].bending.moment = {0.0, 0.2, 0.6};
+  fabric.twist = 14.0;
+  fabric.families[0].tension.compression = 0.01 * fabric.families[0].tension.stiffness;
+  fabric.families[1].tension.compression = 0.01 * fabric.families[1].tension.stiffness;
   return data;
 }
 
@@ -78,13 +78,13 @@ double fly(const Case& data) {
   const MembraneEnergy m = membrane_energy(ply.membrane, ply.x);
   EXPECT_NEAR(e.fibre, m.fibre, 1e-11 * (m.fibre + m.shear));
   EXPECT_NEAR(e.shear, m.shear, 1e-11 * m.shear);
-  if (data.fabrics[0].warp.compression > 0.0) {
+  if (data.fabrics[0].families[0].tension.compression > 0.0) {
     EXPECT_GT(e.fibre, 0.0);
   }
   EXPECT_GT(e.damping, 0.0);
   EXPECT_GT(e.shear, 0.0);
   EXPECT_EQ(e.external, 0.0);
-  EXPECT_EQ(e.bending > 0.0, data.fabrics[0].bending.any());
+  EXPECT_EQ(e.bending > 0.0, bending_law(data.fabrics[0]).any());
   return (e.kinetic + e.fibre + e.shear + e.bending + e.damping) / kinetic - 1.0;
 }
 
@@ -117,9 +117,10 @@ TEST(Step, KnowsOfBendingAndOnlyWhereAFabricHasIt) {
 TEST(Step, IsStableWhereBendingSetsIt) {
   Case data = bending_ply(0.4);
   data.solver.fibre_softening = 1000.0;
-  for (TensionLaw* yarn : {&data.fabrics[0].warp, &data.fabrics[0].weft})
-    yarn->compression = 0.001 * yarn->stiffness;   // or they would be softened less
-  data.fabrics[0].bending.warp.stiffness = 5000.0; // N mm
+  for (TensionLaw* yarn :
+       {&data.fabrics[0].families[0].tension, &data.fabrics[0].families[1].tension})
+    yarn->compression = 0.001 * yarn->stiffness;          // or they would be softened less
+  data.fabrics[0].families[0].bending.stiffness = 5000.0; // N mm
   const Scene s = make_scene(data);
   ASSERT_GT(s.plies[0].bending->omega2,
             2.0 * eigenvalue_bound(s.plies[0].membrane, s.plies[0].x).omega2);

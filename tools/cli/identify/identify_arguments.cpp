@@ -110,10 +110,13 @@ std::optional<ShearTest> test_of(const std::string& name, const SpecimenArgument
 FabricReading fabric_of(const std::string& file, bool for_shear, Diagnostics& diagnostics) {
   FabricReading reading = read_fabric_file(file, true);
   diagnostics.errors.insert(diagnostics.errors.end(), reading.errors.begin(), reading.errors.end());
-  if (reading.value && for_shear &&
-      std::abs(reading.value->fibre_angle - 0.5 * std::numbers::pi) > 1e-6)
-    diagnostics.error({file, 1, 1}, "fibre_angle",
-                      fmt::format("{:g}", reading.value->fibre_angle / degree),
+  if (!reading.value) return reading;
+  const double between = material_axes(*reading.value).between();
+  if (!is_weave(*reading.value))
+    diagnostics.error({file, 1, 1}, "law", "", "must be woven: the tests are of warp and weft",
+                      "write the laws of other fabrics in by hand");
+  else if (for_shear && std::abs(between - 0.5 * std::numbers::pi) > 1e-6)
+    diagnostics.error({file, 1, 1}, "fibre_angle", fmt::format("{:g}", between / degree),
                       "must be 90 degrees: the theory of the shear tests is for such fabrics",
                       "take the law from a test of your own evaluation and write it in by hand");
   return reading;

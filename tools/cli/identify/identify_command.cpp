@@ -70,9 +70,9 @@ std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fa
   std::vector<std::string> comment{
       fmt::format("Identified by plyform {} from {}:", version(), files_of(a)),
       test_words(a) +
-          (is_shear_test(a.test)
-               ? fmt::format(", {:g} x {:g} yarns/mm", fabric.warp_density, fabric.weft_density)
-               : "") +
+          (is_shear_test(a.test) ? fmt::format(", {:g} x {:g} yarns/mm", fabric.families[0].density,
+                                               fabric.families[1].density)
+                                 : "") +
           ";"};
   for (const std::string& figure : result.figures)
     comment.push_back(figure + (&figure == &result.figures.back() ? "." : ";"));

@@ -34,7 +34,7 @@ TEST(Loads, KeepTheirPliesWhenOthersAreTakenOut) {
 
 TEST(Loads, AreNotWhatErrorsWereMeasuredFor) {
   Case read = good_case(data_folder / "good" / "loads.toml");
-  read.boundaries[1].stroke = 1.0;
+  read.boundaries[1].as<Grip>().stroke = 1.0;
   EXPECT_EQ(not_measured(read), "not measured: a pressure acts on ply ply");
   read.loads.clear();
   EXPECT_EQ(not_measured(read), "");

@@ -96,14 +96,14 @@ TEST(FabricWrite, PutsTheLawInAndKeepsEverythingElse) {
   const Folder folder;
   for (const char* spelling : spellings) {
     const Fabric fabric = in_a_case(folder, with_law(spelling, polynomial));
-    EXPECT_EQ(fabric.shear.k, (std::vector<double>{0.5, 0.25})) << spelling;
-    EXPECT_TRUE(fabric.shear.angle.empty());
+    EXPECT_EQ(fabric.crossings[0].shear.k, (std::vector<double>{0.5, 0.25})) << spelling;
+    EXPECT_TRUE(fabric.crossings[0].shear.angle.empty());
     EXPECT_EQ(fabric.name, "a \"glass\" weave");
     EXPECT_DOUBLE_EQ(fabric.surface_density, 600e-12);
     EXPECT_EQ(fabric.thickness, 0.6);
-    EXPECT_EQ(fabric.warp_density, 0.25);
-    EXPECT_EQ(fabric.warp.stiffness, 46000.0);
-    EXPECT_EQ(fabric.weft.tension, (std::vector<double>{0.0, 480.0}));
+    EXPECT_EQ(fabric.families[0].density, 0.25);
+    EXPECT_EQ(fabric.families[0].tension.stiffness, 46000.0);
+    EXPECT_EQ(fabric.families[1].tension.tension, (std::vector<double>{0.0, 480.0}));
   }
 }
 
@@ -114,10 +114,10 @@ TEST(FabricWrite, ReplacesAStiffnessByATableAndBack) {
   for (const char* spelling : spellings) {
     const std::string text = with_law(with_law(with_law(spelling, polynomial), table), stiffness);
     const Fabric fabric = in_a_case(folder, text);
-    EXPECT_EQ(fabric.warp.tension, (std::vector<double>{0.0, 900.0})) << text;
-    EXPECT_EQ(fabric.weft.stiffness, 7.5);
-    EXPECT_TRUE(fabric.weft.strain.empty());
-    EXPECT_EQ(fabric.warp_density, 0.25);
+    EXPECT_EQ(fabric.families[0].tension.tension, (std::vector<double>{0.0, 900.0})) << text;
+    EXPECT_EQ(fabric.families[1].tension.stiffness, 7.5);
+    EXPECT_TRUE(fabric.families[1].tension.strain.empty());
+    EXPECT_EQ(fabric.families[0].density, 0.25);
   }
 }
 
@@ -139,7 +139,7 @@ TEST(FabricFile, ReadsAFabricOutsideACase) {
   const Folder folder;
   const FabricReading reading = read_fabric_file(folder.write("a.toml", spellings[0]), false);
   ASSERT_TRUE(reading.value) << texts(reading.errors);
-  EXPECT_EQ(reading.value->shear.k, (std::vector<double>{1.0, 2.0, 3.0}));
+  EXPECT_EQ(reading.value->crossings[0].shear.k, (std::vector<double>{1.0, 2.0, 3.0}));
   EXPECT_TRUE(reading.missing.empty());
   EXPECT_EQ(reading.text, spellings[0]);
 }
@@ -152,9 +152,9 @@ TEST(FabricFile, LetsLawsMissWhereTheyMay) {
   const FabricReading reading = read_fabric_file(file, true);
   ASSERT_TRUE(reading.value) << texts(reading.errors);
   EXPECT_EQ(reading.missing, (std::vector<std::string>{"weft", "shear"}));
-  EXPECT_EQ(reading.value->weft.stiffness, 0.0);
-  EXPECT_EQ(reading.value->warp.stiffness, 3.0);
-  EXPECT_TRUE(reading.value->shear.k.empty());
+  EXPECT_EQ(reading.value->families[1].tension.stiffness, 0.0);
+  EXPECT_EQ(reading.value->families[0].tension.stiffness, 3.0);
+  EXPECT_TRUE(reading.value->crossings[0].shear.k.empty());
   EXPECT_EQ(reading.value->name, "a");
   const FabricReading whole = read_fabric_file(file, false);
   EXPECT_FALSE(whole.value);
@@ -200,10 +200,10 @@ stiffness = 48000.0
 polynomial = [1.0]
 )",
                                                    polynomial));
-  EXPECT_EQ(fabric.shear.k, (std::vector<double>{0.5, 0.25}));
-  EXPECT_EQ(fabric.warp.compression, 460.0);
-  EXPECT_EQ(fabric.warp.buckling_force, 5.0);
-  EXPECT_EQ(fabric.bending.in_plane[0], 8.0);
+  EXPECT_EQ(fabric.crossings[0].shear.k, (std::vector<double>{0.5, 0.25}));
+  EXPECT_EQ(fabric.families[0].tension.compression, 460.0);
+  EXPECT_EQ(fabric.families[0].tension.buckling_force, 5.0);
+  EXPECT_EQ(fabric.families[0].in_plane_bending, 8.0);
   EXPECT_TRUE(fabric.locking_angle);
 }
 
@@ -227,11 +227,11 @@ polynomial = [1.0]
   const std::string bent = with_law(base, {"warp", "bending_stiffness", "1.5", {"measured"}});
   const Fabric fabric =
       in_a_case(folder, with_law(bent, {"warp", "buckling_force", "", {"not written"}}));
-  EXPECT_EQ(fabric.bending.warp.stiffness, 1.5);
-  EXPECT_TRUE(fabric.bending.warp.curvature.empty());
-  EXPECT_FALSE(fabric.warp.buckles());
-  EXPECT_EQ(fabric.warp.stiffness, 46000.0);
-  EXPECT_EQ(fabric.warp.compression, 460.0);
+  EXPECT_EQ(fabric.families[0].bending.stiffness, 1.5);
+  EXPECT_TRUE(fabric.families[0].bending.curvature.empty());
+  EXPECT_FALSE(fabric.families[0].tension.buckles());
+  EXPECT_EQ(fabric.families[0].tension.stiffness, 46000.0);
+  EXPECT_EQ(fabric.families[0].tension.compression, 460.0);
 }
 
 } // namespace

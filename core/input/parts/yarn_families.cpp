@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/input/parts/yarn_families.hpp"
+
+#include "base/text.hpp"
+#include "core/input/keys/key_member.hpp"
+#include "core/input/keys/sheet_laws.hpp"
+#include "core/model/fabric_estimates.hpp"
+#include "core/results/ply_frame.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+#include <numbers>
+
+namespace plyform {
+
+namespace {
+
+/// Checks the table of a law: it must start at the origin with increasing first column; the second
+/// column must not decrease if `rising`, its name in the message, is not empty.
+void check_law(const TableView& law, const std::string& key, const std::vector<Vec2>& points,
+               const std::string& rising, Diagnostics& diagnostics) {
+  const TomlNode* table = given(law, key);
+  if (!table || points.empty()) return;
+  const auto fail = [&](std::size_t row, const std::string& rule, const std::string& remedy) {
+    const TomlNode& entry = table->children[row];
+    diagnostics.error(entry.at, fmt::format("{}.{}", item_of(law, key), row), entry.source_text,
+                      rule, remedy);
+  };
+  if (points[0] != Vec2::Zero())
+    return fail(0, "must be [0, 0], where the law starts", "put [0.0, 0.0] first");
+  for (std::size_t i = 1; i < points.size(); ++i) {
+    if (!(points[i].x() > points[i - 1].x()))
+      return fail(i, "must have a first number above that of the row before",
+                  "put the rows in ascending order, each value once");
+    if (!rising.empty() && !(points[i].y() >= points[i - 1].y()))
+      return fail(i, fmt::format("must not have less {} than the row before", rising),
+                  "take out what falls: a yarn that softens is not modelled");
+  }
+}
+
+void split(const std::vector<Vec2>& points, std::vector<double>& first,
+           std::vector<double>& second) {
+  for (const Vec2& point : points) {
+    first.push_back(point.x());
+    second.push_back(point.y());
+  }
+}
+
+/// Whether the file gives a compression stiffness of 0. A missing one is estimated if it is needed
+/// (core/model/fabric_estimates.hpp).
+bool tension_only(const TableView& yarn, const TensionLaw& law) {
+  return given(yarn, "compression_stiffness") && law.compression == 0.0;
+}
+
+TensionLaw read_tension(const TableView& yarn, Diagnostics& diagnostics) {
+  TensionLaw law;
+  read_members(yarn, law);
+  const std::vector<Vec2> points = pairs(yarn, "table");
+  check_law(yarn, "table", points, "tension", diagnostics);
+  split(points, law.strain, law.tension);
+  if (const double most = law.largest_slope(); law.compression > most)
+    value_error(yarn, "compression_stiffness",
+                fmt::format("must be at most the largest stiffness in tension, {:g}", most),
+                fmt::format("give {:g}, a hundredth of that, or so", usual_compression(law)),
+                diagnostics);
+  if (std::isfinite(law.buckling_force) && tension_only(yarn, law))
+    value_error(yarn, "buckling_force",
+                "needs a compression_stiffness of the same yarns above 0: yarns that carry tension "
+                "only have no force to buckle at",
+                fmt::format("give compression_stiffness = {:g}, 0.01 of the largest stiffness in "
+                            "tension, or take buckling_force out",
+                            usual_compression(law)),
+                diagnostics);
+  return law;
+}
+
+/// Reads the bending law of yarns whose law of tension is `tension`: bending needs yarns that bear
+/// compression, as a moment shortens yarns that do not.
+MomentLaw read_moments(const TableView& yarn, const TensionLaw& tension, Diagnostics& diagnostics) {
+  MomentLaw law;
+  read_members(yarn, law);
+  const std::vector<Vec2> points = pairs(yarn, "bending_table");
+  check_law(yarn, "bending_table", points, "moment", diagnostics);
+  split(points, law.curvature, law.moment);
+  if (law.largest_slope() > 0.0 && tension_only(yarn, tension))
+    value_error(yarn, points.empty() ? "bending_stiffness" : "bending_table",
+                "needs a compression_stiffness of the same yarns, or they shorten instead of "
+                "bending",
+                fmt::format("give compression_stiffness = {:g}, 0.01 of the largest stiffness in "
+                            "tension, or so",
+                            usual_compression(tension)),
+                diagnostics);
+  return law;
+}
+
+YarnSources sources_of(const TableView& yarn) {
+  const auto source = [](bool is_given) {
+    return is_given ? ValueSource::given : ValueSource::missing;
+  };
+  return {source(given(yarn, "compression_stiffness")),
+          source(given(yarn, "bending_stiffness") || given(yarn, "bending_table")),
+          source(given(yarn, "in_plane_bending_stiffness"))};
+}
+
+} // namespace
+
+ShearLaw read_shear(const TableView& shear, Diagnostics& diagnostics) {
+  ShearLaw law;
+  const std::vector<Vec2> points = pairs(shear, "table");
+  check_law(shear, "table", points, "", diagnostics);
+  split(points, law.angle, law.torque);
+  law.k = numbers(shear, "polynomial");
+  if (!law.k.empty() && law.k[0] < 0.0)
+    value_error(shear, "polynomial", "must start with a k1 of at least 0",
+                "give k1, k3, k5 ...; a cell with k1 < 0 shears by itself", diagnostics);
+  return law;
+}
+
+YarnFamily read_family(const TableView& section, Diagnostics& diagnostics) {
+  YarnFamily family;
+  read_members(section, family);
+  family.tension = read_tension(section, diagnostics);
+  family.bending = read_moments(section, family.tension, diagnostics);
+  family.sources = sources_of(section);
+  return family;
+}
+
+namespace {
+
+/// The index of the family that a crossing names; nothing if there is none, which is reported.
+std::optional<std::size_t> family_named(const TableView& crossing, std::size_t place,
+                                        const Fabric& fabric, Diagnostics& diagnostics) {
+  const TomlNode* names = given(crossing, "families");
+  if (!names) return std::nullopt;
+  const TomlNode& name = names->children[place];
+  std::vector<std::string> known;
+  for (std::size_t a = 0; a < fabric.families.size(); ++a) {
+    if (fabric.families[a].name == name.text) return a;
+    known.push_back(fabric.families[a].name);
+  }
+  diagnostics.error(name.at, fmt::format("{}.{}", item_of(crossing, "families"), place),
+                    name.source_text, "names no family of this fabric",
+                    "give one of " + joined(known));
+  return std::nullopt;
+}
+
+Crossing read_crossing(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
+  Crossing crossing;
+  crossing.shear = read_shear(section, diagnostics);
+  const std::optional<std::size_t> first = family_named(section, 0, fabric, diagnostics),
+                                   second = family_named(section, 1, fabric, diagnostics);
+  if (!first || !second) return crossing;
+  crossing.first = *first, crossing.second = *second;
+  constexpr double least = 1e-3; // sine of the angle between them
+  if (!(std::sin(crossing_angle(fabric, crossing)) > least))
+    value_error(section, "families", "must be two families that are not parallel",
+                "give families at an angle to each other", diagnostics);
+  const auto same = [&](const Crossing& other) {
+    return std::minmax(other.first, other.second) == std::minmax(crossing.first, crossing.second);
+  };
+  if (std::any_of(fabric.crossings.begin(), fabric.crossings.end(), same))
+    value_error(section, "families", "cross already in a [[crossing]] before",
+                "give each two families one crossing", diagnostics);
+  return crossing;
+}
+
+/// Reports names that stand twice, or that give a column which there is already.
+void check_names(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
+  const std::vector<TableView> tables = subsections(section, "family");
+  for (std::size_t a = 0; a < tables.size(); ++a)
+    for (std::size_t b = 0; b < a; ++b)
+      if (fabric.families[a].name == fabric.families[b].name)
+        value_error(tables[a], "name", "names two families of this fabric",
+                    "give each family a name of its own", diagnostics);
+  PlyFrame ply;
+  for (std::size_t a = 0; a < tables.size(); ++a) {
+    ply.families.push_back({fabric.families[a].name, 0.0, {}, {}, {}});
+    const std::string column = name_used_twice(ply);
+    if (column.empty() || !given(tables[a], "name")) continue;
+    return value_error(tables[a], "name",
+                       fmt::format("would give results two columns of one name, {}", column),
+                       "give the family another name", diagnostics);
+  }
+}
+
+/// Angles (rad) from the first family's on, less than half a turn: a yarn has no sense.
+void order_angles(Fabric& fabric) {
+  for (YarnFamily& family : fabric.families) {
+    const double from = family.angle - fabric.families[0].angle;
+    family.angle -= std::numbers::pi * std::floor(from / std::numbers::pi);
+  }
+}
+
+} // namespace
+
+void read_families(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
+  for (const TableView& family : subsections(section, "family"))
+    fabric.families.push_back(read_family(family, diagnostics));
+  order_angles(fabric);
+  check_names(section, fabric, diagnostics);
+  for (const TableView& crossing : subsections(section, "crossing"))
+    fabric.crossings.push_back(read_crossing(crossing, fabric, diagnostics));
+  read_sheet_beside(subsection(section, "sheet"), fabric);
+}
+
+} // namespace plyform

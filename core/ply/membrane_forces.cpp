@@ -1,0 +1,260 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// (E), (N), (P) and (Q) of core/ply/membrane.hpp, one strain group after the other.
+#include "core/mesh/pairs.hpp"
+#include "core/ply/element_limits.hpp"
+#include "core/ply/membrane.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace plyform {
+namespace {
+
+/// A triangle of a group: its axes, yarns and crossings.
+struct TriangleState {
+  AxesState axes;
+  std::array<FamilyState, most_families> yarn;
+  std::array<CrossingState, most_crossings> crossing;
+};
+
+/// The triangles of one group and the mean stretches of the yarns.
+struct GroupState {
+  int begin, size;
+  std::array<TriangleState, most_in_group> triangle;
+  double area = 0.0;
+  std::array<double, most_families> mean{};
+};
+
+/// One number a family, N or mm.
+using OfFamilies = std::array<double, most_families>;
+
+void find_triangle(const Membrane& m, std::span<const Vec3> x, int e, TriangleState& t) {
+  t.axes = axes_state(m, x, e);
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    t.yarn[a] = family_state(t.axes, m.families[a].along);
+  for (std::size_t c = 0; c < m.crossings.size(); ++c) {
+    const MembraneCrossing& of = m.crossings[c];
+    t.crossing[c] = crossing_state(t.yarn[of.first].f, t.yarn[of.second].f, of.omega0);
+  }
+}
+
+GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group) {
+  const auto p = static_cast<std::size_t>(group);
+  GroupState s;
+  s.begin = m.group_begin[p];
+  s.size = m.group_begin[p + 1] - s.begin;
+  for (int i = 0; i < s.size; ++i) {
+    const double area = m.area[s.begin + i];
+    TriangleState& t = s.triangle[i];
+    find_triangle(m, x, s.begin + i, t);
+    s.area += area;
+    for (std::size_t a = 0; a < m.families.size(); ++a)
+      s.mean[a] += area * t.yarn[a].lambda;
+  }
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    s.mean[a] /= s.area;
+  return s;
+}
+
+/// Stabilisation and collapse penalty of (N) for one family, N.
+double side_tension(const SideStiffness& side, double lambda, double mean) {
+  return side.stabilisation * (lambda - mean) -
+         side.collapse_penalty * std::max(0.0, collapse_stretch - lambda);
+}
+
+/// Energy of stabilisation and collapse penalty per yarn length, N.
+double side_energy(const SideStiffness& side, double lambda, double mean) {
+  const double deviation = lambda - mean, folded = std::max(0.0, collapse_stretch - lambda);
+  return 0.5 *
+         (side.stabilisation * deviation * deviation + side.collapse_penalty * folded * folded);
+}
+
+/// g_c of (E) for a triangle of a group.
+double shear_measure(const MembraneCrossing& c, const CrossingState& crossing,
+                     const TriangleState& t, const GroupState& s) {
+  const double d1 = t.yarn[c.first].lambda - s.mean[c.first],
+               d2 = t.yarn[c.second].lambda - s.mean[c.second];
+  return std::sqrt(crossing.gamma * crossing.gamma + deviation_weight * (d1 * d1 + d2 * d2));
+}
+
+/// n_c p of (N) and (P), N/mm, for g_c = `measure`.
+double secant_stiffness(const MembraneCrossing& c, double measure) {
+  return c.cells * c.shear.secant(measure);
+}
+
+/// The sheet's law with k across the first axis.
+SheetResponse sheet_response(const Membrane& m, const AxesState& axes, const Vec3& across) {
+  return std::visit([&](const auto& law) { return law.at(axes.k1(), across); }, *m.fabric.sheet);
+}
+
+/// k across the first axis: that of the second, if they are at right angles.
+Vec3 across_axis(const Membrane& m, const AxesState& axes) {
+  return m.across.x() * axes.k1() + m.across.y() * axes.k2();
+}
+
+/// Adds the sheet's law to (Q).
+void add_sheet(const Membrane& m, const AxesState& axes, double area, ElementForce& q) {
+  if (!m.fabric.sheet) return;
+  const Vec3 k1 = axes.k1(), k2 = across_axis(m, axes);
+  const SheetResponse r = sheet_response(m, axes, k2);
+  const Vec3 q2 = area * (r.s12 * k1 + r.s22 * k2);
+  q.q1 += area * (r.s11 * k1 + r.s12 * k2) + m.across.x() * q2;
+  q.q2 += m.across.y() * q2;
+}
+
+/// (Q) of one triangle. n: tensions (N) of its yarns; secant: n_c p (N/mm) of its crossings.
+ElementForce triangle_force(const Membrane& m, const TriangleState& t, double area,
+                            const OfFamilies& n, const std::array<double, most_crossings>& secant) {
+  std::array<Vec3, most_families> p; // (P)
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    p[a] = area * m.families[a].density * n[a] * t.yarn[a].f;
+  for (std::size_t c = 0; c < m.crossings.size(); ++c) {
+    const auto [first, second] = std::pair(m.crossings[c].first, m.crossings[c].second);
+    const FamilyState &a = t.yarn[first], &b = t.yarn[second];
+    const CrossingState& s = t.crossing[c];
+    const double torque = area * secant[c] * s.gamma / s.sin_omega;
+    p[first] += torque / a.lambda * (b.f - s.cos_omega * a.f);
+    p[second] += torque / b.lambda * (a.f - s.cos_omega * b.f);
+  }
+  ElementForce q{Vec3::Zero(), Vec3::Zero()};
+  for (std::size_t a = 0; a < m.families.size(); ++a) {
+    q.q1 += m.families[a].along.x() * p[a];
+    q.q2 += m.families[a].along.y() * p[a];
+  }
+  add_sheet(m, t.axes, area, q);
+  return q;
+}
+
+/// (Q) of all triangles of a group. n: W_a'(mean eps_a) of (N) with the viscous tension, N.
+void group_forces(const Membrane& m, const GroupState& s, const OfFamilies& n,
+                  std::span<ElementForce> q) {
+  std::array<std::array<double, most_crossings>, most_in_group> secant{};
+  std::array<OfFamilies, most_in_group> held{}; // sum_c n_c p delta_a
+  OfFamilies mean{};
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
+    const TriangleState& t = s.triangle[i];
+    for (std::size_t c = 0; c < m.crossings.size(); ++c) {
+      const MembraneCrossing& of = m.crossings[c];
+      secant[i][c] = secant_stiffness(of, shear_measure(of, t.crossing[c], t, s));
+      for (const std::size_t a : {of.first, of.second})
+        held[i][a] += secant[i][c] * (t.yarn[a].lambda - s.mean[a]);
+    }
+    const double share = m.area[static_cast<std::size_t>(s.begin) + i] / s.area;
+    for (std::size_t a = 0; a < m.families.size(); ++a)
+      mean[a] += share * held[i][a];
+  }
+  for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
+    const TriangleState& t = s.triangle[i];
+    const auto e = static_cast<std::size_t>(s.begin) + i;
+    OfFamilies own{};
+    for (std::size_t a = 0; a < m.families.size(); ++a) {
+      const MembraneFamily& f = m.families[a];
+      own[a] = n[a] + side_tension(f.side, t.yarn[a].lambda, s.mean[a]) +
+               deviation_weight / f.density * (held[i][a] - mean[a]); // t_a - mean t_a of (N)
+    }
+    q[e] = triangle_force(m, t, m.area[e], own, secant[i]);
+  }
+}
+
+} // namespace
+
+GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin,
+                           int end, const LawStates<YarnMemory>& states,
+                           std::span<ElementForce> q) {
+  const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
+  GroupReport report;
+  for (int p = begin; p < end; ++p) {
+    const GroupState s = group_state(m, x, p);
+    OfFamilies n{};
+    for (std::size_t a = 0; a < m.families.size(); ++a) {
+      const MembraneFamily& f = m.families[a];
+      const std::size_t at_state = at(p) * m.families.size() + a;
+      const LawAnswer answer =
+          answer_of(f.law(), m.input(s.mean[a] - 1.0, per_dt), states.begin[at_state].data(),
+                    states.end[at_state].data());
+      n[a] = answer.value;
+      report.lost += s.area * f.density * answer.lost;
+    }
+    group_forces(m, s, n, q);
+    for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i)
+      report.collapsed |= collapsed(s.triangle[i].axes);
+  }
+  return report;
+}
+
+MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
+                               std::span<const YarnMemory> states, double dt) {
+  MembraneEnergy sum;
+  const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
+  std::vector<YarnMemory> start;
+  if (states.empty()) start = memory_at_start(m), states = start;
+  for (int p = 0; p < m.groups(); ++p) {
+    const GroupState s = group_state(m, x, p);
+    for (std::size_t a = 0; a < m.families.size(); ++a) {
+      const MembraneFamily& f = m.families[a];
+      YarnMemory next{}; // of no use: this is no step
+      const LawAnswer answer = answer_of(f.law(), m.input(s.mean[a] - 1.0, per_dt),
+                                         states[at(p) * m.families.size() + a].data(), next.data());
+      sum.fibre += s.area * f.density * answer.stored;
+    }
+    for (int i = 0; i < s.size; ++i) {
+      const TriangleState& t = s.triangle[i];
+      const double area = m.area[s.begin + i];
+      for (std::size_t a = 0; a < m.families.size(); ++a)
+        sum.fibre += area * m.families[a].density *
+                     side_energy(m.families[a].side, t.yarn[a].lambda, s.mean[a]);
+      for (std::size_t c = 0; c < m.crossings.size(); ++c) {
+        const MembraneCrossing& of = m.crossings[c];
+        sum.shear += area * of.cells * of.shear.at(shear_measure(of, t.crossing[c], t, s)).energy;
+      }
+      if (m.fabric.sheet)
+        sum.shear += area * sheet_response(m, t.axes, across_axis(m, t.axes)).energy;
+    }
+  }
+  return sum;
+}
+
+double deviation_stiffness(const MembraneCrossing& c, double gamma) {
+  const double slope = c.cells * c.shear.at(gamma).slope;
+  return deviation_weight * std::max(slope, secant_stiffness(c, std::abs(gamma)));
+}
+
+std::vector<std::vector<double>> yarn_strains(const Membrane& m, std::span<const Vec3> x) {
+  std::vector<std::vector<double>> strains(m.families.size(),
+                                           std::vector<double>(m.triangles.size()));
+  for (int p = 0; p < m.groups(); ++p) {
+    const GroupState s = group_state(m, x, p);
+    for (std::size_t a = 0; a < m.families.size(); ++a)
+      for (int i = 0; i < s.size; ++i)
+        strains[a][at(s.begin + i)] = s.mean[a] - 1.0;
+  }
+  return strains;
+}
+
+std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<const Vec3> x) {
+  std::vector<std::vector<double>> tensions = yarn_strains(m, x);
+  std::vector<std::size_t> paired;
+  for (std::size_t p = 0; p + 1 < m.group_begin.size(); ++p)
+    for (int e = m.group_begin[p]; e < m.group_begin[p + 1]; ++e)
+      if (m.group_begin[p + 1] - m.group_begin[p] > 1) paired.push_back(at(e));
+  const int passes = paired.empty() ? 0 : 2;
+  std::vector<double> at_node(x.size());
+  for (std::size_t a = 0; a < m.families.size(); ++a) {
+    for (double& tension : tensions[a])
+      tension = m.families[a].yarn.at(tension).value;
+    for (int pass = 0; pass < passes; ++pass) {
+      at_node.assign(x.size(), 0.0);
+      for (std::size_t e = 0; e < m.triangles.size(); ++e)
+        for (const int n : m.triangles[e])
+          at_node[at(n)] += m.area[e] / (3.0 * m.node_area[at(n)]) * tensions[a][e];
+      for (const std::size_t e : paired) {
+        tensions[a][e] = 0.0;
+        for (const int n : m.triangles[e])
+          tensions[a][e] += at_node[at(n)] / 3.0;
+      }
+    }
+  }
+  return tensions;
+}
+
+} // namespace plyform

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Laws of yarns and crossings of the kernel of core/ply/membrane_simd.hpp: (N) and the terms of (E)
+// of core/ply/membrane.hpp.
+#pragma once
+
+#include "core/ply/membrane_simd_shape.hpp"
+
+namespace plyform {
+namespace {
+
+/// Number of vectors of triangles that pass through each stage of the computation together, so that
+/// the processor overlaps the latency of their square roots. Even, so that pairs are not separated.
+constexpr int batch = 8;
+
+/// Data that all packs of a block share.
+template <class Of>
+struct SimdBlockWork {
+  const KernelLaw& law;
+  const SimdLaw<Of>& lane;
+  double* force;
+  double per_dt; ///< 1/s, as of membrane_kernel
+  Double4 lost;  ///< twice the work lost
+};
+
+/// Compressive strain beyond the buckling strain; 0 for yarns that have not buckled.
+PLYFORM_INLINE Doubles buckled_by(const KernelYarns& yarns, Doubles strain) {
+  return larger(all(0.0), -yarns.buckling_strain - strain);
+}
+
+/// d_a W_a', N/mm, of a law that the kernel knows. `general`: it does not know all laws of the
+/// fabric, or its yarns can buckle.
+template <class Of, bool general>
+PLYFORM_INLINE Doubles yarn_tension(const SimdBlockWork<Of>& w, int family, Doubles strain) {
+  const SimdYarns& yarns = w.lane.yarns[family];
+  const KernelYarns& law = w.law.yarns[family];
+  const Doubles n = strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
+  return general && law.buckles ? n + law.buckling_drop * buckled_by(law, strain) : n;
+}
+
+/// n_c p, N/mm, for g^2.
+template <class Of, bool general>
+PLYFORM_INLINE Doubles simd_secant(const SimdBlockWork<Of>& w, int crossing, Doubles measure2) {
+  const int terms = w.law.crossing[crossing].shear_terms;
+  if (!general || terms > 0) {
+    const Doubles* k = w.lane.crossing[crossing].shear;
+    Doubles p = k[2];
+    if (terms > 3) {
+      p = k[terms - 1];
+      for (int i = terms - 2; i >= 2; --i)
+        p = p * measure2 + k[i];
+    }
+    return (p * measure2 + k[1]) * measure2 + k[0];
+  }
+  return by_quads(measure2,
+                  [&](const double* at, double* p) { w.law.secant(w.law, crossing, at, p); });
+}
+
+/// What the yarns of some packs remember at the begin of the step and at its end: their first
+/// family, behind which the others stand.
+struct StatesOfQuads {
+  OfQuads<const SimdYarnStates> begin;
+  OfQuads<SimdYarnStates> end;
+};
+
+/// Row `row` of what a family remembers at the begin of the step.
+PLYFORM_INLINE Doubles remembered(const StatesOfQuads& states, int family, int row) {
+  return numbers([&](int q) { return states.begin.of[q][family].of[row]; });
+}
+
+/// Tensions of yarns of linear laws, with viscosity while taut. n: d_a N, N/mm. Adds twice the
+/// work lost (N mm) to w.lost.
+template <class Of, bool general>
+PLYFORM_INLINE void viscous_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v,
+                                     const Doubles* mean, Doubles area, Doubles* n) {
+  Doubles now[Of::most_families], work = all(0.0);
+  for_families<Of>(w.law.families, [&](auto a) {
+    n[a] = yarn_tension<Of, general>(w, a, mean[a] - 1.0);
+    const Doubles change = mean[a] - remembered(v, a, 0);
+    now[a] = n[a] > 0.0 ? w.lane.yarns[a].viscosity * change : all(0.0);
+    work += (now[a] + remembered(v, a, 1)) * change;
+  });
+  const Doubles lost = area * work;
+  for (int q = 0; q < v.end.count; ++q) {
+    w.lost += quad(lost, q);
+    for_families<Of>(w.law.families, [&](auto a) {
+      SimdYarnStates& end = v.end.of[q][a];
+      store(end.of[0], quad(mean[a], q));
+      store(end.of[1], quad(now[a], q));
+    });
+  }
+  for_families<Of>(w.law.families, [&](auto a) { n[a] += now[a]; });
+}
+
+/// Answers of a family's law for some packs, whatever it is; `values`: which of them is returned.
+/// end: where it writes what it remembers.
+template <class Of, class End>
+PLYFORM_INLINE Doubles by_law(const SimdBlockWork<Of>& w, int family, Doubles strain,
+                              const OfQuads<const SimdYarnStates>& begin, const End& end,
+                              double (KernelAnswers::*values)[simd_width], Doubles* lost) {
+  alignas(sizeof(Doubles)) double strains[lanes], value[lanes] = {}, losses[lanes] = {};
+  store_lanes(strains, strain);
+  for (int q = 0; q < begin.count; ++q) {
+    KernelAnswers answers;
+    w.law.evaluate(w.law, family, w.per_dt, strains + simd_width * q, begin.of[q][family].of,
+                   end(q), answers);
+    for (int i = 0; i < simd_width; ++i) {
+      value[simd_width * q + i] = (answers.*values)[i];
+      losses[simd_width * q + i] = answers.lost[i];
+    }
+  }
+  if (lost) *lost = numbers([&](int q) { return losses + simd_width * q; });
+  return numbers([&](int q) { return value + simd_width * q; });
+}
+
+/// The tension of a family by its law, d_a N, N/mm. Adds what it loses.
+template <class Of>
+PLYFORM_INLINE Doubles tension_by_law(SimdBlockWork<Of>& w, int family, const StatesOfQuads& v,
+                                      Doubles mean, Doubles area) {
+  Doubles lost;
+  const Doubles n = by_law(
+      w, family, mean - 1.0, v.begin, [&](int q) { return v.end.of[q][family].of; },
+      &KernelAnswers::value, &lost);
+  for (int q = 0; q < v.end.count; ++q)
+    w.lost += 2.0 * quad(area * lost, q);
+  return n;
+}
+
+/// Tensions of all families at their mean stretches, d_a N, N/mm, without what holds single
+/// triangles.
+template <class Of, bool general>
+PLYFORM_INLINE void tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v, const Doubles* mean,
+                             Doubles area, Doubles* n) {
+  if (!general || !w.law.by_law) return viscous_tensions<Of, general>(w, v, mean, area, n);
+  for_families<Of>(w.law.families, [&](auto a) { n[a] = tension_by_law(w, a, v, mean[a], area); });
+}
+
+/// d_a W_a, N/mm, what a family stores. begin: what it remembers.
+template <class Of, bool general>
+PLYFORM_INLINE Doubles yarn_energy(const SimdBlockWork<Of>& w, int family, Doubles strain,
+                                   const OfQuads<const SimdYarnStates>& begin) {
+  const SimdYarns& yarns = w.lane.yarns[family];
+  const KernelYarns& law = w.law.yarns[family];
+  if (general && w.law.by_law) {
+    SimdYarnStates end; // of no use: this is no step
+    return by_law(
+        w, family, strain, begin, [&](int) { return end.of; }, &KernelAnswers::stored, nullptr);
+  }
+  const Doubles e = 0.5 * strain * strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
+  if (!general || !law.buckles) return e;
+  const Doubles beyond = buckled_by(law, strain);
+  return e - 0.5 * law.buckling_drop * beyond * beyond;
+}
+
+/// n_c Ws, N/mm, of g^2.
+template <class Of, bool general>
+PLYFORM_INLINE Doubles shear_energy(const SimdBlockWork<Of>& w, int crossing, Doubles measure2) {
+  const int terms = w.law.crossing[crossing].shear_terms;
+  if (!general || terms > 0) {
+    Doubles energy = all(0.0);
+    for (int i = terms - 1; i >= 0; --i)
+      energy = (energy + w.lane.crossing[crossing].shear[i] * (0.5 / (i + 1))) * measure2;
+    return energy;
+  }
+  return by_quads(measure2,
+                  [&](const double* at, double* e) { w.law.shear_energy(w.law, crossing, at, e); });
+}
+
+/// Stabilisation and collapse penalty of (E) times d_a, N/mm.
+PLYFORM_INLINE Doubles side_energy(const SimdYarns& yarns, Doubles lambda, Doubles delta) {
+  const Doubles folded = larger(all(0.0), collapse_stretch - lambda);
+  return 0.5 * (yarns.stabilisation * delta * delta + yarns.collapse_penalty * folded * folded);
+}
+
+} // namespace
+} // namespace plyform

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Fabrics of one family and of three: what theory says of them in the plane, and whole scenes.
+#include "core/run/output_state.hpp"
+#include "core/run/run.hpp"
+#include "support/kill_checks.hpp"
+#include "support/membrane_checks.hpp"
+#include "support/scene_checks.hpp"
+#include "support/thread_checks.hpp"
+
+#include <gtest/gtest.h>
+
+namespace plyform::families_test {
+namespace {
+
+constexpr double width = 40.0; // mm, of the square that is strained
+
+/// Energy per area (N/mm) of a square that is stretched by `along` in the direction at `angle`
+/// (rad) and by `across` square to it.
+double energy_of_strain(const Fabric& fabric, double angle, double along, double across) {
+  const BlankMesh mesh = mesh_blank(rectangle(width, width, 5.0), 0.0, 0.5 * std::numbers::pi);
+  const Membrane m = make_membrane(mesh, fabric, 0.0, ElementKind::averaged);
+  const Vec2 e(std::cos(angle), std::sin(angle)), n(-e.y(), e.x());
+  std::vector<Vec3> x;
+  for (const Vec2& p : mesh.x) {
+    const Vec2 q = (1.0 + along) * p.dot(e) * e + (1.0 + across) * p.dot(n) * n;
+    x.emplace_back(q.x(), q.y(), 0.0);
+  }
+  const MembraneEnergy energy = membrane_energy(m, x);
+  return (energy.fibre + energy.shear) / (width * width);
+}
+
+/// Three equal families at 60 degrees are isotropic for small strains, as any hexagonal net is:
+/// E = d C per width with Poisson's ratio 1/3, so 9/16 d C eps^2 for a strain in one
+/// direction, whichever it is.
+TEST(Families, ThreeAtSixtyDegreesAreIsotropic) {
+  Fabric f;
+  for (int a = 0; a < 3; ++a) {
+    YarnFamily& family = f.families.emplace_back();
+    family.angle = a * std::numbers::pi / 3.0;
+    family.density = 0.25;
+    family.tension.stiffness = family.tension.compression = 40000.0;
+  }
+  f.surface_density = 6e-10, f.thickness = 0.6;
+  constexpr double strain = 1e-5, per_width = 0.25 * 40000.0; // N/mm
+  const double expected = 9.0 / 16.0 * per_width * strain * strain;
+  for (const double angle : {0.0, 0.2, 0.7, 1.3, 2.5}) {
+    EXPECT_NEAR(energy_of_strain(f, angle, strain, 0.0), expected, 1e-4 * expected) << angle;
+    // at Poisson's ratio nothing is left but E eps^2 / 2
+    EXPECT_NEAR(energy_of_strain(f, angle, strain, -strain / 3.0),
+                0.5 * per_width * strain * strain, 1e-4 * expected);
+  }
+}
+
+/// Along its one family a tape has the yarns' stiffness and the sheet's, across them the sheet's.
+TEST(Families, OneHasTheSheetAlongAndAcross) {
+  const Fabric f = unidirectional();
+  const IsotropicLaw& sheet = std::get<IsotropicLaw>(*f.sheet);
+  const double angle = f.families[0].angle, strain = 1e-5;
+  const double of_sheet =
+      0.5 * sheet.modulus / (1.0 - sheet.poissons_ratio * sheet.poissons_ratio) * strain * strain;
+  const double of_yarns = 0.5 * 0.5 * 46000.0 * strain * strain;
+  EXPECT_NEAR(energy_of_strain(f, angle, strain, 0.0), of_yarns + of_sheet, 1e-4 * of_yarns);
+  EXPECT_NEAR(energy_of_strain(f, angle, 0.0, strain), of_sheet, 1e-4 * of_sheet);
+}
+
+/// Shear that is shown without a crossing: of a square angle between the fibres and the line across
+/// them; of crossings behind the first columns of their own.
+TEST(Families, ShowTheShearOfWhatCrosses) {
+  Case data = coarse_hemisphere({0.0, 0.3});
+  data.fabrics.push_back(triaxial());
+  data.fabrics[0] = unidirectional();
+  data.fabrics[0].families[0].angle = 0.0;
+  data.plies[1].fabric = 1;
+  Scene s = make_scene(data);
+  for (PlyBody& ply : s.plies)
+    for (Vec3& x : ply.x) // sheared by tan(gamma) = 0.2, seen from x
+      x.x() += 0.2 * x.y();
+  ThreadPool pool(1);
+  const Frame frame = make_frame(s, tool_surfaces(s, pool), {}, pool);
+  EXPECT_NEAR(frame.plies[0].shear_deg[0], std::atan(0.2) * 180.0 / std::numbers::pi, 1e-9);
+  ASSERT_EQ(frame.plies[1].crossings.size(), 2u);
+  EXPECT_EQ(frame.plies[1].crossings[1].suffix, "third_weft");
+  EXPECT_EQ(frame.plies[1].families.size(), 3u);
+  EXPECT_EQ(frame.plies[0].families.size(), 1u);
+}
+
+/// Plies of one family and of three in one stack: energy is closed, bits are the same on any number
+/// of threads, and a run that is killed ends as one that is not.
+TEST(Families, FormInOneStack) {
+  Case data = coarse_hemisphere({0.0, 0.25 * std::numbers::pi});
+  data.fabrics = {unidirectional(), triaxial()};
+  for (Fabric& fabric : data.fabrics)
+    for (YarnFamily& family : fabric.families) {
+      family.tension.compression = 0.01 * family.tension.stiffness;
+      family.bending.stiffness = 2.0, family.in_plane_bending = 4.0;
+    }
+  data.plies[1].fabric = 1;
+  data.tools[0].stroke = 25.0;
+  data.solver.duration = 0.02;
+  const RunResult one = run_case(data, 1, {});
+  ASSERT_TRUE(ended(one.summary.status)) << one.summary.message;
+  EXPECT_LT(std::abs(one.last.energy.balance_error()), 0.01);
+  EXPECT_GT(one.last.energy.fibre, 0.0);
+  EXPECT_GT(one.last.energy.bending, 0.0);
+  expect_same_bits(run_case(data, 2, {}), one);
+  expect_the_same_after_kills(data, 2);
+}
+
+} // namespace
+} // namespace plyform::families_test
