@@ -150,7 +150,7 @@ const std::vector<double>& values_of(const PlyFrame& ply, const std::string& fie
   for (const Column& column : columns_of(ply))
     if (triangle_values(ply, column.name)) names += (names.empty() ? "" : ", ") + column.name;
   throw std::invalid_argument(
-      fmt::format("{} is no field of triangles of ply {}; there are {}", field, ply.name, names));
+      fmt::format("{} is no field of triangles; there are {} (ply {})", field, names, ply.name));
 }
 
 } // namespace
