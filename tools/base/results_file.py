@@ -253,6 +253,8 @@ def read_results(folder: Path, act: Callable[[Results], object]):
     if not path.exists():
         raise Trouble(f"{path} is missing: is {folder} the folder of a run?")
     check_file(path)
+    if path.stat().st_size == 0:  # those of the kernel say so, and may let who reads them wait
+        raise Trouble(f"{path} is empty: is {folder} the folder of a run?")
 
     def read():
         try:
