@@ -41,7 +41,7 @@ HEAD = "# Identification from disturbed curves\n\n" + " ".join([
     "[identify.md](../users/identify.md#what-a-machine-adds) the options), 61 rows up to 55 degrees or 1 % of strain, with noise and one",
     "disturbance; 20 curves a line with other noise. Wrong by: largest deviation of the law from",
     "5 to 55 degrees, of yarns that of the stiffness; median of the curves, and the worst.",
-    "Before: least squares alone, as the program did before it looked for disturbances. Refused,",
+    "Before: least squares alone, which look for no disturbance. Refused,",
     "warned: what `plyform identify` says without the option, in words that name the disturbance",
     "and its size; told that it is not known: warned that the curve does not show whether it is",
     "there; not seen: only the line on how far the law would move tells of it. After: with the",
