@@ -19,7 +19,7 @@ if grep -rnF "$(dirname "$tests")" "$prefix/lib" --include='*.cmake'; then
 fi
 "$prefix/bin/plyform" version
 if /usr/bin/python3 -c 'import h5py' 2>/dev/null; then
-  "$prefix/bin/plyform" chart "$prefix/share/plyform/cases/studies/bias_extension.toml" --check \
+  "$prefix/bin/plyform" chart "$prefix/share/plyform/cases/studies/real_cloth/one_ply_0.toml" --check \
     -o "$work/study"
 fi
 if /usr/bin/python3 -c 'import h5py, jinja2' 2>/dev/null &&
