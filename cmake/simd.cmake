@@ -19,7 +19,7 @@ function(plyform_simd_kernels target)
     target_include_directories(${objects} PRIVATE ${PROJECT_SOURCE_DIR})
     target_link_libraries(${objects} PRIVATE plyform_options)
     target_compile_definitions(${objects} PRIVATE PLYFORM_COPY=${copy})
-    if(copy STREQUAL avx512)
+    if("${copy}" STREQUAL "avx512") # quoted: a variable has this name
       target_compile_definitions(${objects} PRIVATE PLYFORM_LANES=8)
     endif()
     # nothing reads errno or changes the rounding (which CGAL asks for); the vectors stay inside
