@@ -135,11 +135,9 @@ double height(double before, double here, double after) {
   return std::min({std::abs(here), 2.0 * std::abs(before), 2.0 * std::abs(after)});
 }
 
-double height_of_shape(const Line& line) {
-  std::array<double, 3> d{};
-  for (std::size_t k = 0; k < 3; ++k)
-    d[k] = line[k + 1]->normal.dot(line[k + 1]->x - 0.5 * (line[k]->x + line[k + 2]->x));
-  return height(d[0], d[1], d[2]);
+/// D at the place k of a line
+double bend(const Line& line, std::size_t k) {
+  return line[k]->normal.dot(line[k]->x - 0.5 * (line[k - 1]->x + line[k + 1]->x));
 }
 
 /// The smallest H of the distances from the tools that face the ply; infinite if none does.
@@ -199,7 +197,7 @@ double share_of_tools(const Line& line, const std::vector<const ToolBody*>& tool
                       double half_wave) {
   double share = 1.0;
   for (std::size_t k = 1; k <= 3 && share > 0.0; ++k) {
-    const double d = line[k]->normal.dot(line[k]->x - 0.5 * (line[k - 1]->x + line[k + 1]->x));
+    const double d = bend(line, k);
     double most = 0.0;
     for (const ToolBody* tool : tools)
       most = std::max(most, height_of_tool(line, k, *tool, half_wave) / d);
@@ -216,15 +214,15 @@ void search_along(Grid& grid, int di, int dj, const std::vector<const ToolBody*>
   for (int j = 0; j < grid.rows(); ++j)
     for (int i = 0; i < grid.columns(); ++i) {
       Line line{};
-      bool whole = true;
-      for (int k = -2; k <= 2 && whole; ++k) {
-        line[k + 2] = grid.find(i + k * di, j + k * dj);
-        whole = line[k + 2] != nullptr;
-      }
-      if (!whole) continue;
+      const auto have = [&](int k) {
+        return (line[at(k + 2)] = grid.find(i + k * di, j + k * dj)) != nullptr;
+      };
+      if (!have(0) || !have(-1) || !have(1)) continue;
       double& here = line[2]->height;
       const double needed = std::min(best.height, std::max(here, least_wrinkle));
-      double found = height_of_shape(line);
+      const double middle = bend(line, 2); // H is at most this: most lines end here
+      if (std::abs(middle) <= needed || !have(-2) || !have(2)) continue;
+      double found = height(bend(line, 1), middle, bend(line, 3));
       if (found <= needed) continue;
       found = std::min(found, height_above_tools(line, tools, half_wave));
       if (found > needed) found *= 1.0 - share_of_tools(line, tools, half_wave);
@@ -248,9 +246,10 @@ Wrinkle search_at(Grid& grid, double half_wave, const std::vector<const ToolBody
 
 } // namespace
 
-Wrinkles wrinkles_of(const PlyFrame& ply, const std::vector<const ToolBody*>& tools) {
+Wrinkles wrinkles_of(const PlyFrame& ply, const std::vector<const ToolBody*>& tools, double from) {
   Wrinkles result{{}, std::vector<double>(ply.x.size(), 0.0)};
   Wrinkle& best = result.highest;
+  best.height = from;
   if (ply.triangles.empty()) return result;
   for (const Vec3& x : ply.x)
     if (!x.allFinite()) return result;

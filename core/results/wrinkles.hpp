@@ -61,6 +61,8 @@ struct Wrinkles {
 };
 
 /// H all over a ply. tools: those whose shape (1) compares with; not owned.
-Wrinkles wrinkles_of(const PlyFrame& ply, const std::vector<const ToolBody*>& tools);
+/// from: mm, lower ones are not looked for; `highest` is this, at no place, where none is higher.
+Wrinkles wrinkles_of(const PlyFrame& ply, const std::vector<const ToolBody*>& tools,
+                     double from = 0.0);
 
 } // namespace plyform

@@ -61,7 +61,8 @@ void add_yarns(const PlyBody& ply, PlyFrame& f) {
     const AxesState s = axes_state(m, ply.x, static_cast<int>(e));
     f.shear_deg.push_back(shown_shear(m, s) * degrees_per_radian);
     for (std::size_t c = 1; c < m.crossings.size(); ++c)
-      f.crossings[c - 1].shear_deg.push_back(crossing_state(m, m.crossings[c], s).gamma * degrees_per_radian);
+      f.crossings[c - 1].shear_deg.push_back(crossing_state(m, m.crossings[c], s).gamma *
+                                             degrees_per_radian);
     for (std::size_t a = 0; a < m.families.size(); ++a)
       f.families[a].direction.push_back(family_state(s, m.families[a].along).f);
     if (m.families.empty())
@@ -91,7 +92,7 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   std::vector<const ToolBody*> tools;
   for (const ToolState& tool : scene.tools)
     tools.push_back(&tool.body);
-  f.wrinkle_height = wrinkles_of(f, tools).at_nodes;
+  f.wrinkle_height = wrinkles_of(f, tools, least_wrinkle).at_nodes;
   return f;
 }
 
