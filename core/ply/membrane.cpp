@@ -122,14 +122,6 @@ AxesState axes_state(const Membrane& m, std::span<const Vec3> x, int triangle) {
   return s;
 }
 
-FamilyState family_state(const AxesState& axes, const Vec2& along) {
-  if (along == Vec2::UnitX()) return {axes.f1, axes.lambda1};
-  if (along == Vec2::UnitY()) return {axes.f2, axes.lambda2};
-  const Vec3 k = along.x() * axes.k1() + along.y() * axes.k2();
-  const double lambda = k.norm();
-  return {k / lambda, lambda};
-}
-
 CrossingState crossing_state(const Vec3& f_a, const Vec3& f_b, double omega0) {
   CrossingState s;
   s.cos_omega = f_a.dot(f_b);
@@ -143,8 +135,22 @@ CrossingState crossing_state(const Membrane& m, const MembraneCrossing& c, const
                         family_state(axes, m.families[c.second].along).f, c.omega0);
 }
 
+void find_triangle(const Membrane& m, std::span<const Vec3> x, int triangle, TriangleState& t) {
+  t.axes = axes_state(m, x, triangle);
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    t.yarn[a] = family_state(t.axes, m.families[a].along);
+  for (std::size_t c = 0; c < m.crossings.size(); ++c) {
+    const MembraneCrossing& of = m.crossings[c];
+    if (of.is_axes)
+      t.crossing[c] = {t.axes.cos_omega, t.axes.sin_omega, t.axes.gamma};
+    else
+      t.crossing[c] = crossing_state(t.yarn[of.first].f, t.yarn[of.second].f, of.omega0);
+  }
+}
+
 double shown_shear(const Membrane& m, const AxesState& axes) {
-  if (!m.crossings.empty()) return crossing_state(m, m.crossings.front(), axes).gamma;
+  if (!m.crossings.empty() && m.crossings[0].is_axes) return axes.gamma;
+  if (!m.crossings.empty()) return crossing_state(m, m.crossings[0], axes).gamma;
   return crossing_state(axes.f1, family_state(axes, m.across).f, MaterialAxes{}.between()).gamma;
 }
 

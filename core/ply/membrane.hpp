@@ -112,6 +112,7 @@ struct MembraneCrossing {
   double omega0 = 0.0;               ///< rad
   double cells = 0.0;                ///< n_c, 1/mm^2
   ShearLaw shear;                    ///< Cs
+  bool is_axes = false;              ///< whether its families are the axes, in their order
 };
 
 /// What the yarns of one family in one strain group remember from step to step: the states of
@@ -132,9 +133,9 @@ struct Membrane {
   Fabric fabric; ///< as given, not softened
   std::vector<MembraneFamily> families;
   std::vector<MembraneCrossing> crossings;
-  double process_time = 1.0; ///< s of the process in each simulated second: Case::process_time
-  double omega0 = 0.0;                   ///< rad, between the axes before forming
-  Vec2 across = Vec2::UnitY();           ///< components of the direction across e_1
+  double process_time = 1.0;   ///< s of the process in each simulated second: Case::process_time
+  double omega0 = 0.0;         ///< rad, between the axes before forming
+  Vec2 across = Vec2::UnitY(); ///< components of the direction across e_1
   std::vector<Triangle> triangles;       ///< m, those of a strain group successive
   std::vector<std::int32_t> group_begin; ///< groups + 1, into triangles
   std::vector<AxesGradients> c;          ///< m
@@ -188,7 +189,23 @@ Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double angle
 AxesState axes_state(const Membrane& m, std::span<const Vec3> x, int triangle);
 
 /// The yarns of a family whose components are `along`.
-FamilyState family_state(const AxesState& axes, const Vec2& along);
+inline FamilyState family_state(const AxesState& axes, const Vec2& along) {
+  if (along.y() == 0.0 && along.x() == 1.0) return {axes.f1, axes.lambda1};
+  if (along.x() == 0.0 && along.y() == 1.0) return {axes.f2, axes.lambda2};
+  const Vec3 k = along.x() * axes.k1() + along.y() * axes.k2();
+  const double lambda = k.norm();
+  return {k / lambda, lambda};
+}
+
+/// A triangle with its yarns and crossings, as many as there are.
+struct TriangleState {
+  AxesState axes;
+  std::array<FamilyState, most_families> yarn;
+  std::array<CrossingState, most_crossings> crossing;
+};
+
+/// Fills the state of a triangle. x: mm, n.
+void find_triangle(const Membrane& m, std::span<const Vec3> x, int triangle, TriangleState& t);
 
 /// Two directions with these unit vectors, omega0 (rad) apart before forming.
 CrossingState crossing_state(const Vec3& f_a, const Vec3& f_b, double omega0);

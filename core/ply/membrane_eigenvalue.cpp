@@ -27,27 +27,23 @@ using OfFamilies = std::array<double, most_families>;
 
 /// Largest eigenvalue of K_ab = sqrt(k_a k_b) (v_a . G v_b) cos(f_a, f_b), that of the families'
 /// part of H (G x I) with stiffnesses k (N/mm); N/mm^3 for a Gram matrix in 1/mm^2.
-double largest_of_families(const Membrane& m, const AxesState& axes, const Gram& g,
+double largest_of_families(const Membrane& m, const TriangleState& t, const Gram& g,
                            const OfFamilies& k) {
   const std::size_t n = m.families.size();
-  std::array<FamilyState, most_families> yarn;
-  for (std::size_t a = 0; a < n; ++a)
-    yarn[a] = family_state(axes, m.families[a].along);
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, static_cast<int>(most_families),
-                static_cast<int>(most_families)>
-      matrix(n, n);
-  for (std::size_t a = 0; a < n; ++a)
-    for (std::size_t b = 0; b <= a; ++b) {
-      const Vec2 &v = m.families[a].along, &w = m.families[b].along;
-      const double vgw =
-          v.x() * w.x() * g.g11 + v.y() * w.y() * g.g22 + (v.x() * w.y() + v.y() * w.x()) * g.g12;
-      const auto row = static_cast<Eigen::Index>(a), column = static_cast<Eigen::Index>(b);
-      matrix(row, column) =
-          a == b ? k[a] * vgw : std::sqrt(k[a] * k[b]) * vgw * yarn[a].f.dot(yarn[b].f);
-    }
+  const auto entry = [&](std::size_t a, std::size_t b) {
+    const Vec2 &v = m.families[a].along, &w = m.families[b].along;
+    const double vgw =
+        v.x() * w.x() * g.g11 + v.y() * w.y() * g.g22 + (v.x() * w.y() + v.y() * w.x()) * g.g12;
+    return a == b ? k[a] * vgw : std::sqrt(k[a] * k[b]) * vgw * t.yarn[a].f.dot(t.yarn[b].f);
+  };
   if (n == 0) return 0.0;
-  if (n == 1) return matrix(0, 0);
-  if (n == 2) return largest(matrix(0, 0), matrix(1, 1), matrix(1, 0));
+  if (n == 1) return entry(0, 0);
+  if (n == 2) return largest(entry(0, 0), entry(1, 1), entry(1, 0));
+  constexpr int most = static_cast<int>(most_families);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, most, most> matrix(n, n);
+  for (std::size_t a = 0; a < n; ++a)
+    for (std::size_t b = 0; b <= a; ++b)
+      matrix(static_cast<Eigen::Index>(a), static_cast<Eigen::Index>(b)) = entry(a, b);
   return Eigen::SelfAdjointEigenSolver<decltype(matrix)>(matrix, Eigen::EigenvaluesOnly)
       .eigenvalues()
       .maxCoeff();
@@ -65,12 +61,13 @@ OfFamilies yarn_stiffness(const Membrane& m) {
 }
 
 /// Stiffness per area of the deviations within a group, N/mm.
-OfFamilies deviation_stiffness(const Membrane& m, const AxesState& s) {
+OfFamilies deviation_stiffness(const Membrane& m, const TriangleState& t) {
   OfFamilies k{};
   for (std::size_t a = 0; a < m.families.size(); ++a)
     k[a] = m.families[a].density * m.families[a].side.stabilisation;
-  for (const MembraneCrossing& c : m.crossings) {
-    const double shear = deviation_stiffness(c, crossing_state(m, c, s).gamma);
+  for (std::size_t i = 0; i < m.crossings.size(); ++i) {
+    const MembraneCrossing& c = m.crossings[i];
+    const double shear = deviation_stiffness(c, t.crossing[i].gamma);
     k[c.first] += shear, k[c.second] += shear;
   }
   return k;
@@ -97,11 +94,12 @@ double largest_of_crossing(const Membrane& m, const MembraneCrossing& c) {
 
 /// Shear and geometric part of H (see eigenvalue_bound), N/mm, bounded by norms; the second
 /// derivative of the angle is below 2/sin(omega) (1/lambda_a^2 + 1/lambda_b^2).
-double soft_stiffness(const Membrane& m, const AxesState& s) {
+double soft_stiffness(const Membrane& m, const TriangleState& t) {
   std::array<double, 2> pull{}; // of families along the axes
   double oblique = 0.0;         // of the others
-  for (const MembraneFamily& f : m.families) {
-    const double lambda = family_state(s, f.along).lambda;
+  for (std::size_t a = 0; a < m.families.size(); ++a) {
+    const MembraneFamily& f = m.families[a];
+    const double lambda = t.yarn[a].lambda;
     const double n = std::max(0.0, f.density * f.yarn.at(lambda - 1.0).value / lambda);
     if (f.along == Vec2::UnitX())
       pull[0] += n;
@@ -111,14 +109,13 @@ double soft_stiffness(const Membrane& m, const AxesState& s) {
       oblique += n * f.along.squaredNorm();
   }
   double sum = std::max(pull[0], pull[1]) + oblique;
-  for (const MembraneCrossing& c : m.crossings) {
-    const double lambda1 = family_state(s, m.families[c.first].along).lambda,
-                 lambda2 = family_state(s, m.families[c.second].along).lambda;
-    const CrossingState crossing = crossing_state(m, c, s);
-    const LawPoint shear = c.shear.at(crossing.gamma);
+  for (std::size_t i = 0; i < m.crossings.size(); ++i) {
+    const MembraneCrossing& c = m.crossings[i];
+    const double lambda1 = t.yarn[c.first].lambda, lambda2 = t.yarn[c.second].lambda;
+    const LawPoint shear = c.shear.at(t.crossing[i].gamma);
     const double inv2 = 1.0 / (lambda1 * lambda1) + 1.0 / (lambda2 * lambda2);
-    sum += largest_of_crossing(m, c) * c.cells * inv2 *
-           (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / crossing.sin_omega);
+    sum += (c.is_axes ? 1.0 : largest_of_crossing(m, c)) * c.cells * inv2 *
+           (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / t.crossing[i].sin_omega);
   }
   return sum;
 }
@@ -166,17 +163,17 @@ double omega2_of_group(const Membrane& m, std::span<const Vec3> x, std::size_t p
     g.g12 += node.b1 * node.b2 / node.mass;
   }
   double area = 0.0, soft = 0.0;
-  AxesState axes{};
+  TriangleState t;
   for (auto e = static_cast<std::size_t>(m.group_begin[p]);
        e < static_cast<std::size_t>(m.group_begin[p + 1]); ++e) {
-    axes = axes_state(m, x, static_cast<int>(e));
+    find_triangle(m, x, static_cast<int>(e), t);
     const Gram of = gram(m.c[e]);
     soft = std::max(soft, corners_per_mass(m, e) *
-                              (sheet_stiffness(m, axes, of) +
-                               soft_stiffness(m, axes) * largest(of.g11, of.g22, of.g12)));
+                              (sheet_stiffness(m, t.axes, of) +
+                               soft_stiffness(m, t) * largest(of.g11, of.g22, of.g12)));
     area += m.area[e];
   }
-  return largest_of_families(m, axes, g, yarn_stiffness(m)) / area + soft;
+  return largest_of_families(m, t, g, yarn_stiffness(m)) / area + soft;
 }
 
 } // namespace
@@ -198,24 +195,25 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
   // the collapse penalty of a triangle adds to the stiffness of the taut yarns of its pair
   const bool paired = is_paired(m);
   constexpr double considerable = 0.2; // of the yarn stiffness: step_factor covers less
+  TriangleState t;
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const double per_mass = corners_per_mass(m, e);
     const Gram g = gram(m.c[e]);
-    const AxesState s = axes_state(m, x, static_cast<int>(e));
-    OfFamilies k = deviation_stiffness(m, s);
+    find_triangle(m, x, static_cast<int>(e), t);
+    OfFamilies k = deviation_stiffness(m, t);
     for (std::size_t a = 0; a < m.families.size(); ++a) {
       const MembraneFamily& f = m.families[a];
-      const bool folded = family_state(s, f.along).lambda < collapse_reach;
+      const bool folded = t.yarn[a].lambda < collapse_reach;
       k[a] = yarns[a] + k[a] + (paired && folded ? penalty[a] : 0.0);
       bound.penalty_acts =
           bound.penalty_acts ||
           (folded && f.side.collapse_penalty > considerable * f.yarn.largest_slope());
     }
-    const double fibre = largest_of_families(m, s, g, k);
-    const double viscous = largest_of_families(m, s, g, viscosity);
-    const double sheet = sheet_stiffness(m, s, g);
+    const double fibre = largest_of_families(m, t, g, k);
+    const double viscous = largest_of_families(m, t, g, viscosity);
+    const double sheet = sheet_stiffness(m, t.axes, g);
     const bool foil = m.families.empty();
-    const double soft = soft_stiffness(m, s) * largest(g.g11, g.g22, g.g12) + (foil ? 0.0 : sheet);
+    const double soft = soft_stiffness(m, t) * largest(g.g11, g.g22, g.g12) + (foil ? 0.0 : sheet);
     bound.yarns = std::max(bound.yarns, per_mass * (fibre + (foil ? sheet : 0.0)));
     bound.soft = std::max(bound.soft, per_mass * soft);
     const double omega2 = per_mass * (fibre + (foil ? sheet : 0.0) + soft);
@@ -244,14 +242,14 @@ YarnStiffness::YarnStiffness(const Membrane& m, std::span<const Vec3> x, double 
   for (std::size_t a = 0; a < m.families.size(); ++a)
     taut_[a] = stiffness * yarns[a] + damping * m.families[a].density * m.families[a].viscosity;
   rows_.reserve(m.triangles.size() * m.families.size());
+  TriangleState t;
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
-    const AxesState s = axes_state(m, x, static_cast<int>(e));
-    const OfFamilies deviation = deviation_stiffness(m, s);
+    find_triangle(m, x, static_cast<int>(e), t);
+    const OfFamilies deviation = deviation_stiffness(m, t);
     for (std::size_t a = 0; a < m.families.size(); ++a) {
       const MembraneFamily& f = m.families[a];
-      const FamilyState yarn = family_state(s, f.along);
-      const bool folded = paired && yarn.lambda < collapse_reach;
-      rows_.push_back({yarn.f, stiffness * deviation[a],
+      const bool folded = paired && t.yarn[a].lambda < collapse_reach;
+      rows_.push_back({t.yarn[a].f, stiffness * deviation[a],
                        folded ? stiffness * f.density * f.side.collapse_penalty : 0.0});
     }
   }
@@ -263,7 +261,7 @@ void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
   const std::size_t families = m_.families.size();
   double area = 0.0;
   OfFamilies mean{};
-  std::array<OfFamilies, most_in_group> strain{};
+  std::array<OfFamilies, most_in_group> strain;
   for (std::size_t e = begin; e < end; ++e) {
     const AxesGradients& c = m_.c[e];
     const Triangle& t = m_.triangles[e];
@@ -273,12 +271,15 @@ void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
     area += m_.area[e];
     for (std::size_t a = 0; a < families; ++a) {
       const Vec2& along = m_.families[a].along;
-      strain[e - begin][a] = rows_[e * families + a].f.dot(along.x() * k1 + along.y() * k2);
-      mean[a] += m_.area[e] * strain[e - begin][a];
+      double& own = strain[e - begin][a];
+      own = 0.0;
+      if (along.x() != 0.0) own += along.x() * rows_[e * families + a].f.dot(k1);
+      if (along.y() != 0.0) own += along.y() * rows_[e * families + a].f.dot(k2);
+      mean[a] += m_.area[e] * own;
     }
   }
-  for (double& value : mean)
-    value /= area;
+  for (std::size_t a = 0; a < families; ++a)
+    mean[a] /= area;
   for (std::size_t e = begin; e < end; ++e) {
     q_[e] = {Vec3::Zero(), Vec3::Zero()};
     for (std::size_t a = 0; a < families; ++a) {
@@ -286,8 +287,9 @@ void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
       const double own = strain[e - begin][a];
       const double pull = m_.area[e] * (taut_[a] * mean[a] + row.deviation * (own - mean[a]) +
                                         row.collapse_penalty * own);
-      q_[e].q1 += m_.families[a].along.x() * (pull * row.f);
-      q_[e].q2 += m_.families[a].along.y() * (pull * row.f);
+      const Vec2& along = m_.families[a].along;
+      if (along.x() != 0.0) q_[e].q1 += (along.x() * pull) * row.f;
+      if (along.y() != 0.0) q_[e].q2 += (along.y() * pull) * row.f;
     }
   }
 }

@@ -10,13 +10,6 @@
 namespace plyform {
 namespace {
 
-/// A triangle of a group: its axes, yarns and crossings.
-struct TriangleState {
-  AxesState axes;
-  std::array<FamilyState, most_families> yarn;
-  std::array<CrossingState, most_crossings> crossing;
-};
-
 /// The triangles of one group and the mean stretches of the yarns.
 struct GroupState {
   int begin, size;
@@ -27,16 +20,6 @@ struct GroupState {
 
 /// One number a family, N or mm.
 using OfFamilies = std::array<double, most_families>;
-
-void find_triangle(const Membrane& m, std::span<const Vec3> x, int e, TriangleState& t) {
-  t.axes = axes_state(m, x, e);
-  for (std::size_t a = 0; a < m.families.size(); ++a)
-    t.yarn[a] = family_state(t.axes, m.families[a].along);
-  for (std::size_t c = 0; c < m.crossings.size(); ++c) {
-    const MembraneCrossing& of = m.crossings[c];
-    t.crossing[c] = crossing_state(t.yarn[of.first].f, t.yarn[of.second].f, of.omega0);
-  }
-}
 
 GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group) {
   const auto p = static_cast<std::size_t>(group);
