@@ -151,4 +151,31 @@ inline double largest_norm(const std::vector<Vec3>& vectors) {
   return largest;
 }
 
+inline double energy_of(const Membrane& m, const std::vector<Vec3>& x) {
+  const MembraneEnergy e = membrane_energy(m, x);
+  return e.fibre + e.shear;
+}
+
+/// Largest difference between the forces and minus the central difference of the energy, over the
+/// largest force.
+inline double gradient_error(Membrane& m, std::vector<Vec3> x) {
+  constexpr double h =
+      1e-4; // mm: 1e-5 of a side; cut-off and rounding both below 1e-9 of the force
+  const std::vector<Vec3> force = nodal_forces(m, x);
+  std::vector<Vec3> difference;
+  for (std::size_t n = 0; n < x.size(); ++n) {
+    Vec3 gradient;
+    for (int i = 0; i < 3; ++i) {
+      const double old = x[n][i];
+      x[n][i] = old + h;
+      const double above = energy_of(m, x);
+      x[n][i] = old - h;
+      gradient[i] = (above - energy_of(m, x)) / (2.0 * h);
+      x[n][i] = old;
+    }
+    difference.emplace_back(force[n] + gradient);
+  }
+  return largest_norm(difference) / largest_norm(force);
+}
+
 } // namespace plyform
