@@ -107,14 +107,18 @@ struct Writer {
 /// Attributes of a dataset: what its values are.
 void describe(const Writer& out, const std::string& where, const Description& what,
               Location location) {
-  out.text(where, "place", word_of(location));
-  out.text(where, "label", what.label);
-  out.text(where, "word", what.word);
-  out.text(where, "unit", what.unit);
-  out.number<std::int64_t>(where, "digits", what.digits);
-  out.number(where, "precision", what.precision);
-  out.text(where, "scale", word_of(what.scale));
-  if (!what.note.empty()) out.text(where, "note", what.note);
+  const Handle opened(H5Oopen(out.file, where.c_str(), H5P_DEFAULT), H5Oclose);
+  out.require(opened.valid(), where);
+  Writer set = out; // the way to it is gone once, not by each attribute
+  set.file = opened.id();
+  set.text(".", "place", word_of(location));
+  set.text(".", "label", what.label);
+  set.text(".", "word", what.word);
+  set.text(".", "unit", what.unit);
+  set.number<std::int64_t>(".", "digits", what.digits);
+  set.number(".", "precision", what.precision);
+  set.text(".", "scale", word_of(what.scale));
+  if (!what.note.empty()) set.text(".", "note", what.note);
 }
 
 /// Attributes of a ply: what its columns are named by.
