@@ -95,8 +95,8 @@ void describe_plies(const Scene& s, Lines& lines) {
     }
     say(lines, "ply {}: {}, {} nodes, {} triangles, {} at {:.10g} degrees; {}; {}", ply.name, size,
         ply.x.size(), m.triangles.size(), m.fabric.families[0].name,
-        (ply.angle + m.fabric.families[0].angle) / degree,
-        element_text(m, s.data.solver.element), bending_text(ply));
+        (ply.angle + m.fabric.families[0].angle) / degree, element_text(m, s.data.solver.element),
+        bending_text(ply));
   }
 }
 

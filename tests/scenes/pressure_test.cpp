@@ -330,7 +330,8 @@ TEST(Pressure, StripBetweenTwoEdgesIsAnArcWithItsTension) {
       const double tension = right.force.norm() / 20.0; // N/mm
       const Fabric& f = data.fabrics[0];
       const double angle = half_angle(p, [&](double l) {
-        if (yarns) return f.families[0].density * f.families[0].tension.stiffness / 100.0 * (l - 1.0);
+        if (yarns)
+          return f.families[0].density * f.families[0].tension.stiffness / 100.0 * (l - 1.0);
         return l * stretch_stiffness / (1.0 - nu * nu) * 0.5 * (l * l - 1.0);
       });
       const double theory = 50.0 / std::sin(angle);
