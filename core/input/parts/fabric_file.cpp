@@ -75,6 +75,12 @@ bool stand_in(TomlNode& root, const std::string& table, const std::string& key, 
   return true;
 }
 
+/// Whether a file gives a fabric by warp, weft and shear.
+bool is_short_form(const TomlNode& root) {
+  const TomlNode* law = root.find("law");
+  return !root.find("family") && !root.find("sheet") && (!law || law->text == "woven");
+}
+
 } // namespace
 
 std::vector<Fabric> read_fabrics(const TableView& root, Diagnostics& diagnostics) {
@@ -104,6 +110,7 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
     reading.text = *content;
     root->at.file = name;
     for (const char* table : {"warp", "weft", "shear"}) {
+      if (!is_short_form(*root)) break; // has no laws of these names
       const bool shear = std::string_view(table) == "shear";
       if (laws_may_miss &&
           stand_in(*root, table, shear ? "polynomial" : "stiffness",

@@ -192,9 +192,26 @@ void order_angles(Fabric& fabric) {
   }
 }
 
+/// Reports a fabric in which nothing holds against strains in some direction, whatever holds it.
+void check_hold(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
+  constexpr double least = 1e-3; // sine of the angle between two families
+  const auto askew = [&](const YarnFamily& family) {
+    return std::abs(std::sin(family.angle - fabric.families[0].angle)) > least;
+  };
+  if (given(section, "sheet") || !section.entry ||
+      std::any_of(fabric.families.begin(), fabric.families.end(), askew))
+    return;
+  diagnostics.error(section.entry->at, item_of(section, "sheet"), "",
+                    fabric.families.empty()
+                        ? "is missing, and there are no yarns"
+                        : "is missing, and nothing else holds against strain across the yarns",
+                    "give a [sheet], or a [[family]] in another direction");
+}
+
 } // namespace
 
 void read_families(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
+  const std::size_t before = diagnostics.errors.size();
   for (const TableView& family : subsections(section, "family"))
     fabric.families.push_back(read_family(family, diagnostics));
   order_angles(fabric);
@@ -202,6 +219,7 @@ void read_families(const TableView& section, Fabric& fabric, Diagnostics& diagno
   for (const TableView& crossing : subsections(section, "crossing"))
     fabric.crossings.push_back(read_crossing(crossing, fabric, diagnostics));
   read_sheet_beside(subsection(section, "sheet"), fabric);
+  if (diagnostics.errors.size() == before) check_hold(section, fabric, diagnostics);
 }
 
 } // namespace plyform
