@@ -306,6 +306,10 @@ TEST(Accuracy, IsNotToldOfWhatTheRuleWasNotFittedTo) {
   Case limp = asked;
   limp.fabrics[0].crossings[0].shear = {};
   EXPECT_NE(told(limp).find("has no stiffness in shear"), std::string::npos);
+  Case three = asked;
+  three.fabrics[0].families.push_back(three.fabrics[0].families[0]);
+  three.fabrics[0].families[2].angle = 0.8;
+  EXPECT_NE(told(three).find("is no weave of two families"), std::string::npos);
   pick_cost_parameters(asked);
   EXPECT_NE(asked.solver.duration, duration);
 }
