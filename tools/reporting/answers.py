@@ -216,11 +216,11 @@ def accuracy(run: Run) -> Answer | None:
     predicted = run.summary["accuracy"]
     error = predicted.get("promised_shear_error_deg")
     if error is None:
-        if "unknown" not in told:
+        if "unknown" not in predicted:
             return None
         return Answer("Band of error", Markup("–"),
                       Markup("No error of the shear angles is predicted: {}."
-                             ).format(told["unknown"]))
+                             ).format(predicted["unknown"]))
     causes = Markup("inertia {}°, softened fibres {}°, mesh {}°").format(
         *(number(predicted.get(f"{cause}_deg"), 2) for cause in ("inertia", "softening", "mesh")))
     balance = run.summary["energy"].get("balance_error")
