@@ -9,6 +9,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 namespace plyform {
 namespace {
@@ -39,8 +40,8 @@ struct Place {
 /// Places on a square grid of the undeformed ply whose rows run along the warp.
 class Grid {
 public:
-  Grid(const PlyFrame& ply, double step)
-      : step_(step), ply_(ply), normals_(area_normals(ply.x, ply.triangles)) {
+  Grid(const PlyFrame& ply, const std::vector<const ToolBody*>& tools, double step)
+      : step_(step), ply_(ply), tools_(tools), normals_(area_normals(ply.x, ply.triangles)) {
     for (Vec3& n : normals_)
       n.stableNormalize();
     const double angle = -ply.angle_deg * degree;
@@ -62,11 +63,23 @@ public:
   int columns() const { return columns_; }
   int rows() const { return rows_; }
   double step() const { return step_; }
-  /// Null outside the grid and where the ply does not cover it.
+  /// A place of the grid; null where the ply does not cover it.
   Place* find(int i, int j) {
-    if (i < 0 || j < 0 || i >= columns_ || j >= rows_) return nullptr;
     Place& p = places_[index(i, j)];
     return p.inside ? &p : nullptr;
+  }
+
+  const std::vector<const ToolBody*>& tools() const { return tools_; }
+  /// Where the surface of a tool is nearest to a place: lines in all directions ask for it.
+  const SurfacePoint& nearest(std::size_t tool, const Place& place) {
+    const auto number = static_cast<std::size_t>(&place - places_.data());
+    if (nearest_.empty()) nearest_.resize(tools_.size() * places_.size());
+    std::optional<SurfacePoint>& known = nearest_[tool * places_.size() + number];
+    if (!known) {
+      SurfaceHint hint;
+      known = distance_to_tool(*tools_[tool], place.x, hint);
+    }
+    return *known;
   }
 
   /// The heights at the nodes of the triangles that the places are in.
@@ -120,6 +133,9 @@ private:
 
   double step_;
   const PlyFrame& ply_;
+  const std::vector<const ToolBody*>& tools_;
+  std::vector<std::optional<SurfacePoint>>
+      nearest_; ///< places of the first tool, of the second ...
   std::vector<Vec3> normals_;
   std::vector<Vec2> flat_;
   Vec2 low_;
@@ -141,18 +157,16 @@ double bend(const Line& line, std::size_t k) {
 }
 
 /// The smallest H of the distances from the tools that face the ply; infinite if none does.
-double height_above_tools(const Line& line, const std::vector<const ToolBody*>& tools,
-                          double half_wave) {
+double height_above_tools(Grid& grid, const Line& line, double half_wave) {
   double least = std::numeric_limits<double>::infinity();
-  for (const ToolBody* tool : tools) {
-    SurfaceHint hint;
-    const SurfacePoint nearest = distance_to_tool(*tool, line[2]->x, hint);
+  for (std::size_t tool = 0; tool < grid.tools().size(); ++tool) {
+    const SurfacePoint& nearest = grid.nearest(tool, *line[2]);
     if (std::abs(nearest.distance) > half_wave ||
         std::abs(nearest.normal.dot(line[2]->normal)) < facing)
       continue;
     std::array<double, 5> f{};
     for (std::size_t k = 0; k < 5; ++k)
-      f[k] = distance_to_tool(*tool, line[k]->x, hint).distance;
+      f[k] = grid.nearest(tool, *line[k]).distance;
     const auto d = [&](std::size_t k) { return f[k] - 0.5 * (f[k - 1] + f[k + 1]); };
     least = std::min(least, height(d(1), d(2), d(3)));
   }
@@ -177,30 +191,30 @@ double way_to(const ToolBody& tool, const Vec3& x, const Vec3& d, double most) {
 
 /// (3): T_k of one tool at the place k of a line, mm; 0 if the tool is not near or does not face
 /// it.
-double height_of_tool(const Line& line, std::size_t k, const ToolBody& tool, double half_wave) {
+double height_of_tool(Grid& grid, const Line& line, std::size_t k, std::size_t tool,
+                      double half_wave) {
   const Vec3 &x = line[k]->x, &n = line[k]->normal;
-  SurfaceHint hint;
-  const SurfacePoint nearest = distance_to_tool(tool, x, hint);
+  const SurfacePoint& nearest = grid.nearest(tool, *line[k]);
   const double faces = nearest.normal.dot(n);
   if (std::abs(nearest.distance) > near_waves * half_wave || std::abs(faces) < facing) return 0.0;
   const Vec3 towards = faces > 0.0 ? Vec3(-n) : n; // from the ply to the tool
   std::array<double, 3> z{};
   for (std::size_t j = 0; j < 3; ++j) {
     const Vec3& p = line[k + j - 1]->x;
-    z[j] = n.dot(p - x) + n.dot(towards) * way_to(tool, p, towards, 2.0 * near_waves * half_wave);
+    z[j] = n.dot(p - x) +
+           n.dot(towards) * way_to(*grid.tools()[tool], p, towards, 2.0 * near_waves * half_wave);
   }
   return std::isfinite(z[1]) ? z[1] - 0.5 * (z[0] + z[2]) : 0.0;
 }
 
 /// (3): the share of a wave that is the tools' own, 0 to 1.
-double share_of_tools(const Line& line, const std::vector<const ToolBody*>& tools,
-                      double half_wave) {
+double share_of_tools(Grid& grid, const Line& line, double half_wave) {
   double share = 1.0;
   for (std::size_t k = 1; k <= 3 && share > 0.0; ++k) {
     const double d = bend(line, k);
     double most = 0.0;
-    for (const ToolBody* tool : tools)
-      most = std::max(most, height_of_tool(line, k, *tool, half_wave) / d);
+    for (std::size_t tool = 0; tool < grid.tools().size(); ++tool)
+      most = std::max(most, height_of_tool(grid, line, k, tool, half_wave) / d);
     share = std::min(share, most);
   }
   return share;
@@ -208,11 +222,11 @@ double share_of_tools(const Line& line, const std::vector<const ToolBody*>& tool
 
 /// Updates the heights of places, and `best` with the highest wrinkle, of all lines whose points
 /// are (di, dj) grid steps apart.
-void search_along(Grid& grid, int di, int dj, const std::vector<const ToolBody*>& tools,
-                  Wrinkle& best) {
+void search_along(Grid& grid, int di, int dj, Wrinkle& best) {
   const double half_wave = grid.step() * std::hypot(di, dj);
-  for (int j = 0; j < grid.rows(); ++j)
-    for (int i = 0; i < grid.columns(); ++i) {
+  const int beside = 2 * std::abs(di), above = 2 * std::abs(dj); // a line reaches so far
+  for (int j = above; j < grid.rows() - above; ++j)
+    for (int i = beside; i < grid.columns() - beside; ++i) {
       Line line{};
       const auto have = [&](int k) {
         return (line[at(k + 2)] = grid.find(i + k * di, j + k * dj)) != nullptr;
@@ -224,23 +238,22 @@ void search_along(Grid& grid, int di, int dj, const std::vector<const ToolBody*>
       if (std::abs(middle) <= needed || !have(-2) || !have(2)) continue;
       double found = height(bend(line, 1), middle, bend(line, 3));
       if (found <= needed) continue;
-      found = std::min(found, height_above_tools(line, tools, half_wave));
-      if (found > needed) found *= 1.0 - share_of_tools(line, tools, half_wave);
+      found = std::min(found, height_above_tools(grid, line, half_wave));
+      if (found > needed) found *= 1.0 - share_of_tools(grid, line, half_wave);
       if (found > best.height) best = {found, 2.0 * half_wave, line[2]->x};
       if (found >= least_wrinkle) here = std::max(here, found);
     }
 }
 
 /// The highest wrinkle of all four directions at about this half wavelength, mm.
-Wrinkle search_at(Grid& grid, double half_wave, const std::vector<const ToolBody*>& tools,
-                  Wrinkle best) {
+Wrinkle search_at(Grid& grid, double half_wave, Wrinkle best) {
   const double steps = half_wave / grid.step();
   const int straight = static_cast<int>(std::lround(steps));
   const int slanted = static_cast<int>(std::lround(steps / std::numbers::sqrt2));
-  search_along(grid, straight, 0, tools, best);
-  search_along(grid, 0, straight, tools, best);
-  search_along(grid, slanted, slanted, tools, best);
-  search_along(grid, slanted, -slanted, tools, best);
+  search_along(grid, straight, 0, best);
+  search_along(grid, 0, straight, best);
+  search_along(grid, slanted, slanted, best);
+  search_along(grid, slanted, -slanted, best);
   return best;
 }
 
@@ -254,13 +267,13 @@ Wrinkles wrinkles_of(const PlyFrame& ply, const std::vector<const ToolBody*>& to
   for (const Vec3& x : ply.x)
     if (!x.allFinite()) return result;
   const double side = mean_side(ply);
-  Grid grid(ply, 0.5 * side);
+  Grid grid(ply, tools, 0.5 * side);
   const double longest = std::max(longest_half * side, longest_half_mm);
   // A wave is nearly as high along oblique lines or with a slightly wrong wavelength: the
   // wavelength reported is the shortest one at which it has at least 95 % of its height.
   double length_of = 0.0; // mm, height at which the wavelength and the position were found
   for (double half = shortest_half * side; half <= longest; half *= half_growth) {
-    const Wrinkle found = search_at(grid, half, tools, best);
+    const Wrinkle found = search_at(grid, half, best);
     best.height = found.height;
     if (found.height > length_of / 0.95) best = found, length_of = found.height;
   }
