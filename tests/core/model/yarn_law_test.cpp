@@ -133,7 +133,7 @@ TEST(YarnLaw, DampingOfTheSimulationDoesNotSeeTheProcess) {
 }
 
 TEST(YarnLaw, SaysWhetherItHasRates) {
-  Fabric woven, foil;
+  Fabric woven = woven_fabric(), foil;
   foil.sheet = IsotropicLaw{};
   EXPECT_FALSE(has_rates(woven));
   EXPECT_FALSE(has_rates(foil));
