@@ -130,11 +130,6 @@ CrossingState crossing_state(const Vec3& f_a, const Vec3& f_b, double omega0) {
   return s;
 }
 
-CrossingState crossing_state(const Membrane& m, const MembraneCrossing& c, const AxesState& axes) {
-  return crossing_state(family_state(axes, m.families[c.first].along).f,
-                        family_state(axes, m.families[c.second].along).f, c.omega0);
-}
-
 void find_triangle(const Membrane& m, std::span<const Vec3> x, int triangle, TriangleState& t) {
   t.axes = axes_state(m, x, triangle);
   for (std::size_t a = 0; a < m.families.size(); ++a)
@@ -148,10 +143,10 @@ void find_triangle(const Membrane& m, std::span<const Vec3> x, int triangle, Tri
   }
 }
 
-double shown_shear(const Membrane& m, const AxesState& axes) {
-  if (!m.crossings.empty() && m.crossings[0].is_axes) return axes.gamma;
-  if (!m.crossings.empty()) return crossing_state(m, m.crossings[0], axes).gamma;
-  return crossing_state(axes.f1, family_state(axes, m.across).f, MaterialAxes{}.between()).gamma;
+double shown_shear(const Membrane& m, const TriangleState& t) {
+  if (!m.crossings.empty()) return t.crossing[0].gamma;
+  return crossing_state(t.axes.f1, family_state(t.axes, m.across).f, MaterialAxes{}.between())
+      .gamma;
 }
 
 bool collapsed(const AxesState& s) {

@@ -207,13 +207,12 @@ struct TriangleState {
 /// Fills the state of a triangle. x: mm, n.
 void find_triangle(const Membrane& m, std::span<const Vec3> x, int triangle, TriangleState& t);
 
-/// Two directions with these unit vectors, omega0 (rad) apart before forming.
-CrossingState crossing_state(const Vec3& f_a, const Vec3& f_b, double omega0);
-CrossingState crossing_state(const Membrane& m, const MembraneCrossing& c, const AxesState& axes);
-
 /// rad, what is shown as shear of a triangle: gamma of the first crossing; of a fabric without one
 /// the change of the right angle between e_1 and the line across it.
-double shown_shear(const Membrane& m, const AxesState& axes);
+double shown_shear(const Membrane& m, const TriangleState& t);
+
+/// Two directions with these unit vectors, omega0 (rad) apart before forming.
+CrossingState crossing_state(const Vec3& f_a, const Vec3& f_b, double omega0);
 
 /// Stiffness per area, N/mm, that a crossing gives the deviations in (E) at shear angle gamma
 /// (rad): beta n_c times the larger of Cs'(gamma) and Cs(gamma)/gamma.

@@ -57,14 +57,15 @@ void add_yarns(const PlyBody& ply, PlyFrame& f) {
     f.crossings.push_back({m.fabric.families[m.crossings[c].first].name + "_" +
                                m.fabric.families[m.crossings[c].second].name,
                            {}});
+  TriangleState t;
   for (std::size_t e = 0; e < f.triangles.size(); ++e) {
-    const AxesState s = axes_state(m, ply.x, static_cast<int>(e));
-    f.shear_deg.push_back(shown_shear(m, s) * degrees_per_radian);
+    find_triangle(m, ply.x, static_cast<int>(e), t);
+    const AxesState& s = t.axes;
+    f.shear_deg.push_back(shown_shear(m, t) * degrees_per_radian);
     for (std::size_t c = 1; c < m.crossings.size(); ++c)
-      f.crossings[c - 1].shear_deg.push_back(crossing_state(m, m.crossings[c], s).gamma *
-                                             degrees_per_radian);
+      f.crossings[c - 1].shear_deg.push_back(t.crossing[c].gamma * degrees_per_radian);
     for (std::size_t a = 0; a < m.families.size(); ++a)
-      f.families[a].direction.push_back(family_state(s, m.families[a].along).f);
+      f.families[a].direction.push_back(t.yarn[a].f);
     if (m.families.empty())
       for (std::size_t a = 0; a < 2; ++a) {
         f.families[a].direction.push_back(a == 0 ? s.f1 : s.f2);
