@@ -239,6 +239,8 @@ YarnStiffness::YarnStiffness(const Membrane& m, std::span<const Vec3> x, double 
     : m_(m), taut_(m.families.size()), q_(m.triangles.size()) {
   const OfFamilies yarns = yarn_stiffness(m);
   const bool paired = is_paired(m);
+  for (const MembraneFamily& family : m.families)
+    along_.push_back(family.along);
   for (std::size_t a = 0; a < m.families.size(); ++a)
     taut_[a] = stiffness * yarns[a] + damping * m.families[a].density * m.families[a].viscosity;
   rows_.reserve(m.triangles.size() * m.families.size());
@@ -255,13 +257,15 @@ YarnStiffness::YarnStiffness(const Membrane& m, std::span<const Vec3> x, double 
   }
 }
 
+template <std::size_t known>
 void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
+  constexpr std::size_t most = known > 0 ? known : most_families;
   const auto begin = static_cast<std::size_t>(m_.group_begin[group]),
              end = static_cast<std::size_t>(m_.group_begin[group + 1]);
-  const std::size_t families = m_.families.size();
+  const std::size_t families = known > 0 ? known : along_.size();
   double area = 0.0;
-  OfFamilies mean{};
-  std::array<OfFamilies, most_in_group> strain;
+  std::array<double, most> mean{};
+  std::array<std::array<double, most>, most_in_group> strain;
   for (std::size_t e = begin; e < end; ++e) {
     const AxesGradients& c = m_.c[e];
     const Triangle& t = m_.triangles[e];
@@ -270,7 +274,7 @@ void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
     const Vec3 k1 = c.c11 * g1 + c.c12 * g2, k2 = c.c21 * g1 + c.c22 * g2;
     area += m_.area[e];
     for (std::size_t a = 0; a < families; ++a) {
-      const Vec2& along = m_.families[a].along;
+      const Vec2& along = along_[a];
       double& own = strain[e - begin][a];
       own = 0.0;
       if (along.x() != 0.0) own += along.x() * rows_[e * families + a].f.dot(k1);
@@ -287,7 +291,7 @@ void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
       const double own = strain[e - begin][a];
       const double pull = m_.area[e] * (taut_[a] * mean[a] + row.deviation * (own - mean[a]) +
                                         row.collapse_penalty * own);
-      const Vec2& along = m_.families[a].along;
+      const Vec2& along = along_[a];
       if (along.x() != 0.0) q_[e].q1 += (along.x() * pull) * row.f;
       if (along.y() != 0.0) q_[e].q2 += (along.y() * pull) * row.f;
     }
@@ -296,7 +300,7 @@ void YarnStiffness::strain_group(std::span<const Vec3> y, std::size_t group) {
 
 void YarnStiffness::add_to(std::span<const Vec3> y, std::span<Vec3> f) {
   for (std::size_t p = 0; p < static_cast<std::size_t>(m_.groups()); ++p)
-    strain_group(y, p);
+    along_.size() == 2 ? strain_group<2>(y, p) : strain_group<0>(y, p);
   for (std::size_t n = 0; n < f.size(); ++n)
     f[n] -= node_force(m_, q_, static_cast<int>(n));
 }

@@ -65,9 +65,12 @@ private:
     Vec3 f;
     double deviation, collapse_penalty; ///< N/mm
   };
+  /// `known`: the number of families; 0: that of the membrane.
+  template <std::size_t known>
   void strain_group(std::span<const Vec3> y, std::size_t group);
 
   const Membrane& m_;
+  std::vector<Vec2> along_;  ///< v_a, one per family
   std::vector<double> taut_; ///< N/mm, one per family
   std::vector<Row> rows_;    ///< families of the first triangle, of the second ...
   std::vector<ElementForce> q_;

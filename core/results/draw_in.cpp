@@ -14,20 +14,37 @@ namespace {
 
 using Loop = std::vector<std::int32_t>;
 
-/// The two neighbours of each node along the border, whose edges belong to one triangle each.
-/// Nothing if the border meets itself at a node.
+/// The two neighbours of each node along the border, whose edges belong to one triangle each, by
+/// ascending node. Nothing if the border meets itself at a node.
 std::optional<std::map<std::int32_t, std::pair<std::int32_t, std::int32_t>>>
-border_neighbours(const std::vector<Triangle>& triangles) {
-  std::map<std::pair<std::int32_t, std::int32_t>, int> count;
-  for (const Triangle& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k)
-      ++count[std::minmax(t[k], t[(k + 1) % 3])];
+border_neighbours(const std::vector<Triangle>& triangles, std::size_t nodes) {
+  std::vector<std::size_t> begin(nodes + 1, 0); // edges by the lower number of their nodes
+  const auto each_edge = [&](const auto& f) {
+    for (const Triangle& t : triangles)
+      for (std::size_t k = 0; k < 3; ++k) {
+        const auto [low, high] = std::minmax(t[k], t[(k + 1) % 3]);
+        f(at(low), high);
+      }
+  };
+  each_edge([&](std::size_t low, std::int32_t) { ++begin[low + 1]; });
+  std::partial_sum(begin.begin(), begin.end(), begin.begin());
+  std::vector<std::int32_t> ends(begin.back());
+  std::vector<std::size_t> next(begin.begin(), begin.end() - 1);
+  each_edge([&](std::size_t low, std::int32_t high) { ends[next[low]++] = high; });
   std::map<std::int32_t, std::vector<std::int32_t>> beside;
-  for (const auto& [edge, triangles_of_edge] : count)
-    if (triangles_of_edge == 1) {
-      beside[edge.first].push_back(edge.second);
-      beside[edge.second].push_back(edge.first);
+  for (std::size_t low = 0; low < nodes; ++low) {
+    const auto first = ends.begin() + static_cast<std::ptrdiff_t>(begin[low]),
+               last = ends.begin() + static_cast<std::ptrdiff_t>(begin[low + 1]);
+    std::sort(first, last);
+    for (auto high = first; high != last;) {
+      const auto same = std::find_if(high, last, [&](std::int32_t n) { return n != *high; });
+      if (same - high == 1) {
+        beside[static_cast<std::int32_t>(low)].push_back(*high);
+        beside[*high].push_back(static_cast<std::int32_t>(low));
+      }
+      high = same;
     }
+  }
   std::map<std::int32_t, std::pair<std::int32_t, std::int32_t>> pairs;
   for (const auto& [node, others] : beside) {
     if (others.size() != 2) return std::nullopt;
@@ -47,7 +64,7 @@ double enclosed_area(const PlyFrame& ply, const Loop& loop) {
 
 /// Nodes of the outer border in order: of the closed loops of edges that with the largest area.
 std::optional<Loop> outer_border(const PlyFrame& ply) {
-  auto beside = border_neighbours(ply.triangles);
+  auto beside = border_neighbours(ply.triangles, ply.x0.size());
   if (!beside || beside->empty()) return std::nullopt;
   Loop best;
   double best_area = -1.0;

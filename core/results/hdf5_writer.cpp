@@ -7,6 +7,7 @@
 #include "core/results/result_fields.hpp"
 
 #include <algorithm>
+#include <functional>
 #include <map>
 #include <stdexcept>
 #include <system_error>
@@ -19,11 +20,27 @@ using namespace hdf5;
 
 namespace {
 
+/// Types and spaces that many attributes share: most of an attribute's time is in making them.
+class SharedTypes {
+public:
+  hid_t text(std::size_t length) {
+    const auto [found, added] = texts_.try_emplace(length);
+    if (added) found->second = utf8_type(length);
+    return found->second.id();
+  }
+  const Handle& scalar() const { return scalar_; }
+
+private:
+  std::map<std::size_t, Handle> texts_; ///< by their length, bytes
+  Handle scalar_{H5Screate(H5S_SCALAR), H5Sclose};
+};
+
 /// Writes datasets to a file; `where` in its functions is a path inside the file.
 struct Writer {
   const fs::path& path; ///< of the file, for messages
   hid_t file;
   const Disk& disk; ///< that of the file
+  SharedTypes& shared;
 
   void require(bool ok, const std::string& what) const {
     if (!ok || disk.error != 0) fail(path, "cannot write " + what, disk);
@@ -36,8 +53,10 @@ struct Writer {
     require(made.valid() && made.close(), where);
   }
 
+  /// describe: gives the open dataset, as the `file` of a writer, its attributes.
   template <class T>
-  void dataset(const std::string& where, const std::vector<T>& values) const {
+  void dataset(const std::string& where, const std::vector<T>& values,
+               const std::function<void(const Writer&)>& describe = {}) const {
     const hsize_t size[2] = {values.size(), columns<T>};
     const Handle space(H5Screate_simple(columns<T> == 1 ? 1 : 2, size, nullptr), H5Sclose);
     const Handle layout(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
@@ -50,22 +69,25 @@ struct Writer {
     require(set.valid() && H5Dwrite(set.id(), memory_type<T>(), H5S_ALL, H5S_ALL, H5P_DEFAULT,
                                     values.data()) >= 0,
             where);
+    if (describe) describe({path, set.id(), disk, shared});
     require(set.close(), where);
   }
 
+  /// where: "." is what is open as `file`.
   void attribute(const std::string& where, const char* name, hid_t filed, hid_t in_memory,
                  const Handle& space, const void* values) const {
-    Handle made(H5Acreate_by_name(file, where.c_str(), name, filed, space.id(), H5P_DEFAULT,
-                                  H5P_DEFAULT, H5P_DEFAULT),
-                H5Aclose);
+    const hid_t id = where == "."
+                         ? H5Acreate2(file, name, filed, space.id(), H5P_DEFAULT, H5P_DEFAULT)
+                         : H5Acreate_by_name(file, where.c_str(), name, filed, space.id(),
+                                             H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT);
+    Handle made(id, H5Aclose);
     require(made.valid() && H5Awrite(made.id(), in_memory, values) >= 0, where + ":" + name);
     require(made.close(), where + ":" + name);
   }
 
   template <class T>
   void number(const std::string& where, const char* name, T value) const {
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    attribute(where, name, file_type<T>(), memory_type<T>(), space, &value);
+    attribute(where, name, file_type<T>(), memory_type<T>(), shared.scalar(), &value);
   }
 
   void vector(const std::string& where, const char* name, const Vec3& value) const {
@@ -92,25 +114,19 @@ struct Writer {
     for (const std::string& value : values)
       padded += value + std::string(length - value.size(), '\0');
     const hsize_t size = values.size();
-    const Handle type = utf8_type(length);
+    const hid_t type = shared.text(length);
     const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose);
-    attribute(where, name, type.id(), type.id(), space, padded.data());
+    attribute(where, name, type, type, space, padded.data());
   }
 
   void text(const std::string& where, const char* name, const std::string& value) const {
-    const Handle type = utf8_type(value.size());
-    const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
-    attribute(where, name, type.id(), type.id(), space, value.data());
+    const hid_t type = shared.text(value.size());
+    attribute(where, name, type, type, shared.scalar(), value.data());
   }
 };
 
-/// Attributes of a dataset: what its values are.
-void describe(const Writer& out, const std::string& where, const Description& what,
-              Location location) {
-  const Handle opened(H5Oopen(out.file, where.c_str(), H5P_DEFAULT), H5Oclose);
-  out.require(opened.valid(), where);
-  Writer set = out; // the way to it is gone once, not by each attribute
-  set.file = opened.id();
+/// Attributes of an open dataset: what its values are.
+void describe(const Writer& set, const Description& what, Location location) {
   set.text(".", "place", word_of(location));
   set.text(".", "label", what.label);
   set.text(".", "word", what.word);
@@ -145,10 +161,10 @@ void write_ply(const Writer& out, const std::string& where, const PlyFrame& ply)
   out.dataset(where + "/x", ply.x);
   each_column(ply, [&](const Column& column, const auto& values) {
     if (column.may_lack && values.empty()) return;
-    const std::string path = where + "/" + column.name;
-    out.dataset(path, values);
-    describe(out, path, column, column.location);
-    if (!column.quantity.empty()) out.text(path, "quantity", column.quantity);
+    out.dataset(where + "/" + column.name, values, [&](const Writer& set) {
+      describe(set, column, column.location);
+      if (!column.quantity.empty()) set.text(".", "quantity", column.quantity);
+    });
   });
 }
 
@@ -188,7 +204,7 @@ public:
   WholeFile(const WholeFile&) = delete;
   WholeFile& operator=(const WholeFile&) = delete;
 
-  Writer writer() const { return {path_, file_.id(), disk_}; }
+  Writer writer() { return {path_, file_.id(), disk_, shared_}; }
 
   void complete() {
     if (!file_.close() || disk_.error != 0) fail(path_, "cannot write", disk_);
@@ -203,6 +219,7 @@ public:
 private:
   fs::path path_, temporary_;
   Disk disk_;
+  SharedTypes shared_;
   Handle file_;
   bool complete_ = false;
 };
@@ -238,8 +255,8 @@ void write_index(const Writer& out, const StateIndex& index) {
   std::map<std::string, std::vector<std::string>> names; // by group, in order
   for (const Series& series : index.history) {
     const std::string where = path_of(series.what);
-    out.dataset(where, series.values);
-    describe(out, where, series.what, series.what.location);
+    out.dataset(where, series.values,
+                [&](const Writer& set) { describe(set, series.what, series.what.location); });
     names[where.substr(0, where.rfind('/'))].push_back(series.what.name);
   }
   for (const auto& [group, own] : names)

@@ -58,6 +58,18 @@ public:
     places_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
     for (std::size_t t = 0; t < ply.triangles.size(); ++t)
       fill(t);
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    for (int k = 0; k < 3; ++k) {
+      const auto number = [](const Place& p, const Vec3& of, int i) {
+        return p.inside ? of[i] : none;
+      };
+      x_[at(k)].resize(static_cast<Eigen::Index>(places_.size())), n_[at(k)] = x_[at(k)];
+      for (std::size_t i = 0; i < places_.size(); ++i) {
+        const Place& p = places_[i];
+        x_[at(k)][static_cast<Eigen::Index>(i)] = number(p, p.x, k);
+        n_[at(k)][static_cast<Eigen::Index>(i)] = number(p, p.normal, k);
+      }
+    }
   }
 
   int columns() const { return columns_; }
@@ -67,6 +79,22 @@ public:
   Place* find(int i, int j) {
     Place& p = places_[index(i, j)];
     return p.inside ? &p : nullptr;
+  }
+
+  /// |D_0| (mm) at the places of row j from column `first` on, before column `last`, of lines whose
+  /// points are (di, dj) apart; NaN where the ply does not cover all three of its points.
+  const Eigen::ArrayXd& bends(int j, int first, int last, int di, int dj) {
+    const Eigen::Index count = std::max(0, last - first);
+    bends_.setZero(count);
+    if (count == 0) return bends_;
+    const auto here = static_cast<Eigen::Index>(index(first, j)),
+               apart = static_cast<Eigen::Index>(dj) * columns_ + di;
+    const auto bend = [&](std::size_t k) {
+      const auto x = [&](Eigen::Index from) { return x_[k].segment(from, count); };
+      return n_[k].segment(here, count) * (x(here) - 0.5 * (x(here - apart) + x(here + apart)));
+    };
+    bends_ = (bend(0) + bend(1) + bend(2)).abs();
+    return bends_;
   }
 
   const std::vector<const ToolBody*>& tools() const { return tools_; }
@@ -141,6 +169,8 @@ private:
   Vec2 low_;
   int columns_ = 0, rows_ = 0;
   std::vector<Place> places_;
+  std::array<Eigen::ArrayXd, 3> x_, n_; ///< of the places, by coordinate; NaN outside the ply
+  Eigen::ArrayXd bends_;
 };
 
 using Line = std::array<Place*, 5>;
@@ -225,8 +255,12 @@ double share_of_tools(Grid& grid, const Line& line, double half_wave) {
 void search_along(Grid& grid, int di, int dj, Wrinkle& best) {
   const double half_wave = grid.step() * std::hypot(di, dj);
   const int beside = 2 * std::abs(di), above = 2 * std::abs(dj); // a line reaches so far
-  for (int j = above; j < grid.rows() - above; ++j)
+  constexpr double rounding = 1e-9;
+  for (int j = above; j < grid.rows() - above; ++j) {
+    const Eigen::ArrayXd& bends = grid.bends(j, beside, grid.columns() - beside, di, dj);
+    const double least = (1.0 - rounding) * std::min(best.height, least_wrinkle);
     for (int i = beside; i < grid.columns() - beside; ++i) {
+      if (!(bends[i - beside] >= least)) continue; // most lines end here: H is at most this
       Line line{};
       const auto have = [&](int k) {
         return (line[at(k + 2)] = grid.find(i + k * di, j + k * dj)) != nullptr;
@@ -234,7 +268,7 @@ void search_along(Grid& grid, int di, int dj, Wrinkle& best) {
       if (!have(0) || !have(-1) || !have(1)) continue;
       double& here = line[2]->height;
       const double needed = std::min(best.height, std::max(here, least_wrinkle));
-      const double middle = bend(line, 2); // H is at most this: most lines end here
+      const double middle = bend(line, 2);
       if (std::abs(middle) <= needed || !have(-2) || !have(2)) continue;
       double found = height(bend(line, 1), middle, bend(line, 3));
       if (found <= needed) continue;
@@ -243,6 +277,7 @@ void search_along(Grid& grid, int di, int dj, Wrinkle& best) {
       if (found > best.height) best = {found, 2.0 * half_wave, line[2]->x};
       if (found >= least_wrinkle) here = std::max(here, found);
     }
+  }
 }
 
 /// The highest wrinkle of all four directions at about this half wavelength, mm.
