@@ -2,7 +2,7 @@
 // Bending: forces of all nodes, four side by side as the step does it and one after the other, out
 // of the sheet alone and with yarns that bend in it.
 #include "core/ply/bending_simd.hpp"
-#include "support/bending_laws.hpp"
+#include "tests/support/bending_laws.hpp"
 
 #include <benchmark/benchmark.h>
 #include <cmath>

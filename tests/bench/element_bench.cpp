@@ -40,7 +40,8 @@ Sheet& sheet(std::int64_t cells, bool averaged) {
   const BlankMesh mesh = mesh_blank(blank, 0.0, 0.5 * std::numbers::pi);
   s.m = make_membrane(mesh, glass(), std::numbers::pi / 8.0,
                       averaged ? ElementKind::averaged : ElementKind::plain);
-  s.m.viscosity = {1e-3, 1e-3};
+  for (MembraneFamily& family : s.m.families)
+    family.viscosity = 1e-3;
   for (const Vec2& p : mesh.x) {
     s.x0.emplace_back(p.x(), p.y(), 0.0);
     s.x.emplace_back(p.x() + 0.2 * p.y() + 0.01 * std::sin(0.3 * p.y()), p.y() + 0.1 * p.x(),
