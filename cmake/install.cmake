@@ -38,6 +38,9 @@ set(public_headers
   core/model/case.hpp
   core/model/energies.hpp
   core/model/fabric.hpp
+  core/model/law_point.hpp
+  core/model/monotone_curve.hpp
+  core/model/shear_law.hpp
   core/model/isotropic.hpp
   core/model/sheet_law.hpp
   core/model/sheet_response.hpp

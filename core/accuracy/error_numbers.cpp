@@ -40,7 +40,7 @@ constexpr double measured_max_softening_of_stack = 300.0;
 double shear_energy_of(const Fabric& f) {
   double w = 0.0;
   for (const Crossing& c : f.crossings)
-    w += cells_per_area(f, c) * c.shear.at(half_radian).energy;
+    w += cells_per_area(f, c) * c.shear.odd_part(half_radian).energy;
   return w;
 }
 

@@ -80,27 +80,6 @@ TensionLaw softened(TensionLaw law, double asked) {
   return law;
 }
 
-LawPoint ShearLaw::at(double g) const {
-  if (!angle.empty()) return odd(angle, torque, g);
-  LawPoint r{0.0, 0.0, 0.0};
-  const double g2 = g * g;
-  double power = 1.0; // g^(2i)
-  for (std::size_t i = 0; i < k.size(); ++i) {
-    const double order = 2.0 * static_cast<double>(i) + 1.0; // exponent of g
-    r.value += k[i] * power * g;
-    r.slope += k[i] * order * power;
-    r.energy += k[i] * power * g2 / (order + 1.0);
-    power *= g2;
-  }
-  return r;
-}
-
-double ShearLaw::secant(double g) const {
-  constexpr double small = 1e-9; // rad: below it Cs(g) / g equals the slope at 0 to rounding
-  const LawPoint law = at(g);
-  return std::abs(g) > small ? law.value / g : law.slope;
-}
-
 LawPoint MomentLaw::at(double kappa) const {
   if (!curvature.empty()) return odd(curvature, moment, kappa);
   return {stiffness * kappa, stiffness, 0.5 * stiffness * kappa * kappa};

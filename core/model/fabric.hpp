@@ -9,6 +9,7 @@
 #pragma once
 
 #include "base/geometry.hpp"
+#include "core/model/shear_law.hpp"
 #include "core/model/sheet_law.hpp"
 
 #include <array>
@@ -20,11 +21,6 @@
 #include <vector>
 
 namespace plyform {
-
-/// Value and slope of a law at one point, and its integral from 0 (the stored energy).
-struct LawPoint {
-  double value, slope, energy;
-};
 
 /// Tangent stiffness of a buckled yarn over its compression stiffness: small, but large enough that
 /// further shortening does not localise in one row of elements.
@@ -57,16 +53,6 @@ double effective_softening(const TensionLaw& law, double asked);
 /// The law of a yarn effective_softening(law, asked) times as soft in tension. Compression is not
 /// changed.
 TensionLaw softened(TensionLaw law, double asked);
-
-/// Torque that two families exert on each other in one unit cell against the shear angle: odd
-/// polynomial k[0] g + k[1] g^3 + k[2] g^5 ..., or an odd table (given for g >= 0).
-struct ShearLaw {
-  std::vector<double> k;             ///< N mm, coefficients of g, g^3, g^5 ...
-  std::vector<double> angle, torque; ///< rad and N mm, ascending from (0, 0); last slope beyond
-  /// Cs (N mm), dCs/dg (N mm/rad), Ws (N mm); g in rad, of either sign.
-  LawPoint at(double g) const;
-  double secant(double g) const; ///< Cs(g) / g, N mm; its limit at 0
-};
 
 /// Moment per width against curvature, odd: M = stiffness * kappa, or a table for kappa >= 0.
 struct MomentLaw {

@@ -128,8 +128,9 @@ double usual_zone_width(const Fabric& fabric) {
 double shear_rigidity(const Fabric& fabric) {
   double rigidity = 0.0;
   for (const Crossing& c : fabric.crossings) {
-    const double start = c.shear.at(0.0).slope;
-    rigidity += cells_per_area(fabric, c) * (start > 0.0 ? start : c.shear.secant(shear_scale_at));
+    const double start = c.shear.odd_part(0.0).slope;
+    const double secant = c.shear.odd_part(shear_scale_at).value / shear_scale_at;
+    rigidity += cells_per_area(fabric, c) * (start > 0.0 ? start : secant);
   }
   return rigidity;
 }

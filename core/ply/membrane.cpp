@@ -24,7 +24,8 @@ SideStiffness side_stiffness(const Membrane& m, std::size_t index) {
   double by_shear = 0.0;
   for (const MembraneCrossing& c : m.crossings)
     if (c.first == index || c.second == index) {
-      const double secant = c.shear.at(shear_scale_at).value / shear_scale_at;
+      const double secant = std::min(c.shear.respond(shear_scale_at, 0.0).secant,
+                                     c.shear.respond(-shear_scale_at, 0.0).secant);
       by_shear += c.cells * deviation_weight * secant / family.density;
     }
   SideStiffness side{stabilisation * stiff, std::min(collapse_penalty * stiff, soft)};
@@ -45,9 +46,13 @@ void set_laws(Membrane& m, const Fabric& fabric, const MaterialAxes& axes, doubl
                           effective_softening(f.tension, softening),
                           0.0,
                           {}});
-  for (const Crossing& c : fabric.crossings)
+  for (const Crossing& c : fabric.crossings) {
     m.crossings.push_back(
         {c.first, c.second, crossing_angle(fabric, c), cells_per_area(fabric, c), c.shear});
+    if (!c.shear.tabulated()) continue;
+    m.crossings.back().steepest = c.shear.curve().largest_slope();
+    m.crossings.back().table = shear_table(c.shear, m.crossings.back().cells);
+  }
   for (std::size_t a = 0; a < m.families.size(); ++a)
     m.families[a].side = side_stiffness(m, a);
 }

@@ -36,21 +36,25 @@
 //   s_a      N       stabilisation of the deviations, for fabrics without shear stiffness: 1e-6 of
 //                    the yarn stiffness, and, if there is shear stiffness, no more than a tenth of
 //                    the stiffness sum_c n_c beta p / d_a that it gives the deviations at half a
-//                    radian; else very stiff yarns would lock
+//                    radian, of the softer side; else very stiff yarns would lock
 //   g_a      N       collapse penalty, against folding a triangle flat, acts below a stretch of one
 //                    half: 1e-3 of the yarn stiffness, and no more than the (softened) yarn's own,
 //                    which is slack there unless it bears compression or its group is taut
 //
 // clang-format off
 //   E_P = A sum_a d_a W_a(mean eps_a)
-//         + sum over P of A0 [ sum_c n_c Ws(g_c) + psi
+//         + sum over P of A0 [ sum_c n_c Es(gamma, g_c) + psi
 //                              + sum_a d_a ( s_a/2 delta_a^2 + g_a/2 max(0, 1/2 - lambda_a)^2 ) ]  (E)
 //   p   = Cs(g_c) / g_c, N mm: secant stiffness of a cell;  t_a = sum_c n_c beta p delta_a / d_a
+//   T   = p gamma, N mm: torque of a cell
 //   N_a = W_a'(mean eps_a) + s_a delta_a + t_a - mean t_a - g_a max(0, 1/2 - lambda_a)             (N)
-//   p_a = A0 [ d_a N_a f_a + sum_c n_c p gamma (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]    (P)
+//   p_a = A0 [ d_a N_a f_a + sum_c n_c T (f_b - cos(omega) f_a) / (lambda_a sin(omega)) ]          (P)
 //   q_i = sum_a v_a,i p_a + A0 dpsi/dk_i                                                           (Q)
 //   F_n = -( c_1,n q_1 + c_2,n q_2 )                                                   (31)(32)(39)(F)
 // clang-format on
+//
+// Es = Ws(g_c) of a law that is odd. Of one of both signs Es, p and T are E, p and the torque of
+// (C) and (D) of core/model/shear_law.hpp, with s^2 = g_c^2 - gamma^2.
 //
 // Sums over a run over all families, sums over c over all crossings (in (P), those of family a).
 // Numbers in brackets: the corresponding equations of the paper. With two families and groups of
@@ -71,6 +75,7 @@
 #include "core/mesh/mesh_blank.hpp"
 #include "core/model/case.hpp"
 #include "core/model/yarn_law.hpp"
+#include "core/ply/shear_pieces.hpp"
 
 #include <span>
 #include <vector>
@@ -113,6 +118,8 @@ struct MembraneCrossing {
   double cells = 0.0;                ///< n_c, 1/mm^2
   ShearLaw shear;                    ///< Cs
   bool is_axes = false;              ///< whether its families are the axes, in their order
+  double steepest = 0.0;             ///< N mm, largest slope of a table
+  ShearTable table{};                ///< of one: what the kernel looks up
 };
 
 /// What the yarns of one family in one strain group remember from step to step: the states of
@@ -214,8 +221,13 @@ double shown_shear(const Membrane& m, const TriangleState& t);
 /// Two directions with these unit vectors, omega0 (rad) apart before forming.
 CrossingState crossing_state(const Vec3& f_a, const Vec3& f_b, double omega0);
 
+/// Slope of Cs, N mm, on which the stable step relies at shear angle gamma (rad): of a table the
+/// largest of all, so that no row comes as a surprise; of a polynomial that of the steeper side at
+/// this angle.
+double shear_slope(const MembraneCrossing& c, double gamma);
+
 /// Stiffness per area, N/mm, that a crossing gives the deviations in (E) at shear angle gamma
-/// (rad): beta n_c times the larger of Cs'(gamma) and Cs(gamma)/gamma.
+/// (rad): beta n_c times the larger of shear_slope and Cs(gamma)/gamma, of the stiffer side.
 double deviation_stiffness(const MembraneCrossing& c, double gamma);
 
 /// Yarn strains of each family in all m triangles: mean eps_a of the strain group of each. x: mm,

@@ -112,10 +112,10 @@ double soft_stiffness(const Membrane& m, const TriangleState& t) {
   for (std::size_t i = 0; i < m.crossings.size(); ++i) {
     const MembraneCrossing& c = m.crossings[i];
     const double lambda1 = t.yarn[c.first].lambda, lambda2 = t.yarn[c.second].lambda;
-    const LawPoint shear = c.shear.at(t.crossing[i].gamma);
+    const double gamma = t.crossing[i].gamma, torque = c.shear.at(gamma).value;
     const double inv2 = 1.0 / (lambda1 * lambda1) + 1.0 / (lambda2 * lambda2);
     sum += (c.is_axes ? 1.0 : largest_of_crossing(m, c)) * c.cells * inv2 *
-           (std::abs(shear.slope) + 2.0 * std::abs(shear.value) / t.crossing[i].sin_omega);
+           (std::abs(shear_slope(c, gamma)) + 2.0 * std::abs(torque) / t.crossing[i].sin_omega);
   }
   return sum;
 }

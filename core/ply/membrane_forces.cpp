@@ -52,17 +52,18 @@ double side_energy(const SideStiffness& side, double lambda, double mean) {
          (side.stabilisation * deviation * deviation + side.collapse_penalty * folded * folded);
 }
 
-/// g_c of (E) for a triangle of a group.
-double shear_measure(const MembraneCrossing& c, const CrossingState& crossing,
-                     const TriangleState& t, const GroupState& s) {
+/// Es, p and T of a cell for a triangle of a group.
+ShearResponse shear_response(const MembraneCrossing& c, const CrossingState& crossing,
+                             const TriangleState& t, const GroupState& s) {
   const double d1 = t.yarn[c.first].lambda - s.mean[c.first],
                d2 = t.yarn[c.second].lambda - s.mean[c.second];
-  return std::sqrt(crossing.gamma * crossing.gamma + deviation_weight * (d1 * d1 + d2 * d2));
+  return c.shear.respond(crossing.gamma, deviation_weight * (d1 * d1 + d2 * d2));
 }
 
-/// n_c p of (N) and (P), N/mm, for g_c = `measure`.
-double secant_stiffness(const MembraneCrossing& c, double measure) {
-  return c.cells * c.shear.secant(measure);
+/// The larger of a number of both signs of the shear angle, if they may differ.
+template <class Of>
+double of_stiffer_side(const ShearLaw& law, double gamma, const Of& of) {
+  return law.odd() ? of(gamma) : std::max(of(gamma), of(-gamma));
 }
 
 /// The sheet's law with k across the first axis.
@@ -85,9 +86,9 @@ void add_sheet(const Membrane& m, const AxesState& axes, double area, ElementFor
   q.q2 += m.across.y() * q2;
 }
 
-/// (Q) of one triangle. n: tensions (N) of its yarns; secant: n_c p (N/mm) of its crossings.
+/// (Q) of one triangle. n: tensions (N) of its yarns; shear: n_c T (N/mm) of its crossings.
 ElementForce triangle_force(const Membrane& m, const TriangleState& t, double area,
-                            const OfFamilies& n, const std::array<double, most_crossings>& secant) {
+                            const OfFamilies& n, const std::array<double, most_crossings>& shear) {
   std::array<Vec3, most_families> p; // (P)
   for (std::size_t a = 0; a < m.families.size(); ++a)
     p[a] = area * m.families[a].density * n[a] * t.yarn[a].f;
@@ -95,7 +96,7 @@ ElementForce triangle_force(const Membrane& m, const TriangleState& t, double ar
     const auto [first, second] = std::pair(m.crossings[c].first, m.crossings[c].second);
     const FamilyState &a = t.yarn[first], &b = t.yarn[second];
     const CrossingState& s = t.crossing[c];
-    const double torque = area * secant[c] * s.gamma / s.sin_omega;
+    const double torque = area * shear[c] / s.sin_omega;
     p[first] += torque / a.lambda * (b.f - s.cos_omega * a.f);
     p[second] += torque / b.lambda * (a.f - s.cos_omega * b.f);
   }
@@ -111,16 +112,17 @@ ElementForce triangle_force(const Membrane& m, const TriangleState& t, double ar
 /// (Q) of all triangles of a group. n: W_a'(mean eps_a) of (N) with the viscous tension, N.
 void group_forces(const Membrane& m, const GroupState& s, const OfFamilies& n,
                   std::span<ElementForce> q) {
-  std::array<std::array<double, most_crossings>, most_in_group> secant{};
+  std::array<std::array<double, most_crossings>, most_in_group> shear{};
   std::array<OfFamilies, most_in_group> held{}; // sum_c n_c p delta_a
   OfFamilies mean{};
   for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i) {
     const TriangleState& t = s.triangle[i];
     for (std::size_t c = 0; c < m.crossings.size(); ++c) {
       const MembraneCrossing& of = m.crossings[c];
-      secant[i][c] = secant_stiffness(of, shear_measure(of, t.crossing[c], t, s));
+      const ShearResponse cell = shear_response(of, t.crossing[c], t, s);
+      shear[i][c] = of.cells * cell.torque;
       for (const std::size_t a : {of.first, of.second})
-        held[i][a] += secant[i][c] * (t.yarn[a].lambda - s.mean[a]);
+        held[i][a] += of.cells * cell.secant * (t.yarn[a].lambda - s.mean[a]);
     }
     const double share = m.area[static_cast<std::size_t>(s.begin) + i] / s.area;
     for (std::size_t a = 0; a < m.families.size(); ++a)
@@ -135,7 +137,7 @@ void group_forces(const Membrane& m, const GroupState& s, const OfFamilies& n,
       own[a] = n[a] + side_tension(f.side, t.yarn[a].lambda, s.mean[a]) +
                deviation_weight / f.density * (held[i][a] - mean[a]); // t_a - mean t_a of (N)
     }
-    q[e] = triangle_force(m, t, m.area[e], own, secant[i]);
+    q[e] = triangle_force(m, t, m.area[e], own, shear[i]);
   }
 }
 
@@ -188,7 +190,7 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
                      side_energy(m.families[a].side, t.yarn[a].lambda, s.mean[a]);
       for (std::size_t c = 0; c < m.crossings.size(); ++c) {
         const MembraneCrossing& of = m.crossings[c];
-        sum.shear += area * of.cells * of.shear.at(shear_measure(of, t.crossing[c], t, s)).energy;
+        sum.shear += area * of.cells * shear_response(of, t.crossing[c], t, s).energy;
       }
       if (m.fabric.sheet)
         sum.shear += area * sheet_response(m, t.axes, across_axis(m, t.axes)).energy;
@@ -197,9 +199,15 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
   return sum;
 }
 
+double shear_slope(const MembraneCrossing& c, double gamma) {
+  if (c.shear.tabulated()) return c.steepest;
+  return of_stiffer_side(c.shear, gamma, [&](double g) { return c.shear.at(g).slope; });
+}
+
 double deviation_stiffness(const MembraneCrossing& c, double gamma) {
-  const double slope = c.cells * c.shear.at(gamma).slope;
-  return deviation_weight * std::max(slope, secant_stiffness(c, std::abs(gamma)));
+  const double secant =
+      of_stiffer_side(c.shear, std::abs(gamma), [&](double g) { return c.shear.secant(g); });
+  return deviation_weight * std::max(c.cells * shear_slope(c, gamma), c.cells * secant);
 }
 
 std::vector<std::vector<double>> yarn_strains(const Membrane& m, std::span<const Vec3> x) {

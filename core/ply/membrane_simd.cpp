@@ -129,16 +129,25 @@ void evaluate_yarns(const KernelLaw& law, int family, double per_dt, const doubl
   }
 }
 
-void secant_of_table(const KernelLaw& law, int crossing, const double* measure2, double* p) {
-  const MembraneCrossing& c = law.membrane->crossings[at(crossing)];
-  for (int i = 0; i < simd_width; ++i)
-    p[i] = c.cells * c.shear.secant(std::sqrt(measure2[i]));
+/// A cell of a crossing with this shear angle and measure g^2.
+ShearResponse cell_of(const MembraneCrossing& c, double gamma, double measure2) {
+  return c.shear.respond(gamma, std::max(0.0, measure2 - gamma * gamma));
 }
 
-void shear_energy_of_table(const KernelLaw& law, int crossing, const double* measure2, double* e) {
+void shear_of_crossing(const KernelLaw& law, int crossing, const double* gamma,
+                       const double* measure2, double* p, double* torque) {
+  const MembraneCrossing& c = law.membrane->crossings[at(crossing)];
+  for (int i = 0; i < simd_width; ++i) {
+    const ShearResponse cell = cell_of(c, gamma[i], measure2[i]);
+    p[i] = c.cells * cell.secant, torque[i] = c.cells * cell.torque;
+  }
+}
+
+void shear_energy_of_crossing(const KernelLaw& law, int crossing, const double* gamma,
+                              const double* measure2, double* e) {
   const MembraneCrossing& c = law.membrane->crossings[at(crossing)];
   for (int i = 0; i < simd_width; ++i)
-    e[i] = c.cells * c.shear.at(std::sqrt(measure2[i])).energy;
+    e[i] = c.cells * cell_of(c, gamma[i], measure2[i]).energy;
 }
 
 /// The law takes k_1 and the image k of the line across it; here in the plane of both, with k_1
@@ -182,10 +191,21 @@ KernelCrossing kernel_crossing(const Membrane& m, const MembraneCrossing& c) {
   k.first = static_cast<int>(c.first), k.second = static_cast<int>(c.second);
   k.angle = c.omega0 - 0.5 * M_PI;
   k.sine = std::abs(v.x() * w.y() - v.y() * w.x());
-  if (c.shear.angle.empty() && c.shear.k.size() <= most_shear_terms) {
-    k.shear_terms = static_cast<int>(c.shear.k.size());
-    for (std::size_t i = 0; i < c.shear.k.size(); ++i)
-      k.shear[i] = c.cells * c.shear.k[i];
+  k.both_signs = !c.shear.odd();
+  k.piece = c.table.pieces.data(), k.interval = c.table.intervals.data();
+  k.intervals = static_cast<int>(c.table.intervals.size()), k.per_width = c.table.per_width;
+  const std::size_t terms = std::max(c.shear.k.size(), c.shear.negative_k.size());
+  if (c.shear.tabulated() || terms > most_shear_terms) return k;
+  k.shear_terms = static_cast<int>(terms);
+  const auto term = [](const std::vector<double>& of, std::size_t i) {
+    return i < of.size() ? of[i] : 0.0;
+  };
+  for (std::size_t i = 0; i < terms; ++i) {
+    const double plus = term(c.shear.k, i);
+    k.shear[i] = c.cells * plus;
+    if (!k.both_signs) continue;
+    const double minus = term(c.shear.negative_k, i);
+    k.shear[i] = 0.5 * c.cells * (plus + minus), k.even[i] = 0.5 * c.cells * (plus - minus);
   }
   return k;
 }
@@ -205,11 +225,11 @@ KernelLaw kernel_law(const Membrane& m) {
   law.weave = law.families == 2 && law.crossings == 1 && !law.sheet &&
               m.families[0].along == Vec2::UnitX() && m.families[1].along == Vec2::UnitY() &&
               law.crossing[0].first == 0 && law.crossing[0].second == 1;
-  law.beta = deviation_weight;
+  law.beta = deviation_weight, law.side_cubic = side_cubic;
   law.membrane = &m;
   law.evaluate = evaluate_yarns;
-  law.secant = secant_of_table;
-  law.shear_energy = shear_energy_of_table;
+  law.shear = shear_of_crossing;
+  law.shear_energy = shear_energy_of_crossing;
   law.sheet_law = sheet_of_membrane;
   return law;
 }

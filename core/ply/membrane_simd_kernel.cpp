@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // (N), (Q) and (F) of core/ply/membrane.hpp for four groups at a time, or with eight lanes those of
 // two successive packs. All of (Q) is a symmetric stress S in the material axes, N mm: with the
-// symbols of core/ply/membrane_simd_shape.hpp and tau = A0 n_c p gamma / j of a crossing
+// symbols of core/ply/membrane_simd_shape.hpp and tau = A0 n_c T / j of a crossing
 //   q_i = sum_j S_ij k_j
 //   S   = sum_a (A0 d_a N_a / lambda_a - sum_c tau_c D_c / lambda_a^2) v_a v_a^T
 //         + sum_c tau_c (v_a v_b^T + v_b v_a^T) + A0 S_sheet                                    (S)
-#include "core/ply/membrane_simd_yarns.hpp"
+#include "core/ply/membrane_simd_shear.hpp"
 
 namespace plyform {
 namespace {
@@ -29,14 +29,14 @@ PLYFORM_INLINE SimdStress sheet_stress(const KernelLaw& law, const SimdState<Any
           area * numbers([&](int q) { return answers[q].s12; })};
 }
 
-/// (S) of triangles. n: d_a N_a, N/mm; secant: n_c p, N/mm.
+/// (S) of triangles. n: d_a N_a, N/mm; torque: n_c T, N/mm.
 template <class Of>
 PLYFORM_INLINE SimdStress stress(const KernelLaw& law, const TrianglesOfQuads& t,
-                                 const SimdState<Of>& s, const Doubles* n, const Doubles* secant) {
+                                 const SimdState<Of>& s, const Doubles* n, const Doubles* torque) {
   Doubles pull[Of::most_families], tau[Of::most_crossings];
   for_families<Of>(law.families, [&](auto a) { pull[a] = n[a] * s.lambda[a]; });
   for_crossings<Of>(law, [&](auto c, auto first, auto second) {
-    const Doubles shear = secant[c] * s.gamma[c] * s.per_j[c];
+    const Doubles shear = torque[c] * s.per_j[c];
     tau[c] = shear * area_of(t);
     Doubles away;
     if constexpr (Of::weave)
@@ -106,13 +106,13 @@ template <class Of, bool general>
 PLYFORM_INLINE void single_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads& t,
                                  const SimdState<Of>& s, bool needs_penalty,
                                  const StatesOfQuads& v) {
-  Doubles n[Of::most_families], secant[Of::most_crossings];
+  Doubles n[Of::most_families], torque[Of::most_crossings];
   tensions<Of, general>(w, v, s.lambda, area_of(t), n);
   if (needs_penalty) add_collapse_penalty(w.lane, s, n);
   for_crossings<Of>(w.law, [&](auto c, auto, auto) {
-    secant[c] = simd_secant<Of, general>(w, c, s.gamma[c] * s.gamma[c]);
+    torque[c] = simd_shear<Of, general>(w, c, s.gamma[c], s.gamma[c] * s.gamma[c]).torque;
   });
-  const CornerForces forces = corner_forces(t, s, stress<Of>(w.law, t, s, n, secant));
+  const CornerForces forces = corner_forces(t, s, stress<Of>(w.law, t, s, n, torque));
   for (int q = 0; q < t.count; ++q)
     add_forces(*t.of[q], forces, q, w.force);
 }
@@ -140,14 +140,17 @@ PLYFORM_INLINE void pair_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads* t,
     mean[a] = share[0] * s[0].lambda[a] + share[1] * s[1].lambda[a];
   });
   tensions<Of, general>(w, v, mean, area_of(t[0]) + area_of(t[1]), n);
-  Doubles secant[2][Of::most_crossings], held[2][Of::most_families], delta[2][Of::most_families];
+  Doubles secant[2][Of::most_crossings], torque[2][Of::most_crossings];
+  Doubles held[2][Of::most_families], delta[2][Of::most_families];
   for (int i = 0; i < 2; ++i) {
     for_families<Of>(w.law.families, [&](auto a) { delta[i][a] = s[i].lambda[a] - mean[a]; });
     for_crossings<Of>(w.law, [&](auto c, auto first, auto second) {
       const Doubles deviation2 =
           delta[i][first] * delta[i][first] + delta[i][second] * delta[i][second];
-      secant[i][c] =
-          simd_secant<Of, general>(w, c, s[i].gamma[c] * s[i].gamma[c] + w.lane.beta * deviation2);
+      const Doubles gamma = s[i].gamma[c];
+      const SimdShear shear =
+          simd_shear<Of, general>(w, c, gamma, gamma * gamma + w.lane.beta * deviation2);
+      secant[i][c] = shear.secant, torque[i][c] = shear.torque;
     });
     find_held<Of>(w.law, secant[i], delta[i], held[i]);
   }
@@ -162,7 +165,7 @@ PLYFORM_INLINE void pair_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads* t,
                w.lane.yarns[a].stabilisation * delta[i][a];
     });
     if (needs_penalty) add_collapse_penalty(w.lane, s[i], own);
-    forces[i] = corner_forces(t[i], s[i], stress<Of>(w.law, t[i], s[i], own, secant[i]));
+    forces[i] = corner_forces(t[i], s[i], stress<Of>(w.law, t[i], s[i], own, torque[i]));
   }
   for (int q = 0; q < t->count; ++q) // in the order of one pack after the other
     for (int i = 0; i < 2; ++i)
@@ -238,8 +241,8 @@ PLYFORM_INLINE void triangle_energies(const SimdBlockWork<Of>& w, const Triangle
     });
     for_crossings<Of>(w.law, [&](auto c, auto first, auto second) {
       const Doubles deviation2 = delta[first] * delta[first] + delta[second] * delta[second];
-      shear +=
-          shear_energy<Of, general>(w, c, s[i].gamma[c] * s[i].gamma[c] + w.lane.beta * deviation2);
+      const Doubles gamma = s[i].gamma[c];
+      shear += shear_energy<Of, general>(w, c, gamma, gamma * gamma + w.lane.beta * deviation2);
     });
     const Doubles own = area_of(t[i]);
     of_sides[i] = own * sides, of_shear[i] = own * shear;
@@ -287,7 +290,7 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
 /// Whether a weave has laws that are more than straight lines and short polynomials.
 PLYFORM_INLINE bool is_general(const KernelLaw& law) {
   return law.by_law || law.yarns[0].buckles || law.yarns[1].buckles ||
-         law.crossing[0].shear_terms == 0;
+         law.crossing[0].shear_terms == 0 || law.crossing[0].both_signs;
 }
 
 PLYFORM_INLINE KernelReport membrane_kernel(const KernelBlock& block, const KernelLaw& law,

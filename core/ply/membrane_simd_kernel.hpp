@@ -3,13 +3,15 @@
 // and pointers, nothing inline (reason: base/simd.hpp).
 #pragma once
 
+#include "core/ply/shear_piece.hpp"
 #include "core/ply/simd_kernel.hpp"
 
 namespace plyform {
 
 struct Membrane;
 
-constexpr int most_shear_terms = 8; ///< longer polynomials are evaluated by callback, as tables
+constexpr int most_shear_terms = 8;  ///< longer polynomials are evaluated by callback
+constexpr double least_shear = 1e-9; ///< rad: below it Cs(g) / g equals the slope at 0 to rounding
 
 /// One triangle of each of four strain groups.
 struct alignas(32) SimdTriangles {
@@ -55,7 +57,13 @@ struct KernelCrossing {
   double angle; ///< rad, omega0 - pi/2
   double sine;  ///< area between v_first and v_second over that between the axes, above 0
   double shear[most_shear_terms]; ///< N/mm, n_c times the coefficients of g, g^3 ..., 0 beyond
-  int shear_terms;                ///< 0: a table, call `secant`
+  int shear_terms;                ///< 0: a table, or call `shear`
+  bool both_signs;                ///< whether there is an even part: the next member applies
+  double even[most_shear_terms];  ///< likewise, of C_e for g > 0
+  const ShearPiece* piece;        ///< of a table, two behind the last
+  const ShearInterval* interval;
+  int intervals;    ///< 0: no table
+  double per_width; ///< 1/rad
 };
 
 struct KernelLaw {
@@ -65,7 +73,7 @@ struct KernelLaw {
   /// Two families, along the axes, with one crossing and no law of the sheet: no more has to be
   /// computed.
   bool weave;
-  double beta;
+  double beta, side_cubic;
   const Membrane* membrane; ///< whose laws the callbacks evaluate
   bool by_law;              ///< call `evaluate`: the kernel does not know the laws of the yarns
   bool sheet;               ///< call `sheet_law`
@@ -73,10 +81,12 @@ struct KernelLaw {
   void (*evaluate)(const KernelLaw&, int family, double per_dt, const double* strain,
                    const double (*begin)[simd_width], double (*end)[simd_width],
                    KernelAnswers& answers);
-  /// n_c p (N/mm) of four squared shear measures g^2.
-  void (*secant)(const KernelLaw&, int crossing, const double* measure2, double* p);
-  /// Likewise n_c Ws (N/mm).
-  void (*shear_energy)(const KernelLaw&, int crossing, const double* measure2, double* energy);
+  /// n_c p and n_c T (N/mm) of four triangles with these shear angles and squared measures g^2.
+  void (*shear)(const KernelLaw&, int crossing, const double* gamma, const double* measure2,
+                double* p, double* torque);
+  /// Likewise n_c Es (N/mm).
+  void (*shear_energy)(const KernelLaw&, int crossing, const double* gamma, const double* measure2,
+                       double* energy);
   /// Four triangles with a = k_1.k_1, b = k_2.k_2, d = k_1.k_2.
   void (*sheet_law)(const KernelLaw&, const double* a, const double* b, const double* d,
                     SheetAnswers& answers);

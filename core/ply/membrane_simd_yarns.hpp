@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Laws of yarns and crossings of the kernel of core/ply/membrane_simd.hpp: (N) and the terms of (E)
-// of core/ply/membrane.hpp.
+// Laws of yarns of the kernel of core/ply/membrane_simd.hpp: (N) and the terms of (E) of
+// core/ply/membrane.hpp.
 #pragma once
 
 #include "core/ply/membrane_simd_shape.hpp"
@@ -35,24 +35,6 @@ PLYFORM_INLINE Doubles yarn_tension(const SimdBlockWork<Of>& w, int family, Doub
   const KernelYarns& law = w.law.yarns[family];
   const Doubles n = strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
   return general && law.buckles ? n + law.buckling_drop * buckled_by(law, strain) : n;
-}
-
-/// n_c p, N/mm, for g^2.
-template <class Of, bool general>
-PLYFORM_INLINE Doubles simd_secant(const SimdBlockWork<Of>& w, int crossing, Doubles measure2) {
-  const int terms = w.law.crossing[crossing].shear_terms;
-  if (!general || terms > 0) {
-    const Doubles* k = w.lane.crossing[crossing].shear;
-    Doubles p = k[2];
-    if (terms > 3) {
-      p = k[terms - 1];
-      for (int i = terms - 2; i >= 2; --i)
-        p = p * measure2 + k[i];
-    }
-    return (p * measure2 + k[1]) * measure2 + k[0];
-  }
-  return by_quads(measure2,
-                  [&](const double* at, double* p) { w.law.secant(w.law, crossing, at, p); });
 }
 
 /// What the yarns of some packs remember at the begin of the step and at its end: their first
@@ -149,20 +131,6 @@ PLYFORM_INLINE Doubles yarn_energy(const SimdBlockWork<Of>& w, int family, Doubl
   if (!general || !law.buckles) return e;
   const Doubles beyond = buckled_by(law, strain);
   return e - 0.5 * law.buckling_drop * beyond * beyond;
-}
-
-/// n_c Ws, N/mm, of g^2.
-template <class Of, bool general>
-PLYFORM_INLINE Doubles shear_energy(const SimdBlockWork<Of>& w, int crossing, Doubles measure2) {
-  const int terms = w.law.crossing[crossing].shear_terms;
-  if (!general || terms > 0) {
-    Doubles energy = all(0.0);
-    for (int i = terms - 1; i >= 0; --i)
-      energy = (energy + w.lane.crossing[crossing].shear[i] * (0.5 / (i + 1))) * measure2;
-    return energy;
-  }
-  return by_quads(measure2,
-                  [&](const double* at, double* e) { w.law.shear_energy(w.law, crossing, at, e); });
 }
 
 /// Stabilisation and collapse penalty of (E) times d_a, N/mm.

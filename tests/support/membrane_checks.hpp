@@ -24,6 +24,26 @@ inline Fabric glass_weave() {
   return f;
 }
 
+/// The weave with a law of shear that is stiffer where the angle closes: by polynomials.
+inline Fabric two_sided_weave() {
+  Fabric f = glass_weave();
+  f.crossings[0].shear.negative_k = {0.037, 0.084, 0.103};
+  return f;
+}
+
+/// The same by a table; or one whose other side does not resist at all.
+inline Fabric two_sided_table(bool nothing_below = false) {
+  Fabric f = glass_weave();
+  ShearLaw& law = f.crossings[0].shear;
+  law.k.clear();
+  law.angle = {-0.9, -0.4, -0.15, 0.0, 0.1, 0.2, 0.35, 0.6, 0.9, 1.1};
+  law.torque = {-0.12, -0.05, -0.03, 0.0, 0.05, 0.08, 0.2, 0.5, 1.5, 4.0};
+  if (nothing_below)
+    for (std::size_t i = 0; i < 3; ++i)
+      law.torque[i] = 0.0;
+  return f;
+}
+
 /// Yarns of glass in one direction at 20 degrees to the ply's angle, in a sheet.
 inline Fabric unidirectional() {
   Fabric f;

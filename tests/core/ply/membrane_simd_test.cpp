@@ -230,9 +230,24 @@ void stiffening_sheet(const KernelLaw&, const double* a, const double* b, const 
   }
 }
 
+/// Energies of crossings that the kernel does not know itself.
+void energies_of_shear(const KernelLaw&, int crossing, const double* gamma, const double* measure2,
+                       double* energy) {
+  for (int i = 0; i < simd_width; ++i)
+    energy[i] = measure2[i] * (1.0 + 0.1 * gamma[i] + crossing);
+}
+
 /// Laws of a weave, by turns with yarns that buckle, or of three families, one of them askew, with
 /// two crossings and a sheet.
 KernelLaw kernel_law(int number) {
+  constexpr double never = std::numeric_limits<double>::infinity();
+  static const ShearInterval intervals[4] = {{0}, {0}, {1}, {1}}; // of 0.3 rad
+  static const ShearPiece pieces[5] = {
+      {0.0, {0.0, 0.05, 0.1, 0.1}, {0.0, 0.03, 0.01, 0.02}, 0.0},
+      {0.4, {0.042, 0.178, 0.2, -0.1}, {0.015, 0.048, 0.0, 0.0}, 0.003},
+      {1.1, {0.23, 0.3, 0.0, 0.0}, {0.049, 0.02, 0.0, 0.0}, 0.03},
+      {never, {}, {}, 0.0},
+      {never, {}, {}, 0.0}};
   KernelLaw law{};
   law.weave = number % 3 != 0;
   law.families = law.weave ? 2 : 3, law.crossings = law.weave ? 1 : 2, law.beta = 8.0;
@@ -247,8 +262,14 @@ KernelLaw kernel_law(int number) {
                     0.0,
                     0.0};
   if (number % 2) law.yarns[1] = {{0.0, 1.0}, 115.0, 40.0, 2.5e-4, 0.0025, 0.025, true, 0.2, 39.6};
-  law.crossing[0] = {0, 1, 0.1, 1.0, {0.022, 0.05, 0.062}, 3};
-  law.crossing[1] = {2, 1, 0.4, 0.4, {0.03, 0.01}, 2};
+  law.side_cubic = 0.48;
+  law.crossing[0] = {0, 1, 0.1, 1.0, {0.022, 0.05, 0.062}, 3, false, {}, nullptr, nullptr, 0, 0.0};
+  law.crossing[1] = {2, 1, 0.4, 0.4, {0.03, 0.01}, 2, true, {0.02, 0.01}, nullptr, nullptr, 0, 0.0};
+  const int table = number / 3 % 4; // no table, an odd one, one of both signs, polynomials of both
+  if (table == 1 || table == 2)
+    law.crossing[0] = {0, 1, 0.1, 1.0, {}, 0, table == 2, {}, pieces, intervals, 4, 1.0 / 0.3};
+  if (table == 3) law.crossing[0].both_signs = true, law.crossing[0].even[1] = 0.04;
+  law.shear_energy = energies_of_shear;
   law.sheet = !law.weave, law.sheet_law = stiffening_sheet;
   return law;
 }
