@@ -22,9 +22,11 @@ struct FabricSense {
   }
 };
 
-/// The key of the law of shear that is given.
-const TomlNode* shear_law(const TableView& shear, std::string& key) {
-  for (const char* word : {"polynomial", "table"})
+/// The key of the law of shear that is given for angles of this sign.
+const TomlNode* shear_law(const TableView& shear, double side, std::string& key) {
+  std::vector<const char*> words{"polynomial", "table"};
+  if (side < 0.0) words.insert(words.begin(), "negative_polynomial");
+  for (const char* word : words)
     if (const TomlNode* law = given(shear, word)) {
       key = word;
       return law;
@@ -33,40 +35,42 @@ const TomlNode* shear_law(const TableView& shear, std::string& key) {
 }
 
 /// Torque of a cell over its angle and area: of cloth within usual_shear_rigidity. What is smaller
-/// by far is meant to be limp, as nets are.
-void check_rigidity(FabricSense& check, const TomlNode& law, const std::string& item) {
+/// by far is meant to be limp, as nets are. side: the sign of the angles that are looked at.
+void check_rigidity(FabricSense& check, double side, const TomlNode& law, const std::string& item) {
   constexpr double at_angle = 10.0 * degree; // as usual_shear_rigidity
   constexpr double limp = 1e-5;              // N/mm: a thousandth of what the softest cloth has
   const double rigidity =
-      cells_per_area(check.fabric, check.crossing) * check.crossing.shear.secant(at_angle);
+      cells_per_area(check.fabric, check.crossing) * check.crossing.shear.secant(side * at_angle);
   if (!(std::abs(rigidity) > limp) || usual_shear_rigidity.holds(rigidity) || rigidity < 0.0)
     return;
   check.warn(law, item,
-             fmt::format("makes the fabric {:.2g} N/mm stiff in shear at 10 degrees, and cloth "
+             fmt::format("makes the fabric {:.2g} N/mm stiff in shear at {:g} degrees, and cloth "
                          "usually has {:g} to {:g}; the torque is that of one unit cell, in N mm: "
                          "check unit and densities of the yarns",
-                         rigidity, usual_shear_rigidity.least, usual_shear_rigidity.most));
+                         rigidity, side * at_angle / degree, usual_shear_rigidity.least,
+                         usual_shear_rigidity.most));
 }
 
-/// The first angle (rad) from which the torque is below 0.
-std::optional<double> turns_back_at(const ShearLaw& law) {
+/// The first angle (rad) from which the torque no longer resists.
+std::optional<double> turns_back_at(const ShearLaw& law, double side) {
   constexpr int parts = 320;
   constexpr double most = 80.0 * degree; // hardly any fabric gets there
   for (int i = 1; i <= parts; ++i)
-    if (const double angle = most * i / parts; law.at(angle).value < 0.0) return angle;
+    if (const double angle = side * most * i / parts; side * law.at(angle).value < 0.0)
+      return angle;
   return std::nullopt;
 }
 
-void check_torque(FabricSense& check, const TomlNode& law, const std::string& item) {
-  const std::optional<double> from = turns_back_at(check.crossing.shear);
+void check_torque(FabricSense& check, double side, const TomlNode& law, const std::string& item) {
+  const std::optional<double> from = turns_back_at(check.crossing.shear, side);
   if (!from) return;
   constexpr double usual = 45.0 * degree; // that formed parts reach
   const std::string rule =
-      fmt::format("has a torque below 0 from {:.3g} degrees of shear on: a ply sheared that far "
+      fmt::format("has a torque {} 0 from {:.3g} degrees of shear on: a ply sheared that far "
                   "goes on shearing by itself",
-                  *from / degree);
+                  side > 0.0 ? "below" : "above", *from / degree);
   const std::string remedy = "give coefficients or rows that hold up to 60 degrees or so";
-  if (*from < usual)
+  if (std::abs(*from) < usual)
     check.diagnostics.error(law.at, item, law.source_text, rule, remedy);
   else
     check.warn(law, item, rule + "; " + remedy);
@@ -76,7 +80,8 @@ void check_torque(FabricSense& check, const TomlNode& law, const std::string& it
 void check_table(FabricSense& check, const TomlNode& law, const std::string& item) {
   constexpr double radians = 1.6; // degrees; as rad 92 degrees
   const std::vector<double>& angles = check.crossing.shear.angle;
-  if (angles.empty() || angles.back() / degree > radians) return;
+  if (angles.empty() || angles.back() / degree > radians || angles.front() / degree < -radians)
+    return;
   check.warn(law, item,
              fmt::format("ends at {:.3g} degrees of shear; angles are in degrees, if it is in rad "
                          "multiply them by 57.3",
@@ -121,13 +126,16 @@ void check_thickness(FabricSense& check) {
 
 void check_shear(FabricSense check, const TableView& shear) {
   const ShearLaw& of = check.crossing.shear;
-  std::string key;
-  const TomlNode* law = shear_law(shear, key);
-  if (!law || (of.k.empty() && of.angle.empty())) return;
-  const std::string item = item_of(shear, key);
-  check_table(check, *law, item);
-  check_rigidity(check, *law, item);
-  if (of.k.empty() || of.k[0] >= 0.0) check_torque(check, *law, item);
+  if (of.k.empty() && of.angle.empty()) return;
+  for (const double side : {1.0, -1.0}) {
+    std::string key;
+    const TomlNode* law = shear_law(shear, side, key);
+    if (!law || (side < 0.0 && of.odd())) return;
+    const std::string item = item_of(shear, key);
+    if (side > 0.0) check_table(check, *law, item);
+    check_rigidity(check, side, *law, item);
+    if (of.at(0.0 * side).slope >= 0.0) check_torque(check, side, *law, item);
+  }
 }
 
 } // namespace

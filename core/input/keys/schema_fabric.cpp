@@ -46,14 +46,24 @@ Rows shear_rows(const std::string& table) {
            .least_items = 1,
            .meaning = "coefficients k1, k3, k5 ... of the torque of one unit cell, "
                       "k1 g + k3 g^3 + k5 g^5 ..., g the shear angle in rad"},
+          {.key = table + ".negative_polynomial",
+           .kind = K::numbers,
+           .unit = "N mm",
+           .otherwise = "that of polynomial",
+           .ranges = {{.least = -1e9, .most = 1e9}},
+           .least_items = 1,
+           .meaning = "coefficients beside polynomial for negative shear angles, where the angle "
+                      "between the families opens: k1 |g| + k3 |g|^3 ..., against them"},
           {.key = table + ".table",
            .kind = K::pairs,
            .unit = "deg, N mm",
            .instead = {"polynomial"},
-           .ranges = {{.least = 0.0, .most = 90.0, .open_most = true}, {.least = 0.0, .most = 1e9}},
+           .ranges = {{.least = -90.0, .most = 90.0, .open_least = true, .open_most = true},
+                      {.least = -1e9, .most = 1e9}},
            .least_items = 2,
-           .meaning = "[shear angle, torque of one unit cell], ascending from [0, 0]; the "
-                      "same with minus sign for negative angles"}};
+           .meaning = "[shear angle, torque of one unit cell], a smooth monotone curve through "
+                      "these points; ascending from [0, 0], the same with minus sign for negative "
+                      "angles, or from a negative angle through [0, 0], the law of both signs"}};
 }
 
 /// Keys of a fabric by its families.

@@ -14,7 +14,8 @@ namespace {
 
 /// Name of what a key states: keys of one name stand for each other.
 std::string_view subject_of(std::string_view key) {
-  if (key == "stiffness" || key == "table" || key == "polynomial") return "law";
+  if (key == "stiffness" || key == "table" || key == "polynomial" || key == "negative_polynomial")
+    return "law";
   if (key == "bending_stiffness" || key == "bending_table") return "bending";
   return key;
 }

@@ -105,15 +105,57 @@ YarnSources sources_of(const TableView& yarn) {
 
 } // namespace
 
+namespace {
+
+/// Checks that the table of a law of shear has [0, 0], and torques that resist.
+void check_shear_table(const TableView& shear, const std::vector<Vec2>& points,
+                       Diagnostics& diagnostics) {
+  const TomlNode* table = given(shear, "table");
+  if (!table || points.empty()) return;
+  const auto fail = [&](std::size_t row, const std::string& rule, const std::string& remedy) {
+    const TomlNode& entry = table->children[row];
+    diagnostics.error(entry.at, fmt::format("{}.{}", item_of(shear, "table"), row),
+                      entry.source_text, rule, remedy);
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const double angle = points[i].x(), torque = points[i].y();
+    if (i > 0 && !(angle > points[i - 1].x()))
+      return fail(i, "must have a first number above that of the row before",
+                  "put the rows in ascending order, each value once");
+    if (angle * torque < 0.0 || (angle == 0.0 && torque != 0.0))
+      return fail(i, "must have a torque of the angle's sign, and 0 at 0",
+                  "give torques that resist shear: below 0 for angles below 0");
+    if (angle > 0.0 && (i == 0 || points[i - 1].x() < 0.0))
+      return fail(i, "must come after [0, 0], where the law starts",
+                  "put [0.0, 0.0] before it; rows before that are of negative angles");
+  }
+  if (!(points.back().x() > 0.0))
+    fail(points.size() - 1, "must not be the last row: angles above 0 have none",
+         "go on with rows of positive angles");
+}
+
+void check_first_coefficient(const TableView& shear, const std::string& key,
+                             const std::vector<double>& k, Diagnostics& diagnostics) {
+  if (!k.empty() && k[0] < 0.0)
+    value_error(shear, key, "must start with a k1 of at least 0",
+                "give k1, k3, k5 ...; a cell with k1 < 0 shears by itself", diagnostics);
+}
+
+} // namespace
+
 ShearLaw read_shear(const TableView& shear, Diagnostics& diagnostics) {
   ShearLaw law;
   const std::vector<Vec2> points = pairs(shear, "table");
-  check_law(shear, "table", points, "", diagnostics);
+  check_shear_table(shear, points, diagnostics);
   split(points, law.angle, law.torque);
   law.k = numbers(shear, "polynomial");
-  if (!law.k.empty() && law.k[0] < 0.0)
-    value_error(shear, "polynomial", "must start with a k1 of at least 0",
-                "give k1, k3, k5 ...; a cell with k1 < 0 shears by itself", diagnostics);
+  law.negative_k = numbers(shear, "negative_polynomial");
+  check_first_coefficient(shear, "polynomial", law.k, diagnostics);
+  check_first_coefficient(shear, "negative_polynomial", law.negative_k, diagnostics);
+  if (law.tabulated() && !law.negative_k.empty())
+    value_error(shear, "negative_polynomial", "stands beside a polynomial only",
+                "begin the table with rows of negative angles, or give both polynomials",
+                diagnostics);
   return law;
 }
 
