@@ -76,11 +76,14 @@ TorqueWeights torque_weights(const ShearTest& test, const Fabric& fabric, double
   return {angle, cells * test.whole_area * rate, 0.5 * cells * test.half_area * rate};
 }
 
-double test_load(const ShearTest& test, const Fabric& fabric, double extension) {
+double test_load(const ShearTest& test, const Fabric& fabric, double extension, bool negative) {
   const TorqueWeights weights = torque_weights(test, fabric, extension);
-  return weights.whole * fabric.crossings[0].shear.at(weights.angle).value +
-         weights.half * fabric.crossings[0].shear.at(0.5 * weights.angle).value; // (40, 41)
-}
+  const double side = negative ? -1.0 : 1.0;
+  const auto torque = [&](double angle) {
+    return side * fabric.crossings[0].shear.at(side * angle).value;
+  };
+  return weights.whole * torque(weights.angle) + weights.half * torque(0.5 * weights.angle);
+} // (40, 41)
 
 BendingShare in_plane_bending_share(const ShearTest& test, const Fabric& fabric) {
   const double rigidity = shear_rigidity(fabric);

@@ -76,8 +76,11 @@ struct TorqueWeights {
 };
 TorqueWeights torque_weights(const ShearTest& test, const Fabric& fabric, double extension);
 
-/// F (N) by (40, 41), from the fabric's densities and shear law.
-double test_load(const ShearTest& test, const Fabric& fabric, double extension);
+/// F (N) by (40, 41), from the fabric's densities and shear law. negative: of a specimen that lies
+/// the other way round, so that the angle from the first family to the second opens and
+/// Cs(gamma) is -Cs(-gamma) of a law of both signs.
+double test_load(const ShearTest& test, const Fabric& fabric, double extension,
+                 bool negative = false);
 
 /// What bending of the yarns in their plane adds to F of a bias-extension test, over F by (40).
 ///

@@ -180,7 +180,7 @@ py::dict tension_law(const std::vector<Curve>& curves, double yarns, double gaug
 }
 
 py::dict shear_curve(const ShearTest& test, const std::filesystem::path& file, double to_deg,
-                     int points) {
+                     int points, bool negative) {
   if (!(to_deg > 0.0 && to_deg < 90.0))
     throw py::value_error("to_deg must be above 0 and below 90");
   if (points < 1 || points > 1000000) throw py::value_error("points must be 1 to 1000000");
@@ -191,8 +191,8 @@ py::dict shear_curve(const ShearTest& test, const std::filesystem::path& file, d
   for (int i = 0; i <= points; ++i) {
     const double d = end * i / points;
     extension.push_back(d);
-    angle.push_back(shear_angle(test, d));
-    load.push_back((1.0 + bending) * test_load(test, fabric, d));
+    angle.push_back(negative ? -shear_angle(test, d) : shear_angle(test, d));
+    load.push_back((1.0 + bending) * test_load(test, fabric, d, negative));
   }
   py::dict all;
   all["displacement_mm"] = array_of(extension);
@@ -245,7 +245,7 @@ void bind_fit(py::module_& m) {
         py::arg("gauge_length"), py::arg("from_strain"), py::arg("to_strain"),
         py::arg("corrections"), "Law of tension.");
   m.def("theory_shear", &shear_curve, py::arg("test"), py::arg("fabric"), py::arg("to_deg"),
-        py::arg("points"), "The curve that a fabric should give.");
+        py::arg("points"), py::arg("negative"), "The curve that a fabric should give.");
   m.def("fabric_with_laws", &fabric_with_laws, py::arg("fabric"), py::arg("laws"),
         py::arg("comment"), "Text of a fabric file with laws put in.");
   bind_bending(m);

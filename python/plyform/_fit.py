@@ -197,8 +197,11 @@ def identify_tension(curve: AnyCurves, *, yarns: float = 1.0, gauge_length: floa
 
 
 def theory_shear(fabric: AnyPath, *, bias: Sequence[float] | None = None,
-                 frame: float | None = None, to_deg: float, points: int = 100) -> dict[str, Array]:
+                 frame: float | None = None, to_deg: float, points: int = 100,
+                 negative: bool = False) -> dict[str, Array]:
     """The curve that a fabric should give in a shear test, `points` + 1 rows from 0 to `to_deg`:
-    displacement_mm, shear_deg, force_N. Sizes and errors: as of identify_shear.
+    displacement_mm, shear_deg, force_N. negative: of a specimen that lies the other way round, so
+    that the angle from the first family to the second opens. Sizes and errors: as of
+    identify_shear.
     """
-    return _plyform.theory_shear(_test(bias, frame), Path(fabric), to_deg, points)
+    return _plyform.theory_shear(_test(bias, frame), Path(fabric), to_deg, points, negative)

@@ -39,6 +39,18 @@ expect 0 'plot: tools/plot.py fit fit.csv -o fit.png' identify frame frame.csv \
   --side 200 --fabric glass.toml --coefficients 3 --to 45 -o found.toml --fit fit.csv
 expect_law found.toml polynomial 0.37044 1e-6
 
+# A law of both signs: its other side in the test the other way round, and a law identified in its
+# place is the same both ways.
+sed 's|^polynomial = .*|&\nnegative_polynomial = [0.037044, 0.084105, 0.103113]|' glass.toml >two.toml
+expect 0 'negative.csv' theory frame --side 200 --fabric two.toml --to 50 --negative -o negative.csv
+paste -d, frame.csv negative.csv |
+  awk -F, 'NR > 2 && (0.1 * $3 - $6) ^ 2 > 1e-12 * $6 ^ 2 || NR > 2 && $2 != -$5 { bad = 1 }
+           END { exit bad }' || fail 'negative.csv: not a tenth of frame.csv at negative angles'
+expect 0 'its law of shear is one of both signs' \
+  identify frame frame.csv --side 200 --fabric two.toml --to 45 -o one.toml
+expect_law one.toml polynomial 0.37044 1e-6
+! grep -q negative_polynomial one.toml || fail 'one.toml: half of the law before is left'
+
 # A curve 2 % below theory gives a law 2 % low: that is what reading (40) backwards does.
 awk -F, -v OFS=';' 'NR > 1 { print $1, 0.98 * $3 }' bias.csv >low.csv
 expect 0 'shear angle 0 to 55 degrees' identify bias low.csv "${bias[@]}" -o low.toml

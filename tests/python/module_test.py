@@ -323,6 +323,9 @@ def check_fits(folder):
     """A curve of theory gives its own law back."""
     theory = plyform.theory_shear(FABRIC, bias=(200, 100), to_deg=45.0, points=60)
     assert len(theory["force_N"]) == 61 and np.isclose(theory["shear_deg"][-1], 45.0)
+    opening = plyform.theory_shear(FABRIC, bias=(200, 100), to_deg=45.0, points=60, negative=True)
+    assert np.array_equal(opening["force_N"], theory["force_N"])  # an odd law
+    assert np.array_equal(opening["shear_deg"], -theory["shear_deg"])
     curve = theory["displacement_mm"], theory["force_N"]
     fit = plyform.identify_shear(curve, FABRIC, bias=(200, 100))
     assert np.allclose(fit.coefficients, [0.37044, 0.84105, 1.03113], rtol=1e-6) and fit.rms < 1e-6

@@ -84,6 +84,7 @@ struct TheoryArguments {
   SpecimenArguments specimen;
   double to = 0.0; ///< degrees
   int points = 100;
+  bool negative = false; ///< shear angles below 0
 };
 
 /// prepare_case; prints warnings and errors to standard error. Has no value if there was an error.

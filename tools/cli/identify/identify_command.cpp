@@ -124,6 +124,12 @@ int identify_command(const IdentifyArguments& arguments) {
   if (arguments.test == "in-plane-bending")
     check_zone_fabric(base.missing, {arguments.fabric, 1, 1}, diagnostics);
   const std::vector<Curve> curves = curves_of(arguments, diagnostics);
+  if (shear && base.value && !base.value->crossings.empty() &&
+      !base.value->crossings[0].shear.odd())
+    diagnostics.warning({arguments.fabric, 1, 1},
+                        "its law of shear is one of both signs; what is identified takes its "
+                        "place, and is the same for both: copy the rows or the "
+                        "negative_polynomial that you want to keep");
   std::optional<Identified> result;
   if (diagnostics.errors.empty())
     result = identify(arguments, base, test, curves, options, diagnostics);

@@ -126,6 +126,8 @@ void add_theory_tests(CLI::App& command, TheoryArguments& to) {
     add_specimen(*test, name, to.specimen);
     test->add_option("--to", to.to, "last shear angle, degrees")->required();
     test->add_option("--points", to.points, "rows after the first, at 0 [100]");
+    test->add_flag("--negative", to.negative,
+                   "of negative shear angles: the specimen lies the other way round");
     test->add_option("-o,--output", to.output, "CSV file to write")->required();
     test->callback([&to, name] { to.test = name; });
   }

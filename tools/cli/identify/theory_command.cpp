@@ -28,8 +28,9 @@ int theory_command(const TheoryArguments& arguments) {
   const double bending = in_plane_bending_share(*test, *fabric.value).mean();
   for (int i = 0; i <= arguments.points; ++i) {
     const double d = end * i / arguments.points;
-    rows += fmt::format("{:.9g},{:.9g},{:.9g}\n", d, shear_angle(*test, d) / degree,
-                        (1.0 + bending) * test_load(*test, *fabric.value, d));
+    const double angle = shear_angle(*test, d) / degree;
+    rows += fmt::format("{:.9g},{:.9g},{:.9g}\n", d, arguments.negative ? -angle : angle,
+                        (1.0 + bending) * test_load(*test, *fabric.value, d, arguments.negative));
   }
   if (bending > 0.0)
     fmt::print("in-plane bending adds {:.2g} % to the load by (40)\n", 100.0 * bending);
