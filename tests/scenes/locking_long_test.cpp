@@ -74,6 +74,36 @@ TEST(LockingLong, AveragedElementOnGradedMeshesIsWithinFivePercentOfTheory) {
   }
 }
 
+/// A law ten times stiffer where the angle between the families closes, pulled either way: what
+/// deviations cost follows the side that is sheared, but where they are larger than shear, at the
+/// clamps: there they cost the mean of both sides, which the softer one feels.
+TEST(LockingLong, LawOfBothSignsLocksLittleOnEitherSide) {
+  const Fabric fabric = two_sided_weave();
+  const ShearTest test = shear_test(BiasSpecimen{length, width});
+  for (const bool negative : {false, true}) {
+    const double warp = (negative ? 45.0 : -45.0) * degree, most = negative ? 0.15 : 0.10;
+    const auto found = [&](const StripMesh& mesh, ElementKind element) {
+      return bias_loads(strip_mesh(mesh, length, width), fabric, length, width, element, angles,
+                        1e-10, warp);
+    };
+    const std::vector<double> converged =
+        found({MeshKind::crossed, 10.0, 0.0, 0.0}, ElementKind::plain);
+    for (std::size_t i = 0; i < angles.size(); ++i)
+      EXPECT_NEAR(converged[i] / test_load(test, fabric, extension_at(test, angles[i]), negative),
+                  1.0, 0.03);
+    for (const double turn : {0.0, 30.0, 45.0})
+      for (const MeshKind kind : {MeshKind::fibres, MeshKind::free}) {
+        const double noise = kind == MeshKind::free ? 0.0 : 0.3;
+        const std::vector<double> loads =
+            found({kind, 10.0, (45.0 - turn) * degree, noise}, ElementKind::averaged);
+        for (std::size_t i = 0; i < angles.size(); ++i)
+          EXPECT_NEAR(loads[i] / converged[i], 1.0, most)
+              << (negative ? "opens" : "closes") << ", yarns at " << turn << ", "
+              << angles[i] / degree;
+      }
+  }
+}
+
 TEST(LockingLong, PlainElementIsNot) {
   const std::vector<double> converged = converged_loads();
   const std::vector<double> found =

@@ -147,16 +147,14 @@ private:
     const PlaneState& s = t[i];
     constexpr double beta = deviation_weight;
     std::array<double, 2> delta{s.lambda[0] - mean[0], s.lambda[1] - mean[1]};
-    const double g2 = s.gamma * s.gamma + beta * (delta[0] * delta[0] + delta[1] * delta[1]);
-    const double g = std::sqrt(g2), cells = m.crossings[0].cells * s.area;
-    const LawPoint law = m.fabric.crossings[0].shear.at(g);
-    const double secant = g > 1e-9 ? law.value / g : law.slope;
-    Eigen::VectorXd by_g2 = Eigen::VectorXd::Zero(k.rows()); // half the gradient of g^2
-    Eigen::VectorXd by_gamma = by_g2;
+    const double deviation2 = beta * (delta[0] * delta[0] + delta[1] * delta[1]);
+    const double cells = m.crossings[0].cells * s.area;
+    const CellTangent law = cell_tangent(m.fabric.crossings[0].shear, s.gamma, deviation2);
+    const double secant = law.secant;
+    Eigen::VectorXd by_gamma = Eigen::VectorXd::Zero(k.rows()), by_s2 = by_gamma; // half of s^2
     by_gamma.segment<6>(6 * triangle) = s.by_gamma;
-    by_g2 += s.gamma * by_gamma;
-    k += cells * secant * by_gamma * by_gamma.transpose();
-    k.block<6, 6>(6 * triangle, 6 * triangle) += cells * secant * s.gamma * s.bend_gamma;
+    k += cells * law.gamma_gamma * by_gamma * by_gamma.transpose();
+    k.block<6, 6>(6 * triangle, 6 * triangle) += cells * law.torque * s.bend_gamma;
     for (std::size_t a = 0; a < 2; ++a) {
       const double d = a == 0 ? m.fabric.families[0].density : m.fabric.families[1].density;
       const double side = s.area * d * m.families[a].side.stabilisation,
@@ -169,9 +167,24 @@ private:
         k.block<6, 6>(at, at) += (side + held) * delta[a] * share * t[j].bend_lambda[a];
       }
       k += (side + held) * by_delta * by_delta.transpose();
-      by_g2 += beta * delta[a] * by_delta;
+      by_s2 += beta * delta[a] * by_delta;
     }
-    if (g > 1e-9) k += cells * (law.slope - secant) / g2 * by_g2 * by_g2.transpose();
+    k += cells * law.gamma_s2 * (by_gamma * by_s2.transpose() + by_s2 * by_gamma.transpose()) +
+         cells * law.s2_s2 * by_s2 * by_s2.transpose();
+  }
+
+  /// E of a cell by gamma and half of s^2: first derivatives, and second ones by differences.
+  struct CellTangent {
+    double torque, secant, gamma_gamma, gamma_s2, s2_s2;
+  };
+  static CellTangent cell_tangent(const ShearLaw& law, double gamma, double s2) {
+    constexpr double h = 1e-6; // rad, and rad^2: half of s^2 is not below 0
+    const ShearResponse at = law.respond(gamma, s2), after = law.respond(gamma + h, s2),
+                        before = law.respond(gamma - h, s2), more = law.respond(gamma, s2 + h),
+                        less = law.respond(gamma, std::max(0.0, s2 - h));
+    return {at.torque, at.secant, (after.torque - before.torque) / (2.0 * h),
+            (after.secant - before.secant) / (2.0 * h),
+            2.0 * (more.secant - less.secant) / (h + std::min(h, s2))};
   }
 
   /// Unknown that column c of a patch's stiffness belongs to: triangles in turn, corners, x and y.
@@ -323,10 +336,12 @@ inline BlankMesh strip_mesh(const StripMesh& spec, double length, double width) 
 }
 
 /// Load (N) of the bias test of a strip (mm) with yarns at 45 degrees to the pull, when (40) says
-/// that the middle zone is sheared by `angles` (rad, ascending).
+/// that the middle zone is sheared by `angles` (rad, ascending). The first family lies at `warp`
+/// (rad) to the pull: at 45 degrees the angle between them opens, at -45 it closes.
 inline std::vector<double> bias_loads(const BlankMesh& mesh, const Fabric& fabric, double length,
                                       double width, ElementKind element,
-                                      const std::vector<double>& angles, double accuracy = 1e-10) {
+                                      const std::vector<double>& angles, double accuracy = 1e-10,
+                                      double warp = 0.25 * std::numbers::pi) {
   std::vector<char> held, pulled;
   std::vector<Vec3> x, start;
   for (const Vec2& p : mesh.x) {
@@ -335,11 +350,11 @@ inline std::vector<double> bias_loads(const BlankMesh& mesh, const Fabric& fabri
     held.push_back(pulled.back() || p.x() < -0.5 * length + 1e-9 * length);
   }
   start = x;
-  Membrane membrane = make_membrane(mesh, fabric, 0.25 * std::numbers::pi, element);
+  Membrane membrane = make_membrane(mesh, fabric, warp, element);
   std::optional<Bending> bending;
   if (const BendingLaw law = bending_law(fabric); law.in_plane())
-    bending = make_bending(mesh.x, mesh.triangles, law, 0.25 * std::numbers::pi,
-                           0.25 * std::numbers::pi + fabric.families[1].angle, membrane.node_mass);
+    bending = make_bending(mesh.x, mesh.triangles, law, warp, warp + fabric.families[1].angle,
+                           membrane.node_mass);
   FlatMembrane strip(std::move(membrane), held, std::move(bending));
   std::vector<double> loads;
   double before = 0.0, before_step = 0.0, angle = 0.0;
