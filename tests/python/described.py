@@ -49,7 +49,8 @@ def put_columns(ply, columns, pressure=None):
 
 def put_ply(fixed, columns, families=("warp", "weft")):
     """Attributes of a ply; `columns`: names in order."""
-    fixed.attrs["angle_deg"], fixed.attrs["family_angles_deg"] = 0.0, 90.0 * np.arange(len(families))
+    fixed.attrs["angle_deg"] = 0.0
+    fixed.attrs["family_angles_deg"] = 180.0 / max(len(families), 2) * np.arange(len(families))
     fixed.attrs["families"], fixed.attrs["further_crossings"] = texts(families), texts([])
     fixed.attrs["columns"] = texts(columns)
 

@@ -11,6 +11,7 @@ import re
 import sys
 import tempfile
 import zlib
+from dataclasses import replace
 from pathlib import Path
 
 try:
@@ -24,7 +25,9 @@ except ImportError as problem:
 sys.path.insert(0, sys.argv[1])
 import made_run  # noqa: E402
 from base.ending import Trouble  # noqa: E402
-from exchange.formed import read_formed  # noqa: E402
+from exchange.formed import FormedPly, layers_of, read_formed  # noqa: E402
+from exchange.layup import as_two, own_layup  # noqa: E402
+from exchange.mirror import mirrored  # noqa: E402
 from exchange.states import read_states  # noqa: E402
 from plotting.reading import read_state  # noqa: E402
 from reporting.encode import Blocks  # noqa: E402
@@ -105,6 +108,45 @@ def check_families():
         tape = read_formed(run, only=["tape"]).plies[0]
         assert abs((tape.warp * tape.weft).sum(axis=1)).max() < 1e-9  # across the fibres
         expect(lambda: read_formed(run), "ply foil has no fibres")
+        check_layers(read_formed(run, only=["tape", "braid", "weave"]).plies)
+
+
+def check_layers(plies):
+    """A tape is one layer of the next program, a braid of three families three of a third of its
+    thickness, each along its own fibres; a weave is one."""
+    tape, braid, weave = (layers_of(ply) for ply in plies)
+    assert [layer.name for layer in tape] == ["tape"] and weave == [plies[2]]
+    assert [layer.name for layer in braid] == ["braid_a", "braid_b", "braid_c"]
+    assert [layer.angle_deg for layer in braid] == [0.0, 60.0, 120.0]
+    for layer, yarns in zip(braid, plies[1].yarns):
+        assert (layer.warp == yarns).all() and abs((layer.warp * layer.weft).sum(axis=1)).max() < 1e-9
+        assert np.allclose(3.0 * layer.thickness, plies[1].thickness)
+        assert abs(layer.nominal_thickness - 0.2) < 1e-12 and not layer.shear_deg.any()
+    mapped = own_layup(braid[1], "x", "made up")
+    assert [ply.name for ply in as_two(mapped).plies] == ["braid_b"]
+    assert [ply.name for ply in as_two(own_layup(plies[2], "x", "made up")).plies] == \
+        ["weave_warp", "weave_weft"]
+
+
+def check_images():
+    """The image of a braid of 0, 60 and 120 degrees has its families: the second is the third's. That
+    of a tape at 30 degrees is no tape of the ply."""
+    x = np.array([(0.0, 0, 0), (10, 0, 0), (10, 10, 0), (0, 10, 0)])
+    triangles = np.array([(0, 1, 2), (0, 2, 3)])
+
+    def at(degrees):
+        return np.tile([np.cos(np.radians(degrees)), np.sin(np.radians(degrees)), 0.0], (2, 1))
+    braid = FormedPly("braid", 0.0, x, x, triangles, at(1), at(61), np.full(2, -0.0), np.full(2, 0.6),
+                      0.6, 60.0, ("a", "b", "c"), (0.0, 60.0, 120.0), (at(121),))
+    whole = mirrored(braid, "x")
+    assert np.allclose(whole.warp[2:], at(-1)) and np.allclose(whole.weft[2:], at(59))
+    assert np.allclose(whole.further[0][2:], at(119)) and len(whole.triangles) == 4
+    tape = replace(braid, families=("a",), family_angles_deg=(30.0,), further=(),
+                   weft=at(91), shear_deg=np.full(2, 5.0))
+    expect(lambda: mirrored(tape, "x"), "are not those of its image")
+    straight = mirrored(replace(tape, family_angles_deg=(0.0,)), "x")
+    assert np.allclose(straight.weft[2:], np.cross((0, 0, 1.0), straight.warp[2:]))
+    assert np.allclose(straight.shear_deg, [5.0, 5.0, -5.0, -5.0])
 
 
 def charts(data, word):
@@ -134,4 +176,5 @@ def check_layout():
 check_encoding()
 check_simplified()
 check_families()
+check_images()
 check_layout()

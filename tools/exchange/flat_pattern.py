@@ -23,11 +23,12 @@ MOST_BEYOND = 15.0  # mm that a trim line may lie outside of the formed ply: it 
 class Pattern:
     """Of one ply, in the plane of its blank."""
     ply: str
-    angle_deg: float
+    yarns: str             # name of its first family: warp
+    angle_deg: float       # from x to these yarns
     outline: np.ndarray    # k x 2, mm, anticlockwise
     blank_area: float      # mm2, of the ply that was formed
     area: float            # mm2
-    strip_area: float      # mm2, of the pattern's box along and across the warp
+    strip_area: float      # mm2, of the pattern's box along and across these yarns
     blank_strip_area: float  # mm2, of the formed ply's
     beyond: float          # mm: how far the trim line lies outside of the formed ply, at most
 
@@ -54,8 +55,9 @@ def flat_pattern(ply: FormedPly, trim: TrimLine, spacing: float) -> Pattern:
     if crosses_itself(flat):
         raise Trouble(f"the pattern of ply {ply.name} crosses itself: the trim line runs over a "
                       "fold of the ply, where it has no one place on the blank")
-    return Pattern(ply.name, ply.angle_deg, flat, blank_area(ply), abs(area_of(flat)),
-                   strip_area(flat, ply.angle_deg), strip_area(ply.x0[:, :2], ply.angle_deg),
+    angle = ply.angles_deg[0]
+    return Pattern(ply.name, ply.families[0], angle, flat, blank_area(ply), abs(area_of(flat)),
+                   strip_area(flat, angle), strip_area(ply.x0[:, :2], angle),
                    float(distance.max()))
 
 
@@ -85,7 +87,7 @@ def blank_area(ply: FormedPly) -> float:
 
 
 def strip_area(flat: np.ndarray, angle_deg: float) -> float:
-    """Of the box along and across the warp, as it is cut from a roll."""
+    """Of the box along and across the yarns, as it is cut from a roll."""
     c, s = np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))
     along, across = flat @ (c, s), flat @ (-s, c)
     return float(np.ptp(along) * np.ptp(across))

@@ -2,7 +2,7 @@
 """Formed plies of a run: directions, thickness and shear a triangle, of any state in results.h5
 (layout: docs/users/results.md)."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -17,16 +17,32 @@ from exchange.shell_mesh import ShellMesh, triangle_normals
 class FormedPly:
     """n nodes, m triangles, whose normals point up the stack."""
     name: str
-    angle_deg: float         # from x to the warp before forming: the nominal angle
+    angle_deg: float         # from x to the ply's own direction before forming: the nominal angle
     x0: np.ndarray           # n x 3, mm, before forming
     x: np.ndarray            # n x 3, mm
     triangles: np.ndarray    # m x 3
-    warp: np.ndarray         # m x 3, unit vectors
-    weft: np.ndarray         # m x 3
+    warp: np.ndarray         # m x 3, unit vectors, of the first family
+    weft: np.ndarray         # m x 3, of the second; of one alone across it
     shear_deg: np.ndarray    # m, signed
     thickness: np.ndarray    # m, mm
     nominal_thickness: float  # mm, before forming
     yarn_angle_deg: float    # from warp to weft before forming
+    families: tuple[str, ...] = ("warp", "weft")
+    family_angles_deg: tuple[float, ...] = ()  # from x before forming; empty: of warp and weft
+    further: tuple[np.ndarray, ...] = ()       # m x 3 each, of the families behind the second
+
+    @property
+    def woven(self) -> bool:
+        """Whether it was given as a weave, by warp and weft."""
+        return self.families == ("warp", "weft")
+
+    @property
+    def yarns(self) -> list[np.ndarray]:
+        return [self.warp, self.weft, *self.further][:len(self.families)]
+
+    @property
+    def angles_deg(self) -> tuple[float, ...]:
+        return self.family_angles_deg or (self.angle_deg, self.angle_deg + self.yarn_angle_deg)
 
     def own_mesh(self) -> ShellMesh:
         corners = np.column_stack([self.triangles, np.full(len(self.triangles), -1)])
@@ -61,16 +77,32 @@ def stack_of(results: Results, folder: Path, frame: int, only: list[str]) -> For
 
 
 def directions_of(results: Results, number: int, name: str, x: np.ndarray,
-                  triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Unit vectors of the first two families; across the fibres where there is one alone."""
+                  triangles: np.ndarray) -> list[np.ndarray]:
+    """Unit vectors of the families; of one alone across its fibres, too."""
     families = results.families(name)
     if not families:
         raise Trouble(f"{results.folder}: ply {name} has no fibres, whose directions could be mapped")
     now, shape = results.in_state(number, "plies", name), (len(triangles), 3)
-    one = results.numbers(now, families[0], shape)
-    if len(families) > 1:
-        return one, results.numbers(now, families[1], shape)
-    return one, np.cross(triangle_normals(x, triangles)[0], one)
+    found = [results.numbers(now, family, shape) for family in families]
+    return found if len(found) > 1 else [*found, across(found[0], x, triangles)]
+
+
+def across(yarns: np.ndarray, x: np.ndarray, triangles: np.ndarray) -> np.ndarray:
+    return np.cross(triangle_normals(x, triangles)[0], yarns)
+
+
+def layers_of(ply: FormedPly) -> list[FormedPly]:
+    """As the next program has it: a woven ply is one layer, of any other each family of yarns is one
+    of an equal part of the thickness, the first below, which has no shear."""
+    if ply.woven:
+        return [ply]
+    part = len(ply.families)
+    return [replace(ply, name=ply.name if part == 1 else f"{ply.name}_{family}", angle_deg=angle,
+                    warp=yarns, weft=across(yarns, ply.x, ply.triangles),
+                    shear_deg=np.zeros(len(yarns)), thickness=ply.thickness / part,
+                    nominal_thickness=ply.nominal_thickness / part, yarn_angle_deg=90.0,
+                    families=(family,), family_angles_deg=(angle,), further=())
+            for family, yarns, angle in zip(ply.families, ply.yarns, ply.angles_deg)]
 
 
 def ply_of(results: Results, number: int, name: str) -> FormedPly:
@@ -81,13 +113,17 @@ def ply_of(results: Results, number: int, name: str) -> FormedPly:
     triangles[down] = triangles[down][:, [0, 2, 1]]
     count = len(triangles)
     x = results.numbers(now, "x", (len(x0), 3))
-    warp, weft = directions_of(results, number, name, x, triangles)
+    families = tuple(results.families(name))
+    warp, weft, *further = directions_of(results, number, name, x, triangles)
+    angles = results.attribute(fixed, "family_angles_deg", (len(families),))
     shear, thickness = (results.numbers(now, field, (count,))
                         for field in ("shear_angle_deg", "thickness_mm"))
     flat = results.numbers(results.in_state(0, "plies", name), "thickness_mm", (count,))
     angle = np.degrees(np.arccos(np.clip((warp * weft).sum(axis=1), -1, 1)))
+    between = float(np.median(angle + shear)) if len(families) > 1 else 90.0
     if not (thickness > 0).all() or not (flat > 0).all():
         raise Broken(f"{now.name}/thickness_mm is not above 0 everywhere")
     return FormedPly(name, results.number(fixed, "angle_deg"), x0,
                      x, triangles, warp, weft, shear,
-                     thickness, float(flat.mean()), float(np.median(angle + shear)))
+                     thickness, float(flat.mean()), between, families, tuple(map(float, angles)),
+                     tuple(further))

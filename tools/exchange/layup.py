@@ -110,17 +110,20 @@ def own_layup(ply: FormedPly, reference, source: str) -> Layup:
 
 def as_two(layup: Layup) -> Layup:
     """Each woven ply as two unidirectional ones of half its thickness, along warp and along weft;
-    that of the warp below."""
+    that of the warp below. Layers of one family stay as they are."""
     normals = element_normals(layup.mesh)[0]
     plies = []
     for ply in layup.plies:
+        if not ply.woven:
+            plies.append(ply)
+            continue
         up = normals * ply.side[:, None]
         for name, yarn, angle in ((ply.name + "_warp", ply.warp, 0.0),
                                   (ply.name + "_weft", ply.weft, ply.yarn_angle_deg)):
             plies.append(replace(ply, name=name, warp=yarn, weft=np.cross(up, yarn),
                                  thickness=0.5 * ply.thickness,
                                  nominal_thickness=0.5 * ply.nominal_thickness,
-                                 nominal_angle_deg=ply.nominal_angle_deg + angle))
+                                 nominal_angle_deg=ply.nominal_angle_deg + angle, woven=False))
     return replace(layup, plies=plies)
 
 

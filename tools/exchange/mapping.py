@@ -39,6 +39,7 @@ class MappedPly:
     shear_deg: np.ndarray  # m
     distance: np.ndarray   # m, mm: mean of those from the element to the ply
     side: np.ndarray       # m: 1 if the element's normal points up the stack, -1 if down, 0 unknown
+    woven: bool = True     # else the layer of one family of yarns
 
     def covered(self) -> np.ndarray:
         return np.isfinite(self.thickness)
@@ -183,7 +184,7 @@ def map_ply(ply: SmoothPly, mesh: ShellMesh, side: np.ndarray, limit: float,
     of = ply.ply
     return MappedPly(of.name, of.angle_deg, of.nominal_thickness, of.yarn_angle_deg, share, warp,
                      weft, mean(thickness) / weight * off, of.yarn_angle_deg - between,
-                     mean(distance[hit]) / weight * off, np.where(bare, 0, side))
+                     mean(distance[hit]) / weight * off, np.where(bare, 0, side), of.woven)
 
 
 def turn(vectors: np.ndarray, start: np.ndarray, end: np.ndarray) -> np.ndarray:
@@ -200,4 +201,4 @@ def on_own_mesh(ply: FormedPly) -> MappedPly:
     count = len(ply.triangles)
     return MappedPly(ply.name, ply.angle_deg, ply.nominal_thickness, ply.yarn_angle_deg,
                      np.ones(count), ply.warp, ply.weft, ply.thickness, ply.shear_deg,
-                     np.zeros(count), np.ones(count, int))
+                     np.zeros(count), np.ones(count, int), ply.woven)

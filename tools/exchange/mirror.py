@@ -7,7 +7,7 @@ import numpy as np
 
 from plotting.reading import Trouble
 
-from exchange.formed import FormedPly
+from exchange.formed import FormedPly, across
 
 ON_PLANE = 1e-3  # mm: nodes so near are their own mirror images
 ALIKE = 1e-6
@@ -22,27 +22,34 @@ def mirrored(ply: FormedPly, axis: str) -> FormedPly:
     if side.min() < -ON_PLANE and side.max() > ON_PLANE:
         raise Trouble(f"--mirror {axis}: ply {ply.name} lies on both sides of {axis} = 0, from "
                       f"{side.min():.4g} to {side.max():.4g} mm before forming")
-    warp, weft = image_yarns(ply, axis, flip)
+    images = image_yarns(ply, axis, flip)
     seam = np.abs(side) < ON_PLANE
     image = np.where(seam, np.arange(len(side)), len(side) + np.cumsum(~seam) - 1)
-    between = np.degrees(np.arccos(np.clip((warp * weft).sum(axis=1), -1, 1)))
-    return replace(ply, x0=np.vstack([ply.x0, (ply.x0 * flip)[~seam]]),
-                   x=np.vstack([ply.x, (ply.x * flip)[~seam]]),
-                   triangles=np.vstack([ply.triangles, image[ply.triangles][:, [0, 2, 1]]]),
-                   warp=np.vstack([ply.warp, warp]), weft=np.vstack([ply.weft, weft]),
-                   shear_deg=np.r_[ply.shear_deg, ply.yarn_angle_deg - between],
+    other = (ply.x * flip)[~seam]
+    x = np.vstack([ply.x, other])
+    triangles = image[ply.triangles][:, [0, 2, 1]]
+    if len(images) == 1:  # shear is that of the right angle to the line across them
+        images, shear = [*images, across(images[0], x, triangles)], -ply.shear_deg
+    else:
+        between = (images[0] * images[1]).sum(axis=1)
+        shear = ply.yarn_angle_deg - np.degrees(np.arccos(np.clip(between, -1, 1)))
+    warp, weft, *further = [np.vstack(pair) for pair in
+                            zip([ply.warp, ply.weft, *ply.further], images)]
+    return replace(ply, x0=np.vstack([ply.x0, (ply.x0 * flip)[~seam]]), x=x,
+                   triangles=np.vstack([ply.triangles, triangles]),
+                   warp=warp, weft=weft, further=tuple(further),
+                   shear_deg=np.r_[ply.shear_deg, shear],
                    thickness=np.r_[ply.thickness, ply.thickness])
 
 
-def image_yarns(ply: FormedPly, axis: str, flip: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Warp and weft of the image (m x 3): of yarns at 45 degrees the image of the weft is a warp.
-    They point the way the ply's own do."""
-    angles = np.radians([ply.angle_deg, ply.angle_deg + ply.yarn_angle_deg])
-    flat = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(2)])
-    same = (flat * flip) @ flat.T  # [image of warp, of weft] by [warp, weft]
-    for one, two, yarns in ((same[0, 0], same[1, 1], (ply.warp, ply.weft)),
-                            (same[1, 0], same[0, 1], (ply.weft, ply.warp))):
-        if min(abs(one), abs(two)) > 1 - ALIKE:
-            return (np.sign(one) * yarns[0] * flip, np.sign(two) * yarns[1] * flip)
-    raise Trouble(f"--mirror {axis}: the yarns of ply {ply.name}, at {ply.angle_deg:g} degrees, are "
-                  "not those of its image: with this angle the whole ply has to be modelled")
+def image_yarns(ply: FormedPly, axis: str, flip: np.ndarray) -> list[np.ndarray]:
+    """Directions of each family in the image (m x 3): of yarns at 45 degrees the image of the weft
+    is a warp. They point the way the ply's own do."""
+    angles = np.radians(ply.angles_deg)
+    flat = np.column_stack([np.cos(angles), np.sin(angles), np.zeros(len(angles))])
+    same = (flat * flip) @ flat.T  # image of which family, by that which it is
+    which = np.abs(same).argmax(axis=0)
+    if np.abs(same).max(axis=0).min() <= 1 - ALIKE:
+        raise Trouble(f"--mirror {axis}: the yarns of ply {ply.name}, at {ply.angle_deg:g} degrees, "
+                      "are not those of its image: with this angle the whole ply has to be modelled")
+    return [np.sign(same[one, k]) * ply.yarns[one] * flip for k, one in enumerate(which)]

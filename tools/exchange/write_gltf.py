@@ -11,6 +11,7 @@ import struct
 
 import numpy as np
 
+from exchange.layup import safe_names
 from exchange.shell_mesh import triangle_normals, unit
 from exchange.states import Body, State
 
@@ -69,8 +70,9 @@ def attributes_of(body: Body) -> dict[str, np.ndarray]:
     found["COLOR_0"] = colours(np.abs(shear))
     found["_SHEAR_ANGLE_DEG"] = shear
     found["_THICKNESS_MM"] = at_nodes(body.cells["thickness_mm"]) / weight
-    found["_WARP"], found["_WEFT"] = (turned(safe_unit(at_nodes(body.cells[yarn])))
-                                      for yarn in ("warp", "weft"))
+    yarns = [name for name, values in body.cells.items() if values.ndim == 2]
+    for name, safe in zip(yarns, safe_names(yarns)):
+        found["_" + safe.upper()] = turned(safe_unit(at_nodes(body.cells[name])))
     return found
 
 
