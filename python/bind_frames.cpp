@@ -50,11 +50,12 @@ py::object column_of(const py::object& self, const std::string& name) {
   return found;
 }
 
-/// Names of the columns of one place.
+/// Names of the columns of one place: of nodes all, of triangles those that the ply has.
 py::tuple names_at(const PlyFrame& ply, Location place) {
   py::list names;
-  each_column(ply, [&](const Column& column, const auto&) {
-    if (column.location == place) names.append(column.name);
+  each_column(ply, [&](const Column& column, const auto& values) {
+    const bool lacks = column.may_lack && values.empty() && place == Location::triangle;
+    if (column.location == place && !lacks) names.append(column.name);
   });
   return py::tuple(names);
 }

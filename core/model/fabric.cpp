@@ -174,6 +174,12 @@ BendingLaw bending_law(const Fabric& fabric) {
   return law;
 }
 
+bool shows_opening(const Fabric& fabric, std::size_t family) {
+  return fabric.families[family].opening_limit ||
+         std::none_of(fabric.crossings.begin(), fabric.crossings.end(),
+                      [&](const Crossing& c) { return c.first == family || c.second == family; });
+}
+
 bool bears_compression(const Fabric& fabric) {
   return fabric.has_yarns() &&
          std::all_of(fabric.families.begin(), fabric.families.end(),

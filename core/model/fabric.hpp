@@ -113,6 +113,8 @@ struct YarnFamily {
   TensionLaw tension;            ///< of one yarn
   MomentLaw bending;             ///< M, per width across the yarns
   double in_plane_bending = 0.0; ///< D_g, N mm
+  /// Change of the distance between neighbouring yarns, over what it was, beyond which they gape.
+  std::optional<double> opening_limit;
   YarnSources sources;
 };
 
@@ -173,6 +175,10 @@ double crossing_angle(const Fabric& fabric, const Crossing& crossing);
 std::pair<std::string, std::string> axes_words(const Fabric& fabric);
 
 BendingLaw bending_law(const Fabric& fabric);
+
+/// Whether results have the opening between the yarns of a family: where no crossing holds their
+/// distance, and where its limit is given.
+bool shows_opening(const Fabric& fabric, std::size_t family);
 
 /// Whether the yarns of all families bear compression; of a foil false.
 bool bears_compression(const Fabric& fabric);

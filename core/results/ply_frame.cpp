@@ -18,7 +18,9 @@ const std::vector<double>* triangle_values(const PlyFrame& ply, const std::strin
   const std::vector<double>* found = nullptr;
   each_column(ply, [&]<class Value>(const Column& column, const std::vector<Value>& values) {
     if constexpr (std::is_same_v<Value, double>)
-      if (column.location == Location::triangle && column.name == name) found = &values;
+      if (column.location == Location::triangle && column.name == name &&
+          !(column.may_lack && values.empty()))
+        found = &values;
   });
   return found;
 }

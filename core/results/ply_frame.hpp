@@ -18,6 +18,9 @@ struct FamilyFrame {
   std::vector<Vec3> direction; ///< m, unit vectors of the fibres now
   std::vector<double> strain;  ///< m
   std::vector<double> tension; ///< m, N per yarn
+  /// m, of the distance between neighbouring yarns; empty: not told (shows_opening of
+  /// core/model/fabric.hpp)
+  std::vector<double> opening = {};
 };
 
 /// A crossing of two families that is not the first of its fabric.
@@ -99,6 +102,14 @@ void each_column(AnyPly& ply, Visit&& visit) {
                  Location::triangle,
                  "tension"},
           family.tension);
+  for (auto& family : ply.families)
+    visit(Column{{family.name + "_opening", family.name + "-opening",
+                  "opening between " + family.name, "1", 3, 5e-6, Scale::both_ways,
+                  "change of the distance between neighbouring yarns; negative: closer together"},
+                 Location::triangle,
+                 "opening",
+                 true},
+          family.opening);
   visit(Column{{"thickness_mm", "thickness", "thickness", "mm", 3, 1e-5, Scale::whole,
                 "from constant volume"}},
         ply.thickness);

@@ -142,7 +142,7 @@ std::string ply_table(const PlyFrame& ply) {
   out.append(std::string_view("x0,y0,z0,x,y,z,"));
   std::vector<std::function<void(std::size_t)>> cells; // of a row
   each_column(ply, [&]<class Value>(const Column& column, const std::vector<Value>& values) {
-    if (column.location != Location::triangle) return;
+    if (column.location != Location::triangle || (column.may_lack && values.empty())) return;
     for (const std::string& name : headings_of<Value>(column.name))
       fmt::format_to(std::back_inserter(out), "{},", heading(name));
     cells.emplace_back([&out, &values](std::size_t i) { put(out, values[i]); });

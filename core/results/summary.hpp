@@ -56,12 +56,22 @@ struct PressedYarns {
   Vec3 excess_at = Vec3::Zero();               ///< mm, formed, where that yarn is compressed most
 };
 
+/// How far apart the yarns of a family have come, across them in the sheet.
+struct Opening {
+  std::string family;
+  double largest = 0;                      ///< of the distance between neighbours, 0.1 = 10 %
+  Vec3 at = Vec3::Zero();                  ///< mm, formed, where that is
+  std::optional<double> limit;             ///< of the family, if it has one
+  double beyond_mm2 = 0, beyond_share = 0; ///< of the area before forming
+};
+
 /// Measures of each ply that show whether the result is plausible for cloth.
 struct PlyReport {
   std::optional<PressedYarns> pressed; ///< none of a sheet without yarns
   Wrinkle wrinkle;
   std::optional<double> locking_angle_deg;    ///< of the fabric, if it is known
   std::optional<double> beyond_locking_share; ///< fraction of the area before forming; likewise
+  std::vector<Opening> openings;              ///< of the families for which it is told
   DrawIn draw_in;
 };
 

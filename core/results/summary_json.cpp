@@ -86,6 +86,17 @@ Json wrinkle_keys(const Wrinkle& wrinkle) {
           {"wrinkle_at_mm", place(wrinkle.at)}};
 }
 
+Json opening_object(const Opening& opening) {
+  Json object{{"family", opening.family},
+              {"largest", rounded(opening.largest)},
+              {"at_mm", place(opening.at)}};
+  if (opening.limit)
+    object.update({{"limit", rounded(*opening.limit)},
+                   {"area_mm2_beyond_limit", rounded(opening.beyond_mm2)},
+                   {"area_share_beyond_limit", rounded(opening.beyond_share)}});
+  return object;
+}
+
 /// The keys of a ply that its report adds to those of its fields.
 Json report_keys(const PlyReport& report) {
   Json keys = Json::object();
@@ -94,6 +105,7 @@ Json report_keys(const PlyReport& report) {
   if (report.locking_angle_deg) keys["locking_angle_deg"] = rounded(*report.locking_angle_deg);
   if (report.beyond_locking_share)
     keys["area_share_beyond_locking_angle"] = rounded(*report.beyond_locking_share);
+  if (!report.openings.empty()) keys["openings"] = list_of(report.openings, opening_object);
   keys.update(draw_in_keys(report.draw_in));
   return keys;
 }

@@ -49,6 +49,22 @@ std::vector<FamilyFrame> family_frames(const PlyBody& ply) {
   return frames;
 }
 
+/// The distance between yarns across them is the area over the length along them, as the strain of
+/// a group's mean. area_ratios: now over before forming, of triangles.
+void add_openings(const Membrane& m, const std::vector<double>& area_ratios, PlyFrame& f) {
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    if (shows_opening(m.fabric, a)) f.families[a].opening.resize(area_ratios.size());
+  for (std::size_t p = 1; p < m.group_begin.size(); ++p) {
+    double now = 0.0, before = 0.0;
+    const auto begin = at(m.group_begin[p - 1]), end = at(m.group_begin[p]);
+    for (std::size_t e = begin; e < end; ++e)
+      now += m.area[e] * area_ratios[e], before += m.area[e];
+    for (FamilyFrame& family : f.families)
+      for (std::size_t e = begin; e < end && !family.opening.empty(); ++e)
+        family.opening[e] = now / before / (1.0 + family.strain[e]) - 1.0;
+  }
+}
+
 /// Fills what follows from the shape of each triangle: directions, shear, thickness.
 void add_yarns(const PlyBody& ply, PlyFrame& f) {
   const Membrane& m = ply.membrane;
@@ -58,6 +74,7 @@ void add_yarns(const PlyBody& ply, PlyFrame& f) {
                                m.fabric.families[m.crossings[c].second].name,
                            {}});
   TriangleState t;
+  std::vector<double> area_ratios;
   for (std::size_t e = 0; e < f.triangles.size(); ++e) {
     find_triangle(m, ply.x, static_cast<int>(e), t);
     const AxesState& s = t.axes;
@@ -73,7 +90,9 @@ void add_yarns(const PlyBody& ply, PlyFrame& f) {
       }
     const double area_ratio = s.lambda1 * s.lambda2 * s.sin_omega / std::sin(m.omega0);
     f.thickness.push_back(ply.thickness / area_ratio);
+    area_ratios.push_back(area_ratio);
   }
+  add_openings(m, area_ratios, f);
 }
 
 PlyFrame make_ply_frame(const Scene& scene, int index) {

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 #include <limits>
 #include <map>
+#include <numeric>
 
 namespace plyform {
 namespace {
@@ -103,6 +104,27 @@ PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas
     result.excess_at = formed_centroid(ply, line.triangle);
   }
   return result;
+}
+
+/// The openings of families that have the column. limits: of families, or empty.
+std::vector<Opening> openings_of(const PlyFrame& ply,
+                                 const std::vector<std::optional<double>>& limits,
+                                 const std::vector<double>& areas) {
+  std::vector<Opening> found;
+  for (std::size_t a = 0; a < ply.families.size(); ++a) {
+    const std::vector<double>& values = ply.families[a].opening;
+    if (values.empty()) continue;
+    Opening& opening = found.emplace_back();
+    opening.family = ply.families[a].name;
+    const auto widest = std::max_element(values.begin(), values.end());
+    opening.largest = *widest;
+    opening.at = formed_centroid(ply, static_cast<std::size_t>(widest - values.begin()));
+    if (a >= limits.size() || !limits[a]) continue;
+    opening.limit = limits[a];
+    opening.beyond_share = area_share_above(values, *limits[a], areas);
+    opening.beyond_mm2 = opening.beyond_share * std::accumulate(areas.begin(), areas.end(), 0.0);
+  }
+  return found;
 }
 
 /// What the excess length of compressed yarns would be in reality, and what to do about it.
@@ -258,6 +280,7 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
     result.locking_angle_deg = nature.locking_angle_deg;
     result.beyond_locking_share = area_share_above(shear, *nature.locking_angle_deg, areas);
   }
+  result.openings = openings_of(ply, nature.opening_limits, areas);
   result.draw_in = draw_in(ply);
   return result;
 }
@@ -269,7 +292,9 @@ std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
   std::vector<PlyReport> result;
   for (std::size_t p = 0; p < last.plies.size(); ++p) {
     const Fabric& fabric = s.data.fabrics[s.data.plies[p].fabric];
-    PlyNature nature{fabric.has_yarns(), std::nullopt};
+    PlyNature nature{fabric.has_yarns(), std::nullopt, {}};
+    for (const YarnFamily& family : fabric.families)
+      nature.opening_limits.push_back(family.opening_limit);
     if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle / degree;
     result.push_back(report_ply(last.plies[p], nature, tools));
   }

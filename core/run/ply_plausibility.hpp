@@ -34,6 +34,7 @@ constexpr double doubtful_astray_share = 0.2;
 struct PlyNature {
   bool has_yarns = true;
   std::optional<double> locking_angle_deg = std::nullopt;
+  std::vector<std::optional<double>> opening_limits = {}; ///< of its families, or empty: none
 };
 
 PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,

@@ -84,6 +84,40 @@ TEST(Families, ShowTheShearOfWhatCrosses) {
   EXPECT_EQ(frame.plies[0].families.size(), 1u);
 }
 
+/// The distance of neighbouring yarns across: stretched across a tape they are that much further
+/// apart, along it not at all; sheared along the yarns they slide, sheared across them they come
+/// nearer by what the yarns grow longer, since the area stays. A weave has no such column.
+TEST(Families, OpenAcrossByAreaOverLength) {
+  Case data = coarse_hemisphere({0.0});
+  data.fabrics[0] = unidirectional();
+  const auto opening = [&](double angle, const Eigen::Matrix2d& f) {
+    data.fabrics[0].families[0].angle = angle;
+    Scene s = make_scene(data);
+    for (Vec3& x : s.plies[0].x)
+      x.head<2>() = Vec2(f * x.head<2>());
+    ThreadPool pool(1);
+    return make_frame(s, tool_surfaces(s, pool), {}, pool).plies[0].families[0].opening.at(7);
+  };
+  const double right = 0.5 * std::numbers::pi;
+  const Eigen::Matrix2d wider = Vec2(1.0, 1.1).asDiagonal();
+  EXPECT_NEAR(opening(0.0, wider), 0.1, 1e-12);
+  EXPECT_NEAR(opening(right, wider), 0.0, 1e-12);
+  Eigen::Matrix2d sheared;
+  sheared << 1.0, 0.2, 0.0, 1.0;
+  EXPECT_NEAR(opening(0.0, sheared), 0.0, 1e-12);
+  EXPECT_NEAR(opening(right, sheared), 1.0 / std::sqrt(1.04) - 1.0, 1e-12);
+  data.fabrics[0] = glass_weave();
+  Scene s = make_scene(data);
+  ThreadPool pool(1);
+  const std::vector<TriMesh> surfaces = tool_surfaces(s, pool);
+  EXPECT_TRUE(make_frame(s, surfaces, {}, pool).plies[0].families[0].opening.empty());
+  data.fabrics[0].families[1].opening_limit = 0.05;
+  Scene limited = make_scene(data);
+  const PlyFrame ply = make_frame(limited, surfaces, {}, pool).plies[0];
+  EXPECT_TRUE(ply.families[0].opening.empty());
+  EXPECT_EQ(ply.families[1].opening.size(), ply.triangles.size());
+}
+
 /// Plies of one family and of three in one stack: energy is closed, bits are the same on any number
 /// of threads, and a run that is killed ends as one that is not.
 TEST(Families, FormInOneStack) {

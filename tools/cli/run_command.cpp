@@ -68,6 +68,14 @@ void print_plausibility(const std::string& name, const PlyReport& ply) {
   if (ply.beyond_locking_share)
     fmt::print("; beyond locking on {:.1f} %", 100.0 * *ply.beyond_locking_share);
   fmt::print("\n");
+  for (const Opening& o : ply.openings) {
+    fmt::print("  {:16} opening between {} {:.1f} % at most, at ({:.4g}, {:.4g}, {:.4g}) mm", name,
+               o.family, 100.0 * o.largest, o.at.x(), o.at.y(), o.at.z());
+    if (o.limit)
+      fmt::print("; over its limit of {:g} % on {:.1f} % of the area, {:.0f} mm2", 100.0 * *o.limit,
+                 100.0 * o.beyond_share, o.beyond_mm2);
+    fmt::print("\n");
+  }
 }
 
 /// Prints the force of a tool, or of a gripper, spring or clamp.

@@ -79,7 +79,8 @@ def sentence(text: str) -> str:
 
 
 def answers_of(run: Run, index: int) -> list[Answer]:
-    found = [shear(run, index), wrinkles(run, index), force(run), pressed(run, index), drawn_in(run)]
+    found = [shear(run, index), wrinkles(run, index), force(run), pressed(run, index),
+             opening(run, index), drawn_in(run)]
     return [answer for answer in [*found, accuracy(run)] if answer]
 
 
@@ -196,6 +197,34 @@ def pressed(run: Run, index: int) -> Answer | None:
                   Place(index, k, int(strain.argmin()), "pressed"), share > 0.01,
                   Markup("yarns of {} are pressed by {}&nbsp;%").format(
                       ply.name, number(100.0 * largest, 1)))
+
+
+def opening(run: Run, index: int) -> Answer | None:
+    """How far yarns have come apart across, of families for which it is told."""
+    told = [(k, one) for k, ply in enumerate(run.plies)
+            for one in run.summary_of(ply.name).get("openings", [])
+            if one.get("largest") is not None and None not in one["at_mm"]]
+    if not told:
+        return None
+    k, most = max(told, key=lambda one: one[1]["largest"])
+    ply = run.plies[k]
+    text = Markup("Between <b>{}</b> of <b>{}</b>, at {}: how much further apart neighbouring yarns "
+                  "lie than before forming.").format(most["family"], ply.name,
+                                                     at_place(most["at_mm"]))
+    over = [(run.plies[i].name, one) for i, one in told if (one.get("area_share_beyond_limit") or 0) > 0]
+    for name, one in over:
+        text += Markup(" {} of {} pass their limit of {}&nbsp;% on {}&nbsp;mm², {}&nbsp;% of the area."
+                       ).format(one["family"], name, percent(one["limit"], 1),
+                                number(one["area_mm2_beyond_limit"], 0),
+                                percent(one["area_share_beyond_limit"], 1))
+    if not over:
+        limits = any(one.get("limit") is not None for _, one in told)
+        text += Markup(" No family passes its limit." if limits
+                       else " The fabric states no limit to compare with.")
+    return Answer("Opening between yarns", Markup("{}&nbsp;%").format(percent(most["largest"], 1)),
+                  text, Place(index, k, nearest(ply, most["at_mm"]), f"{most['family']}-opening"),
+                  bool(over), Markup("yarns of {} gape by {}&nbsp;%").format(
+                      ply.name, percent(most["largest"], 1)))
 
 
 def drawn_in(run: Run) -> Answer | None:

@@ -34,6 +34,14 @@ Rows yarn_rows(const std::string& table, const std::string& yarn) {
              .least_items = 2,
              .meaning = "[strain, tension] of one yarn, ascending from [0, 0]"}};
   append(rows, yarn_bending_rows(table, yarn));
+  append(rows, {{.key = table + ".opening_limit",
+                 .otherwise = "not known",
+                 .ranges = {{.least = 0.0, .most = 10.0, .open_least = true}},
+                 .usual = {{.least = 0.005, .most = 1.0}},
+                 .meaning = "change of the distance between neighbouring yarns, over what it was, "
+                            "beyond which they gape: results have a column for it, and say where "
+                            "it is exceeded",
+                 .members = {to(&YarnFamily::opening_limit)}}});
   return rows;
 }
 

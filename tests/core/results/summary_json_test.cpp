@@ -119,6 +119,7 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   report.wrinkle = {1.5, 40, {4, 5, 6}};
   report.locking_angle_deg = 45;
   report.beyond_locking_share = 0.125;
+  report.openings = {{"tow", 0.2, {7, 8, 9}, 0.1, 500, 0.25}};
   report.draw_in = {{-45, 45, 135, 225}, {0, 90, 180, 270}, {1, 2, 3, 4}, {5, 6, 7, 12}, ""};
   summary.plies = {report};
   EXPECT_EQ(ply_read_back(unequal(10, -20), summary), Json::parse(R"({
@@ -128,6 +129,8 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   "area_share_pressed_over_5_percent": 0.04, "excess_length_mm": 2.5,
   "excess_length_at_mm": [1, 2, 3], "wrinkle_height_mm": 1.5, "wrinkle_length_mm": 40,
   "wrinkle_at_mm": [4, 5, 6], "locking_angle_deg": 45, "area_share_beyond_locking_angle": 0.125,
+  "openings": [{"family": "tow", "largest": 0.2, "at_mm": [7, 8, 9], "limit": 0.1,
+                "area_mm2_beyond_limit": 500, "area_share_beyond_limit": 0.25}],
   "draw_in_mm": {"mean": 5, "largest": 12},
   "draw_in_yarns_mm": {"mean": 2.5, "spread": 3, "directions_deg": [315, 45, 135, 225],
                        "each": [1, 2, 3, 4]},

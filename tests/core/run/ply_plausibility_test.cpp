@@ -55,6 +55,27 @@ TEST(PlyPlausibility, ExcessLengthIsTheIntegralAlongTheYarn) {
   EXPECT_LT((told.pressed->excess_at.head<2>() - middle).norm(), 3.0);
 }
 
+/// Only families that have the column are told, with the area beyond their own limits.
+TEST(PlyPlausibility, OpeningsAreToldByFamilyWithTheirLimits) {
+  PlyFrame ply = sheet(20, 10, 10.0, 0.0, sheets::flat);
+  EXPECT_TRUE(report_ply(ply, {.opening_limits = {0.1, 0.1}}, {}).openings.empty());
+  std::vector<double>& weft = ply.families[1].opening;
+  for (std::size_t t = 0; t < ply.triangles.size(); ++t) {
+    const Vec2 p = sheets::centre(ply, t);
+    weft.push_back(p.x() > 50.0 ? 0.12 : p.y() > 40.0 ? 0.3 : -0.02); // a quarter; a tenth
+  }
+  const PlyReport told = report_ply(ply, {.opening_limits = {std::nullopt, 0.1}}, {});
+  ASSERT_EQ(told.openings.size(), 1u);
+  const Opening& opening = told.openings[0];
+  EXPECT_EQ(opening.family, ply.families[1].name);
+  EXPECT_EQ(opening.largest, 0.3);
+  EXPECT_GT(opening.at.y(), 40.0);
+  EXPECT_EQ(opening.limit.value(), 0.1);
+  EXPECT_NEAR(opening.beyond_share, 0.25 + 0.75 * 0.1, 1e-12);
+  EXPECT_NEAR(opening.beyond_mm2, opening.beyond_share * 200.0 * 100.0, 1e-8);
+  EXPECT_FALSE(report_ply(ply, {}, {}).openings[0].limit);
+}
+
 TEST(PlyPlausibility, NothingPressedIsNothing) {
   const PlyReport told = report_ply(sheet(5, 5, 10.0, 15.0, sheets::flat), {}, {});
   EXPECT_EQ(told.pressed->largest, 0.0);
