@@ -143,6 +143,17 @@ MaterialAxes material_axes(const Fabric& fabric) {
   return axes;
 }
 
+int yarn_directions(const Fabric& fabric) {
+  constexpr double least = 1e-3; // sine of the angle between two
+  std::vector<double> found;
+  for (const YarnFamily& family : fabric.families)
+    if (std::none_of(found.begin(), found.end(), [&](double angle) {
+          return std::abs(std::sin(family.angle - angle)) < least;
+        }))
+      found.push_back(family.angle);
+  return static_cast<int>(found.size());
+}
+
 double crossing_angle(const Fabric& fabric, const Crossing& crossing) {
   return std::abs(fabric.families[crossing.second].angle - fabric.families[crossing.first].angle);
 }

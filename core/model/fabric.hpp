@@ -148,9 +148,10 @@ struct Fabric {
   std::optional<double> locking_angle; ///< rad, shear angle beyond which the fabric wrinkles
   double twist = 0.0;                  ///< D_t, N mm
   bool twist_given = true;             ///< else `twist` is usual_twist
-  /// Bending of a plate of the sheet's law (N mm): D, the same along both axes, and D_c. Zero in a
-  /// fabric with yarns, which bend by themselves.
+  /// Bending of the sheet by itself (N mm): D, the same along both axes, which are at right angles
+  /// then, and D_c. Beside yarns in one direction it is what resists bending across them.
   double plate = 0.0, plate_coupling = 0.0;
+  ValueSource plate_source = ValueSource::given;
 
   bool has_yarns() const { return !families.empty(); }
   double weight() const { return surface_density * standard_gravity; } ///< N/mm^2
@@ -163,6 +164,9 @@ bool is_weave(const Fabric& fabric);
 Fabric woven_fabric();
 
 MaterialAxes material_axes(const Fabric& fabric);
+
+/// In how many directions its yarns lie: families within 0.06 degrees of parallel have one.
+int yarn_directions(const Fabric& fabric);
 
 /// d_1 d_2 sin(angle between them) of a crossing, 1/mm^2: unit cells per area.
 double cells_per_area(const Fabric& fabric, const Crossing& crossing);

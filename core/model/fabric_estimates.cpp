@@ -15,6 +15,7 @@ namespace {
 
 constexpr double compression_share = 0.01; // of tension
 constexpr double bending_length = 70.0;    // mm
+constexpr double length_across = 20.0;     // mm, of the sheet across yarns in one direction
 constexpr double zone_in_cells = 2.5;
 constexpr double shear_scale_at = 0.5; // rad
 
@@ -32,13 +33,17 @@ void estimate_for_stack(Fabric& f) {
     if (family.tension.compression == 0.0) continue;
     YarnSources& sources = family.sources;
     if (sources.bending == ValueSource::missing) {
-      family.bending.stiffness = usual_bending(f);
+      family.bending.stiffness = usual_bending(f, family);
       sources.bending = ValueSource::estimated;
     }
     if (sources.in_plane_bending == ValueSource::missing && usual_in_plane_bending(f) > 0.0) {
       family.in_plane_bending = usual_in_plane_bending(f);
       sources.in_plane_bending = ValueSource::estimated;
     }
+  }
+  if (f.plate_source == ValueSource::missing && yarn_directions(f) == 1 && bears_compression(f)) {
+    f.plate = usual_bending_across(f);
+    f.plate_source = ValueSource::estimated;
   }
   if (!f.twist_given) f.twist = usual_twist(f);
 }
@@ -81,7 +86,12 @@ std::string estimated_values(const Fabric& f) {
       of_families(
           f, &YarnSources::bending, [](const YarnFamily& y) { return y.bending.stiffness; }, "N mm",
           "{:.2g}"),
-      fmt::format("bending length {:g} mm", bending_length));
+      fmt::format("{}bending length {:g} mm",
+                  is_weave(f) ? "" : "as of a weave with as many fibres along them, ",
+                  bending_length));
+  if (f.plate_source == ValueSource::estimated)
+    add("bending across", fmt::format("{:.2g} N mm", f.plate),
+        fmt::format("bending length {:g} mm, as of limp cloth", length_across));
   add("in-plane bending",
       of_families(
           f, &YarnSources::in_plane_bending, [](const YarnFamily& y) { return y.in_plane_bending; },
@@ -109,17 +119,37 @@ double usual_compression(const TensionLaw& law) {
 }
 
 double usual_twist(const Fabric& fabric) {
-  if (fabric.families.size() != 2) return 0.0;
-  return std::sqrt(fabric.families[0].bending.at(0.0).slope *
-                   fabric.families[1].bending.at(0.0).slope);
+  const std::size_t families = fabric.families.size();
+  if (families == 0 || families > 2) return 0.0;
+  const double second = families == 2 ? fabric.families[1].bending.at(0.0).slope : 0.0;
+  return std::sqrt((fabric.families[0].bending.at(0.0).slope + fabric.plate) *
+                   (second + fabric.plate));
 }
 
-double usual_bending(const Fabric& fabric) {
-  return fabric.weight() * bending_length * bending_length * bending_length;
+double usual_bending(const Fabric& fabric, const YarnFamily& family) {
+  double weight = fabric.weight();
+  if (!is_weave(fabric)) {
+    const auto fibres = [](const YarnFamily& f) { return f.density * f.tension.largest_slope(); };
+    double all = 0.0;
+    for (const YarnFamily& other : fabric.families)
+      all += fibres(other);
+    weight *= 2.0 * fibres(family) / all;
+  }
+  return weight * bending_length * bending_length * bending_length;
+}
+
+double usual_bending_across(const Fabric& fabric) {
+  return fabric.weight() * length_across * length_across * length_across;
 }
 
 double usual_zone_width(const Fabric& fabric) {
-  if (fabric.crossings.empty()) return 0.0;
+  if (fabric.families.empty()) return 0.0;
+  if (fabric.crossings.empty()) {
+    double mean = 0.0; // of the logarithms of densities
+    for (const YarnFamily& family : fabric.families)
+      mean += std::log(family.density) / static_cast<double>(fabric.families.size());
+    return zone_in_cells * 2.0 / std::exp(mean);
+  }
   const Crossing& c = fabric.crossings[0];
   return zone_in_cells * 2.0 /
          std::sqrt(fabric.families[c.first].density * fabric.families[c.second].density);
@@ -132,6 +162,8 @@ double shear_rigidity(const Fabric& fabric) {
     const double secant = c.shear.odd_part(shear_scale_at).value / shear_scale_at;
     rigidity += cells_per_area(fabric, c) * (start > 0.0 ? start : secant);
   }
+  if (fabric.sheet)
+    rigidity += std::visit([](const auto& law) { return law.shear_stiffness(); }, *fabric.sheet);
   return rigidity;
 }
 

@@ -17,6 +17,11 @@ struct IsotropicLaw {
   double modulus = 0.0;       ///< C, N/mm
   double poissons_ratio = 0.; ///< nu
 
+  /// N/mm at rest: stress over the strain of one direction while the other's length is held, and
+  /// over the angle of shear, S_12 / (2 E_12).
+  double plane_stiffness() const { return modulus / (1.0 - poissons_ratio * poissons_ratio); }
+  double shear_stiffness() const { return 0.5 * modulus / (1.0 + poissons_ratio); }
+
   /// (S) and (W).
   SheetResponse at(const Vec3& k1, const Vec3& k2) const;
 

@@ -3,6 +3,7 @@
 // functions:
 //   SheetResponse at(k1, k2)                      stresses and energy
 //   double stiffness_bound(k1, k2, gram)          of the largest eigenvalue, for the stable step
+//   double plane_stiffness(), shear_stiffness()   at rest, for estimates and what is told
 #pragma once
 
 #include "core/model/isotropic.hpp"

@@ -6,6 +6,7 @@
 #include "core/input/checks/motion_checks.hpp"
 #include "core/model/bending_resolution.hpp"
 #include "core/model/fabric_estimates.hpp"
+#include "core/model/fabric_freedoms.hpp"
 #include "core/model/motion.hpp"
 #include "core/run/facet_penetration.hpp"
 #include "core/setup/boundaries_ahead.hpp"
@@ -60,6 +61,7 @@ std::string bending_text(const PlyBody& ply) {
   std::string text = fmt::format(
       "bending {}, {:.3g} in twist, {} in their plane, yarns compressed by {} N per strain",
       joined(bent, ", "), law.twist, joined(in_plane, " and "), joined(compressed, " and "));
+  if (fabric.plate > 0.0) text += fmt::format(", the sheet by {:.2g} N mm", fabric.plate);
   if (buckles) text += fmt::format(", buckling at {}", joined(buckling, " and "));
   return text;
 }
@@ -106,10 +108,11 @@ void describe_drawings(const Case& data, Lines& lines) {
     if (!blank.drawing.empty()) say(lines, "outline from {}", blank.drawing);
 }
 
-/// Estimates of values that the case does not give, and values that were limited.
+/// What fabrics leave free or lock, and values that were estimated or limited.
 void describe_fabrics(const Case& data, Lines& lines) {
-  for (const std::string& line : assumptions(data))
-    say(lines, "fabric {}", line);
+  for (const auto& told : {describe_freedoms(data), assumptions(data)})
+    for (const std::string& line : told)
+      say(lines, "fabric {}", line);
 }
 
 /// Warns of plies that lock slightly: those of averaged elements whose yarns bear compression, with

@@ -66,8 +66,9 @@ Rows sheet_rows() {
            .members = {to(&Fabric::locking_angle)}},
           {.key = "fabrics.NAME.twist_stiffness",
            .unit = "N mm",
-           .otherwise = "root of the product of both bending stiffnesses (at small curvature); "
-                        "0 of fabrics that have not two families",
+           .otherwise = "root of the product of the bending stiffnesses along both axes (at small "
+                        "curvature); 0 of fabrics of three families and more, which resist twist "
+                        "by bending",
            .ranges = {bending_range},
            .of = "law",
            .with = {"woven", families_word},

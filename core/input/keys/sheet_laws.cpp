@@ -3,6 +3,8 @@
 
 #include "core/input/keys/key_member.hpp"
 
+#include <cmath>
+
 namespace plyform {
 
 namespace {
@@ -96,15 +98,38 @@ Rows sheet_beside_rows() {
              .otherwise = "none",
              .of = "law",
              .with = {families_word},
-             .meaning = "isotropic law of the sheet beside its yarns, of which bending is left to "
-                        "the yarns: what holds bundles together, or a foil"}};
+             .meaning = "isotropic law of the sheet beside its yarns: what holds bundles together, "
+                        "or a foil"}};
   append(rows, isotropic_constants(table));
+  append(rows,
+         {{.key = table + ".bending_stiffness",
+           .unit = "N mm",
+           .otherwise = "0 of a ply alone, in a stack an estimate for yarns in one direction that "
+                        "bear compression: a bending length of 20 mm",
+           .ranges = {bending_range},
+           .meaning = "moment per width divided by curvature of the sheet by itself, what a "
+                      "cantilever test across yarns in one direction gives; of fabrics with "
+                      "yarns in one direction, or two at right angles",
+           .members = {to(&Fabric::plate)}}});
   return rows;
 }
 
-void read_sheet_beside(const TableView& section, Fabric& fabric) {
+void read_sheet_beside(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
+  fabric.plate_source = ValueSource::missing;
   if (!section.entry) return;
-  fabric.sheet = read_isotropic_constants(section, fabric.thickness);
+  const IsotropicLaw law = read_isotropic_constants(section, fabric.thickness);
+  fabric.sheet = law;
+  if (!given(section, "bending_stiffness")) return;
+  read_members(section, fabric);
+  fabric.plate_source = ValueSource::given;
+  fabric.plate_coupling = law.poissons_ratio * fabric.plate;
+  if (!fabric.has_yarns()) fabric.twist = 2.0 * (1.0 - law.poissons_ratio) * fabric.plate;
+  constexpr double askew = 1e-6; // cosine of the angle between the axes
+  if (fabric.plate > 0.0 && std::abs(std::cos(material_axes(fabric).between())) > askew)
+    value_error(section, "bending_stiffness",
+                "is of the sheet across yarns in one direction, or in two at right angles; here "
+                "yarns bend in two directions that are not",
+                "take it out: their bending_stiffness is enough", diagnostics);
 }
 
 bool read_sheet(const TableView& section, Fabric& fabric) {

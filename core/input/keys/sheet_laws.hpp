@@ -22,8 +22,8 @@ Rows sheet_law_rows();
 bool read_sheet(const TableView& section, Fabric& fabric);
 
 /// Rows below fabrics.NAME of a sheet beside yarns, and its reader, into a fabric whose thickness
-/// has been read.
+/// and families have been read.
 Rows sheet_beside_rows();
-void read_sheet_beside(const TableView& section, Fabric& fabric);
+void read_sheet_beside(const TableView& section, Fabric& fabric, Diagnostics& diagnostics);
 
 } // namespace plyform

@@ -21,7 +21,7 @@ namespace {
 /// Reads the twist stiffness of a fabric whose families bend as they do.
 void read_twist(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
   fabric.twist_given = given(section, "twist_stiffness") != nullptr;
-  fabric.twist = usual_twist(fabric);
+  if (fabric.has_yarns()) fabric.twist = usual_twist(fabric);
   if (!fabric.twist_given) return;
   fabric.twist = number(section, "twist_stiffness");
   const auto bends = [](const YarnFamily& family) { return family.bending.at(0.0).slope > 0.0; };

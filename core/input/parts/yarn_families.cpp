@@ -260,7 +260,7 @@ void read_families(const TableView& section, Fabric& fabric, Diagnostics& diagno
   check_names(section, fabric, diagnostics);
   for (const TableView& crossing : subsections(section, "crossing"))
     fabric.crossings.push_back(read_crossing(crossing, fabric, diagnostics));
-  read_sheet_beside(subsection(section, "sheet"), fabric);
+  read_sheet_beside(subsection(section, "sheet"), fabric, diagnostics);
   if (diagnostics.errors.size() == before) check_hold(section, fabric, diagnostics);
 }
 

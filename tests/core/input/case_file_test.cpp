@@ -304,6 +304,11 @@ TEST(CaseFile, ReadsFabricsOfAnyNumberOfFamilies) {
   EXPECT_EQ(tape.families[0].in_plane_bending, 4.0);
   EXPECT_DOUBLE_EQ(std::get<IsotropicLaw>(tape.sheet.value()).modulus, 2.0 * 0.3); // N/mm
   EXPECT_EQ(tape.twist, 0.2);
+  EXPECT_EQ(tape.plate, 0.3);
+  EXPECT_NEAR(tape.plate_coupling, 0.06, 1e-15);
+  EXPECT_TRUE(tape.plate_source == ValueSource::given);
+  EXPECT_EQ(tape.families[0].opening_limit.value(), 0.1);
+  EXPECT_FALSE(triaxial.families[0].opening_limit);
   EXPECT_TRUE(tape.crossings.empty());
   ASSERT_EQ(triaxial.families.size(), 3u);
   ASSERT_EQ(triaxial.crossings.size(), 2u);

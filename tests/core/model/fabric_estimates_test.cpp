@@ -129,6 +129,65 @@ TEST(Estimates, OfInPlaneBendingTakeTheSecantWhereShearStartsWithNothing) {
   EXPECT_GT(none.families[0].bending.stiffness, 0.0);
 }
 
+/// Bundles bend by their own fibres: those of a tape as those of a weave that has as many of them
+/// in each direction, which is twice as heavy; across, and in its plane, by the sheet.
+TEST(Estimates, OfOneFamilyAreThoseOfAWeaveWithAsManyFibresAlongIt) {
+  const Fabric tape = unidirectional();
+  Fabric weave = glass_weave();
+  weave.surface_density = 2.0 * tape.surface_density;
+  EXPECT_NEAR(usual_bending(tape, tape.families[0]), usual_bending(weave, weave.families[0]),
+              1e-12);
+  EXPECT_NEAR(usual_bending_across(tape), tape.weight() * 8000.0, 1e-15);
+  EXPECT_NEAR(shear_rigidity(tape), 3.0 / 2.4, 1e-15);                       // E t / (2 (1 + nu))
+  EXPECT_NEAR(usual_in_plane_bending(tape), 3.0 / 2.4 * 10.0 * 10.0, 1e-12); // 2.5 cells of 4 mm
+  Fabric bent = tape;
+  bent.families[0].bending.stiffness = 4.0, bent.plate = 0.5;
+  EXPECT_NEAR(usual_twist(bent), std::sqrt(4.5 * 0.5), 1e-15);
+}
+
+/// The share of a family is that of its fibres.
+TEST(Estimates, OfThreeFamiliesGoByTheirShareOfTheFibres) {
+  Fabric f = triaxial();
+  f.families[2].density *= 2.0;
+  const double half = usual_bending(f, f.families[2]), other = usual_bending(f, f.families[0]);
+  EXPECT_NEAR(half, 2.0 * other * f.families[2].tension.stiffness / f.families[0].tension.stiffness,
+              1e-12);
+  double all = 0.0;
+  for (const YarnFamily& family : f.families)
+    all += usual_bending(f, family);
+  EXPECT_NEAR(all, 2.0 * f.weight() * 343000.0, 1e-12);
+  EXPECT_EQ(usual_twist(f), 0.0);
+}
+
+TEST(Estimates, AreGivenToAStackOfTapes) {
+  std::string text = "[fabrics.tape]\nsurface_density = 300.0\nthickness = 0.3\n"
+                     "[[fabrics.tape.family]]\nname = \"tow\"\nangle = 0.0\ndensity = 0.5\n"
+                     "stiffness = 40000.0\n"
+                     "[fabrics.tape.sheet]\nyoungs_modulus = 0.4\npoissons_ratio = 0.2\n"
+                     "[blanks.square]\nsize = [60.0, 60.0]\nelement_size = 4.0\n";
+  for (const char* name : {"lower", "upper"})
+    text += fmt::format("[[ply]]\nname = \"{}\"\nfabric = \"tape\"\nblank = \"square\"\n"
+                        "angle = 0.0\n",
+                        name);
+  const fs::path file =
+      fs::path(::testing::TempDir()) / fmt::format("plyform_tapes_{}.toml", getpid());
+  std::ofstream(file) << text;
+  const PreparedCase reading = prepare_case(file, {});
+  fs::remove(file);
+  ASSERT_TRUE(reading.value) << reading.errors.at(0).text();
+  const Fabric& f = reading.value->fabrics.at(0);
+  EXPECT_EQ(f.families[0].tension.compression, 400.0);
+  EXPECT_NEAR(f.families[0].bending.stiffness, 2.0 * f.weight() * 343000.0, 1e-12); // 2.0 N mm
+  EXPECT_NEAR(f.plate, f.weight() * 8000.0, 1e-15);                                 // 0.024
+  EXPECT_GT(f.twist, 0.0);
+  EXPECT_EQ(bending_law(f).families.size(), 3u);
+  EXPECT_NE(describe_estimates(*reading.value)
+                .at(0)
+                .find("bending across 0.024 N mm (bending length 20 mm, as of limp cloth)"),
+            std::string::npos)
+      << describe_estimates(*reading.value)[0];
+}
+
 TEST(Estimates, SofteningIsSaidWhereCompressionLimitsIt) {
   EXPECT_TRUE(describe_softening(case_of({.softening = 100.0})).empty());
   EXPECT_NE(describe_softening(case_of({.softening = 250.0})).at(0).find("by 100 and 100 only"),
