@@ -133,6 +133,15 @@ def check_sheets(browser, folder):
     words, _ = shown(browser, sheets(folder / "twenty", "Twenty plies", glass, 20))
     assert "20 plies" in words and words.index("p20\n") < words.index("p1\n")
     assert len(browser.driver.find_elements("css selector", "#plies input")) == 20
+    tape = f'"{CASES / "fabrics" / "ud.toml"}"'
+    one = sheets(folder / "tape", "A tape", tape, 1)
+    words, fields = shown(browser, one)
+    assert "tow-opening" in fields and "No family passes its limit" in words
+    gapes = {"family": "tow", "largest": 0.25, "at_mm": [1, 2, 3], "limit": 0.1,
+             "area_share_beyond_limit": 0.02, "area_mm2_beyond_limit": 120.0}
+    words, _ = shown(browser, changed(one, folder / "gapes", of_plies={"openings": [gapes]}))
+    words = words.replace("\u00a0", " ")
+    assert "gape by 25.0" in words and "pass their limit of 10.0 % on 120 mm²" in words, words
     words, fields = shown(browser, sheets(folder / "foil", "A foil", FOIL, 1))
     assert "pressed" not in fields and "Pressed yarns".upper() not in words
     assert "predicted: not measured: cloth is a sheet without yarns." in words

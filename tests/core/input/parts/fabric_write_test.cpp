@@ -234,5 +234,20 @@ polynomial = [1.0]
   EXPECT_EQ(fabric.families[0].tension.compression, 460.0);
 }
 
+/// Every fabric of the library is read.
+TEST(FabricFile, ReadsTheLibrary) {
+  int count = 0;
+  for (const fs::directory_entry& entry : fs::directory_iterator(PLYFORM_CASES "/fabrics")) {
+    if (entry.path().extension() != ".toml") continue;
+    ++count;
+    const FabricReading reading = read_fabric_file(entry.path(), false);
+    EXPECT_TRUE(reading.value) << entry.path() << texts(reading.errors);
+    if (reading.value) {
+      EXPECT_FALSE(reading.value->name.empty());
+    }
+  }
+  EXPECT_GE(count, 4);
+}
+
 } // namespace
 } // namespace plyform::fabric_write_test
