@@ -206,8 +206,13 @@ bool balanced(const Fabric& fabric) {
            p.bending.curvature == q.bending.curvature && p.bending.moment == q.bending.moment &&
            p.in_plane_bending == q.in_plane_bending && p.density == q.density;
   };
+  const auto same_crimp = [](const Crossing& c) {
+    return !c.crimp || (c.crimp->crimp[0] == c.crimp->crimp[1] &&
+                        c.crimp->half_wave[0] == c.crimp->half_wave[1]);
+  };
   return std::all_of(fabric.families.begin(), fabric.families.end(),
-                     [&](const YarnFamily& f) { return same(f, fabric.families.front()); });
+                     [&](const YarnFamily& f) { return same(f, fabric.families.front()); }) &&
+         std::all_of(fabric.crossings.begin(), fabric.crossings.end(), same_crimp);
 }
 
 } // namespace plyform

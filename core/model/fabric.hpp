@@ -9,6 +9,7 @@
 #pragma once
 
 #include "base/geometry.hpp"
+#include "core/model/crimp.hpp"
 #include "core/model/shear_law.hpp"
 #include "core/model/sheet_law.hpp"
 
@@ -122,6 +123,8 @@ struct YarnFamily {
 struct Crossing {
   std::size_t first = 0, second = 1; ///< indices into Fabric::families
   ShearLaw shear;                    ///< torque of one unit cell
+  /// Tension of both families by the cell that their yarns make; a family is in one at most.
+  std::optional<CrimpedCell> crimp{};
 };
 
 /// What a fabric may have at most. Kernels keep as many numbers at hand.
@@ -187,7 +190,7 @@ bool shows_opening(const Fabric& fabric, std::size_t family);
 /// Whether the yarns of all families bear compression; of a foil false.
 bool bears_compression(const Fabric& fabric);
 
-/// Whether all families have the same yarns at the same density.
+/// Whether all families have the same yarns at the same density, and the same crimp.
 bool balanced(const Fabric& fabric);
 
 } // namespace plyform

@@ -49,9 +49,17 @@ void set_laws(Membrane& m, const Fabric& fabric, const MaterialAxes& axes, doubl
   for (const Crossing& c : fabric.crossings) {
     m.crossings.push_back(
         {c.first, c.second, crossing_angle(fabric, c), cells_per_area(fabric, c), c.shear});
-    if (!c.shear.tabulated()) continue;
-    m.crossings.back().steepest = c.shear.curve().largest_slope();
-    m.crossings.back().table = shear_table(c.shear, m.crossings.back().cells);
+    if (c.shear.tabulated()) {
+      m.crossings.back().steepest = c.shear.curve().largest_slope();
+      m.crossings.back().table = shear_table(c.shear, m.crossings.back().cells);
+    }
+    m.crossings.back().crimp = c.crimp;
+    if (!c.crimp) continue;
+    const YarnFamily &a = fabric.families[c.first], &b = fabric.families[c.second];
+    const double cells[] = {a.density / c.crimp->half_wave[0], b.density / c.crimp->half_wave[1]};
+    if (!(std::abs(cells[0] - cells[1]) <= 1e-9 * cells[0]))
+      throw std::invalid_argument("crimp of two families that have not equally many waves");
+    m.crimped = m.families[c.first].crimped = m.families[c.second].crimped = true;
   }
   for (std::size_t a = 0; a < m.families.size(); ++a)
     m.families[a].side = side_stiffness(m, a);

@@ -42,7 +42,7 @@
 //                    which is slack there unless it bears compression or its group is taut
 //
 // clang-format off
-//   E_P = A sum_a d_a W_a(mean eps_a)
+//   E_P = A sum_a d_a W_a(mean eps_a)             (yarns with crimp: core/ply/membrane_crimp.hpp)
 //         + sum over P of A0 [ sum_c n_c Es(gamma, g_c) + psi
 //                              + sum_a d_a ( s_a/2 delta_a^2 + g_a/2 max(0, 1/2 - lambda_a)^2 ) ]  (E)
 //   p   = Cs(g_c) / g_c, N mm: secant stiffness of a cell;  t_a = sum_c n_c beta p delta_a / d_a
@@ -77,6 +77,7 @@
 #include "core/model/yarn_law.hpp"
 #include "core/ply/shear_pieces.hpp"
 
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -99,6 +100,9 @@ struct SideStiffness {
   double stabilisation = 0.0, collapse_penalty = 0.0;
 };
 
+/// One number a family.
+using OfFamilies = std::array<double, most_families>;
+
 /// A family of yarns in a membrane.
 struct MembraneFamily {
   Vec2 along = Vec2::UnitX(); ///< v_a
@@ -107,8 +111,10 @@ struct MembraneFamily {
   double softening = 1.0;     ///< by this: effective_softening
   double viscosity = 0.0;     ///< eta, N s per yarn, in tension only: N += eta d(eps)/dt
   SideStiffness side;
+  bool crimped =
+      false; ///< whether a crossing's cell gives its tension: core/ply/membrane_crimp.hpp
   /// Its law: refers to this family.
-  AnyYarnLaw law() const { return yarn_law(yarn, viscosity); }
+  AnyYarnLaw law() const { return yarn_law(yarn, viscosity, crimped); }
 };
 
 /// A crossing of two families in a membrane.
@@ -120,6 +126,7 @@ struct MembraneCrossing {
   bool is_axes = false;              ///< whether its families are the axes, in their order
   double steepest = 0.0;             ///< N mm, largest slope of a table
   ShearTable table{};                ///< of one: what the kernel looks up
+  std::optional<CrimpedCell> crimp{};
 };
 
 /// What the yarns of one family in one strain group remember from step to step: the states of
@@ -140,6 +147,7 @@ struct Membrane {
   Fabric fabric; ///< as given, not softened
   std::vector<MembraneFamily> families;
   std::vector<MembraneCrossing> crossings;
+  bool crimped = false;        ///< whether any of them has crimp
   double process_time = 1.0;   ///< s of the process in each simulated second: Case::process_time
   double omega0 = 0.0;         ///< rad, between the axes before forming
   Vec2 across = Vec2::UnitY(); ///< components of the direction across e_1
@@ -157,8 +165,8 @@ struct Membrane {
   /// t, of the cloth alone at a node.
   double cloth_mass(std::size_t n) const { return fabric.surface_density * node_area[n]; }
   /// What a law of its yarns is asked. per_dt: 1/s, inverse of the simulated step.
-  LawInput input(double strain, double per_dt) const {
-    return {strain, per_dt, per_dt / process_time};
+  LawInput input(double strain, double per_dt, const LawPoint& cell = {}) const {
+    return {strain, per_dt, per_dt / process_time, cell};
   }
   int groups() const { return static_cast<int>(group_begin.size()) - 1; }
 };
@@ -187,8 +195,8 @@ struct CrossingState {
 /// by `softening` as far as effective_softening allows; s_a and g_a follow the stiffness before
 /// softening. With `kind` automatic the triangles that along_fibres (core/mesh/pairs.hpp) marks are
 /// plain, the others averaged; a fabric without yarns is plain. Triangles are reordered by strain
-/// group. Throws std::invalid_argument for a triangle of zero or negative area, and for more
-/// families or crossings than most_families and most_crossings.
+/// group. Throws std::invalid_argument for triangles of zero or negative area, too many families or
+/// crossings (most_families, most_crossings), and crimped families of not equally many cells.
 Membrane make_membrane(const BlankMesh& mesh, const Fabric& fabric, double angle, ElementKind kind,
                        double softening = 1.0);
 

@@ -3,6 +3,7 @@
 
 #include "core/ply/element_limits.hpp"
 #include "core/ply/mass_normalise.hpp"
+#include "core/ply/membrane_crimp.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -21,9 +22,6 @@ bool is_paired(const Membrane& m) {
 double largest(double a, double b, double off) {
   return 0.5 * (a + b) + std::sqrt(0.25 * (a - b) * (a - b) + off * off);
 }
-
-/// One number a family.
-using OfFamilies = std::array<double, most_families>;
 
 /// Largest eigenvalue of K_ab = sqrt(k_a k_b) (v_a . G v_b) cos(f_a, f_b), that of the families'
 /// part of H (G x I) with stiffnesses k (N/mm); N/mm^3 for a Gram matrix in 1/mm^2.
@@ -50,12 +48,14 @@ double largest_of_families(const Membrane& m, const TriangleState& t, const Gram
 }
 
 /// Stiffness of the families per area, N/mm, in tension or in compression, whichever is stiffer.
+/// Those of a crimped cell are at most as stiff as if they were straight and nothing gave way, each
+/// by itself (core/model/crimp.hpp), and can be pressed while the cell pulls them.
 OfFamilies yarn_stiffness(const Membrane& m) {
   OfFamilies k{};
   for (std::size_t a = 0; a < m.families.size(); ++a) {
     const MembraneFamily& f = m.families[a];
-    k[a] =
-        f.density * std::max(f.yarn.largest_slope(), f.yarn.compression + f.side.collapse_penalty);
+    const double pulled = f.yarn.largest_slope() + (f.crimped ? f.yarn.compression : 0.0);
+    k[a] = f.density * std::max(pulled, f.yarn.compression + f.side.collapse_penalty);
   }
   return k;
 }
@@ -97,10 +97,14 @@ double largest_of_crossing(const Membrane& m, const MembraneCrossing& c) {
 double soft_stiffness(const Membrane& m, const TriangleState& t) {
   std::array<double, 2> pull{}; // of families along the axes
   double oblique = 0.0;         // of the others
+  OfFamilies strain{};
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    strain[a] = t.yarn[a].lambda - 1.0;
+  const OfFamilies tension = elastic_tensions(m, strain);
   for (std::size_t a = 0; a < m.families.size(); ++a) {
     const MembraneFamily& f = m.families[a];
     const double lambda = t.yarn[a].lambda;
-    const double n = std::max(0.0, f.density * f.yarn.at(lambda - 1.0).value / lambda);
+    const double n = std::max(0.0, f.density * tension[a] / lambda);
     if (f.along == Vec2::UnitX())
       pull[0] += n;
     else if (f.along == Vec2::UnitY())
@@ -339,7 +343,9 @@ double kink_factor(const Membrane& m) {
   for (const MembraneFamily& family : m.families) {
     const double tension = family.yarn.largest_slope(), compression = family.yarn.compression;
     if (!(tension > 0.0)) continue;
-    const double r = std::min(tension, compression) / std::max(tension, compression);
+    // of a crimped cell: pressed while the cell pulls it, or not
+    const double pressed = family.crimped ? tension + compression : compression;
+    const double r = std::min(tension, pressed) / std::max(tension, pressed);
     most = std::max(most, r * (1.0 - r));
   }
   return 1.0 + 0.8 * most; // (R)

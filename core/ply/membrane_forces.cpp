@@ -2,7 +2,7 @@
 // (E), (N), (P) and (Q) of core/ply/membrane.hpp, one strain group after the other.
 #include "core/mesh/pairs.hpp"
 #include "core/ply/element_limits.hpp"
-#include "core/ply/membrane.hpp"
+#include "core/ply/membrane_crimp.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,9 +17,6 @@ struct GroupState {
   double area = 0.0;
   std::array<double, most_families> mean{};
 };
-
-/// One number a family, N or mm.
-using OfFamilies = std::array<double, most_families>;
 
 GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group) {
   const auto p = static_cast<std::size_t>(group);
@@ -37,6 +34,20 @@ GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group) {
   for (std::size_t a = 0; a < m.families.size(); ++a)
     s.mean[a] /= s.area;
   return s;
+}
+
+/// The mean strains of a group.
+OfFamilies mean_strains(const Membrane& m, const GroupState& s) {
+  OfFamilies strain{};
+  for (std::size_t a = 0; a < m.families.size(); ++a)
+    strain[a] = s.mean[a] - 1.0;
+  return strain;
+}
+
+/// What cells give the families of a group.
+std::array<LawPoint, most_families> cells_of(const Membrane& m, const GroupState& s) {
+  if (!m.crimped) return {};
+  return cell_points(m, mean_strains(m, s));
 }
 
 /// Stabilisation and collapse penalty of (N) for one family, N.
@@ -151,12 +162,13 @@ GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt
   for (int p = begin; p < end; ++p) {
     const GroupState s = group_state(m, x, p);
     OfFamilies n{};
+    const auto cells = cells_of(m, s);
     for (std::size_t a = 0; a < m.families.size(); ++a) {
       const MembraneFamily& f = m.families[a];
       const std::size_t at_state = at(p) * m.families.size() + a;
       const LawAnswer answer =
-          answer_of(f.law(), m.input(s.mean[a] - 1.0, per_dt), states.begin[at_state].data(),
-                    states.end[at_state].data());
+          answer_of(f.law(), m.input(s.mean[a] - 1.0, per_dt, cells[a]),
+                    states.begin[at_state].data(), states.end[at_state].data());
       n[a] = answer.value;
       report.lost += s.area * f.density * answer.lost;
     }
@@ -175,10 +187,11 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
   if (states.empty()) start = memory_at_start(m), states = start;
   for (int p = 0; p < m.groups(); ++p) {
     const GroupState s = group_state(m, x, p);
+    const auto cells = cells_of(m, s);
     for (std::size_t a = 0; a < m.families.size(); ++a) {
       const MembraneFamily& f = m.families[a];
       YarnMemory next{}; // of no use: this is no step
-      const LawAnswer answer = answer_of(f.law(), m.input(s.mean[a] - 1.0, per_dt),
+      const LawAnswer answer = answer_of(f.law(), m.input(s.mean[a] - 1.0, per_dt, cells[a]),
                                          states[at(p) * m.families.size() + a].data(), next.data());
       sum.fibre += s.area * f.density * answer.stored;
     }
@@ -230,9 +243,15 @@ std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<cons
       if (m.group_begin[p + 1] - m.group_begin[p] > 1) paired.push_back(at(e));
   const int passes = paired.empty() ? 0 : 2;
   std::vector<double> at_node(x.size());
+  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+    OfFamilies strain{};
+    for (std::size_t a = 0; a < m.families.size(); ++a)
+      strain[a] = tensions[a][e];
+    const OfFamilies tension = elastic_tensions(m, strain);
+    for (std::size_t a = 0; a < m.families.size(); ++a)
+      tensions[a][e] = tension[a];
+  }
   for (std::size_t a = 0; a < m.families.size(); ++a) {
-    for (double& tension : tensions[a])
-      tension = m.families[a].yarn.at(tension).value;
     for (int pass = 0; pass < passes; ++pass) {
       at_node.assign(x.size(), 0.0);
       for (std::size_t e = 0; e < m.triangles.size(); ++e)

@@ -2,6 +2,7 @@
 #include "core/ply/membrane_simd.hpp"
 
 #include "base/cpu_features.hpp"
+#include "core/ply/membrane_crimp.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -129,6 +130,31 @@ void evaluate_yarns(const KernelLaw& law, int family, double per_dt, const doubl
   }
 }
 
+/// Strains and answers of all families at four points; yarns as evaluate_yarns.
+void evaluate_cells(const KernelLaw& law, double per_dt, const double (*strain)[simd_width],
+                    const SimdYarnStates* begin, SimdYarnStates* end, KernelAnswers* answers) {
+  const Membrane& m = *law.membrane;
+  for (std::size_t i = 0; i < simd_width; ++i) {
+    OfFamilies strains{};
+    for (std::size_t a = 0; a < m.families.size(); ++a)
+      strains[a] = strain[a][i];
+    const std::array<LawPoint, most_families> cells = cell_points(m, strains);
+    for (std::size_t a = 0; a < m.families.size(); ++a) {
+      const MembraneFamily& f = m.families[a];
+      std::array<double, yarn_states> now{}, next{};
+      for (std::size_t k = 0; k < now.size(); ++k)
+        now[k] = begin[a].of[k][i];
+      const LawAnswer answer =
+          answer_of(f.law(), m.input(strains[a], per_dt, cells[a]), now.data(), next.data());
+      for (std::size_t k = 0; k < next.size(); ++k)
+        end[a].of[k][i] = next[k];
+      answers[a].value[i] = f.density * answer.value;
+      answers[a].stored[i] = f.density * answer.stored;
+      answers[a].lost[i] = f.density * answer.lost;
+    }
+  }
+}
+
 /// A cell of a crossing with this shear angle and measure g^2.
 ShearResponse cell_of(const MembraneCrossing& c, double gamma, double measure2) {
   return c.shear.respond(gamma, std::max(0.0, measure2 - gamma * gamma));
@@ -172,7 +198,7 @@ void sheet_of_membrane(const KernelLaw& law, const double* a, const double* b, c
 KernelYarns kernel_yarns(const MembraneFamily& f) {
   KernelYarns k{};
   k.along[0] = f.along.x(), k.along[1] = f.along.y();
-  k.stiffness = f.density * f.yarn.stiffness;
+  k.stiffness = f.crimped ? 0.0 : f.density * f.yarn.stiffness; // else its cell pulls it
   k.compression = f.density * f.yarn.compression;
   k.viscosity = f.density * f.viscosity;
   k.stabilisation = f.density * f.side.stabilisation;
@@ -181,6 +207,17 @@ KernelYarns kernel_yarns(const MembraneFamily& f) {
   if (k.buckles) {
     k.buckling_strain = f.yarn.buckling_strain();
     k.buckling_drop = (1.0 - buckled_share) * k.compression;
+  }
+  return k;
+}
+
+KernelCell kernel_cell(const Membrane& m, const MembraneCrossing& c) {
+  KernelCell k{};
+  k.heights = c.crimp->heights();
+  for (std::size_t i = 0; i < 2; ++i) {
+    const MembraneFamily& f = m.families[i == 0 ? c.first : c.second];
+    k.half_wave[i] = c.crimp->half_wave[i], k.length[i] = c.crimp->length(i);
+    k.stiffness[i] = f.density / k.half_wave[i] * f.yarn.stiffness / k.length[i];
   }
   return k;
 }
@@ -207,6 +244,8 @@ KernelCrossing kernel_crossing(const Membrane& m, const MembraneCrossing& c) {
     const double minus = term(c.shear.negative_k, i);
     k.shear[i] = 0.5 * c.cells * (plus + minus), k.even[i] = 0.5 * c.cells * (plus - minus);
   }
+  k.crimped = c.crimp.has_value();
+  if (k.crimped) k.cell = kernel_cell(m, c);
   return k;
 }
 
@@ -221,6 +260,7 @@ KernelLaw kernel_law(const Membrane& m) {
   }
   for (std::size_t c = 0; c < m.crossings.size(); ++c)
     law.crossing[c] = kernel_crossing(m, m.crossings[c]);
+  law.crimped = m.crimped;
   law.sheet = m.fabric.sheet.has_value();
   law.weave = law.families == 2 && law.crossings == 1 && !law.sheet &&
               m.families[0].along == Vec2::UnitX() && m.families[1].along == Vec2::UnitY() &&
@@ -228,6 +268,7 @@ KernelLaw kernel_law(const Membrane& m) {
   law.beta = deviation_weight, law.side_cubic = side_cubic;
   law.membrane = &m;
   law.evaluate = evaluate_yarns;
+  law.evaluate_cells = evaluate_cells;
   law.shear = shear_of_crossing;
   law.shear_energy = shear_energy_of_crossing;
   law.sheet_law = sheet_of_membrane;

@@ -265,17 +265,14 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
   Double4 fibre{}, shear{};
   for_packs<Of>(block, lane, place, [&](int pack, const auto* t, const auto* s, auto of, bool) {
     const auto begin = states_of<Of>(law, block.begin, pack, t->count);
-    Doubles area = all(0.0), mean[Of::most_families], yarns = all(0.0);
+    Doubles area = all(0.0), mean[Of::most_families];
     for_families<Of>(law.families, [&](auto a) { mean[a] = all(0.0); });
     for (int i = 0; i < of; ++i) {
       const Doubles share = share_of(t[i]);
       area += area_of(t[i]);
       for_families<Of>(law.families, [&](auto a) { mean[a] += share * s[i].lambda[a]; });
     }
-    for_families<Of>(law.families, [&](auto a) {
-      yarns += yarn_energy<Of, general>(w, a, mean[a] - 1.0, begin);
-    });
-    const Doubles of_yarns = area * yarns;
+    const Doubles of_yarns = area * yarn_energies<Of, general>(w, mean, begin);
     Doubles of_sides[of], of_shear[of];
     triangle_energies<Of, general>(w, t, s, of, mean, of_sides, of_shear);
     for (int q = 0; q < t->count; ++q) {
@@ -289,7 +286,7 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
 
 /// Whether a weave has laws that are more than straight lines and short polynomials.
 PLYFORM_INLINE bool is_general(const KernelLaw& law) {
-  return law.by_law || law.yarns[0].buckles || law.yarns[1].buckles ||
+  return law.by_law || law.crimped || law.yarns[0].buckles || law.yarns[1].buckles ||
          law.crossing[0].shear_terms == 0 || law.crossing[0].both_signs;
 }
 

@@ -51,6 +51,13 @@ struct KernelYarns {
   double buckling_drop;   ///< N/mm, decrease of the slope there
 };
 
+/// A crimped cell of two families: core/model/crimp.hpp.
+struct KernelCell {
+  double half_wave[2], length[2]; ///< p_a, L_a0, mm
+  double heights;                 ///< D, mm
+  double stiffness[2];            ///< n k_a / L_a0, N/mm per mm^2, n cells per area; linear yarns
+};
+
 /// A crossing of the families `first` and `second`.
 struct KernelCrossing {
   int first, second;
@@ -64,6 +71,8 @@ struct KernelCrossing {
   const ShearInterval* interval;
   int intervals;    ///< 0: no table
   double per_width; ///< 1/rad
+  bool crimped;     ///< the next member applies
+  KernelCell cell;
 };
 
 struct KernelLaw {
@@ -76,11 +85,15 @@ struct KernelLaw {
   double beta, side_cubic;
   const Membrane* membrane; ///< whose laws the callbacks evaluate
   bool by_law;              ///< call `evaluate`: the kernel does not know the laws of the yarns
+  bool crimped;             ///< a crossing is; with by_law call `evaluate_cells`, not `evaluate`
   bool sheet;               ///< call `sheet_law`
   /// Four yarns of a family. begin, end: SimdYarnStates::of; per_dt: 1/s.
   void (*evaluate)(const KernelLaw&, int family, double per_dt, const double* strain,
                    const double (*begin)[simd_width], double (*end)[simd_width],
                    KernelAnswers& answers);
+  /// Four yarns of each family, by family.
+  void (*evaluate_cells)(const KernelLaw&, double per_dt, const double (*strain)[simd_width],
+                         const SimdYarnStates* begin, SimdYarnStates* end, KernelAnswers* answers);
   /// n_c p and n_c T (N/mm) of four triangles with these shear angles and squared measures g^2.
   void (*shear)(const KernelLaw&, int crossing, const double* gamma, const double* measure2,
                 double* p, double* torque);

@@ -3,6 +3,7 @@
 // core/ply/membrane.hpp.
 #pragma once
 
+#include "core/ply/membrane_simd_cells.hpp"
 #include "core/ply/membrane_simd_shape.hpp"
 
 namespace plyform {
@@ -49,14 +50,30 @@ PLYFORM_INLINE Doubles remembered(const StatesOfQuads& states, int family, int r
   return numbers([&](int q) { return states.begin.of[q][family].of[row]; });
 }
 
+/// d_a N of cells (N/mm) at mean stretches. Returns their energy, N/mm.
+template <class Of>
+PLYFORM_INLINE Doubles find_cells(const SimdBlockWork<Of>& w, const Doubles* mean, Doubles* pull) {
+  for_families<Of>(w.law.families, [&](auto a) { pull[a] = all(0.0); });
+  Doubles energy = all(0.0);
+  for_crossings<Of>(w.law, [&](auto c, auto first, auto second) {
+    if (!w.law.crossing[c].crimped) return;
+    const SimdCell cell = cell_answer(w.law.crossing[c].cell, mean[first], mean[second]);
+    pull[first] += cell.pull[0], pull[second] += cell.pull[1];
+    energy += cell.energy;
+  });
+  return energy;
+}
+
 /// Tensions of yarns of linear laws, with viscosity while taut. n: d_a N, N/mm. Adds twice the
 /// work lost (N mm) to w.lost.
 template <class Of, bool general>
 PLYFORM_INLINE void viscous_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v,
                                      const Doubles* mean, Doubles area, Doubles* n) {
-  Doubles now[Of::most_families], work = all(0.0);
+  Doubles now[Of::most_families], work = all(0.0), cells[Of::most_families];
+  if (general && w.law.crimped) find_cells(w, mean, cells);
   for_families<Of>(w.law.families, [&](auto a) {
     n[a] = yarn_tension<Of, general>(w, a, mean[a] - 1.0);
+    if (general && w.law.crimped) n[a] += cells[a];
     const Doubles change = mean[a] - remembered(v, a, 0);
     now[a] = n[a] > 0.0 ? w.lane.yarns[a].viscosity * change : all(0.0);
     work += (now[a] + remembered(v, a, 1)) * change;
@@ -107,12 +124,54 @@ PLYFORM_INLINE Doubles tension_by_law(SimdBlockWork<Of>& w, int family, const St
   return n;
 }
 
+/// What all families of some packs answer where cells couple them.
+template <class Of>
+struct CellAnswers {
+  KernelAnswers of[quads][Of::most_families];
+  PLYFORM_INLINE Doubles values(double (KernelAnswers::*which)[simd_width], int family) const {
+    return numbers([&](int q) { return of[q][family].*which; });
+  }
+};
+
+/// mean: stretches; end(q): where a quad writes what it remembers.
+template <class Of, class End>
+PLYFORM_INLINE void by_cells(const SimdBlockWork<Of>& w, const Doubles* mean,
+                             const OfQuads<const SimdYarnStates>& begin, const End& end,
+                             CellAnswers<Of>& answers) {
+  alignas(32) double strain[Of::most_families][simd_width];
+  for (int q = 0; q < quads; ++q) {
+    const int from = q < begin.count ? q : 0; // as begin.of: others repeat the first
+    if (from < q) {
+      for_families<Of>(w.law.families, [&](auto a) { answers.of[q][a] = answers.of[0][a]; });
+      continue;
+    }
+    for_families<Of>(w.law.families, [&](auto a) { store(strain[a], quad(mean[a] - 1.0, q)); });
+    w.law.evaluate_cells(w.law, w.per_dt, strain, begin.of[q], end(q), answers.of[q]);
+  }
+}
+
+/// Tensions as `tensions`. Adds what is lost.
+template <class Of>
+PLYFORM_INLINE void tensions_of_cells(SimdBlockWork<Of>& w, const StatesOfQuads& v,
+                                      const Doubles* mean, Doubles area, Doubles* n) {
+  CellAnswers<Of> answers;
+  by_cells(
+      w, mean, v.begin, [&](int q) { return v.end.of[q]; }, answers);
+  for_families<Of>(w.law.families, [&](auto a) {
+    n[a] = answers.values(&KernelAnswers::value, a);
+    const Doubles lost = area * answers.values(&KernelAnswers::lost, a);
+    for (int q = 0; q < v.end.count; ++q)
+      w.lost += 2.0 * quad(lost, q);
+  });
+}
+
 /// Tensions of all families at their mean stretches, d_a N, N/mm, without what holds single
 /// triangles.
 template <class Of, bool general>
 PLYFORM_INLINE void tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v, const Doubles* mean,
                              Doubles area, Doubles* n) {
   if (!general || !w.law.by_law) return viscous_tensions<Of, general>(w, v, mean, area, n);
+  if (w.law.crimped) return tensions_of_cells(w, v, mean, area, n);
   for_families<Of>(w.law.families, [&](auto a) { n[a] = tension_by_law(w, a, v, mean[a], area); });
 }
 
@@ -131,6 +190,29 @@ PLYFORM_INLINE Doubles yarn_energy(const SimdBlockWork<Of>& w, int family, Doubl
   if (!general || !law.buckles) return e;
   const Doubles beyond = buckled_by(law, strain);
   return e - 0.5 * law.buckling_drop * beyond * beyond;
+}
+
+/// sum_a d_a W_a at mean stretches, N/mm. begin: what yarns remember.
+template <class Of, bool general>
+PLYFORM_INLINE Doubles yarn_energies(const SimdBlockWork<Of>& w, const Doubles* mean,
+                                     const OfQuads<const SimdYarnStates>& begin) {
+  Doubles sum = all(0.0);
+  if (general && w.law.crimped && w.law.by_law) {
+    CellAnswers<Of> answers;
+    SimdYarnStates end[Of::most_families]; // of no use: this is no step
+    by_cells(
+        w, mean, begin, [&](int) { return end; }, answers);
+    for_families<Of>(w.law.families,
+                     [&](auto a) { sum += answers.values(&KernelAnswers::stored, a); });
+    return sum;
+  }
+  for_families<Of>(w.law.families,
+                   [&](auto a) { sum += yarn_energy<Of, general>(w, a, mean[a] - 1.0, begin); });
+  if (general && w.law.crimped) {
+    Doubles pull[Of::most_families]; // of no use here
+    sum += find_cells(w, mean, pull);
+  }
+  return sum;
 }
 
 /// Stabilisation and collapse penalty of (E) times d_a, N/mm.

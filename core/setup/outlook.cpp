@@ -110,7 +110,7 @@ void describe_drawings(const Case& data, Lines& lines) {
 
 /// What fabrics leave free or lock, and values that were estimated or limited.
 void describe_fabrics(const Case& data, Lines& lines) {
-  for (const auto& told : {describe_freedoms(data), assumptions(data)})
+  for (const auto& told : {describe_freedoms(data), assumptions(data), describe_crimp(data)})
     for (const std::string& line : told)
       say(lines, "fabric {}", line);
 }

@@ -71,6 +71,26 @@ inline Fabric triaxial() {
   return f;
 }
 
+/// Warp and weft with crimp, one of which bears compression; `table`: one by a table.
+inline Fabric crimped_weave(bool table) {
+  Fabric f = glass_weave();
+  f.families[1].tension.compression = 300.0;
+  f.families[1].density = 0.2;
+  f.crossings[0].crimp = CrimpedCell{{5.0, 4.0}, {0.004, 0.02}};
+  if (!table) return f;
+  f.families[0].tension.strain = {0.0, 0.002, 0.01};
+  f.families[0].tension.tension = {0.0, 20.0, 400.0};
+  f.families[1].tension.buckling_force = 4.0;
+  return f;
+}
+
+/// Three families of which the last two make crimped cells.
+inline Fabric crimped_triaxial() {
+  Fabric f = triaxial();
+  f.crossings[2].crimp = CrimpedCell{{4.6, 4.6}, {0.01, 0.003}};
+  return f;
+}
+
 /// Two families at 80 degrees without a crossing, a third between that is soft, in a sheet.
 inline Fabric stitched() {
   Fabric f = glass_weave();

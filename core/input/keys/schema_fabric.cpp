@@ -74,6 +74,32 @@ Rows shear_rows(const std::string& table) {
                       "angles, or from a negative angle through [0, 0], the law of both signs"}};
 }
 
+/// Keys of the crimp of two families; `families` in their order: "warp and weft".
+Rows crimp_rows(const std::string& table, const std::string& families) {
+  return {{.key = table,
+           .kind = K::table,
+           .otherwise = "none: yarns lie straight",
+           .of = table == "fabrics.NAME.crimp" ? "law" : "",
+           .with = table == "fabrics.NAME.crimp" ? std::vector<std::string>{"woven"}
+                                                 : std::vector<std::string>{},
+           .meaning = "crimp of the yarns: pulling one family straightens it and lifts the other; "
+                      "stiffness or table of the yarns is then that of the straight yarn"},
+          {.key = table + ".excess_length",
+           .kind = K::numbers,
+           .ranges = {{.least = 0.0, .most = 0.2}},
+           .count = 2,
+           .meaning = "length of a yarn over the distance that it spans, less 1, of " + families},
+          {.key = table + ".height",
+           .kind = K::numbers,
+           .unit = "mm",
+           .otherwise = "those of a plain weave",
+           .ranges = {length_or_zero},
+           .count = 2,
+           .meaning = "height of a yarn's wave, from its axis where it is lowest to where it is "
+                      "highest, of " +
+                      families + "; greater than in a plain weave where yarns float over several"}};
+}
+
 /// Keys of a fabric by its families.
 Rows family_rows() {
   Rows rows{{.key = "fabrics.NAME.family",
@@ -106,6 +132,7 @@ Rows family_rows() {
                  .count = 2,
                  .meaning = "names of the two families"}});
   append(rows, shear_rows("fabrics.NAME.crossing[]"));
+  append(rows, crimp_rows("fabrics.NAME.crossing[].crimp", "its two families"));
   append(rows, sheet_beside_rows());
   return rows;
 }
@@ -164,6 +191,7 @@ Rows fabric_rows() {
                  .with = {"woven"},
                  .meaning = "law of in-plane shear"}});
   append(rows, shear_rows("fabrics.NAME.shear"));
+  append(rows, crimp_rows("fabrics.NAME.crimp", "warp and weft"));
   append(rows, family_rows());
   append(rows, sheet_rows());
   return rows;

@@ -7,6 +7,7 @@
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/sheet_laws.hpp"
 #include "core/input/parts/case_parts.hpp"
+#include "core/input/parts/crimp_file.hpp"
 #include "core/input/parts/yarn_families.hpp"
 #include "core/model/fabric_estimates.hpp"
 
@@ -39,6 +40,7 @@ void read_weave(const TableView& section, Fabric& fabric, Diagnostics& diagnosti
   }
   fabric.families[1].angle = number(section, "fibre_angle");
   fabric.crossings.push_back({0, 1, read_shear(subsection(section, "shear"), diagnostics)});
+  read_crimp(subsection(section, "crimp"), fabric, fabric.crossings[0], diagnostics);
 }
 
 Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics& diagnostics) {

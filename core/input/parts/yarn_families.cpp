@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/sheet_laws.hpp"
+#include "core/input/parts/crimp_file.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/results/ply_frame.hpp"
 
@@ -204,6 +205,15 @@ Crossing read_crossing(const TableView& section, const Fabric& fabric, Diagnosti
   if (std::any_of(fabric.crossings.begin(), fabric.crossings.end(), same))
     value_error(section, "families", "cross already in a [[crossing]] before",
                 "give each two families one crossing", diagnostics);
+  const TableView crimp = subsection(section, "crimp");
+  read_crimp(crimp, fabric, crossing, diagnostics);
+  const auto crimped_there = [&](const Crossing& other) {
+    const auto of = [&](std::size_t a) { return a == crossing.first || a == crossing.second; };
+    return other.crimp && (of(other.first) || of(other.second));
+  };
+  if (crimp.entry && std::any_of(fabric.crossings.begin(), fabric.crossings.end(), crimped_there))
+    value_error(section, "crimp", "is of a family that has crimp in a [[crossing]] before",
+                "give each family crimp in one crossing", diagnostics);
   return crossing;
 }
 

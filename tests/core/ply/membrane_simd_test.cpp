@@ -237,8 +237,8 @@ void energies_of_shear(const KernelLaw&, int crossing, const double* gamma, cons
     energy[i] = measure2[i] * (1.0 + 0.1 * gamma[i] + crossing);
 }
 
-/// Laws of a weave, by turns with yarns that buckle, or of three families, one of them askew, with
-/// two crossings and a sheet.
+/// Laws of a weave, by turns with yarns that buckle or have crimp, or of three families, one of
+/// them askew, with two crossings and a sheet.
 KernelLaw kernel_law(int number) {
   constexpr double never = std::numeric_limits<double>::infinity();
   static const ShearInterval intervals[4] = {{0}, {0}, {1}, {1}}; // of 0.3 rad
@@ -263,13 +263,21 @@ KernelLaw kernel_law(int number) {
                     0.0};
   if (number % 2) law.yarns[1] = {{0.0, 1.0}, 115.0, 40.0, 2.5e-4, 0.0025, 0.025, true, 0.2, 39.6};
   law.side_cubic = 0.48;
-  law.crossing[0] = {0, 1, 0.1, 1.0, {0.022, 0.05, 0.062}, 3, false, {}, nullptr, nullptr, 0, 0.0};
-  law.crossing[1] = {2, 1, 0.4, 0.4, {0.03, 0.01}, 2, true, {0.02, 0.01}, nullptr, nullptr, 0, 0.0};
+  law.crossing[0] = {0, 1,   0.1,   1.0, {0.022, 0.05, 0.062}, 3, false, {}, nullptr, nullptr,
+                     0, 0.0, false, {}};
+  law.crossing[1] = {2,       1,       0.4, 0.4, {0.03, 0.01}, 2, true, {0.02, 0.01},
+                     nullptr, nullptr, 0,   0.0, false,        {}};
   const int table = number / 3 % 4; // no table, an odd one, one of both signs, polynomials of both
   if (table == 1 || table == 2)
-    law.crossing[0] = {0, 1, 0.1, 1.0, {}, 0, table == 2, {}, pieces, intervals, 4, 1.0 / 0.3};
+    law.crossing[0] = {0,  1,      0.1,       1.0, {},        0,     table == 2,
+                       {}, pieces, intervals, 4,   1.0 / 0.3, false, {}};
   if (table == 3) law.crossing[0].both_signs = true, law.crossing[0].even[1] = 0.04;
   law.shear_energy = energies_of_shear;
+  if (number % 5 == 2) {
+    law.crimped = law.crossing[0].crimped = true;
+    law.crossing[0].cell = {{4.0, 5.0}, {4.02, 5.1}, 1.4, {28.0, 22.0}};
+    law.yarns[0].stiffness = law.yarns[1].stiffness = 0.0;
+  }
   law.sheet = !law.weave, law.sheet_law = stiffening_sheet;
   return law;
 }
