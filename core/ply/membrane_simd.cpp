@@ -228,6 +228,8 @@ KernelCrossing kernel_crossing(const Membrane& m, const MembraneCrossing& c) {
   k.first = static_cast<int>(c.first), k.second = static_cast<int>(c.second);
   k.angle = c.omega0 - 0.5 * M_PI;
   k.sine = std::abs(v.x() * w.y() - v.y() * w.x());
+  k.crimped = c.crimp.has_value();
+  if (k.crimped) k.cell = kernel_cell(m, c);
   k.both_signs = !c.shear.odd();
   k.piece = c.table.pieces.data(), k.interval = c.table.intervals.data();
   k.intervals = static_cast<int>(c.table.intervals.size()), k.per_width = c.table.per_width;
@@ -244,8 +246,6 @@ KernelCrossing kernel_crossing(const Membrane& m, const MembraneCrossing& c) {
     const double minus = term(c.shear.negative_k, i);
     k.shear[i] = 0.5 * c.cells * (plus + minus), k.even[i] = 0.5 * c.cells * (plus - minus);
   }
-  k.crimped = c.crimp.has_value();
-  if (k.crimped) k.cell = kernel_cell(m, c);
   return k;
 }
 
