@@ -16,17 +16,18 @@ namespace {
 constexpr double side = 100.0; // mm, of the frame
 
 /// A picture frame whose hinge at (50, 50) is pulled, sheared by 40 degrees. Its warp lies along x
-/// or, turned by a right angle, along y: then the angle from warp to weft opens. Elements of 12.5
-/// mm, squares whose yarns lie along their sides or free triangles.
+/// or, turned by a right angle, along y: then the angle from warp to weft opens. Pairs of elements
+/// of 25 mm: squares along the yarns, or free triangles.
 Case frame_of(const Fabric& fabric, bool opens, MeshKind mesh) {
   constexpr double most = 40.0 * degree;
-  Case data = stack_of({opens ? 0.5 * std::numbers::pi : 0.0}, rectangle(side, side, 12.5, mesh));
+  Case data = stack_of({opens ? 0.5 * std::numbers::pi : 0.0}, rectangle(side, side, 25.0, mesh));
   data.fabrics = {fabric};
   HingedFrame frame;
   frame.hinges = {Vec2(-50, -50), Vec2(50, -50), Vec2(50, 50), Vec2(-50, 50)};
   frame.stroke = extension_at(shear_test(FrameSpecimen{side}), most);
   data.boundaries = {{"frame", -1, frame}};
   set_friction(data, 0.0);
+  data.solver.element = ElementKind::averaged;
   data.solver.fibre_softening = 10000.0; // large steps; even so the yarns hardly stretch
   data.solver.duration = 40.0;           // s: no inertia
   return data;
@@ -50,7 +51,7 @@ std::vector<std::pair<double, double>> loads_of(const Case& data) {
 TEST(ShearSignsScene, FramesBothWaysHaveTheLoadOfEitherSide) {
   const ShearTest test = shear_test(FrameSpecimen{side});
   for (const Fabric& fabric : {two_sided_weave(), two_sided_table()})
-    for (const MeshKind mesh : {MeshKind::diagonal, MeshKind::alternating, MeshKind::free}) {
+    for (const MeshKind mesh : {MeshKind::diagonal, MeshKind::free}) {
       std::vector<std::pair<double, double>> both[2];
       for (const bool opens : {false, true}) {
         both[opens] = loads_of(frame_of(fabric, opens, mesh));
