@@ -78,6 +78,15 @@ void bind_ply(py::module_& m) {
       },
       "Names of its families of yarns, which begin the names of their columns.");
   ply.def_property_readonly(
+      "stitches",
+      [](const PlyFrame& p) {
+        py::list names;
+        for (const StitchFrame& stitch : p.stitches)
+          names.append(stitch.name);
+        return py::tuple(names);
+      },
+      "Names of its directions of stitches, likewise.");
+  ply.def_property_readonly(
       "cell_fields", [](const PlyFrame& p) { return names_at(p, Location::triangle); },
       "Names of its columns with a row a triangle.");
   ply.def_property_readonly(

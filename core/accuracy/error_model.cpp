@@ -40,6 +40,7 @@ std::string not_measured(const Case& all) {
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[at(ply.fabric)];
     const char* odd = !f.has_yarns()         ? "is a sheet without yarns"
+                      : !f.stitches.empty()  ? "has stitches"
                       : !is_weave(f)         ? "is no weave of two families"
                       : has_rates(f)         ? "has laws that depend on rates"
                       : !has_shear_energy(f) ? "has no stiffness in shear"

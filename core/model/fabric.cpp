@@ -64,8 +64,22 @@ LawPoint TensionLaw::at(double eps) const {
   return on_table(strain, tension, eps);
 }
 
+double TensionLaw::strain_at(double force) const {
+  if (strain.empty()) return force / stiffness;
+  std::size_t i = 1; // the line on which it is
+  while (i + 1 < strain.size() && tension[i] < force)
+    ++i;
+  const double slope = (tension[i] - tension[i - 1]) / (strain[i] - strain[i - 1]);
+  if (slope > 0.0) return strain[i - 1] + (force - tension[i - 1]) / slope;
+  return tension[i] < force ? std::numeric_limits<double>::infinity() : strain[i];
+}
+
 double TensionLaw::largest_slope() const {
   return strain.empty() ? stiffness : steepest(strain, tension);
+}
+
+double StitchLaw::breaking_strain() const {
+  return taut_at + tension.strain_at(breaking_force);
 }
 
 double effective_softening(const TensionLaw& law, double asked) {
@@ -126,7 +140,8 @@ Fabric woven_fabric() {
 }
 
 bool is_weave(const Fabric& fabric) {
-  return fabric.families.size() == 2 && fabric.crossings.size() == 1 && !fabric.sheet;
+  return fabric.families.size() == 2 && fabric.crossings.size() == 1 && !fabric.sheet &&
+         fabric.stitches.empty();
 }
 
 MaterialAxes material_axes(const Fabric& fabric) {
@@ -195,6 +210,11 @@ bool bears_compression(const Fabric& fabric) {
   return fabric.has_yarns() &&
          std::all_of(fabric.families.begin(), fabric.families.end(),
                      [](const YarnFamily& family) { return family.tension.compression > 0.0; });
+}
+
+bool has_pretension(const Fabric& fabric) {
+  return std::any_of(fabric.stitches.begin(), fabric.stitches.end(),
+                     [](const Stitch& stitch) { return stitch.law.at(0.0).value > 0.0; });
 }
 
 bool balanced(const Fabric& fabric) {

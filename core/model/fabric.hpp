@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A fabric: families of parallel yarns with their laws of tension and bending, crossings of two of
-// them with a law of shear, and a law of the sheet beside them. A weave has two families, warp and
-// weft, and one crossing; a unidirectional fabric one family and a sheet law; a triaxial one three
-// and three; a foil a sheet law alone.
+// them with a law of shear, stitches, and a law of the sheet beside them. A weave has two families,
+// warp and weft, and one crossing; a non-crimp fabric has stitches too; a unidirectional fabric one
+// family and a sheet law; a triaxial one three and three; a foil a sheet law alone.
 //
 // Units inside the program: mm, N, s, t (1 t = 1 N s^2/mm). Source of the law's form: Hamila and
 // Boisse 2008, section 3.5 and table 1.
@@ -40,6 +40,8 @@ struct TensionLaw {
   /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
   LawPoint at(double eps) const;
   double largest_slope() const; ///< N, in tension
+  /// The least strain with this tension (N, at least 0); infinite if there is none.
+  double strain_at(double force) const;
   /// Whether the law has no table: stiffness, compression and buckling_force define it.
   bool linear() const { return strain.empty(); }
   bool buckles() const { return compression > 0.0 && std::isfinite(buckling_force); }
@@ -104,7 +106,7 @@ struct YarnSources {
 /// mm/s^2, turns mass per area into weight.
 inline constexpr double standard_gravity = 9810.0;
 
-/// Yarns (or stitches) that lie parallel to each other in the fabric before forming.
+/// Yarns that lie parallel to each other in the fabric before forming.
 struct YarnFamily {
   std::string name; ///< in files and columns of results: warp, weft ...
   /// rad, from the ply's angle to these yarns; of a fabric's families within half a turn from the
@@ -119,6 +121,25 @@ struct YarnFamily {
   YarnSources sources;
 };
 
+/// Force of a stitch against its strain, that of the sheet along it: `tension` of what the strain
+/// is beyond `taut_at`. It pushes nowhere.
+struct StitchLaw {
+  TensionLaw tension;   ///< of one stitch, without compression
+  double taut_at = 0.0; ///< strain at which it becomes taut; below 0: it pulls from the start
+  double breaking_force = std::numeric_limits<double>::infinity(); ///< N, above the force at rest
+  LawPoint at(double eps) const { return tension.at(eps - taut_at); } ///< of one that is whole
+  double breaking_strain() const; ///< infinite if it never breaks
+};
+
+/// Stitches that lie parallel to each other in the fabric before forming. They move with the sheet,
+/// and bear tension alone: no axis of the fabric, no crossing and no bending goes by them.
+struct Stitch {
+  std::string name;
+  double angle = 0.0;   ///< rad, from the ply's angle
+  double density = 0.0; ///< d, stitches per mm across them
+  StitchLaw law;        ///< of one stitch
+};
+
 /// Two families that resist a change of the angle between them.
 struct Crossing {
   std::size_t first = 0, second = 1; ///< indices into Fabric::families
@@ -127,7 +148,8 @@ struct Crossing {
   std::optional<CrimpedCell> crimp{};
 };
 
-/// What a fabric may have at most. Kernels keep as many numbers at hand.
+/// What a fabric may have at most, of families and stitches together, and of crossings. Kernels
+/// keep as many numbers at hand.
 constexpr std::size_t most_families = 8, most_crossings = 8;
 
 /// The two directions of a fabric before forming by which its strains are computed: the first
@@ -142,8 +164,9 @@ struct MaterialAxes {
 
 struct Fabric {
   std::string name;
-  std::vector<YarnFamily> families; ///< at most most_families
-  std::vector<Crossing> crossings;  ///< at most most_crossings
+  std::vector<YarnFamily> families;
+  std::vector<Stitch> stitches;    ///< with the families at most most_families
+  std::vector<Crossing> crossings; ///< at most most_crossings
   /// Law of the sheet beside the yarns: what holds them together, or a foil that has none.
   std::optional<SheetLaw> sheet;
   double surface_density = 0.0;        ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
@@ -160,7 +183,8 @@ struct Fabric {
   double weight() const { return surface_density * standard_gravity; } ///< N/mm^2
 };
 
-/// Whether it has two families and one crossing of them, warp and weft, and nothing else.
+/// Whether it has two families and one crossing of them, warp and weft, and nothing else: no sheet,
+/// no stitches.
 bool is_weave(const Fabric& fabric);
 
 /// A fabric of two families at right angles, `warp` and `weft`, and their crossing.
@@ -189,6 +213,9 @@ bool shows_opening(const Fabric& fabric, std::size_t family);
 
 /// Whether the yarns of all families bear compression; of a foil false.
 bool bears_compression(const Fabric& fabric);
+
+/// Whether stitches pull from the start, so that a ply moves though nothing moves it.
+bool has_pretension(const Fabric& fabric);
 
 /// Whether all families have the same yarns at the same density, and the same crimp.
 bool balanced(const Fabric& fabric);

@@ -102,8 +102,30 @@ struct CrimpedYarn {
   LawBound bound() const { return {elastic.largest_slope() + elastic.compression, viscosity}; }
 };
 
-/// The laws that a yarn can have.
-using AnyYarnLaw = std::variant<ViscousYarn, CrimpedYarn>;
+/// A stitch: elastic, and gone for good once it has pulled harder than it can at the end of a step;
+/// what it had stored is lost in that step. State: 1 once it is broken, else 0. It has no
+/// viscosity: solver.fibre_damping damps the stiffest modes of the mesh, those of yarns, and
+/// stitches are as soft as shear, which it leaves alone.
+struct StitchYarn {
+  static constexpr int states = 1;
+  static constexpr bool has_rates = false;
+  const StitchLaw& elastic;
+
+  static void start(double* state) { state[0] = 0.0; }
+  LawAnswer at(const LawInput& in, const double* now, double* next) const {
+    const bool broken = now[0] > 0.0;
+    next[0] = 1.0;
+    if (broken) return {};
+    const LawPoint point = elastic.at(in.strain);
+    if (point.value > elastic.breaking_force) return {0.0, 0.0, 0.0, 0.0, point.energy};
+    next[0] = 0.0;
+    return {point.value, point.slope, 0.0, point.energy, 0.0};
+  }
+  LawBound bound() const { return {elastic.tension.largest_slope(), 0.0}; }
+};
+
+/// The laws that a yarn or a stitch can have.
+using AnyYarnLaw = std::variant<ViscousYarn, CrimpedYarn, StitchYarn>;
 
 /// Numbers that are kept for a yarn, and what they are at the start.
 template <class Any>

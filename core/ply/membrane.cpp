@@ -34,7 +34,8 @@ SideStiffness side_stiffness(const Membrane& m, std::size_t index) {
 }
 
 void set_laws(Membrane& m, const Fabric& fabric, const MaterialAxes& axes, double softening) {
-  if (fabric.families.size() > most_families || fabric.crossings.size() > most_crossings)
+  if (fabric.families.size() + fabric.stitches.size() > most_families ||
+      fabric.crossings.size() > most_crossings)
     throw std::invalid_argument("a fabric of too many families or crossings");
   m.fabric = fabric;
   m.omega0 = axes.between();
@@ -45,6 +46,7 @@ void set_laws(Membrane& m, const Fabric& fabric, const MaterialAxes& axes, doubl
                           softened(f.tension, softening),
                           effective_softening(f.tension, softening),
                           0.0,
+                          {},
                           {}});
   for (const Crossing& c : fabric.crossings) {
     m.crossings.push_back(
@@ -63,6 +65,8 @@ void set_laws(Membrane& m, const Fabric& fabric, const MaterialAxes& axes, doubl
   }
   for (std::size_t a = 0; a < m.families.size(); ++a)
     m.families[a].side = side_stiffness(m, a);
+  for (const Stitch& s : fabric.stitches)
+    m.families.push_back({axes.components(s.angle), s.density, s.law.tension, 1.0, 0.0, {}, s.law});
 }
 
 } // namespace

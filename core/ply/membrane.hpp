@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The semi-discrete three-node membrane of Hamila and Boisse (2008), in energy form, for any number
-// of families of yarns, crossings between them, and a law of the sheet beside them.
+// of families of yarns, crossings between them, and a law of the sheet beside them. Stitches are
+// families too, behind those of yarns, which cross none and have neither s_a nor g_a.
 //
 //               2
 //              / \               0 1 2  nodes, anticlockwise seen from the upper side
@@ -103,18 +104,25 @@ struct SideStiffness {
 /// One number a family.
 using OfFamilies = std::array<double, most_families>;
 
-/// A family of yarns in a membrane.
+/// A family of yarns, or of stitches, in a membrane.
 struct MembraneFamily {
   Vec2 along = Vec2::UnitX(); ///< v_a
   double density = 0.0;       ///< d_a, 1/mm
-  TensionLaw yarn;            ///< W_a: that of the fabric, softened
-  double softening = 1.0;     ///< by this: effective_softening
-  double viscosity = 0.0;     ///< eta, N s per yarn, in tension only: N += eta d(eps)/dt
+  /// W_a: that of the fabric, softened; of stitches its slopes only, not softened
+  TensionLaw yarn;
+  double softening = 1.0; ///< by this: effective_softening
+  double viscosity = 0.0; ///< eta, N s per yarn, in tension only: N += eta d(eps)/dt
   SideStiffness side;
-  bool crimped =
-      false; ///< whether a crossing's cell gives its tension: core/ply/membrane_crimp.hpp
+  std::optional<StitchLaw> stitch; ///< W_a of stitches
+  /// Whether a crossing's cell gives its tension: core/ply/membrane_crimp.hpp.
+  bool crimped = false;
   /// Its law: refers to this family.
-  AnyYarnLaw law() const { return yarn_law(yarn, viscosity, crimped); }
+  AnyYarnLaw law() const {
+    if (stitch) return StitchYarn{*stitch};
+    return yarn_law(yarn, viscosity, crimped);
+  }
+  /// W_a of a yarn, or of a stitch that is whole; of crimped yarns without their cells.
+  LawPoint elastic(double strain) const { return stitch ? stitch->at(strain) : yarn.at(strain); }
 };
 
 /// A crossing of two families in a membrane.
@@ -144,8 +152,8 @@ struct LawStates {
 /// One ply's membrane; nodes and triangles are numbered within the ply. Constant. Sizes: n nodes,
 /// m triangles.
 struct Membrane {
-  Fabric fabric; ///< as given, not softened
-  std::vector<MembraneFamily> families;
+  Fabric fabric;                        ///< as given, not softened
+  std::vector<MembraneFamily> families; ///< those of the fabric, then its stitches
   std::vector<MembraneCrossing> crossings;
   bool crimped = false;        ///< whether any of them has crimp
   double process_time = 1.0;   ///< s of the process in each simulated second: Case::process_time
@@ -245,8 +253,8 @@ std::vector<std::vector<double>> yarn_strains(const Membrane& m, std::span<const
 /// Tensions (N per yarn) of each family in all m triangles, for output. For triangles alone W_a' at
 /// their strain. Those of pairs oscillate from pair to pair, as do the multipliers of any element
 /// with as many constraints as degrees of freedom: they are smoothed by two passes of nodal
-/// averages, as is usual for the pressures of such elements (docs/verification/locking.md). x: mm,
-/// n.
+/// averages, as is usual for the pressures of such elements (docs/verification/locking.md). Of
+/// stitches that are whole, and not smoothed: they are soft. x: mm, n.
 std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<const Vec3> x);
 
 /// Whether a triangle has collapsed: shrunk to a tenth along an axis, or the axes within 1.1
@@ -257,6 +265,7 @@ bool collapsed(const AxesState& state);
 /// Report of a force computation over some groups.
 struct GroupReport {
   double lost = 0.0;      ///< N mm, dissipated by the yarns in the step that led to x
+  double torn = 0.0;      ///< N mm, stored before in stitches that broke in it
   bool collapsed = false; ///< whether a triangle has collapsed
 };
 
@@ -272,10 +281,10 @@ GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt
 /// (F): internal force on a node, N, from all its triangles in fixed order.
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);
 
-/// Energy of the fibres (with stabilisation and collapse penalty) and of shear. All energy of a
-/// sheet's law counts as shear.
+/// Energy of the fibres (with stabilisation and collapse penalty), of shear and of stitches. All
+/// energy of a sheet's law counts as shear.
 struct MembraneEnergy {
-  double fibre = 0.0, shear = 0.0; ///< N mm
+  double fibre = 0.0, shear = 0.0, stitch = 0.0; ///< N mm
 };
 /// (E) summed over all triangles. x: mm, n. states: what yarns remember of the begin of the step dt
 /// (s) that led to x, as memory_at_start; empty: from the start.

@@ -22,7 +22,7 @@ OfFamilies elastic_tensions(const Membrane& m, const OfFamilies& strain) {
   for (std::size_t a = 0; a < m.families.size(); ++a) {
     const MembraneFamily& f = m.families[a];
     tension[a] = f.crimped ? cells[a].value + (strain[a] < 0.0 ? f.yarn.at(strain[a]).value : 0.0)
-                           : f.yarn.at(strain[a]).value;
+                           : f.elastic(strain[a]).value;
   }
   return tension;
 }

@@ -170,7 +170,7 @@ GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt
           answer_of(f.law(), m.input(s.mean[a] - 1.0, per_dt, cells[a]),
                     states.begin[at_state].data(), states.end[at_state].data());
       n[a] = answer.value;
-      report.lost += s.area * f.density * answer.lost;
+      (f.stitch ? report.torn : report.lost) += s.area * f.density * answer.lost;
     }
     group_forces(m, s, n, q);
     for (std::size_t i = 0; i < static_cast<std::size_t>(s.size); ++i)
@@ -193,7 +193,7 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
       YarnMemory next{}; // of no use: this is no step
       const LawAnswer answer = answer_of(f.law(), m.input(s.mean[a] - 1.0, per_dt, cells[a]),
                                          states[at(p) * m.families.size() + a].data(), next.data());
-      sum.fibre += s.area * f.density * answer.stored;
+      (f.stitch ? sum.stitch : sum.fibre) += s.area * f.density * answer.stored;
     }
     for (int i = 0; i < s.size; ++i) {
       const TriangleState& t = s.triangle[i];
@@ -252,6 +252,7 @@ std::vector<std::vector<double>> yarn_tensions(const Membrane& m, std::span<cons
       tensions[a][e] = tension[a];
   }
   for (std::size_t a = 0; a < m.families.size(); ++a) {
+    if (m.families[a].stitch) continue; // no multipliers
     for (int pass = 0; pass < passes; ++pass) {
       at_node.assign(x.size(), 0.0);
       for (std::size_t e = 0; e < m.triangles.size(); ++e)

@@ -74,6 +74,10 @@ private:
     // same nodes at once.
     const std::size_t packs = (groups.size() + simd_width - 1) / simd_width;
     for (std::size_t pack = 0; pack < packs; ++pack) {
+      for (std::size_t lane = 0; lane < simd_width; ++lane) {
+        const std::size_t i_group = lane * packs + pack;
+        out.groups.push_back(i_group < groups.size() ? groups[i_group] : -1);
+      }
       for (int i = 0; i < of; ++i) {
         SimdTriangles& t = triangles.emplace_back();
         for (std::size_t lane = 0; lane < simd_width; ++lane) {
@@ -134,12 +138,13 @@ void evaluate_yarns(const KernelLaw& law, int family, double per_dt, const doubl
 void evaluate_cells(const KernelLaw& law, double per_dt, const double (*strain)[simd_width],
                     const SimdYarnStates* begin, SimdYarnStates* end, KernelAnswers* answers) {
   const Membrane& m = *law.membrane;
+  const std::size_t families = at(law.families);
   for (std::size_t i = 0; i < simd_width; ++i) {
     OfFamilies strains{};
-    for (std::size_t a = 0; a < m.families.size(); ++a)
+    for (std::size_t a = 0; a < families; ++a)
       strains[a] = strain[a][i];
     const std::array<LawPoint, most_families> cells = cell_points(m, strains);
-    for (std::size_t a = 0; a < m.families.size(); ++a) {
+    for (std::size_t a = 0; a < families; ++a) {
       const MembraneFamily& f = m.families[a];
       std::array<double, yarn_states> now{}, next{};
       for (std::size_t k = 0; k < now.size(); ++k)
@@ -203,6 +208,12 @@ KernelYarns kernel_yarns(const MembraneFamily& f) {
   k.viscosity = f.density * f.viscosity;
   k.stabilisation = f.density * f.side.stabilisation;
   k.collapse_penalty = f.density * f.side.collapse_penalty;
+  k.by_law = !f.yarn.linear();
+  if (f.stitch) {
+    k.taut_at = 1.0 + f.stitch->taut_at;
+    k.breaks = std::isfinite(f.stitch->breaking_force);
+    k.breaking = f.density * f.stitch->breaking_force;
+  }
   k.buckles = f.yarn.buckles();
   if (k.buckles) {
     k.buckling_strain = f.yarn.buckling_strain();
@@ -251,16 +262,16 @@ KernelCrossing kernel_crossing(const Membrane& m, const MembraneCrossing& c) {
 
 KernelLaw kernel_law(const Membrane& m) {
   KernelLaw law; // only as many families and crossings are set as there are
-  law.families = static_cast<int>(m.families.size());
+  law.families = static_cast<int>(m.fabric.families.size());
+  law.stitches = static_cast<int>(m.fabric.stitches.size());
   law.crossings = static_cast<int>(m.crossings.size());
-  law.by_law = false;
-  for (std::size_t a = 0; a < m.families.size(); ++a) {
+  for (std::size_t a = 0; a < m.families.size(); ++a)
     law.yarns[a] = kernel_yarns(m.families[a]);
-    law.by_law = law.by_law || !m.families[a].yarn.linear();
-  }
   for (std::size_t c = 0; c < m.crossings.size(); ++c)
     law.crossing[c] = kernel_crossing(m, m.crossings[c]);
-  law.crimped = m.crimped;
+  law.crimped = m.crimped, law.cells_by_law = false;
+  for (const MembraneFamily& family : m.families)
+    law.cells_by_law = law.cells_by_law || (family.crimped && !family.yarn.linear());
   law.sheet = m.fabric.sheet.has_value();
   law.weave = law.families == 2 && law.crossings == 1 && !law.sheet &&
               m.families[0].along == Vec2::UnitX() && m.families[1].along == Vec2::UnitY() &&
@@ -326,6 +337,19 @@ std::vector<SimdYarnStates> states_at_start(const MembraneSimd& l, const Membran
   return states;
 }
 
+std::vector<double> remembered_of(const MembraneSimd& l, const Membrane& m,
+                                  std::span<const SimdYarnStates> states, std::size_t family,
+                                  std::size_t state) {
+  std::vector<double> of(m.triangles.size());
+  for (std::size_t i = 0; i < l.groups.size(); ++i) {
+    if (l.groups[i] < 0) continue;
+    const SimdYarnStates& of_pack = states[i / simd_width * m.families.size() + family];
+    for (int e = m.group_begin[at(l.groups[i])]; e < m.group_begin[at(l.groups[i]) + 1]; ++e)
+      of[at(e)] = of_pack.of[state][i % simd_width];
+  }
+  return of;
+}
+
 GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block, const LawStates<SimdYarnStates>& states) {
   const SimdBlock& b = l.blocks[block];
@@ -333,7 +357,7 @@ GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_kernel_generic, membrane_kernel_avx2, membrane_kernel_avx512);
   const KernelReport report = run(kernel, kernel_law(m), x.data()->data(), per_dt);
-  return {report.lost, report.collapsed};
+  return {report.lost, report.torn, report.collapsed};
 }
 
 MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
@@ -343,7 +367,7 @@ MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<c
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_energy_generic, membrane_energy_avx2, membrane_energy_avx512);
   const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data(), per_dt);
-  return {energy.fibre, energy.shear};
+  return {energy.fibre, energy.shear, energy.stitch};
 }
 
 } // namespace plyform

@@ -28,6 +28,7 @@ struct MembraneSimd : BlockForces {
   std::vector<SimdBlock> blocks;
   SharedConstants<SimdTriangles> triangles; ///< of the blocks, pairs first
   int packs = 0;                            ///< of all blocks
+  std::vector<std::int32_t> groups;         ///< strain groups of each pack, -1 where it has none
 };
 
 /// Whether the kernel can compute this membrane: only if it has yarns.
@@ -39,6 +40,12 @@ MembraneSimd make_membrane_simd(const Membrane& m, std::span<const Vec3> x);
 
 /// What its yarns remember at the start: families of the first pack, of the second ...
 std::vector<SimdYarnStates> states_at_start(const MembraneSimd& simd, const Membrane& m);
+
+/// m numbers, of each triangle number `state` of what the yarns of a family remember. states: as at
+/// start.
+std::vector<double> remembered_of(const MembraneSimd& simd, const Membrane& m,
+                                  std::span<const SimdYarnStates> states, std::size_t family,
+                                  std::size_t state);
 
 /// Internal forces (F), N, of a block's groups, viscous ones included, stored in simd.force;
 /// simd_force (core/ply/block_forces.hpp) sums them. x: mm, n; dt, states (as at start)

@@ -45,24 +45,29 @@ PLYFORM_INLINE SimdStress stress(const KernelLaw& law, const TrianglesOfQuads& t
       away = shear * product(law, s, first, second);
     pull[first] -= away, pull[second] -= away;
   });
+  SimdStress sum;
+  const auto add = [&](const double* v, const double* w, Doubles by) {
+    sum.s11 += (v[0] * w[0]) * by;
+    sum.s22 += (v[1] * w[1]) * by;
+    sum.s12 += (0.5 * (v[0] * w[1] + v[1] * w[0])) * by;
+  };
   if constexpr (Of::weave) {
-    return {pull[0] * s.area_over[0], pull[1] * s.area_over[1], tau[0]};
+    sum = {pull[0] * s.area_over[0], pull[1] * s.area_over[1], tau[0]};
   } else {
-    SimdStress sum{all(0.0), all(0.0), all(0.0)};
+    sum = {all(0.0), all(0.0), all(0.0)};
     if (law.sheet) sum = sheet_stress(law, s, area_of(t), nullptr);
-    const auto add = [&](const double* v, const double* w, Doubles by) {
-      sum.s11 += (v[0] * w[0]) * by;
-      sum.s22 += (v[1] * w[1]) * by;
-      sum.s12 += (0.5 * (v[0] * w[1] + v[1] * w[0])) * by;
-    };
     for_families<Of>(law.families, [&](int a) {
       add(law.yarns[a].along, law.yarns[a].along, pull[a] * s.area_over[a]);
     });
     for_crossings<Of>(law, [&](int c, int first, int second) {
       add(law.yarns[first].along, law.yarns[second].along, tau[c] + tau[c]);
     });
-    return sum;
   }
+  for_stitches<Of>(law, [&](auto a) {
+    const double* v = law.yarns[a].along;
+    add(v, v, area_of(t) * n[a] / s.lambda[a]);
+  });
+  return sum;
 }
 
 /// (F), N, of corners 1 and 2; corner 0 gets the opposite of their sum.
@@ -136,9 +141,8 @@ PLYFORM_INLINE void pair_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads* t,
                                const SimdState<Of>* s, bool needs_penalty, const StatesOfQuads& v) {
   const Doubles share[2] = {share_of(t[0]), share_of(t[1])};
   Doubles mean[Of::most_families], n[Of::most_families];
-  for_families<Of>(w.law.families, [&](auto a) {
-    mean[a] = share[0] * s[0].lambda[a] + share[1] * s[1].lambda[a];
-  });
+  for_directions<Of>(
+      w.law, [&](auto a) { mean[a] = share[0] * s[0].lambda[a] + share[1] * s[1].lambda[a]; });
   tensions<Of, general>(w, v, mean, area_of(t[0]) + area_of(t[1]), n);
   Doubles secant[2][Of::most_crossings], torque[2][Of::most_crossings];
   Doubles held[2][Of::most_families], delta[2][Of::most_families];
@@ -164,6 +168,7 @@ PLYFORM_INLINE void pair_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads* t,
       own[a] = n[a] + w.lane.beta * (held[i][a] - mean_held[a]) +
                w.lane.yarns[a].stabilisation * delta[i][a];
     });
+    for_stitches<Of>(w.law, [&](auto a) { own[a] = n[a]; });
     if (needs_penalty) add_collapse_penalty(w.lane, s[i], own);
     forces[i] = corner_forces(t[i], s[i], stress<Of>(w.law, t[i], s[i], own, torque[i]));
   }
@@ -199,8 +204,8 @@ PLYFORM_INLINE void for_packs(const KernelBlock& block, const SimdLaw<Of>& law, 
 template <class Of, class States>
 PLYFORM_INLINE OfQuads<States> states_of(const KernelLaw& law, States* of_block, int pack,
                                          int count) {
-  const int families = Of::weave ? Of::most_families : law.families;
-  return of_quads(of_block + families * pack, families, count);
+  const int of_pack = directions<Of>(law);
+  return of_quads(of_block + of_pack * pack, of_pack, count);
 }
 
 template <class Of, bool general>
@@ -212,7 +217,7 @@ PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelL
   for (int i = 0; i < block.node_count; ++i)
     store(force + 4 * i, Double4{});
   const SimdLaw<Of> lane = simd_law<Of>(law, per_dt);
-  SimdBlockWork<Of> w{law, lane, force, per_dt, Double4{}};
+  SimdBlockWork<Of> w{law, lane, force, per_dt, Double4{}, Double4{}};
   Longs collapsed{};
   for_packs<Of>(block, lane, place,
                 [&](int pack, const auto* t, const auto* s, auto of, bool needs_penalty) {
@@ -225,7 +230,7 @@ PLYFORM_INLINE KernelReport block_forces(const KernelBlock& block, const KernelL
                   else
                     single_packs<Of, general>(w, *t, *s, needs_penalty, states);
                 });
-  return {0.5 * sum(w.lost), any(collapsed)};
+  return {0.5 * sum(w.lost), 0.5 * sum(w.torn), any(collapsed)};
 }
 
 /// (E) of the triangles of some packs without the yarns, N mm.
@@ -261,47 +266,64 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
   alignas(32) double place[4 * most_block_nodes];
   gather_places(block.nodes, block.node_count, x, place);
   const SimdLaw<Of> lane = simd_law<Of>(law, 0.0);
-  const SimdBlockWork<Of> w{law, lane, nullptr, per_dt, Double4{}};
-  Double4 fibre{}, shear{};
+  const SimdBlockWork<Of> w{law, lane, nullptr, per_dt, Double4{}, Double4{}};
+  Double4 fibre{}, shear{}, stitch{};
   for_packs<Of>(block, lane, place, [&](int pack, const auto* t, const auto* s, auto of, bool) {
     const auto begin = states_of<Of>(law, block.begin, pack, t->count);
-    Doubles area = all(0.0), mean[Of::most_families];
-    for_families<Of>(law.families, [&](auto a) { mean[a] = all(0.0); });
+    Doubles area = all(0.0), mean[Of::most_families], stitches = all(0.0);
+    for_directions<Of>(law, [&](auto a) { mean[a] = all(0.0); });
     for (int i = 0; i < of; ++i) {
       const Doubles share = share_of(t[i]);
       area += area_of(t[i]);
-      for_families<Of>(law.families, [&](auto a) { mean[a] += share * s[i].lambda[a]; });
+      for_directions<Of>(law, [&](auto a) { mean[a] += share * s[i].lambda[a]; });
     }
-    const Doubles of_yarns = area * yarn_energies<Of, general>(w, mean, begin);
+    for_stitches<Of>(law,
+                     [&](auto a) { stitches += stitch_energy<Of, general>(w, a, mean[a], begin); });
+    const Doubles of_yarns = area * yarn_energies<Of, general>(w, mean, begin),
+                  of_stitches = area * stitches;
     Doubles of_sides[of], of_shear[of];
     triangle_energies<Of, general>(w, t, s, of, mean, of_sides, of_shear);
     for (int q = 0; q < t->count; ++q) {
-      fibre += quad(of_yarns, q);
+      fibre += quad(of_yarns, q), stitch += quad(of_stitches, q);
       for (int i = 0; i < of; ++i)
         fibre += quad(of_sides[i], q), shear += quad(of_shear[i], q);
     }
   });
-  return {sum(fibre), sum(shear)};
+  return {sum(fibre), sum(shear), sum(stitch)};
 }
 
 /// Whether a weave has laws that are more than straight lines and short polynomials.
 PLYFORM_INLINE bool is_general(const KernelLaw& law) {
-  return law.by_law || law.crimped || law.yarns[0].buckles || law.yarns[1].buckles ||
-         law.crossing[0].shear_terms == 0 || law.crossing[0].both_signs;
+  bool general = law.crimped || law.crossing[0].shear_terms == 0 || law.crossing[0].both_signs;
+  for (int a = 0; a < 2 + law.stitches; ++a)
+    general = general || law.yarns[a].by_law || law.yarns[a].buckles;
+  return general;
+}
+
+/// Calls compute(Of, general) for what the fabric is.
+template <class Compute>
+PLYFORM_INLINE auto for_fabric(const KernelLaw& law, const Compute& compute) {
+  if (!law.weave || law.stitches > 2) return compute(AnyFabric{}, Count<1>{});
+  const auto of_laws = [&](auto of) {
+    return is_general(law) ? compute(of, Count<1>{}) : compute(of, Count<0>{});
+  };
+  if (law.stitches == 0) return of_laws(Weave{});
+  if (law.stitches == 1) return of_laws(StitchedWeave<1>{});
+  return of_laws(StitchedWeave<2>{});
 }
 
 PLYFORM_INLINE KernelReport membrane_kernel(const KernelBlock& block, const KernelLaw& law,
                                             const double* x, double per_dt) {
-  if (!law.weave) return block_forces<AnyFabric, true>(block, law, x, per_dt);
-  return is_general(law) ? block_forces<Weave, true>(block, law, x, per_dt)
-                         : block_forces<Weave, false>(block, law, x, per_dt);
+  return for_fabric(law, [&](auto of, auto general) {
+    return block_forces<decltype(of), general != 0>(block, law, x, per_dt);
+  });
 }
 
 PLYFORM_INLINE KernelEnergy membrane_energy_kernel(const KernelBlock& block, const KernelLaw& law,
                                                    const double* x, double per_dt) {
-  if (!law.weave) return block_energy<AnyFabric, true>(block, law, x, per_dt);
-  return is_general(law) ? block_energy<Weave, true>(block, law, x, per_dt)
-                         : block_energy<Weave, false>(block, law, x, per_dt);
+  return for_fabric(law, [&](auto of, auto general) {
+    return block_energy<decltype(of), general != 0>(block, law, x, per_dt);
+  });
 }
 
 } // namespace

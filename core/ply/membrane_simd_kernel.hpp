@@ -42,13 +42,18 @@ struct alignas(32) SheetAnswers {
   double s11[simd_width], s22[simd_width], s12[simd_width], energy[simd_width];
 };
 
-/// Constants of (N) for one family of yarns, each times their density d_a: per mm, not per yarn.
+/// Constants of (N) for one family of yarns or stitches, each times their density d_a: per mm, not
+/// per yarn.
 struct KernelYarns {
   double along[2]; ///< v_a
   double stiffness, compression, viscosity, stabilisation, collapse_penalty;
+  bool by_law;            ///< call `evaluate`: the kernel does not know their law
   bool buckles;           ///< the next two members apply
   double buckling_strain; ///< -, above 0: compressive strain at which the yarn buckles
   double buckling_drop;   ///< N/mm, decrease of the slope there
+  bool breaks;            ///< of stitches: whether they have a force at which they break
+  double taut_at;         ///< -, of stitches: stretch at which they become taut
+  double breaking;        ///< N/mm, of stitches
 };
 
 /// A crimped cell of two families: core/model/crimp.hpp.
@@ -76,16 +81,16 @@ struct KernelCrossing {
 };
 
 struct KernelLaw {
-  int families, crossings;
-  KernelYarns yarns[most_kernel_families];
+  int families, stitches, crossings;       ///< families: of yarns; stitches: directions
+  KernelYarns yarns[most_kernel_families]; ///< of the families, then of stitches
   KernelCrossing crossing[most_kernel_crossings];
-  /// Two families, along the axes, with one crossing and no law of the sheet: no more has to be
-  /// computed.
+  /// Two families, along the axes, with one crossing and no law of the sheet: no more than these
+  /// and stitches has to be computed.
   bool weave;
   double beta, side_cubic;
   const Membrane* membrane; ///< whose laws the callbacks evaluate
-  bool by_law;              ///< call `evaluate`: the kernel does not know the laws of the yarns
-  bool crimped;             ///< a crossing is; with by_law call `evaluate_cells`, not `evaluate`
+  bool crimped;             ///< a crossing is
+  bool cells_by_law;        ///< call `evaluate_cells`: the kernel does not know all laws of cells
   bool sheet;               ///< call `sheet_law`
   /// Four yarns of a family. begin, end: SimdYarnStates::of; per_dt: 1/s.
   void (*evaluate)(const KernelLaw&, int family, double per_dt, const double* strain,
@@ -110,20 +115,21 @@ struct KernelBlock {
   const std::int32_t* nodes; ///< node numbers in the ply
   int node_count;            ///< at most most_block_nodes
   const SimdTriangles* triangles;
-  const SimdYarnStates* begin; ///< families of the first pack, of the second ...: before the step
-  SimdYarnStates* end;         ///< likewise, at its end
+  /// Families and stitches of the first pack, of the second ...: before the step.
+  const SimdYarnStates* begin;
+  SimdYarnStates* end; ///< likewise, at its end
   int pair_packs, single_packs;
   SimdForce* force; ///< N, one per node of the block
 };
 
 struct KernelReport {
-  double lost; ///< N mm, in the step
+  double lost, torn; ///< N mm, in the step: as GroupReport
   bool collapsed;
 };
 
 /// Sums of (E), N mm.
 struct KernelEnergy {
-  double fibre, shear;
+  double fibre, shear, stitch;
 };
 
 /// Forces (F), N, of a block's groups on its nodes, stored in block.force; writes block.end.

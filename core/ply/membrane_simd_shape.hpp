@@ -29,9 +29,39 @@ PLYFORM_INLINE void for_crossings(const KernelLaw& law, const Each& each) {
   }
 }
 
+/// Families and directions of stitches together.
+template <class Of>
+PLYFORM_INLINE int directions(const KernelLaw& law) {
+  if constexpr (Of::weave) return Of::most_families;
+  return law.families + law.stitches;
+}
+
+/// Calls each(a) for all directions of stitches, which are numbered behind the families.
+template <class Of, class Each>
+PLYFORM_INLINE void for_stitches(const KernelLaw& law, const Each& each) {
+  if constexpr (Of::weave) {
+    if constexpr (Of::stitches > 0) each(Count<2>{});
+    if constexpr (Of::stitches > 1) each(Count<3>{});
+  } else {
+    for (int a = law.families; a < law.families + law.stitches; ++a)
+      each(a);
+  }
+}
+
+/// Calls each(a) for all families and all stitches.
+template <class Of, class Each>
+PLYFORM_INLINE void for_directions(const KernelLaw& law, const Each& each) {
+  for_families<Of>(law.families, each);
+  for_stitches<Of>(law, each);
+}
+
 /// KernelLaw with each number copied to all SIMD lanes.
 struct SimdYarns {
   Doubles stiffness, compression, viscosity, stabilisation, collapse_penalty; ///< viscosity: N/mm
+};
+
+struct SimdStitches {
+  Doubles stiffness, taut_at, breaking;
 };
 
 struct SimdCrossing {
@@ -42,17 +72,22 @@ template <class Of>
 struct SimdLaw {
   const KernelLaw& law;
   SimdYarns yarns[Of::most_families];
+  SimdStitches stitches[Of::most_families]; ///< by the numbers that they have among families
   SimdCrossing crossing[Of::most_crossings];
   Doubles beta;
 };
 
 template <class Of>
 PLYFORM_INLINE SimdLaw<Of> simd_law(const KernelLaw& law, double per_dt) {
-  SimdLaw<Of> l{law, {}, {}, all(law.beta)};
+  SimdLaw<Of> l{law, {}, {}, {}, all(law.beta)};
   for_families<Of>(law.families, [&](int a) {
     const KernelYarns& y = law.yarns[a];
     l.yarns[a] = {all(y.stiffness), all(y.compression), all(y.viscosity * per_dt),
                   all(y.stabilisation), all(y.collapse_penalty)};
+  });
+  for_stitches<Of>(law, [&](int a) {
+    const KernelYarns& y = law.yarns[a];
+    l.stitches[a] = {all(y.stiffness), all(y.taut_at), all(y.breaking)};
   });
   for_crossings<Of>(law, [&](int c, int, int) {
     l.crossing[c].angle = all(law.crossing[c].angle);
@@ -68,7 +103,7 @@ struct SimdState {
   Vectors k1, k2;
   Doubles a, b, d, j;
   Doubles lambda[Of::most_families];
-  Doubles area_over[Of::most_families]; ///< A0 / lambda^2
+  Doubles area_over[Of::most_families]; ///< A0 / lambda^2 of yarns
   Doubles gamma[Of::most_crossings];
   Doubles per_j[Of::most_crossings]; ///< 1 / j
 };
@@ -129,6 +164,7 @@ PLYFORM_INLINE void find_lengths(const TrianglesOfQuads& t, const KernelLaw& law
     s.lambda[0] = root(a), s.lambda[1] = root(b);
   else
     for_families<Of>(law.families, [&](int f) { s.lambda[f] = root(product(law, s, f, f)); });
+  for_stitches<Of>(law, [&](auto f) { s.lambda[f] = root(product(law, s, f, f)); });
 }
 
 /// Stretches of the material axes.
@@ -139,8 +175,10 @@ PLYFORM_INLINE Doubles axis_stretch(const SimdState<Of>& s, int axis) {
 }
 
 /// Shear angle of the one crossing of a weave: three quotients by one division.
-PLYFORM_INLINE void find_shear(const TrianglesOfQuads& t, const SimdLaw<Weave>& law,
-                               SimdState<Weave>& s) {
+template <int directions>
+PLYFORM_INLINE void find_shear(const TrianglesOfQuads& t,
+                               const SimdLaw<StitchedWeave<directions>>& law,
+                               SimdState<StitchedWeave<directions>>& s) {
   const Doubles length2 = s.lambda[0] * s.lambda[1];
   const Doubles ab = s.a * s.b, aj = s.a * s.j, bj = s.b * s.j;
   const Doubles inverse = 1.0 / (ab * s.j), area = area_of(t) * inverse;

@@ -21,6 +21,7 @@ struct SimdBlockWork {
   double* force;
   double per_dt; ///< 1/s, as of membrane_kernel
   Double4 lost;  ///< twice the work lost
+  Double4 torn;  ///< N mm, likewise, of stitches
 };
 
 /// Compressive strain beyond the buckling strain; 0 for yarns that have not buckled.
@@ -64,32 +65,6 @@ PLYFORM_INLINE Doubles find_cells(const SimdBlockWork<Of>& w, const Doubles* mea
   return energy;
 }
 
-/// Tensions of yarns of linear laws, with viscosity while taut. n: d_a N, N/mm. Adds twice the
-/// work lost (N mm) to w.lost.
-template <class Of, bool general>
-PLYFORM_INLINE void viscous_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v,
-                                     const Doubles* mean, Doubles area, Doubles* n) {
-  Doubles now[Of::most_families], work = all(0.0), cells[Of::most_families];
-  if (general && w.law.crimped) find_cells(w, mean, cells);
-  for_families<Of>(w.law.families, [&](auto a) {
-    n[a] = yarn_tension<Of, general>(w, a, mean[a] - 1.0);
-    if (general && w.law.crimped) n[a] += cells[a];
-    const Doubles change = mean[a] - remembered(v, a, 0);
-    now[a] = n[a] > 0.0 ? w.lane.yarns[a].viscosity * change : all(0.0);
-    work += (now[a] + remembered(v, a, 1)) * change;
-  });
-  const Doubles lost = area * work;
-  for (int q = 0; q < v.end.count; ++q) {
-    w.lost += quad(lost, q);
-    for_families<Of>(w.law.families, [&](auto a) {
-      SimdYarnStates& end = v.end.of[q][a];
-      store(end.of[0], quad(mean[a], q));
-      store(end.of[1], quad(now[a], q));
-    });
-  }
-  for_families<Of>(w.law.families, [&](auto a) { n[a] += now[a]; });
-}
-
 /// Answers of a family's law for some packs, whatever it is; `values`: which of them is returned.
 /// end: where it writes what it remembers.
 template <class Of, class End>
@@ -111,17 +86,13 @@ PLYFORM_INLINE Doubles by_law(const SimdBlockWork<Of>& w, int family, Doubles st
   return numbers([&](int q) { return value + simd_width * q; });
 }
 
-/// The tension of a family by its law, d_a N, N/mm. Adds what it loses.
+/// The tension of a family by its law, d_a N, N/mm; lost: what it loses, N/mm.
 template <class Of>
-PLYFORM_INLINE Doubles tension_by_law(SimdBlockWork<Of>& w, int family, const StatesOfQuads& v,
-                                      Doubles mean, Doubles area) {
-  Doubles lost;
-  const Doubles n = by_law(
+PLYFORM_INLINE Doubles tension_by_law(const SimdBlockWork<Of>& w, int family,
+                                      const StatesOfQuads& v, Doubles mean, Doubles& lost) {
+  return by_law(
       w, family, mean - 1.0, v.begin, [&](int q) { return v.end.of[q][family].of; },
       &KernelAnswers::value, &lost);
-  for (int q = 0; q < v.end.count; ++q)
-    w.lost += 2.0 * quad(area * lost, q);
-  return n;
 }
 
 /// What all families of some packs answer where cells couple them.
@@ -165,14 +136,95 @@ PLYFORM_INLINE void tensions_of_cells(SimdBlockWork<Of>& w, const StatesOfQuads&
   });
 }
 
-/// Tensions of all families at their mean stretches, d_a N, N/mm, without what holds single
-/// triangles.
+/// Tensions of yarns at their mean stretches, with viscosity while taut, without what holds single
+/// triangles. n: d_a N, N/mm. Adds twice the work lost (N mm) to w.lost.
+template <class Of, bool general>
+PLYFORM_INLINE void yarn_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v, const Doubles* mean,
+                                  Doubles area, Doubles* n) {
+  Doubles now[Of::most_families], work = all(0.0), cells[Of::most_families];
+  if (general && w.law.crimped) find_cells(w, mean, cells);
+  for_families<Of>(w.law.families, [&](auto a) {
+    if (general && w.law.yarns[a].by_law) {
+      Doubles lost;
+      n[a] = tension_by_law(w, a, v, mean[a], lost);
+      now[a] = all(0.0);
+      work += lost + lost;
+      return;
+    }
+    n[a] = yarn_tension<Of, general>(w, a, mean[a] - 1.0);
+    if (general && w.law.crimped) n[a] += cells[a];
+    const Doubles change = mean[a] - remembered(v, a, 0);
+    now[a] = n[a] > 0.0 ? w.lane.yarns[a].viscosity * change : all(0.0);
+    work += (now[a] + remembered(v, a, 1)) * change;
+  });
+  const Doubles lost = area * work;
+  for (int q = 0; q < v.end.count; ++q) {
+    w.lost += quad(lost, q);
+    for_families<Of>(w.law.families, [&](auto a) {
+      if (general && w.law.yarns[a].by_law) return;
+      SimdYarnStates& end = v.end.of[q][a];
+      store(end.of[0], quad(mean[a], q));
+      store(end.of[1], quad(now[a], q));
+    });
+  }
+  for_families<Of>(w.law.families, [&](auto a) { n[a] += now[a]; });
+}
+
+/// Tension of stitches of a linear law that are whole, N/mm, and how far they are stretched.
+template <class Of>
+PLYFORM_INLINE Doubles stitch_tension(const SimdBlockWork<Of>& w, int family, Doubles stretch,
+                                      Doubles& beyond) {
+  const SimdStitches& law = w.lane.stitches[family];
+  beyond = larger(all(0.0), stretch - law.taut_at);
+  return law.stiffness * beyond;
+}
+
+/// Tensions of stitches at their mean stretches. n: d_a N, N/mm. Adds twice what was stored in
+/// those that break to w.torn. What those that cannot break remember stays as it was.
+template <class Of, bool general>
+PLYFORM_INLINE void stitch_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v,
+                                    const Doubles* mean, Doubles area, Doubles* n) {
+  Doubles torn = all(0.0);
+  for_stitches<Of>(w.law, [&](auto a) {
+    if (general && w.law.yarns[a].by_law) {
+      Doubles lost;
+      n[a] = tension_by_law(w, a, v, mean[a], lost);
+      torn += lost + lost;
+      return;
+    }
+    Doubles beyond;
+    n[a] = stitch_tension(w, a, mean[a], beyond);
+    if (!w.law.yarns[a].breaks) return;
+    const Longs gone = remembered(v, a, 0) > 0.0, breaks = n[a] > w.lane.stitches[a].breaking;
+    torn += (breaks & ~gone) ? n[a] * beyond : all(0.0);
+    n[a] = (breaks | gone) ? all(0.0) : n[a];
+    const Doubles next = (breaks | gone) ? all(1.0) : all(0.0);
+    for (int q = 0; q < v.end.count; ++q)
+      store(v.end.of[q][a].of[0], quad(next, q));
+  });
+  const Doubles lost = area * torn;
+  for (int q = 0; q < v.end.count; ++q)
+    w.torn += quad(lost, q);
+}
+
+/// Tensions of all families and stitches.
 template <class Of, bool general>
 PLYFORM_INLINE void tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v, const Doubles* mean,
                              Doubles area, Doubles* n) {
-  if (!general || !w.law.by_law) return viscous_tensions<Of, general>(w, v, mean, area, n);
-  if (w.law.crimped) return tensions_of_cells(w, v, mean, area, n);
-  for_families<Of>(w.law.families, [&](auto a) { n[a] = tension_by_law(w, a, v, mean[a], area); });
+  if (general && w.law.cells_by_law)
+    tensions_of_cells(w, v, mean, area, n);
+  else
+    yarn_tensions<Of, general>(w, v, mean, area, n);
+  if constexpr (Of::most_families > 2) stitch_tensions<Of, general>(w, v, mean, area, n);
+}
+
+/// d_a W_a, N/mm, of a law that the kernel does not know. begin: what it remembers.
+template <class Of>
+PLYFORM_INLINE Doubles energy_by_law(const SimdBlockWork<Of>& w, int family, Doubles strain,
+                                     const OfQuads<const SimdYarnStates>& begin) {
+  SimdYarnStates end; // of no use: this is no step
+  return by_law(
+      w, family, strain, begin, [&](int) { return end.of; }, &KernelAnswers::stored, nullptr);
 }
 
 /// d_a W_a, N/mm, what a family stores. begin: what it remembers.
@@ -181,15 +233,26 @@ PLYFORM_INLINE Doubles yarn_energy(const SimdBlockWork<Of>& w, int family, Doubl
                                    const OfQuads<const SimdYarnStates>& begin) {
   const SimdYarns& yarns = w.lane.yarns[family];
   const KernelYarns& law = w.law.yarns[family];
-  if (general && w.law.by_law) {
-    SimdYarnStates end; // of no use: this is no step
-    return by_law(
-        w, family, strain, begin, [&](int) { return end.of; }, &KernelAnswers::stored, nullptr);
-  }
+  if (general && law.by_law) return energy_by_law(w, family, strain, begin);
   const Doubles e = 0.5 * strain * strain * (strain > 0.0 ? yarns.stiffness : yarns.compression);
   if (!general || !law.buckles) return e;
   const Doubles beyond = buckled_by(law, strain);
   return e - 0.5 * law.buckling_drop * beyond * beyond;
+}
+
+/// d_a W_a, N/mm, what stitches store that are whole at this stretch.
+template <class Of, bool general>
+PLYFORM_INLINE Doubles stitch_energy(const SimdBlockWork<Of>& w, int family, Doubles stretch,
+                                     const OfQuads<const SimdYarnStates>& begin) {
+  const KernelYarns& law = w.law.yarns[family];
+  if (general && law.by_law) return energy_by_law(w, family, stretch - 1.0, begin);
+  Doubles beyond;
+  const Doubles tension = stitch_tension(w, family, stretch, beyond);
+  const Doubles e = 0.5 * tension * beyond;
+  if (!law.breaks) return e;
+  const Doubles broken = numbers([&](int q) { return begin.of[q][family].of[0]; });
+  const Longs none = (broken > 0.0) | (tension > w.lane.stitches[family].breaking);
+  return none ? all(0.0) : e;
 }
 
 /// sum_a d_a W_a at mean stretches, N/mm. begin: what yarns remember.
@@ -197,7 +260,7 @@ template <class Of, bool general>
 PLYFORM_INLINE Doubles yarn_energies(const SimdBlockWork<Of>& w, const Doubles* mean,
                                      const OfQuads<const SimdYarnStates>& begin) {
   Doubles sum = all(0.0);
-  if (general && w.law.crimped && w.law.by_law) {
+  if (general && w.law.cells_by_law) {
     CellAnswers<Of> answers;
     SimdYarnStates end[Of::most_families]; // of no use: this is no step
     by_cells(

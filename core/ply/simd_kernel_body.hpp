@@ -41,18 +41,21 @@ struct Count {
 };
 
 /// What a kernel is compiled for: two families along the axes (of a membrane with one crossing and
-/// no law of the sheet), whose loops are unrolled; or any fabric.
-struct Weave {
-  static constexpr int most_families = 2, most_crossings = 1;
+/// no law of the sheet) and so many directions of stitches behind them, whose loops are unrolled;
+/// or any fabric.
+template <int directions>
+struct StitchedWeave {
+  static constexpr int most_families = 2 + directions, most_crossings = 1, stitches = directions;
   static constexpr bool weave = true;
 };
+using Weave = StitchedWeave<0>;
 struct AnyFabric {
   static constexpr int most_families = most_kernel_families;
   static constexpr int most_crossings = most_kernel_crossings;
   static constexpr bool weave = false;
 };
 
-/// Calls each(a) for all families.
+/// Calls each(a) for all families of yarns.
 template <class Of, class Each>
 PLYFORM_INLINE void for_families(int families, const Each& each) {
   if constexpr (Of::weave) {

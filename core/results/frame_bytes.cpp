@@ -15,13 +15,19 @@ void visit(Archive& a, FamilyFrame& family) {
 }
 
 template <class Archive>
+void visit(Archive& a, StitchFrame& stitch) {
+  visit(a, stitch.name, stitch.angle_deg);
+}
+
+template <class Archive>
 void visit(Archive& a, CrossingFrame& crossing) {
   visit(a, crossing.suffix);
 }
 
 template <class Archive>
 void visit(Archive& a, PlyFrame& ply) {
-  visit(a, ply.name, ply.angle_deg, ply.x0, ply.x, ply.triangles, ply.families, ply.crossings);
+  visit(a, ply.name, ply.angle_deg, ply.x0, ply.x, ply.triangles, ply.families, ply.stitches,
+        ply.crossings);
   each_column(ply, [&](const Column&, auto& values) { visit(a, values); });
 }
 

@@ -188,6 +188,13 @@ void read_families(const Reader& in, const std::string& where, PlyFrame& ply) {
   const std::vector<double> angles = in.numbers(where, "family_angles_deg", ply.families.size());
   for (std::size_t i = 0; i < angles.size(); ++i)
     ply.families[i].angle_deg = angles[i];
+  if (H5Aexists_by_name(in.file, where.c_str(), "stitches", H5P_DEFAULT) > 0) {
+    for (const std::string& name : in.texts(where, "stitches"))
+      ply.stitches.push_back({{name, 0.0, {}, {}, {}}, {}});
+    const std::vector<double> of = in.numbers(where, "stitch_angles_deg", ply.stitches.size());
+    for (std::size_t i = 0; i < of.size(); ++i)
+      ply.stitches[i].angle_deg = of[i];
+  }
   for (const std::string& suffix : in.texts(where, "further_crossings"))
     ply.crossings.push_back({suffix, {}});
   for (const Column& column : columns_of(ply))

@@ -139,16 +139,24 @@ void describe(const Writer& set, const Description& what, Location location) {
 
 /// Attributes of a ply: what its columns are named by.
 void write_families(const Writer& out, const std::string& where, const PlyFrame& ply) {
-  std::vector<std::string> families, crossings;
-  std::vector<double> angles;
+  std::vector<std::string> families, stitches, crossings;
+  std::vector<double> angles, stitch_angles;
   for (const FamilyFrame& family : ply.families) {
     families.push_back(family.name);
     angles.push_back(family.angle_deg);
+  }
+  for (const StitchFrame& stitch : ply.stitches) {
+    stitches.push_back(stitch.name);
+    stitch_angles.push_back(stitch.angle_deg);
   }
   for (const CrossingFrame& crossing : ply.crossings)
     crossings.push_back(crossing.suffix);
   out.texts(where, "families", families);
   out.numbers(where, "family_angles_deg", angles);
+  if (!stitches.empty()) {
+    out.texts(where, "stitches", stitches);
+    out.numbers(where, "stitch_angles_deg", stitch_angles);
+  }
   out.texts(where, "further_crossings", crossings);
   std::vector<std::string> columns;
   for (const Column& column : columns_of(ply))

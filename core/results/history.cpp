@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/history.hpp"
 
+#include "core/results/broken_stitches.hpp"
 #include "core/results/draw_in.hpp"
 #include "core/results/statistics.hpp"
 
+#include <algorithm>
 #include <stdexcept>
 #include <utility>
 
@@ -29,12 +31,18 @@ void each_number(const Frame& frame, Visit&& visit) {
     visit(StateNumber{force, Location::boundary, one.name}, one.force_N);
     visit(StateNumber{moved, Location::boundary, one.name}, one.stroke_mm);
   }
-  for (const EnergyTerm& term : energy_terms)
+  const bool stitched = std::any_of(frame.plies.begin(), frame.plies.end(),
+                                    [](const PlyFrame& one) { return !one.stitches.empty(); });
+  for (const EnergyTerm& term : energy_terms) {
+    const bool of_stitches =
+        term.value == &Energies::stitch || term.value == &Energies::stitch_breaking;
+    if (of_stitches && !stitched) continue;
     visit(StateNumber{{std::string(term.name) + "_mJ", term.name, term.label, "mJ", 2, 1e-6},
                       Location::run,
                       "",
                       true},
           frame.energy.*term.value);
+  }
   visit(
       StateNumber{{"balance_error", "balance-error", "error of the energy balance", "1", 3, 1e-9}},
       frame.energy.balance_error());
@@ -51,6 +59,10 @@ void each_number(const Frame& frame, Visit&& visit) {
     if (!one.wrinkle_height.empty())
       of_ply({"largest_wrinkle_mm", "largest-wrinkle", "highest wrinkle", "mm", 2, 1e-3},
              largest(one.wrinkle_height));
+    if (!one.stitches.empty())
+      of_ply({"broken_stitch_share", "broken-stitches", "share of stitches broken", "1", 3, 1e-6,
+              Scale::from_zero, "of the length of those that are broken most"},
+             broken_share(one));
   }
 }
 

@@ -23,6 +23,11 @@ struct FamilyFrame {
   std::vector<double> opening = {};
 };
 
+/// Stitches of one direction of a ply of m triangles; tension in N per stitch.
+struct StitchFrame : FamilyFrame {
+  std::vector<double> broken; ///< m, 1 where they are broken, else 0
+};
+
 /// A crossing of two families that is not the first of its fabric.
 struct CrossingFrame {
   std::string suffix;            ///< of both families, "A_B": ends the name of its column
@@ -36,6 +41,7 @@ struct PlyFrame {
   std::vector<Vec3> x0, x;              ///< n, mm: before and now
   std::vector<Triangle> triangles;      ///< m
   std::vector<FamilyFrame> families;    ///< any number
+  std::vector<StitchFrame> stitches;    ///< any number
   std::vector<double> shear_deg;        ///< m, signed, of the first crossing
   std::vector<CrossingFrame> crossings; ///< those behind the first
   std::vector<double> thickness;        ///< m, mm, from constant volume
@@ -50,6 +56,23 @@ struct Column : Description {
   std::string quantity = {}; ///< what columns of several families share; empty: none
   bool may_lack = false;     ///< left out of the files of plies for which it is empty
 };
+
+/// The columns of stitches.
+template <class AnyStitch, class Visit>
+void each_stitch_column(AnyStitch& stitch, Visit&& visit) {
+  visit(Column{{stitch.name, stitch.name, "direction of " + stitch.name, "1", 3, 1e-6,
+                Scale::both_ways}},
+        stitch.direction);
+  visit(Column{{stitch.name + "_strain", stitch.name + "-strain", stitch.name + " strain", "1", 3,
+                5e-6, Scale::both_ways, "of the sheet along the stitches"}},
+        stitch.strain);
+  visit(Column{{stitch.name + "_tension_N", stitch.name + "-tension", stitch.name + " tension",
+                "N per stitch", 3, 1e-4, Scale::from_zero}},
+        stitch.tension);
+  visit(Column{{stitch.name + "_broken", stitch.name + "-broken", stitch.name + " broken", "1", 0,
+                1e-3, Scale::from_zero, "1: broken"}},
+        stitch.broken);
+}
 
 /// Calls visit(Column, values) for each column of a ply, in the order of files: values is one of
 /// its vectors, of doubles or of Vec3. Every file, reader, report and plot follows this list; a new
@@ -110,6 +133,8 @@ void each_column(AnyPly& ply, Visit&& visit) {
                  "opening",
                  true},
           family.opening);
+  for (auto& stitch : ply.stitches)
+    each_stitch_column(stitch, visit);
   visit(Column{{"thickness_mm", "thickness", "thickness", "mm", 3, 1e-5, Scale::whole,
                 "from constant volume"}},
         ply.thickness);

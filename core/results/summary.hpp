@@ -2,6 +2,7 @@
 // Summary of a run in numbers and sentences: the content of summary.json.
 #pragma once
 
+#include "core/results/broken_stitches.hpp"
 #include "core/results/draw_in.hpp"
 #include "core/results/verification.hpp"
 #include "core/results/wrinkles.hpp"
@@ -73,6 +74,7 @@ struct PlyReport {
   std::optional<double> beyond_locking_share; ///< fraction of the area before forming; likewise
   std::vector<Opening> openings;              ///< of the families for which it is told
   DrawIn draw_in;
+  std::vector<BrokenStitches> stitches; ///< one for each direction
 };
 
 /// Up to where the force of a tool is known: to the last output at which it did not press the plies

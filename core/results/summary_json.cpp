@@ -97,6 +97,20 @@ Json opening_object(const Opening& opening) {
   return object;
 }
 
+Json stitch_keys(const std::vector<BrokenStitches>& stitches) {
+  Json list = Json::array();
+  for (const BrokenStitches& s : stitches) {
+    Json one{{"name", s.name},
+             {"broken_length_share", rounded(s.share)},
+             {"broken_area_mm2", rounded(s.area)}};
+    if (s.area > 0.0)
+      one.update({{"largest_broken_patch_mm2", rounded(s.patch_area)},
+                  {"largest_broken_patch_at_mm", place(s.patch_at)}});
+    list.push_back(one);
+  }
+  return {{"stitches", list}};
+}
+
 /// The keys of a ply that its report adds to those of its fields.
 Json report_keys(const PlyReport& report) {
   Json keys = Json::object();
@@ -107,6 +121,7 @@ Json report_keys(const PlyReport& report) {
     keys["area_share_beyond_locking_angle"] = rounded(*report.beyond_locking_share);
   if (!report.openings.empty()) keys["openings"] = list_of(report.openings, opening_object);
   keys.update(draw_in_keys(report.draw_in));
+  if (!report.stitches.empty()) keys.update(stitch_keys(report.stitches));
   return keys;
 }
 

@@ -77,7 +77,8 @@ void restore(Scene& s, const Snapshot& snapshot) {
   }
   s.boundaries = snapshot.boundaries;
   static_cast<SceneProgress&>(s) = snapshot.progress;
-  std::fill(s.group_lost.begin(), s.group_lost.end(), 0.0); // of a step that was not taken
+  for (std::vector<double>* lost : {&s.group_lost, &s.group_torn}) // of a step that was not taken
+    std::fill(lost->begin(), lost->end(), 0.0);
 }
 
 } // namespace plyform

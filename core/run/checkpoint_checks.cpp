@@ -298,8 +298,8 @@ void check_sums(const Scene& s, const SceneProgress& progress) {
              sound(p.mass_scaling_work) && p.largest_added_mass >= 0.0 &&
              sound(p.largest_added_mass),
          "sums of the run");
-  expect(p.group_sums.size() == s.group_blocks.size() && all_sound(p.group_sums),
-         "sums of the elements");
+  for (const std::vector<double>* sums : {&p.group_sums, &p.torn_sums})
+    expect(sums->size() == s.group_blocks.size() && all_sound(*sums), "sums of the elements");
 }
 
 void check_progress(const Scene& s) {

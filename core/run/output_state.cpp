@@ -28,8 +28,9 @@ struct SideForces {
 };
 
 /// Directions, strains and tensions of the families; of a foil its axes, which files call warp and
-/// weft.
-std::vector<FamilyFrame> family_frames(const PlyBody& ply) {
+/// weft. strains: of all families of the membrane.
+std::vector<FamilyFrame> family_frames(const PlyBody& ply,
+                                       std::vector<std::vector<double>>& strains) {
   const Membrane& m = ply.membrane;
   std::vector<FamilyFrame> frames;
   for (const YarnFamily& family : m.fabric.families)
@@ -40,8 +41,7 @@ std::vector<FamilyFrame> family_frames(const PlyBody& ply) {
       frames.push_back({axis.name, in_degrees(ply.angle + axis.angle), {}, {}, none});
     return frames;
   }
-  std::vector<std::vector<double>> strains = yarn_strains(m, ply.x),
-                                   tensions = yarn_tensions(m, ply.x);
+  std::vector<std::vector<double>> tensions = yarn_tensions(m, ply.x);
   for (std::size_t a = 0; a < frames.size(); ++a) {
     frames[a].strain = std::move(strains[a]);
     frames[a].tension = std::move(tensions[a]);
@@ -52,7 +52,7 @@ std::vector<FamilyFrame> family_frames(const PlyBody& ply) {
 /// The distance between yarns across them is the area over the length along them, as the strain of
 /// a group's mean. area_ratios: now over before forming, of triangles.
 void add_openings(const Membrane& m, const std::vector<double>& area_ratios, PlyFrame& f) {
-  for (std::size_t a = 0; a < m.families.size(); ++a)
+  for (std::size_t a = 0; a < m.fabric.families.size(); ++a)
     if (shows_opening(m.fabric, a)) f.families[a].opening.resize(area_ratios.size());
   for (std::size_t p = 1; p < m.group_begin.size(); ++p) {
     double now = 0.0, before = 0.0;
@@ -65,10 +65,34 @@ void add_openings(const Membrane& m, const std::vector<double>& area_ratios, Ply
   }
 }
 
+/// Directions, strains and forces of the stitches, and where they are broken. strains: of all
+/// families of the membrane. What breaks in the step that led here is broken.
+std::vector<StitchFrame> stitch_frames(const PlyBody& ply,
+                                       std::vector<std::vector<double>>& strains) {
+  const Membrane& m = ply.membrane;
+  std::vector<StitchFrame> frames;
+  for (std::size_t i = 0; i < m.fabric.stitches.size(); ++i) {
+    const Stitch& stitch = m.fabric.stitches[i];
+    const std::size_t family = m.fabric.families.size() + i;
+    StitchFrame& frame = frames.emplace_back();
+    frame.name = stitch.name, frame.angle_deg = in_degrees(ply.angle + stitch.angle);
+    frame.strain = std::move(strains[family]);
+    frame.broken = remembered_of(*ply.simd, m, ply.yarns, family, 0);
+    for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+      const double force = stitch.law.at(frame.strain[e]).value;
+      if (force > stitch.law.breaking_force) frame.broken[e] = 1.0;
+      frame.tension.push_back(frame.broken[e] > 0.0 ? 0.0 : force);
+    }
+  }
+  return frames;
+}
+
 /// Fills what follows from the shape of each triangle: directions, shear, thickness.
 void add_yarns(const PlyBody& ply, PlyFrame& f) {
   const Membrane& m = ply.membrane;
-  f.families = family_frames(ply);
+  std::vector<std::vector<double>> strains = yarn_strains(m, ply.x);
+  f.families = family_frames(ply, strains);
+  f.stitches = stitch_frames(ply, strains);
   for (std::size_t c = 1; c < m.crossings.size(); ++c)
     f.crossings.push_back({m.fabric.families[m.crossings[c].first].name + "_" +
                                m.fabric.families[m.crossings[c].second].name,
@@ -81,8 +105,10 @@ void add_yarns(const PlyBody& ply, PlyFrame& f) {
     f.shear_deg.push_back(shown_shear(m, t) * degrees_per_radian);
     for (std::size_t c = 1; c < m.crossings.size(); ++c)
       f.crossings[c - 1].shear_deg.push_back(t.crossing[c].gamma * degrees_per_radian);
-    for (std::size_t a = 0; a < m.families.size(); ++a)
+    for (std::size_t a = 0; a < m.fabric.families.size(); ++a)
       f.families[a].direction.push_back(t.yarn[a].f);
+    for (std::size_t i = 0; i < f.stitches.size(); ++i)
+      f.stitches[i].direction.push_back(t.yarn[m.fabric.families.size() + i].f);
     if (m.families.empty())
       for (std::size_t a = 0; a < 2; ++a) {
         f.families[a].direction.push_back(a == 0 ? s.f1 : s.f2);

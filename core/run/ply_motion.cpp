@@ -109,7 +109,8 @@ std::vector<PlyMotion> motion_of_plies(const Scene& s) {
   for (std::size_t p = 0; p < s.plies.size(); ++p)
     plies.push_back({kinetic_of(s.plies[p]), elastic_of(s, p)});
   for (std::size_t b = 0; b < s.group_blocks.size(); ++b)
-    plies[static_cast<std::size_t>(s.group_blocks[b].ply)].deformation += ElementForces::lost(s, b);
+    plies[static_cast<std::size_t>(s.group_blocks[b].ply)].deformation +=
+        ElementForces::lost(s, b) + ElementForces::torn(s, b);
   return plies;
 }
 

@@ -282,6 +282,7 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
   }
   result.openings = openings_of(ply, nature.opening_limits, areas);
   result.draw_in = draw_in(ply);
+  result.stitches = broken_stitches(ply);
   return result;
 }
 

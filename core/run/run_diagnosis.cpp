@@ -65,7 +65,7 @@ std::vector<std::string> too_much(const Scene& s, const Energies& e, const WorkR
   std::vector<std::string> found;
   const bool bending = std::any_of(s.plies.begin(), s.plies.end(),
                                    [](const PlyBody& ply) { return ply.bending.has_value(); });
-  const double deformation = e.shear + e.fibre;
+  const double deformation = e.shear + e.fibre + e.stitch;
   if (bending && deformation > e.floor && e.bending < small_bending * deformation)
     found.push_back(fmt::format("bending: {:.2g} % of the deformation energy; without the fabric's "
                                 "bending keys only the size of wrinkles would change",

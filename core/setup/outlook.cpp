@@ -11,6 +11,7 @@
 #include "core/run/facet_penetration.hpp"
 #include "core/setup/boundaries_ahead.hpp"
 #include "core/setup/size_ahead.hpp"
+#include "core/setup/stitch_outlook.hpp"
 #include "core/setup/tool_cuts.hpp"
 #include "core/solver/element_mass_scaling.hpp"
 #include "core/solver/force_kinds.hpp"
@@ -110,7 +111,8 @@ void describe_drawings(const Case& data, Lines& lines) {
 
 /// What fabrics leave free or lock, and values that were estimated or limited.
 void describe_fabrics(const Case& data, Lines& lines) {
-  for (const auto& told : {describe_freedoms(data), assumptions(data), describe_crimp(data)})
+  for (const auto& told :
+       {describe_freedoms(data), assumptions(data), describe_crimp(data), describe_stitches(data)})
     for (const std::string& line : told)
       say(lines, "fabric {}", line);
 }

@@ -42,14 +42,17 @@ void ElementForces::run(Scene& s, int task) {
                              {ply.yarns, ply.yarns_end})
                : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, {}, ply.q);
   s.group_lost[at(task)] = report.lost;
+  s.group_torn[at(task)] = report.torn;
   s.group_collapsed[at(task)] = report.collapsed;
 }
 
 void ElementForces::end_step(Scene& s) {
   for (PlyBody& ply : s.plies)
     ply.yarns.swap(ply.yarns_end);
-  for (std::size_t b = 0; b < s.group_sums.size(); ++b)
+  for (std::size_t b = 0; b < s.group_sums.size(); ++b) {
     s.group_sums[b] += std::exchange(s.group_lost[b], 0.0);
+    s.torn_sums[b] += std::exchange(s.group_torn[b], 0.0);
+  }
 }
 
 void ElementForces::add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f) {
@@ -62,9 +65,9 @@ void ElementForces::add_energies(const Scene& s, ThreadPool& pool, Energies& e) 
   pool.run(static_cast<int>(of.size()),
            [&](int i) { of[at(i)] = energy_of(s, s.group_blocks[at(i)]); });
   for (const MembraneEnergy& block : of)
-    e.fibre += block.fibre, e.shear += block.shear;
+    e.fibre += block.fibre, e.shear += block.shear, e.stitch += block.stitch;
   for (std::size_t b = 0; b < of.size(); ++b)
-    e.damping += lost(s, b);
+    e.damping += lost(s, b), e.stitch_breaking += torn(s, b);
 }
 
 double ElementForces::elastic(const Scene& s, std::size_t ply) {
@@ -72,7 +75,7 @@ double ElementForces::elastic(const Scene& s, std::size_t ply) {
   for (const Block& block : s.group_blocks)
     if (at(block.ply) == ply) {
       const MembraneEnergy m = energy_of(s, block);
-      sum += m.fibre + m.shear;
+      sum += m.fibre + m.shear + m.stitch;
     }
   return sum;
 }

@@ -96,6 +96,10 @@ struct ElementForces : NoForce {
   static double lost(const Scene& s, std::size_t block) {
     return s.group_sums[block] + s.group_lost[block];
   }
+  /// N mm, likewise: what its stitches had stored when they broke.
+  static double torn(const Scene& s, std::size_t block) {
+    return s.torn_sums[block] + s.group_torn[block];
+  }
   /// Elastic energy of one ply, N mm.
   static double elastic(const Scene& s, std::size_t ply);
 };

@@ -40,7 +40,8 @@ void set_frequency(const Case& data, PlyBody& body) {
   const double omega = std::sqrt(body.bound.omega2);
   // eta = 2 xi C / omega: fraction xi of critical for the stiffest mode of the mesh
   for (MembraneFamily& family : body.membrane.families)
-    family.viscosity = 2.0 * data.solver.fibre_damping * family.yarn.largest_slope() / omega;
+    if (!family.stitch)
+      family.viscosity = 2.0 * data.solver.fibre_damping * family.yarn.largest_slope() / omega;
   body.bound = eigenvalue_bound(body.membrane, body.x); // with viscosity
 }
 
@@ -206,7 +207,7 @@ void set_reach(const Case& data, std::vector<PlyBody>& plies) {
     PlyBody& ply = plies[p];
     ply.stack = ahead.stack[p];
     ply.stacked = ahead.plies_in_stack(p) > 1;
-    ply.left_alone = any_moves && !ahead.ply_moves[p];
+    ply.left_alone = any_moves && !ahead.ply_moves[p] && !has_pretension(ply.membrane.fabric);
     ply.self_contact = data.contact.self == SelfContact::on ||
                        (data.contact.self == SelfContact::automatic && ply.stacked);
     ply.convex = ply.self_contact && is_convex(ply.x0, ply.membrane.triangles);
@@ -355,7 +356,7 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   make_attachments(s);
   s.boundaries.resize(data.boundaries.size());
   s.group_sums.assign(s.group_blocks.size(), 0.0);
-  s.group_lost = s.group_sums;
+  s.group_lost = s.torn_sums = s.group_torn = s.group_sums;
   s.group_collapsed.assign(s.group_blocks.size(), 0);
   s.node_sums.assign(s.node_blocks.size(), {});
   return s;

@@ -194,6 +194,7 @@ struct SceneProgress {
   double mass_scaling_work = 0.0;  ///< N mm, kinetic energy of the mass added, since the start
   double largest_added_mass = 0.0; ///< of the mass of any ply, at any time
   std::vector<double> group_sums;  ///< N mm, lost by yarns in the steps taken, one per group block
+  std::vector<double> torn_sums;   ///< likewise, that stitches had stored when they broke
   long searches = 0;               ///< number of contact searches so far
 };
 
@@ -201,7 +202,7 @@ template <class F>
 void each_member(SceneProgress& progress, F&& f) {
   auto& [time, step, dt, next_dt, stable_dt, min_dt, max_dt, bound_displacement, time_step_gain,
          next_lanczos, start_energy, mass_damping_work, mass_scaling_work, largest_added_mass,
-         group_sums, searches] = progress;
+         group_sums, torn_sums, searches] = progress;
   f("time", time);
   f("step", step);
   f("dt", dt);
@@ -217,6 +218,7 @@ void each_member(SceneProgress& progress, F&& f) {
   f("mass_scaling_work", mass_scaling_work);
   f("largest_added_mass", largest_added_mass);
   f("group_sums", group_sums);
+  f("torn_sums", torn_sums);
   f("searches", searches);
 }
 
@@ -224,6 +226,7 @@ void each_member(SceneProgress& progress, F&& f) {
 struct SceneWorkspace {
   std::vector<SurfaceKinematics> ply_states; ///< views of the plies
   std::vector<double> group_lost;    ///< N mm, the same in the step computed, until it is taken
+  std::vector<double> group_torn;    ///< N mm, likewise
   std::vector<char> group_collapsed; ///< whether a triangle has collapsed, one per group block
   std::vector<NodeSums> node_sums;   ///< one per node block
   std::vector<std::vector<int>> force_shares; ///< of the tasks of forces, one share a thread

@@ -113,7 +113,7 @@ Fabric fabric_for_fit(const std::filesystem::path& file, FabricNeeds needs) {
     if (needs.shear_law && missing == "shear")
       wrong("shear", "is missing", "give the law of shear, or identify it from a measured curve");
   if (reading.value && !is_weave(*reading.value))
-    wrong("law", "must be woven: the tests are of warp and weft",
+    wrong("law", "must be woven, without stitches: the tests are of warp and weft",
           "write the laws of other fabrics in by hand");
   else if (needs.right_angle && reading.value &&
            !(std::abs(material_axes(*reading.value).between() - 0.5 * std::numbers::pi) < 1e-6))

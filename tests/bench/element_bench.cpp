@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The element: forces of all triangles and their sums at the nodes, plain and averaged, on the same
-// mesh, squares of one diagonal with the yarns at 22.5 degrees to them.
+// mesh, squares of one diagonal with the yarns at 22.5 degrees to them; of a weave, and of one with
+// one or two directions of stitches that may break.
 #include "tests/bench/element_traffic.hpp"
 
 #include <benchmark/benchmark.h>
@@ -10,38 +11,44 @@
 namespace plyform {
 namespace {
 
-Fabric glass() {
+Fabric glass(std::int64_t stitches) {
   Fabric f = woven_fabric();
   f.families[0].tension.stiffness = 46000.0;
   f.families[1].tension.stiffness = 48000.0;
   f.families[0].density = f.families[1].density = 0.25;
   f.crossings[0].shear.k = {0.37044, 0.84105, 1.03113};
   f.surface_density = 6e-10;
+  for (std::int64_t i = 0; i < stitches; ++i) {
+    Stitch& s = f.stitches.emplace_back();
+    s.angle = 0.6 + 0.5 * static_cast<double>(i), s.density = 0.2;
+    s.law.tension.stiffness = 30.0, s.law.breaking_force = 8.0;
+  }
   return f;
 }
 
 struct Sheet {
   std::int64_t cells = 0;
   bool averaged = false;
+  std::int64_t stitches = 0; ///< directions
   Membrane m;
   std::vector<Vec3> x0, x; ///< x: sheared by some degrees, wavy, taut in waves
   std::vector<Vec3> force;
 };
 
 /// 2 cells^2 triangles; the last one asked for is kept, since benchmarks run several times.
-Sheet& sheet(std::int64_t cells, bool averaged) {
+Sheet& sheet(std::int64_t cells, bool averaged, std::int64_t stitches = 0) {
   static Sheet s;
-  if (s.cells == cells && s.averaged == averaged) return s;
+  if (s.cells == cells && s.averaged == averaged && s.stitches == stitches) return s;
   s = {};
-  s.cells = cells, s.averaged = averaged;
+  s.cells = cells, s.averaged = averaged, s.stitches = stitches;
   BlankSpec blank;
   blank.outline.boundary = {{0, 0}, {300, 0}, {300, 300}, {0, 300}};
   blank.element_size = 300.0 / static_cast<double>(cells);
   const BlankMesh mesh = mesh_blank(blank, 0.0, 0.5 * std::numbers::pi);
-  s.m = make_membrane(mesh, glass(), std::numbers::pi / 8.0,
+  s.m = make_membrane(mesh, glass(stitches), std::numbers::pi / 8.0,
                       averaged ? ElementKind::averaged : ElementKind::plain);
   for (MembraneFamily& family : s.m.families)
-    family.viscosity = 1e-3;
+    family.viscosity = family.stitch ? 0.0 : 1e-3;
   for (const Vec2& p : mesh.x) {
     s.x0.emplace_back(p.x(), p.y(), 0.0);
     s.x.emplace_back(p.x() + 0.2 * p.y() + 0.01 * std::sin(0.3 * p.y()), p.y() + 0.1 * p.x(),
@@ -88,6 +95,25 @@ void ElementSimd(benchmark::State& state) {
 BENCHMARK(ElementSimd)
     ->ArgNames({"cells", "averaged"})
     ->ArgsProduct({{50, 158, 500, 1581}, {0, 1}})
+    ->Unit(benchmark::kMicrosecond);
+
+/// The same of a weave with so many directions of stitches.
+void ElementStitched(benchmark::State& state) {
+  Sheet& s = sheet(50, state.range(1) != 0, state.range(0));
+  MembraneSimd simd = make_membrane_simd(s.m, s.x0);
+  std::vector<SimdYarnStates> states = states_at_start(simd, s.m), end = states;
+  for (auto _ : state) {
+    for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b)
+      simd_forces(simd, s.m, s.x, 1e-6, b, {states, end});
+    for (std::size_t n = 0; n < s.x.size(); ++n)
+      s.force[n] = simd_force(simd, n);
+    benchmark::DoNotOptimize(s.force.data());
+  }
+  count_elements(state, s);
+}
+BENCHMARK(ElementStitched)
+    ->ArgNames({"stitches", "averaged"})
+    ->ArgsProduct({{0, 1, 2}, {0, 1}})
     ->Unit(benchmark::kMicrosecond);
 
 /// One triangle after the other, the oracle of the above.

@@ -70,7 +70,7 @@ inline Frame frame(double time) {
     f.plies[1].reaction.push_back(time * Vec3(static_cast<double>(i), 0.25, -3.0));
   f.boundaries = {{"grip", 8 * time, 70 * time, {70 * time, -7 * time, 0.5 * time}},
                   {"clamp", 0, -9 * time, {-9 * time, 0, 11 * time}}};
-  f.energy = {1 * time, 2 * time, 3 * time, 0, 4 * time, 5 * time, 6 * time, 20 * time};
+  f.energy = {1 * time, 2 * time, 3 * time, 0, 0, 4 * time, 5 * time, 6 * time, 0, 20 * time};
   return f;
 }
 

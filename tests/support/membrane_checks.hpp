@@ -104,6 +104,48 @@ inline Fabric stitched() {
   return f;
 }
 
+/// A biaxial fabric of yarns at +-45 degrees to the ply's angle, held together by stitches: none.
+inline Fabric biaxial() {
+  Fabric f = glass_weave();
+  f.families[0].angle = -0.25 * std::numbers::pi;
+  f.families[1].angle = 0.25 * std::numbers::pi;
+  return f;
+}
+
+/// Stitches in one direction (rad).
+inline Stitch stitch_at(double angle, double stiffness, double taut_at = 0.0) {
+  Stitch s;
+  s.name = "stitch";
+  s.angle = angle;
+  s.density = 0.2;
+  s.law.tension.stiffness = stiffness;
+  s.law.taut_at = taut_at;
+  return s;
+}
+
+/// It with stitches of all kinds: a pillar that is taut, a zigzag with a table that is slack and
+/// pulls, all so stiff that they matter beside yarns.
+inline Fabric non_crimp(bool zigzag = true) {
+  Fabric f = biaxial();
+  f.families[1].tension.compression = 400.0;
+  f.stitches = {stitch_at(0.0, 3000.0)};
+  if (!zigzag) return f;
+  Stitch leg = stitch_at(0.6, 0.0, 0.02);
+  leg.law.tension.strain = {0.0, 0.05, 0.2}, leg.law.tension.tension = {0.0, 90.0, 900.0};
+  f.stitches.push_back(leg);
+  leg.angle = -0.6, leg.law.taut_at = -0.03;
+  f.stitches.push_back(leg);
+  return f;
+}
+
+/// It with stitches that break one after the other.
+inline Fabric breaking(bool zigzag) {
+  Fabric f = non_crimp(zigzag);
+  for (Stitch& s : f.stitches)
+    s.law.breaking_force = 250.0;
+  return f;
+}
+
 /// A sheet without yarns.
 inline Fabric foil() {
   Fabric f;
@@ -193,7 +235,7 @@ inline double largest_norm(const std::vector<Vec3>& vectors) {
 
 inline double energy_of(const Membrane& m, const std::vector<Vec3>& x) {
   const MembraneEnergy e = membrane_energy(m, x);
-  return e.fibre + e.shear;
+  return e.fibre + e.shear + e.stitch;
 }
 
 /// Largest difference between the forces and minus the central difference of the energy, over the

@@ -76,16 +76,16 @@ private:
   /// places of its corners.
   struct PlaneState {
     double area, gamma;
-    std::array<double, 2> lambda;
-    std::array<Vec6, 2> by_lambda;
-    std::array<Mat6, 2> bend_lambda;
+    std::array<double, most_families> lambda; ///< of the yarns, then of stitches
+    std::array<Vec6, most_families> by_lambda;
+    std::array<Mat6, most_families> bend_lambda;
     Vec6 by_gamma;
     Mat6 bend_gamma;
   };
 
   double total_energy(const std::vector<Vec3>& x) const {
     const MembraneEnergy e = membrane_energy(m, x);
-    return e.fibre + e.shear + (bending ? bending_energy(*bending, x) : 0.0);
+    return e.fibre + e.shear + e.stitch + (bending ? bending_energy(*bending, x) : 0.0);
   }
 
   Eigen::VectorXd forces(const std::vector<Vec3>& x) {
@@ -110,19 +110,19 @@ private:
     const int begin = m.group_begin[p], size = m.group_begin[p + 1] - begin;
     std::vector<PlaneState> t;
     double area = 0.0;
-    std::array<double, 2> mean{};
+    std::array<double, most_families> mean{};
     for (int e = begin; e < begin + size; ++e) {
       t.push_back(plane_state(x, e));
       area += t.back().area;
-      for (std::size_t a = 0; a < 2; ++a)
+      for (std::size_t a = 0; a < m.families.size(); ++a)
         mean[a] += t.back().area * t.back().lambda[a];
     }
     for (double& value : mean)
       value /= area;
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6 * size, 6 * size);
-    for (std::size_t a = 0; a < 2; ++a) {
-      const double d = a == 0 ? m.fabric.families[0].density : m.fabric.families[1].density;
-      const LawPoint yarn = m.families[a].yarn.at(mean[a] - 1.0);
+    for (std::size_t a = 0; a < m.families.size(); ++a) {
+      const double d = m.families[a].density;
+      const LawPoint yarn = m.families[a].elastic(mean[a] - 1.0);
       Eigen::VectorXd g = Eigen::VectorXd::Zero(6 * size);
       for (int i = 0; i < size; ++i) {
         const PlaneState& s = t[i];
@@ -142,7 +142,7 @@ private:
 
   /// n_c A0 Ws(g) and the s_a of triangle i of a patch; the guard, slack here, is left out.
   void add_shear(const std::vector<PlaneState>& t, int triangle, double area,
-                 const std::array<double, 2>& mean, Eigen::MatrixXd& k) const {
+                 const std::array<double, most_families>& mean, Eigen::MatrixXd& k) const {
     const auto i = static_cast<std::size_t>(triangle);
     const PlaneState& s = t[i];
     constexpr double beta = deviation_weight;
@@ -201,16 +201,21 @@ private:
     const AxesState f = axes_state(m, x, triangle);
     PlaneState s;
     s.area = m.area[e];
-    s.lambda = {f.lambda1, f.lambda2};
     // axes_state has no sign of the angle beyond 0 to 180 degrees, which is all that occurs
     s.gamma = f.gamma;
     s.by_gamma.setZero();
     s.bend_gamma.setZero();
     const double turn = f.f1.cross(f.f2).z() > 0.0 ? 1.0 : -1.0; // weft to the left of warp
-    for (std::size_t a = 0; a < 2; ++a) {
-      const std::array<double, 3> shape = a == 0 ? std::array{-c.c11 - c.c12, c.c11, c.c12}
-                                                 : std::array{-c.c21 - c.c22, c.c21, c.c22};
-      const Vec2 along = (a == 0 ? f.f1 : f.f2).head<2>(), across(-along.y(), along.x());
+    for (std::size_t a = 0; a < m.families.size(); ++a) {
+      const Vec2& of_axes = m.families[a].along;
+      const auto in_axes = [&](double c1, double c2) {
+        return of_axes.x() * c1 + of_axes.y() * c2;
+      };
+      const std::array<double, 3> shape{in_axes(-c.c11 - c.c12, -c.c21 - c.c22),
+                                        in_axes(c.c11, c.c21), in_axes(c.c12, c.c22)};
+      const FamilyState yarn = family_state(f, of_axes);
+      s.lambda[a] = yarn.lambda;
+      const Vec2 along = yarn.f.head<2>(), across(-along.y(), along.x());
       Vec6 u, v;
       for (std::size_t k = 0; k < 3; ++k) {
         u.segment<2>(static_cast<Eigen::Index>(2 * k)) = shape[k] * along;
@@ -218,6 +223,7 @@ private:
       }
       s.by_lambda[a] = u;
       s.bend_lambda[a] = s.lambda[a] * v * v.transpose();
+      if (a > 1) continue;                              // stitches cross nothing
       const double sign = turn * (a == 0 ? 1.0 : -1.0); // gamma falls with the weft's direction
       s.by_gamma += sign * v;
       s.bend_gamma -= sign / s.lambda[a] * (u * v.transpose() + v * u.transpose());

@@ -17,7 +17,10 @@ WALKS = {"mean": NUMBER, "spread": NUMBER, "directions_deg": FOUR, "each": FOUR}
 BODY = {"name": TEXT, "force_N": NUMBER, "force_raw_N": NUMBER, "displacement_mm": NUMBER,
         "force_known_to_s": NUMBER}
 FIGURE = {"name": TEXT, "unit": TEXT, "value": NUMBER, "band": NUMBER}
-PLY = {"name": TEXT, "wrinkle_at_mm": POINT, "excess_length_at_mm": POINT, "no_draw_in": TEXT,
+STITCH = {"name": TEXT, "largest_broken_patch_at_mm": POINT,
+          **dict.fromkeys(("broken_length_share", "broken_area_mm2", "largest_broken_patch_mm2"),
+                          NUMBER)}
+PLY = {"name": TEXT, "stitches": (STITCH,), "wrinkle_at_mm": POINT, "excess_length_at_mm": POINT, "no_draw_in": TEXT,
        "draw_in_mm": {"mean": NUMBER, "largest": NUMBER}, "draw_in_yarns_mm": WALKS,
        "draw_in_bisectors_mm": WALKS,
        "openings": ({"family": TEXT, "at_mm": POINT,

@@ -78,6 +78,19 @@ void print_plausibility(const std::string& name, const PlyReport& ply) {
   }
 }
 
+/// Prints where the stitches of a ply are broken, a line each direction.
+void print_stitches(const std::string& name, const std::vector<BrokenStitches>& stitches) {
+  for (const BrokenStitches& s : stitches)
+    if (s.area > 0.0)
+      fmt::print(
+          "  {:16} {} broken on {:.3g} % of its length, {:.4g} mm2; the largest patch, {:.4g} "
+          "mm2, about ({:.0f}, {:.0f}, {:.0f}) mm\n",
+          name, s.name, 100.0 * s.share, s.area, s.patch_area, s.patch_at.x(), s.patch_at.y(),
+          s.patch_at.z());
+    else
+      fmt::print("  {:16} {} broken nowhere\n", name, s.name);
+}
+
 /// Prints the force of a tool, or of a gripper, spring or clamp.
 template <class Body>
 void print_force(const Body& body, const KnownForce& known) {
@@ -106,6 +119,8 @@ void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   }
   for (std::size_t p = 0; p < r.summary.plies.size(); ++p)
     print_plausibility(r.last.plies[p].name, r.summary.plies[p]);
+  for (std::size_t p = 0; p < r.summary.plies.size(); ++p)
+    print_stitches(r.last.plies[p].name, r.summary.plies[p].stitches);
   for (std::size_t t = 0; t < r.last.tools.size(); ++t)
     print_force(r.last.tools[t],
                 t < r.summary.known_forces.size() ? r.summary.known_forces[t] : KnownForce{});

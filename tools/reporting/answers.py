@@ -80,7 +80,7 @@ def sentence(text: str) -> str:
 
 def answers_of(run: Run, index: int) -> list[Answer]:
     found = [shear(run, index), wrinkles(run, index), force(run), pressed(run, index),
-             opening(run, index), drawn_in(run)]
+             opening(run, index), stitches(run, index), drawn_in(run)]
     return [answer for answer in [*found, accuracy(run)] if answer]
 
 
@@ -225,6 +225,25 @@ def opening(run: Run, index: int) -> Answer | None:
                   text, Place(index, k, nearest(ply, most["at_mm"]), f"{most['family']}-opening"),
                   bool(over), Markup("yarns of {} gape by {}&nbsp;%").format(
                       ply.name, percent(most["largest"], 1)))
+
+
+def stitches(run: Run, index: int) -> Answer | None:
+    found = [(k, one) for k, ply in enumerate(run.plies)
+             for one in run.summary_of(ply.name).get("stitches") or []]
+    if not found:
+        return None
+    k, most = max(found, key=lambda one: one[1].get("broken_length_share") or 0.0)
+    if not (share := most.get("broken_length_share")):
+        return Answer("Broken stitches", "none", "No stitch broke.")
+    ply, name = run.plies[k], most["name"]
+    at, patch = most["largest_broken_patch_at_mm"], most["largest_broken_patch_mm2"]
+    text = Markup("Most of {} in <b>{}</b>, on {}&nbsp;mm² of the flat ply; the largest patch, {}"
+                  "&nbsp;mm², is about {}.").format(
+        name, ply.name, number(most["broken_area_mm2"], 0), number(patch, 0), at_place(at))
+    return Answer("Broken stitches", Markup("{}&nbsp;%").format(number(100.0 * share, 1)), text,
+                  Place(index, k, nearest(ply, at), f"{name}-broken"), False,
+                  Markup("{}&nbsp;% of {} in {} is broken").format(
+                      number(100.0 * share, 1), name, ply.name))
 
 
 def drawn_in(run: Run) -> Answer | None:

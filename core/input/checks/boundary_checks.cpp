@@ -89,6 +89,24 @@ bool same_line(double a, double b) {
   return std::abs(std::sin(a - b)) < 1e-6;
 }
 
+/// Whether the mirror image of each direction of stitches has the same stitches. along: rad, of the
+/// plane.
+bool stitches_are_symmetric(const Ply& ply, const Fabric& fabric, double along) {
+  const auto same = [](const Stitch& a, const Stitch& b) {
+    return a.density == b.density && a.law.tension.stiffness == b.law.tension.stiffness &&
+           a.law.tension.strain == b.law.tension.strain &&
+           a.law.tension.tension == b.law.tension.tension && a.law.taut_at == b.law.taut_at &&
+           a.law.breaking_force == b.law.breaking_force;
+  };
+  const std::vector<Stitch>& all = fabric.stitches;
+  return std::all_of(all.begin(), all.end(), [&](const Stitch& stitch) {
+    return std::any_of(all.begin(), all.end(), [&](const Stitch& other) {
+      return same(stitch, other) &&
+             same_line(2.0 * along - ply.angle - stitch.angle, ply.angle + other.angle);
+    });
+  });
+}
+
 /// The fibre directions of each ply must be symmetric to the plane.
 void check_fibres(BoundaryCheck& check, std::size_t index) {
   const Boundary& boundary = check.scene.boundaries[index];
@@ -99,6 +117,12 @@ void check_fibres(BoundaryCheck& check, std::size_t index) {
     const Ply& ply = check.scene.plies[p];
     const Fabric& fabric = check.scene.fabrics[ply.fabric];
     if (!fabric.has_yarns()) continue;
+    if (!stitches_are_symmetric(ply, fabric, along))
+      check.fail(index,
+                 fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror image "
+                             "has the stitches in other directions",
+                             ply.name, ply.angle / degree),
+                 "model the whole blank");
     const auto image_is_family = [&](const YarnFamily& family, const YarnFamily& other) {
       return same_line(2.0 * along - ply.angle - family.angle, ply.angle + other.angle);
     };

@@ -4,6 +4,7 @@
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/schema_case.hpp"
 #include "core/input/keys/sheet_laws.hpp"
+#include "core/input/keys/stitch_keys.hpp"
 
 namespace plyform {
 
@@ -193,6 +194,7 @@ Rows fabric_rows() {
   append(rows, shear_rows("fabrics.NAME.shear"));
   append(rows, crimp_rows("fabrics.NAME.crimp", "warp and weft"));
   append(rows, family_rows());
+  append(rows, stitch_rows());
   append(rows, sheet_rows());
   return rows;
 }

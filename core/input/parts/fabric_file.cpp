@@ -8,6 +8,7 @@
 #include "core/input/keys/sheet_laws.hpp"
 #include "core/input/parts/case_parts.hpp"
 #include "core/input/parts/crimp_file.hpp"
+#include "core/input/parts/stitches.hpp"
 #include "core/input/parts/yarn_families.hpp"
 #include "core/model/fabric_estimates.hpp"
 
@@ -53,6 +54,7 @@ Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics
   else
     read_weave(section, fabric, diagnostics);
   read_twist(section, fabric, diagnostics);
+  read_stitches(section, fabric, diagnostics);
   return fabric;
 }
 

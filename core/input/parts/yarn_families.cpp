@@ -57,9 +57,7 @@ bool tension_only(const TableView& yarn, const TensionLaw& law) {
 TensionLaw read_tension(const TableView& yarn, Diagnostics& diagnostics) {
   TensionLaw law;
   read_members(yarn, law);
-  const std::vector<Vec2> points = pairs(yarn, "table");
-  check_law(yarn, "table", points, "tension", diagnostics);
-  split(points, law.strain, law.tension);
+  read_table(yarn, "table", law.strain, law.tension, diagnostics);
   if (const double most = law.largest_slope(); law.compression > most)
     value_error(yarn, "compression_stiffness",
                 fmt::format("must be at most the largest stiffness in tension, {:g}", most),
@@ -105,6 +103,13 @@ YarnSources sources_of(const TableView& yarn) {
 }
 
 } // namespace
+
+void read_table(const TableView& section, const std::string& key, std::vector<double>& strain,
+                std::vector<double>& force, Diagnostics& diagnostics) {
+  const std::vector<Vec2> points = pairs(section, key);
+  check_law(section, key, points, "tension", diagnostics);
+  split(points, strain, force);
+}
 
 namespace {
 

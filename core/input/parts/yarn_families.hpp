@@ -10,6 +10,10 @@ namespace plyform {
 /// A family from its table.
 YarnFamily read_family(const TableView& section, Diagnostics& diagnostics);
 
+/// Tension against strain from a table that starts at the origin and falls nowhere.
+void read_table(const TableView& section, const std::string& key, std::vector<double>& strain,
+                std::vector<double>& force, Diagnostics& diagnostics);
+
 /// A law of shear from its table.
 ShearLaw read_shear(const TableView& section, Diagnostics& diagnostics);
 

@@ -323,6 +323,26 @@ TEST(CaseFile, ReadsFabricsOfAnyNumberOfFamilies) {
   EXPECT_TRUE(film.sheet);
 }
 
+TEST(CaseFile, ReadsStitches) {
+  const Case c = good_case(data_folder / "good/stitches.toml");
+  const Fabric &pillar = c.fabrics.at(0), &zigzag = c.fabrics.at(1);
+  ASSERT_EQ(pillar.stitches.size(), 1u);
+  EXPECT_EQ(pillar.stitches[0].name, "stitch");
+  EXPECT_NEAR(pillar.stitches[0].angle, 0.25 * pi, 1e-15);
+  EXPECT_EQ(pillar.stitches[0].density, 0.2);
+  EXPECT_EQ(pillar.stitches[0].law.tension.stiffness, 30.0);
+  EXPECT_EQ(pillar.stitches[0].law.taut_at, 0.05);
+  EXPECT_EQ(pillar.stitches[0].law.breaking_force, 8.0);
+  ASSERT_EQ(zigzag.stitches.size(), 3u);
+  EXPECT_EQ(zigzag.stitches[0].name, "tricot_1");
+  EXPECT_EQ(zigzag.stitches[1].name, "tricot_2");
+  EXPECT_EQ(zigzag.stitches[2].name, "stitch_2");
+  EXPECT_NEAR(zigzag.stitches[1].angle, -pi / 6.0, 1e-15);
+  EXPECT_NEAR(zigzag.stitches[1].law.at(0.0).value, 4.0, 1e-12);
+  EXPECT_TRUE(std::isinf(zigzag.stitches[1].law.breaking_force));
+  EXPECT_EQ(zigzag.families.size(), 2u);
+}
+
 TEST(CaseFile, HasTheFabricsBending) {
   const Case c = good_case(data_folder / "good/bending.toml");
   const Fabric &line = c.fabrics.at(0), &table = c.fabrics.at(1), &warp_only = c.fabrics.at(2);

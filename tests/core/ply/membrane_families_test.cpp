@@ -11,7 +11,7 @@ namespace {
 /// One family, three, families without a crossing, none: all terms at once, pressed and pulled.
 TEST(Membrane, ForceIsMinusEnergyGradientForAnyNumberOfFamilies) {
   Random random(31);
-  for (const Fabric& fabric : {unidirectional(), triaxial(), stitched(), foil()})
+  for (const Fabric& fabric : {unidirectional(), triaxial(), stitched(), non_crimp(), foil()})
     for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged})
       for (const double stretch : {0.45, 0.8, 1.2}) {
         const BlankMesh mesh = irregular_mesh(random);

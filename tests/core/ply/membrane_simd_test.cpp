@@ -35,7 +35,7 @@ Fabric buckling_weave(bool table) {
 
 struct Sums {
   std::vector<Vec3> force;
-  double work = 0.0;
+  double work = 0.0, torn = 0.0;
   bool collapsed = false;
 };
 
@@ -44,7 +44,7 @@ Sums by_simd(MembraneSimd& simd, const Membrane& m, const std::vector<Vec3>& x, 
   Sums sums;
   for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b) {
     const GroupReport report = simd_forces(simd, m, x, dt, b, {states, states});
-    sums.work += report.lost;
+    sums.work += report.lost, sums.torn += report.torn;
     sums.collapsed |= report.collapsed;
   }
   for (std::size_t n = 0; n < x.size(); ++n)
@@ -56,7 +56,7 @@ Sums one_by_one(const Membrane& m, const std::vector<Vec3>& x, double dt,
                 std::vector<YarnMemory>& states) {
   std::vector<ElementForce> q(m.triangles.size());
   const GroupReport report = element_forces(m, x, dt, 0, m.groups(), {states, states}, q);
-  Sums sums{{}, report.lost, report.collapsed};
+  Sums sums{{}, report.lost, report.torn, report.collapsed};
   for (std::size_t n = 0; n < x.size(); ++n)
     sums.force.push_back(node_force(m, q, static_cast<int>(n)));
   return sums;
@@ -71,13 +71,16 @@ void expect_near(const Sums& fast, const Sums& slow) {
   for (std::size_t n = 0; n < slow.force.size(); ++n)
     ASSERT_LE((fast.force[n] - slow.force[n]).norm(), 1e-11 * largest) << n;
   EXPECT_NEAR(fast.work, slow.work, 1e-11 * std::abs(slow.work) + 1e-13);
+  EXPECT_NEAR(fast.torn, slow.torn, 1e-11 * slow.torn);
   EXPECT_EQ(fast.collapsed, slow.collapsed);
 }
 
 TEST(MembraneSimd, AgreeWithTheMembraneOneByOne) {
   Random random(11);
-  for (const Fabric& fabric : {glass_weave(), table_weave(), buckling_weave(false),
-                               buckling_weave(true), unidirectional(), triaxial(), stitched()})
+  double torn = 0.0;
+  for (const Fabric& fabric :
+       {glass_weave(), table_weave(), buckling_weave(false), buckling_weave(true), unidirectional(),
+        triaxial(), stitched(), breaking(false), breaking(true)})
     for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged})
       for (int i = 0; i < 20; ++i) {
         const BlankMesh mesh = irregular_mesh(random);
@@ -92,15 +95,19 @@ TEST(MembraneSimd, AgreeWithTheMembraneOneByOne) {
         for (const double dt : {0.0, 1e-5, 2e-5}) { // the state of the viscosity goes along
           const double stretch = i % 3 == 2 ? 0.85 : i % 3 ? 1.0 : 1.1;
           const std::vector<Vec3> x = random_state(mesh, stretch, 0.3, random);
-          expect_near(by_simd(simd, m, x, dt, of_packs), one_by_one(m, x, dt, of_groups));
+          const Sums fast = by_simd(simd, m, x, dt, of_packs);
+          expect_near(fast, one_by_one(m, x, dt, of_groups));
+          torn += fast.torn;
         }
       }
+  EXPECT_GT(torn, 0.0);
 }
 
 /// A force that is asked for twice, as a line search does, is the same, and no step is taken.
 TEST(MembraneSimd, EvaluatingTwiceIsHarmless) {
   Random random(21);
-  for (const Fabric& fabric : {glass_weave(), table_weave(), buckling_weave(true), triaxial()}) {
+  for (const Fabric& fabric : {glass_weave(), table_weave(), buckling_weave(true), triaxial(),
+                               breaking(false), breaking(true)}) {
     const BlankMesh mesh = irregular_mesh(random);
     Membrane m = make_membrane(mesh, fabric, 0.4, ElementKind::averaged);
     set_viscosity(m, {0.02, 0.03, 0.01});
@@ -112,7 +119,7 @@ TEST(MembraneSimd, EvaluatingTwiceIsHarmless) {
     const auto evaluate = [&](const std::vector<Vec3>& x) {
       const GroupReport report = simd_forces(simd, m, x, 1e-5, 0, {begin, end});
       EXPECT_EQ(simd.blocks.size(), 1u);
-      return std::pair(report.lost, simd_force(simd, 3));
+      return std::pair(report.lost + report.torn, simd_force(simd, 3));
     };
     evaluate(random_state(mesh, 1.05, 0.1, random));
     begin.swap(end); // a step is taken
@@ -135,8 +142,8 @@ TEST(MembraneSimd, EnergyAgreesWithTheMembraneOneByOne) {
   Random random(12);
   Fabric long_law = glass_weave(); // a polynomial longer than the kernel's own
   long_law.crossings[0].shear.k.assign(most_shear_terms + 1, 0.1);
-  for (const Fabric& fabric :
-       {glass_weave(), table_weave(), long_law, buckling_weave(false), buckling_weave(true)})
+  for (const Fabric& fabric : {glass_weave(), table_weave(), long_law, buckling_weave(false),
+                               buckling_weave(true), breaking(false), breaking(true)})
     for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged})
       for (int i = 0; i < 20; ++i) {
         const BlankMesh mesh = irregular_mesh(random);
@@ -147,13 +154,14 @@ TEST(MembraneSimd, EnergyAgreesWithTheMembraneOneByOne) {
         MembraneEnergy sum;
         for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b) {
           const MembraneEnergy e = simd_energy(simd, m, x, 0.0, b, states_at_start(simd, m));
-          sum.fibre += e.fibre, sum.shear += e.shear;
+          sum.fibre += e.fibre, sum.shear += e.shear, sum.stitch += e.stitch;
         }
         const MembraneEnergy slow = membrane_energy(m, x);
         ASSERT_GT(slow.fibre, 0.0);
         ASSERT_GT(slow.shear, 0.0);
         EXPECT_NEAR(sum.fibre, slow.fibre, 1e-12 * slow.fibre); // sums of positive terms
         EXPECT_NEAR(sum.shear, slow.shear, 1e-12 * slow.shear);
+        EXPECT_NEAR(sum.stitch, slow.stitch, 1e-12 * slow.stitch);
       }
 }
 
@@ -211,6 +219,7 @@ struct KernelRun {
 
   void expect_same(const KernelRun& other) const {
     EXPECT_EQ(report.lost, other.report.lost);
+    EXPECT_EQ(report.torn, other.report.torn);
     EXPECT_EQ(report.collapsed, other.report.collapsed);
     EXPECT_EQ(std::memcmp(force, other.force, sizeof force), 0);
     EXPECT_EQ(std::memcmp(viscosity.data(), other.viscosity.data(),
@@ -218,6 +227,7 @@ struct KernelRun {
               0);
     EXPECT_EQ(energy.fibre, other.energy.fibre);
     EXPECT_EQ(energy.shear, other.energy.shear);
+    EXPECT_EQ(energy.stitch, other.energy.stitch);
   }
 };
 
@@ -237,8 +247,9 @@ void energies_of_shear(const KernelLaw&, int crossing, const double* gamma, cons
     energy[i] = measure2[i] * (1.0 + 0.1 * gamma[i] + crossing);
 }
 
-/// Laws of a weave, by turns with yarns that buckle or have crimp, or of three families, one of
-/// them askew, with two crossings and a sheet.
+/// Laws of a weave, by turns with yarns that buckle or have crimp and with none to two directions
+/// of stitches that break, or of three families, one of them askew, with two crossings, a sheet and
+/// three directions of stitches.
 KernelLaw kernel_law(int number) {
   constexpr double never = std::numeric_limits<double>::infinity();
   static const ShearInterval intervals[4] = {{0}, {0}, {1}, {1}}; // of 0.3 rad
@@ -251,17 +262,24 @@ KernelLaw kernel_law(int number) {
   KernelLaw law{};
   law.weave = number % 3 != 0;
   law.families = law.weave ? 2 : 3, law.crossings = law.weave ? 1 : 2, law.beta = 8.0;
-  for (int a = 0; a < 3; ++a)
-    law.yarns[a] = {{a == 0 ? 1.0 : -0.4 * (a - 1), a == 0 ? 0.0 : 1.0},
-                    115.0,
-                    0.0,
-                    2.5e-4,
-                    0.0025,
-                    0.025,
-                    false,
-                    0.0,
-                    0.0};
-  if (number % 2) law.yarns[1] = {{0.0, 1.0}, 115.0, 40.0, 2.5e-4, 0.0025, 0.025, true, 0.2, 39.6};
+  for (int a = 0; a < 3; ++a) {
+    KernelYarns& yarns = law.yarns[a];
+    yarns.along[0] = a == 0 ? 1.0 : -0.4 * (a - 1), yarns.along[1] = a == 0 ? 0.0 : 1.0;
+    yarns.stiffness = 115.0, yarns.viscosity = 2.5e-4;
+    yarns.stabilisation = 0.0025, yarns.collapse_penalty = 0.025;
+  }
+  if (number % 2) {
+    KernelYarns& yarns = law.yarns[1];
+    yarns.along[0] = 0.0, yarns.compression = 40.0;
+    yarns.buckles = true, yarns.buckling_strain = 0.2, yarns.buckling_drop = 39.6;
+  }
+  law.stitches = law.weave ? number / 3 % 3 : 3;
+  for (int a = law.families; a < law.families + law.stitches; ++a) {
+    KernelYarns& stitches = law.yarns[a];
+    stitches.along[0] = 0.7, stitches.along[1] = 0.3 * (a - 1);
+    stitches.stiffness = 30.0, stitches.taut_at = 1.0 + 0.1 * (a - 2);
+    stitches.breaks = a % 2 == 0, stitches.breaking = 20.0;
+  }
   law.side_cubic = 0.48;
   law.crossing[0] = {0, 1,   0.1,   1.0, {0.022, 0.05, 0.062}, 3, false, {}, nullptr, nullptr,
                      0, 0.0, false, {}};
@@ -307,10 +325,10 @@ TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
     const std::int32_t nodes[6] = {0, 1, 2, 3, 4, 5};
     SimdYarnStates state{};
     for (std::size_t lane = 0; lane < simd_width; ++lane)
-      state.of[0][lane] = 1.0, state.of[1][lane] = 0.1;
+      state.of[0][lane] = lane % 2 ? 1.0 : 0.0, state.of[1][lane] = 0.1; // of stitches: broken
     const auto run = [&](auto* forces, auto* energy) {
       KernelRun r;
-      r.viscosity.assign(at(law.families * (pairs + singles)), state);
+      r.viscosity.assign(at((law.families + law.stitches) * (pairs + singles)), state);
       const KernelBlock block{nodes, 6,       t.data(), r.viscosity.data(), r.viscosity.data(),
                               pairs, singles, r.force};
       r.report = forces(block, law, x, 1e5);

@@ -39,10 +39,10 @@ int in_child(Action action) {
 
 TEST(Energies, BalanceErrorIsTheSumOverTheLargestTerm) {
   EXPECT_EQ(Energies{}.balance_error(), 0);
-  // 1+2+3+7+4+5+6-27 = 1 over 27
-  EXPECT_DOUBLE_EQ((Energies{1, 2, 3, 7, 4, 5, 6, 27}.balance_error()), 1.0 / 27.0);
-  EXPECT_DOUBLE_EQ((Energies{0, 0, 0, 0, 0, 0, 0, -4}.balance_error()), 1);
-  EXPECT_TRUE(std::isnan(Energies{1, nan_value, 1, 1, 1, 1, 1, 1}.balance_error()));
+  // 1+2+3+8+7+4+5+6+9-44 = 1 over 44
+  EXPECT_DOUBLE_EQ((Energies{1, 2, 3, 8, 7, 4, 5, 6, 9, 44}.balance_error()), 1.0 / 44.0);
+  EXPECT_DOUBLE_EQ((Energies{0, 0, 0, 0, 0, 0, 0, 0, 0, -4}.balance_error()), 1);
+  EXPECT_TRUE(std::isnan(Energies{1, nan_value, 1, 1, 1, 1, 1, 1, 1, 1}.balance_error()));
 }
 
 TEST_F(Results, AFinishedRunLeavesTheseFilesAndNoOthers) {

@@ -113,7 +113,8 @@ FabricReading fabric_of(const std::string& file, bool for_shear, Diagnostics& di
   if (!reading.value) return reading;
   const double between = material_axes(*reading.value).between();
   if (!is_weave(*reading.value))
-    diagnostics.error({file, 1, 1}, "law", "", "must be woven: the tests are of warp and weft",
+    diagnostics.error({file, 1, 1}, "law", "",
+                      "must be woven, without stitches: the tests are of warp and weft",
                       "write the laws of other fabrics in by hand");
   else if (for_shear && std::abs(between - 0.5 * std::numbers::pi) > 1e-6)
     diagnostics.error({file, 1, 1}, "fibre_angle", fmt::format("{:g}", between / degree),

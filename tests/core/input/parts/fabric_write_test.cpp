@@ -131,6 +131,31 @@ TEST(FabricWrite, KeepsCommentsButThoseOfTheOldLaw) {
   EXPECT_EQ(text, with_law(text, polynomial)); // written once more it stays
 }
 
+TEST(FabricWrite, KeepsStitches) {
+  const Folder folder;
+  const std::string stitched = std::string(spellings[0]) + R"(
+[[stitch]]
+direction = 45.0
+density = 0.2
+table = [[0.0, 0.0], [0.1, 3.0]]
+slack = 0.02
+[[stitch]] # a zigzag
+name = "tricot"
+pattern = "tricot"
+directions = [30, -30]
+density = 0.1
+stiffness = 20.0
+breaking_force = 5.0
+)";
+  const Fabric fabric = in_a_case(folder, with_law(stitched, polynomial));
+  ASSERT_EQ(fabric.stitches.size(), 3u);
+  EXPECT_EQ(fabric.stitches[0].law.tension.tension, (std::vector<double>{0.0, 3.0}));
+  EXPECT_EQ(fabric.stitches[0].law.taut_at, 0.02);
+  EXPECT_EQ(fabric.stitches[2].name, "tricot_2");
+  EXPECT_EQ(fabric.stitches[2].law.breaking_force, 5.0);
+  EXPECT_EQ(fabric.crossings[0].shear.k, (std::vector<double>{0.5, 0.25}));
+}
+
 TEST(FabricWrite, RefusesWhatIsNoToml) {
   EXPECT_THROW(with_law("name = ", polynomial), std::invalid_argument);
 }
