@@ -15,13 +15,12 @@ namespace {
 using Settings = std::vector<std::pair<std::string, std::string>>;
 
 /// A round punch with a flat end in the place of the sphere.
-const Settings cone{
-    {"tool.punch.shape", "\"cone\""},   {"tool.punch.radius", "25.0"},
-    {"tool.punch.top_radius", "75.0"},  {"tool.punch.length", "90.0"},
-    {"tool.punch.edge_radius", "20.0"}, {"tool.punch.position", "[0.0, 0.0, 45.34]"}};
+const Settings cone{{"tool.0.shape", "\"cone\""},   {"tool.0.radius", "25.0"},
+                    {"tool.0.top_radius", "75.0"},  {"tool.0.length", "90.0"},
+                    {"tool.0.edge_radius", "20.0"}, {"tool.0.position", "[0.0, 0.0, 45.34]"}};
 
 Frame formed(double angle, Settings settings) {
-  settings.emplace_back("ply.ply.angle", fmt::format("{}", angle));
+  settings.emplace_back("ply.0.angle", fmt::format("{}", angle));
   const PreparedCase reading =
       prepare_case(std::string(PLYFORM_CASES) + "/hemisphere_ud/case.toml", settings);
   for (const CaseError& error : reading.errors)
