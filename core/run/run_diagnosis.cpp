@@ -89,13 +89,40 @@ std::vector<std::string> too_much(const Scene& s, const Energies& e, const WorkR
   return found;
 }
 
-/// The largest strain of any yarn, and the ply that has it.
-std::pair<double, std::string> longest_yarn(const Frame& last) {
+/// The larger elongation of the two yarns of a crimped cell in triangle e: what its strain has
+/// straightened does not count.
+double longest_of_cell(const Membrane& m, const MembraneCrossing& c, const PlyFrame& ply,
+                       std::size_t e) {
+  const std::array<double, 2> strain{ply.families[c.first].strain[e],
+                                     ply.families[c.second].strain[e]};
+  const CrimpedCell& cell = *c.crimp;
+  const double height =
+      answer_of(cell, strain, m.families[c.first].yarn, m.families[c.second].yarn).height;
+  const auto elongation = [&](std::size_t a, double of_wave) {
+    return std::hypot(cell.half_wave[a] * (1.0 + strain[a]), of_wave) / cell.length(a) - 1.0;
+  };
+  return std::max(elongation(0, height), elongation(1, cell.heights() - height));
+}
+
+/// The largest elongation of any yarn, and the ply that has it.
+std::pair<double, std::string> longest_yarn(const Scene& s, const Frame& last) {
   std::pair<double, std::string> found{0.0, ""};
-  for (const PlyFrame& ply : last.plies)
-    for (const FamilyFrame& family : ply.families)
-      for (const double strain : family.strain)
-        if (strain > found.first) found = {strain, ply.name};
+  const auto look_at = [&](double elongation, const std::string& ply) {
+    if (elongation > found.first) found = {elongation, ply};
+  };
+  for (const PlyFrame& ply : last.plies) {
+    std::vector<char> crimped(ply.families.size(), 0);
+    for (const PlyBody& body : s.plies)
+      for (const MembraneCrossing& c : body.membrane.crossings) {
+        if (body.name != ply.name || !c.crimp) continue;
+        crimped[c.first] = crimped[c.second] = 1;
+        for (std::size_t e = 0; e < ply.families[c.first].strain.size(); ++e)
+          look_at(longest_of_cell(body.membrane, c, ply, e), ply.name);
+      }
+    for (std::size_t a = 0; a < ply.families.size(); ++a)
+      for (const double strain : ply.families[a].strain)
+        if (!crimped[a]) look_at(strain, ply.name);
+  }
   return found;
 }
 
@@ -128,7 +155,7 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
     found.push_back(fmt::format("inertia: kinetic energy is {:.2g} of the shear energy at the end; "
                                 "a longer solver.duration makes it less",
                                 share));
-  const auto [strain, ply] = longest_yarn(last);
+  const auto [strain, ply] = longest_yarn(s, last);
   if (const double by = largest_softening(s, ply); by > 1.0 && strain > long_strain)
     found.push_back(fmt::format("tensile stiffness: yarns of {} are {:.2g} % longer, softened by "
                                 "{:g}; a smaller solver.fibre_softening makes it less",

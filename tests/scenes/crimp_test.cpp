@@ -5,6 +5,7 @@
 #include "support/stress_scenes.hpp"
 #include "support/thread_checks.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace plyform::crimp_test {
@@ -89,6 +90,22 @@ TEST(Crimp, StripOfFreeWeftHasAToe) {
     std::printf("strain %.4f: %.4g N per yarn, straight yarns have %.4g\n", eps, per_yarn,
                 straight);
     EXPECT_NEAR(per_yarn, straight, 0.01 * straight + 1e-3 * 46000.0 * eps);
+  }
+}
+
+/// A strain that straightens yarns does not make them longer: with softened yarns nothing is said
+/// of it, but of one that goes on from there.
+TEST(Crimp, WhatStraightensAYarnIsNoElongation) {
+  for (const double eps : {0.008, 0.0105}) {
+    Case data = biaxial(eps, std::nan(""));
+    data.solver.fibre_softening = 2.0;
+    const RunResult run = run_case(data, 1, {});
+    ASSERT_TRUE(ended(run.summary.status)) << run.summary.message;
+    const std::vector<std::string>& missing = run.summary.work.missing;
+    const bool told = std::any_of(missing.begin(), missing.end(), [](const std::string& line) {
+      return line.find("tensile stiffness") != std::string::npos;
+    });
+    EXPECT_EQ(told, eps > 0.01) << eps;
   }
 }
 
