@@ -24,7 +24,7 @@ public:
     return t;
   }
   void join(std::size_t a, std::size_t b) {
-    const auto [less, more] = std::minmax(of(a), of(b));
+    const auto [less, more] = std::minmax({of(a), of(b)}); // by value
     parent_[more] = less;
   }
 

@@ -262,7 +262,10 @@ void check_hold(const TableView& section, const Fabric& fabric, Diagnostics& dia
                     fabric.families.empty()
                         ? "is missing, and there are no yarns"
                         : "is missing, and nothing else holds against strain across the yarns",
-                    "give a [sheet], or a [[family]] in another direction");
+                    subsections(section, "stitch").empty()
+                        ? "give a [sheet], or a [[family]] in another direction"
+                        : "give a [sheet], or a [[family]] in another direction: stitches bear no "
+                          "compression, and break");
 }
 
 } // namespace

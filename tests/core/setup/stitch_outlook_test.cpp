@@ -23,12 +23,12 @@ TEST(StitchOutlook, SaysAtWhichShearAStrainIsReached) {
 /// Linear laws and a small angle: n_c k g = -n P / 2.
 TEST(StitchOutlook, FindsTheShearOfAFreePly) {
   Fabric f = biaxial();
-  f.crossings[0].shear.k = {10.0};
+  f.crossings[0].shear.k = {5.0};
   EXPECT_EQ(free_shear(f), 0.0);
   f.stitches = {stitch_at(0.0, 1e-3)};
   f.stitches[0].law.taut_at = -0.1 / 1e-3; // 0.1 N whatever the strain
   const double cells = f.families[0].density * f.families[1].density;
-  const double wanted = -0.2 * 0.1 / 2.0 / (cells * 10.0);
+  const double wanted = -0.2 * 0.1 / 2.0 / (cells * 5.0);
   EXPECT_NEAR(free_shear(f), wanted, 0.03 * std::abs(wanted));
   ASSERT_EQ(describe_stitches(f).size(), 2u);
   EXPECT_NE(describe_stitches(f)[0].find("pulls by 0.1 N"), std::string::npos);
