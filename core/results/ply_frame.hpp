@@ -57,6 +57,16 @@ struct Column : Description {
   bool may_lack = false;     ///< left out of the files of plies for which it is empty
 };
 
+/// The column of the opening between the yarns of a family.
+inline Column opening_column(const std::string& family) {
+  return {{family + "_opening", family + "-opening", "opening between " + family, "1", 3, 5e-6,
+           Scale::both_ways,
+           "change of the distance between neighbouring yarns; negative: closer together"},
+          Location::triangle,
+          "opening",
+          true};
+}
+
 /// The columns of stitches.
 template <class AnyStitch, class Visit>
 void each_stitch_column(AnyStitch& stitch, Visit&& visit) {
@@ -126,13 +136,7 @@ void each_column(AnyPly& ply, Visit&& visit) {
                  "tension"},
           family.tension);
   for (auto& family : ply.families)
-    visit(Column{{family.name + "_opening", family.name + "-opening",
-                  "opening between " + family.name, "1", 3, 5e-6, Scale::both_ways,
-                  "change of the distance between neighbouring yarns; negative: closer together"},
-                 Location::triangle,
-                 "opening",
-                 true},
-          family.opening);
+    visit(opening_column(family.name), family.opening);
   for (auto& stitch : ply.stitches)
     each_stitch_column(stitch, visit);
   visit(Column{{"thickness_mm", "thickness", "thickness", "mm", 3, 1e-5, Scale::whole,
