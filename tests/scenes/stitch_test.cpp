@@ -176,5 +176,67 @@ TEST(StitchScene, BreaksWhileItForms) {
   expect_the_same_after_kills(data, 3);
 }
 
+/// A ply of yarns at +-45 degrees over a hemisphere, with or without stitches along one axis.
+PlyFrame over_hemisphere(const std::vector<Stitch>& stitches) {
+  Case data = coarse_hemisphere({0.0});
+  data.fabrics = {biaxial()};
+  data.fabrics[0].stitches = stitches;
+  data.tools[0].stroke = 60.0;
+  const RunResult run = run_case(data, 2, {});
+  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+  return run.last.plies.at(0);
+}
+
+/// deg, mean magnitude of shear in the two sectors about x, and about y.
+std::pair<double, double> shear_about_axes(const PlyFrame& ply) {
+  const std::vector<double> areas = areas_before(ply);
+  Vec2 sum = Vec2::Zero(), area = Vec2::Zero();
+  for (std::size_t t = 0; t < ply.triangles.size(); ++t) {
+    Vec3 centre = Vec3::Zero();
+    for (const std::int32_t n : ply.triangles[t])
+      centre += ply.x0[at(n)] / 3.0;
+    const double nearer = std::abs(centre.x()) - std::abs(centre.y());
+    if (std::abs(nearer) < 1e-6) continue; // on the border of two sectors
+    const int axis = nearer > 0.0 ? 0 : 1;
+    sum[axis] += areas[t] * std::abs(ply.shear_deg[t]), area[axis] += areas[t];
+  }
+  return {sum.x() / area.x(), sum.y() / area.y()};
+}
+
+/// mm, rms over all nodes of how far the mirror image of `a` in the plane x = y is from b.
+double mirrored_off(const PlyFrame& a, const PlyFrame& b) {
+  double sum = 0.0;
+  for (std::size_t n = 0; n < a.x0.size(); ++n) {
+    const Vec3 image(a.x0[n].y(), a.x0[n].x(), 0.0);
+    const auto nearest =
+        std::min_element(b.x0.begin(), b.x0.end(), [&](const Vec3& p, const Vec3& q) {
+          return (p - image).head<2>().squaredNorm() < (q - image).head<2>().squaredNorm();
+        });
+    const Vec3& found = b.x[static_cast<std::size_t>(nearest - b.x0.begin())];
+    sum += (Vec3(a.x[n].y(), a.x[n].x(), a.x[n].z()) - found).squaredNorm();
+  }
+  return std::sqrt(sum / static_cast<double>(a.x0.size()));
+}
+
+/// Stitches along x are stretched where the ply is drawn in along x, and slack where it is along y:
+/// it shears less there, and more here. Those along y give the mirror image.
+TEST(StitchScene, SectorsOfAHemisphereShearAsTheStitchSays) {
+  const PlyFrame none = over_hemisphere({}), along_x = over_hemisphere({stitch_at(0.0, 10.0)}),
+                 along_y = over_hemisphere({stitch_at(0.5 * pi, 10.0)});
+  const auto [x, y] = shear_about_axes(none);
+  EXPECT_NEAR(x, y, 0.2);
+  const auto [stiff, soft] = shear_about_axes(along_x);
+  EXPECT_LT(stiff, 0.7 * x);
+  EXPECT_GT(soft, 1.04 * y);
+  const auto [mirrored_soft, mirrored_stiff] = shear_about_axes(along_y);
+  EXPECT_NEAR(mirrored_stiff, stiff, 0.2);
+  EXPECT_NEAR(mirrored_soft, soft, 0.2);
+  EXPECT_LT(mirrored_off(along_x, along_y), 0.5);
+  fmt::print("shear about x and y: {:.2f} and {:.2f} deg without, {:.2f} and {:.2f} with stitches "
+             "along x, {:.2f} and {:.2f} along y; mirror images {:.3f} mm off, without {:.3f}\n",
+             x, y, stiff, soft, mirrored_soft, mirrored_stiff, mirrored_off(along_x, along_y),
+             mirrored_off(none, none));
+}
+
 } // namespace
 } // namespace plyform::stitch_scene_test
