@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Do the tests see a fault of contact? Copies the sources, plants one fault after the other, builds
-# the short tests and runs those of contact:
+# Do the tests see a fault of contact, or of a law of cloth? Copies the sources, plants one fault after
+# the other, builds the short tests and runs those of contact and of laws:
 #   tests/planted_faults.sh [SCRATCH_FOLDER [REGEX]]
 #   tests/planted_faults.sh --places      only whether each fault has its place: a second
 # A folder that is given is kept, and the next call builds only what has changed; with REGEX only
@@ -39,8 +39,14 @@ faults=(
   "the stable step knows no couples of friction | contact/forces/contact_tangent.cpp | s/if (spring.across > 0.0)/if (spring.across < 0.0)/"
   "friction takes tools for standing still | contact/simd/tool_ply_kernel.cpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g)/"
   "friction takes tools to move the other way | contact/simd/tool_ply_kernel.cpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
+  "stitches push where they are slack | core/ply/membrane_simd_yarns.hpp | s/beyond = larger(all(0.0), stretch - law.taut_at)/beyond = stretch - law.taut_at/"
+  "broken stitches pull again | core/ply/membrane_simd_yarns.hpp | s/n\[a\] = (breaks | gone) ? all(0.0)/n[a] = breaks ? all(0.0)/"
+  "what broken stitches had stored is not lost | core/ply/membrane_simd_yarns.hpp | s/torn += (breaks \& ~gone) ? n\[a\] \* beyond : all(0.0);/torn += all(0.0);/"
+  "a law of shear of both signs is that of positive angles | core/model/shear_law.cpp | s/plus = at(g), minus = at(-g);/plus = at(g), minus{-plus.value, plus.slope, plus.energy};/"
+  "cells of crimp pull one family alone | core/model/crimp.cpp | s/a.tension \* a.cosine, b.tension \* b.cosine/a.tension * a.cosine, 0.0/"
+  "opening between yarns is the change of area | core/run/output_state.cpp | s/now \/ before \/ (1.0 + family.strain\[e\]) - 1.0/now \/ before - 1.0/"
 )
-filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeEdgeContact*'
+filter='*Contact*:*Oracle*:Candidates*:PointTriangle*:ToolShape*:MeshShape*:Profile*:Run.Carries*:Run.Needs*:Step.Driven*:CapstanScene*:SlopeScene*:MomentumScene*:Impact*:EdgeEdgeContact*:*Stitch*:*Shear*:*Crimp*:Families*:MembraneSimd*'
 
 # plant LINE: the fault's file with the fault in it, on standard output.
 plant() {
