@@ -39,13 +39,14 @@ set(public_headers
   core/model/crimp.hpp
   core/model/energies.hpp
   core/model/fabric.hpp
+  core/model/isotropic.hpp
   core/model/law_point.hpp
   core/model/monotone_curve.hpp
   core/model/shear_law.hpp
-  core/model/isotropic.hpp
   core/model/sheet_law.hpp
   core/model/sheet_response.hpp
   core/model/usual_ranges.hpp
+  core/results/broken_stitches.hpp
   core/results/description.hpp
   core/results/draw_in.hpp
   core/results/export.hpp

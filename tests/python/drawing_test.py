@@ -113,7 +113,7 @@ def check_pattern(folder):
     own."""
     turn = np.linspace(0, 2 * np.pi, 92, endpoint=False)
     outline = np.column_stack([100 * np.cos(turn), 60 * np.sin(turn)])
-    write_dxf(Pattern("ply", 30.0, outline, 0, 0, 0, 0, 0), folder / "pattern.dxf")
+    write_dxf(Pattern("ply", "warp", 30.0, outline, 0, 0, 0, 0, 0), folder / "pattern.dxf")
     refuse(folder, "pattern.dxf", "the outline is open: LINE ends at")
     expect(folder, "pattern.dxf", "200 x 120 mm, 0 holes, layer CUT, in mm", more='layer = "CUT"')
 
