@@ -85,11 +85,12 @@ Rows crimp_rows(const std::string& table, const std::string& families) {
                                                  : std::vector<std::string>{},
            .meaning = "crimp of the yarns: pulling one family straightens it and lifts the other; "
                       "stiffness or table of the yarns is then that of the straight yarn"},
-          {.key = table + ".excess_length",
+          {.key = table + ".ratio",
            .kind = K::numbers,
            .ranges = {{.least = 0.0, .most = 0.2}},
            .count = 2,
-           .meaning = "length of a yarn over the distance that it spans, less 1, of " + families},
+           .meaning =
+               "crimp: length of a yarn over the distance that it spans, less 1, of " + families},
           {.key = table + ".height",
            .kind = K::numbers,
            .unit = "mm",

@@ -9,7 +9,7 @@
 namespace plyform {
 namespace {
 
-constexpr const char* excess_key = "excess_length";
+constexpr const char* ratio_key = "ratio";
 constexpr const char* height_key = "height";
 
 using OfTwo = std::array<double, 2>;
@@ -35,22 +35,22 @@ struct CrimpReader {
   void check_room(const CrimpedCell& cell) const;
 };
 
-/// Reports a height without excess length, or the other way round.
+/// Reports a height without crimp, or the other way round.
 bool CrimpReader::waves_have_length(const OfTwo& height) const {
   for (std::size_t a = 0; a < 2; ++a) {
     if ((crimp[a] > 0.0) == (height[a] > 0.0)) continue;
     fail(height_key,
-         fmt::format("has {:g} mm for {}, whose excess length is {:g}: both are 0 of a straight "
+         fmt::format("has {:g} mm for {}, whose crimp is {:g}: both are 0 of a straight "
                      "yarn, and none of another",
                      height[a], name(a), crimp[a]),
          fmt::format("give {} a height of {:.3g}, that of a plain weave, or change its {}", name(a),
-                     slope(a) * spacing[a], excess_key));
+                     slope(a) * spacing[a], ratio_key));
     return false;
   }
   return true;
 }
 
-/// Spacings in half a wave, by heights and excess lengths; NaN if they cannot be.
+/// Spacings in half a wave, by heights and crimps; NaN if they cannot be.
 double CrimpReader::floats(const OfTwo& height) const {
   constexpr double rounding = 0.05; // of numbers from a microscope
   if (!waves_have_length(height)) return not_given;
@@ -66,7 +66,7 @@ double CrimpReader::floats(const OfTwo& height) const {
                      name(0), each[0], name(1), each[1]),
          fmt::format("with {:g} mm of {} the wave of {} is {:.3g} mm high; or change {}, or the "
                      "densities",
-                     height[0], name(0), name(1), each[0] * slope(1) * spacing[1], excess_key));
+                     height[0], name(0), name(1), each[0] * slope(1) * spacing[1], ratio_key));
     return not_given;
   }
   if (mean < 1.0 - rounding) {
@@ -75,7 +75,7 @@ double CrimpReader::floats(const OfTwo& height) const {
                      "yarn can go up and down at each of them at most",
                      mean),
          fmt::format("give [{:.3g}, {:.3g}], those of a plain weave, or less {}",
-                     slope(0) * spacing[0], slope(1) * spacing[1], excess_key));
+                     slope(0) * spacing[0], slope(1) * spacing[1], ratio_key));
     return not_given;
   }
   return std::max(mean, 1.0);
@@ -85,19 +85,19 @@ double CrimpReader::floats(const OfTwo& height) const {
 void CrimpReader::check_room(const CrimpedCell& cell) const {
   for (std::size_t a = 0; a < 2; ++a)
     if (cell.heights() >= cell.length(a))
-      return fail(excess_key,
+      return fail(ratio_key,
                   fmt::format("makes waves of {:.3g} and {:.3g} mm, and {} has only {:.3g} mm of "
                               "yarn between two crossings: it could not take both heights",
                               cell.height(0), cell.height(1), name(a), cell.length(a)),
                   "give less");
   constexpr double over = 1.5; // yarns bend and flatten; percentages for shares give ten times
-  const TomlNode* given_excess = given(section, excess_key);
-  if (!given_excess || !(cell.heights() > over * fabric.thickness)) return;
+  const TomlNode* given_ratio = given(section, ratio_key);
+  if (!given_ratio || !(cell.heights() > over * fabric.thickness)) return;
   diagnostics.warning(
-      given_excess->at,
+      given_ratio->at,
       fmt::format("{}: makes waves of {:.3g} and {:.3g} mm, and together they are about as high as "
-                  "a fabric is thick, here {:g} mm: excess lengths are shares of 1, no percentages",
-                  item_of(section, excess_key), cell.height(0), cell.height(1), fabric.thickness));
+                  "a fabric is thick, here {:g} mm: crimps are shares of 1, no percentages",
+                  item_of(section, ratio_key), cell.height(0), cell.height(1), fabric.thickness));
 }
 
 } // namespace
@@ -105,16 +105,16 @@ void CrimpReader::check_room(const CrimpedCell& cell) const {
 void read_crimp(const TableView& section, const Fabric& fabric, Crossing& crossing,
                 Diagnostics& diagnostics) {
   if (!section.entry) return;
-  const std::vector<double> excess = numbers(section, excess_key),
+  const std::vector<double> ratio = numbers(section, ratio_key),
                             heights = numbers(section, height_key);
   const double sine = std::sin(crossing_angle(fabric, crossing));
   CrimpReader reader{section, fabric, crossing, diagnostics, {}, {}};
   reader.spacing = {1.0 / (fabric.families[crossing.second].density * sine),
                     1.0 / (fabric.families[crossing.first].density * sine)};
-  if (excess.size() != 2 || !(reader.spacing[0] + reader.spacing[1] > 0.0)) return;
-  reader.crimp = {excess[0], excess[1]};
-  if (excess[0] == 0.0 && excess[1] == 0.0)
-    return reader.fail(excess_key, "says that neither yarn has any crimp",
+  if (ratio.size() != 2 || !(reader.spacing[0] + reader.spacing[1] > 0.0)) return;
+  reader.crimp = {ratio[0], ratio[1]};
+  if (ratio[0] == 0.0 && ratio[1] == 0.0)
+    return reader.fail(ratio_key, "says that neither yarn has any crimp",
                        "take the table out, or give at least one of them more than 0");
   const double floats = heights.size() == 2 ? reader.floats({heights[0], heights[1]}) : 1.0;
   if (!(floats >= 1.0)) return;

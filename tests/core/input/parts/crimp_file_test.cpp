@@ -45,7 +45,7 @@ CrimpedCell cell_of(const std::string& keys) {
 
 /// Half a wave of the warp is one spacing of the weft, and the other way round.
 TEST(CrimpFile, OfExcessLengthsIsAPlainWeave) {
-  const CrimpedCell cell = cell_of("excess_length = [0.005, 0.01]\n");
+  const CrimpedCell cell = cell_of("ratio = [0.005, 0.01]\n");
   EXPECT_DOUBLE_EQ(cell.half_wave[0], 4.0);
   EXPECT_DOUBLE_EQ(cell.half_wave[1], 2.0);
   EXPECT_NEAR(cell.height(0), std::sqrt(4.02 * 4.02 - 16.0), 1e-12);
@@ -53,24 +53,24 @@ TEST(CrimpFile, OfExcessLengthsIsAPlainWeave) {
   EXPECT_EQ(cell.toe(0), 0.005);
 }
 
-/// Heights make twills: twice as high, of the same excess length, twice as long. Equally many
+/// Heights make twills: twice as high, of the same crimp, twice as long. Equally many
 /// waves in both families: the cells per area are one number.
 TEST(CrimpFile, OfHeightsSaysOverHowManyYarnsFloat) {
   const double high = 2.0 * std::sqrt(4.02 * 4.02 - 16.0),
                other = 2.0 * std::sqrt(2.02 * 2.02 - 4.0);
   const CrimpedCell cell =
-      cell_of(fmt::format("excess_length = [0.005, 0.01]\nheight = [{}, {}]\n", high, other));
+      cell_of(fmt::format("ratio = [0.005, 0.01]\nheight = [{}, {}]\n", high, other));
   EXPECT_NEAR(cell.half_wave[0], 8.0, 1e-9);
   EXPECT_NEAR(cell.half_wave[1], 4.0, 1e-9);
-  const CrimpedCell rounded = cell_of("excess_length = [0.005, 0.01]\nheight = [0.8, 0.57]\n");
+  const CrimpedCell rounded = cell_of("ratio = [0.005, 0.01]\nheight = [0.8, 0.57]\n");
   EXPECT_NEAR(rounded.half_wave[0], 8.0, 0.1);
   EXPECT_DOUBLE_EQ(0.5 / rounded.half_wave[0], 0.25 / rounded.half_wave[1]);
-  const CrimpedCell straight = cell_of("excess_length = [0.005, 0.0]\nheight = [0.4005, 0.0]\n");
+  const CrimpedCell straight = cell_of("ratio = [0.005, 0.0]\nheight = [0.4005, 0.0]\n");
   EXPECT_EQ(straight.height(1), 0.0);
 }
 
 TEST(CrimpFile, IsKeptWhenALawIsWritten) {
-  const std::string text = weave + "excess_length = [0.005, 0.01]   # measured\n";
+  const std::string text = weave + "ratio = [0.005, 0.01]   # measured\n";
   const std::string written = with_law(text, {"shear", "polynomial", "[0.5]", {}});
   EXPECT_NE(written.find("# measured"), std::string::npos);
   const Fabric before = fabric_of(text), after = fabric_of(written);
