@@ -39,12 +39,14 @@ std::string not_measured(const Case& all) {
   const Case data = taking_part(all);
   for (const Ply& ply : data.plies) {
     const Fabric& f = data.fabrics[at(ply.fabric)];
-    const char* odd = !f.has_yarns()         ? "is a sheet without yarns"
-                      : !f.stitches.empty()  ? "has stitches"
-                      : !is_weave(f)         ? "is no weave of two families"
-                      : has_rates(f)         ? "has laws that depend on rates"
-                      : !has_shear_energy(f) ? "has no stiffness in shear"
-                                             : nullptr;
+    const char* odd = !f.has_yarns()                ? "is a sheet without yarns"
+                      : !f.stitches.empty()         ? "has stitches"
+                      : !is_weave(f)                ? "is no weave of two families"
+                      : f.crossings[0].crimp        ? "has crimp"
+                      : !f.crossings[0].shear.odd() ? "has a law of shear that differs by its sign"
+                      : has_rates(f)                ? "has laws that depend on rates"
+                      : !has_shear_energy(f)        ? "has no stiffness in shear"
+                                                    : nullptr;
     if (odd) return fmt::format("not measured: {} {}", f.name, odd);
   }
   for (const Push& push : pushes(data))

@@ -28,9 +28,11 @@ std::vector<std::string> limp_families(const Fabric& f) {
 /// What holds yarns in one direction together.
 std::string of_one_direction(const Fabric& f) {
   if (!f.sheet) return "across " + f.families[0].name + " stitches alone hold it together";
-  return fmt::format("across {} and in shear the sheet alone holds it together, by {:.3g} N/mm for "
-                     "its strain and {:.3g} N/mm for the angle",
+  return fmt::format("across {} and in shear {} together, by {:.3g} N/mm for its strain and {:.3g} "
+                     "N/mm for the angle",
                      f.families[0].name,
+                     f.stitches.empty() ? "the sheet alone holds it"
+                                        : "the sheet, and stitches where they are taut, hold it",
                      std::visit([](const auto& law) { return law.plane_stiffness(); }, *f.sheet),
                      shear_rigidity(f));
 }
@@ -38,13 +40,17 @@ std::string of_one_direction(const Fabric& f) {
 std::string of_two_directions(const Fabric& f) {
   const double rigidity = shear_rigidity(f);
   const std::string between = joined(names_of(f), " and ");
+  if (!(rigidity > 0.0) && !f.stitches.empty())
+    return fmt::format("shear between {} is resisted by stitches alone, where they are taut",
+                       between);
   if (!(rigidity > 0.0))
     return fmt::format("nothing resists shear between {}: it is free in its plane; give a "
                        "[[crossing]] or a [sheet]",
                        between);
   if (f.crossings.empty())
-    return fmt::format("shear between {} is resisted by the sheet alone, {:.3g} N/mm for the angle",
-                       between, rigidity);
+    return fmt::format(
+        "shear between {} is resisted by the sheet{}, {:.3g} N/mm for the angle", between,
+        f.stitches.empty() ? " alone" : ", and by stitches where they are taut", rigidity);
   return "";
 }
 

@@ -196,11 +196,15 @@ PLYFORM_INLINE void stitch_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v
     n[a] = stitch_tension(w, a, mean[a], beyond);
     if (!w.law.yarns[a].breaks) return;
     const Longs gone = remembered(v, a, 0) > 0.0, breaks = n[a] > w.lane.stitches[a].breaking;
-    torn += (breaks & ~gone) ? n[a] * beyond : all(0.0);
+    const Doubles before = remembered(v, a, 1);
+    torn += (breaks & ~gone) ? n[a] * (beyond - (mean[a] - before)) : all(0.0); // StitchYarn
     n[a] = (breaks | gone) ? all(0.0) : n[a];
     const Doubles next = (breaks | gone) ? all(1.0) : all(0.0);
-    for (int q = 0; q < v.end.count; ++q)
+    const Doubles stretch = gone ? before : mean[a];
+    for (int q = 0; q < v.end.count; ++q) {
       store(v.end.of[q][a].of[0], quad(next, q));
+      store(v.end.of[q][a].of[1], quad(stretch, q));
+    }
   });
   const Doubles lost = area * torn;
   for (int q = 0; q < v.end.count; ++q)

@@ -177,7 +177,7 @@ std::vector<std::string> doubts_of_yarns(const Scene& s, const Frame& last,
     const bool one = group.names.size() == 1;
     found.push_back(fmt::format(
         "do not trust the shape, shear and draw-in of {}: yarns are pressed by more than 5 % on "
-        "{}{:.2g} % of the area, by {:.2g} % at most, and woven yarns buckle before that; {}",
+        "{}{:.2g} % of the area, by {:.2g} % at most, and yarns of cloth buckle before that; {}",
         joined(group.names), one ? "" : fmt::format("{:.2g} to ", 100.0 * group.least_share),
         100.0 * group.most_share, 100.0 * group.largest, what_to_do));
   }

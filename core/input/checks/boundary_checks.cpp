@@ -107,6 +107,24 @@ bool stitches_are_symmetric(const Ply& ply, const Fabric& fabric, double along) 
   });
 }
 
+/// Whether each crossing has the mirror image of its families and its law. image: of each family
+/// the one that is its mirror image. A crossing whose families are each other's image shears as its
+/// image does; any other the other way.
+bool crossings_are_symmetric(const Fabric& fabric, const std::vector<std::size_t>& image) {
+  const auto same = [](const ShearLaw& a, const ShearLaw& b) {
+    return a.k == b.k && a.negative_k == b.negative_k && a.angle == b.angle && a.torque == b.torque;
+  };
+  const std::vector<Crossing>& all = fabric.crossings;
+  return std::all_of(all.begin(), all.end(), [&](const Crossing& c) {
+    const std::size_t first = image[c.first], second = image[c.second];
+    if (first == c.second && second == c.first) return true;
+    return c.shear.odd() && std::any_of(all.begin(), all.end(), [&](const Crossing& other) {
+             return std::minmax(other.first, other.second) == std::minmax(first, second) &&
+                    same(c.shear, other.shear);
+           });
+  });
+}
+
 /// The fibre directions of each ply must be symmetric to the plane.
 void check_fibres(BoundaryCheck& check, std::size_t index) {
   const Boundary& boundary = check.scene.boundaries[index];
@@ -127,14 +145,27 @@ void check_fibres(BoundaryCheck& check, std::size_t index) {
       return same_line(2.0 * along - ply.angle - family.angle, ply.angle + other.angle);
     };
     const std::vector<YarnFamily>& families = fabric.families;
-    if (std::all_of(families.begin(), families.end(),
-                    [&](const YarnFamily& f) { return image_is_family(f, f); }))
+    std::vector<std::size_t> image; // of each family that has one
+    bool own = true;                // whether each is its own
+    for (std::size_t a = 0; a < families.size(); ++a) {
+      std::size_t b = image_is_family(families[a], families[a]) ? a : 0;
+      while (b < families.size() && !image_is_family(families[a], families[b]))
+        ++b;
+      if (b < families.size()) image.push_back(b);
+      own = own && b == a;
+    }
+    const bool exchanged = image.size() == families.size();
+    if (exchanged && (own || balanced(fabric))) {
+      if (!crossings_are_symmetric(fabric, image))
+        check.fail(
+            index,
+            fmt::format("is no plane of symmetry of ply {} at {:g} degrees: its mirror image "
+                        "shears the other way, or at other crossings, and the laws of shear "
+                        "of fabric {} differ",
+                        ply.name, ply.angle / degree, fabric.name),
+            "model the whole blank");
       continue;
-    const bool exchanged = std::all_of(families.begin(), families.end(), [&](const YarnFamily& f) {
-      return std::any_of(families.begin(), families.end(),
-                         [&](const YarnFamily& other) { return image_is_family(f, other); });
-    });
-    if (exchanged && balanced(fabric)) continue;
+    }
     std::vector<std::string> names;
     for (const YarnFamily& family : families)
       names.push_back(family.name);

@@ -241,12 +241,30 @@ void check_names(const TableView& section, const Fabric& fabric, Diagnostics& di
   }
 }
 
-/// Angles (rad) from the first family's on, less than half a turn: a yarn has no sense.
-void order_angles(Fabric& fabric) {
+/// Angles (rad) from the first family's on, less than half a turn: a yarn has no sense. Answers
+/// which were turned by half a turn, or three.
+std::vector<bool> order_angles(Fabric& fabric) {
+  std::vector<bool> turned;
   for (YarnFamily& family : fabric.families) {
     const double from = family.angle - fabric.families[0].angle;
-    family.angle -= std::numbers::pi * std::floor(from / std::numbers::pi);
+    const double half_turns = std::floor(from / std::numbers::pi);
+    family.angle -= std::numbers::pi * half_turns;
+    turned.push_back(std::fmod(half_turns, 2.0) != 0.0);
   }
+  return turned;
+}
+
+/// Reports a law of both signs of two families of which one has been turned: the diagonal that
+/// shear above 0 draws out would not be the one between their angles.
+void check_sign(const TableView& section, const Crossing& crossing, const std::vector<bool>& turned,
+                Diagnostics& diagnostics) {
+  if (crossing.shear.odd() || turned[crossing.first] == turned[crossing.second]) return;
+  value_error(section, "families",
+              "has a law that differs by the sign of shear, and the angle of one of them lies "
+              "outside of the half turn from the first [[family]] on, so that the sign is unclear",
+              "put the [[family]] with the least angle first, or give that angle with 180 degrees "
+              "more",
+              diagnostics);
 }
 
 /// Reports a fabric in which nothing holds against strains in some direction, whatever holds it.
@@ -274,10 +292,13 @@ void read_families(const TableView& section, Fabric& fabric, Diagnostics& diagno
   const std::size_t before = diagnostics.errors.size();
   for (const TableView& family : subsections(section, "family"))
     fabric.families.push_back(read_family(family, diagnostics));
-  order_angles(fabric);
+  const std::vector<bool> turned = order_angles(fabric);
   check_names(section, fabric, diagnostics);
-  for (const TableView& crossing : subsections(section, "crossing"))
+  for (const TableView& crossing : subsections(section, "crossing")) {
     fabric.crossings.push_back(read_crossing(crossing, fabric, diagnostics));
+    if (!fabric.families.empty())
+      check_sign(crossing, fabric.crossings.back(), turned, diagnostics);
+  }
   read_sheet_beside(subsection(section, "sheet"), fabric, diagnostics);
   if (diagnostics.errors.size() == before) check_hold(section, fabric, diagnostics);
 }
