@@ -123,7 +123,8 @@ struct StitchYarn {
     if (std::isfinite(elastic.breaking_force)) next[1] = 1.0 + in.strain;
     if (point.value > elastic.breaking_force) {
       next[0] = 1.0;
-      return {0.0, 0.0, 0.0, 0.0, point.energy - 0.5 * point.value * (next[1] - before)};
+      const LawPoint was = elastic.at(before - 1.0);
+      return {0.0, 0.0, 0.0, 0.0, was.energy + 0.5 * was.value * (next[1] - before)};
     }
     return {point.value, point.slope, 0.0, point.energy, 0.0};
   }

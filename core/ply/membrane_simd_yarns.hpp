@@ -197,7 +197,9 @@ PLYFORM_INLINE void stitch_tensions(SimdBlockWork<Of>& w, const StatesOfQuads& v
     if (!w.law.yarns[a].breaks) return;
     const Longs gone = remembered(v, a, 0) > 0.0, breaks = n[a] > w.lane.stitches[a].breaking;
     const Doubles before = remembered(v, a, 1);
-    torn += (breaks & ~gone) ? n[a] * (beyond - (mean[a] - before)) : all(0.0); // StitchYarn
+    Doubles was_beyond;
+    const Doubles was = stitch_tension(w, a, before, was_beyond); // lost as of StitchYarn
+    torn += (breaks & ~gone) ? was * (was_beyond + (mean[a] - before)) : all(0.0);
     n[a] = (breaks | gone) ? all(0.0) : n[a];
     const Doubles next = (breaks | gone) ? all(1.0) : all(0.0);
     const Doubles stretch = gone ? before : mean[a];
