@@ -41,7 +41,7 @@ faults=(
   "friction takes tools to move the other way | contact/simd/tool_ply_kernel.cpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
   "stitches push where they are slack | core/ply/membrane_simd_yarns.hpp | s/beyond = larger(all(0.0), stretch - law.taut_at)/beyond = stretch - law.taut_at/"
   "broken stitches pull again | core/ply/membrane_simd_yarns.hpp | s/n\[a\] = (breaks | gone) ? all(0.0)/n[a] = breaks ? all(0.0)/"
-  "what broken stitches had stored is not lost | core/ply/membrane_simd_yarns.hpp | s/torn += (breaks \& ~gone) ? n\[a\] .*/torn += all(0.0);/"
+  "what broken stitches had stored is not lost | core/ply/membrane_simd_yarns.hpp | s/torn += (breaks \& ~gone) ? was .*/torn += all(0.0);/"
   "a law of shear of both signs is that of positive angles | core/model/shear_law.cpp | s/plus = at(g), minus = at(-g);/plus = at(g), minus{-plus.value, plus.slope, plus.energy};/"
   "cells of crimp pull one family alone | core/model/crimp.cpp | s/a.tension \* a.cosine, b.tension \* b.cosine/a.tension * a.cosine, 0.0/"
   "opening between yarns is the change of area | core/run/output_state.cpp | s/now \/ before \/ (1.0 + family.strain\[e\]) - 1.0/now \/ before - 1.0/"
