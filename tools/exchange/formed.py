@@ -119,8 +119,7 @@ def ply_of(results: Results, number: int, name: str) -> FormedPly:
     shear, thickness = (results.numbers(now, field, (count,))
                         for field in ("shear_angle_deg", "thickness_mm"))
     flat = results.numbers(results.in_state(0, "plies", name), "thickness_mm", (count,))
-    angle = np.degrees(np.arccos(np.clip((warp * weft).sum(axis=1), -1, 1)))
-    between = float(np.median(angle + shear)) if len(families) > 1 else 90.0
+    between = float((angles[1] - angles[0]) % 180.0) if len(families) > 1 else 90.0
     if not (thickness > 0).all() or not (flat > 0).all():
         raise Broken(f"{now.name}/thickness_mm is not above 0 everywhere")
     return FormedPly(name, results.number(fixed, "angle_deg"), x0,
