@@ -219,11 +219,7 @@ bool has_pretension(const Fabric& fabric) {
 
 bool balanced(const Fabric& fabric) {
   const auto same = [](const YarnFamily& p, const YarnFamily& q) {
-    const TensionLaw &a = p.tension, &b = q.tension;
-    return a.stiffness == b.stiffness && a.strain == b.strain && a.tension == b.tension &&
-           a.compression == b.compression && a.buckling_force == b.buckling_force &&
-           p.bending.stiffness == q.bending.stiffness &&
-           p.bending.curvature == q.bending.curvature && p.bending.moment == q.bending.moment &&
+    return p.tension == q.tension && p.bending == q.bending &&
            p.in_plane_bending == q.in_plane_bending && p.density == q.density;
   };
   const auto same_crimp = [](const Crossing& c) {

@@ -37,6 +37,7 @@ struct TensionLaw {
   /// N per yarn; at most largest_slope(), on which the stable step relies
   double compression = 0.0;
   double buckling_force = std::numeric_limits<double>::infinity(); ///< N, at least 0
+  bool operator==(const TensionLaw&) const = default;
   /// N (N per yarn), dN/dstrain (N), W = integral of N (N, i.e. N mm per mm of yarn).
   LawPoint at(double eps) const;
   double largest_slope() const; ///< N, in tension
@@ -61,6 +62,7 @@ TensionLaw softened(TensionLaw law, double asked);
 struct MomentLaw {
   double stiffness = 0.0;                ///< N mm (per mm of width: N mm^2/mm)
   std::vector<double> curvature, moment; ///< 1/mm and N, ascending from (0, 0); last slope beyond
+  bool operator==(const MomentLaw&) const = default;
   /// M (N), dM/dkappa (N mm), W (N/mm); kappa in 1/mm, of either sign.
   LawPoint at(double kappa) const;
   double largest_slope() const; ///< N mm
@@ -127,6 +129,7 @@ struct StitchLaw {
   TensionLaw tension;   ///< of one stitch, without compression
   double taut_at = 0.0; ///< strain at which it becomes taut; below 0: it pulls from the start
   double breaking_force = std::numeric_limits<double>::infinity(); ///< N, above the force at rest
+  bool operator==(const StitchLaw&) const = default;
   LawPoint at(double eps) const { return tension.at(eps - taut_at); } ///< of one that is whole
   double breaking_strain() const; ///< infinite if it never breaks
 };

@@ -52,6 +52,7 @@ struct ShearLaw {
   std::vector<double> angle, torque; ///< rad and N mm, ascending; straight on beyond the ends
   std::vector<double> negative_k{};  ///< N mm, in the place of k for g < 0; empty: k
 
+  bool operator==(const ShearLaw&) const = default;
   bool tabulated() const { return !angle.empty(); }
   /// Whether Cs(-g) = -Cs(g) for all g by the law's form.
   bool odd() const { return tabulated() ? !(angle.front() < 0.0) : negative_k.empty(); }

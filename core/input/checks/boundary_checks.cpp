@@ -92,16 +92,10 @@ bool same_line(double a, double b) {
 /// Whether the mirror image of each direction of stitches has the same stitches. along: rad, of the
 /// plane.
 bool stitches_are_symmetric(const Ply& ply, const Fabric& fabric, double along) {
-  const auto same = [](const Stitch& a, const Stitch& b) {
-    return a.density == b.density && a.law.tension.stiffness == b.law.tension.stiffness &&
-           a.law.tension.strain == b.law.tension.strain &&
-           a.law.tension.tension == b.law.tension.tension && a.law.taut_at == b.law.taut_at &&
-           a.law.breaking_force == b.law.breaking_force;
-  };
   const std::vector<Stitch>& all = fabric.stitches;
   return std::all_of(all.begin(), all.end(), [&](const Stitch& stitch) {
     return std::any_of(all.begin(), all.end(), [&](const Stitch& other) {
-      return same(stitch, other) &&
+      return stitch.density == other.density && stitch.law == other.law &&
              same_line(2.0 * along - ply.angle - stitch.angle, ply.angle + other.angle);
     });
   });
@@ -111,16 +105,13 @@ bool stitches_are_symmetric(const Ply& ply, const Fabric& fabric, double along) 
 /// the one that is its mirror image. A crossing whose families are each other's image shears as its
 /// image does; any other the other way.
 bool crossings_are_symmetric(const Fabric& fabric, const std::vector<std::size_t>& image) {
-  const auto same = [](const ShearLaw& a, const ShearLaw& b) {
-    return a.k == b.k && a.negative_k == b.negative_k && a.angle == b.angle && a.torque == b.torque;
-  };
   const std::vector<Crossing>& all = fabric.crossings;
   return std::all_of(all.begin(), all.end(), [&](const Crossing& c) {
     const std::size_t first = image[c.first], second = image[c.second];
     if (first == c.second && second == c.first) return true;
     return c.shear.odd() && std::any_of(all.begin(), all.end(), [&](const Crossing& other) {
              return std::minmax(other.first, other.second) == std::minmax(first, second) &&
-                    same(c.shear, other.shear);
+                    c.shear == other.shear;
            });
   });
 }

@@ -269,13 +269,7 @@ void check_sign(const TableView& section, const Crossing& crossing, const std::v
 
 /// Reports a fabric in which nothing holds against strains in some direction, whatever holds it.
 void check_hold(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
-  constexpr double least = 1e-3; // sine of the angle between two families
-  const auto askew = [&](const YarnFamily& family) {
-    return std::abs(std::sin(family.angle - fabric.families[0].angle)) > least;
-  };
-  if (given(section, "sheet") || !section.entry ||
-      std::any_of(fabric.families.begin(), fabric.families.end(), askew))
-    return;
+  if (given(section, "sheet") || !section.entry || yarn_directions(fabric) > 1) return;
   diagnostics.error(section.entry->at, item_of(section, "sheet"), "",
                     fabric.families.empty()
                         ? "is missing, and there are no yarns"
