@@ -51,11 +51,14 @@ void set_laws(Membrane& m, const Fabric& fabric, const MaterialAxes& axes, doubl
   for (const Crossing& c : fabric.crossings) {
     m.crossings.push_back(
         {c.first, c.second, crossing_angle(fabric, c), cells_per_area(fabric, c), c.shear});
+    MembraneCrossing& made = m.crossings.back();
+    made.is_axes =
+        m.families[c.first].along == Vec2::UnitX() && m.families[c.second].along == Vec2::UnitY();
     if (c.shear.tabulated()) {
-      m.crossings.back().steepest = c.shear.curve().largest_slope();
-      m.crossings.back().table = shear_table(c.shear, m.crossings.back().cells);
+      made.steepest = c.shear.curve().largest_slope();
+      made.table = shear_table(c.shear, made.cells);
     }
-    m.crossings.back().crimp = c.crimp;
+    made.crimp = c.crimp;
     if (!c.crimp) continue;
     const YarnFamily &a = fabric.families[c.first], &b = fabric.families[c.second];
     const double cells[] = {a.density / c.crimp->half_wave[0], b.density / c.crimp->half_wave[1]};
