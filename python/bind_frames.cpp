@@ -50,6 +50,15 @@ py::object column_of(const py::object& self, const std::string& name) {
   return found;
 }
 
+/// Names of families or stitches.
+template <class Named>
+py::tuple names_of(const std::vector<Named>& all) {
+  py::list names;
+  for (const Named& one : all)
+    names.append(one.name);
+  return py::tuple(names);
+}
+
 /// Names of the columns of one place: of nodes all, of triangles those that the ply has.
 py::tuple names_at(const PlyFrame& ply, Location place) {
   py::list names;
@@ -69,22 +78,10 @@ void bind_ply(py::module_& m) {
   add_array(ply, "x", &PlyFrame::x, "float64, (n, 3), mm: positions now.");
   add_array(ply, "triangles", &PlyFrame::triangles, "int32, (m, 3): nodes, from 0.");
   ply.def_property_readonly(
-      "families",
-      [](const PlyFrame& p) {
-        py::list names;
-        for (const FamilyFrame& family : p.families)
-          names.append(family.name);
-        return py::tuple(names);
-      },
+      "families", [](const PlyFrame& p) { return names_of(p.families); },
       "Names of its families of yarns, which begin the names of their columns.");
   ply.def_property_readonly(
-      "stitches",
-      [](const PlyFrame& p) {
-        py::list names;
-        for (const StitchFrame& stitch : p.stitches)
-          names.append(stitch.name);
-        return py::tuple(names);
-      },
+      "stitches", [](const PlyFrame& p) { return names_of(p.stitches); },
       "Names of its directions of stitches, likewise.");
   ply.def_property_readonly(
       "cell_fields", [](const PlyFrame& p) { return names_at(p, Location::triangle); },
