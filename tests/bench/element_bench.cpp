@@ -68,6 +68,16 @@ void count_elements(benchmark::State& state, const Sheet& s) {
 }
 
 /// As the step does it: four groups side by side, block by block, then the sums at the nodes.
+void find_forces(MembraneSimd& simd, Sheet& s, const std::vector<SimdYarnStates>& begin,
+                 std::vector<SimdYarnStates>& end) {
+  for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b)
+    simd_forces(simd, s.m, s.x, 1e-6, b, {begin, end});
+  for (std::size_t n = 0; n < s.x.size(); ++n)
+    s.force[n] = simd_force(simd, n);
+  benchmark::DoNotOptimize(s.force.data());
+}
+
+/// find_forces, beside what the machine streams and computes.
 void ElementSimd(benchmark::State& state) {
   Sheet& s = sheet(state.range(0), state.range(1) != 0);
   MembraneSimd simd = make_membrane_simd(s.m, s.x0);
@@ -75,13 +85,8 @@ void ElementSimd(benchmark::State& state) {
   Traffic t = lane_traffic(simd, s.x.size());
   t += traffic(s.force.size(), sizeof(Vec3));
   const double seconds = stream_seconds(t), peak = peak_arithmetic();
-  for (auto _ : state) {
-    for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b)
-      simd_forces(simd, s.m, s.x, 1e-6, b, {states, end});
-    for (std::size_t n = 0; n < s.x.size(); ++n)
-      s.force[n] = simd_force(simd, n);
-    benchmark::DoNotOptimize(s.force.data());
-  }
+  for (auto _ : state)
+    find_forces(simd, s, states, end);
   count_elements(state, s);
   using benchmark::Counter;
   const auto rate = Counter::kIsIterationInvariantRate;
@@ -102,13 +107,8 @@ void ElementStitched(benchmark::State& state) {
   Sheet& s = sheet(50, state.range(1) != 0, state.range(0));
   MembraneSimd simd = make_membrane_simd(s.m, s.x0);
   std::vector<SimdYarnStates> states = states_at_start(simd, s.m), end = states;
-  for (auto _ : state) {
-    for (int b = 0; b < static_cast<int>(simd.blocks.size()); ++b)
-      simd_forces(simd, s.m, s.x, 1e-6, b, {states, end});
-    for (std::size_t n = 0; n < s.x.size(); ++n)
-      s.force[n] = simd_force(simd, n);
-    benchmark::DoNotOptimize(s.force.data());
-  }
+  for (auto _ : state)
+    find_forces(simd, s, states, end);
   count_elements(state, s);
 }
 BENCHMARK(ElementStitched)

@@ -4,6 +4,8 @@
 
 #include "core/run/checkpoint.hpp"
 #include "core/run/run.hpp"
+#include "support/scene_checks.hpp"
+#include "support/thread_checks.hpp"
 
 #include <gtest/gtest.h>
 #include <memory>
@@ -49,6 +51,17 @@ inline void expect_the_same_after_kills(const Case& data, int kills) {
   EXPECT_EQ(run_scene(again, 2, hooks).summary.steps, steps);
   EXPECT_EQ(state_hash(again), state_hash(whole));
   EXPECT_EQ(first_difference(again, save_state(whole, RunState{})), "");
+}
+
+/// A run that ends with its energies closed, with the same bits on two threads and after `kills`.
+/// Returns its last energies.
+inline Energies expect_sound_and_repeatable(const Case& data, int kills) {
+  const RunResult one = run_case(data, 1, {});
+  EXPECT_TRUE(ended(one.summary.status)) << one.summary.message;
+  EXPECT_LT(std::abs(one.last.energy.balance_error()), 0.01);
+  expect_same_bits(run_case(data, 2, {}), one);
+  expect_the_same_after_kills(data, kills);
+  return one.last.energy;
 }
 
 } // namespace plyform

@@ -69,6 +69,14 @@ inline Case coarse_hemisphere(const std::vector<double>& angles) {
   return data;
 }
 
+/// Yarns that bear compression and bend, so that plies may lie in a stack.
+inline void stiffen_yarns(Fabric& fabric) {
+  for (YarnFamily& family : fabric.families) {
+    family.tension.compression = 0.01 * family.tension.stiffness;
+    family.bending.stiffness = 2.0, family.in_plane_bending = 4.0;
+  }
+}
+
 /// Force along z on ply `lower` from the ply above it, N.
 inline double force_from_above(const Scene& s, int lower) {
   double sum = 0.0;
