@@ -57,6 +57,33 @@ TEST(StitchLong, BiasBothWaysDiffersByTheStitch) {
     }
 }
 
+/// Stitches along the pull that break where the shear angle passes 0.28 rad: the middle first, the
+/// corners, which have half the angle, from 0.56 rad of the middle on, band after band of them, as
+/// what has broken shears more and lets go of the rest. Before the first break the tests differ by
+/// the stitch, after the last by nothing.
+TEST(StitchLong, BrokenStitchesLeaveNoDifference) {
+  const std::vector<double> angles{0.24, 0.9};
+  Stitch stitch = stitch_at(0.0, 3.0);
+  stitch.law.breaking_force = stitch.law.at(std::sqrt(1.0 + std::sin(0.28)) - 1.0).value;
+  for (const double size : {width / 10.0, width / 20.0}) {
+    const std::vector<double> one = loads(stitch, true, size, angles),
+                              other = loads(stitch, false, size, angles);
+    const auto torque = [&](double gamma) {
+      const double stretch = std::sqrt(1.0 + std::sin(gamma));
+      return stitch.density * stitch.law.tension.stiffness * (stretch - 1.0) * std::cos(gamma) /
+             (2.0 * stretch);
+    };
+    for (std::size_t i = 0; i < angles.size(); ++i) {
+      const double whole = added_load(torque, angles[i]), wanted = i == 0 ? whole : 0.0;
+      fmt::print("elements of {} mm, {} rad: {:.4f} N - {:.4f} N, {:.4f} N with whole stitches: "
+                 "{:+.2f} % of that off\n",
+                 size, angles[i], one[i], other[i], whole,
+                 100.0 * (one[i] - other[i] - wanted) / whole);
+      EXPECT_NEAR(one[i] - other[i], wanted, 0.03 * whole);
+    }
+  }
+}
+
 /// Across the pull a slack stitch does nothing at all.
 TEST(StitchLong, SlackStitchesDoNothingToTheBiasTest) {
   const std::vector<double> angles{0.3, 0.6};

@@ -214,16 +214,21 @@ inline std::vector<Vec3> random_state(const BlankMesh& mesh, double stretch, dou
   return x;
 }
 
-/// From the state at the start.
-inline std::vector<Vec3> nodal_forces(const Membrane& m, const std::vector<Vec3>& x,
-                                      double dt = 0.0) {
+/// From these states of yarns.
+inline std::vector<Vec3> nodal_forces(const Membrane& m, const std::vector<Vec3>& x, double dt,
+                                      std::vector<YarnMemory> states) {
   std::vector<ElementForce> q(m.triangles.size());
-  std::vector<YarnMemory> states = memory_at_start(m);
   element_forces(m, x, dt, 0, m.groups(), {states, states}, q);
   std::vector<Vec3> f;
   for (std::size_t n = 0; n < x.size(); ++n)
     f.push_back(node_force(m, q, static_cast<int>(n)));
   return f;
+}
+
+/// From the state at the start.
+inline std::vector<Vec3> nodal_forces(const Membrane& m, const std::vector<Vec3>& x,
+                                      double dt = 0.0) {
+  return nodal_forces(m, x, dt, memory_at_start(m));
 }
 
 inline double largest_norm(const std::vector<Vec3>& vectors) {

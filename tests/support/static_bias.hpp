@@ -18,9 +18,10 @@ namespace plyform {
 /// Internal forces, their tangent and the energy of a membrane that stays in its plane.
 class FlatMembrane {
 public:
-  /// bending: of its yarns in its plane, if they bend.
+  /// bending: of its yarns in its plane, if they bend. Stitches break by relax_and_break alone, at
+  /// forces that the membrane's own are above.
   FlatMembrane(Membrane membrane, std::vector<char> held, std::optional<Bending> turning = {})
-      : m(std::move(membrane)), bending(std::move(turning)) {
+      : m(std::move(membrane)), bending(std::move(turning)), states(memory_at_start(m)) {
     for (const char h : held) {
       freedom.push_back(h ? -1 : freedoms);
       freedoms += h ? 0 : 2;
@@ -59,8 +60,16 @@ public:
     throw std::runtime_error("no equilibrium after 3000 iterations");
   }
 
+  /// The same; stitches strained by more than these at rest break, all at once, until none is.
+  void relax_and_break(std::vector<Vec3>& x, const std::vector<double>& breaking_strain,
+                       double accuracy) {
+    do
+      relax(x, accuracy);
+    while (break_stitches(x, breaking_strain));
+  }
+
   std::vector<Vec3> nodal(const std::vector<Vec3>& x) {
-    std::vector<Vec3> force = nodal_forces(m, x);
+    std::vector<Vec3> force = nodal_forces(m, x, 0.0, states);
     if (!bending) return force;
     const std::vector<Vec3> turning = reference_bending_forces(*bending, x);
     for (std::size_t n = 0; n < x.size(); ++n)
@@ -83,8 +92,23 @@ private:
     Mat6 bend_gamma;
   };
 
+  /// Whether any stitch breaks at x.
+  bool break_stitches(const std::vector<Vec3>& x, const std::vector<double>& breaking_strain) {
+    if (breaking_strain.empty()) return false;
+    const std::vector<std::vector<double>> strains = yarn_strains(m, x);
+    const std::size_t all = m.families.size(), yarns = all - breaking_strain.size();
+    const std::vector<YarnMemory> before = states;
+    for (std::size_t i = 0; i < states.size(); ++i) {
+      const auto first = static_cast<std::size_t>(m.group_begin[i / all]);
+      const std::size_t family = i % all;
+      if (family >= yarns && strains[family][first] > breaking_strain[family - yarns])
+        states[i][0] = 1.0;
+    }
+    return states != before;
+  }
+
   double total_energy(const std::vector<Vec3>& x) const {
-    const MembraneEnergy e = membrane_energy(m, x);
+    const MembraneEnergy e = membrane_energy(m, x, states);
     return e.fibre + e.shear + e.stitch + (bending ? bending_energy(*bending, x) : 0.0);
   }
 
@@ -122,6 +146,7 @@ private:
     Eigen::MatrixXd k = Eigen::MatrixXd::Zero(6 * size, 6 * size);
     for (std::size_t a = 0; a < m.families.size(); ++a) {
       const double d = m.families[a].density;
+      if (m.families[a].stitch && states[p * m.families.size() + a][0] > 0.0) continue; // broken
       const LawPoint yarn = m.families[a].elastic(mean[a] - 1.0);
       Eigen::VectorXd g = Eigen::VectorXd::Zero(6 * size);
       for (int i = 0; i < size; ++i) {
@@ -280,7 +305,8 @@ private:
 
   Membrane m;
   std::optional<Bending> bending;
-  std::vector<int> freedom; ///< first of a node's two unknowns, or -1
+  std::vector<YarnMemory> states; ///< of yarns, as memory_at_start
+  std::vector<int> freedom;       ///< first of a node's two unknowns, or -1
   int freedoms = 0;
 };
 
@@ -356,7 +382,13 @@ inline std::vector<double> bias_loads(const BlankMesh& mesh, const Fabric& fabri
     held.push_back(pulled.back() || p.x() < -0.5 * length + 1e-9 * length);
   }
   start = x;
-  Membrane membrane = make_membrane(mesh, fabric, warp, element);
+  Fabric unbroken = fabric;
+  std::vector<double> breaking_strain;
+  for (Stitch& s : unbroken.stitches) {
+    breaking_strain.push_back(s.law.breaking_strain());
+    if (std::isfinite(s.law.breaking_force)) s.law.breaking_force = 1e300;
+  }
+  Membrane membrane = make_membrane(mesh, unbroken, warp, element);
   std::optional<Bending> bending;
   if (const BendingLaw law = bending_law(fabric); law.in_plane())
     bending = make_bending(mesh.x, mesh.triangles, law, warp, warp + fabric.families[1].angle,
@@ -384,7 +416,7 @@ inline std::vector<double> bias_loads(const BlankMesh& mesh, const Fabric& fabri
       last = now;
       before_step = stroke - before;
       before = stroke;
-      strip.relax(x, accuracy);
+      strip.relax_and_break(x, breaking_strain, accuracy);
     }
     angle = wanted;
     const std::vector<Vec3> f = strip.nodal(x);
