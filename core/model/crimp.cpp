@@ -70,6 +70,14 @@ double CrimpedCell::height(std::size_t a) const {
   return half_wave[a] * std::sqrt(crimp[a] * (2.0 + crimp[a]));
 }
 
+double CrimpedCell::shortest(std::size_t a, double other) const {
+  const std::size_t b = 1 - a;
+  const double given = std::min(half_wave[b] * (1.0 + std::max(0.0, other)), length(b));
+  const double left = std::sqrt((length(b) - given) * (length(b) + given)); // of the other's height
+  const double taken = std::min(heights() - left, length(a));
+  return std::sqrt((length(a) - taken) * (length(a) + taken)) / half_wave[a] - 1.0;
+}
+
 CellAnswer answer_of(const CrimpedCell& cell, const std::array<double, 2>& strain,
                      const TensionLaw& first, const TensionLaw& second) {
   const double heights = cell.heights();

@@ -47,6 +47,9 @@ struct CrimpedCell {
   /// Strain at which a family is straight if nothing holds the other, the end of its toe; the other
   /// must be long enough to take all of D.
   double toe(std::size_t a) const { return crimp[a]; }
+  /// Strain down to which family a gets shorter by more crimp alone, 0 at most: it takes the height
+  /// that the other, strained by `other`, gives up. What is shorter is pressed.
+  double shortest(std::size_t a, double other) const;
 };
 
 /// What a cell answers at two strains.

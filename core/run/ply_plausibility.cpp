@@ -83,22 +83,41 @@ YarnLine worst_line(const PlyFrame& ply, const std::vector<double>& strain,
   });
 }
 
-PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<double>& areas) {
+/// Strain of each family where it is negative and crimp does not explain it; else it is 0 or more.
+std::vector<std::vector<double>> strains_beyond_crimp(const PlyFrame& ply,
+                                                      const std::vector<Crossing>& crossings) {
+  std::vector<std::vector<double>> strain;
+  for (const FamilyFrame& family : ply.families)
+    strain.push_back(family.strain);
+  for (const Crossing& c : crossings) {
+    if (!c.crimp) continue;
+    const std::vector<double>&first = ply.families[c.first].strain,
+          &second = ply.families[c.second].strain;
+    for (std::size_t t = 0; t < first.size(); ++t) {
+      strain[c.first][t] -= c.crimp->shortest(0, second[t]);
+      strain[c.second][t] -= c.crimp->shortest(1, first[t]);
+    }
+  }
+  return strain;
+}
+
+PressedYarns pressed_yarns(const PlyFrame& ply, const std::vector<Crossing>& crossings,
+                           const std::vector<double>& areas) {
   PressedYarns result;
+  const std::vector<std::vector<double>> strains = strains_beyond_crimp(ply, crossings);
   // compressive strain of the family that is compressed most
   std::vector<double> pressed(ply.triangles.size());
   for (std::size_t t = 0; t < pressed.size(); ++t) {
-    for (const FamilyFrame& family : ply.families)
-      if (!std::isnan(pressed[t]) && !(family.strain[t] >= -pressed[t]))
-        pressed[t] = -family.strain[t];
+    for (const std::vector<double>& strain : strains)
+      if (!std::isnan(pressed[t]) && !(strain[t] >= -pressed[t])) pressed[t] = -strain[t];
     result.largest = std::isnan(result.largest) || std::isnan(pressed[t])
                          ? std::numeric_limits<double>::quiet_NaN()
                          : std::max(result.largest, pressed[t]);
   }
   result.share_above_2 = area_share_above(pressed, 0.02, areas);
   result.share_above_5 = area_share_above(pressed, 0.05, areas);
-  for (const FamilyFrame& family : ply.families) {
-    const YarnLine line = worst_line(ply, family.strain, areas, family.angle_deg * degree);
+  for (std::size_t a = 0; a < strains.size(); ++a) {
+    const YarnLine line = worst_line(ply, strains[a], areas, ply.families[a].angle_deg * degree);
     if (!(line.excess > result.excess_mm)) continue;
     result.excess_mm = line.excess;
     result.excess_at = formed_centroid(ply, line.triangle);
@@ -271,7 +290,7 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
                      const std::vector<const ToolBody*>& tools) {
   PlyReport result;
   const std::vector<double> areas = areas_before(ply);
-  if (nature.has_yarns) result.pressed = pressed_yarns(ply, areas);
+  if (nature.has_yarns) result.pressed = pressed_yarns(ply, nature.crossings, areas);
   result.wrinkle = wrinkles_of(ply, tools).highest;
   if (nature.locking_angle_deg) {
     std::vector<double> shear = ply.shear_deg;
@@ -293,7 +312,7 @@ std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
   std::vector<PlyReport> result;
   for (std::size_t p = 0; p < last.plies.size(); ++p) {
     const Fabric& fabric = s.data.fabrics[s.data.plies[p].fabric];
-    PlyNature nature{fabric.has_yarns(), std::nullopt, {}};
+    PlyNature nature{fabric.has_yarns(), std::nullopt, {}, fabric.crossings};
     for (const YarnFamily& family : fabric.families)
       nature.opening_limits.push_back(family.opening_limit);
     if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle / degree;

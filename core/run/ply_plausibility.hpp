@@ -6,7 +6,8 @@
 // straight lines of the undeformed ply along warp and weft, 2 mm apart or less, of
 //   e = integral of max(0, -strain) ds,  mm                                                     (1)
 // that is, by how much that yarn is longer than its path in the mesh. Gathered in one wrinkle of
-// wavelength w (mm) it would have the height (2/pi) sqrt(w e).
+// wavelength w (mm) it would have the height (2/pi) sqrt(w e). Of yarns with crimp the strain
+// counts from where they cannot take more of it (core/model/crimp.hpp).
 #pragma once
 
 #include "core/results/result_writer.hpp"
@@ -35,6 +36,7 @@ struct PlyNature {
   bool has_yarns = true;
   std::optional<double> locking_angle_deg = std::nullopt;
   std::vector<std::optional<double>> opening_limits = {}; ///< of its families, or empty: none
+  std::vector<Crossing> crossings = {};                   ///< of its families
 };
 
 PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,

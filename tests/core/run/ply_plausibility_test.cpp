@@ -38,6 +38,27 @@ TEST(PlyPlausibility, EitherFamilyPressesItsShareOfTheArea) {
   EXPECT_FALSE(told.beyond_locking_share);
 }
 
+/// A family shortens by its crimp as the other one is straightened, and only by what is more it is
+/// pressed: half waves of 5 mm, 3 % crimp each, so that all of the height, twice
+/// sqrt(5.15^2 - 5^2) mm, leaves sqrt(5.15^2 - 4 (5.15^2 - 5^2)) mm of 5 mm.
+TEST(PlyPlausibility, ShorteningByCrimpIsNoPressing) {
+  const double all = 1.0 - std::sqrt(5.15 * 5.15 - 4.0 * (5.15 * 5.15 - 25.0)) / 5.0;
+  EXPECT_NEAR(all, 0.096, 5e-4);
+  PlyNature crimped;
+  crimped.crossings = {{0, 1, {}, CrimpedCell{{5.0, 5.0}, {0.03, 0.03}}}};
+  const auto told = [&](double warp, double weft) {
+    PlyFrame ply = sheet(4, 4, 10.0, 0.0, sheets::flat);
+    const auto is = [](double value) { return [value](const Vec2&) { return value; }; };
+    strain(ply, is(warp), is(weft));
+    return report_ply(ply, crimped, {}).pressed->largest;
+  };
+  EXPECT_EQ(told(0.03, -0.09), 0.0);
+  EXPECT_NEAR(told(0.04, -0.15), 0.15 - all, 1e-12);
+  EXPECT_NEAR(told(-0.15, 0.04), 0.15 - all, 1e-12);
+  EXPECT_NEAR(told(0.0, -0.06), 0.06, 1e-12); // nothing makes room for more crimp
+  EXPECT_NEAR(told(-0.06, -0.02), 0.06, 1e-12);
+}
+
 /// A pressed spot in a sheet whose yarns run at 30 and 100 degrees across its mesh: lines integrate
 /// over the triangles as they are, so that only the steps of the field count.
 TEST(PlyPlausibility, ExcessLengthIsTheIntegralAlongTheYarn) {
