@@ -85,7 +85,8 @@ class Case:
             self._accuracy = float(accuracy)
 
     def set(self, key: str, value: Value) -> None:
-        """Changes a key, a dotted path with list items by number: `ply.0.angle`; units of the file.
+        """Changes a key, a dotted path with list items by name or number: `tool.punch.stroke`; units of the
+        file.
 
         What cannot be is found by `check`. Raises TypeError for values that TOML does not have.
         """

@@ -71,6 +71,9 @@ def check_plans(folder: Path) -> None:
         (), ("ply.1.angle=90", "blanks.square.element_size=5.0"), (),
         ("contact.friction=0.0",)], runs
     assert runs[0].accuracy == "draft" and runs[0].values["angles"] == [0.0, 45.0]
+    named = LIST.replace("ply.0.", "ply.ply1.").replace("ply.1.", "ply.ply2.")
+    assert named != LIST and [run.settings for run in planned(scene, named)] == \
+        [run.settings for run in runs]  # items by name are those by number
     (scene.folder / "case.toml").write_text(CASE + "# changed\n", encoding="utf-8")
     assert not {run.name for run in planned(scene, LIST)} & {run.name for run in runs}
 

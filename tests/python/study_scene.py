@@ -47,8 +47,10 @@ name = "die"
 name = "blank_holder"
 force = 300.0
 [[ply]]
+name = "ply1"
 angle = 0.0
 [[ply]]
+name = "ply2"
 angle = 45.0
 [solver]
 duration = 0.1

@@ -32,9 +32,14 @@ def defaults(program: Path) -> dict[str, object]:
 
 
 def number_in(at, step: str) -> int | None:
-    """That a step of a key is in a list; none if it is none of it."""
-    short = isinstance(at, list) and len(step) < 10 and step.isascii() and step.isdigit()
-    return int(step) if short and int(step) < len(at) else None
+    """That a step of a key is in a list, by itself or as the name that one item alone has; none if
+    it is none of it."""
+    if not isinstance(at, list):
+        return None
+    if step.isascii() and step.isdigit():
+        return int(step) if len(step) < 10 and int(step) < len(at) else None
+    named = [i for i, item in enumerate(at) if isinstance(item, dict) and item.get("name") == step]
+    return named[0] if len(named) == 1 else None
 
 
 class CaseValues:
@@ -63,22 +68,23 @@ class CaseValues:
         self.open_fabrics([*path, last])
         at = self.tables
         for step in path:
-            if number_in(at, step) is not None:
-                at = at[int(step)]
+            if (number := number_in(at, step)) is not None:
+                at = at[number]
             elif isinstance(at, dict):
                 at = at.setdefault(step, {})
             else:
                 return
         if isinstance(at, dict):
             at[last] = toml_value(text)
-        elif number_in(at, last) is not None:
-            at[int(last)] = toml_value(text)
+        elif (number := number_in(at, last)) is not None:
+            at[number] = toml_value(text)
 
     def keys(self, pattern: str) -> list[str]:
         """Keys of the case that fit a pattern with * for any name or number: blanks.*.element_size.
-        A pattern without * is itself, whether or not the case gives it."""
+        A pattern without * is itself, whether or not the case gives it. Items of lists go by
+        number in what is returned."""
         if "*" not in pattern:
-            return [pattern]
+            return [self.numbered(pattern)]
         found, steps = [], pattern.split(".")
         self.open_fabrics(steps)
 
@@ -89,18 +95,30 @@ class CaseValues:
             inner = enumerate(at) if isinstance(at, list) else \
                 at.items() if isinstance(at, dict) else ()
             for name, value in inner:
-                if fnmatch.fnmatchcase(str(name), steps[len(path)]):
+                if fnmatch.fnmatchcase(str(name), steps[len(path)]) or \
+                        name == number_in(at, steps[len(path)]):
                     walk(value, [*path, str(name)])
         walk(self.tables, [])
         return found
 
+    def numbered(self, key: str) -> str:
+        """A key with the numbers of items that it names."""
+        at, steps = self.tables, key.split(".")
+        for i, step in enumerate(steps):
+            if (number := number_in(at, step)) is not None:
+                at, steps[i] = at[number], str(number)
+            else:
+                at = at.get(step) if isinstance(at, dict) else None
+        return ".".join(steps)
+
     def own(self, key: str):
         """The value of a key, its default where the case has none; None if there is no such."""
+        key = self.numbered(key)
         at, steps = self.tables, key.split(".")
         self.open_fabrics(steps)
         for step in steps:
-            if number_in(at, step) is not None:
-                at = at[int(step)]
+            if (number := number_in(at, step)) is not None:
+                at = at[number]
             elif isinstance(at, dict) and step in at:
                 at = at[step]
             else:

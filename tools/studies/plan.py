@@ -134,8 +134,8 @@ class Planner:
     def shortest(self, case: Path, settings: list[str]) -> tuple[str, ...]:
         """Without what a later setting replaces or the case has anyway: runs that are the same
         then look the same. A path of a fabric or a mesh stays as it stands."""
-        last = {split_setting(one)[0]: one for one in settings}
         plain = self.case_values(case, ())
+        last = {plain.numbered(split_setting(one)[0]): one for one in settings}
         kept = []
         for key, setting in last.items():
             own, value = plain.own(key), toml_value(split_setting(setting)[1])

@@ -5,25 +5,33 @@
 #include "core/input/keys/overrides.hpp"
 #include "core/input/keys/schema_check.hpp"
 
-#include <charconv>
 #include <fmt/format.h>
 
 namespace plyform {
 namespace {
 
 /// The list's item of that number, or null and a report.
-TomlNode* item_at(const TableView& list, const Place& at, const std::string& number,
+TomlNode* item_at(const TableView& list, const Place& at, const std::string& step,
                   Diagnostics& diagnostics) {
-  std::vector<TomlNode>& items = list.entry->children;
-  std::size_t index = items.size();
-  const char* end = number.data() + number.size();
-  if (std::from_chars(number.data(), end, index).ptr == end && index < items.size())
-    return &items[index];
-  diagnostics.error(
-      at, item_of(list, number), "", fmt::format("{} has no item {}", list.item, number),
-      items.empty() ? "it has no items"
-                    : fmt::format("its items are numbered from 0 to {}", items.size() - 1));
+  if (const auto place = place_in_list(*list.entry, step)) return &list.entry->children[*place];
+  diagnostics.error(at, item_of(list, step), "", fmt::format("{} has no item {}", list.item, step),
+                    items_remedy(*list.entry));
   return nullptr;
+}
+
+/// Warns of names that keys cannot use.
+void check_names(const TomlNode& root, Diagnostics& diagnostics) {
+  for (const TomlNode& list : root.children) {
+    if (list.kind != TomlNode::Kind::list) continue;
+    for (std::size_t i = 0; i < list.children.size(); ++i)
+      if (const TomlNode* name = list.children[i].find("name");
+          name && name->kind == TomlNode::Kind::string && is_number_of_item(name->text))
+        diagnostics.warning(name->at,
+                            fmt::format("{0}.{1}.name = \"{2}\": in keys of --set, studies and "
+                                        "Python {0}.{2} is a number, counted from 0, and this item "
+                                        "is {0}.{1}; a letter in the name ends the doubt",
+                                        list.key, i, name->text));
+  }
 }
 
 } // namespace
@@ -46,6 +54,7 @@ std::optional<TomlNode> read_entries(const std::filesystem::path& file,
     apply_override(*entries, change, folder, diagnostics);
   load_fabrics(*entries, folder, diagnostics);
   check_section({&*entries, "", ""}, diagnostics);
+  check_names(*entries, diagnostics);
   return entries;
 }
 

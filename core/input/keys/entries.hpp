@@ -16,9 +16,9 @@ std::optional<TomlNode> read_entries(const std::filesystem::path& file,
                                      const std::vector<Override>& overrides,
                                      Diagnostics& diagnostics);
 
-/// The entry of a key, a dotted path with list items by number from 0. Null if the case has none:
-/// a key without default that is not given. Null and a report (place: column within the key) if
-/// the table of keys has no such key, or a list no such item.
+/// The entry of a key, a dotted path with list items by number from 0 or by name. Null if the case
+/// has none: a key without default that is not given. Null and a report (place: column within the
+/// key) if the table of keys has no such key, or a list no such item.
 const TomlNode* find_entry(TomlNode& root, const std::string& key, Diagnostics& diagnostics);
 
 } // namespace plyform

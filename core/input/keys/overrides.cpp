@@ -5,7 +5,6 @@
 #include "core/input/keys/schema_check.hpp"
 
 #include <algorithm>
-#include <cstdlib>
 #include <fmt/format.h>
 
 namespace plyform {
@@ -63,15 +62,12 @@ struct Walk {
 /// The list item that a step names; reports an error and returns null if there is none.
 TomlNode* list_item(const Walk& walk, const Step& step, const std::string& key,
                     Diagnostics& diagnostics) {
-  const bool digits = !step.name.empty() && step.name.size() < 9 &&
-                      step.name.find_first_not_of("0123456789") == std::string::npos;
-  const std::size_t size = walk.entry->children.size();
-  const std::size_t index = digits ? static_cast<std::size_t>(std::atol(step.name.c_str())) : size;
-  if (index < size) return &walk.entry->children[index];
+  if (const auto place = place_in_list(*walk.entry, step.name))
+    return &walk.entry->children[*place];
   diagnostics.error({override_file, 1, step.column}, key, "",
                     fmt::format("{} has no item {}", walk.item, step.name),
-                    size ? fmt::format("its items are numbered from 0 to {}", size - 1)
-                         : "it has no items; give the list as a whole");
+                    items_remedy(*walk.entry) +
+                        (walk.entry->children.empty() ? "; give the list as a whole" : ""));
   return nullptr;
 }
 

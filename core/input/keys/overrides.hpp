@@ -9,9 +9,9 @@
 
 namespace plyform {
 
-/// Sets the value at a dotted path (list items by number from 0), and creates tables along the path
-/// if the table of keys has them. A fabric given as a file is read first if the path leads into it;
-/// `folder` is the case file's. Errors are reported in the file "--set".
+/// Sets the value at a dotted path (list items by number from 0 or by name), and creates tables
+/// along the path if the table of keys has them. A fabric given as a file is read first if the path
+/// leads into it; `folder` is the case file's. Errors are reported in the file "--set".
 void apply_override(TomlNode& root, const Override& change, const std::filesystem::path& folder,
                     Diagnostics& diagnostics);
 

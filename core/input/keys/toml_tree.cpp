@@ -5,6 +5,7 @@
 #include "core/input/keys/toml_depth.hpp"
 
 #include <algorithm>
+#include <charconv>
 #include <fmt/format.h>
 #include <string_view>
 #include <toml++/toml.h>
@@ -177,6 +178,36 @@ std::optional<TomlNode> parse_value(const std::string& text, const std::string& 
     return std::nullopt;
   }
   return std::move(table->children.front());
+}
+
+bool is_number_of_item(const std::string& step) {
+  return !step.empty() && step.find_first_not_of("0123456789") == std::string::npos;
+}
+
+std::optional<std::size_t> place_in_list(const TomlNode& list, const std::string& step) {
+  const std::vector<TomlNode>& items = list.children;
+  if (is_number_of_item(step)) {
+    std::size_t index = items.size();
+    std::from_chars(step.data(), step.data() + step.size(), index);
+    return index < items.size() ? std::optional(index) : std::nullopt;
+  }
+  std::optional<std::size_t> found;
+  for (std::size_t i = 0; i < items.size(); ++i) {
+    const TomlNode* name = items[i].find("name");
+    if (!name || name->kind != TomlNode::Kind::string || name->text != step) continue;
+    if (found) return std::nullopt;
+    found = i;
+  }
+  return found;
+}
+
+std::string items_remedy(const TomlNode& list) {
+  if (list.children.empty()) return "it has no items";
+  std::string names;
+  for (const TomlNode& item : list.children)
+    if (const TomlNode* name = item.find("name"); name && name->kind == TomlNode::Kind::string)
+      names += (names.empty() ? ", or by a name that one has alone: " : ", ") + name->text;
+  return fmt::format("its items are numbered from 0 to {}", list.children.size() - 1) + names;
 }
 
 } // namespace plyform

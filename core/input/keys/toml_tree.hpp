@@ -29,6 +29,16 @@ struct TomlNode {
   bool is_number() const { return kind == Kind::integer || kind == Kind::number; }
 };
 
+/// Whether a step of a key into a list is taken for a number: digits only.
+bool is_number_of_item(const std::string& step);
+
+/// Where the item is in a list that a step of a key names: by number from 0, or by the `name` that
+/// one item alone has.
+std::optional<std::size_t> place_in_list(const TomlNode& list, const std::string& step);
+
+/// "its items are numbered from 0 to 1: die, punch", for those who asked for another.
+std::string items_remedy(const TomlNode& list);
+
 /// File name in errors of overrides.
 inline constexpr const char* override_file = "--set";
 

@@ -2,6 +2,7 @@
 // --set KEY=VALUE, and the checks of the scene as a whole on a case changed by it.
 #include "support/case_files.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 #include <numbers>
 
@@ -33,6 +34,32 @@ TEST(Override, ChangesAnyValueTheLastOneWins) {
   EXPECT_DOUBLE_EQ(c.plies[0].angle, pi / 6.0);
   EXPECT_EQ(c.tools[0].position, Vec3(0, 0, 7.5));
   EXPECT_EQ(c.solver.outputs, 3);
+}
+
+TEST(Override, NamesItemsOfLists) {
+  const Case before = base_with({});
+  const std::string name = before.tools[1].name;
+  const Case c = base_with(
+      {{"tool." + name + ".position.2", "7.5"}, {"ply." + before.plies[0].name + ".angle", "30"}});
+  EXPECT_EQ(c.tools[1].position.z(), 7.5);
+  EXPECT_EQ(c.tools[0].position, before.tools[0].position);
+  EXPECT_DOUBLE_EQ(c.plies[0].angle, pi / 6.0);
+  EXPECT_NE(override_error("tool.none.radius", "3").text().find(name), std::string::npos);
+  EXPECT_EQ(override_error("tool.2.radius", "3").rule, "tool has no item 2");
+}
+
+/// Digits are a number even where an item has them for its name, which is warned of.
+TEST(Override, TakesDigitsForANumber) {
+  const PreparedCase reading = prepare_case(
+      data_folder / "good/base.toml", {{"tool.1.name", "\"0\""}, {"tool.0.position.2", "7.5"}});
+  ASSERT_TRUE(reading.value) << all_texts(reading);
+  EXPECT_EQ(reading.value->tools[0].position.z(), 7.5);
+  const std::vector<std::string>& told = reading.warnings;
+  EXPECT_EQ(std::count_if(told.begin(), told.end(),
+                          [](const std::string& text) {
+                            return text.find("tool.1.name = \"0\"") != std::string::npos;
+                          }),
+            1);
 }
 
 TEST(Override, TakesBareWordsAsStrings) {
