@@ -4,8 +4,9 @@
 # #include "core/model/case.hpp" reads the same in other projects as here.
 include(CMakePackageConfigHelpers)
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/plyform)
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 
-install(TARGETS plyform)
+install(TARGETS plyform COMPONENT program)
 install(TARGETS plyform_base plyform_contact plyform_core plyform_identify EXPORT plyform)
 install(EXPORT plyform FILE plyformTargets.cmake NAMESPACE plyform:: DESTINATION ${package_dir})
 
@@ -66,6 +67,7 @@ foreach(header ${public_headers})
   install(FILES ${header} DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}/plyform/${folder})
 endforeach()
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME program)
 install(DIRECTORY cases DESTINATION ${CMAKE_INSTALL_DATADIR}/plyform)
 # plyform chart calls tools/study, which takes the rest; plyform report, map, pattern and export call
 # the programs of their names.
@@ -78,6 +80,7 @@ install(DIRECTORY tools/base tools/studies tools/plotting tools/reporting tools/
         USE_SOURCE_PERMISSIONS PATTERN __pycache__ EXCLUDE)
 install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 configure_package_config_file(cmake/plyformConfig.cmake.in plyformConfig.cmake
   INSTALL_DESTINATION ${package_dir} PATH_VARS CMAKE_INSTALL_DATADIR CMAKE_INSTALL_INCLUDEDIR)
 # Before 1.0 any minor version may change the interface.

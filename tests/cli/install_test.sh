@@ -40,6 +40,15 @@ if [ -d "$package" ]; then # the module, if it was built
     "$prefix/share/plyform/cases/hemisphere_0"
 fi
 
+# Debian's package: what is in it runs, and other projects' headers are not.
+if command -v dpkg-shlibdeps >/dev/null && command -v file >/dev/null; then
+  (cd "$build" && cpack -B "$work/package")
+  dpkg-deb -x "$work"/package/plyform_*.deb "$work/unpacked"
+  "$work/unpacked/usr/bin/plyform" version
+  [ -f "$work/unpacked/usr/share/doc/plyform/docs/users/install.md" ]
+  [ ! -e "$work/unpacked/usr/include" ]
+fi
+
 cmake -S "$tests/consumer" -B "$work/build" -G Ninja -DCMAKE_BUILD_TYPE=Release \
   -DCMAKE_PREFIX_PATH="$prefix"
 cmake --build "$work/build"
