@@ -4,7 +4,7 @@
     measured_scatter.py PROGRAM RESULTS PICTURES > SECTION     # runs what RESULTS lacks
 
 Runs cases/studies/laboratory_scatter.toml into RESULTS, draws two pictures into the folder
-PICTURES and writes the section's text. `section` is the same for the page's own script.
+PICTURES and writes the section's text; `part` does so for measured.py, which makes the page.
 """
 
 import csv
@@ -180,6 +180,21 @@ def spread_of(fabric: str) -> str:
                      for a in (10, 20, 30, 40))
 
 
+def laws_of() -> str:
+    """The section's title and first paragraph, which no run is needed for."""
+    return f"""{TITLE}
+
+Six laboratories measured the plain weave, three the twill. Their mean, and one standard deviation below and above it, are `cases/fabrics/glass_pp_plain.toml`, `_minus`, `_plus` and `glass_pp_twill*.toml`. One deviation of the torque is {spread_of("plain")} for the plain weave, {spread_of("twill")} for the twill.
+"""
+
+
+def part(work) -> str:
+    """For measured.py: a Work of measured_work.py."""
+    if work.cheap:
+        return laws_of()
+    return section(work.program, work.folder / "laboratory_scatter", work.pictures)
+
+
 def section(program: Path, results: Path, pictures: Path) -> str:
     """Markdown, with pictures measured_scatter_laws.png and _shear.png in the folder PICTURES."""
     runs = runs_of(program, results)
@@ -195,10 +210,7 @@ def section(program: Path, results: Path, pictures: Path) -> str:
     flat = [moved(program, runs[f"{fabric}{sign} {force}"], runs[f"{fabric} {force}"])[0]
             for fabric, sign, force in others if (fabric, force) != ("twill", 30)]
     friction = change(runs["friction 0.25"], runs["plain 300"], "punch_N")
-    return f"""{TITLE}
-
-Six laboratories measured the plain weave, three the twill. Their mean, and one standard deviation below and above it, are `cases/fabrics/glass_pp_plain.toml`, `_minus`, `_plus` and `glass_pp_twill*.toml`. One deviation of the torque is {spread_of("plain")} for the plain weave, {spread_of("twill")} for the twill.
-
+    return f"""{laws_of()}
 ![Torque per area of each laboratory, their mean and one standard deviation](measured_scatter_laws.png)
 
 A ply is drawn over the hemisphere (`cases/hemisphere_0/glass_pp.toml`) with each of the six laws, under a usual blank-holder and a light one; the study is `cases/studies/laboratory_scatter.toml`. All runs have one mesh.
