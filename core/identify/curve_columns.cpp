@@ -93,22 +93,46 @@ std::vector<std::size_t> of_quantity(const CurveTable& table, Quantity quantity)
   return found;
 }
 
-/// The factor of a column by the unit that the user gives, or by its header; reports an error and
-/// returns nothing if that is of another quantity.
-std::optional<double> factor_of(const CurveTable& table, const ColumnRequest& request,
-                                std::size_t column, Diagnostics& diagnostics) {
+bool fits(const ColumnRequest& request, Quantity quantity) {
+  return quantity == request.quantity || quantity == request.also;
+}
+
+/// Whether a force per length is refused for a reason of its own, which is then reported.
+bool is_refused(const ColumnRequest& request, Quantity quantity, const Place& at,
+                const std::string& item, const std::string& value, Diagnostics& diagnostics) {
+  if (request.no_per_length.empty() || quantity != Quantity::force_per_length) return false;
+  diagnostics.error(at, item, value,
+                    fmt::format("is a force per length, the {} must be {}: {}", request.word,
+                                a_quantity(request.quantity), request.no_per_length),
+                    "take the load as measured, in N");
+  return true;
+}
+
+/// The column with its factor by the unit that the user gives, or by its header; reports an error
+/// and returns nothing if that is of another quantity.
+std::optional<ChosenColumn> with_factor(const CurveTable& table, const ColumnRequest& request,
+                                        std::size_t column, Diagnostics& diagnostics) {
   const ColumnMeaning meaning = table.meaning(column);
   if (!request.chosen.unit.empty()) {
     const auto unit = find_unit(request.chosen.unit);
-    if (unit && unit->quantity == request.quantity) return unit->factor;
-    diagnostics.error({request.unit_option, 1, 1}, item_of(request.unit_option),
-                      request.chosen.unit,
-                      fmt::format("is no unit of {}", a_quantity(request.quantity)),
-                      "give one of " + units_of(request.quantity));
+    if (unit && fits(request, unit->quantity))
+      return ChosenColumn{column, unit->factor, unit->quantity};
+    const Place option{request.unit_option, 1, 1};
+    const std::string item = item_of(request.unit_option), &given = request.chosen.unit;
+    if (!unit || !is_refused(request, unit->quantity, option, item, given, diagnostics))
+      diagnostics.error(option, item, given,
+                        fmt::format("is no unit of {}", a_quantity(request.quantity)),
+                        "give one of " + units_of(request.quantity) +
+                            (request.also ? ", " + units_of(*request.also) : ""));
     return std::nullopt;
   }
-  if (meaning.quantity == request.quantity) return meaning.factor;
-  if (meaning.quantity == Quantity::unknown) return usual_factor(request.quantity);
+  if (fits(request, meaning.quantity))
+    return ChosenColumn{column, meaning.factor, meaning.quantity};
+  if (meaning.quantity == Quantity::unknown)
+    return ChosenColumn{column, usual_factor(request.quantity), request.quantity};
+  if (is_refused(request, meaning.quantity, {table.file, 1, 1}, table.name_of(column), meaning.unit,
+                 diagnostics))
+    return std::nullopt;
   const std::vector<std::size_t> better = of_quantity(table, request.quantity);
   std::string remedy = request.hint;
   if (remedy.empty())
@@ -125,7 +149,8 @@ std::optional<double> factor_of(const CurveTable& table, const ColumnRequest& re
 /// The one column of the quantity; nothing if there is none, or an error if there are several.
 std::optional<std::size_t> column_by_header(const CurveTable& table, const ColumnRequest& request,
                                             Diagnostics& diagnostics) {
-  const std::vector<std::size_t> all = of_quantity(table, request.quantity);
+  std::vector<std::size_t> all = of_quantity(table, request.quantity);
+  if (all.empty() && request.also) all = of_quantity(table, *request.also);
   if (all.size() == 1) return all.front();
   if (all.empty()) return std::nullopt;
   std::vector<std::size_t> preferred;
@@ -139,22 +164,38 @@ std::optional<std::size_t> column_by_header(const CurveTable& table, const Colum
   return std::nullopt;
 }
 
-/// Columns of unknown kind for the requests that are still open, from left to right, if they are as
-/// many as these; else an error.
-bool fill_from_left(const CurveTable& table, const std::vector<ColumnRequest>& requests,
-                    const std::vector<std::size_t>& open, Chosen& chosen,
-                    Diagnostics& diagnostics) {
+/// Columns of unknown kind that no request has.
+std::vector<std::size_t> unknown_left(const CurveTable& table, const Chosen& chosen) {
   std::vector<std::size_t> left;
   for (const std::size_t i : of_quantity(table, Quantity::unknown))
     if (std::none_of(chosen.begin(), chosen.end(),
                      [i](const auto& column) { return column && column->index == i; }))
       left.push_back(i);
+  return left;
+}
+
+/// Takes a request that an angle does for out of the open ones where there is an angle, unless all
+/// have their places from left to right.
+void leave_to_angle(const CurveTable& table, const std::vector<ColumnRequest>& requests,
+                    const Chosen& chosen, std::vector<std::size_t>& open) {
+  const bool angle = std::any_of(chosen.begin(), chosen.end(), [](const auto& column) {
+    return column && column->quantity == Quantity::angle;
+  });
+  if (!angle || (open.size() > 1 && unknown_left(table, chosen).size() == open.size())) return;
+  std::erase_if(open, [&requests](std::size_t n) { return requests[n].angle_does; });
+}
+
+/// Columns of unknown kind for the requests that are still open, from left to right, if they are as
+/// many as these; else an error.
+bool fill_from_left(const CurveTable& table, const std::vector<ColumnRequest>& requests,
+                    const std::vector<std::size_t>& open, Chosen& chosen,
+                    Diagnostics& diagnostics) {
+  const std::vector<std::size_t> left = unknown_left(table, chosen);
   for (std::size_t n = 0; n < open.size(); ++n) {
     const ColumnRequest& request = requests[open[n]];
     if (left.size() == open.size()) {
-      const auto factor = factor_of(table, request, left[n], diagnostics);
-      if (!factor) return false;
-      chosen[open[n]] = {left[n], *factor};
+      chosen[open[n]] = with_factor(table, request, left[n], diagnostics);
+      if (!chosen[open[n]]) return false;
       continue;
     }
     if (table.width() < requests.size() && table.names.empty() && table.width() == 1) {
@@ -164,6 +205,11 @@ bool fill_from_left(const CurveTable& table, const std::vector<ColumnRequest>& r
                         "them");
       return false;
     }
+    const auto per_length = of_quantity(table, Quantity::force_per_length);
+    if (!per_length.empty() && is_refused(request, Quantity::force_per_length, {table.file, 1, 1},
+                                          table.name_of(per_length.front()),
+                                          table.meaning(per_length.front()).unit, diagnostics))
+      return false;
     std::string remedy = fmt::format("name it with {}, and its unit with {}, if it is there",
                                      request.option, request.unit_option);
     if (!request.hint.empty()) remedy += "; " + request.hint;
@@ -210,13 +256,13 @@ std::optional<Chosen> choose_columns(const CurveTable& table,
     const auto column = named ? named_column(table, request, diagnostics)
                               : column_by_header(table, request, diagnostics);
     if (column) {
-      if (const auto factor = factor_of(table, request, *column, diagnostics))
-        chosen[n] = {*column, *factor};
+      chosen[n] = with_factor(table, request, *column, diagnostics);
     } else if (diagnostics.errors.size() == before) {
       open.push_back(n);
     }
   }
   if (diagnostics.errors.size() > errors) return std::nullopt;
+  leave_to_angle(table, requests, chosen, open);
   if (!fill_from_left(table, requests, open, chosen, diagnostics) ||
       !all_different(table, requests, chosen, diagnostics))
     return std::nullopt;

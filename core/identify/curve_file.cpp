@@ -21,7 +21,7 @@ Cell read_cell(const std::string& text, double factor) {
   const std::optional<double> number = number_in(text);
   if (!number) {
     const bool decimal_comma = text.find(',') != std::string::npos;
-    return {0.0, text.empty() ? "is empty, there must be a number" : "must be a number",
+    return {0.0, "must be a number",
             decimal_comma ? "write a decimal point instead of the comma"
                           : "correct it, or take the row out or put # before it"};
   }
@@ -36,6 +36,13 @@ struct Target {
   std::string name;
   std::vector<double>* values;
 };
+
+std::string names_of(const std::vector<Target>& targets) {
+  std::vector<std::string> names;
+  for (const Target& target : targets)
+    names.push_back(target.name);
+  return joined(names);
+}
 
 /// Collects the numbers; reports the first five errors and the number of further ones.
 bool read_cells(const CurveTable& table, const std::vector<Target>& targets, Curve& curve,
@@ -55,6 +62,10 @@ bool read_cells(const CurveTable& table, const std::vector<Target>& targets, Cur
                           "them");
       continue;
     }
+    const bool empty = std::any_of(targets.begin(), targets.end(), [&row](const Target& target) {
+      return row.fields[target.column.index].text.empty();
+    });
+    if (empty) continue; // as tables of several curves have where one of them ends
     for (const Target& target : targets) {
       const CurveField& field = row.fields[target.column.index];
       const Cell cell = read_cell(field.text, target.column.factor);
@@ -69,15 +80,19 @@ bool read_cells(const CurveTable& table, const std::vector<Target>& targets, Cur
     diagnostics.error({curve.file, table.rows.back().line, 1}, "", "",
                       fmt::format("{} more mistakes like these", mistakes - shown),
                       "check the separator and the columns chosen");
-  return mistakes == 0;
+  if (mistakes == 0 && curve.line.empty())
+    diagnostics.error({curve.file, table.rows.front().line, 1}, "", "",
+                      fmt::format("no row has a number in each of {}", names_of(targets)),
+                      "choose other columns");
+  return mistakes == 0 && !curve.line.empty();
 }
 
 std::vector<ColumnRequest> requests_of(const CurveColumns& columns) {
-  std::vector<ColumnRequest> requests{{"--x-column", "--x-unit", columns.x, columns.x_is,
-                                       columns.x_word, columns.x_preferred, columns.x_hint,
-                                       columns.with_angle && !columns.angle.column.empty()},
-                                      {"--y-column", "--y-unit", columns.y, columns.y_is,
-                                       columns.y_word, columns.y_preferred, "", false}};
+  std::vector<ColumnRequest> requests{
+      {"--x-column", "--x-unit", columns.x, columns.x_is, columns.x_word, columns.x_preferred,
+       columns.x_hint, columns.with_angle && !columns.angle.column.empty(), columns.with_angle},
+      {"--y-column", "--y-unit", columns.y, columns.y_is, columns.y_word, columns.y_preferred, "",
+       false, false, columns.y_also, columns.no_per_length}};
   if (columns.with_angle)
     requests.push_back({"--angle-column", "--angle-unit", columns.angle, Quantity::angle,
                         "shear angle", "shear gamma", "", true});
@@ -95,6 +110,7 @@ std::optional<Curve> read_curve(const std::filesystem::path& file, const CurveCo
   Curve curve;
   curve.file = table->file;
   curve.y_name = table->name_of((*chosen)[1]->index);
+  curve.y_is = (*chosen)[1]->quantity;
   std::vector<Target> targets{{*(*chosen)[1], curve.y_name, &curve.y}};
   if ((*chosen)[0]) {
     curve.x_name = table->name_of((*chosen)[0]->index);
@@ -110,7 +126,8 @@ std::optional<Curve> read_curve(const std::filesystem::path& file, const CurveCo
 }
 
 Curve rows_of(const Curve& curve, const std::vector<std::size_t>& rows) {
-  Curve result{curve.file, curve.x_name, curve.y_name, {}, {}, {}, {}, curve.angle_name};
+  Curve result{curve.file, curve.x_name, curve.y_name,     {},        {},
+               {},         {},           curve.angle_name, curve.y_is};
   for (const std::size_t row : rows) {
     result.x.push_back(curve.x[row]);
     result.y.push_back(curve.y[row]);

@@ -15,6 +15,7 @@ struct Curve {
   /// rad, of each row; empty if not measured
   std::vector<double> angle = {};
   std::string angle_name = {};
+  Quantity y_is = Quantity::force; ///< or force_per_length, in N/mm
   std::size_t size() const { return x.size(); }
 };
 
@@ -26,11 +27,15 @@ struct CurveColumns {
   std::string x_preferred = "extension displacement crosshead stroke elongation deflection";
   std::string y_preferred = {};
   std::string x_hint = {}; ///< if x is of another quantity
-  bool with_angle =
-      false; ///< a column of angles is read if there is one; x may miss if it is chosen
+  std::optional<Quantity> y_also = {};
+  std::string no_per_length = {}; ///< as in ColumnRequest
+  /// A column of angles is read if there is one; x may miss if it is chosen, or if all else is
+  /// found.
+  bool with_angle = false;
 };
 
-/// Reads the columns, in mm, N, rad, 1. Errors go to `diagnostics` (of unreadable numbers the first
+/// Reads the columns, in mm, N, rad, 1, N/mm. Rows with an empty cell in one of them are left out.
+/// Errors go to `diagnostics` (of unreadable numbers the first
 /// five), and nothing is returned then. Never throws because of the content of the file.
 std::optional<Curve> read_curve(const std::filesystem::path& file, const CurveColumns& columns,
                                 Diagnostics& diagnostics);

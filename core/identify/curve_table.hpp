@@ -58,17 +58,23 @@ struct ColumnRequest {
   std::string preferred;                 ///< words: decide between several columns of the quantity
   std::string hint;                      ///< added to the remedy if the quantity is another
   bool optional = false;                 ///< may be missing unless chosen
+  bool angle_does = false;               ///< may be missing beside a column of angles
+  std::optional<Quantity> also = {};     ///< taken where no column is of `quantity`
+  std::string no_per_length = {};        ///< why a force per length does not do
 };
 
 struct ChosenColumn {
   std::size_t index; ///< from 0
-  double factor;     ///< to mm, N, rad, 1
+  double factor;     ///< to mm, N, rad, 1, N/mm
+  Quantity quantity; ///< of the request, or its `also`
 };
 
 /// The column of each request; none for an optional one that is missing. By the user's choice; else
 /// the one of that quantity by the header; else, if neither header nor choice says more and as many
-/// columns are left as are needed, those from left to right. Reports errors and returns nothing
-/// where that leaves a doubt: several columns of the quantity, a column of another quantity.
+/// columns are left as are needed, those from left to right; but beside an angle one that says
+/// `angle_does` is missing rather than guessed, unless others are guessed too. Reports errors and
+/// returns nothing where that leaves a doubt: several columns of the quantity, a column of another
+/// quantity.
 std::optional<std::vector<std::optional<ChosenColumn>>>
 choose_columns(const CurveTable& table, const std::vector<ColumnRequest>& requests,
                Diagnostics& diagnostics);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/shear_rows.hpp"
 
+#include "core/identify/measured_angle.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -48,20 +50,7 @@ bool take_measured_angles(Curve& curve, const ShearTest& test, Diagnostics& diag
 void compare_angles(const Curve& curve, const ShearTest& test, bool measured_counts,
                     Diagnostics& diagnostics) {
   if (curve.angle.empty() || curve.x_name.empty()) return;
-  constexpr std::size_t parts = 10; // means over a tenth of the rows: single ones are noise
-  double largest = 0.0, at = 0.0;
-  for (std::size_t part = 0; part < parts; ++part) {
-    const std::size_t from = part * curve.size() / parts, to = (part + 1) * curve.size() / parts;
-    double difference = 0.0, angle = 0.0;
-    for (std::size_t i = from; i < to; ++i) {
-      const double crosshead = shear_angle(test, curve.x[i]);
-      difference += (crosshead - curve.angle[i]) / static_cast<double>(to - from);
-      angle += curve.angle[i] / static_cast<double>(to - from);
-    }
-    if (std::isnan(difference) || std::abs(difference) <= std::abs(largest)) continue;
-    largest = difference;
-    at = angle;
-  }
+  const auto [largest, at] = angle_difference(curve, test);
   constexpr double agree = 1.0 * degree;
   if (std::abs(largest) <= agree) return;
   diagnostics.warning(

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/test_columns.hpp"
 
+#include "core/identify/normalised_force.hpp"
+
 namespace plyform {
 
-CurveColumns shear_columns() {
+CurveColumns shear_columns(bool frame) {
   CurveColumns columns;
   columns.with_angle = true;
+  if (frame)
+    columns.y_also = Quantity::force_per_length;
+  else
+    columns.no_per_length = no_normalised_bias();
   return columns;
 }
 

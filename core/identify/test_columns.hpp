@@ -8,7 +8,8 @@
 
 namespace plyform {
 
-CurveColumns shear_columns();
+/// A frame's load may be a normalised force, N/mm: normalised_force.hpp.
+CurveColumns shear_columns(bool frame);
 /// Tension and compression; strain: else displacement.
 CurveColumns tension_columns(bool strain);
 CurveColumns three_point_columns();

@@ -55,6 +55,12 @@ constexpr NamedUnit units[] = {
     {"pct", {Q::strain, 0.01}},
     {"mm/mm", {Q::strain, 1.0}},
     {"m/m", {Q::strain, 1.0}},
+    {"N/mm", {Q::force_per_length, 1.0}},
+    {"kN/m", {Q::force_per_length, 1.0}},
+    {"N/cm", {Q::force_per_length, 0.1}},
+    {"N/m", {Q::force_per_length, 1e-3}},
+    {"mN/mm", {Q::force_per_length, 1e-3}},
+    {"cN/mm", {Q::force_per_length, 0.01}},
     {"s", {Q::time, 1.0}},
     {"sec", {Q::time, 1.0}},
     {"ms", {Q::time, 1e-3}},
@@ -151,6 +157,11 @@ std::optional<ColumnMeaning> unit_at_end(const std::string& name) {
   const std::string &last = parts.back(), &before = parts[parts.size() - 2];
   const auto unit = find_unit(last);
   if (!unit) return std::nullopt;
+  if (before == "per" && parts.size() > 3) {
+    const std::string over = parts[parts.size() - 3] + "/" + last;
+    if (const auto known = find_unit(over))
+      return ColumnMeaning{known->quantity, known->factor, over};
+  }
   const bool compound = before == "per" || (find_unit(before) && before != "in");
   if (compound) return ColumnMeaning{Q::other, 1.0, before + " " + last};
   return ColumnMeaning{unit->quantity, unit->factor, last};
@@ -168,6 +179,8 @@ std::string quantity_name(Quantity quantity) {
     return "angle";
   case Q::strain:
     return "strain";
+  case Q::force_per_length:
+    return "force per length";
   case Q::time:
     return "time";
   case Q::other:

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What a column of a curve is, from its header: "Load (kN)", "Extension [mm]", "F / N", "force_N",
 // "shear angle in deg", or a second header row with the units. A unit decides; without one the
-// words of the name do ("Crosshead travel" is a length). Spelling of units as in the SI; other
+// words of the name do ("Crosshead travel" is a length). Of compound units a force over a length
+// is known, "N/mm" or "..._N_per_mm". Spelling of units as in the SI; other
 // letters (KN, MM) where they cannot be mistaken.
 #pragma once
 
@@ -12,11 +13,12 @@
 namespace plyform {
 
 enum class Quantity {
-  unknown, ///< neither unit nor word says what it is
-  length,  ///< mm
-  force,   ///< N
-  angle,   ///< rad
-  strain,  ///< 1
+  unknown,          ///< neither unit nor word says what it is
+  length,           ///< mm
+  force,            ///< N
+  angle,            ///< rad
+  strain,           ///< 1
+  force_per_length, ///< N/mm
   time,
   other, ///< none of these: a stress, an energy
 };
@@ -26,7 +28,7 @@ std::string quantity_name(Quantity quantity);
 
 struct Unit {
   Quantity quantity;
-  double factor; ///< to mm, N, rad, 1
+  double factor; ///< to mm, N, rad, 1, N/mm
 };
 
 /// The unit of that name, or nothing.

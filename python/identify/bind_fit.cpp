@@ -14,7 +14,11 @@ namespace {
 
 /// Of the tests as python/plyform names them.
 CurveColumns columns_of(const std::string& test) {
-  if (test == "shear") return shear_columns();
+  if (test == "bias" || test == "frame") {
+    CurveColumns columns = shear_columns(test == "frame");
+    columns.x_hint = "give angle_column if it is a shear angle";
+    return columns;
+  }
   if (test == "three-point") return three_point_columns();
   if (test == "cantilever angle") return cantilever_columns(CantileverReading::chord_angle);
   if (test == "cantilever deflection") return cantilever_columns(CantileverReading::sag);

@@ -117,13 +117,15 @@ awk -F, -v OFS=, 'NR > 1 { $1 += 0.02 * $3 } { print $1, $3 }' bias.csv >soft.cs
 expect 0 'compliance 0.02 mm/N' identify bias soft.csv "${bias[@]}" --compliance 0.02 -o found.toml
 expect_law found.toml polynomial 0.37044 1e-6
 awk -F, -v OFS=, 'NR > 1 { $1 += (NR > 30 ? 5 : 0) } { print }' bias.csv >slip.csv
-go 'a slip of 5 mm' slip.csv "${stiff[@]}"
+go 'a slip of 5 mm' slip.csv "${stiff[@]}" --angle-column none
 expect 0 'slip 5 mm' identify bias slip.csv "${bias[@]}" --slip fit "${stiff[@]}" -o found.toml
 expect_law found.toml polynomial 0.37044 1e-3
 expect 0 'the measured shear angle (shear_deg) is up to' identify bias slip.csv "${bias[@]}" \
-  --yes-doubtful -o found.toml
-expect 0 'the law is of the measured angle' identify bias slip.csv "${bias[@]}" \
-  --angle-column shear_deg -o found.toml
+  --angle-column none --yes-doubtful -o found.toml
+for column in '' '--angle-column shear_deg'; do # a column of measured angles counts
+  expect 0 'the law is of the measured angle' identify bias slip.csv "${bias[@]}" $column \
+    -o found.toml
+done
 expect_law found.toml polynomial 0.37044 1e-5
 awk -F, -v OFS=, 'NR > 1 { print $1, $3 / 1000 }' bias.csv >kilo.csv
 go 'is no fabric' kilo.csv
@@ -131,6 +133,27 @@ expect 0 'k1 = 0.37044' identify bias kilo.csv "${bias[@]}" --y-unit kN -o found
 go 'zero = none: must be a number or fit' zero.csv --zero none
 go 'compliance = -1: must be at least 0' zero.csv --compliance -1
 go 'nothing to correct: the angle is measured' slip.csv --angle-column shear_deg --compliance 0.01
+
+# A normalised shear force over a measured angle, a column a laboratory: any frame.
+awk -F, 'BEGIN { print "shear_angle_deg,A,B,C" }
+         NR > 1 { g = $2 * atan2(0, -1) / 180; c = 400 * cos(atan2(1, 1) - g / 2)
+                  printf "%s,%.12g,%s,%.12g\n", $2, $3 / c, (NR > 5 ? "" : 1), 2 * $3 / c }' \
+  frame.csv >norm.csv
+frame=(--y-unit N/mm --fabric glass.toml -o found.toml)
+expect 0 'normalised shear force' identify frame norm.csv:A "${frame[@]}"
+expect_law found.toml polynomial 0.37044 1e-6
+grep -q 'from norm.csv:A:' found.toml || fail 'found.toml does not name the column'
+grep -q 'loads are of one of 200 mm' found.toml || fail 'found.toml does not say its frame'
+expect 0 'loads are of one of 50 mm' identify frame norm.csv:C "${frame[@]}" --side 50
+expect_law found.toml polynomial 0.74088 1e-6
+cp norm.csv nor:m.csv
+expect 0 'from nor:m.csv:A, norm.csv:C' identify frame nor:m.csv:A norm.csv:C "${frame[@]}" \
+  --yes-doubtful
+expect 2 'y-column = D: is no column of the header' identify frame norm.csv:D "${frame[@]}"
+expect 2 'side: must be given' identify frame norm.csv:A --fabric glass.toml -o never.toml
+expect 2 'angle-column = none: the curve has no extension' identify frame norm.csv:A "${frame[@]}" \
+  --angle-column none
+go 'y-unit = N/mm: is a force per length, the load must be a force' norm.csv:A --y-unit N/mm
 
 # Several specimens.
 for n in 1 2 3; do

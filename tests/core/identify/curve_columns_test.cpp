@@ -86,6 +86,46 @@ TEST(CurveColumns, MayLackTheCrossheadWhereTheAngleIsMeasured) {
   EXPECT_EQ(reading.curve->x_name, "");
 }
 
+TEST(CurveColumns, AreAnglesWithoutBeingNamedWhereThereIsNoExtension) {
+  const char* laboratories = "shear_angle_deg,A,B,C\n0,,7,1\n5,1,8,2\n30,3,9,\n";
+  CurveColumns columns = shear();
+  columns.y = {"A", "N/mm"};
+  columns.y_also = Quantity::force_per_length;
+  const Reading reading = read(laboratories, columns);
+  ASSERT_TRUE(reading.curve) << reading.texts;
+  EXPECT_EQ(reading.curve->x_name, "");
+  EXPECT_EQ(reading.curve->y, (Values{1.0, 3.0}));
+  EXPECT_EQ(reading.curve->y_is, Quantity::force_per_length);
+  EXPECT_NEAR(reading.curve->angle[1], std::numbers::pi / 6.0, 1e-15);
+  EXPECT_EQ(rows_of(*reading.curve, {1}).y_is, Quantity::force_per_length);
+  columns.y = {};
+  EXPECT_NE(read(laboratories, columns).texts.find("that it is the load, a force"),
+            std::string::npos);
+  // As many unknown columns as are needed are extension and load, as without an angle.
+  EXPECT_EQ(read("d,gamma_deg,F\n0,0,0\n2,30,4\n", columns).curve->x, (Values{0.0, 2.0}));
+}
+
+TEST(CurveColumns, OfForcePerLengthAreForTestsThatTakeThem) {
+  CurveColumns columns = shear();
+  const char* header = "gamma_deg,shear force (N/mm)\n0,0\n30,4\n";
+  EXPECT_NE(read(header, columns).texts.find("no column says"), std::string::npos);
+  columns.no_per_length = "it is not the test's";
+  for (const char* column : {"", "2"}) {
+    columns.y.column = column;
+    EXPECT_NE(
+        read(header, columns)
+            .texts.find("shear force (N/mm) = N/mm: is a force per length, the load must be a "
+                        "force: it is not the test's; take the load as measured, in N"),
+        std::string::npos)
+        << column << read(header, columns).texts;
+  }
+  columns.y_also = Quantity::force_per_length;
+  columns.no_per_length = {};
+  EXPECT_TRUE(read(header, columns).curve);
+  columns.y.unit = "mm";
+  EXPECT_NE(read(header, columns).texts.find("give one of N, kN"), std::string::npos);
+}
+
 TEST(CurveColumns, OfAnotherKindOrInDoubtAreRefused) {
   struct Wrong {
     const char *text, *x, *y, *unit, *message;

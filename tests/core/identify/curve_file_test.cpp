@@ -100,6 +100,15 @@ TEST(CurveFile, ChoosesColumnsByNameOrNumber) {
     }
 }
 
+TEST(CurveFile, LeavesOutRowsWithAnEmptyCellInItsColumns) {
+  const Reading reading = read("d,A,B\n0,,7\n1,2,\n, 3,8\n2,4,9\n", "d", "A");
+  ASSERT_TRUE(reading.curve) << reading.texts();
+  EXPECT_EQ(reading.curve->x, (Values{1.0, 2.0}));
+  EXPECT_EQ(reading.curve->y, (Values{2.0, 4.0}));
+  EXPECT_EQ(reading.curve->line, (std::vector<int>{3, 5}));
+  EXPECT_EQ(reading.texts(), "");
+}
+
 TEST(CurveFile, NamesEveryMistakeWithPlaceAndRemedy) {
   struct Wrong {
     const char *text, *x, *y, *message;
@@ -107,7 +116,8 @@ TEST(CurveFile, NamesEveryMistakeWithPlaceAndRemedy) {
   const Wrong wrong[] = {
       {"d,F\n0,0\n1,abc\n", "", "", "FILE:3:3: error: F = abc: must be a number; correct it"},
       {"d;F\n0;0\n1,5;2\n", "", "", "FILE:3:1: error: d = 1,5: must be a number; write a decimal"},
-      {"0,0\n1,\n", "", "", "FILE:2:3: error: column 2: is empty, there must be a number"},
+      {"0,0\n1,-\n", "", "", "FILE:2:3: error: column 2 = -: must be a number"},
+      {"d,F\n0,\n1,\n", "", "", "FILE:2:1: error: no row has a number in each of d, F; choose"},
       {"0,0\n1,nan\n", "", "", "FILE:2:3: error: column 2 = nan: must be a finite number"},
       {"0,0\n1,1e999\n", "", "", "FILE:2:3: error: column 2 = 1e999: must be a finite number"},
       {"0,0,0\n1,1\n", "1", "3",

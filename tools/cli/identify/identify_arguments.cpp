@@ -60,7 +60,11 @@ Correction correction_of(const std::string& option, const std::string& text, boo
 }
 
 CurveColumns columns_of_test(const IdentifyArguments& a) {
-  if (is_shear_test(a.test)) return shear_columns();
+  if (is_shear_test(a.test)) {
+    CurveColumns columns = shear_columns(a.test == "frame");
+    columns.x_hint = "give --angle-column if it is a shear angle";
+    return columns;
+  }
   if (a.test == "three-point") return three_point_columns();
   if (a.test == "cantilever") return cantilever_columns(reading_of(a));
   if (!is_tension_test(a.test)) return zone_columns();
@@ -134,7 +138,7 @@ bool is_tension_test(const std::string& test) {
 void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostics& diagnostics) {
   std::vector<fs::path> read{a.fabric};
   for (const std::string& curve : a.curves)
-    read.insert(read.begin(), curve);
+    read.insert(read.begin(), curve_argument(curve).file);
   check_output("--output", a.output, read, diagnostics);
   read.push_back(a.output);
   check_output("--fit", fit, read, diagnostics);
@@ -155,6 +159,10 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
   }
 }
 
+bool extension_counts(const IdentifyArguments& a) {
+  return a.angle.name == "none";
+}
+
 CantileverReading reading_of(const IdentifyArguments& a) {
   return a.reading == "angle" ? CantileverReading::chord_angle : CantileverReading::sag;
 }
@@ -163,7 +171,7 @@ FitOptions fit_options(const IdentifyArguments& a, Diagnostics& diagnostics) {
   const double unit = is_shear_test(a.test) ? degree : 1.0;
   FitOptions options{a.coefficients, a.from * unit, a.to * unit};
   options.doubtful = a.doubtful;
-  options.measured_angle = !a.angle.name.empty();
+  options.measured_angle = !a.angle.name.empty() && !extension_counts(a);
   Corrections& c = options.corrections;
   const Correction zero = correction_of("--zero", a.zero, true, true,
                                         "give the load without a specimen in N", diagnostics);
@@ -196,7 +204,7 @@ CurveColumns columns_of(const IdentifyArguments& a) {
   CurveColumns columns = columns_of_test(a);
   columns.x = {a.x.name, a.x.unit};
   columns.y = {a.y.name, a.y.unit};
-  columns.angle = {a.angle.name, a.angle.unit};
+  if (!extension_counts(a)) columns.angle = {a.angle.name, a.angle.unit};
   return columns;
 }
 
@@ -205,7 +213,9 @@ std::string test_words(const IdentifyArguments& a) {
     return fmt::format("bias-extension test, {:g} x {:g} mm, equation (40) read backwards",
                        a.specimen.length, a.specimen.width);
   if (a.test == "frame")
-    return fmt::format("picture frame of {:g} mm, equation (41) read backwards", a.specimen.side);
+    return "picture frame" +
+           (std::isnan(a.specimen.side) ? "" : fmt::format(" of {:g} mm", a.specimen.side)) +
+           ", equation (41) read backwards";
   if (a.test == "cantilever") return "cantilever test, heavy elastica";
   if (a.test == "three-point")
     return fmt::format("three-point bending, span {:g} mm, width {:g} mm", a.specimen.span,

@@ -13,23 +13,19 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The curves; errors are reported.
-std::vector<Curve> curves_of(const IdentifyArguments& a, Diagnostics& diagnostics) {
-  std::vector<Curve> curves;
-  for (const std::string& file : a.curves)
-    if (auto curve = read_curve(file, columns_of(a), diagnostics))
-      curves.push_back(std::move(*curve));
-  return curves;
-}
-
 std::optional<Identified> identify(const IdentifyArguments& a, const FabricReading& base,
-                                   const std::optional<ShearTest>& test,
+                                   const std::optional<PreparedShear>& test,
                                    const std::vector<Curve>& curves, const FitOptions& options,
                                    Diagnostics& diagnostics) {
   const Fabric& fabric = *base.value;
   if (test) {
-    const auto fit = identify_shear(curves, *test, fabric, options, diagnostics);
-    return fit ? std::optional(shear_text(*fit)) : std::nullopt;
+    auto fit = identify_shear(curves, test->test, fabric, options, diagnostics);
+    for (std::size_t n = 0; fit && n < fit->specimens.size(); ++n)
+      fit->specimens[n].file = curve_argument(a.curves[n]).name();
+    if (!fit) return std::nullopt;
+    Identified text = shear_text(*fit);
+    text.figures.insert(text.figures.begin(), test->assumed.begin(), test->assumed.end());
+    return text;
   }
   if (a.test == "compression") {
     const auto fit =
@@ -60,7 +56,7 @@ std::optional<Identified> identify(const IdentifyArguments& a, const FabricReadi
 std::string files_of(const IdentifyArguments& a) {
   std::string names;
   for (const std::string& curve : a.curves)
-    names += (names.empty() ? "" : ", ") + fs::path(curve).filename().string();
+    names += (names.empty() ? "" : ", ") + curve_argument(curve).name();
   return names;
 }
 
@@ -118,12 +114,12 @@ int identify_command(const IdentifyArguments& arguments) {
                            : fs::path(arguments.fit);
   Diagnostics diagnostics;
   check_arguments(arguments, fit, diagnostics);
-  const FitOptions options = fit_options(arguments, diagnostics);
-  const auto test = shear ? test_of(arguments.test, arguments.specimen, diagnostics) : std::nullopt;
+  FitOptions options = fit_options(arguments, diagnostics);
   const FabricReading base = fabric_of(arguments.fabric, shear, diagnostics);
   if (arguments.test == "in-plane-bending")
     check_zone_fabric(base.missing, {arguments.fabric, 1, 1}, diagnostics);
-  const std::vector<Curve> curves = curves_of(arguments, diagnostics);
+  std::vector<Curve> curves = curves_of(arguments, diagnostics);
+  const auto test = shear ? prepare_shear(arguments, curves, options, diagnostics) : std::nullopt;
   if (shear && base.value && !base.value->crossings.empty() &&
       !base.value->crossings[0].shear.odd())
     diagnostics.warning({arguments.fabric, 1, 1},

@@ -12,12 +12,15 @@ void add_specimen(CLI::App& test, const std::string& name, SpecimenArguments& to
     test.add_option("--length", to.length, "free length between the clamps, mm")->required();
     test.add_option("--width", to.width, "width, mm")->required();
   } else {
-    test.add_option("--side", to.side, "side from hinge to hinge, mm")->required();
+    test.add_option("--side", to.side,
+                    "side from hinge to hinge, mm; not needed for N/mm over an angle");
   }
 }
 
 void add_files(CLI::App& test, const std::string& x, const std::string& y, IdentifyArguments& to) {
-  test.add_option("curves", to.curves, "CSV file of " + x + " and " + y + ", one for each specimen")
+  test.add_option("curves", to.curves,
+                  "CSV file of " + x + " and " + y + ", or FILE:COLUMN of the " + y +
+                      ", one for each specimen")
       ->required();
   test.add_option("--x-column", to.x.name, "name or number of the column of " + x);
   test.add_option("--y-column", to.y.name, "name or number of the column of " + y);
@@ -59,7 +62,8 @@ void add_shear_tests(CLI::App& command, IdentifyArguments& to) {
     add_files(*test, bias ? "extension" : "extension of the diagonal", "load", to);
     add_corrections(*test, "shear angle (degrees)", to);
     test->add_option("--angle-column", to.angle.name,
-                     "column of a measured shear angle, in the place of the crosshead's");
+                     "column of a measured shear angle, in the place of the crosshead's; "
+                     "none: the crosshead's [measured where the file has one]");
     test->add_option("--angle-unit", to.angle.unit, "its unit: deg or rad");
     add_specimen(*test, name, to.specimen);
     test->add_option("--coefficients", to.coefficients, "of the torque: k1, k3, k5 ... [3]");
@@ -124,6 +128,7 @@ void add_theory_tests(CLI::App& command, TheoryArguments& to) {
         name, name == "bias" ? "bias-extension test, equation (40)" : "picture frame, (41)");
     test->add_option("--fabric", to.fabric, "fabric file")->required();
     add_specimen(*test, name, to.specimen);
+    if (name == "frame") test->get_option("--side")->required();
     test->add_option("--to", to.to, "last shear angle, degrees")->required();
     test->add_option("--points", to.points, "rows after the first, at 0 [100]");
     test->add_flag("--negative", to.negative,

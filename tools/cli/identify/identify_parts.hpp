@@ -45,10 +45,33 @@ void check_arguments(const IdentifyArguments& arguments, const std::filesystem::
                      Diagnostics& diagnostics);
 /// Corrections as the user gives them; errors are reported.
 FitOptions fit_options(const IdentifyArguments& arguments, Diagnostics& diagnostics);
+/// --angle-column none: although there may be a column of angles.
+bool extension_counts(const IdentifyArguments& arguments);
 CantileverReading reading_of(const IdentifyArguments& arguments);
 CurveColumns columns_of(const IdentifyArguments& arguments);
 /// "bias-extension test, 300 x 100 mm, equation (40) read backwards".
 std::string test_words(const IdentifyArguments& arguments);
+
+/// tools/cli/identify/identify_curves.cpp
+/// A curve as named on the command line: FILE, or FILE:COLUMN where FILE is one and the whole text
+/// is not.
+struct CurveArgument {
+  std::string file, column;
+  std::string name() const; ///< without folders
+};
+CurveArgument curve_argument(const std::string& text);
+/// The curves; errors are reported.
+std::vector<Curve> curves_of(const IdentifyArguments& arguments, Diagnostics& diagnostics);
+/// A shear test with what has been assumed of its curves.
+struct PreparedShear {
+  ShearTest test;
+  std::vector<std::string> assumed; ///< for report and file
+};
+/// Decides whether measured angles count and makes loads of normalised forces; reports errors and
+/// returns nothing if the test's sizes are invalid or missing.
+std::optional<PreparedShear> prepare_shear(const IdentifyArguments& arguments,
+                                           std::vector<Curve>& curves, FitOptions& options,
+                                           Diagnostics& diagnostics);
 
 /// tools/cli/identify/identify_report.cpp
 Identified shear_text(const ShearFit& fit);

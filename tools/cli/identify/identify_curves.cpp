@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The curves that plyform identify is given: FILE or FILE:COLUMN, and what a curve of a shear test
+// is made ready with before a law is fitted to it.
+#include "core/identify/measured_angle.hpp"
+#include "core/identify/normalised_force.hpp"
+#include "tools/cli/identify/identify_parts.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace plyform {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_file(const std::string& path) {
+  std::error_code ignored;
+  return fs::is_regular_file(path, ignored);
+}
+
+bool all_normalised(const std::vector<Curve>& curves) {
+  return std::all_of(curves.begin(), curves.end(),
+                     [](const Curve& curve) { return curve.y_is == Quantity::force_per_length; });
+}
+
+bool any_normalised(const std::vector<Curve>& curves) {
+  return std::any_of(curves.begin(), curves.end(),
+                     [](const Curve& curve) { return curve.y_is == Quantity::force_per_length; });
+}
+
+/// Whether the user corrects an extension, so that it counts.
+bool corrects_extension(const FitOptions& options) {
+  return options.corrections.compliance.value_or(0.0) > 0.0 || options.corrections.fit_slip;
+}
+
+} // namespace
+
+CurveArgument curve_argument(const std::string& text) {
+  CurveArgument result{text, ""};
+  for (std::size_t colon = text.rfind(':');
+       colon != std::string::npos && colon > 0 && !is_file(result.file);
+       colon = text.rfind(':', colon - 1))
+    if (is_file(text.substr(0, colon))) result = {text.substr(0, colon), text.substr(colon + 1)};
+  return result;
+}
+
+std::string CurveArgument::name() const {
+  return fs::path(file).filename().string() + (column.empty() ? "" : ":" + column);
+}
+
+std::vector<Curve> curves_of(const IdentifyArguments& a, Diagnostics& diagnostics) {
+  std::vector<Curve> curves;
+  for (const std::string& text : a.curves) {
+    const CurveArgument argument = curve_argument(text);
+    CurveColumns columns = columns_of(a);
+    if (!argument.column.empty()) columns.y.column = argument.column;
+    if (auto curve = read_curve(argument.file, columns, diagnostics))
+      curves.push_back(std::move(*curve));
+  }
+  return curves;
+}
+
+std::optional<PreparedShear> prepare_shear(const IdentifyArguments& a, std::vector<Curve>& curves,
+                                           FitOptions& options, Diagnostics& diagnostics) {
+  SpecimenArguments sizes = a.specimen;
+  const bool frame = a.test == "frame", any_size = frame && std::isnan(sizes.side);
+  auto test = any_size ? std::nullopt : test_of(a.test, sizes, diagnostics);
+  if ((!any_size && !test) || curves.empty()) return std::nullopt;
+  for (const Curve& curve : curves)
+    if (extension_counts(a) && curve.x_name.empty()) {
+      option_error("--angle-column", a.angle.name, "the curve has no extension that could count",
+                   "leave it out, or name the column of the extension with --x-column",
+                   diagnostics);
+      return std::nullopt;
+    }
+  if (!options.measured_angle && !extension_counts(a) && !corrects_extension(options))
+    options.measured_angle = angles_count(curves, test);
+  if (any_size) {
+    if (!options.measured_angle || !all_normalised(curves)) {
+      option_error("--side", "",
+                   "must be given: loads in N, and angles from an extension, are of a frame of "
+                   "some size",
+                   "give the frame's side from hinge to hinge, in mm", diagnostics);
+      return std::nullopt;
+    }
+    sizes.side = any_side;
+    test = test_of(a.test, sizes, diagnostics);
+  }
+  PreparedShear result{*test, {}};
+  if (any_normalised(curves))
+    result.assumed.push_back(fmt::format(
+        "normalised shear force F L_frame / (2 cos(45 deg - g/2) L_fabric^2), N/mm, of a frame of "
+        "any size; loads are of one of {:g} mm",
+        sizes.side));
+  if (frame)
+    for (Curve& curve : curves)
+      take_normalised(curve, sizes.side, options.measured_angle);
+  return result;
+}
+
+} // namespace plyform
