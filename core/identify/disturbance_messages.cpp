@@ -11,16 +11,6 @@ namespace {
 
 using Kind = DisturbanceKind;
 
-std::vector<Kind> kinds_looked_for(const FitOptions& options, const CurveWords& words) {
-  const Corrections& c = options.corrections;
-  std::vector<Kind> kinds;
-  if (words.zeros_show && !c.load_zero && !c.fit_load_zero) kinds.push_back(Kind::load_zero);
-  if (words.zeros_show && !c.toe && !c.fit_toe) kinds.push_back(Kind::displacement_zero);
-  if (words.can_stretch) kinds.push_back(Kind::stretch);
-  if (!c.fit_slip) kinds.push_back(Kind::slip);
-  return kinds;
-}
-
 std::string with_unit(const std::string& unit) {
   return unit.empty() ? "" : " " + unit;
 }
@@ -67,6 +57,17 @@ std::string remedy_of(const Disturbance& d, const CurveWords& words) {
 
 } // namespace
 
+std::vector<Kind> kinds_looked_for(const FitOptions& options, const CurveWords& words) {
+  const Corrections& c = options.corrections;
+  std::vector<Kind> kinds;
+  if (words.zeros_show && !c.load_zero && !c.fit_load_zero) kinds.push_back(Kind::load_zero);
+  if (words.zeros_show && words.toe_shows && !c.toe && !c.fit_toe)
+    kinds.push_back(Kind::displacement_zero);
+  if (words.can_stretch) kinds.push_back(Kind::stretch);
+  if (!c.fit_slip) kinds.push_back(Kind::slip);
+  return kinds;
+}
+
 bool check_disturbances(const Curve& curve, const LinearLaw& law, const LoadRows& rows,
                         const FitOptions& options, const CurveWords& words,
                         Diagnostics& diagnostics) {
@@ -111,7 +112,7 @@ void warn_of_unknowns(const Curve& curve, const LinearLaw& law, const LoadRows& 
                        common_compliance, percent(sensitive.compliance));
     remedy = "--compliance";
   }
-  if (!c.toe && !c.fit_toe && words.zeros_show) {
+  if (!c.toe && !c.fit_toe && words.zeros_show && words.toe_shows) {
     const double limits = best_toe(law, rows).limits;
     if (limits / words.length * sensitive.toe >= zero_counts) {
       what += fmt::format("{}the displacement zero (known to +- {:.2g} mm, {:g} mm would "

@@ -42,38 +42,48 @@ double change_by(const LinearLaw& law, const LoadRows& rows, const Eigen::Vector
 
 } // namespace
 
-std::vector<Disturbance> find_disturbances(const LinearLaw& law, const LoadRows& rows,
-                                           const std::vector<DisturbanceKind>& looked_for) {
+std::vector<Disturbance> fit_disturbances(const LinearLaw& law, const LoadRows& rows,
+                                          const std::vector<DisturbanceKind>& looked_for) {
   const Eigen::Index coefficients = law.probes.cols();
-  std::vector<Disturbance> found;
-  if (rows.x.size() < coefficients + 4) return found;
+  std::vector<Disturbance> all;
+  if (rows.x.size() < coefficients + 4) return all;
   const FixedFit plain = fit_fixed(law.loads(rows.x), rows.y, rows.weights);
   const double n = static_cast<double>(rows.x.size());
-  if (std::sqrt(plain.squares / n) < least_rms) return found;
+  if (std::sqrt(plain.squares / n) < least_rms) return all;
   double richer = plain.squares;
   if (law.richer) richer = fit_fixed(law.richer(rows.x), rows.y, rows.weights).squares;
-  double best_freedom = 1.0;
   for (const DisturbanceKind kind : looked_for) {
     const Shift shift = best_of(kind, law, rows);
     const double freedom = freedom_of(shift.fit.residuals, coefficients + 1);
     const double t2 = t_squared(plain.squares, shift.fit.squares, freedom);
     const double places = kind == DisturbanceKind::slip ? n : 1.0;
-    const double change = law_change(law.probes, shift.fit.k.head(coefficients), plain.k);
     const double t = shift.error > 0.0 ? std::abs(shift.amount) / shift.error : 1e9;
-    const double chance = places * student_beyond(std::min(std::sqrt(t2), t), freedom);
-    if (chance > by_chance || change < least_change) continue;
-    found.push_back({kind, shift.amount, shift.limits, shift.row, change, shift.fit.squares,
-                     plain.squares, chance, shift.fit.squares < richer});
-    if (shift.fit.squares <= std::min_element(found.begin(), found.end(), [](auto& a, auto& b) {
-                               return a.squares < b.squares;
-                             })->squares)
-      best_freedom = freedom;
+    Disturbance d{kind, shift.amount, shift.limits, shift.row};
+    d.change = law_change(law.probes, shift.fit.k.head(coefficients), plain.k);
+    d.squares = shift.fit.squares;
+    d.plain_squares = plain.squares;
+    d.chance = places * student_beyond(std::min(std::sqrt(t2), t), freedom);
+    d.is_no_shape = shift.fit.squares < richer;
+    d.freedom = freedom;
+    d.k = shift.fit.k.head(coefficients);
+    all.push_back(d);
   }
-  std::stable_sort(found.begin(), found.end(), [](const Disturbance& a, const Disturbance& b) {
+  std::stable_sort(all.begin(), all.end(), [](const Disturbance& a, const Disturbance& b) {
     return a.squares < b.squares;
   });
+  return all;
+}
+
+bool is_found(const Disturbance& d) {
+  return d.chance <= by_chance && d.change >= least_change;
+}
+
+std::vector<Disturbance> find_disturbances(const LinearLaw& law, const LoadRows& rows,
+                                           const std::vector<DisturbanceKind>& looked_for) {
+  std::vector<Disturbance> found = fit_disturbances(law, rows, looked_for);
+  std::erase_if(found, [](const Disturbance& d) { return !is_found(d); });
   while (found.size() > 1 &&
-         t_squared(found.back().squares, found.front().squares, best_freedom) > indistinct)
+         t_squared(found.back().squares, found.front().squares, found.front().freedom) > indistinct)
     found.pop_back();
   return found;
 }

@@ -27,7 +27,14 @@ struct Disturbance {
   double squares = 0.0, plain_squares = 0.0; ///< of residuals with and without it
   double chance = 0.0;                       ///< of a find where there is nothing
   bool is_no_shape = true;                   ///< one coefficient more does not do as well
+  double freedom = 1.0;                      ///< of residuals with it
+  Eigen::VectorXd k = {};                    ///< of the law with it
 };
+
+/// Each of `looked_for`, the one that explains the rows best first, found or not.
+std::vector<Disturbance> fit_disturbances(const LinearLaw& law, const LoadRows& rows,
+                                          const std::vector<DisturbanceKind>& looked_for);
+bool is_found(const Disturbance& d);
 
 /// The disturbances that explain the rows best, the best first; several where the rows do not tell
 /// them apart. Empty: none is found. `looked_for`: which may be there.

@@ -8,6 +8,7 @@
 #include "core/model/usual_ranges.hpp"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,11 @@ namespace plyform {
 /// Residuals, rms over load: above the first a warning, above the second an error.
 inline constexpr double noisy = 0.02, useless = 0.2;
 
+/// Forms that a law of shear may have: shear_forms.hpp.
+enum class ShearFormKind { polynomial, with_static, table };
+
 struct FitOptions {
-  int coefficients = 3; ///< of the shear law, 1 to 6
+  int coefficients = 0; ///< of the shear law's polynomial, 1 to 6; 0: chosen by the rows
   double from = 0.0;    ///< shear angle (rad) or strain of the first row that counts ...
   double to = std::numeric_limits<double>::infinity(); ///< ... and of the last
   Corrections corrections = {};
@@ -25,6 +29,8 @@ struct FitOptions {
   /// A disturbance that moves the law by more than `useless`, and a law outside the usual range,
   /// are warned of, not refused.
   bool doubtful = false;
+  std::optional<ShearFormKind> law = {}; ///< of shear; nothing: chosen by the rows
+  int points = 0;                        ///< of a table of shear, 1 to 20; 0: chosen
 };
 
 /// How well a law follows the rows it was fitted to. Residuals are over max(fitted load,
@@ -34,6 +40,8 @@ struct FitQuality {
   double from = 0.0, to = 0.0; ///< shear angle (rad) or strain covered
   double rms = 0.0, largest = 0.0;
   double largest_at = 0.0; ///< rad or strain
+  double misfit = 0.0;     ///< of shear: of the torque, torque_misfit of shear_checks.hpp
+  double noise = 0.0;      ///< of shear: what single rows scatter by, on the scale of misfit
 };
 
 /// Half widths of 95 % limits. Of one specimen from its residuals: they hold what scatters from row
@@ -88,9 +96,13 @@ struct CurveWords {
   double y_scale = 1.0;     ///< ... and from y to N
   bool x_is_length = true;  ///< measured at the crosshead: the machine's compliance is in it
   bool can_stretch = true;  ///< slip that goes on may be in x
-  bool zeros_show = true;   ///< the law's shape is stiff enough to show a wrong zero
+  bool zeros_show = true;   ///< the law's shape is stiff enough to show a wrong zero ...
+  bool toe_shows = true;    ///< ... of the displacement too
   std::string angle_remedy; ///< for slip, after what the options can do; may be empty
 };
+
+/// What may be in a curve and has not been given.
+std::vector<DisturbanceKind> kinds_looked_for(const FitOptions& options, const CurveWords& words);
 
 /// Looks for what the machine has added to rows, of a curve, and reports it: a warning, or an error
 /// if the law is worthless with it (false is returned then).

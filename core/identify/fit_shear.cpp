@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/fit_shear.hpp"
 
-#include "core/identify/shear_rows.hpp"
+#include "core/identify/choose_shear.hpp"
+#include "core/identify/shear_checks.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -12,114 +13,16 @@
 namespace plyform {
 namespace {
 
-/// A law fitted to rows, with the share of in-plane bending that follows from it.
-struct ShearSolution {
-  LinearLaw law;
-  LinearFit fit;
-  double scale = 0.0; ///< rad, of the coefficients
-  BendingShare share;
-  Fabric fabric; ///< with the law found
-};
-
-/// Sets k1 to 0 if it is negative by rounding only (the law begins with a higher power).
-void clear_rounding(ShearLaw& law, double to) {
-  if (law.k[0] < 0.0 && -law.k[0] * to < 1e-9 * law.at(to).value) law.k[0] = 0.0;
-}
-
-ShearSolution solve(const LoadRows& rows, double end, const ShearTest& test, const Fabric& fabric,
-                    int coefficients) {
-  ShearSolution s;
-  s.scale = end;
-  s.fabric = fabric;
-  constexpr int repetitions =
-      20; // the share goes by the root of k1: each takes a tenth of the rest
-  for (int i = 0; i < repetitions; ++i) {
-    const double before = s.share.mean();
-    s.law = linear_shear({test, fabric, coefficients, end, 1.0 + before});
-    s.fit = fit_linear(s.law.loads(rows.x), rows.y, rows.weights);
-    s.fabric.crossings[0].shear = {};
-    s.fabric.crossings[0].shear.k = unscaled(s.fit.k, end);
-    clear_rounding(s.fabric.crossings[0].shear, end);
-    s.share = in_plane_bending_share(test, s.fabric);
-    if (std::abs(s.share.mean() - before) <= 1e-9) break;
-  }
-  return s;
-}
-
-/// The smallest shear angle (rad) in [from, to] at which the law decreases or is negative; a larger
-/// angle than `to` if there is none.
-double invalid_at(const ShearLaw& law, double from, double to) {
-  constexpr int steps = 400;
-  for (int i = 0; i <= steps; ++i) {
-    const double g = from + (to - from) * i / steps;
-    const LawPoint p = law.at(g);
-    if (!(p.value >= 0.0 && p.slope >= 0.0)) return g;
-  }
-  return 2.0 * to;
-}
-
-bool valid(const Curve& curve, const ShearLaw& law, const FitQuality& quality,
-           Diagnostics& diagnostics) {
-  const double at = invalid_at(law, 0.0, quality.to);
-  if (at <= quality.to) {
-    const LawPoint p = law.at(at);
-    diagnostics.error(
-        place_of(curve), "", "",
-        fmt::format("the fitted torque {} at {:.3g} degrees ({:.3g} N mm, slope {:.3g} N mm/rad), "
-                    "within the range covered: a cell must resist shear everywhere",
-                    p.value < 0.0 ? "is negative" : "falls", at / degree, p.value, p.slope),
-        law.k.size() > 1 ? fmt::format("take fewer coefficients: --coefficients {}; or leave out "
-                                       "what is no shear with --from and --to",
-                                       law.k.size() - 1)
-                         : "check the columns and the sign of the load");
-    return false;
-  }
-  constexpr double end = 0.5 * std::numbers::pi;
-  if (const double beyond = invalid_at(law, quality.to, end); beyond <= end)
-    diagnostics.warning(place_of(curve),
-                        fmt::format("beyond the range covered, from {:.3g} degrees on, the torque "
-                                    "falls: do not form to larger angles with it, or take fewer "
-                                    "--coefficients",
-                                    beyond / degree));
-  return true;
-}
-
-/// Whether the torque is one of a fabric.
-bool usual(const Curve& curve, const Fabric& found, double end, bool doubtful,
-           Diagnostics& diagnostics) {
-  const double angle = std::min(10.0 * degree, end);
-  const double rigidity = found.families[0].density * found.families[1].density *
-                          found.crossings[0].shear.secant(angle);
-  return check_usual(place_of(curve), "shear stiffness", rigidity, usual_shear_rigidity, "N/mm",
-                     doubtful, diagnostics);
-}
-
-void warn_of_layers(const Curve& curve, const BendingShare& share, Diagnostics& diagnostics) {
-  constexpr double large = 0.4; // of the load: half of it is not known
-  if (share.most <= large) return;
-  diagnostics.warning(
-      place_of(curve),
-      fmt::format("in-plane bending of the yarns adds {:.0f} to {:.0f} % to the load of shear: the "
-                  "law is as uncertain; test a longer specimen",
-                  100.0 * share.least, 100.0 * share.most));
-}
-
 void check_options(const Fabric& fabric, const FitOptions& options) {
-  if (options.coefficients < 1 || options.coefficients > 6)
-    throw std::invalid_argument("coefficients must be 1 to 6");
+  if (options.coefficients < 0 || options.coefficients > 6)
+    throw std::invalid_argument("coefficients must be 1 to 6, or 0 to have them chosen");
+  if (options.points < 0 || options.points > most_table_points)
+    throw std::invalid_argument("points must be 1 to 20, or 0 to have them chosen");
   if (!(options.from >= 0.0 && options.to > options.from))
     throw std::invalid_argument("the range must start at 0 or above and end above its start");
   if (!is_weave(fabric) ||
       std::abs(material_axes(fabric).between() - 0.5 * std::numbers::pi) > 1e-6)
     throw std::invalid_argument("the theory of the shear tests needs fibres at 90 degrees");
-}
-
-std::vector<double> fitted_loads(const ShearSolution& s, const ShearTest& test,
-                                 const Eigen::VectorXd& extension) {
-  std::vector<double> loads;
-  for (const double x : extension)
-    loads.push_back((1.0 + s.share.mean()) * test_load(test, s.fabric, x));
-  return loads;
 }
 
 CurveWords words_of(const FitOptions& options) {
@@ -130,30 +33,66 @@ CurveWords words_of(const FitOptions& options) {
   return words;
 }
 
+/// What rows can show beside a law that is no polynomial.
+void narrow(CurveWords& words, const ShearSolution& s, const ShearSpecimen& specimen) {
+  if (s.form.kind == ShearFormKind::polynomial) return;
+  words.zeros_show = specimen.angle.front() < near_zero;
+  if (s.form.kind == ShearFormKind::table) words.toe_shows = words.can_stretch = false;
+}
+
+/// Knots of a table for a specimen that ends at `end`.
+std::vector<double> knots_to(const std::vector<double>& knots, double end) {
+  std::vector<double> own;
+  for (const double knot : knots)
+    if (knot < end * (1.0 - 1e-9)) own.push_back(knot);
+  if (!knots.empty()) own.push_back(end);
+  return own;
+}
+
+void put_misfit(const ShearSolution& s, const LoadRows& rows, const ShearTest& test,
+                FitQuality& quality) {
+  const TorqueMisfit misfit = torque_misfit(s, rows, test);
+  quality.misfit = misfit.misfit;
+  quality.noise = misfit.noise;
+}
+
 /// The law of one specimen; reports errors and returns nothing as identify_shear does.
 std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const ShearTest& test,
                                            const Fabric& fabric, const FitOptions& options,
+                                           const LawChoice& choice, ShearFit& result,
                                            Diagnostics& diagnostics) {
   const Curve& curve = specimen.curve;
+  const double end = specimen.angle.back();
   const ShearSolution s =
-      solve(specimen.rows, specimen.angle.back(), test, fabric, options.coefficients);
+      solve_shear(choice.form, specimen.rows, end, test, fabric, knots_to(choice.knots, end));
   LoadRows rows = specimen.rows;
   rows.weights = s.fit.weights;
-  const CurveWords words = words_of(options);
+  CurveWords words = words_of(options);
+  narrow(words, s, specimen);
   if (!check_disturbances(curve, s.law, rows, options, words, diagnostics)) return std::nullopt;
-  SpecimenLaw law{curve.file, s.fabric.crossings[0].shear.k, {}, specimen.corrected, {}};
+  SpecimenLaw law{curve.file, s.numbers(), {}, specimen.corrected, {}};
   law.quality =
       quality_of(specimen.angle, {rows.y.begin(), rows.y.end()}, fitted_loads(s, test, rows.x));
-  const bool good = check_quality(
-      curve, law.quality, fmt::format("{:.3g} degrees", law.quality.largest_at / degree),
-      "check columns and specimen, smooth the curve, take more --coefficients, or leave out "
-      "slipping and wrinkling with --to",
+  const TorqueMisfit misfit = torque_misfit(s, rows, test);
+  law.quality.misfit = misfit.misfit;
+  law.quality.noise = misfit.noise;
+  const bool polynomial = s.form.kind == ShearFormKind::polynomial;
+  if (!polynomial && !check_rows_rise(curve, specimen, misfit, options, diagnostics))
+    return std::nullopt;
+  const bool good = check_misfit(
+      curve, law.quality,
+      polynomial ? "check columns and specimen, smooth the curve, take more --coefficients, or "
+                   "leave out slipping and wrinkling with --to"
+                 : "check columns and specimen, smooth the curve, or leave out slipping and "
+                   "wrinkling with --to",
       diagnostics);
-  if (!good || !valid(curve, s.fabric.crossings[0].shear, law.quality, diagnostics) ||
-      !usual(curve, s.fabric, law.quality.to, options.doubtful, diagnostics))
+  if (!good || !check_rises(curve, s, law.quality, diagnostics) ||
+      !check_usual_torque(curve, s.fabric, law.quality.to, options.doubtful, diagnostics))
     return std::nullopt;
   law.sensitive = sensitivities(s.law, rows, words.length, common_compliance);
   warn_of_unknowns(curve, s.law, rows, law.sensitive, options, words, diagnostics);
+  warn_of_hidden(specimen, s, law.sensitive, options, diagnostics);
+  result.of_specimen.push_back(s.shear());
   return law;
 }
 
@@ -178,32 +117,85 @@ LoadRows all_rows(const std::vector<ShearSpecimen>& specimens, ShearFit& result)
   return {vector_of(result.extension), vector_of(result.measured), vector_of(shares).array()};
 }
 
-/// Limits of confidence, and the scatter between specimens.
-void judge(const ShearSolution& all, const std::vector<ShearSpecimen>& specimens,
-           const Corrections& corrections, ShearFit& result) {
-  const std::vector<double> places = probe_angles(all.scale);
-  if (specimens.size() == 1) {
-    const ShearSpecimen& only = specimens.front();
-    const LinearFit fit = with_found(all.fit, all.law, only.rows, corrections, only.corrected);
-    result.confidence = confidence_of(fit, all.law.probes, places);
-  } else {
-    std::vector<Eigen::VectorXd> own; // on the scale of all
-    for (const SpecimenLaw& law : result.specimens) {
-      Eigen::VectorXd k = vector_of(law.coefficients);
-      for (Eigen::Index c = 0; c < k.size(); ++c)
-        k[c] *= std::pow(all.scale, static_cast<double>(2 * c + 1));
-      own.push_back(k);
+/// Limits of the numbers of one specimen's law, and of the law.
+void judge_one(const ShearSolution& all, const ShearSpecimen& only, const Corrections& corrections,
+               ShearFit& result) {
+  const LinearFit fit = with_found(all.fit, all.law, only.rows, corrections, only.corrected);
+  result.confidence = confidence_of(fit, all.law.probes, probe_angles(all.scale));
+  std::vector<double>& limits = result.confidence.coefficient;
+  if (all.form.kind == ShearFormKind::table) {
+    const Eigen::VectorXd points = limits_of_values(fit, all.at_points);
+    limits = {points.begin(), points.end()};
+    return;
+  }
+  for (std::size_t c = 0; c < all.polynomial.size(); ++c)
+    limits[c] /= std::pow(all.scale, static_cast<double>(2 * c + 1));
+}
+
+/// The same between specimens, and their scatter: laws are compared up to where the first ends, the
+/// points of a table up to there too (beyond: not a number).
+void judge_several(const ShearSolution& all, const std::vector<ShearSpecimen>& specimens,
+                   ShearFit& result) {
+  const bool table = all.form.kind == ShearFormKind::table;
+  double shortest = all.scale;
+  for (const ShearSpecimen& specimen : specimens)
+    if (all.form.kind != ShearFormKind::polynomial)
+      shortest = std::min(shortest, specimen.angle.back());
+  const std::vector<double> places = probe_angles(shortest);
+  std::vector<Eigen::VectorXd> laws, numbers;
+  for (std::size_t n = 0; n < specimens.size(); ++n) {
+    const ShearLaw& own = result.of_specimen[n];
+    Eigen::VectorXd law(static_cast<Eigen::Index>(places.size()));
+    for (Eigen::Index i = 0; i < law.size(); ++i)
+      law[i] = own.at(places[static_cast<std::size_t>(i)]).value;
+    laws.push_back(law);
+    std::vector<double> own_numbers = result.specimens[n].coefficients;
+    if (table) {
+      own_numbers.clear();
+      for (std::size_t i = 1; i < result.law.angle.size(); ++i)
+        own_numbers.push_back(result.law.angle[i] <= shortest * (1.0 + 1e-9)
+                                  ? own.at(result.law.angle[i]).value
+                                  : std::numeric_limits<double>::quiet_NaN());
     }
-    result.scatter = scatter_of(own, all.law.probes, places);
-    result.confidence = confidence_between(own, all.law.probes, places);
+    numbers.push_back(vector_of(own_numbers));
   }
-  for (std::size_t c = 0; c < result.confidence.coefficient.size(); ++c) {
-    const double unit = std::pow(all.scale, static_cast<double>(2 * c + 1));
-    result.confidence.coefficient[c] /= unit;
-    if (result.scatter.coefficient.empty()) continue;
-    Spread& spread = result.scatter.coefficient[c];
-    spread = {spread.mean / unit, spread.deviation / unit, spread.limits / unit};
+  const auto same = [](const std::vector<Eigen::VectorXd>& of) {
+    return Eigen::MatrixXd(Eigen::MatrixXd::Identity(of.front().size(), of.front().size()));
+  };
+  result.scatter = scatter_of(laws, same(laws), places);
+  result.confidence = confidence_between(laws, same(laws), places);
+  const std::vector<double> nowhere(static_cast<std::size_t>(numbers.front().size()), 0.0);
+  result.scatter.coefficient = scatter_of(numbers, same(numbers), nowhere).coefficient;
+  result.confidence.coefficient = confidence_between(numbers, same(numbers), nowhere).coefficient;
+}
+
+/// The law of all rows and how well it does.
+bool put_law(const ShearSolution& all, const LoadRows& rows,
+             const std::vector<ShearSpecimen>& specimens, const ShearTest& test,
+             const FitOptions& options, ShearFit& result, Diagnostics& diagnostics) {
+  result.law = all.shear();
+  result.static_torque = all.static_torque;
+  result.static_angle = all.static_angle;
+  result.polynomial = all.polynomial;
+  result.in_plane = all.share;
+  result.fitted = fitted_loads(all, test, rows.x);
+  result.quality = quality_of(result.angle, result.measured, result.fitted);
+  for (const ShearSpecimen& specimen : specimens) {
+    FitQuality own;
+    put_misfit(all, specimen.rows, test, own);
+    const double n = static_cast<double>(specimens.size());
+    result.quality.misfit = std::hypot(result.quality.misfit, own.misfit / std::sqrt(n));
+    result.quality.noise = std::hypot(result.quality.noise, own.noise / std::sqrt(n));
   }
+  const Curve& first = specimens.front().curve;
+  warn_of_layers(first, result.in_plane, diagnostics);
+  if (specimens.size() == 1) {
+    judge_one(all, specimens.front(), options.corrections, result);
+    return true;
+  }
+  if (!check_rises(first, all, result.quality, diagnostics)) return false;
+  judge_several(all, specimens, result);
+  return true;
 }
 
 } // namespace
@@ -215,26 +207,22 @@ std::optional<ShearFit> identify_shear(const std::vector<Curve>& curves, const S
   ShearFit result;
   std::vector<ShearSpecimen> specimens;
   const std::size_t errors = diagnostics.errors.size();
-  for (const Curve& curve : curves) {
-    auto specimen = shear_specimen(curve, test, fabric, options, diagnostics);
-    if (!specimen) continue;
-    if (auto law = law_of_specimen(*specimen, test, fabric, options, diagnostics))
-      result.specimens.push_back(std::move(*law));
-    specimens.push_back(std::move(*specimen));
-  }
-  if (diagnostics.errors.size() > errors || specimens.empty()) return std::nullopt;
+  for (const Curve& curve : curves)
+    if (auto specimen = shear_specimen(curve, test, fabric, options, diagnostics))
+      specimens.push_back(std::move(*specimen));
+  if (specimens.empty()) return std::nullopt;
   const LoadRows rows = all_rows(specimens, result);
   const double end = *std::max_element(result.angle.begin(), result.angle.end());
-  const ShearSolution all = solve(rows, end, test, fabric, options.coefficients);
-  result.law = all.fabric.crossings[0].shear;
-  result.in_plane = all.share;
-  result.fitted = fitted_loads(all, test, rows.x);
-  result.quality = quality_of(result.angle, result.measured, result.fitted);
-  warn_of_layers(specimens.front().curve, result.in_plane, diagnostics);
-  if (specimens.size() > 1 &&
-      !valid(specimens.front().curve, result.law, result.quality, diagnostics))
-    return std::nullopt;
-  judge(all, specimens, options.corrections, result);
+  const LawChoice choice =
+      choose_shear(specimens, rows, end, test, fabric, options, words_of(options));
+  result.form = choice.form;
+  result.why = choice.why;
+  for (const ShearSpecimen& specimen : specimens)
+    if (auto law = law_of_specimen(specimen, test, fabric, options, choice, result, diagnostics))
+      result.specimens.push_back(std::move(*law));
+  if (diagnostics.errors.size() > errors) return std::nullopt;
+  const ShearSolution all = solve_shear(choice.form, rows, end, test, fabric, choice.knots);
+  if (!put_law(all, rows, specimens, test, options, result, diagnostics)) return std::nullopt;
   return result;
 }
 

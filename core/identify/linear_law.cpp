@@ -62,11 +62,14 @@ Eigen::VectorXd limits_of_coefficients(const LinearFit& fit) {
   return student_95(fit.freedom) * fit.covariance.diagonal().cwiseMax(0.0).cwiseSqrt();
 }
 
-Eigen::VectorXd limits_of_law(const LinearFit& fit, const Eigen::MatrixXd& probes) {
+Eigen::VectorXd limits_of_values(const LinearFit& fit, const Eigen::MatrixXd& probes) {
   const Eigen::ArrayXd variances =
       (probes * fit.covariance * probes.transpose()).diagonal().array();
-  const Eigen::ArrayXd values = (probes * fit.k).array().abs();
-  return (student_95(fit.freedom) * variances.max(0.0).sqrt() / values).matrix();
+  return (student_95(fit.freedom) * variances.max(0.0).sqrt()).matrix();
+}
+
+Eigen::VectorXd limits_of_law(const LinearFit& fit, const Eigen::MatrixXd& probes) {
+  return limits_of_values(fit, probes).cwiseQuotient((probes * fit.k).cwiseAbs());
 }
 
 double law_change(const Eigen::MatrixXd& probes, const Eigen::VectorXd& k0,

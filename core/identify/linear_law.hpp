@@ -67,6 +67,7 @@ inline constexpr double freedom_of_limits = 4.0;
 
 /// Half widths of the 95 % limits: of each coefficient; of the law at each probe over its value.
 Eigen::VectorXd limits_of_coefficients(const LinearFit& fit);
+Eigen::VectorXd limits_of_values(const LinearFit& fit, const Eigen::MatrixXd& probes); // of P k
 Eigen::VectorXd limits_of_law(const LinearFit& fit, const Eigen::MatrixXd& probes);
 
 /// Largest change |P k1 / P k0 - 1| from k0 to k1 over the probes.

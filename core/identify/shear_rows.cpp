@@ -101,14 +101,20 @@ bool enough(const ShearSpecimen& specimen, const FitOptions& options, Diagnostic
   const std::vector<double>& angle = specimen.angle;
   const int sheared =
       static_cast<int>(std::count_if(angle.begin(), angle.end(), [](double g) { return g > 0.0; }));
-  if (sheared < 2 * options.coefficients) {
+  const bool table = options.points > 0;
+  const int numbers = options.coefficients > 0 ? options.coefficients : 3;
+  const int least = table ? options.points : 2 * numbers;
+  if (sheared < least) {
+    const std::string what = table ? fmt::format("a table of {} points needs", options.points)
+                                   : fmt::format("{} coefficient{} need{}", numbers,
+                                                 numbers == 1 ? "" : "s", numbers == 1 ? "s" : "");
     diagnostics.error(place_of(specimen.curve), "", "",
-                      fmt::format("{} row{} with a shear angle above 0 within the range, {} "
-                                  "coefficient{} need{} at least {}",
-                                  sheared, sheared == 1 ? "" : "s", options.coefficients,
-                                  options.coefficients == 1 ? "" : "s",
-                                  options.coefficients == 1 ? "s" : "", 2 * options.coefficients),
-                      "record more rows, widen --from and --to, or take fewer --coefficients");
+                      fmt::format("{} row{} with a shear angle above 0 within the range, {} at "
+                                  "least {}",
+                                  sheared, sheared == 1 ? "" : "s", what, least),
+                      table ? "record more rows, widen --from and --to, or take fewer --points"
+                            : "record more rows, widen --from and --to, or take fewer "
+                              "--coefficients");
     return false;
   }
   const double range = angle.back() - angle.front();
@@ -148,7 +154,8 @@ void fit_corrections(ShearSpecimen& specimen, const ShearTest& test, const Fabri
       {options.to, 0.49 * std::numbers::pi,
        shear_angle(test, std::min(specimen.curve.x.back(), 0.99 * locking_extension(test)))});
   if (!(end > least_range)) return; // reported later
-  const LinearLaw law = linear_shear({test, fabric, options.coefficients, end, 1.0});
+  const int coefficients = options.coefficients > 0 ? options.coefficients : 3;
+  const LinearLaw law = linear_shear({test, fabric, coefficients, end, 1.0});
   apply_fitted(specimen.curve, options.corrections, law, extension_at(test, options.from),
                extension_at(test, end) * (1.0 + 1e-9), specimen.corrected);
 }

@@ -2,6 +2,7 @@
 #include "core/identify/statistics.hpp"
 
 #include <algorithm>
+#include <boost/math/distributions/fisher_f.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <boost/math/tools/minima.hpp>
 #include <cmath>
@@ -20,6 +21,12 @@ double student_beyond(double t, double freedom) {
   if (!std::isfinite(t)) return 0.0;
   return 2.0 *
          boost::math::cdf(boost::math::complement(Student(std::max(freedom, 1.0)), std::abs(t)));
+}
+
+double fisher_beyond(double f, double above, double below) {
+  if (!std::isfinite(f)) return 0.0;
+  return boost::math::cdf(boost::math::complement(
+      boost::math::fisher_f_distribution<double>(std::max(above, 1.0), std::max(below, 1.0)), f));
 }
 
 double minimum_of(const std::function<double(double)>& f, double least, double most) {

@@ -13,6 +13,9 @@ double student_95(double freedom);
 /// Probability that |t| is at least this by chance.
 double student_beyond(double t, double freedom);
 
+/// Probability that Fisher's F is at least this by chance.
+double fisher_beyond(double f, double above, double below);
+
 /// Place of a minimum of f in [least, most], to 1e-6 of their distance.
 double minimum_of(const std::function<double(double)>& f, double least, double most);
 

@@ -141,11 +141,21 @@ void put_sureness(const Fit& fit, py::dict& all) {
   all["scatter"] = fit.scatter.law;
 }
 
+std::optional<ShearFormKind> form_of(const std::string& law) {
+  if (law.empty()) return std::nullopt;
+  if (law == "polynomial") return ShearFormKind::polynomial;
+  if (law == "static") return ShearFormKind::with_static;
+  if (law == "table") return ShearFormKind::table;
+  throw py::value_error("law must be 'polynomial', 'static', 'table' or None");
+}
+
 py::dict shear_law(const std::vector<Curve>& curves, const ShearTest& test,
-                   const std::filesystem::path& fabric, int coefficients, double from_deg,
+                   const std::filesystem::path& fabric, const py::dict& form, double from_deg,
                    double to_deg, bool measured_angle, const py::dict& corrections) {
   Diagnostics diagnostics;
-  FitOptions options{coefficients, from_deg * degree, to_deg * degree};
+  FitOptions options{form["coefficients"].cast<int>(), from_deg * degree, to_deg * degree};
+  options.points = form["points"].cast<int>();
+  options.law = form_of(form["law"].cast<std::string>());
   options.measured_angle = measured_angle;
   put_corrections(corrections, options);
   const auto fit = identify_shear(curves, test, fabric_for_fit(fabric, {.right_angle = true}),
@@ -153,7 +163,14 @@ py::dict shear_law(const std::vector<Curve>& curves, const ShearTest& test,
   if (!fit) raise_mistakes(diagnostics.errors);
   py::dict all = quality_of(fit->quality, degree);
   put_sureness(*fit, all);
-  all["coefficients"] = fit->law.k;
+  all["misfit"] = fit->quality.misfit;
+  all["noise"] = fit->quality.noise;
+  all["law"] = fit->form.name();
+  all["why"] = fit->why;
+  all["coefficients"] = fit->polynomial;
+  all["static_torque"] = fit->static_torque;
+  all["table_deg"] = array_of(fit->law.angle, degree);
+  all["table_torque"] = array_of(fit->law.torque);
   all["extension_mm"] = array_of(fit->extension);
   all["shear_deg"] = array_of(fit->angle, degree);
   all["measured_N"] = array_of(fit->measured);
@@ -243,7 +260,7 @@ void bind_fit(py::module_& m) {
       "frame_test", [](double side) { return test_of("frame", FrameSpecimen{side}); },
       py::arg("side"), "Picture frame; side from hinge to hinge, mm.");
   m.def("identify_shear", &shear_law, py::arg("curves"), py::arg("test"), py::arg("fabric"),
-        py::arg("coefficients"), py::arg("from_deg"), py::arg("to_deg"), py::arg("measured_angle"),
+        py::arg("form"), py::arg("from_deg"), py::arg("to_deg"), py::arg("measured_angle"),
         py::arg("corrections"), "Law of shear.");
   m.def("identify_tension", &tension_law, py::arg("curves"), py::arg("yarns"),
         py::arg("gauge_length"), py::arg("from_strain"), py::arg("to_strain"),

@@ -63,16 +63,34 @@ class Fit:
 
 @dataclass(frozen=True)
 class ShearFit(Fit):
-    """Law of shear: torque of one unit cell = k1 g + k3 g^3 + ..., g in rad."""
+    """Law of shear: torque of one unit cell, a polynomial k1 g + k3 g^3 + ... (g in rad), a static
+    torque and a polynomial, or a table through which a monotone curve passes.
+    """
 
-    #: k1, k3, k5 ..., N mm.
+    #: Which of them, and why it was chosen: "table of 6 points", "cross-validated 1.9 %, ...".
+    law: str
+    why: str
+    #: Residuals as torques over the range, root of their mean square over that of the torque, and
+    #: what single rows scatter by.
+    misfit: float
+    noise: float
+    #: k1, k3, k5 ..., N mm; beside a static torque too; empty of a table.
     coefficients: list[float]
+    #: N mm; 0 of the others.
+    static_torque: float
+    #: The table, degrees and N mm, from (0, 0) on; empty of a polynomial.
+    table_deg: Array
+    table_torque: Array
     #: Of each row: mm, degrees.
     extension_mm: Array
     shear_deg: Array
 
     def _law(self) -> tuple[str, str]:
-        return "polynomial", "[" + ", ".join(f"{k:.7g}" for k in self.coefficients) + "]"
+        if len(self.table_deg) == 0:
+            return "polynomial", "[" + ", ".join(f"{k:.7g}" for k in self.coefficients) + "]"
+        rows = "".join(f"\n    [{angle:.6g}, {torque:.6g}],"
+                       for angle, torque in zip(self.table_deg, self.table_torque))
+        return "table", f"[{rows}\n]"
 
     def write(self, fabric: AnyPath, output: AnyPath) -> None:
         """Writes the fabric file `output`: `fabric` with this law of shear. Raises CaseError for
@@ -147,17 +165,21 @@ def _warn(found: dict[str, Any]) -> dict[str, Any]:
 
 
 def identify_shear(curve: AnyCurves, fabric: AnyPath, *, bias: Sequence[float] | None = None,
-                   frame: float | None = None, coefficients: int = 3, from_deg: float = 0.0,
-                   to_deg: float = np.inf, x_column: str | int = "", y_column: str | int = "",
-                   angle_column: str | int = "", compliance: float | None = None,
-                   zero: Correction = None, toe: Correction = None, slip: bool = False,
+                   frame: float | None = None, law: str | None = None,
+                   coefficients: int | None = None, points: int | None = None,
+                   from_deg: float = 0.0, to_deg: float = np.inf, x_column: str | int = "",
+                   y_column: str | int = "", angle_column: str | int = "",
+                   compliance: float | None = None, zero: Correction = None,
+                   toe: Correction = None, slip: bool = False,
                    doubtful: bool = False) -> ShearFit:
     """Law of shear from extension (mm) and load (N) of shear tests.
 
     bias: free length and width of a bias-extension specimen, mm; or
     frame: side of a picture frame, from hinge to hinge, mm.
     fabric: file with all but the law of shear.
-    coefficients: how many, 1 to 6. from_deg, to_deg: shear angles of the rows that count.
+    law: "polynomial", "static" (a torque, then a polynomial) or "table"; coefficients: of a
+    polynomial, 1 to 6; points: of a table, 1 to 20. What is None is chosen by cross-validation.
+    from_deg, to_deg: shear angles of the rows that count.
     x_column, y_column: columns of a CSV file by name or number from 1; by its header unless given.
     angle_column: of a measured shear angle, which then counts instead of the extension, as the
     third sequence of a curve does.
@@ -173,9 +195,12 @@ def identify_shear(curve: AnyCurves, fabric: AnyPath, *, bias: Sequence[float] |
     measured = angle_column != "" or all(isinstance(c, tuple) and len(c) == 3 for c in several)
     corrections = {"compliance": compliance, "zero": zero, "toe": toe, "slip": slip,
                    "doubtful": doubtful}
+    if (coefficients is not None and not 1 <= coefficients <= 6) or \
+            (points is not None and not 1 <= points <= 20):
+        raise ValueError("coefficients must be 1 to 6, points 1 to 20")
+    form = {"law": law or "", "coefficients": coefficients or 0, "points": points or 0}
     return ShearFit(**_warn(_plyform.identify_shear(curves, _test(bias, frame), Path(fabric),
-                                                    coefficients, from_deg, to_deg, measured,
-                                                    corrections)))
+                                                    form, from_deg, to_deg, measured, corrections)))
 
 
 def identify_tension(curve: AnyCurves, *, yarns: float = 1.0, gauge_length: float = 1.0,

@@ -154,6 +154,30 @@ expect 2 'side: must be given' identify frame norm.csv:A --fabric glass.toml -o 
 expect 2 'angle-column = none: the curve has no extension' identify frame norm.csv:A "${frame[@]}" \
   --angle-column none
 go 'y-unit = N/mm: is a force per length, the load must be a force' norm.csv:A --y-unit N/mm
+# Laws that are no polynomials: curves that others measured.
+measured=$(dirname "$fabric")/../measured
+printf 'surface_density = 743\nthickness = 1.2\n[warp]\ndensity = 0.193\n[weft]\ndensity = 0.193\n' \
+  >weave.toml
+expect 0 'static torque and polynomial of 3: cross-validated' identify bias \
+  "$measured/bias_plain_150x450.csv" --length 450 --width 150 --fabric weave.toml -o stuck.toml
+grep -q '^# static torque and polynomial of 3: cross-validated' stuck.toml ||
+  fail 'stuck.toml does not say why its law was chosen'
+grep -q '^table = \[' stuck.toml || fail 'stuck.toml has no table'
+expect 0 'table of 6 points: as asked for' identify bias "$measured/bias_plain_150x450.csv" \
+  --length 450 --width 150 --fabric weave.toml --points 6 -o stuck.toml
+expect 2 'the torque of the rows falls from' identify bias "$measured/bias_plain_115x230.csv" \
+  --length 230 --width 115 --fabric weave.toml -o never.toml
+expect 0 'misfit of the torque over the range' identify bias "$measured/bias_plain_115x230.csv" \
+  --length 230 --width 115 --fabric weave.toml --to 50 -o stuck.toml
+awk -F, -v OFS=, 'BEGIN { print "angle (deg),force (N)" } NR > 1 && $4 != "" {
+  p = atan2(0, -1) / 4 * (1 - $1 / 90); print $1, 400 * cos(p) * $4 }' \
+  "$measured/picture_frame_plain.csv" >stuck.csv
+expect 0 'the curve does not show whether they are a static torque or a wrong load zero' identify \
+  frame stuck.csv --angle-column 1 --side 200 --fabric weave.toml -o stuck.toml
+go 'points = 30: must be 1 to 20' bias.csv --points 30
+go 'coefficients = 3: is of a polynomial, but a table is asked for' bias.csv --points 3 \
+  --coefficients 3
+go 'points = 3: is of a table, but --law static is asked for' bias.csv --law static --points 3
 
 # Several specimens.
 for n in 1 2 3; do

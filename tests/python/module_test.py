@@ -329,6 +329,12 @@ def check_fits(folder):
     curve = theory["displacement_mm"], theory["force_N"]
     fit = plyform.identify_shear(curve, FABRIC, bias=(200, 100))
     assert np.allclose(fit.coefficients, [0.37044, 0.84105, 1.03113], rtol=1e-6) and fit.rms < 1e-6
+    assert fit.law == "polynomial of 3" and len(fit.table_deg) == 0 and fit.misfit < 1e-6
+    stuck = plyform.identify_shear(curve, FABRIC, bias=(200, 100), points=4, compliance=0, toe=0)
+    assert len(stuck.table_deg) == 5 and np.all(np.diff(stuck.table_torque) > 0.0)
+    stuck.write(FABRIC, folder / "stuck.toml")
+    assert "table = [" in (folder / "stuck.toml").read_text(encoding="utf-8")
+    raised(ValueError, plyform.identify_shear, curve, FABRIC, bias=(200, 100), law="line")
     table = folder / "curve.csv"
     np.savetxt(table, np.stack(curve, axis=1), delimiter=",", header="d,F", comments="")
     again = plyform.identify_shear(table, FABRIC, bias=(200, 100), x_column="d", y_column=2)

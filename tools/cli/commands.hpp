@@ -6,6 +6,7 @@
 #include "core/setup/scene_mesh.hpp"
 
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -68,7 +69,8 @@ struct IdentifyArguments {
   ColumnArguments x, y, angle;
   std::string fabric, output, fit;
   SpecimenArguments specimen;
-  int coefficients = 3;
+  std::optional<int> coefficients, points; ///< of a polynomial, of a table of shear
+  std::string law;                         ///< of shear: polynomial, static or table; empty: chosen
   double from = 0.0, to = std::numeric_limits<double>::infinity(); ///< degrees, strain, or share
   double yarns = 1.0, gauge_length = 1.0;                          ///< -, mm
   std::string compliance, zero, toe,

@@ -244,7 +244,9 @@ TEST(IdentifyShear, ThrowsForOptionsOutOfRange) {
   const Curve curve = theory(strip, glass());
   Fabric oblique = glass();
   oblique.families[1].angle = 1.0;
-  EXPECT_THROW(identify_shear(curve, strip, glass(), {.coefficients = 0}, diagnostics),
+  EXPECT_THROW(identify_shear(curve, strip, glass(), {.coefficients = 7}, diagnostics),
+               std::invalid_argument);
+  EXPECT_THROW(identify_shear(curve, strip, glass(), {.points = 21}, diagnostics),
                std::invalid_argument);
   EXPECT_THROW(identify_shear(curve, strip, glass(), {.coefficients = 3, .from = 1.0, .to = 1.0},
                               diagnostics),

@@ -40,6 +40,25 @@ void check_positive(const std::string& option, double value, const std::string& 
     option_error(option, fmt::format("{:g}", value), "must be greater than 0", remedy, diagnostics);
 }
 
+/// The form of a law of shear.
+void check_form(const IdentifyArguments& a, Diagnostics& diagnostics) {
+  if (a.coefficients && (*a.coefficients < 1 || *a.coefficients > 6))
+    option_error("--coefficients", fmt::format("{}", *a.coefficients), "must be 1 to 6",
+                 "give the number of coefficients k1, k3, k5 ..., usually 3", diagnostics);
+  if (a.points && (*a.points < 1 || *a.points > most_table_points))
+    option_error(
+        "--points", fmt::format("{}", *a.points), fmt::format("must be 1 to {}", most_table_points),
+        "give the number of points of the table but for [0, 0], usually 4 to 8", diagnostics);
+  if (a.coefficients && (a.points || a.law == "table"))
+    option_error("--coefficients", fmt::format("{}", *a.coefficients),
+                 "is of a polynomial, but a table is asked for",
+                 "leave it out, or take --points, the size of a table", diagnostics);
+  else if (a.points && !a.law.empty() && a.law != "table")
+    option_error("--points", fmt::format("{}", *a.points),
+                 fmt::format("is of a table, but --law {} is asked for", a.law),
+                 "leave it out, or take --coefficients", diagnostics);
+}
+
 /// A number, or `fit` where that may stand.
 struct Correction {
   std::optional<double> value;
@@ -143,9 +162,7 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
   read.push_back(a.output);
   check_output("--fit", fit, read, diagnostics);
   check_range(a, diagnostics);
-  if (a.coefficients < 1 || a.coefficients > 6)
-    option_error("--coefficients", fmt::format("{}", a.coefficients), "must be 1 to 6",
-                 "give the number of coefficients k1, k3, k5 ..., usually 3", diagnostics);
+  check_form(a, diagnostics);
   check_positive("--yarns", a.yarns, "give the number of yarns that share the force", diagnostics);
   check_positive("--gauge-length", a.gauge_length, "give the free length of the yarns, in mm",
                  diagnostics);
@@ -169,7 +186,11 @@ CantileverReading reading_of(const IdentifyArguments& a) {
 
 FitOptions fit_options(const IdentifyArguments& a, Diagnostics& diagnostics) {
   const double unit = is_shear_test(a.test) ? degree : 1.0;
-  FitOptions options{a.coefficients, a.from * unit, a.to * unit};
+  FitOptions options{a.coefficients.value_or(0), a.from * unit, a.to * unit};
+  options.points = a.points.value_or(0);
+  if (a.law == "polynomial") options.law = ShearFormKind::polynomial;
+  if (a.law == "static") options.law = ShearFormKind::with_static;
+  if (a.law == "table") options.law = ShearFormKind::table;
   options.doubtful = a.doubtful;
   options.measured_angle = !a.angle.name.empty() && !extension_counts(a);
   Corrections& c = options.corrections;

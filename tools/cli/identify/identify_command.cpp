@@ -74,6 +74,8 @@ std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fa
     comment.push_back(figure + (&figure == &result.figures.back() ? "." : ";"));
   if (result.laws.front().key == "polynomial")
     comment.push_back("torque of one unit cell = k1 g + k3 g^3 ..., N mm, g in rad");
+  else if (is_shear_test(a.test))
+    comment.push_back(result.law_line);
   return comment;
 }
 

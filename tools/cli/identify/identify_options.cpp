@@ -66,7 +66,13 @@ void add_shear_tests(CLI::App& command, IdentifyArguments& to) {
                      "none: the crosshead's [measured where the file has one]");
     test->add_option("--angle-unit", to.angle.unit, "its unit: deg or rad");
     add_specimen(*test, name, to.specimen);
-    test->add_option("--coefficients", to.coefficients, "of the torque: k1, k3, k5 ... [3]");
+    test->add_option("--law", to.law,
+                     "polynomial, static (torque, then a polynomial) or table [chosen by "
+                     "cross-validation]")
+        ->check(CLI::IsMember({"polynomial", "static", "table"}));
+    test->add_option("--coefficients", to.coefficients,
+                     "of a polynomial: k1, k3, k5 ... [chosen, mostly 3]");
+    test->add_option("--points", to.points, "of a table, but for [0, 0] [chosen]");
     test->callback([&to, name] { to.test = name; });
   }
 }

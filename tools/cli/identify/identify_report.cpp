@@ -3,6 +3,7 @@
 #include "tools/cli/identify/identify_parts.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <fmt/format.h>
 
 namespace plyform {
@@ -119,26 +120,70 @@ std::string figure_of_residuals(const FitQuality& quality, const std::string& at
                      100.0 * quality.rms, 100.0 * quality.largest, at);
 }
 
+namespace {
+
+/// The law as TOML and in words.
+void put_shear_law(const ShearFit& fit, Identified& result) {
+  const bool polynomial = !fit.law.tabulated();
+  std::string numbers = "[";
+  for (std::size_t i = 0; i < fit.law.k.size(); ++i)
+    numbers += fmt::format("{}{:.7g}", i ? ", " : "", fit.law.k[i]);
+  for (std::size_t i = 0; i < fit.law.angle.size(); ++i)
+    numbers += fmt::format("\n    [{:.6g}, {:.6g}],", fit.law.angle[i] / degree, fit.law.torque[i]);
+  result.laws = {
+      {"shear", polynomial ? "polynomial" : "table", numbers + (polynomial ? "]" : "\n]"), {}}};
+  const std::string powers = coefficients(fit.polynomial, "=", 5);
+  if (polynomial)
+    result.law_line = powers + " N mm: torque of one unit cell = k1 g + k3 g^3 + ..., g in rad";
+  else if (fit.form.kind == ShearFormKind::with_static)
+    result.law_line =
+        fmt::format("static torque {:.4g} N mm, reached within {:g} degrees, and {} N "
+                    "mm: torque of one unit cell = C0 + k1 g + k3 g^3 + ..., g in rad",
+                    fit.static_torque, fit.static_angle / degree, powers);
+  else {
+    result.law_line = "torque of one unit cell, degrees: N mm:";
+    for (std::size_t i = 1; i < fit.law.angle.size(); ++i)
+      result.law_line +=
+          fmt::format(" {:.3g}: {:.4g},", fit.law.angle[i] / degree, fit.law.torque[i]);
+    result.law_line.pop_back();
+  }
+}
+
+/// "k1 +- 0.04, k3 +- 0.043, C0 +- 0.1, ": limits of the numbers of a law.
+std::string number_limits(const ShearFit& fit) {
+  const std::vector<double>& limits = fit.confidence.coefficient;
+  if (fit.form.kind == ShearFormKind::table) {
+    std::string text = "of the points";
+    for (const double limit : limits)
+      text += std::isfinite(limit) ? fmt::format(" +- {:.2g},", limit) : " not known,";
+    return text + " ";
+  }
+  const std::size_t n = fit.polynomial.size();
+  std::string text = coefficients({limits.begin(), limits.begin() + static_cast<long>(n)}, "+-", 2);
+  if (limits.size() > n) text += fmt::format(", C0 +- {:.2g}", limits[n]);
+  return text + ", ";
+}
+
+} // namespace
+
 Identified shear_text(const ShearFit& fit) {
   Identified result;
   result.title = "shear law";
   result.provides = {"shear"};
-  std::string numbers;
-  for (std::size_t i = 0; i < fit.law.k.size(); ++i)
-    numbers += fmt::format("{}{:.7g}", i ? ", " : "", fit.law.k[i]);
-  result.laws = {{"shear", "polynomial", fmt::format("[{}]", numbers), {}}};
-  result.law_line = coefficients(fit.law.k, "=", 5) +
-                    " N mm: torque of one unit cell = k1 g + k3 g^3 + ..., g in rad";
+  put_shear_law(fit, result);
   const FitQuality& q = fit.quality;
   const auto degrees = [](double angle) { return fmt::format("{:.3g} degrees", angle / degree); };
   result.figures = {fmt::format("{} rows, shear angle {:.3g} to {:.3g} degrees", q.rows,
                                 q.from / degree, q.to / degree),
                     figure_of_residuals(q, degrees(q.largest_at)),
-                    confidence_text(coefficients(fit.confidence.coefficient, "+-", 2) + ", ",
-                                    "torque", fit.confidence, degrees(fit.confidence.law_at),
-                                    fit.specimens.size())};
-  put_specimens(fit.specimens, fit.scatter, "torque", " mm", degrees(fit.scatter.law_at), true,
-                result);
+                    fmt::format("misfit of the torque over the range {:.2g} % rms, single rows "
+                                "scatter by {:.2g} %",
+                                100.0 * q.misfit, 100.0 * q.noise),
+                    fmt::format("{}: {}", fit.form.name(), fit.why),
+                    confidence_text(number_limits(fit), "torque", fit.confidence,
+                                    degrees(fit.confidence.law_at), fit.specimens.size())};
+  put_specimens(fit.specimens, fit.scatter, "torque", " mm", degrees(fit.scatter.law_at),
+                !fit.law.tabulated(), result);
   if (fit.in_plane.most > 0.0)
     result.figures.push_back(fmt::format(
         "in-plane bending adds {:.2g} to {:.2g} % to the load of shear: {:.2g} % taken off",
