@@ -55,6 +55,10 @@ ShearTest shear_test(const FrameSpecimen& specimen) {
   return {sqrt2 * specimen.side, specimen.side * specimen.side, 0.0};
 }
 
+double side_of(const ShearTest& frame) {
+  return frame.diagonal / sqrt2;
+}
+
 double locking_extension(const ShearTest& test) {
   return (sqrt2 - 1.0) * test.diagonal;
 }

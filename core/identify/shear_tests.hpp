@@ -60,6 +60,9 @@ std::optional<SpecimenFault> fault_of(const FrameSpecimen& specimen);
 ShearTest shear_test(const BiasSpecimen& specimen);
 ShearTest shear_test(const FrameSpecimen& specimen);
 
+/// Side (mm) of the frame that a test is of.
+double side_of(const ShearTest& frame);
+
 /// Extension (mm) at which gamma would be 90 degrees; (40, 41) hold below it.
 double locking_extension(const ShearTest& test);
 

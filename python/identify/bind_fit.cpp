@@ -3,6 +3,8 @@
 // which python/plyform/_fit.py puts into words.
 #include "core/identify/fit_shear.hpp"
 #include "core/identify/fit_tension.hpp"
+#include "core/identify/measured_angle.hpp"
+#include "core/identify/normalised_force.hpp"
 #include "core/identify/test_columns.hpp"
 #include "python/identify/fit_parts.hpp"
 
@@ -149,15 +151,30 @@ std::optional<ShearFormKind> form_of(const std::string& law) {
   throw py::value_error("law must be 'polynomial', 'static', 'table' or None");
 }
 
-py::dict shear_law(const std::vector<Curve>& curves, const ShearTest& test,
+/// Decides whether measured angles count, unless told, and makes loads of normalised forces.
+void prepare_curves(std::vector<Curve>& curves, const ShearTest& test,
+                    std::optional<bool> measured_angle, bool normalised, FitOptions& options) {
+  const Corrections& c = options.corrections;
+  const bool extension = c.compliance.value_or(0.0) > 0.0 || c.fit_slip;
+  options.measured_angle = measured_angle.value_or(!extension && angles_count(curves, test));
+  for (Curve& curve : curves) {
+    if (!options.measured_angle && curve.x_name.empty())
+      throw py::value_error("angle_column: the curve has no extension that could count");
+    if (normalised) curve.y_is = Quantity::force_per_length;
+    take_normalised(curve, side_of(test), options.measured_angle);
+  }
+}
+
+py::dict shear_law(std::vector<Curve> curves, const ShearTest& test,
                    const std::filesystem::path& fabric, const py::dict& form, double from_deg,
-                   double to_deg, bool measured_angle, const py::dict& corrections) {
+                   double to_deg, std::optional<bool> measured_angle, bool normalised,
+                   const py::dict& corrections) {
   Diagnostics diagnostics;
   FitOptions options{form["coefficients"].cast<int>(), from_deg * degree, to_deg * degree};
   options.points = form["points"].cast<int>();
   options.law = form_of(form["law"].cast<std::string>());
-  options.measured_angle = measured_angle;
   put_corrections(corrections, options);
+  prepare_curves(curves, test, measured_angle, normalised, options);
   const auto fit = identify_shear(curves, test, fabric_for_fit(fabric, {.right_angle = true}),
                                   options, diagnostics);
   if (!fit) raise_mistakes(diagnostics.errors);
@@ -261,7 +278,7 @@ void bind_fit(py::module_& m) {
       py::arg("side"), "Picture frame; side from hinge to hinge, mm.");
   m.def("identify_shear", &shear_law, py::arg("curves"), py::arg("test"), py::arg("fabric"),
         py::arg("form"), py::arg("from_deg"), py::arg("to_deg"), py::arg("measured_angle"),
-        py::arg("corrections"), "Law of shear.");
+        py::arg("normalised"), py::arg("corrections"), "Law of shear.");
   m.def("identify_tension", &tension_law, py::arg("curves"), py::arg("yarns"),
         py::arg("gauge_length"), py::arg("from_strain"), py::arg("to_strain"),
         py::arg("corrections"), "Law of tension.");

@@ -169,20 +169,24 @@ def identify_shear(curve: AnyCurves, fabric: AnyPath, *, bias: Sequence[float] |
                    coefficients: int | None = None, points: int | None = None,
                    from_deg: float = 0.0, to_deg: float = np.inf, x_column: str | int = "",
                    y_column: str | int = "", angle_column: str | int = "",
+                   normalised: bool = False,
                    compliance: float | None = None, zero: Correction = None,
                    toe: Correction = None, slip: bool = False,
                    doubtful: bool = False) -> ShearFit:
     """Law of shear from extension (mm) and load (N) of shear tests.
 
     bias: free length and width of a bias-extension specimen, mm; or
-    frame: side of a picture frame, from hinge to hinge, mm.
+    frame: side of a picture frame, from hinge to hinge, mm; any one for a normalised force.
     fabric: file with all but the law of shear.
     law: "polynomial", "static" (a torque, then a polynomial) or "table"; coefficients: of a
     polynomial, 1 to 6; points: of a table, 1 to 20. What is None is chosen by cross-validation.
     from_deg, to_deg: shear angles of the rows that count.
     x_column, y_column: columns of a CSV file by name or number from 1; by its header unless given.
     angle_column: of a measured shear angle, which then counts instead of the extension, as the
-    third sequence of a curve does.
+    third sequence of a curve does; "none": the extension counts. A column of other angles than
+    those of the extension counts unless told, unless compliance or slip is given.
+    normalised: loads of a frame are F L_frame / (2 cos(45 deg - g/2) L_fabric^2), N/mm; so they
+    are where the header says N/mm.
     compliance: mm/N of machine and clamps; zero: N that the load cell shows without load, toe: mm
     at which the specimen is taut, each a number or "fit"; slip: take a sudden slip off.
     doubtful: accept what is refused as a doubtful curve or law.
@@ -190,9 +194,13 @@ def identify_shear(curve: AnyCurves, fabric: AnyPath, *, bias: Sequence[float] |
     Warns of doubtful rows. Raises CaseError for what is wrong in curve, fabric or specimen,
     ValueError for other arguments.
     """
-    curves = _curves(curve, x_column, y_column, "shear", angle_column)
+    if normalised and frame is None:
+        raise ValueError("normalised: loads of frames only; give frame=side, mm, any one")
+    column = "" if angle_column == "none" else angle_column
+    curves = _curves(curve, x_column, y_column, "bias" if frame is None else "frame", column)
     several = curve if isinstance(curve, list) else [curve]
-    measured = angle_column != "" or all(isinstance(c, tuple) and len(c) == 3 for c in several)
+    given = all(isinstance(c, tuple) and len(c) == 3 for c in several)
+    measured = False if angle_column == "none" else True if column != "" or given else None
     corrections = {"compliance": compliance, "zero": zero, "toe": toe, "slip": slip,
                    "doubtful": doubtful}
     if (coefficients is not None and not 1 <= coefficients <= 6) or \
@@ -200,7 +208,8 @@ def identify_shear(curve: AnyCurves, fabric: AnyPath, *, bias: Sequence[float] |
         raise ValueError("coefficients must be 1 to 6, points 1 to 20")
     form = {"law": law or "", "coefficients": coefficients or 0, "points": points or 0}
     return ShearFit(**_warn(_plyform.identify_shear(curves, _test(bias, frame), Path(fabric),
-                                                    form, from_deg, to_deg, measured, corrections)))
+                                                    form, from_deg, to_deg, measured, normalised,
+                                                    corrections)))
 
 
 def identify_tension(curve: AnyCurves, *, yarns: float = 1.0, gauge_length: float = 1.0,

@@ -179,6 +179,46 @@ go 'coefficients = 3: is of a polynomial, but a table is asked for' bias.csv --p
   --coefficients 3
 go 'points = 3: is of a table, but --law static is asked for' bias.csv --law static --points 3
 
+# Laboratories: A and B have 1 and 3 times the law, C of two curves twice, so that the mean is twice the law and the
+# deviation once.
+awk -F, -v OFS=, 'NR == 1 { print $1, "A", "B", "C1", "C2" }
+                  NR > 1 { print $1, $2, 3 * $2, 1.5 * $2, (NR < 98 ? 2.5 * $2 : "") }' \
+  norm.csv >labs.csv
+laboratories=(--y-unit N/mm --fabric glass.toml -o labs.toml)
+expect 0 'laboratories differ by 50 % of the torque at 10, 50 % at 20, 50 % at 30, 50 % at 40' \
+  identify frame A=labs.csv:A B=labs.csv:B C=labs.csv:C1 C=labs.csv:C2 "${laboratories[@]}"
+for part in "_minus 1" " 2" "_plus 3"; do
+  read -r ending factor <<<"$part"
+  [ -n "$factor" ] || { factor=$ending ending=; }
+  expect 0 'l.csv, 10 rows' theory frame --side 200 --fabric "labs$ending.toml" --to 45 \
+    --points 9 -o l.csv
+  expect 0 'g.csv, 10 rows' theory frame --side 200 --fabric glass.toml --to 45 --points 9 -o g.csv
+  paste -d, l.csv g.csv | awk -F, -v f="$factor" \
+    'NR > 5 { d = $3 / $6 / f - 1; if (d * d > 0.02 ^ 2) bad = 1 } END { exit bad }' ||
+    fail "labs$ending.toml: not $factor times the law"
+done
+grep -q '^# the mean less one standard deviation' labs_minus.toml || fail 'labs_minus.toml: which?'
+[ "$(head -n 1 labs_laboratories.csv)" = \
+  shear_deg,mean_Nmm,between_Nmm,within_Nmm,laboratories,A,B,C ] || fail 'labs_laboratories.csv'
+expect 0 'from 4 laboratories, 4 curves' identify frame labs.csv:A labs.csv:B labs.csv:C1 \
+  labs.csv:C2 --laboratories "${laboratories[@]}"
+sed 's|,B,|,bad,|' labs.csv | awk -F, -v OFS=, 'NR > 1 { $3 = -$3 } { print }' >turn.csv
+expect 2 'bad: the load must not be below 0' identify frame labs.csv:A turn.csv:bad labs.csv:C1 \
+  --laboratories "${laboratories[@]}"
+expect 2 '--skip-refused goes on without the curve' identify frame labs.csv:A turn.csv:bad \
+  labs.csv:C1 --laboratories "${laboratories[@]}"
+expect 0 'bad is left out: the load must not be below 0' identify frame labs.csv:A turn.csv:bad \
+  labs.csv:C1 --laboratories --skip-refused "${laboratories[@]}"
+expect 2 'leaves less than two laboratories' identify frame labs.csv:A turn.csv:bad \
+  --laboratories --skip-refused "${laboratories[@]}"
+expect 2 'has no laboratory, but others have' identify frame A=labs.csv:A labs.csv:B \
+  "${laboratories[@]}"
+expect 2 'is the only one' identify frame A=labs.csv:A A=labs.csv:B "${laboratories[@]}"
+expect 2 'would overwrite labs_minus.toml' identify frame A=labs.csv:A B=labs.csv:B \
+  --y-unit N/mm --fabric labs_minus.toml -o labs.toml
+expect 2 'names a laboratory, as only bias and frame take them' identify warp A=strip.csv \
+  B=strip.csv --fabric glass.toml -o never.toml
+
 # Several specimens.
 for n in 1 2 3; do
   awk -F, -v OFS=, -v f="0.9$n" 'NR > 1 { $3 *= f } { print $1, $3 }' bias.csv >"part$n.csv"

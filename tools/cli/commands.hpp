@@ -78,6 +78,8 @@ struct IdentifyArguments {
   std::string direction;         ///< warp, weft or both
   std::string reading = "angle"; ///< of a cantilever: angle or deflection
   bool doubtful = false;
+  bool laboratories = false; ///< each curve is of one, not of a specimen; or NAME=FILE says so
+  bool skip_refused = false; ///< laboratories: goes on without curves that are refused
 };
 
 struct TheoryArguments {

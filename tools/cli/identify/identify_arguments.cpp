@@ -166,6 +166,10 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
   check_positive("--yarns", a.yarns, "give the number of yarns that share the force", diagnostics);
   check_positive("--gauge-length", a.gauge_length, "give the free length of the yarns, in mm",
                  diagnostics);
+  for (const std::string& curve : a.curves)
+    if (!is_shear_test(a.test) && !curve_argument(curve).laboratory.empty())
+      option_error("--curves", curve, "names a laboratory, as only bias and frame take them",
+                   "identify each laboratory by itself", diagnostics);
   if (a.test == "compression" && a.curves.size() > 1)
     option_error("--curves", a.curves[1], "is one more than a compression test takes",
                  "identify each specimen by itself", diagnostics);

@@ -19,9 +19,7 @@ std::optional<Identified> identify(const IdentifyArguments& a, const FabricReadi
                                    Diagnostics& diagnostics) {
   const Fabric& fabric = *base.value;
   if (test) {
-    auto fit = identify_shear(curves, test->test, fabric, options, diagnostics);
-    for (std::size_t n = 0; fit && n < fit->specimens.size(); ++n)
-      fit->specimens[n].file = curve_argument(a.curves[n]).name();
+    const auto fit = identify_shear(curves, test->test, fabric, options, diagnostics);
     if (!fit) return std::nullopt;
     Identified text = shear_text(*fit);
     text.figures.insert(text.figures.begin(), test->assumed.begin(), test->assumed.end());
@@ -50,14 +48,6 @@ std::optional<Identified> identify(const IdentifyArguments& a, const FabricReadi
   }
   const auto fit = identify_tension(curves, {a.yarns, a.gauge_length}, options, diagnostics);
   return fit ? std::optional(tension_text(*fit, a)) : std::nullopt;
-}
-
-/// Names of the files, without folders.
-std::string files_of(const IdentifyArguments& a) {
-  std::string names;
-  for (const std::string& curve : a.curves)
-    names += (names.empty() ? "" : ", ") + curve_argument(curve).name();
-  return names;
 }
 
 /// The comment above the law in the fabric file.
@@ -110,10 +100,13 @@ void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
 
 int identify_command(const IdentifyArguments& arguments) {
   const bool shear = is_shear_test(arguments.test);
+  const bool laboratories = are_laboratories(arguments);
   const fs::path output = arguments.output;
-  const fs::path fit = arguments.fit.empty()
-                           ? output.parent_path() / (output.stem().string() + "_fit.csv")
-                           : fs::path(arguments.fit);
+  const fs::path fit =
+      arguments.fit.empty()
+          ? output.parent_path() /
+                (output.stem().string() + (laboratories ? "_laboratories.csv" : "_fit.csv"))
+          : fs::path(arguments.fit);
   Diagnostics diagnostics;
   check_arguments(arguments, fit, diagnostics);
   FitOptions options = fit_options(arguments, diagnostics);
@@ -128,6 +121,8 @@ int identify_command(const IdentifyArguments& arguments) {
                         "its law of shear is one of both signs; what is identified takes its "
                         "place, and is the same for both: copy the rows or the "
                         "negative_polynomial that you want to keep");
+  if (laboratories && test && diagnostics.errors.empty())
+    return identify_laboratories(arguments, fit, base, *test, curves, options, diagnostics);
   std::optional<Identified> result;
   if (diagnostics.errors.empty())
     result = identify(arguments, base, test, curves, options, diagnostics);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The curves that plyform identify is given: FILE or FILE:COLUMN, and what a curve of a shear test
 // is made ready with before a law is fitted to it.
+#include "base/text.hpp"
 #include "core/identify/measured_angle.hpp"
 #include "core/identify/normalised_force.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
@@ -37,16 +38,25 @@ bool corrects_extension(const FitOptions& options) {
 } // namespace
 
 CurveArgument curve_argument(const std::string& text) {
-  CurveArgument result{text, ""};
+  const std::size_t equals = text.find('=');
+  if (!is_file(text) && equals != std::string::npos && equals > 0 &&
+      text.substr(0, equals).find('/') == std::string::npos) {
+    CurveArgument named = curve_argument(text.substr(equals + 1));
+    named.laboratory = text.substr(0, equals);
+    return named;
+  }
+  CurveArgument result{text, "", ""};
   for (std::size_t colon = text.rfind(':');
        colon != std::string::npos && colon > 0 && !is_file(result.file);
        colon = text.rfind(':', colon - 1))
-    if (is_file(text.substr(0, colon))) result = {text.substr(0, colon), text.substr(colon + 1)};
+    if (is_file(text.substr(0, colon)))
+      result = {text.substr(0, colon), text.substr(colon + 1), ""};
   return result;
 }
 
 std::string CurveArgument::name() const {
-  return fs::path(file).filename().string() + (column.empty() ? "" : ":" + column);
+  return fmt::format("{}{}{}", fs::path(file).filename().string(), column.empty() ? "" : ":",
+                     column);
 }
 
 std::vector<Curve> curves_of(const IdentifyArguments& a, Diagnostics& diagnostics) {
@@ -55,10 +65,20 @@ std::vector<Curve> curves_of(const IdentifyArguments& a, Diagnostics& diagnostic
     const CurveArgument argument = curve_argument(text);
     CurveColumns columns = columns_of(a);
     if (!argument.column.empty()) columns.y.column = argument.column;
-    if (auto curve = read_curve(argument.file, columns, diagnostics))
+    if (auto curve = read_curve(argument.file, columns, diagnostics)) {
+      if (!argument.column.empty())
+        curve->file = fmt::format("{}:{}", curve->file, argument.column);
       curves.push_back(std::move(*curve));
+    }
   }
   return curves;
+}
+
+std::string files_of(const IdentifyArguments& a) {
+  std::vector<std::string> names;
+  for (const std::string& curve : a.curves)
+    names.push_back(curve_argument(curve).name());
+  return joined(names);
 }
 
 std::optional<PreparedShear> prepare_shear(const IdentifyArguments& a, std::vector<Curve>& curves,

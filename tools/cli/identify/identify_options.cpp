@@ -66,6 +66,11 @@ void add_shear_tests(CLI::App& command, IdentifyArguments& to) {
                      "none: the crosshead's [measured where the file has one]");
     test->add_option("--angle-unit", to.angle.unit, "its unit: deg or rad");
     add_specimen(*test, name, to.specimen);
+    test->add_flag("--laboratories", to.laboratories,
+                   "each curve is of a laboratory, not of a specimen: mean, scatter and three "
+                   "fabric files; or NAME=FILE for each curve, several of a name for one");
+    test->add_flag("--skip-refused", to.skip_refused,
+                   "of laboratories: go on without a curve that is refused");
     test->add_option("--law", to.law,
                      "polynomial, static (torque, then a polynomial) or table [chosen by "
                      "cross-validation]")

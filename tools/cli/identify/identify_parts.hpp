@@ -53,10 +53,10 @@ CurveColumns columns_of(const IdentifyArguments& arguments);
 std::string test_words(const IdentifyArguments& arguments);
 
 /// tools/cli/identify/identify_curves.cpp
-/// A curve as named on the command line: FILE, or FILE:COLUMN where FILE is one and the whole text
-/// is not.
+/// A curve as named on the command line: FILE, FILE:COLUMN or NAME=FILE:COLUMN, where FILE is one
+/// and the whole text is not.
 struct CurveArgument {
-  std::string file, column;
+  std::string file, column, laboratory;
   std::string name() const; ///< without folders
 };
 CurveArgument curve_argument(const std::string& text);
@@ -72,6 +72,20 @@ struct PreparedShear {
 std::optional<PreparedShear> prepare_shear(const IdentifyArguments& arguments,
                                            std::vector<Curve>& curves, FitOptions& options,
                                            Diagnostics& diagnostics);
+
+/// Names of the curves, without folders.
+std::string files_of(const IdentifyArguments& arguments);
+
+/// tools/cli/identify/identify_laboratories.cpp
+/// Its name, else its column's, else its file's.
+std::string laboratory_of(const CurveArgument& argument);
+/// Whether each curve is of a laboratory, not of a specimen.
+bool are_laboratories(const IdentifyArguments& arguments);
+/// Reports, writes the three fabric files and the table; returns the exit code.
+int identify_laboratories(const IdentifyArguments& arguments, const std::filesystem::path& table,
+                          const FabricReading& base, const PreparedShear& test,
+                          const std::vector<Curve>& curves, const FitOptions& options,
+                          Diagnostics& diagnostics);
 
 /// tools/cli/identify/identify_report.cpp
 Identified shear_text(const ShearFit& fit);
