@@ -20,7 +20,7 @@ void check_options(const Fabric& fabric, const FitOptions& options) {
     throw std::invalid_argument("points must be 1 to 20, or 0 to have them chosen");
   if (!(options.from >= 0.0 && options.to > options.from))
     throw std::invalid_argument("the range must start at 0 or above and end above its start");
-  if (!is_weave(fabric) ||
+  if (!is_biaxial(fabric) ||
       std::abs(material_axes(fabric).between() - 0.5 * std::numbers::pi) > 1e-6)
     throw std::invalid_argument("the theory of the shear tests needs fibres at 90 degrees");
 }

@@ -28,6 +28,10 @@ void refuse(const std::optional<SpecimenFault>& fault) {
 
 } // namespace
 
+bool is_biaxial(const Fabric& fabric) {
+  return fabric.families.size() == 2 && fabric.crossings.size() == 1 && !fabric.sheet;
+}
+
 std::optional<SpecimenFault> fault_of(const BiasSpecimen& specimen) {
   if (auto fault = fault_of_size("length", specimen.length)) return fault;
   if (auto fault = fault_of_size("width", specimen.width)) return fault;

@@ -32,6 +32,10 @@
 
 namespace plyform {
 
+/// Whether a fabric has two families and one crossing of them, and no sheet beside them; stitches
+/// add what core/identify/stitch_load.hpp says.
+bool is_biaxial(const Fabric& fabric);
+
 /// Free length between the clamps and width, mm.
 struct BiasSpecimen {
   double length, width;

@@ -257,6 +257,76 @@ expect 0 'the case is sound' check case --set blanks.square.element_size=34
 expect 2 'shear: is missing' identify in-plane-bending zone.csv --direction both --fabric bare.toml \
   -o never.toml
 
+# Specimens of two kinds: both signs of shear, the stitch that they differ by, warp and weft.
+taut=(--compliance 0 --toe 0)
+sides=(--side 200 --fabric glass.toml "${taut[@]}")
+expect 0 'frame.csv' theory frame --side 200 --fabric two.toml --to 45 -o frame.csv
+expect 0 'negative.csv' theory frame --side 200 --fabric two.toml --to 45 --negative -o negative.csv
+expect 0 'torque of negative angles over that of positive ones 0.1 at' \
+  identify frame frame.csv --negative negative.csv "${sides[@]}" -o signs.toml
+expect_law signs.toml polynomial 0.37044 1e-6
+expect_law signs.toml negative_polynomial 0.037044 1e-6
+expect 0 'no difference beyond scatter, one law for both signs' \
+  identify frame frame.csv --negative frame.csv "${sides[@]}" -o signs.toml
+! grep -q negative_polynomial signs.toml || fail 'signs.toml: both signs of one law'
+cp "$2/fabrics/ncf_biaxial_pillar.toml" ncf.toml
+for test in 'frame --side 200' 'bias --length 300 --width 100'; do
+  expect 0 'stitches pull' theory $test --fabric ncf.toml --to 50 -o drawn.csv
+  expect 0 'stitches pull' theory $test --fabric ncf.toml --to 50 --negative -o slack.csv
+  sed 's/^stiffness = 24.0/stiffness = 1.0/; s/^slack = .*//; s/^breaking_force = .*//' ncf.toml \
+    >unknown.toml
+  expect 0 'stiffness = 24 N per stitch, slack up to an elongation of 0.02' identify $test \
+    drawn.csv --negative slack.csv --fabric unknown.toml --stitch stitch "${taut[@]}" -o found.toml
+  expect_law found.toml polynomial 1.225 1e-3
+  sed -n '/^\[\[stitch/,$p' found.toml >stitch.toml
+  expect_law stitch.toml stiffness 24 1e-2
+  expect_law stitch.toml breaking_force 4.2 3e-2
+  expect 0 'taken off: what stitch pulls' identify $test drawn.csv --fabric ncf.toml "${taut[@]}" \
+    -o found.toml
+  grep -q '^\[\[crossing\]\]' found.toml || fail 'found.toml has lost its crossing'
+done
+frames=(frame drawn.csv --negative slack.csv --side 200 --fabric ncf.toml)
+expect 2 'stitch = tricot: is no stitch of the fabric; it has stitch' identify "${frames[@]}" \
+  --stitch tricot -o never.toml
+expect 2 'needs curves of both signs' identify frame drawn.csv --side 200 --fabric ncf.toml \
+  --stitch stitch -o never.toml
+expect 2 'would overwrite slack.csv' identify "${frames[@]}" --fit slack.csv -o never.toml
+for n in 1 2 3; do
+  for yarns in warp:46000 weft:43000; do
+    awk -v k="${yarns#*:}" -v n="$n" 'BEGIN { for (i = 0; i <= 20; i++)
+      print i / 2000 "," k * i / 2000 * (1 + 0.004 * (n - 2)) }' >"${yarns%:*}$n.csv"
+  done
+done
+expect 0 'weft over warp, tension per yarn: 0.935' identify warp warp[123].csv --weft weft[123].csv \
+  --fabric glass.toml -o both.toml
+expect 0 'they differ, and the fabric is not balanced' identify warp warp[123].csv \
+  --weft weft[123].csv --fabric glass.toml -o both.toml
+[ "$(grep -c '^stiffness = 4[36]000' both.toml)" = 2 ] || fail 'both.toml: warp and weft'
+expect 0 'no difference beyond scatter' identify warp warp[123].csv --weft warp[123].csv \
+  --fabric glass.toml -o both.toml
+printf 'overhang_mm,angle_deg\n120,41.5\n121,41.5\n119,41.5\n' >short_hang.csv
+expect 0 'weft over warp, bending stiffness: 0.63' identify cantilever hang.csv --direction warp \
+  --weft short_hang.csv --fabric glass.toml -o both.toml
+
+# Biaxial tension: straight yarns and crimps; what curves do not show.
+biaxial() { # RATIO: a balanced cell of 46 kN, crimp 0.5 %, strained in both directions alike
+  awk -v k=46000 -v c=0.005 'BEGIN { print "warp_strain,weft_strain,warp_load_N,weft_load_N"
+    for (i = 0; i <= 40; i++) { e = i * 0.0004; h = c * (2 + c); l = sqrt((1 + e) ^ 2 + h)
+      n = k * (l / (1 + c) - 1) * (1 + e) / l; print e "," e "," n "," n } }'
+}
+biaxial >equal.csv
+awk -v k=46000 -v c=0.005 'BEGIN { print "warp strain,warp load (N)"
+  for (i = 0; i <= 40; i++) { e = i * 0.0004; n = k * ((1 + e) / (1 + c) - 1); print e "," (n > 0 ? n : 0) } }' >free_weft.csv
+sed '1s/.*/weft strain,weft load (N)/' free_weft.csv >free_warp.csv
+expect 0 'stiffness = 46000 N per straight yarn, crimp 0.005' identify biaxial equal.csv \
+  free_weft.csv free_warp.csv --fabric glass.toml -o crimped.toml
+expect_law crimped.toml ratio 0.005 1e-3
+sed -i 's|^glass = .*|glass = "../crimped.toml"|' case/case.toml
+expect 0 'the case is sound' check case --set blanks.square.element_size=34
+expect 2 'all of one strain ratio' identify biaxial equal.csv --fabric glass.toml -o never.toml
+expect 2 'no column says that it is of warp or weft' identify biaxial strip.csv --fabric glass.toml \
+  -o never.toml
+
 # What is wrong with options and files.
 expect 2 'length = 150: must be at least twice the width' identify bias low.csv --length 150 \
   --width 100 --fabric glass.toml -o never.toml

@@ -63,9 +63,10 @@ struct ColumnArguments {
 };
 
 struct IdentifyArguments {
-  std::string
-      test; ///< bias, frame, warp, weft, compression, cantilever, three-point, in-plane-bending
+  std::string test; ///< bias, frame, warp, weft, biaxial, compression, cantilever, three-point ...
   std::vector<std::string> curves; ///< one for each specimen
+  std::vector<std::string> others; ///< of specimens of the other sign, or along the weft
+  std::string stitch;              ///< that the two signs of shear differ by
   ColumnArguments x, y, angle;
   std::string fabric, output, fit;
   SpecimenArguments specimen;
@@ -80,6 +81,8 @@ struct IdentifyArguments {
   bool doubtful = false;
   bool laboratories = false; ///< each curve is of one, not of a specimen; or NAME=FILE says so
   bool skip_refused = false; ///< laboratories: goes on without curves that are refused
+  double warp_yarns = 1.0;          ///< of a biaxial test
+  std::optional<double> weft_yarns; ///< of it, or of the others; not given: as the warp
 };
 
 struct TheoryArguments {

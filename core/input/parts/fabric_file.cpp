@@ -85,6 +85,23 @@ bool is_short_form(const TomlNode& root) {
   return !root.find("family") && !root.find("sheet") && (!law || law->text == "woven");
 }
 
+/// Each [[stitch]]; of a file with mistakes any.
+std::vector<SeamReading> seams_of(const TomlNode& root) {
+  std::vector<SeamReading> seams;
+  const TomlNode* tables = root.find("stitch");
+  if (!tables) return seams;
+  std::size_t stitches = 0;
+  for (const TomlNode& table : tables->children) {
+    const TomlNode* name = table.find("name");
+    const std::size_t number = seams.size();
+    SeamReading seam{name ? name->text : stitch_name(number), {}};
+    for (std::size_t leg = 0; leg < (table.find("directions") ? 2u : 1u); ++leg)
+      seam.stitches.push_back(stitches++);
+    seams.push_back(std::move(seam));
+  }
+  return seams;
+}
+
 } // namespace
 
 std::vector<Fabric> read_fabrics(const TableView& root, Diagnostics& diagnostics) {
@@ -113,6 +130,8 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
   if (root) {
     reading.text = *content;
     root->at.file = name;
+    reading.seams = seams_of(*root);
+    reading.by_families = root->find("family") != nullptr;
     for (const char* table : {"warp", "weft", "shear"}) {
       if (!is_short_form(*root)) break; // has no laws of these names
       const bool shear = std::string_view(table) == "shear";
@@ -133,6 +152,14 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
   }
   reading.errors = std::move(diagnostics.errors);
   return reading;
+}
+
+std::string table_of_law(const FabricReading& reading, const std::string& short_form) {
+  if (!reading.by_families) return short_form;
+  if (short_form == "warp") return "family[0]";
+  if (short_form == "weft") return "family[1]";
+  if (short_form == "shear") return "crossing[0]";
+  return short_form == "crimp" ? "crossing[0].crimp" : short_form;
 }
 
 } // namespace plyform

@@ -8,15 +8,25 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plyform {
+
+/// A [[stitch]] of a fabric file: its name, and which stitches of the fabric it gives; of a zigzag
+/// two.
+struct SeamReading {
+  std::string name;
+  std::vector<std::size_t> stitches;
+};
 
 struct FabricReading {
   std::optional<Fabric> value; ///< only when there is no error
   std::vector<CaseError> errors;
   std::vector<std::string> missing; ///< those of "warp", "weft", "shear" that have no law
   std::string text;                 ///< of the file
+  bool by_families = false;         ///< whether it has [[family]] in the place of warp and weft
+  std::vector<SeamReading> seams;   ///< in the order of the file
 };
 
 /// Reads and checks a fabric file by the rules of case files. With `laws_may_miss` the laws of
@@ -26,16 +36,22 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
 
 /// A law as text for a fabric file.
 struct LawText {
-  std::string table;                ///< "warp", "weft" or "shear"
+  std::string table;                ///< "warp", "shear", "crossing[0]", "crossing[0].crimp"
   std::string key;                  ///< "stiffness", "polynomial", "bending_stiffness" ...
   std::string value;                ///< TOML; empty: the key is taken out
   std::vector<std::string> comment; ///< lines above the key; control characters become spaces
+  /// Further keys and values of the same law, below it.
+  std::vector<std::pair<std::string, std::string>> beside = {};
 };
+
+/// Where a fabric file has the laws that its short form calls warp, weft, shear and crimp: the
+/// first and second [[family]] and the first [[crossing]] if it is written by families.
+std::string table_of_law(const FabricReading& reading, const std::string& short_form);
 
 /// The text of a fabric file with the law inserted, in place of the table's law if it has one. All
 /// other keys and values are kept, and so are comments at the top of the file, directly above a key
 /// or table and after a value; other comments and those above the replaced law are lost, and inline
-/// tables get a header. Throws std::invalid_argument if `text` is not TOML.
+/// tables and lists of tables get headers. Throws std::invalid_argument if `text` is not TOML.
 std::string with_law(const std::string& text, const LawText& law);
 
 } // namespace plyform

@@ -106,28 +106,82 @@ void put_law(FabricText& to) {
     to.put("# " + line);
   }
   to.put(to.law.key + " = " + to.law.value);
+  for (const auto& [key, value] : to.law.beside)
+    to.put(key + " = " + value);
 }
 
-/// Writes a table. path: dotted, empty for the file as a whole.
-void put_table(FabricText& to, const TomlNode& table, const std::string& path) {
-  bool law_due = path == to.law.table;
-  for (const TomlNode& child : table.children) {
-    if (path == to.law.table && subject_of(to.law.key) == subject_of(child.key)) {
+/// Whether it is a list of tables, [[name]].
+bool has_tables(const TomlNode& entry) {
+  return entry.kind == TomlNode::Kind::list && !entry.children.empty() &&
+         entry.children.front().kind == TomlNode::Kind::table;
+}
+
+/// A table with the header that it has in the file, and its path: "crossing.crimp" and
+/// "crossing[0].crimp"; both empty for the file as a whole.
+struct PlacedTable {
+  const TomlNode& node;
+  std::string header, path;
+};
+
+void put_table(FabricText& to, const PlacedTable& table);
+
+/// The tables and lists of tables within a table.
+void put_tables_of(FabricText& to, const PlacedTable& table) {
+  for (const TomlNode& child : table.node.children) {
+    const std::string key = key_text(child.key);
+    const std::string header = (table.header.empty() ? "" : table.header + ".") + key;
+    const std::string path = (table.path.empty() ? "" : table.path + ".") + key;
+    const bool list = has_tables(child);
+    if (!list && child.kind != TomlNode::Kind::table) continue;
+    int above = 0; // line of the header before: tables of one line have one comment
+    for (std::size_t i = 0; i < (list ? child.children.size() : 1); ++i) {
+      const TomlNode& node = list ? child.children[i] : child;
+      if (!to.out.empty()) to.put("");
+      if (node.at.line != above) put_comment_above(to, node.at.line);
+      above = node.at.line;
+      to.put(list ? "[[" + header + "]]" : "[" + header + "]");
+      put_table(to, {node, header, list ? fmt::format("{}[{}]", path, i) : path});
+    }
+  }
+}
+
+void put_table(FabricText& to, const PlacedTable& table) {
+  const bool here = table.path == to.law.table;
+  bool law_due = here;
+  for (const TomlNode& child : table.node.children) {
+    if (here && subject_of(to.law.key) == subject_of(child.key)) {
       if (law_due) put_law(to);
       law_due = false;
-    } else if (child.kind != TomlNode::Kind::table) {
+    } else if (child.kind != TomlNode::Kind::table && !has_tables(child)) {
       put_comment_above(to, child.key_at.line);
       to.put(key_text(child.key) + " = " + value_text(child) + comment_behind(to, child));
     }
   }
   if (law_due) put_law(to);
-  for (const TomlNode& child : table.children) {
-    if (child.kind != TomlNode::Kind::table) continue;
-    const std::string below = (path.empty() ? "" : path + ".") + key_text(child.key);
-    if (!to.out.empty()) to.put("");
-    put_comment_above(to, child.at.line);
-    to.put("[" + below + "]");
-    put_table(to, child, below);
+  put_tables_of(to, table);
+}
+
+/// Adds the table of that path if it is not there; lists of tables must be.
+void add_table(TomlNode& root, const std::string& path) {
+  TomlNode* at = &root;
+  for (std::size_t begin = 0; begin <= path.size();) {
+    const std::size_t end = std::min(path.find('.', begin), path.size());
+    const std::string part = path.substr(begin, end - begin);
+    const std::size_t bracket = part.find('[');
+    TomlNode* next = at->find(part.substr(0, bracket));
+    if (bracket != std::string::npos) {
+      const std::size_t item = std::stoul(part.substr(bracket + 1));
+      if (!next || item >= next->children.size())
+        throw std::invalid_argument("the fabric has no " + part);
+      next = &next->children[item];
+    } else if (!next) {
+      TomlNode table;
+      table.key = part;
+      at->children.push_back(std::move(table));
+      next = &at->children.back();
+    }
+    at = next;
+    begin = end + 1;
   }
 }
 
@@ -155,13 +209,8 @@ std::string with_law(const std::string& text, const LawText& law) {
     put_comment_above(to, top);
     to.put("");
   }
-  if (!root->find(law.table)) {
-    TomlNode table;
-    table.key = law.table;
-    table.at.line = table.key_at.line = 0;
-    root->children.push_back(std::move(table));
-  }
-  put_table(to, *root, "");
+  add_table(*root, law.table);
+  put_table(to, {*root, "", ""});
   return to.out;
 }
 

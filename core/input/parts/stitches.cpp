@@ -38,7 +38,7 @@ StitchLaw read_law(const TableView& section, Diagnostics& diagnostics) {
 std::vector<std::string> names_of(const TableView& section, std::size_t number,
                                   std::size_t directions) {
   std::string name = text(section, "name");
-  if (name.empty()) name = number == 0 ? "stitch" : fmt::format("stitch_{}", number + 1);
+  if (name.empty()) name = stitch_name(number);
   if (directions == 1) return {name};
   return {name + "_1", name + "_2"};
 }
@@ -76,6 +76,10 @@ void check_number(const TableView& section, const Fabric& fabric, Diagnostics& d
 }
 
 } // namespace
+
+std::string stitch_name(std::size_t number) {
+  return number == 0 ? "stitch" : fmt::format("stitch_{}", number + 1);
+}
 
 void read_stitches(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
   const std::vector<TableView> tables = subsections(section, "stitch");

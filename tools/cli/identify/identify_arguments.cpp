@@ -135,9 +135,9 @@ FabricReading fabric_of(const std::string& file, bool for_shear, Diagnostics& di
   diagnostics.errors.insert(diagnostics.errors.end(), reading.errors.begin(), reading.errors.end());
   if (!reading.value) return reading;
   const double between = material_axes(*reading.value).between();
-  if (!is_weave(*reading.value))
+  if (!is_biaxial(*reading.value))
     diagnostics.error({file, 1, 1}, "law", "",
-                      "must be woven, without stitches: the tests are of warp and weft",
+                      "must be of two families and their crossing: the tests are of warp and weft",
                       "write the laws of other fabrics in by hand");
   else if (for_shear && std::abs(between - 0.5 * std::numbers::pi) > 1e-6)
     diagnostics.error({file, 1, 1}, "fibre_angle", fmt::format("{:g}", between / degree),
@@ -156,14 +156,18 @@ bool is_tension_test(const std::string& test) {
 
 void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostics& diagnostics) {
   std::vector<fs::path> read{a.fabric};
-  for (const std::string& curve : a.curves)
-    read.insert(read.begin(), curve_argument(curve).file);
+  for (const std::vector<std::string>& curves : {a.others, a.curves})
+    for (const std::string& curve : curves)
+      read.insert(read.begin(), curve_argument(curve).file);
   check_output("--output", a.output, read, diagnostics);
   read.push_back(a.output);
   check_output("--fit", fit, read, diagnostics);
   check_range(a, diagnostics);
   check_form(a, diagnostics);
   check_positive("--yarns", a.yarns, "give the number of yarns that share the force", diagnostics);
+  check_positive("--warp-yarns", a.warp_yarns, "give the number of warp yarns", diagnostics);
+  check_positive("--weft-yarns", a.weft_yarns.value_or(1.0), "give the number of weft yarns",
+                 diagnostics);
   check_positive("--gauge-length", a.gauge_length, "give the free length of the yarns, in mm",
                  diagnostics);
   for (const std::string& curve : a.curves)
@@ -246,6 +250,7 @@ std::string test_words(const IdentifyArguments& a) {
     return fmt::format("three-point bending, span {:g} mm, width {:g} mm", a.specimen.span,
                        a.specimen.width);
   if (a.test == "in-plane-bending") return "transition zone in the plane";
+  if (a.test == "biaxial") return "biaxial tension, cell of two crimped yarns";
   std::string words =
       fmt::format("{} test of {:g} yarn{}", a.test == "compression" ? "compression" : "tension",
                   a.yarns, a.yarns == 1.0 ? "" : "s");

@@ -13,6 +13,29 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// The curves of both kinds; errors are reported.
+struct BothKinds {
+  std::vector<Curve> curves, others;
+  std::vector<Curve> all() const {
+    std::vector<Curve> both = curves;
+    both.insert(both.end(), others.begin(), others.end());
+    return both;
+  }
+};
+
+/// Angles of the others are magnitudes, as their sign is known.
+BothKinds both_kinds(const IdentifyArguments& a, Diagnostics& diagnostics) {
+  if (a.test == "biaxial") return {}; // of four columns
+  IdentifyArguments other = a;
+  other.curves = a.others;
+  BothKinds both{curves_of(a, diagnostics), curves_of(other, diagnostics)};
+  for (Curve& curve : both.others)
+    if (!curve.angle.empty() && curve.angle.back() < 0.0)
+      for (double& angle : curve.angle)
+        angle = -angle;
+  return both;
+}
+
 std::optional<Identified> identify(const IdentifyArguments& a, const FabricReading& base,
                                    const std::optional<PreparedShear>& test,
                                    const std::vector<Curve>& curves, const FitOptions& options,
@@ -25,6 +48,7 @@ std::optional<Identified> identify(const IdentifyArguments& a, const FabricReadi
     text.figures.insert(text.figures.begin(), test->assumed.begin(), test->assumed.end());
     return text;
   }
+  if (a.test == "biaxial") return identify_biaxial_files(a, fabric, diagnostics);
   if (a.test == "compression") {
     const auto fit =
         identify_compression(curves.front(), {a.yarns, a.gauge_length}, options, diagnostics);
@@ -69,12 +93,18 @@ std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fa
   return comment;
 }
 
+/// Whether a key stands beside another of the same law, which has the comment.
+bool stands_beside(const std::string& key) {
+  return key == "buckling_force" || key == "slack" || key == "pretension" ||
+         key == "breaking_force" || key == "height";
+}
+
 void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
                       const FabricReading& base, Identified result) {
   std::string text = base.text;
   for (LawText& law : result.laws) {
-    law.comment = comment_of(a, *base.value, result);
-    if (law.key == "buckling_force") law.comment.clear();
+    law.table = table_of_law(base, law.table);
+    if (!stands_beside(law.key)) law.comment = comment_of(a, *base.value, result);
     text = with_law(text, law);
   }
   write_whole(fit_file, result.fit);
@@ -113,19 +143,27 @@ int identify_command(const IdentifyArguments& arguments) {
   const FabricReading base = fabric_of(arguments.fabric, shear, diagnostics);
   if (arguments.test == "in-plane-bending")
     check_zone_fabric(base.missing, {arguments.fabric, 1, 1}, diagnostics);
-  std::vector<Curve> curves = curves_of(arguments, diagnostics);
-  const auto test = shear ? prepare_shear(arguments, curves, options, diagnostics) : std::nullopt;
-  if (shear && base.value && !base.value->crossings.empty() &&
+  check_groups(arguments, base, diagnostics);
+  BothKinds kinds = both_kinds(arguments, diagnostics);
+  std::vector<Curve> all = kinds.all();
+  const auto test = shear ? prepare_shear(arguments, all, options, diagnostics) : std::nullopt;
+  const auto split = all.begin() + static_cast<std::ptrdiff_t>(kinds.curves.size());
+  kinds = {{all.begin(), split}, {split, all.end()}};
+  if (shear && arguments.others.empty() && base.value && !base.value->crossings.empty() &&
       !base.value->crossings[0].shear.odd())
     diagnostics.warning({arguments.fabric, 1, 1},
                         "its law of shear is one of both signs; what is identified takes its "
                         "place, and is the same for both: copy the rows or the "
                         "negative_polynomial that you want to keep");
   if (laboratories && test && diagnostics.errors.empty())
-    return identify_laboratories(arguments, fit, base, *test, curves, options, diagnostics);
+    return identify_laboratories(arguments, fit, base, *test, kinds.curves, options,
+                                 diagnostics);
   std::optional<Identified> result;
   if (diagnostics.errors.empty())
-    result = identify(arguments, base, test, curves, options, diagnostics);
+    result = has_groups(arguments, *base.value)
+                 ? identify_groups(arguments, base, test, kinds.curves, kinds.others, options,
+                                   diagnostics)
+                 : identify(arguments, base, test, kinds.curves, options, diagnostics);
   if (print_diagnostics(diagnostics)) return exit_case_wrong;
   if (!result) throw std::logic_error("no law and no reason for it");
   write_and_report(arguments, fit, base, *result);

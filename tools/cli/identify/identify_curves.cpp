@@ -78,7 +78,11 @@ std::string files_of(const IdentifyArguments& a) {
   std::vector<std::string> names;
   for (const std::string& curve : a.curves)
     names.push_back(curve_argument(curve).name());
-  return joined(names);
+  if (a.others.empty()) return joined(names);
+  std::vector<std::string> others;
+  for (const std::string& curve : a.others)
+    others.push_back(curve_argument(curve).name());
+  return joined(names) + (is_shear_test(a.test) ? "; negative: " : "; weft: ") + joined(others);
 }
 
 std::optional<PreparedShear> prepare_shear(const IdentifyArguments& a, std::vector<Curve>& curves,

@@ -17,6 +17,14 @@ void add_specimen(CLI::App& test, const std::string& name, SpecimenArguments& to
   }
 }
 
+void add_outputs(CLI::App& test, IdentifyArguments& to) {
+  test.add_option("--fabric", to.fabric, "fabric file with all but the law")->required();
+  test.add_option("-o,--output", to.output, "fabric file to write")->required();
+  test.add_option("--fit", to.fit, "CSV file of measured and fitted rows [OUTPUT's stem_fit.csv]");
+  test.add_flag("--yes-doubtful", to.doubtful,
+                "go on though the curve shows a disturbance or the law is no fabric's");
+}
+
 void add_files(CLI::App& test, const std::string& x, const std::string& y, IdentifyArguments& to) {
   test.add_option("curves", to.curves,
                   "CSV file of " + x + " and " + y + ", or FILE:COLUMN of the " + y +
@@ -26,11 +34,7 @@ void add_files(CLI::App& test, const std::string& x, const std::string& y, Ident
   test.add_option("--y-column", to.y.name, "name or number of the column of " + y);
   test.add_option("--x-unit", to.x.unit, "its unit, if the header has none or a wrong one");
   test.add_option("--y-unit", to.y.unit, "its unit, if the header has none or a wrong one");
-  test.add_option("--fabric", to.fabric, "fabric file with all but the law")->required();
-  test.add_option("-o,--output", to.output, "fabric file to write")->required();
-  test.add_option("--fit", to.fit, "CSV file of measured and fitted rows [OUTPUT's stem_fit.csv]");
-  test.add_flag("--yes-doubtful", to.doubtful,
-                "go on though the curve shows a disturbance or the law is no fabric's");
+  add_outputs(test, to);
 }
 
 /// Range of rows, and what machines add to a curve.
@@ -78,6 +82,11 @@ void add_shear_tests(CLI::App& command, IdentifyArguments& to) {
     test->add_option("--coefficients", to.coefficients,
                      "of a polynomial: k1, k3, k5 ... [chosen, mostly 3]");
     test->add_option("--points", to.points, "of a table, but for [0, 0] [chosen]");
+    test->add_option("--negative", to.others,
+                     "CSV files of specimens cut, or frames turned, the other way: the angle from "
+                     "the first family to the second opens");
+    test->add_option("--stitch", to.stitch,
+                     "stitch of the fabric whose law is the difference between the two");
     test->callback([&to, name] { to.test = name; });
   }
 }
@@ -94,8 +103,28 @@ void add_yarn_tests(CLI::App& command, IdentifyArguments& to) {
     test->add_option("--gauge-length", to.gauge_length,
                      "mm that turn a displacement into strain [1: it is a strain]");
     if (pressed) add_direction(*test, to, true);
+    if (name == "warp") {
+      test->add_option("--weft", to.others, "CSV files of weft specimens, to compare with");
+      test->add_option("--weft-yarns", to.weft_yarns, "number of yarns in those [as --yarns]");
+    }
     test->callback([&to, name] { to.test = name; });
   }
+}
+
+void add_biaxial_test(CLI::App& command, IdentifyArguments& to) {
+  CLI::App* test = command.add_subcommand(
+      "biaxial", "tension of straight yarns and crimp of both, from biaxial tension curves");
+  test->add_option(
+          "curves", to.curves,
+          "CSV file of warp strain, weft strain, warp load, weft load, one for each strain "
+          "ratio; a direction that was free may miss")
+      ->required();
+  test->add_option("--warp-yarns", to.warp_yarns, "number of warp yarns that share the load [1]");
+  test->add_option("--weft-yarns", to.weft_yarns, "number of weft yarns that share the load [1]");
+  test->add_option("--toe", to.toe, "fit: takes wrong zeros of strain off")
+      ->check(CLI::IsMember({"fit"}));
+  add_outputs(*test, to);
+  test->callback([&to] { to.test = "biaxial"; });
 }
 
 void add_bending_tests(CLI::App& command, IdentifyArguments& to) {
@@ -105,6 +134,8 @@ void add_bending_tests(CLI::App& command, IdentifyArguments& to) {
   cantilever->add_option("--reading", to.reading, "what is read beside the overhang [angle]")
       ->check(CLI::IsMember({"angle", "deflection"}));
   add_direction(*cantilever, to, true);
+  cantilever->add_option("--weft", to.others,
+                         "CSV files of weft specimens, to compare with; --direction warp then");
   cantilever->callback([&to] { to.test = "cantilever"; });
 
   CLI::App* three =
@@ -129,6 +160,7 @@ void add_identify_tests(CLI::App& command, IdentifyArguments& to) {
   command.require_subcommand(1);
   add_shear_tests(command, to);
   add_yarn_tests(command, to);
+  add_biaxial_test(command, to);
   add_bending_tests(command, to);
 }
 

@@ -91,6 +91,21 @@ int identify_laboratories(const IdentifyArguments& arguments, const std::filesys
 Identified shear_text(const ShearFit& fit);
 Identified tension_text(const TensionFit& fit, const IdentifyArguments& arguments);
 Identified compression_text(const CompressionFit& fit, const IdentifyArguments& arguments);
+/// tools/cli/identify/identify_groups.cpp: specimens of two kinds, `others` those of negative shear
+/// angles or along the weft; or of a fabric with stitches, whose loads are taken off.
+bool has_groups(const IdentifyArguments& arguments, const Fabric& fabric);
+std::optional<Identified> identify_groups(const IdentifyArguments& arguments,
+                                          const FabricReading& base,
+                                          const std::optional<PreparedShear>& prepared,
+                                          const std::vector<Curve>& curves,
+                                          const std::vector<Curve>& others,
+                                          const FitOptions& options, Diagnostics& diagnostics);
+/// Checks what of the arguments is about two kinds of specimens.
+void check_groups(const IdentifyArguments& arguments, const FabricReading& base,
+                  Diagnostics& diagnostics);
+/// tools/cli/identify/identify_biaxial.cpp: reads the curves and finds yarns and crimps.
+std::optional<Identified> identify_biaxial_files(const IdentifyArguments& arguments,
+                                                 const Fabric& fabric, Diagnostics& diagnostics);
 /// tools/cli/identify/identify_bending.cpp
 Identified bending_text(const BendingFit& fit, const IdentifyArguments& arguments);
 Identified zone_text(const ZoneFit& fit, const IdentifyArguments& arguments);

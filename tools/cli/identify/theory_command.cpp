@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // plyform theory: fabric file -> the curve that a shear test should give.
 #include "base/write_whole.hpp"
+#include "core/identify/stitch_load.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
 
 #include <fmt/format.h>
@@ -29,11 +30,15 @@ int theory_command(const TheoryArguments& arguments) {
   for (int i = 0; i <= arguments.points; ++i) {
     const double d = end * i / arguments.points;
     const double angle = shear_angle(*test, d) / degree;
-    rows += fmt::format("{:.9g},{:.9g},{:.9g}\n", d, arguments.negative ? -angle : angle,
-                        (1.0 + bending) * test_load(*test, *fabric.value, d, arguments.negative));
+    const double load =
+        (1.0 + bending) * test_load(*test, *fabric.value, d, arguments.negative) +
+        stitch_load(*test, *fabric.value, stitches_of(*fabric.value), d, arguments.negative);
+    rows += fmt::format("{:.9g},{:.9g},{:.9g}\n", d, arguments.negative ? -angle : angle, load);
   }
   if (bending > 0.0)
     fmt::print("in-plane bending adds {:.2g} % to the load by (40)\n", 100.0 * bending);
+  if (!fabric.value->stitches.empty())
+    fmt::print("stitches pull beside the crossing, and break for good\n");
   write_whole(arguments.output, rows);
   fmt::print("written: {}, {} rows\n", arguments.output, arguments.points + 1);
   return exit_done;

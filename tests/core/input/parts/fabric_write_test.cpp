@@ -156,6 +156,60 @@ breaking_force = 5.0
   EXPECT_EQ(fabric.crossings[0].shear.k, (std::vector<double>{0.5, 0.25}));
 }
 
+const char* const by_families = R"(
+surface_density = 446.0
+thickness = 0.5
+# the first
+[[family]]
+name = "minus"
+angle = -45.0
+density = 0.1375
+stiffness = 217000.0
+[[family]] # the second
+name = "plus"
+angle = 45.0
+density = 0.1375
+stiffness = 217000.0
+# what holds them
+[[crossing]]
+families = ["minus", "plus"]
+polynomial = [1.0] # to be replaced
+[[stitch]]
+direction = 0.0
+density = 0.2
+stiffness = 20.0
+)";
+
+TEST(FabricWrite, PutsLawsIntoFamiliesCrossingsAndStitches) {
+  const Folder folder;
+  const FabricReading reading = read_fabric_file(folder.write("a.toml", by_families), true);
+  ASSERT_TRUE(reading.by_families);
+  ASSERT_EQ(reading.seams.size(), 1u);
+  EXPECT_EQ(reading.seams[0].name, "stitch");
+  EXPECT_EQ(table_of_law(reading, "weft"), "family[1]");
+  std::string text = reading.text;
+  text = with_law(text, {table_of_law(reading, "shear"),
+                         "polynomial",
+                         "[0.5]",
+                         {"by a test"},
+                         {{"negative_polynomial", "[0.25]"}}});
+  text = with_law(text, {table_of_law(reading, "weft"), "stiffness", "5e4", {}});
+  text = with_law(text, {table_of_law(reading, "crimp"), "ratio", "[0.001, 0.002]", {}});
+  text = with_law(text, {"stitch[0]", "breaking_force", "3.5", {}});
+  const Fabric fabric = in_a_case(folder, text);
+  EXPECT_EQ(fabric.crossings[0].shear.k, (std::vector<double>{0.5}));
+  EXPECT_EQ(fabric.crossings[0].shear.negative_k, (std::vector<double>{0.25}));
+  EXPECT_EQ(fabric.families[0].tension.stiffness, 217000.0);
+  EXPECT_EQ(fabric.families[1].tension.stiffness, 5e4);
+  ASSERT_TRUE(fabric.crossings[0].crimp);
+  EXPECT_EQ(fabric.crossings[0].crimp->crimp[1], 0.002);
+  EXPECT_EQ(fabric.stitches[0].law.breaking_force, 3.5);
+  for (const char* kept : {"# the first\n[[family]]", "# what holds them\n[[crossing]]",
+                           "# by a test\npolynomial = [0.5]\nnegative_polynomial"})
+    EXPECT_NE(text.find(kept), std::string::npos) << kept << "\nin\n" << text;
+  EXPECT_THROW(with_law(text, {"crossing[1]", "polynomial", "[1]", {}}), std::invalid_argument);
+}
+
 TEST(FabricWrite, RefusesWhatIsNoToml) {
   EXPECT_THROW(with_law("name = ", polynomial), std::invalid_argument);
 }

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/identify/fit_signs.hpp"
+
+#include "core/identify/shear_rows.hpp"
+#include "core/identify/stitch_load.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <fmt/format.h>
+
+namespace plyform {
+namespace {
+
+struct Points {
+  std::vector<double> angle, torque;
+};
+
+/// Points above 0 of an odd law up to an angle: rows of its table, or so many that the curve
+/// through them follows a polynomial.
+Points points_of(const ShearLaw& law, double to) {
+  Points points;
+  if (law.tabulated()) {
+    for (std::size_t i = 0; i < law.angle.size(); ++i)
+      if (law.angle[i] > 0.0) {
+        points.angle.push_back(law.angle[i]);
+        points.torque.push_back(law.torque[i]);
+      }
+    return points;
+  }
+  constexpr int least = 4, most = 30, probes = 200;
+  constexpr double near = 1e-3; // of the torque, and of a hundredth of the largest
+  for (int n = least; n <= most; ++n) {
+    points = {};
+    ShearLaw table;
+    for (int i = 0; i <= n; ++i) {
+      table.angle.push_back(to * i / n);
+      table.torque.push_back(law.at(to * i / n).value);
+    }
+    points.angle.assign(table.angle.begin() + 1, table.angle.end());
+    points.torque.assign(table.torque.begin() + 1, table.torque.end());
+    double worst = 0.0;
+    for (int i = 1; i <= probes; ++i) {
+      const double g = to * i / probes, wanted = law.at(g).value;
+      worst = std::max(worst, std::abs(table.at(g).value - wanted) /
+                                  std::max(wanted, 0.01 * table.torque.back()));
+    }
+    if (worst <= near) break;
+  }
+  return points;
+}
+
+/// Angles at which both sides are compared.
+std::vector<double> common_angles(const ShearFit& a, const ShearFit& b) {
+  return probe_angles(std::min(a.quality.to, b.quality.to));
+}
+
+} // namespace
+
+std::vector<Curve> without_stitches(std::vector<Curve> curves, const ShearTest& test,
+                                    const Fabric& fabric, const std::vector<std::size_t>& stitches,
+                                    bool negative, const FitOptions& options) {
+  if (stitches.empty()) return curves;
+  const Corrections& c = options.corrections;
+  const double end = 0.999 * locking_extension(test); // further rows are refused later
+  for (Curve& curve : curves)
+    for (std::size_t i = 0; i < curve.size(); ++i) {
+      const double load = curve.y[i] - c.load_zero.value_or(0.0);
+      const double extension =
+          options.measured_angle && i < curve.angle.size()
+              ? extension_at(test, curve.angle[i])
+              : curve.x[i] - c.toe.value_or(0.0) - c.compliance.value_or(0.0) * load;
+      curve.y[i] -= stitch_load(test, fabric, stitches, std::clamp(extension, 0.0, end), negative);
+    }
+  return curves;
+}
+
+ShearLaw law_of_both_signs(const ShearLaw& positive, double positive_to, const ShearLaw& negative,
+                           double negative_to) {
+  ShearLaw law;
+  if (!positive.tabulated() && !negative.tabulated()) {
+    law.k = positive.k;
+    law.negative_k = negative.k;
+    return law;
+  }
+  const Points above = points_of(positive, positive_to), below = points_of(negative, negative_to);
+  for (std::size_t i = below.angle.size(); i-- > 0;) {
+    law.angle.push_back(-below.angle[i]);
+    law.torque.push_back(-below.torque[i]);
+  }
+  law.angle.push_back(0.0);
+  law.torque.push_back(0.0);
+  law.angle.insert(law.angle.end(), above.angle.begin(), above.angle.end());
+  law.torque.insert(law.torque.end(), above.torque.begin(), above.torque.end());
+  return law;
+}
+
+std::vector<std::vector<double>> torques_of(const std::vector<Curve>& curves, const ShearFit& fit,
+                                            const ShearTest& test, const Fabric& fabric,
+                                            const FitOptions& options,
+                                            const std::vector<double>& angles) {
+  std::vector<std::vector<double>> torques;
+  for (const Curve& curve : curves) {
+    Diagnostics told_before;
+    const auto own = curves.size() == 1 ? std::nullopt
+                                        : identify_shear(curve, test, fabric, options, told_before);
+    if (curves.size() > 1 && !own) continue;
+    const ShearLaw& law = own ? own->law : fit.law;
+    torques.emplace_back();
+    for (const double angle : angles)
+      torques.back().push_back(law.at(angle).value);
+  }
+  return torques;
+}
+
+std::optional<SignsFit> identify_signs(const std::vector<Curve>& positive,
+                                       const std::vector<Curve>& negative, const ShearTest& test,
+                                       const Fabric& fabric, const FitOptions& options,
+                                       Diagnostics& diagnostics) {
+  const std::vector<std::size_t> stitches = stitches_of(fabric);
+  const auto above = without_stitches(positive, test, fabric, stitches, false, options);
+  const auto below = without_stitches(negative, test, fabric, stitches, true, options);
+  const auto first = identify_shear(above, test, fabric, options, diagnostics);
+  const auto second = identify_shear(below, test, fabric, options, diagnostics);
+  if (!first || !second) return std::nullopt;
+  SignsFit fit{*first, *second, std::nullopt, {}, {}};
+  const std::vector<double> angles = common_angles(fit.positive, fit.negative);
+  const auto torques_above = torques_of(above, fit.positive, test, fabric, options, angles);
+  const auto torques_below = torques_of(below, fit.negative, test, fabric, options, angles);
+  if (torques_above.empty() || torques_below.empty()) return std::nullopt;
+  fit.difference = difference_of(angles, torques_above, torques_below,
+                                 {fit.positive.confidence.law, fit.negative.confidence.law});
+  if (fit.difference.differs()) {
+    fit.law = law_of_both_signs(fit.positive.law, fit.positive.quality.to, fit.negative.law,
+                                fit.negative.quality.to);
+    return fit;
+  }
+  std::vector<Curve> all = above;
+  all.insert(all.end(), below.begin(), below.end());
+  Diagnostics told_before; // warnings of each curve
+  fit.both = identify_shear(all, test, fabric, options, told_before);
+  if (!fit.both) {
+    diagnostics.errors.insert(diagnostics.errors.end(), told_before.errors.begin(),
+                              told_before.errors.end());
+    return std::nullopt;
+  }
+  fit.law = fit.both->law;
+  return fit;
+}
+
+} // namespace plyform
