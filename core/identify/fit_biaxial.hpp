@@ -4,12 +4,13 @@
 // Warp and weft are strained in some ratio, or one of them is free; loads of both per yarn over
 // both strains. A crimped cell (core/model/crimp.hpp) makes such curves of two yarns and two
 // crimps: stiffnesses k_1, k_2 and crimps c_1, c_2 by least squares of all rows of all files
-// (Levenberg and Marquardt), with the weights of linear_law.hpp; where no line fits, tables of five
+// (Levenberg and Marquardt), with the weights of linear_law.hpp; where no line fits, tables of ten
 // pieces that rise. Half waves are those of the fabric's crimp, or of a plain weave. A direction is
 // free where its load stays below noise_share of the other's largest, or where the file does not
 // have it: its strain is then not used.
 //
-// Limits from the covariance at the solution, as of linear_law.hpp. A wrong zero of strain, of one
+// Limits from the covariance at the solution, as of linear_law.hpp; of crimps beside tables
+// also by how far they move with half of the pieces. A wrong zero of strain, of one
 // file and direction or of all files, is looked for as disturbances.hpp does: one more number to
 // fit, found if chance would do it once in a thousand curves.
 #pragma once

@@ -79,7 +79,7 @@ TEST(Biaxial, FindsYarnsAndCrimpsAgain) {
 TEST(Biaxial, StaysWithinItsLimitsWithNoise) {
   const Known known;
   int inside = 0;
-  constexpr int trials = 25;
+  constexpr int trials = 15;
   double worst_stiffness = 0.0, worst_crimp = 0.0;
   for (unsigned seed = 0; seed < trials; ++seed) {
     Diagnostics diagnostics;
@@ -114,7 +114,7 @@ TEST(Biaxial, TakesTablesWhereNoLineFits) {
              fit->crimp_limits[1]);
   EXPECT_LT(fit->quality.rms, 0.03);
   for (std::size_t a = 0; a < 2; ++a) // a soft beginning and crimp look alike: weaker than lines
-    EXPECT_NEAR(fit->crimp[a], Known{}.crimp[a], 0.002);
+    EXPECT_NEAR(fit->crimp[a], Known{}.crimp[a], std::min(fit->crimp_limits[a], 0.001));
 }
 
 TEST(Biaxial, TellsWhenCurvesDoNotShowTheCrimps) {
