@@ -59,35 +59,34 @@ double deviation_at(const std::vector<const Series*>& all, std::size_t place) {
   return std::sqrt(squares_at(all, place) / static_cast<double>(all.size() - 1));
 }
 
-/// The mean, which goes on by the growth of those that do.
+/// The mean, which grows as that of those who go on.
 Series mean_with_growth(const std::vector<Series>& all, std::size_t places) {
   Series mean;
   for (std::size_t i = 0; i < places; ++i) {
     const auto there = reaching(all, i);
-    if (there.empty())
+    if (there.empty()) {
       mean.push_back(beyond_end);
-    else if (there.size() == all.size())
+    } else if (there.size() == all.size()) {
       mean.push_back(mean_at(there, i));
-    else
-      mean.push_back(mean.back() + mean_at(there, i) - mean_at(there, i - 1));
+    } else {
+      const double before = mean_at(there, i - 1);
+      mean.push_back(before > 0.0 ? mean.back() * mean_at(there, i) / before : mean_at(there, i));
+    }
   }
   return mean;
 }
 
-/// The deviation, which goes on by the ratio of that of those that do.
+/// The deviation, which keeps its share of the mean unless those who go on scatter by more.
 Series deviation_with_growth(const std::vector<Series>& all, const Series& mean) {
   Series deviation;
+  double share = 0.0;
   for (std::size_t i = 0; i < mean.size(); ++i) {
     const auto there = reaching(all, i);
-    if (there.size() == all.size()) {
-      deviation.push_back(deviation_at(there, i));
-      continue;
-    }
-    double ratio = mean[i - 1] > 0.0 ? mean[i] / mean[i - 1] : 1.0;
-    if (there.size() > 1)
-      if (const double before = deviation_at(there, i - 1); before > 0.0)
-        ratio = deviation_at(there, i) / before;
-    deviation.push_back(deviation.back() * ratio);
+    const double own = there.size() > 1 && mean_at(there, i) > 0.0
+                           ? deviation_at(there, i) / mean_at(there, i)
+                           : 0.0;
+    share = there.size() == all.size() ? own : std::max(share, own);
+    deviation.push_back(share * mean[i]);
   }
   return deviation;
 }

@@ -7,9 +7,9 @@
 // laws. Within: of the curves of a laboratory about its mean, pooled over those with several,
 // s^2 = sum (n_i - 1) s_i^2 / sum (n_i - 1).
 //
-// Laws count up to the last row of their curves. From where only some reach, the mean goes on by
-// the mean of their growth, the deviation between laboratories by the ratio of theirs, or, where
-// only one is left, as the same share of the mean: neither jumps where a laboratory ends.
+// Laws count up to the last row of their curves. From where only some reach, the mean grows by the
+// factor that theirs does, and the deviation between laboratories keeps its share of the mean, or
+// has that of those who go on where they scatter by more: neither jumps where a laboratory ends.
 #pragma once
 
 #include "core/model/shear_law.hpp"

@@ -44,8 +44,9 @@ def expected(fabric: str) -> dict[float, tuple[float, float]]:
     before: dict[str, float] = {}
     mean = share = 0.0
     for angle, here in curves.items():
-        if len(here) > 1:
-            share = statistics.stdev(here.values()) / statistics.fmean(here.values())
+        own = statistics.stdev(here.values()) / statistics.fmean(here.values()) \
+            if len(here) > 1 else 0.0
+        share = own if len(here) == everyone else max(share, own)
         if len(here) == everyone:
             mean = statistics.fmean(here.values())
         else:

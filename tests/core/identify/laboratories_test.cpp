@@ -36,16 +36,28 @@ TEST(Laboratories, GoOnByTheGrowthOfThoseThatReach) {
   EXPECT_DOUBLE_EQ(mean.common, 30.0 * degree);
   EXPECT_NEAR(mean.angle.back(), 45.25 * degree, 1e-12);
   EXPECT_NEAR(mean.value_at(mean.mean, 30.0 * degree), 3.0 * 30.0 * degree, 1e-12);
-  // B and C grow by 4 in the mean, then C by 5; the deviation by the ratio of theirs, then with the
-  // mean.
-  EXPECT_NEAR(mean.value_at(mean.mean, 40.0 * degree), (90.0 + 40.0) * degree, 1e-12);
-  EXPECT_NEAR(mean.mean.back(), (130.0 + 5.0 * 5.25) * degree, 1e-12);
+  // All laws grow as their angle; the deviation stays two thirds, more than that of B and C.
+  EXPECT_NEAR(mean.value_at(mean.mean, 40.0 * degree), 3.0 * 40.0 * degree, 1e-12);
+  EXPECT_NEAR(mean.mean.back(), 3.0 * 45.25 * degree, 1e-12);
   EXPECT_NEAR(mean.value_at(mean.between, 40.0 * degree), 2.0 * 40.0 * degree, 1e-12);
-  EXPECT_NEAR(mean.between.back(), 80.0 * degree * (130.0 + 5.0 * 5.25) / 130.0, 1e-12);
+  EXPECT_NEAR(mean.between.back(), 2.0 * 45.25 * degree, 1e-12);
   EXPECT_EQ(mean.reach.front(), 3u);
   EXPECT_EQ(mean.reach.back(), 1u);
   EXPECT_TRUE(std::isnan(mean.laboratories[0].torque.back()));
   EXPECT_TRUE(std::isnan(mean.within.front()));
+}
+
+/// All agree up to 30 degrees; to 40 B grows by a third and C fourfold, their mean by 8/3.
+TEST(Laboratories, GoOnByTheScatterOfThoseThatReachWhereItIsMore) {
+  ShearLaw late{.k = {},
+                .angle = {0.0, 30.0 * degree, 40.0 * degree},
+                .torque = {0.0, 3.0 * degree, 12.0 * degree}};
+  const LaboratoryMean mean =
+      laboratory_mean({line("A", 0.1, 30.0), line("B", 0.1, 40.0), {"C", late, 40.0 * degree}});
+  EXPECT_NEAR(mean.value_at(mean.mean, 30.0 * degree), 3.0 * degree, 1e-12);
+  EXPECT_NEAR(mean.mean.back(), 8.0 * degree, 1e-12);
+  EXPECT_NEAR(mean.value_at(mean.between, 30.0 * degree), 0.0, 1e-12);
+  EXPECT_NEAR(mean.between.back(), std::sqrt(32.0) * degree, 1e-12); // of 4 and 12
 }
 
 TEST(Laboratories, HaveLawsBesideTheirMean) {

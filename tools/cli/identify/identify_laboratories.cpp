@@ -107,10 +107,7 @@ std::string laboratory_line(const LaboratoryLaw& laboratory, const LaboratoryMea
   }
   for (const Found& f : found)
     if (f.laboratory == laboratory.name)
-      curves += fmt::format("; {}: {}, residuals {:.2g} % rms", f.name,
-                            f.fit.law.tabulated()
-                                ? fmt::format("table of {} points", f.fit.law.angle.size())
-                                : fmt::format("polynomial of {}", f.fit.law.k.size()),
+      curves += fmt::format("; {}: {}, residuals {:.2g} % rms", f.name, f.fit.form.name(),
                             100.0 * f.fit.quality.rms);
   return fmt::format("{}: {} N mm at {} degrees, ends at {:.3g}{}", laboratory.name, torques,
                      angles, laboratory.to / degree, curves);
@@ -124,8 +121,9 @@ std::string reach_line(const LaboratoryMean& mean) {
       others += fmt::format("{}{} to {:.3g}", others.empty() ? "" : ", ", laboratory.name,
                             laboratory.to / degree);
   if (others.empty()) return "";
-  return fmt::format("all reach {:.3g} degrees; beyond, the mean goes on by the mean growth of "
-                     "those that do, the deviation by the ratio of theirs: {}",
+  return fmt::format("all reach {:.3g} degrees; beyond, the mean grows by the factor that "
+                     "that of those who go on does, the deviation keeps its share of it unless "
+                     "theirs is more: {}",
                      mean.common / degree, others);
 }
 
