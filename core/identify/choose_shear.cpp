@@ -32,6 +32,7 @@ struct Candidate {
   std::vector<double> knots;
   std::vector<double> folds = {}; ///< mean squares of each
   double mean = 0.0;
+  bool valid = false; ///< gives_laws
 };
 
 LoadRows rows_of(const LoadRows& rows, const std::vector<Index>& some) {
@@ -124,6 +125,7 @@ void cross_validate(std::vector<Candidate>& candidates, const Problem& problem) 
   for (const Candidate& candidate : candidates)
     forms.push_back(candidate.form);
   const auto folds = folds_of(problem);
+  const bool several = problem.specimens.size() > 1; // they differ by factors, not in their form
   for (const std::vector<Index>& fold : folds) {
     std::vector<Index> rest;
     for (Index i = 0; i < all.x.size(); ++i)
@@ -138,8 +140,10 @@ void cross_validate(std::vector<Candidate>& candidates, const Problem& problem) 
     const LoadRows left = rows_of(all, within);
     for (std::size_t c = 0; c < candidates.size(); ++c) {
       const ShearSolution& s = without[c].solution;
-      const Eigen::ArrayXd missed = (left.y - s.law.loads(left.x) * s.fit.k).array();
-      candidates[c].folds.push_back((weights(within) * missed).square().mean());
+      const Eigen::ArrayXd predicted = weights(within) * (s.law.loads(left.x) * s.fit.k).array(),
+                           measured = weights(within) * left.y.array();
+      const double factor = several ? (measured * predicted).sum() / predicted.square().sum() : 1.0;
+      candidates[c].folds.push_back((measured - factor * predicted).square().mean());
     }
   }
   for (Candidate& candidate : candidates)
@@ -193,18 +197,31 @@ Disturbed with_disturbances(const Problem& problem) {
   return result;
 }
 
+/// The law of a form of one specimen by itself.
+ShearSolution own_law(const Candidate& candidate, const ShearSpecimen& specimen,
+                      const Problem& problem) {
+  const double end = specimen.angle.back();
+  return solve_shear(candidate.form, specimen.rows, end, problem.test, problem.fabric,
+                     knots_to(candidate.knots, end));
+}
+
+/// Whether all specimens together and each have a law of the form.
+bool gives_laws(const Candidate& candidate, const Problem& problem) {
+  if (!is_law(candidate.solution)) return false;
+  return problem.specimens.size() == 1 ||
+         std::all_of(
+             problem.specimens.begin(), problem.specimens.end(),
+             [&](const ShearSpecimen& s) { return is_law(own_law(candidate, s, problem)); });
+}
+
 /// Chance that a form explains the rows of each specimen better than that by nothing but noise.
 double chance_of(const Candidate& candidate, const Disturbed& other, const Problem& problem) {
   double less = 0.0, more = 0.0, freedom = 0.0, further = 0.0;
   for (std::size_t n = 0; n < problem.specimens.size(); ++n) {
     const ShearSpecimen& specimen = problem.specimens[n];
-    std::vector<double> knots;
-    for (const double knot : candidate.knots)
-      if (knot < specimen.angle.back() * (1.0 - 1e-9)) knots.push_back(knot);
-    if (!candidate.knots.empty()) knots.push_back(specimen.angle.back());
-    const ShearSolution s = solve_shear(candidate.form, specimen.rows, specimen.angle.back(),
-                                        problem.test, problem.fabric, knots);
-    const double looked_for = candidate.knots.empty() ? 1.0 : static_cast<double>(knots.size() - 1);
+    const ShearSolution s = own_law(candidate, specimen, problem);
+    const double looked_for =
+        candidate.knots.empty() ? 1.0 : static_cast<double>(s.shear().angle.size()) - 2.0;
     const double numbers = static_cast<double>(s.fit.k.size()) +
                            (candidate.form.kind == Form::polynomial ? 0.0 : looked_for);
     const Eigen::VectorXd residuals =
@@ -218,11 +235,12 @@ double chance_of(const Candidate& candidate, const Disturbed& other, const Probl
   return fisher_beyond((more - less) / further / (less / freedom), further, freedom);
 }
 
-/// Of all specimens, the misfit or noise of torque_misfit.
-double misfit_of(const ShearSolution& s, const Problem& problem,
+/// Of all specimens, the misfit or noise of torque_misfit by their own laws.
+double misfit_of(const Candidate& candidate, const Problem& problem,
                  double TorqueMisfit::*of = &TorqueMisfit::misfit) {
   double squares = 0.0;
   for (const ShearSpecimen& specimen : problem.specimens) {
+    const ShearSolution s = own_law(candidate, specimen, problem);
     const double misfit = torque_misfit(s, specimen.rows, problem.test).*of;
     squares += misfit * misfit / static_cast<double>(problem.specimens.size());
   }
@@ -231,10 +249,9 @@ double misfit_of(const ShearSolution& s, const Problem& problem,
 
 /// Whether a law that is simpler than the best one does as well.
 bool does_as_well(const Candidate& c, const Candidate& best, const Problem& problem) {
-  const double misfit = misfit_of(c.solution, problem),
-               noise = misfit_of(best.solution, problem, &TorqueMisfit::noise);
+  const double noise = misfit_of(best, problem, &TorqueMisfit::noise);
   return c.mean - best.mean <= standard_error(c.folds, best.folds) &&
-         misfit <= std::max({noisy, 2.0 * noise, 2.0 * misfit_of(best.solution, problem)});
+         misfit_of(c, problem) <= std::max({noisy, 2.0 * noise, 2.0 * misfit_of(best, problem)});
 }
 
 std::string percent(double share) {
@@ -246,7 +263,7 @@ std::string reason(const Candidate& chosen, const std::vector<Candidate>& candid
   for (const Candidate& other : candidates)
     if (other.form == ShearForm{} && !(chosen.form == other.form))
       text += fmt::format(", {} {}{}", other.form.name(), percent(std::sqrt(other.mean)),
-                          is_law(other.solution) ? "" : ", which falls or is negative");
+                          other.valid ? "" : ", which falls or is negative");
   return text;
 }
 
@@ -276,23 +293,25 @@ LawChoice choose_shear(const std::vector<ShearSpecimen>& specimens, const LoadRo
     disturbed = with_disturbances(problem);
   }
   std::vector<Candidate> candidates = fitted(forms, all, end, problem);
+  for (Candidate& candidate : candidates)
+    candidate.valid = gives_laws(candidate, problem);
   std::vector<double> chance(candidates.size(), 0.0);
   constexpr double significant = 1e-3;
   constexpr Index few = 30; // rows: too few for a test, and cross-validation is quick
-  const bool usual_is_law = free && is_law(candidates.front().solution);
-  const bool tested = disturbed.any || (usual_is_law && all.x.size() >= few);
+  const bool usual_is_law = free && candidates.front().valid;
+  const bool tested = disturbed.any || (usual_is_law && fewest >= few);
   bool other = !free || !tested;
   for (std::size_t c = 0; c < candidates.size(); ++c) {
     if (!free || candidates[c].form == usual) continue;
     chance[c] = chance_of(candidates[c], disturbed, problem);
-    other = other || (chance[c] < significant && is_law(candidates[c].solution));
+    other = other || (chance[c] < significant && candidates[c].valid);
   }
   if (!other) return {usual, {}, "no other law follows the rows better"};
   cross_validate(candidates, problem);
   const Candidate* best = nullptr;
   const auto counts = [&](const Candidate& c) {
     const double by = chance[static_cast<std::size_t>(&c - candidates.data())];
-    return is_law(c.solution) && (!free || !tested || c.form == usual || by < significant);
+    return c.valid && (!free || !tested || c.form == usual || by < significant);
   };
   for (const Candidate& candidate : candidates)
     if (counts(candidate) && (!best || candidate.mean < best->mean)) best = &candidate;

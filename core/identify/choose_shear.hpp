@@ -3,8 +3,9 @@
 //
 // Cross-validation: the law is fitted without some rows and predicts them; error: root of the mean
 // square of what it misses them by, over max(load, load_floor x the largest). Of several specimens
-// each is left out in turn; of one, blocks of neighbouring rows (at most 20; single rows where they
-// are few), but for the first and the last. Knots of tables are looked for anew each time.
+// each is left out in turn, and predicted but for a factor, by which specimens differ; of one,
+// blocks of neighbouring rows (at most 20; single rows where they are few), but for the first and
+// the last. Knots of tables are looked for anew each time.
 //
 // The first law in the order of preference whose mean squared error is within one standard error of
 // the least is taken (one-standard-error rule: Breiman, Friedman, Olshen and Stone, Classification

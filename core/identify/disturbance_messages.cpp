@@ -61,8 +61,7 @@ std::vector<Kind> kinds_looked_for(const FitOptions& options, const CurveWords& 
   const Corrections& c = options.corrections;
   std::vector<Kind> kinds;
   if (words.zeros_show && !c.load_zero && !c.fit_load_zero) kinds.push_back(Kind::load_zero);
-  if (words.zeros_show && words.toe_shows && !c.toe && !c.fit_toe)
-    kinds.push_back(Kind::displacement_zero);
+  if (words.toe_shows && !c.toe && !c.fit_toe) kinds.push_back(Kind::displacement_zero);
   if (words.can_stretch) kinds.push_back(Kind::stretch);
   if (!c.fit_slip) kinds.push_back(Kind::slip);
   return kinds;
@@ -112,7 +111,7 @@ void warn_of_unknowns(const Curve& curve, const LinearLaw& law, const LoadRows& 
                        common_compliance, percent(sensitive.compliance));
     remedy = "--compliance";
   }
-  if (!c.toe && !c.fit_toe && words.zeros_show && words.toe_shows) {
+  if (!c.toe && !c.fit_toe && words.toe_shows) {
     const double limits = best_toe(law, rows).limits;
     if (limits / words.length * sensitive.toe >= zero_counts) {
       what += fmt::format("{}the displacement zero (known to +- {:.2g} mm, {:g} mm would "

@@ -96,8 +96,8 @@ struct CurveWords {
   double y_scale = 1.0;     ///< ... and from y to N
   bool x_is_length = true;  ///< measured at the crosshead: the machine's compliance is in it
   bool can_stretch = true;  ///< slip that goes on may be in x
-  bool zeros_show = true;   ///< the law's shape is stiff enough to show a wrong zero ...
-  bool toe_shows = true;    ///< ... of the displacement too
+  bool zeros_show = true;   ///< law and rows can show a wrong zero of the load ...
+  bool toe_shows = true;    ///< ... of the displacement
   std::string angle_remedy; ///< for slip, after what the options can do; may be empty
 };
 

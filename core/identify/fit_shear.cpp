@@ -40,15 +40,6 @@ void narrow(CurveWords& words, const ShearSolution& s, const ShearSpecimen& spec
   if (s.form.kind == ShearFormKind::table) words.toe_shows = words.can_stretch = false;
 }
 
-/// Knots of a table for a specimen that ends at `end`.
-std::vector<double> knots_to(const std::vector<double>& knots, double end) {
-  std::vector<double> own;
-  for (const double knot : knots)
-    if (knot < end * (1.0 - 1e-9)) own.push_back(knot);
-  if (!knots.empty()) own.push_back(end);
-  return own;
-}
-
 void put_misfit(const ShearSolution& s, const LoadRows& rows, const ShearTest& test,
                 FitQuality& quality) {
   const TorqueMisfit misfit = torque_misfit(s, rows, test);
@@ -77,7 +68,8 @@ std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const 
   law.quality.misfit = misfit.misfit;
   law.quality.noise = misfit.noise;
   const bool polynomial = s.form.kind == ShearFormKind::polynomial;
-  if (!polynomial && !check_rows_rise(curve, specimen, misfit, options, diagnostics))
+  const bool suspect = !polynomial || (options.coefficients == 0 && misfit.misfit > noisy);
+  if (suspect && !check_rows_rise(curve, specimen, misfit, options, diagnostics))
     return std::nullopt;
   const bool good = check_misfit(
       curve, law.quality,
@@ -91,7 +83,7 @@ std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const 
     return std::nullopt;
   law.sensitive = sensitivities(s.law, rows, words.length, common_compliance);
   warn_of_unknowns(curve, s.law, rows, law.sensitive, options, words, diagnostics);
-  warn_of_hidden(specimen, s, law.sensitive, options, diagnostics);
+  warn_of_hidden(specimen, s, test, law.sensitive, options, diagnostics);
   result.of_specimen.push_back(s.shear());
   return law;
 }
@@ -169,6 +161,29 @@ void judge_several(const ShearSolution& all, const std::vector<ShearSpecimen>& s
   result.confidence.coefficient = confidence_between(numbers, same(numbers), nowhere).coefficient;
 }
 
+/// The law that corrections which are looked for are to fit, where the rows without them have
+/// another than a polynomial of 3.
+std::optional<LinearLaw> law_before_corrections(const Curve& curve, const ShearTest& test,
+                                                const Fabric& fabric, FitOptions options) {
+  Corrections& c = options.corrections;
+  if (!c.any_fit() || options.coefficients > 0) return std::nullopt;
+  const bool zero = c.fit_load_zero;
+  if (zero && curve.size() > 0) { // roughly: the form must not hang on it
+    const auto first = std::min_element(curve.x.begin(), curve.x.end()) - curve.x.begin();
+    c.load_zero = curve.y[static_cast<std::size_t>(first)];
+  }
+  c.fit_load_zero = c.fit_toe = c.fit_slip = false;
+  Diagnostics quiet; // what is wrong with the rows is reported when they are corrected
+  const auto before = shear_specimen(curve, test, fabric, options, quiet);
+  if (!before || (zero && before->angle.front() > near_zero))
+    return std::nullopt; // no row tells a static torque from a zero: the user says that it is this
+  const double end = before->angle.back();
+  const LawChoice choice =
+      choose_shear({*before}, before->rows, end, test, fabric, options, words_of(options));
+  if (choice.form == ShearForm{}) return std::nullopt;
+  return solve_shear(choice.form, before->rows, end, test, fabric, choice.knots).law;
+}
+
 /// The law of all rows and how well it does.
 bool put_law(const ShearSolution& all, const LoadRows& rows,
              const std::vector<ShearSpecimen>& specimens, const ShearTest& test,
@@ -208,7 +223,8 @@ std::optional<ShearFit> identify_shear(const std::vector<Curve>& curves, const S
   std::vector<ShearSpecimen> specimens;
   const std::size_t errors = diagnostics.errors.size();
   for (const Curve& curve : curves)
-    if (auto specimen = shear_specimen(curve, test, fabric, options, diagnostics))
+    if (auto specimen = shear_specimen(curve, test, fabric, options, diagnostics,
+                                       law_before_corrections(curve, test, fabric, options)))
       specimens.push_back(std::move(*specimen));
   if (specimens.empty()) return std::nullopt;
   const LoadRows rows = all_rows(specimens, result);

@@ -128,7 +128,7 @@ std::optional<SpecimenLaw> law_of_specimen(const TensionSpecimen& specimen,
   const LinearFit own = fit_linear(all.basis.loads(rows.x), rows.y);
   rows.weights = own.weights;
   CurveWords words = words_of(strip);
-  words.zeros_show = all.law.linear(); // a table follows a wrong zero too
+  words.zeros_show = words.toe_shows = all.law.linear(); // a table follows a wrong zero too
   if (!check_disturbances(curve, all.basis, rows, options, words, diagnostics)) return std::nullopt;
   SpecimenLaw law{curve.file, {own.k.begin(), own.k.end()}, {}, specimen.corrected, {}};
   law.quality = quality_of(curve.x, curve.y, {own.fitted.begin(), own.fitted.end()});

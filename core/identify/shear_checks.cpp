@@ -132,7 +132,7 @@ bool check_rises(const Curve& curve, const ShearSolution& s, const FitQuality& q
 
 bool check_rows_rise(const Curve& curve, const ShearSpecimen& specimen, const TorqueMisfit& misfit,
                      const FitOptions& options, Diagnostics& diagnostics) {
-  constexpr double least = 0.05, noises = 4.0; // of the largest torque; of the rows' noise
+  constexpr double least = 0.1, noises = 4.0; // of the largest torque; of the rows' noise
   const std::vector<double> torque = smoothed(misfit.torque, misfit.torque.size() / 20);
   const double most = *std::max_element(torque.begin(), torque.end());
   double rms = 0.0;
@@ -190,20 +190,27 @@ void warn_of_layers(const Curve& curve, const BendingShare& share, Diagnostics& 
                   100.0 * share.least, 100.0 * share.most));
 }
 
-void warn_of_hidden(const ShearSpecimen& specimen, const ShearSolution& s,
+void warn_of_hidden(const ShearSpecimen& specimen, const ShearSolution& s, const ShearTest& test,
                     const Sensitivity& sensitive, const FitOptions& options,
                     Diagnostics& diagnostics) {
   if (s.form.kind == ShearFormKind::polynomial) return;
   const Corrections& c = options.corrections;
   const double first = specimen.angle.front();
-  if (first > near_zero && !c.load_zero && !c.fit_load_zero)
+  if (first > near_zero && specimen.rows.y[0] > noise_share * specimen.rows.y.maxCoeff() &&
+      !c.load_zero && !c.fit_load_zero) {
+    LoadRows rows = specimen.rows;
+    rows.weights = s.fit.weights;
+    const double zero =
+        best_load_zero(linear_shear({test, s.fabric, 3, s.scale, 1.0}), rows).amount;
     diagnostics.warning(
         place_of(specimen.curve),
         fmt::format(
             "{:.3g} N at {:.3g} degrees, the first row: the curve does not show whether they "
-            "are a static torque or a wrong load zero; the law rises to it from 0. Record "
-            "rows below 1 degree, or give --zero, 0 if it was checked",
-            specimen.rows.y[0], first / degree));
+            "are a static torque, to which the law rises from 0, or a wrong load zero (by "
+            "{:.2g} N, {:.2g} % of the largest load, beside a polynomial of 3). Record rows "
+            "below 1 degree, or give --zero: fit to take it off, 0 if it was checked",
+            rows.y[0], first / degree, zero, 100.0 * zero / rows.y.maxCoeff()));
+  }
   if (s.form.kind != ShearFormKind::table || c.toe || c.fit_toe || options.measured_angle) return;
   diagnostics.warning(
       place_of(specimen.curve),

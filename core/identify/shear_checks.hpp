@@ -49,7 +49,7 @@ bool check_usual_torque(const Curve& curve, const Fabric& found, double end, boo
 void warn_of_layers(const Curve& curve, const BendingShare& share, Diagnostics& diagnostics);
 
 /// Warns of what a law with a static torque, or a table, follows without being seen.
-void warn_of_hidden(const ShearSpecimen& specimen, const ShearSolution& s,
+void warn_of_hidden(const ShearSpecimen& specimen, const ShearSolution& s, const ShearTest& test,
                     const Sensitivity& sensitive, const FitOptions& options,
                     Diagnostics& diagnostics);
 

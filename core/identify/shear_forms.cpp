@@ -173,6 +173,14 @@ ShearSolution solve_shear(const ShearForm& form, const LoadRows& rows, double en
   return s;
 }
 
+std::vector<double> knots_to(const std::vector<double>& knots, double end) {
+  std::vector<double> own;
+  for (const double knot : knots)
+    if (knot < end * (1.0 - 1e-9)) own.push_back(knot);
+  if (!knots.empty()) own.push_back(end);
+  return own;
+}
+
 std::vector<double> fitted_loads(const ShearSolution& s, const ShearTest& test,
                                  const Eigen::VectorXd& extension) {
   std::vector<double> loads;

@@ -36,6 +36,9 @@ ShearSolution solve_shear(const ShearForm& form, const LoadRows& rows, double en
                           const ShearTest& test, const Fabric& fabric,
                           const std::vector<double>& knots = {});
 
+/// Knots of a table for a specimen that ends at `end`; none if there are none.
+std::vector<double> knots_to(const std::vector<double>& knots, double end);
+
 /// Fitted loads of extensions, N.
 std::vector<double> fitted_loads(const ShearSolution& s, const ShearTest& test,
                                  const Eigen::VectorXd& extension);

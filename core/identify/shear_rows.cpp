@@ -149,13 +149,13 @@ void warn_of_start(const ShearSpecimen& specimen, const FitOptions& options,
 
 /// Finds the corrections asked for, with the law that they are to fit.
 void fit_corrections(ShearSpecimen& specimen, const ShearTest& test, const Fabric& fabric,
-                     const FitOptions& options) {
+                     const FitOptions& options, const std::optional<LinearLaw>& given) {
   const double end = std::min(
       {options.to, 0.49 * std::numbers::pi,
        shear_angle(test, std::min(specimen.curve.x.back(), 0.99 * locking_extension(test)))});
   if (!(end > least_range)) return; // reported later
   const int coefficients = options.coefficients > 0 ? options.coefficients : 3;
-  const LinearLaw law = linear_shear({test, fabric, coefficients, end, 1.0});
+  const LinearLaw law = given ? *given : linear_shear({test, fabric, coefficients, end, 1.0});
   apply_fitted(specimen.curve, options.corrections, law, extension_at(test, options.from),
                extension_at(test, end) * (1.0 + 1e-9), specimen.corrected);
 }
@@ -194,7 +194,8 @@ std::vector<double> unscaled(const Eigen::VectorXd& k, double scale) {
 
 std::optional<ShearSpecimen> shear_specimen(Curve curve, const ShearTest& test,
                                             const Fabric& fabric, const FitOptions& options,
-                                            Diagnostics& diagnostics) {
+                                            Diagnostics& diagnostics,
+                                            const std::optional<LinearLaw>& law) {
   if (options.measured_angle && curve.angle.size() != curve.size())
     throw std::invalid_argument("the curve has no measured shear angles");
   ShearSpecimen specimen;
@@ -210,7 +211,7 @@ std::optional<ShearSpecimen> shear_specimen(Curve curve, const ShearTest& test,
     return std::nullopt;
   if (options.corrections.toe && !drop_slack(c, "extension", diagnostics)) return std::nullopt;
   if (options.corrections.any_fit()) {
-    fit_corrections(specimen, test, fabric, options);
+    fit_corrections(specimen, test, fabric, options, law);
     if (!drop_slack(c, "extension", diagnostics)) return std::nullopt;
   }
   if (!check_zeros(c, "extension", "load", diagnostics) ||

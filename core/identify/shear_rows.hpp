@@ -31,9 +31,11 @@ struct ShearSpecimen {
   Corrected corrected;
 };
 
-/// Reports errors and returns nothing where identify_shear says so.
+/// Reports errors and returns nothing where identify_shear says so. law: that corrections which are
+/// looked for are to fit, in the place of a polynomial.
 std::optional<ShearSpecimen> shear_specimen(Curve curve, const ShearTest& test,
                                             const Fabric& fabric, const FitOptions& options,
-                                            Diagnostics& diagnostics);
+                                            Diagnostics& diagnostics,
+                                            const std::optional<LinearLaw>& law = {});
 
 } // namespace plyform

@@ -172,7 +172,7 @@ expect 0 'misfit of the torque over the range' identify bias "$measured/bias_pla
 awk -F, -v OFS=, 'BEGIN { print "angle (deg),force (N)" } NR > 1 && $4 != "" {
   p = atan2(0, -1) / 4 * (1 - $1 / 90); print $1, 400 * cos(p) * $4 }' \
   "$measured/picture_frame_plain.csv" >stuck.csv
-expect 0 'the curve does not show whether they are a static torque or a wrong load zero' identify \
+expect 0 'the curve does not show whether they are a static torque' identify \
   frame stuck.csv --angle-column 1 --side 200 --fabric weave.toml -o stuck.toml
 go 'points = 30: must be 1 to 20' bias.csv --points 30
 go 'coefficients = 3: is of a polynomial, but a table is asked for' bias.csv --points 3 \

@@ -137,9 +137,10 @@ void put_shear_law(const ShearFit& fit, Identified& result) {
     result.law_line = powers + " N mm: torque of one unit cell = k1 g + k3 g^3 + ..., g in rad";
   else if (fit.form.kind == ShearFormKind::with_static)
     result.law_line =
-        fmt::format("static torque {:.4g} N mm, reached within {:g} degrees, and {} N "
+        fmt::format("static torque {:.4g} N mm, reached within {:g} degree{}, and {} N "
                     "mm: torque of one unit cell = C0 + k1 g + k3 g^3 + ..., g in rad",
-                    fit.static_torque, fit.static_angle / degree, powers);
+                    fit.static_torque, fit.static_angle / degree,
+                    std::abs(fit.static_angle / degree - 1.0) < 1e-9 ? "" : "s", powers);
   else {
     result.law_line = "torque of one unit cell, degrees: N mm:";
     for (std::size_t i = 1; i < fit.law.angle.size(); ++i)
