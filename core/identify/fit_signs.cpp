@@ -54,6 +54,18 @@ std::vector<double> common_angles(const ShearFit& a, const ShearFit& b) {
   return probe_angles(std::min(a.quality.to, b.quality.to));
 }
 
+/// Torque (N mm) of each specimen by itself at angles (rad).
+std::vector<std::vector<double>> torques_of(const ShearFit& fit,
+                                            const std::vector<double>& angles) {
+  std::vector<std::vector<double>> torques;
+  for (const ShearLaw& law : fit.of_specimen) {
+    torques.emplace_back();
+    for (const double angle : angles)
+      torques.back().push_back(law.at(angle).value);
+  }
+  return torques;
+}
+
 } // namespace
 
 std::vector<Curve> without_stitches(std::vector<Curve> curves, const ShearTest& test,
@@ -94,24 +106,6 @@ ShearLaw law_of_both_signs(const ShearLaw& positive, double positive_to, const S
   return law;
 }
 
-std::vector<std::vector<double>> torques_of(const std::vector<Curve>& curves, const ShearFit& fit,
-                                            const ShearTest& test, const Fabric& fabric,
-                                            const FitOptions& options,
-                                            const std::vector<double>& angles) {
-  std::vector<std::vector<double>> torques;
-  for (const Curve& curve : curves) {
-    Diagnostics told_before;
-    const auto own = curves.size() == 1 ? std::nullopt
-                                        : identify_shear(curve, test, fabric, options, told_before);
-    if (curves.size() > 1 && !own) continue;
-    const ShearLaw& law = own ? own->law : fit.law;
-    torques.emplace_back();
-    for (const double angle : angles)
-      torques.back().push_back(law.at(angle).value);
-  }
-  return torques;
-}
-
 std::optional<SignsFit> identify_signs(const std::vector<Curve>& positive,
                                        const std::vector<Curve>& negative, const ShearTest& test,
                                        const Fabric& fabric, const FitOptions& options,
@@ -124,11 +118,9 @@ std::optional<SignsFit> identify_signs(const std::vector<Curve>& positive,
   if (!first || !second) return std::nullopt;
   SignsFit fit{*first, *second, std::nullopt, {}, {}};
   const std::vector<double> angles = common_angles(fit.positive, fit.negative);
-  const auto torques_above = torques_of(above, fit.positive, test, fabric, options, angles);
-  const auto torques_below = torques_of(below, fit.negative, test, fabric, options, angles);
-  if (torques_above.empty() || torques_below.empty()) return std::nullopt;
-  fit.difference = difference_of(angles, torques_above, torques_below,
-                                 {fit.positive.confidence.law, fit.negative.confidence.law});
+  fit.difference =
+      difference_of(angles, torques_of(fit.positive, angles), torques_of(fit.negative, angles),
+                    {fit.positive.confidence.law, fit.negative.confidence.law});
   if (fit.difference.differs()) {
     fit.law = law_of_both_signs(fit.positive.law, fit.positive.quality.to, fit.negative.law,
                                 fit.negative.quality.to);

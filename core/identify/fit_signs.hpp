@@ -37,10 +37,4 @@ std::vector<Curve> without_stitches(std::vector<Curve> curves, const ShearTest& 
                                     const Fabric& fabric, const std::vector<std::size_t>& stitches,
                                     bool negative, const FitOptions& options);
 
-/// Torque (N mm) of each specimen by itself at angles (rad); that of the fit for one.
-std::vector<std::vector<double>> torques_of(const std::vector<Curve>& curves, const ShearFit& fit,
-                                            const ShearTest& test, const Fabric& fabric,
-                                            const FitOptions& options,
-                                            const std::vector<double>& angles);
-
 } // namespace plyform

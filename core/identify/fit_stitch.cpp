@@ -320,7 +320,13 @@ std::optional<StitchFit> identify_stitch(const SignedCurves& curves,
   const double breaks =
       fit.breaks ? sides->solved.stitch.breaks_at : std::numeric_limits<double>::infinity();
   const double force = fit.law.at(fit.strain_to).value;
-  const Eigen::Vector3d limits = jackknife(t, curves, breaks, fit.strain_to);
+  FitOptions of_that_form = options; // of the law of shear, whatever is left out
+  of_that_form.law = fit.slack.form.kind;
+  const bool table = fit.slack.form.kind == ShearFormKind::table;
+  of_that_form.points = table ? fit.slack.form.size : 0;
+  of_that_form.coefficients = table ? 0 : fit.slack.form.size;
+  const StitchTest again{test, fabric, of_that_form, own, t.others, *negative};
+  const Eigen::Vector3d limits = jackknife(again, curves, breaks, fit.strain_to);
   fit.stiffness_limits = limits[0], fit.taut_limits = limits[1];
   fit.force_limits = limits[2] / force;
   fit.limits_between = curves.positive.size() > 1 && curves.negative.size() > 1;
