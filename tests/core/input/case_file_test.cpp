@@ -128,10 +128,13 @@ TEST(CaseFile, ReadsAllShippedCasesWithoutErrorOrWarning) {
     if (fs::exists(entry.path().parent_path() / "draw_tools.py")) continue;
     const PreparedCase reading = prepare_case(entry.path(), {});
     EXPECT_TRUE(reading.value) << all_texts(reading);
-    const bool coarse = entry.path().parent_path().filename() == "stability"; // on purpose
+    // on purpose: too coarse; and yarns as another program's file has them
+    const std::string folder = entry.path().parent_path().filename();
+    const char* meant = folder == "stability"            ? "is too coarse for how yarns"
+                        : folder == "two_ply_hemisphere" ? "do not resist bending in their plane"
+                                                         : nullptr;
     for (const std::string& warning : reading.warnings)
-      EXPECT_TRUE(coarse && warning.find("is too coarse for how yarns") != std::string::npos)
-          << warning;
+      EXPECT_TRUE(meant && warning.find(meant) != std::string::npos) << warning;
     ++cases;
   }
   EXPECT_GE(cases, 3);
