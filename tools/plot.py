@@ -9,6 +9,7 @@
     plot.py section DIR... -o FILE   a field along a straight cut, and the formed profile
     plot.py folds   DIR... -o FILE   folds of a hanging edge, counted
     plot.py fit     FIT.csv -o FILE  measured against fitted forces
+    plot.py laboratories TABLE.csv -o FILE  laws of several laboratories, mean and scatter
     plot.py setup   CASE.toml -o FILE  the section of a case, with the names of its keys
 
 Exit codes: 0 drawn, 1 something is missing or cannot be read, 2 wrong arguments.
@@ -20,7 +21,8 @@ from pathlib import Path
 
 try:
     from base.ending import EXIT_OTHER, ended
-    from plotting import draw_fit, draw_folds, draw_history, draw_plies, draw_section, draw_setup
+    from plotting import (draw_fit, draw_folds, draw_history, draw_laboratories, draw_plies,
+                          draw_section, draw_setup)
     from plotting.reading import SHEAR
     from plotting.whole_file import make_whole
 except ImportError as error:
@@ -101,6 +103,13 @@ def add_fit(commands) -> argparse.ArgumentParser:
     return fit
 
 
+def add_laboratories(commands) -> argparse.ArgumentParser:
+    laws = commands.add_parser("laboratories", help="laws of several, mean and scatter")
+    laws.add_argument("table", type=Path, metavar="TABLE.csv")
+    laws.set_defaults(draw=draw_laboratories.draw)
+    return laws
+
+
 def add_setup(commands) -> argparse.ArgumentParser:
     setup = commands.add_parser("setup", help="the section of a case, with the names of its keys")
     setup.add_argument("case", type=Path, metavar="CASE.toml",
@@ -137,7 +146,8 @@ def arguments() -> argparse.Namespace:
         command.add_argument("--frame", type=int, default=-1, help="output state, default the last")
     for command in of_folders:
         command.add_argument("folders", nargs="+", type=Path, metavar="DIR", help="result folder")
-    for command in (*of_folders, add_fit(commands), add_setup(commands)):
+    for command in (*of_folders, add_fit(commands), add_laboratories(commands),
+                    add_setup(commands)):
         command.add_argument("-o", "--output", required=True, type=Path, metavar="FILE",
                              help=".png, .svg or .pdf")
         command.add_argument("--dpi", type=int, default=110, help="of a PNG")

@@ -91,8 +91,8 @@ std::vector<ColumnRequest> requests_of(const CurveColumns& columns) {
   std::vector<ColumnRequest> requests{
       {"--x-column", "--x-unit", columns.x, columns.x_is, columns.x_word, columns.x_preferred,
        columns.x_hint, columns.with_angle && !columns.angle.column.empty(), columns.with_angle},
-      {"--y-column", "--y-unit", columns.y, columns.y_is, columns.y_word, columns.y_preferred, "",
-       false, false, columns.y_also, columns.no_per_length}};
+      {columns.y_option, "--y-unit", columns.y, columns.y_is, columns.y_word, columns.y_preferred,
+       "", false, false, columns.y_also, columns.no_per_length}};
   if (columns.with_angle)
     requests.push_back({"--angle-column", "--angle-unit", columns.angle, Quantity::angle,
                         "shear angle", "shear gamma", "", true});

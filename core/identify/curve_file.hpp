@@ -26,7 +26,8 @@ struct CurveColumns {
   std::string x_word = "extension", y_word = "load";
   std::string x_preferred = "extension displacement crosshead stroke elongation deflection";
   std::string y_preferred = {};
-  std::string x_hint = {}; ///< if x is of another quantity
+  std::string y_option = "--y-column"; ///< that names y's
+  std::string x_hint = {};             ///< if x is of another quantity
   std::optional<Quantity> y_also = {};
   std::string no_per_length = {}; ///< as in ColumnRequest
   /// A column of angles is read if there is one; x may miss if it is chosen, or if all else is

@@ -134,6 +134,30 @@ go 'zero = none: must be a number or fit' zero.csv --zero none
 go 'compliance = -1: must be at least 0' zero.csv --compliance -1
 go 'nothing to correct: the angle is measured' slip.csv --angle-column shear_deg --compliance 0.01
 
+# Slip: the formula beside measured angles, angles of a second file, and what is told without.
+awk -F, -v OFS=, 'NR > 1 { $1 *= 1.05 } { print }' bias.csv >slide.csv
+expect 0 '4.8 % of the work of the load goes into what slips' identify bias slide.csv "${bias[@]}" \
+  -o found.toml
+expect_law found.toml polynomial 0.37044 1e-5
+expect 0 'the formula without slip would say 10.5 degrees for 10' identify bias slide.csv \
+  "${bias[@]}" -o found.toml
+awk -F, 'NR == 1 || NR > 5 { print $1 "," $2 "," $2 * 2 }' slide.csv >angles.csv
+sed -i '1s/.*/d (mm),image (deg),photo (deg)/' angles.csv
+cut -d, -f1,3 slide.csv >loads.csv
+expect 0 '4 rows beyond' identify bias loads.csv "${bias[@]}" --angle-file angles.csv:2 \
+  -o found.toml
+expect 0 'formula without slip' identify bias loads.csv "${bias[@]}" --angle-file angles.csv \
+  --angle-column 'image (deg)' -o found.toml
+expect_law found.toml polynomial 0.37044 1e-3
+go '2 columns may be the shear angle: image (deg)' loads.csv --angle-file angles.csv
+go 'would overwrite angles.csv' loads.csv --angle-file angles.csv:2 --fit angles.csv
+expect 0 'yarns slip in such tests from about 30 degrees on' identify bias bias.csv "${bias[@]}" \
+  "${stiff[@]}" -o found.toml
+if "$program" identify bias bias.csv "${bias[@]}" --to 30 "${stiff[@]}" -o found.toml |
+  grep -q 'yarns slip'; then
+  fail 'slip is told of a test that ends at 30 degrees'
+fi
+
 # A normalised shear force over a measured angle, a column a laboratory: any frame.
 awk -F, 'BEGIN { print "shear_angle_deg,A,B,C" }
          NR > 1 { g = $2 * atan2(0, -1) / 180; c = 400 * cos(atan2(1, 1) - g / 2)

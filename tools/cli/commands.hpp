@@ -68,6 +68,7 @@ struct IdentifyArguments {
   std::vector<std::string> others; ///< of specimens of the other sign, or along the weft
   std::string stitch;              ///< that the two signs of shear differ by
   ColumnArguments x, y, angle;
+  std::string angle_file; ///< FILE or FILE:COLUMN: angles over displacements
   std::string fabric, output, fit;
   SpecimenArguments specimen;
   std::optional<int> coefficients, points; ///< of a polynomial, of a table of shear

@@ -160,6 +160,7 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
     for (const std::string& curve : curves)
       read.insert(read.begin(), curve_argument(curve).file);
   check_output("--output", a.output, read, diagnostics);
+  if (!a.angle_file.empty()) read.insert(read.begin(), curve_argument(a.angle_file).file);
   read.push_back(a.output);
   check_output("--fit", fit, read, diagnostics);
   check_range(a, diagnostics);
@@ -200,7 +201,7 @@ FitOptions fit_options(const IdentifyArguments& a, Diagnostics& diagnostics) {
   if (a.law == "static") options.law = ShearFormKind::with_static;
   if (a.law == "table") options.law = ShearFormKind::table;
   options.doubtful = a.doubtful;
-  options.measured_angle = !a.angle.name.empty() && !extension_counts(a);
+  options.measured_angle = (!a.angle.name.empty() || !a.angle_file.empty()) && !extension_counts(a);
   Corrections& c = options.corrections;
   const Correction zero = correction_of("--zero", a.zero, true, true,
                                         "give the load without a specimen in N", diagnostics);
@@ -233,7 +234,7 @@ CurveColumns columns_of(const IdentifyArguments& a) {
   CurveColumns columns = columns_of_test(a);
   columns.x = {a.x.name, a.x.unit};
   columns.y = {a.y.name, a.y.unit};
-  if (!extension_counts(a)) columns.angle = {a.angle.name, a.angle.unit};
+  if (!extension_counts(a) && a.angle_file.empty()) columns.angle = {a.angle.name, a.angle.unit};
   return columns;
 }
 

@@ -46,6 +46,9 @@ std::optional<Identified> identify(const IdentifyArguments& a, const FabricReadi
     if (!fit) return std::nullopt;
     Identified text = shear_text(*fit);
     text.figures.insert(text.figures.begin(), test->assumed.begin(), test->assumed.end());
+    const auto slip = slip_lines(a, curves, *test, fabric, options, *fit);
+    auto& lines = options.measured_angle ? text.figures : text.notes;
+    lines.insert(lines.end(), slip.begin(), slip.end());
     return text;
   }
   if (a.test == "biaxial") return identify_biaxial_files(a, fabric, diagnostics);

@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "core/identify/measured_angle.hpp"
 #include "core/identify/normalised_force.hpp"
+#include "core/identify/slip.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
 
 #include <algorithm>
@@ -35,6 +36,57 @@ bool corrects_extension(const FitOptions& options) {
   return options.corrections.compliance.value_or(0.0) > 0.0 || options.corrections.fit_slip;
 }
 
+std::string percent_more(double share) {
+  return fmt::format("{:+.2g} %", 100.0 * share);
+}
+
+/// What a report says where the angle was measured.
+std::vector<std::string> lines_of(const SlipEffect& effect) {
+  std::vector<std::string> angles, torques;
+  for (const SlipAt& at : effect.at) {
+    if (std::isnan(at.formula)) continue;
+    const double degrees = at.angle / degree;
+    angles.push_back(fmt::format("{:.1f} degrees for {:g}", at.formula / degree, degrees));
+    if (!std::isnan(at.torque))
+      torques.push_back(fmt::format("{} at {:g}", percent_more(at.torque), degrees));
+  }
+  std::vector<std::string> lines;
+  if (!angles.empty())
+    lines.push_back(fmt::format(
+        "the formula without slip would say {}; torque of a law by it {}", joined(angles),
+        effect.refusal.empty() ? joined(torques) + " degrees" : "none: " + effect.refusal));
+  lines.push_back(fmt::format("{:.2g} % of the work of the load goes into what slips or gives way; "
+                              "were it shear, the torque would be {:.2g} % larger in the mean",
+                              100.0 * effect.work, 100.0 * effect.work / (1.0 - effect.work)));
+  return lines;
+}
+
+/// What it says where it was not.
+std::string possible_line(const SlipEffect& effect) {
+  std::vector<std::string> torques;
+  for (const SlipAt& at : effect.at)
+    torques.push_back(fmt::format("{} at {:g}", percent_more(at.torque), at.angle / degree));
+  return fmt::format(
+      "yarns slip in such tests from about {:g} degrees on: with the slip measured of a plain "
+      "weave, 4 degrees at 26 and 8.5 at 44, this torque would be off by {}; --to {:g} leaves it "
+      "out, --angle-column or --angle-file takes a measured angle",
+      slip_begins / degree, torques.empty() ? "what cannot be said" : joined(torques) + " degrees",
+      slip_begins / degree);
+}
+
+/// Displacement and shear angle of --angle-file.
+std::optional<Curve> angles_of(const IdentifyArguments& a, Diagnostics& diagnostics) {
+  const CurveArgument argument = curve_argument(a.angle_file);
+  CurveColumns columns;
+  columns.x_word = "displacement";
+  columns.y_word = "shear angle";
+  columns.y_is = Quantity::angle;
+  columns.y_preferred = "shear gamma";
+  columns.y = {argument.column.empty() ? a.angle.name : argument.column, a.angle.unit};
+  columns.y_option = "--angle-column";
+  return read_curve(argument.file, columns, diagnostics);
+}
+
 } // namespace
 
 CurveArgument curve_argument(const std::string& text) {
@@ -61,11 +113,15 @@ std::string CurveArgument::name() const {
 
 std::vector<Curve> curves_of(const IdentifyArguments& a, Diagnostics& diagnostics) {
   std::vector<Curve> curves;
+  std::optional<Curve> angles;
+  if (!a.angle_file.empty() && !(angles = angles_of(a, diagnostics))) return {};
   for (const std::string& text : a.curves) {
     const CurveArgument argument = curve_argument(text);
     CurveColumns columns = columns_of(a);
     if (!argument.column.empty()) columns.y.column = argument.column;
+    if (angles) columns.with_angle = false;
     if (auto curve = read_curve(argument.file, columns, diagnostics)) {
+      if (angles && !put_angles(*curve, *angles, diagnostics)) continue;
       if (!argument.column.empty())
         curve->file = fmt::format("{}:{}", curve->file, argument.column);
       curves.push_back(std::move(*curve));
@@ -121,6 +177,17 @@ std::optional<PreparedShear> prepare_shear(const IdentifyArguments& a, std::vect
     for (Curve& curve : curves)
       take_normalised(curve, sizes.side, options.measured_angle);
   return result;
+}
+
+std::vector<std::string> slip_lines(const IdentifyArguments& a, const std::vector<Curve>& curves,
+                                    const PreparedShear& test, const Fabric& fabric,
+                                    const FitOptions& options, const ShearFit& fit) {
+  const bool extension = std::none_of(curves.begin(), curves.end(),
+                                      [](const Curve& curve) { return curve.x_name.empty(); });
+  if (options.measured_angle && extension)
+    return lines_of(slip_effect(curves, test.test, fabric, options, fit.law));
+  if (options.measured_angle || a.test != "bias" || !(fit.quality.to > slip_begins)) return {};
+  return {possible_line(possible_slip(curves, test.test, fabric, options, fit.law))};
 }
 
 } // namespace plyform

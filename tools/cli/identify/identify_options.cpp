@@ -68,6 +68,9 @@ void add_shear_tests(CLI::App& command, IdentifyArguments& to) {
     test->add_option("--angle-column", to.angle.name,
                      "column of a measured shear angle, in the place of the crosshead's; "
                      "none: the crosshead's [measured where the file has one]");
+    test->add_option("--angle-file", to.angle_file,
+                     "CSV file of displacement and measured shear angle, or FILE:COLUMN of the "
+                     "angle, of the same test");
     test->add_option("--angle-unit", to.angle.unit, "its unit: deg or rad");
     add_specimen(*test, name, to.specimen);
     test->add_flag("--laboratories", to.laboratories,

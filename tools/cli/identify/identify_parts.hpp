@@ -73,6 +73,11 @@ std::optional<PreparedShear> prepare_shear(const IdentifyArguments& arguments,
                                            std::vector<Curve>& curves, FitOptions& options,
                                            Diagnostics& diagnostics);
 
+/// What slip does to the law, or may do: lines for the report.
+std::vector<std::string> slip_lines(const IdentifyArguments& arguments,
+                                    const std::vector<Curve>& curves, const PreparedShear& test,
+                                    const Fabric& fabric, const FitOptions& options,
+                                    const ShearFit& fit);
 /// Names of the curves, without folders.
 std::string files_of(const IdentifyArguments& arguments);
 
