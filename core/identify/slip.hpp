@@ -14,7 +14,8 @@
 //
 // How large slip is. Without a measured angle, that of a plain weave of 150 x 450 mm is taken (J.
 // Cao et al. 2008, Composites A 39, 1037, figure 36): the middle lags behind (a) by 4 degrees where
-// (a) says 26, by 8 to 9 at 44. Straight between.
+// (a) says 26, by 8 to 9 at 44. Straight between. Not all of it is slip: a net of yarns of constant
+// length has 2.8 and 3.4 degrees less in its very middle (docs/verification/measured.md).
 #pragma once
 
 #include "core/identify/fit_shear.hpp"

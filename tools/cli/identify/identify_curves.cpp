@@ -67,8 +67,9 @@ std::string possible_line(const SlipEffect& effect) {
   for (const SlipAt& at : effect.at)
     torques.push_back(fmt::format("{} at {:g}", percent_more(at.torque), at.angle / degree));
   return fmt::format(
-      "yarns slip in such tests from about {:g} degrees on: with the slip measured of a plain "
-      "weave, 4 degrees at 26 and 8.5 at 44, this torque would be off by {}; --to {:g} leaves it "
+      "yarns slip in such tests from about {:g} degrees on: with the lag of the middle behind the "
+      "formula measured of a plain weave, 4 degrees at 26 and 8.5 at 44, of which up to 3.5 are "
+      "an uneven middle and no slip, this torque would be off by {}; --to {:g} leaves it "
       "out, --angle-column or --angle-file takes a measured angle",
       slip_begins / degree, torques.empty() ? "what cannot be said" : joined(torques) + " degrees",
       slip_begins / degree);
