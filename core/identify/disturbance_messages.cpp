@@ -23,9 +23,11 @@ std::string description(const Disturbance& d, const Curve& curve, const LoadRows
                     limits = fmt::format("{:.2g}", scale * d.limits);
   switch (d.kind) {
   case Kind::load_zero:
-    return fmt::format("a load zero off by {}{} N (+- {}; {:.2g} % of the largest load)",
-                       d.amount < 0.0 ? "-" : "", amount, limits,
-                       100.0 * d.amount / rows.y.maxCoeff());
+    return fmt::format(
+        "a load zero off by {}{} N (+- {}; {:.2g} % of the largest load){}",
+        d.amount < 0.0 ? "-" : "", amount, limits, 100.0 * d.amount / rows.y.maxCoeff(),
+        words.stiff_start && d.amount > 0.0 ? ", or a displacement zero that was set too late"
+                                            : "");
   case Kind::displacement_zero:
     return d.amount > 0.0
                ? fmt::format("a specimen that was slack up to {}{} (+- {})", amount, unit, limits)
@@ -44,7 +46,8 @@ std::string description(const Disturbance& d, const Curve& curve, const LoadRows
 std::string remedy_of(const Disturbance& d, const CurveWords& words) {
   switch (d.kind) {
   case Kind::load_zero:
-    return "--zero fit takes it off, --zero 0 keeps it";
+    return std::string("--zero fit takes it off, --zero 0 keeps it") +
+           (words.stiff_start && d.amount > 0.0 ? ", --toe below 0 gives the displacement" : "");
   case Kind::displacement_zero:
     return "--toe fit takes it off, --toe 0 keeps it";
   case Kind::stretch:

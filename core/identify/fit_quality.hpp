@@ -14,7 +14,8 @@
 
 namespace plyform {
 
-/// Residuals, rms over load: above the first a warning, above the second an error.
+/// Residuals, rms over load (of shear the misfit of the torque): above the first a warning, above
+/// the second an error.
 inline constexpr double noisy = 0.02, useless = 0.2;
 
 /// Forms that a law of shear may have: shear_forms.hpp.
@@ -98,6 +99,7 @@ struct CurveWords {
   bool can_stretch = true;  ///< slip that goes on may be in x
   bool zeros_show = true;   ///< law and rows can show a wrong zero of the load ...
   bool toe_shows = true;    ///< ... of the displacement
+  bool stiff_start = false; ///< a displacement zero that is late looks like one of the load
   std::string angle_remedy; ///< for slip, after what the options can do; may be empty
 };
 

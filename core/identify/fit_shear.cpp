@@ -37,7 +37,9 @@ CurveWords words_of(const FitOptions& options) {
 void narrow(CurveWords& words, const ShearSolution& s, const ShearSpecimen& specimen) {
   if (s.form.kind == ShearFormKind::polynomial) return;
   words.zeros_show = specimen.angle.front() < near_zero;
-  if (s.form.kind == ShearFormKind::table) words.toe_shows = words.can_stretch = false;
+  words.toe_shows = false;
+  words.stiff_start = true;
+  if (s.form.kind == ShearFormKind::table) words.can_stretch = false;
 }
 
 void put_misfit(const ShearSolution& s, const LoadRows& rows, const ShearTest& test,

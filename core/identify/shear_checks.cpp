@@ -211,13 +211,15 @@ void warn_of_hidden(const ShearSpecimen& specimen, const ShearSolution& s, const
             "below 1 degree, or give --zero: fit to take it off, 0 if it was checked",
             rows.y[0], first / degree, zero, 100.0 * zero / rows.y.maxCoeff()));
   }
-  if (s.form.kind != ShearFormKind::table || c.toe || c.fit_toe || options.measured_angle) return;
+  if (c.toe || c.fit_toe || options.measured_angle) return;
   diagnostics.warning(
       place_of(specimen.curve),
       fmt::format(
-          "a table follows slack, slip and compliance as it follows the fabric, they are not "
-          "looked for: 1 mm of displacement zero would move the law by {:.2g} %; give --toe, "
-          "0 if the specimen was taut",
+          "{}: not known from this curve is the displacement zero (1 mm would move the law by "
+          "{:.2g} %); give --toe, 0 if the specimen was taut",
+          s.form.kind == ShearFormKind::table
+              ? "a table follows slack, slip and compliance as it follows the fabric"
+              : "a static torque is reached within as little as slack is taken up in",
           100.0 * std::min(sensitive.toe, 10.0)));
 }
 
