@@ -63,10 +63,11 @@ std::vector<double> candidates_of(const std::vector<double>& strains) {
   return thinned;
 }
 
-/// Chance (t of one parameter more) of so much smaller squares.
+/// Chance (t of one parameter more) of so much smaller squares. Sides whose shear differs leave
+/// residuals that go together over all rows, which count as independent here all the same.
 double chance_of(double plain, const FixedFit& better, Eigen::Index coefficients) {
   if (!(better.squares > 0.0)) return plain > 0.0 ? 0.0 : 1.0;
-  const double freedom = freedom_of(better.residuals, coefficients);
+  const double freedom = std::max(1.0, static_cast<double>(better.residuals.size() - coefficients));
   const double gain = std::max(0.0, plain - better.squares);
   return student_beyond(std::sqrt(gain / (better.squares / freedom)), freedom);
 }
@@ -94,10 +95,10 @@ LineFit line_with_break(const StitchRows& rows, const std::vector<double>& strai
   }
   if (best.shape.breaks == never) return whole;
   best = refine_break(rows, strains, best);
-  constexpr double once_in_a_thousand = 1e-3;
-  const double chance = chance_of(whole.fit.squares, best.fit, 3) *
-                        static_cast<double>(std::max<std::size_t>(candidates.size(), 1));
-  const bool much = best.fit.squares < 0.5 * whole.fit.squares;
+  constexpr double once_in_a_thousand = 1e-3, most_of_it = 0.25;
+  const double chance =
+      chance_of(whole.fit.squares, best.fit, 3) * static_cast<double>(candidates.size());
+  const bool much = best.fit.squares < most_of_it * whole.fit.squares;
   return chance < once_in_a_thousand && much ? best : whole;
 }
 

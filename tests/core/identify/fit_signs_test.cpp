@@ -172,6 +172,24 @@ TEST(IdentifyStitch, StaysWithinItsLimitsWithNoise) {
   EXPECT_GE(inside, 16);
 }
 
+/// Specimens whose levels differ by some percent between the sides too: the break is found all the
+/// same, and limits are of their scatter.
+TEST(IdentifyStitch, FindsABreakBesideScatterOfSpecimens) {
+  const Fabric fabric = stitched(24.0, 0.02, 0.195);
+  SignedCurves curves;
+  for (unsigned n = 0; n < 3; ++n) {
+    curves.positive.push_back(
+        noisy_curve(curve_of(frame, fabric, false, 0.95 + 0.06 * n), 0.01, 0.0005, n));
+    curves.negative.push_back(
+        noisy_curve(curve_of(frame, fabric, true, 1.08 - 0.06 * n), 0.01, 0.0005, 10 + n));
+  }
+  const StitchFit fit = stitch_of(curves, frame, stitched(1, 0));
+  EXPECT_TRUE(fit.limits_between);
+  EXPECT_TRUE(fit.breaks);
+  EXPECT_NEAR(fit.law.tension.stiffness, 24.0, fit.stiffness_limits);
+  EXPECT_LT(fit.stiffness_limits, 8.0);
+}
+
 TEST(IdentifyStitch, RefusesWhatShowsNoStitch) {
   const Fabric none = glass_weave();
   const auto refused = [&](const SignedCurves& curves, const Fabric& base) {

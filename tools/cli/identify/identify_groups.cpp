@@ -340,6 +340,11 @@ std::optional<Identified> identify_groups(const IdentifyArguments& a, const Fabr
     const std::size_t drawn = fit->drawn_by_positive ? curves.size() : others.size();
     return with_assumed(stitch_text(*fit, base, seam, drawn));
   }
+  if (!fabric.stitches.empty())
+    diagnostics.warning({a.fabric, 1, 1},
+                        "what its stitches pull by their laws is taken off the loads first: "
+                        "--stitch NAME finds such a law from both signs; for a law of shear that "
+                        "has the stitches in it take them out of the file");
   if (!others.empty()) {
     const auto fit = identify_signs(curves, others, *test, fabric, options, diagnostics);
     return fit ? std::optional(with_assumed(signs_text(*fit, fabric))) : std::nullopt;
