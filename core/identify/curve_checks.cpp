@@ -88,6 +88,14 @@ bool check_signs(const Curve& curve, const std::string& word, Diagnostics& diagn
   const double most = *std::max_element(curve.y.begin(), curve.y.end());
   const auto least = std::min_element(curve.y.begin(), curve.y.end()) - curve.y.begin();
   const std::size_t row = static_cast<std::size_t>(least);
+  constexpr double nothing = 1e-12, everything = 1e12; // N: beyond any unit taken for another
+  if (most > everything || (most > 0.0 && most < nothing)) {
+    diagnostics.error(
+        {curve.file, curve.line.front(), 1}, curve.y_name, fmt::format("{:g}", most),
+        fmt::format("the largest {} must lie between {:g} and {:g}", word, nothing, everything),
+        "check the column and its unit (--y-column, --y-unit)");
+    return false;
+  }
   if (most > 0.0 && curve.y[row] >= -noise_share * most) return true;
   const Place at{curve.file, curve.line[row], 1};
   if (most == 0.0 && curve.y[row] == 0.0) {

@@ -163,12 +163,27 @@ void judge_several(const ShearSolution& all, const std::vector<ShearSpecimen>& s
   result.confidence.coefficient = confidence_between(numbers, same(numbers), nowhere).coefficient;
 }
 
-/// The law that corrections which are looked for are to fit, where the rows without them have
-/// another than a polynomial of 3.
+/// Whether a polynomial of 3 follows the rows once corrections that are looked for are taken off
+/// with it.
+bool polynomial_does(const Curve& curve, const ShearTest& test, const Fabric& fabric,
+                     const FitOptions& options) {
+  Diagnostics quiet;
+  const auto corrected = shear_specimen(curve, test, fabric, options, quiet);
+  if (!corrected) return false;
+  const double end = corrected->angle.back();
+  const ShearSolution s = solve_shear({}, corrected->rows, end, test, fabric);
+  const TorqueMisfit misfit = torque_misfit(s, corrected->rows, test);
+  return invalid_at(s.shear(), 0.0, end) > end &&
+         misfit.misfit <= std::max(noisy, 2.0 * misfit.noise);
+}
+
+/// The law that corrections which are looked for are to fit, where the rows have another than a
+/// polynomial of 3, with them and without.
 std::optional<LinearLaw> law_before_corrections(const Curve& curve, const ShearTest& test,
                                                 const Fabric& fabric, FitOptions options) {
   Corrections& c = options.corrections;
-  if (!c.any_fit() || options.coefficients > 0) return std::nullopt;
+  if (!c.any_fit() || options.coefficients > 0 || polynomial_does(curve, test, fabric, options))
+    return std::nullopt;
   const bool zero = c.fit_load_zero;
   if (zero && curve.size() > 0) { // roughly: the form must not hang on it
     const auto first = std::min_element(curve.x.begin(), curve.x.end()) - curve.x.begin();

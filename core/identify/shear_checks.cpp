@@ -114,8 +114,8 @@ bool check_rises(const Curve& curve, const ShearSolution& s, const FitQuality& q
                     "within the range covered: a cell must resist shear everywhere",
                     p.value < 0.0 ? "is negative" : "falls", at / degree, p.value, p.slope),
         s.form.kind == ShearFormKind::polynomial && s.form.size > 1
-            ? fmt::format("take fewer coefficients: --coefficients {}; or leave out "
-                          "what is no shear with --from and --to",
+            ? fmt::format("take fewer coefficients: --coefficients {}; or --law table; or leave "
+                          "out what is no shear with --from and --to",
                           s.form.size - 1)
             : "check the columns and the sign of the load");
     return false;
@@ -193,11 +193,19 @@ void warn_of_layers(const Curve& curve, const BendingShare& share, Diagnostics& 
 void warn_of_hidden(const ShearSpecimen& specimen, const ShearSolution& s, const ShearTest& test,
                     const Sensitivity& sensitive, const FitOptions& options,
                     Diagnostics& diagnostics) {
-  if (s.form.kind == ShearFormKind::polynomial) return;
   const Corrections& c = options.corrections;
-  const double first = specimen.angle.front();
-  if (first > near_zero && specimen.rows.y[0] > noise_share * specimen.rows.y.maxCoeff() &&
-      !c.load_zero && !c.fit_load_zero) {
+  const double first = specimen.angle.front(), most = specimen.rows.y.maxCoeff();
+  if (c.fit_load_zero && first > near_zero && std::abs(specimen.corrected.load_zero) > 0.005 * most)
+    diagnostics.warning(
+        place_of(specimen.curve),
+        fmt::format("{:.2g} N were taken off as a wrong load zero, but no row below {:.3g} degrees "
+                    "shows that they are one: a static torque looks the same, and the law is then "
+                    "wrong where it is small. Record rows below 1 degree, or leave --zero fit out "
+                    "unless the load cell is known to be off",
+                    specimen.corrected.load_zero, first / degree));
+  if (s.form.kind == ShearFormKind::polynomial) return;
+  if (first > near_zero && specimen.rows.y[0] > noise_share * most && !c.load_zero &&
+      !c.fit_load_zero) {
     LoadRows rows = specimen.rows;
     rows.weights = s.fit.weights;
     const double zero =

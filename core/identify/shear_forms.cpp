@@ -92,11 +92,14 @@ void solve_static(ShearSolution& s, const ShearBasis& basis, const LoadRows& row
   double least = std::numeric_limits<double>::infinity();
   for (const double degrees : {4.0, 3.0, 2.0, 1.5, 1.0, 0.7, 0.5}) {
     const double angle = degrees * degree;
-    if (angle > 0.25 * basis.scale || (first > angle && least < 1e300)) continue;
+    const bool last = degrees == 0.5;
+    if ((angle > 0.25 * basis.scale && !(last && s.fit.k.size() == 0)) ||
+        (first > angle && s.fit.k.size() > 0))
+      continue;
     const LinearLaw law = with_static(basis, angle);
     const LinearFit fit = fit_linear(law.loads(rows.x), rows.y, rows.weights);
     const double squares = squares_of(fit, rows);
-    if (!(squares < 0.999 * least)) continue;
+    if (s.fit.k.size() > 0 && !(squares < 0.999 * least)) continue;
     least = squares;
     s.law = law;
     s.fit = fit;

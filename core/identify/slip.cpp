@@ -31,7 +31,8 @@ double formula_at(const std::vector<Curve>& curves, const ShearTest& test, doubl
   for (const Curve& curve : curves)
     for (std::size_t i = 1; i < curve.size(); ++i) {
       const double a = curve.angle[i - 1], b = curve.angle[i];
-      if (!(a <= angle && angle <= b + 1e-9 && a < b)) continue; // several times, where angles scatter
+      if (!(a <= angle && angle <= b + 1e-9 && a < b))
+        continue; // several times, where angles scatter
       const double x = curve.x[i - 1] + (curve.x[i] - curve.x[i - 1]) * (angle - a) / (b - a);
       sum += shear_angle(test, x);
       ++count;

@@ -171,6 +171,64 @@ TEST(ShearLaws, ATableFollowsStickingAndLocking) {
     }
 }
 
+/// Residuals of smooth curves go together: what chance could do says little about them.
+TEST(ShearLaws, ACurveWithoutNoiseHasItsTableToo) {
+  ShearLaw flat = locking_law(); // of which the polynomial of 3 falls
+  flat.angle = {0.0, 0.5 * degree, 20.0 * degree, 40.0 * degree, 55.0 * degree};
+  flat.torque = {0.0, 0.08, 0.1, 0.2, 1.5};
+  for (const ShearLaw& law : {locking_law(), flat}) {
+    const Outcome outcome = identify({curve_of(frame, law, 44.0, 100)}, frame);
+    ASSERT_TRUE(outcome.fit) << outcome.texts;
+    EXPECT_EQ(outcome.fit->form.kind, ShearFormKind::table) << outcome.fit->why;
+    EXPECT_LT(outcome.fit->quality.misfit, 0.02);
+    EXPECT_FALSE(outcome.says("load zero")) << outcome.texts;
+  }
+}
+
+/// The choice is of means of rows, the law of all rows.
+TEST(ShearLaws, ManyRowsHaveTheLawOfFew) {
+  const Outcome few = identify({curve_of(frame, sticking_law(), 45.0, 150)}, frame),
+                many = identify({curve_of(frame, sticking_law(), 45.0, 3000)}, frame);
+  ASSERT_TRUE(few.fit && many.fit) << few.texts << many.texts;
+  EXPECT_EQ(many.fit->form, few.fit->form);
+  EXPECT_EQ(many.fit->quality.rows, 3001u);
+  EXPECT_LT(wrong_by(many.fit->law, sticking_law(), 2.0, 45.0), 0.01);
+}
+
+TEST(ShearLaws, LoadsBeyondAnyUnitAreRefused) {
+  for (const double factor : {1e-300, 1e300}) {
+    Curve curve = curve_of(frame, sticking_law(), 45.0);
+    for (double& load : curve.y)
+      load *= factor;
+    for (const auto law : {ShearFormKind::polynomial, ShearFormKind::with_static}) {
+      FitOptions options;
+      options.law = law;
+      options.doubtful = true;
+      const Outcome outcome = identify({curve}, frame, options);
+      EXPECT_FALSE(outcome.fit);
+      EXPECT_TRUE(outcome.says("must lie between 1e-12 and 1e+12")) << outcome.texts;
+    }
+  }
+}
+
+/// The zero of a polynomial's curve is found with the polynomial, whatever the noise.
+TEST(ShearLaws, AZeroIsFoundWithTheLawThatNeedsNoOther) {
+  const Curve exact = curve_of(strip, glass_weave().crossings[0].shear, 55.0);
+  for (unsigned seed = 0; seed < 10; ++seed) {
+    Curve curve = exact;
+    std::mt19937 random(seed);
+    std::normal_distribution<double> noise;
+    for (double& load : curve.y)
+      load = load * (1.0 + 0.01 * noise(random)) + exact.y.back() * (0.02 + 0.002 * noise(random));
+    FitOptions options;
+    options.corrections.fit_load_zero = true;
+    const Outcome outcome = identify({curve}, strip, options);
+    ASSERT_TRUE(outcome.fit) << outcome.texts;
+    EXPECT_EQ(outcome.fit->form, ShearForm{}) << seed;
+    EXPECT_LT(wrong_by(outcome.fit->law, glass_weave().crossings[0].shear, 5.0, 55.0), 0.15);
+  }
+}
+
 TEST(ShearLaws, APolynomialStaysOne) {
   int others = 0;
   for (unsigned seed = 1; seed <= 40; ++seed)
