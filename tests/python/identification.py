@@ -2,14 +2,13 @@
 """What disturbances of a test do to the law that is identified, before and after: a page.
 
     identification.py PROGRAM FABRIC > docs/verification/identification.md
-    identification.py PROGRAM FABRIC PAGE      # answers 1 if the page is another
+    identification.py PROGRAM FABRIC PAGE      # answers 1 if some of its tables are others
 
 Curves of the law in FABRIC with noise and one disturbance each are identified by least squares
 alone, here in NumPy, and by `plyform identify` without and with the option that corrects them.
 Leaves with 77 when NumPy is missing.
 """
 
-import difflib
 import subprocess
 import sys
 import tempfile
@@ -36,10 +35,10 @@ NOISE = {"careful": (0.003, 0.0005), "common": (0.01, 0.002)}
 
 HEAD = "# Identification from disturbed curves\n\n" + " ".join([
     "Made by `tests/python/identification.py PROGRAM cases/fabrics/glass_plain_weave.toml`, and",
-    "held by a test. Each curve is of the law of the glass weave",
+    "held by a test that makes some of it. Each curve is of the law of the glass weave",
     "([fabrics.md](../users/fabrics.md) has it,",
     "[identify.md](../users/identify.md#what-a-machine-adds) the options), 61 rows up to 55 degrees or 1 % of strain, with noise and one",
-    "disturbance; 20 curves a line with other noise. Wrong by: largest deviation of the law from",
+    "disturbance; 20 curves a line with other noise, ten of the weave whose yarns stick. Wrong by: largest deviation of the law from",
     "5 to 55 degrees, of yarns that of the stiffness; median of the curves, and the worst.",
     "Before: least squares alone, which look for no disturbance. Refused,",
     "warned: what `plyform identify` says without the option, in words that name the disturbance",
@@ -70,7 +69,7 @@ def torque(law, g):
         (1 - t) * m[i] - t * m[i + 1]) + m[-1] * np.maximum(g - x[-1], 0.0)
 
 
-@dataclass
+@dataclass(eq=False)
 class Shear:
     """Equations (40), (41): D, areas sheared as a whole and by half."""
     name: str
@@ -79,6 +78,7 @@ class Shear:
     whole: float
     half: float
     law: np.ndarray = field(default_factory=lambda: K)
+    first: float = 0.0  # degrees, of the first row
 
     def angle(self, extension):
         e = extension / self.diagonal
@@ -95,8 +95,12 @@ class Shear:
 
     def curve(self, first=0.0):
         """61 rows from an extension to the one of 55 degrees, mm and N."""
+        first = first + self.extension(np.radians(self.first))
         x = np.linspace(first, self.extension(np.radians(55)), 61)
-        return x, self.columns(x) @ K
+        g = self.angle(x)
+        rate = 2 * (1 + x / self.diagonal) / (self.diagonal * np.cos(g))
+        return x, CELLS * rate * (self.whole * torque(self.law, g)
+                                  + 0.5 * self.half * torque(self.law, g / 2))
 
     def plain(self, x, y):
         """Least squares and nothing else: weights 1 / max(load, a tenth of the largest)."""
@@ -146,6 +150,16 @@ class Tension:
 BIAS = Shear("bias", ["--length", "300", "--width", "100"], 200.0, 15000.0, 10000.0)
 FRAME = Shear("frame", ["--side", "200"], 200 * np.sqrt(2), 40000.0, 0.0)
 WARP = Tension()
+#: A weave whose yarns stick up to 0.3 N mm, overcome within a degree, and then turn as the glass
+#: weave's do.
+_g = np.concatenate([np.arange(0.0, 1.0, 0.125), np.arange(1.0, 60.0, 0.5)])
+_s = 0.5 * np.minimum(_g, 1.0) * (3 - np.minimum(_g, 1.0)**2)
+STICKING = np.stack([_g, 0.3 * _s + torque(K, np.radians(_g))], axis=1)
+STUCK = Shear("bias", ["--length", "300", "--width", "100"], 200.0, 15000.0, 10000.0, STICKING)
+LATE = Shear("frame", ["--side", "200"], 200 * np.sqrt(2), 40000.0, 0.0, first=5.0)
+STUCK_LATE = Shear("frame", ["--side", "200"], 200 * np.sqrt(2), 40000.0, 0.0, STICKING, 5.0)
+#: Tests of which less is asked: laws that no polynomial follows, rows that hide the zero.
+MORE = (STUCK, LATE, STUCK_LATE)
 
 
 @dataclass
@@ -193,6 +207,12 @@ def lines(test):
                     ["--toe", f"{short:g}"], "slack", unknown="displacement zero"),
         Disturbance(f"compliance of {soft:g} mm/N", lambda: (x + soft * y, y),
                     ["--compliance", f"{soft:g}"], "compliance", ())]
+    if test in (LATE, STUCK_LATE):
+        return found[:2]
+    if test is STUCK:  # which hides where it began: fit finds no displacement zero
+        found[3].remedy = [f"--toe=-{short:g}"]
+        del found[4]
+        found[4].title = f"slack of {short:g} mm"
     if test is not WARP:
         found += [
             Disturbance("slip of 5 mm, growing with the extension",
@@ -249,10 +269,11 @@ def outcome(test, case, noise, seed, folder):
     remedy = case.remedy if "--compliance" in case.remedy or "--angle-column" in case.remedy \
         else [*case.remedy, "--compliance", "0"]
     _, after_text, after = identify(test, file, remedy, output)
-    assert after is not None, (case.title, after_text)
+    assert after is not None or test in MORE, (case.title, after_text)
     words = [case.word or "the rows show"] + (["must not be below 0"] if y.min() < 0 else [])
     return Outcome(test.wrong(plain), code == 2, any(word in text for word in words),
-                   test.wrong(after), "the rows show" in text, f"{case.unknown} (" in text)
+                   np.nan if after is None else test.wrong(after), "the rows show" in text,
+                   f"{case.unknown} (" in text)
 
 
 def percent(share):
@@ -260,32 +281,36 @@ def percent(share):
 
 
 def counts(outcomes, case):
-    refused = sum(o.refused for o in outcomes)
+    other = sum(o.refused and not o.found for o in outcomes)
+    refused = sum(o.refused for o in outcomes) - other
     warned = sum(o.found and not o.refused for o in outcomes)
     if case.word is None:
         return "nothing" if not any(o.noticed for o in outcomes) else \
             f"{sum(o.noticed for o in outcomes)} false alarms"
-    parts = [f"{n} {word}" for n, word in ((refused, "refused"), (warned, "warned")) if n]
-    assert all(o.found or not o.refused for o in outcomes), f"{case.title}: refused for another"
+    parts = [f"{n} {word}" for n, word in ((refused, "refused"), (warned, "warned"),
+                                           (other, "refused as no law, for nothing named")) if n]
     told = sum(o.told and not o.found for o in outcomes) if case.unknown else 0
     if told:
         parts.append(f"{told} told that it is not known")
-    silent = len(outcomes) - refused - warned - told
+    silent = len(outcomes) - refused - warned - told - other
     if silent:
         parts.append(f"{silent} not seen")
     return ", ".join(parts)
 
 
 def table(test, noise, folder):
-    text = f"| disturbance | law wrong by, before | `plyform identify`, of {CURVES} | option " \
+    curves = CURVES // 2 if test in MORE else CURVES
+    text = f"| disturbance | law wrong by, before | `plyform identify`, of {curves} | option " \
         "| law wrong by, after; worst |\n|---|---|---|---|---|\n"
     for case in lines(test):
-        outcomes = [outcome(test, case, noise, seed, folder) for seed in range(CURVES)]
+        outcomes = [outcome(test, case, noise, seed, folder) for seed in range(curves)]
+        assert test in MORE or not any(o.refused and not o.found for o in outcomes), case.title
         plain = np.median([o.plain for o in outcomes])
-        after = [o.after for o in outcomes]
+        after = [o.after for o in outcomes if not np.isnan(o.after)]
+        lost = f"; {curves - len(after)} refused" if len(after) < curves else ""
         text += f"| {case.title} | {percent(plain)} | {counts(outcomes, case)} " \
             f"| {'' if case.word is None else '`' + ' '.join(case.remedy) + '`'} " \
-            f"| {percent(np.median(after))}; {percent(max(after))} |\n"
+            f"| {percent(np.median(after))}; {percent(max(after))}{lost} |\n"
     return text
 
 
@@ -329,7 +354,8 @@ def specimens(folder, count, sets):
     return held / sets, np.median(widths)
 
 
-def make_page():
+def make_page(tables=None):
+    """The page, or of it these tables of a noise and a test, without what follows them."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         text = HEAD
@@ -338,9 +364,18 @@ def make_page():
                 f"{100 * noise[1]:g} % of the largest load\n\n"
             for title, test in (("Bias-extension test, 300 x 100 mm", BIAS),
                                 ("Picture frame, 200 mm", FRAME),
-                                ("Strip of 25 warp yarns, 200 mm", WARP)):
-                text += f"{title}:\n\n{table(test, noise, folder)}\n"
+                                ("Strip of 25 warp yarns, 200 mm", WARP),
+                                ("Bias-extension test of a weave whose yarns stick: a static "
+                                 "torque of 0.3 N mm within 1 degree before the glass weave's "
+                                 "(before: the polynomial)", STUCK),
+                                ("Picture frame of the glass weave whose rows begin at 5 degrees",
+                                 LATE),
+                                ("The same of the weave whose yarns stick", STUCK_LATE)):
+                if tables is None or (word, test) in tables:
+                    text += f"{title}:\n\n{table(test, noise, folder)}\n"
         text += f"## Columns\n\n{own_file(folder)}\n"
+        if tables is not None:
+            return text
         text += "## Limits of confidence\n\nHow often the 95 % limits of k1 held the k1 that the " \
             "bias curves were made from, common noise; five specimens differ by 5 % (standard " \
             "deviation):\n\n| specimens | sets of curves | held | median of the limits |\n" \
@@ -351,10 +386,11 @@ def make_page():
     return text
 
 
-made = make_page()
 if page is None:
-    sys.stdout.write(made)
-elif made != page.read_text(encoding="utf-8"):
-    sys.stdout.writelines(difflib.unified_diff(
-        page.read_text(encoding="utf-8").splitlines(True), made.splitlines(True), str(page)))
-    sys.exit(f"{page} is stale: make it anew")
+    sys.stdout.write(make_page())
+else:  # what takes a minute: tables that hold a law found with and without a static torque
+    made = make_page([("careful", BIAS), ("careful", STUCK_LATE), ("common", LATE)])
+    stands = page.read_text(encoding="utf-8").splitlines()
+    stale = [line for line in made.splitlines() if line not in stands]
+    if stale:
+        sys.exit("\n".join([*stale, f"{page} is stale: make it anew"]))
