@@ -86,10 +86,13 @@ std::optional<std::size_t> named_column(const CurveTable& table, const ColumnReq
   return std::nullopt;
 }
 
-std::vector<std::size_t> of_quantity(const CurveTable& table, Quantity quantity) {
+/// Columns of a quantity whose names have one of the words `only`, if there are any words.
+std::vector<std::size_t> of_quantity(const CurveTable& table, Quantity quantity,
+                                     const std::string& only) {
   std::vector<std::size_t> found;
   for (std::size_t i = 0; i < table.width(); ++i)
-    if (table.meaning(i).quantity == quantity) found.push_back(i);
+    if (table.meaning(i).quantity == quantity && (only.empty() || has_word(table.name_of(i), only)))
+      found.push_back(i);
   return found;
 }
 
@@ -133,7 +136,7 @@ std::optional<ChosenColumn> with_factor(const CurveTable& table, const ColumnReq
   if (is_refused(request, meaning.quantity, {table.file, 1, 1}, table.name_of(column), meaning.unit,
                  diagnostics))
     return std::nullopt;
-  const std::vector<std::size_t> better = of_quantity(table, request.quantity);
+  const std::vector<std::size_t> better = of_quantity(table, request.quantity, request.only);
   std::string remedy = request.hint;
   if (remedy.empty())
     remedy = better.empty()
@@ -149,8 +152,8 @@ std::optional<ChosenColumn> with_factor(const CurveTable& table, const ColumnReq
 /// The one column of the quantity; nothing if there is none, or an error if there are several.
 std::optional<std::size_t> column_by_header(const CurveTable& table, const ColumnRequest& request,
                                             Diagnostics& diagnostics) {
-  std::vector<std::size_t> all = of_quantity(table, request.quantity);
-  if (all.empty() && request.also) all = of_quantity(table, *request.also);
+  std::vector<std::size_t> all = of_quantity(table, request.quantity, request.only);
+  if (all.empty() && request.also) all = of_quantity(table, *request.also, request.only);
   if (all.size() == 1) return all.front();
   if (all.empty()) return std::nullopt;
   std::vector<std::size_t> preferred;
@@ -160,14 +163,18 @@ std::optional<std::size_t> column_by_header(const CurveTable& table, const Colum
   diagnostics.error({table.file, 1, 1}, "", "",
                     fmt::format("{} columns may be the {}: {}", all.size(), request.word,
                                 description(table, all)),
-                    fmt::format("name one with {}", request.option));
+                    request.only.empty() ? fmt::format("name one with {}", request.option)
+                                         : "take the others out");
   return std::nullopt;
 }
 
-/// Columns of unknown kind that no request has.
-std::vector<std::size_t> unknown_left(const CurveTable& table, const Chosen& chosen) {
+/// Columns of unknown kind that no request has; names as the requests want them, which are alike in
+/// that.
+std::vector<std::size_t> unknown_left(const CurveTable& table,
+                                      const std::vector<ColumnRequest>& requests,
+                                      const Chosen& chosen) {
   std::vector<std::size_t> left;
-  for (const std::size_t i : of_quantity(table, Quantity::unknown))
+  for (const std::size_t i : of_quantity(table, Quantity::unknown, requests.front().only))
     if (std::none_of(chosen.begin(), chosen.end(),
                      [i](const auto& column) { return column && column->index == i; }))
       left.push_back(i);
@@ -181,7 +188,8 @@ void leave_to_angle(const CurveTable& table, const std::vector<ColumnRequest>& r
   const bool angle = std::any_of(chosen.begin(), chosen.end(), [](const auto& column) {
     return column && column->quantity == Quantity::angle;
   });
-  if (!angle || (open.size() > 1 && unknown_left(table, chosen).size() == open.size())) return;
+  if (!angle || (open.size() > 1 && unknown_left(table, requests, chosen).size() == open.size()))
+    return;
   std::erase_if(open, [&requests](std::size_t n) { return requests[n].angle_does; });
 }
 
@@ -190,7 +198,7 @@ void leave_to_angle(const CurveTable& table, const std::vector<ColumnRequest>& r
 bool fill_from_left(const CurveTable& table, const std::vector<ColumnRequest>& requests,
                     const std::vector<std::size_t>& open, Chosen& chosen,
                     Diagnostics& diagnostics) {
-  const std::vector<std::size_t> left = unknown_left(table, chosen);
+  const std::vector<std::size_t> left = unknown_left(table, requests, chosen);
   for (std::size_t n = 0; n < open.size(); ++n) {
     const ColumnRequest& request = requests[open[n]];
     if (left.size() == open.size()) {
@@ -205,13 +213,15 @@ bool fill_from_left(const CurveTable& table, const std::vector<ColumnRequest>& r
                         "them");
       return false;
     }
-    const auto per_length = of_quantity(table, Quantity::force_per_length);
+    const auto per_length = of_quantity(table, Quantity::force_per_length, request.only);
     if (!per_length.empty() && is_refused(request, Quantity::force_per_length, {table.file, 1, 1},
                                           table.name_of(per_length.front()),
                                           table.meaning(per_length.front()).unit, diagnostics))
       return false;
     std::string remedy = fmt::format("name it with {}, and its unit with {}, if it is there",
                                      request.option, request.unit_option);
+    if (!request.only.empty())
+      remedy = fmt::format("name it in the header, with {} and its unit", request.only);
     if (!request.hint.empty()) remedy += "; " + request.hint;
     diagnostics.error({table.file, 1, 1}, "", "",
                       fmt::format("no column says by header or unit that it is the {}, {}: the "
@@ -251,7 +261,9 @@ std::optional<Chosen> choose_columns(const CurveTable& table,
   for (std::size_t n = 0; n < requests.size(); ++n) {
     const ColumnRequest& request = requests[n];
     const bool named = !request.chosen.column.empty();
-    if (!named && request.optional && of_quantity(table, request.quantity).size() != 1) continue;
+    if (!named && request.optional &&
+        of_quantity(table, request.quantity, request.only).size() != 1)
+      continue;
     const std::size_t before = diagnostics.errors.size();
     const auto column = named ? named_column(table, request, diagnostics)
                               : column_by_header(table, request, diagnostics);

@@ -93,6 +93,8 @@ std::vector<ColumnRequest> requests_of(const CurveColumns& columns) {
        columns.x_hint, columns.with_angle && !columns.angle.column.empty(), columns.with_angle},
       {columns.y_option, "--y-unit", columns.y, columns.y_is, columns.y_word, columns.y_preferred,
        "", false, false, columns.y_also, columns.no_per_length}};
+  for (ColumnRequest& request : requests)
+    request.only = columns.only;
   if (columns.with_angle)
     requests.push_back({"--angle-column", "--angle-unit", columns.angle, Quantity::angle,
                         "shear angle", "shear gamma", "", true});

@@ -30,6 +30,7 @@ struct CurveColumns {
   std::string x_hint = {};             ///< if x is of another quantity
   std::optional<Quantity> y_also = {};
   std::string no_per_length = {}; ///< as in ColumnRequest
+  std::string only = {};          ///< of x and y, as in ColumnRequest
   /// A column of angles is read if there is one; x may miss if it is chosen, or if all else is
   /// found.
   bool with_angle = false;

@@ -61,6 +61,7 @@ struct ColumnRequest {
   bool angle_does = false;               ///< may be missing beside a column of angles
   std::optional<Quantity> also = {};     ///< taken where no column is of `quantity`
   std::string no_per_length = {};        ///< why a force per length does not do
+  std::string only = {};                 ///< words of which a name must have one; empty: any name
 };
 
 struct ChosenColumn {

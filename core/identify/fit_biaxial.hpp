@@ -35,8 +35,10 @@ struct BiaxialCurve {
   std::size_t size() const { return line.size(); }
 };
 
-/// Reads a file whose header names warp and weft; loads are divided by `yarns`. Reports errors and
-/// returns nothing as read_curve, and for loads below 0 by more than noise_share of the largest.
+/// Reads a file whose header names warp and weft; loads are divided by `yarns`. Rows with an empty
+/// cell are left out, with a warning. Reports errors and returns nothing as read_curve, for a
+/// direction that has strain without load or the reverse, and for loads below 0 by more than
+/// noise_share of the largest.
 std::optional<BiaxialCurve>
 read_biaxial(const std::string& file, const std::array<double, 2>& yarns, Diagnostics& diagnostics);
 

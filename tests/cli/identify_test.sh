@@ -348,6 +348,9 @@ expect_law crimped.toml ratio 0.005 1e-3
 sed -i 's|^glass = .*|glass = "../crimped.toml"|' case/case.toml
 expect 0 'the case is sound' check case --set blanks.square.element_size=34
 expect 2 'all of one strain ratio' identify biaxial equal.csv --fabric glass.toml -o never.toml
+cut -d, -f1-3 equal.csv >one_load.csv
+expect 2 'weft_strain: is the only column whose name says weft' identify biaxial one_load.csv --fabric glass.toml \
+  -o never.toml
 expect 2 'no column says that it is of warp or weft' identify biaxial strip.csv --fabric glass.toml \
   -o never.toml
 

@@ -5,9 +5,12 @@
 #include "support/membrane_checks.hpp"
 
 #include <cmath>
+#include <filesystem>
 #include <fmt/format.h>
+#include <fstream>
 #include <gtest/gtest.h>
 #include <random>
+#include <set>
 
 namespace plyform::biaxial_test {
 namespace {
@@ -156,6 +159,77 @@ TEST(Biaxial, FindsAWrongZeroOfStrain) {
   ASSERT_EQ(fit->zeros.size(), 1u);
   EXPECT_NEAR(fit->zeros[0].amount, 0.001, 0.0001);
   EXPECT_NEAR(fit->crimp[0], 0.005, 0.00025);
+}
+
+std::optional<BiaxialCurve> read(const std::string& text, Diagnostics& diagnostics) {
+  const auto file = std::filesystem::path(testing::TempDir()) / "biaxial_test.csv";
+  std::ofstream(file) << text;
+  return read_biaxial(file.string(), {1.0, 2.0}, diagnostics);
+}
+
+/// Eight rows of which loads tell the number; cells of warp and weft loads may be empty.
+std::string rows_without(const std::set<int>& warp, const std::set<int>& weft) {
+  std::string text = "warp_strain,weft_strain,warp_load_N,weft_load_N\n";
+  for (int i = 0; i < 8; ++i)
+    text += fmt::format("{},{},{},{}\n", 0.001 * i, 0.002 * i,
+                        warp.contains(i) ? "" : fmt::format("{}", i),
+                        weft.contains(i) ? "" : fmt::format("{}", 20 * i));
+  return text;
+}
+
+TEST(BiaxialFile, PairsRowsThatHaveBothDirections) {
+  struct Case {
+    std::set<int> warp, weft, left;
+    std::string warning;
+  };
+  for (const Case& c :
+       {Case{{}, {5, 6, 7}, {0, 1, 2, 3, 4}, "3 of 8 rows have an empty cell and are left out"},
+        Case{{1, 2, 3}, {5, 6, 7}, {0, 4}, "6 of 8 rows"},
+        Case{{}, {}, {0, 1, 2, 3, 4, 5, 6, 7}, ""}}) {
+    Diagnostics diagnostics;
+    const auto curve = read(rows_without(c.warp, c.weft), diagnostics);
+    ASSERT_TRUE(curve) << texts(diagnostics);
+    std::vector<double> strain[2], load[2];
+    std::vector<int> line;
+    for (const int i : c.left) {
+      line.push_back(i + 2);
+      strain[0].push_back(0.001 * i), strain[1].push_back(0.002 * i);
+      load[0].push_back(i), load[1].push_back(10.0 * i);
+    }
+    EXPECT_EQ(curve->line, line);
+    for (std::size_t a = 0; a < 2; ++a) {
+      ASSERT_EQ(curve->strain[a].size(), line.size());
+      for (std::size_t i = 0; i < line.size(); ++i)
+        EXPECT_NEAR(curve->strain[a][i], strain[a][i], 1e-12);
+      EXPECT_EQ(curve->load[a], load[a]);
+    }
+    EXPECT_EQ(diagnostics.warnings.size(), c.warning.empty() ? 0u : 1u);
+    EXPECT_NE(texts(diagnostics).find(c.warning), std::string::npos) << texts(diagnostics);
+  }
+  Diagnostics none;
+  EXPECT_FALSE(read(rows_without({0, 1, 2, 3}, {4, 5, 6, 7}), none));
+  EXPECT_NE(texts(none).find("no row has strain and load of both"), std::string::npos)
+      << texts(none);
+}
+
+TEST(BiaxialFile, RefusesColumnsThatDoNotNameTheirDirection) {
+  for (const auto& [header, rule] : std::vector<std::pair<std::string, std::string>>{
+           {"warp_strain,weft_strain,warp_load_N", "weft_strain: is the only column"},
+           {"warp_strain,weft_strain,weft_load_N", "warp_strain: is the only column"},
+           {"warp_strain,weft_strain,load_N", "warp_strain: is the only column"},
+           {"warp_strain,warp_load_N,weft_load_N", "weft_load_N: is the only column"},
+           {"warp_strain,warp_weft_N,weft_strain", "names both warp and weft"},
+           {"strain,warp_strain,warp_angle_deg", "no column says by header or unit that it is the "
+                                                 "warp load"}}) {
+    Diagnostics diagnostics;
+    EXPECT_FALSE(read(header + "\n0,0,0\n0.001,0.001,5\n0.002,0.002,9\n", diagnostics)) << header;
+    EXPECT_NE(texts(diagnostics).find(rule), std::string::npos) << texts(diagnostics);
+  }
+  Diagnostics diagnostics;
+  const auto free = read("time_s,weft_strain,weft_load_N\n0,0,0\n1,0.001,5\n", diagnostics);
+  ASSERT_TRUE(free) << texts(diagnostics);
+  EXPECT_TRUE(free->free[0]);
+  EXPECT_FALSE(free->free[1]);
 }
 
 } // namespace
