@@ -49,6 +49,43 @@ Points points_of(const ShearLaw& law, double to) {
   return points;
 }
 
+/// A table of both signs.
+ShearLaw joined(const Points& above, const Points& below) {
+  ShearLaw law;
+  for (std::size_t i = below.angle.size(); i-- > 0;) {
+    law.angle.push_back(-below.angle[i]);
+    law.torque.push_back(-below.torque[i]);
+  }
+  law.angle.push_back(0.0);
+  law.torque.push_back(0.0);
+  law.angle.insert(law.angle.end(), above.angle.begin(), above.angle.end());
+  law.torque.insert(law.torque.end(), above.torque.begin(), above.torque.end());
+  return law;
+}
+
+/// Where a table of both signs is furthest from the law of one of its sides, `own`, halves the
+/// piece of that side there, unless it is within `kept_within` everywhere.
+bool halve_worst_piece(const ShearLaw& table, double sign, const ShearLaw& own, double to,
+                       Points& points) {
+  constexpr double step = 0.05 * degree, nothing = 1e-4; // of the largest torque
+  const double least = nothing * own.at(to).value;
+  double worst = kept_within, at = 0.0;
+  for (int i = 0; kept_from + i * step <= to; ++i) {
+    const double g = kept_from + i * step, wanted = own.at(g).value;
+    const double off = std::abs(sign * table.at(sign * g).value - wanted) / std::max(wanted, least);
+    if (off > worst) worst = off, at = g;
+  }
+  if (at == 0.0) return false;
+  const auto next = std::lower_bound(points.angle.begin(), points.angle.end(), at);
+  if (next == points.angle.end()) return false;
+  const auto place = next - points.angle.begin();
+  const double before = place > 0 ? points.angle[static_cast<std::size_t>(place) - 1] : 0.0;
+  const double middle = 0.5 * (before + *next);
+  points.angle.insert(next, middle);
+  points.torque.insert(points.torque.begin() + place, own.at(middle).value);
+  return true;
+}
+
 /// Angles at which both sides are compared.
 std::vector<double> common_angles(const ShearFit& a, const ShearFit& b) {
   return probe_angles(std::min(a.quality.to, b.quality.to));
@@ -94,15 +131,16 @@ ShearLaw law_of_both_signs(const ShearLaw& positive, double positive_to, const S
     law.negative_k = negative.k;
     return law;
   }
-  const Points above = points_of(positive, positive_to), below = points_of(negative, negative_to);
-  for (std::size_t i = below.angle.size(); i-- > 0;) {
-    law.angle.push_back(-below.angle[i]);
-    law.torque.push_back(-below.torque[i]);
+  // Through 0 the curve has one slope, a mean of both sides': near it neither keeps its own law.
+  constexpr int most_added = 20; // of each side
+  Points above = points_of(positive, positive_to), below = points_of(negative, negative_to);
+  law = joined(above, below);
+  for (int n = 0; n < most_added; ++n) {
+    const bool first = halve_worst_piece(law, 1.0, positive, positive_to, above),
+               second = halve_worst_piece(law, -1.0, negative, negative_to, below);
+    if (!first && !second) break;
+    law = joined(above, below);
   }
-  law.angle.push_back(0.0);
-  law.torque.push_back(0.0);
-  law.angle.insert(law.angle.end(), above.angle.begin(), above.angle.end());
-  law.torque.insert(law.torque.end(), above.torque.begin(), above.torque.end());
   return law;
 }
 

@@ -27,7 +27,10 @@ std::optional<SignsFit> identify_signs(const std::vector<Curve>& positive,
                                        Diagnostics& diagnostics);
 
 /// A law whose sides are two odd ones, each good up to an angle (rad): two polynomials, or a table
-/// of both signs with the rows of tables and as many of a polynomial as follow it to 0.1 %.
+/// of both signs with the rows of tables, as many of a polynomial as follow it to 0.1 %, and rows
+/// between these until the torque of each side is within `kept_within` of its own law from
+/// `kept_from` on, at most twenty of each side.
+inline constexpr double kept_from = 0.25 * degree, kept_within = 0.01;
 ShearLaw law_of_both_signs(const ShearLaw& positive, double positive_to, const ShearLaw& negative,
                            double negative_to);
 

@@ -44,7 +44,8 @@ GroupDifference difference_of(const std::vector<double>& first, const std::vecto
     error = std::sqrt((a.squares + b.squares) / freedom * (1.0 / a.number + 1.0 / b.number));
   } else {
     freedom = many;
-    error = std::hypot(limits.first, limits.second) / student_95(many);
+    error =
+        std::hypot(limits.first, limits.second, GroupDifference::usual_scatter) / student_95(many);
   }
   const double difference = b.mean - a.mean;
   result.ratio = std::exp(difference);

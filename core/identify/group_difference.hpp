@@ -4,8 +4,8 @@
 //
 // Student's test of two groups, of logarithms: it is the scatter in percent that both share,
 // however much more one of them bears. d = mean ln of the second - of the first, n_1 + n_2 - 2
-// degrees of freedom. Of one specimen each nothing is known of scatter between specimens: their own
-// 95 % limits take its place.
+// degrees of freedom. Of one specimen each nothing is known of scatter between specimens: what two
+// of one kind usually differ by, and their own 95 % limits, take its place.
 #pragma once
 
 #include <vector>
@@ -21,10 +21,12 @@ struct GroupDifference {
   double ratio = 1.0;             ///< second over first
   double least = 1.0, most = 1.0; ///< its 95 % limits
   double chance = 1.0;            ///< of a ratio as far from 1 if there were no difference
-  bool between_specimens = false; ///< from scatter between them; else from their own limits
+  bool between_specimens = false; ///< from scatter between them; else as usual
   /// Beyond scatter, as chance makes it once in a hundred, and by more than `noticed`.
   bool differs() const;
   static constexpr double rare = 0.01, noticed = 0.02;
+  /// Within which, over the value, 95 of 100 pairs of specimens of one kind differ.
+  static constexpr double usual_scatter = 0.1;
 };
 
 /// Of values above 0, each group at least one.

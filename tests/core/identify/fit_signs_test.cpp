@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <numbers>
+#include <random>
 
 namespace plyform::fit_signs_test {
 namespace {
@@ -108,6 +109,49 @@ TEST(IdentifySigns, JoinsTablesAndPolynomialsThroughZero) {
   for (std::size_t i = 1; i < 4; ++i)
     EXPECT_DOUBLE_EQ(law.at(-table.angle[i]).value, -table.torque[i]);
   EXPECT_EQ(law.at(0.0).value, 0.0);
+}
+
+/// A static torque that is reached within a degree on one side, a soft polynomial on the other: the
+/// slopes at 0 differ by a factor of forty.
+TEST(IdentifySigns, KeepsTheLawOfEachSideNearZero) {
+  ShearLaw soft, stiff;
+  soft.k = {0.2, 0.3, 0.5};
+  stiff.angle = {0.0, 0.01, 0.02, 0.3, 0.6, 0.9};
+  stiff.torque = {0.0, 0.08, 0.1, 0.2, 0.5, 1.2};
+  ShearLaw steep; // a table whose first point is far out
+  steep.angle = {0.0, 0.2, 0.9}, steep.torque = {0.0, 0.5, 1.0};
+  for (const auto& [a, b] :
+       {std::pair{stiff, soft}, {soft, stiff}, {steep, soft}, {stiff, steep}}) {
+    const ShearLaw law = law_of_both_signs(a, 0.9, b, 0.8);
+    double worst = 0.0;
+    for (double g = 0.25; g < 45.0; g += 0.01) {
+      worst = std::max(worst, std::abs(law.at(g * degree).value / a.at(g * degree).value - 1.0));
+      worst = std::max(worst, std::abs(law.at(-g * degree).value / -b.at(g * degree).value - 1.0));
+    }
+    fmt::print("{} rows, within {:.2g} %\n", law.angle.size(), 100.0 * worst);
+    EXPECT_LT(worst, 0.011);
+    EXPECT_LT(law.angle.size(), 50u);
+  }
+}
+
+/// Single specimens of one fabric, whose levels scatter by 3 %, show no difference of the signs.
+TEST(IdentifySigns, TakesScatterOfSingleSpecimensForNoDifference) {
+  const Fabric fabric = glass_weave();
+  std::mt19937 random(3);
+  std::normal_distribution<double> normal(1.0, 0.03);
+  const auto one = [&](bool negative, double level, unsigned seed) {
+    return std::vector{noisy_curve(curve_of(frame, fabric, negative, level), 0.005, 0.0, seed)};
+  };
+  int told = 0;
+  for (unsigned seed = 0; seed < 8; ++seed) {
+    Diagnostics diagnostics;
+    const double first = normal(random), second = normal(random);
+    const auto fit = identify_signs(one(false, first, 2 * seed), one(true, second, 2 * seed + 1),
+                                    frame, fabric, exact(), diagnostics);
+    ASSERT_TRUE(fit) << texts(diagnostics);
+    told += fit->difference.differs();
+  }
+  EXPECT_EQ(told, 0);
 }
 
 TEST(IdentifyStitch, FindsLineSlackAndBreakAgain) {

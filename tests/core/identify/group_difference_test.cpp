@@ -29,6 +29,10 @@ TEST(GroupDifference, TakesTheLimitsOfSingleSpecimens) {
   const GroupDifference close = difference_of({1.0}, {1.06}, {0.05, 0.05});
   EXPECT_FALSE(close.differs());
   EXPECT_FALSE(close.between_specimens);
+  EXPECT_FALSE(difference_of({1.0}, {1.08}, {0.01, 0.01}).differs()); // as specimens do
+  EXPECT_FALSE(difference_of({1.0}, {0.92}, {0.01, 0.01}).differs());
+  EXPECT_TRUE(difference_of({1.0}, {1.15}, {0.01, 0.01}).differs());
+  EXPECT_NEAR(difference_of({1.0}, {1.15}, OwnLimits{}).most, 1.15 * std::exp(0.1), 1e-3);
   EXPECT_FALSE(difference_of({1.0}, {1.01}, {1e-4, 1e-4}).differs()); // sure, but it is nothing
   EXPECT_FALSE(difference_of({1.0}, {1.0}, OwnLimits{}).differs());
   EXPECT_THROW(difference_of({}, {1.0}), std::invalid_argument);

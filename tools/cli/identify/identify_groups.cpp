@@ -19,10 +19,13 @@ std::string degrees(double angle) {
 
 /// "0.45 at 30 degrees (95 % limits 0.42 to 0.49, from the scatter between specimens)".
 std::string ratio_text(const GroupDifference& d, const std::string& place) {
-  return fmt::format("{:.3g}{} (95 % limits {:.3g} to {:.3g}, {})", d.ratio, place, d.least, d.most,
-                     d.between_specimens ? "from the scatter between specimens"
-                                         : "from the limits of one specimen each, which do not "
-                                           "hold what specimens differ by");
+  return fmt::format(
+      "{:.3g}{} (95 % limits {:.3g} to {:.3g}, {})", d.ratio, place, d.least, d.most,
+      d.between_specimens
+          ? std::string("from the scatter between specimens")
+          : fmt::format("from the limits of one specimen each, and {:g} % by which specimens of "
+                        "one kind usually differ",
+                        100.0 * GroupDifference::usual_scatter));
 }
 
 /// Ratios at 10, 20, 30, 40 degrees, as far as both go.
