@@ -311,40 +311,25 @@ std::string reason(const Candidate& chosen, const std::vector<Candidate>& candid
   return text;
 }
 
-} // namespace
-
-LawChoice choose_shear(const std::vector<ShearSpecimen>& given, const LoadRows& given_rows,
-                       double end, const ShearTest& test, const Fabric& fabric,
-                       const FitOptions& options, const CurveWords& words) {
-  const bool dense = std::any_of(given.begin(), given.end(), [](const ShearSpecimen& specimen) {
-    return specimen.rows.x.size() > most_rows;
-  });
-  std::vector<ShearSpecimen> specimens = given;
-  if (dense)
-    for (ShearSpecimen& specimen : specimens)
-      specimen = with_means(specimen);
-  const LoadRows all = dense ? together(specimens) : given_rows;
-  const Problem problem{specimens, all, end, test, fabric, options, words};
-  Index fewest = all.x.size();
-  for (const ShearSpecimen& specimen : specimens)
-    fewest = std::min(fewest, specimen.rows.x.size());
-  const std::vector<ShearForm> forms = forms_of(options, fewest);
+/// The choice among forms; `fewest`: rows of a specimen.
+LawChoice choose_among(const Problem& problem, const std::vector<ShearForm>& forms, Index fewest) {
   if (forms.empty()) return {};
   if (forms.size() == 1) {
-    const std::vector<Candidate> only = fitted(forms, all, end, problem);
+    const std::vector<Candidate> only = fitted(forms, problem.all, problem.end, problem);
     return {only[0].solution.form, knots_in(only[0].solution.shear()), "as asked for"};
   }
   const ShearForm usual{};
-  const bool free = !options.law;
+  const bool free = !problem.options.law;
   Disturbed disturbed;
   if (free) {
-    const ShearSolution three = solve_shear(usual, all, end, test, fabric);
-    const double rms = std::sqrt(three.squares / static_cast<double>(all.x.size()));
+    const ShearSolution three =
+        solve_shear(usual, problem.all, problem.end, problem.test, problem.fabric);
+    const double rms = std::sqrt(three.squares / static_cast<double>(problem.all.x.size()));
     if (rms < of_digits && is_law(three))
       return {usual, {}, "follows the rows to their last digits"};
     disturbed = with_disturbances(problem);
   }
-  std::vector<Candidate> candidates = fitted(forms, all, end, problem);
+  std::vector<Candidate> candidates = fitted(forms, problem.all, problem.end, problem);
   for (Candidate& candidate : candidates)
     candidate.valid = gives_laws(candidate, problem);
   std::vector<double> chance(candidates.size(), 0.0);
@@ -375,6 +360,26 @@ LawChoice choose_shear(const std::vector<ShearSpecimen>& given, const LoadRows& 
       return {candidate.solution.form, knots_in(candidate.solution.shear()),
               reason(candidate, candidates)};
   return {best->solution.form, knots_in(best->solution.shear()), reason(*best, candidates)};
+}
+
+} // namespace
+
+LawChoice choose_shear(const std::vector<ShearSpecimen>& given, const LoadRows& given_rows,
+                       double end, const ShearTest& test, const Fabric& fabric,
+                       const FitOptions& options, const CurveWords& words) {
+  const bool dense = std::any_of(given.begin(), given.end(), [](const ShearSpecimen& specimen) {
+    return specimen.rows.x.size() > most_rows;
+  });
+  std::vector<ShearSpecimen> specimens = given;
+  if (dense)
+    for (ShearSpecimen& specimen : specimens)
+      specimen = with_means(specimen);
+  const LoadRows all = dense ? together(specimens) : given_rows;
+  const Problem problem{specimens, all, end, test, fabric, options, words};
+  Index fewest = all.x.size();
+  for (const ShearSpecimen& specimen : specimens)
+    fewest = std::min(fewest, specimen.rows.x.size());
+  return choose_among(problem, forms_of(options, fewest), fewest);
 }
 
 } // namespace plyform
