@@ -331,11 +331,15 @@ std::optional<StitchFit> identify_stitch(const SignedCurves& curves,
   fit.force_limits = limits[2] / force;
   fit.limits_between = curves.positive.size() > 1 && curves.negative.size() > 1;
   if (force > 0.0 && limits[2] < force) return fit;
+  constexpr double rounding = 1e-9; // of the largest load
+  const bool any = force > rounding * *std::max_element(fit.measured.begin(), fit.measured.end());
   diagnostics.error(place_of(drawn), fabric.stitches[own.front()].name,
-                    fmt::format("{:.3g} N", force),
-                    fmt::format("is no more than chance: its 95 % limits are +- {:.3g} N, and the "
-                                "two sides do not differ beyond their scatter",
-                                limits[2]),
+                    fmt::format("{:.3g} N", any ? force : 0.0),
+                    any ? fmt::format("is no more than chance: its 95 % limits are +- {:.3g} N, "
+                                      "and the two sides do not differ beyond their scatter",
+                                      limits[2])
+                        : std::string("is all that the side which draws it bears beyond the other "
+                                      "one: the curves show no stitch"),
                     fmt::format("check which curves are of negative angles: {} shear draws this "
                                 "stitch; test more specimens, or take the law of both sides "
                                 "without --stitch",

@@ -175,6 +175,13 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
     if (!is_shear_test(a.test) && !curve_argument(curve).laboratory.empty())
       option_error("--curves", curve, "names a laboratory, as only bias and frame take them",
                    "identify each laboratory by itself", diagnostics);
+  if (!a.angle_file.empty() && a.curves.size() + a.others.size() > 1)
+    option_error("--angle-file", a.angle_file,
+                 fmt::format("has the angles of one specimen, but {} curves are given",
+                             a.curves.size() + a.others.size()),
+                 "identify each curve with its own angles, or put them in a column beside its "
+                 "loads",
+                 diagnostics);
   if (a.test == "compression" && a.curves.size() > 1)
     option_error("--curves", a.curves[1], "is one more than a compression test takes",
                  "identify each specimen by itself", diagnostics);

@@ -36,6 +36,22 @@ BothKinds both_kinds(const IdentifyArguments& a, Diagnostics& diagnostics) {
   return both;
 }
 
+/// Warns of curves that are the same number for number: scatter between them says nothing.
+void warn_of_same(const std::vector<Curve>& curves, Diagnostics& diagnostics) {
+  for (std::size_t b = 1; b < curves.size(); ++b) {
+    const auto same = std::find_if(
+        curves.begin(), curves.begin() + static_cast<std::ptrdiff_t>(b), [&](const Curve& a) {
+          return a.x == curves[b].x && a.y == curves[b].y && a.angle == curves[b].angle;
+        });
+    if (same != curves.begin() + static_cast<std::ptrdiff_t>(b))
+      diagnostics.warning(
+          {curves[b].file, 1, 1},
+          fmt::format("curve {} has the same numbers in every row as curve {}, {}: they are no two "
+                      "specimens, and scatter and limits come out too small; leave one out",
+                      b + 1, same - curves.begin() + 1, same->file));
+  }
+}
+
 std::optional<Identified> identify(const IdentifyArguments& a, const FabricReading& base,
                                    const std::optional<PreparedShear>& test,
                                    const std::vector<Curve>& curves, const FitOptions& options,
@@ -149,6 +165,7 @@ int identify_command(const IdentifyArguments& arguments) {
   check_groups(arguments, base, diagnostics);
   BothKinds kinds = both_kinds(arguments, diagnostics);
   std::vector<Curve> all = kinds.all();
+  warn_of_same(all, diagnostics);
   const auto test = shear ? prepare_shear(arguments, all, options, diagnostics) : std::nullopt;
   const auto split = all.begin() + static_cast<std::ptrdiff_t>(kinds.curves.size());
   kinds = {{all.begin(), split}, {split, all.end()}};
@@ -159,8 +176,7 @@ int identify_command(const IdentifyArguments& arguments) {
                         "place, and is the same for both: copy the rows or the "
                         "negative_polynomial that you want to keep");
   if (laboratories && test && diagnostics.errors.empty())
-    return identify_laboratories(arguments, fit, base, *test, kinds.curves, options,
-                                 diagnostics);
+    return identify_laboratories(arguments, fit, base, *test, kinds.curves, options, diagnostics);
   std::optional<Identified> result;
   if (diagnostics.errors.empty())
     result = has_groups(arguments, *base.value)

@@ -21,12 +21,25 @@ struct Found {
   ShearFit fit;
 };
 
-/// Angles (degrees) that the report speaks of.
+/// Standard deviation between laboratories, over the mean, up to which they agree.
+constexpr double agreement = 0.05;
+
+/// rad: the largest angle that two laboratories reach.
+double reached_by_two(const LaboratoryMean& mean) {
+  std::vector<double> ends;
+  for (const LaboratoryLaw& laboratory : mean.laboratories)
+    ends.push_back(laboratory.to);
+  std::sort(ends.rbegin(), ends.rend());
+  return ends.at(1);
+}
+
+/// Angles (degrees) that the report speaks of: what only one laboratory reaches shows no scatter.
 std::vector<double> told_angles(const LaboratoryMean& mean) {
+  const double end = reached_by_two(mean);
   std::vector<double> angles;
   for (const double angle : {10.0, 20.0, 30.0, 40.0})
-    if (angle * degree <= mean.angle.back() + 1e-9) angles.push_back(angle);
-  if (angles.empty()) angles.push_back(mean.angle.back() / degree);
+    if (angle * degree <= end + 1e-9) angles.push_back(angle);
+  if (angles.empty()) angles.push_back(end / degree);
   return angles;
 }
 
@@ -66,18 +79,23 @@ LaboratoryMean mean_of(const std::vector<Found>& found) {
   return laboratory_mean(curves);
 }
 
-/// "laboratories differ by 31 % of the torque at 10 degrees, 26 % at 20".
+/// "laboratories differ by 31 % of the torque at 10, 26 % at 20 degrees ...", or agree.
 std::string scatter_line(const LaboratoryMean& mean) {
   std::string text;
-  for (const double angle : told_angles(mean))
-    text += fmt::format("{}{:.2g} %{} at {:g}", text.empty() ? "" : ", ",
-                        100.0 * mean.value_at(mean.between, angle * degree) /
-                            mean.value_at(mean.mean, angle * degree),
+  double most = 0.0;
+  for (const double angle : told_angles(mean)) {
+    const double share =
+        mean.value_at(mean.between, angle * degree) / mean.value_at(mean.mean, angle * degree);
+    most = std::max(most, share);
+    text += fmt::format("{}{:.2g} %{} at {:.3g}", text.empty() ? "" : ", ", 100.0 * share,
                         text.empty() ? " of the torque" : "", angle);
-  return fmt::format(
-      "laboratories differ by {} degrees (standard deviation of {}): the law of one, "
-      "or their mean alone, misleads",
-      text, mean.laboratories.size());
+  }
+  text = fmt::format("{} degrees (standard deviation of {})", text, mean.laboratories.size());
+  if (most <= agreement)
+    return fmt::format("laboratories agree within {:g} %: they differ by {}", 100.0 * agreement,
+                       text);
+  return fmt::format("laboratories differ by {}: the law of one, or their mean alone, misleads",
+                     text);
 }
 
 /// "10 degrees: 0.41 N mm, +- 0.13 between 6 laboratories, +- 0.1 within one".
@@ -86,7 +104,7 @@ std::string line_at(const LaboratoryMean& mean, double angle) {
   std::size_t reach = 0;
   for (const LaboratoryLaw& laboratory : mean.laboratories)
     reach += laboratory.to >= g - 1e-9 ? 1 : 0;
-  return fmt::format("{:g} degrees: {:.3g} N mm, +- {:.2g} between laboratories, {}{}", angle,
+  return fmt::format("{:.3g} degrees: {:.3g} N mm, +- {:.2g} between laboratories, {}{}", angle,
                      mean.value_at(mean.mean, g), mean.value_at(mean.between, g),
                      std::isnan(within) ? "within one not known: no two curves of one"
                                         : fmt::format("+- {:.2g} within one", within),
