@@ -82,7 +82,7 @@ struct IdentifyArguments {
   bool doubtful = false;
   bool laboratories = false; ///< each curve is of one, not of a specimen; or NAME=FILE says so
   bool skip_refused = false; ///< laboratories: goes on without curves that are refused
-  double warp_yarns = 1.0;          ///< of a biaxial test
+  double warp_yarns = 1.0;   ///< of a biaxial test
   std::optional<double> weft_yarns; ///< of it, or of the others; not given: as the warp
 };
 
