@@ -37,26 +37,15 @@ double wrong_by(const ShearLaw& law) {
   return largest;
 }
 
-struct Outcome {
-  std::optional<ShearFit> fit;
-  std::string texts;
-  bool says(const std::string& words) const { return texts.find(words) != std::string::npos; }
-};
-
-Outcome identify(const Curve& curve, FitOptions options = {}) {
-  if (!options.corrections.compliance) options.corrections.compliance = 0.0;
-  Diagnostics diagnostics;
-  Outcome outcome;
-  outcome.fit = identify_shear(curve, bias, glass_weave(), options, diagnostics);
-  outcome.texts = texts(diagnostics);
-  return outcome;
+ShearOutcome identify(const Curve& curve, const FitOptions& options = {}) {
+  return identify_glass({curve}, bias, options);
 }
 
 TEST(Disturbances, AreNotFoundWhereThereAreNone) {
   int alarms = 0;
   for (unsigned seed = 1; seed <= 100; ++seed)
     for (const double noise : {0.003, 0.01}) {
-      const Outcome outcome = identify(glass_curve(seed, 0.0, noise, 0.2 * noise));
+      const ShearOutcome outcome = identify(glass_curve(seed, 0.0, noise, 0.2 * noise));
       ASSERT_TRUE(outcome.fit) << outcome.texts;
       alarms += outcome.says("the rows show");
     }
@@ -69,13 +58,13 @@ TEST(Disturbances, ALoadZeroIsRefusedAndTakenOff) {
     const double zero = share * curve.y.back();
     for (double& y : curve.y)
       y += zero;
-    const Outcome refused = identify(curve);
+    const ShearOutcome refused = identify(curve);
     EXPECT_FALSE(refused.fit);
     EXPECT_TRUE(refused.says("a load zero off by") && refused.says("--zero fit takes it off"))
         << refused.texts;
     FitOptions options;
     options.corrections.fit_load_zero = true;
-    const Outcome found = identify(curve, options);
+    const ShearOutcome found = identify(curve, options);
     ASSERT_TRUE(found.fit) << found.texts;
     const Corrected& taken = found.fit->specimens[0].corrected;
     EXPECT_NEAR(taken.load_zero, zero, 2.0 * taken.load_zero_limits);
@@ -98,13 +87,13 @@ TEST(Disturbances, ADisplacementZeroIsTakenOffEitherWay) {
       curve.y.insert(curve.y.begin(), 0.0);
       curve.line.insert(curve.line.begin(), 0);
     }
-    const Outcome plain = identify(curve);
+    const ShearOutcome plain = identify(curve);
     ASSERT_TRUE(plain.fit) << plain.texts;
     EXPECT_GT(wrong_by(plain.fit->law), 0.09);
     EXPECT_TRUE(plain.says(late > 0.0 ? "too late" : "slack up to")) << plain.texts;
     FitOptions options;
     options.corrections.fit_toe = true;
-    const Outcome found = identify(curve, options);
+    const ShearOutcome found = identify(curve, options);
     ASSERT_TRUE(found.fit) << found.texts;
     const Corrected& taken = found.fit->specimens[0].corrected;
     EXPECT_NEAR(taken.toe, -late, 2.0 * taken.toe_limits);
@@ -119,7 +108,7 @@ TEST(Disturbances, ADisplacementZeroThatNoiseHidesIsToldOf) {
   Curve curve = glass_curve(5, 1.0, 0.01, 0.002);
   for (double& x : curve.x)
     x -= 1.0;
-  const Outcome plain = identify(curve);
+  const ShearOutcome plain = identify(curve);
   ASSERT_TRUE(plain.fit) << plain.texts;
   EXPECT_TRUE(plain.says("not known from this curve: the displacement zero (known to"))
       << plain.texts;
@@ -128,7 +117,7 @@ TEST(Disturbances, ADisplacementZeroThatNoiseHidesIsToldOf) {
   EXPECT_FALSE(identify(curve, options).says("not known"));
   options.corrections = {};
   options.corrections.fit_toe = true; // and the limits say how little that helps
-  const Outcome found = identify(curve, options);
+  const ShearOutcome found = identify(curve, options);
   ASSERT_TRUE(found.fit) << found.texts;
   EXPECT_GT(found.fit->confidence.law, 2.0 * plain.fit->confidence.law);
 }
@@ -149,7 +138,7 @@ TEST(Disturbances, ComplianceIsToldOfAndTakenOff) {
   options.corrections.compliance = 0.02;
   EXPECT_LT(wrong_by(identify(curve, options).fit->law), 0.01);
   options.corrections.compliance = 2.0;
-  const Outcome refused = identify(curve, options);
+  const ShearOutcome refused = identify(curve, options);
   EXPECT_FALSE(refused.fit);
   EXPECT_TRUE(refused.says("nine tenths or more")) << refused.texts;
 }
@@ -159,13 +148,13 @@ TEST(Disturbances, ASuddenSlipIsFoundAtItsRow) {
     Curve curve = glass_curve(9);
     for (std::size_t i = row; i < curve.size(); ++i)
       curve.x[i] += 5.0;
-    const Outcome plain = identify(curve);
+    const ShearOutcome plain = identify(curve);
     EXPECT_FALSE(plain.fit);
     EXPECT_TRUE(plain.says("a slip of") && plain.says("before line " + std::to_string(row + 1)))
         << plain.texts;
     FitOptions options;
     options.corrections.fit_slip = true;
-    const Outcome found = identify(curve, options);
+    const ShearOutcome found = identify(curve, options);
     ASSERT_TRUE(found.fit) << found.texts;
     const Corrected& taken = found.fit->specimens[0].corrected;
     EXPECT_NEAR(taken.slip, 5.0, 2.0 * taken.slip_limits);
@@ -182,7 +171,7 @@ TEST(Disturbances, SlipThatGoesOnIsSeenByTheMeasuredAngle) {
     x *= 1.0 + 5.0 / end;
   }
   curve.angle_name = "gamma";
-  const Outcome plain = identify(curve);
+  const ShearOutcome plain = identify(curve);
   EXPECT_TRUE(plain.says("the measured shear angle (gamma) is up to") &&
               plain.says("--angle-column gamma takes the measured one"))
       << plain.texts;
@@ -190,7 +179,7 @@ TEST(Disturbances, SlipThatGoesOnIsSeenByTheMeasuredAngle) {
   EXPECT_GT(wrong_by(plain.fit->law), 0.4);
   FitOptions options;
   options.measured_angle = true;
-  const Outcome found = identify(curve, options);
+  const ShearOutcome found = identify(curve, options);
   ASSERT_TRUE(found.fit) << found.texts;
   EXPECT_LT(wrong_by(found.fit->law), 0.01);
   EXPECT_TRUE(found.says("the law is of the measured angle")) << found.texts;
@@ -201,7 +190,7 @@ TEST(Disturbances, AThousandTimesTheLoadIsNoFabric) {
     Curve curve = glass_curve(13);
     for (double& y : curve.y)
       y *= factor;
-    const Outcome refused = identify(curve);
+    const ShearOutcome refused = identify(curve);
     EXPECT_FALSE(refused.fit);
     EXPECT_TRUE(refused.says("is no fabric's: usually 0.001 to 10 N/mm")) << refused.texts;
     FitOptions options;
