@@ -76,20 +76,6 @@ ShearSpecimen with_means(const ShearSpecimen& specimen) {
   return less;
 }
 
-/// All rows, each specimen with the same weight.
-LoadRows together(const std::vector<ShearSpecimen>& specimens) {
-  std::vector<double> x, y, shares;
-  for (const ShearSpecimen& specimen : specimens) {
-    x.insert(x.end(), specimen.rows.x.begin(), specimen.rows.x.end());
-    y.insert(y.end(), specimen.rows.y.begin(), specimen.rows.y.end());
-    shares.insert(shares.end(), specimen.angle.size(),
-                  1.0 / std::sqrt(static_cast<double>(specimen.angle.size())));
-  }
-  const double mean =
-      std::sqrt(static_cast<double>(x.size()) / static_cast<double>(specimens.size()));
-  return {vector_of(x), vector_of(y), mean * vector_of(shares).array()};
-}
-
 /// Points of a table that rows bear.
 int most_points(Index rows) {
   constexpr Index most = 8;
@@ -240,6 +226,7 @@ Disturbed with_disturbances(const Problem& problem) {
 /// The law of a form of one specimen by itself.
 ShearSolution own_law(const Candidate& candidate, const ShearSpecimen& specimen,
                       const Problem& problem) {
+  if (problem.specimens.size() == 1) return candidate.solution;
   const double end = specimen.angle.back();
   return solve_shear(candidate.form, specimen.rows, end, problem.test, problem.fabric,
                      knots_to(candidate.knots, end));
@@ -247,8 +234,7 @@ ShearSolution own_law(const Candidate& candidate, const ShearSpecimen& specimen,
 
 /// Whether all specimens together and each have a law of the form.
 bool gives_laws(const Candidate& candidate, const Problem& problem) {
-  if (!is_law(candidate.solution)) return false;
-  return problem.specimens.size() == 1 ||
+  return is_law(candidate.solution) &&
          std::all_of(
              problem.specimens.begin(), problem.specimens.end(),
              [&](const ShearSpecimen& s) { return is_law(own_law(candidate, s, problem)); });
@@ -291,11 +277,16 @@ double misfit_of(const Candidate& candidate, const Problem& problem,
   return std::sqrt(squares);
 }
 
-/// Whether a law that is simpler than the best one does as well.
-bool does_as_well(const Candidate& c, const Candidate& best, const Problem& problem) {
-  const double noise = misfit_of(best, problem, &TorqueMisfit::noise);
-  return c.mean - best.mean <= standard_error(c.folds, best.folds) &&
-         misfit_of(c, problem) <= std::max({noisy, 2.0 * noise, 2.0 * misfit_of(best, problem)});
+/// The first of the laws that count which does as well as the best one.
+const Candidate& simplest(const std::vector<const Candidate*>& counting, const Candidate& best,
+                          const Problem& problem) {
+  const double noise = misfit_of(best, problem, &TorqueMisfit::noise),
+               most = std::max({noisy, 2.0 * noise, 2.0 * misfit_of(best, problem)});
+  for (const Candidate* c : counting)
+    if (c->mean - best.mean <= standard_error(c->folds, best.folds) &&
+        misfit_of(*c, problem) <= most)
+      return *c;
+  return best; // where errors are no numbers
 }
 
 std::string percent(double share) {
@@ -347,38 +338,32 @@ LawChoice choose_among(const Problem& problem, const std::vector<ShearForm>& for
     return {usual, {}, "no other law follows the rows better by more than chance"};
   tested = tested && other;
   cross_validate(candidates, problem);
-  const Candidate* best = nullptr;
-  const auto counts = [&](const Candidate& c) {
-    const double by = chance[static_cast<std::size_t>(&c - candidates.data())];
-    return c.valid && (!free || !tested || c.form == usual || by < significant);
-  };
-  for (const Candidate& candidate : candidates)
-    if (counts(candidate) && (!best || candidate.mean < best->mean)) best = &candidate;
-  if (!best) return {forms.front(), candidates.front().knots, "no law's torque rises everywhere"};
-  for (const Candidate& candidate : candidates)
-    if (counts(candidate) && does_as_well(candidate, *best, problem))
-      return {candidate.solution.form, knots_in(candidate.solution.shear()),
-              reason(candidate, candidates)};
-  return {best->solution.form, knots_in(best->solution.shear()), reason(*best, candidates)};
+  std::vector<const Candidate*> counting;
+  for (std::size_t c = 0; c < candidates.size(); ++c)
+    if (candidates[c].valid &&
+        (!free || !tested || candidates[c].form == usual || chance[c] < significant))
+      counting.push_back(&candidates[c]);
+  if (counting.empty())
+    return {forms.front(), candidates.front().knots, "no law's torque rises everywhere"};
+  const Candidate& best =
+      **std::min_element(counting.begin(), counting.end(),
+                         [](const Candidate* a, const Candidate* b) { return a->mean < b->mean; });
+  const Candidate& chosen = simplest(counting, best, problem);
+  return {chosen.solution.form, knots_in(chosen.solution.shear()), reason(chosen, candidates)};
 }
 
 } // namespace
 
-LawChoice choose_shear(const std::vector<ShearSpecimen>& given, const LoadRows& given_rows,
-                       double end, const ShearTest& test, const Fabric& fabric,
-                       const FitOptions& options, const CurveWords& words) {
-  const bool dense = std::any_of(given.begin(), given.end(), [](const ShearSpecimen& specimen) {
-    return specimen.rows.x.size() > most_rows;
-  });
-  std::vector<ShearSpecimen> specimens = given;
-  if (dense)
-    for (ShearSpecimen& specimen : specimens)
-      specimen = with_means(specimen);
-  const LoadRows all = dense ? together(specimens) : given_rows;
+LawChoice choose_shear(const std::vector<ShearSpecimen>& given, double end, const ShearTest& test,
+                       const Fabric& fabric, const FitOptions& options, const CurveWords& words) {
+  std::vector<ShearSpecimen> specimens;
+  Index fewest = most_rows;
+  for (const ShearSpecimen& specimen : given) {
+    specimens.push_back(with_means(specimen));
+    fewest = std::min(fewest, specimens.back().rows.x.size());
+  }
+  const LoadRows all = rows_together(specimens);
   const Problem problem{specimens, all, end, test, fabric, options, words};
-  Index fewest = all.x.size();
-  for (const ShearSpecimen& specimen : specimens)
-    fewest = std::min(fewest, specimen.rows.x.size());
   return choose_among(problem, forms_of(options, fewest), fewest);
 }
 

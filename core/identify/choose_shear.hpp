@@ -39,8 +39,8 @@ struct LawChoice {
   std::string why;           ///< "cross-validated 1.9 %, polynomial of 3 14 %"
 };
 
-/// The law of rows of all specimens, up to `end` (rad); `words` as for check_disturbances.
-LawChoice choose_shear(const std::vector<ShearSpecimen>& specimens, const LoadRows& all, double end,
+/// The law of the rows of all specimens, up to `end` (rad); `words` as for check_disturbances.
+LawChoice choose_shear(const std::vector<ShearSpecimen>& specimens, double end,
                        const ShearTest& test, const Fabric& fabric, const FitOptions& options,
                        const CurveWords& words);
 

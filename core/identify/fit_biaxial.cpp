@@ -16,9 +16,7 @@ constexpr std::array<const char*, 2> yarns_words{"warp", "weft"};
 std::array<double, 2> half_waves_of(const Fabric& fabric) {
   const Crossing& crossing = fabric.crossings[0];
   if (crossing.crimp) return crossing.crimp->half_wave;
-  const double sine = std::sin(crossing_angle(fabric, crossing));
-  return {1.0 / (fabric.families[crossing.second].density * sine),
-          1.0 / (fabric.families[crossing.first].density * sine)};
+  return crossing_spacing(fabric, crossing);
 }
 
 Place place_of(const BiaxialCurve& curve) {
@@ -153,9 +151,8 @@ std::optional<FoundZero> find_zero(const BiaxialSolved& plain) {
   }
   if (!best) return best;
   const BiaxialSolution& s = best->with.solution;
-  const double gain = std::max(0.0, plain.solution.squares - s.squares);
   best->chance = static_cast<double>(all.size()) *
-                 student_beyond(std::sqrt(gain / (s.squares / s.freedom)), s.freedom);
+                 chance_of_gain(plain.solution.squares, s.squares, s.freedom);
   best->change = change_between(plain, best->with);
   best->zero.amount = s.p[s.p.size() - 1];
   best->zero.limits = s.limits(s.p.size() - 1);

@@ -42,13 +42,6 @@ void narrow(CurveWords& words, const ShearSolution& s, const ShearSpecimen& spec
   if (s.form.kind == ShearFormKind::table) words.can_stretch = false;
 }
 
-void put_misfit(const ShearSolution& s, const LoadRows& rows, const ShearTest& test,
-                FitQuality& quality) {
-  const TorqueMisfit misfit = torque_misfit(s, rows, test);
-  quality.misfit = misfit.misfit;
-  quality.noise = misfit.noise;
-}
-
 /// The law of one specimen; reports errors and returns nothing as identify_shear does.
 std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const ShearTest& test,
                                            const Fabric& fabric, const FitOptions& options,
@@ -90,25 +83,16 @@ std::optional<SpecimenLaw> law_of_specimen(const ShearSpecimen& specimen, const 
   return law;
 }
 
-/// All rows, each specimen with the same weight.
-LoadRows all_rows(const std::vector<ShearSpecimen>& specimens, ShearFit& result) {
-  std::vector<double> y, shares;
-  std::size_t rows = 0;
-  for (const ShearSpecimen& specimen : specimens)
-    rows += specimen.angle.size();
+/// The rows of all specimens, told in the result.
+LoadRows put_rows(const std::vector<ShearSpecimen>& specimens, ShearFit& result) {
   for (std::size_t n = 0; n < specimens.size(); ++n) {
-    const ShearSpecimen& specimen = specimens[n];
-    const double mean = static_cast<double>(rows) / static_cast<double>(specimens.size());
-    for (std::size_t i = 0; i < specimen.angle.size(); ++i) {
-      const auto row = static_cast<Eigen::Index>(i);
-      result.extension.push_back(specimen.rows.x[row]);
-      result.angle.push_back(specimen.angle[i]);
-      result.measured.push_back(specimen.rows.y[row]);
-      result.specimen.push_back(n);
-      shares.push_back(std::sqrt(mean / static_cast<double>(specimen.angle.size())));
-    }
+    result.angle.insert(result.angle.end(), specimens[n].angle.begin(), specimens[n].angle.end());
+    result.specimen.insert(result.specimen.end(), specimens[n].angle.size(), n);
   }
-  return {vector_of(result.extension), vector_of(result.measured), vector_of(shares).array()};
+  LoadRows rows = rows_together(specimens);
+  result.extension.assign(rows.x.begin(), rows.x.end());
+  result.measured.assign(rows.y.begin(), rows.y.end());
+  return rows;
 }
 
 /// Limits of the numbers of one specimen's law, and of the law.
@@ -195,8 +179,7 @@ std::optional<LinearLaw> law_before_corrections(const Curve& curve, const ShearT
   if (!before || (zero && before->angle.front() > near_zero))
     return std::nullopt; // no row tells a static torque from a zero: the user says that it is this
   const double end = before->angle.back();
-  const LawChoice choice =
-      choose_shear({*before}, before->rows, end, test, fabric, options, words_of(options));
+  const LawChoice choice = choose_shear({*before}, end, test, fabric, options, words_of(options));
   if (choice.form == ShearForm{}) return std::nullopt;
   return solve_shear(choice.form, before->rows, end, test, fabric, choice.knots).law;
 }
@@ -213,8 +196,7 @@ bool put_law(const ShearSolution& all, const LoadRows& rows,
   result.fitted = fitted_loads(all, test, rows.x);
   result.quality = quality_of(result.angle, result.measured, result.fitted);
   for (const ShearSpecimen& specimen : specimens) {
-    FitQuality own;
-    put_misfit(all, specimen.rows, test, own);
+    const TorqueMisfit own = torque_misfit(all, specimen.rows, test);
     const double n = static_cast<double>(specimens.size());
     result.quality.misfit = std::hypot(result.quality.misfit, own.misfit / std::sqrt(n));
     result.quality.noise = std::hypot(result.quality.noise, own.noise / std::sqrt(n));
@@ -244,10 +226,9 @@ std::optional<ShearFit> identify_shear(const std::vector<Curve>& curves, const S
                                        law_before_corrections(curve, test, fabric, options)))
       specimens.push_back(std::move(*specimen));
   if (specimens.empty()) return std::nullopt;
-  const LoadRows rows = all_rows(specimens, result);
+  const LoadRows rows = put_rows(specimens, result);
   const double end = *std::max_element(result.angle.begin(), result.angle.end());
-  const LawChoice choice =
-      choose_shear(specimens, rows, end, test, fabric, options, words_of(options));
+  const LawChoice choice = choose_shear(specimens, end, test, fabric, options, words_of(options));
   result.form = choice.form;
   result.why = choice.why;
   for (const ShearSpecimen& specimen : specimens)

@@ -192,6 +192,21 @@ std::vector<double> unscaled(const Eigen::VectorXd& k, double scale) {
   return law;
 }
 
+LoadRows rows_together(const std::vector<ShearSpecimen>& specimens) {
+  std::vector<double> x, y, shares;
+  std::size_t rows = 0;
+  for (const ShearSpecimen& specimen : specimens)
+    rows += specimen.angle.size();
+  const double mean = static_cast<double>(rows) / static_cast<double>(specimens.size());
+  for (const ShearSpecimen& specimen : specimens) {
+    x.insert(x.end(), specimen.rows.x.begin(), specimen.rows.x.end());
+    y.insert(y.end(), specimen.rows.y.begin(), specimen.rows.y.end());
+    shares.insert(shares.end(), specimen.angle.size(),
+                  std::sqrt(mean / static_cast<double>(specimen.angle.size())));
+  }
+  return {vector_of(x), vector_of(y), vector_of(shares).array()};
+}
+
 std::optional<ShearSpecimen> shear_specimen(Curve curve, const ShearTest& test,
                                             const Fabric& fabric, const FitOptions& options,
                                             Diagnostics& diagnostics,

@@ -31,6 +31,9 @@ struct ShearSpecimen {
   Corrected corrected;
 };
 
+/// The rows of all specimens, each specimen with the same weight.
+LoadRows rows_together(const std::vector<ShearSpecimen>& specimens);
+
 /// Reports errors and returns nothing where identify_shear says so. law: that corrections which are
 /// looked for are to fit, in the place of a polynomial.
 std::optional<ShearSpecimen> shear_specimen(Curve curve, const ShearTest& test,

@@ -29,6 +29,11 @@ double fisher_beyond(double f, double above, double below) {
       boost::math::fisher_f_distribution<double>(std::max(above, 1.0), std::max(below, 1.0)), f));
 }
 
+double chance_of_gain(double squares, double less, double freedom) {
+  if (!(less > 0.0)) return squares > 0.0 ? 0.0 : 1.0;
+  return student_beyond(std::sqrt(std::max(0.0, squares - less) / (less / freedom)), freedom);
+}
+
 double minimum_of(const std::function<double(double)>& f, double least, double most) {
   constexpr int bits = 20;
   std::uintmax_t evaluations = 100;

@@ -16,6 +16,10 @@ double student_beyond(double t, double freedom);
 /// Probability that Fisher's F is at least this by chance.
 double fisher_beyond(double f, double above, double below);
 
+/// Chance that one number more makes the sum of squared residuals so much less by nothing but
+/// noise, by student_beyond. `freedom`: with that number.
+double chance_of_gain(double squares, double less, double freedom);
+
 /// Place of a minimum of f in [least, most], to 1e-6 of their distance.
 double minimum_of(const std::function<double(double)>& f, double least, double most);
 

@@ -66,10 +66,8 @@ std::vector<double> candidates_of(const std::vector<double>& strains) {
 /// Chance (t of one parameter more) of so much smaller squares. Sides whose shear differs leave
 /// residuals that go together over all rows, which count as independent here all the same.
 double chance_of(double plain, const FixedFit& better, Eigen::Index coefficients) {
-  if (!(better.squares > 0.0)) return plain > 0.0 ? 0.0 : 1.0;
   const double freedom = std::max(1.0, static_cast<double>(better.residuals.size() - coefficients));
-  const double gain = std::max(0.0, plain - better.squares);
-  return student_beyond(std::sqrt(gain / (better.squares / freedom)), freedom);
+  return chance_of_gain(plain, better.squares, freedom);
 }
 
 /// Narrows the break down to the rows beside it.

@@ -173,6 +173,12 @@ double crossing_angle(const Fabric& fabric, const Crossing& crossing) {
   return std::abs(fabric.families[crossing.second].angle - fabric.families[crossing.first].angle);
 }
 
+std::array<double, 2> crossing_spacing(const Fabric& fabric, const Crossing& crossing) {
+  const double sine = std::sin(crossing_angle(fabric, crossing));
+  return {1.0 / (fabric.families[crossing.second].density * sine),
+          1.0 / (fabric.families[crossing.first].density * sine)};
+}
+
 double cells_per_area(const Fabric& fabric, const Crossing& crossing) {
   return fabric.families[crossing.first].density * fabric.families[crossing.second].density *
          std::sin(crossing_angle(fabric, crossing));

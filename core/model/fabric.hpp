@@ -204,6 +204,10 @@ double cells_per_area(const Fabric& fabric, const Crossing& crossing);
 /// rad, between the two families of a crossing before forming, in (0, pi).
 double crossing_angle(const Fabric& fabric, const Crossing& crossing);
 
+/// mm, along the first and along the second family of a crossing: from one yarn of the other family
+/// to the next.
+std::array<double, 2> crossing_spacing(const Fabric& fabric, const Crossing& crossing);
+
 /// What lies along its axes, for messages: "warp", "along weft"; "fibre", "across"; of a foil "x",
 /// "along y".
 std::pair<std::string, std::string> axes_words(const Fabric& fabric);

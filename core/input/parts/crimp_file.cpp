@@ -107,10 +107,8 @@ void read_crimp(const TableView& section, const Fabric& fabric, Crossing& crossi
   if (!section.entry) return;
   const std::vector<double> ratio = numbers(section, ratio_key),
                             heights = numbers(section, height_key);
-  const double sine = std::sin(crossing_angle(fabric, crossing));
   CrimpReader reader{section, fabric, crossing, diagnostics, {}, {}};
-  reader.spacing = {1.0 / (fabric.families[crossing.second].density * sine),
-                    1.0 / (fabric.families[crossing.first].density * sine)};
+  reader.spacing = crossing_spacing(fabric, crossing);
   if (ratio.size() != 2 || !(reader.spacing[0] + reader.spacing[1] > 0.0)) return;
   reader.crimp = {ratio[0], ratio[1]};
   if (ratio[0] == 0.0 && ratio[1] == 0.0)

@@ -219,6 +219,20 @@ std::string balance_text(const std::string& what, const GroupDifference& d,
                                  : "no difference beyond scatter");
 }
 
+/// The texts of two families as one; `balance`: how they compare, or empty.
+Identified of_both(const std::string& title, const Identified& warp, const Identified& weft,
+                   const std::string& balance) {
+  Identified result;
+  result.title = title;
+  result.laws = {warp.laws.front(), weft.laws.front()};
+  result.law_line = "warp: " + warp.law_line + "\n  weft: " + weft.law_line;
+  if (!balance.empty()) result.figures.push_back(balance);
+  put_side("warp", warp, result);
+  put_side("weft", weft, result);
+  result.fit = warp.fit + "# weft\n" + weft.fit.substr(weft.fit.find('\n') + 1);
+  return result;
+}
+
 std::optional<Identified> tension_groups(const IdentifyArguments& a,
                                          const std::vector<Curve>& curves,
                                          const std::vector<Curve>& others,
@@ -231,11 +245,6 @@ std::optional<Identified> tension_groups(const IdentifyArguments& a,
   const auto weft = identify_tension(others, {of_weft.yarns, a.gauge_length}, options, diagnostics);
   if (!warp || !weft) return std::nullopt;
   const Identified first = tension_text(*warp, a), second = tension_text(*weft, of_weft);
-  Identified result;
-  result.title = "tension laws of warp and weft";
-  result.provides = {"warp", "weft"};
-  result.laws = {first.laws.front(), second.laws.front()};
-  result.law_line = "warp: " + first.law_line + "\n  weft: " + second.law_line;
   // Tensions of each specimen by a law of its own, at tenths of the strain that both reach.
   const double end = std::min(warp->quality.to, weft->quality.to);
   std::vector<double> strains;
@@ -255,13 +264,12 @@ std::optional<Identified> tension_groups(const IdentifyArguments& a,
   const LawDifference d = difference_of(strains, tensions(*warp, curves, a.yarns),
                                         tensions(*weft, others, of_weft.yarns),
                                         {warp->confidence.law, weft->confidence.law});
-  if (!d.at.empty())
-    result.figures.push_back(
-        balance_text("tension per yarn", d.at[d.clearest],
-                     fmt::format(" at a strain of {:.3g}", d.places[d.clearest])));
-  put_side("warp", first, result);
-  put_side("weft", second, result);
-  result.fit = first.fit + "# weft\n" + second.fit.substr(second.fit.find('\n') + 1);
+  const std::string balance =
+      d.at.empty() ? std::string()
+                   : balance_text("tension per yarn", d.at[d.clearest],
+                                  fmt::format(" at a strain of {:.3g}", d.places[d.clearest]));
+  Identified result = of_both("tension laws of warp and weft", first, second, balance);
+  result.provides = {"warp", "weft"};
   return result;
 }
 
@@ -276,19 +284,12 @@ std::optional<Identified> bending_groups(const IdentifyArguments& a, const Fabri
   const auto weft = identify_cantilever(others, reading_of(a), fabric, options, diagnostics);
   if (!warp || !weft) return std::nullopt;
   const Identified first = bending_text(*warp, a), second = bending_text(*weft, of_weft);
-  Identified result;
-  result.title = "bending stiffnesses of warp and weft";
-  result.laws = {first.laws.front(), second.laws.front()};
-  result.law_line = "warp: " + first.law_line + "\n  weft: " + second.law_line;
-  result.figures.push_back(
+  return of_both(
+      "bending stiffnesses of warp and weft", first, second,
       balance_text("bending stiffness",
                    difference_of(warp->of_specimen, weft->of_specimen,
                                  {warp->limits / warp->stiffness, weft->limits / weft->stiffness}),
                    ""));
-  put_side("warp", first, result);
-  put_side("weft", second, result);
-  result.fit = first.fit + "# weft\n" + second.fit.substr(second.fit.find('\n') + 1);
-  return result;
 }
 
 } // namespace
