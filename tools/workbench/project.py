@@ -1,0 +1,95 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The folder that a workbench works in. Whatever the page asks for lies in it, links followed."""
+
+import os
+import re
+import stat
+from dataclasses import dataclass
+from pathlib import Path
+
+from base.ending import Trouble, one_line
+from plotting.whole_file import make_whole
+
+OWN = ".plyform"  # folder of the workbench: its lock, records of runs and jobs, logs
+NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.\-]{0,79}")  # of a case, a run, a file that is dropped in
+
+
+class Refused(Trouble):
+    """What a page may not do; `code` is that of HTTP."""
+
+    def __init__(self, words: str, code: int = 403):
+        super().__init__(words)
+        self.code = code
+
+
+@dataclass(frozen=True)
+class Project:
+    root: Path  # absolute, without links
+
+    @staticmethod
+    def opened(folder: Path) -> "Project":
+        """Raises Trouble."""
+        try:
+            folder.mkdir(parents=True, exist_ok=True)
+            root = folder.resolve(strict=True)
+            (root / OWN).mkdir(exist_ok=True)
+        except OSError as problem:
+            raise Trouble(f"{folder} cannot be used: {problem.strerror}; give a folder that can be "
+                          "written to") from problem
+        if (root / OWN).is_symlink():
+            raise Trouble(f"{root / OWN} is a link: remove it")
+        return Project(root)
+
+    @property
+    def own(self) -> Path:
+        return self.root / OWN
+
+    def inside(self, name: str) -> Path:
+        """The path of a name as a page gives it: relative to the folder, and in it when all links
+        are followed. It need not exist. Raises Refused."""
+        if not name or "\0" in name or "\\" in name or name.startswith("/"):
+            raise Refused(f"{one_line(name, 200)!r} is no name of a file in this folder")
+        if ".." in name.split("/"):
+            raise Refused(f"{one_line(name, 200)} leads out of the folder")
+        try:
+            path = Path(os.path.realpath(self.root / name))
+        except (OSError, ValueError) as problem:
+            raise Refused(f"{one_line(name, 200)} is no name of a file") from problem
+        if not path.is_relative_to(self.root):
+            raise Refused(f"{one_line(name, 200)} is a link out of the folder")
+        if path.is_relative_to(self.own):
+            raise Refused(f"{one_line(name, 200)} is the workbench's own")
+        return path
+
+    def existing(self, name: str) -> Path:
+        """A regular file, or a folder. Raises Refused."""
+        path = self.inside(name)
+        try:
+            mode = path.stat().st_mode
+        except OSError as problem:
+            raise Refused(f"{one_line(name, 200)} is missing", 404) from problem
+        if not stat.S_ISREG(mode) and not stat.S_ISDIR(mode):
+            raise Refused(f"{one_line(name, 200)} is no file")
+        return path
+
+    def relative(self, path: Path) -> str:
+        """As the page names it: with / whatever the system, bytes that are no text written out."""
+        return one_line(path.relative_to(self.root).as_posix())
+
+    def write(self, path: Path, content: bytes) -> None:
+        """Whole or not at all, and never through a link. Raises Refused, OSError."""
+        if not Path(os.path.realpath(path.parent)).is_relative_to(self.root) or path.is_symlink():
+            raise Refused(f"{one_line(path)} leads out of the folder")
+
+        def whole(part: Path) -> None:
+            opened = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
+            with open(opened, "wb") as file:
+                file.write(content)
+        make_whole(path, whole)
+
+
+def plain_name(name: str) -> str:
+    """A name that is safe in a path, a command and a page. Raises Refused."""
+    if not NAME.fullmatch(name):
+        raise Refused(f"{one_line(name, 100)!r}: take letters, digits, _, - and . for a name, 80 at most", 422)
+    return name
