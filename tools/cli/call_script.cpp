@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Calls of the Python programs tools/study, report, map, pattern and export.
+// Calls of the Python programs tools/study, studio, report, map, pattern and export.
 #include "tools/cli/commands.hpp"
 
 #include <cerrno>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The command line: plyform run | check | chart | report | map | pattern | export | difference |
-// identify | theory | keys | version.
+// The command line: plyform run | check | chart | studio | report | map | pattern | export |
+// difference | identify | theory | keys | version.
 #include "base/text.hpp"
 #include "base/version.hpp"
 #include "tools/cli/commands.hpp"
@@ -103,6 +103,8 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
              "write the formed lay-up for the next program, on a part mesh or the plies' own");
   add_script(app, commands, "pattern", "pattern",
              "say where plies must be cut so that the formed part ends at its trim line", true);
+  add_script(app, commands, "studio", "studio",
+             "serve the workbench on a folder, for a browser of this machine", true);
 
   CLI::App* results = app.add_subcommand("export", "write states in other formats");
   results->add_option("results", to.results.results, "folder of a run")->required();
