@@ -198,8 +198,12 @@ class Bench:
             read_a_part(path, self.ply)
 
 
+class TooLong(BaseException):
+    """No reader may take it for a fault of a file."""
+
+
 def too_long(*_):
-    raise TimeoutError(f"longer than {MOST_S} s")
+    raise TooLong(f"longer than {MOST_S} s")
 
 
 def outcome(bench: Bench, kind: str, seed: int) -> str:
@@ -212,7 +216,7 @@ def outcome(bench: Bench, kind: str, seed: int) -> str:
         return "result"
     except (Trouble, NotReached) as problem:
         return "refused" if "\n" not in str(problem) else f"two lines: {problem}"
-    except Exception:
+    except (Exception, TooLong):
         return traceback.format_exc()
     finally:
         signal.alarm(0)

@@ -29,7 +29,15 @@ def checked_size(path: Path, status: os.stat_result, most: int) -> None:
 
 
 def check_file(path: Path, most: int = BINARY) -> Path:
-    """For libraries that open it themselves. Raises Trouble."""
+    """For libraries that open it themselves, and wait for what some files of the system that seem
+    empty will say. Raises Trouble."""
+    if size_of(path, most) == 0:
+        raise Trouble(f"{path} is empty")
+    return path
+
+
+def size_of(path: Path, most: int) -> int:
+    """Raises Trouble unless it is a file of `most` bytes at most."""
     try:
         status = os.stat(path)
     except FileNotFoundError:
@@ -38,7 +46,7 @@ def check_file(path: Path, most: int = BINARY) -> Path:
         raise Trouble(f"{path} cannot be read: {getattr(problem, 'strerror', None) or problem}") \
             from problem
     checked_size(path, status, most)
-    return path
+    return status.st_size
 
 
 def is_file(path: Path) -> bool:
@@ -51,7 +59,7 @@ def is_file(path: Path) -> bool:
 
 def read_bytes(path: Path, most: int = TEXT) -> bytes:
     """Raises Trouble."""
-    check_file(path, most)
+    size_of(path, most)
     try:
         opened = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
         with open(opened, "rb") as file:

@@ -25,10 +25,10 @@ FAR_OFF = 30.0  # times larger or smaller than the plies: another unit of length
 
 def read_part(path: Path) -> ShellMesh:
     """Shells of a part mesh. Raises Trouble."""
-    check_file(path, TABLE)
     ending = path.suffix.lower()
     if ending not in READERS and ending != ".vtu":
         raise Trouble(f"{path}: a part mesh ends in {', '.join([*READERS, '.vtu'])}")
+    check_file(path, TABLE)
     mesh = read_vtu(path) if ending == ".vtu" else READERS[ending](path)
     expect_areas(mesh)
     return mesh
