@@ -9,6 +9,8 @@ import traceback
 from collections.abc import Callable
 from pathlib import Path
 
+from base.progress import end_all
+
 EXIT_OTHER, EXIT_WRONG, EXIT_INTERRUPTED = 1, 2, 130
 TOOLS = Path(__file__).resolve().parents[1]
 LONGEST = 2000  # characters of a message: more is not read on a screen
@@ -93,12 +95,14 @@ def ended(command: str, act: Callable[[], int | None], wrong: int = EXIT_WRONG) 
         sys.stderr = open(os.devnull, "w", encoding="utf-8")
     try:
         code = act()
+        end_all()
         if sys.stdout is not None:
             sys.stdout.flush()
     except BrokenPipeError:  # who reads has left
         give_up_output()
         sys.exit(EXIT_OTHER)
     except (Exception, KeyboardInterrupt) as problem:
+        end_all()
         if not isinstance(problem, KeyboardInterrupt):
             tell(command, problem)
         try:

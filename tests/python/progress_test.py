@@ -1,0 +1,88 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""tools/base/progress.py: on a pseudo-terminal one line that is drawn over itself and wiped, elsewhere
+whole lines, and nothing of what takes no second.
+
+    progress_test.py TOOLS
+"""
+
+import os
+import pty
+import subprocess
+import sys
+import time
+
+WORK = """
+import sys, time
+sys.path.insert(0, {tools!r})
+import base.progress as p
+from base.ending import Trouble, ended
+p.LINES_S = 1.2
+def act():
+    progress = p.Progress("maps")
+    end = time.monotonic() + {seconds}
+    progress.show({fraction}, "ply 1 of 2\\n" + 60 * "long ")
+    while time.monotonic() < end:
+        time.sleep(0.05)
+    {last}
+ended("work", act)
+print("ready")
+"""
+
+
+def command(tools: str, seconds: float, fraction: str = "0.25", last: str = "progress.end()"):
+    return [sys.executable, "-c", WORK.format(tools=tools, seconds=seconds, fraction=fraction,
+                                              last=last)]
+
+
+def on_terminal(words: list[str]) -> str:
+    """All that a program writes to a terminal of 80 columns."""
+    ours, theirs = pty.openpty()
+    os.set_blocking(ours, True)
+    process = subprocess.Popen(words, stdout=theirs, stderr=theirs, stdin=theirs)
+    os.close(theirs)
+    text = b""
+    try:
+        while piece := os.read(ours, 4096):
+            text += piece
+    except OSError:  # the other end is closed
+        pass
+    process.wait()
+    return text.decode()
+
+
+def piped(words: list[str]) -> tuple[str, str]:
+    done = subprocess.run(words, capture_output=True, text=True)
+    return done.stdout, done.stderr
+
+
+def main() -> None:
+    tools = sys.argv[1]
+    text = on_terminal(command(tools, 1.9))
+    drawn = text.split("\r")
+    assert len(drawn) > 3 and drawn[1].startswith("maps: ply 1 of 2?long"), text
+    assert all(len(line.removesuffix("\033[K")) < 80 for line in drawn), text
+    assert text.endswith("\033[K\r\033[Kready\r\n"), text
+    assert "\n" not in text[:-10], text
+    # an error is told on a line of its own
+    text = on_terminal(command(tools, 1.3, last='raise Trouble("x")'))
+    assert "\033[K\r\033[Kwork: error: x\r\n" in text, text
+    out, error = piped(command(tools, 2.8, "None"))
+    lines = error.splitlines()
+    assert len(lines) == 2 and error.endswith("\n") and "\r" not in error and "\033" not in error, error
+    assert all(line.startswith("maps: ply 1 of 2") and line.endswith(" s") for line in lines), error
+    assert out == "ready\n"
+    _, error = piped(command(tools, 1.5, "0.5"))
+    assert error.endswith("50 %, about 1 s left\n"), error
+    for fraction in ("None", "1.0"):  # under a second: nothing
+        assert on_terminal(command(tools, 0.4, fraction)) == "ready\r\n"
+        assert piped(command(tools, 0.4, fraction))[1] == ""
+    begin = time.monotonic()  # nobody to write to: no error
+    process = subprocess.run([*command(tools, 1.5), ], stdout=subprocess.PIPE,
+                             preexec_fn=lambda: os.close(2))
+    assert process.returncode == 0 and process.stdout == b"ready\n"
+    assert time.monotonic() - begin > 1.5
+
+
+if __name__ == "__main__":
+    main()
