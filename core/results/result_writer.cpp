@@ -220,7 +220,10 @@ void write_ply_tables(const fs::path& folder, const std::vector<PlyFrame>& plies
 
 struct ResultWriter::Impl {
   explicit Impl(const fs::path& folder)
-      : directory(make_folder(folder)), lock(directory), states(directory) {}
+      : directory(make_folder(folder)), lock(directory), states(directory) {
+    std::error_code ignored; // of a run that was killed: nobody else writes here now
+    fs::remove(directory / progress_file_name, ignored);
+  }
 
   fs::path directory;
   FolderLock lock;
@@ -238,6 +241,10 @@ ResultWriter::~ResultWriter() = default;
 
 void ResultWriter::keep_sizes(std::vector<PlySizes> sizes) {
   impl_->sizes = std::move(sizes);
+}
+
+std::size_t ResultWriter::states() const {
+  return impl_->states.frames();
 }
 
 void ResultWriter::write_frame(const Frame& frame) {

@@ -17,6 +17,9 @@
 
 namespace plyform {
 
+/// In the folder of results while plyform run works (core/run/progress_file.hpp).
+constexpr const char* progress_file_name = "progress.json";
+
 /// Where a run goes on.
 struct Resume {
   std::string state; ///< of the solver, as saved
@@ -36,6 +39,9 @@ public:
 
   /// Element sizes that the meshes were made by: a file beside the first frame, if there are any.
   void keep_sizes(std::vector<PlySizes> sizes);
+
+  /// Number of frames that the results have so far.
+  std::size_t states() const;
 
   /// One row of history.csv and one time of results.h5/.xdmf. The first one removes the results of
   /// a former run. Throws std::runtime_error naming the path and the reason (a full disk, names

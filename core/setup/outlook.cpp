@@ -194,10 +194,12 @@ std::string memory_text(const Scene& s) {
 }
 
 /// Measures the wall time of a step, s, over a few steps. Returns a Stop if the simulation fails.
-std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, double& seconds) {
+std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, const OutlookProgress& progress,
+                                double& seconds) {
   constexpr int steps = 40;
   const auto begin = std::chrono::steady_clock::now();
   for (int i = 0; i < steps; ++i) {
+    if (progress) progress("times some steps", 0.5 + 0.5 * i / steps);
     if (auto stop = compute_forces(s, pool)) return stop;
     move_plies(s, pool);
   }
@@ -207,11 +209,17 @@ std::optional<Stop> time_a_step(Scene& s, ThreadPool& pool, double& seconds) {
 
 } // namespace
 
-Outlook look_ahead(const PreparedCase& prepared, int threads) {
+Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgress& progress) {
+  const auto tell = [&](const char* words, double fraction) {
+    if (progress) progress(words, fraction);
+  };
   const Case& data = *prepared.value;
   ThreadPool pool(threads);
+  tell("makes the scene", 0.0);
   Scene s = make_scene(data, prepared.meshes);
+  tell("looks for contact", 0.1);
   start(s, pool);
+  tell("looks at plies", 0.2);
   Outlook outlook;
   Lines& lines = outlook.lines;
   lines.push_back(data.title);
@@ -221,7 +229,9 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   describe_locking(s, lines);
   describe_limp(s, lines);
   describe_wrinkles(s, lines);
+  tell("looks at tools", 0.3);
   describe_tools(s, prepared.meshes, lines);
+  tell("looks at boundaries and steps", 0.45);
   for (std::string& line : boundaries_ahead(s))
     lines.push_back(std::move(line));
   each_kind([&]<class K>() { K::describe(s, lines); });
@@ -243,7 +253,7 @@ Outlook look_ahead(const PreparedCase& prepared, int threads) {
   say(lines, "fibre stiffness divided by {:g}, {:g} s simulated: about {:.0f} steps",
       data.solver.fibre_softening, data.solver.duration, outlook.steps);
   double seconds = 0.0;
-  if (const auto stop = time_a_step(s, pool, seconds)) {
+  if (const auto stop = time_a_step(s, pool, progress, seconds)) {
     outlook.stop = stop->message;
     return outlook;
   }

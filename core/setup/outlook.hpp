@@ -4,6 +4,7 @@
 
 #include "core/setup/prepare_case.hpp"
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,10 @@ struct Outlook {
   std::string stop;                     ///< why the first steps went wrong; else empty
 };
 
+/// What is looked at now, and the fraction of all that is done; some ten times in the whole.
+using OutlookProgress = std::function<void(const std::string& words, double fraction)>;
+
 /// Makes the scene of a case without mistakes and times some steps of it.
-Outlook look_ahead(const PreparedCase& prepared, int threads);
+Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgress& progress = {});
 
 } // namespace plyform

@@ -116,10 +116,10 @@ Case finer(const Case& fast, const std::vector<SizeGrid>& wanted) {
 } // namespace
 
 Scouted scout(const Case& data, double shear_error, int threads, const ScoutHooks& hooks) {
-  if (hooks.begins) hooks.begins();
   const Case fast = scout_case(data);
   Scouted scouted;
   for (int runs = 1; runs <= most_runs; ++runs) {
+    if (hooks.begins) hooks.begins(runs);
     Look look = run_once(runs == 1 ? fast : finer(fast, scouted.sizes), data, threads, hooks);
     add_cost(look.result, scouted);
     if (look.result.summary.status != "done" && look.result.summary.status != "doubtful") {

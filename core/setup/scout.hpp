@@ -13,7 +13,7 @@
 namespace plyform {
 
 struct ScoutHooks {
-  std::function<void()> begins = {};
+  std::function<void(int run)> begins = {};           ///< before each of its runs, from 1
   std::function<void(const Progress&)> progress = {}; ///< as in RunHooks
   const std::atomic<bool>* interrupt = nullptr;       ///< as in RunHooks
 };

@@ -42,11 +42,34 @@ struct SiblingRun {
   long first_step = 0;
 };
 
+/// Where each sibling begins in the work of all, from 0 to 1, and the end. Steps are in proportion
+/// to the size of elements and to the root of the softening.
+std::vector<double> begins_of(const std::vector<Sibling>& runs) {
+  std::vector<double> begins{0.0};
+  for (const Sibling& sibling : runs) {
+    double triangles = 0.0;
+    for (const BlankMesh& mesh : sibling.meshes)
+      triangles += static_cast<double>(mesh.triangles.size());
+    const SolverOptions& solver = sibling.data.solver;
+    begins.push_back(begins.back() + std::max(triangles, 1.0) * std::sqrt(triangles) *
+                                         solver.duration * (1.0 - sibling.from) /
+                                         std::sqrt(solver.fibre_softening));
+  }
+  const double all = std::max(begins.back(), 1e-300);
+  for (double& begin : begins)
+    begin /= all;
+  return begins;
+}
+
 SiblingRun run_sibling(const Sibling& sibling, const RunResult& run, const Trace& trace,
-                       int threads, const VerifyHooks& hooks) {
+                       int threads, const VerifyHooks& hooks, double begin, double end) {
   SiblingRun done;
   RunHooks run_hooks;
-  run_hooks.progress = hooks.progress;
+  if (hooks.progress)
+    run_hooks.progress = [&](const Progress& p) {
+      const double own = std::max(p.fraction - sibling.from, 0.0) / (1.0 - sibling.from);
+      hooks.progress(p, begin + (end - begin) * own);
+    };
   run_hooks.interrupt = hooks.interrupt;
   if (sibling.cause != Cause::mesh && sibling.cause != Cause::softening)
     watch(run_hooks, done.trace, false);
@@ -128,6 +151,7 @@ std::optional<Verification> verify(const Case& data, const RunResult& run, const
   const Siblings made = siblings_of(data, meshes);
   Verification result;
   result.left_out = made.left_out;
+  const std::vector<double> begins = begins_of(made.runs);
   Done done;
   const double own_work = std::max(work_of(run, 0), 1.0);
   Ends ends;
@@ -135,7 +159,7 @@ std::optional<Verification> verify(const Case& data, const RunResult& run, const
     const Sibling& sibling = made.runs[i];
     if (!may_run(sibling, trace, done)) continue;
     if (hooks.begins) hooks.begins(sibling.name, i + 1, made.runs.size());
-    SiblingRun end = run_sibling(sibling, run, trace, threads, hooks);
+    SiblingRun end = run_sibling(sibling, run, trace, threads, hooks, begins[i], begins[i + 1]);
     if (hooks.interrupt && hooks.interrupt->load()) return std::nullopt;
     done.seconds += end.result.summary.wall_time_s;
     done.work += work_of(end.result, end.first_step) / own_work;

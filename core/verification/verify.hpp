@@ -16,7 +16,8 @@ namespace plyform {
 
 struct VerifyHooks {
   std::function<void(const std::string& sibling, std::size_t number, std::size_t of)> begins;
-  std::function<void(const Progress&)> progress;
+  /// Of the sibling; fraction: of all their work.
+  std::function<void(const Progress&, double fraction)> progress;
   const std::atomic<bool>* interrupt = nullptr; ///< set it to end early
 };
 

@@ -80,6 +80,7 @@ each() {
     count=$((count + 1))
     # A call may fail that nothing depends on.
     if [ "$code" = 0 ]; then
+      ! grep -q 'unlink progress.json FAILED' failed || rm -f again/progress.json
       same again
       [ "$failures" = "$failed_before" ] || echo "  after $what: no error"
       continue

@@ -12,7 +12,7 @@ int check_command(const CaseArguments& arguments) {
   PreparedCase prepared = load_case(arguments);
   if (!prepared.value) return exit_case_wrong;
   load_meshes(arguments, prepared, available_cores());
-  const Outlook outlook = look_ahead(prepared, available_cores());
+  const Outlook outlook = watched_outlook(prepared, available_cores());
   for (const std::string& line : outlook.lines)
     fmt::print("{}\n", line);
   if (!outlook.stop.empty()) {

@@ -16,6 +16,9 @@ class App;
 
 namespace plyform {
 
+class ProgressFile;
+struct Outlook;
+
 enum ExitCode { exit_done = 0, exit_other = 1, exit_case_wrong = 2, exit_stopped = 3 };
 
 /// Command-line arguments that specify a case.
@@ -99,9 +102,12 @@ struct TheoryArguments {
 PreparedCase load_case(const CaseArguments& arguments);
 
 /// mesh_from_scene; shows the progress of its scout, and prints errors to standard error, after
-/// which the case has no value. known: as there.
+/// which the case has no value. known: as there. file: of a run, kept too.
 SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, int threads,
-                      const std::filesystem::path& known = {});
+                      const std::filesystem::path& known = {}, ProgressFile* file = nullptr);
+
+/// look_ahead; shows its progress.
+Outlook watched_outlook(const PreparedCase& prepared, int threads);
 
 int run_command(const RunArguments& arguments);
 int check_command(const CaseArguments& arguments);

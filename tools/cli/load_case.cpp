@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/accuracy/error_model.hpp"
+#include "core/run/progress_file.hpp"
+#include "core/setup/outlook.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "tools/cli/commands.hpp"
 #include "tools/cli/ending_signals.hpp"
@@ -36,14 +38,21 @@ PreparedCase load_case(const CaseArguments& arguments) {
 }
 
 SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, int threads,
-                      const std::filesystem::path& known) {
+                      const std::filesystem::path& known, ProgressFile* file) {
   ProgressLine line;
   ScoutHooks hooks;
-  hooks.begins = [] {
-    fmt::print("looking where small elements are needed: a fast run with coarse ones\n");
+  hooks.begins = [&](int run) {
+    line.end();
+    std::string words = "looking where small elements are needed: a fast run with coarse ones";
+    if (run == 1) fmt::print("{}\n", words);
     std::fflush(stdout);
+    if (run > 1) words += fmt::format("; run {}, with smaller ones", run);
+    if (file) file->begin(RunPhase::meshing, words);
   };
-  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.progress = [&](const Progress& p) {
+    line.show(p, "looking where small elements are needed");
+    if (file) file->show(p, p.fraction, 0);
+  };
   hooks.interrupt = &interrupted();
   SceneMesh found = mesh_from_scene(prepared, threads, hooks, known);
   line.end();
@@ -55,6 +64,12 @@ SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, in
   if (!found.warning.empty())
     fmt::print(stderr, "{}: warning: {}\n", arguments.file, found.warning);
   return found;
+}
+
+Outlook watched_outlook(const PreparedCase& prepared, int threads) {
+  ProgressLine line;
+  return look_ahead(prepared, threads,
+                    [&](const std::string& words, double fraction) { line.show(words, fraction); });
 }
 
 } // namespace plyform

@@ -1,45 +1,42 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Progress of a run on standard error.
+// What long work does and how far it is, on standard error. tools/base/progress.py is the same for
+// Python programs.
 #pragma once
 
 #include "core/run/run.hpp"
 
 #include <chrono>
-#include <fmt/format.h>
+#include <optional>
 #include <string>
-#include <unistd.h>
+#include <string_view>
 
 namespace plyform {
 
-/// Progress display: on a terminal one line that is overwritten, elsewhere a new line every few
-/// seconds.
+/// On a terminal one line that is drawn over itself and wiped at the end, elsewhere a whole line
+/// every five seconds. Nothing of work under a second.
 class ProgressLine {
 public:
-  void show(const Progress& p) {
-    const auto now = std::chrono::steady_clock::now();
-    const double since = std::chrono::duration<double>(now - last_).count();
-    if (since < (terminal_ ? 0.2 : 5.0)) return;
-    last_ = now;
-    draw(fmt::format(
-        "{}{:3.0f} %  stroke {:7.2f} mm  step {:8}  {:4.0f} s left  kinetic/shear {:.3f}  "
-        "balance {:+.2e}{}",
-        terminal_ ? "\r" : "", 100.0 * p.fraction, p.stroke_mm, p.step, p.remaining_s,
-        p.kinetic_over_shear, p.balance_error, terminal_ ? "\033[K" : "\n"));
-    drawn_ = terminal_;
-  }
-  void end() {
-    if (drawn_) draw("\n");
-  }
+  ProgressLine();
+  ~ProgressLine() { end(); }
+  ProgressLine(const ProgressLine&) = delete;
+  ProgressLine& operator=(const ProgressLine&) = delete;
+
+  /// fraction: of the work done, 0 to 1, if it is known.
+  void show(std::string_view words, std::optional<double> fraction = std::nullopt);
+
+  /// Of a run; words: what the run is for, if not for its results.
+  void show(const Progress& progress, std::string_view words = {});
+
+  /// Wipes the line. What is shown later is other work.
+  void end();
 
 private:
-  /// Past the stream stderr, which keeps such bytes from terminals. What is not taken is dropped.
-  static void draw(const std::string& text) {
-    [[maybe_unused]] const ssize_t written = write(STDERR_FILENO, text.data(), text.size());
-  }
+  using Clock = std::chrono::steady_clock;
+  bool is_due();
+  void draw(std::string text);
 
-  bool terminal_ = isatty(STDERR_FILENO) != 0;
-  bool drawn_ = false;
-  std::chrono::steady_clock::time_point last_{};
+  bool terminal_, drawn_ = false;
+  Clock::time_point begin_ = Clock::now(), next_;
 };
 
 } // namespace plyform

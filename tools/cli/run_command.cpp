@@ -4,6 +4,7 @@
 #include "base/version.hpp"
 #include "core/accuracy/error_model.hpp"
 #include "core/input/keys/schema.hpp"
+#include "core/run/progress_file.hpp"
 #include "core/setup/outlook.hpp"
 #include "core/setup/run_prepared.hpp"
 #include "tools/cli/commands.hpp"
@@ -206,7 +207,7 @@ void leave_summary(ResultWriter& writer, const PreparedCase& prepared, const Fra
 bool within_budget(const PreparedCase& prepared, const RunArguments& arguments, int threads,
                    bool from_scene) {
   if (arguments.budget == 0.0 && !from_scene) return true;
-  const Outlook ahead = look_ahead(prepared, threads);
+  const Outlook ahead = watched_outlook(prepared, threads);
   if (from_scene) fmt::print("about {:.0f} steps, {:.2g} s\n", ahead.steps, ahead.seconds);
   std::fflush(stdout);
   if (arguments.budget == 0.0 || ahead.seconds <= arguments.budget) return true;
@@ -223,15 +224,19 @@ bool within_budget(const PreparedCase& prepared, const RunArguments& arguments, 
 
 /// Runs the case and writes its results; `trace`, unless null, gets what `verify` asks of the run.
 RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter& writer,
-                        const std::optional<Resume>& resume, Trace* trace) {
+                        const std::optional<Resume>& resume, Trace* trace, ProgressFile& file) {
   ProgressLine line;
+  file.begin(RunPhase::forming, "forms the plies");
   Frame reached = resume ? resume->last : Frame{};
   RunHooks hooks;
   hooks.frame = [&](const Frame& frame) {
     writer.write_frame(frame);
     reached = frame;
   };
-  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.progress = [&](const Progress& p) {
+    line.show(p);
+    file.show(p, p.fraction, writer.states());
+  };
   hooks.interrupt = &interrupted();
   hooks.checkpoint = {
       [&](const std::string& state) { writer.write_checkpoint(prepared.identity, state); },
@@ -260,11 +265,13 @@ int run_command(const RunArguments& arguments) {
   const int threads = arguments.threads > 0 ? arguments.threads : available_cores();
   const std::filesystem::path folder = output_folder(arguments);
   ResultWriter writer(folder);
+  std::optional<ProgressFile> file(std::in_place, folder, arguments.input.file);
+  file->begin(RunPhase::checking, "looks at the case");
   catch_ending_signals();
   const bool goes_on = arguments.resume && std::filesystem::exists(folder / "checkpoint") &&
                        std::filesystem::exists(folder / size_file_name);
   std::vector<PlySizes> sizes =
-      load_meshes(arguments.input, prepared, threads, goes_on ? folder : "").sizes;
+      load_meshes(arguments.input, prepared, threads, goes_on ? folder : "", &*file).sizes;
   if (!within_budget(prepared, arguments, threads, !sizes.empty())) return exit_case_wrong;
   writer.keep_sizes(std::move(sizes));
   std::optional<Resume> resume;
@@ -273,11 +280,12 @@ int run_command(const RunArguments& arguments) {
     if (!resume && ended_before(folder)) return exit_done;
   }
   const bool verified = arguments.verify || prepared.value->accuracy.verify;
-  VerifyOptions options{folder, threads, arguments.input.yes_large, &interrupted()};
+  VerifyOptions options{folder, threads, arguments.input.yes_large, &interrupted(), &*file};
   RunResult result =
-      run_and_write(prepared, threads, writer, resume, verified ? &options.trace : nullptr);
+      run_and_write(prepared, threads, writer, resume, verified ? &options.trace : nullptr, *file);
   if (verified && ended(result.summary.status))
     verify_and_correct(prepared, options, writer, result);
+  file.reset();
   print_outcome(result, folder);
   const int code = tell_end(result.summary, folder);
   if (arguments.report && !report_of_run(folder.string()) && code == exit_done) return exit_other;

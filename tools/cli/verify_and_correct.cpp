@@ -74,7 +74,12 @@ void run_again(const PreparedCase& prepared, const VerifyOptions& options,
   ProgressLine line;
   RunHooks hooks;
   hooks.frame = [&](const Frame& frame) { writer.write_frame(frame); };
-  hooks.progress = [&](const Progress& p) { line.show(p); };
+  options.file->begin(RunPhase::correcting,
+                      "the accuracy asked for was missed: runs again with finer parameters");
+  hooks.progress = [&](const Progress& p) {
+    line.show(p, "runs again");
+    options.file->show(p, p.fraction, writer.states());
+  };
   hooks.interrupt = options.interrupt;
   const PreparedCase finer{.value = corrected.data,
                            .meshes = {}, // as the corrected case asks for
@@ -112,12 +117,18 @@ void verify_and_correct(const PreparedCase& prepared, const VerifyOptions& optio
                         ResultWriter& writer, RunResult& result) {
   const Case& data = *prepared.value;
   ProgressLine line;
+  std::string words;
   VerifyHooks hooks;
   hooks.begins = [&](const std::string& sibling, std::size_t number, std::size_t of) {
     line.end();
-    fmt::print(stderr, "verifies, {} of {}: a {}\n", number, of, sibling);
+    words = fmt::format("verifies, {} of {}: a {}", number, of, sibling);
+    fmt::print(stderr, "{}\n", words);
+    options.file->begin(RunPhase::verifying, words);
   };
-  hooks.progress = [&](const Progress& p) { line.show(p); };
+  hooks.progress = [&](const Progress& p, double fraction) {
+    line.show(p, words.substr(0, words.find(':')));
+    options.file->show(p, fraction, writer.states());
+  };
   hooks.interrupt = options.interrupt;
   const std::optional<Verification> verification =
       verify(data, result, options.trace, options.threads, hooks, prepared.meshes);

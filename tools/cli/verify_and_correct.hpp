@@ -4,6 +4,7 @@
 #pragma once
 
 #include "core/results/result_writer.hpp"
+#include "core/run/progress_file.hpp"
 #include "core/run/run.hpp"
 #include "core/setup/prepare_case.hpp"
 #include "core/verification/trace.hpp"
@@ -18,7 +19,8 @@ struct VerifyOptions {
   int threads = 1;
   bool any_size = false; ///< of the second run
   const std::atomic<bool>* interrupt = nullptr;
-  Trace trace{}; ///< of the run, with states
+  ProgressFile* file = nullptr; ///< of the run; never null
+  Trace trace{};                ///< of the run, with states
 };
 
 /// Verifies a run that has ended and writes its summary again, with the bands. If shear angles are
