@@ -152,7 +152,10 @@ void cross_validate(std::vector<Candidate>& candidates, const Problem& problem) 
     forms.push_back(candidate.form);
   const auto folds = folds_of(problem);
   const bool several = problem.specimens.size() > 1; // they differ by factors, not in their form
+  double done = 0.0;
   for (const std::vector<Index>& fold : folds) {
+    if (problem.options.progress)
+      problem.options.progress(done++ / static_cast<double>(folds.size()));
     std::vector<Index> rest;
     for (Index i = 0; i < all.x.size(); ++i)
       if (!std::binary_search(fold.begin(), fold.end(), i)) rest.push_back(i);
@@ -172,6 +175,7 @@ void cross_validate(std::vector<Candidate>& candidates, const Problem& problem) 
       candidates[c].folds.push_back((measured - factor * predicted).square().mean());
     }
   }
+  if (problem.options.progress) problem.options.progress(1.0);
   for (Candidate& candidate : candidates)
     for (const double fold : candidate.folds)
       candidate.mean += fold / static_cast<double>(candidate.folds.size());

@@ -7,6 +7,7 @@
 #include "core/identify/statistics.hpp"
 #include "core/model/usual_ranges.hpp"
 
+#include <functional>
 #include <limits>
 #include <optional>
 #include <string>
@@ -32,6 +33,8 @@ struct FitOptions {
   bool doubtful = false;
   std::optional<ShearFormKind> law = {}; ///< of shear; nothing: chosen by the rows
   int points = 0;                        ///< of a table of shear, 1 to 20; 0: chosen
+  /// The fraction of a choice of the law that is done, which takes seconds; 1 at its end.
+  std::function<void(double fraction)> progress = {};
 };
 
 /// How well a law follows the rows it was fitted to. Residuals are over max(fitted load,

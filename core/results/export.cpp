@@ -145,6 +145,8 @@ std::vector<fs::path> export_results(const fs::path& directory, const ExportChoi
   const fs::path folder = choice.folder.empty() ? directory / "export" : choice.folder;
   std::vector<fs::path> files;
   for (long index = first; index < end; ++index) {
+    if (choice.progress)
+      choice.progress(static_cast<double>(index - first) / static_cast<double>(end - first));
     const Frame state =
         numbered ? read_frame(states, index < 0 ? one : index) : read_last_frame(states);
     std::error_code error;

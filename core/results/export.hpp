@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <vector>
 
@@ -13,6 +14,8 @@ struct ExportChoice {
   bool all = false;               ///< every state
   std::optional<long> frame;      ///< this state: from 0, or -1 for the last
   std::filesystem::path folder{}; ///< for the files; DIR/export if it is empty
+  /// Called before each state with the fraction that is done.
+  std::function<void(double fraction)> progress{};
 };
 
 /// Reads the last state of DIR/results.h5, or those of the choice, and writes FOLDER/NAME.vtu,

@@ -13,7 +13,7 @@ import sys
 import time
 
 WORK = """
-import sys, time
+import os, sys, time
 sys.path.insert(0, {tools!r})
 import base.progress as p
 from base.ending import Trouble, ended
@@ -74,6 +74,10 @@ def main() -> None:
     assert out == "ready\n"
     _, error = piped(command(tools, 1.5, "0.5"))
     assert error.endswith("50 %, about 1 s left\n"), error
+    # what a copy of the process shows is drawn
+    copy = ("pid = os.fork()\n    if pid == 0:\n        progress.show(0.5, 'of the copy')\n"
+            "        os._exit(0)\n    os.waitpid(pid, 0)\n    time.sleep(1.5)\n    progress.end()")
+    assert "maps: of the copy, 50 %" in on_terminal(command(tools, 0.0, last=copy))
     for fraction in ("None", "1.0"):  # under a second: nothing
         assert on_terminal(command(tools, 0.4, fraction)) == "ready\r\n"
         assert piped(command(tools, 0.4, fraction))[1] == ""

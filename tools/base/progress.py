@@ -10,14 +10,19 @@ tools/cli/progress_line.hpp is the same for the program.
     progress.end()
 """
 
+import mmap
 import os
+import struct
 import sys
 import threading
 import time
+from collections.abc import Iterator
 
 FIRST_S = 1.0               # of silence
 TERMINAL_S, LINES_S = 0.2, 5.0  # between what is drawn
 LEAST = 0.02                # a smaller fraction tells nothing of the time left
+
+SHOWN, HEAD = 4096, struct.Struct("dI")  # bytes: fraction, below 0 for none, and length of the words
 
 going: list["Progress"] = []
 
@@ -38,24 +43,26 @@ def stream() -> int:
 
 class Progress:
     """`what`: the work, as a user calls it. A thread draws what was shown last, as some steps take
-    long; in a copy of the process (base/apart.py), where it does not run, `show` does."""
+    long. What a copy of the process shows (base/apart.py) is drawn too: it stands in shared memory."""
 
     def __init__(self, what: str):
-        self.what, self.fraction, self.words = what, None, ""
+        self.what, self.process, self.shown = what, os.getpid(), mmap.mmap(-1, SHOWN)
+        self._keep(None, "")
         self.stream = stream()
         self.terminal = self.stream >= 0 and os.isatty(self.stream)
         self.every = TERMINAL_S if self.terminal else LINES_S
         self.begin = time.monotonic()
         self.next = self.begin + (FIRST_S if self.terminal else LINES_S)
-        self.over, self.drawing = threading.Event(), threading.Lock()
+        self.drawn, self.over, self.drawing = False, threading.Event(), threading.Lock()
         going.append(self)
         if self.stream >= 0:
             threading.Thread(target=self._tick, daemon=True).start()
 
     def show(self, fraction: float | None, words: str = "") -> None:
         """`fraction`: of the work done, 0 to 1; None: not known."""
-        self.fraction, self.words = fraction, words
-        self._draw()
+        self._keep(fraction, words)
+        if os.getpid() == self.process:
+            self._draw()
 
     def end(self) -> None:
         """Wipes the line. May be called twice."""
@@ -64,8 +71,7 @@ class Progress:
                 return
             self.over.set()
             going.remove(self)
-            # a copy of this process may have drawn
-            if self.terminal and time.monotonic() >= self.begin + FIRST_S:
+            if self.terminal and self.drawn:
                 self._write("\r\033[K")
 
     def __enter__(self) -> "Progress":
@@ -74,12 +80,18 @@ class Progress:
     def __exit__(self, *_) -> None:
         self.end()
 
+    def _keep(self, fraction: float | None, words: str) -> None:
+        text = words.encode(errors="replace")[:SHOWN - HEAD.size]
+        done = -1.0 if fraction is None else min(max(fraction, 0.0), 1.0)
+        self.shown[:HEAD.size + len(text)] = HEAD.pack(done, len(text)) + text
+
     def line(self) -> str:
         passed = time.monotonic() - self.begin
-        text = f"{self.what}: {self.words}" if self.words else self.what
-        if self.fraction is None:
+        done, length = HEAD.unpack_from(self.shown)
+        words = self.shown[HEAD.size:HEAD.size + length].decode(errors="replace")
+        text = f"{self.what}: {words}" if words else self.what
+        if done < 0.0:
             return f"{text}, {clock(passed)}"
-        done = min(max(self.fraction, 0.0), 1.0)
         text = f"{text}, {100 * done:.0f} %"
         return text if done < LEAST else f"{text}, about {clock(passed * (1 - done) / done)} left"
 
@@ -88,18 +100,13 @@ class Progress:
             self._draw()
 
     def _draw(self) -> None:
-        # Not waited for: in a copy of the process nobody may be left to give it back.
-        if not self.drawing.acquire(blocking=False):
-            return
-        try:
+        with self.drawing:
             now = time.monotonic()
             if self.stream < 0 or self.over.is_set() or now < self.next:
                 return
-            self.next = now + self.every
+            self.next, self.drawn = now + self.every, True
             line = "".join(c if c.isprintable() else "?" for c in self.line())
             self._write(f"\r{line[:self._width()]}\033[K" if self.terminal else line + "\n")
-        finally:
-            self.drawing.release()
 
     def _width(self) -> int:
         try:
@@ -112,6 +119,19 @@ class Progress:
             os.write(self.stream, text.encode(errors="replace"))
         except OSError:
             pass
+
+
+def doing(words: str, fraction: float | None = None) -> None:
+    """`show` of the work that goes on, if any does: for those who do not know who has called them."""
+    if going:
+        going[-1].show(fraction, words)
+
+
+def told(what: str, things: list) -> Iterator:
+    """The things, names or with a name, each told as what is done now: "reads ply1, 1 of 5"."""
+    for number, thing in enumerate(things):
+        doing(f"{what} {getattr(thing, 'name', thing)}, {number + 1} of {len(things)}")
+        yield thing
 
 
 def end_all() -> None:

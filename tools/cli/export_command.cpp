@@ -3,6 +3,7 @@
 // tools/export.
 #include "core/results/export.hpp"
 #include "tools/cli/commands.hpp"
+#include "tools/cli/progress_line.hpp"
 
 #include <algorithm>
 #include <charconv>
@@ -17,7 +18,7 @@ int export_command(const ExportArguments& arguments) {
     return std::find(formats.begin(), formats.end(), name) != formats.end();
   };
   ExportChoice choice;
-  if (!formats.empty()) choice = {asked("vtu"), asked("stl"), asked("csv"), false, {}, {}};
+  if (!formats.empty()) choice = {asked("vtu"), asked("stl"), asked("csv")};
   choice.folder = arguments.output;
   choice.all = arguments.frame == "all";
   if (!choice.all && !arguments.frame.empty()) {
@@ -31,9 +32,14 @@ int export_command(const ExportArguments& arguments) {
     }
     choice.frame = frame;
   }
-  if (choice.vtu || choice.stl || choice.csv)
-    for (const auto& file : export_results(arguments.results, choice))
+  if (choice.vtu || choice.stl || choice.csv) {
+    ProgressLine line;
+    choice.progress = [&](double fraction) { line.show("writes states", fraction); };
+    const auto files = export_results(arguments.results, choice);
+    line.end();
+    for (const auto& file : files)
       fmt::print("{}\n", file.string());
+  }
   std::string others;
   for (const char* name : {"vtkhdf", "gltf"})
     if (asked(name)) others += fmt::format("{}{}", others.empty() ? "" : ",", name);

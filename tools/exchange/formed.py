@@ -7,6 +7,7 @@ from pathlib import Path
 
 import numpy as np
 
+from base.progress import told
 from base.results_file import Broken, Results, read_results
 from plotting.reading import Trouble
 
@@ -70,7 +71,8 @@ def stack_of(results: Results, folder: Path, frame: int, only: list[str]) -> For
     for name in only:
         if name not in there:
             raise Trouble(f"there is no ply {name}: it is one of {', '.join(there)}")
-    plies = [ply_of(results, number, name) for name in there if not only or name in only]
+    plies = [ply_of(results, number, name)
+             for name in told("reads", [name for name in there if not only or name in only])]
     if not plies:
         raise Trouble(f"{folder} has no ply")
     return FormedStack(folder, number, results.number(results.state(number), "stroke_mm"), plies)

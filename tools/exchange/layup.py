@@ -8,6 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from base.ending import one_line
+from base.progress import told
 from plotting.reading import Trouble
 
 from exchange.angles import Reference, angles_to, reference_of, warnings_of, words_of, wrapped
@@ -180,7 +181,8 @@ def map_all(plies: list[FormedPly], mesh: ShellMesh, limit: float, least_share: 
             trust_normals: bool) -> tuple[list[MappedPly], list[SmoothPly]]:
     smooth = [SmoothPly(ply) for ply in plies]
     side = sides_of(mesh, smooth, limit, trust_normals)
-    return [map_ply(ply, mesh, side, limit, least_share) for ply in smooth], smooth
+    return [map_ply(one, mesh, side, limit, least_share)
+            for one, _ in zip(smooth, told("maps", plies))], smooth
 
 
 def safe_names(names: list[str]) -> list[str]:

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import numpy as np
 
+from base.progress import told
 from base.results_file import Results, read_results
 from plotting.reading import Trouble
 
@@ -34,7 +35,8 @@ def read_states(folder: Path, frame: str) -> list[State]:
     asked = None if frame == "all" else whole(frame)
     return read_results(folder, lambda results: [
         state_of(results, number) for number in
-        (range(results.count) if asked is None else [results.frame_number(asked)])])
+        told("reads state", list(range(results.count)) if asked is None else
+             [results.frame_number(asked)])])
 
 
 def whole(word: str) -> int:

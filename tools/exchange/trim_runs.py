@@ -5,7 +5,8 @@ import subprocess
 from dataclasses import dataclass
 from pathlib import Path
 
-from base.files import read_toml
+from base.files import read_json, read_toml
+from base.progress import Progress
 from plotting.reading import Trouble
 
 from exchange.flat_pattern import Pattern, blend, edge_error, flat_pattern
@@ -90,11 +91,38 @@ def read_case(program: str, path: Path, settings: list[str], stack: FormedStack)
 def run_with(case: TrimCase, patterns: list[Pattern], folder: Path) -> None:
     words = [case.program, "run", str(case.path), "-o", str(folder), *case.arguments(patterns)]
     words += ["--threads", str(case.threads)] if case.threads else []
-    done = subprocess.run(words, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        said = (done.stderr or done.stdout).strip().splitlines()
-        raise Trouble(f"the run with the patterns in {folder} ended with code {done.returncode}: "
+    code, out, error = run_watched(words, folder)
+    if code != 0:
+        said = (error or out).strip().splitlines()
+        raise Trouble(f"the run with the patterns in {folder} ended with code {code}: "
                       f"{said[-1] if said else 'nothing said'}")
+
+
+def run_watched(words: list[str], folder: Path) -> tuple[int, str, str]:
+    """Exit code, standard output and error of a run into `folder`."""
+    with subprocess.Popen(words, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process, \
+            Progress(folder.name.replace("_", " ")) as progress:
+        try:
+            while True:
+                try:
+                    out, error = process.communicate(timeout=0.5)
+                    return process.returncode, out, error
+                except subprocess.TimeoutExpired:
+                    progress.show(*progress_of_run(folder))
+        except BaseException:
+            process.kill()
+            raise
+
+
+def progress_of_run(folder: Path) -> tuple[float | None, str]:
+    """What a run says in progress.json (docs/users/results.md): its fraction, and what it does."""
+    try:
+        now = read_json(folder / "progress.json")
+    except Trouble:  # not there yet, or no more
+        return None, ""
+    now = now if isinstance(now, dict) else {}
+    fraction = now.get("fraction")
+    return (fraction if isinstance(fraction, float) else None), str(now.get("words", ""))
 
 
 def iterate(case: TrimCase, stack: FormedStack, trim: TrimLine, tolerance: float, most: int,

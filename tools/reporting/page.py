@@ -10,6 +10,7 @@ import numpy as np
 
 from base.ending import one_line
 from base.files import read_text
+from base.progress import doing, told
 from base.results_file import Column
 from plotting.reading import Trouble
 
@@ -30,6 +31,7 @@ def page_of(runs: list[Run]) -> str:
     columns = {column.name: column for run in runs for ply in run.plies for column in ply.columns}
     scene = {"runs": [scene_of(run, blocks) for run in runs],
              "columns": [shown_as(column) for column in columns.values()]}
+    doing("writes the page")
     for one, title in zip(scene["runs"], titles):
         one["title"] = title
     shelf = jinja2.Environment(loader=jinja2.FileSystemLoader(WEB), autoescape=True,
@@ -101,8 +103,8 @@ def texts_of(run: Run, index: int) -> dict:
 
 def scene_of(run: Run, blocks: Blocks) -> dict:
     return {"stroke": rounded(run.stroke_mm), "time": rounded(run.time_s),
-            "plies": [ply_of(run, ply, blocks) for ply in run.plies],
-            "tools": [scene_of_tool(run, tool, blocks) for tool in run.tools],
+            "plies": [ply_of(run, ply, blocks) for ply in told("packs", run.plies)],
+            "tools": [scene_of_tool(run, tool, blocks) for tool in told("packs", run.tools)],
             "charts": series.charts_of(run)}
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 import numpy as np
 
 from base.ending import one_line
+from base.progress import told
 from base.results_file import Broken, Column, Results, read_results
 from base.summary_file import known_to_s
 from plotting.reading import Trouble, read_summary
@@ -103,7 +104,7 @@ def check_bodies(run: Run) -> None:
 def run_of(results: Results) -> Run:
     results.frame_number(0)  # raises where there is no state yet
     stroke_mm = results.numbers(results.file, "stroke_mm", (results.count,))
-    plies = [ply_of(results, name) for name in results.names("plies")]
+    plies = [ply_of(results, name) for name in told("reads", results.names("plies"))]
     tools = [tool_of(results, name) for name in results.names("tools")]
     if not plies:
         raise Broken("/:plies is empty")

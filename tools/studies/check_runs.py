@@ -8,6 +8,7 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 from base.files import is_file
+from base.progress import Progress
 from plotting.reading import Trouble
 from studies.case_values import split_setting
 from studies.plan import Planner, Run, label_of
@@ -73,8 +74,11 @@ def check_runs(study: Study, planner: Planner, runs: list[Run], folder: Path, jo
     named = planner.hash
     keys = [named.of(run.case, run.settings, f"{planner.rest}{run.accuracy}") for _, run in asked]
     new = [i for i, key in enumerate(keys) if key not in known]
-    with ThreadPoolExecutor(jobs) as pool:
-        answers = list(pool.map(lambda i: ask(planner.program, asked[i][1]), new))
+    answers = []
+    with ThreadPoolExecutor(jobs) as pool, Progress("study") as progress:
+        for answer in pool.map(lambda i: ask(planner.program, asked[i][1]), new):
+            answers.append(answer)
+            progress.show(len(answers) / len(new), f"{len(answers)}/{len(new)} runs checked")
     said: set[str] = set()
     for i, (code, out, err) in zip(new, answers):
         if code == REFUSED and i == 0 and not study.settings:

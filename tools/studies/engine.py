@@ -17,6 +17,7 @@ from pathlib import Path
 
 from base.ending import NotReached, Trouble
 from base.files import is_file, read_text
+from base.progress import Progress
 from studies.plan import Run
 from studies.reader import is_number
 from studies.run_job import ENDED, KILLED_FOLDER, die_with_parent, read_json
@@ -110,28 +111,6 @@ def clock(seconds: float) -> str:
     return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
 
 
-class Progress:
-    """Runs ended of all and the time left: one line drawn over itself on a terminal, elsewhere one
-    line whenever a tenth more of the runs has ended."""
-
-    def __init__(self, all_runs: int, missing: int):
-        self.all, self.missing, self.begin = all_runs, missing, time.monotonic()
-        self.terminal, self.shown_tenth = sys.stderr.isatty(), -1
-
-    def tell(self, left: int, last: bool = False) -> None:
-        tenth = 10 * (self.missing - left) // max(self.missing, 1)
-        if not (self.terminal or last or tenth > self.shown_tenth):
-            return
-        self.shown_tenth = tenth
-        passed = time.monotonic() - self.begin
-        new = self.missing - left
-        words = f"{self.all - left}/{self.all} runs, {clock(passed)}"
-        if left and new:
-            words += f", about {clock(passed / new * left)} left"
-        print(f"\r{words}\033[K" if self.terminal else words, file=sys.stderr, flush=True,
-              end="\n" if last or not self.terminal else "")
-
-
 class Engine:
     def __init__(self, options: Options, runs: list[Run], estimate_s: float):
         self.options, self.runs, self.estimate_s = options, runs, estimate_s
@@ -199,9 +178,9 @@ class Engine:
                 if ended(folder, run).get("status") in ("failed", "refused"):
                     shutil.rmtree(folder / "runs" / run.name)
         missing = self.missing()
-        progress = Progress(len(self.runs), len(missing))
-        progress.tell(len(missing), last=not missing)
+        begin = time.monotonic()
         if not missing:
+            self.tell_end(0, begin)
             return
         version = snakemake_version()
         if self.options.profile:
@@ -212,24 +191,31 @@ class Engine:
                                        stderr=subprocess.STDOUT, preexec_fn=die_with_parent,
                                        start_new_session=True, cwd=folder,
                                        env=os.environ | {STATUS_VARIABLE: str(STATUS_PROGRAM)})
+        left, progress = missing, Progress("study")
         try:
-            left = missing
             while process.poll() is None:
                 try:
                     process.wait(LOOK_S)
                 except subprocess.TimeoutExpired:
                     pass
                 left = [run for run in left if not (folder / "runs" / run.name / ENDED).is_file()]
-                progress.tell(len(left))
+                progress.show(1.0 - len(left) / len(missing),
+                              f"{len(self.runs) - len(left)}/{len(self.runs)} runs")
         except BaseException:
             self.leave(process)
-            print(f"\nstudy: {len(left)} runs are missing; the same command goes on",
+            progress.end()
+            print(f"study: {len(left)} runs are missing; the same command goes on",
                   file=sys.stderr)
             raise
-        progress.tell(len(left), last=True)
+        progress.end()
+        self.tell_end(len(left), begin)
         if len(left) == len(missing):
             raise NotReached(f"no run has ended: {self.why_not(missing)}; see "
                              f"{folder / 'snakemake.log'}")
+
+    def tell_end(self, left: int, begin: float) -> None:
+        print(f"{len(self.runs) - left}/{len(self.runs)} runs, {clock(time.monotonic() - begin)}",
+              file=sys.stderr, flush=True)
 
     def why_not(self, missing: list[Run]) -> str:
         folder = self.options.folder

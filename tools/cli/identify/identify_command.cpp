@@ -3,6 +3,7 @@
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
+#include "tools/cli/progress_line.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -159,6 +160,11 @@ int identify_command(const IdentifyArguments& arguments) {
   Diagnostics diagnostics;
   check_arguments(arguments, fit, diagnostics);
   FitOptions options = fit_options(arguments, diagnostics);
+  ProgressLine line;
+  options.progress = [&](double fraction) {
+    line.show("chooses the law of shear", fraction);
+    if (fraction == 1.0) line.end(); // what it prints comes after
+  };
   const FabricReading base = fabric_of(arguments.fabric, shear, diagnostics);
   if (arguments.test == "in-plane-bending")
     check_zone_fabric(base.missing, {arguments.fabric, 1, 1}, diagnostics);
