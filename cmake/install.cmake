@@ -32,6 +32,7 @@ set(public_headers
   core/identify/statistics.hpp
   core/identify/units.hpp
   core/input/case_file.hpp
+  core/input/case_sketch.hpp
   core/input/checks/source_location.hpp
   core/input/keys/case_keys.hpp
   core/mesh/mesh_blank.hpp

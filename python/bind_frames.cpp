@@ -12,17 +12,6 @@ namespace plyform {
 namespace {
 
 using SharedFrame = std::shared_ptr<Frame>;
-template <class Part>
-using PartClass = py::class_<Part, std::shared_ptr<Part>>;
-
-/// The parts of a frame, each of which keeps the frame alive.
-template <class Part>
-py::object parts_of(const SharedFrame& frame, std::vector<Part>& items) {
-  py::list list;
-  for (Part& item : items)
-    list.append(py::cast(std::shared_ptr<Part>(frame, &item)));
-  return parts(list);
-}
 
 /// An attribute of the ply's that is one of its arrays.
 template <class Value>

@@ -6,6 +6,7 @@
 #include "base/geometry.hpp"
 
 #include <algorithm>
+#include <memory>
 #include <pybind11/numpy.h>
 #include <pybind11/pybind11.h>
 #include <pybind11/stl.h>
@@ -20,6 +21,7 @@ namespace py = pybind11;
 // Each adds its classes and functions, after those that it needs.
 void bind_case(py::module_& m);       ///< python/bind_case.cpp: keys, mistakes, checked cases
 void bind_frames(py::module_& m);     ///< python/bind_frames.cpp: states, their difference
+void bind_scene(py::module_& m);      ///< python/bind_scene.cpp: cases before they run
 void bind_simulation(py::module_& m); ///< python/bind_simulation.cpp
 void bind_fit(py::module_& m); ///< python/identify/bind_fit.cpp: laws from curves, curves from laws
 
@@ -35,6 +37,18 @@ inline int threads_or_cores(int threads) {
 /// A Sequence that takes names besides numbers (python/plyform/_parts.py).
 inline py::object parts(const py::list& items) {
   return py::module_::import("plyform._parts").attr("Parts")(items);
+}
+
+template <class Part>
+using PartClass = py::class_<Part, std::shared_ptr<Part>>;
+
+/// The parts of a whole, each of which keeps the whole alive.
+template <class Whole, class Part>
+py::object parts_of(const std::shared_ptr<Whole>& whole, std::vector<Part>& items) {
+  py::list list;
+  for (Part& item : items)
+    list.append(py::cast(std::shared_ptr<Part>(whole, &item)));
+  return parts(list);
 }
 
 /// `values` as an array that shares their memory and keeps `owner` alive. Whoever owns them must

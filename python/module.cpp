@@ -66,6 +66,7 @@ PYBIND11_MODULE(_plyform, m) {
   m.attr("version") = version();
   bind_case(m);
   bind_frames(m);
+  bind_scene(m);
   bind_simulation(m);
   bind_fit(m);
   m.def(

@@ -183,6 +183,18 @@ CaseParts locate_parts(const TableView& root) {
           locate(root, subsection(root, "solver"))};
 }
 
+CaseWords words_in(const TableView& root) {
+  const auto all = [&](const char* table, const char* key) {
+    std::vector<std::string> words;
+    for (const TableView& section : subsections(root, table)) {
+      const TomlNode* word = section.entry ? section.entry->find(key) : nullptr;
+      words.push_back(word && word->kind == TomlNode::Kind::string ? word->text : std::string());
+    }
+    return words;
+  };
+  return {all("ply", "fabric"), all("ply", "blank"), all("tool", "shape"), all("boundary", "kind")};
+}
+
 /// Sorts errors: those of the case file first, then of the files that it names, then of overrides,
 /// each by line and column. Removes duplicates (a fabric file may be used under two names).
 void put_in_order(std::vector<CaseError>& errors, const std::string& case_name) {
@@ -210,9 +222,14 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
     const std::filesystem::path folder = folder_of(file);
     const TableView root{&*entries, "", ""};
     Case built = build_case(root, folder, diagnostics);
-    if (diagnostics.errors.empty()) {
+    reading.parts = locate_parts(root);
+    reading.words = words_in(root);
+    if (!diagnostics.errors.empty()) {
+      reading.sketch.data = std::move(built);
+      for (const CaseError& error : diagnostics.errors)
+        reading.sketch.mistaken.insert(error.item);
+    } else {
       estimate_missing(built);
-      reading.parts = locate_parts(root);
       reading.identity = identity_of(*entries, folder);
       reading.value = std::move(built);
     }

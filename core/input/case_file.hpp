@@ -2,6 +2,7 @@
 // Reads case.toml (and the fabric files that it names) into a Case, and reports all errors at once.
 #pragma once
 
+#include "core/input/case_sketch.hpp"
 #include "core/input/checks/source_location.hpp"
 #include "core/input/keys/case_keys.hpp"
 #include "core/mesh/mesh_blank.hpp"
@@ -19,7 +20,9 @@ namespace plyform {
 struct CaseReading {
   std::filesystem::path file;
   std::optional<Case> value;        ///< only when there is no error
-  CaseParts parts;                  ///< positions in the file
+  CaseParts parts;                  ///< positions in the file; of one with errors too
+  CaseWords words;                  ///< likewise
+  CaseSketch sketch;                ///< of a file with errors
   std::set<std::string> overridden; ///< keys set by overrides, as dotted paths
   std::string identity; ///< version of plyform, every key with its value, and the files they name
   std::vector<CaseError> errors;

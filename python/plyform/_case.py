@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, Mapping, Union
 
 from . import _plyform
-from ._plyform import Mistake, Outlook, PredictedError
+from ._plyform import Mistake, Outlook, PredictedError, Scene
 
 #: What a key can be set to: numbers, texts, lists of them, tables; NumPy's numbers and arrays too.
 Value = Any
@@ -118,6 +118,14 @@ class Case:
         of it; threads: as many as there are cores unless given. Raises CaseError.
         """
         return _plyform.look_ahead(self._prepare(), threads or 0)
+
+    def scene(self, threads: int | None = None) -> Scene:
+        """The case as it will stand before the first step, and how its tools will move: for a
+        picture. Fast, and of a file with mistakes all that can be told: other parts have a
+        `trouble`. Raises nothing for what is wrong in it. threads: as many as there are cores
+        unless given.
+        """
+        return _plyform.preview(self.file, self._overrides(), threads or 0)
 
     def _overrides(self) -> list[tuple[str, str]]:
         accuracy = [] if self._accuracy is None else [("accuracy.shear_deg", _toml(self._accuracy))]
