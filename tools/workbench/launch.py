@@ -1,6 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs one command for the workbench and keeps its record, so that it goes on, and is found again,
-when the workbench has ended: launch.py RECORD.json. Imports nothing but the standard library."""
+"""Runs one command for the workbench, so that it goes on, and is found again, when the workbench has
+ended: launch.py RECORD.json LOCK. Imports nothing but the standard library.
+
+Each file has one writer, so that none can undo what another has written: the workbench writes
+N.json (what is to run) before this begins and N.stop (signals asked for, one a line, appended), and
+this N.run (what runs) and N.end (how it ended), each whole. LOCK is the number of an open file that
+the workbench has locked: this and the command hold the lock as long as either lives.
+"""
 
 import json
 import os
@@ -10,47 +16,77 @@ import sys
 import time
 from pathlib import Path
 
-
-def born(pid: int) -> int:
-    """Clock ticks from boot to the start of a process, by which a number that is used again is known;
-    0 if there is no such process, or it has ended."""
-    try:
-        words = Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()
-    except (OSError, ValueError):
-        return 0
-    return 0 if words[0] in "ZX" else int(words[19])
+PERIOD = 0.1  # s, between two looks for a stop
+MAY_ASK = ("SIGINT", "SIGTERM", "SIGKILL")
+IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # the command gets them, and ends as it does
 
 
 def keep(path: Path, record: dict) -> None:
-    part = path.with_name("part_" + path.name)
+    """Whole or not at all."""
+    part = path.with_name(f"part_{path.name}")
     part.write_text(json.dumps(record), encoding="utf-8")
     os.replace(part, path)
 
 
+def asked(path: Path) -> list[str]:
+    """Signals asked for so far; a line that is being written is none yet."""
+    try:
+        return [name for name in path.read_text(encoding="ascii").split("\n")[:-1] if name in MAY_ASK]
+    except (OSError, ValueError):
+        return []
+
+
+def as_from_a_terminal() -> None:
+    """In the command, before it begins: a group of its own, for signals as of Ctrl-C."""
+    os.setpgid(0, 0)
+    for name in IGNORED:
+        signal.signal(name, signal.SIG_DFL)
+
+
+def begun(record: dict, log, lock: int) -> subprocess.Popen:
+    return subprocess.Popen(record["command"], cwd=record["cwd"], stdin=subprocess.DEVNULL, stdout=log,
+                            stderr=log, pass_fds=(lock,), preexec_fn=as_from_a_terminal)
+
+
+def wait(child: subprocess.Popen, stop: Path) -> int:
+    """The exit code; passes on what is asked for, which cannot hit another process: while this has
+    not waited for the command, its number stays its own."""
+    passed = 0
+    while True:
+        for name in asked(stop)[passed:]:
+            passed += 1
+            try:
+                os.killpg(child.pid, getattr(signal, name))
+            except ProcessLookupError:
+                pass  # it has ended just now
+        try:
+            return child.wait(PERIOD)
+        except subprocess.TimeoutExpired:
+            continue
+
+
+def end(path: Path, code: int, **more) -> None:
+    keep(path.with_suffix(".end"), {"code": code, "ended": time.time(), **more})
+
+
 def main() -> None:
-    path = Path(sys.argv[1])
+    path, lock = Path(sys.argv[1]), int(sys.argv[2])
+    for name in IGNORED:
+        signal.signal(name, signal.SIG_IGN)
     record = json.loads(path.read_text(encoding="utf-8"))
-    for name in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):
-        signal.signal(name, signal.SIG_IGN)  # the command gets them, and ends as it does
-
-    def default_signals() -> None:
-        for name in (signal.SIGINT, signal.SIGTERM):
-            signal.signal(name, signal.SIG_DFL)
-
+    if asked(path.with_suffix(".stop")):
+        end(path, -signal.SIGINT)
+        return
     with open(path.with_suffix(".log"), "ab") as log:
         try:
-            child = subprocess.Popen(record["command"], cwd=record["cwd"], stdin=subprocess.DEVNULL,
-                                     stdout=log, stderr=log, preexec_fn=default_signals)
-        except OSError as problem:
-            keep(path, {**record, "state": "failed", "words": f"{record['command'][0]}: {problem.strerror}",
-                        "ended": time.time()})
+            child = begun(record, log, lock)
+        except (OSError, ValueError, subprocess.SubprocessError) as problem:
+            why = getattr(problem, "strerror", None) or str(problem)
+            end(path, 1, error=f"{record['command'][0]} cannot be started: {why}")
             return
-        record.update(state="running", pid=child.pid, born=born(child.pid), begun=time.time())
-        keep(path, record)
-        code = child.wait()
-    latest = json.loads(path.read_text(encoding="utf-8"))  # a stop may have been asked for meanwhile
-    ended = "stopped" if latest.get("stop_asked") else "done" if code == 0 else "failed"
-    keep(path, {**latest, "state": ended, "code": code, "ended": time.time()})
+        keep(path.with_suffix(".run"), {"pid": child.pid, "begun": time.time()})
+        code = wait(child, path.with_suffix(".stop"))
+    end(path, code)
 
 
 if __name__ == "__main__":

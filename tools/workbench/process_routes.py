@@ -21,6 +21,11 @@ def routes(studio: Studio) -> APIRouter:
     def stop(number: str) -> dict:
         return processes.stop(number)
 
+    @router.post("/processes/{number}/move")
+    def move(number: str, to: int) -> dict:
+        processes.move(number, to)
+        return {}
+
     @router.post("/processes/{number}/forget")
     def forget(number: str) -> dict:
         processes.forget(number)
