@@ -74,26 +74,29 @@ class Results:
     def check_links(self, group: h5py.Group, where: str, linked: bool) -> None:
         """All data lies in this file, or in states/ beside it while the run is in progress."""
         for name in group:
-            here, link = f"{where}{name}", group.get(name, getlink=True)
-            away = isinstance(link, h5py.ExternalLink)
-            if away and not linked:
-                self.check_state_file(here, link.filename)
-            elif away or not isinstance(link, h5py.HardLink):
-                raise Broken(f"{here} is a link to elsewhere, which plyform does not write")
-            at = group.get(name)
-            if at is None:
-                raise Broken(f"{here} leads nowhere")
-            place = h5py.h5o.get_info(at.id)
-            if (place.fileno, place.addr) in self.seen:
-                raise Broken(f"{here} is a link to what stands elsewhere too, which plyform does "
-                             "not write")
-            self.seen.add((place.fileno, place.addr))
-            if isinstance(at, h5py.Group):
-                self.check_links(at, here + "/", linked or away)
-            elif not isinstance(at, h5py.Dataset):
-                raise Broken(f"{here} holds no numbers")
-            elif at.external or at.is_virtual:
-                raise Broken(f"{here} has its numbers in another file, which plyform does not write")
+            self.check_link(group, name, where, linked)
+
+    def check_link(self, group: h5py.Group, name: str, where: str, linked: bool) -> None:
+        here, link = f"{where}{name}", group.get(name, getlink=True)
+        away = isinstance(link, h5py.ExternalLink)
+        if away and not linked:
+            self.check_state_file(here, link.filename)
+        elif away or not isinstance(link, h5py.HardLink):
+            raise Broken(f"{here} is a link to elsewhere, which plyform does not write")
+        at = group.get(name)
+        if at is None:
+            raise Broken(f"{here} leads nowhere")
+        place = h5py.h5o.get_info(at.id)
+        if (place.fileno, place.addr) in self.seen:
+            raise Broken(f"{here} is a link to what stands elsewhere too, which plyform does "
+                         "not write")
+        self.seen.add((place.fileno, place.addr))
+        if isinstance(at, h5py.Group):
+            self.check_links(at, here + "/", linked or away)
+        elif not isinstance(at, h5py.Dataset):
+            raise Broken(f"{here} holds no numbers")
+        elif at.external or at.is_virtual:
+            raise Broken(f"{here} has its numbers in another file, which plyform does not write")
 
     def check_state_file(self, where: str, name: str) -> None:
         path = self.folder / name
@@ -246,9 +249,9 @@ class Results:
         return x0, triangles.astype(np.int64)
 
 
-def read_results(folder: Path, act: Callable[[Results], object]):
-    """What `act` makes of the results in a folder: plain data, as it is read in another process.
-    Raises Trouble."""
+def read_results(folder: Path, act: Callable[[Results], object], kind: type[Results] = Results):
+    """What `act` makes of the results in a folder, opened as `kind`: plain data, as it is read in
+    another process. Raises Trouble."""
     path = folder / "results.h5"
     if not path.exists():
         raise Trouble(f"{path} is missing: is {folder} the folder of a run?")
@@ -259,7 +262,7 @@ def read_results(folder: Path, act: Callable[[Results], object]):
     def read():
         try:
             with h5py.File(path, "r") as file:
-                return act(Results(path, file))
+                return act(kind(path, file))
         except Broken as problem:
             raise Trouble(f"{path} cannot be read as results of plyform: {problem}; run the case "
                           "again") from None
