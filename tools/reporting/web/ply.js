@@ -50,11 +50,16 @@ export class Ply {
   async load() {
     const [flat, triangles, places] = await Promise.all(
       [this.data.x0, this.data.triangles, this.data.x].map(loadBlock));
-    this.flat = flat.state(0);
-    this.triangles = triangles.integers();
     this.places = places;
-    this.border = borderEdges(this.triangles);
-    this.yarns = yarnPlaces(this.flat, this.data.families);
+    this.lay(flat.state(0), triangles.integers());
+  }
+
+  /** As it lies before forming, and what follows from that. */
+  lay(flat, triangles) {
+    this.flat = flat;
+    this.triangles = triangles;
+    this.border = borderEdges(triangles);
+    this.yarns = yarnPlaces(flat, this.data.families);
   }
 
   /** A stored array by its name in results.h5, decoded once. */

@@ -46,8 +46,7 @@ export class PlyMesh {
     geometry.setAttribute("position", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
     geometry.setAttribute("normal", new THREE.BufferAttribute(new Float32Array(3 * count), 3));
     geometry.setAttribute("value", new THREE.BufferAttribute(new Float32Array(count), 1));
-    geometry.setAttribute("yarn",
-      new THREE.BufferAttribute(spread(ply.yarns, ply.triangles, MOST_FAMILIES), MOST_FAMILIES));
+    geometry.setAttribute("yarn", new THREE.BufferAttribute(new Float32Array(MOST_FAMILIES * count), MOST_FAMILIES));
     this.surface = new THREE.Mesh(geometry, plyMaterial(uniforms));
     const line = new THREE.BufferGeometry();
     this.outline = flat
@@ -58,7 +57,12 @@ export class PlyMesh {
     this.object = new THREE.Group();
     this.object.add(this.surface, this.outline);
     for (const part of [this.surface, this.outline]) part.frustumCulled = false;
+    this.layYarns();
     if (flat) this.move(ply.flat);
+  }
+
+  layYarns() {
+    this.set("yarn", spread(this.ply.yarns, this.ply.triangles, MOST_FAMILIES));
   }
 
   set(attribute, values) {

@@ -17,6 +17,7 @@ export class Stage {
     this.flatCamera = new THREE.OrthographicCamera(-1, 1, 1, -1, -1e5, 1e5);
     this.camera = new Camera(() => this.request("formed"));
     this.frames = 0;
+    this.drawn = () => {}; // after each picture
     window.addEventListener("resize", () => this.request());
   }
 
@@ -53,6 +54,7 @@ export class Stage {
       if (!view.element.hidden && (everything || !view.flat)) this.drawView(view, room);
     }
     this.frames += 1;
+    this.drawn();
   }
 
   drawView(view, room) {
@@ -61,6 +63,7 @@ export class Stage {
     if (place.width < 2 || place.height < 2) return;
     this.renderer.setViewport(left, below, place.width, place.height);
     this.renderer.setScissor(left, below, place.width, place.height);
+    view.prepare(this.fine);
     const camera = view.flat ? this.cameraOfFlat(view, place) : this.cameraOfFormed(view, place);
     this.renderer.clear();
     view.mark(this.probe, (camera.top - camera.bottom) / place.height);

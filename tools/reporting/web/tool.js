@@ -63,8 +63,13 @@ export class Tool {
 
   async load() {
     const [x, triangles] = await Promise.all([this.data.x0, this.data.triangles].map(loadBlock));
-    this.x = x.state(0);
-    this.triangles = triangles.integers();
+    this.place(x.state(0), triangles.integers());
+  }
+
+  /** Its surface at time 0. */
+  place(x, triangles) {
+    this.x = x;
+    this.triangles = triangles;
     this.size = new THREE.Box3().setFromArray(this.x).getSize(new THREE.Vector3()).length();
   }
 

@@ -57,12 +57,21 @@ export class View {
       mesh.object.position.z = this.flat ? 0 : i * settings.apart;
     });
     for (const tool of this.tools) {
-      tool.solid.visible = settings.tools === "solid";
-      tool.outline.visible = settings.tools === "outlines";
-      const up = tool.tool.data.shift[this.state];
-      tool.object.position.fromArray(up);
+      const way = this.wayOf(tool.tool, settings);
+      tool.solid.visible = way === "solid";
+      tool.outline.visible = way === "outlines";
+      tool.object.position.fromArray(this.shiftOf(tool.tool));
       if (settings.apart > 0) tool.object.position.z += this.liftOf(tool.tool, settings.apart);
     }
+  }
+
+  /** How a tool is drawn: solid, outlines, hidden. */
+  wayOf(tool, settings) {
+    return settings.tools;
+  }
+
+  shiftOf(tool) {
+    return tool.data.shift[this.state];
   }
 
   /** Tools above the stack go up with the uppermost ply when plies are drawn apart. */
@@ -95,7 +104,7 @@ export class View {
       this.addBand(mesh, cuts, normal, lift);
     });
     for (const { tool, object } of this.tools) {
-      if (settings.tools === "hidden") continue;
+      if (this.wayOf(tool, settings) === "hidden") continue;
       const cuts = cutsOf(tool.x, tool.triangles, normal,
         plane.at.value.w - object.position.dot(normal));
       this.addLines(cuts.map((cut) => cut.ends), object.position);
@@ -129,6 +138,9 @@ export class View {
     lines.position.copy(place);
     this.cut.add(lines);
   }
+
+  /** Before each picture; fine: nothing moves. */
+  prepare() {}
 
   /** Outlines of tools depend on where they are seen from. */
   outlineTools(eye) {
