@@ -2,7 +2,7 @@
 """Clicks through reports of small runs in headless Chromium: every control changes what it should,
 numbers are those of the tables and of results.h5, nothing is asked of a network.
 
-    report_test.py PART TOOLS PROGRAM CASES      PART: one, two
+    report_test.py PART TOOLS PROGRAM CASES      PART: one, two, more
 
 Leaves with 77 when Chromium, its driver, selenium, h5py or Jinja2 is missing.
 """
@@ -263,6 +263,12 @@ def check_one(folder):
         assert "," in browser.find("#state").text
 
 
+def largest_differences(second, first):
+    done = subprocess.run([PROGRAM, "difference", second, first, "--by-ply"], check=True,
+                          capture_output=True, text=True)
+    return [float(row["max"]) for row in csv.DictReader(done.stdout.splitlines())]
+
+
 def check_two(folder):
     first, second = run(folder / "a"), run(folder / "b", "contact.friction=0.4")
     path = report(folder / "two.html", first, second)
@@ -281,9 +287,7 @@ def check_two(folder):
         assert len(titles) == 2 and "(a)" in titles[0] and "(b)" in titles[1], titles
         browser.choose("field", "shear-signed")
         browser.settle()
-        done = subprocess.run([PROGRAM, "difference", second, first, "--by-ply"], check=True,
-                              capture_output=True, text=True)
-        largest = [float(row["max"]) for row in csv.DictReader(done.stdout.splitlines())]
+        largest = largest_differences(second, first)
         shown = browser.js("return plyform_report.differences.map((d) => "
                            "Math.max(...d.values.map(Math.abs)))")
         assert abs(np.array(shown) - largest).max() < 0.006 and max(largest) > 0.1, (shown, largest)
@@ -302,9 +306,96 @@ def check_two(folder):
         check_quiet(browser, path)
 
 
+def check_room(browser, count):
+    """Pictures of a kind are of one size, none lies on another, and all are in the room."""
+    room = browser.find(".room").rect
+    shown = [view for view in browser.driver.find_elements("css selector", ".view")
+             if view.is_displayed()]
+    assert len(shown) == 2 * count, len(shown)
+    rects = [view.rect for view in shown]
+    for kind in ("formed", "flat"):
+        sizes = {(round(view.rect["width"] / 3), round(view.rect["height"] / 3)) for view in shown
+                 if kind in view.get_attribute("class").split()}
+        assert len(sizes) <= 2, (kind, sizes)  # of rounding
+    for i, a in enumerate(rects):
+        assert a["width"] > 150 and a["height"] > 150, a
+        assert a["x"] + a["width"] < room["x"] + room["width"] + 2, (a, room)
+        assert a["y"] + a["height"] < room["y"] + room["height"] + 2, (a, room)
+        for b in rects[:i]:
+            apart = (a["x"] >= b["x"] + b["width"] - 2 or b["x"] >= a["x"] + a["width"] - 2
+                     or a["y"] >= b["y"] + b["height"] - 2 or b["y"] >= a["y"] + a["height"] - 2)
+            assert apart, (a, b)
+
+
+def check_each_difference(browser, folders):
+    """Of each run to the first: the number that plyform difference has, under its name."""
+    browser.choose("field", "shear-signed")
+    pictures = set()
+    for k in range(1, len(folders)):
+        browser.choose("difference-of", k)
+        assert browser.js("return document.getElementById('difference').checked")
+        name = f"{'ABCD'[k]} − A"
+        assert name in browser.find("#formed-difference .caption").text
+        assert browser.find("#legend-difference .legend-title").text.startswith(f"{name}: ")
+        shown = browser.js("return plyform_report.differences.map((d) => "
+                           "Math.max(...d.values.map(Math.abs)))")
+        largest = largest_differences(folders[k], folders[0])
+        assert abs(np.array(shown) - largest).max() < 0.006 and max(largest) > 0.1, (shown, largest)
+        pictures.add(browser.picture())
+    assert len(pictures) == len(folders) - 1
+
+
+def check_texts_of_each(browser, folders):
+    """Answers, curves and tables of every run, under its letter; a click shows the run's place."""
+    count = len(folders)
+    assert len(browser.driver.find_elements("css selector", "section.answers")) == count
+    assert len(browser.driver.find_elements("css selector", "section.tables")) == count
+    titles = [title.text for title in browser.driver.find_elements("css selector", "h1")]
+    assert len(set(titles)) == count and all(f"({folder.name})" in title
+                                             for folder, title in zip(folders, titles)), titles
+    legend = browser.find(".legend-of-lines").text
+    for r, folder in enumerate(folders):
+        assert f"{'ABCD'[r]}: " in legend, legend
+        summary = json.loads((folder / "summary.json").read_text(encoding="utf-8"))
+        most = max(ply["max_shear_deg"] for ply in summary["plies"])
+        answers = browser.driver.find_elements("css selector", "section.answers")[r]
+        assert answers.find_element("css selector", ".figure").text == f"{most:.1f}°"
+        browser.js("arguments[0].click()", answers.find_element("css selector", "button.place"))
+        browser.settle()
+        assert browser.js("return plyform_report.probe.run") == r
+        assert abs(told(browser)[2]["shear"] - most) < 0.003
+    marks = browser.js("return ['circle.mark', 'rect.mark'].map((kind) => "
+                       "document.querySelectorAll(`.charts figure svg ${kind}`).length > 0)")
+    assert marks == [count > 2, count > 3], marks
+
+
+def check_more(folder):
+    """Three and four runs beside each other; five are refused."""
+    folders = [run(folder / "a"), run(folder / "b", "contact.friction=0.4"),
+               run(folder / "c", "contact.friction=0.1"), run(folder / "d", "ply.0.angle=45")]
+    for count in (3, 4):
+        path = report(folder / f"{count}.html", *folders[:count])
+        with Browser() as browser:
+            browser.open(path)
+            check_room(browser, count)
+            check_texts_of_each(browser, folders[:count])
+            check_each_difference(browser, folders[:count])
+            check_room(browser, count + 1)
+            browser.js("window.dispatchEvent(new Event('beforeprint'))")
+            captions = browser.js("return [...document.querySelectorAll('#prints figcaption')]"
+                                  ".map((one) => one.textContent)")
+            assert len(captions) == 3 * (count + 1), captions
+            assert sum(one.startswith("C: ") for one in captions) == 3, captions
+            assert sum(one.startswith(f"{'ABCD'[count - 1]} − A") for one in captions) == 3, captions
+            check_quiet(browser, path)
+    done = subprocess.run([PROGRAM, "report", *folders, folders[0]], capture_output=True, text=True,
+                          check=False)
+    assert done.returncode == 2 and "up to 4" in done.stderr, done
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
-        {"one": check_one, "two": check_two}[sys.argv[1]](Path(name))
+        {"one": check_one, "two": check_two, "more": check_more}[sys.argv[1]](Path(name))
 
 
 main()

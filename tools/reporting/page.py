@@ -24,9 +24,11 @@ THREE = Path("/usr/share/javascript/three/three.min.js")
 TOOL_TOLERANCE = 0.3     # mm, of simplify: nearer than a tenth of a millimetre
 MOST = 4.0  # times the precision of a column: errors larger than that are not allowed
 POSITION = (0.002, 0.009)  # mm
+LETTERS = "ABCD"  # of runs beside each other: more are too small to be seen
 
 
 def page_of(runs: list[Run]) -> str:
+    """HTML of one run, or of up to four beside each other."""
     blocks, titles = Blocks(), titles_of(runs)
     columns = {column.name: column for run in runs for ply in run.plies for column in ply.columns}
     scene = {"runs": [scene_of(run, blocks) for run in runs],
@@ -41,7 +43,7 @@ def page_of(runs: list[Run]) -> str:
     texts = [texts_of(run, k) | {"title": title} for k, (run, title) in enumerate(zip(runs, titles))]
     ids = {chart["id"]: chart for run in scene["runs"] for chart in run["charts"]}
     return shelf.get_template("report.html").render(
-        runs=texts, yarns=yarns_of(runs), charts=list(ids.values()), place_error=blocks.errors["place"],
+        runs=texts, letters=LETTERS, yarns=yarns_of(runs), charts=list(ids.values()), place_error=blocks.errors["place"],
         errors=[(column["label"].lower(), column["factor"] * blocks.errors[column["name"]],
                  column["unit"]) for column in scene["columns"]], blocks=blocks.texts,
         scene=json_in_script(scene), style=(WEB / "report.css").read_text(encoding="utf-8"),
@@ -49,7 +51,7 @@ def page_of(runs: list[Run]) -> str:
 
 
 def titles_of(runs: list[Run]) -> list[str]:
-    """Those of two runs differ: by the names of their folders, or as much of the paths as it takes."""
+    """Those of several runs differ: by the names of their folders, or as much of the paths as it takes."""
     titles = [run.title() for run in runs]
     if len(set(titles)) == len(titles):
         return titles
@@ -59,7 +61,7 @@ def titles_of(runs: list[Run]) -> list[str]:
         ends = ["/".join(part[-count:]) for part in parts]
         if len(set(ends)) == len(ends):
             return [f"{title} ({one_line(end)})" for title, end in zip(titles, ends)]
-    return [f"{title} ({letter})" for title, letter in zip(titles, "AB")]  # a run beside itself
+    return [f"{title} ({letter})" for title, letter in zip(titles, LETTERS)]  # a run beside itself
 
 
 def three() -> str:

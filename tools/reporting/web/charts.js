@@ -2,6 +2,7 @@
 // Curves over the stroke, as SVG; a line marks the state shown, a click goes to another.
 
 import { lineStyle } from "plyform/colours.js";
+import { prefixOf } from "plyform/letters.js";
 import { fittingDigits, written } from "plyform/numbers.js";
 
 const NAMES = "http://www.w3.org/2000/svg";
@@ -23,6 +24,12 @@ export function ticks(low, high) {
   const places = [];
   for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; ++k) places.push(k * step);
   return { places, digits: Math.max(0, -Math.floor(Math.log10(step) + 1e-9) + (step / power === 2.5 ? 1 : 0)) };
+}
+
+/** What tells the lines of C and D from those of A (thick) and B (thin): circles, squares. */
+function mark(run, x, y, colour, parent) {
+  if (run === 2) part("circle", { class: "mark", cx: x, cy: y, r: 2.6, fill: "#fff", stroke: colour }, parent);
+  if (run === 3) part("rect", { class: "mark", x: x - 2.3, y: y - 2.3, width: 4.6, height: 4.6, fill: colour }, parent);
 }
 
 export class Chart {
@@ -81,6 +88,9 @@ export class Chart {
         ? [`${this.x(run.stroke[i])},${this.y(value)}`] : [])).join(" ");
       part("polyline", { points, fill: "none", stroke: colour, "stroke-width": r ? 1.2 : 2.2,
         "stroke-dasharray": dashes, "stroke-opacity": r ? 0.75 : 1 }, this.svg);
+      line.values.forEach((value, i) => {
+        if (Number.isFinite(value)) mark(r, this.x(run.stroke[i]), this.y(value), colour, this.svg);
+      });
     }));
   }
 
@@ -94,7 +104,8 @@ export class Chart {
       const [colour, dashes] = lineStyle(k);
       part("line", { x1: 0, x2: 28, y1: 4, y2: 4, stroke: colour, "stroke-width": r ? 1.2 : 2.2,
         "stroke-dasharray": dashes }, sample);
-      item.append(` ${this.runs.length > 1 ? `${"AB"[r]}: ` : ""}${line.name} `);
+      mark(r, 14, 4, colour, sample);
+      item.append(` ${prefixOf(r, this.runs)}${line.name} `);
       const number = document.createElement("b");
       item.append(number);
       list.append(item);

@@ -70,6 +70,10 @@ function viewControls(report) {
   if (at("difference")) {
     at("difference").addEventListener("change", (event) => report.change({ difference: event.target.checked }));
   }
+  if (at("difference-of")) {
+    at("difference-of").addEventListener("change", (event) =>
+      report.change({ difference: true, differenceOf: Number(event.target.value) }));
+  }
 }
 
 /** Plays the states, one after the other, as long as it takes to draw each. */

@@ -52,7 +52,7 @@ async function start() {
     throw new Error("this browser lacks WebGL or DecompressionStream: take one of 2023 or later");
   }
   const scene = JSON.parse(document.getElementById("scene").textContent);
-  const report = new Report(scene, new Page());
+  const report = new Report(scene, new Page(scene.runs));
   await report.load();
   document.documentElement.dataset.picture = String(Math.round(performance.now()));
   connect(report);

@@ -3,15 +3,16 @@
 
 import { fittingDigits, written } from "plyform/numbers.js";
 import { gradient } from "plyform/colours.js";
+import { differenceName } from "plyform/letters.js";
 
 const at = (id) => document.getElementById(id);
 
 export class Page {
-  constructor() {
+  constructor(runs) {
     this.canvas = at("canvas");
     this.probe = at("probe");
     this.views = {
-      formed: [at("formed-0"), at("formed-1")], flat: [at("flat-0"), at("flat-1")],
+      formed: runs.map((_, r) => at(`formed-${r}`)), flat: runs.map((_, r) => at(`flat-${r}`)),
       difference: { difference: at("formed-difference"), "flat-difference": at("flat-difference") },
     };
   }
@@ -38,10 +39,17 @@ export class Page {
     this.legend(at("legend"), scale, `${field.label}, ${field.unit}`, digits);
     this.tellState(report);
     if (at("formed-difference")) {
-      for (const id of ["formed-difference", "flat-difference"]) at(id).hidden = !settings.difference;
+      const name = differenceName(settings.differenceOf);
+      for (const id of ["formed-difference", "flat-difference"]) {
+        at(id).hidden = !settings.difference;
+        at(id).querySelector(".which").textContent = name;
+      }
+      document.body.classList.toggle("with-difference", settings.difference);
+      at("difference").checked = settings.difference;
+      if (at("difference-of")) at("difference-of").value = settings.differenceOf;
       const range = report.differenceRange;
       this.legend(at("legend-difference"), { low: -range, high: range, steps: settings.steps,
-        colours: "diverging", limit: null }, `B − A: ${field.label}, ${field.unit}`, fittingDigits(range));
+        colours: "diverging", limit: null }, `${name}: ${field.label}, ${field.unit}`, fittingDigits(range));
       at("legend-difference").hidden = !settings.difference;
     }
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Still pictures for the printed page, made when printing begins.
 
+import { differenceName, prefixOf } from "plyform/letters.js";
 import { written } from "plyform/numbers.js";
 
 export function preparePrint(report) {
@@ -21,14 +22,16 @@ export function preparePrint(report) {
     };
     for (const view of stage.views) {
       if (view.difference && !report.settings.difference) continue;
-      const run = report.runs.length > 1 ? `${"AB"[report.runs.indexOf(view.run)]}: ` : "";
+      const run = prefixOf(report.runs.indexOf(view.run), report.runs);
+      const difference = differenceName(report.settings.differenceOf);
       const stroke = written(view.run.stroke[view.state], 2);
       if (view.flat) {
-        add(view, null, `${view.difference ? "B − A: " : run}${view.run.plies[report.settings.flatPly].name}, flat`);
+        const { name } = view.run.plies[report.settings.flatPly];
+        add(view, null, `${view.difference ? `${difference}: ` : run}${name}, flat`);
         continue;
       }
       for (const name of ["oblique", "top"]) {
-        add(view, name, `${view.difference ? "B − A" : run}${name}, ${stroke} mm of stroke`);
+        add(view, name, `${view.difference ? `${difference}, ` : run}${name}, ${stroke} mm of stroke`);
       }
     }
     Object.assign(stage.camera, { azimuth, elevation });

@@ -31,7 +31,7 @@ export class Report {
       state: first.stroke.length - 1, field: "shear", colours: "viridis", steps: 0, low: null,
       high: null, limit: null, yarns: 0, apart: 0, hidden: new Set(), tools: "outlines",
       section: { on: false, level: false, angle: 0, offset: 0 }, flatPly: first.plies.length - 1,
-      difference: false, follow: true,
+      difference: false, differenceOf: 1, follow: true, // differenceOf: the run that A is taken from
     };
     this.probe = null;
     this.watchers = [];
@@ -52,7 +52,7 @@ export class Report {
       }
     }
     this.stage.camera.fit(this.box);
-    if (this.runs.length > 1) this.difference = new Difference(...this.runs);
+    this.differencesToA = this.runs.map((run, r) => (r ? new Difference(this.runs[0], run) : null));
     this.settings.limit = this.usualLimit();
     this.makeViews();
     await this.show(["all"]);
@@ -74,6 +74,11 @@ export class Report {
       if (view.flat) view.element.addEventListener("click", clicked);
       else this.stage.camera.listen(view.element, clicked);
     }
+  }
+
+  /** Of the run that is set, to A; none of one run alone. */
+  get difference() {
+    return this.differencesToA[this.settings.differenceOf];
   }
 
   /** State of each run: that of the first, and of others the one nearest in stroke. */
@@ -122,7 +127,7 @@ export class Report {
     const states = this.states();
     const stateOf = (view) => states[this.runs.indexOf(view.run)];
     if (changed("state")) stage.views.forEach((view) => view.move(stateOf(view)));
-    if (changed("state", "field", "difference")) await this.colour();
+    if (changed("state", "field", "difference", "differenceOf")) await this.colour();
     this.findScale(changed("state", "field", "difference", "low", "high", "hidden"));
     for (const view of stage.views) {
       const scale = view.difference ? this.differenceScale() : this.scale;
@@ -151,7 +156,7 @@ export class Report {
       view.plies.forEach((mesh, i) => mesh.colour(this.values[r][i]));
     }
     if (!this.difference) return;
-    const [stateA, stateB] = this.states();
+    const [stateA, stateB] = [0, this.settings.differenceOf].map((r) => this.states()[r]);
     this.differences = await Promise.all(this.difference.pairs.map(async ([a, b], i) => {
       if (!b || !has(a, field) || !has(b, field)) return zero(a);
       return this.difference.values(i, await nodalValuesOf(a, field, stateA), await nodalValuesOf(b, field, stateB));
