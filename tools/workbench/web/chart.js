@@ -72,7 +72,8 @@ class Axis {
     for (let power = Math.floor(Math.log10(this.low)); power <= Math.log10(this.high); ++power) {
       for (const step of [1, 2, 5]) {
         const value = step * 10 ** power;
-        if (value >= this.low && value <= this.high) found.push([value, written(value, Math.max(0, -power))]);
+        const text = written(value, Math.max(0, -power));
+        if (value >= this.low && value <= this.high) found.push([value, text]);
       }
     }
     return found.length > 9 ? found.filter(([value]) => Math.log10(value) % 1 === 0) : found;
@@ -80,7 +81,8 @@ class Axis {
 
   /** A value as it is read out. */
   said(value) {
-    return this.words ? this.words[value] : `${written(value, fittingDigits(value))}${this.unit ? ` ${this.unit}` : ""}`;
+    if (this.words) return this.words[value];
+    return `${written(value, fittingDigits(value))}${this.unit ? ` ${this.unit}` : ""}`;
   }
 }
 
@@ -90,11 +92,12 @@ function drawAxes(svg, x, y) {
     part("text", { x: ROOM.left - 6, y: y.at(value) + 4, "text-anchor": "end" }, svg, text);
   }
   for (const [value, text] of x.marks()) {
-    part("line", { class: "grid", x1: x.at(value), x2: x.at(value), y1: ROOM.top, y2: ROOM.height - ROOM.bottom }, svg);
+    part("line", { class: "grid", x1: x.at(value), x2: x.at(value), y1: ROOM.top,
+      y2: ROOM.height - ROOM.bottom }, svg);
     part("text", { x: x.at(value), y: ROOM.height - ROOM.bottom + 16, "text-anchor": "middle" }, svg, text);
   }
-  part("text", { class: "of-axis", x: (ROOM.left + ROOM.width - ROOM.right) / 2, y: ROOM.height - 8, "text-anchor": "middle" },
-    svg, titled(x));
+  part("text", { class: "of-axis", x: (ROOM.left + ROOM.width - ROOM.right) / 2, y: ROOM.height - 8,
+    "text-anchor": "middle" }, svg, titled(x));
   part("text", { class: "of-axis", "text-anchor": "middle",
     transform: `translate(14 ${(ROOM.top + ROOM.height - ROOM.bottom) / 2}) rotate(-90)` }, svg, titled(y));
 }
@@ -195,7 +198,8 @@ function legend(place, all) {
 export function drawChart(place, what) {
   place.replaceChildren();
   const all = what.series;
-  const svg = part("svg", { viewBox: `0 0 ${ROOM.width} ${ROOM.height}`, class: "chart", role: what.pick ? "group" : "img",
+  const svg = part("svg", { viewBox: `0 0 ${ROOM.width} ${ROOM.height}`, class: "chart",
+    role: what.pick ? "group" : "img",
     "aria-label": `${what.title}: ${titled(what.y)} over ${titled(what.x)}` }, place);
   const limits = what.limits || [];
   const x = new Axis(what.x, all.flatMap((series) => series.x), ROOM.left, ROOM.width - ROOM.right);
