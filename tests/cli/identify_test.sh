@@ -39,6 +39,25 @@ expect 0 'plot: tools/plot.py fit fit.csv -o fit.png' identify frame frame.csv \
   --side 200 --fabric glass.toml --coefficients 3 --to 45 -o found.toml --fit fit.csv
 expect_law found.toml polynomial 0.37044 1e-6
 
+# For programs: the law with its limits, or why there is none.
+# expect_json FILE PYTHON: an expression of the report j.
+expect_json() {
+  python3 -c 'import json, sys; j = json.load(open(sys.argv[1])); sys.exit(not eval(sys.argv[2]))' "$1" "$2" ||
+    fail "$1: not $2"
+}
+expect 0 'written: found.toml' identify bias bias.csv "${bias[@]}" -o found.toml --report found.json
+expect_json found.json 'j["status"] == "done" and j["test"] == "bias" and j["output"] == "found.toml"'
+expect_json found.json '[n["name"] for n in j["numbers"][:3]] == ["k1", "k3", "k5"]'
+expect_json found.json 'abs(j["numbers"][0]["value"] / 0.37044 - 1) < 1e-6'
+expect_json found.json '0 <= j["numbers"][0]["limits"] < 1e-5 and j["numbers"][0]["unit"] == "N mm"'
+expect_json found.json '{"name": "rows", "unit": "", "value": 61.0, "limits": None} in j["numbers"]'
+awk -F, 'NR == 1 { print } NR > 1 { print $1 "," -$3 }' bias.csv >below.csv
+expect 2 'error' identify bias below.csv "${bias[@]}" -o never.toml --report found.json
+expect_json found.json 'j["status"] == "refused" and j["errors"][0]["file"] == "below.csv"'
+expect_json found.json 'j["errors"][0]["rule"] and j["errors"][0]["remedy"] and "numbers" not in j'
+expect 2 'report = ./bias.csv: would overwrite' identify bias bias.csv "${bias[@]}" -o never.toml \
+  --report ./bias.csv
+
 # A law of both signs: its other side in the test the other way round, and a law identified in its
 # place is the same both ways.
 sed 's|^polynomial = .*|&\nnegative_polynomial = [0.037044, 0.084105, 0.103113]|' glass.toml >two.toml

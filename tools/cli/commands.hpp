@@ -73,6 +73,7 @@ struct IdentifyArguments {
   ColumnArguments x, y, angle;
   std::string angle_file; ///< FILE or FILE:COLUMN: angles over displacements
   std::string fabric, output, fit;
+  std::string report; ///< JSON file, or empty
   SpecimenArguments specimen;
   std::optional<int> coefficients, points; ///< of a polynomial, of a table of shear
   std::string law;                         ///< of shear: polynomial, static or table; empty: chosen

@@ -163,6 +163,11 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
   if (!a.angle_file.empty()) read.insert(read.begin(), curve_argument(a.angle_file).file);
   read.push_back(a.output);
   check_output("--fit", fit, read, diagnostics);
+  read.push_back(fit);
+  if (!a.report.empty()) check_output("--report", a.report, read, diagnostics);
+  if (!a.report.empty() && are_laboratories(a))
+    option_error("--report", a.report, "is not written of several laboratories",
+                 "identify each by itself, or leave it out", diagnostics);
   check_range(a, diagnostics);
   check_form(a, diagnostics);
   check_positive("--yarns", a.yarns, "give the number of yarns that share the force", diagnostics);

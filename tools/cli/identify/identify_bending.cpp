@@ -3,6 +3,7 @@
 #include "tools/cli/identify/identify_parts.hpp"
 
 #include <fmt/format.h>
+#include <limits>
 
 namespace plyform {
 namespace {
@@ -34,6 +35,7 @@ Identified table_text(const BendingFit& fit, const IdentifyArguments& arguments)
                   100.0 * fit.quality.rms, 100.0 * fit.quality.largest, fit.quality.largest_at),
       fmt::format("95 % limits of the curvatures +- {:.2g} % at most; from the residuals",
                   100.0 * fit.limits)};
+  put_quality(fit.quality, result);
   result.fit = std::string("force_N,measured_mm,fitted_mm") + specimen_header(fit.specimen);
   for (std::size_t i = 0; i < fit.x.size(); ++i)
     result.fit += fmt::format("{:.9g},{:.9g},{:.9g}{}\n", fit.x[i], fit.measured[i], fit.fitted[i],
@@ -56,6 +58,11 @@ Identified bending_text(const BendingFit& fit, const IdentifyArguments& argument
     result.laws.push_back({yarns, "bending_stiffness", fmt::format("{:.7g}", fit.stiffness), {}});
   result.law_line = fmt::format("bending_stiffness = {:.5g} N mm, bending length {:.4g} mm",
                                 fit.stiffness, fit.bending_length);
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  result.numbers = {
+      {"bending_stiffness", "N mm", fit.stiffness, fit.limits > 0.0 ? fit.limits : unknown},
+      {"bending length", "mm", fit.bending_length, unknown}};
+  put_quality(fit.quality, result);
   const std::size_t specimens = fit.of_specimen.size();
   const bool cantilever = arguments.test == "cantilever";
   result.figures = {fmt::format("{} {}", fit.quality.rows, cantilever ? "readings" : "rows")};
@@ -93,6 +100,9 @@ Identified zone_text(const ZoneFit& fit, const IdentifyArguments& arguments) {
         {yarns, "in_plane_bending_stiffness", fmt::format("{:.7g}", fit.stiffness), {}});
   result.law_line = fmt::format("in_plane_bending_stiffness = {:.4g} N mm, zone {:.4g} mm wide",
                                 fit.stiffness, fit.length);
+  result.numbers = {{"in_plane_bending_stiffness", "N mm", fit.stiffness, fit.stiffness_limits},
+                    {"width of the zone", "mm", fit.length, fit.length_limits}};
+  put_quality(fit.quality, result);
   result.figures = {
       fmt::format("{} rows, residuals {:.2g} % of the step rms, shear in the zone {:.3g} degrees",
                   fit.quality.rows, 100.0 * fit.quality.rms, fit.plateau / degree),

@@ -29,13 +29,19 @@ Identified biaxial_text(const BiaxialFit& fit) {
       result.law_line += fmt::format("{}: stiffness = {:.5g} N per straight yarn, ", directions[a],
                                      fit.yarn[a].stiffness);
       limits += fmt::format("{} +- {:.3g} N, ", directions[a], fit.stiffness_limits[a]);
+      result.numbers.push_back({fmt::format("stiffness of {}", directions[a]),
+                                "N per straight yarn", fit.yarn[a].stiffness,
+                                fit.stiffness_limits[a]});
     } else {
       result.law_line += fmt::format("{}: table of {} rows, no line fits, ", directions[a],
                                      fit.yarn[a].strain.size());
     }
     result.law_line += fmt::format("crimp {:.4g}{}", fit.crimp[a], a == 0 ? "\n  " : "");
     limits += fmt::format("its crimp +- {:.2g}{}", fit.crimp_limits[a], a == 0 ? "; " : "");
+    result.numbers.push_back(
+        {fmt::format("crimp of {}", directions[a]), "", fit.crimp[a], fit.crimp_limits[a]});
   }
+  put_quality(fit.quality, result);
   result.laws.push_back(
       {"crimp", "ratio", fmt::format("[{:.6g}, {:.6g}]", fit.crimp[0], fit.crimp[1]), {}});
   result.laws.push_back(

@@ -189,7 +189,10 @@ int identify_command(const IdentifyArguments& arguments) {
                  ? identify_groups(arguments, base, test, kinds.curves, kinds.others, options,
                                    diagnostics)
                  : identify(arguments, base, test, kinds.curves, options, diagnostics);
-  if (print_diagnostics(diagnostics)) return exit_case_wrong;
+  const bool refused = print_diagnostics(diagnostics);
+  if (!arguments.report.empty())
+    write_report(arguments, fit.string(), base, refused ? std::nullopt : result, diagnostics);
+  if (refused) return exit_case_wrong;
   if (!result) throw std::logic_error("no law and no reason for it");
   write_and_report(arguments, fit, base, *result);
   return exit_done;

@@ -63,6 +63,8 @@ void put_side(const std::string& side, const Identified& of, Identified& result)
     result.figures.push_back(side + ": " + figure);
   for (const std::string& note : of.notes)
     result.notes.push_back(side + ": " + note);
+  for (const LawNumber& number : of.numbers)
+    result.numbers.push_back({side + ": " + number.name, number.unit, number.value, number.limits});
 }
 
 /// A law of both signs as TOML.
@@ -177,6 +179,9 @@ Identified stitch_text(const StitchFit& fit, const FabricReading& base, std::siz
   result.law_line = fmt::format("shear, by {}, where it is slack: {}", other, slack.law_line);
   result.figures.push_back(
       fmt::format("{}: {}, by {}, which draw it", own.name, stitch_line(fit), drawn));
+  if (fit.line)
+    result.numbers.push_back(
+        {own.name + ": stiffness", "N", fit.law.tension.stiffness, fit.stiffness_limits});
   result.figures.push_back("load on that side: " +
                            figure_of_residuals(fit.quality, degrees(fit.quality.largest_at)));
   result.figures.push_back(

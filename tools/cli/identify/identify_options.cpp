@@ -21,6 +21,9 @@ void add_outputs(CLI::App& test, IdentifyArguments& to) {
   test.add_option("--fabric", to.fabric, "fabric file with all but the law")->required();
   test.add_option("-o,--output", to.output, "fabric file to write")->required();
   test.add_option("--fit", to.fit, "CSV file of measured and fitted rows [OUTPUT's stem_fit.csv]");
+  test.add_option("--report", to.report,
+                  "JSON file of the law, its limits, warnings and mistakes, for programs; also "
+                  "written where the curve is refused");
   test.add_flag("--yes-doubtful", to.doubtful,
                 "go on though the curve shows a disturbance or the law is no fabric's");
 }

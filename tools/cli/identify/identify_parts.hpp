@@ -13,6 +13,12 @@
 
 namespace plyform {
 
+/// A number of a law, with the half width of its 95 % limits; NaN where they are not known.
+struct LawNumber {
+  std::string name, unit;
+  double value = 0.0, limits = 0.0;
+};
+
 /// An identified law as text for the report and the fabric file.
 struct Identified {
   std::string title;                 ///< "shear law"
@@ -22,6 +28,7 @@ struct Identified {
   std::string law_line;              ///< for the report
   std::vector<std::string> figures;  ///< range, residuals, limits: for the report and the file
   std::vector<std::string> notes;    ///< for the report only
+  std::vector<LawNumber> numbers;    ///< of the law and its residuals, for programs
 };
 
 /// tools/cli/identify/identify_arguments.cpp
@@ -117,5 +124,12 @@ Identified zone_text(const ZoneFit& fit, const IdentifyArguments& arguments);
 /// "warp", "weft", or both.
 std::vector<std::string> families_of(const std::string& direction);
 std::string figure_of_residuals(const FitQuality& quality, const std::string& at);
+/// Rows and residuals (%), beside the numbers of the law.
+void put_quality(const FitQuality& quality, Identified& result);
+/// tools/cli/identify/identify_json.cpp: writes arguments.report; `result` is missing where the
+/// curve is refused.
+void write_report(const IdentifyArguments& arguments, const std::string& fit_file,
+                  const FabricReading& base, const std::optional<Identified>& result,
+                  const Diagnostics& diagnostics);
 
 } // namespace plyform

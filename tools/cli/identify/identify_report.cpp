@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
+#include <limits>
 
 namespace plyform {
 namespace {
@@ -120,6 +121,13 @@ std::string figure_of_residuals(const FitQuality& quality, const std::string& at
                      100.0 * quality.rms, 100.0 * quality.largest, at);
 }
 
+void put_quality(const FitQuality& quality, Identified& result) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  result.numbers.push_back({"rows", "", static_cast<double>(quality.rows), unknown});
+  result.numbers.push_back({"residuals rms", "%", 100.0 * quality.rms, unknown});
+  result.numbers.push_back({"residuals at most", "%", 100.0 * quality.largest, unknown});
+}
+
 namespace {
 
 /// The law as TOML and in words.
@@ -167,11 +175,35 @@ std::string number_limits(const ShearFit& fit) {
 
 } // namespace
 
+/// k1, k3 ... and C0, or the torques of a table's points.
+void put_shear_numbers(const ShearFit& fit, Identified& result) {
+  const std::vector<double>& limits = fit.confidence.coefficient;
+  const auto limit = [&](std::size_t i) {
+    return i < limits.size() ? limits[i] : std::numeric_limits<double>::quiet_NaN();
+  };
+  if (fit.form.kind == ShearFormKind::table) {
+    for (std::size_t i = 1; i < fit.law.angle.size(); ++i)
+      result.numbers.push_back({fmt::format("torque at {:.3g} degrees", fit.law.angle[i] / degree),
+                                "N mm", fit.law.torque[i], limit(i - 1)});
+  } else {
+    const std::size_t n = fit.polynomial.size();
+    for (std::size_t i = 0; i < n; ++i)
+      result.numbers.push_back(
+          {fmt::format("k{}", 2 * i + 1), "N mm", fit.polynomial[i], limit(i)});
+    if (fit.form.kind == ShearFormKind::with_static)
+      result.numbers.push_back({"static torque", "N mm", fit.static_torque, limit(n)});
+  }
+  put_quality(fit.quality, result);
+  result.numbers.push_back({"misfit of the torque", "%", 100.0 * fit.quality.misfit,
+                            std::numeric_limits<double>::quiet_NaN()});
+}
+
 Identified shear_text(const ShearFit& fit) {
   Identified result;
   result.title = "shear law";
   result.provides = {"shear"};
   put_shear_law(fit, result);
+  put_shear_numbers(fit, result);
   const FitQuality& q = fit.quality;
   const auto degrees = [](double angle) { return fmt::format("{:.3g} degrees", angle / degree); };
   result.figures = {fmt::format("{} rows, shear angle {:.3g} to {:.3g} degrees", q.rows,
@@ -212,6 +244,8 @@ Identified tension_text(const TensionFit& fit, const IdentifyArguments& argument
     result.laws = {{yarns, "stiffness", fmt::format("{:.7g}", fit.law.stiffness), {}}};
     result.law_line = fmt::format("stiffness = {:.5g} N per yarn", fit.law.stiffness);
     limits = fmt::format("+- {:.3g} N per yarn, ", fit.confidence.coefficient[0]);
+    result.numbers = {
+        {"stiffness", "N per yarn", fit.law.stiffness, fit.confidence.coefficient[0]}};
   } else {
     std::string rows = "[";
     for (std::size_t i = 0; i < fit.law.strain.size(); ++i)
@@ -222,6 +256,7 @@ Identified tension_text(const TensionFit& fit, const IdentifyArguments& argument
                     fit.law.strain.size(), fit.law.tension.back(), fit.law.strain.back());
   }
   const FitQuality& q = fit.quality;
+  put_quality(q, result);
   const auto strain = [](double value) { return fmt::format("a strain of {:.3g}", value); };
   result.figures = {fmt::format("{} rows, strain {:.3g} to {:.3g}", q.rows, q.from, q.to),
                     figure_of_residuals(q, strain(q.largest_at)),
@@ -253,9 +288,14 @@ Identified compression_text(const CompressionFit& fit, const IdentifyArguments& 
          {}});
   }
   result.law_line = fmt::format("compression_stiffness = {:.5g} N per yarn", fit.stiffness);
-  if (fit.buckling_force)
+  result.numbers = {{"compression_stiffness", "N per yarn", fit.stiffness, fit.stiffness_limits}};
+  if (fit.buckling_force) {
     result.law_line += fmt::format(", buckling_force = {:.4g} N per yarn", *fit.buckling_force);
+    result.numbers.push_back({"buckling_force", "N per yarn", *fit.buckling_force,
+                              std::numeric_limits<double>::quiet_NaN()});
+  }
   const FitQuality& q = fit.quality;
+  put_quality(q, result);
   result.figures = {
       fmt::format("{} rows, shortening {:.3g} to {:.3g}", q.rows, q.from, q.to),
       figure_of_residuals(q, fmt::format("a shortening of {:.3g}", q.largest_at)),
