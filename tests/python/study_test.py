@@ -7,6 +7,7 @@ Leaves with 77 when a package is missing.
 """
 
 import csv
+import json
 import os
 import shutil
 import subprocess
@@ -48,6 +49,10 @@ def check_goes_on(folder: Path) -> None:
                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     seen = scene.folder / "calls.txt"
     wait_for(lambda: seen.exists() and "friction=0.3" in seen.read_text(encoding="utf-8"))
+    wait_for(lambda: [row["status"] for row in scene.rows()].count("done") == 2)  # while it goes on
+    assert [row["status"] for row in scene.rows()].count("missing") == 2, scene.rows()
+    told = json.loads((scene.results / "jobs.json").read_text(encoding="utf-8"))["study"]
+    assert Path(told) == scene.folder / "study.toml", told
     process.kill()
     process.wait()
     wait_for(lambda: not alive(str(scene.program)))

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Has Snakemake do the runs of a study that are missing, and says how far it is."""
 
+import contextlib
 import fcntl
 import importlib.util
 import json
@@ -12,6 +13,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -41,6 +43,7 @@ class Options:
     runs_per_job: int = 0   # 0: by their time
     again: bool = False     # failed runs too
     first: str = ""         # name of the longest run, which begins first
+    study: Path = Path()    # its file, told beside the results
 
 
 def ended(folder: Path, run: Run) -> dict:
@@ -111,9 +114,29 @@ def clock(seconds: float) -> str:
     return f"{whole // 3600}:{whole // 60 % 60:02}:{whole % 60:02}"
 
 
+class LiveTable:
+    """The table while runs end: written anew by `write` when there are more, for a twentieth of the
+    time at most. What cannot be written now is told when the study ends."""
+
+    def __init__(self, write: Callable[[], None]):
+        self.write, self.left, self.next = write, -1, 0.0
+
+    def tell(self, left: int) -> None:
+        begin = time.monotonic()
+        if left == self.left or begin < self.next:
+            return
+        self.left = left
+        with contextlib.suppress(OSError, Trouble):
+            self.write()
+        now = time.monotonic()
+        self.next = now + 20 * (now - begin)
+
+
 class Engine:
-    def __init__(self, options: Options, runs: list[Run], estimate_s: float):
+    def __init__(self, options: Options, runs: list[Run], estimate_s: float,
+                 write_table: Callable[[], None] = lambda: None):
         self.options, self.runs, self.estimate_s = options, runs, estimate_s
+        self.table = LiveTable(write_table)
 
     def missing(self) -> list[Run]:
         return [run for run in self.runs if not ended(self.options.folder, run)]
@@ -138,7 +161,7 @@ class Engine:
     def write_jobs(self, missing: list[Run]) -> None:
         folder = self.options.folder
         shutil.rmtree(folder / "jobs", ignore_errors=True)
-        jobs = {"program": str(self.options.program), "threads": self.options.threads,
+        jobs = {"study": str(self.options.study), "program": str(self.options.program), "threads": self.options.threads,
                 "jobs": self.batches(missing),
                 "runs": {run.name: {"words": run.words(), "line": run.line, "label": run.label}
                          for run in missing}}
@@ -186,6 +209,7 @@ class Engine:
         if self.options.profile:
             check_profile(self.options.profile, version)
         self.write_jobs(missing)
+        self.table.tell(len(missing))
         with open(folder / "snakemake.log", "w", encoding="utf-8") as log:
             process = subprocess.Popen(self.command(), stdin=subprocess.DEVNULL, stdout=log,
                                        stderr=subprocess.STDOUT, preexec_fn=die_with_parent,
@@ -201,6 +225,7 @@ class Engine:
                 left = [run for run in left if not (folder / "runs" / run.name / ENDED).is_file()]
                 progress.show(1.0 - len(left) / len(missing),
                               f"{len(self.runs) - len(left)}/{len(self.runs)} runs")
+                self.table.tell(len(left))
         except BaseException:
             self.leave(process)
             progress.end()

@@ -95,9 +95,12 @@ def differences(study: Study, planner: Planner, runs: list[Run], folder: Path) -
     return errors
 
 
-def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path) -> list[dict]:
-    errors, rows = differences(study, planner, runs, folder), []
-    means = area_means(study.area_means, planner, runs, folder)
+def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path,
+            quick: bool = False) -> list[dict]:
+    """`quick`: without what compares runs, which takes its time."""
+    errors = {} if quick else differences(study, planner, runs, folder)
+    means = {} if quick else area_means(study.area_means, planner, runs, folder)
+    rows = []
     for run in runs:
         end = ended(folder, run)
         row = {"line": run.line, "setting": run.label,
@@ -120,7 +123,7 @@ def rows_of(study: Study, planner: Planner, runs: list[Run], folder: Path) -> li
     for row in rows if study.limits else ():
         row["breaks"] = breaks(study, row, rows)
         row["within_limits"] = int(not row["breaks"])
-    if main_error(study):
+    if main_error(study) and not quick:
         mark_front(rows, main_error(study))
     return rows
 
@@ -146,6 +149,14 @@ def write_csv(rows: list[dict], columns: list[str], file: Path) -> None:
     part.rename(file)
 
 
+def write_table(study: Study, planner: Planner, runs: list[Run], folder: Path,
+                quick: bool = False) -> list[dict]:
+    """table.csv; its rows."""
+    rows = rows_of(study, planner, runs, folder, quick)
+    write_csv(rows, columns_of(rows), folder / "table.csv")
+    return rows
+
+
 def screen(rows: list[dict], study: Study) -> str:
     """The table's most telling columns."""
     third = main_error(study) or "largest_shear_deg"
@@ -163,8 +174,7 @@ def screen(rows: list[dict], study: Study) -> str:
 def tell(study: Study, planner: Planner, runs: list[Run], folder: Path,
          text: Path | None = None) -> int:
     """Writes table, ranking and pictures, and fills them into a text; the exit code."""
-    rows = rows_of(study, planner, runs, folder)
-    write_csv(rows, columns_of(rows), folder / "table.csv")
+    rows = write_table(study, planner, runs, folder)
     ranks = rank(study, [one.name for one in planner.vary], rows)
     write_csv(ranks, ["figure", "key", "effect", "standardised", "explained", "runs"],
               folder / "ranking.csv")
