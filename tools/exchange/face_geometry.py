@@ -1,0 +1,90 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Exact normals and curvatures of the faces of gmsh's model at the corners of their triangles. Lengths in
+mm."""
+
+import gmsh
+import numpy as np
+
+from exchange.shell_mesh import triangle_normals, unit
+
+STEP = 1e-5   # of the parameters, off a point where a face has no normal
+ALIKE = 0.5   # cosine of an exact normal to that of the triangles, at least
+APART = 1e-4  # of the parameters, for differences
+THIN = 1e-6   # sine of the angle between differences along the parameters: less is a pole
+
+
+def at_corners(x: np.ndarray, triangles: np.ndarray,
+               face: np.ndarray) -> tuple[np.ndarray, np.ndarray, dict[int, float]]:
+    """Of triangles and the faces they are of: normals (m x 3 x 3), of each triangle's own face at its
+    corners on the side that the triangles face; least and largest principal curvature (m x 3 x 2, 1/mm),
+    above 0 where the face bends away from that side; and by face the sign of gmsh's normals."""
+    normals, curvature = np.zeros((len(triangles), 3, 3)), np.zeros((len(triangles), 3, 2))
+    sign = {}
+    facing, area = triangle_normals(x, triangles)
+    for tag in np.unique(face).tolist():
+        here = np.flatnonzero(face == tag)
+        points, at = np.unique(triangles[here], return_inverse=True)
+        at = at.reshape(-1, 3)
+        about = np.zeros((len(points), 3))
+        np.add.at(about, at.ravel(), np.repeat(area[here, None] * facing[here], 3, axis=0))
+        parameters = np.array(gmsh.model.getParametrization(2, tag, x[points].ravel())).reshape(-1, 2)
+        exact, sign[tag] = exact_normals(tag, parameters, unit(about))
+        normals[here] = exact[at]
+        curvature[here] = (sign[tag] * curvatures(tag, parameters))[at]
+    for tag, value in sign.items():
+        if value < 0:
+            curvature[face == tag] = curvature[face == tag][..., ::-1]
+    return normals, curvature, sign
+
+
+def normals_at(face: int, parameters: np.ndarray) -> np.ndarray:
+    return np.array(gmsh.model.getNormal(face, parameters.ravel())).reshape(-1, 3)
+
+
+def points_at(face: int, parameters: np.ndarray) -> np.ndarray:
+    return np.array(gmsh.model.getValue(2, face, parameters.ravel())).reshape(-1, 3)
+
+
+def inwards(face: int, parameters: np.ndarray) -> np.ndarray:
+    """k x 2: from points to the middle of the range of parameters, by its width."""
+    low, high = (np.array(ends) for ends in gmsh.model.getParametrizationBounds(2, face))
+    return np.where(parameters < (low + high) / 2, 1.0, -1.0) * (high - low)
+
+
+def exact_normals(face: int, parameters: np.ndarray, about: np.ndarray) -> tuple[np.ndarray, float]:
+    """On the side of `about`, the normals of the triangles round the points, and the sign of gmsh's. At a
+    pole gmsh has either sign, or none: a point beside it is asked there. At the tip of a cone it is that
+    of the triangles."""
+    normals = normals_at(face, parameters)
+    sign = 1.0 if np.median((normals * about).sum(axis=1)) > 0 else -1.0
+    lost = ~(sign * (normals * about).sum(axis=1) > ALIKE)
+    if lost.any():
+        normals[lost] = normals_at(face, (parameters + STEP * inwards(face, parameters))[lost])
+        lost = ~(sign * (normals * about).sum(axis=1) > ALIKE)
+    return np.where(lost[:, None], about, sign * normals), sign
+
+
+def curvatures(face: int, parameters: np.ndarray) -> np.ndarray:
+    """k x 2, 1/mm: least and largest principal curvature, above 0 where gmsh's normals spread, by
+    differences along both parameters; 0 at poles. gmsh's own have no sign to rely on."""
+    step = APART * inwards(face, parameters)
+    here, normal = points_at(face, parameters), normals_at(face, parameters)
+    along, turn = [], []
+    for number in range(2):
+        there = parameters.copy()
+        there[:, number] += step[:, number]
+        along.append(points_at(face, there) - here)
+        turn.append(normals_at(face, there) - normal)
+    # turn = shape operator applied to along, in a basis of the tangent plane
+    one = unit(along[0])
+    two = np.cross(normal, one)
+    sides, turns = (np.stack([np.stack([(vector * axis).sum(axis=1) for axis in (one, two)], axis=1)
+                              for vector in vectors], axis=2) for vectors in (along, turn))
+    size = np.linalg.norm(sides, axis=1).prod(axis=1)
+    area = np.linalg.det(sides)
+    known = np.abs(area) > THIN * size
+    known &= size > 0
+    found = np.zeros((len(parameters), 2))
+    shape = turns[known] @ np.linalg.inv(sides[known])
+    found[known] = np.linalg.eigvalsh((shape + shape.transpose(0, 2, 1)) / 2)
+    return found
