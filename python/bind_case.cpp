@@ -54,19 +54,36 @@ py::object value_of(const std::filesystem::path& file, const std::vector<Overrid
   return value ? to_python(*value) : py::none();
 }
 
-void bind_mistakes(py::module_& m) {
-  py::class_<CaseError>(m, "Mistake", "One mistake in a file: where, what, which rule, what to do.")
-      .def_property_readonly(
-          "file", [](const CaseError& e) { return printable(e.file); },
-          "File, as it was named; --set for a value set from Python.")
-      .def_readonly("line", &CaseError::line, "Line, from 1.")
-      .def_readonly("column", &CaseError::column, "Column, from 1, in characters.")
-      .def_readonly("item", &CaseError::item, "Key as a dotted path: ply.2.angle.")
-      .def_readonly("value", &CaseError::value, "Value as written; empty where it is missing.")
-      .def_readonly("rule", &CaseError::rule, "The rule that is broken: must be at least 0.")
-      .def_readonly("remedy", &CaseError::remedy, "What to do about it.")
-      .def("__str__", &CaseError::text)
-      .def("__repr__", [](const CaseError& e) { return "<Mistake " + e.text() + ">"; });
+/// None for a number that is not finite.
+template <class Member>
+auto bound(Member KeyColumn::*member) {
+  return [member](const KeyColumn& column) -> py::object {
+    const double value = column.*member;
+    return std::isfinite(value) ? py::object(py::float_(value)) : py::object(py::none());
+  };
+}
+
+/// An attribute of the key's form.
+template <class Member>
+auto of_form(Member KeyForm::*member) {
+  return [member](const KeyInfo& key) { return key.form.*member; };
+}
+
+void bind_key_columns(py::module_& m) {
+  py::class_<KeyColumn>(m, "KeyColumn", "What the numbers of a column of a key may be.")
+      .def_readonly("unit", &KeyColumn::unit, "mm, N, s, deg ...; - for none.")
+      .def_property_readonly("least", bound(&KeyColumn::least), "Least number allowed, or None.")
+      .def_property_readonly("most", bound(&KeyColumn::most), "Largest number allowed, or None.")
+      .def_readonly("open_least", &KeyColumn::open_least, "Whether least itself is not allowed.")
+      .def_readonly("open_most", &KeyColumn::open_most, "Whether most itself is not allowed.")
+      .def_property_readonly("usual_least", bound(&KeyColumn::usual_least),
+                             "What is less gets a warning; or None.")
+      .def_property_readonly("usual_most", bound(&KeyColumn::usual_most),
+                             "What is more gets a warning; or None.");
+}
+
+void bind_keys(py::module_& m) {
+  bind_key_columns(m);
   py::class_<KeyInfo>(m, "Key", "A key of case and fabric files.")
       .def_readonly("key", &KeyInfo::key, "Dotted path: tool[].radius, fabrics.NAME.thickness.")
       .def_readonly("type", &KeyInfo::type, "number, integer, string, list of 3 numbers ...")
@@ -74,7 +91,57 @@ void bind_mistakes(py::module_& m) {
       .def_readonly("default", &KeyInfo::fallback, "Default as TOML, or in words, or required.")
       .def_readonly("range", &KeyInfo::range, "Allowed values: > 0, [0, 1], one of ...")
       .def_readonly("meaning", &KeyInfo::meaning, "What it means.")
+      .def_property_readonly("kind", of_form(&KeyForm::kind),
+                             "table, tables, map, fabric, text, name, path, choice, number, "
+                             "integer, boolean, numbers, "
+                             "pairs ([a, b] each), names, profile or outlines.")
+      .def_property_readonly("required", of_form(&KeyForm::required),
+                             "Whether every table that may have it must.")
+      .def_property_readonly("fallback", of_form(&KeyForm::fallback),
+                             "Default as TOML; empty if there is none or it is no value.")
+      .def_property_readonly("otherwise", of_form(&KeyForm::otherwise),
+                             "Default in words, if it is no value; else empty.")
+      .def_property_readonly("implied_by", of_form(&KeyForm::implied_by),
+                             "Keys of the same table beside one of which `implied` is the default.")
+      .def_property_readonly("implied", of_form(&KeyForm::implied), "TOML, or empty.")
+      .def_property_readonly("choices", of_form(&KeyForm::choices), "Words of a choice.")
+      .def_property_readonly("columns", of_form(&KeyForm::columns),
+                             "KeyColumn of each column of numbers; the last one is that of all "
+                             "further ones. Empty for what has no numbers.")
+      .def_property_readonly("count", of_form(&KeyForm::count),
+                             "How many numbers or names; 0 for any number of them.")
+      .def_property_readonly("least_items", of_form(&KeyForm::least_items),
+                             "Least number of items of a list.")
+      .def_property_readonly("most_items", of_form(&KeyForm::most_items),
+                             "Largest number of them; 0 for no bound but that of all lists.")
+      .def_property_readonly("instead", of_form(&KeyForm::instead),
+                             "Keys of the same table of which, with this one, only one is given; "
+                             "and one must be unless there is an otherwise.")
+      .def_property_readonly("of", of_form(&KeyForm::of),
+                             "Choice key of the same table that it depends on; or empty.")
+      .def_property_readonly("of_values", of_form(&KeyForm::of_values),
+                             "Values of that key with which it may stand.")
       .def("__repr__", [](const KeyInfo& k) { return "<Key " + k.key + ">"; });
+}
+
+void bind_mistakes(py::module_& m) {
+  py::class_<CaseError>(m, "Mistake", "One mistake in a file: where, what, which rule, what to do.")
+      .def_property_readonly(
+          "file", [](const CaseError& e) { return printable(e.file); },
+          "File, as it was named; --set for a value set from Python.")
+      .def_readonly("line", &CaseError::line, "Line, from 1.")
+      .def_readonly("column", &CaseError::column, "Column, from 1, in characters.")
+      .def_readonly(
+          "item", &CaseError::item,
+          "Key as a dotted path with numbers from 0: ply.2.angle, fabrics.glass.warp.stiffness "
+          "of a fabric file; of a part as a whole tool.1. Empty for a file that cannot "
+          "be read or is no TOML.")
+      .def_readonly("value", &CaseError::value, "Value as written; empty where it is missing.")
+      .def_readonly("rule", &CaseError::rule, "The rule that is broken: must be at least 0.")
+      .def_readonly("remedy", &CaseError::remedy, "What to do about it.")
+      .def("__str__", &CaseError::text)
+      .def("__repr__", [](const CaseError& e) { return "<Mistake " + e.text() + ">"; });
+  bind_keys(m);
 }
 
 void bind_outlook(py::module_& m) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A case before it runs, as arrays that share the memory of the C++ preview.
+#include "core/input/keys/tool_mesh_cache.hpp"
 #include "core/setup/scene_preview.hpp"
 #include "python/bindings.hpp"
 
@@ -257,6 +258,21 @@ py::list spacings_of(const ScenePreview& scene) {
   return spacings;
 }
 
+py::list tool_spacings_of(const ScenePreview& scene) {
+  py::list spacings;
+  for (const ToolSpacing& s : scene.tool_spacings) {
+    py::dict one;
+    one["a"] = s.a;
+    one["b"] = s.b;
+    one["gap_mm"] = s.gap;
+    one["time_s"] = scene.times[s.time];
+    one["where"] = vector_array(s.where);
+    one["stack_mm"] = s.stack;
+    spacings.append(one);
+  }
+  return spacings;
+}
+
 } // namespace
 
 void bind_scene(py::module_& m) {
@@ -291,6 +307,10 @@ void bind_scene(py::module_& m) {
       .def_property_readonly("spacings", &spacings_of,
                              "Neighbours of the stack: lower, upper (numbers of plies), gap_mm, "
                              "below 0 where they overlap.")
+      .def_property_readonly("tool_spacings", &tool_spacings_of,
+                             "How near tools whose ways are known come to each other: a, b "
+                             "(numbers of tools), gap_mm, below 0 where one is in the other, "
+                             "time_s, where, stack_mm, of the plies that lie there.")
       .def_property_readonly(
           "gravity", [](const ScenePreview& s) { return vector_array(s.gravity); },
           "float64, (3,), mm/s2.")
@@ -306,6 +326,7 @@ void bind_scene(py::module_& m) {
       "preview",
       [](const std::filesystem::path& file, const std::vector<Override>& overrides, int threads) {
         const py::gil_scoped_release others;
+        keep_tool_meshes(3'000'000); // who looks at a case once looks again
         return std::make_shared<ScenePreview>(
             preview_scene(file, overrides, threads_or_cores(threads)));
       },

@@ -209,6 +209,27 @@ BoundaryPreview preview_boundary(const Preview& p, std::size_t i) {
   return seen;
 }
 
+/// Points of a tool's surface near enough to each other to stand for it.
+std::vector<Vec3> points_of(const Tool& tool, const TriMesh& surface, double reach) {
+  constexpr std::size_t enough = 5000;
+  if (surface.x.size() >= enough || surface.x.empty()) return surface.x;
+  return tool_surface(tool, 0.0, reach + tool.position.norm()).x; // sides of large facets divided
+}
+
+void set_tool_spacings(Preview& p) {
+  if (p.flat.empty()) return;
+  std::vector<ToolOnItsWay> tools;
+  for (std::size_t i = 0; i < p.seen.tools.size(); ++i) {
+    const ToolPreview& seen = p.seen.tools[i];
+    ToolOnItsWay& tool = tools.emplace_back();
+    if (seen.surface.x.empty() || seen.shifts.empty()) continue;
+    tool.tool = &p.data.tools[i];
+    tool.points = points_of(*tool.tool, seen.surface, reach_of(p));
+    tool.shifts = &seen.shifts;
+  }
+  p.seen.tool_spacings = tool_spacings(tools, p.flat);
+}
+
 void set_whole(Preview& p) {
   ScenePreview& seen = p.seen;
   const CaseSketch& sketch = p.reading.sketch;
@@ -259,6 +280,7 @@ ScenePreview preview_scene(const std::filesystem::path& file,
     const auto number = static_cast<std::size_t>(i);
     seen.tools[number] = preview_tool(p, number);
   });
+  set_tool_spacings(p);
   for (std::size_t i = 0; i < p.data.boundaries.size(); ++i)
     seen.boundaries.push_back(preview_boundary(p, i));
   return seen;

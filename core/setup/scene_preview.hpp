@@ -5,6 +5,7 @@
 
 #include "core/input/keys/case_keys.hpp"
 #include "core/setup/first_contact.hpp"
+#include "core/setup/tool_spacings.hpp"
 
 #include <filesystem>
 #include <optional>
@@ -72,8 +73,9 @@ struct ScenePreview {
   std::vector<BoundaryPreview> boundaries;
   std::vector<PressureLoad> loads;
   std::vector<PlySpacing> spacings;
-  Vec3 gravity = Vec3::Zero();     ///< mm/s^2
-  double stack_thickness = 0.0;    ///< mm, of the plies that can be drawn
+  std::vector<ToolSpacing> tool_spacings; ///< over the times of the preview
+  Vec3 gravity = Vec3::Zero();            ///< mm/s^2
+  double stack_thickness = 0.0;           ///< mm, of the plies that can be drawn
   std::vector<CaseError> mistakes; ///< of the file; those of the scene are left to check_case
 };
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import json
 import os
+import re
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, Mapping, Union
@@ -37,6 +38,33 @@ def _toml(value: Value) -> str:
 
 
 @dataclass(frozen=True)
+class Warned:
+    """One warning, with its place if it has one."""
+
+    #: File, as it was named; `--set` for a value set from Python.
+    file: str
+    #: Line and column, from 1; None for what is said of the file as a whole.
+    line: int | None
+    column: int | None
+    #: Key as a dotted path with numbers, as of a Mistake; None if it is of no single key.
+    item: str | None
+    #: What is said, without the place.
+    text: str
+
+
+def _warned(message: str, tables: set[str]) -> Warned:
+    """A message as the program prints it: file:line:column: warning: key = value: text."""
+    place = re.match(r"(.*?)(?::(\d+):(\d+))?: warning: ", message, re.DOTALL)
+    if not place:
+        return Warned("", None, None, None, message)
+    file, line, column = place.groups()
+    text = message[place.end():]
+    key = re.match(r"([A-Za-z]\w*)(?:\.[\w-]+)*(?=: | = )", text)
+    item = key[0] if key and key[1] in tables else None
+    return Warned(file, int(line) if line else None, int(column) if column else None, item, text)
+
+
+@dataclass(frozen=True)
 class Check:
     """What a check found."""
 
@@ -48,6 +76,12 @@ class Check:
     notes: list[str]
     #: Estimates in the place of what the fabrics do not say.
     assumed: list[str]
+
+    @property
+    def warnings_at(self) -> list[Warned]:
+        """`warnings` in parts."""
+        tables = {re.split(r"[.\[]", key.key)[0] for key in _plyform.keys()}
+        return [_warned(message, tables) for message in self.warnings]
 
     @property
     def sound(self) -> bool:

@@ -48,9 +48,11 @@ void print_markdown(const std::vector<KeyInfo>& keys) {
 
 } // namespace
 
-int keys_command(bool markdown) {
+int keys_command(bool markdown, bool json) {
   const std::vector<KeyInfo> keys = case_keys();
-  if (markdown)
+  if (json)
+    fmt::print("{}\n", case_keys_json());
+  else if (markdown)
     print_markdown(keys);
   else
     for (const KeyInfo& k : keys)

@@ -46,7 +46,8 @@ struct Arguments {
   DifferenceArguments difference{{}, {}, {"shear_angle_deg"}, false};
   IdentifyArguments identify;
   TheoryArguments theory;
-  bool markdown = false; ///< keys as a page
+  bool markdown = false;  ///< keys as a page
+  bool keys_json = false; ///< keys for programs
   std::vector<std::string> families{"warp", "weft"};
 };
 
@@ -140,7 +141,9 @@ void add_other_commands(CLI::App& app, Arguments& to, std::vector<Command>& comm
 
   CLI::App* keys = app.add_subcommand("keys", "list every key of case and fabric files");
   keys->add_flag("--markdown", to.markdown, "as a page of tables");
-  commands.push_back({keys, [&to] { return keys_command(to.markdown); }});
+  keys->add_flag("--json", to.keys_json, "for programs, with all that a form needs")
+      ->excludes("--markdown");
+  commands.push_back({keys, [&to] { return keys_command(to.markdown, to.keys_json); }});
 
   CLI::App* columns = app.add_subcommand("columns", "list the columns that results have of a ply");
   columns->add_option("families", to.families, "names of its families of yarns")

@@ -3,7 +3,6 @@
 
 #include "base/geometry.hpp"
 #include "base/text.hpp"
-#include "core/input/keys/case_keys.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -95,62 +94,6 @@ double factor_of_unit(const std::string& unit) {
   return 1.0;
 }
 
-std::string type_text(const KeyRow& row) {
-  switch (row.kind) {
-  case KeyKind::table:
-    return "table";
-  case KeyKind::tables:
-    return "list of tables";
-  case KeyKind::map:
-    return "table of tables";
-  case KeyKind::fabric:
-    return "string (a path) or table";
-  case KeyKind::text:
-    return "string";
-  case KeyKind::name:
-    return "string (letters, digits, _ and -)";
-  case KeyKind::path:
-    return "string (a path)";
-  case KeyKind::choice:
-    return "string";
-  case KeyKind::number:
-    return "number";
-  case KeyKind::boolean:
-    return "true or false";
-  case KeyKind::integer:
-    return "integer";
-  case KeyKind::numbers:
-    return row.count ? fmt::format("list of {} numbers", row.count) : "list of numbers";
-  case KeyKind::pairs:
-    return "list of [a, b]";
-  case KeyKind::outlines:
-    return "list of outlines or tables";
-  case KeyKind::names:
-    return fmt::format("list of {} strings", row.count);
-  case KeyKind::profile:
-    return "list of [a, b], [a, b, fillet] or tables";
-  }
-  return "";
-}
-
-std::string fallback_text(const KeyRow& row) {
-  if (!row.otherwise.empty()) return row.otherwise;
-  if (!row.instead.empty()) return "required, or " + joined(row.instead);
-  if (!row.fallback.empty()) return row.fallback;
-  return row.of.empty() ? "required" : fmt::format("required for {} {}", row.of, joined(row.with));
-}
-
-std::string range_text(const KeyRow& row) {
-  if (!row.choices.empty()) return "one of " + joined(row.choices);
-  std::vector<std::string> parts;
-  for (const Range& range : row.ranges)
-    parts.push_back(range.text().empty() ? "any" : range.text());
-  for (const Range& range : row.usual)
-    parts.push_back("usually " + range.span());
-  if (row.least_items) parts.push_back(fmt::format("{} items or more", row.least_items));
-  return joined(parts);
-}
-
 } // namespace
 
 double unit_factor(const KeyRow& row, std::size_t column) {
@@ -158,17 +101,6 @@ double unit_factor(const KeyRow& row, std::size_t column) {
   for (std::size_t c = 0; c < column && units.find(", ") != std::string::npos; ++c)
     units = units.substr(units.find(", ") + 2);
   return factor_of_unit(units.substr(0, units.find(", ")));
-}
-
-std::vector<KeyInfo> case_keys() {
-  std::vector<KeyInfo> infos;
-  for (const KeyRow& row : key_table()) {
-    std::string meaning = row.meaning;
-    if (!row.of.empty()) meaning += fmt::format(" ({} {})", row.of, joined(row.with));
-    infos.push_back(
-        {row.key, type_text(row), row.unit, fallback_text(row), range_text(row), meaning});
-  }
-  return infos;
 }
 
 } // namespace plyform

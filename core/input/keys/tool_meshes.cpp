@@ -3,6 +3,7 @@
 
 #include "base/thread_pool.hpp"
 #include "core/input/keys/overrides.hpp"
+#include "core/input/keys/tool_mesh_cache.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +34,7 @@ ToolMeshes::ToolMeshes(const TableView& root, const std::filesystem::path& folde
   pool.run(count, [&](int i) {
     auto& [key, loaded] = *loads[static_cast<std::size_t>(i)];
     try {
-      loaded.mesh = load_tool_mesh(key.first, key.second, nullptr);
+      loaded.mesh = cached_tool_mesh(key.first, key.second);
     } catch (...) {
       loaded.error = std::current_exception();
     }
