@@ -8,8 +8,9 @@ import numpy as np
 from exchange.shell_mesh import triangle_normals, unit
 
 STEP = 1e-5   # of the parameters, off a point where a face has no normal
-ALIKE = 0.5   # cosine of an exact normal to that of the triangles, at least
 APART = 1e-4  # of the parameters, for differences
+ON_IT = 1e-6  # mm, of a point from the place of its parameters
+NEWTON = 8    # steps
 THIN = 1e-6   # sine of the angle between differences along the parameters: less is a pole
 
 
@@ -27,7 +28,7 @@ def at_corners(x: np.ndarray, triangles: np.ndarray,
         at = at.reshape(-1, 3)
         about = np.zeros((len(points), 3))
         np.add.at(about, at.ravel(), np.repeat(area[here, None] * facing[here], 3, axis=0))
-        parameters = np.array(gmsh.model.getParametrization(2, tag, x[points].ravel())).reshape(-1, 2)
+        parameters = parameters_of(tag, x[points])
         exact, sign[tag] = exact_normals(tag, parameters, unit(about))
         normals[here] = exact[at]
         curvature[here] = (sign[tag] * curvatures(tag, parameters))[at]
@@ -51,16 +52,40 @@ def inwards(face: int, parameters: np.ndarray) -> np.ndarray:
     return np.where(parameters < (low + high) / 2, 1.0, -1.0) * (high - low)
 
 
+def parameters_of(face: int, points: np.ndarray) -> np.ndarray:
+    """k x 2, of points on the face. Near seams getParametrization ends beside them, and getClosestPoint
+    has none of points on edges: the better one is brought to the point."""
+    first, second = (np.array(flat).reshape(-1, 2) for flat in
+                     (gmsh.model.getParametrization(2, face, points.ravel()),
+                      gmsh.model.getClosestPoint(2, face, points.ravel())[1]))
+    away, other = (np.linalg.norm(points_at(face, some) - points, axis=1) for some in (first, second))
+    found = np.where((other < away)[:, None], second, first)
+    off = np.minimum(away, other) > ON_IT
+    if off.any():
+        found[off] = by_newton(face, points[off], found[off])
+    return found
+
+
+def by_newton(face: int, points: np.ndarray, found: np.ndarray) -> np.ndarray:
+    """Parameters, from those of a place beside."""
+    for _ in range(NEWTON):
+        here, step = points_at(face, found), APART * inwards(face, found)
+        along = np.stack([(points_at(face, found + step * axis) - here) / step[:, [number]]
+                          for number, axis in enumerate(np.eye(2))], axis=2)
+        found = found + (np.linalg.pinv(along) @ (points - here)[..., None])[..., 0]
+    return found
+
+
 def exact_normals(face: int, parameters: np.ndarray, about: np.ndarray) -> tuple[np.ndarray, float]:
     """On the side of `about`, the normals of the triangles round the points, and the sign of gmsh's. At a
     pole gmsh has either sign, or none: a point beside it is asked there. At the tip of a cone it is that
     of the triangles."""
     normals = normals_at(face, parameters)
     sign = 1.0 if np.median((normals * about).sum(axis=1)) > 0 else -1.0
-    lost = ~(sign * (normals * about).sum(axis=1) > ALIKE)
+    lost = ~(sign * (normals * about).sum(axis=1) > 0)
     if lost.any():
         normals[lost] = normals_at(face, (parameters + STEP * inwards(face, parameters))[lost])
-        lost = ~(sign * (normals * about).sum(axis=1) > ALIKE)
+    lost = ~(np.linalg.norm(normals, axis=1) > 0.5)  # slivers may face anywhere: they decide nothing
     return np.where(lost[:, None], about, sign * normals), sign
 
 

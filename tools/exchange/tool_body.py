@@ -30,7 +30,8 @@ def body_of(x: np.ndarray, triangles: np.ndarray, back: np.ndarray, depth: float
     away = np.where(area > 1e-9 * area.max(), -(normals @ back), 1.0)
     rim = rim_of(triangles)
     if wall_behind(x, triangles, rim, away, back):
-        return Body(x, triangles, False, "a wall along the direction of pressing ends at its rim")
+        return Body(x, triangles, False, "a wall along the direction of pressing ends at its rim (a flange "
+                    "there would make it one)")
     height = x @ back
     level = height.max() + depth
     foot = x[rim[:, 0]] + (level - height[rim[:, 0]])[:, None] * back
