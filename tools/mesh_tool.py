@@ -128,7 +128,7 @@ def made_apart(part: Path, minutes: float, act: Callable[[Say], object]):
         with Progress(f"mesh_tool: {part.name}") as progress:
             while not over:
                 if not ours.poll(max(end - time.monotonic(), 0.0)):
-                    raise Trouble(f"{part}: Open CASCADE has come to no end after {minutes:g} minutes: "
+                    raise Trouble(f"{part}: the work has come to no end after {minutes:g} minutes: "
                                   "heal the part in the CAD program, or give a larger --deflection or "
                                   "more --minutes")
                 over, answer = ours.recv()

@@ -21,7 +21,7 @@ from exchange.offset_facets import TANGENT, Parallel, Sheet, parallel, sides_of
 from exchange.orient_facets import oriented
 from exchange.read_cad import ROUNDS, cad_model, check_kind, imported, volume_and_size
 from exchange.refine_facets import refined
-from exchange.shell_mesh import triangle_normals, unit
+from exchange.shell_mesh import triangle_normals
 from plotting.reading import Trouble
 
 SIDEWAYS = 0.01     # of the cosine to the direction of pressing: walls along it
