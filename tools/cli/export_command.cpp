@@ -18,7 +18,7 @@ int export_command(const ExportArguments& arguments) {
     return std::find(formats.begin(), formats.end(), name) != formats.end();
   };
   ExportChoice choice;
-  if (!formats.empty()) choice = {asked("vtu"), asked("stl"), asked("csv")};
+  if (!formats.empty()) choice = {asked("vtu"), asked("stl"), asked("csv"), false, {}, {}, {}};
   choice.folder = arguments.output;
   choice.all = arguments.frame == "all";
   if (!choice.all && !arguments.frame.empty()) {

@@ -4,6 +4,7 @@
 #include "core/setup/outlook.hpp"
 #include "core/setup/size_ahead.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace plyform::outlook_test {
@@ -24,7 +25,12 @@ TEST(Outlook, ForeseesTheStepsOfDraftsWithinAThird) {
 TEST(Outlook, TellsTheMemory) {
   const PreparedCase prepared = prepare_case(PLYFORM_CASES "/hemisphere_0/case.toml", {});
   ASSERT_TRUE(prepared.value);
-  const Outlook outlook = look_ahead(prepared, 1);
+  std::vector<double> done{0.0};
+  const Outlook outlook = look_ahead(prepared, 1, [&](const std::string& words, double fraction) {
+    EXPECT_FALSE(words.empty());
+    done.push_back(fraction);
+  });
+  EXPECT_TRUE(std::is_sorted(done.begin(), done.end()) && done.back() > 0.9 && done.back() < 1.0);
   EXPECT_NE(outlook.lines.back().find("MB of memory"), std::string::npos) << outlook.lines.back();
   EXPECT_GT(bytes_for(480000.0), 1e9);
 }

@@ -6,6 +6,7 @@
 #include "support/run_ends.hpp"
 #include "support/scene_checks.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <gtest/gtest.h>
 
@@ -226,8 +227,14 @@ TEST(Verify, RunsTheSiblingsAndEndsWhenInterrupted) {
   std::vector<std::string> begun;
   VerifyHooks hooks;
   hooks.begins = [&](const std::string& name, std::size_t, std::size_t) { begun.push_back(name); };
+  std::vector<double> done{0.0}; // of the work of all
+  hooks.progress = [&](const Progress&, double fraction) { done.push_back(fraction); };
   const auto verification = verify(data, run, trace, 1, hooks);
   ASSERT_TRUE(verification);
+  EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
+  EXPECT_GT(done[1], 0.0);
+  EXPECT_GT(done.back(), 0.8); // unless there was no time for the last one
+  EXPECT_LE(done.back(), 1.0);
   EXPECT_GE(begun.size(), siblings_of(data).runs.size() - 1); // the last if there is time
   EXPECT_GT(verification->cost, 0.0);
   EXPECT_LE(verification->work, 1.5);
