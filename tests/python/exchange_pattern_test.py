@@ -207,7 +207,7 @@ def check_drawings(out, ply):
 def check_wrong(folder, results):
     files = {"open.csv": "0,0\n1,0\n", "text.csv": "0,0\n1,0\n1,one\n", "nan.csv": "0,0\nnan,1\n",
              "bow.csv": "0,0\n10,10\n10,0\n0,10\n", "mixed.csv": "0,0\n1,0,0\n", "none.csv": "x,y\n",
-             "far.csv": "300,0\n320,0\n320,20\n", "good.csv": "50,0\n0,50\n-50,-50\n", "a.stp": "",
+             "far.csv": "300,0\n320,0\n320,20\n", "good.csv": "50,0\n0,50\n-50,-50\n", "a.stp": "ISO-10303-21;\n",
              "bad.dxf": "no drawing"}
     for name, text in files.items():
         (folder / name).write_text(text, encoding="utf-8")
