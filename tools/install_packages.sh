@@ -1,14 +1,14 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: GPL-3.0-or-later
 # Installs what is missing of the groups of tools/packages.txt, and of further packages:
-#   tools/install_packages.sh build|report|exchange|test|test-run... [PACKAGE]...
+#   tools/install_packages.sh build|report|studio|exchange|test|test-run... [PACKAGE]...
 # Nothing is asked of apt when nothing is missing. Exit code 1, and what to do, when it cannot.
 set -euo pipefail
 tools=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd -P)
 wanted=()
 for name; do
   case $name in
-    build | report | exchange | test | test-run)
+    build | report | studio | exchange | test | test-run)
       mapfile -t -O "${#wanted[@]}" wanted < <(
         sed -e 's/#.*//' -e 's/[[:space:]]//g' -e '/^$/d' "$tools/packages.txt" |
           awk -v group="[$name]" '/^\[/ { inside = $0 == group; next } inside'

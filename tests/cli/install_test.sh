@@ -27,11 +27,17 @@ if /usr/bin/python3 -c 'import h5py, jinja2' 2>/dev/null &&
   "$prefix/bin/plyform" run "$prefix/share/plyform/cases/picture_frame" -o "$work/frame" --report \
     --set blanks.square.element_size=50 --set solver.outputs=1
   [ -s "$work/frame/report.html" ]
+  version=$("$prefix/bin/plyform" --version)
+  grep -qF "\"version\": \"${version#plyform }\"" "$work/frame/summary.json"
 fi
 if /usr/bin/python3 -c 'import h5py, scipy' 2>/dev/null && [ -d "$work/frame" ]; then
   "$prefix/bin/plyform" map "$work/frame" --format csv
   "$prefix/bin/plyform" export "$work/frame" --format gltf
   [ -s "$work/frame/export/state.glb" ]
+fi
+if /usr/bin/python3 -c 'import fastapi, uvicorn, websockets, tomlkit' 2>/dev/null; then
+  "$prefix/bin/plyform" studio --help | grep -q 'studio \[-h\]'
+  [ -s "$prefix/share/plyform/tools/workbench/web/workbench.html" ]
 fi
 package=$prefix/lib/python3/dist-packages
 if [ -d "$package" ]; then # the module, if it was built
@@ -43,7 +49,8 @@ fi
 # Debian's package: what is in it runs, and other projects' headers are not.
 if command -v dpkg-shlibdeps >/dev/null && command -v file >/dev/null; then
   (cd "$build" && cpack -B "$work/package")
-  dpkg-deb -x "$work"/package/plyform_*.deb "$work/unpacked"
+  version=$("$prefix/bin/plyform" --version)
+  dpkg-deb -x "$work/package/plyform_${version#plyform }_$(dpkg --print-architecture).deb" "$work/unpacked"
   "$work/unpacked/usr/bin/plyform" version
   [ -f "$work/unpacked/usr/share/doc/plyform/docs/users/install.md" ]
   [ ! -e "$work/unpacked/usr/include" ]
