@@ -3,6 +3,7 @@
 //
 // Errors of the disk are those that core/results/hdf5_disk.ipp remembers. HDF5 delays small writes:
 // many appear only when a file is closed.
+#include "base/version.hpp"
 #include "core/results/hdf5_disk.ipp"
 #include "core/results/result_fields.hpp"
 
@@ -252,6 +253,7 @@ std::string path_of(const StateNumber& number) {
 void write_index(const Writer& out, const StateIndex& index) {
   out.text("/", "format", "plyform results");
   out.number<std::int64_t>("/", "format_version", layout_version);
+  out.text("/", "plyform_version", version());
   out.text("/", "units", "mm, N, s, degrees, N per yarn, N/mm^2");
   out.texts("/", "plies", index.plies);
   out.texts("/", "tools", index.tools);

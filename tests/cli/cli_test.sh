@@ -12,6 +12,7 @@ cd "$folder"
 cp -r "$cases" cases
 short=(--set blanks.square.mesh_from=element_size --set blanks.square.element_size=34 --set solver.duration=0.002 --set tool.0.stroke=0.5)
 expect 0 plyform version
+expect 0 "$("$program" version)" --version
 expect 0 'tool[].radius' keys
 expect 0 'weft_strain,weft-strain,weft strain,1,triangle,1' columns
 expect 0 'stitch_tension_N,stitch-tension' columns stitch

@@ -13,12 +13,14 @@ DIR holds the run written by make_results. Leaves with 77 when the module for a 
 import csv
 import importlib
 import json
+import re
 import sys
 import xml.etree.ElementTree as xml
 from pathlib import Path
 
 import numpy as np
 
+SOURCE = Path(__file__).resolve().parents[2]
 SCALARS = ["shear_angle_deg", "warp_strain", "weft_strain", "warp_tension_N", "weft_tension_N",
            "thickness_mm"]
 VECTORS = ["warp", "weft"]
@@ -92,6 +94,8 @@ def check_hdf5(folder):
         names = {key: [name.decode() for name in file.attrs[key]]
                  for key in ("plies", "tools", "boundaries")}
         assert file.attrs["format_version"] == 3
+        version = re.search(r"project\(plyform VERSION (\S+)", (SOURCE / "CMakeLists.txt").read_text())
+        assert file.attrs["plyform_version"].decode() == version[1]
         assert set(names["plies"]) == set(tables(folder)), names
         assert names["tools"] == list(TOOLS)
         assert not any("x" in file[f"frames/000002/tools/{tool}"] for tool in TOOLS)

@@ -198,6 +198,7 @@ int main(int argc, char** argv) {
   prepare_standard_streams();
   CLI::App app{"Forms stacks of woven and non-crimp fabric plies between rigid tools."};
   app.require_subcommand(1);
+  app.set_version_flag("--version", fmt::format("plyform {}", version()), "print the version");
   app.footer(
       "Exit codes: 0 done, 2 the case or curve is wrong, 3 the simulation stopped itself, 1 else.");
   Arguments arguments;
