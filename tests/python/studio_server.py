@@ -75,12 +75,12 @@ class Server:
             content = json.loads(content)
         return answer.status, content
 
-    def get(self, path, **query):
+    def get(self, path, /, **query):
         status, content = self.call("GET", path, query=query)
         assert status == 200, (status, content)
         return content
 
-    def send(self, path, body=None, method="POST", **query):
+    def send(self, path, body=None, method="POST", /, **query):
         status, content = self.call(method, path, body or {}, query=query)
         assert status == 200, (status, content)
         return content

@@ -12,7 +12,7 @@ from fastapi.responses import FileResponse, HTMLResponse, JSONResponse
 from base.ending import Mistake, Trouble, one_line, words_of
 from reporting.page import THREE, WEB as REPORT_WEB, json_in_script
 
-from .guard import HEADERS
+from .guard import HEADERS, Refusal
 from .project import Refused
 from .studio import Studio
 
@@ -44,7 +44,7 @@ def application(studio: Studio, routers: list) -> FastAPI:
     async def events(socket: WebSocket) -> None:
         await tell_events(studio, socket)
 
-    for kind in (Trouble, OSError, MemoryError):
+    for kind in (Trouble, Refusal, OSError, MemoryError):
         app.add_exception_handler(kind, wrong)
     return app
 

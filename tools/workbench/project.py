@@ -8,7 +8,6 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from base.ending import Trouble, one_line
-from plotting.whole_file import make_whole
 
 OWN = ".plyform"  # folder of the workbench: its lock, records of runs and jobs, logs
 NAME = re.compile(r"[A-Za-z0-9_][A-Za-z0-9_.\-]{0,79}")  # of a case, a run, a file that is dropped in
@@ -76,16 +75,47 @@ class Project:
         """As the page names it: with / whatever the system, bytes that are no text written out."""
         return one_line(path.relative_to(self.root).as_posix())
 
+    def read(self, path: Path, most: int) -> bytes:
+        """Of a path without links, as `existing` gives it; one that has become a link or moved outside
+        since is refused. Raises Refused, OSError."""
+        opened = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+        with open(opened, "rb") as file:
+            status = os.fstat(opened)
+            if not self.holds(opened) or not stat.S_ISREG(status.st_mode):
+                raise Refused(f"{one_line(path)} leads out of the folder")
+            if status.st_size > most:
+                raise Refused(f"{self.relative(path)} has {status.st_size >> 20} MiB, more than the "
+                              f"{most >> 20} that are read of such a file", 413)
+            return file.read(most)
+
+    def holds(self, opened: int) -> bool:
+        """Whether an open file or folder lies in this one, wherever a link may lead now."""
+        return Path(os.readlink(f"/proc/self/fd/{opened}")).is_relative_to(self.root)
+
     def write(self, path: Path, content: bytes) -> None:
         """Whole or not at all, and never through a link. Raises Refused, OSError."""
-        if not Path(os.path.realpath(path.parent)).is_relative_to(self.root) or path.is_symlink():
-            raise Refused(f"{one_line(path)} leads out of the folder")
+        folder = os.open(path.parent, os.O_RDONLY | os.O_DIRECTORY | os.O_NOFOLLOW | os.O_CLOEXEC)
+        try:
+            if not self.holds(folder) or path.is_symlink():
+                raise Refused(f"{one_line(path)} leads out of the folder")
+            self.write_in(folder, path.name, content)
+        finally:
+            os.close(folder)
 
-        def whole(part: Path) -> None:
-            opened = os.open(part, os.O_WRONLY | os.O_CREAT | os.O_TRUNC | os.O_NOFOLLOW | os.O_CLOEXEC, 0o666)
-            with open(opened, "wb") as file:
+    @staticmethod
+    def write_in(folder: int, name: str, content: bytes) -> None:
+        part = f".part_{os.urandom(6).hex()}"
+        flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
+        try:
+            with open(os.open(part, flags, 0o666, dir_fd=folder), "wb") as file:
                 file.write(content)
-        make_whole(path, whole)
+            os.replace(part, name, src_dir_fd=folder, dst_dir_fd=folder)
+        except BaseException:
+            try:
+                os.unlink(part, dir_fd=folder)
+            except OSError:
+                pass
+            raise
 
 
 def plain_name(name: str) -> str:
