@@ -39,9 +39,10 @@ class Guard:
         if scope["type"] not in ("http", "websocket"):
             await self.app(scope, receive, send)
             return
+        too_long: list[Refusal] = []
         try:
             inner = self.checked(scope)
-            limited = receive if scope["type"] == "websocket" else self.bounded(inner, receive)
+            limited = receive if scope["type"] == "websocket" else self.bounded(inner, receive, too_long)
         except Refusal as refusal:
             await refuse(scope, receive, send, refusal)
             return
@@ -54,6 +55,8 @@ class Guard:
                 known = {name.lower() for name, _ in message.get("headers", [])}
                 more = [(name.lower().encode(), value.encode()) for name, value in HEADERS.items()
                         if name.lower().encode() not in known]
+                if too_long:  # the rest is not waited for
+                    more.append((b"connection", b"close"))
                 message = {**message, "headers": [*message.get("headers", []), *more]}
             await send(message)
 
@@ -88,8 +91,8 @@ class Guard:
             raise Refusal(403, "the address has not this server's token: take the one that it printed")
         return {**{key: value for key, value in scope.items() if key != "raw_path"}, "path": "/" + rest}
 
-    def bounded(self, scope, receive):
-        """`receive` that ends a body which is longer than it may be."""
+    def bounded(self, scope, receive, too_long: list[Refusal]):
+        """`receive` that ends a body which is longer than it may be, and says so in `too_long`."""
         most = MOST_UPLOAD if scope["path"] == "/api/upload" else MOST_BODY
         told = dict(scope["headers"]).get(b"content-length", b"0")
         if not told.isdigit() or len(told) > 15:
@@ -104,7 +107,8 @@ class Guard:
             message = await receive()
             got += len(message.get("body", b""))
             if got > most:
-                raise Refusal(413, words)
+                too_long.append(Refusal(413, words))
+                raise too_long[0]
             return message
         return counted
 
