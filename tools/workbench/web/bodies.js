@@ -112,7 +112,7 @@ export class Bodies extends View {
     this.plies.forEach((mesh, i) => {
       const state = states(mesh.ply.body.key);
       const colour = plyColour(mesh.ply.body.angle_deg || 0);
-      if (state) colour.lerp(new THREE.Color(COLOURS[state]), 0.55);
+      if (state === "wrong") colour.lerp(new THREE.Color(COLOURS[state]), 0.55);
       bytes.set(colour.toArray().map((c) => Math.round(255 * c)), 4 * (i % 256));
     });
     this.uniforms.scale.value.image.data.set(bytes);

@@ -47,17 +47,21 @@ function nodesHeld(boundary, plies) {
 export function boundaryParts(boundary, plies, box) {
   const colour = COLOURS[boundary.kind] || 0x555555;
   const held = nodesHeld(boundary, plies);
-  const places = Array.from(boundary.places || []);
+  const { point, normal: across } = boundary.fields || {};
+  const places = Array.from(boundary.places || point || []);
+  if (places.length === 2) places.push(0);
+  const corners = Array.from(boundary.hinges || []).slice(0, 12); // at the start
   const parts = [];
   if (held.length) parts.push(points(held, colour));
-  if (boundary.kind === "symmetry" && boundary.direction) {
+  if (boundary.kind === "symmetry" && (across || boundary.direction)) {
     const at = new THREE.Vector3().fromArray(places.length ? places : held.length ? held : [0, 0, 0]);
     const middle = box.getCenter(new THREE.Vector3());
-    const normal = new THREE.Vector3().fromArray(boundary.direction).normalize();
+    const normal = new THREE.Vector3(...(across || boundary.direction)).normalize();
+    if (!across || across.length < 3) normal.z = 0;
     at.add(middle.clone().sub(at).projectOnPlane(normal));
     parts.push(symmetryPlane(at, normal, box));
-  } else if (boundary.kind === "frame" && places.length) {
-    parts.push(line(places, colour, true));
+  } else if (corners.length) {
+    parts.push(line(corners, colour, true));
   } else if (boundary.kind === "spring" && places.length && held.length) {
     const ends = [];
     for (let i = 0; i < held.length; i += 3) ends.push(...held.slice(i, i + 3), ...places.slice(0, 3));

@@ -18,9 +18,12 @@ const round = (value) => Number(value.toFixed(Math.abs(value) < 10 ? 2 : 1)).toS
 
 export class Marks {
   constructor(place) {
+    this.lines = drawing("g");
+    this.knobs = drawing("g"); // stay where they are, or a pointer that holds one would lose it
     this.svg = drawing("svg", { class: "marks" });
+    this.svg.append(this.lines, this.knobs);
     this.texts = element("div", { className: "callouts" });
-    place.append(this.svg, this.texts);
+    place.append(this.texts, this.svg); // the handle lies above the call-outs
     this.callouts = [];
     this.measured = [];
     this.handle = null;
@@ -49,7 +52,13 @@ export class Marks {
     this.svg.setAttribute("viewBox", `0 0 ${width} ${height}`);
     const parts = [...this.drawCallouts(pixel, width, height), ...this.drawMeasure(pixel)];
     if (this.handle) parts.push(...this.handle.draw(pixel));
-    this.svg.replaceChildren(...parts);
+    this.lines.replaceChildren(...parts);
+  }
+
+  /** The handle of a ply, or none. */
+  setHandle(handle) {
+    this.handle = handle;
+    this.knobs.replaceChildren(...(handle ? [handle.knob] : []));
   }
 
   drawCallouts(pixel, width, height) {
@@ -114,7 +123,7 @@ export class AngleHandle {
     const text = drawing("text", { class: "handle", x: to.x + 11, y: to.y - 8 });
     text.textContent = `${round(this.angle)}°`;
     return [drawing("path", { class: "handle ring", d: path.join("") }),
-      drawing("path", { class: "handle", d: `M${from.x} ${from.y}L${to.x} ${to.y}` }), this.knob, text];
+      drawing("path", { class: "handle", d: `M${from.x} ${from.y}L${to.x} ${to.y}` }), text];
   }
 
   /** Angle under the pointer, to whole degrees, to multiples of 15 with shift. */

@@ -13,17 +13,17 @@ const THREE = window.THREE;
 const VIEW_KEYS = { 1: "oblique", 2: "top", 3: "front", 4: "side", 5: "bottom" };
 const TOOL_WAYS = ["outlines", "solid", "hidden"];
 
-/** A round number near a 25th of the size: mm between the yarns that are drawn. */
+/** A round number near a 40th of the size: mm between the yarns that are drawn. */
 function yarnSpacing(size) {
-  const ten = 10 ** Math.floor(Math.log10(Math.max(size / 25, 1e-3)));
-  return [1, 2, 5, 10].map((k) => k * ten).find((step) => step >= size / 25);
+  const ten = 10 ** Math.floor(Math.log10(Math.max(size / 40, 1e-3)));
+  return [1, 2, 5, 10].map((k) => k * ten).find((step) => step >= size / 40);
 }
 
 function boxOf(scene) {
   const box = new THREE.Box3();
   for (const ply of scene.plies || []) if (ply.x) box.union(new THREE.Box3().setFromArray(ply.x));
   const room = box.isEmpty() ? null
-    : box.clone().expandByScalar(0.3 * box.getSize(new THREE.Vector3()).length());
+    : box.clone().expandByScalar(0.15 * box.getSize(new THREE.Vector3()).length());
   for (const tool of scene.tools || []) { // no farther than that: a plane may be a thousand times wider
     if (!tool.x || !tool.x.length) continue;
     const one = new THREE.Box3().setFromArray(tool.x);
@@ -77,7 +77,6 @@ export class SceneView {
     this.box = boxOf(scene);
     this.bodies = new Bodies(this.pane, scene);
     this.stage.views = [this.bodies];
-    this.handleOf = null;
     if (before) before.dispose();
     this.addMarks(scene);
     const { fitted } = this.stage.camera;
@@ -94,7 +93,7 @@ export class SceneView {
 
   addMarks(scene) {
     const parts = (scene.boundaries || []).flatMap((one) => boundaryParts(one, scene.plies || [], this.box));
-    this.bodies.extra.add(...parts);
+    parts.forEach((part) => this.bodies.extra.add(part));
     this.arrows = this.bodies.tools.map((mesh) => arrowOf(mesh.tool.body, this.box));
     this.arrows.forEach((arrow, i) => arrow && this.bodies.tools[i].object.add(arrow));
   }
@@ -192,18 +191,21 @@ export class SceneView {
 
   /** A handle that turns the yarns of a ply, or none. */
   handle(key) {
+    const { handle } = this.marks;
+    if (handle && handle.held && this.handleOf === key) return; // it is being dragged
     const mesh = key === null ? null : this.bodies && this.bodies.plies.find((one) => one.ply.body.key === key);
     this.handleOf = mesh ? key : null;
-    this.marks.handle = null;
+    this.marks.setHandle(null);
     if (mesh) {
       const box = new THREE.Box3().setFromArray(mesh.ply.flat);
       const size = box.getSize(new THREE.Vector3());
-      this.marks.handle = new AngleHandle(box.getCenter(new THREE.Vector3()), 0.42 * Math.min(size.x, size.y),
+      this.marks.setHandle(new AngleHandle(box.getCenter(new THREE.Vector3()), 0.42 * Math.min(size.x, size.y),
         mesh.ply.body.angle_deg || 0, (x, y) => this.stage.ray(this.bodies, x, y), (angle, done) => {
           this.turn(key, angle);
           this.acts.turned(key, angle, done);
-        });
+        }));
     }
+    this.drawMarks();
     this.stage.request();
   }
 
@@ -247,19 +249,20 @@ export class SceneView {
     const first = met([...plies, ...tools.filter((tool) => tool.solid)]) || met(tools);
     if (!first) return null;
     const point = ray.origin.clone().addScaledVector(ray.direction, first.distance);
-    return { body: first.surface.body, point: this.snapped(first, point, x, y) };
+    return { body: first.surface.body, point: this.snapped(first.surface, point) };
   }
 
-  /** The corner of the triangle that was met if it is nearer than 8 pixels, else the point. */
-  snapped({ surface, triangle }, point, x, y) {
-    for (let k = 0; k < 3; ++k) {
-      const corner = new THREE.Vector3().fromArray(surface.x, 3 * surface.triangles[3 * triangle + k])
-        .add(new THREE.Vector3().fromArray(surface.shift));
-      corner.z += surface.lift;
-      const at = this.stage.pixelOf(this.bodies, corner);
-      if (Math.hypot(at.x - x, at.y - y) < 8) return corner;
+  /** The node of the body that is nearest to a point if that is less than 8 pixels, else the point. */
+  snapped(surface, point) {
+    const { x, shift, lift } = surface;
+    const [px, py, pz] = [point.x - shift[0], point.y - shift[1], point.z - shift[2] - lift];
+    let [best, square] = [-1, (8 * this.stage.camera.millimetres) ** 2];
+    for (let i = 0; i < x.length; i += 3) {
+      const far = (x[i] - px) ** 2 + (x[i + 1] - py) ** 2 + (x[i + 2] - pz) ** 2;
+      if (far < square) [best, square] = [i, far];
     }
-    return point;
+    if (best < 0) return point;
+    return new THREE.Vector3(x[best] + shift[0], x[best + 1] + shift[1], x[best + 2] + shift[2] + lift);
   }
 
   click(event) {
@@ -285,6 +288,11 @@ export class SceneView {
     else if (event.key === "m") this.change({ measure: !measure });
     else return;
     event.preventDefault();
+  }
+
+  /** Diagonal of what is shown, mm. */
+  size() {
+    return this.box ? this.box.getSize(new THREE.Vector3()).length() : 1;
   }
 
   home() {

@@ -45,12 +45,14 @@ function withQuery(path, query) {
 async function checked(response) {
   if (response.ok) return response;
   let words = `${response.status} ${response.statusText}`;
+  let said = {};
   try {
-    const said = await response.json();
+    said = await response.json();
     words = said.error || JSON.stringify(said.detail) || words;
   } catch (ignored) { /* no JSON */ }
   const problem = new Error(words);
   problem.code = response.status;
+  problem.said = said;
   throw problem;
 }
 
