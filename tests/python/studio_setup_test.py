@@ -1,0 +1,355 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The set-up page by clicks in Chromium: each control of outline, forms, lists, scene and text, and
+what it does to the file; mistakes at their places; two pages; a text that is no TOML.
+
+    studio_setup_test.py TOOLS PROGRAM CASES [PICTURES]
+"""
+
+import shutil
+import sys
+import tempfile
+import time
+import tomllib
+from pathlib import Path
+
+from studio_server import Server
+from report_browser import Browser
+from selenium.webdriver.common.action_chains import ActionChains
+from selenium.webdriver.common.keys import Keys
+from studio_page import Page
+
+TOOLS, PROGRAM, CASES = (Path(name).resolve() for name in sys.argv[1:4])
+PICTURES = Path(sys.argv[4]) if len(sys.argv) > 4 else None
+CASE = "mine/case.toml"
+
+
+def folder_with_case(root: Path) -> Path:
+    (root / "mine").mkdir(parents=True)
+    shutil.copytree(CASES / "fabrics", root / "fabrics")
+    shutil.copy(CASES / "hemisphere_two_ply" / "case.toml", root / "mine" / "case.toml")
+    return root
+
+
+def outline_and_forms(page: Page) -> None:
+    """Numbers, choices, references, lists; each is in the file at once, comments stay."""
+    before = page.text()
+    comments = [line.split("#", 1)[1] for line in before.splitlines() if "#" in line]
+    page.item("ply.1")
+    page.type("ply.1.angle", "30")
+    page.until(lambda: page.tree()["ply"][1]["angle"] == 30)
+    page.type("ply.1.seed", "5", part="0")
+    page.until(lambda: page.tree()["ply"][1]["seed"] == [5, 0])
+    page.type("ply.1.angle", "")  # needed: taking it away is a mistake, told at the key
+    page.until(lambda: "angle" not in page.tree()["ply"][1])
+    page.until(lambda: page.find('[data-at="ply.1"] , [data-at="ply.1.angle"]') is not None)
+    page.click("#undo")
+    page.until(lambda: page.tree()["ply"][1]["angle"] == 30)
+    for comment in comments:
+        assert comment in page.text(), comment
+    page.item("tool.0")
+    page.choose("tool.0.motion", "fixed")  # what goes with driven only goes away too
+    page.until(lambda: page.tree()["tool"][0].get("motion") == "fixed")
+    assert "stroke" not in page.tree()["tool"][0]
+    page.click("#undo")
+    page.until(lambda: page.tree()["tool"][0]["motion"] == "driven" and "stroke" in page.tree()["tool"][0])
+    page.click("#redo")
+    page.until(lambda: page.tree()["tool"][0]["motion"] == "fixed")
+    page.click("#undo")
+    page.until(lambda: page.text().count("stroke") > 0)
+
+
+def either_or(page: Page) -> None:
+    """stroke or stroke_programme, whose stages are a table."""
+    page.item("tool.0")
+    page.choose("tool.0.stroke", "tool[].stroke_programme", part="way")
+    page.until(lambda: "stroke" not in page.tree()["tool"][0])
+    page.click('[data-list="tool.0.stroke_programme"] + [data-act="add-row"]')
+    page.until(lambda: page.tree()["tool"][0].get("stroke_programme") == [[0, 0]])
+    page.type("tool.0.stroke_programme", "1", part="0.0")
+    page.until(lambda: page.tree()["tool"][0]["stroke_programme"] == [[1, 0]])
+    page.type("tool.0.stroke_programme", "70", part="0.1")
+    page.until(lambda: page.tree()["tool"][0]["stroke_programme"] == [[1, 70]])
+
+
+def items(page: Page) -> None:
+    """Added, copied, moved, removed, renamed."""
+    count = len(page.tree()["ply"])
+    page.click('[data-add="ply"]')
+    page.until(lambda: len(page.tree()["ply"]) == count + 1)
+    page.click('[data-item="ply.0"] button.item')
+    page.click('[data-item="ply.0"] [data-act="copy"]')
+    page.until(lambda: len(page.tree()["ply"]) == count + 2)
+    names = [ply["name"] for ply in page.tree()["ply"]]
+    assert len(set(names)) == len(names), names
+    page.item("ply.1")
+    page.click('[data-item="ply.1"] [data-act="up"]')
+    page.until(lambda: page.tree()["ply"][0]["name"] == names[1])
+    page.item("ply.0")
+    page.click('[data-item="ply.0"] [data-act="down"]')
+    page.until(lambda: page.tree()["ply"][1]["name"] == names[1])
+    for _ in range(2):
+        last = len(page.tree()["ply"]) - 1
+        page.item(f"ply.{last}")
+        page.click(f'[data-item="ply.{last}"] [data-act="remove"]')
+        page.until(lambda: len(page.tree()["ply"]) == last)
+    page.click('[data-add="tool"]')
+    page.until(lambda: page.tree()["tool"][-1]["shape"] == "sphere")
+    page.click("#undo")
+    page.click('[data-add="blanks"]')
+    page.until(lambda: len(page.tree()["blanks"]) == 2)
+    page.click("#undo")
+    page.until(lambda: len(page.tree()["blanks"]) == 1)
+    blank = next(iter(page.tree()["blanks"]))
+    page.item(f"blanks.{blank}")
+    page.type(f"blanks.{blank}", "sheet", part="name")
+    page.until(lambda: list(page.tree()["blanks"]) == ["sheet"])
+    assert all(ply["blank"] == "sheet" for ply in page.tree()["ply"])
+
+
+def fabrics(page: Page, folder: Path) -> None:
+    """Added by a dialogue; its own file is edited in its form."""
+    page.click('[data-add="fabrics"]')
+    page.choose_id("add-fabric-path", "../fabrics/ncf_biaxial_pillar.toml")
+    page.type_id("add-fabric-name", "ncf")
+    page.click("#add-fabric-go")
+    page.until(lambda: page.tree()["fabrics"].get("ncf") == "../fabrics/ncf_biaxial_pillar.toml")
+    page.until(lambda: page.find('[data-key="fabrics.ncf.thickness"]') is not None)
+    file = folder / "fabrics" / "ncf_biaxial_pillar.toml"
+    page.type("fabrics.ncf.thickness", "0.77")
+    page.until(lambda: tomllib.loads(file.read_text())["thickness"] == 0.77)
+    stitches = len(tomllib.loads(file.read_text())["stitch"])
+    page.click('[data-add="fabrics.ncf.stitch"]')
+    page.until(lambda: len(tomllib.loads(file.read_text())["stitch"]) == stitches + 1)
+    page.click(f'[aria-label="Remove fabrics.ncf.stitch.{stitches}"]')
+    page.until(lambda: len(tomllib.loads(file.read_text())["stitch"]) == stitches)
+
+
+def text_beside(page: Page) -> None:
+    """Both ways; what is no TOML is told with its line and not saved."""
+    page.item("case")
+    page.type("title", "Set by the form")
+    page.until(lambda: "Set by the form" in page.js("return plyform_setup.editor.mirror.getValue()"))
+    saved = page.text()
+    page.write_text(saved.replace("Set by the form", "Set by the text"))
+    page.until(lambda: page.tree()["title"] == "Set by the text")
+    page.until(lambda: page.value("title") == "Set by the text")
+    saved = page.text()
+    page.write_text(saved + "\n[[tool\n")
+    line = saved.count("\n") + 2
+    page.until(lambda: f"line {line}" in page.words("#toml-note") and "not saved" in page.words("#toml-note"))
+    assert page.text() == saved
+    assert page.find(f'.fault[data-line="{line}"]') is not None
+    page.click("#toml-revert")
+    page.until(lambda: page.js("return plyform_setup.editor.mirror.getValue()") == saved)
+    page.click("#show-toml")
+    assert not page.find("#toml").is_displayed()
+    page.click("#show-toml")
+    assert page.find("#toml").is_displayed()
+
+
+def mistakes(page: Page) -> None:
+    """At the key, in the outline, in the scene, in the text, in the list, which leads there."""
+    page.until(lambda: "wrong" not in page.find("#check-state").get_attribute("class"), 120)
+    page.item("ply.1")
+    page.type("ply.1.name", page.tree()["ply"][0]["name"])
+    page.until(lambda: page.find(".fault-words:not(.warning)") is not None, 120)
+    assert page.find('[data-item="ply.1"] b.wrong') is not None
+    assert page.find(".fault-line") is not None
+    page.until(lambda: page.find(".callout.wrong") is not None, 30)
+    page.item("case")
+    page.click(".fault-words:not(.warning)")
+    page.until(lambda: page.js("return plyform_setup.chosen") == "ply.1")
+    assert page.find('[data-at="ply.1.name"] .words') is not None
+    page.click("#undo")
+    page.until(lambda: page.find(".fault-words:not(.warning)") is None, 120)
+
+
+def scene_controls(page: Page) -> None:
+    """Every control of the picture changes it."""
+    page.until(lambda: page.js("return Boolean(plyform_setup.scene)"), 60)
+    for control in ("top", "bottom", "front", "side", "oblique"):
+        page.changes_picture(lambda c=control: page.click(f"#scene-view-{c}"))
+    for value in ("solid", "hidden", "outlines"):
+        page.changes_picture(lambda v=value: page.choose_id("scene-tools", v))
+    page.changes_picture(lambda: page.choose_id("scene-yarns", "5"))
+    for value in ("x", "y", "level", "angle"):
+        page.changes_picture(lambda v=value: page.choose_id("scene-section", v))
+    page.changes_picture(lambda: page.slide("scene-section-angle", 30))
+    page.changes_picture(lambda: page.slide("scene-section-offset", 10))
+    page.choose_id("scene-section", "off")
+    page.changes_picture(lambda: page.slide("scene-apart", 30))
+    page.slide("scene-apart", 0)
+    page.changes_picture(lambda: page.slide("scene-stroke", 50))
+    assert page.words("#scene-stroke-words") == "50 %"
+    page.slide("scene-stroke", 0)
+    page.click("#scene-labels")
+    assert not page.find(".callouts").is_displayed()
+    page.click("#scene-labels")
+    assert page.find(".callout") is not None
+    pane = page.find(".scene-pane")
+    pane.send_keys("2")
+    assert page.js("return plyform_setup.area.view.stage.camera.elevation") == 90
+    pane.send_keys("t")
+    assert page.js("return plyform_setup.area.view.settings.tools") == "solid"
+    pane.send_keys("ttm")
+    assert page.find("#scene-measure").get_attribute("aria-pressed") == "true"
+
+
+def measuring(page: Page) -> None:
+    """Between two corners of the blank, seen from above: the length of its side."""
+    if page.find("#scene-measure").get_attribute("aria-pressed") == "false":
+        page.click("#scene-measure")
+    page.choose_id("scene-tools", "hidden")
+    page.click("#scene-view-top")
+    page.click("#scene-view-home")
+    for corner in (0, 1):
+        page.click_node(0, corner, inwards=0.01)  # the corner takes what is nearer than 8 pixels
+    size = page.tree()["blanks"]["sheet"]["size"]
+    words = page.words("#measured")
+    assert words.startswith(f"{size[0]:g} mm") or words.startswith(f"{size[1]:g} mm"), (words, size)
+    page.click("#scene-measure")
+
+
+def chosen_in_scene(page: Page) -> None:
+    """A click on a body chooses its form; its handle and dial turn the yarns."""
+    page.click_node(-1, 0, inwards=0.3)
+    last = len(page.tree()["ply"]) - 1
+    page.until(lambda: page.js("return plyform_setup.chosen") == f"ply.{last}")
+    knob = page.find('[data-handle="angle"]')
+    before = page.tree()["ply"][last]["angle"]
+    ActionChains(page.driver).click_and_hold(knob).move_by_offset(-60, -80).move_by_offset(-10, -10).perform()
+    assert page.tree()["ply"][last]["angle"] == before  # while it is dragged it only turns the picture
+    assert page.js("return plyform_setup.area.view.marks.handle.angle") != before
+    ActionChains(page.driver).release().perform()
+    page.until(lambda: page.tree()["ply"][last]["angle"] != before)
+    turned = page.tree()["ply"][last]["angle"]
+    dial = page.find(f'[data-dial="ply.{last}.angle"]')
+    ActionChains(page.driver).move_to_element_with_offset(dial, 0, -15).click().perform()
+    page.until(lambda: page.tree()["ply"][last]["angle"] == 90)
+    assert turned != 90
+    page.find(".scene-pane").click()
+    page.find(".scene-pane").send_keys(Keys.CONTROL, "z")
+    page.until(lambda: page.tree()["ply"][last]["angle"] == turned)
+
+
+def last_good_scene(page: Page) -> None:
+    """What cannot be drawn leaves the picture, with a note."""
+    picture = page.js("return plyform_setup.scene.plies.length")
+    page.write_text(page.text() + "\nwhat is this\n")
+    page.until(lambda: "not saved" in page.words("#toml-note"))
+    assert page.js("return plyform_setup.scene.plies.length") == picture
+    page.click("#toml-revert")
+
+
+def two_pages(page: Page, folder: Path) -> None:
+    """Another page, and another program, change the file: this page shows it."""
+    first = page.driver.current_window_handle
+    page.item("case")
+    address = page.driver.current_url
+    page.driver.switch_to.new_window("tab")
+    page.driver.get(address)
+    page.until(lambda: page.find('[data-key="title"]') is not None, 60)
+    page.type("title", "Of the other page")
+    page.until(lambda: page.tree()["title"] == "Of the other page")
+    page.driver.close()
+    page.driver.switch_to.window(first)
+    page.until(lambda: page.value("title") == "Of the other page")
+    file = folder / CASE
+    file.write_text(file.read_text().replace("Of the other page", "Of an editor"))
+    page.until(lambda: page.value("title") == "Of an editor")
+
+
+def new_cases(page: Page) -> None:
+    """A copy, and an example; the address leads to each."""
+    page.click("#new-case-button")
+    page.type_id("new-case-name", "second")
+    page.choose_id("new-case-from", CASE)
+    page.click("#new-case-go")
+    page.until(lambda: "#setup/second/case.toml" in page.driver.current_url)
+    page.until(lambda: page.js("return plyform_setup.main.path") == "second/case.toml")
+    page.choose_id("case-list", CASE)
+    page.until(lambda: page.js("return plyform_setup.main.path") == CASE)
+
+
+STL = b"""solid box
+facet normal 0 0 1
+outer loop
+vertex 0 0 0.1
+vertex 0.2 0 0.1
+vertex 0 0.1 0.1
+endloop
+endfacet
+endsolid
+"""
+DXF = b"\n".join(b" %s\n%s" % pair for pair in (
+    (b"0", b"SECTION"), (b"2", b"ENTITIES"), (b"0", b"CIRCLE"), (b"8", b"0"), (b"10", b"0"), (b"20", b"0"),
+    (b"40", b"150"), (b"0", b"ENDSEC"), (b"0", b"EOF"))) + b"\n"
+
+
+def dropped_files(page: Page, folder: Path) -> None:
+    """A mesh with its unit, a drawing, a fabric; one that is there already is replaced when that is said."""
+    tools = len(page.tree()["tool"])
+    page.drop("box.stl", STL)
+    page.choose_id("import-mesh-unit", "m")
+    page.until(lambda: "200 × 100 × 0 mm" in page.words("#import-mesh .note"))
+    page.click("#import-mesh-go")
+    page.until(lambda: len(page.tree()["tool"]) == tools + 1)
+    assert page.tree()["tool"][-1] == {"name": "box", "shape": "mesh", "file": "box.stl", "scale": 1000.0}
+    page.click("#undo")
+    page.drop("blank.dxf", DXF)
+    page.click("#import-drawing-go")
+    page.until(lambda: page.tree()["blanks"]["blank"]["outline_file"] == "blank.dxf")
+    page.click("#undo")
+    page.drop("mine.toml", (folder / "fabrics" / "glass_plain_weave.toml").read_bytes())
+    page.type_id("import-fabric-name", "own")
+    page.click("#import-fabric-go")
+    page.until(lambda: page.tree()["fabrics"]["own"] == "mine.toml")
+    page.click("#undo")
+    page.until(lambda: "own" not in page.tree()["fabrics"])
+    page.drop("box.stl", STL.replace(b"0.2", b"0.3"))
+    page.click("#replace-go")
+    page.until(lambda: page.find("#import-mesh-cancel") is not None)
+    page.click("#import-mesh-cancel")
+    assert b"0.3" in (folder / "mine" / "box.stl").read_bytes()
+    page.drop("what.exe", b"no")
+    page.until(lambda: "what.exe" in page.words("#trouble"))
+
+
+def run(page: Page) -> None:
+    """Asked for by its button; the server has a record of it."""
+    page.click("#run-case")
+    page.type_id("run-name", "by_click")
+    page.choose_id("run-accuracy", "draft")
+    page.type_id("run-threads", "1")
+    page.type_id("run-budget", "0.001")
+    page.click("#run-go")
+    page.until(lambda: page.driver.current_url.endswith("#runs"))
+    names = [one["name"] for one in page.server.get("api/runs")]
+    assert "by_click" in names, names
+
+
+PARTS = [outline_and_forms, either_or, items, fabrics, text_beside, scene_controls, measuring, chosen_in_scene,
+         last_good_scene, two_pages, new_cases, dropped_files, mistakes, run]
+
+
+def main() -> None:
+    with tempfile.TemporaryDirectory() as scratch:
+        folder = folder_with_case(Path(scratch) / "folder")
+        with Server(TOOLS, PROGRAM, folder) as server, Browser(1280, 800) as browser:
+            page = Page(browser, server, folder / CASE)
+            page.open(f"#setup/{CASE}")
+            for part in PARTS:
+                begin = time.monotonic()
+                try:
+                    part(page, folder) if part in (fabrics, two_pages, dropped_files) else part(page)
+                finally:
+                    if PICTURES:
+                        browser.screenshot(PICTURES / f"{part.__name__}.png")
+                print(f"{part.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
+            wrong = [line for line in browser.errors() if "422" not in line and "409" not in line]
+            assert not wrong, wrong
+            outside = [url for url in browser.requests() if not url.startswith((server.origin, "data:", "blob:"))]
+            assert not outside, outside
+
+
+main()
