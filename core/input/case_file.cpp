@@ -7,6 +7,7 @@
 #include "core/input/checks/sense_checks.hpp"
 #include "core/input/keys/case_identity.hpp"
 #include "core/input/keys/entries.hpp"
+#include "core/input/keys/given_values.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/overrides.hpp"
 #include "core/input/keys/schema_case.hpp"
@@ -231,6 +232,7 @@ CaseReading read_case(const std::filesystem::path& file, const std::vector<Overr
     } else {
       estimate_missing(built);
       reading.identity = identity_of(*entries, folder);
+      reading.given = given_values(*entries, folder);
       reading.value = std::move(built);
     }
   }

@@ -12,6 +12,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace plyform {
@@ -25,6 +26,7 @@ struct CaseReading {
   CaseSketch sketch;                ///< of a file with errors
   std::set<std::string> overridden; ///< keys set by overrides, as dotted paths
   std::string identity; ///< version of plyform, every key with its value, and the files they name
+  std::vector<std::pair<std::string, std::string>> given; ///< core/input/keys/given_values.hpp
   std::vector<CaseError> errors;
   std::vector<std::string> warnings;
 };

@@ -11,6 +11,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace plyform {
@@ -106,6 +107,8 @@ struct Summary {
   /// A sentence each: estimates of values that the case does not give, and values that were limited
   /// (core/model/fabric_estimates.hpp, assumptions).
   std::vector<std::string> assumed;
+  /// keys of the case with their values (core/input/keys/given_values.hpp); may be empty: not known
+  std::vector<std::pair<std::string, std::string>> given;
   bool flies = false; ///< a ply at the end: core/run/ply_motion.hpp
 };
 

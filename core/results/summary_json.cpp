@@ -272,6 +272,14 @@ Json verification_object(const Verification& v) {
   return object;
 }
 
+/// Keys that are given twice cannot be: the case would have been refused.
+Json case_object(const Summary& summary) {
+  Json object = Json::object();
+  for (const auto& [key, value] : summary.given)
+    object[key] = value;
+  return object;
+}
+
 Json contact_object(const ContactReport& c) {
   return {
       {"max_tool_penetration_mm", rounded(c.max_tool_penetration_mm)},
@@ -325,7 +333,8 @@ std::string summary_json(const Frame& last, const Summary& summary) {
               {"pairs", list_of(summary.work.pairs, pair_object)},
               {"assumed", summary.assumed},
               {"could_be_left_out", summary.work.could_be_left_out},
-              {"missing", summary.work.missing}};
+              {"missing", summary.work.missing},
+              {"case", case_object(summary)}};
   if (!summary.verification.figures.empty())
     all["verification"] = verification_object(summary.verification);
   // Names and messages may contain any bytes: those that are not UTF-8 become U+FFFD.

@@ -162,6 +162,7 @@ PreparedCase prepare_case(const std::filesystem::path& file, const std::vector<O
   prepared.value = std::move(picked.reading.value);
   prepared.coarsening = picked.coarsening;
   prepared.identity = std::move(picked.reading.identity);
+  prepared.given = std::move(picked.reading.given);
   prepared.errors = std::move(picked.reading.errors);
   prepared.warnings = std::move(picked.reading.warnings);
   prepared.notes = std::move(picked.notes);

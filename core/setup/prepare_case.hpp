@@ -22,10 +22,11 @@ struct PickedCase {
 PickedCase pick_case(const std::filesystem::path& file, const std::vector<Override>& overrides);
 
 struct PreparedCase {
-  std::optional<Case> value;     ///< only when there is no error
-  std::vector<BlankMesh> meshes; ///< one per ply
-  double coarsening = 1.0;       ///< as in PickedCase
-  std::string identity;          ///< as in CaseReading
+  std::optional<Case> value;                              ///< only when there is no error
+  std::vector<BlankMesh> meshes;                          ///< one per ply
+  double coarsening = 1.0;                                ///< as in PickedCase
+  std::string identity;                                   ///< as in CaseReading
+  std::vector<std::pair<std::string, std::string>> given; ///< likewise
   std::vector<CaseError> errors;
   std::vector<std::string> warnings;
   std::vector<std::string> notes; ///< as in PickedCase

@@ -7,6 +7,7 @@ namespace {
 RunResult with_preparation(RunResult result, const PreparedCase& prepared) {
   Summary& summary = result.summary;
   summary.accuracy.coarsening = prepared.coarsening;
+  summary.given = prepared.given;
   summary.assumed.insert(summary.assumed.begin(), prepared.notes.begin(), prepared.notes.end());
   return result;
 }

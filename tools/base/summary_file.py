@@ -44,7 +44,7 @@ SUMMARY = {
                                         "intersections_between_plies",
                                         "intersections_within_plies")},
     "pairs": ({"a": TEXT, "b": TEXT},), "assumed": (TEXT,), "could_be_left_out": (TEXT,),
-    "missing": (TEXT,), "verification": {"figures": (FIGURE,)}}
+    "missing": (TEXT,), "case": {...: TEXT}, "verification": {"figures": (FIGURE,)}}
 STATUSES = ("done", "doubtful", "stopped", "interrupted")
 NEEDED = ("status", "plies", "tools", "energy", "contact")
 

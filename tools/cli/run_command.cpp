@@ -191,6 +191,7 @@ void leave_summary(ResultWriter& writer, const PreparedCase& prepared, const Fra
                    const std::string& why) {
   Summary summary;
   summary.title = prepared.value->title;
+  summary.given = prepared.given;
   summary.version = version();
   summary.status = "interrupted";
   summary.message =

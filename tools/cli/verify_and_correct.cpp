@@ -85,6 +85,7 @@ void run_again(const PreparedCase& prepared, const VerifyOptions& options,
                            .meshes = {}, // as the corrected case asks for
                            .coarsening = prepared.coarsening * asked.element_size,
                            .identity = {},
+                           .given = prepared.given,
                            .errors = {},
                            .warnings = {},
                            .notes = prepared.notes,

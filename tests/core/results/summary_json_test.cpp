@@ -40,13 +40,26 @@ Frame unequal(double most, double rest) {
 }
 
 Summary made_up_summary() {
-  Summary summary{"a title", "1.2.3", "done",
-                  "",        12.5,    1000,
-                  1e-6,      2e-6,    0.004,
-                  0.125,     4,       {0.25, 0.5, 0.75, 1.5, 1.0, {}},
-                  0.0625,    {},      {0.01, 0.02, 0.05, 3, 4},
-                  {},        {},      {},
-                  {}};
+  Summary summary{"a title",
+                  "1.2.3",
+                  "done",
+                  "",
+                  12.5,
+                  1000,
+                  1e-6,
+                  2e-6,
+                  0.004,
+                  0.125,
+                  4,
+                  {0.25, 0.5, 0.75, 1.5, 1.0, {}},
+                  0.0625,
+                  {},
+                  {0.01, 0.02, 0.05, 3, 4},
+                  {},
+                  {},
+                  {},
+                  {},
+                  {{"ply.p.angle", "45"}}};
   summary.work = {0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7}}, {"bending: small"},
                   {}};
   return summary;
@@ -94,7 +107,8 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "could_be_left_out": [
     "bending: small"
   ],
-  "missing": []
+  "missing": [],
+  "case": {"ply.p.angle": "45"}
 })")); // rms: sqrt((99 * 10^2 + 1 * 20^2) / 100) = sqrt(103)
 }
 
