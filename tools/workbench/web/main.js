@@ -8,6 +8,11 @@ import { setupPanel } from "workbench/setup_panel.js";
 /** A panel: `word` in the address, `title`, `show(place, rest)`, which fills an element once and is
  * called again with another rest of the address. */
 const panels = [setupPanel];
+import { resultsPanel } from "workbench/results_panel.js";
+
+/** A panel: `word` in the address, `title`, `show(place, rest)`, which fills an element once and is
+ * called again with another rest of the address. */
+const panels = [resultsPanel];
 
 function shown() {
   const [word, ...rest] = decodeURIComponent(location.hash.slice(1)).split("/");

@@ -1,0 +1,485 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The panel of results of the workbench, by clicks in Chromium: runs are chosen, shown by their report,
+compared over a key, exported, saved; and what a hostile folder of a run can do: nothing.
+
+    studio_results_test.py PART TOOLS PROGRAM CASES      PART: clicks, safe
+"""
+
+import csv
+import io
+import json
+import math
+import os
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+from pathlib import Path
+
+from studio_server import Server
+from report_browser import Browser
+
+import ezdxf
+
+TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:5])
+COARSE = ["blanks.square.mesh_from=element_size", "blanks.square.element_size=34",
+          "solver.outputs=4", "solver.duration=0.02"]
+RUNS = {"a": ["contact.friction=0.2"], "b": ["contact.friction=0.4"],
+        "c": ["contact.friction=0.3", "ply.ply1.angle=45"]}
+TITLE = "(document.getElementById('report-frame') || {title: ''}).title"  # of the report shown
+
+
+def made(folder):
+    """Three small runs, the oldest first."""
+    for name, settings in RUNS.items():
+        words = [word for setting in [*COARSE, *settings] for word in ("--set", setting)]
+        done = subprocess.run([PROGRAM, "run", CASES / "hemisphere_two_ply", "-o", folder / "results" / name,
+                               *words], capture_output=True, text=True, check=False)
+        assert done.returncode == 0, done
+    rows = [f"{110 * math.cos(k / 10):.3f},{110 * math.sin(k / 10):.3f}" for k in range(63)]
+    (folder / "trim.csv").write_text("x,y\n" + "\n".join(rows) + "\n", encoding="ascii")
+
+
+def summary_of(folder, name):
+    return json.loads((folder / "results" / name / "summary.json").read_text(encoding="utf-8"))
+
+
+class Page:
+    """The workbench in a browser."""
+
+    def __init__(self, server, browser):
+        self.server, self.browser, self.driver = server, browser, browser.driver
+
+    def open(self, rest=""):
+        self.driver.get("about:blank")
+        self.driver.get(self.server.address + rest)
+
+    def js(self, script, *arguments):
+        return self.driver.execute_script(script, *arguments)
+
+    def until(self, expression, seconds=120.0):
+        """The value of an expression as soon as it is true."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if value := self.js(f"return {expression}"):
+                return value
+            time.sleep(0.05)
+        raise AssertionError(f"not within {seconds} s: {expression}; trouble: "
+                             f"{self.text('#trouble')}; {self.browser.errors()}")
+
+    def find(self, selector):
+        return self.driver.find_element("css selector", selector)
+
+    def all(self, selector):
+        return self.driver.find_elements("css selector", selector)
+
+    def text(self, selector):
+        return self.js("return document.querySelector(arguments[0]).textContent", selector)
+
+    def click(self, selector):
+        self.js("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
+        self.find(selector).click()
+
+    def choose(self, selector, value):
+        self.js("const e = document.querySelector(arguments[0]); e.value = arguments[1];"
+                "e.dispatchEvent(new Event('change', {bubbles: true}));", selector, value)
+
+    def run(self, folder):
+        return f"#results-list input[data-folder={json.dumps(folder)}]"
+
+    def frame(self):
+        """Into the report, when it is shown."""
+        self.driver.switch_to.default_content()
+        self.until("document.getElementById('report-frame')")
+        self.driver.switch_to.frame("report-frame")
+        self.until("document.documentElement.dataset.ready")
+        assert self.js("return document.documentElement.dataset.ready") != "failed"
+
+    def out(self):
+        self.driver.switch_to.default_content()
+
+    def titles(self):
+        self.frame()
+        titles = [one.text for one in self.all("h1")]
+        self.out()
+        return titles
+
+
+def check_list(page):
+    page.open("#results")
+    page.until("document.querySelectorAll('#results-list input').length === 3")
+    listed = [box.get_attribute("data-folder") for box in page.all("#results-list input")]
+    assert listed == ["results/c", "results/b", "results/a"], listed  # the newest first
+    words = page.text("#results-list li")
+    assert "largest shear" in words and "force of punch" in words and "°" in words, words
+    page.find("#results-filter").send_keys("ults/b")
+    page.until("document.querySelectorAll('#results-list input').length === 1")
+    page.js("const e = document.getElementById('results-filter'); e.value = '';"
+            "e.dispatchEvent(new Event('input'))")
+    page.until("document.querySelectorAll('#results-list input').length === 3")
+    assert "Choose a run" in page.text("#report-words")
+
+
+def check_report(page, folder):
+    page.click(page.run("results/a"))
+    page.frame()
+    most = max(ply["max_shear_deg"] for ply in summary_of(folder, "a")["plies"])
+    assert page.text(".cards .figure") == f"{most:.1f}°"
+    before = page.js("plyform_report.stage.draw(); return document.getElementById('canvas').toDataURL()")
+    page.js("document.getElementById('view-top').click()")
+    page.driver.execute_async_script("setTimeout(arguments[0], 500)")
+    assert page.js("return document.getElementById('canvas').toDataURL()") != before  # it can be turned
+    page.out()
+    page.click(page.run("results/b"))
+    page.until("document.documentElement.dataset.results === 'report 2'")
+    page.until(f"{TITLE}.includes(',')")
+    titles = page.titles()
+    assert len(titles) == 2 and "(a)" in titles[0] and "(b)" in titles[1], titles
+    letters = [one.text for one in page.all("#results-list .letter")]
+    assert letters == ["", "B", "A"], letters
+    key = page.js("return document.getElementById('report-frame').src").rpartition("/")[2]
+    page.driver.refresh()
+    assert page.titles() == titles  # the address says it all
+    assert page.js("return document.getElementById('report-frame').src").endswith(key)  # not made again
+    answer = page.server.send("api/results/report", {"folders": ["results/a", "results/b"]})
+    assert answer == {"key": key, "ready": True, "process": None}, answer
+    path = folder / "results/b/summary.json"
+    path.write_text(path.read_text(encoding="utf-8") + "\n", encoding="utf-8")
+    answer = page.server.send("api/results/report", {"folders": ["results/a", "results/b"]})
+    assert answer["key"] != key and not answer["ready"]
+    page.click(page.run("results/c"))
+    page.until("document.documentElement.dataset.results === 'report 3'")
+    page.until(f"{TITLE}.split(',').length === 3")
+    assert len(page.titles()) == 3
+
+
+def check_unfinished(page, folder):
+    """Of a run that goes on, or was killed: as far as it is, and made anew when there is more."""
+    place = folder / "results/d"
+    place.mkdir()
+    shutil.copy(folder / "results/a/results.h5", place)
+    page.open("#results/report/results%2Fd")
+    page.frame()
+    assert "Not finished" in page.text(".verdict")
+    page.out()
+    assert "As far as" in page.text("#report-words") and page.find("#report-anew").is_displayed()
+    first = page.js("return document.getElementById('report-frame').src")
+    shutil.copy(folder / "results/b/results.h5", place / "new")
+    os.replace(place / "new", place / "results.h5")
+    page.server.get("api/results")
+    page.js("window.dispatchEvent(new Event('hashchange'))")
+    page.until("document.getElementById('report-words').textContent.includes('More has been written')")
+    page.click("#report-anew")
+    page.until(f"![undefined, '{first}'].includes((document.getElementById('report-frame') || {{}}).src)")
+    page.frame()
+    page.out()
+    shutil.rmtree(place)
+
+
+def check_figures(page, folder, downloads):
+    """Over the key in which the cases differ; the CSV has the numbers of the summaries."""
+    path = folder / "results/b/summary.json"
+    summary = json.loads(path.read_text(encoding="utf-8"))
+    force = next(tool["force_N"] for tool in summary["tools"] if tool["name"] == "punch")
+    summary["verification"] = {"figures": [{"name": "force of punch", "unit": "N", "value": force, "band": 7.5}]}
+    path.write_text(json.dumps(summary), encoding="utf-8")
+    page.open("#results")
+    page.until("document.querySelectorAll('#results-list input').length === 3")
+    page.click("#results-all")
+    page.until("document.documentElement.dataset.results === 'report 3'")
+    page.click("#results-figures")
+    page.until("document.querySelectorAll('#figures-chart circle.point').length === 3")
+    assert "over run" in page.js("return document.querySelector('#figures-chart svg').getAttribute('aria-label')")
+    page.choose("#figures-figure", "force of punch")
+    page.choose("#figures-over", "contact.friction")
+    points = page.js("return [...document.querySelectorAll('#figures-chart circle.point title')].map((t) => t.textContent)")
+    forces = {name: next(tool["force_N"] for tool in summary_of(folder, name)["tools"] if tool["name"] == "punch")
+              for name in RUNS}
+    assert len(points) == 3 and {point.partition(":")[0] for point in points} == {f"results/{name}" for name in RUNS}
+    for name, friction in (("a", "0.2"), ("b", "0.4"), ("c", "0.3")):
+        point = next(one for one in points if one.startswith(f"results/{name}:"))
+        numbers = [float(one) for one in re.findall(r"-?\d+\.?\d*", point.partition(":")[2])]
+        assert abs(numbers[0] - float(friction)) < 1e-9 and abs(numbers[1] - forces[name]) < 0.6, point
+    assert len(page.all("#figures-chart polyline")) == 1  # the band of b
+    assert len(page.all("#figures-table tbody tr")) == 3
+    page.choose("#figures-over", "ply.ply1.angle")
+    page.until("document.querySelector('#figures-chart svg').getAttribute('aria-label').includes('ply.ply1.angle')")
+    page.click("#figures-csv")
+    rows = list(csv.DictReader(io.StringIO(downloaded(downloads, "runs.csv").decode())))
+    order = sorted(RUNS, key=lambda name: (folder / "results" / name / "summary.json").stat().st_mtime)
+    assert [row["run"] for row in rows] == [f"results/{name}" for name in order], rows  # by their age
+    for row, name in zip(rows, order):
+        summary = summary_of(folder, name)
+        assert float(row["force of punch, N"]) == forces[name]
+        for ply in summary["plies"]:
+            assert float(row[f"largest shear of {ply['name']}, °"]) == ply["max_shear_deg"]
+        assert float(row["time, s"]) == summary["wall_time_s"]
+    assert [row["band of force of punch, N"] for row in rows] == [{"b": "7.5"}.get(name, "") for name in order]
+    assert [row["contact.friction"] for row in rows] == [RUNS[name][0].partition("=")[2] for name in order]
+    page.click("#figures-chart circle.point")  # a point leads to its run
+    page.until("document.documentElement.dataset.results === 'report 1'")
+
+
+def downloaded(downloads, name, seconds=30.0):
+    path = downloads / name
+    end = time.monotonic() + seconds
+    while not path.is_file():
+        assert time.monotonic() < end, (name, list(downloads.iterdir()))
+        time.sleep(0.05)
+    content = path.read_bytes()
+    path.unlink()
+    return content
+
+
+def check_differences(page, folder):
+    page.open("#results/differences/results%2Fa|results%2Fc")
+    page.until("document.querySelectorAll('#differences-keys tbody tr').length > 0")
+    rows = {row.find_element("css selector", "th").text: [cell.text for cell in row.find_elements("css selector", "td")]
+            for row in page.all("#differences-keys tbody tr")}
+    assert rows == {"contact.friction": ["0.2", "0.3"], "ply.ply1.angle": ["0", "45"]}, rows
+    figures = {row.find_element("css selector", "th").text: [cell.text for cell in row.find_elements("css selector", "td")]
+               for row in page.all("#differences-figures tbody tr")}
+    first, other = ({tool["name"]: tool["force_N"] for tool in summary_of(folder, name)["tools"]} for name in "ac")
+    shown = float(figures["force of punch"][2].replace(",", ""))
+    assert abs(shown - (other["punch"] - first["punch"])) < 0.6, (figures["force of punch"], first, other)
+    page.open("#results/differences/results%2Fa|results%2Fa")
+    page.until("document.getElementById('differences-words').textContent.includes('give the same')")
+
+
+def finished(page, what, well=True):
+    words = f"document.getElementById('{what}-words')"
+    page.until(f"{words}.textContent.startsWith('Done.') || {words}.classList.contains('bad')", 120.0)
+    assert page.js(f"return {words}.classList.contains('bad')") != well, page.text(f"#{what}-words")
+    return page.text(f"#{what}-words")
+
+
+def check_exports(page, folder, downloads):
+    """Each of the three, then what lies in the folder is the same as what is saved of it."""
+    page.open("#results/files/results%2Fa")
+    page.until("document.querySelectorAll('#exports-files tr').length > 3")
+    page.click("#export-gltf")
+    page.click("#export-go")
+    finished(page, "export")
+    assert {path.name for path in (folder / "results/a/export").iterdir()} == {"ply1.vtu", "ply2.vtu", "state.glb"}
+    assert " export " in page.text("#export-form .command")
+    page.click("#map-abaqus")
+    page.click("#map-two")
+    page.click("#map-go")
+    finished(page, "map")
+    assert list((folder / "results/a/map").glob("*.inp"))
+    page.click("#map-csv")
+    page.click("#map-abaqus")
+    page.click("#map-go")
+    page.until("document.getElementById('trouble').textContent.includes('formats')")  # none is chosen
+    page.click("#pattern-go")
+    page.until("document.getElementById('trouble').textContent.includes('name of a file')")  # no trim line
+    page.choose("#pattern-trim", "trim.csv")
+    page.click("#pattern-go")
+    assert "saved" in finished(page, "pattern")
+    page.until("document.querySelector('[data-name=\"pattern/ply1.dxf\"] button')")
+    page.click("[data-name='pattern/ply1.dxf'] button")
+    page.until("document.querySelectorAll('#exports-drawing polyline').length === 2")
+    drawn = page.js("const b = document.querySelector('#exports-drawing polyline[data-layer=CUT]').getBBox();"
+                    "return [b.x, -b.y - b.height, b.x + b.width, -b.y]")
+    outline = next(iter(ezdxf.readfile(folder / "results/a/pattern/ply1.dxf").modelspace().query("LWPOLYLINE")))
+    corners = [(x, y) for x, y, *_ in outline.get_points()]
+    there = [min(x for x, _ in corners), min(y for _, y in corners), max(x for x, _ in corners), max(y for _, y in corners)]
+    assert max(abs(one - other) for one, other in zip(drawn, there)) < 1e-2, (drawn, there)
+    assert "ply1" in page.text("#exports-drawing text")
+    for name in ("pattern/ply1.dxf", "export/state.glb", "summary.json"):
+        page.click(f"[data-name='{name}'] a")
+        assert downloaded(downloads, name.rpartition("/")[2]) == (folder / "results/a" / name).read_bytes()
+
+
+def check_clicks(folder):
+    downloads = folder / "downloads"
+    downloads.mkdir()
+    with Server(TOOLS, PROGRAM, folder / "folder") as server, Browser(1440, 1000) as browser:
+        made(server.folder)
+        browser.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {
+            "behavior": "allow", "downloadPath": str(downloads)})
+        page = Page(server, browser)
+        check_list(page)
+        check_report(page, server.folder)
+        check_unfinished(page, server.folder)
+        check_figures(page, server.folder, downloads)
+        check_differences(page, server.folder)
+        check_exports(page, server.folder, downloads)
+        others = [url for url in browser.requests() if not url.startswith((server.origin, "data:", "blob:", "about:"))]
+        assert not others, others
+
+
+EVIL = '</script><script>window.evil = 1</script><img src=x onerror="window.evil = 2">'
+HOSTILE_NAME = "<img src=x onerror='window.evil = 3'>&\"quoted\""
+TRIES = {  # of a script in a report, what it would like to do; each gives a word
+    "fetch": "fetch('../../results').then((r) => 'GOT ' + r.status, () => 'no')",
+    "post": "fetch('../../results/report', {method: 'POST', body: '{}'}).then((r) => 'GOT ' + r.status, () => 'no')",
+    "socket": "new Promise((go) => { try { const s = new WebSocket(location.href.replace('http:', 'ws:')"
+              ".replace(/api.*/, 'events')); s.onopen = () => go('GOT'); s.onerror = () => go('no'); }"
+              " catch (e) { go('no'); } })",
+    "image": "new Promise((go) => { const i = new Image(); i.onload = () => go('GOT'); i.onerror = () => go('no');"
+             " i.src = '../../../lib/three.min.js'; })",
+    "parent": "Promise.resolve().then(() => parent.document.title).then(() => 'GOT', () => 'no')",
+    "storage": "Promise.resolve().then(() => localStorage.length).then(() => 'GOT', () => 'no')",
+    "module": "import('../../../web/server.js').then(() => 'GOT', () => 'no')",
+}
+
+
+def check_frame(page):
+    """A script in the frame gets nothing of the server: by the frame, by its header, by the guard."""
+    sandbox = page.js("return document.getElementById('report-frame').getAttribute('sandbox')").split()
+    assert "allow-scripts" in sandbox and not {"allow-same-origin", "allow-top-navigation", "allow-forms",
+                                               "allow-popups"} & set(sandbox), sandbox
+    page.frame()
+    assert page.js("return self.origin") == "null"
+    for name, attempt in TRIES.items():
+        got = page.driver.execute_async_script(
+            f"const done = arguments[0]; Promise.resolve({attempt}).then(done, (e) => done('no')); "
+            "setTimeout(() => done('no answer'), 8000)")
+        print(f"  {name:8} {got}")
+        assert got in ("no", "no answer"), (name, got)
+    page.js("setTimeout(() => { location.href = '../../results'; }, 0)")  # goes there itself
+    page.out()
+    time.sleep(1.0)
+    page.driver.switch_to.frame("report-frame")
+    text = page.js("return document.documentElement.textContent")
+    assert "results/" not in text and "figures" not in text, text[:300]
+    page.out()
+    for method, path in (("GET", "api/results"), ("POST", "api/results/report"), ("GET", "api/folder")):
+        status, _ = page.server.call(method, path, body={}, headers={"Origin": "null", "Content-Type": "text/plain"})
+        assert status == 403, (method, path, status)
+    status, _ = page.server.call("GET", "api/results", headers={"Sec-Fetch-Site": "cross-site"})
+    assert status == 403
+
+
+def check_hostile_runs(page, folder):
+    """Names and titles are texts wherever they stand."""
+    place = folder / "results" / HOSTILE_NAME
+    shutil.copytree(folder / "results/a", place)
+    summary = json.loads((place / "summary.json").read_text(encoding="utf-8"))
+    summary["title"], summary["message"] = EVIL, EVIL
+    summary["case"]["contact.friction"] = EVIL
+    (place / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
+    page.open("#results")
+    page.until("document.querySelectorAll('#results-list input').length === 4")
+    for box in page.js("return [...document.querySelectorAll('#results-list input')]"):
+        if box.get_attribute("data-folder") in ("results/a", f"results/{HOSTILE_NAME}"):
+            box.click()
+    page.until("document.documentElement.dataset.results === 'report 2'")
+    titles = page.titles()
+    assert any(EVIL in title for title in titles), titles
+    page.frame()
+    assert page.js("return window.evil === undefined && !document.querySelector('img[onerror]')")
+    page.out()
+    check_frame(page)
+    for tab, there in (("figures", "#figures-table td"), ("differences", "#differences-keys td"), ("files", "#exports-files td")):
+        page.click(f"#results-{tab}")
+        page.until(f"document.querySelector('{there}')")
+    assert page.js("return window.evil === undefined && !document.querySelector('img')")
+    shutil.rmtree(place)
+
+
+def check_files(server, folder):
+    """Nothing outside of a run's folder, nothing shown as a page."""
+    (folder.parent / "outside.txt").write_text("secret", encoding="ascii")
+    run = folder / "results/a"
+    (run / "page.html").write_text("<script>fetch('../api/folder')</script>", encoding="ascii")
+    (run / "link.txt").symlink_to(folder.parent / "outside.txt")
+    (folder / "results/out").symlink_to(folder.parent)
+    tries = [("results/a", "../b/summary.json"), ("results/a", "../../trim.csv"), ("results/a", "/etc/passwd"),
+             ("results/a", "link.txt"), ("results/out", "outside.txt"), ("..", "outside.txt"), ("results/a", ""),
+             ("results/a", "."), (".plyform", "lock"), ("results/a", "plies"), ("results/a", "a\0b"),
+             ("results/a", "%2e%2e/b/summary.json"), ("results/a", "..\\b"), ("", "trim.csv")]
+    for room, name in tries:
+        for route in ("file", "drawing"):
+            status, content = server.call("GET", f"api/results/{route}", query={"folder": room, "name": name})
+            print(f"  {route:8} {room!r:14} {name!r:28} {status} {content['error'] if isinstance(content, dict) else ''}")
+            assert status in (403, 404, 422) and "secret" not in str(content), (room, name, status)
+    names = [one["name"] for one in server.get("api/results/files", folder="results/a")]
+    assert "page.html" in names and "link.txt" not in names
+    status, heads = heads_of(server, "api/results/file?folder=results/a&name=page.html")
+    assert status == 200 and heads["content-disposition"].startswith("attachment;"), heads
+    assert heads["content-type"] == "application/octet-stream" and heads["x-content-type-options"] == "nosniff"
+    assert heads["content-security-policy"].startswith("sandbox;"), heads
+    for key in ("..%2F..%2Flock", "lock", "a" * 32, "..", "A" * 32):
+        status, _ = server.call("GET", f"api/results/report/{key}")
+        assert status == 404, (key, status)
+    (run / "link.txt").unlink()
+    (folder / "results/out").unlink()
+
+
+def heads_of(server, path):
+    from http.client import HTTPConnection
+    connection = HTTPConnection("127.0.0.1", server.port, timeout=30)
+    connection.request("GET", f"/{server.token}/{path}")
+    answer = connection.getresponse()
+    answer.read()
+    connection.close()
+    return answer.status, {name.lower(): value for name, value in answer.getheaders()}
+
+
+def check_commands(server, folder):
+    """What is asked of a command is of its lists; what it reads and writes lies in the folder."""
+    refused = [
+        {"what": "export", "folder": "results/a", "formats": ["vtu", "--help"]},
+        {"what": "export", "folder": "results/a", "formats": "vtu"},
+        {"what": "export", "folder": "results/a", "formats": ["vtu"], "frame": "0 --format stl"},
+        {"what": "export", "folder": "results/a", "formats": ["vtu"], "frame": -1},
+        {"what": "run", "folder": "results/a"}, {"what": "export", "folder": "../x", "formats": ["vtu"]},
+        {"what": "export", "folder": "results", "formats": ["vtu"]},
+        {"what": "map", "folder": "results/a", "formats": ["csv"], "part": "../part.inp"},
+        {"what": "map", "folder": "results/a", "formats": ["csv"], "part": "trim.csv"},
+        {"what": "map", "folder": "results/a", "formats": ["csv"], "reference": "--onto"},
+        {"what": "pattern", "folder": "results/a", "trim": "outside.csv"},
+        {"what": "pattern", "folder": "results/a", "trim": "trim.csv", "mirror": ["x", "--case"]},
+        {"what": "pattern", "folder": "results/a", "trim": "trim.csv", "case": "/etc/passwd"}]
+    (folder / "outside.csv").symlink_to(folder.parent / "outside.txt")
+    for wish in refused:
+        status, answer = server.call("POST", "api/results/export", wish)
+        print(f"  {json.dumps(wish)[:90]:90} {status} {answer['error'][:60]}")
+        assert status in (403, 404, 422), (wish, status, answer)
+    elsewhere = folder.parent / "elsewhere"
+    elsewhere.mkdir()
+    (folder / "results/a/export").symlink_to(elsewhere)
+    status, answer = server.call("POST", "api/results/export",
+                                 {"what": "export", "folder": "results/a", "formats": ["vtu"]})
+    assert status == 403 and not any(elsewhere.iterdir()), answer
+    (folder / "results/a/export").unlink()
+    for body in ({"folders": []}, {"folders": ["results/a"] * 5}, {"folders": "results/a"}, {"folders": ["../x"]},
+                 {"folders": ["results/b", "results"]}, {"folders": [1]}, {}):
+        status, _ = server.call("POST", "api/results/report", body)
+        assert status in (403, 404, 409, 422), (body, status)
+    assert not server.get("api/processes", kind="export")
+
+
+def check_links(server, folder):
+    """Results that are links to what lies elsewhere are not read."""
+    place = folder / "results/linked"
+    shutil.copytree(folder / "results/a", place)
+    outside = folder.parent / "summary.json"
+    shutil.move(place / "summary.json", outside)
+    (place / "summary.json").symlink_to(outside)
+    run = next(one for one in server.get("api/results") if one["folder"] == "results/linked")
+    assert run["status"] == "damaged" and "link" in run["message"] and not run["figures"], run
+    status, answer = server.call("POST", "api/results/report", {"folders": ["results/linked"]})
+    assert status == 403 and "link" in answer["error"], answer
+    shutil.rmtree(place)
+
+
+def check_safe(folder):
+    with Server(TOOLS, PROGRAM, folder / "folder") as server, Browser(1440, 1000) as browser:
+        made(server.folder)
+        check_files(server, server.folder)
+        check_commands(server, server.folder)
+        check_links(server, server.folder)
+        check_hostile_runs(Page(server, browser), server.folder)
+
+
+def main():
+    with tempfile.TemporaryDirectory() as name:
+        {"clicks": check_clicks, "safe": check_safe}[sys.argv[1]](Path(name))
+
+
+main()
