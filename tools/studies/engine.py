@@ -161,7 +161,8 @@ class Engine:
     def write_jobs(self, missing: list[Run]) -> None:
         folder = self.options.folder
         shutil.rmtree(folder / "jobs", ignore_errors=True)
-        jobs = {"study": str(self.options.study), "program": str(self.options.program), "threads": self.options.threads,
+        jobs = {"study": str(self.options.study), "program": str(self.options.program),
+                "threads": self.options.threads,
                 "jobs": self.batches(missing),
                 "runs": {run.name: {"words": run.words(), "line": run.line, "label": run.label}
                          for run in missing}}

@@ -10,8 +10,7 @@ import uvicorn
 
 from base.ending import Trouble
 
-from . import case_routes, lock, process_routes, run_routes, upload_routes
-from . import lock, process_routes, result_routes, run_routes
+from . import case_routes, lock, process_routes, result_routes, run_routes, study_routes, upload_routes
 from .app import application
 from .guard import Guard
 from .project import Project
@@ -36,8 +35,8 @@ def serve(project: Project, program: Path, port: int, quiet: bool) -> None:
 
 
 def routers(studio: Studio) -> list:
-    return [module.routes(studio) for module in (process_routes, case_routes, upload_routes, run_routes)]
-    return [module.routes(studio) for module in (process_routes, run_routes, result_routes)]
+    modules = (process_routes, case_routes, upload_routes, run_routes, result_routes, study_routes)
+    return [module.routes(studio) for module in modules]
 
 
 def bound(port: int) -> socket.socket:

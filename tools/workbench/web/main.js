@@ -3,16 +3,13 @@
 
 import { connect } from "workbench/server.js";
 import { element, tell } from "workbench/elements.js";
-import { setupPanel } from "workbench/setup_panel.js";
-
-/** A panel: `word` in the address, `title`, `show(place, rest)`, which fills an element once and is
- * called again with another rest of the address. */
-const panels = [setupPanel];
 import { resultsPanel } from "workbench/results_panel.js";
+import { setupPanel } from "workbench/setup_panel.js";
+import { studiesPanel } from "workbench/studies_panel.js";
 
 /** A panel: `word` in the address, `title`, `show(place, rest)`, which fills an element once and is
  * called again with another rest of the address. */
-const panels = [resultsPanel];
+const panels = [setupPanel, resultsPanel, studiesPanel];
 
 function shown() {
   const [word, ...rest] = decodeURIComponent(location.hash.slice(1)).split("/");

@@ -1,0 +1,226 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Studies in the workbench, by clicks: set up, checked, started, its table filling, one begun by the
+command line, one that is stopped and goes on.
+
+    studio_studies_test.py TOOLS_FOLDER PLYFORM CASES_FOLDER [PICTURE.png]
+"""
+
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+
+from studio_clicks import Page
+from studio_server import Server
+
+if shutil.which("snakemake") is None:
+    print("SKIPPED: no snakemake")
+    sys.exit(77)
+TOOLS, PROGRAM, CASES = (Path(word).resolve() for word in sys.argv[1:4])
+CASE = """# a cap that takes a tenth of a second
+title = "A small cap"
+[fabrics]
+glass = "glass.toml"
+[blanks.square]
+size = [60.0, 60.0]
+mesh = "alternating"
+element_size = 6.0
+[[ply]]
+name = "sheet"
+fabric = "glass"
+blank = "square"
+angle = 0.0
+[[tool]]
+name = "punch"
+shape = "sphere"
+radius = 25.0
+position = [0.0, 0.0, 25.6]
+motion = "driven"
+direction = [0.0, 0.0, -1.0]
+stroke = 8.0
+[[tool]]
+name = "die"
+shape = "annulus"
+inner_radius = 26.0
+outer_radius = 60.0
+thickness = 10.0
+edge_radius = 4.0
+position = [0.0, 0.0, -10.0]
+[solver]
+duration = 0.01
+fibre_softening = 100.0
+outputs = 2
+"""
+FILE = "studies/strokes.toml"
+
+
+def study_text(server):
+    return (server.folder / FILE).read_text(encoding="utf-8")
+
+
+def set_up(page, server):
+    """A study from nothing: its case, a key by click, values, figures, a limit."""
+    page.go(server, "studies")
+    page.type("#new-study-name", "strokes")
+    page.pick("#new-study-case", "cap/case.toml")
+    page.press("#new-study")
+    page.until(lambda: "nothing is varied" in page.text("#study-mistakes"), "it is told that nothing varies")
+    assert not page.find("#study-go").is_enabled()
+    page.press("#key-chooser summary")
+    page.find("#key-search").send_keys("punch.stroke")
+    page.until(lambda: page.texts("#key-chooser li code") == ["tool.punch.stroke"], "the key is found")
+    assert "8 mm" in page.text("#key-chooser li") and "stroke along the direction" in page.text("#key-chooser li")
+    page.press("[data-key='tool.punch.stroke'].key")
+    page.until(lambda: page.find("#vary-0-values").get_attribute("value") == "6.4, 8, 9.6", "values are proposed")
+    page.type("#vary-0-values", "2, four")
+    page.until(lambda: "must be a number" in page.text("#study-mistakes"), "a value that is none is told")
+    page.type("#vary-0-values", "2, 4, 6")
+    page.press("#figure-punch_N")
+    page.until(lambda: "punch_N" in study_text(server), "the figure is in the file")
+    page.press("#figure-wrinkle_mm")
+    page.until(lambda: "wrinkle_mm" in study_text(server), "the figure is in the file")
+    page.type("#limit-punch_N-at_most", "0.5")
+    page.until(lambda: "at_most" in study_text(server), "the limit is in the file")
+    page.press("#picture-add-window")
+    page.until(lambda: "two keys" in page.text("#trouble"), "a window of one key is refused")
+    page.press("#picture-add-scatter")
+    page.until(lambda: page.text("#study-told").startswith("3 runs; "), "runs are counted")
+    tables = tomllib.loads(study_text(server))
+    assert tables["vary"] == [{"name": "punch stroke, mm", "key": "tool.punch.stroke", "values": [2, 4, 6]}], tables
+    assert tables["limits"] == {"punch_N": {"at_most": 0.5}} and tables["case"] == "../cap/case.toml", tables
+    assert "# seen from this file" in study_text(server) and "# every combination" in study_text(server)
+
+
+def run_it(page, server, picture):
+    """Its table, chart and picture; a row leads to its run."""
+    page.press("#study-go")
+    page.until(lambda: len(page.texts("#study-table tbody tr")) == 3, "the table is there")
+    page.until(lambda: server.get("api/study/table", folder="results/strokes")["state"] == "ended", "it ends")
+    page.until(lambda: "3 doubtful of 3 runs" in page.text("#study-progress"), "the counts are told")
+    page.until(lambda: len(page.texts("#study-chart circle.point")) == 3, "the chart has three points")
+    page.until(lambda: page.texts("#study-ranking li"), "the ranking is shown")
+    page.until(lambda: page.js("return [...document.querySelectorAll('img.drawn')].some((i) => i.naturalWidth > 100)"),
+               "the scatter plot is shown")
+    assert "yarns are pressed" in page.text("#study-table tbody"), "the reason of a doubt"
+    rows = server.get("api/study/table", folder="results/strokes")["rows"]
+    assert [row["punch stroke, mm"] for row in rows] == [2, 4, 6] and all(row["punch_N"] for row in rows), rows
+    if picture:
+        page.screenshot(picture, whole=False)
+    page.js("document.querySelectorAll('#study-chart circle.point')[1].dispatchEvent(new Event('click'))")
+    assert page.js("return decodeURIComponent(location.hash)") == f"#results/results/strokes/{rows[1]['folder']}"
+
+
+def one_more(page, server):
+    """A value more costs a run more."""
+    page.go(server, f"studies/{FILE}")
+    page.press("#study-setup > summary")
+    page.type("#vary-0-values", "2, 4, 6, 7")
+    page.until(lambda: page.text("#study-told").startswith("4 runs, 3 of them have ended; "), "one is missing")
+    assert page.text("#study-go") == "Go on"
+    page.press("#study-go")
+    page.until(lambda: "4 doubtful of 4 runs" in page.text("#study-progress"), "the fourth has ended")
+    record = server.get("api/processes", kind="study")[-1]
+    page.until(lambda: server.get(f"api/processes/{record['id']}")["state"] == "done", "the command has ended")
+    assert "4/4 runs" in server.get(f"api/processes/{record['id']}")["log"]
+
+
+def stopped(page, server):
+    """Stopped on its way; the same button goes on."""
+    page.press("#study-setup > summary")
+    page.type("#vary-0-values", ", ".join(str(0.1 * k) for k in range(1, 60)))
+    page.until(lambda: page.text("#study-told").startswith("59 runs"), "59 are counted")
+    page.press("#study-go")
+    page.until(lambda: page.find("#study-stop").is_displayed() and "missing" in page.text("#study-progress"),
+               "it goes on")
+    page.press("#study-stop")
+    page.until(lambda: server.get("api/processes", kind="study")[-1]["state"] == "stopped", "it has stopped")
+    assert server.get("api/study/table", folder="results/strokes")["state"] == "has missing runs"
+    page.until(lambda: page.find("#study-go").is_displayed(), "it can go on")
+
+
+def window(page, server):
+    """Two keys in a grid with a limit: its process window, and how far each key goes."""
+    page.go(server, "studies")
+    page.type("#new-study-name", "window")
+    page.pick("#new-study-case", "cap/case.toml")
+    page.press("#new-study")
+    for i, (key, values) in enumerate((("tool.punch.stroke", "4, 8"), ("contact.friction", "0.1, 0.2"))):
+        page.until(lambda: page.find("#study-heading").text == "window", "the new study is shown")
+        if not page.js("return document.getElementById('key-chooser').open"):
+            page.press("#key-chooser summary")
+        page.press(f"[data-key='{key}'].key")
+        page.type(f"#vary-{i}-values", values)
+        page.until(lambda: values.replace(" ", "") in (server.folder / "studies/window.toml").read_text(
+            encoding="utf-8").replace(" ", ""), "the values are in the file")
+    page.press("#figure-max_shear_deg")
+    page.until(lambda: page.find("#figure-max_shear_deg").is_selected(), "the figure is chosen")
+    page.type("#limit-max_shear_deg-at_most", "8")
+    page.until(lambda: "at_most" in (server.folder / "studies/window.toml").read_text(encoding="utf-8"), "the limit")
+    page.press("#picture-add-window")
+    page.until(lambda: page.text("#study-told").startswith("4 runs; "), "runs are counted")
+    page.press("#study-go")
+    page.until(lambda: "4 doubtful of 4 runs" in page.text("#study-progress"), "all have ended")
+    page.until(lambda: page.js("return [...document.querySelectorAll('img.drawn')].some((i) => "
+                               "i.alt.startsWith('window.png') && i.naturalWidth > 100)"), "the window is shown")
+    page.until(lambda: "How far each key goes" in page.text("#study-ranking"), "how far the keys go")
+    assert len(page.texts("#study-chart .legend-of-lines li")) == 2, "a line for each value of the second key"
+    assert "Hollow" in page.text("#study-chart")
+
+
+def of_the_command_line(page, server):
+    """Found with its table, without the workbench."""
+    text = study_text(server).replace("[0.1", "[0.5, 0.7] # [0.1")
+    (server.folder / "by_hand.toml").write_text(text.replace("../cap", "cap"), encoding="utf-8")
+    subprocess.run([TOOLS / "study", "by_hand.toml", "--program", PROGRAM], cwd=server.folder, check=True,
+                   stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    page.go(server, "studies/by_hand.toml")
+    page.until(lambda: "of 2 runs" in page.text("#study-progress"), "its runs are shown")
+    assert any("of 2 runs" in text for text in page.texts("#study-list li")), page.texts("#study-list li")
+
+
+def refused(server):
+    """What leads out of the folder, or is changed by somebody else meanwhile."""
+    def answer(method, address, body=None, query=None):
+        status, content = server.call(method, address, body, query=query)
+        return status, str(content)
+
+    outside = server.folder.parent / "outside.toml"
+    outside.write_text(CASE, encoding="utf-8")
+    (server.folder / "bad.toml").write_text('case = "../outside.toml"\n[[vary]]\nkey = "tool.0.stroke"\nvalues = [1]\n')
+    for method, path, body, query in (
+            ("GET", "api/study/check", None, {"path": "bad.toml"}),
+            ("POST", "api/study/start", {"path": "bad.toml"}, {}),
+            ("GET", "api/study", None, {"path": "../outside.toml"}),
+            ("GET", "api/study/keys", None, {"case": "../outside.toml"}),
+            ("POST", "api/studies", {"name": "../x", "case": "cap/case.toml"}, {}),
+            ("GET", "api/study/picture", None, {"folder": "results/strokes", "name": "../../cap/case.toml"}),
+            ("GET", "api/study/table", None, {"folder": "../"})):
+        status, words = answer(method, path, body, query)
+        assert status in (403, 404, 422), (path, status, words)
+    status, words = answer("PUT", "api/study", {"path": FILE, "version": "old", "plan": {"title": "x"}})
+    assert status == 409 and "changed meanwhile" in words, (status, words)
+    status, words = answer("PUT", "api/study/text", {"path": FILE, "version": "old", "text": "a = ["})
+    assert status == 422 and "no TOML" in words, (status, words)
+
+
+def main():
+    picture = sys.argv[4] if len(sys.argv) > 4 else ""
+    with Server(TOOLS, PROGRAM) as server, Page(1280, 1000) as page:
+        (server.folder / "cap").mkdir()
+        (server.folder / "cap/case.toml").write_text(CASE, encoding="utf-8")
+        shutil.copy(CASES / "fabrics/glass_plain_weave.toml", server.folder / "cap/glass.toml")
+        set_up(page, server)
+        run_it(page, server, picture)
+        one_more(page, server)
+        stopped(page, server)
+        window(page, server)
+        if picture:
+            page.screenshot(picture.replace(".png", "_window.png"))
+        of_the_command_line(page, server)
+        refused(server)
+        assert not [one for one in page.errors() if "status of 4" not in one], page.errors()
+
+
+if __name__ == "__main__":
+    main()
