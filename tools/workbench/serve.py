@@ -10,7 +10,8 @@ import uvicorn
 
 from base.ending import Trouble
 
-from . import case_routes, lock, process_routes, result_routes, run_routes, study_routes, upload_routes
+from . import (case_routes, identify_routes, lock, process_routes, result_routes, run_routes,
+                study_routes, upload_routes)
 from .app import application
 from .guard import Guard
 from .project import Project
@@ -35,7 +36,7 @@ def serve(project: Project, program: Path, port: int, quiet: bool) -> None:
 
 
 def routers(studio: Studio) -> list:
-    modules = (process_routes, case_routes, upload_routes, run_routes, result_routes, study_routes)
+    modules = (process_routes, case_routes, upload_routes, run_routes, result_routes, study_routes, identify_routes)
     return [module.routes(studio) for module in modules]
 
 

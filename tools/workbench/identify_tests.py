@@ -1,0 +1,83 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The tests that plyform identify knows, with the options that a page asks for: as its --help has them."""
+
+
+def number(name: str, words: str, unit: str = "", required: bool = False) -> dict:
+    return {"name": name, "kind": "number", "words": words, "unit": unit, "required": required}
+
+
+def fit(name: str, words: str, unit: str, numbers: bool = True) -> dict:
+    """A number, or the word fit."""
+    return {"name": name, "kind": "fit" if numbers else "only fit", "words": words, "unit": unit, "required": False}
+
+
+def choice(name: str, words: str, choices: list[str], required: bool = False) -> dict:
+    return {"name": name, "kind": "choice", "words": words, "unit": "", "required": required, "choices": choices}
+
+
+def flag(name: str, words: str) -> dict:
+    return {"name": name, "kind": "flag", "words": words, "unit": "", "required": False}
+
+
+def text(name: str, words: str) -> dict:
+    return {"name": name, "kind": "text", "words": words, "unit": "", "required": False}
+
+
+COLUMNS = [text("x-column", "column of the first quantity, by name or number; as the header says unless given"),
+           text("x-unit", "its unit, if the header has none or a wrong one"),
+           text("y-unit", "unit of the load, if the header has none or a wrong one")]
+DOUBTFUL = flag("yes-doubtful", "go on though the curve is doubtful")
+
+
+def corrections(of: str, unit: str, toe: str) -> list[dict]:
+    return [number("from", f"{of} from which rows count", unit), number("to", f"{of} up to which rows count", unit),
+            number("compliance", "by which machine, load cell and clamps give way; 0: none", "mm/N"),
+            fit("zero", "load that the cell shows without a load", "N"),
+            fit("toe", "extension at which the specimen is taut", toe),
+            fit("slip", "a sudden slip in the clamps is taken off", "", numbers=False)]
+
+
+SHEAR = [choice("law", "form of the law; chosen by cross-validation unless given", ["polynomial", "static", "table"]),
+         number("coefficients", "of a polynomial: k1, k3 ..."), number("points", "of a table"),
+         text("stitch", "of the fabric, by which the two kinds of specimens differ"),
+         text("angle-column", "column of a measured shear angle; none: the extension counts")]
+YARNS = [number("yarns", "that share the force"),
+         number("gauge-length", "if the curve has displacements instead of strains", "mm")]
+DIRECTION = choice("direction", "yarns that it is a test of", ["warp", "weft", "both"], required=True)
+
+
+def test(word: str, title: str, gives: str, curve: str, sizes: list, more: list, others: tuple = ()) -> dict:
+    return {"word": word, "title": title, "gives": gives, "curve": curve, "sizes": sizes,
+            "corrections": [*more, DOUBTFUL], "others": dict(zip(("name", "words"), others)) or None}
+
+
+NEGATIVE = ("negative", "specimens cut, or frames turned, the other way: the angle opens")
+TESTS = [
+    test("frame", "Picture frame", "shear law",
+         "extension of the diagonal and load, a file a specimen; or a normalised force in N/mm over the angle",
+         [number("side", "from hinge to hinge; not needed for N/mm", "mm")],
+         [*SHEAR, *corrections("shear angle", "°", "mm"), *COLUMNS], NEGATIVE),
+    test("bias", "Bias extension", "shear law", "extension and load, a file a specimen",
+         [number("length", "free, between the clamps", "mm", True), number("width", "", "mm", True)],
+         [*SHEAR, *corrections("shear angle", "°", "mm"), *COLUMNS], NEGATIVE),
+    test("warp", "Tension of warp yarns", "tension of one yarn", "strain or displacement, and load", YARNS,
+         [*corrections("strain", "", "mm or strain"), *COLUMNS, number("weft-yarns", "of the weft specimens")],
+         ("weft", "specimens of weft yarns, to compare with")),
+    test("weft", "Tension of weft yarns", "tension of one yarn", "strain or displacement, and load", YARNS,
+         [*corrections("strain", "", "mm or strain"), *COLUMNS]),
+    test("biaxial", "Biaxial tension", "tension of straight yarns and crimp",
+         "warp strain, weft strain, warp load, weft load; a file for each strain ratio",
+         [number("warp-yarns", "that share the load"), number("weft-yarns", "that share the load")],
+         [fit("toe", "wrong zeros of strain are taken off", "", numbers=False)]),
+    test("compression", "Compression of yarns", "compression_stiffness, buckling_force",
+         "shortening and force of a strip held flat, both positive; one specimen", [*YARNS, DIRECTION],
+         [*corrections("strain", "", "mm or strain"), *COLUMNS]),
+    test("cantilever", "Cantilever", "bending_stiffness",
+         "overhang, and angle of the chord or deflection of the tip; a row a reading",
+         [choice("reading", "beside the overhang", ["angle", "deflection"]), DIRECTION], COLUMNS,
+         ("weft", "specimens of weft yarns, to compare with")),
+    test("three-point", "Three-point bending", "bending_stiffness or bending_table", "deflection and force",
+         [number("span", "distance of the supports", "mm", True), number("width", "of the strip", "mm", True),
+          DIRECTION], [*corrections("deflection over the span", "", "mm"), *COLUMNS]),
+    test("in-plane-bending", "In-plane bending", "in_plane_bending_stiffness",
+         "distance along a yarn and shear angle; a file a profile", [DIRECTION], COLUMNS)]
