@@ -37,7 +37,7 @@ class Identify {
       element("div", { className: "part" }, ...this.parts(), this.result.place)));
     this.changeTest();
     listen("process", (event) => this.happened(event.record));
-    listen("again", () => this.fill().catch(tell));
+    for (const kind of ["again", "folder"]) listen(kind, () => this.fill().catch(tell));
   }
 
   parts() {

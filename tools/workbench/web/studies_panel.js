@@ -43,7 +43,7 @@ class Studies {
         element("div", { className: "make" }, this.name, this.cases, make)),
       element("div", { className: "part" }, this.body)));
     this.buildStart();
-    for (const kind of ["process", "study", "again"]) listen(kind, (event) => this.happened(kind, event));
+    for (const kind of ["process", "study", "folder", "again"]) listen(kind, (event) => this.happened(kind, event));
   }
 
   buildStart() {
