@@ -68,7 +68,10 @@ class Identify {
         tell(problem);
       }
     };
-    input.addEventListener("change", () => take(input.files));
+    input.addEventListener("change", async () => {
+      await take([...input.files]);
+      input.value = ""; // the same file may be chosen again
+    });
     place.addEventListener("dragover", (event) => event.preventDefault());
     place.addEventListener("drop", (event) => {
       event.preventDefault();
