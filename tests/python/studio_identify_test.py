@@ -111,6 +111,20 @@ def two_kinds(page, server):
         " measured warp", " fitted warp", " measured weft", " fitted weft"], page.texts("#identify-chart li")
 
 
+def taken_in(page, server):
+    """A file that is chosen on the page lies in the folder, and its curve is there at once."""
+    source = server.folder.parent / "own curve.csv"
+    page.go(server, "identify")
+    source.write_text("extension (mm),load (N)\n0,0\n1,2.5\n2,5\n", encoding="utf-8")
+    page.find("#identify-upload").send_keys(str(source))
+    page.until(lambda: "take letters" in page.text("#trouble"), "a name that cannot be taken is told")
+    source.rename(source.with_name("own_curve.csv"))
+    page.find("#identify-upload").send_keys(str(source.with_name("own_curve.csv")))
+    page.until(lambda: "3 rows: extension (mm), load (N)" in page.text("#curve-rows"), "its columns are shown")
+    assert (server.folder / "curves/own_curve.csv").read_text(encoding="utf-8").endswith("2,5\n")
+    page.until(lambda: page.js("return document.querySelectorAll('#curve-chart polyline').length") == 1, "its plot")
+
+
 def missing_and_taken(page, server):
     page.type("#option-length", "")
     page.press("#identify-go")
@@ -172,6 +186,7 @@ def main():
         refused_curve(page, server)
         missing_and_taken(page, server)
         two_kinds(page, server)
+        taken_in(page, server)
         restarted(page, server)
         hostile(server)
         assert not [one for one in page.errors() if "status of 4" not in one and "ERR_CONNECTION" not in one

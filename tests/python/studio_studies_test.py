@@ -108,7 +108,9 @@ def run_it(page, server, picture):
     if picture:
         page.screenshot(picture, whole=False)
     page.js("document.querySelectorAll('#study-chart circle.point')[1].dispatchEvent(new Event('click'))")
-    assert page.js("return decodeURIComponent(location.hash)") == f"#results/results/strokes/{rows[1]['folder']}"
+    assert page.js("return decodeURIComponent(location.hash)") == \
+        f"#results/report/results/strokes/{rows[1]['folder']}"
+    page.until(lambda: page.js("return document.documentElement.dataset.results") == "report 1", "its report is shown")
 
 
 def one_more(page, server):

@@ -144,7 +144,12 @@ export class StudyResults {
   }
 
   open(row) {
-    location.hash = `#results/${this.folder}/${row.folder}`;
+    location.hash = this.addressOf(row);
+  }
+
+  /** The run's report in the panel of results. */
+  addressOf(row) {
+    return `#results/report/${encodeURIComponent(`${this.folder}/${row.folder}`)}`;
   }
 
   drawTable() {
@@ -154,7 +159,7 @@ export class StudyResults {
     const head = element("tr", {}, element("th", { textContent: "run", scope: "col" }),
       ...kept.map((name) => element("th", { textContent: name, scope: "col" })));
     const body = rows.slice(0, MOST_ROWS).map((row) => {
-      const name = element("a", { href: `#results/${this.folder}/${row.folder}`, textContent: titleOf(row) });
+      const name = element("a", { href: this.addressOf(row), textContent: titleOf(row) });
       if (row.status === "missing") name.removeAttribute("href");
       const kind = BAD.includes(row.status) ? `is-${row.status}` : "";
       const cells = kept.map((column) => element("td", {
