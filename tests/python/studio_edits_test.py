@@ -184,6 +184,10 @@ def what_cannot_be():
     refused(TEXT, "no place", op="move", key="tool.0", to=2)
     refused(TEXT, "no edit", op="burn", key="tool.0")
     refused(TEXT, "null", op="set", key="tool.0.stroke", value=None)
+    deep = []
+    for _ in range(5000):
+        deep = [deep]
+    refused(TEXT, "without end", op="set", key="tool.0.stroke", value=deep)
     for key in ("", ".", "a..b", "a\0", 5, "x" * 1000, "tool."):
         refused(TEXT, "key", op="set", key=key, value=1)
 

@@ -167,8 +167,8 @@ def swapped_all_the_time(server, outside, mine):
     thread = threading.Thread(target=swap)
     thread.start()
     leaks, codes = 0, set()
-    end = time.monotonic() + 5
-    while time.monotonic() < end:
+    begun = time.monotonic()
+    while time.monotonic() < begun + 5 or 200 not in codes and time.monotonic() < begun + 120:
         status, content = server.call("GET", "api/case", query={"path": "mine/swapped.toml"})
         leaks += SECRET in str(content)
         codes.add(status)
@@ -178,8 +178,8 @@ def swapped_all_the_time(server, outside, mine):
             codes.add(status)
     ending.set()
     thread.join()
-    assert codes <= {200, 403, 404, 409, 500} and 200 in codes, codes
-    attempt("a file and a link that change places all the time, 5 s", leaks + (before != (outside / "secret.toml").read_bytes()), 0)
+    assert codes <= {200, 403, 404, 409} and 200 in codes, codes
+    attempt("a file and a link that change places all the time", leaks + (before != (outside / "secret.toml").read_bytes()), 0)
 
 
 def sizes(server):

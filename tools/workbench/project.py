@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The folder that a workbench works in. Whatever the page asks for lies in it, links followed."""
 
+import errno
 import os
 import re
 import stat
@@ -78,7 +79,12 @@ class Project:
     def read(self, path: Path, most: int) -> bytes:
         """Of a path without links, as `existing` gives it; one that has become a link or moved outside
         since is refused. Raises Refused, OSError."""
-        opened = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+        try:
+            opened = os.open(path, os.O_RDONLY | os.O_NOFOLLOW | os.O_NONBLOCK | os.O_NOCTTY | os.O_CLOEXEC)
+        except OSError as problem:
+            if problem.errno != errno.ELOOP:
+                raise
+            raise Refused(f"{self.relative(path)} has become a link") from problem
         with open(opened, "rb") as file:
             status = os.fstat(opened)
             if not self.holds(opened) or not stat.S_ISREG(status.st_mode):
@@ -98,17 +104,20 @@ class Project:
         try:
             if not self.holds(folder) or path.is_symlink():
                 raise Refused(f"{one_line(path)} leads out of the folder")
-            self.write_in(folder, path.name, content)
+            mode = stat.S_IMODE(path.stat().st_mode) if path.exists() else None
+            self.write_in(folder, path.name, content, mode)
         finally:
             os.close(folder)
 
     @staticmethod
-    def write_in(folder: int, name: str, content: bytes) -> None:
+    def write_in(folder: int, name: str, content: bytes, mode: int | None) -> None:
         part = f".part_{os.urandom(6).hex()}"
         flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
         try:
             with open(os.open(part, flags, 0o666, dir_fd=folder), "wb") as file:
                 file.write(content)
+                if mode is not None:
+                    os.fchmod(file.fileno(), mode)
             os.replace(part, name, src_dir_fd=folder, dst_dir_fd=folder)
         except BaseException:
             try:

@@ -30,7 +30,7 @@ def serve(project: Project, program: Path, port: int, quiet: bool) -> None:
         studio.processes.watch()
         print(f"plyform studio of {project.root}\n{address}\nCtrl-C ends it; runs go on", flush=True)
         open_browser(address, quiet)
-        uvicorn.Server(uvicorn.Config(app, log_level="warning", access_log=False, lifespan="on",
+        uvicorn.Server(uvicorn.Config(app, log_level="error", access_log=False, lifespan="on",
                                       ws_max_size=1 << 16, timeout_keep_alive=75,
                                       server_header=False, proxy_headers=False)).run(sockets=[listening])
 

@@ -23,7 +23,10 @@ def edited(text: str, edits: list[dict]) -> tuple[str, list[str]]:
     lines = text.replace("\r\n", "\n")
     made = []
     for edit in edits:
-        lines, key = one_edit(lines, edit)
+        try:
+            lines, key = one_edit(lines, edit)
+        except RecursionError as problem:
+            raise Refused("lists within lists without end", 422) from problem
         made.append(key)
     return (lines.replace("\n", "\r\n") if "\r\n" in text else lines), made
 

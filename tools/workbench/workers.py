@@ -47,7 +47,7 @@ class Worker:
             if self.process:
                 self.close()
             self.process = subprocess.Popen(self.command, stdin=subprocess.PIPE, stdout=subprocess.PIPE,
-                                            stderr=subprocess.DEVNULL, start_new_session=True,
+                                            stderr=subprocess.DEVNULL,  # Ctrl-C ends it too
                                             env={**os.environ, "PYTHONDONTWRITEBYTECODE": "1"})
             if self.nice:
                 os.setpriority(os.PRIO_PROCESS, self.process.pid, self.nice)
