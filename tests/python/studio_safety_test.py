@@ -4,6 +4,7 @@ refused, and the table of them is printed. Without Chromium, those of pages of o
 
 import http.client
 import http.server
+import json
 import os
 import shutil
 import socket
@@ -334,8 +335,14 @@ def page_of_another_site(server):
         end = time.monotonic() + 30
         while (tries := browser.js("return window.tries || null")) is None and time.monotonic() < end:
             time.sleep(0.1)
+        answers = [json.loads(entry["message"])["message"] for entry in browser.driver.get_log("performance")]
+    images = {one["params"]["requestId"] for one in answers if one["method"] == "Network.requestWillBeSent"
+              and one["params"]["request"]["url"].endswith("icon.svg")}
+    codes = [one["params"]["statusCode"] for one in answers
+             if one["method"] == "Network.responseReceivedExtraInfo" and one["params"]["requestId"] in images]
     site.shutdown()
-    assert tries and len(tries) == 8, tries
+    assert tries and len(tries) == 8 and codes, (tries, codes)
+    attempt("a page of another site: img, as answered", codes[0], 403)  # 404 to the page itself
     for name, value in tries:
         sent = name in ("form POST", "fetch POST")  # goes out, and is refused there
         attempt(f"a page of another site: {name}", 0 if value == "refused" or sent and value == "sent" else 1, 0)
