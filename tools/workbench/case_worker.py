@@ -19,12 +19,16 @@ def main() -> None:
     answers = os.fdopen(os.dup(1), "wb")
     os.dup2(2, 1)  # what a library prints is no answer
     threading.Thread(target=end_with_parent, args=(os.getppid(),), daemon=True).start()
-    import plyform
-
     from workbench.scene_bytes import finite
+    try:
+        import plyform
+    except ImportError as problem:
+        plyform, missing = None, f"Python's module cannot be loaded: {problem}"
     for line in sys.stdin.buffer:
         request = json.loads(line)
         try:
+            if plyform is None:
+                raise ImportError(missing)
             said, content = ACTS[request["act"]](plyform, request)
         except Exception as problem:  # whatever it is, the page is told
             said, content = {"error": f"{type(problem).__name__}: {problem}"[:2000]}, b""

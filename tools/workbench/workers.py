@@ -126,8 +126,11 @@ class Worker:
         return content
 
     def told(self, process: subprocess.Popen, act: str) -> Refused:
-        process.kill()
-        code = process.wait()
+        try:
+            code = process.wait(1.0)  # of itself
+        except subprocess.TimeoutExpired:
+            process.kill()
+            code = process.wait()
         if self.ended_for == "newer":
             return Refused("the case has changed meanwhile", 409)
         if self.ended_for == "slow":
