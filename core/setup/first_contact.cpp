@@ -11,6 +11,8 @@ namespace plyform {
 namespace {
 
 constexpr int divisions = 6;              // of a ply: into 64 x 64 boxes
+constexpr double coarse = 1.0 / 32.0;     // of such a box: how far all starts go down
+constexpr double finest = 1e-7;           // mm; d is off by its square over a radius
 constexpr std::size_t starts = 4;         // places from which one goes downhill, of either kind
 constexpr std::size_t most_points = 5000; // of a tool's surface
 
@@ -32,8 +34,12 @@ public:
     look_in(ply_.bounds.center(), 0.5 * ply_.bounds.sizes(), 0);
     look_at_points();
     const std::vector<Spot> found = std::move(found_);
+    std::vector<Spot> low;
     for (const Spot& spot : found)
-      go_downhill(spot);
+      low.push_back(go_downhill(spot, coarse * step(), step()));
+    std::sort(low.begin(), low.end(),
+              [](const Spot& a, const Spot& b) { return a.distance < b.distance; });
+    go_down_to_the_end(low);
     return best_;
   }
 
@@ -82,23 +88,33 @@ private:
       found_.push_back({spot.at, distance(spot.at)});
   }
 
-  /// Compass search: to the best of eight neighbours, or nearer ones where none is better.
-  void go_downhill(Spot spot) {
-    constexpr double finest = 1e-7; // mm; d is off by its square over a radius
-    constexpr double far = 8.0;     // times the reach: as far as it hardly gets from there
+  /// From each of these places, the nearest first, that may be nearer than what is known and is
+  /// not where one of them was.
+  void go_down_to_the_end(const std::vector<Spot>& low) {
+    const double near = 2.0 * coarse * step();
+    for (auto spot = low.begin(); spot != low.end(); ++spot) {
+      if (spot->distance - near >= best_.distance) return;
+      const auto is_same = [&](const Spot& other) { return (other.at - spot->at).norm() < near; };
+      if (std::any_of(low.begin(), spot, is_same)) continue;
+      const Spot end = go_downhill(*spot, finest, near);
+      if (end.distance < best_.distance) best_ = end;
+    }
+  }
+
+  /// Compass search: to the best of eight neighbours, or nearer ones where none is better, with
+  /// steps (mm) from `reach` down to `end`.
+  Spot go_downhill(Spot spot, double end, double reach) {
     constexpr int most_steps = 400;
     if (!covers(ply_, spot.at)) spot = enter(spot);
-    if (!std::isfinite(spot.distance)) return;
-    double reach = step();
-    for (int i = 0; i < most_steps && reach > finest; ++i) {
-      if (spot.distance - far * reach >= best_.distance) return;
+    if (!std::isfinite(spot.distance)) return spot;
+    for (int i = 0; i < most_steps && reach > end; ++i) {
       const Spot next = best_around(spot, reach);
       if (next.distance < spot.distance)
         spot = next;
       else
         reach *= 0.5;
     }
-    if (spot.distance < best_.distance) best_ = spot;
+    return spot;
   }
 
   /// The ply's place nearest to a spot beside it: a box on its rim has its middle there.
@@ -158,8 +174,16 @@ PlyGap gap_of(const ToolAhead& tool, const Vec3& shift, const std::vector<FlatPl
 } // namespace
 
 PlyGap nearest_ply(const ToolAhead& tool, const Vec3& shift, const std::vector<FlatPly>& plies) {
+  std::vector<std::pair<double, std::size_t>> order; // the nearest first: it spares the others
+  SurfaceHint hint;
+  for (std::size_t i = 0; i < plies.size(); ++i) {
+    const Vec2 middle = plies[i].bounds.center();
+    const Vec3 p(middle.x(), middle.y(), plies[i].z);
+    order.emplace_back(tool_distance(tool.tool, shift, p, hint), i);
+  }
+  std::sort(order.begin(), order.end());
   PlyGap least;
-  for (std::size_t i = 0; i < plies.size(); ++i)
+  for (const auto& [distance, i] : order)
     if (const PlyGap found = gap_of(tool, shift, plies, i, least.gap); found.gap < least.gap)
       least = found;
   return least;
@@ -168,6 +192,7 @@ PlyGap nearest_ply(const ToolAhead& tool, const Vec3& shift, const std::vector<F
 std::optional<FirstContact> first_contact(const ToolAhead& tool, double stroke, const PlyGap& start,
                                           const std::vector<FlatPly>& plies) {
   constexpr double touch = 1e-6, little = 0.05, cosine = 0.1; // mm, mm of the way on
+  constexpr double infinite = std::numeric_limits<double>::infinity();
   constexpr int most_steps = 100;
   const Vec3& way = tool.tool.direction;
   double travel = 0.0;
@@ -180,7 +205,7 @@ std::optional<FirstContact> first_contact(const ToolAhead& tool, double stroke, 
       travel = std::max(0.0, travel + now.gap);
       corrected = true;
     } else {
-      const double next = nearest_ply(tool, (travel + little) * way, plies).gap;
+      const double next = gap_of(tool, (travel + little) * way, plies, now.ply, infinite).gap;
       if (next - now.gap <= cosine * little) return FirstContact{travel, now.ply, now.where, {}};
       travel += little;
     }

@@ -35,10 +35,13 @@ void look(const ToolOnItsWay& a, const ToolOnItsWay& b, std::size_t time,
   const std::size_t stride = std::max<std::size_t>(1, a.points.size() / most_asked);
   const Vec3 &by = (*a.shifts)[time], &other = (*b.shifts)[time];
   SurfaceHint hint;
+  LastDistance last;
   for (std::size_t i = 0; i < a.points.size(); i += stride) {
     const Vec3 x = a.points[i] + by;
     if (!area.contains(x.head<2>())) continue;
+    if (last.at_least(x) >= least.gap) continue;
     const double gap = tool_distance(*b.tool, other, x, hint);
+    last = {x, gap};
     if (gap >= least.gap) continue;
     least.gap = gap;
     least.time = time;
