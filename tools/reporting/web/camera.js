@@ -78,6 +78,7 @@ export class Camera {
     let moved = 0;
     element.addEventListener("pointerdown", (event) => {
       down.set(event.pointerId, event);
+      this.held = true;
       moved = 0;
       element.setPointerCapture(event.pointerId);
     });
@@ -90,7 +91,9 @@ export class Camera {
       down.set(event.pointerId, event);
     });
     const up = (event) => {
-      if (down.delete(event.pointerId) && moved < 4 && event.type === "pointerup") clicked(event);
+      const held = down.delete(event.pointerId);
+      this.held = down.size > 0;
+      if (held && moved < 4 && event.type === "pointerup") clicked(event);
     };
     element.addEventListener("pointerup", up);
     element.addEventListener("pointercancel", up);

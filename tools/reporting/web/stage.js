@@ -30,9 +30,22 @@ export class Stage {
       this.asked = false;
       this.draw(false, this.all ? "all" : "formed");
       this.all = false;
-      clearTimeout(this.rest);
-      this.rest = setTimeout(() => this.draw(true), 250);
+      this.drawAtRest();
     });
+  }
+
+  /** Once more, fine, when nothing has moved for a while: longer where pictures take long, and not
+   * while the camera is held. */
+  drawAtRest() {
+    const now = performance.now();
+    const since = now - (this.last || -Infinity);
+    this.last = now;
+    const rest = () => {
+      if (this.camera.held) this.rest = setTimeout(rest, 250);
+      else this.draw(true);
+    };
+    clearTimeout(this.rest);
+    this.rest = setTimeout(rest, since > 4000 ? 250 : Math.max(250, 3 * since));
   }
 
   /** Pictures, now. Fine: twice the pixels each way, when nothing moves, for smooth edges. */

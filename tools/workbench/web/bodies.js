@@ -30,6 +30,7 @@ function plyOf(body, whole) {
   const light = whole ? null : outlineOnly(body.x, body.triangles);
   ply.lay(light ? light.x : body.x, light ? light.triangles : body.triangles);
   ply.whole = !light;
+  if (light) ply.shape = light.x.filter((_, k) => k % 3 < 2).map((value) => Math.round(100 * value)).join();
   ply.body = body;
   return ply;
 }
@@ -163,6 +164,7 @@ export class Bodies extends View {
     plane.at.value.copy(this.section3);
     if (this.wasFine !== fine) this.outlinedFor = null;
     this.wasFine = fine;
+    this.fillPlies(fine);
     for (const mesh of this.tools) {
       const way = this.ways.get(mesh);
       if (!mesh.light) continue;
@@ -170,6 +172,19 @@ export class Bodies extends View {
       mesh.outline.visible = fine && way === "outlines";
       mesh.light.solid.visible = !fine && way === "solid";
       mesh.light.outline.visible = !fine && way === "outlines";
+    }
+  }
+
+  /** While plies are turned, those that lie under another one of the same outline are not filled. */
+  fillPlies(fine) {
+    const seen = new Set();
+    const apart = this.plies.some((mesh) => mesh.object.position.z !== 0);
+    const down = this.uniforms.towards_eye.value.z < 0;
+    for (const mesh of down ? this.plies : [...this.plies].reverse()) {
+      const { shape } = mesh.ply;
+      const hidden = !fine && !apart && !this.cutOn && shape !== undefined && seen.has(shape);
+      mesh.surface.visible = !hidden;
+      if (mesh.object.visible && shape !== undefined) seen.add(shape);
     }
   }
 

@@ -30,12 +30,24 @@ function loopsOf(border) {
   return loops;
 }
 
+/** A loop without the nodes that lie on straight sides, which would only make slivers of triangles. */
+function cornersOf(loop, x) {
+  const straight = (node, i) => {
+    const [before, after] = [loop[(i + loop.length - 1) % loop.length], loop[(i + 1) % loop.length]];
+    const [ux, uy] = [x[3 * node] - x[3 * before], x[3 * node + 1] - x[3 * before + 1]];
+    const [vx, vy] = [x[3 * after] - x[3 * node], x[3 * after + 1] - x[3 * node + 1]];
+    return Math.abs(ux * vy - uy * vx) <= 1e-4 * Math.hypot(ux, uy) * Math.hypot(vx, vy);
+  };
+  return loop.filter((node, i) => !straight(node, i));
+}
+
 /** A flat ply { x, triangles } by its outline and holes alone; null if it is not flat or not of one
  * piece. */
 export function outlineOnly(x, triangles) {
   for (let i = 5; i < x.length; i += 3) if (Math.abs(x[i] - x[2]) > 1e-4) return null;
-  const loops = loopsOf(borderEdges(triangles));
-  if (!loops || !loops.length) return null;
+  const whole = loopsOf(borderEdges(triangles));
+  if (!whole || !whole.length) return null;
+  const loops = whole.map((loop) => cornersOf(loop, x));
   const paths = loops.map((loop) => loop.map((node) => new THREE.Vector2(x[3 * node], x[3 * node + 1])));
   const area = (path) => Math.abs(THREE.ShapeUtils.area(path));
   const order = paths.map((_, i) => i).sort((i, j) => area(paths[j]) - area(paths[i]));
