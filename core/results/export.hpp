@@ -12,7 +12,7 @@ namespace plyform {
 struct ExportChoice {
   bool vtu = true, stl = true, csv = true;
   bool all = false;               ///< every state
-  std::optional<long> frame;      ///< this state: from 0, or -1 for the last
+  std::optional<long> frame{};    ///< this state: from 0, or -1 for the last
   std::filesystem::path folder{}; ///< for the files; DIR/export if it is empty
   /// Called before each state with the fraction that is done.
   std::function<void(double fraction)> progress{};
