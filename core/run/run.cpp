@@ -291,6 +291,8 @@ private:
         if (hooks_.progress) hooks_.progress(progress_of(s_, state_.energy, elapsed()));
       }
       if (output) write();
+      if (hooks_.watch.asked && hooks_.watch.asked())
+        hooks_.watch.drawn(make_frame(s_, tool_surfaces_, state_.energy, pool_));
       if (interrupted && !ended) {
         result_.summary.status = "interrupted";
         result_.summary.message = fmt::format("interrupted at step {}, time {:.6g} s of {:.6g} s",

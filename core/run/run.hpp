@@ -38,11 +38,18 @@ struct RunHooks {
     std::function<void(int number, const Scene& scene, const std::function<std::string()>& state)>
         reached;
   };
+  /// Of those who watch: between two steps, where asked() says so, drawn(frame) gets what is there.
+  /// asked is called at each step.
+  struct Watch {
+    std::function<bool()> asked;
+    std::function<void(const Frame&)> drawn;
+  };
   std::function<void(const Frame&)> frame;       ///< each output state, the first and last included
   std::function<void(const Progress&)> progress; ///< several times a second at most
   const std::atomic<bool>* interrupt = nullptr;  ///< set it to end the run early
   Checkpoint checkpoint;
   Marks marks;
+  Watch watch;
   const Resume* resume = nullptr; ///< null: from the start
 };
 

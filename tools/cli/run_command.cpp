@@ -4,6 +4,7 @@
 #include "base/version.hpp"
 #include "core/accuracy/error_model.hpp"
 #include "core/input/keys/schema.hpp"
+#include "core/run/live_picture.hpp"
 #include "core/run/progress_file.hpp"
 #include "core/setup/outlook.hpp"
 #include "core/setup/run_prepared.hpp"
@@ -225,8 +226,10 @@ bool within_budget(const PreparedCase& prepared, const RunArguments& arguments, 
 
 /// Runs the case and writes its results; `trace`, unless null, gets what `verify` asks of the run.
 RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter& writer,
-                        const std::optional<Resume>& resume, Trace* trace, ProgressFile& file) {
+                        const std::optional<Resume>& resume, Trace* trace, ProgressFile& file,
+                        const std::filesystem::path& folder) {
   ProgressLine line;
+  LivePicture picture(folder);
   file.begin(RunPhase::forming, "forms the plies");
   Frame reached = resume ? resume->last : Frame{};
   RunHooks hooks;
@@ -238,6 +241,7 @@ RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter&
     line.show(p);
     file.show(p, p.fraction, writer.states());
   };
+  hooks.watch = {[&] { return picture.asked(); }, [&](const Frame& f) { picture.draw(f); }};
   hooks.interrupt = &interrupted();
   hooks.checkpoint = {
       [&](const std::string& state) { writer.write_checkpoint(prepared.identity, state); },
@@ -282,8 +286,8 @@ int run_command(const RunArguments& arguments) {
   }
   const bool verified = arguments.verify || prepared.value->accuracy.verify;
   VerifyOptions options{folder, threads, arguments.input.yes_large, &interrupted(), &*file};
-  RunResult result =
-      run_and_write(prepared, threads, writer, resume, verified ? &options.trace : nullptr, *file);
+  RunResult result = run_and_write(prepared, threads, writer, resume,
+                                   verified ? &options.trace : nullptr, *file, folder);
   if (verified && ended(result.summary.status))
     verify_and_correct(prepared, options, writer, result);
   file.reset();
