@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Numbers as pages get them: the length of a header (uint32, little-endian), the header as JSON, zero
 bytes to a multiple of 4, arrays. In the header an array is {at, count, type: "f4" or "u4"}; `at` is
-its first byte behind the padding. web/arrays.js reads them, core/run/live_picture.cpp writes them too.
+its first byte behind the padding. web/packed.js reads them, core/run/live_picture.cpp writes them too.
 """
 
 import json

@@ -26,6 +26,7 @@ class OneState(Results):
 
     def __init__(self, path: Path, file: h5py.File):
         self.looked_at: set[tuple[str, ...]] = set()
+        self.away: set[str] = set()  # groups that lie in a file of states/
         super().__init__(path, file)
 
     def check_links(self, group: h5py.Group, where: str, linked: bool) -> None:
@@ -33,30 +34,46 @@ class OneState(Results):
             super().check_links(group, where, linked)
             return
         for name in group:
-            if not isinstance(group.get(name, getlink=True), h5py.HardLink):
+            link = group.get(name, getlink=True)
+            if isinstance(link, h5py.ExternalLink):
+                self.check_state_file(f"/{name}", link.filename)
+                self.away.add(name)
+            elif not isinstance(link, h5py.HardLink):
                 raise Broken(f"/{name} is a link to elsewhere, which plyform does not write")
 
     def group(self, *steps: str) -> h5py.Group:
         if len(steps) == 2 and steps not in self.looked_at:
             self.looked_at.add(steps)
-            self.check_link(super().group(steps[0]), steps[1], f"/{steps[0]}/", False)
+            self.check_link(super().group(steps[0]), steps[1], f"/{steps[0]}/", steps[0] in self.away)
         return super().group(*steps)
 
 
 def bodies(folder: Path) -> bytes:
-    """Header: {count, plies: [{name, x, triangles}], tools: [{name, x, triangles,
-    facets: as computed with}]}, all at time 0. Raises Trouble."""
+    """Header: {count, plies: [{name, key, angle_deg, families: {NAME: direction}, x, triangles}],
+    tools: [{name, key, x, triangles, facets: as computed with}]}, all at time 0. Raises Trouble."""
     def read(results: Results):
         results.frame_number(0)
-        return (results.count, [(name, *results.body("plies", name)) for name in results.names("plies")],
+        return (results.count, [flat_ply(results, name) for name in results.names("plies")],
                 [(name, *results.body("tools", name)) for name in results.names("tools")])
     count, plies, tools = read_results(folder, read, OneState)
     arrays = Arrays()
-    header = {"count": count, "plies": [{"name": name, "x": arrays.add(x), "triangles": arrays.add(triangles)}
-                                        for name, x, triangles in plies],
-              "tools": [{"name": name, "facets": len(triangles), **for_picture(arrays, x, triangles)}
-                        for name, x, triangles in tools]}
-    return arrays.packed(header)
+    return arrays.packed({
+        "count": count,
+        "plies": [{**about, "key": f"ply.{k}", "x": arrays.add(x), "triangles": arrays.add(triangles)}
+                  for k, (about, x, triangles) in enumerate(plies)],
+        "tools": [{"name": name, "key": f"tool.{k}", "facets": len(triangles),
+                   **for_picture(arrays, x, triangles)}
+                  for k, (name, x, triangles) in enumerate(tools)]})
+
+
+def flat_ply(results: Results, name: str):
+    x, triangles = results.body("plies", name)
+    results.state(0)
+    now = results.in_state(0, "plies", name)
+    families = {family: results.numbers(now, family, triangles.shape).mean(axis=0).tolist()
+                for family in results.families(name)}
+    angle = results.number(results.group("plies", name), "angle_deg")
+    return {"name": name, "angle_deg": angle, "families": families}, x, triangles
 
 
 def for_picture(arrays: Arrays, x: np.ndarray, triangles: np.ndarray) -> dict:

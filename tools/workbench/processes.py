@@ -83,8 +83,7 @@ class Processes:
 
     def waiting(self) -> list[dict]:
         """In the order in which they will begin."""
-        return sorted((record for record in self.records() if record["state"] == "queued"
-                       and record["in_queue"]), key=lambda record: record["order"])
+        return queue_of(self.records())
 
     def move(self, number: str, to: int) -> None:
         """To a place of the queue, from 0. Raises Refused."""
@@ -125,11 +124,13 @@ class Processes:
     def look(self) -> None:
         """Starts what waits, and tells pages what has changed: {kind: "process", record, last}."""
         with self.lock:
-            live = sum(record["state"] in ("starting", "running") and record["in_queue"]
-                       for record in self.records())
-            for record in self.waiting()[:max(0, self.at_once - live)]:
-                self.launch(record)
-            for record in self.records():
+            records = self.records()
+            live = sum(record["state"] in ("starting", "running") and record["in_queue"] for record in records)
+            if begin := queue_of(records)[:max(0, self.at_once - live)]:
+                for record in begin:
+                    self.launch(record)
+                records = self.records()
+            for record in records:
                 mark = (record["state"], record["order"], record["stops"], *self.kept.log_mark(record["id"]))
                 if self.told.get(record["id"]) != mark:
                     self.told[record["id"]] = mark
@@ -145,6 +146,11 @@ class Processes:
         thread = threading.Thread(target=go_on, daemon=True)
         thread.start()
         return thread
+
+
+def queue_of(records: list[dict]) -> list[dict]:
+    return sorted((record for record in records if record["state"] == "queued" and record["in_queue"]),
+                  key=lambda record: record["order"])
 
 
 def last_line(log: str) -> str:

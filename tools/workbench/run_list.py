@@ -6,6 +6,7 @@ ended (s since 1970)."""
 
 import json
 import os
+import re
 import threading
 import time
 from pathlib import Path
@@ -21,6 +22,8 @@ from .records import LIVE
 STATES = ("queued", "starting", "running", "done", "doubtful", "stopped", "interrupted", "failed", "killed",
           "taken out", "damaged")
 SIGNS = ("summary.json", "progress.json", "results.h5")
+OF_SUMMARY = ("status", "message", "title", "stroke_mm", "wall_time_s", "steps", "version")
+STATE_FILE = re.compile(r"[0-9]{6,}\.h5")
 DEPTH, MOST_FOLDERS = 6, 20_000
 LOOK_AGAIN = 2.0       # s, for new folders
 TICK = os.sysconf("SC_CLK_TCK")
@@ -30,11 +33,29 @@ MOST_PROGRESS = 64 << 10  # bytes
 def born(pid: int) -> float:
     """When a process that lives has begun, s since 1970; 0 if there is none."""
     try:
-        words = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace").rpartition(")")[2].split()
+        words = Path(f"/proc/{pid}/stat").read_text(encoding="utf-8", errors="replace")
+        words = words.rpartition(")")[2].split()
         up = float(Path("/proc/uptime").read_text(encoding="ascii").split()[0])
     except (OSError, ValueError):
         return 0.0
     return 0.0 if words[0] in "ZX" else time.time() - up + int(words[19]) / TICK
+
+
+def has_open(pid: int, folder: Path) -> bool:
+    """A run has its folder open, by which it keeps others out. Of another user nobody can say."""
+    try:
+        opened = os.listdir(f"/proc/{pid}/fd")
+    except PermissionError:
+        return True
+    except OSError:
+        return False
+    for number in opened:
+        try:
+            if os.readlink(f"/proc/{pid}/fd/{number}") == os.path.realpath(folder):
+                return True
+        except OSError:
+            continue  # closed just now
+    return False
 
 
 def progress_of(folder: Path) -> dict | None:
@@ -48,7 +69,8 @@ def progress_of(folder: Path) -> dict | None:
         return None
     if not isinstance(found, dict) or not isinstance(found.get("pid"), int):
         return None
-    return {**found, "goes_on": 0.0 < born(found["pid"]) <= written + 1.0}
+    goes_on = 0.0 < born(found["pid"]) <= written + 1.0 and has_open(found["pid"], folder)
+    return {**found, "goes_on": goes_on}
 
 
 def mark_of(folder: Path) -> tuple:
@@ -124,15 +146,27 @@ def folders_of_results(project: Project):
                      if not entry.name.startswith(".") and entry.is_dir(follow_symlinks=False)]
 
 
+def states_in(history: Path) -> int:
+    """A row each, below their names."""
+    try:
+        with open(history, "rb") as file:
+            return max(0, sum(part.count(b"\n") for part in iter(lambda: file.read(1 << 20), b"")) - 1)
+    except OSError:
+        return 0
+
+
+def states_so_far(folder: Path) -> int:
+    """Of a run that goes on: each state is a file (progress.json counts them at every 100th step)."""
+    try:
+        return sum(STATE_FILE.fullmatch(name) is not None for name in os.listdir(folder / "states"))
+    except OSError:
+        return 0
+
+
 def held_by(folder: Path) -> dict:
     """What the files of an ended run say; slow ones are read once."""
-    held = {"summary": None, "summed_up": 0.0, "damaged": "", "written": 0.0, "states": 0, "checkpoint": False}
-    held["checkpoint"] = (folder / "checkpoint").is_file()
-    try:
-        with open(folder / "history.csv", "rb") as file:
-            held["states"] = max(0, sum(chunk.count(b"\n") for chunk in iter(lambda: file.read(1 << 20), b"")) - 1)
-    except OSError:
-        pass
+    held = {"summary": None, "summed_up": 0.0, "damaged": "", "written": 0.0,
+            "states": states_in(folder / "history.csv"), "checkpoint": (folder / "checkpoint").is_file()}
     for sign in SIGNS:
         try:
             held["written"] = max(held["written"], (folder / sign).stat().st_mtime)
@@ -142,14 +176,14 @@ def held_by(folder: Path) -> dict:
         try:
             held["summed_up"] = (folder / "summary.json").stat().st_mtime
             summary = read_summary(folder, ("status",))
-            held["summary"] = {key: summary.get(key) for key in
-                               ("status", "message", "title", "stroke_mm", "wall_time_s", "steps", "version")}
+            held["summary"] = {key: summary.get(key) for key in OF_SUMMARY}
         except (Trouble, OSError) as problem:
             held["damaged"] = one_line(problem)
     return held
 
 
-def described(project: Project, name: str, held: dict, progress: dict | None, record: dict | None) -> dict:
+def described(project: Project, name: str, held: dict, progress: dict | None,
+              record: dict | None) -> dict:
     """The summary of a run before this one stays until the first state of this one."""
     goes_on = bool(progress and progress.pop("goes_on"))
     since = record.get("begun", record["queued"]) if record else 0.0
@@ -161,9 +195,9 @@ def described(project: Project, name: str, held: dict, progress: dict | None, re
             "status": (summary or {}).get("status") or "", "title": (summary or {}).get("title") or "",
             "message": message_of(state, held, summary, record),
             "progress": progress if live else None,
-            "states": (progress or {}).get("states") if live else held["states"],
+            "states": states_so_far(project.root / name) if state == "running" else held["states"],
             "stroke_mm": (summary or {}).get("stroke_mm"), "wall_time_s": (summary or {}).get("wall_time_s"),
-            "can_resume": not live and held["checkpoint"] and bool(case) and state in ("interrupted", "killed"),
+            "can_resume": held["checkpoint"] and bool(case) and state in ("interrupted", "killed", "failed"),
             "record": record, "begun": since or held["written"],
             "ended": 0.0 if live else (record or {}).get("ended") or held["written"]}
 
@@ -203,5 +237,5 @@ def case_in(project: Project, path: object) -> str:
 
 def mark_of_list(runs: list[dict]) -> str:
     """Another one when the list has to be shown anew; how far runs are is told in between."""
-    return json.dumps([[run[key] for key in ("folder", "state", "message", "can_resume", "begun")]
-                       + [(run["record"] or {}).get(key) for key in ("id", "order", "stops")] for run in runs])
+    return json.dumps([[run[key] for key in ("folder", "state", "message", "can_resume", "begun")] +
+                       [(run["record"] or {}).get(key) for key in ("id", "order", "stops")] for run in runs])

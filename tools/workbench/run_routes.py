@@ -2,6 +2,7 @@
 """Routes of runs: api/runs. They are started, found, watched, ended, gone on with, removed."""
 
 import os
+import re
 import shlex
 import threading
 from pathlib import Path
@@ -39,7 +40,7 @@ def routes(studio: Studio) -> APIRouter:
 
     @router.get("/runs/offers")
     def offers() -> dict:
-        return {"threads": len(os.sched_getaffinity(0)), "accuracies": ACCURACIES, "folder": str(studio.project.root)}
+        return {"threads": len(os.sched_getaffinity(0)), "accuracies": ACCURACIES}
 
     @router.post("/runs")
     def start(body: dict = Body()) -> dict:
@@ -77,10 +78,9 @@ def routes(studio: Studio) -> APIRouter:
 
     @router.get("/runs/picture")
     def picture(folder: str, after: int = -1) -> Response:
-        run = known(runs, folder)
-        if run["state"] != "running":
-            raise Refused("it does not go on", 409)
-        return Response(live_states.picture(folder_of(studio, folder), after), media_type=BYTES)
+        goes_on = known(runs, folder)["state"] == "running"  # else it has ended between two questions
+        content = live_states.picture(folder_of(studio, folder), after) if goes_on else b""
+        return Response(content, media_type=BYTES)
 
     return router
 
@@ -99,7 +99,8 @@ def tell(studio: Studio, runs: RunList) -> None:
             studio.events.send("runs")
         for run in now:
             if run["state"] == "running":
-                studio.events.send("progress", folder=run["folder"], progress=run["progress"], states=run["states"])
+                studio.events.send("progress", folder=run["folder"], progress=run["progress"],
+                                   states=run["states"])
 
 
 def known(runs: RunList, folder: str) -> dict:
@@ -123,15 +124,17 @@ def folder_of(studio: Studio, name: str) -> Path:
 
 def wish_of(body: dict) -> dict:
     """What a page asks for. Raises Refused."""
-    wish = {"case": body.get("case"), "name": body.get("name") or "", "accuracy": body.get("accuracy") or "",
-            "threads": body.get("threads") or len(os.sched_getaffinity(0)), "budget": body.get("budget") or 0,
-            "verify": bool(body.get("verify"))}
+    otherwise = {"case": "", "name": "", "accuracy": "", "threads": len(os.sched_getaffinity(0)), "budget": 0,
+                 "verify": False}
+    wish = {key: value if body.get(key) is None else body[key] for key, value in otherwise.items()}
     if not isinstance(wish["case"], str) or not wish["case"]:
         raise Refused("choose a case", 422)
     if not isinstance(wish["name"], str) or wish["accuracy"] not in ACCURACIES:
         raise Refused("accuracy: none, draft, standard or reference", 422)
     if type(wish["threads"]) is not int or not 1 <= wish["threads"] <= MOST_THREADS:
         raise Refused(f"threads: 1 to {MOST_THREADS}", 422)
+    if type(wish["verify"]) is not bool:
+        raise Refused("verify: true or false", 422)
     if type(wish["budget"]) not in (int, float) or not 0 <= wish["budget"] < 1e9:
         raise Refused("budget: seconds, more than 0, or nothing", 422)
     return wish
@@ -162,7 +165,8 @@ def free_folder(studio: Studio, runs: RunList, case: str, wanted: str) -> str:
 
     def free(name: str) -> bool:
         place = studio.project.inside(f"results/{name}")
-        return f"results/{name}" not in taken and not (place.exists() and (not place.is_dir() or any(place.iterdir())))
+        empty = not place.exists() or place.is_dir() and not any(place.iterdir())
+        return empty and f"results/{name}" not in taken
 
     if wanted:
         if not free(wanted):
@@ -170,14 +174,15 @@ def free_folder(studio: Studio, runs: RunList, case: str, wanted: str) -> str:
         return f"results/{wanted}"
     path = Path(case)
     stem = path.parent.name if path.stem == "case" and path.parent.name else path.stem
-    stem = "".join(c if c.isascii() and (c.isalnum() or c in "_-.") else "_" for c in stem).lstrip("-.")[:60] or "run"
-    return next(f"results/{name}" for name in (stem, *(f"{stem}_{k}" for k in range(2, 100_000))) if free(name))
+    stem = re.sub(r"[^A-Za-z0-9_.-]", "_", stem).lstrip("-.")[:60] or "run"
+    names = (stem, *(f"{stem}_{k}" for k in range(2, 100_000)))
+    return next(f"results/{name}" for name in names if free(name))
 
 
 def gone_on(studio: Studio, runs: RunList, run: dict) -> dict:
     if not run["can_resume"]:
-        raise Refused("it cannot go on: it has come to its end, goes on already, has no checkpoint, or its case is "
-                      "not known; run the case again", 409)
+        raise Refused("it cannot go on: it has come to its end, goes on already, has no checkpoint, or its "
+                      "case is not known; run the case again", 409)
     case = studio.project.existing(run["case"])
     paths_inside(studio.project, case)
     command = list(run["record"]["command"]) if run["record"] else \
