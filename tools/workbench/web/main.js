@@ -5,12 +5,13 @@ import { connect } from "workbench/server.js";
 import { element, tell } from "workbench/elements.js";
 import { identifyPanel } from "workbench/identify_panel.js";
 import { resultsPanel } from "workbench/results_panel.js";
+import { runs } from "workbench/runs_panel.js";
 import { setupPanel } from "workbench/setup_panel.js";
 import { studiesPanel } from "workbench/studies_panel.js";
 
 /** A panel: `word` in the address, `title`, `show(place, rest)`, which fills an element once and is
  * called again with another rest of the address. */
-const panels = [setupPanel, resultsPanel, studiesPanel, identifyPanel];
+const panels = [setupPanel, runs, resultsPanel, studiesPanel, identifyPanel];
 
 function shown() {
   const [word, ...rest] = decodeURIComponent(location.hash.slice(1)).split("/");

@@ -170,7 +170,7 @@ export class SceneView {
     }
     this.plain = false;
     const of = values.of || (values.length === mesh.ply.triangles.length / 3 ? "triangle" : "node");
-    mesh.colour({ of, values: values.values || values });
+    mesh.colour({ of, values: ArrayBuffer.isView(values) ? values : values.values }); // arrays have values(), too
     this.bodies.paint({ colours: "viridis", steps: 0, limit: null, ...scale }, this.settings);
     this.bodies.paintYarns(this.settings);
     this.stage.request();

@@ -1,0 +1,364 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Runs in the workbench, by clicks: started, queued, watched, ended, gone on with, removed, found again.
+
+    studio_runs_test.py PART TOOLS PROGRAM CASES      PART: started, watched, found, refused
+
+Leaves with 77 when Chromium, its driver, selenium, FastAPI or h5py is missing.
+"""
+
+import json
+import os
+import shutil
+import signal
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import h5py
+import numpy as np
+from report_browser import Browser, By
+from selenium.common.exceptions import WebDriverException
+from studio_server import Server
+
+PART = sys.argv[1]
+TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:5])
+QUICK = "cases/hemisphere_0/case.toml"
+LONG = """title = "Pushed slowly"
+[fabrics]
+glass = "../cases/fabrics/glass_plain_weave.toml"
+[blanks.square]
+size = [340.0, 340.0]
+mesh = "alternating"
+element_size = 7.0
+[[ply]]
+name = "ply"
+fabric = "glass"
+blank = "square"
+angle = 0.0
+[[tool]]
+name = "punch"
+shape = "sphere"
+radius = 75.0
+position = [0.0, 0.0, 75.6]
+motion = "driven"
+direction = [0.0, 0.0, -1.0]
+stroke = 40.0
+[[tool]]
+name = "die"
+shape = "profile"
+points = [[80.0, -120.0], [80.0, 0.0, 10.0], [400.0, 0.0]]
+[solver]
+duration = 1.5
+fibre_softening = 100.0
+outputs = 100
+checkpoint_interval = 1.0
+"""
+
+
+class Page(Browser):
+    def go(self, server, rest="#runs"):
+        self.driver.get("about:blank")
+        self.driver.get(server.address + rest)
+        self.until("return document.documentElement.dataset.ready && document.querySelector('#run-threads').value")
+
+    def until(self, script, *arguments, seconds=60):
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            if found := self.js(script, *arguments):
+                return found
+            time.sleep(0.05)
+        raise AssertionError(f"{script} {arguments}: has not come about; {self.errors()}; "
+                             f"{self.js('return document.body.innerText')}")
+
+    def press(self, selector):
+        """As soon as it can be pressed; the list is made anew whenever it changes."""
+        for _ in range(100):
+            try:
+                found = self.driver.find_element(By.CSS_SELECTOR, selector)
+                self.js("arguments[0].scrollIntoView({block: 'center'})", found)
+                if found.is_enabled() and found.is_displayed():
+                    found.click()
+                    return
+            except WebDriverException:  # replaced, or below another just now
+                pass
+            time.sleep(0.1)
+        raise AssertionError(f"{selector} cannot be pressed: {self.js('return document.body.innerText')}")
+
+    def fill(self, selector, text):
+        field = self.find(selector)
+        field.clear()
+        field.send_keys(text)
+
+    def run(self, case, name="", **more):
+        self.fill("#run-case", case)
+        if not self.js("return document.querySelector('.runs-start details').open"):
+            self.press("#run-more")
+        self.fill("#run-name", name)
+        for key, value in {"accuracy": "", **more}.items():
+            if key == "accuracy":
+                self.js("const e = document.getElementById('run-accuracy'); e.value = arguments[0];", value)
+            else:
+                self.fill(f"#run-{key}", str(value))
+        self.press("#run-start")
+
+    def state(self, name, *states, seconds=60):
+        """Waits for a state of a run in the list."""
+        return self.until("const row = document.querySelector(`li[data-folder=\"${arguments[0]}\"]`);"
+                          "return row && arguments[1].includes(row.dataset.state) && row.dataset.state",
+                          f"results/{name}", states, seconds=seconds)
+
+    def text(self, selector):
+        return self.js("return document.querySelector(arguments[0]).textContent", selector)
+
+    def scene(self, key):
+        return self.js("return document.getElementById('run-picture').dataset[arguments[0]]", key)
+
+    def colours(self):
+        """How many there are in the picture."""
+        time.sleep(1.0)  # it is drawn finely when nothing moves
+        return self.js("const c = document.querySelector('#run-picture canvas'), k = document.createElement('canvas');"
+                       "[k.width, k.height] = [c.width, c.height]; const d = k.getContext('2d'); d.drawImage(c, 0, 0);"
+                       "return new Set(new Uint32Array(d.getImageData(0, 0, k.width, k.height).data.buffer)).size")
+
+    def faults(self):
+        """What the browser complains of."""
+        return [error for error in self.errors() if "/api/folder" not in error]
+
+    def queue(self):
+        return self.js("return [...document.querySelectorAll('#runs-queue li')].map((row) => row.dataset.folder)")
+
+
+def filled(server):
+    """The folder of a server with two cases."""
+    for name in ("hemisphere_0", "fabrics"):
+        shutil.copytree(CASES / name, server.folder / "cases" / name)
+    (server.folder / "long").mkdir()
+    (server.folder / "long/case.toml").write_text(LONG)
+    broken = (server.folder / QUICK).read_text().replace("radius = 75.0", "radius = -75.0")
+    (server.folder / "cases/hemisphere_0/broken.toml").write_text(broken)
+
+
+def same_results(a, b):
+    assert (a / "history.csv").read_bytes() == (b / "history.csv").read_bytes(), "history.csv differs"
+    found = []
+    with h5py.File(a / "results.h5") as one, h5py.File(b / "results.h5") as other:
+        def compare(name, data):
+            if isinstance(data, h5py.Dataset):
+                assert np.array_equal(data[()], other[name][()], equal_nan=True), name
+                found.append(name)
+        one.visititems(compare)
+        names = []
+        other.visititems(lambda name, data: names.append(name) if isinstance(data, h5py.Dataset) else None)
+    assert found == names and len(found) > 100, len(found)
+
+
+def started():
+    """From the button to the picture of its last state, its words, and the same by command line."""
+    with Server(TOOLS, PROGRAM) as server, Page() as page:
+        filled(server)
+        page.go(server)
+        assert "No runs yet" in page.js("return document.body.innerText")
+        page.run(QUICK, "first", accuracy="draft", threads=2)
+        page.state("first", "doubtful")
+        page.until("return location.hash === '#runs/results/first'")
+        page.until("return document.getElementById('run-picture').dataset.state === '20'")
+        assert float(page.scene("moved")) > 50.0
+        assert "state 21 of 21: 75.00 mm" in page.text("#run-state-words")
+        assert "do not trust ply where die cuts into it" in page.text("#run-message")
+        assert "elements 2.8 times smaller" in page.text("#run-message")  # the remedy
+        page.until("return document.getElementById('run-log').textContent.includes('results are in')")
+        assert "tensile stiffness" in page.text("#run-said") and page.js(
+            "return document.querySelectorAll('#run-said li').length") >= 2
+        command = page.text("#run-command")
+        assert command == f"plyform run {QUICK} -o results/first --threads 2 --accuracy draft", command
+        subprocess.run([PROGRAM, *command.replace("results/first", "results/by_hand").split()[1:-1], "draft"],
+                       cwd=server.folder, check=True, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        same_results(server.folder / "results/first", server.folder / "results/by_hand")
+        page.state("by_hand", "doubtful")  # found, though it was not begun here
+        # states are gone through
+        page.js("const e = document.getElementById('run-states'); e.value = 5;"
+                "e.dispatchEvent(new Event('input', {bubbles: true}));")
+        page.until("return document.getElementById('run-picture').dataset.state === '5'")
+        page.press("#run-play")
+        page.until("return document.getElementById('run-picture').dataset.state === '20'")
+        for view in ("top", "front", "side", "oblique"):
+            page.press(f"button[data-view={view}]")
+        assert page.colours() > 100, page.colours()  # of the shear angle
+        # a mistake is told where it is
+        page.run("cases/hemisphere_0/broken.toml", "bad", accuracy="")
+        page.state("bad", "failed")
+        page.until("return document.getElementById('run-message').textContent.includes('broken.toml:')")
+        assert "radius" in page.text("#run-message"), page.text("#run-message")
+        # more than the budget
+        page.run("long/case.toml", "dear", budget=1)
+        page.state("dear", "failed")
+        page.until("return document.getElementById('run-message').textContent.includes('--budget 1')")
+        # the name that is taken; the one that is none
+        page.fill("#run-budget", "")
+        page.run(QUICK, "first")
+        page.until("return document.getElementById('trouble').textContent.includes('is there already')")
+        # deleted: asked, kept, deleted
+        (server.folder / "results/first/notes.txt").write_text("mine")
+        page.press("button[data-act='choose results/first']")
+        page.until("return document.getElementById('run-title').textContent === 'first'")
+        page.press("#run-delete")
+        page.press("#run-keep")
+        assert (server.folder / "results/first/results.h5").exists()
+        page.press("#run-delete")
+        page.press("#run-delete-really")
+        page.until("return document.getElementById('trouble').textContent.includes('notes.txt')")
+        page.until("return !document.querySelector('li[data-folder=\"results/first\"]')")
+        assert os.listdir(server.folder / "results/first") == ["notes.txt"]
+        page.press("button[data-act='choose results/by_hand']")
+        page.until("return document.getElementById('run-title').textContent === 'by_hand'")
+        page.press("#run-delete")
+        page.press("#run-delete-really")
+        page.until("return !document.querySelector('li[data-folder=\"results/by_hand\"]')")
+        assert not (server.folder / "results/by_hand").exists()
+        others = [address for address in page.requests() if not address.startswith((server.address, "data:", "blob:"))]
+        assert all(address == "about:blank" or address.startswith("chrome") for address in others), others
+
+
+def watched():
+    """Plies move between states; the queue; stop, resume; two pages at once."""
+    with Server(TOOLS, PROGRAM) as server, Page() as page, Page() as second:
+        filled(server)
+        page.go(server)
+        second.go(server)
+        begin = time.monotonic()
+        page.run("long/case.toml", "long", threads=1)
+        page.state("long", "running")
+        page.until("return Number(document.getElementById('run-picture').dataset.moved) > 0")
+        print(f"the first moving ply after {time.monotonic() - begin:.1f} s")
+        page.until("return document.getElementById('run-picture').dataset.step > 0")
+        first = int(page.scene("step"))
+        page.until("return document.getElementById('run-picture').dataset.step > arguments[0]", first)
+        page.until("return /forms the plies, \\d+ %, about .* left/.test("
+                   "document.getElementById('run-words').textContent)")
+        second.state("long", "running")
+        for name in "abc":
+            page.run(QUICK, name, accuracy="draft")
+            page.state(name, "queued")
+        assert page.queue() == [f"results/{name}" for name in "abc"]
+        page.press("button[data-act='earlier results/c']")
+        page.until("return document.querySelectorAll('#runs-queue li')[1].dataset.folder === 'results/c'")
+        page.press("button[data-act='later results/a']")
+        page.until("return document.querySelectorAll('#runs-queue li')[0].dataset.folder === 'results/c'")
+        second.until("return document.querySelectorAll('#runs-queue li')[0].dataset.folder === 'results/c'")
+        second.press("button[data-act='out results/b']")
+        page.state("b", "taken out")
+        assert page.queue() == ["results/c", "results/a"]
+        page.press("button[data-act='choose results/long']")
+        page.until("return document.getElementById('run-title').textContent === 'long'")
+        page.until("return document.getElementById('run-stop')")
+        time.sleep(1.5)  # one checkpoint
+        page.press("#run-stop")
+        page.state("long", "interrupted")
+        assert "interrupted at step" in page.text("#run-message"), page.text("#run-message")
+        for name in "ca":
+            second.state(name, "doubtful")
+        page.press("#run-resume")
+        page.state("long", "running")
+        page.until("return document.getElementById('run-log').textContent.includes('goes on after')")
+        assert page.text("#run-command").endswith(" --resume")
+        page.until("return Number(document.getElementById('run-picture').dataset.step) > 0")
+        page.press("#run-stop")
+        page.state("long", "interrupted")
+        told = json.loads((server.folder / "results/long/summary.json").read_text())
+        assert told["status"] == "interrupted" and not (server.folder / "results/long/picture.bin").exists()
+        faults = page.faults() + second.faults()  # the log is emptied by reading
+        assert not faults, faults
+
+
+def found():
+    """A server that is killed leaves its run and its queue, which the next one finds; and runs that a
+    command line has begun."""
+    with Server(TOOLS, PROGRAM) as server, Page() as page:
+        filled(server)
+        page.go(server)
+        page.run(QUICK, "done", accuracy="draft")
+        page.state("done", "doubtful")
+        page.run("long/case.toml", "long", threads=1)
+        page.state("long", "running")
+        page.run(QUICK, "waits", accuracy="draft")
+        page.state("waits", "queued")
+        pid = server.get("api/runs")[1]["record"]["pid"]
+        server.stop(signal.SIGKILL)
+        page.until("return document.body.classList.contains('alone')")
+        time.sleep(0.5)
+        assert Path(f"/proc/{pid}").exists()
+        server.start()
+        page.go(server)
+        assert page.state("long", "running") and page.state("waits", "queued") and page.state("done", "doubtful")
+        assert next(r for r in server.get("api/runs") if r["name"] == "long")["record"]["pid"] == pid
+        page.press("button[data-act='choose results/long']")
+        page.until("return Number(document.getElementById('run-picture').dataset.step) > 0")
+        page.press("#run-stop")
+        page.state("long", "interrupted")
+        page.state("waits", "doubtful")
+        line = subprocess.Popen([PROGRAM, "run", "long", "-o", "elsewhere/line", "--threads", "1"], cwd=server.folder,
+                                stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+        try:
+            row = "const row = document.querySelector('li[data-folder=\"elsewhere/line\"]'); return row"
+            page.until(row + " && row.dataset.state === 'running'")
+            page.press("button[data-act='choose elsewhere/line']")
+            page.until("return document.getElementById('run-shown').dataset.folder === 'elsewhere/line'")
+            assert "Ctrl-C there ends it" in page.text(".run-acts")
+            page.until("return Number(document.getElementById('run-picture').dataset.step) > 0")
+            time.sleep(1.5)
+        finally:
+            line.kill()
+            line.wait()
+        page.until(row + " && row.dataset.state === 'killed'")
+        assert "Resume goes on" in page.text("#run-message")
+        page.press("#run-resume")
+        page.until(row + " && row.dataset.state === 'running'")
+        page.press("#run-stop")
+        page.until(row + " && row.dataset.state === 'interrupted'")
+
+
+def refused():
+    """What a page may not ask for."""
+    with Server(TOOLS, PROGRAM) as server:
+        filled(server)
+        outside = Path(server.kept.name) / "outside"
+        shutil.copytree(CASES / "hemisphere_0", outside)
+        (outside / "results.h5").write_text("mine")
+        (server.folder / "link").symlink_to(outside)
+        (server.folder / "cases/link.toml").symlink_to(outside / "case.toml")
+        for case in ("../outside/case.toml", str(outside / "case.toml"), "link/case.toml", "cases/link.toml", "", None,
+                     3, "cases", "cases/none.toml", ".plyform/lock", "cases/fabrics", "a\0b"):
+            status, answer = server.call("POST", "api/runs", {"case": case})
+            assert 400 <= status < 500 and answer["error"], (case, status, answer)
+        for wrong in ({"name": "../x"}, {"name": "a/b"}, {"name": "-o"}, {"name": ".x"}, {"name": 3}, {"threads": 0},
+                      {"threads": 257}, {"threads": 1.5}, {"threads": "2; rm"}, {"accuracy": "--set"}, {"budget": -1},
+                      {"budget": "1"}):
+            status, answer = server.call("POST", "api/runs", {"case": QUICK, **wrong})
+            assert status == 422, (wrong, status, answer)
+        for method, route in (("GET", "state"), ("GET", "bodies"), ("GET", "messages"), ("GET", "picture"),
+                              ("POST", "remove"), ("POST", "stop"), ("POST", "resume")):
+            for folder in ("link", "../outside", str(outside), "", ".", ".plyform", "cases", "cases/hemisphere_0",
+                           "none"):
+                status, answer = server.call(method, f"api/runs/{route}", {}, query={"folder": folder})
+                assert 400 <= status < 500, (route, folder, status, answer)
+        assert sorted(os.listdir(outside)) == sorted([*os.listdir(CASES / "hemisphere_0"), "results.h5"])
+        assert server.get("api/runs") == [] and not (server.folder / "results").exists()
+        # what a run's folder holds is not trusted
+        bad = server.folder / "results/bad"
+        bad.mkdir(parents=True)
+        (bad / "summary.json").write_text('{"status": "<b>done</b>"}')
+        (bad / "results.h5").write_text("no results")
+        (bad / "progress.json").write_text(json.dumps({"pid": 1, "words": "x"}))
+        (bad / "plies").symlink_to(outside)
+        time.sleep(2.5)
+        run, = server.get("api/runs")
+        assert run["state"] == "damaged" and "status" in run["message"], run
+        for route in ("state", "bodies"):
+            status, answer = server.call("GET", f"api/runs/{route}", query={"folder": "results/bad"})
+            assert status == 422 and "cannot be read" in answer["error"], (status, answer)
+        assert server.send("api/runs/remove", folder="results/bad") == {"stay": ["plies"]}
+        assert (outside / "case.toml").exists()
+
+
+{"started": started, "watched": watched, "found": found, "refused": refused}[PART]()
