@@ -59,6 +59,7 @@ export class Tool {
     this.run = run;
     this.data = data;
     this.name = data.name;
+    this.sharp = SHARP;
   }
 
   async load() {
@@ -115,7 +116,7 @@ export class Tool {
     for (let i = 0; i < edges.length; i += 4) {
       const [s, t] = [edges[i + 2], edges[i + 3]];
       if (t < 0 || facing(s) * facing(t) < 0 ||
-          n[s] * n[t] + n[s + 1] * n[t + 1] + n[s + 2] * n[t + 2] < SHARP) {
+          n[s] * n[t] + n[s + 1] * n[t + 1] + n[s + 2] * n[t + 2] < this.sharp) {
         lines.push(edges[i], edges[i + 1]);
       }
     }

@@ -43,6 +43,7 @@ function toolOf(body, most) {
   if (light.x !== body.x) {
     tool.light = new Tool(null, {});
     tool.light.place(light.x, light.triangles);
+    tool.light.sharp = Math.cos((80 * Math.PI) / 180); // joined nodes make many edges that are none
   }
   tool.body = body;
   tool.shift = [0, 0, 0];

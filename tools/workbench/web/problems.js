@@ -73,7 +73,7 @@ export class Problems {
   }
 
   line(fault) {
-    const where = [fault.file && fault.file.split("/").pop(), fault.line].filter(Boolean).join(":");
+    const where = fault.file ? `${fault.file.split("/").pop()}:${fault.line}` : fault.line ? `line ${fault.line}` : "";
     const made = element("button", { type: "button", className: fault.warning ? "fault-words warning" : "fault-words",
       dataset: { key: fault.key } }, element("b", { textContent: fault.key || where }), ` ${fault.text}`);
     made.addEventListener("click", () => this.point(fault));
