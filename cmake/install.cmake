@@ -84,7 +84,7 @@ install(FILES LICENSE DESTINATION ${CMAKE_INSTALL_DOCDIR})
 set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 configure_package_config_file(cmake/plyformConfig.cmake.in plyformConfig.cmake
   INSTALL_DESTINATION ${package_dir} PATH_VARS CMAKE_INSTALL_DATADIR CMAKE_INSTALL_INCLUDEDIR)
-# Before 1.0 any minor version may change the interface.
+# What a user writes and reads is kept within a major version, the C++ interface is not.
 write_basic_package_version_file(plyformConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/plyformConfig.cmake
               ${PROJECT_BINARY_DIR}/plyformConfigVersion.cmake DESTINATION ${package_dir})
