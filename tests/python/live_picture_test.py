@@ -47,7 +47,7 @@ outputs = 24
 """
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path.insert(0, str(TOOLS))
-from workbench.arrays import unpacked  # noqa: E402
+from workbench.server.arrays import unpacked  # noqa: E402
 
 
 def formed(out: Path, asks: bool) -> list[bytes]:

@@ -22,7 +22,7 @@ import numpy as np
 from report_browser import Browser, By
 from studio_server import Server
 
-TURN = """import("workbench/runs_panel.js").then(async ({ runs }) => {
+TURN = """import("workbench/runs/panel.js").then(async ({ runs }) => {
   const { stage } = runs.panel.shown.picture.view, begin = performance.now(), first = stage.frames;
   while (performance.now() - begin < 3000) {
     stage.camera.turn(2, 0);

@@ -16,10 +16,10 @@ from studio_server import Server  # skips
 
 sys.path.insert(0, sys.argv[1])
 import websockets  # noqa: E402
-from workbench.case_reading import module_of  # noqa: E402
-from workbench.coarser import coarser  # noqa: E402
-from workbench.project import Refused  # noqa: E402
-from workbench.workers import Worker  # noqa: E402
+from workbench.scene.reading import module_of  # noqa: E402
+from workbench.scene.coarser import coarser  # noqa: E402
+from workbench.server.project import Refused  # noqa: E402
+from workbench.scene.readers import Worker  # noqa: E402
 
 TOOLS, PROGRAM = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 CASE = "first/case.toml"
@@ -206,7 +206,7 @@ def process_dies(server):
     """One that is killed while it works, and while it waits: told, and the server goes on."""
     def workers():
         mine = [int(name) for name in os.listdir("/proc") if name.isdigit()]
-        return [pid for pid in mine if b"case_worker.py" in words_of(pid) and parent_of(pid) == server.process.pid]
+        return [pid for pid in mine if b"scene/reader.py" in words_of(pid) and parent_of(pid) == server.process.pid]
     for pid in workers():
         os.kill(pid, signal.SIGSEGV)
     time.sleep(0.3)

@@ -16,8 +16,8 @@ try:
 except ImportError as problem:
     print("SKIPPED:", problem)
     sys.exit(77)
-from workbench import toml_edits, toml_model  # noqa: E402
-from workbench.project import Refused  # noqa: E402
+from workbench.toml import edits as toml_edits, model as toml_model  # noqa: E402
+from workbench.server.project import Refused  # noqa: E402
 
 CASES = Path(sys.argv[2])
 ODD = 'with "quotes", \\ and é\n'

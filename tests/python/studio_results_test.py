@@ -323,7 +323,7 @@ TRIES = {  # of a script in a report, what it would like to do; each gives a wor
              " i.src = '../../../lib/three.min.js'; })",
     "parent": "Promise.resolve().then(() => parent.document.title).then(() => 'GOT', () => 'no')",
     "storage": "Promise.resolve().then(() => localStorage.length).then(() => 'GOT', () => 'no')",
-    "module": "import('../../../web/server.js').then(() => 'GOT', () => 'no')",
+    "module": "import('../../../web/page/server.js').then(() => 'GOT', () => 'no')",
 }
 
 

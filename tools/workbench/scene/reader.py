@@ -1,0 +1,114 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""A process beside the workbench that reads cases with the program's own code: reader.py TOOLS MODULE.
+Requests come as lines of JSON, answers go as two lengths (uint32 of the JSON, uint64 of the bytes) and both.
+It may go down on any file, or never come back: readers.py, which starts it, then starts another."""
+
+import hashlib
+import json
+import os
+import struct
+import sys
+import threading
+import time
+import tomllib
+from pathlib import Path
+
+
+def main() -> None:
+    sys.path[:0] = [sys.argv[1], sys.argv[2]]
+    answers = os.fdopen(os.dup(1), "wb")
+    os.dup2(2, 1)  # what a library prints is no answer
+    threading.Thread(target=end_with_parent, args=(os.getppid(),), daemon=True).start()
+    from workbench.scene.scene_bytes import finite
+    try:
+        import plyform
+    except ImportError as problem:
+        plyform, missing = None, f"Python's module cannot be loaded: {problem}"
+    for line in sys.stdin.buffer:
+        request = json.loads(line)
+        try:
+            if plyform is None:
+                raise ImportError(missing)
+            said, content = ACTS[request["act"]](plyform, request)
+        except Exception as problem:  # whatever it is, the page is told
+            said, content = {"error": f"{type(problem).__name__}: {problem}"[:2000]}, b""
+        words = json.dumps(finite(said)).encode()
+        answers.write(struct.pack("<IQ", len(words), len(content)) + words)
+        answers.write(content)
+        answers.flush()
+
+
+def end_with_parent(parent: int) -> None:
+    while os.getppid() == parent:
+        time.sleep(1.0)
+    os._exit(0)
+
+
+def version_of(request: dict) -> str:
+    return hashlib.sha256(Path(request["file"]).read_bytes()).hexdigest()[:16]
+
+
+def scene(plyform, request: dict) -> tuple[dict, bytes]:
+    from workbench.scene.scene_bytes import scene_bytes
+    case = plyform.Case(request["file"])
+    return {}, scene_bytes(case.scene(), version_of(request))
+
+
+def without_scouts(file: str) -> dict[str, str]:
+    """Settings by which no mesh is taken from a fast run of the scene: that takes seconds."""
+    try:
+        blanks = tomllib.loads(Path(file).read_text(encoding="utf-8-sig")).get("blanks")
+    except (OSError, ValueError, RecursionError):
+        return {}
+    return {f"blanks.{name}.mesh_from": "element_size" for name, blank in (blanks.items() if isinstance(blanks, dict)
+            else ()) if isinstance(blank, dict) and blank.get("mesh_from") == "scene" and "." not in name}
+
+
+def check(plyform, request: dict) -> tuple[dict, bytes]:
+    settings = without_scouts(request["file"])
+    found = plyform.Case(request["file"], settings).check()
+    if any(one.file == "--set" for one in found.mistakes):  # of mesh_from itself
+        found = plyform.Case(request["file"]).check()
+    mistakes = [{name: getattr(one, name, "") for name in ("file", "line", "column", "key", "item", "value", "rule",
+                                                           "remedy")} | {"text": str(one)}
+                for one in found.mistakes]
+    for one in mistakes:
+        one["key"] = one["key"] or one["item"]
+    placed = getattr(found, "warnings_at", None)
+    warnings = [{"text": text} for text in found.warnings] if placed is None else [
+        {"text": getattr(one, "text", str(one)), "key": getattr(one, "key", ""), "line": getattr(one, "line", 0)}
+        for one in placed]
+    return {"mistakes": mistakes, "warnings": warnings, "notes": list(found.notes),
+            "assumed": list(found.assumed)}, b""
+
+
+def outlook(plyform, request: dict) -> tuple[dict, bytes]:
+    try:
+        found = plyform.Case(request["file"]).outlook(request["threads"])
+    except plyform.Error as problem:
+        return {"outlook": None, "why": str(problem)[:2000]}, b""
+    return {"outlook": {"lines": found.lines, "steps": found.steps, "step_s": found.step_s,
+                        "estimated_s": found.estimated_s, "stop": found.stop}}, b""
+
+
+def keys(plyform, request: dict) -> tuple[dict, bytes]:
+    return {"keys": [{name: simple(getattr(key, name)) for name in dir(type(key))
+                      if isinstance(getattr(type(key), name), property)} for key in plyform.keys()]}, b""
+
+
+def simple(value):
+    """What JSON has; of an object its properties, of a word of a list of words its name."""
+    if value is None or isinstance(value, (str, int, float, bool)):
+        return value
+    if isinstance(value, dict):
+        return {str(key): simple(part) for key, part in value.items()}
+    if isinstance(value, (list, tuple)):
+        return [simple(part) for part in value]
+    names = [name for name in dir(type(value)) if isinstance(getattr(type(value), name), property)]
+    return {name: simple(getattr(value, name)) for name in names if not name.startswith("_")} or str(value)
+
+
+ACTS = {"scene": scene, "check": check, "outlook": outlook, "keys": keys}
+
+if __name__ == "__main__":
+    main()

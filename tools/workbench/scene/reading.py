@@ -1,0 +1,183 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the program itself says of a case: its scene, its mistakes, how long a run takes. Asked of processes
+beside the workbench, kept as long as no file of the case changes."""
+
+import os
+import threading
+from pathlib import Path
+
+from base.ending import Trouble
+
+from ..cases.files import CaseFiles, version_of
+from ..cases.paths import MOST_TEXT, paths_inside
+from ..server.project import Refused
+from .readers import Worker, Workers
+
+MOST_KEPT = 20
+MOST_FOLLOWED = 50
+PERIOD = 0.5  # s between two looks at the files of cases that pages look at
+
+
+class CaseReading:
+    def __init__(self, files: CaseFiles, program: Path):
+        self.files = files
+        self.project = files.project
+        self.program = program
+        self.started: Workers | None = None
+        self.kept: dict[tuple, object] = {}
+        self.lock = threading.Lock()
+        self.followed: dict[str, tuple] = {}  # stamps by name
+        self.key_rows: list | None = None
+
+    @property
+    def workers(self) -> Workers:
+        """Started when first asked for. Raises Trouble without the module."""
+        with self.lock:
+            self.started = self.started or Workers(module_of(self.program))
+            return self.started
+
+    def warm(self) -> None:
+        """The first picture comes at once."""
+        try:
+            self.workers.warm()
+        except Trouble:
+            pass  # told when a case is asked for
+
+    def asked(self, name: str, version: str) -> tuple[str, tuple, Path]:
+        """Name, stamp of all its files and path of a case. Raises Refused, also if it names files outside."""
+        path = self.files.path(name)
+        if version_of(self.project.read(path, MOST_TEXT)) != version:
+            raise Refused("the file has changed meanwhile: here it is anew", 409)
+        name = self.project.relative(path)
+        stamp = self.stamp(path)
+        self.follow(name, stamp)
+        return name, stamp, path
+
+    def stamp(self, path: Path) -> tuple:
+        return tuple(self.of_file(file) for file in paths_inside(self.project, path))
+
+    @staticmethod
+    def of_file(file: Path) -> tuple:
+        try:
+            status = os.stat(file)
+            return str(file), status.st_mtime_ns, status.st_size, status.st_ino
+        except OSError:
+            return str(file), 0, 0, 0
+
+    def scene(self, name: str, version: str) -> bytes:
+        name, stamp, path = self.asked(name, version)
+        return self.once(("scene", name), stamp, lambda: self.bytes_of(self.workers.scene, "scene", path, stamp))
+
+    def check(self, name: str, version: str) -> dict:
+        name, stamp, path = self.asked(name, version)
+        found = self.once(("check", name), stamp, lambda: self.dict_of(self.workers.check, "check", path, stamp))
+        answer = {"version": version, **found, "outlook": None}
+        if not found["mistakes"]:
+            known = self.known(("outlook", name), stamp)
+            if known is None:
+                threading.Thread(target=self.look_ahead, args=(name, version, stamp, path), daemon=True).start()
+            else:
+                answer["outlook"] = known["outlook"]
+        return answer
+
+    def look_ahead(self, name: str, version: str, stamp: tuple, path: Path) -> None:
+        """Tells {kind: "outlook", path, version, outlook} when it is known."""
+        try:
+            found = self.once(("outlook", name), stamp,
+                              lambda: self.dict_of(self.workers.outlook, "outlook", path, stamp, threads=1))
+            self.files.events.send("outlook", path=name, version=version, outlook=found["outlook"],
+                                   why=found.get("why", ""))
+        except Refused as problem:
+            if problem.code != 409:  # a newer one comes
+                self.files.events.send("outlook", path=name, version=version, outlook=None, why=str(problem))
+
+    def keys(self) -> list[dict]:
+        if self.key_rows is None:
+            said, _ = self.workers.scene.ask("keys")
+            self.key_rows = said.get("keys", [])
+        return self.key_rows
+
+    def bytes_of(self, worker: Worker, act: str, path: Path, stamp: tuple) -> bytes:
+        said, content = worker.ask(act, file=str(path), stamp=stamp)
+        self.sound(said, path, stamp)
+        return content
+
+    def dict_of(self, worker: Worker, act: str, path: Path, stamp: tuple, **more) -> dict:
+        said, _ = worker.ask(act, file=str(path), stamp=stamp, **more)
+        self.sound(said, path, stamp)
+        for mistake in said.get("mistakes", []):
+            mistake["file"] = self.shown(mistake["file"])
+            mistake["text"] = mistake["text"].replace(str(self.project.root) + "/", "")
+        return said
+
+    def sound(self, said: dict, path: Path, stamp: tuple) -> None:
+        if "error" in said:
+            raise Refused(f"this is a fault of plyform, not of your files: {said['error']}; please report it", 500)
+        if self.stamp(path) != stamp:
+            raise Refused("a file of the case has changed meanwhile", 409)
+
+    def shown(self, file: str) -> str:
+        path = Path(os.path.realpath(file))
+        return self.project.relative(path) if path.is_relative_to(self.project.root) else path.name
+
+    def known(self, what: tuple, stamp: tuple):
+        with self.lock:
+            stamped = self.kept.get(what)
+            return stamped[1] if stamped and stamped[0] == stamp else None
+
+    def once(self, what: tuple, stamp: tuple, make):
+        known = self.known(what, stamp)
+        if known is not None:
+            return known
+        made = make()
+        with self.lock:
+            self.kept.pop(what, None)
+            self.kept[what] = stamp, made
+            while len(self.kept) > MOST_KEPT:
+                self.kept.pop(next(iter(self.kept)))
+        return made
+
+    def follow(self, name: str, stamp: tuple) -> None:
+        with self.lock:
+            self.followed.pop(name, None)
+            self.followed[name] = stamp
+            while len(self.followed) > MOST_FOLLOWED:
+                self.followed.pop(next(iter(self.followed)))
+
+    def watch(self, ending: threading.Event, folder) -> None:
+        """Tells pages of changes that other programs make: to a case or its files, and of files that come
+        and go. Never returns before `ending`."""
+        before = folder.stamp()
+        while not ending.wait(PERIOD):
+            for name in list(self.followed):
+                self.look(name)
+            now = folder.stamp()
+            if now != before:
+                before = now
+                self.files.events.send("folder")
+
+    def look(self, name: str) -> None:
+        try:
+            path = self.files.path(name)
+            stamp, version = self.stamp(path), version_of(self.project.read(path, MOST_TEXT))
+        except (Refused, OSError):
+            stamp, version = (), ""
+        old = self.followed.get(name)
+        if old is None or stamp == old:
+            return
+        with self.lock:
+            self.followed[name] = stamp
+        told = self.files.versions.get(name)
+        only_itself = old[1:] == stamp[1:] and bool(stamp)
+        if version != told or not only_itself:
+            self.files.versions[name] = version
+            self.files.events.send("case", path=name, version=version)
+
+
+def module_of(program: Path) -> Path:
+    """The folder that Python's module of the same build lies in. Raises Trouble."""
+    for place in (program.parents[1] / "python", program.parents[1] / "lib/python3/dist-packages"):
+        if (place / "plyform/__init__.py").is_file():
+            return place
+    raise Trouble(f"there is no Python module beside {program}: install python3-dev and pybind11-dev and build "
+                  "plyform again")

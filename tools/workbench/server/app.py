@@ -1,0 +1,93 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""The application: its routes, the files of the page, and how what is wrong is answered."""
+
+import asyncio
+import base64
+import hashlib
+from pathlib import Path
+
+from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
+from fastapi.responses import FileResponse, HTMLResponse, JSONResponse
+
+from base.ending import Mistake, Trouble, one_line, words_of
+from reporting.page import THREE, WEB as REPORT_WEB, json_in_script
+
+from .guard import HEADERS, Refusal
+from .studio import Studio
+
+WEB = Path(__file__).resolve().parents[1] / "web"
+CODEMIRROR = Path("/usr/share/javascript/codemirror")
+SHELVES = {"web": WEB, "report": REPORT_WEB, "codemirror": CODEMIRROR}
+KINDS = {".js": "text/javascript", ".css": "text/css", ".svg": "image/svg+xml", ".png": "image/png"}
+
+
+def application(studio: Studio, routers: list) -> FastAPI:
+    app = FastAPI(title="plyform studio", openapi_url=None, docs_url=None, redoc_url=None)
+    for router in routers:
+        app.include_router(router, prefix="/api")
+    page, policy = page_and_policy()
+
+    @app.on_event("startup")
+    async def begin() -> None:
+        studio.events.loop = asyncio.get_running_loop()
+
+    @app.get("/")
+    async def index() -> HTMLResponse:
+        return HTMLResponse(page, headers={"Content-Security-Policy": policy})
+
+    @app.get("/{shelf}/{name:path}")
+    async def file(shelf: str, name: str):
+        return static(shelf, name)
+
+    @app.websocket("/events")
+    async def events(socket: WebSocket) -> None:
+        await tell_events(studio, socket)
+
+    for kind in (Trouble, Refusal, OSError, MemoryError):
+        app.add_exception_handler(kind, wrong)
+    return app
+
+
+def static(shelf: str, name: str):
+    if (shelf, name) == ("lib", "three.min.js"):
+        return FileResponse(THREE, media_type=KINDS[".js"])
+    path = SHELVES.get(shelf, WEB) / name
+    kind = KINDS.get(path.suffix)
+    if shelf not in SHELVES or not kind or ".." in name.split("/") or not path.is_file():
+        return JSONResponse({"error": f"there is no {one_line(shelf, 50)}/{one_line(name, 100)}"}, 404)
+    return FileResponse(path, media_type=kind)
+
+
+def page_and_policy() -> tuple[str, str]:
+    """Modules go by the names plyform/FILE (those of reports) and workbench/FOLDER/FILE."""
+    names = {f"{room}/{name}": f"./{shelf}/{name}"
+             for room, shelf in (("plyform", "report"), ("workbench", "web"))
+             for name in sorted(file.relative_to(SHELVES[shelf]).as_posix() for file in SHELVES[shelf].rglob("*.js"))}
+    imports = str(json_in_script({"imports": names}))
+    digest = base64.b64encode(hashlib.sha256(imports.encode()).digest()).decode()
+    text = (WEB / "page/workbench.html").read_text(encoding="utf-8").replace("{{ imports }}", imports)
+    policy = HEADERS["Content-Security-Policy"].replace("script-src 'self'", f"script-src 'self' 'sha256-{digest}'")
+    return text, policy
+
+
+async def tell_events(studio: Studio, socket: WebSocket) -> None:
+    """Until the page is closed."""
+    await socket.accept()
+
+    async def send() -> None:
+        async for event in studio.events.of_page():
+            await socket.send_json(event)
+
+    task = asyncio.create_task(send())
+    try:
+        while True:
+            await socket.receive_text()  # pages send nothing; this ends when they are closed
+    except (WebSocketDisconnect, RuntimeError, KeyError):
+        pass
+    finally:
+        task.cancel()
+
+
+async def wrong(request: Request, problem: Exception) -> JSONResponse:
+    code = getattr(problem, "code", 422 if isinstance(problem, (Trouble, Mistake)) else 500)
+    return JSONResponse({"error": one_line(words_of(problem))}, code)

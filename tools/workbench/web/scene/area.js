@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The scene of a case with its controls: asked for anew after each edit; what was drawn last stays.
+
+import { element } from "workbench/page/elements.js";
+import { unpacked } from "workbench/page/packed.js";
+import { sceneControls, strokeControl } from "workbench/scene/controls.js";
+import { SceneView } from "workbench/scene/view.js";
+import { askBytes } from "workbench/page/server.js";
+
+const short = (value) => Number(value.toFixed(Math.abs(value) < 10 ? 2 : 1)).toString();
+
+/** Call-outs of gaps and first contacts. */
+function calloutsOf(scene) {
+  const list = [];
+  for (const tool of scene.tools || []) {
+    const { gap, first_contact: met, name, key } = tool;
+    if (gap && gap.place && gap.mm < 1e4) {
+      const words = gap.mm < 0 ? `${name} is ${short(-gap.mm)} mm in` : `${name} ${short(gap.mm)} mm from`;
+      const other = gap.ply === undefined || gap.ply === null ? "the stack" : gap.ply;
+      list.push({ at: gap.place, text: `${words} ${other}`, kind: gap.mm < -1e-6 ? "wrong" : "gap", key });
+    }
+    if (met && met.place) {
+      const share = met.share === undefined || met.share === null ? "" : ` (${short(100 * met.share)} %)`;
+      list.push({ at: met.place, text: `${name}: first contact at ${short(met.stroke_mm)} mm${share}`,
+        kind: "contact", key });
+    }
+  }
+  for (const { a, b, mm, place } of scene.gaps || []) {
+    if (place && mm < 0) list.push({ at: place, text: `${a} and ${b} overlap by ${short(-mm)} mm`, kind: "wrong",
+      key: "" });
+  }
+  for (const boundary of scene.boundaries || []) {
+    const at = placeOf(boundary, scene.plies || []);
+    if (at) list.push({ at, text: `${boundary.name} (${boundary.kind})`, kind: "boundary", key: boundary.key });
+  }
+  return list;
+}
+
+/** A place of a boundary: the middle of the nodes that it holds, else its anchor. */
+function placeOf({ nodes, places }, plies) {
+  for (const [i, held] of (Array.isArray(nodes) ? nodes : []).entries()) {
+    const x = plies[i] && plies[i].x;
+    if (x && held && held.length) {
+      const node = held[Math.floor(held.length / 2)];
+      return [...x.slice(3 * node, 3 * node + 3)];
+    }
+  }
+  return places && places.length > 2 ? [...places.slice(0, 3)] : null;
+}
+
+function centreOf(x) {
+  const [low, high] = [[Infinity, Infinity, Infinity], [-Infinity, -Infinity, -Infinity]];
+  for (let i = 0; i < x.length; ++i) {
+    low[i % 3] = Math.min(low[i % 3], x[i]);
+    high[i % 3] = Math.max(high[i % 3], x[i]);
+  }
+  return low.map((value, k) => 0.5 * (value + high[k]));
+}
+
+export class SceneArea {
+  constructor(place, acts) {
+    this.room = element("div", { className: "scene-room", id: "scene" });
+    this.note = element("p", { className: "scene-note", id: "scene-note", role: "status", hidden: true });
+    this.measured = element("output", { id: "measured", className: "measured" });
+    this.view = new SceneView(this.room, { ...acts, measured: (words) => { this.measured.textContent = words; } });
+    this.stroke = strokeControl(this.view);
+    this.stroke.append(this.measured);
+    place.append(sceneControls(this.view), this.room, this.stroke);
+    this.room.append(this.note);
+  }
+
+  /** The scene of a version of a case, shown; null if there is none, and then the last one stays. */
+  async ask(file, fit) {
+    let scene;
+    try {
+      scene = unpacked(await askBytes("scene", { path: file.path, version: file.version }));
+    } catch (problem) {
+      if (problem.code === 409) throw problem;
+      this.old(problem.message);
+      return null;
+    }
+    if (scene.version && file.version && scene.version !== file.version) return null;
+    const bodies = [...(scene.plies || []), ...(scene.tools || [])].filter((one) => one.x && one.x.length);
+    if (!bodies.length && this.scene && !fit) {
+      this.old((scene.missing || []).join("; ") || "nothing of this can be drawn");
+      return null;
+    }
+    this.scene = scene;
+    this.view.show(scene, fit);
+    this.callouts = calloutsOf(scene);
+    this.view.callOut(this.callouts);
+    const missing = (scene.missing || []).map((one) => (typeof one === "string" ? one : one.words ||
+      JSON.stringify(one)));
+    this.say(missing.length ? `not drawn: ${missing.join("; ")}` : "");
+    return scene;
+  }
+
+  say(words) {
+    this.note.textContent = words;
+    this.note.hidden = !words;
+  }
+
+  /** What is shown is not what the file says. */
+  old(words) {
+    this.say(`${this.scene ? "last scene that could be drawn; " : ""}${words}`);
+  }
+
+  choose(item) {
+    this.chosen = item;
+    this.view.handle(item.startsWith("ply.") ? item : null);
+  }
+
+  /** Marks bodies that are chosen or have mistakes, and writes the mistakes beside them. */
+  blame(faults, chosen) {
+    if (!this.scene) return;
+    const wrong = new Map();
+    for (const { key, text, warning } of faults) {
+      const body = key.split(".").slice(0, 2).join(".");
+      if (!warning && !wrong.has(body)) wrong.set(body, text);
+    }
+    this.view.mark((key) => (wrong.has(key) ? "wrong" : key === chosen ? "chosen" : null));
+    const bodies = [...(this.scene.plies || []), ...(this.scene.tools || [])];
+    const marks = bodies.filter((one) => one.x && one.x.length && wrong.has(one.key)).map((one) => ({
+      at: centreOf(one.x), text: `${one.name}: ${wrong.get(one.key)}`, kind: "wrong", key: one.key }));
+    this.view.callOut([...(this.callouts || []), ...marks]);
+  }
+}

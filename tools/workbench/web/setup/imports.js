@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Files dropped onto the page: uploaded into the folder of the case, made into tools, blanks and
+// fabrics by the program's tools, and added to the case.
+
+import { dialogue } from "workbench/page/dialogue.js";
+import { numberOf } from "workbench/setup/inputs.js";
+import { freeFabric } from "workbench/setup/case_dialogues.js";
+import { ask, listen, send, upload } from "workbench/page/server.js";
+
+const UNITS = [["mm", "mm"], ["cm", "cm"], ["m", "m"], ["inch", "inch"]];
+const KINDS = { step: "part", stp: "part", iges: "part", igs: "part", stl: "mesh", obj: "mesh", ply: "mesh",
+  off: "mesh",
+  dxf: "drawing", csv: "curve", txt: "curve", xlsx: "curve", toml: "toml" };
+
+export const kindOf = (name) => KINDS[name.split(".").pop().toLowerCase()] || "";
+
+const folderOf = (path) => path.split("/").slice(0, -1).join("/");
+
+function positive(text, word) {
+  const value = numberOf(text);
+  if (!(value > 0)) throw new Error(`${word}: ${text || "nothing"} is no number above 0`);
+  return value;
+}
+
+/** Until a process has ended: its record, having told how far it is. Its end may come before the
+ * answer to the request that began it. */
+async function ended(record, tell) {
+  const live = (one) => ["queued", "starting", "running"].includes(one.state);
+  let stop;
+  const last = await new Promise((done) => {
+    stop = listen("process", (event) => {
+      if (event.record.id !== record.id) return;
+      tell(event.last || event.record.state);
+      if (!live(event.record)) done(event.record);
+    });
+    ask(`processes/${record.id}`).then((one) => !live(one) && done(one), () => {});
+  });
+  stop();
+  if (last.state === "done") return last;
+  const { log } = await ask(`processes/${record.id}`);
+  throw new Error((log || "").trim().split("\n").pop() || `it has ${last.state}`);
+}
+
+/** Runs what api/import begins; a file that would be written over is named, and asked for. */
+async function made(body, tell) {
+  const { process, outputs } = await send("import", body);
+  await ended(process, tell);
+  return outputs;
+}
+
+export class Imports {
+  /** `work` as the form has it. `chooser`: an input of files, for those who do not drop. */
+  constructor(place, work, chooser) {
+    this.work = work;
+    chooser.addEventListener("change", () => {
+      this.take([...chooser.files]).catch(work.tell);
+      chooser.value = "";
+    });
+    place.addEventListener("dragover", (event) => {
+      event.preventDefault();
+      place.classList.add("dropping");
+    });
+    place.addEventListener("dragleave", () => place.classList.remove("dropping"));
+    place.addEventListener("drop", (event) => {
+      event.preventDefault();
+      place.classList.remove("dropping");
+      this.take([...event.dataTransfer.files]).catch(work.tell);
+    });
+  }
+
+  async take(files) {
+    for (const file of files) {
+      const kind = kindOf(file.name);
+      if (!kind) throw new Error(`${file.name} is none of ${Object.keys(KINDS).join(", ")}`);
+      await this.send(file, {}, async (sent) => {
+        await this.work.refreshFolder();
+        await this.ask(kind, sent.path);
+      });
+    }
+  }
+
+  /** Uploads a file; one that is there already is replaced when that is said. */
+  async send(file, more, done) {
+    const name = file.name.replace(/[^A-Za-z0-9_.-]/g, "_");
+    let sent;
+    try {
+      sent = await upload({ name, folder: folderOf(this.work.main.path), ...more }, file);
+    } catch (problem) {
+      if (problem.code !== 409 || more.replace) throw problem;
+      dialogue("replace", `${name} is there already`, [{ kind: "note", title: problem.message }], "Replace it",
+        () => this.send(file, { replace: 1 }, done));
+      return;
+    }
+    await done(sent);
+  }
+
+  ask(kind, path) {
+    const name = path.split("/").pop();
+    const acts = { part: () => this.askPart(path, name), mesh: () => this.askMesh(path, name),
+      drawing: () => this.askDrawing(path, name), toml: () => this.askFabric(path, name),
+      curve: () => { location.hash = `#identify/${path}`; } };
+    return acts[kind]();
+  }
+
+  askPart(path, name) {
+    const thick = this.stackThickness();
+    const window_ = dialogue("import-part", `Tools from ${name}`, [
+      { name: "make", title: "Make", kind: "select", choices: [["tool", "one tool of this shape"],
+        ["offset", "die and punch, a distance apart"], ["stack", "die and punch with room for this case's plies"]] },
+      { name: "offset", title: "Distance", kind: "number", unit: "mm", value: thick,
+        note: "of die and punch, measured across the part" },
+      { name: "on", title: "The surface is that of", kind: "select", choices: [["die", "the die"],
+        ["punch", "the punch"]] },
+      { name: "deflection", title: "Deflection", kind: "number", unit: "mm", value: 0.05,
+        note: "how far triangles may lie from the shape, at most" },
+      { name: "replace", title: "Replace", kind: "checkbox", note: "meshes of an earlier time" },
+    ], "Make tools", async ({ make, offset, on, deflection, replace }, tell) => {
+      const body = { path, case: this.work.main.path, as: "tool", deflection: positive(deflection, "Deflection"),
+        replace };
+      if (make === "offset") Object.assign(body, { offset: positive(offset, "Distance"), on });
+      if (make === "stack") Object.assign(body, { stack: true, on });
+      tell("begun");
+      await this.addMeshes(await made(body, tell));
+    });
+    const follow = () => {
+      const make = window_.querySelector("#import-part-make").value;
+      window_.querySelector("#import-part-offset").disabled = make !== "offset";
+      window_.querySelector("#import-part-on").disabled = make === "tool";
+    };
+    window_.querySelector("#import-part-make").addEventListener("change", follow);
+    follow();
+  }
+
+  stackThickness() {
+    const { scene } = this.work;
+    return scene && scene.stack_thickness_mm ? Number(scene.stack_thickness_mm.toFixed(3)) : undefined;
+  }
+
+  /** The box tells a wrong unit. */
+  askMesh(path, name) {
+    const wish = (unit) => ({ path, case: this.work.main.path, as: "tool", unit });
+    const window_ = dialogue("import-mesh", `Tool from ${name}`, [
+      { name: "unit", title: "Unit of the file", kind: "select", choices: UNITS, note: " " },
+    ], "Add the tool", async ({ unit }) => this.add(await send("import", wish(unit))));
+    const [unit, note] = [window_.querySelector("#import-mesh-unit"), window_.querySelector(".note")];
+    const show = async () => {
+      const { facets, box_mm: box } = await send("import", wish(unit.value));
+      const size = box && box[1].map((high, k) => Number((high - box[0][k]).toPrecision(4)));
+      note.textContent = size ? `${size.join(" × ")} mm, ${facets} facets` : "";
+    };
+    unit.addEventListener("change", () => show().catch(this.work.tell));
+    show().catch(this.work.tell);
+  }
+
+  askDrawing(path, name) {
+    dialogue("import-drawing", `Blank from ${name}`, [
+      { name: "unit", title: "Unit of the drawing", kind: "select", choices: UNITS },
+      { name: "element_size", title: "Element size", kind: "number", unit: "mm", value: 10 },
+    ], "Add the blank", async ({ unit, element_size: size }) => this.add(await send("import",
+      { path, as: "blank", unit,
+      case: this.work.main.path, element_size: positive(size, "Element size") })));
+  }
+
+  async askFabric(path, name) {
+    const wish = await send("import", { path, as: "fabric", case: this.work.main.path });
+    dialogue("import-fabric", `Fabric ${name}`, [{ name: "name", title: "Name in this case", kind: "text",
+      value: freeFabric(this.work.main.tree, wish.name) }], "Add the fabric",
+    (values) => this.add({ ...wish, name: values.name }));
+  }
+
+  /** Adds { key, name, value } to the case. */
+  async add({ key, name, value }) {
+    const { main } = this.work;
+    if (key === "fabrics") {
+      await main.edit([{ op: "set", key: `fabrics.${name}`, value }]);
+      this.work.choose(`fabrics.${name}`);
+    } else if (key === "blanks") {
+      const free = freeWord(Object.keys(main.tree.blanks || {}), name);
+      await main.edit([{ op: "add", key, name: free, value }]);
+      this.work.choose(`blanks.${free}`);
+    } else {
+      const names = (main.tree.tool || []).map((one) => one.name);
+      await main.edit([{ op: "add", key, value: { name: freeWord(names, name), ...value } }]);
+      this.work.choose(`tool.${names.length}`);
+    }
+  }
+
+  /** Adds meshes that were made; a punch is driven down. */
+  async addMeshes(paths) {
+    await this.work.refreshFolder();
+    for (const path of paths) {
+      const stem = path.split("/").pop().replace(/\.\w+$/, "");
+      const [, word] = stem.match(/_(die|punch)$/) || [];
+      const wish = await send("import", { path, as: "tool", unit: "mm", case: this.work.main.path });
+      const moves = word === "punch" ? { motion: "driven", direction: [0, 0, -1], stroke: 10 } : {};
+      await this.add({ ...wish, name: word || wish.name, value: { ...wish.value, ...moves } });
+    }
+  }
+}
+
+function freeWord(taken, word) {
+  if (!taken.includes(word)) return word;
+  for (let k = 2; ; ++k) if (!taken.includes(`${word}_${k}`)) return `${word}_${k}`;
+}

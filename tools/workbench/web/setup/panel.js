@@ -1,0 +1,266 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The set-up of a case: its outline and forms, its scene, its text.
+
+import { addFabric, askRun, newCase } from "workbench/setup/case_dialogues.js";
+import { CaseFile, Latest } from "workbench/setup/case_file.js";
+import { button, element, tell } from "workbench/page/elements.js";
+import { Form } from "workbench/setup/form.js";
+import { Imports } from "workbench/setup/imports.js";
+import { Keys, itemOf } from "workbench/setup/keys_table.js";
+import { Outline } from "workbench/setup/outline.js";
+import { Problems, faultsAt, faultsBelow, faultsOf } from "workbench/setup/problems.js";
+import { inFolder } from "workbench/setup/references.js";
+import { SceneArea } from "workbench/scene/area.js";
+import { ask, listen } from "workbench/page/server.js";
+import { TomlEditor } from "workbench/setup/toml_editor.js";
+
+class Setup {
+  constructor(place) {
+    this.place = place;
+    this.files = new Map(); // fabric files that are shown
+    this.faults = [];
+    this.chosen = "case";
+    this.folder = { cases: [], fabrics: [], files: [] };
+    this.scene = null;
+    this.checked = new Latest(() => this.check());
+    this.drawn = new Latest(() => this.draw());
+    this.make();
+    listen("case", (event) => this.heard(event));
+    listen("again", () => this.again());
+    listen("outlook", (event) => this.lookedAhead(event));
+  }
+
+  make() {
+    const left = element("div", { className: "setup-left" });
+    const middle = element("div", { className: "setup-middle" });
+    this.textRoom = element("div", { className: "setup-text" });
+    this.body = element("div", { className: "setup-body", hidden: true }, left, middle, this.textRoom);
+    this.empty = element("div", { className: "setup-empty" },
+      element("p", { textContent: "There is no case in this folder yet." }),
+      this.newButton("New case…", { className: "main", id: "first-case" }));
+    this.place.append(this.bar(), this.body, this.empty);
+    this.outline = new Outline(left, this.work());
+    this.form = new Form(left, this.work());
+    this.area = new SceneArea(middle, { chosen: (key) => this.choose(key || "case"),
+      turned: (key, angle, done) => this.turning(`${key}.angle`, angle, done) });
+    this.problems = new Problems(element("div", { className: "problems" }), (fault) => this.point(fault));
+    middle.append(this.problems.list.parentElement);
+    this.editor = new TomlEditor(this.textRoom);
+    this.imports = new Imports(this.place, this.work(), this.chooser);
+    this.place.addEventListener("keydown", (event) => this.key(event));
+  }
+
+  newButton(text, properties) {
+    return button(text, () => newCase(this.folder, (path) => this.opened(path)), properties);
+  }
+
+  bar() {
+    this.cases = element("select", { id: "case-list", "aria-label": "Case" });
+    this.cases.addEventListener("change", () => { location.hash = `#setup/${this.cases.value}`; });
+    this.undo = button("Undo", () => this.main.undo(), { id: "undo", title: "Ctrl-Z" });
+    this.redo = button("Redo", () => this.main.redo(), { id: "redo", title: "Ctrl-Shift-Z" });
+    this.runIt = button("Run…", () => askRun(this.main.path, this.faults.some((one) => !one.warning)),
+      { id: "run-case", className: "main" });
+    this.chooser = element("input", { type: "file", id: "add-files", multiple: true });
+    this.withText = button("TOML", () => this.showText(this.textRoom.hidden),
+      { id: "show-toml", "aria-pressed": "true", title: "The text of the file, beside the form" });
+    return element("div", { className: "bar" }, this.cases, this.newButton("New…", { id: "new-case-button" }),
+      this.undo, this.redo, element("span", { className: "gap" }),
+      element("span", { className: "note", textContent: "drop files here, or" }),
+      element("label", { className: "as-button", title: "STEP, IGES, STL, DXF, curves, fabrics" }, "Add files…",
+        this.chooser), this.withText, this.runIt);
+  }
+
+  /** What outline, form and imports see of this. */
+  work() {
+    const setup = this;
+    return {
+      get keys() { return setup.keys; }, get main() { return setup.main; }, get folder() { return setup.folder; },
+      get scene() { return setup.scene; }, tell,
+      choose: (key) => setup.choose(key), fileOf: (path) => setup.fileOf(path),
+      wrongAt: (key) => faultsAt(setup.faults, key),
+      wrongBelow: (item) => faultsBelow(setup.faults, item, (key) => itemOf(setup.keys, key)),
+      turning: (key, angle, done) => setup.turning(key, angle, done), refreshFolder: () => setup.refreshFolder(),
+      addFabric: () => addFabric(setup.work()),
+    };
+  }
+
+  async refreshFolder() {
+    this.folder = await ask("folder");
+    this.cases.replaceChildren(...(this.folder.cases || []).map(({ path, title }) => element("option", { value: path,
+      textContent: path, title: title || "" })));
+    if (this.main) this.cases.value = this.main.path;
+    if (this.main && this.main.tree) this.form.show(this.chosen);
+  }
+
+  async opened(path) {
+    await this.refreshFolder();
+    location.hash = `#setup/${path}`;
+  }
+
+  /** Shows the case of a path, or the first of the folder. */
+  async open(path) {
+    if (!this.keys) this.keys = new Keys(await ask("keys"));
+    await this.refreshFolder();
+    const wanted = path || ((this.folder.cases || [])[0] || {}).path;
+    this.empty.hidden = Boolean(wanted);
+    this.body.hidden = !wanted;
+    for (const one of [this.undo, this.redo, this.runIt]) one.disabled = !wanted;
+    if (!wanted || (this.main && this.main.path === wanted)) return;
+    Object.assign(this, { faults: [], chosen: "case", scene: null });
+    this.files.clear();
+    this.main = new CaseFile(wanted);
+    this.main.watch((file, by) => file === this.main && this.changed(by));
+    this.fresh = true;
+    this.cases.value = wanted;
+    await this.main.load();
+    this.editor.show(this.main);
+  }
+
+  /** The fabric file that the case names so, loaded when it is first asked for. */
+  fileOf(name) {
+    const path = inFolder(this.main.path, name);
+    if (!path) return null;
+    if (!this.files.has(path)) {
+      const file = new CaseFile(path);
+      this.files.set(path, file);
+      file.watch(() => this.changed("fabric"));
+      file.load().catch(tell);
+    }
+    return this.files.get(path);
+  }
+
+  changed(by) {
+    this.undo.disabled = !this.main.canUndo;
+    this.redo.disabled = !this.main.canRedo;
+    if (!this.exists(this.chosen)) this.chosen = "case";
+    this.outline.show(this.chosen);
+    this.form.show(this.chosen);
+    if (by === "refused") return;
+    this.problems.wait();
+    this.checked.ask();
+    this.drawn.ask();
+  }
+
+  exists(item) {
+    const [first, second] = item.split(".");
+    const group = this.main.tree[first];
+    return second === undefined || (group && group[second] !== undefined);
+  }
+
+  heard({ path, version }) {
+    if (this.main && path === this.main.path) this.main.heard(version).catch(tell);
+    const fabric = this.files.get(path);
+    if (fabric) fabric.heard(version).catch(tell);
+  }
+
+  again() {
+    if (!this.main) return;
+    this.main.load().catch(tell);
+    for (const file of this.files.values()) file.load().catch(tell);
+  }
+
+  async check() {
+    const { main } = this;
+    if (main.error) return;
+    const answer = await ask("check", { path: main.path, version: main.version });
+    if (main !== this.main || answer.version !== main.version) return;
+    this.answer = answer;
+    this.faults = faultsOf(answer);
+    this.problems.show(answer, this.faults);
+    this.outline.show(this.chosen);
+    this.form.showWrong();
+    this.markLines();
+    this.area.blame(this.faults, this.chosen);
+  }
+
+  /** How long a run takes is known later than its mistakes. */
+  lookedAhead({ path, version, outlook }) {
+    if (!this.main || path !== this.main.path || version !== this.main.version || !this.answer) return;
+    this.answer.outlook = outlook;
+    this.problems.show(this.answer, this.faults);
+  }
+
+  markLines() {
+    const name = this.editor.file && this.editor.file.path.split("/").pop();
+    this.editor.mark(this.faults.filter((one) => one.line && (!one.file || one.file.split("/").pop() === name)));
+  }
+
+  async draw() {
+    const { main } = this;
+    if (main.error) {
+      this.area.old("the text is no TOML");
+      return;
+    }
+    const scene = await this.area.ask(main, this.fresh);
+    if (!scene || main !== this.main) return;
+    this.fresh = false;
+    this.scene = scene;
+    this.area.choose(this.chosen);
+    this.area.blame(this.faults, this.chosen);
+  }
+
+  /** Chooses the item that a key belongs to. */
+  choose(key) {
+    const item = itemOf(this.keys, key);
+    this.chosen = item;
+    this.outline.show(item);
+    this.form.show(item);
+    this.form.fields.scrollTop = 0;
+    this.area.choose(item);
+    this.area.blame(this.faults, item);
+    const value = item.startsWith("fabrics.") && this.main.tree.fabrics ? this.main.tree.fabrics[item.split(".")[1]]
+      : null;
+    const file = typeof value === "string" ? this.fileOf(value) : this.main;
+    this.editor.show(file && file.text !== undefined ? file : this.main);
+    this.markLines();
+    if (this.editor.file === this.main && item !== "case") this.editor.pointKey(item);
+  }
+
+  /** Goes to what a mistake is about: its body, its key, its line. */
+  point(fault) {
+    if (fault.key) {
+      this.choose(fault.key);
+      this.form.point(fault.key, true);
+    }
+    if (fault.line) this.editor.point(fault.line);
+  }
+
+  /** A ply is being turned, by its handle or its dial. */
+  turning(key, angle, done) {
+    const ply = key.replace(/\.angle$/, "");
+    this.area.view.turn(ply, angle);
+    const input = [...this.form.fields.querySelectorAll("input[data-key]")].find((one) => one.dataset.key === key);
+    if (input) input.value = String(angle);
+    const wheel = this.form.fields.querySelector(".dial");
+    if (wheel && wheel.dataset.dial === key) wheel.show(angle);
+    if (done) this.main.edit([{ op: "set", key, value: angle }]).catch(tell);
+  }
+
+  showText(on) {
+    this.textRoom.hidden = !on;
+    this.body.classList.toggle("without-text", !on);
+    this.withText.setAttribute("aria-pressed", String(on));
+    if (on) this.editor.mirror.refresh();
+  }
+
+  key(event) {
+    const typing = /^(INPUT|TEXTAREA)$/.test(event.target.tagName) && event.target.type !== "range";
+    if (!(event.ctrlKey || event.metaKey) || typing || !this.main) return;
+    const back = event.key.toLowerCase() === "z" && !event.shiftKey;
+    const forth = event.key.toLowerCase() === "y" || (event.key.toLowerCase() === "z" && event.shiftKey);
+    if (!back && !forth) return;
+    event.preventDefault();
+    (back ? this.main.undo() : this.main.redo()).catch(tell);
+  }
+}
+
+export const setupPanel = {
+  word: "setup",
+  title: "Set-up",
+  show(place, rest) {
+    if (!this.setup) this.setup = new Setup(place);
+    window.plyform_setup = this.setup; // for tests
+    return this.setup.open(rest);
+  },
+};
