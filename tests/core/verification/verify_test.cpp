@@ -232,7 +232,7 @@ TEST(Verify, RunsTheSiblingsAndEndsWhenInterrupted) {
   const auto verification = verify(data, run, trace, 1, hooks);
   ASSERT_TRUE(verification);
   EXPECT_TRUE(std::is_sorted(done.begin(), done.end()));
-  EXPECT_GT(done[1], 0.0);
+  EXPECT_TRUE(std::any_of(done.begin(), done.end(), [](double f) { return f > 0.1 && f < 0.7; }));
   EXPECT_GT(done.back(), 0.8); // unless there was no time for the last one
   EXPECT_LE(done.back(), 1.0);
   EXPECT_GE(begun.size(), siblings_of(data).runs.size() - 1); // the last if there is time
