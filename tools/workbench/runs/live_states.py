@@ -12,10 +12,10 @@ from base.ending import Trouble
 from base.files import MIB, read_bytes
 from base.results_file import Broken, Results, read_results
 
+from ..scene.coarser import coarser
 from ..server.arrays import Arrays, unpacked
 from ..server.project import Refused
 
-FINE = 20_000          # facets of a tool: more are brought together to this many at most
 ASK, PICTURE = "picture.ask", "picture.bin"
 MOST_PICTURE = 1024 * MIB
 FARTHEST = 1e9         # mm
@@ -77,32 +77,8 @@ def flat_ply(results: Results, name: str):
 
 
 def for_picture(arrays: Arrays, x: np.ndarray, triangles: np.ndarray) -> dict:
-    if len(triangles) > FINE:
-        x, triangles = brought_together(x, triangles, FINE)
+    x, triangles = coarser(x, triangles)
     return {"x": arrays.add(x), "triangles": arrays.add(triangles)}
-
-
-def brought_together(x: np.ndarray, triangles: np.ndarray, most: int):
-    """Vertices of one cell of a grid become their mean; cells are as large as it takes for `most`
-    triangles (Rossignac and Borrel 1993)."""
-    area = 0.5 * np.linalg.norm(np.cross(x[triangles[:, 1]] - x[triangles[:, 0]],
-                                         x[triangles[:, 2]] - x[triangles[:, 0]]), axis=1).sum()
-    cell = max(float(np.sqrt(2.5 * area / most)), 1e-6)
-    low = x.min(axis=0)
-    while True:
-        at = np.floor((x - low) / cell).astype(np.int64)
-        size = at.max(axis=0) + 1
-        key = (at[:, 0] * size[1] + at[:, 1]) * size[2] + at[:, 2]
-        _, group, number = np.unique(key, return_inverse=True, return_counts=True)
-        kept = group[triangles]
-        kept = kept[(kept[:, 0] != kept[:, 1]) & (kept[:, 1] != kept[:, 2]) & (kept[:, 2] != kept[:, 0])]
-        if len(kept) <= most or len(kept) < 2:
-            break
-        cell *= 1.2
-    if len(kept) == 0:
-        return x, triangles[:1]
-    means = np.stack([np.bincount(group, x[:, k]) / number for k in range(3)], axis=1)
-    return means, kept
 
 
 def state(folder: Path, number: int) -> bytes:
