@@ -267,7 +267,7 @@ def cases_that_name_files(server, outside):
         "a tool that is a device": text + tool.format("/dev/zero"),
         "a tool by a file that is not there": text + tool.format("/nowhere/at/all.stl"),
         "a drawing of a blank by ../": text.replace("size = [200.0, 200.0]", f'outline_file = "{relative}/tool.stl"'),
-        "sizes of a run outside": text.replace('mesh = "diagonal"', f'mesh = "free"\nmesh_from = "{relative}"'),
+        "sizes of a run outside": text.replace('mesh_from = "scene"', f'mesh_from = "{relative}"'),
         "a title that is the name of a file": text.replace('title = "mine"', f'title = "{outside}/secret.toml"'),
         "a key that is none, with the name of a file": text + f'\n[none]\nx = ["{relative}/secret.toml"]\n',
     }

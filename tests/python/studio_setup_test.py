@@ -115,13 +115,50 @@ def fabrics(page: Page, folder: Path) -> None:
     page.until(lambda: page.tree()["fabrics"].get("ncf") == "../fabrics/ncf_biaxial_pillar.toml")
     page.until(lambda: page.find('[data-key="fabrics.ncf.thickness"]') is not None)
     file = folder / "fabrics" / "ncf_biaxial_pillar.toml"
+    before = tomllib.loads(file.read_text())["thickness"]
     page.type("fabrics.ncf.thickness", "0.77")
+    page.until(lambda: tomllib.loads(file.read_text())["thickness"] == 0.77)
+    page.click("#undo")  # takes back what was changed last, in whatever file
+    page.until(lambda: tomllib.loads(file.read_text())["thickness"] == before)
+    assert page.tree()["fabrics"].get("ncf")
+    page.click("#redo")
     page.until(lambda: tomllib.loads(file.read_text())["thickness"] == 0.77)
     stitches = len(tomllib.loads(file.read_text())["stitch"])
     page.click('[data-add="fabrics.ncf.stitch"]')
     page.until(lambda: len(tomllib.loads(file.read_text())["stitch"]) == stitches + 1)
     page.click(f'[aria-label="Remove fabrics.ncf.stitch.{stitches}"]')
     page.until(lambda: len(tomllib.loads(file.read_text())["stitch"]) == stitches)
+
+
+def onto_the_stack(page: Page) -> None:
+    """A punch that a ply more has pushed into the stack, and one far above, are set onto it by a click."""
+    at = next(i for i, tool in enumerate(page.tree()["tool"]) if tool.get("motion") == "driven")
+    place = page.tree()["tool"][at]["position"]
+    page.item(f"tool.{at}")
+    for other in (-0.8, 25.0):
+        page.type(f"tool.{at}.position", f"{place[2] + other:.4f}", part="2")
+        page.until(lambda: abs(page.js("return plyform_setup.scene.tools[arguments[0]].gap.mm", at) - other) < 1e-3)
+        page.click("#touch-stack")
+        page.until(lambda: abs(page.tree()["tool"][at]["position"][2] - place[2]) < 1e-3)
+
+
+def simplified_tools(page: Page) -> None:
+    """Tools are drawn with fewer triangles while something moves: as large, within a cell, and whole."""
+    found = page.js("""return plyform_setup.area.view.bodies.tools.filter((mesh) => mesh.light).map((mesh) => {
+      const box = ({ x }) => new window.THREE.Box3().setFromArray(x);
+      const [whole, light] = [box(mesh.tool), box(mesh.light.tool)];
+      const edges = new Map();
+      const nodes = mesh.light.tool.triangles;
+      for (let i = 0; i < nodes.length; ++i) {
+        const pair = [nodes[i], nodes[i % 3 === 2 ? i - 2 : i + 1]].sort().join();
+        edges.set(pair, (edges.get(pair) || 0) + 1);
+      }
+      return { name: mesh.tool.name, off: whole.min.distanceTo(light.min) + whole.max.distanceTo(light.max),
+        size: mesh.tool.size, torn: [...edges.values()].filter((count) => count > 2).length / edges.size };
+    })""")
+    assert found
+    for tool in found:
+        assert tool["off"] < 0.01 * tool["size"] and tool["torn"] < 0.02, tool
 
 
 def text_beside(page: Page) -> None:
@@ -323,12 +360,12 @@ def run(page: Page) -> None:
     page.type_id("run-threads", "1")
     page.type_id("run-budget", "0.001")
     page.click("#run-go")
-    page.until(lambda: page.driver.current_url.endswith("#runs"))
+    page.until(lambda: page.driver.current_url.endswith("#runs/results/by_click"))
     names = [one["name"] for one in page.server.get("api/runs")]
     assert "by_click" in names, names
 
 
-PARTS = [outline_and_forms, either_or, items, fabrics, text_beside, scene_controls, measuring, chosen_in_scene,
+PARTS = [onto_the_stack, simplified_tools, outline_and_forms, either_or, items, fabrics, text_beside, scene_controls, measuring, chosen_in_scene,
          last_good_scene, two_pages, new_cases, dropped_files, mistakes, run]
 
 

@@ -22,8 +22,9 @@ glass = "glass_plain_weave.toml"
 
 [blanks.sheet]
 size = [200.0, 200.0]        # mm
-mesh = "diagonal"
-element_size = 8.0
+mesh = "alternating"
+element_size = 8.0           # the largest
+mesh_from = "scene"          # smaller where the tools need it
 
 [[ply]]                      # from the bottom up
 name = "ply1"
@@ -35,7 +36,7 @@ angle = 0.0                  # degrees, from x to the warp
 name = "punch"
 shape = "sphere"
 radius = 40.0
-position = [0.0, 0.0, 40.6]  # touches the ply, 0.6 mm thick
+position = [0.0, 0.0, 40.6]  # touches the ply, which is 0.6 mm thick
 motion = "driven"
 direction = [0.0, 0.0, -1.0]
 stroke = 30.0

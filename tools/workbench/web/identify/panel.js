@@ -45,9 +45,9 @@ class Identify {
       element("div", { className: "fields" }, labelled("Test", this.test)), this.what, this.sizes, this.curves.place,
       element("details", { id: "identify-more" },
         element("summary", { textContent: "Law, rows that count, what the machine adds" }), this.corrections),
-      element("div", { className: "fields" }, labelled("Fabric to start from: all but the law", this.fabric),
-        labelled("Fabric file to write, beside it", this.output),
-        element("label", { className: "box" }, this.replace, " may replace"), this.go, this.stop)];
+      element("div", { className: "fields" }, labelled("Fabric to start from (all else is kept)", this.fabric),
+        labelled("New fabric file, beside that one", this.output),
+        element("label", { className: "box" }, this.replace, " may replace a file"), this.go, this.stop)];
   }
 
   /** Where files are dropped, or chosen. */

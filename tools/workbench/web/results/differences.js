@@ -13,7 +13,8 @@ function apart(one, first) {
   if (!one || !first) return "–";
   const value = one.value - first.value;
   const digits = fittingDigits(Math.max(Math.abs(one.value), Math.abs(first.value)));
-  return `${value > 0 ? "+" : ""}${written(value, digits)}`;
+  const unit = one.unit === "°" ? "°" : one.unit ? ` ${one.unit}` : "";
+  return value === 0 ? "same" : `${value > 0 ? "+" : ""}${written(value, digits)}${unit}`;
 }
 
 class DifferencesView {

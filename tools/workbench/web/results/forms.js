@@ -46,7 +46,7 @@ function frame(id, all) {
 }
 
 const files = (names, none) => [["", none], ...names.map((name) => [name, name])];
-const mirror = (id) => choices("mirror", "Modelled on one side of", id, ["x", "y"], []);
+const mirror = (id) => choices("mirror", "Half model, mirrored at", id, ["x", "y"], []);
 
 export const FORMS = [
   { what: "export", title: "Export states", fields: (offers) => [
@@ -56,13 +56,13 @@ export const FORMS = [
     choices("formats", "Formats", "map", offers.layups, ["csv"]),
     select("reference", "Angles from", "map-reference",
       offers.references.map((one) => [one, one || "as the part gives, else x"])),
-    number("scale", "mm of the mesh's unit", "map-scale", 1), three("turn", "Turned, °", "map-turn"),
-    three("move", "Moved, mm", "map-move"), tick("two", "Each woven ply as two", "map-two"), mirror("map-mirror"),
-    frame("map-frame", false)] },
+    number("scale", "Unit of the mesh, mm", "map-scale", 1), three("turn", "Turned, °", "map-turn"),
+    three("move", "Moved, mm", "map-move"), tick("two", "Each woven ply as two UD plies", "map-two"),
+    mirror("map-mirror"), frame("map-frame", false)] },
   { what: "pattern", title: "Flat patterns", fields: (offers) => [
     select("trim", "Trim line", "pattern-trim", files(offers.outlines, "choose a .csv or .dxf file")),
     tick("space", "It is a curve in space", "pattern-space"),
-    select("case", "Made better with", "pattern-case", files(offers.cases, "no case: one step"),
+    select("case", "Corrected by runs of", "pattern-case", files(offers.cases, "no case: unfolded once"),
       "The case of this run: it is run with the patterns as blanks until the edge is right"),
     number("tolerance", "Edge within, mm", "pattern-tolerance", 1),
     number("iterations", "Runs at most", "pattern-iterations", 4, { step: 1 }),

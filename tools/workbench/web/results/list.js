@@ -13,6 +13,12 @@ export const figureText = ({ value, unit, band }) => {
 
 export const letterOf = (place) => (place < 26 ? String.fromCharCode(65 + place) : String(place + 1));
 
+/** Its title, and the name of its folder where that says more. */
+const named = ({ title, folder }) => {
+  const name = folder.split("/").pop();
+  return !title || title === name ? name : `${title} (${name})`;
+};
+
 const when = (date) => new Date(1000 * date).toLocaleString(undefined, { dateStyle: "short", timeStyle: "short" });
 
 export class RunChoice {
@@ -77,7 +83,7 @@ export class RunChoice {
     const item = element("li", { title: run.message },
       element("label", {}, box, letter,
         element("span", { className: "run-words" },
-          element("b", { textContent: run.title }),
+          element("b", { textContent: named(run) }),
           element("span", { className: `status ${run.status}`, textContent: run.status }),
           element("small", { textContent: `${run.folder} · ${when(run.date)}` }),
           element("small", { textContent: figures }))));

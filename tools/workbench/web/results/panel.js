@@ -39,11 +39,12 @@ class Results {
     location.hash = addressOf(word, chosen);
   }
 
-  /** Of the address: VIEW/FOLDER|FOLDER; */
+  /** Of the address: VIEW/FOLDER|FOLDER, or a run's FOLDER, whose report is shown. */
   async show(rest) {
     const [word, ...more] = rest.split("/");
-    this.word = VIEWS.some((view) => view.word === word) ? word : VIEWS[0].word;
-    this.chosen = more.join("/").split("|").filter(Boolean);
+    const named = VIEWS.some((view) => view.word === word);
+    this.word = named ? word : VIEWS[0].word;
+    this.chosen = (named ? more.join("/") : rest).split("|").filter(Boolean);
     this.mark = null;
     await this.ask();
   }

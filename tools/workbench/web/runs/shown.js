@@ -66,7 +66,7 @@ export class RunShown {
     this.words.hidden = !live;
     const stroke = run.progress ? run.progress.stroke_mm : null;
     this.words.textContent = [progressWords(run), Number.isFinite(stroke) ? `stroke ${stroke.toFixed(1)} mm` : "",
-      run.states ? `${run.states} states` : ""].filter(Boolean).join(" · ");
+      run.states ? `${run.states} state${run.states > 1 ? "s" : ""}` : ""].filter(Boolean).join(" · ");
     const fraction = fractionOf(run);
     if (fraction === null) this.bar.removeAttribute("value");
     else this.bar.value = fraction;

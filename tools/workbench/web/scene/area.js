@@ -6,6 +6,7 @@ import { unpacked } from "workbench/page/packed.js";
 import { sceneControls, strokeControl } from "workbench/scene/controls.js";
 import { SceneView } from "workbench/scene/view.js";
 import { askBytes } from "workbench/page/server.js";
+import { withoutKey } from "workbench/setup/problems.js";
 
 const short = (value) => Number(value.toFixed(Math.abs(value) < 10 ? 2 : 1)).toString();
 
@@ -114,14 +115,16 @@ export class SceneArea {
   blame(faults, chosen) {
     if (!this.scene) return;
     const wrong = new Map();
-    for (const { key, text, warning } of faults) {
+    for (const fault of faults) {
+      const { key, warning } = fault;
       const body = key.split(".").slice(0, 2).join(".");
-      if (!warning && !wrong.has(body)) wrong.set(body, text);
+      if (!warning && !wrong.has(body)) wrong.set(body, withoutKey(fault));
     }
     this.view.mark((key) => (wrong.has(key) ? "wrong" : key === chosen ? "chosen" : null));
     const bodies = [...(this.scene.plies || []), ...(this.scene.tools || [])];
+    const wordsOf = ({ name, key }) => (wrong.get(key).startsWith(`${name}: `) ? "" : `${name}: `) + wrong.get(key);
     const marks = bodies.filter((one) => one.x && one.x.length && wrong.has(one.key)).map((one) => ({
-      at: centreOf(one.x), text: `${one.name}: ${wrong.get(one.key)}`, kind: "wrong", key: one.key }));
+      at: centreOf(one.x), text: wordsOf(one), kind: "wrong", key: one.key }));
     this.view.callOut([...(this.callouts || []), ...marks]);
   }
 }

@@ -67,7 +67,7 @@ export function sceneControls(view, name = "scene") {
   const bar = element("div", { className: "scene-controls", role: "toolbar", "aria-label": "Picture" },
     element("span", { className: "line" }, views, measure, labels),
     element("span", { className: "line" }, tools, yarns, ...sectionControls(view, name),
-      element("label", { className: "slide", title: "Plies drawn apart" }, "apart ", apart)));
+      element("label", { className: "slide", title: "Plies drawn apart" }, "plies apart ", apart)));
   const follow = (settings) => {
     tools.value = settings.tools;
     if (![...yarns.options].some((one) => Number(one.value) === settings.yarns)) {
@@ -91,5 +91,6 @@ export function strokeControl(view, name = "scene") {
     words.textContent = `${slider.value} %`;
     view.at(slider.valueAsNumber / 100);
   });
-  return element("div", { className: "bar stroke" }, element("span", { textContent: "Programme" }), slider, words);
+  return element("div", { className: "bar stroke" }, element("span", { textContent: "Tools at",
+    title: "Tools on their way: 0 % at the start, 100 % at the end of the stroke" }), slider, words);
 }

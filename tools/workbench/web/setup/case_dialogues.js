@@ -8,11 +8,11 @@ import { ask, send } from "workbench/page/server.js";
 
 export async function newCase(folder, opened) {
   const examples = await ask("examples").catch(() => []);
-  const froms = [["", "a smallest case: one ply, punch, die, holder"],
+  const froms = [["", "a small hemisphere: one ply, punch, die, holder"],
     ...(folder.cases || []).map(({ path, title }) => [path, `copy of ${path}${title ? ` (${title})` : ""}`]),
-    ...examples.map(({ name, title }) => [`example:${name}`, `example ${name}${title ? `: ${title}` : ""}`])];
+    ...examples.map(({ name, title }) => [`example:${name}`, `example: ${title || name} (${name})`])];
   dialogue("new-case", "New case", [{ name: "name", title: "Name", kind: "text", value: freeCase(folder), note:
-    "letters, digits, _, - and .; it becomes a folder" }, { name: "from", title: "From", kind: "select",
+    "letters, digits, _, - and .; it becomes a folder" }, { name: "from", title: "Start from", kind: "select",
       choices: froms }],
   "Make it", async ({ name, from }) => opened((await send("cases", { name, from })).path));
 }
@@ -40,9 +40,6 @@ export function freeFabric(tree, word = "fabric") {
   for (let k = 2; ; ++k) if (!taken.includes(`${word}${k}`)) return `${word}${k}`;
 }
 
-/** Name of results: that of the case. */
-const runName = (path) => path.replace(/\.toml$/, "").replace(/\/case$/, "").split("/").pop();
-
 export function askRun(path, count) {
   const numeric = (text, word) => {
     if (text === "") return undefined;
@@ -51,17 +48,18 @@ export function askRun(path, count) {
     return value;
   };
   dialogue("run", "Run the case", [
-    { name: "name", title: "Name of the results", kind: "text", value: runName(path) },
+    { name: "name", title: "Name of the results", kind: "text", hint: "after the case",
+      note: "letters, digits, _, - and .; a name that is free if you give none" },
     { name: "accuracy", title: "Accuracy", kind: "select", choices: [["", "as the case has it"],
       ["draft", "draft: shear angles to 3°"], ["standard", "standard: 1°"], ["reference", "reference: 0.3°"]] },
     { name: "threads", title: "Threads", kind: "number", hint: "all", note: "results do not depend on it" },
     { name: "budget", title: "Budget", kind: "number", unit: "s", hint: "none",
       note: "a run that would take longer is refused" },
     { name: "verify", title: "Verify", kind: "checkbox",
-      note: "siblings with coarser parameters give each figure a band" },
+      note: "runs it again with coarser parameters, so that each figure gets a band; takes longer" },
   ], count ? "Run in spite of mistakes" : "Run", async ({ name, accuracy, threads, budget, verify }) => {
-    await send("runs", { case: path, name, accuracy, verify, threads: numeric(threads, "threads"),
+    const { about } = await send("runs", { case: path, name, accuracy, verify, threads: numeric(threads, "threads"),
       budget: numeric(budget, "budget") });
-    location.hash = "#runs";
+    location.hash = `#runs/${about.output}`;
   });
 }

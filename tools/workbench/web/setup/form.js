@@ -6,12 +6,16 @@ import { booleanInput, dial, numberInput, numbersInput, selectInput, textInput }
 import { defaultWords, fallbackOf, lastPart, ofColumn, valueAt } from "workbench/setup/keys_table.js";
 import { namesInput, outlinesInput, pairsInput, profileInput } from "workbench/setup/lists.js";
 import { filesFor, namesFor } from "workbench/setup/references.js";
+import { withoutKey } from "workbench/setup/problems.js";
 
 const NUMBERS = ["number", "integer"];
 
+const FAR = 1e7; // ends beyond are there to keep nonsense out, and nothing to read
+
 function rangeWords(row) {
-  const span = (least, most, open, shut) => (least === null && most === null ? "" :
-    `${open ? "(" : "["}${least === null ? "…" : least}, ${most === null ? "…" : most}${shut ? ")" : "]"}`);
+  const far = (end) => end === null || Math.abs(end) >= FAR;
+  const span = (least, most, open, shut) => (far(least) && far(most) ? "" :
+    `${open ? "(" : "["}${far(least) ? "…" : least}, ${far(most) ? "…" : most}${shut ? ")" : "]"}`);
   const columns = Array.isArray(row.least) ? Math.max(row.least.length, 1) : 1;
   const texts = [];
   for (let k = 0; k < columns; ++k) {
@@ -94,11 +98,26 @@ export class Form {
       return this.fabricFields(main, item, value);
     }
     const rename = row && row.kind === "map" ? this.renameLine(main, item) : null;
-    return [rename, ...this.tableFields({ ...main, key: item, pattern, table: value || {} })];
+    return [rename, ...this.tableFields({ ...main, key: item, pattern, table: value || {} }),
+      first === "tool" ? this.touchButton(main, item, value) : null];
   }
 
   groupWords(row) {
     return element("p", { className: "note", textContent: `${row.meaning}.` });
+  }
+
+  /** A tool that moves can be set onto the stack, which plies that are added make thicker. */
+  touchButton(main, item, value) {
+    const gapOf = () => ((this.work.scene || {}).tools || []).find(({ key }) => key === item);
+    if (!value || !value.motion || value.motion === "fixed") return null;
+    return button("Set onto the stack", () => {
+      const { gap, direction } = gapOf() || {};
+      if (!gap || !direction) throw new Error("How far it is from the plies is known when the scene is drawn");
+      const long = Math.hypot(...direction);
+      const place = [0, 1, 2].map((k) => Number((((value.position || [])[k] || 0) +
+        (gap.mm * direction[k]) / long).toFixed(4)));
+      return this.send(main.file, [{ op: "set", key: `${item}.position`, value: place }]);
+    }, { id: "touch-stack", title: "Moves it along its direction until it touches the plies, at the start" });
   }
 
   renameLine(main, item) {
@@ -306,8 +325,9 @@ export class Form {
       const wrongs = this.work.wrongAt(line.dataset.at);
       line.classList.toggle("has-wrong", wrongs.some((one) => !one.warning));
       line.classList.toggle("has-warning", wrongs.length > 0 && wrongs.every((one) => one.warning));
-      for (const { text, warning } of wrongs) {
-        line.append(element("p", { className: `words${warning ? " warning" : ""}`, textContent: text }));
+      for (const fault of wrongs) {
+        line.append(element("p", { className: `words${fault.warning ? " warning" : ""}`,
+          textContent: withoutKey(fault) }));
       }
     }
   }

@@ -69,6 +69,7 @@ export class Imports {
   }
 
   async take(files) {
+    if (!this.work.main) throw new Error("Make a case first, into which the file can go");
     for (const file of files) {
       const kind = kindOf(file.name);
       if (!kind) throw new Error(`${file.name} is none of ${Object.keys(KINDS).join(", ")}`);

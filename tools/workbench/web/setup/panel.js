@@ -14,6 +14,17 @@ import { SceneArea } from "workbench/scene/area.js";
 import { ask, listen } from "workbench/page/server.js";
 import { TomlEditor } from "workbench/setup/toml_editor.js";
 
+/** What comes after, for who is here for the first time. */
+function firstSteps() {
+  return element("ol", { className: "first-steps" }, ...[
+    ["Set-up", "plies, angles and tools, by forms or as text; a part (STEP, IGES, STL) dropped in becomes a tool"],
+    ["Runs", "the plies move while the case is run; a run goes on when this page is closed"],
+    ["Results", "report, several runs beside each other, exports for analysis, flat patterns"],
+    ["Studies", "many runs of one case: friction, force, angles"],
+    ["Identification", "a fabric's stiffnesses from measured curves"]].map(([name, words]) =>
+    element("li", {}, element("b", { textContent: name }), `: ${words}`)));
+}
+
 class Setup {
   constructor(place) {
     this.place = place;
@@ -36,8 +47,10 @@ class Setup {
     this.textRoom = element("div", { className: "setup-text" });
     this.body = element("div", { className: "setup-body", hidden: true }, left, middle, this.textRoom);
     this.empty = element("div", { className: "setup-empty" },
-      element("p", { textContent: "There is no case in this folder yet." }),
-      this.newButton("New case…", { className: "main", id: "first-case" }));
+      element("h2", { textContent: "There is no case in this folder yet" }),
+      element("p", { textContent: "A case says which plies are formed between which tools. Begin with a small " +
+        "hemisphere that runs in seconds, or with one of the examples, and change it." }),
+      this.newButton("New case…", { className: "main", id: "first-case" }), firstSteps());
     this.place.append(this.bar(), this.body, this.empty);
     this.outline = new Outline(left, this.work());
     this.form = new Form(left, this.work());
@@ -57,18 +70,19 @@ class Setup {
   bar() {
     this.cases = element("select", { id: "case-list", "aria-label": "Case" });
     this.cases.addEventListener("change", () => { location.hash = `#setup/${this.cases.value}`; });
-    this.undo = button("Undo", () => this.main.undo(), { id: "undo", title: "Ctrl-Z" });
-    this.redo = button("Redo", () => this.main.redo(), { id: "redo", title: "Ctrl-Shift-Z" });
+    this.undo = button("Undo", () => this.back("undo"), { id: "undo", title: "Ctrl-Z" });
+    this.redo = button("Redo", () => this.back("redo"), { id: "redo", title: "Ctrl-Shift-Z" });
     this.runIt = button("Run…", () => askRun(this.main.path, this.faults.some((one) => !one.warning)),
       { id: "run-case", className: "main" });
     this.chooser = element("input", { type: "file", id: "add-files", multiple: true });
     this.withText = button("TOML", () => this.showText(this.textRoom.hidden),
       { id: "show-toml", "aria-pressed": "true", title: "The text of the file, beside the form" });
-    return element("div", { className: "bar" }, this.cases, this.newButton("New…", { id: "new-case-button" }),
+    this.barPlace = element("div", { className: "bar" }, this.cases, this.newButton("New…", { id: "new-case-button" }),
       this.undo, this.redo, element("span", { className: "gap" }),
       element("span", { className: "note", textContent: "drop files here, or" }),
       element("label", { className: "as-button", title: "STEP, IGES, STL, DXF, curves, fabrics" }, "Add files…",
         this.chooser), this.withText, this.runIt);
+    return this.barPlace;
   }
 
   /** What outline, form and imports see of this. */
@@ -104,13 +118,12 @@ class Setup {
     await this.refreshFolder();
     const wanted = path || ((this.folder.cases || [])[0] || {}).path;
     this.empty.hidden = Boolean(wanted);
-    this.body.hidden = !wanted;
-    for (const one of [this.undo, this.redo, this.runIt]) one.disabled = !wanted;
+    this.body.hidden = this.barPlace.hidden = !wanted;
     if (!wanted || (this.main && this.main.path === wanted)) return;
-    Object.assign(this, { faults: [], chosen: "case", scene: null });
+    Object.assign(this, { faults: [], chosen: "case", scene: null, done: [], undone: [] });
     this.files.clear();
     this.main = new CaseFile(wanted);
-    this.main.watch((file, by) => file === this.main && this.changed(by));
+    this.main.watch((file, by) => file === this.main && this.changed(by, file));
     this.fresh = true;
     this.cases.value = wanted;
     await this.main.load();
@@ -124,15 +137,34 @@ class Setup {
     if (!this.files.has(path)) {
       const file = new CaseFile(path);
       this.files.set(path, file);
-      file.watch(() => this.changed("fabric"));
+      file.watch((_, by) => this.changed(by, file));
       file.load().catch(tell);
     }
     return this.files.get(path);
   }
 
-  changed(by) {
-    this.undo.disabled = !this.main.canUndo;
-    this.redo.disabled = !this.main.canRedo;
+  /** Takes back, or does again, the last change of this page, in the case or in a fabric's file; before
+   * these, changes of the case by others. */
+  async back(way) {
+    const [from, to] = way === "undo" ? [this.done, this.undone] : [this.undone, this.done];
+    const file = from.pop() || this.main;
+    await file[way]();
+    to.push(file);
+    this.showBack();
+  }
+
+  showBack() {
+    const off = (list, what) => list.length === 0 && !this.main[what];
+    this.undo.disabled = off(this.done, "canUndo");
+    this.redo.disabled = off(this.undone, "canRedo");
+  }
+
+  changed(by, file) {
+    if (by === "edit" || by === "text") {
+      this.done.push(file);
+      this.undone = [];
+    }
+    this.showBack();
     if (!this.exists(this.chosen)) this.chosen = "case";
     this.outline.show(this.chosen);
     this.form.show(this.chosen);
@@ -251,7 +283,7 @@ class Setup {
     const forth = event.key.toLowerCase() === "y" || (event.key.toLowerCase() === "z" && event.shiftKey);
     if (!back && !forth) return;
     event.preventDefault();
-    (back ? this.main.undo() : this.main.redo()).catch(tell);
+    this.back(back ? "undo" : "redo").catch(tell);
   }
 }
 

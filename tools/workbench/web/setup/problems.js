@@ -20,6 +20,9 @@ export function faultsOf(answer) {
   return [...of(answer.mistakes, false), ...of(answer.warnings, true)];
 }
 
+/** Without "KEY = ", where the key stands beside it. */
+export const withoutKey = ({ key, text }) => (key && text.startsWith(`${key} = `) ? text.slice(key.length + 3) : text);
+
 /** Faults at a key itself. */
 export const faultsAt = (faults, key) => faults.filter((one) => one.key === key);
 
@@ -36,7 +39,7 @@ function stateWords(faults, answer) {
   const count = (n, word) => (n ? `${n} ${word}${n > 1 ? "s" : ""}` : "");
   const found = [count(wrong, "mistake"), count(odd, "warning")].filter(Boolean).join(", ");
   const { outlook } = answer;
-  const ahead = outlook && outlook.steps ? `, ${outlook.steps.toLocaleString("en")} steps` : "";
+  const ahead = outlook && outlook.steps ? `, ${Math.round(outlook.steps).toLocaleString("en")} steps` : "";
   const long = outlook && outlook.estimated_s ? `, about ${durationWords(outlook.estimated_s)}` : "";
   return `${found || "no mistakes"}${ahead}${long}`;
 }
@@ -75,7 +78,8 @@ export class Problems {
   line(fault) {
     const where = fault.file ? `${fault.file.split("/").pop()}:${fault.line}` : fault.line ? `line ${fault.line}` : "";
     const made = element("button", { type: "button", className: fault.warning ? "fault-words warning" : "fault-words",
-      dataset: { key: fault.key } }, element("b", { textContent: fault.key || where }), ` ${fault.text}`);
+      dataset: { key: fault.key } }, element("b", { textContent: fault.key || where }),
+    ` ${withoutKey(fault)}`);
     made.addEventListener("click", () => this.point(fault));
     return element("li", {}, made);
   }

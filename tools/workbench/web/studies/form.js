@@ -141,7 +141,7 @@ export class StudyForm {
     const rows = (this.plan.vary || []).map((one, i) => this.varyRow(one, i));
     return element("fieldset", { id: "study-vary" }, element("legend", { textContent: "What varies" }),
       ...(rows.length ? rows : [element("p", { className: "note", textContent: "Choose a key below." })]),
-      this.chooser.shown(this.known.keys));
+      this.chooser.shown(this.known.keys, !rows.length));
   }
 
   varyRow(one, i) {

@@ -18,7 +18,7 @@ export class KeyChooser {
   }
 
   /** The part of the page for these keys: {key, value, unit, meaning, range, type}. */
-  shown(keys) {
+  shown(keys, any = false) {
     const list = element("ul", { className: "keys", role: "list" });
     const search = element("input", { id: "key-search", type: "search", value: this.words, size: 30,
       placeholder: "friction, stroke, angle …", "aria-label": "find a key of the case" });
@@ -32,7 +32,7 @@ export class KeyChooser {
     };
     search.addEventListener("input", fill);
     fill();
-    const details = element("details", { id: "key-chooser", open: this.open },
+    const details = element("details", { id: "key-chooser", open: this.open || any },
       element("summary", { textContent: "Add a key of the case" }), search, list);
     details.addEventListener("toggle", () => { this.open = details.open; });
     return details;

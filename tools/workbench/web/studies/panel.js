@@ -23,10 +23,10 @@ class Studies {
 
   build(place) {
     this.list = element("ul", { id: "study-list", role: "list" });
-    this.name = element("input", { id: "new-study-name", "aria-label": "name of the new study", placeholder: "name",
+    this.name = element("input", { id: "new-study-name", "aria-label": "name of the new study", placeholder: "friction",
       size: 14 });
-    this.cases = select([["", "– its case –"]], "", { id: "new-study-case", "aria-label": "case of the new study" });
-    const make = button("New study", () => this.make(), { id: "new-study" });
+    this.cases = select([["", "choose a case"]], "", { id: "new-study-case", "aria-label": "case of the new study" });
+    const make = button("Make it", () => this.make(), { id: "new-study" });
     this.heading = element("h2", { id: "study-heading" });
     this.form = new StudyForm(element("div", { id: "study-form" }), () => this.open(this.rest));
     this.text = element("textarea", { id: "study-text", rows: 16, spellcheck: false,
@@ -35,13 +35,17 @@ class Studies {
       button("Save the text", () => this.saveText(), { id: "study-text-save" }));
     this.startPart = element("div", { id: "study-start" });
     this.results = new StudyResults(element("div", { id: "study-results" }));
+    this.none = element("p", { className: "note", textContent: "A study runs one case many times with other values " +
+      "of some of its keys (friction, a force, an angle), gathers the figures of all in a table, and draws where " +
+      "limits are kept. Give it a name and a case at the left." });
     this.setup = element("details", { id: "study-setup", open: true },
       element("summary", { textContent: "What is run" }), this.form.place, this.textPart);
     this.body = element("div", { hidden: true }, this.heading, this.setup, this.startPart, this.results.place);
     place.append(element("div", { className: "two-parts" },
       element("nav", { "aria-label": "Studies of this folder" }, this.list,
-        element("div", { className: "make" }, this.name, this.cases, make)),
-      element("div", { className: "part" }, this.body)));
+        element("div", { className: "make" }, element("b", { textContent: "New study" }),
+          labelled("Name", this.name), labelled("Case", this.cases), make)),
+      element("div", { className: "part" }, this.none, this.body)));
     this.buildStart();
     for (const kind of ["process", "study", "folder", "again"]) listen(kind, (event) => this.happened(kind, event));
   }
@@ -68,15 +72,16 @@ class Studies {
     if (!this.list) this.build(place);
     await this.fill();
     if (rest) await this.open(rest);
-    else this.body.hidden = true;
+    this.body.hidden = !rest;
+    this.none.hidden = Boolean(rest);
   }
 
   async fill() {
     const [studies, cases] = await Promise.all([ask("studies"), ask("study/cases")]);
     const chosen = this.cases.value;
-    this.cases.replaceChildren(element("option", { value: "", textContent: "– its case –" }),
+    this.cases.replaceChildren(element("option", { value: "", textContent: "choose a case" }),
       ...cases.map((path) => element("option", { value: path, textContent: path })));
-    this.cases.value = cases.includes(chosen) ? chosen : "";
+    this.cases.value = cases.includes(chosen) ? chosen : cases.length === 1 ? cases[0] : "";
     this.list.replaceChildren(...studies.map((one) => element("li", {}, element("a", {
       href: `#studies/${one.path || one.output}`, textContent: one.title, dataset: { study: one.path || one.output } }),
     element("span", { className: "note", textContent: ` ${one.state}${Object.keys(one.counts).length
