@@ -22,6 +22,10 @@ except ImportError as problem:
     sys.exit(77)
 
 
+STATE = tempfile.TemporaryDirectory()  # that of this user is left alone
+os.environ["XDG_STATE_HOME"] = STATE.name
+
+
 class Server:
     """Begun by `with`, ended with it; `stop` and `start` in between."""
 

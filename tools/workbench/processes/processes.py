@@ -4,7 +4,8 @@ in files (records.py), kept together with launch.py.
 
 A record: id, kind, words, command, cwd, about (what who began it wants to find again), in_queue, order
 (of those that wait, the least is next), state: queued, starting, running, done, failed, stopped, or
-lost (it has died without an end); stops (how often it was asked to end); queued, begun, ended
+lost (it has died without an end, or was not put here by this user); own (by this user, in this
+folder: seal.py); stops (how often it was asked to end); queued, begun, ended
 (s since 1970), pid, code, error (why it could not start).
 """
 

@@ -12,11 +12,14 @@ from base.ending import one_line
 
 from ..server.project import Refused
 from .launch import asked, keep
+from .seal import Seal
 
 ENDINGS = (".run", ".end", ".stop", ".lock", ".log", ".json")  # the one that makes it known goes last
 LIVE = ("queued", "starting", "running")
 NEEDED = {"id": str, "kind": str, "words": str, "command": list, "cwd": str, "about": dict,
           "queued": float, "in_queue": bool, "launched": bool, "order": float}
+OF_RUN = {"pid": int, "begun": (int, float)}  # what launch.py writes into N.run
+OF_END = {"code": int, "ended": (int, float), "error": str}  # and into N.end
 
 
 def read(path: Path) -> dict:
@@ -26,6 +29,11 @@ def read(path: Path) -> dict:
     except (OSError, ValueError):
         return {}
     return found if isinstance(found, dict) else {}
+
+
+def of_kinds(record: dict, kinds: dict) -> dict:
+    """Keys that are known, with values of their kind."""
+    return {key: record[key] for key, kind in kinds.items() if isinstance(record.get(key), kind)}
 
 
 def changed(path: Path) -> float:
@@ -56,6 +64,7 @@ class Records:
         folder.mkdir(exist_ok=True)
         self.ended: dict[str, dict] = {}  # those do not change any more
         self.last = 0                     # number given
+        self.seal = Seal(folder.parents[1])
 
     def path(self, number: str) -> Path:
         """Raises Refused."""
@@ -75,7 +84,8 @@ class Records:
 
     def write(self, record: dict) -> None:
         """What the workbench knows: before the command begins."""
-        keep(self.path(record["id"]), {key: record[key] for key in (*NEEDED, "begun") if key in record})
+        kept = {key: record[key] for key in (*NEEDED, "begun") if key in record}
+        keep(self.path(record["id"]), {**kept, "seal": self.seal.of(record)})
 
     def remove(self, number: str) -> None:
         for ending in ENDINGS:
@@ -88,22 +98,24 @@ class Records:
         if number in self.ended and path.exists():
             return dict(self.ended[number])
         record = read(path)
-        if any(not isinstance(record.get(key), kind) for key, kind in NEEDED.items()):
+        if len(of_kinds(record, NEEDED)) < len(NEEDED) or record["id"] != path.stem:
             raise Refused(f"there is no process {number}", 404)
+        record = {**of_kinds(record, {**NEEDED, "begun": (int, float)}), "own": self.seal.fits(record)}
         record = self.with_state(path, record)
         if record["state"] not in LIVE and record["state"] != "lost":
             self.ended[number] = record
         return dict(record)
 
     def with_state(self, path: Path, record: dict) -> dict:
-        """The lock is looked at first: who lets it go has written its end before."""
+        """The lock is looked at first: who lets it go has written its end before. What waits, but was not
+        put there by this user in this folder, is lost."""
         stop = asked(path.with_suffix(".stop"))
         lives = record["launched"] and locked(path.with_suffix(".lock"))
-        end, now = read(path.with_suffix(".end")), read(path.with_suffix(".run"))
+        end, now = of_kinds(read(path.with_suffix(".end")), OF_END), of_kinds(read(path.with_suffix(".run")), OF_RUN)
         record = {**record, **now, "stops": len(stop), **end}
         if "code" in end:
             state = "done" if end["code"] == 0 else "stopped" if stop else "failed"
-        elif not record["launched"]:
+        elif not record["launched"] and record["own"]:
             state = "stopped" if stop else "queued"
             record = {"ended": changed(path.with_suffix(".stop")), **record} if stop else record
         elif lives:

@@ -180,7 +180,7 @@ def gone_on(studio: Studio, runs: RunList, run: dict) -> dict:
                       "case is not known; run the case again", 409)
     case = studio.project.existing(run["case"])
     paths_inside(studio.project, case)
-    command = list(run["record"]["command"]) if run["record"] else \
+    command = list(run["record"]["command"]) if run["record"] and run["record"]["own"] else \
         [str(studio.program), "run", as_argument(run["case"]), "-o", run["folder"]]
     command[0] = str(studio.program)
     command += [] if "--resume" in command else ["--resume"]

@@ -36,8 +36,7 @@ class Project:
         except OSError as problem:
             raise Trouble(f"{folder} cannot be used: {problem.strerror}; give a folder that can be "
                           "written to") from problem
-        if (root / OWN).is_symlink():
-            raise Trouble(f"{root / OWN} is a link: remove it")
+        check_links(root / OWN)
         return Project(root)
 
     @property
@@ -125,6 +124,16 @@ class Project:
             except OSError:
                 pass
             raise
+
+
+def check_links(own: Path) -> None:
+    """Whatever is written there is written there: a folder that somebody else has sent could let logs go
+    into any file. Raises Trouble."""
+    found = [own] if own.is_symlink() else []
+    for folder, names, files in os.walk(own):
+        found += [path for name in (*names, *files) if (path := Path(folder) / name).is_symlink()]
+    if found:
+        raise Trouble(f"{one_line(found[0])} is a link, which plyform studio makes none of: remove it")
 
 
 def plain_name(name: str) -> str:
