@@ -87,10 +87,62 @@ def links(place):
     assert not (place / "target").exists()
 
 
+def keys_without_end(place):
+    """A key of many parts takes a parser time with their square: the folder is shown, and the file refused."""
+    folder = place / "deep"
+    folder.mkdir()
+    parts = 4 << 18
+    texts = {"key": "a." * parts + "a = 1", "header": "[" + "a." * parts + "a]", "quoted": '"a".' * (parts // 2) + "a = 1",
+             "inline": "x = { " + "a . " * (parts // 2) + "a = 1 }", "lists": "x = " + "[" * parts}
+    for name, text in texts.items():
+        (folder / f"{name}.toml").write_text('[[tool]]\nname = "t"\n' + text + "\n")
+    with Server(TOOLS, PROGRAM, folder) as server:
+        begin = time.monotonic()
+        assert len(server.get("api/folder")["cases"]) == len(texts)
+        for path in ("api/studies", "api/study/cases", "api/identify/files"):
+            server.get(path)
+        for name in texts:
+            told = server.get("api/case", path=f"{name}.toml")
+            assert told["tree"] is None and told["error"], told
+            status, said = server.call("GET", "api/check", query={"path": f"{name}.toml", "version": told["version"]})
+            assert status == 200 and said["mistakes"] or status in (422, 500), said
+        taken = time.monotonic() - begin
+        assert taken < 60, taken
+        print(f"  keys without end: {taken:.1f} s")
+
+
+def files_elsewhere(place):
+    """Nothing outside the folder is read, by whatever way a page can ask."""
+    secret = place / "secret"
+    secret.mkdir()
+    (secret / "picture.png").write_bytes(b"the secret")
+    (secret / "study.toml").write_text('title = "the secret"\ncase = "c.toml"\nmethod = "grid"\n')
+    folder = place / "reading"
+    with Server(TOOLS, PROGRAM, folder) as server:
+        case = server.send("api/cases", {"name": "mine"})["path"]
+        (folder / "link.toml").symlink_to(secret / "study.toml")
+        for path in ("api/studies", "api/study/cases", "api/identify/files", "api/results/offers", "api/folder"):
+            told = json.dumps(server.get(path))
+            assert "secret" not in told and "link.toml" not in told, (path, told)
+        for name in (f"web/{secret}/picture.png", f"report/{secret}/picture.png", f"codemirror/{secret}/picture.png"):
+            assert server.call("GET", name)[0] == 404, name
+        (folder / case).write_text((folder / case).read_text() + f'[[tool]]\nname="t"\nshape="mesh"\nfile="{secret}/x.stl"\n')
+        results = folder / "results/one"
+        results.mkdir(parents=True)
+        (results / "results.h5").write_bytes(b"")
+        (folder / "trim.csv").write_text("0,0\n")
+        for method, path, query, body in (
+                ("GET", "api/study/keys", {"case": case}, None), ("POST", "api/cases", {}, {"name": "copy", "from": case}),
+                ("POST", "api/results/export", {}, {"what": "pattern", "folder": "results/one", "trim": "trim.csv",
+                                                    "case": case})):
+            status, said = server.call(method, path, body, query=query)
+            assert status == 403 and "leads out" in said["error"], (path, status, said)
+
+
 def main():
     with tempfile.TemporaryDirectory() as made:
         place = Path(made)
-        for part in (commands_that_wait, what_waits_here, links):
+        for part in (commands_that_wait, what_waits_here, links, keys_without_end, files_elsewhere):
             part(place)
             print(part.__name__, "done")
 

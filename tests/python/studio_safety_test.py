@@ -100,9 +100,10 @@ def paths(server, outside):
     for code in ("%2e%2e", "%252e%252e", ".%2e"):
         attempt(f"read by {code}", asked(server, "GET", "api/case?path=" + "/".join([code] * 3) + str(outside)
                                          .replace("/", "%2f") + "%2fsecret.toml"), 403, 404)
-    attempt("a file of the server by web/../", asked(server, "GET", "web/../../app.py"), 404)
-    attempt("a file of the server by %2e%2e", asked(server, "GET", "web/%2e%2e/%2e%2e/app.py"), 404)
+    attempt("a file of the server by web/../", asked(server, "GET", "web/../server/app.py"), 404)
+    attempt("a file of the server by %2e%2e", asked(server, "GET", "web/%2e%2e/server/app.py"), 404)
     attempt("a file of the system by web//etc/passwd", asked(server, "GET", "web//etc/passwd"), 404)
+    attempt("a picture of another folder by web//", asked(server, "GET", f"web/{outside}/picture.png"), 404)
     for folder in ("../other", str(outside), ".plyform"):
         attempt(f"upload into {folder if folder[0] != '/' else 'an absolute path'}", server.call(
             "POST", "api/upload", b"name = 1", query={"name": "a.toml", "folder": folder}), 403)
@@ -304,7 +305,7 @@ Promise.all([
   tried("fetch", () => fetch(`${there}/${token}/api/folder`).then((r) => r.text())),
   tried("fetch no-cors", () => fetch(`${there}/${token}/api/folder`, { mode: "no-cors" }).then((r) => r.text()).then((t) => t || "refused")),
   tried("fetch POST", () => fetch(`${there}/${token}/api/cases`, { method: "POST", mode: "no-cors", body: '{"name":"by_fetch"}' }).then(() => "sent")),
-  tried("img", () => image(`${there}/${token}/web/icon.svg`)), tried("script", () => script(`${there}/${token}/web/main.js`)),
+  tried("img", () => image(`${there}/${token}/web/icon.svg`)), tried("script", () => script(`${there}/${token}/web/page/main.js`)),
   tried("WebSocket", () => socket(`${there.replace("http", "ws")}/${token}/events`)), tried("iframe", () => frame(`${there}/${token}/`)),
   tried("form POST", form),
 ]).then(() => { window.tries = done; });
@@ -362,6 +363,7 @@ def main():
         outside.mkdir()
         (outside / "secret.toml").write_text(f'name = "{SECRET}"\n')
         (outside / "tool.stl").write_text(f"solid {SECRET}\nendsolid\n")
+        (outside / "picture.png").write_text(SECRET)
         begin = sorted(os.walk(outside))
         with Server(TOOLS, PROGRAM, folder) as server:
             server.send("api/cases", {"name": "mine"})

@@ -15,6 +15,9 @@ MIB = 1 << 20
 TEXT = 64 * MIB         # summary.json, case, study: those of 10 000 plies have some MB
 TABLE = 1024 * MIB      # history.csv, curves, part meshes: a million elements take some 100 MB
 BINARY = 8 * 1024 * MIB  # results and meshes of tools, which libraries or hashes read piece by piece
+MOST_PARTS = 20  # of a key of TOML
+PART = r"""(?:[\w-]++|"(?:[^"\\\n]|\\.){0,200}+"|'[^'\n]{0,200}+')[ \t]*+"""
+CHAIN = re.compile(rf"(?<![\w-]){PART}(?:\.[ \t]*+{PART}){{{MOST_PARTS}}}")
 KINDS = ((stat.S_ISDIR, "a folder"), (stat.S_ISFIFO, "a pipe"), (stat.S_ISSOCK, "a socket"),
          (stat.S_ISCHR, "a device"), (stat.S_ISBLK, "a device"))
 
@@ -127,9 +130,18 @@ def read_toml(path: Path) -> dict:
     return parsed_toml(path, read_text(path))
 
 
+def toml_of(text: str) -> dict:
+    """Raises ValueError, RecursionError. A key of many parts takes tomllib time with their square, days of
+    those that fit in a few MB."""
+    if chain := CHAIN.search(text):
+        line = text.count("\n", 0, chain.start()) + 1
+        raise ValueError(f"a key of more than {MOST_PARTS} parts (at line {line}, column 1)")
+    return tomllib.loads(text)
+
+
 def parsed_toml(path: Path, text: str) -> dict:
     try:
-        return tomllib.loads(text)
+        return toml_of(text)
     except RecursionError as problem:
         raise Mistake(f"{path}:1: error: tables or lists nest too deep; write it flat") from problem
     except ValueError as problem:  # TOMLDecodeError is one; so are numbers of 5000 digits

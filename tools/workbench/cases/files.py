@@ -6,8 +6,9 @@ import hashlib
 import math
 import re
 import threading
-import tomllib
 from pathlib import Path
+
+from base.files import toml_of
 
 from ..server.events import Events
 from ..server.project import Project, Refused
@@ -35,7 +36,7 @@ def version_of(content: bytes) -> str:
 def parsed(text: str) -> dict:
     """Raises NoToml."""
     try:
-        return tomllib.loads(text)
+        return toml_of(text)
     except (ValueError, RecursionError) as problem:
         raise NoToml(problem if isinstance(problem, ValueError) else
                      ValueError("tables within tables without end")) from problem

@@ -4,8 +4,9 @@ of cases."""
 
 import os
 import re
-import tomllib
 from pathlib import Path
+
+from base.files import toml_of
 
 from ..server.project import Project, Refused
 from .paths import MOST_TEXT
@@ -22,7 +23,7 @@ FABRIC = ("surface_density", "warp", "weft", "family", "sheet", "isotropic")
 def kind_of_toml(text: str) -> tuple[str, str]:
     """case, fabric, study or toml, and its title or name. A case that is no TOML now is one as well."""
     try:
-        data = tomllib.loads(text)
+        data = toml_of(text)
     except (ValueError, RecursionError):
         return ("case" if re.search(r"^\s*\[\[\s*(ply|tool)\s*\]\]", text, re.MULTILINE) else "toml"), ""
     words = [data.get(key) for key in ("title", "name")]

@@ -3,6 +3,7 @@
 files along."""
 
 import os
+import shutil
 from pathlib import Path
 
 from base.ending import TOOLS, one_line
@@ -11,7 +12,7 @@ from ..server.project import Refused, plain_name
 from ..toml import edits as toml_edits
 from .files import CaseFiles, parsed
 from .folder import kind_of_toml
-from .paths import MOST_TEXT, names_a_file
+from .paths import names_a_file, paths_inside
 
 SHIPPED = TOOLS.parent / "cases"
 FABRIC = SHIPPED / "fabrics/glass_plain_weave.toml"
@@ -109,11 +110,15 @@ def new_case(files: CaseFiles, name: str, source: str) -> str:
         text, copies = from_here(files, source, folder), {}
     else:
         text, copies = SMALLEST.format(name=name.replace("_", " ")), {FABRIC.name: FABRIC}
-    folder.mkdir()
-    for name_there, file in copies.items():
-        project.write(folder / name_there, file.read_bytes())
-    project.write(folder / "case.toml", text.encode())
     path = folder / "case.toml"
+    folder.mkdir()
+    try:
+        for name_there, file in copies.items():
+            project.write(folder / name_there, file.read_bytes())
+        project.write(path, text.encode())
+    except OSError:  # a full disk: its name stays free
+        shutil.rmtree(folder, ignore_errors=True)
+        raise
     files.tell(path, files.read(path)[1])
     files.events.send("folder")
     return project.relative(path)
@@ -136,9 +141,8 @@ def from_example(name: str) -> tuple[str, dict[str, Path]]:
 def from_here(files: CaseFiles, source: str, folder: Path) -> str:
     """The copy goes on with the files of the first."""
     file = files.path(source)
+    paths_inside(files.project, file)
     text, _ = files.read(file)
-    if len(text) > MOST_TEXT:
-        raise Refused("this case is too long", 413)
     edits = [{"op": "set", "key": [str(part) for part in key],
               "value": Path(os.path.relpath(os.path.realpath(path), folder)).as_posix()}
              for key, path in named_files(text, file)]

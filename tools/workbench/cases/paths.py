@@ -4,11 +4,11 @@ program is let loose on the case."""
 
 import os
 import stat
-import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 
 from base.ending import one_line
+from base.files import toml_of
 
 from ..server.project import Project, Refused
 
@@ -75,7 +75,7 @@ def is_file(path: Path) -> bool:
 
 def texts_of(project: Project, file: Path) -> Iterator[tuple[tuple[str, ...], str]]:
     try:
-        data = tomllib.loads(project.read(file, MOST_TEXT).decode("utf-8-sig"))
+        data = toml_of(project.read(file, MOST_TEXT).decode("utf-8-sig"))
     except (OSError, ValueError, RecursionError):
         return
     waiting = [((), data)]

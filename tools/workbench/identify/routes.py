@@ -9,7 +9,7 @@ from pathlib import Path
 from fastapi import APIRouter, Body
 
 from base.ending import Trouble, one_line
-from base.files import is_file, parsed_toml, read_bytes, read_text
+from base.files import is_file, read_bytes
 
 from ..server.project import Project, Refused, plain_name
 from ..server.studio import Studio
@@ -57,10 +57,7 @@ def routes(studio: Studio) -> APIRouter:
 
 
 def is_fabric(file: Path) -> bool:
-    try:
-        tables = parsed_toml(file, read_text(file))
-    except (Trouble, OSError):
-        return False
+    tables = study_files.tables_in(file)
     return any(key in tables for key in OF_FABRICS) and "ply" not in tables and "case" not in tables
 
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from base.ending import one_line
 
+from ..cases.paths import paths_inside
 from ..server.project import Project, Refused
 from .listing import check_links
 
@@ -63,7 +64,9 @@ def pattern_of(project: Project, wish: dict) -> list[str]:
     if wish.get("space") is True:
         words.append("--space")
     if wish.get("case"):
-        words += ["--case", str(file_of(project, wish, "case", (".toml",))),
+        case = file_of(project, wish, "case", (".toml",))
+        paths_inside(project, case)
+        words += ["--case", str(case),
                   "--tolerance", f"{number(wish, 'tolerance', 0.01, 1000.0, 1.0):.12g}",
                   "--iterations", str(int(number(wish, "iterations", 1, MOST_ITERATIONS, 4)))]
         if wish.get("threads"):

@@ -10,7 +10,6 @@ import struct
 import sys
 import threading
 import time
-import tomllib
 from pathlib import Path
 
 
@@ -56,8 +55,9 @@ def scene(plyform, request: dict) -> tuple[dict, bytes]:
 
 def without_scouts(file: str) -> dict[str, str]:
     """Settings by which no mesh is taken from a fast run of the scene: that takes seconds."""
+    from base.files import toml_of
     try:
-        blanks = tomllib.loads(Path(file).read_text(encoding="utf-8-sig")).get("blanks")
+        blanks = toml_of(Path(file).read_text(encoding="utf-8-sig")).get("blanks")
     except (OSError, ValueError, RecursionError):
         return {}
     return {f"blanks.{name}.mesh_from": "element_size" for name, blank in (blanks.items() if isinstance(blanks, dict)

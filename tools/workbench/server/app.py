@@ -9,7 +9,8 @@ from pathlib import Path
 from fastapi import FastAPI, Request, WebSocket, WebSocketDisconnect
 from fastapi.responses import FileResponse, HTMLResponse, JSONResponse
 
-from base.ending import Mistake, Trouble, one_line, words_of
+from base.ending import Mistake, Trouble, one_line, place_of, words_of
+from base.files import is_file
 from reporting.page import THREE, WEB as REPORT_WEB, json_in_script
 
 from .guard import HEADERS, Refusal
@@ -43,7 +44,7 @@ def application(studio: Studio, routers: list) -> FastAPI:
     async def events(socket: WebSocket) -> None:
         await tell_events(studio, socket)
 
-    for kind in (Trouble, Refusal, OSError, MemoryError):
+    for kind in (Trouble, Refusal, OSError, MemoryError, Exception):
         app.add_exception_handler(kind, wrong)
     return app
 
@@ -53,7 +54,7 @@ def static(shelf: str, name: str):
         return FileResponse(THREE, media_type=KINDS[".js"])
     path = SHELVES.get(shelf, WEB) / name
     kind = KINDS.get(path.suffix)
-    if shelf not in SHELVES or not kind or ".." in name.split("/") or not path.is_file():
+    if shelf not in SHELVES or not kind or {"", ".."} & set(name.split("/")) or not is_file(path):
         return JSONResponse({"error": f"there is no {one_line(shelf, 50)}/{one_line(name, 100)}"}, 404)
     return FileResponse(path, media_type=kind)
 
@@ -90,4 +91,8 @@ async def tell_events(studio: Studio, socket: WebSocket) -> None:
 
 async def wrong(request: Request, problem: Exception) -> JSONResponse:
     code = getattr(problem, "code", 422 if isinstance(problem, (Trouble, Mistake)) else 500)
-    return JSONResponse({"error": one_line(words_of(problem))}, code)
+    words = words_of(problem)
+    if not isinstance(problem, (Trouble, Refusal, OSError, MemoryError)):
+        code, words = 500, (f"this is a fault of plyform, not of your files: {type(problem).__name__}: {problem}, at "
+                            f"{place_of(problem)}; please report it")
+    return JSONResponse({"error": one_line(words)}, code)

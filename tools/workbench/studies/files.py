@@ -4,6 +4,7 @@
 import csv
 import json
 import os
+from functools import lru_cache
 from pathlib import Path
 
 from base.ending import Trouble
@@ -13,12 +14,15 @@ from ..server.project import Project, Refused
 
 MOST_PLACES, DEEPEST = 5000, 6
 LONGEST = 16 << 20   # bytes of a table that a page is shown
+LONGEST_STUDY = 1 << 20
+MOST_READ = 1000     # TOML files that are kept as read
 PICTURES = {".png": "image/png", ".svg": "image/svg+xml"}
 MARKS = ("vary", "run", "presets", "method")  # what, beside a case, makes a file a study
 
 
 def look_through(project: Project, endings: tuple[str, ...] = (".toml",)) -> tuple[list[Path], list[Path]]:
-    """Files with these endings, and folders of results of studies, neither hidden nor inside results."""
+    """Files with these endings, and folders of results of studies, neither hidden nor inside results. Links are left
+    out: they may lead anywhere."""
     files, results, places = [], [], 0
     for here, folders, names in os.walk(project.root):
         at = Path(here)
@@ -34,7 +38,8 @@ def look_through(project: Project, endings: tuple[str, ...] = (".toml",)) -> tup
         elif is_file(at / "summary.json"):
             folders.clear()
         else:
-            files += [at / name for name in sorted(names) if name.lower().endswith(endings)]
+            files += [at / name for name in sorted(names) if name.lower().endswith(endings)
+                      and not (at / name).is_symlink()]
     return files, results
 
 
@@ -42,20 +47,29 @@ def is_results(folder: Path) -> bool:
     return (folder / "runs").is_dir() and (is_file(folder / "jobs.json") or is_file(folder / "table.csv"))
 
 
-def is_case(path: Path) -> bool:
+def tables_in(path: Path) -> dict:
+    """Of a TOML file; none of what is no such file, or too large for a study."""
     try:
-        tables = parsed_toml(path, read_text(path))
+        status = os.stat(path)
+        return read_once(path, status.st_mtime_ns, status.st_size, status.st_ino)
     except (Trouble, OSError):
-        return False
+        return {}
+
+
+@lru_cache(maxsize=MOST_READ)
+def read_once(path: Path, *stamp) -> dict:
+    """While its stamp is the same. Raises Trouble."""
+    return parsed_toml(path, read_text(path, LONGEST_STUDY))
+
+
+def is_case(path: Path) -> bool:
+    tables = tables_in(path)
     return isinstance(tables.get("ply"), list) or isinstance(tables.get("tool"), list)
 
 
 def tables_of(path: Path) -> dict | None:
     """None for what is no study."""
-    try:
-        tables = parsed_toml(path, read_text(path))
-    except (Trouble, OSError):
-        return None
+    tables = tables_in(path)
     return tables if isinstance(tables.get("case"), str) and any(key in tables for key in MARKS) else None
 
 
@@ -109,12 +123,15 @@ def cell(text: str) -> float | str | None:
 
 
 def csv_rows(file: Path) -> tuple[list[str], list[dict]]:
-    """Columns and rows; none of a file that is not there."""
+    """Columns and rows; none of a file that is not there. Raises Trouble."""
     if not is_file(file):
         return [], []
     reader = csv.DictReader(read_text(file, LONGEST).splitlines())
-    rows = [{name: cell(value) for name, value in row.items() if name and isinstance(value, str)}
-            for row in reader]
+    try:
+        rows = [{name: cell(value) for name, value in row.items() if name and isinstance(value, str)}
+                for row in reader]
+    except csv.Error as problem:
+        raise Trouble(f"{file}:{reader.line_num}: {problem}") from problem
     return list(reader.fieldnames or []), rows
 
 
@@ -122,7 +139,7 @@ def counts(folder: Path) -> dict:
     """Rows of the table by status."""
     try:
         rows = csv_rows(folder / "table.csv")[1]
-    except (Trouble, OSError, csv.Error):
+    except Trouble:
         rows = []
     found: dict[str, int] = {}
     for row in rows:
@@ -134,7 +151,7 @@ def version_of(folder: Path) -> str:
     """Another one when the tables or pictures are."""
     marks = []
     for file in sorted(folder.iterdir()) if folder.is_dir() else []:
-        if file.suffix in (".csv", *PICTURES):
+        if file.suffix in (".csv", *PICTURES) and is_file(file):
             status = file.stat()
             marks.append(f"{file.name} {status.st_mtime_ns} {status.st_size}")
     return str(hash(tuple(marks)))

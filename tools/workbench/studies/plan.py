@@ -14,7 +14,6 @@ from ..server.project import Refused
 PLAIN = ("title", "case", "accuracy", "method", "runs", "seed", "set")
 OF_VARY = ("name", "key", "keys", "each", "values", "names", "factors", "range", "count", "scale")
 SHOWN = (*PLAIN, "vary", "figures", "limits", "picture")
-MOST = 1 << 20  # bytes of a study file
 
 NEW = """# Runs of one case over values of its keys: tools/study {file}
 # What may stand here: docs/users/studies.md

@@ -1,7 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Routes of studies: api/studies, api/study. State is the study file and what tools/study leaves."""
 
-import csv
 import os
 import sys
 from pathlib import Path
@@ -109,7 +108,7 @@ def reading(router: APIRouter, studio: Studio) -> None:
     @router.get("/study")
     def one(path: str) -> dict:
         file = study_file(project, path)
-        text = read_text(file)
+        text = read_text(file, study_files.LONGEST_STUDY)
         output = study_files.output_of(project, file, study_files.look_through(project)[1])
         told = {"path": path, "text": text, "version": study_plan.version_of(text), "plan": None, "error": "",
                 "case": ""}
@@ -131,6 +130,7 @@ def reading(router: APIRouter, studio: Studio) -> None:
     @router.get("/study/keys")
     def keys(case: str) -> dict:
         file = project.existing(case)
+        paths_inside(project, file)
         return answered(WORKER, "keys", file, project.root, studio.program, cwd=project.root)
 
     @router.get("/study/check")
@@ -148,10 +148,7 @@ def reading(router: APIRouter, studio: Studio) -> None:
                     "reach": {}, "pictures": []}
         now = study_files.version_of(path)
         told = {"version": now, **about(studio, path)}
-        try:
-            return told if now == version else {**told, **study_files.table(path)}
-        except csv.Error as problem:
-            raise Refused(f"{one_line(folder, 200)}/table.csv: {problem}", 422) from problem
+        return told if now == version else {**told, **study_files.table(path)}
 
     @router.get("/study/picture")
     def picture(folder: str, name: str) -> FileResponse:
@@ -168,7 +165,7 @@ def writing(router: APIRouter, studio: Studio) -> None:
     def keep(file: Path, path: str, text: str, version: str) -> dict:
         if version != study_plan.version_of(read_text(file)):
             raise Refused("the file has been changed meanwhile: look at it anew", 409)
-        if len(text.encode()) > study_plan.MOST:
+        if len(text.encode()) > study_files.LONGEST_STUDY:
             raise Refused("a study file has 1 MiB at most", 422)
         project.write(file, text.encode())
         studio.events.send("study", path=path)

@@ -5,9 +5,9 @@ what cannot be done so is refused, and the text stays as it was."""
 import copy
 import json
 import re
-import tomllib
 
 from base.ending import one_line
+from base.files import toml_of
 
 from ..server.project import Refused
 from . import cuts as toml_cuts, model as toml_model
@@ -32,7 +32,7 @@ def edited(text: str, edits: list[dict]) -> tuple[str, list[str]]:
 
 
 def one_edit(text: str, edit: dict) -> tuple[str, str]:
-    data = tomllib.loads(text)
+    data = toml_of(text)
     op, path = edit.get("op"), resolved(data, edit.get("key"))
     wanted = copy.deepcopy(data)
     steps, made = toml_model.steps_of(wanted, op, path, edit)
@@ -40,8 +40,8 @@ def one_edit(text: str, edit: dict) -> tuple[str, str]:
         toml_model.step(wanted, *step)
         text = STEPS[step[0]](text, *step[1:])
     try:
-        found = tomllib.loads(text)
-    except tomllib.TOMLDecodeError as problem:
+        found = toml_of(text)
+    except ValueError as problem:
         raise Refused(f"{one_line(edit.get('key'), 100)} cannot be changed here: {problem}; change it in the "
                       "text", 422) from problem
     if toml_model.plain(found) != toml_model.plain(wanted):
@@ -98,7 +98,7 @@ def dotted(path: tuple) -> str:
 
 
 def set_value(text: str, path: tuple, value) -> str:
-    places, old = Places(text), toml_model.at(tomllib.loads(text), path)
+    places, old = Places(text), toml_model.at(toml_of(text), path)
     span = places.values.get(path)
     if old is None:
         return insert(text, path, value)
@@ -137,7 +137,7 @@ def set_items(text: str, path: tuple, old: list, value: list) -> str:
 
 def insert(text: str, path: tuple, value) -> str:
     """A key or an item that is not there, at the end of what it is in."""
-    places, data = Places(text), tomllib.loads(text)
+    places, data = Places(text), toml_of(text)
     parent, key = path[:-1], path[-1]
     span, within = places.values.get(parent), toml_model.at(data, parent)
     if within is None:
