@@ -3,7 +3,9 @@
 them is started, no link of theirs is followed, and no file of theirs holds the server up or ends it."""
 
 import json
+import os
 import signal
+import socket
 import subprocess
 import sys
 import tempfile
@@ -11,6 +13,9 @@ import time
 from pathlib import Path
 
 from studio_server import Server  # skips
+
+sys.path.insert(0, sys.argv[1])
+from workbench.server.peer import TABLE, may_ask, user_of  # noqa: E402
 
 TOOLS, PROGRAM = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 
@@ -139,10 +144,35 @@ def files_elsewhere(place):
             assert status == 403 and "leads out" in said["error"], (path, status, said)
 
 
+def lock_of_another(place):
+    """It came with the folder, for all to read, and with the address of another workbench."""
+    lock = place / "locked/.plyform/lock"
+    lock.parent.mkdir(parents=True)
+    lock.write_text("http://127.0.0.1:1/old/\n" * 100)
+    lock.chmod(0o666)
+    with Server(TOOLS, PROGRAM, place / "locked") as server:
+        assert lock.stat().st_mode & 0o777 == 0o600 and lock.read_text() == server.address + "\n"
+
+
+def users(place):
+    """By the system's table of connections; the server's side of one has the ports the other way round."""
+    table = ("  sl  local_address rem_address   st tx_queue rx_queue tr tm->when retrnsmt   uid  timeout inode\n"
+             "   0: 0100007F:1F90 00000000:0000 0A 00000000:00000000 00:00000000 00000000  1000        0 1 1 0 10 0\n"
+             "   1: 0100007F:1F90 0100007F:C350 01 00000000:00000000 00:00000000 00000000  1000        0 2 1 0 20 4\n"
+             "   2: 0100007F:C350 0100007F:1F90 01 00000000:00000000 00:00000000 00000000  1001        0 3 1 0 20 4\n"
+             "   3: 0100007F:C351 0100007F:1F90 06 00000000:00000000 03:00001770 00000000     0        0 0 3 0\n")
+    assert [user_of(port, 8080, table) for port in (50000, 50001, 8080)] == [1001, None, None]
+    with socket.create_server(("127.0.0.1", 0)) as there, socket.create_connection(there.getsockname()) as here:
+        ports = here.getsockname()[1], there.getsockname()[1]
+        assert user_of(*ports, TABLE.read_text()) == os.getuid() and may_ask(*ports)
+        assert os.getuid() == 0 or not may_ask(1, ports[1])
+
+
 def main():
     with tempfile.TemporaryDirectory() as made:
         place = Path(made)
-        for part in (commands_that_wait, what_waits_here, links, keys_without_end, files_elsewhere):
+        for part in (commands_that_wait, what_waits_here, links, keys_without_end, files_elsewhere, lock_of_another,
+                     users):
             part(place)
             print(part.__name__, "done")
 

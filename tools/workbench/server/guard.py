@@ -1,11 +1,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What a request must be before anything looks at it: of this machine, of the page of this server,
+"""What a request must be before anything looks at it: of this machine and user, of the page of this server,
 with the token in its path, and of bounded size. Pages of other sites have another Origin or none,
 and names that are made to point here (DNS rebinding) another Host."""
 
 import hmac
 import json
 from urllib.parse import urlsplit
+
+from .peer import may_ask
 
 MOST_BODY = 4 << 20  # bytes; of uploads, which are written as they come, see uploads
 MOST_UPLOAD = 512 << 20
@@ -33,6 +35,7 @@ class Guard:
     def __init__(self, app, token: str, port: int):
         self.app = app
         self.token = token
+        self.port = port
         self.hosts = {f"127.0.0.1:{port}", f"localhost:{port}"}
 
     async def __call__(self, scope, receive, send):
@@ -86,6 +89,8 @@ class Guard:
             raise Refusal(403, "another Origin than this server")
         if site not in (None, "same-origin", "none"):
             raise Refusal(403, "a request of another site")
+        if not may_ask((scope.get("client") or ("", 0))[1], self.port):
+            raise Refusal(403, "of another user of this machine")
         first, _, rest = scope["path"].removeprefix("/").partition("/")
         if not hmac.compare_digest(first.encode("utf-8", "replace"), self.token.encode()):
             raise Refusal(403, "the address has not this server's token: take the one that it printed")
