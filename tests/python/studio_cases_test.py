@@ -199,6 +199,13 @@ def taken_in(server):
     begun = server.send("api/import", {"path": "first/d.step", "as": "tool", "deflection": 0.1, "offset": 1.5})
     assert begun["outputs"] == ["first/d_die.stl", "first/d_punch.stl"]
     assert begun["process"]["command"][-2:] == ["--offset", "1.5"]
+    part = {"path": "first/d.step", "as": "tool", "replace": True, "case": CASE}
+    begun = server.send("api/import", {**part, "stack": True, "shear": 30, "solid": "part"})
+    assert begun["process"]["command"][-6:] == ["--stack", str(server.folder.resolve() / CASE), "--shear", "30",
+                                                "--solid", "part"], begun
+    for more, code in (({"stack": True, "shear": 81}, 422), ({"run": "first"}, 404), ({"run": "../x"}, 403),
+                       ({"stack": True, "solid": "x"}, 422)):
+        assert server.call("POST", "api/import", {**part, **more})[0] == code, more
     assert server.call("POST", "api/import", {"path": "first/d.step", "as": "tool", "deflection": "x"})[0] == 422
 
 

@@ -13,6 +13,7 @@ from base.ending import one_line
 from ..cases.files import CaseFiles, parsed
 from ..cases.folder import KINDS, kind_of_toml
 from ..cases.paths import paths_inside
+from ..results.listing import check_links
 from ..server.project import Refused
 from ..server.studio import Studio
 
@@ -63,12 +64,12 @@ def unit_of(wish: dict) -> float:
     return UNITS[wish.get("unit", "mm")]
 
 
-def number_of(wish: dict, key: str, otherwise, least: float, most: float):
+def number_of(wish: dict, key: str, otherwise, least: float, most: float, unit: str = "mm"):
     value = wish.get(key, otherwise)
     if value is None:
         return None
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
-        raise Refused(f"{key}: a number from {least:g} to {most:g}, mm", 422)
+        raise Refused(f"{key}: a number from {least:g} to {most:g}, {unit}", 422)
     return value
 
 
@@ -95,7 +96,10 @@ def room_of(studio: Studio, files: CaseFiles, wish: dict) -> list[str]:
     if wish.get("stack") and wish.get("case"):
         case = files.path(str(wish["case"]))
         paths_inside(studio.project, case)
-        room = ["--stack", str(case)]
+        shear = number_of(wish, "shear", 0.0, 0.0, 80.0, "degrees")
+        room = ["--stack", str(case), *(["--shear", f"{shear:g}"] if shear else [])]
+    elif wish.get("run"):
+        room = ["--run", str(run_of(studio, str(wish["run"])))]
     elif offset is not None:
         room = ["--offset", f"{offset:g}"]
     else:
@@ -111,6 +115,15 @@ def room_of(studio: Studio, files: CaseFiles, wish: dict) -> list[str]:
             raise Refused("direction: three numbers", 422)
         room += ["--direction", *(f"{number_of({'direction': one}, 'direction', 0, -1e6, 1e6):g}" for one in direction)]
     return room
+
+
+def run_of(studio: Studio, name: str) -> Path:
+    """The folder of a run, whose formed plies the room is for. Raises Refused."""
+    folder = studio.project.existing(name)
+    if not (folder / "results.h5").is_file():
+        raise Refused(f"{one_line(name, 200)} has no results.h5: it is no folder of a run", 404)
+    check_links(studio.project, folder)
+    return folder
 
 
 def box_of(studio: Studio, path: Path, scale: float) -> dict:

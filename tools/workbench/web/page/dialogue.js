@@ -4,7 +4,8 @@
 import { button, element } from "workbench/page/elements.js";
 
 /** Fields { name, title, kind: text|number|select|checkbox, value, choices, unit, note }; `done(values)`
- * when it is answered, which may take time; it is shown what goes wrong. Returns the dialogue. */
+ * when it is answered, which may take time; it is shown what goes wrong; null if there is nothing to ask.
+ * Returns the dialogue. */
 export function dialogue(id, title, fields, word, done) {
   const inputs = new Map();
   const wrong = element("p", { className: "words", role: "alert" });
@@ -16,13 +17,14 @@ export function dialogue(id, title, fields, word, done) {
   const go = button(word, async () => {
     try {
       wrong.textContent = "";
-      await done(values(), (text) => { wrong.textContent = text; });
+      if (done) await done(values(), (text) => { wrong.textContent = text; });
       close();
     } catch (problem) {
       wrong.textContent = problem.message;
     }
   }, { className: "main", id: `${id}-go` });
-  window_.append(wrong, element("p", { className: "answers" }, button("Cancel", close, { id: `${id}-cancel` }), go));
+  window_.append(wrong, element("p", { className: "answers" }, done
+    ? button("Cancel", close, { id: `${id}-cancel` }) : null, go));
   window_.addEventListener("keydown", (event) => {
     if (event.key === "Enter" && event.target.tagName === "INPUT") { event.preventDefault(); go.click(); }
   });

@@ -22,6 +22,12 @@ function positive(text, word) {
   return value;
 }
 
+function angleOf(text) {
+  const value = numberOf(text || "0");
+  if (!(value >= 0 && value <= 80)) throw new Error(`Plies sheared by: ${text}: 0 to 80 degrees`);
+  return value;
+}
+
 /** Until a process has ended: its record, having told how far it is. Its end may come before the
  * answer to the request that began it. */
 async function ended(record, tell) {
@@ -41,11 +47,22 @@ async function ended(record, tell) {
   throw new Error((log || "").trim().split("\n").pop() || `it has ${last.state}`);
 }
 
-/** Runs what api/import begins; a file that would be written over is named, and asked for. */
+/** Runs what api/import begins: the files written, and what was said of them. */
 async function made(body, tell) {
   const { process, outputs } = await send("import", body);
   await ended(process, tell);
-  return outputs;
+  const { log } = await ask(`processes/${process.id}`);
+  const said = log.split("\n").map((line) => line.split("\r").pop().trim());
+  return { outputs, said: said.filter((line) => line && !outputs.some((path) => path.endsWith(line))) };
+}
+
+const PLACED = /stack\.bottom = (\S+); punch: position = (\[.*?\]), direction = (\[.*?\]), stroke = (\S+)/;
+
+/** Where die and punch have to be so that they are closed at the end of the stroke, as mesh_tool.py tells it. */
+function placeOf(said) {
+  const [, bottom, position, direction, stroke] = said.join("\n").match(PLACED) || [];
+  return bottom === undefined ? { bottom: 0, punch: {} } : { bottom: Number(bottom), punch: {
+    position: JSON.parse(position), direction: JSON.parse(direction), stroke: Number(stroke) } };
 }
 
 export class Imports {
@@ -103,30 +120,44 @@ export class Imports {
     return acts[kind]();
   }
 
-  askPart(path, name) {
+  async askPart(path, name) {
     const thick = this.stackThickness();
+    const runs = (await ask("results").catch(() => [])).filter((run) => run.has_states);
     const window_ = dialogue("import-part", `Tools from ${name}`, [
       { name: "make", title: "Make", kind: "select", choices: [["tool", "one tool of this shape"],
-        ["offset", "die and punch, a distance apart"], ["stack", "die and punch with room for this case's plies"]] },
+        ["offset", "die and punch, a distance apart"], ["stack", "die and punch with room for this case's plies"],
+        ...(runs.length ? [["run", "die and punch with room for the formed plies of a run"]] : [])] },
       { name: "offset", title: "Distance", kind: "number", unit: "mm", value: thick,
         note: "of die and punch, measured across the part" },
+      { name: "shear", title: "Plies sheared by", kind: "number", unit: "°", value: 30,
+        note: "where plies shear they grow thicker: the room is for plies sheared so" },
+      { name: "run", title: "Run", kind: "select", choices: runs.map(({ folder, title }) => [folder,
+        `${folder}${title ? ` (${title})` : ""}`]), note: "room by place, as thick as its plies were formed" },
       { name: "on", title: "The surface is that of", kind: "select", choices: [["die", "the die"],
         ["punch", "the punch"]] },
+      { name: "solid", title: "A solid is", kind: "select", choices: [["part", "the formed part, with its thickness"],
+        ["tool", "the body of that tool"]], note: "an open shell is taken as it is" },
       { name: "deflection", title: "Deflection", kind: "number", unit: "mm", value: 0.05,
         note: "how far triangles may lie from the shape, at most" },
       { name: "replace", title: "Replace", kind: "checkbox", note: "meshes of an earlier time" },
-    ], "Make tools", async ({ make, offset, on, deflection, replace }, tell) => {
+    ], "Make tools", async ({ make, offset, shear, run, on, solid, deflection, replace }, tell) => {
       const body = { path, case: this.work.main.path, as: "tool", deflection: positive(deflection, "Deflection"),
         replace };
-      if (make === "offset") Object.assign(body, { offset: positive(offset, "Distance"), on });
-      if (make === "stack") Object.assign(body, { stack: true, on });
+      if (make === "offset") Object.assign(body, { offset: positive(offset, "Distance"), on, solid });
+      if (make === "stack") Object.assign(body, { stack: true, shear: angleOf(shear), on, solid });
+      if (make === "run") Object.assign(body, { run, on, solid });
       tell("begun");
-      await this.addMeshes(await made(body, tell));
+      const { outputs, said } = await made(body, tell);
+      await this.addMeshes(outputs, placeOf(said));
+      dialogue("import-told", `Tools from ${name}`, said.map((title) => ({ kind: "note", title })), "Close", null);
     });
     const follow = () => {
       const make = window_.querySelector("#import-part-make").value;
-      window_.querySelector("#import-part-offset").disabled = make !== "offset";
-      window_.querySelector("#import-part-on").disabled = make === "tool";
+      for (const one of ["offset", "shear", "run"]) {
+        window_.querySelector(`#import-part-${one}`).closest(".asked").parentElement.hidden = make !== (one ===
+          "shear" ? "stack" : one);
+      }
+      for (const one of ["on", "solid"]) window_.querySelector(`#import-part-${one}`).disabled = make === "tool";
     };
     window_.querySelector("#import-part-make").addEventListener("change", follow);
     follow();
@@ -186,15 +217,19 @@ export class Imports {
     }
   }
 
-  /** Adds meshes that were made; a punch is driven down. */
-  async addMeshes(paths) {
+  /** Adds meshes that were made; a punch is driven down from where it clears the stack. */
+  async addMeshes(paths, { bottom, punch }) {
     await this.work.refreshFolder();
     for (const path of paths) {
       const stem = path.split("/").pop().replace(/\.\w+$/, "");
       const [, word] = stem.match(/_(die|punch)$/) || [];
       const wish = await send("import", { path, as: "tool", unit: "mm", case: this.work.main.path });
-      const moves = word === "punch" ? { motion: "driven", direction: [0, 0, -1], stroke: 10 } : {};
+      const moves = word === "punch" ? { motion: "driven", direction: [0, 0, -1], stroke: 10, ...punch } : {};
       await this.add({ ...wish, name: word || wish.name, value: { ...wish.value, ...moves } });
+    }
+    const { main } = this.work;
+    if (((main.tree.stack || {}).bottom || 0) !== bottom) {
+      await main.edit([{ op: "set", key: "stack.bottom", value: bottom }]);
     }
   }
 }
