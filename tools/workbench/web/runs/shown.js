@@ -89,7 +89,7 @@ export class RunShown {
       run.can_resume ? button("Resume", () => send("runs/resume", {}, { query }),
         { id: "run-resume", className: "main" }) : null,
       run.states && run.state !== "damaged" ? element("a", { id: "run-results", textContent: "Results",
-        href: `#results/${run.folder.split("/").map(encodeURIComponent).join("/")}` }) : null,
+        href: `#results/report/${encodeURIComponent(run.folder)}` }) : null,
       button("Delete", () => this.askToDelete(run), { id: "run-delete" }),
     ].filter(Boolean);
   }

@@ -47,7 +47,7 @@ export function askRun(path, count) {
     if (Number.isNaN(value)) throw new Error(`${word}: ${text} is no number`);
     return value;
   };
-  dialogue("run", "Run the case", [
+  dialogue("ask-run", "Run the case", [
     { name: "name", title: "Name of the results", kind: "text", hint: "after the case",
       note: "letters, digits, _, - and .; a name that is free if you give none" },
     { name: "accuracy", title: "Accuracy", kind: "select", choices: [["", "as the case has it"],

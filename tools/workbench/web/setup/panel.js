@@ -73,7 +73,7 @@ class Setup {
     this.undo = button("Undo", () => this.back("undo"), { id: "undo", title: "Ctrl-Z" });
     this.redo = button("Redo", () => this.back("redo"), { id: "redo", title: "Ctrl-Shift-Z" });
     this.runIt = button("Run…", () => askRun(this.main.path, this.faults.some((one) => !one.warning)),
-      { id: "run-case", className: "main" });
+      { id: "run-case-button", className: "main" });
     this.chooser = element("input", { type: "file", id: "add-files", multiple: true });
     this.withText = button("TOML", () => this.showText(this.textRoom.hidden),
       { id: "show-toml", "aria-pressed": "true", title: "The text of the file, beside the form" });
