@@ -13,7 +13,7 @@ import sys
 import tomllib
 from pathlib import Path
 
-from studio_clicks import Page
+from studio_page import Page
 from studio_server import Server
 
 TOOLS, PROGRAM, CASES = (Path(word).resolve() for word in sys.argv[1:4])

@@ -1,117 +1,162 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A set-up page in Chromium as its tests use it: by clicks and keys, beside the file that it changes."""
+"""The page of the workbench in headless Chromium, by clicks and keys, for the tests. Imported, it ends
+the test with 77 when anything is missing."""
 
 import base64
 import time
 import tomllib
 
-from selenium.common.exceptions import NoSuchElementException, StaleElementReferenceException
+from report_browser import Browser
+from selenium.common.exceptions import (ElementClickInterceptedException, ElementNotInteractableException,
+                                        NoSuchElementException, StaleElementReferenceException)
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
+from studio_controls import Controls
+
+PATIENCE = 120.0  # s
+PASSING = (NoSuchElementException, StaleElementReferenceException, ElementClickInterceptedException,
+           ElementNotInteractableException, KeyError, IndexError, tomllib.TOMLDecodeError)
 
 
-class Page:
-    def __init__(self, browser, server, file):
-        self.browser, self.server, self.file = browser, server, file
-        self.driver, self.js = browser.driver, browser.js
+class Page(Browser):
+    def __init__(self, *arguments, **more):
+        super().__init__(*arguments, **more)
+        self.controls = Controls(self.driver)
+
+    def __exit__(self, *what):
+        self.controls.close()
+        super().__exit__(*what)
+
+    def go(self, server, rest=""):
+        """Opens #REST of a server's page, as an address that is typed."""
+        self.driver.get("about:blank")
+        self.driver.get(f"{server.address}#{rest}")
+        self.until(lambda: self.js("return Boolean(document.documentElement.dataset.ready)"), "the page is ready")
+
+    def settle(self):
+        """Pages of the workbench say themselves when they are done: see until."""
+
+    def until(self, condition, words="it holds", seconds=PATIENCE):
+        """Waits until it is true; what the page redraws meanwhile is asked again."""
+        end = time.monotonic() + seconds
+        while time.monotonic() < end:
+            try:
+                value = condition()
+                if value:
+                    return value
+            except PASSING:
+                pass
+            time.sleep(0.05)
+        raise AssertionError(f"waited {seconds} s in vain until {words}; the page says: {self.text('#trouble')!r}, "
+                             f"{self.texts('dialog .words')}, {self.errors()}")
+
+    def when(self, script, *arguments, seconds=PATIENCE):
+        """The value of a script as soon as it is true."""
+        return self.until(lambda: self.js(script, *arguments), f"{script} {arguments}", seconds)
+
+    def seen(self, selector):
+        """The element; None where there is none."""
+        found = self.driver.find_elements(By.CSS_SELECTOR, selector)
+        return found[0] if found else None
+
+    def text(self, selector):
+        return self.js("const e = document.querySelector(arguments[0]); return e ? e.textContent : ''", selector)
+
+    def texts(self, selector):
+        return self.js("return [...document.querySelectorAll(arguments[0])].map((e) => e.textContent)", selector)
+
+    def press(self, selector):
+        """A click, when what is clicked is there and not off."""
+        def act():
+            place = self.find(selector)
+            self.js("arguments[0].scrollIntoView({block: 'center'})", place)
+            if not place.is_enabled() or not place.is_displayed():
+                return False
+            place.click()
+            return True
+        self.until(act, f"{selector} can be clicked")
+
+    def type(self, selector, text):
+        """Replaces what stands in a field, and leaves it."""
+        def act():
+            place = self.find(selector)
+            self.js("arguments[0].scrollIntoView({block: 'center'})", place)
+            place.send_keys(Keys.CONTROL, "a")
+            place.send_keys(Keys.BACKSPACE if not text else text)
+            place.send_keys(Keys.TAB)
+            return True
+        self.until(act, f"{selector} takes {text}")
+
+    def pick(self, selector, value):
+        """Chooses of a list."""
+        def act():
+            place = self.find(selector)
+            self.js("arguments[0].scrollIntoView({block: 'center'})", place)
+            options = place.find_elements(By.CSS_SELECTOR, "option")
+            found = [option for option in options if option.get_attribute("value") == value]
+            if found:
+                found[0].click()
+            return found
+        self.until(act, f"{selector} has {value}")
+
+    def slide(self, selector, value):
+        """Brings a slider there; the last step is that of a key."""
+        def act():
+            place = self.find(selector)
+            step = float(place.get_attribute("step") or 1)
+            low = value <= float(place.get_attribute("min") or 0)
+            self.js("arguments[0].value = arguments[1]", place, str(value + step if low else value - step))
+            place.send_keys(Keys.ARROW_LEFT if low else Keys.ARROW_RIGHT)
+            return True
+        self.until(act, f"{selector} slides to {value}")
+
+    def give(self, selector, *files):
+        """Files chosen in an input of files."""
+        self.until(lambda: self.find(selector), f"{selector} is there").send_keys("\n".join(map(str, files)))
+
+    def picture(self, view="plyform_setup.area.view"):
+        return self.js(f"const s = {view}.stage; s.draw(); return s.canvas.toDataURL()")
+
+
+class SetupPage(Page):
+    """The panel of the set-up, beside the file that it changes."""
+
+    def __init__(self, server, file, *arguments):
+        super().__init__(*arguments)
+        self.server, self.file = server, file
 
     def open(self, place):
-        self.driver.get(self.server.address + place)
+        self.go(self.server, place.lstrip("#"))
         self.until(lambda: self.js("return Boolean(window.plyform_setup && plyform_setup.main && "
-                                   "plyform_setup.main.tree)"), 60)
+                                   "plyform_setup.main.tree)"), "the case is shown")
 
-    def until(self, holds, seconds=60):
-        """Waits for something to hold."""
-        end = time.monotonic() + seconds
-        while True:
-            try:
-                if holds():
-                    return
-            except (KeyError, IndexError, StaleElementReferenceException, tomllib.TOMLDecodeError):
-                pass
-            if time.monotonic() > end:
-                raise AssertionError(f"not within {seconds} s; the page says "
-                                     f"{self.words('#trouble')!r}; {self.browser.errors()}")
-            time.sleep(0.05)
-
-    def text(self):
+    def written(self):
         return self.file.read_text(encoding="utf-8")
 
     def tree(self):
-        return tomllib.loads(self.text())
-
-    def find(self, selector):
-        try:
-            return self.driver.find_element(By.CSS_SELECTOR, selector)
-        except NoSuchElementException:
-            return None
-
-    def words(self, selector):
-        return self.js("const e = document.querySelector(arguments[0]); return e ? e.textContent : ''", selector)
-
-    def again(self, act):
-        """Parts of the page are made anew after each change: once more, if that came between."""
-        for _ in range(20):
-            try:
-                return act()
-            except StaleElementReferenceException:
-                time.sleep(0.1)
-        return act()
-
-    def click(self, selector):
-        def act():
-            self.until(lambda: self.find(selector) is not None and self.find(selector).is_enabled())
-            place = self.find(selector)
-            self.js("arguments[0].scrollIntoView({block: 'center'})", place)
-            place.click()
-        self.again(act)
+        return tomllib.loads(self.written())
 
     def item(self, key):
-        self.click(f'[data-item="{key}"] button.item')
-        self.until(lambda: self.js("return plyform_setup.chosen") == key)
-
-    def control(self, key, part=""):
-        return self.find(f'[data-key="{key}"][data-part="{part}"]')
+        self.press(f'[data-item="{key}"] button.item')
+        self.until(lambda: self.js("return plyform_setup.chosen") == key, f"{key} is chosen")
 
     def value(self, key, part=""):
-        return self.control(key, part).get_attribute("value")
+        return self.find(of_key(key, part)).get_attribute("value")
 
-    def type(self, key, text, part=""):
-        """Types a value into a box, and leaves it."""
+    def key(self, key, text, part=""):
+        """Types a value into the box of a key, and leaves it."""
         def act():
-            self.until(lambda: self.control(key, part) is not None)
-            self.enter(self.control(key, part), text)
-        self.again(act)
-
-    def enter(self, box, text):
-        self.js("arguments[0].scrollIntoView({block: 'center'})", box)
-        box.click()
-        box.send_keys(Keys.CONTROL, "a")
-        box.send_keys(Keys.DELETE if text == "" else text)
-        box.send_keys(Keys.TAB)
-
-    def type_id(self, name, text):
-        self.until(lambda: self.find(f"#{name}") is not None)
-        box = self.driver.find_element(By.ID, name)
-        box.send_keys(Keys.CONTROL, "a")
-        box.send_keys(text)
-
-    def pick(self, select, value):
-        self.js("const e = arguments[0]; e.value = arguments[1];"
-                "e.dispatchEvent(new Event('change', {bubbles: true}));", select, value)
+            box = self.find(of_key(key, part))
+            self.js("arguments[0].scrollIntoView({block: 'center'})", box)
+            box.click()
+            box.send_keys(Keys.CONTROL, "a")
+            box.send_keys(Keys.DELETE if text == "" else text)
+            box.send_keys(Keys.TAB)
+            return True
+        self.until(act, f"{key} takes {text}")
 
     def choose(self, key, value, part=""):
-        self.until(lambda: self.control(key, part) is not None)
-        self.pick(self.control(key, part), value)
-
-    def choose_id(self, name, value):
-        self.until(lambda: self.find(f"#{name}") is not None)
-        self.until(lambda: self.find(f'#{name} option[value="{value}"]') is not None)
-        self.pick(self.driver.find_element(By.ID, name), value)
-
-    def slide(self, name, value):
-        self.js("const e = document.getElementById(arguments[0]); e.value = arguments[1];"
-                "e.dispatchEvent(new Event('input', {bubbles: true}));", name, str(value))
+        self.pick(of_key(key, part), value)
 
     def write_text(self, text):
         """Replaces the text in the editor as typing does."""
@@ -127,9 +172,6 @@ class Page:
           document.getElementById("panel-setup").dispatchEvent(new DragEvent("drop",
             { dataTransfer: room, bubbles: true, cancelable: true }));""", name, base64.b64encode(content).decode())
 
-    def picture(self):
-        return self.js("const s = plyform_setup.area.view.stage; s.draw(); return s.canvas.toDataURL()")
-
     def changes_picture(self, act):
         before = self.picture()
         act()
@@ -144,7 +186,8 @@ class Page:
           const from = [[box.min.x, box.min.y], [box.max.x, box.min.y]][corner];
           const point = new T.Vector3(from[0], from[1], z).lerp(box.getCenter(new T.Vector3()), inwards);
           const p = view.stage.pixelOf(view.bodies, point); return [p.x, p.y];""", ply, corner, inwards)
-        for kind in ("mousePressed", "mouseReleased"):
-            self.driver.execute_cdp_cmd("Input.dispatchMouseEvent", {
-                "type": kind, "x": x, "y": y, "button": "left", "clickCount": 1,
-                "buttons": 1 if kind == "mousePressed" else 0})
+        self.click_at(x, y)
+
+
+def of_key(key, part=""):
+    return f'[data-key="{key}"][data-part="{part}"]'

@@ -19,7 +19,7 @@ import time
 from pathlib import Path
 
 from studio_server import Server
-from report_browser import Browser
+from studio_page import Page as AnyPage
 
 import ezdxf
 
@@ -46,45 +46,16 @@ def summary_of(folder, name):
     return json.loads((folder / "results" / name / "summary.json").read_text(encoding="utf-8"))
 
 
-class Page:
-    """The workbench in a browser."""
-
-    def __init__(self, server, browser):
-        self.server, self.browser, self.driver = server, browser, browser.driver
+class Page(AnyPage):
+    def __init__(self, server):
+        super().__init__(1440, 1000)
+        self.server = server
 
     def open(self, rest=""):
-        self.driver.get("about:blank")
-        self.driver.get(self.server.address + rest)
-
-    def js(self, script, *arguments):
-        return self.driver.execute_script(script, *arguments)
-
-    def until(self, expression, seconds=120.0):
-        """The value of an expression as soon as it is true."""
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            if value := self.js(f"return {expression}"):
-                return value
-            time.sleep(0.05)
-        raise AssertionError(f"not within {seconds} s: {expression}; trouble: "
-                             f"{self.text('#trouble')}; {self.browser.errors()}")
-
-    def find(self, selector):
-        return self.driver.find_element("css selector", selector)
+        self.go(self.server, rest.lstrip("#"))
 
     def all(self, selector):
         return self.driver.find_elements("css selector", selector)
-
-    def text(self, selector):
-        return self.js("return document.querySelector(arguments[0]).textContent", selector)
-
-    def click(self, selector):
-        self.js("document.querySelector(arguments[0]).scrollIntoView({block: 'center'})", selector)
-        self.find(selector).click()
-
-    def choose(self, selector, value):
-        self.js("const e = document.querySelector(arguments[0]); e.value = arguments[1];"
-                "e.dispatchEvent(new Event('change', {bubbles: true}));", selector, value)
 
     def run(self, folder):
         return f"#results-list input[data-folder={json.dumps(folder)}]"
@@ -92,9 +63,9 @@ class Page:
     def frame(self):
         """Into the report, when it is shown."""
         self.driver.switch_to.default_content()
-        self.until("document.getElementById('report-frame')")
+        self.when("return document.getElementById('report-frame')")
         self.driver.switch_to.frame("report-frame")
-        self.until("document.documentElement.dataset.ready")
+        self.when("return document.documentElement.dataset.ready")
         assert self.js("return document.documentElement.dataset.ready") != "failed"
 
     def out(self):
@@ -109,21 +80,20 @@ class Page:
 
 def check_list(page):
     page.open("#results")
-    page.until("document.querySelectorAll('#results-list input').length === 3")
+    page.when("return document.querySelectorAll('#results-list input').length === 3")
     listed = [box.get_attribute("data-folder") for box in page.all("#results-list input")]
     assert listed == ["results/c", "results/b", "results/a"], listed  # the newest first
-    words = page.text("#results-list li")
+    words = page.texts("#results-list li")[0]
     assert "largest shear" in words and "force of punch" in words and "°" in words, words
-    page.find("#results-filter").send_keys("ults/b")
-    page.until("document.querySelectorAll('#results-list input').length === 1")
-    page.js("const e = document.getElementById('results-filter'); e.value = '';"
-            "e.dispatchEvent(new Event('input'))")
-    page.until("document.querySelectorAll('#results-list input').length === 3")
+    page.type("#results-filter", "ults/b")
+    page.when("return document.querySelectorAll('#results-list input').length === 1")
+    page.type("#results-filter", "")
+    page.when("return document.querySelectorAll('#results-list input').length === 3")
     assert "Choose a run" in page.text("#report-words")
 
 
 def check_report(page, folder):
-    page.click(page.run("results/a"))
+    page.press(page.run("results/a"))
     page.frame()
     most = max(ply["max_shear_deg"] for ply in summary_of(folder, "a")["plies"])
     assert page.text(".cards .figure") == f"{most:.1f}°"
@@ -132,9 +102,9 @@ def check_report(page, folder):
     page.driver.execute_async_script("setTimeout(arguments[0], 500)")
     assert page.js("return document.getElementById('canvas').toDataURL()") != before  # it can be turned
     page.out()
-    page.click(page.run("results/b"))
-    page.until("document.documentElement.dataset.results === 'report 2'")
-    page.until(f"{TITLE}.includes(',')")
+    page.press(page.run("results/b"))
+    page.when("return document.documentElement.dataset.results === 'report 2'")
+    page.when(f"return {TITLE}.includes(',')")
     titles = page.titles()
     assert len(titles) == 2 and "(a)" in titles[0] and "(b)" in titles[1], titles
     letters = [one.text for one in page.all("#results-list .letter")]
@@ -149,9 +119,9 @@ def check_report(page, folder):
     path.write_text(path.read_text(encoding="utf-8") + "\n", encoding="utf-8")
     answer = page.server.send("api/results/report", {"folders": ["results/a", "results/b"]})
     assert answer["key"] != key and not answer["ready"]
-    page.click(page.run("results/c"))
-    page.until("document.documentElement.dataset.results === 'report 3'")
-    page.until(f"{TITLE}.split(',').length === 3")
+    page.press(page.run("results/c"))
+    page.when("return document.documentElement.dataset.results === 'report 3'")
+    page.when(f"return {TITLE}.split(',').length === 3")
     assert len(page.titles()) == 3
 
 
@@ -170,9 +140,9 @@ def check_unfinished(page, folder):
     os.replace(place / "new", place / "results.h5")
     page.server.get("api/results")
     page.js("window.dispatchEvent(new Event('hashchange'))")
-    page.until("document.getElementById('report-words').textContent.includes('More has been written')")
-    page.click("#report-anew")
-    page.until(f"![undefined, '{first}'].includes((document.getElementById('report-frame') || {{}}).src)")
+    page.when("return document.getElementById('report-words').textContent.includes('More has been written')")
+    page.press("#report-anew")
+    page.when(f"return ![undefined, '{first}'].includes((document.getElementById('report-frame') || {{}}).src)")
     page.frame()
     page.out()
     shutil.rmtree(place)
@@ -186,14 +156,14 @@ def check_figures(page, folder, downloads):
     summary["verification"] = {"figures": [{"name": "force of punch", "unit": "N", "value": force, "band": 7.5}]}
     path.write_text(json.dumps(summary), encoding="utf-8")
     page.open("#results")
-    page.until("document.querySelectorAll('#results-list input').length === 3")
-    page.click("#results-all")
-    page.until("document.documentElement.dataset.results === 'report 3'")
-    page.click("#results-figures")
-    page.until("document.querySelectorAll('#figures-chart circle.point').length === 3")
+    page.when("return document.querySelectorAll('#results-list input').length === 3")
+    page.press("#results-all")
+    page.when("return document.documentElement.dataset.results === 'report 3'")
+    page.press("#results-figures")
+    page.when("return document.querySelectorAll('#figures-chart circle.point').length === 3")
     assert "over run" in page.js("return document.querySelector('#figures-chart svg').getAttribute('aria-label')")
-    page.choose("#figures-figure", "force of punch")
-    page.choose("#figures-over", "contact.friction")
+    page.pick("#figures-figure", "force of punch")
+    page.pick("#figures-over", "contact.friction")
     points = page.js("return [...document.querySelectorAll('#figures-chart circle.point title')].map((t) => t.textContent)")
     forces = {name: next(tool["force_N"] for tool in summary_of(folder, name)["tools"] if tool["name"] == "punch")
               for name in RUNS}
@@ -204,9 +174,9 @@ def check_figures(page, folder, downloads):
         assert abs(numbers[0] - float(friction)) < 1e-9 and abs(numbers[1] - forces[name]) < 0.6, point
     assert len(page.all("#figures-chart polyline")) == 1  # the band of b
     assert len(page.all("#figures-table tbody tr")) == 3
-    page.choose("#figures-over", "ply.ply1.angle")
-    page.until("document.querySelector('#figures-chart svg').getAttribute('aria-label').includes('ply.ply1.angle')")
-    page.click("#figures-csv")
+    page.pick("#figures-over", "ply.ply1.angle")
+    page.when("return document.querySelector('#figures-chart svg').getAttribute('aria-label').includes('ply.ply1.angle')")
+    page.press("#figures-csv")
     rows = list(csv.DictReader(io.StringIO(downloaded(downloads, "runs.csv").decode())))
     order = sorted(RUNS, key=lambda name: (folder / "results" / name / "summary.json").stat().st_mtime)
     assert [row["run"] for row in rows] == [f"results/{name}" for name in order], rows  # by their age
@@ -218,8 +188,8 @@ def check_figures(page, folder, downloads):
         assert float(row["time, s"]) == summary["wall_time_s"]
     assert [row["band of force of punch, N"] for row in rows] == [{"b": "7.5"}.get(name, "") for name in order]
     assert [row["contact.friction"] for row in rows] == [RUNS[name][0].partition("=")[2] for name in order]
-    page.click("#figures-chart circle.point")  # a point leads to its run
-    page.until("document.documentElement.dataset.results === 'report 1'")
+    page.press("#figures-chart circle.point")  # a point leads to its run
+    page.when("return document.documentElement.dataset.results === 'report 1'")
 
 
 def downloaded(downloads, name, seconds=30.0):
@@ -235,7 +205,7 @@ def downloaded(downloads, name, seconds=30.0):
 
 def check_differences(page, folder):
     page.open("#results/differences/results%2Fa|results%2Fc")
-    page.until("document.querySelectorAll('#differences-keys tbody tr').length > 0")
+    page.when("return document.querySelectorAll('#differences-keys tbody tr').length > 0")
     rows = {row.find_element("css selector", "th").text: [cell.text for cell in row.find_elements("css selector", "td")]
             for row in page.all("#differences-keys tbody tr")}
     assert rows == {"contact.friction": ["0.2", "0.3"], "ply.ply1.angle": ["0", "45"]}, rows
@@ -245,12 +215,12 @@ def check_differences(page, folder):
     shown = float(figures["force of punch"][2].replace(",", ""))
     assert abs(shown - (other["punch"] - first["punch"])) < 0.6, (figures["force of punch"], first, other)
     page.open("#results/differences/results%2Fa|results%2Fa")
-    page.until("document.getElementById('differences-words').textContent.includes('give the same')")
+    page.when("return document.getElementById('differences-words').textContent.includes('give the same')")
 
 
 def finished(page, what, well=True):
     words = f"document.getElementById('{what}-words')"
-    page.until(f"{words}.textContent.startsWith('Done.') || {words}.classList.contains('bad')", 120.0)
+    page.when(f"return {words}.textContent.startsWith('Done.') || {words}.classList.contains('bad')", seconds=120)
     assert page.js(f"return {words}.classList.contains('bad')") != well, page.text(f"#{what}-words")
     return page.text(f"#{what}-words")
 
@@ -258,29 +228,29 @@ def finished(page, what, well=True):
 def check_exports(page, folder, downloads):
     """Each of the three, then what lies in the folder is the same as what is saved of it."""
     page.open("#results/files/results%2Fa")
-    page.until("document.querySelectorAll('#exports-files tr').length > 3")
-    page.click("#export-gltf")
-    page.click("#export-go")
+    page.when("return document.querySelectorAll('#exports-files tr').length > 3")
+    page.press("#export-gltf")
+    page.press("#export-go")
     finished(page, "export")
     assert {path.name for path in (folder / "results/a/export").iterdir()} == {"ply1.vtu", "ply2.vtu", "state.glb"}
     assert " export " in page.text("#export-form .command")
-    page.click("#map-abaqus")
-    page.click("#map-two")
-    page.click("#map-go")
+    page.press("#map-abaqus")
+    page.press("#map-two")
+    page.press("#map-go")
     finished(page, "map")
     assert list((folder / "results/a/map").glob("*.inp"))
-    page.click("#map-csv")
-    page.click("#map-abaqus")
-    page.click("#map-go")
-    page.until("document.getElementById('trouble').textContent.includes('formats')")  # none is chosen
-    page.click("#pattern-go")
-    page.until("document.getElementById('trouble').textContent.includes('name of a file')")  # no trim line
-    page.choose("#pattern-trim", "trim.csv")
-    page.click("#pattern-go")
+    page.press("#map-csv")
+    page.press("#map-abaqus")
+    page.press("#map-go")
+    page.when("return document.getElementById('trouble').textContent.includes('formats')")  # none is chosen
+    page.press("#pattern-go")
+    page.when("return document.getElementById('trouble').textContent.includes('name of a file')")  # no trim line
+    page.pick("#pattern-trim", "trim.csv")
+    page.press("#pattern-go")
     assert "saved" in finished(page, "pattern")
-    page.until("document.querySelector('[data-name=\"pattern/ply1.dxf\"] button')")
-    page.click("[data-name='pattern/ply1.dxf'] button")
-    page.until("document.querySelectorAll('#exports-drawing polyline').length === 2")
+    page.when("return document.querySelector('[data-name=\"pattern/ply1.dxf\"] button')")
+    page.press("[data-name='pattern/ply1.dxf'] button")
+    page.when("return document.querySelectorAll('#exports-drawing polyline').length === 2")
     drawn = page.js("const b = document.querySelector('#exports-drawing polyline[data-layer=CUT]').getBBox();"
                     "return [b.x, -b.y - b.height, b.x + b.width, -b.y]")
     outline = next(iter(ezdxf.readfile(folder / "results/a/pattern/ply1.dxf").modelspace().query("LWPOLYLINE")))
@@ -289,25 +259,24 @@ def check_exports(page, folder, downloads):
     assert max(abs(one - other) for one, other in zip(drawn, there)) < 1e-2, (drawn, there)
     assert "ply1" in page.text("#exports-drawing text")
     for name in ("pattern/ply1.dxf", "export/state.glb", "summary.json"):
-        page.click(f"[data-name='{name}'] a")
+        page.press(f"[data-name='{name}'] a")
         assert downloaded(downloads, name.rpartition("/")[2]) == (folder / "results/a" / name).read_bytes()
 
 
 def check_clicks(folder):
     downloads = folder / "downloads"
     downloads.mkdir()
-    with Server(TOOLS, PROGRAM, folder / "folder") as server, Browser(1440, 1000) as browser:
+    with Server(TOOLS, PROGRAM, folder / "folder") as server, Page(server) as page:
         made(server.folder)
-        browser.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {
+        page.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {
             "behavior": "allow", "downloadPath": str(downloads)})
-        page = Page(server, browser)
         check_list(page)
         check_report(page, server.folder)
         check_unfinished(page, server.folder)
         check_figures(page, server.folder, downloads)
         check_differences(page, server.folder)
         check_exports(page, server.folder, downloads)
-        others = [url for url in browser.requests() if not url.startswith((server.origin, "data:", "blob:", "about:"))]
+        others = [url for url in page.requests() if not url.startswith((server.origin, "data:", "blob:", "about:"))]
         assert not others, others
 
 
@@ -363,11 +332,11 @@ def check_hostile_runs(page, folder):
     summary["case"]["contact.friction"] = EVIL
     (place / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
     page.open("#results")
-    page.until("document.querySelectorAll('#results-list input').length === 4")
+    page.when("return document.querySelectorAll('#results-list input').length === 4")
     for box in page.js("return [...document.querySelectorAll('#results-list input')]"):
         if box.get_attribute("data-folder") in ("results/a", f"results/{HOSTILE_NAME}"):
             box.click()
-    page.until("document.documentElement.dataset.results === 'report 2'")
+    page.when("return document.documentElement.dataset.results === 'report 2'")
     titles = page.titles()
     assert any(EVIL in title for title in titles), titles
     page.frame()
@@ -375,8 +344,8 @@ def check_hostile_runs(page, folder):
     page.out()
     check_frame(page)
     for tab, there in (("figures", "#figures-table td"), ("differences", "#differences-keys td"), ("files", "#exports-files td")):
-        page.click(f"#results-{tab}")
-        page.until(f"document.querySelector('{there}')")
+        page.press(f"#results-{tab}")
+        page.when(f"return document.querySelector('{there}')")
     assert page.js("return window.evil === undefined && !document.querySelector('img')")
     shutil.rmtree(place)
 
@@ -469,12 +438,12 @@ def check_links(server, folder):
 
 
 def check_safe(folder):
-    with Server(TOOLS, PROGRAM, folder / "folder") as server, Browser(1440, 1000) as browser:
+    with Server(TOOLS, PROGRAM, folder / "folder") as server, Page(server) as page:
         made(server.folder)
         check_files(server, server.folder)
         check_commands(server, server.folder)
         check_links(server, server.folder)
-        check_hostile_runs(Page(server, browser), server.folder)
+        check_hostile_runs(page, server.folder)
 
 
 def main():

@@ -15,10 +15,8 @@ import sys
 import time
 from pathlib import Path
 
-import h5py
-import numpy as np
-from report_browser import Browser, By
-from selenium.common.exceptions import WebDriverException
+from studio_page import Page as AnyPage
+from studio_results import same_results
 from studio_server import Server
 
 PART = sys.argv[1]
@@ -56,60 +54,28 @@ checkpoint_interval = 1.0
 """
 
 
-class Page(Browser):
-    def go(self, server, rest="#runs"):
-        self.driver.get("about:blank")
-        self.driver.get(server.address + rest)
-        self.until("return document.documentElement.dataset.ready && document.querySelector('#run-threads').value")
-
-    def until(self, script, *arguments, seconds=60):
-        end = time.monotonic() + seconds
-        while time.monotonic() < end:
-            if found := self.js(script, *arguments):
-                return found
-            time.sleep(0.05)
-        raise AssertionError(f"{script} {arguments}: has not come about; {self.errors()}; "
-                             f"{self.js('return document.body.innerText')}")
-
-    def press(self, selector):
-        """As soon as it can be pressed; the list is made anew whenever it changes."""
-        for _ in range(100):
-            try:
-                found = self.driver.find_element(By.CSS_SELECTOR, selector)
-                self.js("arguments[0].scrollIntoView({block: 'center'})", found)
-                if found.is_enabled() and found.is_displayed():
-                    found.click()
-                    return
-            except WebDriverException:  # replaced, or below another just now
-                pass
-            time.sleep(0.1)
-        raise AssertionError(f"{selector} cannot be pressed: {self.js('return document.body.innerText')}")
-
-    def fill(self, selector, text):
-        field = self.find(selector)
-        field.clear()
-        field.send_keys(text)
+class Page(AnyPage):
+    def go(self, server, rest="runs"):
+        super().go(server, rest)
+        self.when("return document.querySelector('#run-threads').value")
 
     def run(self, case, name="", **more):
-        self.fill("#run-case", case)
+        self.type("#run-case", case)
         if not self.js("return document.querySelector('.runs-start details').open"):
             self.press("#run-more")
-        self.fill("#run-name", name)
+        self.type("#run-name", name)
         for key, value in {"accuracy": "", **more}.items():
             if key == "accuracy":
-                self.js("const e = document.getElementById('run-accuracy'); e.value = arguments[0];", value)
+                self.pick("#run-accuracy", value)
             else:
-                self.fill(f"#run-{key}", str(value))
+                self.type(f"#run-{key}", str(value))
         self.press("#run-start")
 
     def state(self, name, *states, seconds=60):
         """Waits for a state of a run in the list."""
-        return self.until("const row = document.querySelector(`li[data-folder=\"${arguments[0]}\"]`);"
+        return self.when("const row = document.querySelector(`li[data-folder=\"${arguments[0]}\"]`);"
                           "return row && arguments[1].includes(row.dataset.state) && row.dataset.state",
                           f"results/{name}", states, seconds=seconds)
-
-    def text(self, selector):
-        return self.js("return document.querySelector(arguments[0]).textContent", selector)
 
     def scene(self, key):
         return self.js("return document.getElementById('run-picture').dataset[arguments[0]]", key)
@@ -139,20 +105,6 @@ def filled(server):
     (server.folder / "cases/hemisphere_0/broken.toml").write_text(broken)
 
 
-def same_results(a, b):
-    assert (a / "history.csv").read_bytes() == (b / "history.csv").read_bytes(), "history.csv differs"
-    found = []
-    with h5py.File(a / "results.h5") as one, h5py.File(b / "results.h5") as other:
-        def compare(name, data):
-            if isinstance(data, h5py.Dataset):
-                assert np.array_equal(data[()], other[name][()], equal_nan=True), name
-                found.append(name)
-        one.visititems(compare)
-        names = []
-        other.visititems(lambda name, data: names.append(name) if isinstance(data, h5py.Dataset) else None)
-    assert found == names and len(found) > 100, len(found)
-
-
 def started():
     """From the button to the picture of its last state, its words, and the same by command line."""
     with Server(TOOLS, PROGRAM) as server, Page() as page:
@@ -161,13 +113,13 @@ def started():
         assert "No runs yet" in page.js("return document.body.innerText")
         page.run(QUICK, "first", accuracy="draft", threads=2)
         page.state("first", "doubtful")
-        page.until("return location.hash === '#runs/results/first'")
-        page.until("return document.getElementById('run-picture').dataset.state === '20'")
+        page.when("return location.hash === '#runs/results/first'")
+        page.when("return document.getElementById('run-picture').dataset.state === '20'")
         assert float(page.scene("moved")) > 50.0
         assert "state 21 of 21: 75.00 mm" in page.text("#run-state-words")
         assert "do not trust ply where die cuts into it" in page.text("#run-message")
         assert "elements 2.8 times smaller" in page.text("#run-message")  # the remedy
-        page.until("return document.getElementById('run-log').textContent.includes('results are in')")
+        page.when("return document.getElementById('run-log').textContent.includes('results are in')")
         assert "tensile stiffness" in page.text("#run-said") and page.js(
             "return document.querySelectorAll('#run-said li').length") >= 2
         command = page.text("#run-command")
@@ -177,44 +129,43 @@ def started():
         same_results(server.folder / "results/first", server.folder / "results/by_hand")
         page.state("by_hand", "doubtful")  # found, though it was not begun here
         # states are gone through
-        page.js("const e = document.getElementById('run-states'); e.value = 5;"
-                "e.dispatchEvent(new Event('input', {bubbles: true}));")
-        page.until("return document.getElementById('run-picture').dataset.state === '5'")
+        page.slide("#run-states", 5)
+        page.when("return document.getElementById('run-picture').dataset.state === '5'")
         page.press("#run-play")
-        page.until("return document.getElementById('run-picture').dataset.state === '20'")
+        page.when("return document.getElementById('run-picture').dataset.state === '20'")
         for view in ("top", "front", "side", "oblique"):
             page.press(f"button[data-view={view}]")
         assert page.colours() > 100, page.colours()  # of the shear angle
         # a mistake is told where it is
         page.run("cases/hemisphere_0/broken.toml", "bad", accuracy="")
         page.state("bad", "failed")
-        page.until("return document.getElementById('run-message').textContent.includes('broken.toml:')")
+        page.when("return document.getElementById('run-message').textContent.includes('broken.toml:')")
         assert "radius" in page.text("#run-message"), page.text("#run-message")
         # more than the budget
         page.run("long/case.toml", "dear", budget=1)
         page.state("dear", "failed")
-        page.until("return document.getElementById('run-message').textContent.includes('--budget 1')")
+        page.when("return document.getElementById('run-message').textContent.includes('--budget 1')")
         # the name that is taken; the one that is none
-        page.fill("#run-budget", "")
+        page.type("#run-budget", "")
         page.run(QUICK, "first")
-        page.until("return document.getElementById('trouble').textContent.includes('is there already')")
+        page.when("return document.getElementById('trouble').textContent.includes('is there already')")
         # deleted: asked, kept, deleted
         (server.folder / "results/first/notes.txt").write_text("mine")
         page.press("button[data-act='choose results/first']")
-        page.until("return document.getElementById('run-title').textContent === 'first'")
+        page.when("return document.getElementById('run-title').textContent === 'first'")
         page.press("#run-delete")
         page.press("#run-keep")
         assert (server.folder / "results/first/results.h5").exists()
         page.press("#run-delete")
         page.press("#run-delete-really")
-        page.until("return document.getElementById('trouble').textContent.includes('notes.txt')")
-        page.until("return !document.querySelector('li[data-folder=\"results/first\"]')")
+        page.when("return document.getElementById('trouble').textContent.includes('notes.txt')")
+        page.when("return !document.querySelector('li[data-folder=\"results/first\"]')")
         assert os.listdir(server.folder / "results/first") == ["notes.txt"]
         page.press("button[data-act='choose results/by_hand']")
-        page.until("return document.getElementById('run-title').textContent === 'by_hand'")
+        page.when("return document.getElementById('run-title').textContent === 'by_hand'")
         page.press("#run-delete")
         page.press("#run-delete-really")
-        page.until("return !document.querySelector('li[data-folder=\"results/by_hand\"]')")
+        page.when("return !document.querySelector('li[data-folder=\"results/by_hand\"]')")
         assert not (server.folder / "results/by_hand").exists()
         others = [address for address in page.requests() if not address.startswith((server.address, "data:", "blob:"))]
         assert all(address == "about:blank" or address.startswith("chrome") for address in others), others
@@ -229,12 +180,12 @@ def watched():
         begin = time.monotonic()
         page.run("long/case.toml", "long", threads=1)
         page.state("long", "running")
-        page.until("return Number(document.getElementById('run-picture').dataset.moved) > 0")
+        page.when("return Number(document.getElementById('run-picture').dataset.moved) > 0")
         print(f"the first moving ply after {time.monotonic() - begin:.1f} s")
-        page.until("return document.getElementById('run-picture').dataset.step > 0")
+        page.when("return document.getElementById('run-picture').dataset.step > 0")
         first = int(page.scene("step"))
-        page.until("return document.getElementById('run-picture').dataset.step > arguments[0]", first)
-        page.until("return /forms the plies, \\d+ %, about .* left/.test("
+        page.when("return document.getElementById('run-picture').dataset.step > arguments[0]", first)
+        page.when("return /forms the plies, \\d+ %, about .* left/.test("
                    "document.getElementById('run-words').textContent)")
         second.state("long", "running")
         for name in "abc":
@@ -242,16 +193,16 @@ def watched():
             page.state(name, "queued")
         assert page.queue() == [f"results/{name}" for name in "abc"]
         page.press("button[data-act='earlier results/c']")
-        page.until("return document.querySelectorAll('#runs-queue li')[1].dataset.folder === 'results/c'")
+        page.when("return document.querySelectorAll('#runs-queue li')[1].dataset.folder === 'results/c'")
         page.press("button[data-act='later results/a']")
-        page.until("return document.querySelectorAll('#runs-queue li')[0].dataset.folder === 'results/c'")
-        second.until("return document.querySelectorAll('#runs-queue li')[0].dataset.folder === 'results/c'")
+        page.when("return document.querySelectorAll('#runs-queue li')[0].dataset.folder === 'results/c'")
+        second.when("return document.querySelectorAll('#runs-queue li')[0].dataset.folder === 'results/c'")
         second.press("button[data-act='out results/b']")
         page.state("b", "taken out")
         assert page.queue() == ["results/c", "results/a"]
         page.press("button[data-act='choose results/long']")
-        page.until("return document.getElementById('run-title').textContent === 'long'")
-        page.until("return document.getElementById('run-stop')")
+        page.when("return document.getElementById('run-title').textContent === 'long'")
+        page.when("return document.getElementById('run-stop')")
         time.sleep(1.5)  # one checkpoint
         page.press("#run-stop")
         page.state("long", "interrupted")
@@ -260,9 +211,9 @@ def watched():
             second.state(name, "doubtful")
         page.press("#run-resume")
         page.state("long", "running")
-        page.until("return document.getElementById('run-log').textContent.includes('goes on after')")
+        page.when("return document.getElementById('run-log').textContent.includes('goes on after')")
         assert page.text("#run-command").endswith(" --resume")
-        page.until("return Number(document.getElementById('run-picture').dataset.step) > 0")
+        page.when("return Number(document.getElementById('run-picture').dataset.step) > 0")
         page.press("#run-stop")
         page.state("long", "interrupted")
         told = json.loads((server.folder / "results/long/summary.json").read_text())
@@ -285,7 +236,7 @@ def found():
         page.state("waits", "queued")
         pid = server.get("api/runs")[1]["record"]["pid"]
         server.stop(signal.SIGKILL)
-        page.until("return document.body.classList.contains('alone')")
+        page.when("return document.body.classList.contains('alone')")
         time.sleep(0.5)
         assert Path(f"/proc/{pid}").exists()
         server.start()
@@ -293,7 +244,7 @@ def found():
         assert page.state("long", "running") and page.state("waits", "queued") and page.state("done", "doubtful")
         assert next(r for r in server.get("api/runs") if r["name"] == "long")["record"]["pid"] == pid
         page.press("button[data-act='choose results/long']")
-        page.until("return Number(document.getElementById('run-picture').dataset.step) > 0")
+        page.when("return Number(document.getElementById('run-picture').dataset.step) > 0")
         page.press("#run-stop")
         page.state("long", "interrupted")
         page.state("waits", "doubtful")
@@ -301,21 +252,21 @@ def found():
                                 stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
         try:
             row = "const row = document.querySelector('li[data-folder=\"elsewhere/line\"]'); return row"
-            page.until(row + " && row.dataset.state === 'running'")
+            page.when(row + " && row.dataset.state === 'running'")
             page.press("button[data-act='choose elsewhere/line']")
-            page.until("return document.getElementById('run-shown').dataset.folder === 'elsewhere/line'")
+            page.when("return document.getElementById('run-shown').dataset.folder === 'elsewhere/line'")
             assert "Ctrl-C there ends it" in page.text(".run-acts")
-            page.until("return Number(document.getElementById('run-picture').dataset.step) > 0")
+            page.when("return Number(document.getElementById('run-picture').dataset.step) > 0")
             time.sleep(1.5)
         finally:
             line.kill()
             line.wait()
-        page.until(row + " && row.dataset.state === 'killed'")
+        page.when(row + " && row.dataset.state === 'killed'")
         assert "Resume goes on" in page.text("#run-message")
         page.press("#run-resume")
-        page.until(row + " && row.dataset.state === 'running'")
+        page.when(row + " && row.dataset.state === 'running'")
         page.press("#run-stop")
-        page.until(row + " && row.dataset.state === 'interrupted'")
+        page.when(row + " && row.dataset.state === 'interrupted'")
 
 
 def refused():

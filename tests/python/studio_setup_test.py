@@ -13,10 +13,9 @@ import tomllib
 from pathlib import Path
 
 from studio_server import Server
-from report_browser import Browser
 from selenium.webdriver.common.action_chains import ActionChains
 from selenium.webdriver.common.keys import Keys
-from studio_page import Page
+from studio_page import SetupPage as Page
 
 TOOLS, PROGRAM, CASES = (Path(name).resolve() for name in sys.argv[1:4])
 PICTURES = Path(sys.argv[4]) if len(sys.argv) > 4 else None
@@ -32,30 +31,30 @@ def folder_with_case(root: Path) -> Path:
 
 def outline_and_forms(page: Page) -> None:
     """Numbers, choices, references, lists; each is in the file at once, comments stay."""
-    before = page.text()
+    before = page.written()
     comments = [line.split("#", 1)[1] for line in before.splitlines() if "#" in line]
     page.item("ply.1")
-    page.type("ply.1.angle", "30")
+    page.key("ply.1.angle", "30")
     page.until(lambda: page.tree()["ply"][1]["angle"] == 30)
-    page.type("ply.1.seed", "5", part="0")
+    page.key("ply.1.seed", "5", part="0")
     page.until(lambda: page.tree()["ply"][1]["seed"] == [5, 0])
-    page.type("ply.1.angle", "")  # needed: taking it away is a mistake, told at the key
+    page.key("ply.1.angle", "")  # needed: taking it away is a mistake, told at the key
     page.until(lambda: "angle" not in page.tree()["ply"][1])
-    page.until(lambda: page.find('[data-at="ply.1"] , [data-at="ply.1.angle"]') is not None)
-    page.click("#undo")
+    page.until(lambda: page.seen('[data-at="ply.1"] , [data-at="ply.1.angle"]'))
+    page.press("#undo")
     page.until(lambda: page.tree()["ply"][1]["angle"] == 30)
     for comment in comments:
-        assert comment in page.text(), comment
+        assert comment in page.written(), comment
     page.item("tool.0")
     page.choose("tool.0.motion", "fixed")  # what goes with driven only goes away too
     page.until(lambda: page.tree()["tool"][0].get("motion") == "fixed")
     assert "stroke" not in page.tree()["tool"][0]
-    page.click("#undo")
+    page.press("#undo")
     page.until(lambda: page.tree()["tool"][0]["motion"] == "driven" and "stroke" in page.tree()["tool"][0])
-    page.click("#redo")
+    page.press("#redo")
     page.until(lambda: page.tree()["tool"][0]["motion"] == "fixed")
-    page.click("#undo")
-    page.until(lambda: page.text().count("stroke") > 0)
+    page.press("#undo")
+    page.until(lambda: page.written().count("stroke") > 0)
 
 
 def either_or(page: Page) -> None:
@@ -63,70 +62,70 @@ def either_or(page: Page) -> None:
     page.item("tool.0")
     page.choose("tool.0.stroke", "tool[].stroke_programme", part="way")
     page.until(lambda: "stroke" not in page.tree()["tool"][0])
-    page.click('[data-list="tool.0.stroke_programme"] + [data-act="add-row"]')
+    page.press('[data-list="tool.0.stroke_programme"] + [data-act="add-row"]')
     page.until(lambda: page.tree()["tool"][0].get("stroke_programme") == [[0, 0]])
-    page.type("tool.0.stroke_programme", "1", part="0.0")
+    page.key("tool.0.stroke_programme", "1", part="0.0")
     page.until(lambda: page.tree()["tool"][0]["stroke_programme"] == [[1, 0]])
-    page.type("tool.0.stroke_programme", "70", part="0.1")
+    page.key("tool.0.stroke_programme", "70", part="0.1")
     page.until(lambda: page.tree()["tool"][0]["stroke_programme"] == [[1, 70]])
 
 
 def items(page: Page) -> None:
     """Added, copied, moved, removed, renamed."""
     count = len(page.tree()["ply"])
-    page.click('[data-add="ply"]')
+    page.press('[data-add="ply"]')
     page.until(lambda: len(page.tree()["ply"]) == count + 1)
-    page.click('[data-item="ply.0"] button.item')
-    page.click('[data-item="ply.0"] [data-act="copy"]')
+    page.press('[data-item="ply.0"] button.item')
+    page.press('[data-item="ply.0"] [data-act="copy"]')
     page.until(lambda: len(page.tree()["ply"]) == count + 2)
     names = [ply["name"] for ply in page.tree()["ply"]]
     assert len(set(names)) == len(names), names
     page.item("ply.1")
-    page.click('[data-item="ply.1"] [data-act="up"]')
+    page.press('[data-item="ply.1"] [data-act="up"]')
     page.until(lambda: page.tree()["ply"][0]["name"] == names[1])
     page.item("ply.0")
-    page.click('[data-item="ply.0"] [data-act="down"]')
+    page.press('[data-item="ply.0"] [data-act="down"]')
     page.until(lambda: page.tree()["ply"][1]["name"] == names[1])
     for _ in range(2):
         last = len(page.tree()["ply"]) - 1
         page.item(f"ply.{last}")
-        page.click(f'[data-item="ply.{last}"] [data-act="remove"]')
+        page.press(f'[data-item="ply.{last}"] [data-act="remove"]')
         page.until(lambda: len(page.tree()["ply"]) == last)
-    page.click('[data-add="tool"]')
+    page.press('[data-add="tool"]')
     page.until(lambda: page.tree()["tool"][-1]["shape"] == "sphere")
-    page.click("#undo")
-    page.click('[data-add="blanks"]')
+    page.press("#undo")
+    page.press('[data-add="blanks"]')
     page.until(lambda: len(page.tree()["blanks"]) == 2)
-    page.click("#undo")
+    page.press("#undo")
     page.until(lambda: len(page.tree()["blanks"]) == 1)
     blank = next(iter(page.tree()["blanks"]))
     page.item(f"blanks.{blank}")
-    page.type(f"blanks.{blank}", "sheet", part="name")
+    page.key(f"blanks.{blank}", "sheet", part="name")
     page.until(lambda: list(page.tree()["blanks"]) == ["sheet"])
     assert all(ply["blank"] == "sheet" for ply in page.tree()["ply"])
 
 
 def fabrics(page: Page, folder: Path) -> None:
     """Added by a dialogue; its own file is edited in its form."""
-    page.click('[data-add="fabrics"]')
-    page.choose_id("add-fabric-path", "../fabrics/ncf_biaxial_pillar.toml")
-    page.type_id("add-fabric-name", "ncf")
-    page.click("#add-fabric-go")
+    page.press('[data-add="fabrics"]')
+    page.pick("#add-fabric-path", "../fabrics/ncf_biaxial_pillar.toml")
+    page.type("#add-fabric-name", "ncf")
+    page.press("#add-fabric-go")
     page.until(lambda: page.tree()["fabrics"].get("ncf") == "../fabrics/ncf_biaxial_pillar.toml")
-    page.until(lambda: page.find('[data-key="fabrics.ncf.thickness"]') is not None)
+    page.until(lambda: page.seen('[data-key="fabrics.ncf.thickness"]'))
     file = folder / "fabrics" / "ncf_biaxial_pillar.toml"
     before = tomllib.loads(file.read_text())["thickness"]
-    page.type("fabrics.ncf.thickness", "0.77")
+    page.key("fabrics.ncf.thickness", "0.77")
     page.until(lambda: tomllib.loads(file.read_text())["thickness"] == 0.77)
-    page.click("#undo")  # takes back what was changed last, in whatever file
+    page.press("#undo")  # takes back what was changed last, in whatever file
     page.until(lambda: tomllib.loads(file.read_text())["thickness"] == before)
     assert page.tree()["fabrics"].get("ncf")
-    page.click("#redo")
+    page.press("#redo")
     page.until(lambda: tomllib.loads(file.read_text())["thickness"] == 0.77)
     stitches = len(tomllib.loads(file.read_text())["stitch"])
-    page.click('[data-add="fabrics.ncf.stitch"]')
+    page.press('[data-add="fabrics.ncf.stitch"]')
     page.until(lambda: len(tomllib.loads(file.read_text())["stitch"]) == stitches + 1)
-    page.click(f'[aria-label="Remove fabrics.ncf.stitch.{stitches}"]')
+    page.press(f'[aria-label="Remove fabrics.ncf.stitch.{stitches}"]')
     page.until(lambda: len(tomllib.loads(file.read_text())["stitch"]) == stitches)
 
 
@@ -138,7 +137,7 @@ def onto_the_stack(page: Page) -> None:
     for other in (-0.8, 25.0):
         page.type(f"tool.{at}.position", f"{place[2] + other:.4f}", part="2")
         page.until(lambda: abs(page.js("return plyform_setup.scene.tools[arguments[0]].gap.mm", at) - other) < 1e-3)
-        page.click("#touch-stack")
+        page.press("#touch-stack")
         page.until(lambda: abs(page.tree()["tool"][at]["position"][2] - place[2]) < 1e-3)
 
 
@@ -164,65 +163,65 @@ def simplified_tools(page: Page) -> None:
 def text_beside(page: Page) -> None:
     """Both ways; what is no TOML is told with its line and not saved."""
     page.item("case")
-    page.type("title", "Set by the form")
+    page.key("title", "Set by the form")
     page.until(lambda: "Set by the form" in page.js("return plyform_setup.editor.mirror.getValue()"))
-    saved = page.text()
+    saved = page.written()
     page.write_text(saved.replace("Set by the form", "Set by the text"))
     page.until(lambda: page.tree()["title"] == "Set by the text")
     page.until(lambda: page.value("title") == "Set by the text")
-    saved = page.text()
+    saved = page.written()
     page.write_text(saved + "\n[[tool\n")
     line = saved.count("\n") + 2
-    page.until(lambda: f"line {line}" in page.words("#toml-note") and "not saved" in page.words("#toml-note"))
-    assert page.text() == saved
-    assert page.find(f'.fault[data-line="{line}"]') is not None
-    page.click("#toml-revert")
+    page.until(lambda: f"line {line}" in page.text("#toml-note") and "not saved" in page.text("#toml-note"))
+    assert page.written() == saved
+    assert page.seen(f'.fault[data-line="{line}"]')
+    page.press("#toml-revert")
     page.until(lambda: page.js("return plyform_setup.editor.mirror.getValue()") == saved)
-    page.click("#show-toml")
+    page.press("#show-toml")
     assert not page.find("#toml").is_displayed()
-    page.click("#show-toml")
+    page.press("#show-toml")
     assert page.find("#toml").is_displayed()
 
 
 def mistakes(page: Page) -> None:
     """At the key, in the outline, in the scene, in the text, in the list, which leads there."""
-    page.until(lambda: "wrong" not in page.find("#check-state").get_attribute("class"), 120)
+    page.until(lambda: "wrong" not in page.find("#check-state").get_attribute("class"), seconds=120)
     page.item("ply.1")
-    page.type("ply.1.name", page.tree()["ply"][0]["name"])
-    page.until(lambda: page.find(".fault-words:not(.warning)") is not None, 120)
-    assert page.find('[data-item="ply.1"] b.wrong') is not None
-    assert page.find(".fault-line") is not None
-    page.until(lambda: page.find(".callout.wrong") is not None, 30)
+    page.key("ply.1.name", page.tree()["ply"][0]["name"])
+    page.until(lambda: page.seen(".fault-words:not(.warning)"), seconds=120)
+    assert page.seen('[data-item="ply.1"] b.wrong')
+    assert page.seen(".fault-line")
+    page.until(lambda: page.seen(".callout.wrong"), seconds=30)
     page.item("case")
-    page.click(".fault-words:not(.warning)")
+    page.press(".fault-words:not(.warning)")
     page.until(lambda: page.js("return plyform_setup.chosen") == "ply.1")
-    assert page.find('[data-at="ply.1.name"] .words') is not None
-    page.click("#undo")
-    page.until(lambda: page.find(".fault-words:not(.warning)") is None, 120)
+    assert page.seen('[data-at="ply.1.name"] .words')
+    page.press("#undo")
+    page.until(lambda: not page.seen(".fault-words:not(.warning)"), seconds=120)
 
 
 def scene_controls(page: Page) -> None:
     """Every control of the picture changes it."""
-    page.until(lambda: page.js("return Boolean(plyform_setup.scene)"), 60)
+    page.until(lambda: page.js("return Boolean(plyform_setup.scene)"), seconds=60)
     for control in ("top", "bottom", "front", "side", "oblique"):
-        page.changes_picture(lambda c=control: page.click(f"#scene-view-{c}"))
+        page.changes_picture(lambda c=control: page.press(f"#scene-view-{c}"))
     for value in ("solid", "hidden", "outlines"):
-        page.changes_picture(lambda v=value: page.choose_id("scene-tools", v))
-    page.changes_picture(lambda: page.choose_id("scene-yarns", "5"))
+        page.changes_picture(lambda v=value: page.pick("#scene-tools", v))
+    page.changes_picture(lambda: page.pick("#scene-yarns", "5"))
     for value in ("x", "y", "level", "angle"):
-        page.changes_picture(lambda v=value: page.choose_id("scene-section", v))
-    page.changes_picture(lambda: page.slide("scene-section-angle", 30))
-    page.changes_picture(lambda: page.slide("scene-section-offset", 10))
-    page.choose_id("scene-section", "off")
-    page.changes_picture(lambda: page.slide("scene-apart", 30))
-    page.slide("scene-apart", 0)
-    page.changes_picture(lambda: page.slide("scene-stroke", 50))
-    assert page.words("#scene-stroke-words") == "50 %"
-    page.slide("scene-stroke", 0)
-    page.click("#scene-labels")
+        page.changes_picture(lambda v=value: page.pick("#scene-section", v))
+    page.changes_picture(lambda: page.slide("#scene-section-angle", 30))
+    page.changes_picture(lambda: page.slide("#scene-section-offset", 10))
+    page.pick("#scene-section", "off")
+    page.changes_picture(lambda: page.slide("#scene-apart", 30))
+    page.slide("#scene-apart", 0)
+    page.changes_picture(lambda: page.slide("#scene-stroke", 50))
+    assert page.text("#scene-stroke-words") == "50 %"
+    page.slide("#scene-stroke", 0)
+    page.press("#scene-labels")
     assert not page.find(".callouts").is_displayed()
-    page.click("#scene-labels")
-    assert page.find(".callout") is not None
+    page.press("#scene-labels")
+    assert page.seen(".callout")
     pane = page.find(".scene-pane")
     pane.send_keys("2")
     assert page.js("return plyform_setup.area.view.stage.camera.elevation") == 90
@@ -235,16 +234,16 @@ def scene_controls(page: Page) -> None:
 def measuring(page: Page) -> None:
     """Between two corners of the blank, seen from above: the length of its side."""
     if page.find("#scene-measure").get_attribute("aria-pressed") == "false":
-        page.click("#scene-measure")
-    page.choose_id("scene-tools", "hidden")
-    page.click("#scene-view-top")
-    page.click("#scene-view-home")
+        page.press("#scene-measure")
+    page.pick("#scene-tools", "hidden")
+    page.press("#scene-view-top")
+    page.press("#scene-view-home")
     for corner in (0, 1):
         page.click_node(0, corner, inwards=0.01)  # the corner takes what is nearer than 8 pixels
     size = page.tree()["blanks"]["sheet"]["size"]
-    words = page.words("#measured")
+    words = page.text("#measured")
     assert words.startswith(f"{size[0]:g} mm") or words.startswith(f"{size[1]:g} mm"), (words, size)
-    page.click("#scene-measure")
+    page.press("#scene-measure")
 
 
 def chosen_in_scene(page: Page) -> None:
@@ -272,10 +271,10 @@ def chosen_in_scene(page: Page) -> None:
 def last_good_scene(page: Page) -> None:
     """What cannot be drawn leaves the picture, with a note."""
     picture = page.js("return plyform_setup.scene.plies.length")
-    page.write_text(page.text() + "\nwhat is this\n")
-    page.until(lambda: "not saved" in page.words("#toml-note"))
+    page.write_text(page.written() + "\nwhat is this\n")
+    page.until(lambda: "not saved" in page.text("#toml-note"))
     assert page.js("return plyform_setup.scene.plies.length") == picture
-    page.click("#toml-revert")
+    page.press("#toml-revert")
 
 
 def two_pages(page: Page, folder: Path) -> None:
@@ -285,8 +284,8 @@ def two_pages(page: Page, folder: Path) -> None:
     address = page.driver.current_url
     page.driver.switch_to.new_window("tab")
     page.driver.get(address)
-    page.until(lambda: page.find('[data-key="title"]') is not None, 60)
-    page.type("title", "Of the other page")
+    page.until(lambda: page.seen('[data-key="title"]'), seconds=60)
+    page.key("title", "Of the other page")
     page.until(lambda: page.tree()["title"] == "Of the other page")
     page.driver.close()
     page.driver.switch_to.window(first)
@@ -298,13 +297,13 @@ def two_pages(page: Page, folder: Path) -> None:
 
 def new_cases(page: Page) -> None:
     """A copy, and an example; the address leads to each."""
-    page.click("#new-case-button")
-    page.type_id("new-case-name", "second")
-    page.choose_id("new-case-from", CASE)
-    page.click("#new-case-go")
+    page.press("#new-case-button")
+    page.type("#new-case-name", "second")
+    page.pick("#new-case-from", CASE)
+    page.press("#new-case-go")
     page.until(lambda: "#setup/second/case.toml" in page.driver.current_url)
     page.until(lambda: page.js("return plyform_setup.main.path") == "second/case.toml")
-    page.choose_id("case-list", CASE)
+    page.pick("#case-list", CASE)
     page.until(lambda: page.js("return plyform_setup.main.path") == CASE)
 
 
@@ -327,39 +326,39 @@ def dropped_files(page: Page, folder: Path) -> None:
     """A mesh with its unit, a drawing, a fabric; one that is there already is replaced when that is said."""
     tools = len(page.tree()["tool"])
     page.drop("box.stl", STL)
-    page.choose_id("import-mesh-unit", "m")
-    page.until(lambda: "200 × 100 × 0 mm" in page.words("#import-mesh .note"))
-    page.click("#import-mesh-go")
+    page.pick("#import-mesh-unit", "m")
+    page.until(lambda: "200 × 100 × 0 mm" in page.text("#import-mesh .note"))
+    page.press("#import-mesh-go")
     page.until(lambda: len(page.tree()["tool"]) == tools + 1)
     assert page.tree()["tool"][-1] == {"name": "box", "shape": "mesh", "file": "box.stl", "scale": 1000.0}
-    page.click("#undo")
+    page.press("#undo")
     page.drop("blank.dxf", DXF)
-    page.click("#import-drawing-go")
+    page.press("#import-drawing-go")
     page.until(lambda: page.tree()["blanks"]["blank"]["outline_file"] == "blank.dxf")
-    page.click("#undo")
+    page.press("#undo")
     page.drop("mine.toml", (folder / "fabrics" / "glass_plain_weave.toml").read_bytes())
-    page.type_id("import-fabric-name", "own")
-    page.click("#import-fabric-go")
+    page.type("#import-fabric-name", "own")
+    page.press("#import-fabric-go")
     page.until(lambda: page.tree()["fabrics"]["own"] == "mine.toml")
-    page.click("#undo")
+    page.press("#undo")
     page.until(lambda: "own" not in page.tree()["fabrics"])
     page.drop("box.stl", STL.replace(b"0.2", b"0.3"))
-    page.click("#replace-go")
-    page.until(lambda: page.find("#import-mesh-cancel") is not None)
-    page.click("#import-mesh-cancel")
+    page.press("#replace-go")
+    page.until(lambda: page.seen("#import-mesh-cancel"))
+    page.press("#import-mesh-cancel")
     assert b"0.3" in (folder / "mine" / "box.stl").read_bytes()
     page.drop("what.exe", b"no")
-    page.until(lambda: "what.exe" in page.words("#trouble"))
+    page.until(lambda: "what.exe" in page.text("#trouble"))
 
 
 def run(page: Page) -> None:
     """Asked for by its button; the server has a record of it."""
-    page.click("#run-case")
-    page.type_id("run-name", "by_click")
-    page.choose_id("run-accuracy", "draft")
-    page.type_id("run-threads", "1")
-    page.type_id("run-budget", "0.001")
-    page.click("#run-go")
+    page.press("#run-case-button")
+    page.type("#ask-run-name", "by_click")
+    page.pick("#ask-run-accuracy", "draft")
+    page.type("#ask-run-threads", "1")
+    page.type("#ask-run-budget", "0.001")
+    page.press("#ask-run-go")
     page.until(lambda: page.driver.current_url.endswith("#runs/results/by_click"))
     names = [one["name"] for one in page.server.get("api/runs")]
     assert "by_click" in names, names
@@ -372,8 +371,7 @@ PARTS = [onto_the_stack, simplified_tools, outline_and_forms, either_or, items, 
 def main() -> None:
     with tempfile.TemporaryDirectory() as scratch:
         folder = folder_with_case(Path(scratch) / "folder")
-        with Server(TOOLS, PROGRAM, folder) as server, Browser(1280, 800) as browser:
-            page = Page(browser, server, folder / CASE)
+        with Server(TOOLS, PROGRAM, folder) as server, Page(server, folder / CASE, 1280, 800) as page:
             page.open(f"#setup/{CASE}")
             for part in PARTS:
                 begin = time.monotonic()
@@ -381,11 +379,11 @@ def main() -> None:
                     part(page, folder) if part in (fabrics, two_pages, dropped_files) else part(page)
                 finally:
                     if PICTURES:
-                        browser.screenshot(PICTURES / f"{part.__name__}.png")
+                        page.screenshot(PICTURES / f"{part.__name__}.png")
                 print(f"{part.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
-            wrong = [line for line in browser.errors() if "422" not in line and "409" not in line]
+            wrong = [line for line in page.errors() if "422" not in line and "409" not in line]
             assert not wrong, wrong
-            outside = [url for url in browser.requests() if not url.startswith((server.origin, "data:", "blob:"))]
+            outside = [url for url in page.requests() if not url.startswith((server.origin, "data:", "blob:"))]
             assert not outside, outside
 
 

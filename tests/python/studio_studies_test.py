@@ -11,7 +11,7 @@ import sys
 import tomllib
 from pathlib import Path
 
-from studio_clicks import Page
+from studio_page import Page
 from studio_server import Server
 
 if shutil.which("snakemake") is None:
