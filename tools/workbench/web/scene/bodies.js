@@ -10,6 +10,7 @@ import { coarser, outlineOnly } from "workbench/scene/coarse.js";
 
 const THREE = window.THREE;
 const MOST_TURNED = 12000; // triangles of all tools while they are being turned
+const MOST_FILLED = 3000; // of plies, likewise
 
 const COLOURS = { tool: 0xaab4bd, chosen: 0xe2b26a, wrong: 0xd9807a };
 const EDGES = { ply: 0x303030, tool: 0x5b6770, chosen: 0xb35f00, wrong: 0xc00018 };
@@ -176,17 +177,22 @@ export class Bodies extends View {
     }
   }
 
-  /** While plies are turned, those that lie under another one of the same outline are not filled. */
+  /** While plies are turned, those that lie under another one of the same outline are not filled, and
+   * of formed ones only so many, from the nearest, and the farthest: of the others one sees the edges. */
   fillPlies(fine) {
     const seen = new Set();
+    let triangles = 0;
     const apart = this.plies.some((mesh) => mesh.object.position.z !== 0);
     const down = this.uniforms.towards_eye.value.z < 0;
-    for (const mesh of down ? this.plies : [...this.plies].reverse()) {
+    const order = (down ? this.plies : [...this.plies].reverse()).filter((mesh) => mesh.object.visible);
+    order.forEach((mesh, i) => {
       const { shape } = mesh.ply;
-      const hidden = !fine && !apart && !this.cutOn && shape !== undefined && seen.has(shape);
-      mesh.surface.visible = !hidden;
-      if (mesh.object.visible && shape !== undefined) seen.add(shape);
-    }
+      const more = triangles + mesh.ply.triangles.length / 3;
+      const enough = i > 0 && i < order.length - 1 && more > MOST_FILLED;
+      mesh.surface.visible = fine || apart || this.cutOn || !(enough || (shape !== undefined && seen.has(shape)));
+      if (mesh.surface.visible) triangles = more;
+      if (shape !== undefined) seen.add(shape);
+    });
   }
 
   outlineTools(eye) {
