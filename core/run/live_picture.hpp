@@ -12,8 +12,9 @@
 
 namespace plyform {
 
-/// The bytes of picture.bin.
-std::string picture_of(const Frame& frame);
+/// The bytes of picture.bin. scouting: the run of the scout that it is of, from 1, whose plies have
+/// other meshes than the results, which the picture therefore holds; 0: of the run itself.
+std::string picture_of(const Frame& frame, int scouting = 0);
 
 /// Answers those who watch a run, and removes the files in the end. A run can do without it: what
 /// cannot be written is left.
@@ -28,7 +29,8 @@ public:
   /// long: a twentieth of the run's time.
   bool asked();
 
-  void draw(const Frame& frame);
+  /// scouting: as in picture_of.
+  void draw(const Frame& frame, int scouting = 0);
 
 private:
   using Clock = std::chrono::steady_clock;

@@ -28,6 +28,7 @@ namespace plyform {
 namespace {
 
 constexpr int check_every = 100; // steps between checks of the energy balance and progress reports
+constexpr std::size_t most_watched = 100'000; // facets of a tool that those who watch get
 
 using Clock = std::chrono::steady_clock;
 
@@ -206,6 +207,8 @@ private:
   void begin() {
     floor_ = balance_floor(s_);
     tool_surfaces_ = tool_surfaces(s_, pool_);
+    for (const TriMesh& surface : tool_surfaces_)
+      watched_surfaces_.push_back(surface.triangles.size() <= most_watched ? surface : TriMesh{});
     if (hooks_.resume) {
       try {
         load_state(hooks_.resume->state, s_, state_);
@@ -292,7 +295,7 @@ private:
       }
       if (output) write();
       if (hooks_.watch.asked && hooks_.watch.asked())
-        hooks_.watch.drawn(make_frame(s_, tool_surfaces_, state_.energy, pool_));
+        hooks_.watch.drawn(make_frame(s_, watched_surfaces_, state_.energy, pool_));
       if (interrupted && !ended) {
         result_.summary.status = "interrupted";
         result_.summary.message = fmt::format("interrupted at step {}, time {:.6g} s of {:.6g} s",
@@ -317,7 +320,7 @@ private:
   Clock::time_point begin_ = Clock::now(), saved_ = begin_;
   double floor_ = 0.0; ///< of the check of the energy balance
   int next_mark_ = 1;
-  std::vector<TriMesh> tool_surfaces_;
+  std::vector<TriMesh> tool_surfaces_, watched_surfaces_;
   RunState state_;
   RunResult result_;
 };

@@ -39,7 +39,8 @@ struct RunHooks {
         reached;
   };
   /// Of those who watch: between two steps, where asked() says so, drawn(frame) gets what is there.
-  /// asked is called at each step.
+  /// asked is called at each step. Tools of more than 100 000 facets have no surface there: copied
+  /// for each picture it would take longer than all the rest.
   struct Watch {
     std::function<bool()> asked;
     std::function<void(const Frame&)> drawn;

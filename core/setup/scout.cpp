@@ -68,6 +68,7 @@ Look run_once(const Case& fast, const Case& data, int threads, const ScoutHooks&
   RunHooks run;
   run.progress = hooks.progress;
   run.interrupt = hooks.interrupt;
+  run.watch = hooks.watch;
   run.frame = [&](const Frame& state) {
     for (std::size_t p = 0; p < look.sizes.size(); ++p)
       if (look.sizes[p].empty()) {

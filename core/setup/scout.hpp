@@ -16,6 +16,7 @@ struct ScoutHooks {
   std::function<void(int run)> begins = {};           ///< before each of its runs, from 1
   std::function<void(const Progress&)> progress = {}; ///< as in RunHooks
   const std::atomic<bool>* interrupt = nullptr;       ///< as in RunHooks
+  RunHooks::Watch watch = {};                         ///< as in RunHooks
 };
 
 struct Scouted {

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """What a run shows of itself when it is asked: live_picture_test.py TOOLS PROGRAM CASES. It is there
-between the states, is what the run looks like, goes away, and changes nothing."""
+between the states, is what the run looks like, goes away, and changes nothing; so does the fast run before it
+that looks where small elements are needed."""
 
 import shutil
 import subprocess
@@ -45,20 +46,21 @@ duration = 0.3
 fibre_softening = 100.0
 outputs = 24
 """
+FROM_SCENE = ("mesh = \"alternating\"\nelement_size = 12.0", "element_size = 30.0\nmesh_from = \"scene\"")
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path.insert(0, str(TOOLS))
 from workbench.server.arrays import unpacked  # noqa: E402
 
 
-def formed(out: Path, asks: bool) -> list[bytes]:
+def formed(out: Path, asks: bool, change: tuple[str, str] = ("", "")) -> list[bytes]:
     """Runs a case; the pictures that it has drawn."""
     case = out.with_suffix(".toml")
-    case.write_text(CASE.format(cases=CASES))
+    case.write_text(CASE.format(cases=CASES).replace(*change))
     run = subprocess.Popen([PROGRAM, "run", case, "-o", out, "--threads", "2"],
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     found: list[bytes] = []
     while run.poll() is None:
-        if asks and (out / "states").is_dir():
+        if asks and (out / "progress.json").exists():
             (out / "picture.ask").touch()
             try:
                 content = (out / "picture.bin").read_bytes()
@@ -109,6 +111,27 @@ def main() -> None:
         for name in ("results.h5", "history.csv"):
             assert (watched / name).read_bytes() == (alone / name).read_bytes(), name
         shutil.rmtree(watched)
+        check_scout(Path(folder))
+
+
+def check_scout(folder: Path) -> None:
+    watched, alone = folder / "scouted", folder / "scouted_alone"
+    headers = [unpacked(content) for content in formed(watched, True, FROM_SCENE)]
+    formed(alone, False, FROM_SCENE)
+    scouts = [one for one in headers if one[0].get("scouting")]
+    assert scouts and len(scouts) < len(headers), (len(scouts), len(headers))
+    assert all("scouting" not in header for header, _ in headers[len(scouts):])
+    for header, arrays in scouts:
+        for body, places in ((header["plies"][0], "x0"), (header["tools"][0], "x"), (header["tools"][1], "x")):
+            x = np.frombuffer(arrays, "<f4", body[places]["count"], body[places]["at"])
+            triangles = np.frombuffer(arrays, "<u4", body["triangles"]["count"], body["triangles"]["at"])
+            assert body["triangles"]["type"] == "u4" and triangles.max() == len(x) // 3 - 1, body["name"]
+        ply = header["plies"][0]
+        assert ply["x"]["count"] == ply["x0"]["count"] and 3 * ply["field"]["count"] == ply["triangles"]["count"]
+    print(f"{len(scouts)} pictures of the run that looks where small elements are needed")
+    for name in ("results.h5", "history.csv", "mesh_sizes.txt"):
+        assert (watched / name).read_bytes() == (alone / name).read_bytes(), name
+    assert sorted(p.name for p in watched.iterdir()) == sorted(p.name for p in alone.iterdir())
 
 
 if __name__ == "__main__":

@@ -16,6 +16,7 @@ class App;
 
 namespace plyform {
 
+class LivePicture;
 class ProgressFile;
 struct Outlook;
 
@@ -103,9 +104,10 @@ struct TheoryArguments {
 PreparedCase load_case(const CaseArguments& arguments);
 
 /// mesh_from_scene; shows the progress of its scout, and prints errors to standard error, after
-/// which the case has no value. known: as there. file: of a run, kept too.
+/// which the case has no value. known: as there. file, picture: of a run, kept and drawn too.
 SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, int threads,
-                      const std::filesystem::path& known = {}, ProgressFile* file = nullptr);
+                      const std::filesystem::path& known = {}, ProgressFile* file = nullptr,
+                      LivePicture* picture = nullptr);
 
 /// look_ahead; shows its progress.
 Outlook watched_outlook(const PreparedCase& prepared, int threads);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/accuracy/error_model.hpp"
+#include "core/run/live_picture.hpp"
 #include "core/run/progress_file.hpp"
 #include "core/setup/outlook.hpp"
 #include "core/setup/prepare_case.hpp"
@@ -38,10 +39,13 @@ PreparedCase load_case(const CaseArguments& arguments) {
 }
 
 SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, int threads,
-                      const std::filesystem::path& known, ProgressFile* file) {
+                      const std::filesystem::path& known, ProgressFile* file,
+                      LivePicture* picture) {
   ProgressLine line;
   ScoutHooks hooks;
+  int scouting = 0;
   hooks.begins = [&](int run) {
+    scouting = run;
     line.end();
     std::string words = "looking where small elements are needed: a fast run with coarse ones";
     if (run == 1) fmt::print("{}\n", words);
@@ -54,6 +58,9 @@ SceneMesh load_meshes(const CaseArguments& arguments, PreparedCase& prepared, in
     if (file) file->show(p, p.fraction, 0);
   };
   hooks.interrupt = &interrupted();
+  if (picture)
+    hooks.watch = {[=] { return picture->asked(); },
+                   [&, picture](const Frame& f) { picture->draw(f, scouting); }};
   SceneMesh found = mesh_from_scene(prepared, threads, hooks, known);
   line.end();
   if (!found.sizes.empty()) fmt::print("{}\n", prepared.notes.back());

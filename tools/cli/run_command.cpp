@@ -227,9 +227,8 @@ bool within_budget(const PreparedCase& prepared, const RunArguments& arguments, 
 /// Runs the case and writes its results; `trace`, unless null, gets what `verify` asks of the run.
 RunResult run_and_write(const PreparedCase& prepared, int threads, ResultWriter& writer,
                         const std::optional<Resume>& resume, Trace* trace, ProgressFile& file,
-                        const std::filesystem::path& folder) {
+                        LivePicture& picture) {
   ProgressLine line;
-  LivePicture picture(folder);
   file.begin(RunPhase::forming, "forms the plies");
   Frame reached = resume ? resume->last : Frame{};
   RunHooks hooks;
@@ -275,8 +274,10 @@ int run_command(const RunArguments& arguments) {
   catch_ending_signals();
   const bool goes_on = arguments.resume && std::filesystem::exists(folder / "checkpoint") &&
                        std::filesystem::exists(folder / size_file_name);
+  std::optional<LivePicture> picture(std::in_place, folder);
   std::vector<PlySizes> sizes =
-      load_meshes(arguments.input, prepared, threads, goes_on ? folder : "", &*file).sizes;
+      load_meshes(arguments.input, prepared, threads, goes_on ? folder : "", &*file, &*picture)
+          .sizes;
   if (!within_budget(prepared, arguments, threads, !sizes.empty())) return exit_case_wrong;
   writer.keep_sizes(std::move(sizes));
   std::optional<Resume> resume;
@@ -287,7 +288,8 @@ int run_command(const RunArguments& arguments) {
   const bool verified = arguments.verify || prepared.value->accuracy.verify;
   VerifyOptions options{folder, threads, arguments.input.yes_large, &interrupted(), &*file};
   RunResult result = run_and_write(prepared, threads, writer, resume,
-                                   verified ? &options.trace : nullptr, *file, folder);
+                                   verified ? &options.trace : nullptr, *file, *picture);
+  picture.reset();
   if (verified && ended(result.summary.status))
     verify_and_correct(prepared, options, writer, result);
   file.reset();

@@ -113,7 +113,7 @@ def ply_in(results: Results, at: int, name: str):
 
 def picture(folder: Path, after: int) -> bytes:
     """What a run that goes on looks like now, as `state` with `step` in the place of `number`; asks
-    the run for another one. Empty if there is none after that step. Raises Refused."""
+    the run for another one. Empty if it is of that step. Raises Refused."""
     ask(folder)
     path = folder / PICTURE
     if path.is_symlink() or not path.is_file():
@@ -124,7 +124,7 @@ def picture(folder: Path, after: int) -> bytes:
         check_picture(header, arrays)
     except (Trouble, ValueError, KeyError, TypeError) as problem:
         raise Refused(f"{PICTURE} of {folder.name} cannot be read: {problem}", 422) from problem
-    return content if header["step"] > after else b""
+    return content if header["step"] != after else b""
 
 
 def ask(folder: Path) -> None:
@@ -135,9 +135,23 @@ def ask(folder: Path) -> None:
         pass  # a folder that cannot be written to: states come all the same
 
 
+def check_surface(body: dict, arrays: memoryview) -> None:
+    """Of a picture that has meshes of its own. Raises ValueError, KeyError, TypeError."""
+    if "triangles" not in body:
+        return
+    places, corners = body.get("x0", body["x"]), body["triangles"]
+    x = np.frombuffer(arrays, "<f4", int(places["count"]), int(places["at"]))
+    triangles = np.frombuffer(arrays, "<u4", int(corners["count"]), int(corners["at"]))
+    if places["type"] != "f4" or corners["type"] != "u4" or not (np.abs(x) < FARTHEST).all() \
+            or (triangles >= len(x) // 3).any():
+        raise ValueError("triangles without corners")
+
+
 def check_picture(header: dict, arrays: memoryview) -> None:
     """Raises ValueError, KeyError, TypeError."""
     int(header["step"]), float(header["time_s"]), float(header["stroke_mm"])
+    for body in (*header["plies"], *header["tools"]):
+        check_surface(body, arrays)
     for tool in header["tools"]:
         if len(tool["shift"]) != 3 or not all(abs(float(part)) < FARTHEST for part in tool["shift"]):
             raise ValueError("a tool is nowhere")

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The plies and tools of a run: as they are now while it goes on, and in each of its states.
+// The plies and tools of a run: as they are now while it goes on, and in each of its states. Before it has
+// any, those of the fast run with coarse elements that looks where small ones are needed.
 
 import { gradient } from "plyform/colours.js";
 import { button, element, tell } from "workbench/page/elements.js";
@@ -9,6 +10,13 @@ import { askBytes } from "workbench/page/server.js";
 
 const PERIOD = 300; // ms, between two looks at a run that goes on
 const VIEWS = [["oblique", "Oblique"], ["top", "Top"], ["front", "Front"], ["side", "Side"]];
+
+/** Bodies of a picture of that run: it has meshes of its own, and no tools of many facets. */
+function scoutBodies(state) {
+  const empty = { x: new Float32Array(0), triangles: new Uint32Array(0) };
+  return { plies: state.plies.map(({ name, x0, triangles }, i) => ({ name, key: `ply.${i}`, x: x0, triangles })),
+    tools: state.tools.map((tool, i) => ({ ...empty, ...tool, key: `tool.${i}` })) };
+}
 
 export class RunPicture {
   constructor() {
@@ -44,11 +52,12 @@ export class RunPicture {
 
   clear() {
     this.bodies = null;
+    this.whole = false; // bodies are those of the results
     this.step = -1;
     this.following = true;
     this.high = 10;
     this.place.hidden = true;
-    for (const key of ["state", "step", "moved"]) delete this.scene.dataset[key];
+    for (const key of ["state", "step", "moved", "scouting"]) delete this.scene.dataset[key];
     clearTimeout(this.timer);
     this.timer = null;
   }
@@ -56,10 +65,10 @@ export class RunPicture {
   /** Of how many states there are. */
   news(run) {
     this.run = run;
-    if (!run.states || run.state === "damaged" || run.state === "queued") return;
-    this.slider.max = run.states - 1;
-    if (!this.bodies && !this.beginning) this.begin().catch((problem) => this.failed(problem));
-    if (run.state === "running" && this.bodies && !this.timer) this.again();
+    if (run.state === "damaged" || run.state === "queued") return;
+    this.slider.max = Math.max(0, run.states - 1);
+    if (run.states && !this.whole && !this.beginning) this.begin().catch((problem) => this.failed(problem));
+    if (run.state === "running" && !this.timer) this.again();
   }
 
   /** A run may have been removed, or begun anew, between two questions. */
@@ -74,11 +83,11 @@ export class RunPicture {
       const bodies = unpacked(await askBytes("runs/bodies", { folder }));
       if (!this.run || this.run.folder !== folder) return;
       this.bodies = bodies;
+      this.whole = true;
+      this.step = -1;
+      delete this.scene.dataset.scouting;
       this.slider.max = Math.max(Number(this.slider.max), bodies.count - 1);
-      this.place.hidden = false;
-      if (!this.view) this.view = new SceneView(this.scene);
-      this.view.show(bodies, true);
-      this.view.change({ tools: this.tools.value });
+      this.display(bodies, this.place.hidden);
     } finally {
       this.beginning = false;
     }
@@ -86,16 +95,23 @@ export class RunPicture {
     if (this.run && this.run.state === "running") this.again();
   }
 
+  display(bodies, fit) {
+    this.place.hidden = false;
+    if (!this.view) this.view = new SceneView(this.scene);
+    this.view.show(bodies, fit);
+    this.view.change({ tools: this.tools.value });
+  }
+
   again() {
     clearTimeout(this.timer);
     this.timer = setTimeout(async () => {
       try {
-        await this.look();
+        await (this.whole ? this.look() : this.lookAtScout());
       } catch (problem) {
         this.failed(problem);
       }
       this.timer = null;
-      if (this.run && this.run.state === "running" && this.bodies) this.again();
+      if (this.run && this.run.state === "running") this.again();
     }, PERIOD);
   }
 
@@ -106,9 +122,28 @@ export class RunPicture {
     const bytes = await askBytes("runs/picture", { folder, after: this.step });
     if (!bytes.byteLength || !this.run || this.run.folder !== folder || !this.following) return;
     const state = unpacked(bytes);
+    if (state.scouting) return; // the last of them, not replaced yet
     this.step = state.step;
     this.draw(state, `now: ${state.stroke_mm.toFixed(2)} mm of stroke`);
     this.scene.dataset.step = state.step;
+  }
+
+  /** What the run before the run looks like now. */
+  async lookAtScout() {
+    const { folder } = this.run;
+    const bytes = await askBytes("runs/picture", { folder, after: this.step });
+    if (!bytes.byteLength || !this.run || this.run.folder !== folder || this.whole) return;
+    const state = unpacked(bytes);
+    if (!state.scouting) return;
+    const { dataset } = this.scene;
+    if (dataset.scouting !== String(state.scouting)) {
+      this.bodies = scoutBodies(state);
+      this.display(this.bodies, this.place.hidden);
+      dataset.scouting = state.scouting;
+    }
+    this.step = state.step;
+    const large = this.bodies.tools.some((tool) => !tool.x.length) ? "; tools of many facets are not drawn yet" : "";
+    this.draw(state, `a fast run with coarse elements: ${state.stroke_mm.toFixed(2)} mm of stroke${large}`);
   }
 
   async last() {
@@ -125,7 +160,7 @@ export class RunPicture {
 
   /** Shows a state; the one asked for last, however long others took. */
   async state(number) {
-    if (!this.bodies) return;
+    if (!this.whole) return;
     const { folder } = this.run;
     this.wanted = number;
     const state = unpacked(await askBytes("runs/state", { folder, number }));
@@ -136,7 +171,7 @@ export class RunPicture {
   }
 
   async playAll() {
-    for (let k = 0; k <= Number(this.slider.max) && this.bodies; ++k) {
+    for (let k = 0; k <= Number(this.slider.max) && this.whole; ++k) {
       this.slider.value = k;
       await this.slide();
       await new Promise((go) => { setTimeout(go, 100); });
