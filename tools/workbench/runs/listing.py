@@ -105,7 +105,10 @@ class RunList:
         return sorted((run for run in runs if run), key=lambda run: -run["begun"])
 
     def of(self, name: str) -> dict | None:
-        return next((run for run in self.every() if run["folder"] == name), None)
+        with self.lock:
+            record = next((one for one in reversed(self.processes.records("run"))
+                           if one["about"].get("output") == name), None)
+            return self.one(name, record) if record or name in self.known_folders() else None
 
     def known_folders(self) -> list[str]:
         if time.monotonic() - self.looked > LOOK_AGAIN:
