@@ -16,10 +16,11 @@ from studio_server import Server  # skips
 
 sys.path.insert(0, sys.argv[1])
 import websockets  # noqa: E402
-from workbench.scene.reading import module_of  # noqa: E402
 from workbench.scene.coarser import coarser  # noqa: E402
-from workbench.server.project import Refused  # noqa: E402
 from workbench.scene.readers import Worker  # noqa: E402
+from workbench.scene.reading import module_of  # noqa: E402
+from workbench.server.arrays import unpacked  # noqa: E402
+from workbench.server.project import Refused  # noqa: E402
 
 TOOLS, PROGRAM = Path(sys.argv[1]).resolve(), Path(sys.argv[2]).resolve()
 CASE = "first/case.toml"
@@ -296,10 +297,35 @@ def fewer_facets():
     assert same_x is x and len(same) == 1000
 
 
+def drawn_at_once(server):
+    """A tool of very many facets: a draft with few of them where the tool is, then the whole scene."""
+    import numpy as np
+    from fine_tools import hollow, surface
+    server.send("api/cases", {"name": "fine", "from": "example:hemisphere_0"})
+    surface(server.folder / "fine/die.stl", 210_000, hollow, True)
+    text = server.get("api/case", path="fine/case.toml")
+    tools = [{"op": "add", "key": "tool", "value": {"name": "fine", "shape": "mesh", "file": "die.stl",
+                                                    "position": [7.0, 0.0, -90.0]}}]
+    status, made = server.call("PATCH", "api/case", {"version": text["version"], "edits": tools},
+                               query={"path": "fine/case.toml"})
+    assert status == 200, made
+    wish = {"path": "fine/case.toml", "version": made["version"]}
+    seen = []
+    for more in ({"draft": "true"}, {}, {"draft": "true"}):
+        header, arrays = unpacked(server.get("api/scene", **wish, **more))
+        tool = header["tools"][-1]
+        x = np.frombuffer(arrays, "<f4", tool["x"]["count"], tool["x"]["at"]).reshape(-1, 3)
+        assert abs(x.min(axis=0) - [-193, -200, -150]).max() < 3.0 and abs(x.max(axis=0) - [207, 200, -90]).max() < 3.0
+        assert header["missing"] == [] and 209_000 < tool["facets"] < 211_000, tool
+        seen.append((header["draft"], bool(tool["gap"]), tool["drawn_facets"]))
+    assert seen[0][:2] == (True, False) and 5_000 < seen[0][2] <= 30_000, seen
+    assert seen[1][:2] == (False, True) and seen[2] == seen[1], seen
+
+
 def main():
     fewer_facets()
     with Server(TOOLS, PROGRAM) as server:
-        for part in (made_and_listed, changed_and_taken_back, two_pages, taken_in, told_by_the_program, drawn,
+        for part in (made_and_listed, changed_and_taken_back, two_pages, taken_in, told_by_the_program, drawn, drawn_at_once,
                      process_dies):
             begun = time.monotonic()
             part(server)

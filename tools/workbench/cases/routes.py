@@ -75,5 +75,6 @@ def add_reading(router: APIRouter, reading: CaseReading) -> None:
         return reading.check(path, version)
 
     @router.get("/scene")
-    def scene(path: str, version: str) -> Response:
-        return Response(reading.scene(path, version), media_type="application/octet-stream")
+    def scene(path: str, version: str, draft: bool = False) -> Response:
+        content = reading.draft(path, version) if draft else reading.scene(path, version)
+        return Response(content, media_type="application/octet-stream")

@@ -53,6 +53,17 @@ def scene(plyform, request: dict) -> tuple[dict, bytes]:
     return {}, scene_bytes(case.scene(), version_of(request))
 
 
+def draft(plyform, request: dict) -> tuple[dict, bytes]:
+    """The scene with few facets in the place of very many; nothing if no tool has so many."""
+    from workbench.scene.draft_tools import stand_ins
+    from workbench.scene_bytes import scene_bytes
+    found = stand_ins(Path(request["file"]), Path(request["room"]))
+    if not found:
+        return {}, b""
+    case = plyform.Case(request["file"], {f"tool.{number}.file": str(one.file) for number, one in found.items()})
+    return {}, scene_bytes(case.scene(), version_of(request), found)
+
+
 def without_scouts(file: str) -> dict[str, str]:
     """Settings by which no mesh is taken from a fast run of the scene: that takes seconds."""
     from base.files import toml_of
@@ -108,7 +119,7 @@ def simple(value):
     return {name: simple(getattr(value, name)) for name in names if not name.startswith("_")} or str(value)
 
 
-ACTS = {"scene": scene, "check": check, "outlook": outlook, "keys": keys}
+ACTS = {"scene": scene, "draft": draft, "check": check, "outlook": outlook, "keys": keys}
 
 if __name__ == "__main__":
     main()

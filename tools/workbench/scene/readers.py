@@ -142,11 +142,13 @@ class Worker:
 
 
 class Workers:
-    """One for pictures, one for checks, which may run a scout, one for outlooks, which take steps."""
+    """One for pictures, one for the first of them, which come at once, one for checks, which may run a scout,
+    one for outlooks, which take steps."""
 
     def __init__(self, module: Path):
-        self.scene, self.check, self.outlook = Worker(module), Worker(module), Worker(module, LONG, nice=10)
+        self.scene, self.draft, self.check = Worker(module), Worker(module), Worker(module)
+        self.outlook = Worker(module, LONG, nice=10)
 
     def warm(self) -> None:
-        for worker in (self.scene, self.check):
+        for worker in (self.draft, self.scene, self.check):
             worker.start()

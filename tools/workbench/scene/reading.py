@@ -3,6 +3,7 @@
 beside the workbench, kept as long as no file of the case changes."""
 
 import os
+import shutil
 import threading
 from pathlib import Path
 
@@ -11,9 +12,11 @@ from base.ending import Trouble
 from ..cases.files import CaseFiles, version_of
 from ..cases.paths import MOST_TEXT, paths_inside
 from ..server.project import Refused
+from .draft_tools import is_large
 from .readers import Worker, Workers
 
 MOST_KEPT = 20
+DRAFTS = "drafts"  # files of the workbench's own
 MOST_FOLLOWED = 50
 PERIOD = 0.5  # s between two looks at the files of cases that pages look at
 
@@ -28,6 +31,7 @@ class CaseReading:
         self.lock = threading.Lock()
         self.followed: dict[str, tuple] = {}  # stamps by name
         self.key_rows: list | None = None
+        shutil.rmtree(self.project.own / DRAFTS, ignore_errors=True)
 
     @property
     def workers(self) -> Workers:
@@ -68,9 +72,20 @@ class CaseReading:
         name, stamp, path = self.asked(name, version)
         return self.once(("scene", name), stamp, lambda: self.bytes_of(self.workers.scene, "scene", path, stamp))
 
+    def draft(self, name: str, version: str) -> bytes:
+        """The scene, or one with `draft` in its header: tools of many facets are drawn with few, and nothing is
+        said of their gaps and first contacts."""
+        stamped, stamp, path = self.asked(name, version)
+        known = self.known(("scene", stamped), stamp)
+        if known is None and has_large(stamp):
+            known = self.once(("draft", stamped), stamp, lambda: self.bytes_of(
+                self.workers.draft, "draft", path, stamp, room=str(self.project.own / DRAFTS)))
+        return known or self.scene(name, version)
+
     def check(self, name: str, version: str) -> dict:
         name, stamp, path = self.asked(name, version)
-        found = self.once(("check", name), stamp, lambda: self.dict_of(self.workers.check, "check", path, stamp))
+        worker = self.workers.scene if has_large(stamp) else self.workers.check  # which has read them already
+        found = self.once(("check", name), stamp, lambda: self.dict_of(worker, "check", path, stamp))
         answer = {"version": version, **found, "outlook": None}
         if not found["mistakes"]:
             known = self.known(("outlook", name), stamp)
@@ -97,8 +112,8 @@ class CaseReading:
             self.key_rows = said.get("keys", [])
         return self.key_rows
 
-    def bytes_of(self, worker: Worker, act: str, path: Path, stamp: tuple) -> bytes:
-        said, content = worker.ask(act, file=str(path), stamp=stamp)
+    def bytes_of(self, worker: Worker, act: str, path: Path, stamp: tuple, **more) -> bytes:
+        said, content = worker.ask(act, file=str(path), stamp=stamp, **more)
         self.sound(said, path, stamp)
         return content
 
@@ -172,6 +187,10 @@ class CaseReading:
         if version != told or not only_itself:
             self.files.versions[name] = version
             self.files.events.send("case", path=name, version=version)
+
+
+def has_large(stamp: tuple) -> bool:
+    return any(is_large(file, size) for file, _, size, _ in stamp)
 
 
 def module_of(program: Path) -> Path:

@@ -7,6 +7,7 @@ import numpy as np
 
 from ..server.arrays import Arrays
 from .coarser import coarser
+from .draft_tools import StandIn
 
 
 def added(arrays: Arrays, values) -> dict | None:
@@ -26,15 +27,17 @@ def finite(value):
     return None if isinstance(value, float) and not math.isfinite(value) else value
 
 
-def scene_bytes(scene, version: str) -> bytes:
-    """Of a plyform.Scene."""
+def scene_bytes(scene, version: str, stand_ins: dict[int, StandIn] | None = None) -> bytes:
+    """Of a plyform.Scene. stand_ins: of tools, by number, that a draft draws with few facets."""
+    stand_ins = stand_ins or {}
     arrays = Arrays()
     duration, times = scene.duration_s, np.asarray(scene.times_s)
     shares = times / duration if duration > 0 else np.zeros(len(times))
     names = [ply.name for ply in scene.plies]
-    tools = [tool_part(tool, number, shares, names, arrays) for number, tool in enumerate(scene.tools)]
+    tools = [tool_part(tool, number, shares, names, arrays, stand_ins.get(number))
+             for number, tool in enumerate(scene.tools)]
     header = {
-        "version": version, "title": scene.title, "duration_s": duration, "gravity": scene.gravity,
+        "version": version, "draft": bool(stand_ins), "title": scene.title, "duration_s": duration, "gravity": scene.gravity,
         "stack_thickness_mm": scene.stack_thickness_mm,
         "plies": [ply_part(ply, number, arrays) for number, ply in enumerate(scene.plies)],
         "tools": tools,
@@ -57,18 +60,21 @@ def ply_part(ply, number: int, arrays: Arrays) -> dict:
             "families": dict(ply.families), "trouble": ply.trouble}
 
 
-def tool_part(tool, number: int, shares, plies: list[str], arrays: Arrays) -> dict:
+def tool_part(tool, number: int, shares, plies: list[str], arrays: Arrays, stand_in: StandIn | None = None) -> dict:
     x, triangles = tool.x0, tool.triangles
     facets = 0 if triangles is None else len(triangles)
-    if facets:
+    if facets and stand_in:
+        x, triangles, facets = stand_in.placed(np.asarray(x)), stand_in.triangles, stand_in.facets
+    elif facets:
         x, triangles = coarser(np.asarray(x), np.asarray(triangles))
     moves = tool.shifts_mm is not None
     return {"name": tool.name, "key": f"tool.{number}", "shape": tool.shape, "motion": tool.motion,
             "direction": tool.direction, "x": added(arrays, x), "triangles": added(arrays, triangles),
             "facets": facets, "drawn_facets": 0 if triangles is None else len(triangles),
             "shares": shares if moves else None, "shifts": added(arrays, tool.shifts_mm),
-            "forces_N": tool.forces_N, "gap": gap_part(tool.gap, plies),
-            "first_contact": contact_part(tool.first_contact, shares, tool, plies), "trouble": tool.trouble}
+            "forces_N": tool.forces_N, "gap": None if stand_in else gap_part(tool.gap, plies),
+            "first_contact": None if stand_in else contact_part(tool.first_contact, shares, tool, plies),
+            "trouble": tool.trouble}
 
 
 def gap_part(gap, plies: list[str]) -> dict | None:

@@ -70,11 +70,13 @@ export class SceneArea {
     this.room.append(this.note);
   }
 
-  /** The scene of a version of a case, shown; null if there is none, and then the last one stays. */
-  async ask(file, fit) {
+  /** The scene of a version of a case, shown; null if there is none, and then the last one stays. A draft
+   * comes at once, also of tools of very many facets, of whose gaps it says nothing. */
+  async ask(file, fit, draft) {
     let scene;
+    const { path, version } = file;
     try {
-      scene = unpacked(await askBytes("scene", { path: file.path, version: file.version }));
+      scene = unpacked(await askBytes("scene", draft ? { path, version, draft } : { path, version }));
     } catch (problem) {
       if (problem.code === 409) throw problem;
       this.old(problem.message);
@@ -92,7 +94,9 @@ export class SceneArea {
     this.view.callOut(this.callouts);
     const missing = (scene.missing || []).map((one) => (typeof one === "string" ? one : one.words ||
       JSON.stringify(one)));
-    this.say(missing.length ? `not drawn: ${missing.join("; ")}` : "");
+    const notes = scene.draft ? ["tools of many facets are being looked at: gaps and first contacts follow"] : [];
+    if (missing.length) notes.push(`not drawn: ${missing.join("; ")}`);
+    this.say(notes.join("; "));
     return scene;
   }
 

@@ -34,7 +34,8 @@ class Setup {
     this.folder = { cases: [], fabrics: [], files: [] };
     this.scene = null;
     this.checked = new Latest(() => this.check());
-    this.drawn = new Latest(() => this.draw());
+    this.drawn = new Latest(() => this.draw(true));
+    this.drawnWhole = new Latest(() => this.draw(false), 0);
     this.make();
     listen("case", (event) => this.heard(event));
     listen("again", () => this.again());
@@ -170,7 +171,6 @@ class Setup {
     this.form.show(this.chosen);
     if (by === "refused") return;
     this.problems.wait();
-    this.checked.ask();
     this.drawn.ask();
   }
 
@@ -218,18 +218,22 @@ class Setup {
     this.editor.mark(this.faults.filter((one) => one.line && (!one.file || one.file.split("/").pop() === name)));
   }
 
-  async draw() {
+  /** First a draft, which the next edit need not wait for, then the whole scene. */
+  async draw(draft) {
     const { main } = this;
     if (main.error) {
       this.area.old("the text is no TOML");
       return;
     }
-    const scene = await this.area.ask(main, this.fresh);
+    const asked = this.area.ask(main, this.fresh, draft);
+    if (draft) asked.finally(() => this.checked.ask()).catch(() => {}); // the picture comes first
+    const scene = await asked;
     if (!scene || main !== this.main) return;
     this.fresh = false;
     this.scene = scene;
     this.area.choose(this.chosen);
     this.area.blame(this.faults, this.chosen);
+    if (scene.draft) this.drawnWhole.ask();
   }
 
   /** Chooses the item that a key belongs to. */
