@@ -56,7 +56,7 @@ def scene(plyform, request: dict) -> tuple[dict, bytes]:
 def draft(plyform, request: dict) -> tuple[dict, bytes]:
     """The scene with few facets in the place of very many; nothing if no tool has so many."""
     from workbench.scene.draft_tools import stand_ins
-    from workbench.scene_bytes import scene_bytes
+    from workbench.scene.scene_bytes import scene_bytes
     found = stand_ins(Path(request["file"]), Path(request["room"]))
     if not found:
         return {}, b""
