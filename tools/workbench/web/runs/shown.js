@@ -53,8 +53,8 @@ export class RunShown {
     this.title.title = run.title || run.folder;
     this.state.textContent = stateWord(run);
     this.state.dataset.state = run.state;
-    this.message.textContent = run.message;
-    this.message.hidden = !run.message;
+    if (news) this.complaint = ""; // of its log, where it has ended without a message
+    this.tellMessage(run);
     if (news) this.acts.replaceChildren(...this.buttons(run));
     this.progressed(run);
     if (news) this.load(run, other).catch(tell);
@@ -116,10 +116,13 @@ export class RunShown {
     this.command.textContent = said.command;
     this.cwd.textContent = said.cwd;
     this.print(said.log);
-    if (run.state === "failed" && !run.message) {
-      this.message.textContent = lastWords(said.log);
-      this.message.hidden = !this.message.textContent;
-    }
+    if (run.state === "failed") this.complaint = lastWords(said.log);
+    this.tellMessage(this.run);
+  }
+
+  tellMessage(run) {
+    this.message.textContent = run.message || this.complaint;
+    this.message.hidden = !this.message.textContent;
   }
 
   print(log) {
