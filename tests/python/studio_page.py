@@ -15,7 +15,7 @@ from studio_controls import Controls
 
 PATIENCE = 120.0  # s
 PASSING = (NoSuchElementException, StaleElementReferenceException, ElementClickInterceptedException,
-           ElementNotInteractableException, KeyError, IndexError, tomllib.TOMLDecodeError)
+           ElementNotInteractableException, KeyError, IndexError, TypeError, tomllib.TOMLDecodeError)
 
 
 class Page(Browser):

@@ -135,7 +135,7 @@ def onto_the_stack(page: Page) -> None:
     place = page.tree()["tool"][at]["position"]
     page.item(f"tool.{at}")
     for other in (-0.8, 25.0):
-        page.type(f"tool.{at}.position", f"{place[2] + other:.4f}", part="2")
+        page.key(f"tool.{at}.position", f"{place[2] + other:.4f}", part="2")
         page.until(lambda: abs(page.js("return plyform_setup.scene.tools[arguments[0]].gap.mm", at) - other) < 1e-3)
         page.press("#touch-stack")
         page.until(lambda: abs(page.tree()["tool"][at]["position"][2] - place[2]) < 1e-3)
@@ -158,6 +158,109 @@ def simplified_tools(page: Page) -> None:
     assert found
     for tool in found:
         assert tool["off"] < 0.01 * tool["size"] and tool["torn"] < 0.02, tool
+def rows_of_fabrics(page: Page, folder: Path) -> None:
+    """Families, stitches, crossings: copied, moved, removed; a table taken away and given again."""
+    file = folder / "fabrics" / "ncf_biaxial_pillar.toml"
+
+    def act(word, key, holds):
+        page.press(f'[aria-label="{word} fabrics.ncf.{key}"]')
+        page.until(lambda: holds(tomllib.loads(file.read_text())), f"{word} {key}")
+    page.item("fabrics.ncf")
+    for name in ("family", "stitch", "crossing"):
+        before = tomllib.loads(file.read_text())[name]
+        count = len(before)
+        act("Copy", f"{name}.0", lambda tree, n=name, c=count: len(tree[n]) == c + 1)
+        first, second = tomllib.loads(file.read_text())[name][:2]
+        act("Move down", f"{name}.0", lambda tree, n=name, one=second: tree[n][0] == one)
+        act("Move up", f"{name}.1", lambda tree, n=name, one=first: tree[n][0] == one)
+        act("Remove", f"{name}.1", lambda tree, n=name, all_=before: tree[n] == all_)
+    plain = next(name for name in page.tree()["fabrics"] if name != "ncf")
+    page.item(f"fabrics.{plain}")
+    text = (folder / "mine" / page.tree()["fabrics"][plain]).read_text()
+    page.press(f'[aria-label="Remove fabrics.{plain}.shear"]')
+    file = folder / "mine" / page.tree()["fabrics"][plain]
+    page.until(lambda: "shear" not in tomllib.loads(file.read_text()), "the table is gone")
+    file.write_text(text)
+    page.until(lambda: page.seen(f'[aria-label="Remove fabrics.{plain}.shear"]'), "the table is there again")
+
+
+def lists(page: Page) -> None:
+    """Points, arcs, holes, rows; boundaries and loads; all of it is taken back."""
+    before = page.tree()
+    at = next(k for k, tool in enumerate(before["tool"]) if tool["shape"] == "profile")
+    key = f"tool.{at}.points"
+    page.item(f"tool.{at}")
+    points = before["tool"][at]["points"]
+    page.key(key, "-130", part="0.b")
+    page.until(lambda: page.tree()["tool"][at]["points"][0][1] == -130, "a point")
+    page.key(key, "81", part="0.a")
+    page.until(lambda: page.tree()["tool"][at]["points"][0][0] == 81, "a point")
+    page.key(key, "9", part="1.fillet")
+    page.until(lambda: page.tree()["tool"][at]["points"][1][2] == 9, "a fillet")
+    page.choose(key, "arc", part="1.kind")
+    page.until(lambda: page.tree()["tool"][at]["points"][1]["turn"] == "left", "an arc")
+    for part, where, value in (("1.to0", ("to", 0), 90), ("1.to1", ("to", 1), 5), ("1.centre0", ("centre", 0), 85),
+                               ("1.centre1", ("centre", 1), 2)):
+        page.key(key, str(value), part=part)
+        page.until(lambda w=where, v=value: page.tree()["tool"][at]["points"][1][w[0]][w[1]] == v, part)
+    page.choose(key, "right", part="1.turn")
+    page.until(lambda: page.tree()["tool"][at]["points"][1]["turn"] == "right", "its turn")
+    page.press(f'[data-list="{key}"] [data-act="add-row"]')
+    page.until(lambda: len(page.tree()["tool"][at]["points"]) == len(points) + 1, "one more")
+    page.press(f'[data-list="{key}"] .point:last-of-type [data-act="remove-row"]')
+    page.until(lambda: len(page.tree()["tool"][at]["points"]) == len(points), "one less")
+    key = f"blanks.{next(iter(before['blanks']))}"
+    page.item(key)
+    page.press('[data-act="add-circle"]')
+    for part, value in (("0.x", 5), ("0.y", 6), ("0.radius", 7)):
+        page.key(f"{key}.holes", str(value), part=part)
+    page.until(lambda: list(page.tree()["blanks"].values())[0]["holes"] == [{"centre": [5, 6], "radius": 7}], "a hole")
+    page.press('[data-act="add-outline"]')
+    page.until(lambda: len(list(page.tree()["blanks"].values())[0]["holes"]) == 2, "two holes")
+    page.press('.holes legend [data-act="remove-row"]')
+    page.until(lambda: len(list(page.tree()["blanks"].values())[0]["holes"]) == 1, "one hole")
+    for group in ("boundary", "load"):
+        page.press(f'[data-add="{group}"]')
+        page.until(lambda g=group: len(page.tree()[g]) == 1, group)
+    while page.tree() != before:
+        now = page.written()
+        page.press("#undo")
+        page.until(lambda n=now: page.written() != n, "taken back")
+
+
+def cancelled(page: Page, folder: Path) -> None:
+    """Every window can be left, and nothing is changed by it; a part that is none is told in its window."""
+    before = page.written()
+    for button, name in (("#new-case-button", "new-case"), ('[data-add="fabrics"]', "add-fabric"),
+                         ("#run-case-button", "ask-run")):
+        page.press(button)
+        page.press(f"#{name}-cancel")
+        page.until(lambda: not page.seen("dialog"), f"{name} is closed")
+    page.drop("part.step", b"no part")
+    page.pick("#import-part-make", "offset")
+    page.type("#import-part-offset", "1.5")
+    page.pick("#import-part-make", "stack")
+    page.type("#import-part-shear", "90")
+    page.pick("#import-part-on", "punch")
+    page.pick("#import-part-solid", "tool")
+    page.type("#import-part-deflection", "0.1")
+    page.press("#import-part-replace")
+    page.press("#import-part-go")
+    page.until(lambda: "0 to 80 degrees" in page.text("#import-part .words"), "90 degrees are too many")
+    page.type("#import-part-shear", "0")
+    page.press("#import-part-go")
+    page.until(lambda: "is no STEP file" in page.text("#import-part .words"), "what is no part is told")
+    page.press("#import-part-cancel")
+    page.drop("other.dxf", DXF)
+    page.pick("#import-drawing-unit", "cm")
+    page.type("#import-drawing-element_size", "12")
+    page.press("#import-drawing-cancel")
+    page.drop("again.toml", (folder / "fabrics" / "glass_plain_weave.toml").read_bytes())
+    page.press("#import-fabric-cancel")
+    page.drop("again.toml", b"")
+    page.press("#replace-cancel")
+    page.until(lambda: not page.seen("dialog"), "all are closed")
+    assert page.written() == before and (folder / "mine/again.toml").read_bytes()
 
 
 def text_beside(page: Page) -> None:
@@ -356,6 +459,7 @@ def run(page: Page) -> None:
     page.press("#run-case-button")
     page.type("#ask-run-name", "by_click")
     page.pick("#ask-run-accuracy", "draft")
+    page.press("#ask-run-verify")
     page.type("#ask-run-threads", "1")
     page.type("#ask-run-budget", "0.001")
     page.press("#ask-run-go")
@@ -364,8 +468,10 @@ def run(page: Page) -> None:
     assert "by_click" in names, names
 
 
-PARTS = [onto_the_stack, simplified_tools, outline_and_forms, either_or, items, fabrics, text_beside, scene_controls, measuring, chosen_in_scene,
-         last_good_scene, two_pages, new_cases, dropped_files, mistakes, run]
+PARTS = [onto_the_stack, simplified_tools, outline_and_forms, either_or, items, fabrics, rows_of_fabrics, lists,
+         text_beside, scene_controls, measuring, chosen_in_scene, last_good_scene, two_pages, new_cases,
+         dropped_files, cancelled, mistakes, run]
+OF_FOLDER = (fabrics, rows_of_fabrics, two_pages, dropped_files, cancelled)
 
 
 def main() -> None:
@@ -376,7 +482,7 @@ def main() -> None:
             for part in PARTS:
                 begin = time.monotonic()
                 try:
-                    part(page, folder) if part in (fabrics, two_pages, dropped_files) else part(page)
+                    part(page, folder) if part in OF_FOLDER else part(page)
                 finally:
                     if PICTURES:
                         page.screenshot(PICTURES / f"{part.__name__}.png")
