@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Buttons and boxes of a SceneView: from where it is seen, tools, section, yarns, measuring.
 
-import { STANDARD_VIEWS } from "plyform/camera.js";
 import { element } from "workbench/page/elements.js";
+import { VIEW_KEYS } from "workbench/scene/view.js";
 
 const SECTIONS = { off: "no section", x: "along x", y: "along y", angle: "at an angle", level: "level" };
 const YARNS = [0, 2, 5, 10, 20, 50];
@@ -42,7 +42,7 @@ function sectionControls(view, name) {
 
 /** A bar of controls above a view; ids begin with `name`. */
 export function sceneControls(view, name = "scene") {
-  const views = element("span", { className: "buttons" }, ...Object.keys(STANDARD_VIEWS).map((one, i) => {
+  const views = element("span", { className: "buttons" }, ...Object.values(VIEW_KEYS).map((one, i) => {
     const made = element("button", { type: "button", id: `${name}-view-${one}`, textContent: one,
       title: `Seen ${one} (key ${i + 1})` });
     made.addEventListener("click", () => view.seenFrom(one));

@@ -10,7 +10,7 @@ import { element } from "workbench/page/elements.js";
 import { AngleHandle, Marks } from "workbench/scene/marks.js";
 
 const THREE = window.THREE;
-const VIEW_KEYS = { 1: "oblique", 2: "top", 3: "front", 4: "side", 5: "bottom" };
+export const VIEW_KEYS = { 1: "oblique", 2: "top", 3: "front", 4: "side", 5: "bottom" };
 const TOOL_WAYS = ["outlines", "solid", "hidden"];
 
 /** A round number near a 40th of the size: mm between the yarns that are drawn. */

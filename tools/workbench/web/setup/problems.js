@@ -76,7 +76,8 @@ export class Problems {
   }
 
   line(fault) {
-    const where = fault.file ? `${fault.file.split("/").pop()}:${fault.line}` : fault.line ? `line ${fault.line}` : "";
+    const where = [fault.file && fault.file.split("/").pop(), fault.line && `line ${fault.line}`].filter(Boolean)
+      .join(", ");
     const made = element("button", { type: "button", className: fault.warning ? "fault-words warning" : "fault-words",
       dataset: { key: fault.key } }, element("b", { textContent: fault.key || where }),
     ` ${withoutKey(fault)}`);
