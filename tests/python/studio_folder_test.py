@@ -144,6 +144,74 @@ def files_elsewhere(place):
             assert status == 403 and "leads out" in said["error"], (path, status, said)
 
 
+def damaged(place):
+    """Files of commands and runs with anything in them: told of, and what looks at them again and again goes on."""
+    folder = place / "damaged"
+    processes = sent(folder, [record_of(1, ["true"], launched=True), record_of(2, ["true"], launched=True, begun="x"),
+                              record_of(3, ["true"], about={"output": ["results/a"]}), record_of(4, "true"),
+                              {**record_of(5, ["true"]), "id": "000001"}])
+    (processes / "000001.end").write_text('{"code": "x", "ended": "y", "pid": [], "stops": {}}')
+    (processes / "000002.run").write_text("[]")
+    contents = {"progress.json": ("{}", "[]", '{"pid": 1, "case": 5}', '{"pid": 1e9}', "{", '{"pid": -1, "phase": []}'),
+                "summary.json": ("{}", "[]", '{"status": []}', '{"status": "done", "plies": 5, "tools": {}}', "{", "9" * 5000),
+                "results.h5": ("", "HDF"), "history.csv": ("", "\0\0")}
+    for name, texts in contents.items():
+        for number, text in enumerate(texts):
+            (folder / f"results/{name}_{number}").mkdir(parents=True, exist_ok=True)
+            (folder / f"results/{name}_{number}" / name).write_text(text)
+    for path, place_ in (("jobs.json", "{"), ("table.csv", "a,b\n1,\"" + "x" * 200_000)):
+        (folder / f"results/study_{path}/runs").mkdir(parents=True)
+        (folder / f"results/study_{path}" / path).write_text(place_)
+    with Server(TOOLS, PROGRAM, folder) as server:
+        for path in ("api/processes", "api/runs", "api/results", "api/studies", "api/folder"):
+            server.get(path)
+        for run in server.get("api/runs"):
+            for route in ("runs/messages", "runs/bodies", "runs/state", "results/files", "study/table"):
+                status, said = server.call("GET", f"api/{route}", query={"folder": run["folder"]})
+                assert status in (200, 403, 404, 409, 422), (route, run, said)
+        status, said = server.call("GET", "api/study/table", query={"folder": "results/study_table.csv"})
+        assert status == 422 and "table.csv" in said["error"], said
+
+
+def disk_is_full(place):
+    """No file can be longer: nothing is changed by halves, nothing of it stays behind, and it is told."""
+    server = Server(TOOLS, PROGRAM, place / "full")
+    server.command = ["/usr/bin/prlimit", "--fsize=6000", *server.command]
+    with server:
+        case = server.send("api/cases", {"name": "mine"})["path"]
+        seen, k = server.get("api/case", path=case), 0
+        while (answer := server.call("PATCH", "api/case", {"version": seen["version"], "edits": [
+                {"op": "set", "key": "tool.0.stroke", "value": 10.0 + k}]}, query={"path": case}))[0] == 200:
+            seen, k = answer[1], k + 1
+            assert k < 100
+        assert answer[0] == 500 and "too large" in answer[1]["error"], answer
+        now = server.get("api/case", path=case)
+        assert (now["text"], now["version"]) == (seen["text"], seen["version"]) and k > 1
+        status, said = server.call("PUT", "api/case", {"text": "# " + "x" * 7000, "version": now["version"]},
+                                   query={"path": case})
+        assert status == 500 and server.get("api/case", path=case)["text"] == seen["text"], said
+        left = [path.name for path in server.folder.rglob("*") if "part_" in path.name]
+        assert not left, left
+        assert server.call("POST", "api/upload", b"x" * 9000, query={"name": "a.stl"})[0] == 500
+        assert not (server.folder / "a.stl").exists() and not list((server.folder / ".plyform/uploads").iterdir())
+
+
+def folder_goes_away(place):
+    """While it is open: told, and again there when it is."""
+    folder = place / "away"
+    with Server(TOOLS, PROGRAM, folder) as server:
+        case = server.send("api/cases", {"name": "mine"})["path"]
+        folder.rename(place / "elsewhere")
+        for path in ("api/folder", "api/runs", "api/results", "api/studies", "api/processes"):
+            status, said = server.call("GET", path)
+            assert status == 200 or said["error"], (path, status, said)
+        assert server.call("GET", "api/case", query={"path": case})[0] == 404
+        assert server.call("POST", "api/runs", {"case": case})[0] == 404
+        time.sleep(1.0)
+        (place / "elsewhere").rename(folder)
+        assert server.get("api/case", path=case)["tree"]
+
+
 def lock_of_another(place):
     """It came with the folder, for all to read, and with the address of another workbench."""
     lock = place / "locked/.plyform/lock"
@@ -151,6 +219,7 @@ def lock_of_another(place):
     lock.write_text("http://127.0.0.1:1/old/\n" * 100)
     lock.chmod(0o666)
     with Server(TOOLS, PROGRAM, place / "locked") as server:
+        server.get("api/folder")
         assert lock.stat().st_mode & 0o777 == 0o600 and lock.read_text() == server.address + "\n"
 
 
@@ -171,8 +240,8 @@ def users(place):
 def main():
     with tempfile.TemporaryDirectory() as made:
         place = Path(made)
-        for part in (commands_that_wait, what_waits_here, links, keys_without_end, files_elsewhere, lock_of_another,
-                     users):
+        for part in (commands_that_wait, what_waits_here, links, keys_without_end, files_elsewhere, damaged, disk_is_full,
+                     folder_goes_away, lock_of_another, users):
             part(place)
             print(part.__name__, "done")
 

@@ -100,8 +100,8 @@ class CaseFiles:
         content = after.encode()
         if len(content) > MOST_TEXT:
             raise Refused(f"a case can have {MOST_TEXT >> 20} MiB", 413)
+        self.history.changed(path, before, after)  # first: on a full disk both stay as they are
         self.project.write(path, content)
-        self.history.changed(path, before, after)
         self.tell(path, version_of(content))
 
     def tell(self, path: Path, version: str) -> None:
@@ -110,8 +110,8 @@ class CaseFiles:
         self.events.send("case", path=name, version=version)
 
     def put(self, name: str, text, version) -> dict:
-        if not isinstance(text, str):
-            raise Refused("a text is wanted", 422)
+        if not isinstance(text, str) or not text.isascii() and any("\ud800" <= c <= "\udfff" for c in text):
+            raise Refused("a text is wanted, of characters", 422)
         with self.lock:
             path, before = self.current(name, version)
             parsed(text)
@@ -137,7 +137,7 @@ class CaseFiles:
             other = self.history.other(path, text, step)
             if other is None:
                 raise Refused("there is nothing to take back" if step < 0 else "there is nothing to do again", 409)
-            self.project.write(path, other.encode())
             self.history.went(path, text, step)
+            self.project.write(path, other.encode())
             self.tell(path, version_of(other.encode()))
             return self.answer(name)

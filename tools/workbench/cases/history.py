@@ -3,14 +3,17 @@
 started again still has them. What another program has written is a step as well."""
 
 import hashlib
-import json
 from pathlib import Path
+
+from base.ending import Trouble
+from base.files import read_json
 
 from ..processes.launch import keep
 from ..server.project import Project
 
 MOST_STEPS = 100
 MOST_BYTES = 8 << 20
+MOST_FILE = 64 << 20  # bytes, as JSON writes them out
 
 
 class History:
@@ -26,12 +29,14 @@ class History:
     def load(self, path: Path, text: str) -> dict:
         """{texts, at}, with the text that the file has now at `at`."""
         try:
-            record = json.loads(self.place(path).read_text(encoding="utf-8"))
+            record = read_json(self.place(path), MOST_FILE)
             texts, at = record["texts"], record["at"]
-            now = texts[at]
-        except (OSError, ValueError, KeyError, IndexError, TypeError):
+            if not all(isinstance(one, str) for one in texts) or type(at) is not int or not 0 <= at < len(texts):
+                raise ValueError("damaged")
+        except (Trouble, ValueError, KeyError, TypeError):
             return {"texts": [text], "at": 0}
-        return record if now == text else self.stepped(record, text)
+        record = {"texts": texts, "at": at}
+        return record if texts[at] == text else self.stepped(record, text)
 
     def stepped(self, record: dict, text: str) -> dict:
         texts = [*record["texts"][:record["at"] + 1], text][-MOST_STEPS:]

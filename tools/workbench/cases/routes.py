@@ -17,7 +17,7 @@ def routes(studio: Studio) -> APIRouter:
     router = APIRouter()
     files, folder = CaseFiles(studio.project, studio.events), Folder(studio.project)
     reading = CaseReading(files, studio.program)
-    threading.Thread(target=reading.watch, args=(studio.processes.ending, folder), daemon=True).start()
+    reading.watch(studio.processes.ending, folder)
 
     @router.get("/folder")
     def contents() -> dict:

@@ -2,6 +2,7 @@
 """Files that are dropped into the page: written as they come into a part of their own, which gets its name
 when it is whole, and never that of another file unless that is asked for."""
 
+import errno
 import os
 import shutil
 from pathlib import Path
@@ -10,6 +11,7 @@ from ..cases.folder import KINDS
 from ..server.guard import Refusal
 from ..server.project import Project, Refused, plain_name
 
+NO_LINKS = (errno.EPERM, errno.EOPNOTSUPP, errno.ENOSYS, errno.EMLINK)  # FAT, some shares
 SPARE = 64 << 20  # bytes that stay free on the disk
 
 
@@ -58,7 +60,14 @@ class Upload:
 
     def named(self, folder: int) -> None:
         try:
-            os.link(self.part, self.path.name, dst_dir_fd=folder)
+            try:
+                os.link(self.part, self.path.name, dst_dir_fd=folder)
+            except OSError as problem:
+                if problem.errno not in NO_LINKS:
+                    raise
+                flags = os.O_WRONLY | os.O_CREAT | os.O_EXCL | os.O_NOFOLLOW | os.O_CLOEXEC
+                os.close(os.open(self.path.name, flags, dir_fd=folder))
+                os.replace(self.part, self.path.name, dst_dir_fd=folder)
         except FileExistsError as problem:  # come between
             raise Refused(f"there is a {self.path.name} already: give it another name, or replace it", 409) from problem
 

@@ -17,6 +17,7 @@ import time
 from pathlib import Path
 
 PERIOD = 0.1  # s, between two looks for a stop
+PATIENCE = 3600.0  # s, with a disk that takes nothing
 MAY_ASK = ("SIGINT", "SIGTERM", "SIGKILL")
 IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # the command gets them, and ends as it does
 
@@ -24,8 +25,12 @@ IGNORED = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)  # the command gets the
 def keep(path: Path, record: dict) -> None:
     """Whole or not at all."""
     part = path.with_name(f"part_{path.name}")
-    part.write_text(json.dumps(record), encoding="utf-8")
-    os.replace(part, path)
+    try:
+        part.write_text(json.dumps(record), encoding="utf-8")
+        os.replace(part, path)
+    except OSError:
+        part.unlink(missing_ok=True)
+        raise
 
 
 def asked(path: Path) -> list[str]:
@@ -65,8 +70,23 @@ def wait(child: subprocess.Popen, stop: Path) -> int:
             continue
 
 
+def patiently(path: Path, record: dict, most_s: float) -> None:
+    """What is not kept is lost: a full disk is waited for, a folder that has gone is not."""
+    begin = time.monotonic()
+    while True:
+        try:
+            keep(path, record)
+            return
+        except FileNotFoundError:
+            return
+        except OSError:
+            if time.monotonic() - begin > most_s:
+                return
+            time.sleep(min(1.0, most_s))
+
+
 def end(path: Path, code: int, **more) -> None:
-    keep(path.with_suffix(".end"), {"code": code, "ended": time.time(), **more})
+    patiently(path.with_suffix(".end"), {"code": code, "ended": time.time(), **more}, PATIENCE)
 
 
 def main() -> None:
@@ -84,7 +104,7 @@ def main() -> None:
             why = getattr(problem, "strerror", None) or str(problem)
             end(path, 1, error=f"{record['command'][0]} cannot be started: {why}")
             return
-        keep(path.with_suffix(".run"), {"pid": child.pid, "begun": time.time()})
+        patiently(path.with_suffix(".run"), {"pid": child.pid, "begun": time.time()}, 0.0)
         code = wait(child, path.with_suffix(".stop"))
     end(path, code)
 

@@ -21,6 +21,7 @@ from base.ending import one_line
 
 from ..server.events import Events
 from ..server.project import Project, Refused
+from ..server.watch import watch
 from .launch import MAY_ASK
 from .records import LIVE, Records
 
@@ -132,21 +133,14 @@ class Processes:
                     self.launch(record)
                 records = self.records()
             for record in records:
-                mark = (record["state"], record["order"], record["stops"], *self.kept.log_mark(record["id"]))
+                mark = (record["state"], record["order"], record["stops"],
+                        *(self.kept.log_mark(record["id"]) if record["state"] in LIVE else ()))
                 if self.told.get(record["id"]) != mark:
                     self.told[record["id"]] = mark
                     self.events.send("process", record=record, last=last_line(self.log(record["id"], 400)))
 
     def watch(self) -> threading.Thread:
-        def go_on() -> None:
-            while not self.ending.wait(PERIOD):
-                try:
-                    self.look()
-                except OSError:
-                    continue  # a full disk: again soon
-        thread = threading.Thread(target=go_on, daemon=True)
-        thread.start()
-        return thread
+        return watch(self.look, PERIOD, self.ending)
 
 
 def queue_of(records: list[dict]) -> list[dict]:

@@ -5,6 +5,7 @@ import os
 import re
 import shlex
 import threading
+from collections.abc import Callable
 from pathlib import Path
 
 from fastapi import APIRouter, Body, Response
@@ -16,6 +17,7 @@ from ..cases.paths import paths_inside
 from ..processes.records import LIVE
 from ..server.project import Refused, plain_name
 from ..server.studio import Studio
+from ..server.watch import watch
 from . import live_states, files as run_files
 from .listing import RunList, mark_of_list
 
@@ -27,7 +29,7 @@ MOST_THREADS = 256
 
 def routes(studio: Studio) -> APIRouter:
     router, runs, beginning = APIRouter(), RunList(studio.project, studio.processes), threading.Lock()
-    threading.Thread(target=tell, args=(studio, runs), daemon=True).start()
+    watch(teller(studio, runs), PERIOD, studio.processes.ending)
 
     @router.get("/runs")
     def every() -> list[dict]:
@@ -80,22 +82,22 @@ def routes(studio: Studio) -> APIRouter:
     return router
 
 
-def tell(studio: Studio, runs: RunList) -> None:
-    """{kind: "runs"} when the list is another one, {kind: "progress", folder, ...} of what goes on."""
+def teller(studio: Studio, runs: RunList) -> Callable[[], None]:
+    """Tells {kind: "runs"} when the list is another one, {kind: "progress", folder, ...} of what goes on."""
     mark = ""
-    while not studio.processes.ending.wait(PERIOD):
+
+    def tell() -> None:
+        nonlocal mark
         if not studio.events.pages:
-            continue
-        try:
-            now = runs.every()
-        except (OSError, Trouble):
-            continue  # written just now, or a full disk: again soon
+            return
+        now = runs.every()
         if mark != (mark := mark_of_list(now)):
             studio.events.send("runs")
         for run in now:
             if run["state"] == "running":
                 studio.events.send("progress", folder=run["folder"], progress=run["progress"],
                                    states=run["states"])
+    return tell
 
 
 def known(runs: RunList, folder: str) -> dict:

@@ -12,6 +12,7 @@ from base.ending import Trouble
 from ..cases.files import CaseFiles, version_of
 from ..cases.paths import MOST_TEXT, paths_inside
 from ..server.project import Refused
+from ..server.watch import watch
 from .draft_tools import is_large
 from .readers import Worker, Workers
 
@@ -161,15 +162,16 @@ class CaseReading:
 
     def watch(self, ending: threading.Event, folder) -> None:
         """Tells pages of changes that other programs make: to a case or its files, and of files that come
-        and go. Never returns before `ending`."""
+        and go."""
         before = folder.stamp()
-        while not ending.wait(PERIOD):
+
+        def tell() -> None:
+            nonlocal before
             for name in list(self.followed):
                 self.look(name)
-            now = folder.stamp()
-            if now != before:
-                before = now
+            if before != (before := folder.stamp()):
                 self.files.events.send("folder")
+        watch(tell, PERIOD, ending)
 
     def look(self, name: str) -> None:
         try:

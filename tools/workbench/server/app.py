@@ -32,6 +32,10 @@ def application(studio: Studio, routers: list) -> FastAPI:
     async def begin() -> None:
         studio.events.loop = asyncio.get_running_loop()
 
+    @app.on_event("shutdown")
+    async def end() -> None:
+        studio.processes.ending.set()
+
     @app.get("/")
     async def index() -> HTMLResponse:
         return HTMLResponse(page, headers={"Content-Security-Policy": policy})
