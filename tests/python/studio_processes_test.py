@@ -13,7 +13,7 @@ from pathlib import Path
 
 sys.path.insert(0, sys.argv[1])
 from workbench.server.events import Events  # noqa: E402
-from workbench.processes.processes import Processes  # noqa: E402
+from workbench.processes.processes import MOST_ENDED, Processes  # noqa: E402
 from workbench.server.project import Project, Refused  # noqa: E402
 
 PYTHON = sys.executable
@@ -221,8 +221,31 @@ def many_at_a_time(folder):
     assert len(processes.records()) == 16 and out.read_text() == 16 * "x"
 
 
+def old_ones_go(folder):
+    """Of each kind but runs; those that go on stay."""
+    processes = opened(folder)
+    live = processes.begin("report", "goes on", [PYTHON, *DEAF], folder)["id"]
+    for kind in ("run", "report"):
+        for number in range(MOST_ENDED + 3):
+            record = processes.kept.new({"kind": kind, "words": "", "command": ["true"], "cwd": folder, "about": {},
+                                         "queued": 1.0, "in_queue": False, "launched": True})
+            (processes.kept.folder / f"{record['id']}.end").write_text('{"code": 0, "ended": 2.0}')
+    first = processes.records("report")[1]["id"]
+    last = processes.begin("report", "one more", ["true"], folder)["id"]
+    kept = [one["id"] for one in processes.records("report")]
+    assert len(kept) == MOST_ENDED + 1 and live in kept and last in kept and first not in kept, len(kept)
+    assert len(processes.records("run")) == MOST_ENDED + 3
+    assert not list(processes.kept.folder.glob(f"{first}.*"))
+    for _ in range(3):
+        processes.stop(live)
+    end = time.monotonic() + 20
+    while any(processes.record(number)["state"] in ("starting", "running") for number in (live, last)):
+        assert time.monotonic() < end
+        time.sleep(0.05)
+
+
 def main():
-    for check in (ends, in_order, stops, found_again, damaged, many_at_a_time):
+    for check in (ends, in_order, stops, found_again, damaged, many_at_a_time, old_ones_go):
         with tempfile.TemporaryDirectory() as folder, tempfile.TemporaryDirectory() as state:
             os.environ["XDG_STATE_HOME"] = state
             begin = time.monotonic()

@@ -18,6 +18,7 @@ def routes(studio: Studio) -> APIRouter:
     files, folder = CaseFiles(studio.project, studio.events), Folder(studio.project)
     reading = CaseReading(files, studio.program)
     reading.watch(studio.processes.ending, folder)
+    router.add_event_handler("shutdown", reading.stop)
 
     @router.get("/folder")
     def contents() -> dict:

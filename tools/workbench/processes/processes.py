@@ -29,6 +29,7 @@ LAUNCH = Path(__file__).resolve().parent / "launch.py"
 PERIOD = 0.25      # s, between two looks at the records
 TAIL = 16 << 10    # bytes of a log that a page is told
 MOST_WAITING = 1000
+MOST_ENDED = 200   # records of a kind that are kept; those of runs go with their results
 
 
 class Processes:
@@ -48,6 +49,8 @@ class Processes:
         with self.lock:
             if queue and len(self.waiting()) >= MOST_WAITING:
                 raise Refused(f"{MOST_WAITING} wait already: let some of them end", 409)
+            if kind != "run":
+                self.forget_old(kind)
             record = self.kept.new({"kind": kind, "words": words, "command": [str(word) for word in command],
                                     "cwd": str(cwd), "about": about or {}, "queued": time.time(),
                                     "in_queue": queue})
@@ -113,6 +116,11 @@ class Processes:
                     file.write(word + "\n")
         self.look()
         return self.record(number)
+
+    def forget_old(self, kind: str) -> None:
+        ended = [record["id"] for record in self.records(kind) if record["state"] not in LIVE]
+        for number in ended[:max(0, len(ended) - MOST_ENDED + 1)]:
+            self.forget(number)
 
     def forget(self, number: str) -> None:
         """Removes the record of one that has ended. Raises Refused."""

@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""A process beside the workbench that reads cases with the program's own code: reader.py TOOLS MODULE.
+"""A process beside the workbench that reads cases with the program's own code: reader.py TOOLS MODULE LIMIT.
 Requests come as lines of JSON, answers go as two lengths (uint32 of the JSON, uint64 of the bytes) and both.
 It may go down on any file, or never come back: readers.py, which starts it, then starts another."""
 
 import hashlib
 import json
 import os
+import signal
 import struct
 import sys
 import threading
@@ -25,6 +26,7 @@ def main() -> None:
         plyform, missing = None, f"Python's module cannot be loaded: {problem}"
     for line in sys.stdin.buffer:
         request = json.loads(line)
+        signal.setitimer(signal.ITIMER_REAL, float(sys.argv[3]))  # also where no other thread gets a turn any more
         try:
             if plyform is None:
                 raise ImportError(missing)
@@ -32,6 +34,7 @@ def main() -> None:
         except Exception as problem:  # whatever it is, the page is told
             said, content = {"error": f"{type(problem).__name__}: {problem}"[:2000]}, b""
         words = json.dumps(finite(said)).encode()
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
         answers.write(struct.pack("<IQ", len(words), len(content)) + words)
         answers.write(content)
         answers.flush()

@@ -20,6 +20,7 @@ WORKER = Path(__file__).resolve().parent / "reader.py"
 LIMIT = 60.0  # s for one answer
 LONG = 300.0  # s for an outlook, which may run the whole scene coarsely
 PATIENCE = 0.7  # s that an older request of the same file may still take; a new process takes as long
+LATER = 5.0  # s after which it ends itself, when there is no workbench any more
 MOST_ANSWER = 1 << 30
 
 
@@ -31,7 +32,7 @@ class Worker:
     """Answers one request after the other. A newer request of the same file ends an older one."""
 
     def __init__(self, module: Path, limit: float = LIMIT, nice: int = 0):
-        self.command = [sys.executable, "-sP", str(WORKER), str(TOOLS), str(module)]
+        self.command = [sys.executable, "-sP", str(WORKER), str(TOOLS), str(module), f"{limit + LATER:g}"]
         self.limit, self.nice = limit, nice
         self.turn = threading.Lock()
         self.state = threading.Lock()
@@ -152,3 +153,7 @@ class Workers:
     def warm(self) -> None:
         for worker in (self.draft, self.scene, self.check):
             worker.start()
+
+    def stop(self) -> None:
+        for worker in (self.scene, self.check, self.outlook):
+            worker.stop()

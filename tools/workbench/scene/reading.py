@@ -48,6 +48,10 @@ class CaseReading:
         except Trouble:
             pass  # told when a case is asked for
 
+    def stop(self) -> None:
+        if self.started:
+            self.started.stop()
+
     def asked(self, name: str, version: str) -> tuple[str, tuple, Path]:
         """Name, stamp of all its files and path of a case. Raises Refused, also if it names files outside."""
         path = self.files.path(name)
