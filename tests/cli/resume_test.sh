@@ -88,7 +88,8 @@ for case in stack frame table springs mesh scene; do
 done
 
 # Ended by the user, by the system, by a terminal that closed: all can go on.
-"$program" run "${stack[@]}" --threads 1 -o whole >whole.log 2>&1
+rm -rf whole # the summary says what the case was given
+"$program" run "${stack[@]}" --set solver.checkpoint_interval=1000 --threads 1 -o whole >whole.log 2>&1
 for signal in INT TERM HUP; do
   rm -rf again
   run again "${stack[@]}" --set solver.checkpoint_interval=1000
