@@ -18,6 +18,7 @@ from ..server.project import Project, Refused
 MOST_FILES, DEPTH, MOST_DEPTH = 500, 3, 6
 MOST_DRAWING = 16 << 20  # bytes
 ASIDE = ("states",)      # of a run that goes on: parts of results.h5
+PASSING = ("picture.ask", "picture.bin")  # between a run that goes on and this
 HEADERS = {"Content-Security-Policy": "sandbox; default-src 'none'", "X-Content-Type-Options": "nosniff"}
 
 
@@ -37,7 +38,7 @@ def listed(project: Project, name: str) -> list[dict]:
                 continue
             if entry.is_dir(follow_symlinks=False) and depth < DEPTH and entry.name not in ASIDE:
                 walk.append((Path(entry.path), depth + 1))
-            elif entry.is_file(follow_symlinks=False):
+            elif entry.is_file(follow_symlinks=False) and entry.name not in PASSING:
                 status = entry.stat(follow_symlinks=False)
                 found.append({"path": project.relative(Path(entry.path)), "size": status.st_size,
                               "name": os.path.relpath(entry.path, folder), "date": status.st_mtime})
