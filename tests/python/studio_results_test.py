@@ -212,7 +212,9 @@ def check_differences(page, folder):
     figures = {row.find_element("css selector", "th").text: [cell.text for cell in row.find_elements("css selector", "td")]
                for row in page.all("#differences-figures tbody tr")}
     first, other = ({tool["name"]: tool["force_N"] for tool in summary_of(folder, name)["tools"]} for name in "ac")
-    shown = float(figures["force of punch"][2].replace(",", ""))
+    number, unit = figures["force of punch"][2].replace(",", "").split()
+    assert unit == "N", figures["force of punch"]
+    shown = float(number)
     assert abs(shown - (other["punch"] - first["punch"])) < 0.6, (figures["force of punch"], first, other)
     page.open("#results/differences/results%2Fa|results%2Fa")
     page.when("return document.getElementById('differences-words').textContent.includes('give the same')")
