@@ -151,7 +151,7 @@ def check_messages(folder):
     empty = folder / "empty"
     empty.mkdir()
     for words, told in (((empty,), "results.h5 is missing"), ((), "required"),
-                        ((empty, empty, empty), "3 folders are given")):
+                        ((empty,) * 5, "5 folders are given")):
         done = call("report", *words)
         assert done.returncode in (1, 2) and told in done.stderr and "Traceback" not in done.stderr, done
     (empty / "results.h5").write_text("no HDF5", encoding="utf-8")
