@@ -55,8 +55,10 @@ awk -F, 'NR == 1 { print } NR > 1 { print $1 "," -$3 }' bias.csv >below.csv
 expect 2 'error' identify bias below.csv "${bias[@]}" -o never.toml --report found.json
 expect_json found.json 'j["status"] == "refused" and j["errors"][0]["file"] == "below.csv"'
 expect_json found.json 'j["errors"][0]["rule"] and j["errors"][0]["remedy"] and "numbers" not in j'
+cp bias.csv kept.csv
 expect 2 'report = ./bias.csv: would overwrite' identify bias bias.csv "${bias[@]}" -o never.toml \
   --report ./bias.csv
+cmp -s bias.csv kept.csv || fail 'bias.csv: the report of its refusal stands in its place'
 
 # A law of both signs: its other side in the test the other way round, and a law identified in its
 # place is the same both ways.

@@ -146,6 +146,13 @@ void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
                picture.replace_extension(".png").string());
 }
 
+/// Whether a report is asked for, in a place that was not refused: there lies another file.
+bool may_be_reported(const IdentifyArguments& a, const Diagnostics& diagnostics) {
+  return !a.report.empty() &&
+         std::none_of(diagnostics.errors.begin(), diagnostics.errors.end(),
+                      [](const CaseError& error) { return error.file == "--report"; });
+}
+
 } // namespace
 
 int identify_command(const IdentifyArguments& arguments) {
@@ -190,7 +197,7 @@ int identify_command(const IdentifyArguments& arguments) {
                                    diagnostics)
                  : identify(arguments, base, test, kinds.curves, options, diagnostics);
   const bool refused = print_diagnostics(diagnostics);
-  if (!arguments.report.empty())
+  if (may_be_reported(arguments, diagnostics))
     write_report(arguments, fit.string(), base, refused ? std::nullopt : result, diagnostics);
   if (refused) return exit_case_wrong;
   if (!result) throw std::logic_error("no law and no reason for it");
