@@ -76,7 +76,8 @@ def routes(studio: Studio) -> APIRouter:
     @router.get("/runs/picture")
     def picture(folder: str, after: int = -1) -> Response:
         goes_on = known(runs, folder)["state"] == "running"  # else it has ended between two questions
-        content = live_states.picture(folder_of(studio, folder), after) if goes_on else b""
+        begun = studio.project.inside(folder).is_dir()       # it makes its folder when the case is read
+        content = live_states.picture(folder_of(studio, folder), after) if goes_on and begun else b""
         return Response(content, media_type=BYTES)
 
     return router
