@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The panel of results of the workbench, by clicks in Chromium: runs are chosen, shown by their report,
-compared over a key, exported, saved; and what a hostile folder of a run can do: nothing.
+compared over a key, saved; and what a hostile folder of a run can do: nothing.
 
     studio_results_test.py PART TOOLS PROGRAM CASES      PART: clicks, safe
 """
@@ -8,74 +8,19 @@ compared over a key, exported, saved; and what a hostile folder of a run can do:
 import csv
 import io
 import json
-import math
 import os
 import re
 import shutil
-import subprocess
 import sys
 import tempfile
 import time
 from pathlib import Path
 
 from studio_server import Server
-from studio_page import Page as AnyPage
-
-import ezdxf
+from studio_three_runs import RUNS, ResultsPage as Page, downloaded, made, summary_of
 
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:5])
-COARSE = ["blanks.square.mesh_from=element_size", "blanks.square.element_size=34",
-          "solver.outputs=4", "solver.duration=0.02"]
-RUNS = {"a": ["contact.friction=0.2"], "b": ["contact.friction=0.4"],
-        "c": ["contact.friction=0.3", "ply.ply1.angle=45"]}
 TITLE = "(document.getElementById('report-frame') || {title: ''}).title"  # of the report shown
-
-
-def made(folder):
-    """Three small runs, the oldest first."""
-    for name, settings in RUNS.items():
-        words = [word for setting in [*COARSE, *settings] for word in ("--set", setting)]
-        done = subprocess.run([PROGRAM, "run", CASES / "hemisphere_two_ply", "-o", folder / "results" / name,
-                               *words], capture_output=True, text=True, check=False)
-        assert done.returncode == 0, done
-    rows = [f"{110 * math.cos(k / 10):.3f},{110 * math.sin(k / 10):.3f}" for k in range(63)]
-    (folder / "trim.csv").write_text("x,y\n" + "\n".join(rows) + "\n", encoding="ascii")
-
-
-def summary_of(folder, name):
-    return json.loads((folder / "results" / name / "summary.json").read_text(encoding="utf-8"))
-
-
-class Page(AnyPage):
-    def __init__(self, server):
-        super().__init__(1440, 1000)
-        self.server = server
-
-    def open(self, rest=""):
-        self.go(self.server, rest.lstrip("#"))
-
-    def all(self, selector):
-        return self.driver.find_elements("css selector", selector)
-
-    def run(self, folder):
-        return f"#results-list input[data-folder={json.dumps(folder)}]"
-
-    def frame(self):
-        """Into the report, when it is shown."""
-        self.driver.switch_to.default_content()
-        self.when("return document.getElementById('report-frame')")
-        self.driver.switch_to.frame("report-frame")
-        self.when("return document.documentElement.dataset.ready")
-        assert self.js("return document.documentElement.dataset.ready") != "failed"
-
-    def out(self):
-        self.driver.switch_to.default_content()
-
-    def titles(self):
-        self.frame()
-        titles = [one.text for one in self.all("h1")]
-        self.out()
-        return titles
 
 
 def check_list(page):
@@ -123,6 +68,46 @@ def check_report(page, folder):
     page.when("return document.documentElement.dataset.results === 'report 3'")
     page.when(f"return {TITLE}.split(',').length === 3")
     assert len(page.titles()) == 3
+
+
+def check_saved(page, downloads):
+    """The report shown, in a tab of its own and as a file, is what the frame has; then none is chosen."""
+    key = page.js("return document.getElementById('report-frame').src").rpartition("/")[2]
+    page.press("#report-file")
+    saved = downloaded(downloads, "a_b_c_report.html")
+    assert saved == page.server.call("GET", f"api/results/report/{key}")[1] and saved.startswith(b"<!")
+    titles, here = page.titles(), page.driver.current_window_handle
+    page.press("#report-alone")
+    page.until(lambda: len(page.driver.window_handles) == 2, "a tab is opened")
+    page.driver.switch_to.window(next(one for one in page.driver.window_handles if one != here))
+    page.when("return document.documentElement.dataset.ready")
+    assert [one.text for one in page.all("h1")] == titles
+    assert page.js("return window.opener === null && self.origin === 'null'")  # as in the frame: no way back
+    page.driver.close()
+    page.driver.switch_to.window(here)
+    page.press("#results-none")
+    page.when("return document.documentElement.dataset.results === 'report 0'")
+    assert not page.all("#results-list input:checked") and not page.all("#report-frame")
+    assert "Choose a run" in page.text("#report-words")
+
+
+def check_tabs(page):
+    """What is chosen stays, from view to view, and when another panel was looked at."""
+    page.open("#results/report/results%2Fa|results%2Fc")
+    for view in ("files", "differences", "report", "figures"):
+        page.press(f"#results-{view}")
+        page.when(f"return document.documentElement.dataset.results === '{view} 2'")
+        shown = page.js("return [...document.querySelectorAll('.results-main > section')].filter((s) => !s.hidden)"
+                        ".map((s) => s.className)")
+        assert shown == [f"results-{view}"], shown
+    for panel in ("setup", "runs", "studies", "identify", "results"):
+        page.press(f"#panels a[href='#{panel}']")
+        page.when(f"return !document.getElementById('panel-{panel}').hidden")
+        assert [one.text for one in page.all("#panels [aria-selected=true]")] == [
+            page.text(f"#panels a[href='#{panel}']")]
+        assert len(page.all("main > section:not([hidden])")) == 1
+    page.when("return location.hash === '#results/figures/results%2Fa|results%2Fc'")
+    assert len(page.all("#results-list input:checked")) == 2
 
 
 def check_unfinished(page, folder):
@@ -192,17 +177,6 @@ def check_figures(page, folder, downloads):
     page.when("return document.documentElement.dataset.results === 'report 1'")
 
 
-def downloaded(downloads, name, seconds=30.0):
-    path = downloads / name
-    end = time.monotonic() + seconds
-    while not path.is_file():
-        assert time.monotonic() < end, (name, list(downloads.iterdir()))
-        time.sleep(0.05)
-    content = path.read_bytes()
-    path.unlink()
-    return content
-
-
 def check_differences(page, folder):
     page.open("#results/differences/results%2Fa|results%2Fc")
     page.when("return document.querySelectorAll('#differences-keys tbody tr').length > 0")
@@ -220,64 +194,20 @@ def check_differences(page, folder):
     page.when("return document.getElementById('differences-words').textContent.includes('give the same')")
 
 
-def finished(page, what, well=True):
-    words = f"document.getElementById('{what}-words')"
-    page.when(f"return {words}.textContent.startsWith('Done.') || {words}.classList.contains('bad')", seconds=120)
-    assert page.js(f"return {words}.classList.contains('bad')") != well, page.text(f"#{what}-words")
-    return page.text(f"#{what}-words")
-
-
-def check_exports(page, folder, downloads):
-    """Each of the three, then what lies in the folder is the same as what is saved of it."""
-    page.open("#results/files/results%2Fa")
-    page.when("return document.querySelectorAll('#exports-files tr').length > 3")
-    page.press("#export-gltf")
-    page.press("#export-go")
-    finished(page, "export")
-    assert {path.name for path in (folder / "results/a/export").iterdir()} == {"ply1.vtu", "ply2.vtu", "state.glb"}
-    assert " export " in page.text("#export-form .command")
-    page.press("#map-abaqus")
-    page.press("#map-two")
-    page.press("#map-go")
-    finished(page, "map")
-    assert list((folder / "results/a/map").glob("*.inp"))
-    page.press("#map-csv")
-    page.press("#map-abaqus")
-    page.press("#map-go")
-    page.when("return document.getElementById('trouble').textContent.includes('formats')")  # none is chosen
-    page.press("#pattern-go")
-    page.when("return document.getElementById('trouble').textContent.includes('name of a file')")  # no trim line
-    page.pick("#pattern-trim", "trim.csv")
-    page.press("#pattern-go")
-    assert "saved" in finished(page, "pattern")
-    page.when("return document.querySelector('[data-name=\"pattern/ply1.dxf\"] button')")
-    page.press("[data-name='pattern/ply1.dxf'] button")
-    page.when("return document.querySelectorAll('#exports-drawing polyline').length === 2")
-    drawn = page.js("const b = document.querySelector('#exports-drawing polyline[data-layer=CUT]').getBBox();"
-                    "return [b.x, -b.y - b.height, b.x + b.width, -b.y]")
-    outline = next(iter(ezdxf.readfile(folder / "results/a/pattern/ply1.dxf").modelspace().query("LWPOLYLINE")))
-    corners = [(x, y) for x, y, *_ in outline.get_points()]
-    there = [min(x for x, _ in corners), min(y for _, y in corners), max(x for x, _ in corners), max(y for _, y in corners)]
-    assert max(abs(one - other) for one, other in zip(drawn, there)) < 1e-2, (drawn, there)
-    assert "ply1" in page.text("#exports-drawing text")
-    for name in ("pattern/ply1.dxf", "export/state.glb", "summary.json"):
-        page.press(f"[data-name='{name}'] a")
-        assert downloaded(downloads, name.rpartition("/")[2]) == (folder / "results/a" / name).read_bytes()
-
-
 def check_clicks(folder):
     downloads = folder / "downloads"
     downloads.mkdir()
     with Server(TOOLS, PROGRAM, folder / "folder") as server, Page(server) as page:
-        made(server.folder)
+        made(server.folder, PROGRAM, CASES)
         page.driver.execute_cdp_cmd("Browser.setDownloadBehavior", {
             "behavior": "allow", "downloadPath": str(downloads)})
         check_list(page)
         check_report(page, server.folder)
+        check_saved(page, downloads)
+        check_tabs(page)
         check_unfinished(page, server.folder)
         check_figures(page, server.folder, downloads)
         check_differences(page, server.folder)
-        check_exports(page, server.folder, downloads)
         others = [url for url in page.requests() if not url.startswith((server.origin, "data:", "blob:", "about:"))]
         assert not others, others
 
@@ -441,7 +371,7 @@ def check_links(server, folder):
 
 def check_safe(folder):
     with Server(TOOLS, PROGRAM, folder / "folder") as server, Page(server) as page:
-        made(server.folder)
+        made(server.folder, PROGRAM, CASES)
         check_files(server, server.folder)
         check_commands(server, server.folder)
         check_links(server, server.folder)

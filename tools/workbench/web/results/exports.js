@@ -34,11 +34,18 @@ class ExportsView {
     this.run.replaceChildren(...chosen.map(({ folder, title }) =>
       element("option", { value: folder, textContent: `${title} (${folder})` })));
     if (chosen.some(({ folder }) => folder === before)) this.run.value = before;
-    if (!this.offers) {
-      this.offers = await ask("results/offers");
-      this.forms.replaceChildren(...FORMS.map((form) => this.form(form)));
-    }
+    await this.offer();
     await this.showRun();
+  }
+
+  /** What can be chosen: files may have come into the folder since. */
+  async offer() {
+    const offers = await ask("results/offers");
+    if (!this.offered) {
+      this.offered = [];
+      this.forms.replaceChildren(...FORMS.map((form) => this.form(form, offers)));
+    }
+    for (const field of this.offered) field.offer(offers);
   }
 
   async showRun() {
@@ -68,8 +75,9 @@ class ExportsView {
     this.drawing.scrollIntoView({ block: "nearest" });
   }
 
-  form({ what, title, fields }) {
-    const inputs = fields(this.offers);
+  form({ what, title, fields }, offers) {
+    const inputs = fields(offers);
+    this.offered.push(...inputs.filter((field) => field.offer));
     const words = element("p", { className: "note", role: "status", id: `${what}-words` });
     const command = element("code", { className: "command" });
     const go = button(title, async () => {

@@ -14,10 +14,17 @@ function choices(key, text, id, words, chosen) {
       ...boxes.map((box) => element("label", {}, box, ` ${box.value}`))) };
 }
 
-function select(key, text, id, options, title = "") {
-  const input = element("select", { id },
-    ...options.map(([value, words]) => element("option", { value, textContent: words })));
-  return { key, value: () => input.value, place: labelled(text, input, title) };
+/** `optionsOf(offers)`: [value, words] of each. What is chosen stays while it is offered. */
+function select(key, text, id, offers, optionsOf, title = "") {
+  const input = element("select", { id });
+  const offer = (now) => {
+    const before = input.value;
+    const options = optionsOf(now);
+    input.replaceChildren(...options.map(([value, words]) => element("option", { value, textContent: words })));
+    if (options.some(([value]) => value === before)) input.value = before;
+  };
+  offer(offers);
+  return { key, value: () => input.value, offer, place: labelled(text, input, title) };
 }
 
 function number(key, text, id, value, attributes = {}) {
@@ -52,17 +59,19 @@ export const FORMS = [
   { what: "export", title: "Export states", fields: (offers) => [
     choices("formats", "Formats", "export", offers.states, ["vtu"]), frame("export-frame", true)] },
   { what: "map", title: "Lay-up for analysis", fields: (offers) => [
-    select("part", "Part mesh", "map-part", files(offers.parts, "none: the plies' own meshes")),
+    select("part", "Part mesh", "map-part", offers, ({ parts }) => files(parts, "none: the plies' own meshes")),
     choices("formats", "Formats", "map", offers.layups, ["csv"]),
-    select("reference", "Angles from", "map-reference",
-      offers.references.map((one) => [one, one || "as the part gives, else x"])),
+    select("reference", "Angles from", "map-reference", offers,
+      ({ references }) => references.map((one) => [one, one || "as the part gives, else x"])),
     number("scale", "Unit of the mesh, mm", "map-scale", 1), three("turn", "Turned, °", "map-turn"),
     three("move", "Moved, mm", "map-move"), tick("two", "Each woven ply as two UD plies", "map-two"),
     mirror("map-mirror"), frame("map-frame", false)] },
   { what: "pattern", title: "Flat patterns", fields: (offers) => [
-    select("trim", "Trim line", "pattern-trim", files(offers.outlines, "choose a .csv or .dxf file")),
+    select("trim", "Trim line", "pattern-trim", offers,
+      ({ outlines }) => files(outlines, "choose a .csv or .dxf file")),
     tick("space", "It is a curve in space", "pattern-space"),
-    select("case", "Corrected by runs of", "pattern-case", files(offers.cases, "no case: unfolded once"),
+    select("case", "Corrected by runs of", "pattern-case", offers,
+      ({ cases }) => files(cases, "no case: unfolded once"),
       "The case of this run: it is run with the patterns as blanks until the edge is right"),
     number("tolerance", "Edge within, mm", "pattern-tolerance", 1),
     number("iterations", "Runs at most", "pattern-iterations", 4, { step: 1 }),

@@ -39,8 +39,15 @@ class Results {
     location.hash = addressOf(word, chosen);
   }
 
-  /** Of the address: VIEW/FOLDER|FOLDER, or a run's FOLDER, whose report is shown. */
+  /** Of the address: VIEW/FOLDER|FOLDER, or a run's FOLDER, whose report is shown; nothing, by the tab of
+   * the panel: what was shown last. */
   async show(rest) {
+    if (!rest && this.word) {
+      history.replaceState(null, "", addressOf(this.word, this.chosen));
+      this.mark = null;
+      await this.ask();
+      return;
+    }
     const [word, ...more] = rest.split("/");
     const named = VIEWS.some((view) => view.word === word);
     this.word = named ? word : VIEWS[0].word;
