@@ -22,6 +22,7 @@ from studio_server import Server
 PART = sys.argv[1]
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:5])
 QUICK = "cases/hemisphere_0/case.toml"
+COARSE = "cases/hemisphere_0/coarse.toml"
 LONG = """title = "Pushed slowly"
 [fabrics]
 glass = "../cases/fabrics/glass_plain_weave.toml"
@@ -59,7 +60,7 @@ class Page(AnyPage):
         super().go(server, rest)
         self.when("return document.querySelector('#run-threads').value")
 
-    def run(self, case, name="", **more):
+    def run(self, case, name="", verify=False, **more):
         self.type("#run-case", case)
         if not self.js("return document.querySelector('.runs-start details').open"):
             self.press("#run-more")
@@ -69,6 +70,8 @@ class Page(AnyPage):
                 self.pick("#run-accuracy", value)
             else:
                 self.type(f"#run-{key}", str(value))
+        if self.find("#run-verify").is_selected() != verify:
+            self.press("#run-verify")
         self.press("#run-start")
 
     def state(self, name, *states, seconds=60):
@@ -76,6 +79,17 @@ class Page(AnyPage):
         return self.when("const row = document.querySelector(`li[data-folder=\"${arguments[0]}\"]`);"
                           "return row && arguments[1].includes(row.dataset.state) && row.dataset.state",
                           f"results/{name}", states, seconds=seconds)
+
+    def drawn(self):
+        """The picture, when it changes no more: it is drawn finely, with twice the pixels, when nothing moves."""
+        kept = []
+        def still():
+            time.sleep(0.7)
+            kept.append(self.js("const c = document.querySelector('#run-picture canvas');"
+                                "return c.width > 1.5 * c.clientWidth ? c.toDataURL() : null"))
+            return kept[-1] and kept[-2:-1] == kept[-1:]
+        self.until(still, "the picture is still")
+        return kept[-1]
 
     def scene(self, key):
         return self.js("return document.getElementById('run-picture').dataset[arguments[0]]", key)
@@ -103,6 +117,36 @@ def filled(server):
     (server.folder / "long/case.toml").write_text(LONG)
     broken = (server.folder / QUICK).read_text().replace("radius = 75.0", "radius = -75.0")
     (server.folder / "cases/hemisphere_0/broken.toml").write_text(broken)
+    coarse = (server.folder / QUICK).read_text().replace("element_size = 10.0", "element_size = 34.0")
+    coarse = coarse.replace('mesh_from = "scene"', 'mesh_from = "element_size"').replace("duration = 0.1 ", "duration = 0.02 ")
+    (server.folder / COARSE).write_text(coarse)
+
+
+def looked_at(page):
+    """Tools drawn in other ways, what was printed put away, the command copied, the report opened."""
+    page.press("button[data-view=oblique]")
+    pictures = {}
+    for way in ("solid", "hidden", "outlines"):
+        page.pick("#run-tools", way)
+        pictures[way] = page.drawn()
+    assert len(set(pictures.values())) == 3
+    page.pick("#run-tools", "solid")
+    assert page.drawn() == pictures["solid"]  # it is the choice that makes the difference
+    for shown in (False, True):
+        page.press("#run-printed summary")
+        page.until(lambda: page.find("#run-log").is_displayed() == shown, f"printed: {shown}")
+    page.driver.execute_cdp_cmd("Browser.grantPermissions", {
+        "permissions": ["clipboardReadWrite", "clipboardSanitizedWrite"]})
+    page.press("#run-copy")
+    page.until(lambda: page.driver.execute_async_script(
+        "navigator.clipboard.readText().then(arguments[0], (e) => arguments[0](String(e)))") ==
+        page.text("#run-command"), "the command is copied")
+    page.press("#run-results")
+    page.when("return location.hash === '#results/report/results%2Ffirst'")
+    page.when("return document.getElementById('report-frame')")
+    assert page.js("return document.querySelector('#results-list input:checked').dataset.folder") == "results/first"
+    page.press("#panels a[href='#runs']")
+    page.until(lambda: page.find("#run-title").is_displayed() and page.text("#run-title") == "first", "it is shown still")
 
 
 def started():
@@ -136,6 +180,13 @@ def started():
         for view in ("top", "front", "side", "oblique"):
             page.press(f"button[data-view={view}]")
         assert page.colours() > 100, page.colours()  # of the shear angle
+        looked_at(page)
+        # with bands from sibling runs
+        page.run(COARSE, "verified", verify=True)
+        page.state("verified", "doubtful", "done")
+        figures = json.loads((server.folder / "results/verified/summary.json").read_text())["verification"]["figures"]
+        assert any(figure["band"] for figure in figures), figures
+        page.until(lambda: page.text("#run-command").endswith(" --verify"), "its command says so")
         # a mistake is told where it is
         page.run("cases/hemisphere_0/broken.toml", "bad", accuracy="")
         page.state("bad", "failed")

@@ -76,8 +76,8 @@ def routes(studio: Studio) -> APIRouter:
     @router.get("/runs/picture")
     def picture(folder: str, after: int = -1) -> Response:
         goes_on = known(runs, folder)["state"] == "running"  # else it has ended between two questions
-        begun = studio.project.inside(folder).is_dir()       # it makes its folder when the case is read
-        content = live_states.picture(folder_of(studio, folder), after) if goes_on and begun else b""
+        begun = goes_on and studio.project.inside(folder).is_dir()  # a run makes its folder itself
+        content = live_states.picture(folder_of(studio, folder), after) if begun else b""
         return Response(content, media_type=BYTES)
 
     return router
