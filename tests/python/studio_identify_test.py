@@ -1,11 +1,12 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Identification in the workbench, by clicks: a picture frame that was measured, the fit over it and
-the limits of each number; a refusal with its remedy; hostile orders.
+the limits of each number; each option; a refusal with its remedy; hostile orders.
 
     studio_identify_test.py TOOLS_FOLDER PLYFORM CASES_FOLDER [PICTURE.png]
 """
 
 import json
+import math
 import re
 import shutil
 import subprocess
@@ -63,9 +64,15 @@ def shown(page, server):
     assert "fitted / measured − 1, %" in page.text("#identify-residuals")
     assert "identify frame ./measured/picture_frame_plain.csv:UML" in page.text("#identify-command")
     assert page.find("#identify-open").get_attribute("href").endswith("#setup/cloth/found.toml")
+    page.press("#identify-told summary")
+    page.until(lambda: page.find("#identify-told details li").is_displayed(), "there is more of it")
+    assert page.texts("#identify-told details li") == report["notes"], report["notes"]
     page.press("#identify-log")
     page.until(lambda: "0.05" in page.text("#identify-chart") or "0.1" in page.text("#identify-chart"),
                "the axis is logarithmic")
+    page.pick("#identify-x", "displacement_mm")
+    for place in ("#identify-chart", "#identify-residuals"):
+        page.until(lambda p=place: "displacement, mm" in page.text(p), "it is drawn over the displacement")
 
 
 def refused_curve(page, server):
@@ -90,11 +97,60 @@ def refused_curve(page, server):
     assert page.find("#option-length").get_attribute("value") == "230", "the form is as it was"
 
 
+def again(page, form, begin):
+    """Identifies with other options, from what the form has; what is found or refused begins so."""
+    if not page.find("#identify-more").get_attribute("open"):
+        page.press("#identify-more summary")
+    for name, value in form.items():
+        if value is True:
+            page.press(f"#option-{name}")
+        elif page.find(f"#option-{name}").tag_name == "select":
+            page.pick(f"#option-{name}", value)
+        else:
+            page.type(f"#option-{name}", value)
+    page.js("document.getElementById('identify-state').textContent = ''")  # that of the try before
+    page.press("#identify-go")
+    page.until(lambda: page.text("#identify-state").startswith(begin), begin)
+
+
+def every_option(page, server):
+    """An extension in cm and a load in kN, without units in the header: what each option does."""
+    rows = []
+    for angle in range(0, 51, 2):
+        g = math.radians(angle)
+        along = 2 * math.cos(math.pi / 4 - g / 2)
+        rows.append(f"{20 * (along - math.sqrt(2)):.6f},{along * (0.004 * g + 0.02 * g**3):.8f},{angle}")
+    (server.folder / "frame.csv").write_text("\n".join(["u,F,phi", *rows]) + "\n", encoding="utf-8")
+    page.go(server, "identify/curve/frame.csv")
+    page.pick("#curve-0-column", "F")
+    page.pick("#identify-fabric", "cloth/base.toml")
+    page.type("#identify-output", "options")
+    page.press("#identify-replace")
+    values = {"side": "200", "law": "polynomial", "coefficients": "2", "from": "10", "to": "40",
+              "compliance": "0.001", "zero": "0.1", "toe": "0.02", "slip": "fit", "angle-column": "none",
+              "x-column": "u", "x-unit": "cm", "y-unit": "kN"}
+    again(page, {**values, "yes-doubtful": True}, "shear law")
+    subprocess.run([PROGRAM, "identify", "frame", "frame.csv:F", "--fabric", "cloth/base.toml", "-o", "own.toml",
+                    "--yes-doubtful", *(f"--{name}={value}" for name, value in values.items())],
+                   cwd=server.folder, capture_output=True, check=True)
+    found, own = (tomllib.loads((server.folder / name).read_text(encoding="utf-8"))["shear"]
+                  for name in ("cloth/options.toml", "own.toml"))
+    assert found == own, (found, own)
+    shown_ = {name: page.find(f"#option-{name}").get_attribute("value") for name in values}
+    assert shown_ == values and page.find("#option-yes-doubtful").is_selected(), shown_
+    none = {name: "" for name in ("coefficients", "from", "to", "compliance", "zero", "toe", "slip", "angle-column")}
+    again(page, {**none, "law": "table", "points": "5"}, "shear law")
+    assert "table of 5 points: as asked for" in page.text("#identify-told"), page.text("#identify-told")
+    again(page, {"law": "", "points": "", "stitch": "pillar"}, "Refused")
+    assert "stitch = pillar" in page.text("#identify-told"), page.text("#identify-told")
+
+
 def two_kinds(page, server):
     """Warp beside weft: the specimens of each in their own colours, and how they differ."""
-    for name, stiffness in (("warp", 40000.0), ("weft", 30000.0)):
-        rows = [f"{0.001 * k},{0.001 * k * stiffness * (1 + 0.002 * (-1)**k)}" for k in range(21)]
-        (server.folder / f"{name}.csv").write_text("\n".join(["strain,load_N", *rows]) + "\n", encoding="utf-8")
+    for name, yarns in (("warp", 3), ("weft", 6)):
+        rows = [f"{0.1 * k},{0.001 * k * yarns * 40000 * (1 + 0.002 * (-1)**k)}" for k in range(21)]
+        (server.folder / f"{name}.csv").write_text("\n".join(["displacement_mm,load_N", *rows]) + "\n",
+                                                   encoding="utf-8")
     page.go(server, "identify/curve/warp.csv")
     page.pick("#identify-test", "warp")
     page.pick("#curve-file", "weft.csv")
@@ -102,10 +158,12 @@ def two_kinds(page, server):
     page.pick("#curve-1-kind", "other")
     page.pick("#identify-fabric", "cloth/base.toml")
     page.type("#identify-output", "yarns")
-    page.press("#identify-go")
-    page.until(lambda: page.text("#identify-state").startswith("tension laws of warp and weft"), "both are found")
-    names = page.texts("#identify-numbers tbody th")
-    assert names[0] == "warp: stiffness" and "weft: stiffness" in names, names
+    page.press("#identify-replace")
+    for more, ratio in (({"yarns": "3", "gauge-length": "100"}, 2), ({"weft-yarns": "12"}, 0.5)):
+        again(page, more, "tension laws of warp and weft")
+        table = dict(zip(*(page.texts(f"#identify-numbers tbody {cell}") for cell in ("th", "td:nth-of-type(1)"))))
+        warp, weft = (float(table[f"{name}: stiffness"].replace(",", "")) for name in ("warp", "weft"))
+        assert abs(warp / 40000 - 1) < 0.01 and abs(weft / (ratio * warp) - 1) < 0.01, table
     assert "they differ" in page.text("#identify-figures"), page.text("#identify-figures")
     assert page.texts("#identify-chart .legend-of-lines li") == [
         " measured warp", " fitted warp", " measured weft", " fitted weft"], page.texts("#identify-chart li")
@@ -116,13 +174,17 @@ def taken_in(page, server):
     source = server.folder.parent / "own curve.csv"
     page.go(server, "identify")
     source.write_text("extension (mm),load (N)\n0,0\n1,2.5\n2,5\n", encoding="utf-8")
-    page.find("#identify-upload").send_keys(str(source))
+    page.give("#identify-upload", source)
     page.until(lambda: "take letters" in page.text("#trouble"), "a name that cannot be taken is told")
     source.rename(source.with_name("own_curve.csv"))
-    page.find("#identify-upload").send_keys(str(source.with_name("own_curve.csv")))
+    page.give("#identify-upload", source.with_name("own_curve.csv"))
     page.until(lambda: "3 rows: extension (mm), load (N)" in page.text("#curve-rows"), "its columns are shown")
     assert (server.folder / "curves/own_curve.csv").read_text(encoding="utf-8").endswith("2,5\n")
     page.until(lambda: page.js("return document.querySelectorAll('#curve-chart polyline').length") == 1, "its plot")
+    page.pick("#curve-x", "load")
+    page.until(lambda: page.texts("#curve-chart .of-axis") == ["load, N", "extension, mm"], "it is shown over the load")
+    page.press("#curve-0-remove")
+    page.until(lambda: not page.seen("#curve-chart svg") and not page.text("#curve-rows"), "it is taken out")
 
 
 def missing_and_taken(page, server):
@@ -140,9 +202,32 @@ def restarted(page, server):
     number = server.get("api/processes", kind="identify")[0]["id"]
     server.stop()
     server.start()
-    page.go(server, f"identify/{number}")
+    page.go(server, "identify")
+    page.press(f'#identify-before a[href="#identify/{number}"]')
     page.until(lambda: page.texts("#identify-numbers tbody th"), "what was found is shown again")
     assert page.js("return document.querySelectorAll('#identify-chart circle.point').length") > 5
+    page.press("#identify-open")
+    page.until(lambda: page.js("return (window.plyform_setup || 0) && plyform_setup.editor.mirror.getValue()") ==
+               (server.folder / "cloth/found.toml").read_text(encoding="utf-8"), "its text is shown")
+
+
+def stopped(page, server):
+    """One that takes long, which a program that waits before it begins stands for."""
+    slow = server.folder.parent / "slow"
+    slow.write_text(f'#!/bin/sh\n[ "$1" = identify ] && sleep 600\nexec "{PROGRAM}" "$@"\n', encoding="utf-8")
+    slow.chmod(0o755)
+    server.stop()
+    server.command[-1] = str(slow)
+    server.start()
+    page.go(server, f"identify/{server.get('api/processes', kind='identify')[0]['id']}")
+    page.until(lambda: page.texts("#identify-numbers tbody th"), "the form is that of the first")
+    page.type("#identify-output", "never")
+    page.press("#identify-go")
+    page.until(lambda: page.text("#identify-state") == "It is computed …", "it goes on")
+    page.press("#identify-stop")
+    page.until(lambda: page.text("#identify-state") == "Stopped." and not page.find("#identify-stop").is_displayed(),
+               "it is stopped")
+    assert not (server.folder / "cloth/never.toml").exists()
 
 
 def hostile(server):
@@ -185,10 +270,12 @@ def main():
             page.screenshot(picture)
         refused_curve(page, server)
         missing_and_taken(page, server)
+        every_option(page, server)
         two_kinds(page, server)
         taken_in(page, server)
         restarted(page, server)
         hostile(server)
+        stopped(page, server)
         assert not [one for one in page.errors() if "status of 4" not in one and "ERR_CONNECTION" not in one
                     and "WebSocket" not in one], page.errors()
 

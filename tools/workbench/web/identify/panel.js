@@ -154,9 +154,11 @@ class Identify {
   async open(number) {
     const another = this.number !== number;
     this.number = number;
+    const asked = this.asked = (this.asked || 0) + 1;
     const found = await ask("identify/result", { number });
     if (this.number !== number) return;
     if (another) await this.restore(found.record.about.order);
+    if (asked !== this.asked) return; // what is asked later, as when it has ended, is newer
     this.stop.hidden = !LIVE.includes(found.record.state);
     this.result.show(found);
   }

@@ -96,12 +96,13 @@ export class IdentifyResult {
   drawAxes() {
     const names = this.fit ? Object.keys(ALONG).filter((name) => this.fit[name]) : [];
     const before = this.x ? this.x.value : "";
+    const log = Boolean(this.log && this.log.checked);
     this.axes.replaceChildren();
     if (names.length) {
       this.x = select(names.map((name) => [name, ALONG[name][0]]), names.includes(before) ? before : names[0],
         { id: "identify-x" });
       this.x.addEventListener("change", () => this.draw());
-      this.log = element("input", { type: "checkbox", id: "identify-log" });
+      this.log = element("input", { type: "checkbox", id: "identify-log", checked: log });
       this.log.addEventListener("change", () => this.draw());
       this.axes.append(labelled("Over", this.x), element("label", { className: "box" }, this.log, " logarithmic load"));
     }
