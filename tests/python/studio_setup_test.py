@@ -454,6 +454,75 @@ def dropped_files(page: Page, folder: Path) -> None:
     page.until(lambda: "what.exe" in page.text("#trouble"))
 
 
+def chosen_files(page: Page, folder: Path) -> None:
+    """A file that is chosen does what one that is dropped does; the same may be chosen again; a curve goes on
+    to Identification, and the tab of the set-up leads back to the case."""
+    tools = len(page.tree()["tool"])
+    mesh = folder.parent / "chosen.stl"
+    mesh.write_bytes(STL)
+    for replaced in (False, True):
+        page.give("#add-files", mesh)
+        if replaced:
+            page.press("#replace-go")
+        page.pick("#import-mesh-unit", "m")
+        page.press("#import-mesh-go")
+        tools += 1
+        page.until(lambda n=tools: len(page.tree()["tool"]) == n, "the tool is added")
+        assert page.tree()["tool"][-1]["file"] == "chosen.stl", page.tree()["tool"][-1]
+    assert (folder / "mine/chosen.stl").read_bytes() == STL
+    for left in (1, 0):
+        page.press("#undo")
+        page.until(lambda n=tools - 2 + left: len(page.tree()["tool"]) == n, "it is taken back")
+    curve = folder.parent / "curve.csv"
+    curve.write_text("extension (mm),load (N)\n0,0\n1,2\n", encoding="utf-8")
+    page.give("#add-files", curve)
+    page.until(lambda: page.texts("#curve-rows code") == ["mine/curve.csv"], "the curve is there")
+    assert page.driver.current_url.endswith("#identify/curve/mine/curve.csv")
+    page.press("#panels a:first-child")
+    page.until(lambda: page.find("#panel-setup").is_displayed(), "the set-up is shown")
+
+
+def tabs(page: Page) -> None:
+    """Each shows its panel alone; back at the set-up the case is the one before, not the first of the folder."""
+    page.pick("#case-list", "second/case.toml")
+    page.until(lambda: page.js("return plyform_setup.main.path") == "second/case.toml")
+    page.pick("#case-list", CASE)
+    page.until(lambda: page.js("return plyform_setup.main.path") == CASE)
+    page.pick("#case-list", "second/case.toml")
+    page.until(lambda: page.js("return plyform_setup.main.path") == "second/case.toml")
+    names = page.js("return [...document.querySelectorAll('#panels a')].map((tab) => tab.hash.slice(1))")
+    assert names == ["setup", "runs", "results", "studies", "identify"], names
+    for name in [*names[1:], names[0]]:
+        page.press(f'#panels a[href="#{name}"]')
+        page.until(lambda n=name: page.js("return [...document.querySelectorAll('main > section')]"
+                                          ".filter((one) => one.getClientRects().length).map((one) => one.id)")
+                   == [f"panel-{n}"], f"{name} alone is shown")
+        chosen = page.texts("#panels a[aria-selected=true]")
+        assert chosen == [page.text(f'#panels a[href="#{name}"]')], (name, chosen)
+        page.until(lambda n=name: page.js("return document.getElementById(arguments[0]).childElementCount",
+                                          f"panel-{n}"), f"{name} has content")
+    time.sleep(0.5)  # the set-up would go to another case now
+    assert page.js("return plyform_setup.main.path") == page.find("#case-list").get_attribute("value") \
+        == "second/case.toml"
+    page.pick("#case-list", CASE)
+    page.until(lambda: page.js("return plyform_setup.main.path") == CASE)
+
+
+def first_case() -> None:
+    """An empty folder says so, and its button makes the first case."""
+    with Server(TOOLS, PROGRAM) as server, Page(server, server.folder / "begun/case.toml", 1280, 800) as page:
+        page.go(server)
+        page.until(lambda: page.find(".setup-empty").is_displayed(), "it is empty")
+        assert not page.find(".setup-body").is_displayed() and not page.find("#undo").is_displayed()
+        page.press("#first-case")
+        page.type("#new-case-name", "begun")
+        page.press("#new-case-go")
+        page.until(lambda: page.find("#case-list").get_attribute("value") == "begun/case.toml", "it is shown")
+        page.until(lambda: page.find(".setup-body").is_displayed() and not page.find(".setup-empty").is_displayed())
+        assert page.tree()["ply"] and page.tree()["tool"]
+        assert not page.errors(), page.errors()
+
+
 def run(page: Page) -> None:
     """Asked for by its button; the server has a record of it."""
     page.press("#run-case-button")
@@ -470,8 +539,8 @@ def run(page: Page) -> None:
 
 PARTS = [onto_the_stack, simplified_tools, outline_and_forms, either_or, items, fabrics, rows_of_fabrics, lists,
          text_beside, scene_controls, measuring, chosen_in_scene, last_good_scene, two_pages, new_cases,
-         dropped_files, cancelled, mistakes, run]
-OF_FOLDER = (fabrics, rows_of_fabrics, two_pages, dropped_files, cancelled)
+         tabs, dropped_files, chosen_files, cancelled, mistakes, run]
+OF_FOLDER = (fabrics, rows_of_fabrics, two_pages, dropped_files, chosen_files, cancelled)
 
 
 def main() -> None:
@@ -491,6 +560,7 @@ def main() -> None:
             assert not wrong, wrong
             outside = [url for url in page.requests() if not url.startswith((server.origin, "data:", "blob:"))]
             assert not outside, outside
+    first_case()
 
 
 main()

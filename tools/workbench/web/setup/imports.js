@@ -116,7 +116,7 @@ export class Imports {
     const name = path.split("/").pop();
     const acts = { part: () => this.askPart(path, name), mesh: () => this.askMesh(path, name),
       drawing: () => this.askDrawing(path, name), toml: () => this.askFabric(path, name),
-      curve: () => { location.hash = `#identify/${path}`; } };
+      curve: () => { location.hash = `#identify/curve/${path}`; } };
     return acts[kind]();
   }
 

@@ -47,7 +47,7 @@ class Setup {
     const middle = element("div", { className: "setup-middle" });
     this.textRoom = element("div", { className: "setup-text" });
     this.body = element("div", { className: "setup-body", hidden: true }, left, middle, this.textRoom);
-    this.empty = element("div", { className: "setup-empty" },
+    this.empty = element("div", { className: "setup-empty", hidden: true }, // until the folder is known
       element("h2", { textContent: "There is no case in this folder yet" }),
       element("p", { textContent: "A case says which plies are formed between which tools. Begin with a small " +
         "hemisphere that runs in seconds, or with one of the examples, and change it." }),
@@ -113,11 +113,12 @@ class Setup {
     location.hash = `#setup/${path}`;
   }
 
-  /** Shows the case of a path, or the first of the folder. */
+  /** Shows the case of a path; without one that shown last, or the first of the folder. */
   async open(path) {
     if (!this.keys) this.keys = new Keys(await ask("keys"));
     await this.refreshFolder();
-    const wanted = path || ((this.folder.cases || [])[0] || {}).path;
+    const cases = (this.folder.cases || []).map((one) => one.path);
+    const wanted = path || (this.main && cases.includes(this.main.path) ? this.main.path : cases[0]);
     this.empty.hidden = Boolean(wanted);
     this.body.hidden = this.barPlace.hidden = !wanted;
     if (!wanted || (this.main && this.main.path === wanted)) return;
@@ -194,7 +195,7 @@ class Setup {
 
   async check() {
     const { main } = this;
-    if (main.error) return;
+    if (main.error || main.version === undefined) return; // or not loaded yet
     const answer = await ask("check", { path: main.path, version: main.version });
     if (main !== this.main || answer.version !== main.version) return;
     this.answer = answer;
