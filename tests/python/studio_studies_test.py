@@ -53,6 +53,18 @@ fibre_softening = 100.0
 outputs = 2
 """
 FILE = "studies/strokes.toml"
+EDITED = """title = "Two keys"
+case = "../cap/case.toml"
+method = "grid"
+[[vary]]
+name = "stroke"
+key = "tool.punch.stroke"
+values = [2, 4]
+[[vary]]
+name = "friction"
+key = "contact.friction"
+values = [0.1, 0.2]
+"""
 
 
 def study_text(server):
@@ -170,6 +182,71 @@ def window(page, server):
     assert "Hollow" in page.text("#study-chart")
 
 
+def edited(page, server):
+    """Each control of the form changes what it names in the file."""
+    file = server.folder / "studies/edited.toml"
+    file.write_text(EDITED, encoding="utf-8")
+    page.go(server, "studies")
+    page.press("#study-list [data-study='studies/edited.toml']")
+    page.until(lambda: page.find("#study-title").get_attribute("value") == "Two keys", "the study is shown")
+
+    def tree():
+        return tomllib.loads(file.read_text(encoding="utf-8"))
+
+    def changes(act, place, *value, holds):
+        page.js("document.querySelector('#study-form').firstChild.mark = 1")
+        act(place, *value)
+        page.until(lambda: holds(tree()), f"{place} {value} is in the file")
+        page.until(lambda: page.js("return !document.querySelector('#study-form').firstChild.mark"), "it is redrawn")
+
+    def varies(act, place, *value, **wanted):
+        changes(act, f"#vary-0-{place}", *value, holds=lambda now: now["vary"][0] == {
+            "key": "tool.punch.stroke", **wanted})
+
+    changes(page.type, "#study-title", "Edited", holds=lambda now: now["title"] == "Edited")
+    assert page.text("#study-heading") == "Edited"
+    varies(page.type, "name", "path", name="path", values=[2, 4])
+    varies(page.pick, "kind", "factors", name="path", factors=[0.5, 1, 2])
+    varies(page.type, "values", "0.5, 1", name="path", factors=[0.5, 1])
+    varies(page.pick, "kind", "range", name="path", range=[4, 12], count=3)
+    varies(page.type, "from", "3", name="path", range=[3, 12], count=3)
+    varies(page.type, "to", "9", name="path", range=[3, 9], count=3)
+    varies(page.type, "count", "2", name="path", range=[3, 9], count=2)
+    varies(page.pick, "scale", "log", name="path", range=[3, 9], count=2, scale="log")
+    changes(page.pick, "#study-method", "sobol", holds=lambda now: now["method"] == "sobol" and now["runs"] == 20 and
+            now["vary"][1]["range"] == [0.1, 0.2] and "count" not in now["vary"][0])
+    changes(page.type, "#study-runs", "8", holds=lambda now: now["runs"] == 8)
+    changes(page.type, "#study-seed", "5", holds=lambda now: now["seed"] == 5)
+    page.until(lambda: page.text("#study-told").startswith("8 runs; "), "as many runs as are drawn")
+    changes(page.pick, "#study-method", "grid", holds=lambda now: now["method"] == "grid" and "runs" not in now and
+            "seed" not in now and now["vary"][1]["count"] == 3)
+    changes(page.pick, "#study-accuracy", "draft", holds=lambda now: now["accuracy"] == "draft")
+    page.type("#figure-name", "of_all")
+    page.type("#figure-path", "max plies.*.max_shear_deg")
+    changes(page.press, "#figure-add", holds=lambda now: now["figures"] == {"of_all": "max plies.*.max_shear_deg"})
+    for name in ("of_all", "largest_shear_deg"):
+        for end in ("at_least", "at_most"):
+            changes(page.type, f"#limit-{name}-{end}", "7", holds=lambda now: now["limits"][name][end] == 7)
+    changes(page.type, "#limit-largest_shear_deg-at_most", "",
+            holds=lambda now: now["limits"]["largest_shear_deg"] == {"at_least": 7})
+    changes(page.press, "#picture-add-map", holds=lambda now: now["picture"] == [
+        {"kind": "map", "x": "path", "y": "friction", "figure": "of_all"}])
+    changes(page.press, "#picture-0-remove", holds=lambda now: not now.get("picture"))
+    changes(page.press, "#figure-of_all", holds=lambda now: not now.get("figures") and "of_all" not in now["limits"])
+    changes(page.press, "#vary-1-remove", holds=lambda now: [one["name"] for one in now["vary"]] == ["path"])
+    page.press("#key-chooser > summary")
+    page.until(lambda: page.find("#key-search").is_displayed(), "keys are offered")
+    page.press("details:has(> #study-text) > summary")
+    text = file.read_text(encoding="utf-8")
+    page.type("#study-text", "a = [")
+    page.press("#study-text-save")
+    page.until(lambda: "no TOML" in page.text("#trouble"), "a text that is no TOML is refused")
+    assert file.read_text(encoding="utf-8") == text
+    page.type("#study-text", text.replace('"Edited"', '"By hand"'))
+    page.press("#study-text-save")
+    page.until(lambda: page.text("#study-heading") == "By hand" and tree()["title"] == "By hand", "the text is saved")
+
+
 def of_the_command_line(page, server):
     """Found with its table, without the workbench."""
     text = study_text(server).replace("[0.1", "[0.5, 0.7] # [0.1")
@@ -219,6 +296,7 @@ def main():
         window(page, server)
         if picture:
             page.screenshot(picture.replace(".png", "_window.png"))
+        edited(page, server)
         of_the_command_line(page, server)
         refused(server)
         assert not [one for one in page.errors() if "status of 4" not in one], page.errors()
