@@ -178,6 +178,10 @@ class CaseReading:
         watch(tell, PERIOD, ending)
 
     def look(self, name: str) -> None:
+        with self.files.lock:  # not between an edit and what is told of it
+            self.look_now(name)
+
+    def look_now(self, name: str) -> None:
         try:
             path = self.files.path(name)
             stamp, version = self.stamp(path), version_of(self.project.read(path, MOST_TEXT))
