@@ -54,6 +54,10 @@ class Page(Browser):
         """The value of a script as soon as it is true."""
         return self.until(lambda: self.js(script, *arguments), f"{script} {arguments}", seconds)
 
+    def find(self, selector):
+        """The element as soon as there is one."""
+        return self.until(lambda: self.seen(selector), f"{selector} is there")
+
     def seen(self, selector):
         """The element; None where there is none."""
         found = self.driver.find_elements(By.CSS_SELECTOR, selector)
@@ -112,7 +116,7 @@ class Page(Browser):
 
     def give(self, selector, *files):
         """Files chosen in an input of files."""
-        self.until(lambda: self.find(selector), f"{selector} is there").send_keys("\n".join(map(str, files)))
+        self.find(selector).send_keys("\n".join(map(str, files)))
 
     def picture(self, view="plyform_setup.area.view"):
         return self.js(f"const s = {view}.stage; s.draw(); return s.canvas.toDataURL()")
