@@ -70,6 +70,7 @@ def formed(out: Path, asks: bool, change: tuple[str, str] = ("", "")) -> list[by
                 found.append(content)
         time.sleep(0.02)
     assert run.returncode == 0, run.returncode
+    (out / "picture.ask").unlink(missing_ok=True)  # asked for when it had just ended
     return found
 
 
