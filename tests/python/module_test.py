@@ -387,7 +387,7 @@ def check_page(folder):
     """The Python of docs/users/python.md, block after block, where a user would type it."""
     text = (source / "docs/users/python.md").read_text(encoding="utf-8")
     blocks = re.findall(r"```python\n(.*?)```", text, re.S)
-    assert len(blocks) == 3 and len(re.findall(r"^\S", blocks[0], re.M)) <= 10, blocks[0]
+    assert len(blocks) == 4 and len(re.findall(r"^\S", blocks[0], re.M)) <= 10, blocks[0]
     (folder / "cases").symlink_to(source / "cases")
     names, here = {"print": lambda *words: None}, Path.cwd()
     os.chdir(folder)
