@@ -362,8 +362,12 @@ def chosen_in_scene(page: Page) -> None:
     ActionChains(page.driver).release().perform()
     page.until(lambda: page.tree()["ply"][last]["angle"] != before)
     turned = page.tree()["ply"][last]["angle"]
-    dial = page.find(f'[data-dial="ply.{last}.angle"]')
-    ActionChains(page.driver).move_to_element_with_offset(dial, 0, -15).click().perform()
+
+    def click_dial():
+        dial = page.find(f'[data-dial="ply.{last}.angle"]')
+        ActionChains(page.driver).move_to_element_with_offset(dial, 0, -15).click().perform()
+        return True
+    page.until(click_dial, "its dial is clicked, which each answer draws anew")
     page.until(lambda: page.tree()["ply"][last]["angle"] == 90)
     assert turned != 90
     page.find(".scene-pane").click()
