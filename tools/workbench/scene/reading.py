@@ -159,8 +159,8 @@ class CaseReading:
 
     def follow(self, name: str, stamp: tuple) -> None:
         with self.lock:
-            self.followed.pop(name, None)
-            self.followed[name] = stamp
+            seen = self.followed.pop(name, stamp)  # what has changed since is still to be told
+            self.followed[name] = seen
             while len(self.followed) > MOST_FOLLOWED:
                 self.followed.pop(next(iter(self.followed)))
 
