@@ -10,6 +10,8 @@ import tempfile
 import time
 from pathlib import Path
 
+from pushed_ply import pushed_ply
+
 try:
     import h5py
     import numpy as np
@@ -17,35 +19,6 @@ except ImportError as problem:
     print("SKIPPED:", problem)
     sys.exit(77)
 
-CASE = """title = "Pushed"
-[fabrics]
-glass = "{cases}/fabrics/glass_plain_weave.toml"
-[blanks.square]
-size = [300.0, 300.0]
-mesh = "alternating"
-element_size = 12.0
-[[ply]]
-name = "ply"
-fabric = "glass"
-blank = "square"
-angle = 0.0
-[[tool]]
-name = "punch"
-shape = "sphere"
-radius = 75.0
-position = [0.0, 0.0, 75.6]
-motion = "driven"
-direction = [0.0, 0.0, -1.0]
-stroke = 40.0
-[[tool]]
-name = "die"
-shape = "profile"
-points = [[80.0, -120.0], [80.0, 0.0, 10.0], [400.0, 0.0]]
-[solver]
-duration = 0.3
-fibre_softening = 100.0
-outputs = 24
-"""
 FROM_SCENE = ("mesh = \"alternating\"\nelement_size = 12.0", "element_size = 30.0\nmesh_from = \"scene\"")
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
 sys.path.insert(0, str(TOOLS))
@@ -55,7 +28,7 @@ from workbench.server.arrays import unpacked  # noqa: E402
 def formed(out: Path, asks: bool, change: tuple[str, str] = ("", "")) -> list[bytes]:
     """Runs a case; the pictures that it has drawn."""
     case = out.with_suffix(".toml")
-    case.write_text(CASE.format(cases=CASES).replace(*change))
+    case.write_text(pushed_ply(CASES / "fabrics", 300.0, 12.0, 0.3, 24).replace(*change))
     run = subprocess.Popen([PROGRAM, "run", case, "-o", out, "--threads", "2"],
                            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     found: list[bytes] = []

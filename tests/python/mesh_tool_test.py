@@ -27,18 +27,10 @@ try:
 
     import mesh_tool
     from program_call import call
+    from step_files import write_step
 except ImportError as error:
     print("SKIPPED:", error)
     sys.exit(77)
-
-
-def write_step(path, build):
-    gmsh.initialize([], False)
-    gmsh.option.setNumber("General.Terminal", 0)
-    build(gmsh.model.occ)
-    gmsh.model.occ.synchronize()
-    gmsh.write(str(path))
-    gmsh.finalize()
 
 
 def half_ball(occ):

@@ -26,21 +26,13 @@ try:
     from exchange.formed import read_formed
     from exchange.stack_room import room_of_run
     from program_call import call
+    from step_files import write_step
 except ImportError as error:
     print("SKIPPED:", error)
     sys.exit(77)
 
 BALL, FILLET, FLANGE = 75.0, 10.0, 140.0  # mm: of the bowl
 AXIS = math.sqrt((BALL + FILLET) ** 2 - FILLET ** 2)  # from it to the middle of the fillet
-
-
-def write_step(path, build):
-    gmsh.initialize([], False)
-    gmsh.option.setNumber("General.Terminal", 0)
-    build(gmsh.model.occ)
-    gmsh.model.occ.synchronize()
-    gmsh.write(str(path))
-    gmsh.finalize()
 
 
 def turned_profile(occ, thickness):

@@ -7,10 +7,11 @@ whole lines, and nothing of what takes no second.
 """
 
 import os
-import pty
 import subprocess
 import sys
 import time
+
+from on_terminal import on_terminal
 
 WORK = """
 import os, sys, time
@@ -35,22 +36,6 @@ def command(tools: str, seconds: float, fraction: str = "0.25", last: str = "pro
                                               last=last)]
 
 
-def on_terminal(words: list[str]) -> str:
-    """All that a program writes to a terminal of 80 columns."""
-    ours, theirs = pty.openpty()
-    os.set_blocking(ours, True)
-    process = subprocess.Popen(words, stdout=theirs, stderr=theirs, stdin=theirs)
-    os.close(theirs)
-    text = b""
-    try:
-        while piece := os.read(ours, 4096):
-            text += piece
-    except OSError:  # the other end is closed
-        pass
-    process.wait()
-    return text.decode()
-
-
 def piped(words: list[str]) -> tuple[str, str]:
     done = subprocess.run(words, capture_output=True, text=True)
     return done.stdout, done.stderr
@@ -58,14 +43,14 @@ def piped(words: list[str]) -> tuple[str, str]:
 
 def main() -> None:
     tools = sys.argv[1]
-    text = on_terminal(command(tools, 1.9))
+    text = on_terminal(command(tools, 1.9))[1]
     drawn = text.split("\r")
     assert len(drawn) > 3 and drawn[1].startswith("maps: ply 1 of 2?long"), text
     assert all(len(line.removesuffix("\033[K")) < 80 for line in drawn), text
     assert text.endswith("\033[K\r\033[Kready\r\n"), text
     assert "\n" not in text[:-10], text
     # an error is told on a line of its own
-    text = on_terminal(command(tools, 1.3, last='raise Trouble("x")'))
+    text = on_terminal(command(tools, 1.3, last='raise Trouble("x")'))[1]
     assert "\033[K\r\033[Kwork: error: x\r\n" in text, text
     out, error = piped(command(tools, 2.8, "None"))
     lines = error.splitlines()
@@ -77,9 +62,9 @@ def main() -> None:
     # what a copy of the process shows is drawn
     copy = ("pid = os.fork()\n    if pid == 0:\n        progress.show(0.5, 'of the copy')\n"
             "        os._exit(0)\n    os.waitpid(pid, 0)\n    time.sleep(1.5)\n    progress.end()")
-    assert "maps: of the copy, 50 %" in on_terminal(command(tools, 0.0, last=copy))
+    assert "maps: of the copy, 50 %" in on_terminal(command(tools, 0.0, last=copy))[1]
     for fraction in ("None", "1.0"):  # under a second: nothing
-        assert on_terminal(command(tools, 0.4, fraction)) == "ready\r\n"
+        assert on_terminal(command(tools, 0.4, fraction))[1] == "ready\r\n"
         assert piped(command(tools, 0.4, fraction))[1] == ""
     begin = time.monotonic()  # nobody to write to: no error
     process = subprocess.run([*command(tools, 1.5), ], stdout=subprocess.PIPE,

@@ -8,8 +8,6 @@ has ended.
 """
 
 import json
-import os
-import pty
 import re
 import signal
 import subprocess
@@ -17,6 +15,8 @@ import sys
 import tempfile
 import time
 from pathlib import Path
+
+from on_terminal import on_terminal
 
 KEYS = {"phase", "words", "fraction", "stroke_mm", "step", "elapsed_s", "remaining_s",
         "kinetic_over_shear", "balance_error", "states", "pid", "case"}
@@ -51,17 +51,9 @@ def watch(process: subprocess.Popen, file: Path) -> list[dict]:
 
 
 def terminal_text(words: list[str]) -> str:
-    ours, theirs = pty.openpty()
-    process = subprocess.Popen(words, stdout=subprocess.DEVNULL, stderr=theirs)
-    os.close(theirs)
-    text = b""
-    try:
-        while piece := os.read(ours, 4096):
-            text += piece
-    except OSError:  # the other end is closed
-        pass
-    assert process.wait() == 0, text
-    return text.decode()
+    code, text = on_terminal(words, stdout=subprocess.DEVNULL)
+    assert code == 0, text
+    return text
 
 
 def check_file(program: str, cases: Path, folder: Path, duration: float) -> float:

@@ -15,6 +15,7 @@ import sys
 import time
 from pathlib import Path
 
+from pushed_ply import pushed_ply
 from studio_page import Page as AnyPage
 from studio_results import same_results
 from studio_server import Server
@@ -23,36 +24,7 @@ PART = sys.argv[1]
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:5])
 QUICK = "cases/hemisphere_0/case.toml"
 COARSE = "cases/hemisphere_0/coarse.toml"
-LONG = """title = "Pushed slowly"
-[fabrics]
-glass = "../cases/fabrics/glass_plain_weave.toml"
-[blanks.square]
-size = [340.0, 340.0]
-mesh = "alternating"
-element_size = 7.0
-[[ply]]
-name = "ply"
-fabric = "glass"
-blank = "square"
-angle = 0.0
-[[tool]]
-name = "punch"
-shape = "sphere"
-radius = 75.0
-position = [0.0, 0.0, 75.6]
-motion = "driven"
-direction = [0.0, 0.0, -1.0]
-stroke = 40.0
-[[tool]]
-name = "die"
-shape = "profile"
-points = [[80.0, -120.0], [80.0, 0.0, 10.0], [400.0, 0.0]]
-[solver]
-duration = 1.5
-fibre_softening = 100.0
-outputs = 100
-checkpoint_interval = 1.0
-"""
+LONG = pushed_ply("../cases/fabrics", 340.0, 7.0, 1.5, 100) + "checkpoint_interval = 1.0\n"
 
 
 class Page(AnyPage):

@@ -22,6 +22,7 @@ from studio_server import Server
 
 try:
     import gmsh
+    from step_files import write_step
 except ImportError as problem:
     print("SKIPPED:", problem)
     sys.exit(77)
@@ -33,19 +34,6 @@ HALF, BALL, DEPTH, FILLET = 30.0, 40.0, 25.0, 12.0  # mm: of the double dome
 PLATE = 260.0, 190.0                               # mm
 OPENING = 58.0                                     # mm, of the holder, from the domes' middles
 FABRIC = CASES / "fabrics/glass_plain_weave.toml"
-
-
-def write_step(path, build):
-    """Without what Open CASCADE prints."""
-    out, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
-    gmsh.initialize([], False)
-    gmsh.option.setNumber("General.Terminal", 0)
-    build(gmsh.model.occ)
-    gmsh.model.occ.synchronize()
-    gmsh.write(str(path))
-    gmsh.finalize()
-    os.dup2(out, 1)
 
 
 def double_dome(occ):
