@@ -9,7 +9,7 @@ from pathlib import Path
 from base.ending import Trouble, one_line
 from base.summary_file import read_summary
 
-from ..runs.listing import folders_of_results
+from ..runs.listing import folders_of_results, mark_of
 from ..server.project import Project, Refused
 from .figures import KEY_FIGURES, driven_force, figures_of
 
@@ -24,18 +24,6 @@ def check_links(project: Project, folder: Path) -> None:
     for path in inner:
         if path.is_symlink():
             raise Refused(f"{project.relative(path)} is a link: a run's results are files of its own")
-
-
-def mark_of(folder: Path) -> tuple:
-    """Another one when what a run has written has changed."""
-    found = []
-    for name in FILES:
-        try:
-            stat = (folder / name).stat()
-            found.append((stat.st_mtime_ns, stat.st_size))
-        except OSError:
-            found.append(None)
-    return tuple(found)
 
 
 class ResultList:
@@ -54,11 +42,11 @@ class ResultList:
     def one(self, name: str) -> dict:
         """Raises Refused."""
         folder = self.project.existing(name)
-        return self.read(self.project.relative(folder), folder, mark_of(folder))
+        return self.read(self.project.relative(folder), folder, mark_of(folder, FILES))
 
     def current(self, name: str) -> tuple:
         folder = self.project.root / name
-        mark = mark_of(folder)
+        mark = mark_of(folder, FILES)
         known = self.found.get(name)
         return known if known and known[0] == mark else (mark, self.read(name, folder, mark))
 

@@ -17,9 +17,10 @@ from base.ending import TOOLS, one_line
 from reporting.page import LETTERS
 
 from ..processes.records import LIVE
+from ..runs.listing import mark_of
 from ..server.project import Refused
 from ..server.studio import Studio
-from .listing import check_links, mark_of
+from .listing import FILES, check_links
 
 KEY = re.compile(r"[0-9a-f]{32}")
 MOST_KEPT = 12  # of up to some 30 MB each; the longest unused go
@@ -59,7 +60,7 @@ class ReportPages:
         folders = [self.studio.project.existing(name) for name in names]
         for name, folder in zip(names, folders):
             check_links(self.studio.project, folder)
-            if not mark_of(folder)[0]:
+            if not mark_of(folder, FILES)[0]:
                 raise Refused(f"{one_line(name, 200)} has no state yet: its results.h5 is missing", 409)
         return folders
 
@@ -67,7 +68,7 @@ class ReportPages:
         """Another one when a run has written more, or this program is another one."""
         made_by = [path.stat().st_mtime_ns for path in sorted((TOOLS / "reporting").rglob("*"))
                    if path.suffix in (".py", ".js", ".html", ".css")]
-        parts = [made_by, *((os.fsencode(folder), mark_of(folder)) for folder in folders)]
+        parts = [made_by, *((os.fsencode(folder), mark_of(folder, FILES)) for folder in folders)]
         return hashlib.sha256(repr(parts).encode()).hexdigest()[:32]
 
     def forget_old(self) -> None:

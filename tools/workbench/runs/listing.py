@@ -73,10 +73,10 @@ def progress_of(folder: Path) -> dict | None:
     return {**found, "goes_on": goes_on}
 
 
-def mark_of(folder: Path) -> tuple:
-    """Another one when a file has changed that a run is known by."""
+def mark_of(folder: Path, names: tuple[str, ...] = (*SIGNS, "checkpoint")) -> tuple:
+    """Another one when a file has changed that a run is known by; None for each that is not there."""
     found = []
-    for name in (*SIGNS, "checkpoint"):
+    for name in names:
         try:
             stat = os.stat(folder / name)
             found.append((stat.st_mtime_ns, stat.st_size, stat.st_ino))
