@@ -38,6 +38,7 @@ set(public_headers
   core/mesh/mesh_blank.hpp
   core/model/blank_spec.hpp
   core/model/case.hpp
+  core/model/compaction.hpp
   core/model/crimp.hpp
   core/model/energies.hpp
   core/model/fabric.hpp

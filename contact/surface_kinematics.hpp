@@ -17,6 +17,8 @@ struct SurfaceKinematics {
       fold_bound; ///< per face (contact/search/fold_bound.hpp); empty: not known
   /// per face, of SheetEdges; needed only with fold_bound
   std::span<const std::array<std::int32_t, 3>> faces_across = {};
+  /// per node, present thickness over that before forming; for contacts that ask for it
+  std::span<const double> thickness_ratio = {};
 };
 
 } // namespace plyform

@@ -29,12 +29,29 @@
 //   s_trial = rotate(s) + tangential part of the relative motion of this step
 //   T = -A k_t s,  |T| <= mu N, s shortened to fit when it slides                             (T)
 //
+// A ply is as thick as its cloth. r is the present thickness over that before forming: of a ply its
+// A0 / A, as its volume stays (core/ply/thickness.hpp), of two plies the mean that has their
+// distance h r. The law acts on distances over r, and its energy is that of an area before forming:
+//
+//   E = A e(p),  p = h - d / r;  N = A e'(p) / r                                            (R)
+//
+// so that the area on which e' presses, A / r, is the present one where r is A0 / A. E has the
+// derivative N d / r by r, which the plies feel in their plane (core/solver/thickness_forces.cpp).
+//
+// Cloth that gives way through its thickness bears the pressure of a curve p_c up to its densest
+// packing p_1; (E) to (K) then hold for what goes beyond, p - p_1, and are added to the curve,
+// which goes on with its last slope. Unloaded, it follows a curve of its own, p_u, shifted to where
+// loading has ended (p_m, the greatest depth so far) and back from there; it keeps a set:
+//
+//   p >= p_m:  e' = p_c(p);   p < p_m:  e' = p_u(p - p_m + p_u^-1(p_c(p_m)))                (C)
+//
 // (T) is the elastic-predictor, return-mapping form of Coulomb's law (Wriggers, Computational
 // Contact Mechanics, 2nd ed., section 5.2.4): inside the friction cone the contact sticks, its
 // tangential displacement is elastic and recovered on unloading, and it does not creep.
 #pragma once
 
 #include "base/geometry.hpp"
+#include "contact/forces/compaction_curve.hpp"
 #include "contact/simd/contact_points.hpp"
 
 #include <algorithm>
@@ -48,7 +65,14 @@ struct ContactLaw {
   double damping = 0.0;                                       ///< c, N s/mm^3; normal only
   double friction = 0.0;                                      ///< mu
   double max_depth = std::numeric_limits<double>::infinity(); ///< delta, mm; infinite: linear
+  CompactionCurvePtr loading = {},
+                     unloading = {}; ///< null: none; only loading: goes back as it came
+  double spread = 0.0; ///< what its force in the plane of plies adds to the bound of (K), over it
 
+  /// p_1, mm.
+  double packed() const { return loading ? loading->packed() : 0.0; }
+  /// Depth (mm) that no force reaches.
+  double depth_limit() const { return packed() + max_depth; }
   double tangential() const { return 0.5 * stiffness; } ///< k_t, N/mm^3
 
   /// q at depth p, mm.
@@ -56,25 +80,70 @@ struct ContactLaw {
     const double u = p / max_depth;
     return std::max(1.0 - u * u, least_room);
   }
-  /// Elastic pressure, N/mm^2, at depth p > 0, mm.
-  double pressure(double p) const {
+  /// Elastic pressure, N/mm^2, at depth p > 0, mm, of a contact that was `compacted` (mm) deep.
+  double pressure(double p, double compacted = 0.0) const {
+    if (!loading) return barrier(p);
+    const double beyond = std::max(p - packed(), 0.0), inside = std::min(p, packed());
+    const double below = beyond > 0.0 ? barrier(beyond) + beyond * loading->last_slope() : 0.0;
+    return below + curve_pressure(inside, std::max(compacted, inside));
+  }
+  /// Slope of the pressure, N/mm^3, (K), the largest up to this depth. Bodies apart (p <= 0) count
+  /// as just touching.
+  double tangent(double p) const {
+    const double beyond = std::max(p - packed(), 0.0);
+    const double u = beyond / max_depth, q = room(beyond);
+    const double tangent = stiffness * (1.0 + 3.0 * u * u) / (q * q * q);
+    if (!loading) return tangent;
+    const double inside = std::clamp(p, 0.0, packed());
+    double steepest = loading->steepest(inside);
+    if (unloading)
+      steepest =
+          std::max(steepest, unloading->steepest(unloading->depth_at(loading->pressure(inside))));
+    return beyond > 0.0 ? steepest + tangent : steepest;
+  }
+  /// Elastic energy per area, N/mm, at depth p > 0, mm, as if it had gone there straight.
+  double energy(double p) const {
+    if (!loading) return 0.5 * stiffness * p * p / room(p);
+    const double beyond = std::max(p - packed(), 0.0), inside = std::min(p, packed());
+    const double stored = unloading
+                              ? unloading->energy(unloading->depth_at(loading->pressure(inside)))
+                              : loading->energy(inside);
+    return stored + beyond * (loading->last_pressure() + 0.5 * loading->last_slope() * beyond) +
+           0.5 * stiffness * beyond * beyond / room(beyond);
+  }
+
+private:
+  double barrier(double p) const {
     const double q = room(p);
     return stiffness * p / (q * q);
   }
-  /// Slope of the pressure, N/mm^3: (K). Bodies apart (p <= 0) count as just touching.
-  double tangent(double p) const {
-    const double u = std::max(p, 0.0) / max_depth, q = room(std::max(p, 0.0));
-    return stiffness * (1.0 + 3.0 * u * u) / (q * q * q);
+  /// (C).
+  double curve_pressure(double p, double compacted) const {
+    if (!unloading) return p > 0.0 ? loading->pressure(p) : 0.0;
+    const double from = unloading->depth_at(loading->pressure(compacted));
+    const double now = from - (compacted - p);
+    return now > 0.0 ? unloading->pressure(now) : 0.0;
   }
-  /// Elastic energy per area, N/mm, at depth p > 0, mm.
-  double energy(double p) const { return 0.5 * stiffness * p * p / room(p); }
 };
+
+/// The law for kernels, without the greatest depths so far. dt: s, 0 for no damping.
+inline ContactKernelLaw kernel_law(const ContactLaw& law, double dt) {
+  ContactKernelLaw k{};
+  k.stiffness = law.stiffness, k.tangential = law.tangential(), k.friction = law.friction;
+  k.max_depth = law.max_depth, k.per_depth2 = 1.0 / (law.max_depth * law.max_depth);
+  k.damping_per_dt = dt > 0.0 ? law.damping / dt : 0.0;
+  k.depth_limit = law.depth_limit();
+  if (law.loading) k.loading = law.loading->table();
+  if (law.unloading) k.unloading = law.unloading->table();
+  return k;
+}
 
 /// Sums, maxima and minima over the points of one contact.
 struct ContactTotals {
   double elastic = 0.0;     ///< N mm, energy stored now in normal and tangential springs
   double friction = 0.0;    ///< N mm, work dissipated by sliding, since the start
   double damping = 0.0;     ///< N mm, work of normal damping, since the start
+  double compaction = 0.0;  ///< N mm, lost through the thickness: not given back on unloading
   double penetration = 0.0; ///< deepest now, mm
   double deepest = 0.0;     ///< deepest since the start, mm
   double slip = 0.0;        ///< largest sliding distance of one contact while it was closed, mm
@@ -87,10 +156,12 @@ struct ContactTotals {
 /// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(ContactTotals& sums, F&& f) {
-  auto& [elastic, friction, damping, penetration, deepest, slip, touching, step_ratio] = sums;
+  auto& [elastic, friction, damping, compaction, penetration, deepest, slip, touching, step_ratio] =
+      sums;
   f("elastic", elastic);
   f("friction", friction);
   f("damping", damping);
+  f("compaction", compaction);
   f("penetration", penetration);
   f("deepest", deepest);
   f("slip", slip);
@@ -123,9 +194,10 @@ inline ContactRow operator*(double by, const ContactRow& row) {
 /// How far (mm) a contact at depth p (mm, below 0: open) may close in a step: an open one may close
 /// its gap and then use its share of the depth. 0 beyond the depth limit.
 inline double room_in_a_step(const ContactLaw& law, double p) {
-  const double inside = std::max(p, 0.0), left = std::max(1.0 - inside / law.max_depth, 0.0);
+  const double limit = law.depth_limit();
+  const double inside = std::max(p, 0.0), left = std::max(1.0 - inside / limit, 0.0);
   const double share = step_share + shallow_share * (left * left * (left * left) * left);
-  return std::max((inside - p) + share * (law.max_depth - inside), 0.0);
+  return std::max((inside - p) + share * (limit - inside), 0.0);
 }
 
 /// ContactTotals::step_ratio of one contact at depth p (mm, below 0: open) that closed by dp (mm)
@@ -142,13 +214,14 @@ constexpr double deepening = 0.03;
 inline double depth_ahead(const ContactLaw& law, double depth) {
   if (std::isinf(law.max_depth)) return depth;
   const double inside = std::max(depth, 0.0);
-  return inside + deepening * (law.max_depth - inside);
+  return inside + deepening * (law.depth_limit() - inside);
 }
 
-/// Tangent stiffness (K), N/mm^3, and damping, N s/mm^3, of a contact `depth` mm deep now, taken at
-/// the depth that it may reach until the stable time step is computed again.
-inline ContactRow row_of(const ContactLaw& law, double depth) {
-  return {law.tangent(depth_ahead(law, depth)), law.damping};
+/// Tangent stiffness (K), N/mm^3, and damping, N s/mm^3, of a contact whose gap is `gap` mm now,
+/// taken at the depth that it may reach until the stable time step is computed again. thickness: r.
+inline ContactRow row_of(const ContactLaw& law, double gap, double thickness) {
+  const double per = 1.0 / thickness, per2 = (1.0 + law.spread) * per * per;
+  return {per2 * law.tangent(depth_ahead(law, -gap * per)), per2 * law.damping};
 }
 
 /// s of (T), mm, as an Eigen vector; ContactHistory itself must not depend on Eigen.

@@ -4,19 +4,19 @@
 namespace plyform {
 namespace {
 
-/// Sets the normal and tangential stiffness of a contact `depth` mm deep with tributary `area`
-/// (mm^2). An open one counts as just touching and stuck: without its friction a stack of soft
-/// yarns gains energy when its plies meet.
-void set_stiffness(ContactTangent& spring, const ContactLaw& law, double area, double depth,
-                   const TangentFactors& factors) {
-  const ContactRow row = row_of(law, depth);
+/// Sets the normal and tangential stiffness of a contact with this gap (mm) and tributary `area`
+/// (mm^2). thickness: r of contact/forces/contact_law.hpp. An open one counts as just touching and
+/// stuck: without its friction a stack of soft yarns gains energy when its plies meet.
+void set_stiffness(ContactTangent& spring, const ContactLaw& law, double area, double gap,
+                   double thickness, const TangentFactors& factors) {
+  const ContactRow row = row_of(law, gap, thickness);
   spring.along = area * (factors.stiffness * row.stiffness + factors.damping * row.damping);
   if (law.friction > 0.0) spring.across = area * factors.stiffness * law.tangential();
 }
 
 } // namespace
 
-void append_tangents(const ToolPlyContact& contact, std::span<const double> area, double margin,
+void append_tangents(const ToolPlyContact& contact, const SurfaceKinematics& ply, double margin,
                      const TangentFactors& factors, std::vector<ContactTangent>& springs) {
   for (const ToolPlyPoint& c : contact.points) {
     if (latest_gap(c) > margin) continue;
@@ -24,7 +24,8 @@ void append_tangents(const ToolPlyContact& contact, std::span<const double> area
     spring.node = {c.node};
     spring.share = {1.0};
     spring.normal = normal_of(c);
-    set_stiffness(spring, contact.law, area[c.node], -latest_gap(c), factors);
+    set_stiffness(spring, contact.law, ply.area[c.node], latest_gap(c),
+                  thickness_ratio_at(contact, ply, c.node), factors);
     springs.push_back(spring);
   }
 }
@@ -42,9 +43,10 @@ void append_tangents(const PlyPlyContact& contact, const SurfaceKinematics& slav
     spring.share = {1.0, -w[0], -w[1], -w[2]};
     spring.nodes = 4;
     spring.normal = contact_normal(c, slave.x, master.x, triangles);
-    set_stiffness(spring, contact.law, c.area, -latest_gap(c), factors);
+    const double thickness = thickness_ratio_at(contact, c, slave, master, triangles);
+    set_stiffness(spring, contact.law, c.area, latest_gap(c), thickness, factors);
     if (spring.across > 0.0)
-      spring.couple = {contact.distance * spring.normal,
+      spring.couple = {contact.distance * thickness * spring.normal,
                        face_frame(at(master.x, t[0]), at(master.x, t[1]), at(master.x, t[2]))};
     springs.push_back(spring);
   }
@@ -63,7 +65,7 @@ void append_tangents(const EdgeEdgeContact& contact, const SurfaceKinematics& a,
     spring.normal =
         (at(a.x, pair.a.b) - at(a.x, pair.a.a)).cross(at(b.x, pair.b.b) - at(b.x, pair.b.a));
     spring.normal.normalize();
-    set_stiffness(spring, contact.law, pair.area, contact.distance - pair.distance, factors);
+    set_stiffness(spring, contact.law, pair.area, pair.distance - contact.distance, 1.0, factors);
     spring.across = 0.0; // edge-edge contact has no friction
     springs.push_back(spring);
   }

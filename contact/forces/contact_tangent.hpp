@@ -45,8 +45,7 @@ struct TangentFactors {
 };
 
 /// Appends to `springs` the contacts that are closed, or whose last measured gap is <= margin (mm).
-/// area: mm^2, one per node of the ply.
-void append_tangents(const ToolPlyContact& contact, std::span<const double> area, double margin,
+void append_tangents(const ToolPlyContact& contact, const SurfaceKinematics& ply, double margin,
                      const TangentFactors& factors, std::vector<ContactTangent>& springs);
 void append_tangents(const PlyPlyContact& contact, const SurfaceKinematics& slave,
                      const SurfaceKinematics& master, std::span<const Triangle> master_triangles,

@@ -218,7 +218,8 @@ void add_edge_stiffness(const EdgeEdgeContact& contact, double margin, std::span
                         std::span<ContactRow> rows_b) {
   for (const EdgePair& pair : contact.pairs) {
     if (!within(contact, pair, margin)) continue;
-    const ContactRow row = 2.0 * pair.area * row_of(contact.law, contact.distance - pair.distance);
+    const ContactRow row =
+        2.0 * pair.area * row_of(contact.law, pair.distance - contact.distance, 1.0);
     rows_a[pair.a.a] += (1.0 - pair.s) * row;
     rows_a[pair.a.b] += pair.s * row;
     rows_b[pair.b.a] += (1.0 - pair.t) * row;

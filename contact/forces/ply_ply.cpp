@@ -100,6 +100,7 @@ void deactivate(PlyPlyPoint& c) {
 
 /// A new, open contact point of a node with the faces of these candidates, which are sorted here.
 PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
+                      const SurfaceKinematics& slave, const SurfaceKinematics& master,
                       std::span<const Triangle> triangles, double path_length) {
   std::sort(near.begin(), near.end(), [](const Candidate& a, const Candidate& b) {
     return std::pair(a.distance2, a.face) < std::pair(b.distance2, b.face);
@@ -120,7 +121,8 @@ PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
   c.w[0] = first->w[1], c.w[1] = first->w[2];
   c.other = distance_of_others(c, triangles.data()->data(), contact.faces.data(),
                                contact.face_distance.data());
-  c.gap = std::sqrt(near.front().distance2) - contact.distance;
+  c.gap = std::sqrt(near.front().distance2) -
+          contact.distance * thickness_ratio_at(contact, c, slave, master, triangles);
   contact.list.free_until.push_back(path_length + c.gap);
   deactivate(c);
   return c;
@@ -159,12 +161,25 @@ double distance_of_others(const PlyPlyPoint& point, const std::int32_t* triangle
   return std::numeric_limits<double>::max(); // faces that are not listed cannot touch
 }
 
+double thickness_ratio_at(const PlyPlyContact& contact, const PlyPlyPoint& point,
+                          const SurfaceKinematics& slave, const SurfaceKinematics& master,
+                          std::span<const Triangle> triangles) {
+  if (!contact.thickness_follows) return 1.0;
+  const std::array<double, 3> w = weights_of(point);
+  double other = 0.0;
+  for (std::size_t j = 0; j < 3; ++j)
+    other += w[j] * master.thickness_ratio[static_cast<std::size_t>(triangles[point.face][j])];
+  return other + contact.slave_share *
+                     (slave.thickness_ratio[static_cast<std::size_t>(point.node)] - other);
+}
+
 void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> candidates,
                          const SurfaceKinematics& slave, const SurfaceKinematics& master,
                          std::span<const Triangle> triangles, double path_length) {
   std::vector<PlyPlyPoint> old = std::move(contact.points);
   contact.points.clear();
   contact.points.reserve(old.size() + old.size() / 16);
+  if (contact.law.unloading) contact.compacted.resize(slave.x.size(), 0.0);
   contact.faces.clear();
   contact.face_distance.clear();
   clear(contact.list);
@@ -182,7 +197,7 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
       near.clear();
       for (std::size_t i = first; i < group.size(); ++i)
         if (label[i] == label[first]) near.push_back(group[i]);
-      PlyPlyPoint c = add_faces(contact, near, triangles, path_length);
+      PlyPlyPoint c = add_faces(contact, near, slave, master, triangles, path_length);
       c.area = contact_area(slave, master, c, triangles[c.face]);
       if (const PlyPlyPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[before - old.data()] = 1;
@@ -239,6 +254,7 @@ PlyPlyKernelContact kernel_view(KernelContext& k, double dt) {
   PlyPlyContact& c = k.contact;
   static_assert(sizeof(Vec3) == 3 * sizeof(double) && sizeof(Triangle) == 3 * sizeof(std::int32_t));
   PlyPlyKernelContact view{};
+  static_cast<ContactKernelLaw&>(view) = kernel_law(c.law, dt);
   view.points = c.points.data();
   view.active = c.list.active.data();
   view.active_count = static_cast<int>(c.list.active.size());
@@ -259,12 +275,12 @@ PlyPlyKernelContact kernel_view(KernelContext& k, double dt) {
   view.slave_force = k.slave_force.data()->data();
   view.master_force = k.master_force.data()->data();
   view.distance = c.distance;
-  view.stiffness = c.law.stiffness;
-  view.tangential = c.law.tangential();
-  view.friction = c.law.friction;
-  view.max_depth = c.law.max_depth;
-  view.per_depth2 = 1.0 / (c.law.max_depth * c.law.max_depth);
-  view.damping_per_dt = dt > 0.0 ? c.law.damping / dt : 0.0;
+  if (c.thickness_follows) {
+    view.slave_ratio = k.slave.thickness_ratio.data();
+    view.master_ratio = k.master.thickness_ratio.data();
+    view.slave_share = c.slave_share;
+  }
+  view.compacted = c.compacted.empty() ? nullptr : c.compacted.data();
   view.self = &k;
   view.open = open_point;
   view.fault = fault_at;
@@ -289,6 +305,7 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
   sums.elastic = added.elastic;
   sums.friction += added.friction;
   sums.damping += added.damping;
+  sums.compaction += added.compaction;
   sums.penetration = added.penetration;
   sums.slip = std::max(sums.slip, added.slip);
   sums.touching = added.touching;
@@ -305,9 +322,10 @@ Vec3 contact_normal(const PlyPlyPoint& point, std::span<const Vec3> slave,
       .normalized();
 }
 
-void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics& master,
-                           std::span<const Triangle> triangles, double margin,
-                           std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows) {
+void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics& slave,
+                           const SurfaceKinematics& master, std::span<const Triangle> triangles,
+                           double margin, std::span<ContactRow> slave_rows,
+                           std::span<ContactRow> master_rows) {
   // Normal stiffness: k G G^T with G = (1, -w), whose row i has the absolute sum
   // |G_i| sum_j |G_j| = 2 |G_i|. Tangential stiffness k_t = k / 2: G = G_w + G_g, with G_w = (1,
   // -w) and the couple's G_g of entries h |gradient_j|, the side opposite to corner j over twice
@@ -316,13 +334,14 @@ void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics
   for (const PlyPlyPoint& c : contact.points) {
     if (latest_gap(c) > margin) continue;
     const Triangle& t = triangles[c.face];
-    const ContactRow normal = 2.0 * c.area * row_of(contact.law, -latest_gap(c));
+    const double thickness = thickness_ratio_at(contact, c, slave, master, triangles);
+    const ContactRow normal = 2.0 * c.area * row_of(contact.law, latest_gap(c), thickness);
     slave_rows[c.node] += normal;
     if (contact.law.friction > 0.0) {
       const Vec3 &p = at(master.x, t[0]), &q = at(master.x, t[1]), &r = at(master.x, t[2]);
       const std::array<double, 3> side{(r - q).norm(), (p - r).norm(), (q - p).norm()};
       const double per_side2 =
-          contact.distance * contact.distance / (q - p).cross(r - p).squaredNorm();
+          std::pow(contact.distance * thickness, 2) / (q - p).cross(r - p).squaredNorm();
       const double each =
           2.0 * c.area * contact.law.tangential() * per_side2 * (side[0] + side[1] + side[2]);
       for (std::size_t j = 0; j < 3; ++j)

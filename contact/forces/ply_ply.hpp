@@ -55,16 +55,24 @@ struct ContactFault {
 
 struct PlyPlyContact {
   ContactLaw law;                   ///< with half of the pair's stiffness
-  double distance = 0.0;            ///< h, mm
+  double distance = 0.0;            ///< h, mm, before forming
+  double slave_share = 0.5;         ///< of it, of the slave's half
+  bool thickness_follows = false;   ///< whether r of contact_law.hpp is asked for; else it is 1
   std::vector<PlyPlyPoint> points;  ///< ascending by node
   std::vector<std::int32_t> faces;  ///< faces of each point in turn, in ascending distance
   std::vector<float> face_distance; ///< mm, of faces[i] from the node at the last search, at most
   ActiveList list;                  ///< of the points
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again
+  std::vector<double> compacted; ///< mm, per slave node: greatest depth; of some laws only
   ContactTotals sums;
   ContactFault fault;
   ContactTime time;
 };
+
+/// r of contact/forces/contact_law.hpp at a point.
+double thickness_ratio_at(const PlyPlyContact& contact, const PlyPlyPoint& point,
+                          const SurfaceKinematics& slave, const SurfaceKinematics& master,
+                          std::span<const Triangle> master_triangles);
 
 /// For checkpoints: base/archive.hpp.
 template <class F>
@@ -86,12 +94,14 @@ void each_member(PlyPlyPoint& point, F&& f) {
 
 template <class F>
 void each_member(PlyPlyContact& c, F&& f) {
-  auto& [law, distance, points, faces, face_distance, list, renew_depth, sums, fault, time] = c;
+  auto& [law, distance, slave_share, thickness_follows, points, faces, face_distance, list,
+         renew_depth, compacted, sums, fault, time] = c;
   f("points", points);
   f("faces", faces);
   f("face_distance", face_distance);
   f("list", list);
   f("renew_depth", renew_depth);
+  f("compacted", compacted);
   f("sums", sums);
 }
 
@@ -124,7 +134,8 @@ Vec3 contact_normal(const PlyPlyPoint& point, std::span<const Vec3> slave,
 
 /// Adds the row sums of the contact matrices, N/mm and N s/mm, to the rows of each sheet's nodes:
 /// of contacts that are closed or whose last measured gap is <= margin (mm).
-void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics& master,
+void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics& slave,
+                           const SurfaceKinematics& master,
                            std::span<const Triangle> master_triangles, double margin,
                            std::span<ContactRow> slave_rows, std::span<ContactRow> master_rows);
 

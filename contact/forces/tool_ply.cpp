@@ -2,6 +2,7 @@
 #include "contact/forces/tool_ply.hpp"
 
 #include "base/cpu_features.hpp"
+#include "contact/forces/pushed_tool.hpp"
 #include "contact/shapes/mesh_shape.hpp"
 #include "contact/shapes/shape_distance.hpp"
 #include "contact/simd/tool_ply_kernel.hpp"
@@ -64,12 +65,18 @@ void in_parts(const ActiveList& list, const Work& work) {
     work(all.subspan(first, std::min(most, all.size() - first)));
 }
 
+/// mm, present one of the ply at a node.
+double half_thickness_at(const ToolPlyContact& contact, const SurfaceKinematics& ply,
+                         std::int32_t node) {
+  return contact.half_thickness * thickness_ratio_at(contact, ply, node);
+}
+
 /// A lower bound (mm) of the gap at x (mm, global frame) of a node with this hint.
-double least_gap(const ToolPlyContact& contact, const ToolBody& tool, const Vec3& x,
+double least_gap(double half_thickness, const ToolBody& tool, const Vec3& x,
                  const SurfaceHint& hint) {
   if (hint.facet < 0) return NoRoom{}(0); // most tools are no meshes: spares the way to them
   const Vec3 at(hint.at[0], hint.at[1], hint.at[2]);
-  return least_distance(hint, (to_tool_frame(tool, x) - at).norm()) - contact.half_thickness;
+  return least_distance(hint, (to_tool_frame(tool, x) - at).norm()) - half_thickness;
 }
 
 /// Activates the points that may touch, and deactivates the others.
@@ -77,7 +84,8 @@ void update_active(ToolPlyContact& contact, const ToolBody& tool, const SurfaceK
                    double path_length) {
   const auto room = [&](std::int32_t i) {
     const ToolPlyPoint& c = contact.points[static_cast<std::size_t>(i)];
-    return least_gap(contact, tool, ply.x[static_cast<std::size_t>(c.node)], c.hint);
+    return least_gap(half_thickness_at(contact, ply, c.node), tool,
+                     ply.x[static_cast<std::size_t>(c.node)], c.hint);
   };
   update(contact.list, path_length, 2.0 * contact.half_thickness, room,
          [&contact](std::int32_t i) { deactivate(contact.points[i]); });
@@ -99,7 +107,7 @@ void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinemat
     const SurfacePoint s = distance(ply.x[n], c.hint);
     const bool was_inactive = std::isinf(c.gap);
     c.last_gap = c.gap;
-    c.gap = s.distance - contact.half_thickness;
+    c.gap = s.distance - half_thickness_at(contact, ply, c.node);
     normal_of(c) = s.normal;
     if (was_inactive) c.last_gap = c.gap - s.normal.dot(ply.motion[n] - tool_motion);
     if (c.gap > 0.0) contact.list.free_until[i] = path_length + c.gap;
@@ -123,6 +131,7 @@ Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& to
            const Vec3& advance, double dt, Part part) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   ToolPlyKernelContact k{};
+  static_cast<ContactKernelLaw&>(k) = kernel_law(contact.law, dt);
   k.points = contact.points.data();
   k.active = part.data();
   k.active_count = static_cast<int>(part.size());
@@ -131,18 +140,15 @@ Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& to
   k.force = contact.force.data()->data();
   Eigen::Map<Vec3>(k.tool_motion) = tool_motion;
   Eigen::Map<Vec3>(k.advance) = advance;
-  k.stiffness = contact.law.stiffness;
-  k.tangential = contact.law.tangential();
-  k.friction = contact.law.friction;
-  k.max_depth = contact.law.max_depth;
-  k.per_depth2 = 1.0 / (k.max_depth * k.max_depth);
-  k.damping_per_dt = dt > 0.0 ? contact.law.damping / dt : 0.0;
+  k.thickness_ratio = contact.thickness_follows ? ply.thickness_ratio.data() : nullptr;
+  k.compacted = contact.compacted.empty() ? nullptr : contact.compacted.data();
   const ToolPlyKernelTotals added =
       fastest(tool_ply_kernel_generic, tool_ply_kernel_avx2, tool_ply_kernel_avx512)(k);
   ContactTotals& sums = contact.sums;
   sums.elastic += added.elastic;
   sums.friction += added.friction;
   sums.damping += added.damping;
+  sums.compaction += added.compaction;
   sums.penetration = std::max(sums.penetration, added.penetration);
   sums.deepest = std::max(sums.deepest, added.penetration);
   sums.slip = std::max(sums.slip, added.slip);
@@ -167,115 +173,6 @@ Vec3 measure_and_press(ToolPlyContact& contact, const ToolBody& tool, const Surf
     });
   });
   return on_tool;
-}
-
-/// A point that may be closed by the displacement delta of (B), then at depth p = facing delta -
-/// gap.
-struct Pressed {
-  double facing;    ///< normal . direction of the tool
-  double gap;       ///< mm, before the motion
-  double stiffness; ///< N/mm, A k
-  double viscous;   ///< N/mm, A c / dt
-  double opened;    ///< mm, -p of the step before if it was closed then, else 0
-  double per_depth; ///< 1/mm, 1 / delta
-
-  /// (N) at depth p, and its slope (K), N and N/mm.
-  std::pair<double, double> force(double p) const {
-    if (!(p > 0.0)) return {0.0, 0.0};
-    const double u = p * per_depth, u2 = u * u;
-    const double per_room = 1.0 / std::max(1.0 - u2, least_room);
-    const double rate = stiffness * per_room * per_room;
-    const double n = rate * p + viscous * (p + opened);
-    if (!(n > 0.0)) return {0.0, 0.0};
-    return {n, rate * per_room * (1.0 + 3.0 * u2) + viscous};
-  }
-};
-
-/// The points that a displacement of the tool of no more than `most` (mm) may close.
-std::vector<Pressed> may_press(const ToolBody& tool, std::span<const ToolPlyContact> contacts,
-                               std::span<const SurfaceKinematics> plies, double most, double dt) {
-  std::vector<Pressed> pressed;
-  std::size_t count = 0;
-  for (const ToolPlyContact& contact : contacts)
-    count += contact.list.active.size();
-  pressed.reserve(count);
-  for (std::size_t i = 0; i < contacts.size(); ++i) {
-    const ContactLaw& law = contacts[i].law;
-    const double per_depth = 1.0 / law.max_depth;
-    for (const std::int32_t k : contacts[i].list.active) {
-      const ToolPlyPoint& c = contacts[i].points[k];
-      const double facing = normal_of(c).dot(tool.direction);
-      if (!(std::abs(facing) * most > c.gap)) continue;
-      const double area = plies[i].area[c.node];
-      pressed.push_back({facing, c.gap, area * law.stiffness, area * law.damping / dt,
-                         std::min(c.last_gap, 0.0), per_depth});
-    }
-  }
-  return pressed;
-}
-
-/// Residual of (B), F - R(delta) - M (delta/dt - v) / dt, N, and its slope, N/mm (not positive).
-struct Residual {
-  double value, slope;
-};
-
-Residual residual_of(const ToolBody& tool, std::span<const Pressed> pressed, double delta,
-                     double dt) {
-  const double inertia = tool.mass / (dt * dt);
-  Residual r{tool.force - inertia * (delta - tool.speed * dt), -inertia};
-  for (const Pressed& c : pressed) {
-    const auto [force, slope] = c.force(c.facing * delta - c.gap);
-    r.value -= c.facing * force;
-    r.slope -= c.facing * c.facing * slope;
-  }
-  return r;
-}
-
-/// Largest displacement (mm) towards `high` with which no point uses more than half of its
-/// remaining depth.
-double within_room(std::span<const Pressed> pressed, double high) {
-  constexpr double share = 0.5;
-  for (const Pressed& c : pressed) {
-    const double depth = std::max(-c.gap, 0.0);
-    const double most = depth + share * std::max(1.0 / c.per_depth - depth, 0.0) + c.gap;
-    if (c.facing * high > most) high = most / c.facing;
-  }
-  return high;
-}
-
-/// Solves (B) for delta (mm) within the limits of the approach speed and of the remaining depth of
-/// the contacts: Newton's method inside a bracket, with bisection where a Newton step would leave
-/// it (contacts that close change the slope abruptly).
-double equilibrium_motion(const ToolBody& tool, std::span<const ToolPlyContact> contacts,
-                          std::span<const SurfaceKinematics> plies, double dt) {
-  const double fastest = tool.max_approach_speed * dt;
-  const std::vector<Pressed> pressed = may_press(tool, contacts, plies, fastest, dt);
-  double high = within_room(pressed, fastest), low = within_room(pressed, -fastest);
-  double delta = std::clamp(tool.speed * dt, 0.5 * low, 0.5 * high);
-  bool high_known = false, low_known = false; // whether the root is known to lie below, above it
-  // A Newton step squares the relative residual: the one from `nearly` ends below 1e-9.
-  constexpr double nearly = 1e-5;
-  constexpr int most_rounds = 60; // bisections down to rounding; 2 to 5 iterations are usual
-  for (int round = 0; round < most_rounds; ++round) {
-    const Residual r = residual_of(tool, pressed, delta, dt);
-    if (std::abs(r.value) <= 1e-9 * std::abs(tool.force)) break;
-    const bool further = r.value > 0.0;
-    (further ? low : high) = delta;
-    (further ? low_known : high_known) = true;
-    const double newton = r.slope < 0.0 ? delta - r.value / r.slope : further ? high : low;
-    if (newton > low && newton < high) {
-      delta = newton;
-      if (std::abs(r.value) <= nearly * std::abs(tool.force)) break;
-      continue;
-    }
-    if (bool& known = further ? high_known : low_known; !known) {
-      known = true;
-      const double end = further ? high : low, left = residual_of(tool, pressed, end, dt).value;
-      if (further ? left >= 0.0 : left <= 0.0) return end;
-    }
-    delta = 0.5 * (low + high);
-  }
-  return delta;
 }
 
 /// Moves a pushed tool, whose contacts have been measured, by (B) and computes the forces. Returns
@@ -316,6 +213,7 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
   contact.points.clear();
   clear(contact.list);
   contact.free.resize(ply.x.size(), -std::numeric_limits<float>::infinity());
+  if (contact.law.unloading) contact.compacted.resize(ply.x.size(), 0.0);
   const bool is_mesh = std::holds_alternative<MeshShapePtr>(tool.shape);
   if (is_mesh) contact.hints.resize(ply.x.size());
   std::size_t next_old = 0;
@@ -330,14 +228,15 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
       point = old[next_old++];
     else if (is_mesh && gap <= reach) {
       point.hint = contact.hints[n];
-      gap = std::max(gap, least_gap(contact, tool, ply.x[n], point.hint));
+      gap = std::max(
+          gap, least_gap(half_thickness_at(contact, ply, point.node), tool, ply.x[n], point.hint));
     }
     const bool touched = known && point.gap < 0.0; // its tangential spring may store energy
     if (touched || (!known && gap <= reach)) {
       if (point.hint.facet < 0) point.hint = near;
       const SurfacePoint at = distance_to_tool(tool, ply.x[n], point.hint);
       near = point.hint;
-      gap = at.distance - contact.half_thickness;
+      gap = at.distance - half_thickness_at(contact, ply, point.node);
       normal_of(point) = at.normal;
     }
     contact.free[n] = rounded_down(path_length + gap);
@@ -369,12 +268,13 @@ Vec3 tool_ply_forces(ToolBody& tool, std::span<ToolPlyContact> contacts,
   return tool.force_controlled ? push_and_press(tool, contacts, plies, dt) : on_tool;
 }
 
-void add_tool_ply_stiffness(const ToolPlyContact& contact, std::span<const double> area,
+void add_tool_ply_stiffness(const ToolPlyContact& contact, const SurfaceKinematics& ply,
                             double margin, std::span<ContactRow> rows) {
   for (const ToolPlyPoint& c : contact.points) {
     if (latest_gap(c) > margin) continue;
     const auto n = static_cast<std::size_t>(c.node);
-    rows[n] += area[n] * row_of(contact.law, -latest_gap(c));
+    rows[n] +=
+        ply.area[n] * row_of(contact.law, latest_gap(c), thickness_ratio_at(contact, ply, c.node));
   }
 }
 

@@ -70,13 +70,15 @@ inline double latest_gap(const ToolPlyPoint& point) {
 /// Contact of a tool with one ply. `points`: the nodes within reach, ascending.
 struct ToolPlyContact {
   ContactLaw law;
-  double half_thickness = 0.0; ///< mm, of the ply
+  double half_thickness = 0.0;    ///< mm, of the ply before forming
+  bool thickness_follows = false; ///< whether r of contact_law.hpp is asked for; else it is 1
   std::vector<ToolPlyPoint> points;
   ActiveList list;         ///< of the points
   std::vector<float> free; ///< mm, per node of the ply: path length before which it cannot touch
   std::vector<SurfaceHint>
-      hints;               ///< per node of the ply, of those without a point; mesh tools only
-  std::vector<Vec3> force; ///< N, per node of the ply; zero without a point. Empty: no points
+      hints;                     ///< per node of the ply, of those without a point; mesh tools only
+  std::vector<Vec3> force;       ///< N, per node of the ply; zero without a point. Empty: no points
+  std::vector<double> compacted; ///< mm, per node of the ply: greatest depth; of some laws only
   ContactTotals sums;
   double renew_depth = 0.0; ///< mm, penetration at which the stable time step is computed again
   ContactTime time; ///< s, without the equilibrium of a pushed tool, which all its plies share
@@ -85,14 +87,22 @@ struct ToolPlyContact {
 /// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(ToolPlyContact& c, F&& f) {
-  auto& [law, half_thickness, points, list, free, hints, force, sums, renew_depth, time] = c;
+  auto& [law, half_thickness, thickness_follows, points, list, free, hints, force, compacted, sums,
+         renew_depth, time] = c;
   f("points", points);
   f("list", list);
   f("free", free);
   f("hints", hints);
   f("force", force);
+  f("compacted", compacted);
   f("sums", sums);
   f("renew_depth", renew_depth);
+}
+
+/// r of contact_law.hpp of the ply at a node.
+inline double thickness_ratio_at(const ToolPlyContact& contact, const SurfaceKinematics& ply,
+                                 std::int32_t node) {
+  return contact.thickness_follows ? ply.thickness_ratio[static_cast<std::size_t>(node)] : 1.0;
 }
 
 /// Signed distance (mm) and normal at x (mm), in the global frame, of a tool in its present
@@ -115,8 +125,8 @@ Vec3 tool_ply_forces(ToolBody& tool, std::span<ToolPlyContact> contacts,
                      double dt);
 
 /// Adds the row sums of the contact matrices, N/mm and N s/mm, to rows[node]: of contacts that are
-/// closed or whose last measured gap is <= margin (mm). area: mm^2, one per node of the ply.
-void add_tool_ply_stiffness(const ToolPlyContact& contact, std::span<const double> area,
+/// closed or whose last measured gap is <= margin (mm).
+void add_tool_ply_stiffness(const ToolPlyContact& contact, const SurfaceKinematics& ply,
                             double margin, std::span<ContactRow> rows);
 
 } // namespace plyform

@@ -106,7 +106,7 @@ PLYFORM_INLINE double largest(Double4 a) {
 /// ContactTotals of the kernels: sums, maxima and minima over every fourth contact. With eight
 /// lanes the two quads are added one after the other, so that sums are those of four lanes.
 struct SimdTotals {
-  Double4 elastic{}, friction{}, damping{};
+  Double4 elastic{}, friction{}, damping{}, compaction{};
   Double4 penetration{}, slip{};
   Double4 step_ratio = Double4{1e300, 1e300, 1e300, 1e300};
   int touching = 0;
@@ -141,46 +141,127 @@ PLYFORM_INLINE Vectors into_plane(const Vectors& s, const Vectors& n) {
   return by * flat;
 }
 
-/// q of contact/forces/contact_law.hpp at `depth` (mm).
-template <class Contact>
-PLYFORM_INLINE Doubles room_of(const Contact& k, Doubles depth) {
+/// q of contact/forces/contact_law.hpp at `depth` (mm) beyond the densest packing.
+PLYFORM_INLINE Doubles room_of(const ContactKernelLaw& k, Doubles depth) {
   return larger(1.0 - depth * depth * k.per_depth2, all(least_room));
+}
+
+/// Pressure (N/mm^2) and work per area (N/mm) of a curve at a depth (mm), held beyond its ends.
+struct OnTable {
+  double pressure, energy;
+};
+PLYFORM_INLINE OnTable on_table(const CompactionTable& t, double depth) {
+  if (!(depth > 0.0)) return {0.0, 0.0};
+  const double at = depth * t.per_spacing;
+  int i = at < t.pieces ? static_cast<int>(at) : t.pieces;
+  i = i < t.pieces ? i : t.pieces - 1;
+  const double along = at - i < 1.0 ? at - i : 1.0, p = t.pressure[i];
+  const double rise = along * (t.pressure[i + 1] - p);
+  return {p + rise, t.energy[i] + along / t.per_spacing * (p + 0.5 * rise)};
+}
+
+/// Depth (mm) at which a curve has a pressure (N/mm^2).
+PLYFORM_INLINE double depth_on_table(const CompactionTable& t, double pressure) {
+  int low = 0, high = t.pieces; // pressure[low] <= pressure < pressure[high]
+  if (!(pressure < t.pressure[high])) return t.packed;
+  while (high - low > 1) {
+    const int middle = (low + high) / 2;
+    (t.pressure[middle] <= pressure ? low : high) = middle;
+  }
+  return (low + (pressure - t.pressure[low]) / (t.pressure[low + 1] - t.pressure[low])) /
+         t.per_spacing;
+}
+
+/// At the end of a curve: N/mm^2, and the slope there, N/mm^3.
+PLYFORM_INLINE double last_pressure(const CompactionTable& t) {
+  return t.pressure[t.pieces];
+}
+PLYFORM_INLINE double last_rise(const CompactionTable& t) {
+  return (t.pressure[t.pieces] - t.pressure[t.pieces - 1]) * t.per_spacing;
+}
+
+/// What a contact that has been `compacted` (mm) deep bears at a depth (mm), stores, and has lost
+/// per area since it was first loaded: (L) and (U) of contact/forces/contact_law.hpp.
+struct Compacted {
+  double pressure, stored, lost; ///< N/mm^2, N/mm, N/mm
+};
+PLYFORM_INLINE Compacted compacted_at(const ContactKernelLaw& k, double depth, double compacted) {
+  const OnTable most = on_table(k.loading, compacted);
+  if (!k.compacted) {
+    const OnTable now = on_table(k.loading, depth);
+    return {now.pressure, now.energy, 0.0};
+  }
+  const double from = depth_on_table(k.unloading, most.pressure);
+  const OnTable back = on_table(k.unloading, from),
+                now = on_table(k.unloading, from - (compacted - depth));
+  return {now.pressure, now.energy, most.energy - back.energy};
+}
+
+/// Elastic pressure (N/mm^2) and twice the energy per area (N/mm) of contacts at `depth` (mm).
+struct SimdElastic {
+  Doubles pressure, energy2;
+};
+
+/// The law of a contact per lane. compacted: mm, their greatest depths so far, which are updated
+/// where `counted`; area: mm^2, of what is lost.
+PLYFORM_INLINE SimdElastic elastic_of(const ContactKernelLaw& k, Doubles area, Doubles depth,
+                                      Longs counted, Doubles& compacted, SimdTotals& sums) {
+  if (k.loading.pieces == 0) {
+    const Doubles q = room_of(k, depth), rate = k.stiffness * depth;
+    return {rate / (q * q), rate * depth / q};
+  }
+  const Doubles packed = all(k.loading.packed), beyond = larger(depth - packed, all(0.0));
+  const Doubles q = room_of(k, beyond), rate = k.stiffness * beyond;
+  const Doubles inside = smaller(depth, packed);
+  alignas(sizeof(Doubles)) double at[lanes], most[lanes], p[lanes], e[lanes], lost[lanes];
+  store_lanes(at, inside), store_lanes(most, compacted);
+  for (int i = 0; i < lanes; ++i) {
+    const double now = at[i] > most[i] ? at[i] : most[i];
+    const Compacted c = compacted_at(k, at[i], now);
+    p[i] = c.pressure, e[i] = c.stored;
+    lost[i] = now > most[i] ? c.lost - compacted_at(k, most[i], most[i]).lost : 0.0;
+    most[i] = now;
+  }
+  const auto lanes_of = [](const double* v) { return each_lane([v](int i) { return v[i]; }); };
+  compacted = counted ? lanes_of(most) : compacted;
+  add(sums.compaction, counted ? area * lanes_of(lost) : all(0.0));
+  const double rise = last_rise(k.loading); // goes on beyond the curve
+  return {lanes_of(p) + beyond * rise + rate / (q * q),
+          2.0 * (lanes_of(e) + beyond * (last_pressure(k.loading) + 0.5 * rise * beyond)) +
+              rate * beyond / q};
 }
 
 /// ContactTotals::step_ratio of contacts at `depth` that closed by `dp` (mm) in the last step.
 /// A contact that is still open may close its gap and then use its share of the depth limit.
-template <class Contact>
-PLYFORM_INLINE Doubles step_ratio_of(const Contact& k, Doubles depth, Doubles dp) {
+PLYFORM_INLINE Doubles step_ratio_of(const ContactKernelLaw& k, Doubles depth, Doubles dp) {
   const Doubles inside = larger(depth, all(0.0)), open = inside - depth;
-  const Doubles left = larger(1.0 - inside * (1.0 / k.max_depth), all(0.0)), left2 = left * left;
+  const Doubles left = larger(1.0 - inside * (1.0 / k.depth_limit), all(0.0)), left2 = left * left;
   const Doubles share = step_share + shallow_share * (left2 * left2 * left);
-  const Doubles way = open + share * (k.max_depth - inside);
+  const Doubles way = open + share * (k.depth_limit - inside);
   return dp > 0.0 ? larger(way, all(0.0)) / dp : all(1e300);
 }
 
-/// (N) per area: normal pressure, N/mm^2, of contacts `depth` mm deep. opened: mm, minus their
-/// depth in the step before, 0 if they were open then; dp: mm, change of depth in this step
-/// (negative depths included). Sets the forces in m (N) and adds the work of damping where
-/// `counted`. Uses k.stiffness, k.damping_per_dt, k.per_depth2.
-template <class Contact>
-PLYFORM_INLINE Doubles normal_pressure(const Contact& k, Doubles area, Doubles depth,
-                                       Doubles opened, Doubles dp, Longs counted, SimdHistory& m,
+/// (N) per area before forming: normal pressure, N/mm^2, of contacts whose elastic pressure is
+/// known. opened: mm, minus their depth in the step before, 0 if they were open then; dp: mm,
+/// change of depth in this step (negative depths included); per_thickness: 1 over r. Sets the
+/// forces in m (N) and adds the work of damping where `counted`.
+PLYFORM_INLINE Doubles normal_pressure(const ContactKernelLaw& k, Doubles area, Doubles elastic,
+                                       Doubles depth, Doubles opened, Doubles dp,
+                                       Doubles per_thickness, Longs counted, SimdHistory& m,
                                        SimdTotals& sums) {
-  const Doubles q = room_of(k, depth);
-  const Doubles pressure = k.stiffness * depth / (q * q); // N/mm^2, elastic and viscous
-  const Doubles resistance = larger(k.damping_per_dt * (depth + opened), -pressure);
+  const Doubles resistance = larger(k.damping_per_dt * (depth + opened), -elastic);
   const Doubles viscous = area * resistance;
   add(sums.damping, counted ? 0.5 * (viscous + m.damping_force) * dp : all(0.0));
   m.damping_force = viscous;
-  m.normal_force = area * (pressure + resistance);
-  return pressure + resistance;
+  const Doubles pressure = per_thickness * (elastic + resistance);
+  m.normal_force = area * pressure;
+  return pressure;
 }
 
 /// (T): friction force, N, under `pressure` (N/mm^2). n: normals; remembered: s (mm) of the step
 /// before, rotated with the body; slip: relative displacement in this step, mm. Uses k.friction and
 /// k.tangential.
-template <class Contact>
-PLYFORM_INLINE Vectors friction_of(const Contact& k, Doubles area, Doubles pressure,
+PLYFORM_INLINE Vectors friction_of(const ContactKernelLaw& k, Doubles area, Doubles pressure,
                                    const Vectors& n, const Vectors& remembered, const Vectors& slip,
                                    Longs touch, SimdHistory& m, SimdTotals& sums) {
   const Doubles zero = all(0.0);

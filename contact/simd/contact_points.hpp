@@ -23,6 +23,24 @@ constexpr double least_room = 1e-3, deepest_valid = 0.9995;
 /// times, and with it energy is kept; with half of the remaining depth it grows by 8 times.
 constexpr double step_share = 0.25, shallow_share = 0.14;
 
+/// contact/forces/compaction_curve.hpp, as kernels see it.
+struct CompactionTable {
+  const double *pressure = nullptr, *energy = nullptr; ///< N/mm^2, N/mm, at the ends of pieces
+  int pieces = 0;                                      ///< 0: there is none
+  double per_spacing = 0.0;                            ///< 1/mm
+  double packed = 0.0;                                 ///< mm
+};
+
+/// The law of a contact (contact/forces/contact_law.hpp) as kernels see it.
+struct ContactKernelLaw {
+  double stiffness, tangential, friction; ///< k, k_t, mu
+  double max_depth, per_depth2;           ///< delta and 1/delta^2; finite
+  double damping_per_dt;                  ///< c / dt, or 0
+  double depth_limit;                     ///< mm, delta and what lies before the densest packing
+  CompactionTable loading, unloading;     ///< unloading: no pieces where it goes back as it came
+  double* compacted; ///< mm, per slave node: greatest depth so far; null without `unloading`
+};
+
 /// History variables of one contact.
 struct ContactHistory {
   double s[3] = {};         ///< mm, (T) of contact/forces/contact_law.hpp

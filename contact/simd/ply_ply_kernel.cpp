@@ -3,13 +3,8 @@
 // contact/forces/contact_law.hpp. A point keeps its face (PlyPlyPoint::face) while its foot is
 // inside that face and no other face can have come closer; else those of its faces that may be
 // closest are searched.
-//
-// With B = b - a, C = c - a, N = B x C of the face, n = N / |N|, v_1 = u_b - u_a, v_2 = u_c - u_a,
-// and the edges opposite to the corners E_1 = -C, E_2 = B, (W) and (C) of
-// contact/forces/face_rotation.hpp are
-//   turn = [ (n.v_2) B - (n.v_1) C - 1/2 (B.v_2 - C.v_1) n ] / |N|                          (W')
-//   F_j  = [ (E_j.K) n - 1/2 (K.n) E_j ] / |N|   from a couple K, j = 1, 2;  F_0 = -F_1 - F_2 (C')
 #include "contact/simd/ply_ply_closest.hpp"
+#include "contact/simd/ply_ply_point_forces.hpp"
 
 #include <cstring>
 
@@ -24,68 +19,6 @@ PLYFORM_INLINE void add3(double* at, Double4 row) {
   low += Pair2{row[0], row[1]};
   std::memcpy(at, &low, sizeof(low));
   at[2] += row[2];
-}
-
-/// The state of points that the computation of their forces changes.
-struct SimdPoints {
-  Doubles area, gap, last_gap;
-  SimdHistory memory;
-};
-
-/// Weights of corners b and c at the closest points.
-struct SimdWeights {
-  Doubles b, c;
-};
-
-struct SimdForces {
-  Vectors on_node, couple1, couple2; ///< of (C') on corners b and c
-};
-
-/// Normal force and friction of points whose feet are known; `touch`: those that touch; fold:
-/// as of fold_ahead.
-PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFaces& x,
-                                    const SimdFaces& u, const SimdWeights& w, Doubles distance,
-                                    Doubles fold, Longs touch, SimdPoints& p, SimdTotals& sums) {
-  const Doubles zero = all(0.0);
-  const Vectors arm = x.p - w.b * x.b - w.c * x.c;
-  const Vectors motion = u.p - w.b * u.b - w.c * u.c;
-  const Doubles depth = k.distance - distance;
-  const Vectors normal = (1.0 / distance) * arm;
-  const Doubles area = touch ? p.area : zero;
-  const Longs known = p.last_gap < 1e300;
-  const Doubles opened = known ? smaller(p.last_gap, zero) : zero;
-  const Doubles dp = known ? p.last_gap - p.gap : -dot(normal, motion);
-  const Doubles pressure = normal_pressure(k, area, depth, opened, dp, touch, p.memory, sums);
-  SimdForces f{p.memory.normal_force * normal, {zero, zero, zero}, {zero, zero, zero}};
-  Doubles stored2 = zero;
-  if (k.friction > 0.0) {
-    const Vectors across = cross(x.b, x.c);
-    const Doubles per_size = 1.0 / root(square(across));
-    const Vectors n = per_size * across;
-    const Doubles v1 = dot(n, u.b), v2 = dot(n, u.c);
-    const Doubles spin = 0.5 * (dot(x.b, u.c) - dot(x.c, u.b));
-    const Vectors turn = per_size * (v2 * x.b - v1 * x.c - spin * n); // (W')
-    const Vectors slip = motion - cross(turn, arm);                   // (P)
-    const Vectors& s = p.memory.s;
-    const Vectors tangential =
-        friction_of(k, area, pressure, normal, s + cross(turn, s), slip, touch, p.memory, sums);
-    f.on_node = f.on_node + tangential;
-    const Vectors couple = cross(tangential, arm); // -r x T of (M)
-    const Doubles half = 0.5 * dot(couple, n);
-    f.couple1 = per_size * (half * x.c - dot(x.c, couple) * n); // (C'), E_1 = -C
-    f.couple2 = per_size * (dot(x.b, couple) * n - half * x.b);
-    stored2 = square(p.memory.s);
-  }
-  add(sums.elastic,
-      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * stored2));
-  Doubles closing = dp;
-  if (any(fold > 0.0)) {
-    const Doubles along = root(square(motion - dot(normal, motion) * normal));
-    closing = fold > 0.0 ? larger(dp, zero) + fold * along : dp;
-  }
-  keep_smaller(sums.step_ratio, step_ratio_of(k, depth, closing));
-  keep_larger(sums.penetration, touch ? depth : zero);
-  return f;
 }
 
 /// Adds the forces of the points to their nodes and to the corners of their faces.
@@ -121,6 +54,7 @@ struct Chunk {
   static constexpr int most = 64;
   alignas(64) double distance[most];  ///< mm
   alignas(64) double distance2[most]; ///< mm^2, from the face kept
+  alignas(64) double thickness[most]; ///< r of contact/forces/contact_law.hpp
   std::int32_t across[most];          ///< face across the edge of those in near_edge
   std::uint64_t touching = 0;
   std::uint64_t inside = 0;    ///< whose foot is inside the face
@@ -162,6 +96,15 @@ PLYFORM_INLINE Longs store_across(const PlyPlyKernelContact& k, const Group& g, 
   return each_lane([&](int i) { return std::int64_t{across[i]}; }) == several_faces;
 }
 
+/// r of contact/forces/contact_law.hpp at the closest point of the face that a point keeps.
+PLYFORM_INLINE double thickness_at(const PlyPlyKernelContact& k, const PlyPlyPoint& point) {
+  if (!k.slave_ratio) return 1.0;
+  const std::int32_t* t = k.triangles + 3 * static_cast<std::int64_t>(point.face);
+  const double a = k.master_ratio[t[0]], b = k.master_ratio[t[1]], c = k.master_ratio[t[2]];
+  const double other = a + point.w[0] * (b - a) + point.w[1] * (c - a);
+  return other + k.slave_share * (k.slave_ratio[point.node] - other);
+}
+
 /// First pass: closest points on the faces that the points keep.
 PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const std::int32_t* active,
                                            int count, Chunk& chunk) {
@@ -178,9 +121,11 @@ PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const s
     const Longs settled = settled_of(k, g, foot, clear, near_edge);
     if (any(near_edge)) near_edge &= ~store_across(k, g, clear.opposite, chunk.across + first);
     store_weights(g, foot, g.real);
+    const Doubles thickness = each_lane([&](int i) { return thickness_at(k, *g.point[i]); });
     store_lanes(chunk.distance + first, foot.distance);
     store_lanes(chunk.distance2 + first, distance2);
-    add(chunk.touching, foot.distance < k.distance, first);
+    store_lanes(chunk.thickness + first, thickness);
+    add(chunk.touching, foot.distance < k.distance * thickness, first);
     add(chunk.inside, foot.inside, first);
     add(chunk.above, foot.above, first);
     add(chunk.settled, settled, first);
@@ -193,11 +138,13 @@ PLYFORM_INLINE void store_feet(const Group& g, const PlyPlyKernelContact& k, con
                                unsigned some, Chunk& chunk) {
   alignas(sizeof(Doubles)) double distance[lanes];
   store_lanes(distance, foot.distance);
-  const unsigned touching = bits_of(foot.distance < k.distance);
+  const Doubles thickness = each_lane([&](int i) { return thickness_at(k, *g.point[i]); });
+  const unsigned touching = bits_of(foot.distance < k.distance * thickness);
   const unsigned inside = bits_of(foot.inside), above = bits_of(foot.above);
   for (int i = 0; i < lanes; ++i) {
     if (!has(some, i)) continue;
     chunk.distance[g.number[i]] = distance[i];
+    chunk.thickness[g.number[i]] = thickness[i];
     put(chunk.touching, g.number[i], has(touching, i));
     put(chunk.inside, g.number[i], has(inside, i));
     put(chunk.above, g.number[i], has(above, i));
@@ -273,15 +220,17 @@ PLYFORM_INLINE void take_settled(const Chunk& chunk, std::uint64_t& points, Orde
 
 /// Updates gap, side and path length of a point that does not touch.
 PLYFORM_INLINE void update_open_point(const PlyPlyKernelContact& k, std::int32_t index,
-                                      double distance, std::int32_t side, SimdTotals& sums) {
+                                      double distance, double thickness, std::int32_t side,
+                                      SimdTotals& sums) {
   constexpr double first_share = step_share + shallow_share; // of the depth, once it has closed
   PlyPlyPoint& at = k.points[index];
   const double last_gap = at.gap;
-  at.gap = distance - k.distance;
+  at.gap = distance - k.distance * thickness;
   at.side = side; // it may close on this side later
   if (last_gap < 1e300 &&
       last_gap > at.gap) // active in the step before, and closing: step_ratio_of
-    keep_smaller(sums.step_ratio, all((at.gap + first_share * k.max_depth) / (last_gap - at.gap)));
+    keep_smaller(sums.step_ratio,
+                 all((at.gap + first_share * k.depth_limit * thickness) / (last_gap - at.gap)));
   if (at.memory.normal_force != 0.0 || at.memory.damping_force != 0.0)
     k.open(k.self, index, last_gap);
   k.free_until[index] = k.path_length + at.gap;
@@ -289,11 +238,12 @@ PLYFORM_INLINE void update_open_point(const PlyPlyKernelContact& k, std::int32_t
 
 /// Stores what the forces have changed, and tells of points that are too deep or have gone through.
 PLYFORM_INLINE void store_points(const PlyPlyKernelContact& k, const std::int32_t* active,
-                                 const Group& g, const Chunk& chunk, const SimdPoints& p,
-                                 Doubles distance) {
+                                 const Group& g, const Chunk& chunk, const SimdPoints& p) {
   const SimdHistory& m = p.memory;
-  const unsigned deep = bits_of((distance < 0.5 * k.distance) | // for a law without a depth limit
-                                (k.distance - distance >= deepest_valid * k.max_depth));
+  const double packed = k.loading.packed;
+  const unsigned deep =
+      bits_of((-p.gap > (0.5 * k.distance + packed) * p.thickness) | // a law without a depth limit
+              (-p.gap >= (packed + deepest_valid * k.max_depth) * p.thickness));
   for (int q = 0; q < quads; ++q) {
     const Rows memory = rows(Columns{{m.s.x, m.s.y, m.s.z, m.damping_force}}, q);
     const Rows gap = rows(Columns{{m.normal_force, m.slip, p.area, p.gap}}, q);
@@ -311,6 +261,21 @@ PLYFORM_INLINE void store_points(const PlyPlyKernelContact& k, const std::int32_
   }
 }
 
+/// The greatest depths so far (mm) of the points, if the law asks for them.
+PLYFORM_INLINE Doubles load_compacted(const PlyPlyKernelContact& k, const Group& g) {
+  if (!k.compacted) return all(0.0);
+  return each_lane([&](int i) { return k.compacted[g.point[i]->node]; });
+}
+
+PLYFORM_INLINE void store_compacted(const PlyPlyKernelContact& k, const Group& g,
+                                    Doubles compacted) {
+  if (!k.compacted) return;
+  alignas(sizeof(Doubles)) double most[lanes];
+  store_lanes(most, compacted);
+  for (int i = 0; i < lanes; ++i)
+    if (has(g.real, i)) k.compacted[g.point[i]->node] = most[i];
+}
+
 /// Third pass: forces of touching points.
 PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* active,
                           const std::int32_t* number, const Chunk& chunk, SimdTotals& sums) {
@@ -319,17 +284,21 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* acti
   const SimdFaces u = load_faces(k, g, k.slave_motion, k.master_motion);
   const Columns held = load_columns(g.point, memory_row), last = load_columns(g.point, gap_row);
   const Doubles distance = each_lane([&](int i) { return chunk.distance[g.number[i]]; });
+  const Doubles thickness = each_lane([&](int i) { return chunk.thickness[g.number[i]]; });
   const SimdWeights w{each_lane([&](int i) { return g.point[i]->w[0]; }),
                       each_lane([&](int i) { return g.point[i]->w[1]; })};
   const Doubles fold = each_lane(
       [&](int i) { return has(chunk.settled, g.number[i]) ? 0.0 : fold_ahead(k, *g.point[i]); });
   SimdPoints p{last.of[2],
-               distance - k.distance,
+               distance - k.distance * thickness,
                last.of[3],
+               thickness,
+               load_compacted(k, g),
                {held.of[3], last.of[0], last.of[1], {held.of[0], held.of[1], held.of[2]}}};
   const SimdForces f = forces_of(k, x, u, w, distance, fold, mask_of(g.real), p, sums);
   add_forces(k, g, w, f);
-  store_points(k, active, g, chunk, p, distance);
+  store_points(k, active, g, chunk, p);
+  store_compacted(k, g, p.compacted);
   for (int i = 0; i < lanes; ++i)
     sums.touching += has(g.real, i) ? 1 : 0;
 }
@@ -346,7 +315,7 @@ PLYFORM_INLINE void process_chunk(const PlyPlyKernelContact& k, const std::int32
   search_faces(k, active, searched & ~chunk.near_edge, chunk);
   for (std::uint64_t open = points & ~chunk.touching; open != 0;) {
     const int n = take_first(open);
-    update_open_point(k, active[n], chunk.distance[n], side_of(chunk, n), sums);
+    update_open_point(k, active[n], chunk.distance[n], chunk.thickness[n], side_of(chunk, n), sums);
   }
   for (std::uint64_t touching = points & chunk.touching; touching != 0;)
     append(order, take_first(touching));
@@ -360,9 +329,10 @@ PLYFORM_INLINE PlyPlyKernelTotals sheet_kernel(const PlyPlyKernelContact& k) {
   for (int i = 0; i < k.active_count; i += Chunk::most)
     process_chunk(k, k.active + i,
                   k.active_count - i < Chunk::most ? k.active_count - i : Chunk::most, sums);
-  return {
-      sum(sums.elastic),  sum(sums.friction),        sum(sums.damping), largest(sums.penetration),
-      largest(sums.slip), smallest(sums.step_ratio), sums.touching};
+  return {sum(sums.elastic),         sum(sums.friction),
+          sum(sums.damping),         sum(sums.compaction),
+          largest(sums.penetration), largest(sums.slip),
+          smallest(sums.step_ratio), sums.touching};
 }
 
 } // namespace

@@ -9,7 +9,7 @@ namespace plyform {
 
 /// Input and output of the kernel. Positions (mm), motions (mm, in this step) and forces (N): 3
 /// numbers per node.
-struct PlyPlyKernelContact {
+struct PlyPlyKernelContact : ContactKernelLaw {
   PlyPlyPoint* points;
   const std::int32_t* active; ///< numbers of the active points
   int active_count;
@@ -24,11 +24,12 @@ struct PlyPlyKernelContact {
   double *slave_force, *master_force;
   double max_displacement; ///< mm, RelativeMotion::max_displacement
   double path_length;      ///< mm (contact/search/active_list.hpp)
-  double distance, stiffness, tangential,
-      friction;                 ///< h, k, k_t, mu of contact/forces/contact_law.hpp
-  double max_depth, per_depth2; ///< delta and 1/delta^2 of it; finite
-  double damping_per_dt;        ///< c / dt, or 0
-  void* self;                   ///< first argument of the callbacks
+  double distance;         ///< mm, h before forming
+  /// Present thickness over that before forming, of the nodes (both null: 1), and what share of h
+  /// the slave has.
+  const double *slave_ratio, *master_ratio;
+  double slave_share;
+  void* self; ///< first argument of the callbacks
   /// Called if a point that carried force has opened; last_gap: mm, of the step before.
   void (*open)(void* self, std::int32_t point, double last_gap);
   /// Called if a point is on the other side of its face or too deep; `distance`: mm.
@@ -48,7 +49,7 @@ double distance_of_others(const PlyPlyPoint& point, const std::int32_t* triangle
 
 /// ContactTotals of this step over the points: sums, maxima and minima.
 struct PlyPlyKernelTotals {
-  double elastic, friction, damping, penetration, slip, step_ratio;
+  double elastic, friction, damping, compaction, penetration, slip, step_ratio;
   int touching;
 };
 

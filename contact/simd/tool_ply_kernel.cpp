@@ -43,6 +43,26 @@ PLYFORM_INLINE Doubles areas(const ToolPlyKernelContact& k, const ToolGroup& g) 
   return each_lane([&](int i) { return k.area[g.point[i]->node]; });
 }
 
+PLYFORM_INLINE Doubles thickness_ratios(const ToolPlyKernelContact& k, const ToolGroup& g) {
+  if (!k.thickness_ratio) return all(1.0);
+  return each_lane([&](int i) { return k.thickness_ratio[g.point[i]->node]; });
+}
+
+/// The greatest depths so far (mm) of the points, if the law asks for them.
+PLYFORM_INLINE Doubles load_compacted(const ToolPlyKernelContact& k, const ToolGroup& g) {
+  if (!k.compacted) return all(0.0);
+  return each_lane([&](int i) { return k.compacted[g.point[i]->node]; });
+}
+
+PLYFORM_INLINE void store_compacted(const ToolPlyKernelContact& k, const ToolGroup& g,
+                                    Doubles compacted) {
+  if (!k.compacted) return;
+  alignas(sizeof(Doubles)) double most[lanes];
+  store_lanes(most, compacted);
+  for (int i = 0; i < g.count; ++i)
+    k.compacted[g.point[i]->node] = most[i];
+}
+
 PLYFORM_INLINE Vectors motions(const ToolPlyKernelContact& k, const ToolGroup& g) {
   Double4 u[lanes];
   for (int i = 0; i < lanes; ++i)
@@ -74,19 +94,23 @@ PLYFORM_INLINE Vectors forces_of(const ToolPlyKernelContact& k, const ToolGroup&
                                  const Vectors& normal, Doubles gap, Doubles last_gap, Longs touch,
                                  Longs counted, SimdHistory& m, SimdTotals& sums) {
   const Doubles zero = all(0.0), whole = areas(k, g), area = touch ? whole : zero;
-  const Doubles depth = -gap, dp = last_gap - gap;
+  const Doubles per_thickness = 1.0 / thickness_ratios(k, g);
+  const Doubles depth = -gap * per_thickness, dp = (last_gap - gap) * per_thickness;
   const Doubles opening = counted & ~touch ? whole : zero;
   add(sums.friction, 0.5 * opening * k.tangential * square(m.s));
+  Doubles compacted = load_compacted(k, g);
+  const SimdElastic elastic = elastic_of(k, area, depth, touch, compacted, sums);
+  store_compacted(k, g, compacted);
   const Doubles pressure =
-      normal_pressure(k, area, depth, smaller(last_gap, zero), dp, counted, m, sums);
+      normal_pressure(k, area, elastic.pressure, depth, per_thickness * smaller(last_gap, zero), dp,
+                      per_thickness, counted, m, sums);
   Vectors f = m.normal_force * normal;
   if (k.friction > 0.0) {
     const Vectors slip = motions(k, g) - everywhere(k.tool_motion);
     f = f + friction_of(k, area, pressure, normal, m.s, slip, touch, m, sums);
     m.slip = touch ? m.slip : zero;
   }
-  add(sums.elastic,
-      0.5 * area * (k.stiffness * depth * depth / room_of(k, depth) + k.tangential * square(m.s)));
+  add(sums.elastic, 0.5 * area * (elastic.energy2 + k.tangential * square(m.s)));
   keep_larger(sums.penetration, touch ? depth : zero);
   sums.touching += __builtin_popcount(bits_of(touch));
   return f;
@@ -113,7 +137,9 @@ PLYFORM_INLINE void press_group(const ToolPlyKernelContact& k, const ToolGroup& 
   const Doubles last_gap = gaps.of[3], gap = gaps.of[2] - dot(normal, everywhere(k.advance));
   SimdHistory m{held.of[3], gaps.of[0], gaps.of[1], {held.of[0], held.of[1], held.of[2]}};
   const Longs touch = g.real & (gap < 0.0);
-  keep_smaller(sums.step_ratio, step_ratio_of(k, -gap, last_gap - gap));
+  const Doubles per_thickness = 1.0 / thickness_ratios(k, g);
+  keep_smaller(sums.step_ratio,
+               step_ratio_of(k, -gap * per_thickness, (last_gap - gap) * per_thickness));
   const Longs loaded = touch | (m.normal_force != 0.0) | (m.damping_force != 0.0);
   const unsigned pressed = whole_quads(bits_of(g.real & loaded)); // what four lanes would compute
   if (pressed != 0) {
@@ -135,10 +161,15 @@ PLYFORM_INLINE ToolPlyKernelTotals tool_kernel(const ToolPlyKernelContact& k) {
   SimdSum f;
   for (int first = 0; first < k.active_count; first += lanes)
     press_group(k, group_of(k, first), sums, f);
-  return {sum(sums.elastic),  sum(sums.friction),
-          sum(sums.damping),  largest(sums.penetration),
-          largest(sums.slip), smallest(sums.step_ratio),
-          sums.touching,      {sum(f.x), sum(f.y), sum(f.z)}};
+  return {sum(sums.elastic),
+          sum(sums.friction),
+          sum(sums.damping),
+          sum(sums.compaction),
+          largest(sums.penetration),
+          largest(sums.slip),
+          smallest(sums.step_ratio),
+          sums.touching,
+          {sum(f.x), sum(f.y), sum(f.z)}};
 }
 
 } // namespace

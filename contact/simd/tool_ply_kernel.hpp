@@ -8,24 +8,22 @@
 namespace plyform {
 
 /// Input and output of the kernel. Motions and forces: 3 numbers per node.
-struct ToolPlyKernelContact {
+struct ToolPlyKernelContact : ContactKernelLaw {
   ToolPlyPoint* points; ///< gaps and normals are those of this step, before the tool's advance
   const std::int32_t* active; ///< numbers of the active points
   int active_count;
-  const double* area;                     ///< mm^2, of the nodes
-  const double* motion;                   ///< mm, of the nodes in this step
-  double* force;                          ///< N, on the nodes
-  double tool_motion[3];                  ///< mm, in this step
-  double advance[3];                      ///< mm, of the tool since the gaps were measured
-  double stiffness, tangential, friction; ///< k, k_t, mu of contact/forces/contact_law.hpp
-  double max_depth, per_depth2;           ///< delta and 1/delta^2 of it; finite
-  double damping_per_dt;                  ///< c / dt, or 0
+  const double* area;            ///< mm^2, of the nodes
+  const double* motion;          ///< mm, of the nodes in this step
+  double* force;                 ///< N, on the nodes
+  double tool_motion[3];         ///< mm, in this step
+  double advance[3];             ///< mm, of the tool since the gaps were measured
+  const double* thickness_ratio; ///< r, of the nodes; null: 1
 };
 
 /// ContactTotals of this step over the points: sums, maxima and minima. on_nodes: sum of the forces
 /// on the nodes, N.
 struct ToolPlyKernelTotals {
-  double elastic, friction, damping, penetration, slip, step_ratio;
+  double elastic, friction, damping, compaction, penetration, slip, step_ratio;
   int touching;
   double on_nodes[3];
 };

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "base/geometry.hpp"
+#include "core/model/compaction.hpp"
 #include "core/model/crimp.hpp"
 #include "core/model/shear_law.hpp"
 #include "core/model/sheet_law.hpp"
@@ -172,11 +173,13 @@ struct Fabric {
   std::vector<Crossing> crossings; ///< at most most_crossings
   /// Law of the sheet beside the yarns: what holds them together, or a foil that has none.
   std::optional<SheetLaw> sheet;
-  double surface_density = 0.0;        ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
-  double thickness = 0.0;              ///< mm
-  std::optional<double> locking_angle; ///< rad, shear angle beyond which the fabric wrinkles
-  double twist = 0.0;                  ///< D_t, N mm
-  bool twist_given = true;             ///< else `twist` is usual_twist
+  double surface_density = 0.0;         ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
+  double thickness = 0.0;               ///< mm
+  std::optional<double> fibre_density;  ///< t/mm^3, of the fibres themselves
+  std::optional<Compaction> compaction; ///< through the thickness; nothing: it does not give way
+  std::optional<double> locking_angle;  ///< rad, shear angle beyond which the fabric wrinkles
+  double twist = 0.0;                   ///< D_t, N mm
+  bool twist_given = true;              ///< else `twist` is usual_twist
   /// Bending of the sheet by itself (N mm): D, the same along both axes, which are at right angles
   /// then, and D_c. Beside yarns in one direction it is what resists bending across them.
   double plate = 0.0, plate_coupling = 0.0;

@@ -33,10 +33,13 @@ void each_number(const Frame& frame, Visit&& visit) {
   }
   const bool stitched = std::any_of(frame.plies.begin(), frame.plies.end(),
                                     [](const PlyFrame& one) { return !one.stitches.empty(); });
+  const bool gives_way = std::any_of(frame.plies.begin(), frame.plies.end(),
+                                     [](const auto& one) { return !one.fibre_volume.empty(); });
   for (const EnergyTerm& term : energy_terms) {
     const bool of_stitches =
         term.value == &Energies::stitch || term.value == &Energies::stitch_breaking;
     if (of_stitches && !stitched) continue;
+    if (term.value == &Energies::compaction && !gives_way) continue;
     visit(StateNumber{{std::string(term.name) + "_mJ", term.name, term.label, "mJ", 2, 1e-6},
                       Location::run,
                       "",

@@ -44,7 +44,8 @@ struct PlyFrame {
   std::vector<StitchFrame> stitches;    ///< any number
   std::vector<double> shear_deg;        ///< m, signed, of the first crossing
   std::vector<CrossingFrame> crossings; ///< those behind the first
-  std::vector<double> thickness;        ///< m, mm, from constant volume
+  std::vector<double> thickness;        ///< m, mm
+  std::vector<double> fibre_volume;     ///< m, fraction; empty without fibre_density
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
   std::vector<Vec3> reaction;           ///< n, N, of boundaries; empty where there are none
   std::vector<double> wrinkle_height;   ///< n, mm: wrinkles.hpp; empty if not looked for
@@ -82,6 +83,20 @@ void each_stitch_column(AnyStitch& stitch, Visit&& visit) {
   visit(Column{{stitch.name + "_broken", stitch.name + "-broken", stitch.name + " broken", "1", 0,
                 1e-3, Scale::from_zero, "1: broken"}},
         stitch.broken);
+}
+
+/// The columns of what the ply is through its thickness.
+template <class AnyPly, class Visit>
+void each_thickness_column(AnyPly& ply, Visit&& visit) {
+  visit(Column{{"thickness_mm", "thickness", "thickness", "mm", 3, 1e-5, Scale::whole,
+                "from constant volume; of fabrics with compaction what contact leaves"}},
+        ply.thickness);
+  visit(Column{{"fibre_volume", "fibre-volume", "fibre volume fraction", "1", 3, 1e-5, Scale::whole,
+                "of the ply by itself"},
+               Location::triangle,
+               "",
+               true},
+        ply.fibre_volume);
 }
 
 /// Calls visit(Column, values) for each column of a ply, in the order of files: values is one of
@@ -139,9 +154,7 @@ void each_column(AnyPly& ply, Visit&& visit) {
     visit(opening_column(family.name), family.opening);
   for (auto& stitch : ply.stitches)
     each_stitch_column(stitch, visit);
-  visit(Column{{"thickness_mm", "thickness", "thickness", "mm", 3, 1e-5, Scale::whole,
-                "from constant volume"}},
-        ply.thickness);
+  each_thickness_column(ply, visit);
 }
 
 /// The columns of a ply whose files have them.

@@ -11,6 +11,12 @@
 namespace plyform {
 namespace {
 
+/// mm, how far a contact is deeper than its cloth gives way; 0: it is not.
+template <class Contact>
+double beyond_packing(const Contact& contact) {
+  return std::max(contact.sums.penetration - contact.law.packed(), 0.0);
+}
+
 /// The lists name members of a scene that is not const; saving, comparing and hashing change none.
 Scene& listed(const Scene& s) {
   return const_cast<Scene&>(s);
@@ -62,9 +68,9 @@ void keep(const Scene& s, const Energies& energy, Snapshot& snapshot) {
   snapshot.tool_penetration = snapshot.ply_penetration = 0.0;
   for (const ToolState& t : s.tools)
     for (const ToolPlyContact& c : t.contacts)
-      snapshot.tool_penetration = std::max(snapshot.tool_penetration, c.sums.penetration);
+      snapshot.tool_penetration = std::max(snapshot.tool_penetration, beyond_packing(c));
   each_pass(s, [&](const PlyContact& pass) {
-    snapshot.ply_penetration = std::max(snapshot.ply_penetration, pass.contact.sums.penetration);
+    snapshot.ply_penetration = std::max(snapshot.ply_penetration, beyond_packing(pass.contact));
   });
 }
 

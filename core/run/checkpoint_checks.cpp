@@ -133,6 +133,11 @@ void check(const Scene& s, const PlyBody& ply, const ArraySizes& made) {
     expect((side.empty() || side.size() == n) && all_up_to(side, 1), "occluded nodes");
   expect(ply.unfolded.size() == (ply.self_contact ? n : 0) && all_up_to(ply.unfolded, 1),
          "unfolded nodes");
+  expect(ply.thickness_ratio.size() == n && sound(ply.thickening) && ply.thickening >= 0.0 &&
+             sound(ply.thickening_path) && ply.thickening_path >= 0.0,
+         "the thickness of a ply");
+  for (const double ratio : ply.thickness_ratio)
+    expect(ratio >= thinnest_ratio && ratio <= thickest_ratio, "the thickness of a ply");
   const EigenvalueBound& b = ply.bound;
   expect(sound(b.omega2) && b.omega2 >= 0.0 && sound(b.yarns) && sound(b.soft) &&
              sound(b.damping) && sound(b.viscous) && (b.triangle == -1 || within(b.triangle, m)),
@@ -155,9 +160,16 @@ void check(const ActiveList& list, std::size_t count) {
 
 void check(const ContactTotals& sums) {
   expect(sound(sums.elastic) && sound(sums.friction) && sound(sums.damping) &&
-             sound(sums.penetration) && sound(sums.deepest) && sound(sums.slip) &&
-             sums.touching >= 0 && sums.step_ratio > 0.0,
+             sound(sums.compaction) && sound(sums.penetration) && sound(sums.deepest) &&
+             sound(sums.slip) && sums.touching >= 0 && sums.step_ratio > 0.0,
          "sums of a contact");
+}
+
+/// Greatest depths of contacts, one per node of a ply of n nodes, whose law asks for them.
+void check_compacted(const std::vector<double>& compacted, std::size_t n) {
+  expect(compacted.empty() || compacted.size() == n, "how far plies were pressed");
+  for (const double depth : compacted)
+    expect(sound(depth) && depth >= 0.0, "how far plies were pressed");
 }
 
 bool fits(const SurfaceHint& hint, std::size_t facets) {
@@ -187,6 +199,7 @@ void check(const ToolState& tool, const ToolPlyContact& c, std::size_t n) {
   for (const SurfaceHint& hint : c.hints)
     expect(fits(hint, facets), "a facet of a tool");
   expect(c.force.size() == (c.points.empty() ? 0 : n) && all_sound(c.force), "forces of a tool");
+  check_compacted(c.compacted, n);
   check(c.sums);
   expect(known(c.renew_depth), "the depth of a contact");
 }
@@ -233,6 +246,7 @@ void check(const Scene& s, const PlyContact& pair) {
            "a contact of plies");
   }
   check(c.list, c.points.size());
+  check_compacted(c.compacted, nodes);
   check(c.sums);
   expect(known(c.renew_depth), "the depth of a contact");
 }

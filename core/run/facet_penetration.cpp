@@ -12,10 +12,16 @@ constexpr double resolution = 0.01; // thicknesses; a cut of one thickness makes
 constexpr int most_halvings = 8;    // of a quarter of a side: 0.01 mm where a side has 10 mm
 
 /// Search for the deepest point of one ply in one tool.
+/// mm, of a ply that is pressed as thin as it goes.
+double thickness_left(const PlyBody& ply) {
+  const auto& compaction = ply.membrane.fabric.compaction;
+  return compaction ? compaction->densest() : ply.thickness;
+}
+
 class Search {
 public:
   Search(const PlyBody& ply, const ToolBody& tool)
-      : ply_(ply), tool_(tool), half_(0.5 * ply.thickness) {}
+      : ply_(ply), tool_(tool), half_(0.5 * thickness_left(ply)) {}
 
   double deepest() {
     std::vector<const Triangle*> near;
@@ -106,7 +112,7 @@ std::vector<ToolCut> cuts_between_nodes(const Scene& s, ThreadPool& pool) {
   pool.run(static_cast<int>(cuts.size()), [&](int i) {
     const ToolState& tool = s.tools[at(i) / s.plies.size()];
     const PlyBody& ply = s.plies[at(i) % s.plies.size()];
-    cuts[at(i)] = {tool.name, ply.name, Search(ply, tool.body).deepest(), ply.thickness};
+    cuts[at(i)] = {tool.name, ply.name, Search(ply, tool.body).deepest(), thickness_left(ply)};
   });
   return cuts;
 }

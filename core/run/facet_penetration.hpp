@@ -28,8 +28,9 @@ double cut_between_nodes(double side, double radius, double thickness, double ha
 /// The longest side (mm) whose cut is half a thickness.
 double side_of_half_cut(double radius, double thickness, double half_turn);
 
-/// Depth of one ply in one tool at their present positions, defined as in contact: half the
-/// thickness minus the distance of the mid-surface.
+/// Depth of one ply in one tool at their present positions: half the thickness minus the distance of
+/// the mid-surface, as in contact; of a fabric with compaction, which gives way to its densest
+/// packing, half of what is left then.
 struct ToolCut {
   std::string tool, ply;
   double depth = 0.0;     ///< mm, the largest, nodes included; 0 if they do not touch

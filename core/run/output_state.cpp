@@ -4,6 +4,7 @@
 #include "base/node_normals.hpp"
 #include "core/model/motion.hpp"
 #include "core/results/wrinkles.hpp"
+#include "core/run/present_thickness.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -87,8 +88,9 @@ std::vector<StitchFrame> stitch_frames(const PlyBody& ply,
   return frames;
 }
 
-/// Fills what follows from the shape of each triangle: directions, shear, thickness.
-void add_yarns(const PlyBody& ply, PlyFrame& f) {
+/// Fills what follows from the shape of each triangle: directions, shear, thickness. Returns A /
+/// A0.
+std::vector<double> add_yarns(const PlyBody& ply, PlyFrame& f) {
   const Membrane& m = ply.membrane;
   std::vector<std::vector<double>> strains = yarn_strains(m, ply.x);
   f.families = family_frames(ply, strains);
@@ -119,6 +121,7 @@ void add_yarns(const PlyBody& ply, PlyFrame& f) {
     area_ratios.push_back(area_ratio);
   }
   add_openings(m, area_ratios, f);
+  return area_ratios;
 }
 
 PlyFrame make_ply_frame(const Scene& scene, int index) {
@@ -129,7 +132,8 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   f.x0 = ply.x0;
   f.x = ply.x;
   f.triangles = ply.membrane.triangles;
-  add_yarns(ply, f);
+  const std::vector<double> area_ratios = add_yarns(ply, f);
+  add_present_thickness(scene, index, area_ratios, f.thickness, f.fibre_volume);
   f.contact_pressure = contact_pressure(scene, index);
   f.reaction = ply.reaction;
   f.reaction.resize(ply.pull.empty() ? f.reaction.size() : ply.pull.size(), Vec3::Zero());

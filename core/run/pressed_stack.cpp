@@ -20,9 +20,16 @@ struct Side {
 /// A force between a tool and a node, or two nodes of plies: of a contact of a face its share.
 struct Link {
   Side a, b;
-  int tool = -1;      ///< in the place of b
-  double force = 0.0; ///< N, normal
+  int tool = -1;          ///< in the place of b
+  double force = 0.0;     ///< N, normal
+  bool gives_way = false; ///< by a compaction curve, inside it
 };
+
+/// Whether a contact of this gap (mm) is within what its fabrics' compaction curves say. ratio: r
+/// of contact/forces/contact_law.hpp.
+bool inside_curve(const ContactLaw& law, double gap, double ratio) {
+  return law.loading && -gap <= law.packed() * ratio;
+}
 
 /// Sums on both sides of all nodes, N.
 using Sums = std::vector<std::array<std::vector<double>, 2>>;
@@ -53,14 +60,14 @@ public:
   double through(std::size_t t) const {
     Sums comes = zero();
     for (const Link& link : links_)
-      if (link.tool == static_cast<int>(t)) at_side(comes, link.a) += link.force;
+      if (link.tool == static_cast<int>(t) && !link.gives_way) at_side(comes, link.a) += link.force;
     double arrived = 0.0;
     for (std::size_t ply = 0; ply < scene_.plies.size(); ++ply) { // no way is longer
       Sums next = zero();
       bool on = false;
       const auto pass = [&](const Side& from, const Link& link, const Side* to) {
         const double force = passed_on(comes, from) * link.force / at_side(all_, from);
-        if (!(force > 0.0)) return;
+        if (!(force > 0.0) || link.gives_way) return;
         if (to)
           at_side(next, *to) += force, on = true;
         else if (link.tool != static_cast<int>(t) && is_placed(at(link.tool)))
@@ -99,13 +106,18 @@ private:
   }
 
   void add_tool(std::size_t t) {
-    for (std::size_t p = 0; p < scene_.plies.size(); ++p)
-      for (const ToolPlyPoint& c : scene_.tools[t].contacts[p].points)
-        if (c.memory.normal_force > 0.0)
-          links_.push_back({side_of(static_cast<int>(p), c.node, normal_of(c)),
-                            {},
-                            static_cast<int>(t),
-                            c.memory.normal_force});
+    for (std::size_t p = 0; p < scene_.plies.size(); ++p) {
+      const ToolPlyContact& contact = scene_.tools[t].contacts[p];
+      for (const ToolPlyPoint& c : contact.points) {
+        if (!(c.memory.normal_force > 0.0)) continue;
+        const double ratio = thickness_ratio_at(contact, scene_.plies[p].state(), c.node);
+        links_.push_back({side_of(static_cast<int>(p), c.node, normal_of(c)),
+                          {},
+                          static_cast<int>(t),
+                          c.memory.normal_force,
+                          inside_curve(contact.law, c.gap, ratio)});
+      }
+    }
   }
 
   void add_pair(const PlyContact& pair) {
@@ -115,10 +127,14 @@ private:
       const Vec3 n = contact_normal(c, slave.x, master.x, master.membrane.triangles);
       const Triangle& t = master.membrane.triangles[at(c.face)];
       const std::array<double, 3> w = weights_of(c);
+      const bool gives_way =
+          inside_curve(pair.contact.law, c.gap,
+                       thickness_ratio_at(pair.contact, c, slave.state(), master.state(),
+                                          master.membrane.triangles));
       for (std::size_t j = 0; j < 3; ++j)
         if (w[j] > 0.0)
           links_.push_back({side_of(pair.slave, c.node, n), side_of(pair.master, t[j], -n), -1,
-                            w[j] * c.memory.normal_force});
+                            w[j] * c.memory.normal_force, gives_way});
     }
   }
 

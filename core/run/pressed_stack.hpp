@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tools that press the plies between them. Where two tools whose places are prescribed leave less
 // room than the plies are thick, nothing gives way but contact: the force is then that of its
-// stiffness, a number of the solver, not of cloth, whose compression is not modelled. A tool pushed
-// by a force, as a blank-holder, passes on what it is given.
+// stiffness, a number of the solver, not of cloth, if the plies' fabrics do not say how they give way
+// (Fabric::compaction), or are pressed beyond what they say. A tool pushed by a force, as a
+// blank-holder, passes on what it is given.
 //
 //   N  N  normal force of a contact;  side: above or below a ply, by its normals
 //   a node passes on to its other side no more than the smaller sum of N of both; what comes from
 //   a tool does so in its share of the sum on its side, and leaves in the shares of the contacts of
-//   the other side: to another tool, or to nodes of the next ply                                (1)
+//   the other side: to another tool, or to nodes of the next ply; nothing passes through a contact
+//   that is inside its compaction curve, as that says what it bears                             (1)
 #pragma once
 
 #include "core/results/summary.hpp"

@@ -144,7 +144,8 @@ std::vector<std::string> too_little(const Scene& s, const Frame& last, const Con
   for (const PairSeen& seen : all_seen(s)) { // of plies both directions
     if (seen.of_edges) continue;
     auto& [depth, limit] = deepest[std::minmax(seen.a, seen.b)];
-    if (seen.sums.deepest >= depth) depth = seen.sums.deepest, limit = seen.law.max_depth;
+    const double beyond = seen.sums.deepest - seen.law.packed(); // of what gives way
+    if (beyond >= depth) depth = beyond, limit = seen.law.max_depth;
   }
   for (const auto& [names, depth] : deepest)
     if (depth.first > deep * depth.second)

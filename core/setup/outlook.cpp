@@ -92,7 +92,7 @@ std::string extents_text(const Box3& box) {
 
 /// Depth, mm, at which contact is that much stiffer than at first touch.
 double depth_of_stiffness(const ContactLaw& law, double ratio) {
-  double low = 0.0, high = 0.999 * law.max_depth;
+  double low = 0.0, high = law.packed() + 0.999 * law.max_depth;
   for (int i = 0; i < 40; ++i) {
     const double depth = 0.5 * (low + high);
     (law.tangent(depth) < ratio * law.stiffness ? low : high) = depth;

@@ -14,6 +14,7 @@ namespace {
 
 void add_sums(const ContactTotals& sums, Energies& e) {
   e.contact += sums.elastic;
+  e.compaction += sums.compaction;
   e.friction += sums.friction;
   e.damping += sums.damping;
 }
@@ -68,8 +69,7 @@ void ToolContacts::add_energies(const Scene& s, ThreadPool&, Energies& e) {
 
 void ToolContacts::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {
   for (const ToolState& tool : s.tools)
-    add_tool_ply_stiffness(tool.contacts[ply], s.plies[ply].membrane.node_area, s.bound_margin,
-                           rows);
+    add_tool_ply_stiffness(tool.contacts[ply], s.plies[ply].state(), s.bound_margin, rows);
 }
 
 void ToolContacts::add_times(const Scene& s, Times& times) {
@@ -167,7 +167,7 @@ std::string PlyContacts::who(const Scene& s, const PlyEdgeContact& edges) {
   return fmt::format("edges of plies {} and {}", name_of(s, edges.a), name_of(s, edges.b));
 }
 
-void BoundaryForces::finish(Scene& s) {
+void BoundaryForces::finish(Scene& s, ThreadPool&) {
   pull_springs(s);
 }
 

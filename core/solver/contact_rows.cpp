@@ -25,9 +25,10 @@ void renew_rows(const Scene& s, PlyPair& pair) {
     if (pass.contact.points.empty()) continue;
     begin();
     const bool up = pass.slave == pair.a;
-    const PlyBody& master = up ? b : a;
-    add_ply_ply_stiffness(pass.contact, master.state(), master.membrane.triangles, s.bound_margin,
-                          up ? pair.rows_a : pair.rows_b, up ? pair.rows_b : pair.rows_a);
+    const PlyBody &slave = up ? a : b, &master = up ? b : a;
+    add_ply_ply_stiffness(pass.contact, slave.state(), master.state(), master.membrane.triangles,
+                          s.bound_margin, up ? pair.rows_a : pair.rows_b,
+                          up ? pair.rows_b : pair.rows_a);
   }
   if (!pair.edges.contact.groups.empty()) {
     begin();

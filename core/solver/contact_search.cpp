@@ -5,6 +5,7 @@
 #include "contact/search/unfolded.hpp"
 #include "core/solver/displacements.hpp"
 #include "core/solver/edge_contact_search.hpp"
+#include "core/solver/follow_thickness.hpp"
 #include "core/solver/occlusion.hpp"
 #include "core/solver/pass_through.hpp"
 #include "core/solver/resting.hpp"
@@ -43,7 +44,7 @@ void search_plies(Scene& s, PlyContact& pair) {
   const PlyBody& master = s.plies[pair.master];
   const Stopwatch watch(pair.contact.time.search);
   // also nodes that have passed through within the step, which find_pass_through then detects
-  const double reach = std::max(pair.contact.distance + s.skin, step_displacement(s, pair));
+  const double reach = std::max(reach_of(s, pair.contact.distance), step_displacement(s, pair));
   std::vector<Candidate> candidates;
   if (may_meet(slave.tree->bounds(), master.tree->bounds(), reach))
     master.tree->candidates(slave.x, reach, candidates,
@@ -53,7 +54,7 @@ void search_plies(Scene& s, PlyContact& pair) {
                       neighbourhood * pair.contact.distance);
   find_ply_ply_points(pair.contact, candidates, slave.state(), master.state(),
                       master.membrane.triangles, slave.path_length + master.path_length);
-  if (neighbours(pair)) mark_occluded(s.plies[pair.slave], pair, master);
+  if (neighbours(pair)) mark_occluded(s, s.plies[pair.slave], pair, master);
 }
 
 /// Allocates the force arrays of two plies as soon as anything of them may touch: most pairs of a
@@ -69,8 +70,8 @@ void allocate_forces(const Scene& s, PlyPair& pair) {
 
 void find_ply_unfolded(const Scene& s, PlyBody& ply) {
   if (ply.self_contact)
-    find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x, ply.thickness,
-                  s.skin, ply.unfolded);
+    find_unfolded({ply.x0, ply.membrane.triangles, ply.convex}, ply.edges, ply.x,
+                  ply.thickness * std::max(s.thickest, 1.0), s.skin, ply.unfolded);
 }
 
 void find_ply_ridges(const Scene& s, PlyBody& ply) {
@@ -101,6 +102,7 @@ void renew_fold_bounds(PlyBody& ply) {
 void search_contacts(Scene& s, ThreadPool& pool) {
   const int plies = static_cast<int>(s.plies.size());
   std::vector<double> seconds(search_parts.size() * s.plies.size(), 0.0); // parts at the same time
+  note_thickness(s);
   pool.run(static_cast<int>(seconds.size()), [&](int i) {
     const Stopwatch watch(seconds[at(i)]);
     search_parts[at(i / plies)](s, s.plies[at(i % plies)]);
@@ -131,7 +133,7 @@ void search_contacts(Scene& s, ThreadPool& pool) {
   for (NodeSums& n : s.node_sums)
     n.moved2 = 0.0;
   for (PlyBody& ply : s.plies)
-    ply.max_displacement = 0.0;
+    ply.max_displacement = ply.thickening_path = 0.0;
   find_far_tools(s);
   for (ToolState& t : s.tools) // what it may still move in this step
     t.max_displacement = t.body.force_controlled && !t.far ? t.body.max_approach_speed * s.dt : 0.0;

@@ -15,8 +15,11 @@ bool track_displacements(Scene& s) {
   };
   for (std::size_t i = 0; i < s.node_blocks.size(); ++i)
     grow(s.plies[s.node_blocks[i].ply].max_displacement, std::sqrt(s.node_sums[i].moved2));
-  for (std::size_t p = 0; p < s.plies.size(); ++p)
-    s.plies[p].path_length += step_displacement(s, static_cast<int>(p));
+  for (std::size_t p = 0; p < s.plies.size(); ++p) {
+    PlyBody& ply = s.plies[p];
+    ply.path_length += step_displacement(s, static_cast<int>(p)) + ply.thickening;
+    ply.thickening_path += ply.thickening;
+  }
   for (ToolState& t : s.tools) {
     // A pushed tool moves later in this step, when its forces are computed.
     const double ahead = t.body.force_controlled ? t.body.max_approach_speed * s.dt : 0.0;
@@ -38,7 +41,7 @@ double largest_displacement(const Scene& s) {
       furthest = max_displacement; // NaN stays
   };
   for (const PlyBody& ply : s.plies)
-    grow(ply.max_displacement);
+    grow(ply.max_displacement + ply.thickening_path);
   for (const ToolState& t : s.tools)
     grow(t.max_displacement);
   return furthest;

@@ -55,7 +55,8 @@ void search_new_ridges(const Scene& s, PlyEdgeContact& pair, std::span<const std
                        std::span<const std::int32_t> new_b) {
   const Stopwatch watch(pair.contact.time.search);
   const EdgeQuery q(s, pair);
-  const double moved = q.a.max_displacement + q.b.max_displacement; // since the contact search
+  // since the contact search
+  const double moved = q.a.max_displacement + q.b.max_displacement;
   add_edge_pairs(pair.contact, q.a.edge_sheet(), q.open_a, new_a, q.b.edge_sheet(), q.open_b, new_b,
                  q.skin + moved, q.self);
 }

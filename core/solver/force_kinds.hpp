@@ -48,8 +48,8 @@ struct NoForce {
   static double place(const Scene&, int) { return 0.0; }
   /// Forces of a task at the present positions, into arrays of its own.
   static void run(Scene&, int) {}
-  /// After all tasks, by one thread.
-  static void finish(Scene&) {}
+  /// After all tasks.
+  static void finish(Scene&, ThreadPool&) {}
   /// The step whose forces were computed is taken: what laws remember of its end is now that of the
   /// begin of the next. Until then computing them again is harmless, but for contacts.
   static void end_step(Scene&) {}
@@ -119,7 +119,7 @@ struct BendingForces : NoForce {
 /// Springs, grippers and reactions of prescribed nodes. Reactions follow from all other forces
 /// (core/solver/prescribed_motion.hpp).
 struct BoundaryForces : NoForce {
-  static void finish(Scene& s);
+  static void finish(Scene& s, ThreadPool&);
   static void list_arrays(Scene& s);
   static void add_energies(const Scene& s, ThreadPool&, Energies& e);
   static void add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows);
@@ -191,15 +191,23 @@ struct PressureForces : NoForce {
   static void describe(const Scene& s, std::vector<std::string>& lines);
 };
 
+/// What contacts do in the plane of plies, whose thickness follows their area:
+/// core/solver/thickness_forces.cpp. Its energy is that of the contacts, its stiffness in their
+/// rows (ContactLaw::spread).
+struct ThicknessForces : NoForce {
+  static void finish(Scene& s, ThreadPool& pool);
+  static void list_arrays(Scene& s);
+};
+
 /// The list, in the order in which forces are added on a node. The first kind sets them.
 using Forces = std::tuple<ElementForces, BendingForces, BoundaryForces, PressureForces,
-                          ToolContacts, PlyContacts>;
+                          ToolContacts, PlyContacts, ThicknessForces>;
 /// The order in which threads begin them, the longest first.
 using TasksOfForces = std::tuple<PlyContacts, ToolContacts, ElementForces, BendingForces,
-                                 PressureForces, BoundaryForces>;
+                                 PressureForces, BoundaryForces, ThicknessForces>;
 /// The order of sums over kinds.
 using SumsOfForces = std::tuple<ToolContacts, PlyContacts, ElementForces, BendingForces,
-                                BoundaryForces, PressureForces>;
+                                BoundaryForces, PressureForces, ThicknessForces>;
 
 template <class K>
 concept ForceKind = std::derived_from<K, NoForce> && std::is_empty_v<K> &&
@@ -209,7 +217,7 @@ concept ForceKind = std::derived_from<K, NoForce> && std::is_empty_v<K> &&
   { K::tasks(seen) } -> std::same_as<int>;
   { K::place(seen, 0) } -> std::same_as<double>;
   K::run(s, 0);
-  K::finish(s);
+  K::finish(s, pool);
   K::end_step(s);
   K::add_to_nodes(ply, 0, 0, f);
   K::list_arrays(s);

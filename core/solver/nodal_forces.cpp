@@ -51,7 +51,7 @@ void element_and_contact_forces(Scene& s, ThreadPool& pool) {
   pool.run(s.force_shares, [&s](int number) {
     with_task(s, number, [&s]<class K>(int task) { K::run(s, task); });
   });
-  each_kind([&]<class K>() { K::finish(s); });
+  each_kind([&]<class K>() { K::finish(s, pool); });
   collect_forces(s);
 }
 

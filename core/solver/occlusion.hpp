@@ -20,7 +20,7 @@ bool neighbours(const PlyContact& pair);
 /// Marks the slave's nodes that the master occludes from the plies beyond it: their gap to it is
 /// less than half the contact distance and none of their faces is at its boundary edge, so that no
 /// third ply fits in between.
-void mark_occluded(PlyBody& slave, const PlyContact& pair, const PlyBody& master);
+void mark_occluded(const Scene& s, PlyBody& slave, const PlyContact& pair, const PlyBody& master);
 
 /// Per node of the slave whether it cannot touch the master, as an adjacent ply occludes it or, in
 /// self-contact, its ply is not folded there; empty: every node may. reach: mm, up to which

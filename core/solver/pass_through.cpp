@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/pass_through.hpp"
 
+#include "core/solver/follow_thickness.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <fmt/format.h>
@@ -22,8 +24,10 @@ std::string when_and_who(const Scene& s, std::size_t ply, int node) {
 }
 
 std::optional<Stop> find_pass_through(const Scene& s, const PlyContact& pair) {
-  // A node cannot pass unless it moves by more than h/2: the contact law keeps 3/4 of h at least.
-  if (!(step_displacement(s, pair) > 0.5 * pair.contact.distance)) return std::nullopt;
+  // A node cannot pass unless it moves by more than 2/3 of what the contact law keeps at least,
+  // h/2.
+  const double least = least_distance(s, pair.contact);
+  if (!(step_displacement(s, pair) > 2.0 / 3.0 * least)) return std::nullopt;
   const PlyBody& slave = s.plies[pair.slave];
   const PlyBody& master = s.plies[pair.master];
   for (const PlyPlyPoint& c : pair.contact.points) {
@@ -73,16 +77,18 @@ bool passed(const ToolBody& tool, const Vec3& x, const Vec3& displacement, Surfa
 std::optional<Stop> find_pass_through(const Scene& s, const ToolState& tool, std::size_t p) {
   const ToolPlyContact& contact = tool.contacts[p];
   const double thickness = 2.0 * contact.half_thickness;
-  const double deepest = std::min(deepest_valid * contact.law.max_depth, thickness);
+  const double deepest =
+      std::min(contact.law.packed() + deepest_valid * contact.law.max_depth, thickness);
   if (contact.sums.penetration > deepest)
     for (const ToolPlyPoint& c : contact.points)
-      if (-c.gap > deepest)
+      if (-c.gap > deepest * s.plies[p].thickness_ratio[at(c.node)])
         return Stop{fmt::format("{} lies {:.3g} mm deep in tool {}, thickness {:.3g} mm, which is "
                                 "all the room that contact has; give the stack more room between "
                                 "the tools, a slower stroke, or a smaller solver.step_factor",
                                 when_and_who(s, p, c.node), -c.gap, tool.name, thickness)};
   const double displacement = plyform::step_displacement(s, static_cast<int>(p), tool);
-  if (!(std::max(contact.sums.penetration, displacement) > contact.half_thickness))
+  if (!(std::max(contact.sums.penetration, displacement / std::min(s.thinnest, 1.0)) >
+        contact.half_thickness))
     return std::nullopt;
   for (const ToolPlyPoint& c : contact.points) {
     const Vec3 moved = at(s.plies[p].motion, c.node) - tool.body.motion;

@@ -15,6 +15,7 @@
 #include "core/ply/bending_simd.hpp"
 #include "core/ply/membrane_eigenvalue.hpp"
 #include "core/ply/membrane_simd.hpp"
+#include "core/ply/thickness.hpp"
 
 #include <cmath>
 #include <memory>
@@ -45,7 +46,9 @@ struct PlyModel {
   bool stacked = false;      ///< whether its stack has other plies
   bool left_alone = false;   ///< nothing may move it, but something moves others
   bool self_contact = false; ///< whether it is in contact with itself, too
-  bool convex = false;       ///< contact/search/unfolded.hpp; not asked without self-contact
+  ThicknessLaw thickness_law;
+  bool thickness_acts = false; ///< in contact: core/solver/follow_thickness.hpp
+  bool convex = false;         ///< contact/search/unfolded.hpp; not asked without self-contact
 };
 
 /// What an array has an entry for.
@@ -98,6 +101,9 @@ struct PlyCache {
   EigenvalueBound bound;      ///< of the membrane, updated at least every 200 steps
   double eigenvalue_ratio = 1.0; ///< core/ply/membrane_eigenvalue.hpp, updated every 1000 steps
   double lanczos_contacts = 0.0; ///< 1/s^2, bound of contacts when time_step_gain was computed
+  std::vector<double> thickness_ratio; ///< present over unformed thickness, of the nodes
+  double thickening = 0.0;      ///< mm, largest change of half the thickness in the last step
+  double thickening_path = 0.0; ///< mm, its sum since the last search
   // Not in the list:
   std::unique_ptr<SheetTree> tree; ///< follows from x_search
   double search_seconds = 0.0;     ///< s, refitting the tree, computing fold bounds
@@ -108,6 +114,10 @@ struct PlyCache {
   std::vector<Vec3> pull;      ///< N, of springs on each node; empty if none hangs on it
   std::vector<Vec3> load;      ///< N, of pressures on each node; empty if there is none
   double last_load_work = 0.0; ///< N mm, of these forces over the half of the step that led to them
+  std::vector<double> last_ratio; ///< thickness_ratio in the step before
+  std::vector<double> squeeze;    ///< N/mm, core/solver/thickness_forces.cpp; so below
+  std::vector<Vec3> spread;       ///< N, on each node; valid while `pressed`
+  bool pressed = false;
   /// What yarns will remember once the step that was computed is taken.
   std::vector<SimdYarnStates> yarns_end;
 };
@@ -116,8 +126,9 @@ struct PlyCache {
 template <class F>
 void each_array(PlyCache& ply, F&& f) {
   auto& [x_search, max_displacement, path_length, fold_bound, fold_motion, occluded, ridges,
-         unfolded, bound, eigenvalue_ratio, lanczos_contacts, tree, search_seconds, q, patch_motion,
-         nodal_forces, pull, load, last_load_work, yarns_end] = ply;
+         unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
+         thickening_path, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
+         last_load_work, last_ratio, squeeze, spread, pressed, yarns_end] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);
@@ -131,12 +142,15 @@ void each_array(PlyCache& ply, F&& f) {
   f("bound", On::ply, bound);
   f("eigenvalue_ratio", On::ply, eigenvalue_ratio);
   f("lanczos_contacts", On::ply, lanczos_contacts);
+  f("thickness_ratio", On::node, thickness_ratio);
+  f("thickening", On::ply, thickening);
+  f("thickening_path", On::ply, thickening_path);
 }
 
 /// A ply in motion.
 struct PlyBody : PlyModel, PlyState, PlyCache {
   SurfaceKinematics state() const {
-    return {x, motion, membrane.node_area, fold_bound, edges.faces_across};
+    return {x, motion, membrane.node_area, fold_bound, edges.faces_across, thickness_ratio};
   }
   EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }
 };

@@ -7,6 +7,7 @@
 #include "core/model/motion.hpp"
 #include "core/model/reach_ahead.hpp"
 #include "core/solver/element_mass_scaling.hpp"
+#include "core/solver/make_contacts.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -81,107 +82,16 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   set_frequency(data, body);
   if (body.simd) body.yarns = body.yarns_end = states_at_start(*body.simd, body.membrane);
   body.mass = body.membrane.node_mass;
+  body.thickness_law = thickness_law(fabric);
+  body.thickness_acts = fabric.compaction || !fabric.has_yarns();
+  body.thickness_ratio.assign(body.x.size(), 1.0);
+  body.last_ratio = body.thickness_ratio;
   return body;
-}
-
-/// Penalty stiffness per area, N/mm^3, with which omega^2 of a free node in contact is `fraction`
-/// of that of the elements. The latter falls with the square of the element size, while penetration
-/// should not grow on a coarse mesh: therefore the penalty is at least that for elements of 12.5
-/// thicknesses, but increased by a factor of 2.5 at most, beyond which crossed plies chatter over a
-/// fillet (docs/verification/contact.md).
-///
-/// In a stack the penalty falls with the stiffness of softened yarns only down to a softening of
-/// 100 (`stack_softening`), as the pressure between plies does not decrease with softening.
-double penalty_per_area(const PlyBody& ply, double fraction, bool stack) {
-  constexpr double fine = 12.5, most = 2.5, stack_softening = 100.0;
-  double softening = 1.0;
-  for (const MembraneFamily& family : ply.membrane.families)
-    if (stack) softening = std::max(softening, family.softening / stack_softening);
-  fraction *= softening;
-  const double coarse = cell_area(ply) / (fine * fine * ply.thickness * ply.thickness);
-  return std::clamp(coarse, 1.0, most) * fraction * ply.membrane.fabric.surface_density *
-         ply.bound.omega2;
 }
 
 // Gap up to which open contacts count in the bound of the stable step (SceneModel::bound_margin),
 // over the thickness of the thinnest ply: 0.5 mm for 0.6 mm.
 constexpr double margin_in_thicknesses = 1.0 / 1.2;
-
-// Depth limits of contact over a ply's thickness. Between plies a quarter, with which edge-edge
-// contact begins before edges can cross (contact/forces/edge_edge.hpp). In tools a sixth: 0.1 mm
-// for a ply of 0.6 mm.
-constexpr double deepest_in_ply = 0.25, deepest_in_tool = 1.0 / 6.0, deepest_of_edges = 0.25;
-
-ContactLaw make_law(const ContactOptions& options, double penalty, double density, double mu,
-                    double max_depth) {
-  // c = 2 zeta sqrt(k rho): fraction zeta of critical for a node against a wall
-  return {penalty, 2.0 * options.damping * std::sqrt(penalty * density), mu, max_depth};
-}
-
-ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBody>& plies) {
-  const Tool& tool = data.tools[index];
-  ToolState t;
-  t.name = tool.name;
-  t.body.shape = tool.shape;
-  t.body.position = tool.position;
-  t.body.rotation = tool.rotation;
-  t.body.direction = tool.direction;
-  t.body.force_controlled = tool.motion == Motion::force;
-  t.force_on = tool.force;
-  t.body.mass = tool.mass;
-  t.body.max_approach_speed = closing_speed;
-  for (std::size_t p = 0; p < plies.size(); ++p) {
-    ToolPlyContact c;
-    const int body = static_cast<int>(plies.size() + index);
-    c.law =
-        make_law(data.contact, penalty_per_area(plies[p], data.contact.stiffness, plies[p].stacked),
-                 plies[p].membrane.fabric.surface_density, data.friction(static_cast<int>(p), body),
-                 deepest_in_tool * plies[p].thickness);
-    c.half_thickness = 0.5 * plies[p].thickness;
-    t.contacts.push_back(std::move(c));
-  }
-  t.ply_paths.assign(plies.size(), 0.0);
-  return t;
-}
-
-PlyContact make_pass(const Case& data, const std::vector<PlyBody>& plies, int a, int b) {
-  const PlyBody& slave = plies[a];
-  const PlyBody& master = plies[b];
-  PlyContact pair;
-  pair.slave = a;
-  pair.master = b;
-  const double penalty = 0.5 * std::min(penalty_per_area(slave, data.contact.stiffness, true),
-                                        penalty_per_area(master, data.contact.stiffness, true));
-  const double density =
-      0.5 * std::min(slave.membrane.fabric.surface_density, master.membrane.fabric.surface_density);
-  pair.contact.distance = 0.5 * (slave.thickness + master.thickness);
-  pair.contact.law = make_law(data.contact, penalty, density, data.friction(a, b),
-                              deepest_in_ply * pair.contact.distance);
-  return pair;
-}
-
-/// The pairs of plies, adjacent ones first, which take longest to compute, and those of a ply with
-/// itself last.
-std::vector<PlyPair> make_pairs(const Case& data, const std::vector<PlyBody>& plies) {
-  std::vector<PlyPair> pairs;
-  const int n = static_cast<int>(plies.size());
-  for (int apart = 1; apart <= n; ++apart)
-    for (int a = 0; a < n; ++a) {
-      const int b = a + apart % n;
-      if (b >= n || (a == b && !plies[at(a)].self_contact)) continue;
-      PlyPair pair;
-      pair.a = a, pair.b = b;
-      pair.passes.push_back(make_pass(data, plies, a, b));
-      if (a != b) pair.passes.push_back(make_pass(data, plies, b, a));
-      const PlyPlyContact& contact = pair.passes[0].contact;
-      pair.edges.a = a, pair.edges.b = b;
-      pair.edges.contact.law = contact.law;
-      pair.edges.contact.law.max_depth = deepest_of_edges * contact.distance;
-      pair.edges.contact.distance = 0.5 * contact.distance;
-      pairs.push_back(std::move(pair));
-    }
-  return pairs;
-}
 
 /// SceneModel::pass_order.
 std::vector<PassPlace> order_of_passes(const std::vector<PlyPair>& pairs) {
@@ -334,6 +244,8 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
     s.tools.push_back(make_tool(data, t, s.plies));
   set_lengths(s);
   s.energy_floor = energy_floor_of(s.plies);
+  s.any_thickness_acts = std::any_of(s.plies.begin(), s.plies.end(),
+                                     [](const PlyBody& ply) { return ply.thickness_acts; });
   const int n = static_cast<int>(s.plies.size());
   s.ply_pairs = make_pairs(data, s.plies);
   s.pass_order = order_of_passes(s.ply_pairs);

@@ -168,6 +168,7 @@ struct SceneModel {
   double bound_margin = 0.0;
   /// N mm, of all plies with every yarn strained by 1e-7: what is less is rounding errors
   double energy_floor = 0.0;
+  bool any_thickness_acts = false; ///< PlyModel::thickness_acts of any
 };
 
 /// Plies, tools, boundaries and the contacts between them: arrays whose sizes the case gives.
@@ -196,13 +197,15 @@ struct SceneProgress {
   std::vector<double> group_sums;  ///< N mm, lost by yarns in the steps taken, one per group block
   std::vector<double> torn_sums;   ///< likewise, that stitches had stored when they broke
   long searches = 0;               ///< number of contact searches so far
+  /// Ratios of thickness at the last search: the largest, the smallest (core/ply/thickness.hpp).
+  double thickest = 1.0, thinnest = 1.0;
 };
 
 template <class F>
 void each_member(SceneProgress& progress, F&& f) {
   auto& [time, step, dt, next_dt, stable_dt, min_dt, max_dt, bound_displacement, time_step_gain,
          next_lanczos, start_energy, mass_damping_work, mass_scaling_work, largest_added_mass,
-         group_sums, torn_sums, searches] = progress;
+         group_sums, torn_sums, searches, thickest, thinnest] = progress;
   f("time", time);
   f("step", step);
   f("dt", dt);
@@ -220,6 +223,8 @@ void each_member(SceneProgress& progress, F&& f) {
   f("group_sums", group_sums);
   f("torn_sums", torn_sums);
   f("searches", searches);
+  f("thickest", thickest);
+  f("thinnest", thinnest);
 }
 
 /// Temporary data of one step.

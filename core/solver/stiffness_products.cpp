@@ -30,8 +30,7 @@ ToolProduct::ToolProduct(const Scene& s, const TangentFactors& factors) {
     std::vector<ContactTangent>& on_ply = on_ply_.emplace_back();
     if (s.plies[p].resting) continue;
     for (const ToolState& tool : s.tools)
-      append_tangents(tool.contacts[p], s.plies[p].membrane.node_area, s.bound_margin, factors,
-                      on_ply);
+      append_tangents(tool.contacts[p], s.plies[p].state(), s.bound_margin, factors, on_ply);
   }
 }
 

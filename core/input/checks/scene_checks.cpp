@@ -261,6 +261,21 @@ double room_at_end(const SceneCheck& check, std::size_t a, std::size_t b) {
                   0.0);
 }
 
+bool any_gives_way(const SceneCheck& check) {
+  return std::any_of(check.scene.fabrics.begin(), check.scene.fabrics.end(),
+                     [](const Fabric& fabric) { return fabric.compaction.has_value(); });
+}
+
+/// mm, thickness of all plies together, of those that give way in their densest packing.
+double densest_stack(const SceneCheck& check) {
+  double sum = 0.0;
+  for (const Ply& ply : check.scene.plies) {
+    const Fabric& fabric = fabric_of(check.scene, ply);
+    sum += fabric.compaction ? fabric.compaction->densest() : fabric.thickness;
+  }
+  return sum;
+}
+
 /// Checks the distance of each driven tool to the other tools at the end of its stroke. A tool
 /// under a force is assumed at its initial position; as it can move, the result is a warning only.
 void check_end_of_stroke(SceneCheck& check) {
@@ -275,13 +290,14 @@ void check_end_of_stroke(SceneCheck& check) {
                          fmt::format("goes {:.4g} mm into tool {} at the end of the stroke", -room,
                                      tools[b].name),
                          "shorten the stroke, or move one of the two");
-      else if (room < check.stack - 2.0 * check.touching)
+      else if (room < densest_stack(check) - 2.0 * check.touching)
         check.diagnostics.warning(
             check.parts.tools[a].at,
             fmt::format("{} = {}: comes within {:.4g} mm of tool {} at the end of the stroke, less "
-                        "than the {:.4g} mm of the stack",
+                        "than the {:.4g} mm of the stack{}",
                         check.parts.tools[a].item, tools[a].name, std::max(room, 0.0),
-                        tools[b].name, check.stack));
+                        tools[b].name, densest_stack(check),
+                        any_gives_way(check) ? " in its densest packing" : ""));
     }
   }
 }

@@ -90,6 +90,7 @@ namespace {
 double factor_of_unit(const std::string& unit) {
   if (unit == "deg") return degree;
   if (unit == "g/m2") return 1e-12; // 1e-6 t / 1e6 mm^2
+  if (unit == "g/cm3") return 1e-9; // 1e-6 t / 1e3 mm^3
   if (unit == "kg") return 1e-3;    // t
   return 1.0;
 }

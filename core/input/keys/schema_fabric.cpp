@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rows of the table of keys: fabrics.NAME and fabric files; those of bending are in
 // schema_bending.cpp.
+#include "core/input/keys/compaction_keys.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/schema_case.hpp"
 #include "core/input/keys/sheet_laws.hpp"
@@ -196,6 +197,7 @@ Rows fabric_rows() {
   append(rows, crimp_rows("fabrics.NAME.crimp", "warp and weft"));
   append(rows, family_rows());
   append(rows, stitch_rows());
+  append(rows, compaction_rows());
   append(rows, sheet_rows());
   return rows;
 }

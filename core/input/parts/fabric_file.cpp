@@ -7,6 +7,7 @@
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/sheet_laws.hpp"
 #include "core/input/parts/case_parts.hpp"
+#include "core/input/parts/compaction_file.hpp"
 #include "core/input/parts/crimp_file.hpp"
 #include "core/input/parts/stitches.hpp"
 #include "core/input/parts/yarn_families.hpp"
@@ -48,6 +49,7 @@ Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics
   Fabric fabric;
   fabric.name = key;
   read_members(section, fabric);
+  read_compaction(subsection(section, "compaction"), fabric, diagnostics);
   if (read_sheet(section, fabric)) return fabric;
   if (text(section, "law") == families_word)
     read_families(section, fabric, diagnostics);

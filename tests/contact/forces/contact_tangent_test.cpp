@@ -113,7 +113,7 @@ TEST(ContactTangents, AnswerAsToolsDo) {
   contact[0].half_thickness = 0.5 * thickness;
   find_tool_ply_points(contact[0], floor, sheet.state(), margin, 0.0);
   std::vector<ContactTangent> springs;
-  append_tangents(contact[0], sheet.area, margin, {}, springs); // before any force is known
+  append_tangents(contact[0], sheet.state(), margin, {}, springs); // before any force is known
   ASSERT_EQ(springs.size(), 36u);
   const std::vector<SurfaceKinematics> states{sheet.state()};
   const std::vector<double> path_length{1.0}; // all may touch

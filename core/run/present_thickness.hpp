@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Thickness of plies that give way through it, as their contacts leave it.
+//
+//   each half of a ply reaches from its mid-surface to what it touches: the tool; of two plies,
+//   each has its share of the distance of both mid-surfaces, as of h (contact/forces/ply_ply.hpp);
+//   where it touches nothing, half its thickness before forming times r (core/ply/thickness.hpp)
+//   (1) V = rho_A A0 / (rho_f A t)   fibre volume fraction of a triangle (2)
+#pragma once
+
+#include "core/solver/scene.hpp"
+
+#include <vector>
+
+namespace plyform {
+
+/// (1), mm, per node. Empty: its fabric has no compaction.
+std::vector<double> thickness_between(const Scene& scene, int ply);
+
+/// (1), mm, and (2) of the triangles of a ply, from the ratios A / A0 of their areas. thickness is
+/// left as it is, and fibre_volume empty, where the fabric does not have what it needs.
+void add_present_thickness(const Scene& scene, int ply, const std::vector<double>& area_ratios,
+                           std::vector<double>& thickness, std::vector<double>& fibre_volume);
+
+} // namespace plyform

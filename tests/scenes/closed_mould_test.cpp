@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Flat stacks of cloth that gives way through its thickness, closed to a gap, against closed forms.
+//
+//   n plies of thickness t at pressure p, sheared by gamma: t(p) / cos(gamma) each, in series
+//   gap = sum t(p) / cos(gamma);  F = p A0 cos(gamma)                                         (F)
+#include "core/run/run.hpp"
+#include "core/solver/force_kinds.hpp"
+#include "core/solver/scene.hpp"
+#include "core/solver/step.hpp"
+#include "support/scene_checks.hpp"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <random>
+
+namespace plyform::closed_mould_test {
+namespace {
+
+constexpr double side = 60.0, weight = 600e-12 / 2.55e-9; // mm; mm of fibre
+
+/// A weave that packs from 0.6 mm by Toll and Manson's law to a fibre volume of 0.62.
+Fabric packing_weave(double scale = 20.0, double exponent = 8.0) {
+  Fabric fabric = glass_weave();
+  fabric.thickness = 0.6;
+  stiffen_yarns(fabric);
+  fabric.compaction = Compaction{toll_manson(scale, exponent, 0.62, weight, 0.6), {}, 0.0};
+  return fabric;
+}
+
+double pressure_at(double thickness, double scale = 20.0, double exponent = 8.0) {
+  return scale * (std::pow(weight / thickness, exponent) - std::pow(weight / 0.6, exponent));
+}
+
+/// Plies of these fabrics on a floor, under a box that comes down to leave `gap` (mm).
+Case between_plates(const std::vector<Fabric>& fabrics, double gap) {
+  Case data = stack_of(std::vector<double>(fabrics.size(), 0.0), rectangle(side, side, 6.0));
+  data.fabrics = fabrics;
+  const double top = 0.6 * static_cast<double>(fabrics.size());
+  for (std::size_t p = 0; p < fabrics.size(); ++p)
+    data.plies[p].fabric = static_cast<int>(p),
+    data.plies[p].z = 0.6 * (static_cast<double>(p) + 0.5);
+  Tool floor;
+  floor.name = "floor";
+  floor.shape = Box{{200.0, 200.0, 10.0}};
+  floor.position = {0.0, 0.0, -5.0};
+  Tool press = floor;
+  press.name = "press";
+  press.position = {0.0, 0.0, top + 5.0};
+  press.direction = {0.0, 0.0, -1.0};
+  press.motion = Motion::driven;
+  press.stroke = top - gap;
+  data.tools = {floor, press};
+  set_friction(data, 0.2);
+  data.solver.duration = 0.02;
+  return data;
+}
+
+/// The scene with all plies sheared by gamma (rad), evenly spaced in a closed gap (mm), and its
+/// forces computed.
+struct ClosedStack {
+  Scene scene;
+  ThreadPool pool{1};
+
+  ClosedStack(std::size_t plies, double gamma, double gap)
+      : scene(make_scene(between_plates(std::vector<Fabric>(plies, packing_weave()), gap))) {
+    start(scene, pool);
+    for (std::size_t p = 0; p < plies; ++p)
+      for (Vec3& x : scene.plies[p].x) {
+        x = {x.x() + std::sin(gamma) * x.y(), std::cos(gamma) * x.y(),
+             gap * (static_cast<double>(p) + 0.5) / static_cast<double>(plies)};
+      }
+    scene.time = scene.data.solver.duration;
+    search_contacts_anew();
+    compute();
+  }
+  void search_contacts_anew() {
+    for (PlyBody& ply : scene.plies)
+      ply.max_displacement = 1e3; // what is due
+  }
+  void compute() {
+    const auto stop = compute_forces(scene, pool);
+    ASSERT_FALSE(stop) << stop->message;
+  }
+};
+
+TEST(ClosedMould, FlatStacksBearTheCurveOfTheirClothShearedOrNot) {
+  for (const std::size_t plies : {1, 3, 10})
+    for (const double degrees : {0.0, 20.0, 40.0}) {
+      const double gamma = degrees * degree, t = 0.5 / std::cos(gamma);
+      ClosedStack stack(plies, gamma, t * static_cast<double>(plies));
+      const double theory = pressure_at(0.5) * side * side * std::cos(gamma);
+      const double force = stack.scene.tools[1].force.z();
+      fmt::print("{} plies sheared by {}: {:.2f} N, theory {:.2f}\n", plies, degrees, force,
+                 theory);
+      EXPECT_NEAR(force / theory, 1.0, 1e-3);
+    }
+}
+
+/// Sheared cloth under pressure resists shear: forces in the plane, too, are slopes of the energy.
+/// Not counted is that the place on a face at which a node presses moves over its slope of
+/// thickness.
+TEST(ClosedMould, ForcesOfAShearedStackAreTheSlopeOfItsEnergy) {
+  ClosedStack stack(2, 35.0 * degree, 1.15);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> about(-0.02, 0.02);
+  for (PlyBody& ply : stack.scene.plies)
+    for (Vec3& x : ply.x)
+      x += Vec3(about(random), about(random), about(random));
+  stack.compute();
+  const auto energy = [&] {
+    stack.compute();
+    double sum = 0.0;
+    each_contact(stack.scene,
+                 [&](const auto& contact, const auto&) { sum += contact.sums.elastic; });
+    return sum;
+  };
+  std::vector<Vec3>& x = stack.scene.plies[0].x;
+  const auto contact_force = [&](std::size_t n) {
+    const PlyBody& ply = stack.scene.plies[0];
+    Vec3 f = stack.scene.ply_pairs[0].force_a[n] + ply.spread[n];
+    for (const ToolState& tool : stack.scene.tools)
+      if (!tool.contacts[0].force.empty()) f += tool.contacts[0].force[n];
+    return f;
+  };
+  constexpr double neglected = 1e-3;
+  double widest = 0.0;
+  for (std::size_t n = 0; n < x.size(); n += 7) {
+    stack.compute();
+    const Vec3 f = contact_force(n), at = x[n];
+    widest = std::max(widest, stack.scene.plies[0].spread[n].norm());
+    for (int k = 0; k < 3; ++k) {
+      constexpr double h = 1e-5; // mm
+      x[n][k] = at[k] + h;
+      const double up = energy();
+      x[n][k] = at[k] - h;
+      const double down = energy();
+      x[n] = at;
+      EXPECT_NEAR(f[k], -(up - down) / (2.0 * h), neglected * (1.0 + f.norm())) << n << ' ' << k;
+    }
+  }
+  EXPECT_GT(widest, 0.01); // N
+}
+
+TEST(ClosedMould, TwoFabricsInSeriesShareTheGap) {
+  const Fabric soft = packing_weave(5.0, 6.0), hard = packing_weave();
+  const double p = 0.03; // N/mm^2, at which both have some thickness
+  const auto thickness = [&](double scale, double exponent) {
+    return weight / std::pow(p / scale + std::pow(weight / 0.6, exponent), 1.0 / exponent);
+  };
+  const double gap = thickness(5.0, 6.0) + thickness(20.0, 8.0) + thickness(5.0, 6.0);
+  const RunResult run = run_case(between_plates({soft, hard, soft}, gap), 1, {});
+  fmt::print("{}: {:.2f} N, theory {:.2f}\n", run.summary.status, -run.last.tools[1].force_N,
+             p * side * side);
+  EXPECT_NEAR(std::abs(run.last.tools[1].force_N) / (p * side * side), 1.0, 0.01);
+  EXPECT_LT(std::abs(run.last.energy.balance_error()), 1e-3);
+  for (const KnownForce& known : run.summary.known_forces)
+    EXPECT_TRUE(known.to_end());
+}
+
+/// Loaded to 0.48 mm a ply and let go to 0.52, by a curve that keeps a set.
+TEST(ClosedMould, UnloadingGoesItsOwnWayAndWhatIsLostIsCounted) {
+  Fabric fabric = packing_weave();
+  const double end = fabric.compaction->densest(),
+               most = fabric.compaction->loading.pressure.back();
+  for (int i = 0; i <= 40; ++i) { // p = most s^3 over the way back, which ends at 0.55 mm
+    const double s = i / 40.0;
+    fabric.compaction->unloading.thickness.push_back(0.55 + (end - 0.55) * s);
+    fabric.compaction->unloading.pressure.push_back(most * s * s * s);
+  }
+  Case data = between_plates({fabric, fabric}, 0.96);
+  data.tools[1].programme = {{0.5, 1.2 - 0.96}, {1.0, 1.2 - 1.04}};
+  data.tools[1].stroke = 0.0;
+  const RunResult run = run_case(data, 1, {});
+  const double reached = pressure_at(0.48);
+  const double s = std::cbrt(reached / most) + (0.52 - 0.48) / (end - 0.55);
+  const double theory = s > 0.0 ? most * s * s * s * side * side : 0.0;
+  fmt::print("{}: {:.2f} N, theory {:.2f}, loading {:.2f}; lost {:.3f} of {:.3f} mJ\n",
+             run.summary.status, std::abs(run.last.tools[1].force_N), theory,
+             pressure_at(0.52) * side * side, run.last.energy.compaction, run.last.energy.external);
+  EXPECT_NEAR(std::abs(run.last.tools[1].force_N) / theory, 1.0, 0.01);
+  EXPECT_GT(run.last.energy.compaction, 0.0);
+  EXPECT_LT(std::abs(run.last.energy.balance_error()), 5e-3);
+}
+
+TEST(ClosedMould, BeyondTheDensestPackingForcesAreNotKnown) {
+  const double densest = weight / 0.62;
+  const RunResult run =
+      run_case(between_plates({packing_weave(), packing_weave()}, 2.0 * densest - 0.04), 1, {});
+  fmt::print("{}\n", run.summary.message);
+  EXPECT_EQ(run.summary.status, "doubtful");
+  for (const KnownForce& known : run.summary.known_forces)
+    EXPECT_FALSE(known.to_end());
+}
+
+} // namespace
+} // namespace plyform::closed_mould_test
