@@ -36,6 +36,7 @@ from pathlib import Path
 try:
     from base.ending import Mistake, ended
     from base.files import TEXT, check_file, read_text, read_toml
+    from base.program import find_program
     from base.summary_file import read_summary
     from compare import table
     from plotting.reading import Trouble
@@ -45,7 +46,6 @@ try:
 except ImportError as error:
     sys.exit(f"check_bands.py: error: {error}; install python3-h5py")
 
-TOOLS = Path(__file__).resolve().parent
 ORDER = 1.6                               # p, core/verification/bands.hpp
 HALVED = {"blanks.*.element_size": 0.5, "solver.duration": 2.0, "solver.fibre_softening": 0.5}
 KINDS = {"shear": "angles", "force": "forces", "draw-in": "draw-ins", "largest": "compressions"}
@@ -307,10 +307,7 @@ def write_csv(file: Path, figures: list[Figure]) -> None:
 
 
 def check(options: argparse.Namespace) -> int:
-    program = shutil.which(options.program)
-    if not program:
-        raise Trouble(f"{options.program} is no program; build it (tools/build.sh) or give --program")
-    program, scenes = Path(program).resolve(), read_scenes(options.scenes)
+    program, scenes = find_program(options.program), read_scenes(options.scenes)
     folder = (options.output or Path("results") / options.scenes.stem).resolve()
     pairs = runs_of(scenes, folder, program)
     if not options.table:
@@ -340,8 +337,8 @@ def parser_of(name: str, text: str) -> argparse.ArgumentParser:
     parser.add_argument("scenes", type=Path, metavar="SCENES.toml")
     parser.add_argument("-o", "--output", type=Path, metavar="DIR", help="[results/SCENES]")
     parser.add_argument("--jobs", type=int, default=1, metavar="N", help="at a time [1]")
-    parser.add_argument("--program", default=TOOLS.parent / "build/release/tools/plyform",
-                        metavar="PLYFORM")
+    parser.add_argument("--program", type=Path, metavar="PLYFORM",
+                        help="[build/release of this source tree, or the one installed]")
     parser.add_argument("--doc", type=Path, metavar="TEXT", help="fill the table into a text, too")
     return parser
 

@@ -15,7 +15,6 @@ Exit codes: 0 done; 1 a run is missing, was stopped, or cannot be read; 2 wrong 
 
 import argparse
 import csv
-import shutil
 import subprocess
 import sys
 from concurrent.futures import ThreadPoolExecutor
@@ -24,6 +23,7 @@ from pathlib import Path
 try:
     from base.ending import Mistake, ended
     from base.files import read_toml
+    from base.program import find_program
     from check_bands import (Run, do_run, fill, folder_of, parsed, parser_of, read_scenes, summary_of,
                              version_of)
     from compare import table
@@ -68,10 +68,7 @@ def markdown(rows: list[list]) -> str:
 
 
 def check(options: argparse.Namespace) -> int:
-    program = shutil.which(options.program)
-    if not program:
-        raise Trouble(f"{options.program} is no program; build it (tools/build.sh) or give --program")
-    program, scenes = Path(program).resolve(), read_scenes(options.scenes)
+    program, scenes = find_program(options.program), read_scenes(options.scenes)
     reference = reference_of(options.scenes)
     folder = (options.output or Path("results") / options.scenes.stem).resolve()
     version = version_of(program)

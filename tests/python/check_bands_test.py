@@ -135,6 +135,8 @@ def main() -> None:
             done = call(folder)
             assert done.returncode == 2 and said in done.stderr, done
             assert "Traceback" not in done.stderr, done
+        done = call(folder, "--program", folder / "none")
+        assert done.returncode == 2 and "none is no program; build it" in done.stderr, done
 
 
 main()

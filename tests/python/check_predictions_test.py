@@ -80,6 +80,8 @@ def main() -> None:
         (folder / "scenes.toml").write_text(SCENES.replace("reference", "other"), encoding="utf-8")
         done = call(folder)
         assert done.returncode == 2 and "reference must be a list" in done.stderr, done
+        done = call(folder, "--program", folder / "none")
+        assert done.returncode == 2 and "none is no program; build it" in done.stderr, done
 
 
 main()
