@@ -192,11 +192,22 @@ class CaseReading:
             return
         with self.lock:
             self.followed[name] = stamp
-        told = self.files.versions.get(name)
-        only_itself = old[1:] == stamp[1:] and bool(stamp)
-        if version != told or not only_itself:
+        others = self.changed_beside(old, stamp)
+        if others or version != self.files.versions.get(name):
             self.files.versions[name] = version
-            self.files.events.send("case", path=name, version=version)
+            self.files.events.send("case", path=name, version=version, others=others)
+
+    def changed_beside(self, old: tuple, stamp: tuple) -> dict[str, str]:
+        """Versions of the files of a case, itself left out, that are not as they were; "" of what is no text."""
+        found = {}
+        for file, *_ in (one for one in stamp[1:] if one not in old):
+            path = Path(file)
+            try:
+                text = path.suffix.lower() == ".toml"
+                found[self.project.relative(path)] = version_of(self.project.read(path, MOST_TEXT)) if text else ""
+            except (Refused, OSError):
+                found[self.project.relative(path)] = ""
+        return found
 
 
 def has_large(stamp: tuple) -> bool:

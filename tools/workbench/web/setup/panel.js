@@ -181,10 +181,17 @@ class Setup {
     return second === undefined || (group && group[second] !== undefined);
   }
 
-  heard({ path, version }) {
-    if (this.main && path === this.main.path) this.main.heard(version).catch(tell);
+  /** A file has changed; `others`: versions of changed files that the case of this path names. */
+  heard({ path, version, others = {} }) {
     const fabric = this.files.get(path);
     if (fabric) fabric.heard(version).catch(tell);
+    if (!this.main || path !== this.main.path) return;
+    this.main.heard(version).catch(tell);
+    for (const [name, now] of Object.entries(others)) {
+      const file = this.files.get(name);
+      if (file && now) file.heard(now).catch(tell);
+      else this.drawn.ask(); // a mesh, or a fabric that is not shown
+    }
   }
 
   again() {
