@@ -8,6 +8,7 @@ command line, one that is stopped and goes on.
 import shutil
 import subprocess
 import sys
+import time
 import tomllib
 from pathlib import Path
 
@@ -104,7 +105,7 @@ def set_up(page, server):
     assert "# seen from this file" in study_text(server) and "# every combination" in study_text(server)
 
 
-def run_it(page, server, picture):
+def run_it(page, server):
     """Its table, chart and picture; a row leads to its run."""
     page.press("#study-go")
     page.until(lambda: len(page.texts("#study-table tbody tr")) == 3, "the table is there")
@@ -117,11 +118,19 @@ def run_it(page, server, picture):
     assert "yarns are pressed" in page.text("#study-table tbody"), "the reason of a doubt"
     rows = server.get("api/study/table", folder="results/strokes")["rows"]
     assert [row["punch stroke, mm"] for row in rows] == [2, 4, 6] and all(row["punch_N"] for row in rows), rows
-    if picture:
-        page.screenshot(picture, whole=False)
-    page.js("document.querySelectorAll('#study-chart circle.point')[1].dispatchEvent(new Event('click'))")
-    assert page.js("return decodeURIComponent(location.hash)") == \
-        f"#results/report/results/strokes/{rows[1]['folder']}"
+    page.pick("#chart-y", "wrinkle_mm")
+    page.until(lambda: "wrinkle_mm" in page.text("#study-chart svg"), "the figure is drawn")
+    assert "What moves wrinkle_mm most" in page.text("#study-ranking"), page.text("#study-ranking")
+    page.pick("#chart-x", "punch_N")
+    page.pick("#chart-by", "punch stroke, mm")
+    page.until(lambda: page.texts("#study-chart .legend-of-lines li") == [f" punch stroke, mm: {k}" for k in (2, 4, 6)],
+               "a line for each stroke")
+    assert "punch_N" in page.text("#study-chart svg") and len(page.texts("#study-chart circle.point")) == 3
+    for place, row in (("#study-chart circle.point", rows[0]), ("#study-table tbody tr:nth-child(2) a", rows[1])):
+        page.go(server, f"studies/{FILE}")
+        page.press(place)
+        page.until(lambda: page.js("return decodeURIComponent(location.hash)") ==
+                   f"#results/report/results/strokes/{row['folder']}", "it leads to the report of its run")
     page.until(lambda: page.js("return document.documentElement.dataset.results") == "report 1", "its report is shown")
 
 
@@ -132,11 +141,17 @@ def one_more(page, server):
     page.type("#vary-0-values", "2, 4, 6, 7")
     page.until(lambda: page.text("#study-told").startswith("4 runs, 3 of them have ended; "), "one is missing")
     assert page.text("#study-go") == "Go on"
+    page.type("#study-jobs", "2")
+    page.type("#study-threads", "3")
+    page.press("#study-again")
     page.press("#study-go")
     page.until(lambda: "4 doubtful of 4 runs" in page.text("#study-progress"), "the fourth has ended")
     record = server.get("api/processes", kind="study")[-1]
     page.until(lambda: server.get(f"api/processes/{record['id']}")["state"] == "done", "the command has ended")
     assert "4/4 runs" in server.get(f"api/processes/{record['id']}")["log"]
+    command = " ".join(map(str, record["command"]))
+    assert "--threads 3 --jobs 2 --again" in command, command
+    page.press("#study-again")
 
 
 def stopped(page, server):
@@ -151,6 +166,10 @@ def stopped(page, server):
     page.until(lambda: server.get("api/processes", kind="study")[-1]["state"] == "stopped", "it has stopped")
     assert server.get("api/study/table", folder="results/strokes")["state"] == "has missing runs"
     page.until(lambda: page.find("#study-go").is_displayed(), "it can go on")
+    drawn = server.folder / "results/strokes/scatter.png"
+    before = drawn.stat().st_mtime_ns
+    page.press("#study-draw")
+    page.until(lambda: drawn.stat().st_mtime_ns > before, "the picture is drawn of what has ended")
 
 
 def window(page, server):
@@ -289,15 +308,12 @@ def main():
         (server.folder / "cap").mkdir()
         (server.folder / "cap/case.toml").write_text(CASE, encoding="utf-8")
         shutil.copy(CASES / "fabrics/glass_plain_weave.toml", server.folder / "cap/glass.toml")
-        set_up(page, server)
-        run_it(page, server, picture)
-        one_more(page, server)
-        stopped(page, server)
-        window(page, server)
-        if picture:
-            page.screenshot(picture.replace(".png", "_window.png"))
-        edited(page, server)
-        of_the_command_line(page, server)
+        for part in (set_up, run_it, one_more, stopped, window, edited, of_the_command_line):
+            begin = time.monotonic()
+            part(page, server)
+            print(f"{part.__name__}: {time.monotonic() - begin:.1f} s", flush=True)
+            if picture and part in (run_it, window):
+                page.screenshot(picture if part is run_it else picture.replace(".png", "_window.png"), whole=False)
         refused(server)
         assert not [one for one in page.errors() if "status of 4" not in one], page.errors()
 

@@ -97,6 +97,7 @@ export class StudyResults {
         list.addEventListener("change", () => {
           this.chosen[id] = list.value; // by the reader: kept when columns come
           this.drawChart();
+          this.drawRanking();
         });
         return [labelled(words, list), list];
       };
