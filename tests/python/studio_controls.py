@@ -3,7 +3,7 @@
 control is named by its id, its data attributes or its accessible name, numbers and names of the user being
 left out; the boxes of the set-up's form, which is made from the table of keys, by their kind.
 
-With PLYFORM_CONTROLS=FOLDER each test writes FOLDER/NAME.json, e.g. runs.started.json.
+With PLYFORM_CONTROLS=FOLDER each test writes FOLDER/NAME.json, e.g. runs.started.json, setup.forms.json.
 
     studio_controls.py FOLDER NAME...     what none of these tests has used, of what they have seen
 
@@ -114,7 +114,7 @@ class Controls:
 def written_to():
     """The file of this test; None where none is asked for."""
     folder = os.environ.get("PLYFORM_CONTROLS")
-    name = Path(sys.argv[0]).stem.removeprefix("studio_").removesuffix("_test")
+    name = Path(sys.argv[0]).stem.removeprefix("studio_").removesuffix("_test").replace("_", ".")
     part = [f".{word}" for word in sys.argv[1:2] if re.fullmatch("[a-z]+", word)]
     return Path(folder) / f"{name}{''.join(part)}.json" if folder else None
 
