@@ -104,6 +104,9 @@ def looked_at(page):
     assert len(set(pictures.values())) == 3
     page.pick("#run-tools", "solid")
     assert page.drawn() == pictures["solid"]  # it is the choice that makes the difference
+    page.find("#run-picture .scene-pane").send_keys("t")
+    page.until(lambda: page.find("#run-tools").get_attribute("value") == "hidden", "the list follows the key")
+    assert page.drawn() == pictures["hidden"]
     for shown in (False, True):
         page.press("#run-printed summary")
         page.until(lambda: page.find("#run-log").is_displayed() == shown, f"printed: {shown}")

@@ -97,9 +97,8 @@ export class RunPicture {
 
   display(bodies, fit) {
     this.place.hidden = false;
-    if (!this.view) this.view = new SceneView(this.scene);
+    if (!this.view) this.view = new SceneView(this.scene, { changed: ({ tools }) => { this.tools.value = tools; } });
     this.view.show(bodies, fit);
-    this.view.change({ tools: this.tools.value });
   }
 
   again() {
