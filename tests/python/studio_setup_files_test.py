@@ -107,8 +107,10 @@ def dropped_files(page: Page) -> None:
     page.until(lambda: page.seen("#import-mesh-cancel"))
     page.press("#import-mesh-cancel")
     assert b"0.3" in (page.server.folder / "mine" / "box.stl").read_bytes()
-    page.drop("what.exe", b"no")
-    page.until(lambda: "what.exe" in page.text("#trouble"))
+    for name in ("what.exe", "curve.xlsx"):
+        page.drop(name, b"no")
+        page.until(lambda n=name: f"{n} is none of" in page.text("#trouble"))
+    assert page.text("#trouble").endswith("save a spreadsheet as CSV"), page.text("#trouble")
 
 
 def chosen_files(page: Page) -> None:

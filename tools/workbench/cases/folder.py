@@ -14,8 +14,8 @@ from .paths import MOST_TEXT
 DEPTH = 6
 MOST = 5000  # entries
 KINDS = {".step": "part", ".stp": "part", ".iges": "part", ".igs": "part", ".stl": "mesh", ".obj": "mesh",
-         ".ply": "mesh", ".off": "mesh", ".dxf": "drawing", ".csv": "curve", ".txt": "curve", ".xlsx": "curve",
-         ".toml": "toml"}
+         ".ply": "mesh", ".off": "mesh", ".dxf": "drawing", ".csv": "curve", ".txt": "curve", ".dat": "curve",
+         ".tsv": "curve", ".toml": "toml"}
 RESULT = ("results.h5", "summary.json", "progress.json")  # a folder with any of them is a run's
 FABRIC = ("surface_density", "warp", "weft", "family", "sheet", "isotropic")
 

@@ -19,7 +19,8 @@ class Upload:
     def __init__(self, project: Project, folder: str, name: str, size: int, replace: bool):
         self.project, self.replace = project, replace
         if Path(plain_name(name)).suffix.lower() not in KINDS:
-            raise Refused(f"{name}: a file that ends with {', '.join(sorted(KINDS))} can be taken in", 422)
+            raise Refused(f"{name}: a file that ends with {', '.join(sorted(KINDS))} can be taken in; save a "
+                          "spreadsheet as CSV", 422)
         self.parts = project.own / "uploads"
         self.parts.mkdir(exist_ok=True)
         self.folder = project.inside(folder) if folder else project.root

@@ -10,7 +10,7 @@ import { ask, listen, send, upload } from "workbench/page/server.js";
 const UNITS = [["mm", "mm"], ["cm", "cm"], ["m", "m"], ["inch", "inch"]];
 const KINDS = { step: "part", stp: "part", iges: "part", igs: "part", stl: "mesh", obj: "mesh", ply: "mesh",
   off: "mesh",
-  dxf: "drawing", csv: "curve", txt: "curve", xlsx: "curve", toml: "toml" };
+  dxf: "drawing", csv: "curve", txt: "curve", dat: "curve", tsv: "curve", toml: "toml" };
 
 export const kindOf = (name) => KINDS[name.split(".").pop().toLowerCase()] || "";
 
@@ -89,7 +89,9 @@ export class Imports {
     if (!this.work.main) throw new Error("Make a case first, into which the file can go");
     for (const file of files) {
       const kind = kindOf(file.name);
-      if (!kind) throw new Error(`${file.name} is none of ${Object.keys(KINDS).join(", ")}`);
+      if (!kind) {
+        throw new Error(`${file.name} is none of ${Object.keys(KINDS).join(", ")}; save a spreadsheet as CSV`);
+      }
       await this.send(file, {}, async (sent) => {
         await this.work.refreshFolder();
         await this.ask(kind, sent.path);
