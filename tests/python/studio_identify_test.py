@@ -209,6 +209,32 @@ def restarted(page, server):
     page.press("#identify-open")
     page.until(lambda: page.js("return (window.plyform_setup || 0) && plyform_setup.editor.mirror.getValue()") ==
                (server.folder / "cloth/found.toml").read_text(encoding="utf-8"), "its text is shown")
+    fabric_alone(page, server)
+
+
+def fabric_alone(page, server):
+    """The form of a fabric's file beside its text, and no parts of a case; then the case again."""
+    file = server.folder / "cloth/found.toml"
+    before = file.read_text(encoding="utf-8")
+    assert page.find("#case-list").get_attribute("value") == "cloth/found.toml"
+    for part in (".outline", ".setup-middle", "#run-case-button", "#add-files"):
+        assert not page.js("return document.querySelector(arguments[0]).getClientRects().length", part), part
+    page.type('[data-key="thickness"]', "0.6")
+    page.until(lambda: tomllib.loads(file.read_text(encoding="utf-8"))["thickness"] == 0.6, "it is in the file")
+    page.press("#undo")
+    page.until(lambda: file.read_text(encoding="utf-8") == before, "it is taken back")
+    page.js("const room = new DataTransfer(); room.items.add(new File(['solid a'], 'a.stl'));"
+            "document.getElementById('panel-setup').dispatchEvent(new DragEvent('drop',"
+            " { dataTransfer: room, bubbles: true, cancelable: true }));")
+    page.until(lambda: "Open or make a case first" in page.text("#trouble"), "a fabric takes no files")
+    server.send("api/cases", {"name": "begun"})
+    page.go(server, "setup")
+    page.until(lambda: page.text("#case-list") == "begun/case.toml" and page.seen("[data-item=case] button"), "a case")
+    assert page.find(".outline").is_displayed() and page.find("#run-case-button").is_displayed()
+    page.go(server, "setup/cloth/found.toml")
+    page.until(lambda: page.find("#case-list").get_attribute("value") == "cloth/found.toml", "the fabric again")
+    page.pick("#case-list", "begun/case.toml")
+    page.until(lambda: page.find(".outline").is_displayed() and page.text("#case-list") == "begun/case.toml", "the case")
 
 
 def stopped(page, server):

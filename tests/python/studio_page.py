@@ -69,35 +69,36 @@ class Page(Browser):
     def texts(self, selector):
         return self.js("return [...document.querySelectorAll(arguments[0])].map((e) => e.textContent)", selector)
 
+    def near(self, selector):
+        """The element, brought to where it is seen, in one question; None while it is missing, hidden or off."""
+        return self.js("const e = document.querySelector(arguments[0]); if (!e) return null;"
+                       "e.scrollIntoView({block: 'center'});"
+                       "return e.getClientRects().length && !e.matches(':disabled') ? e : null", selector)
+
     def press(self, selector):
         """A click, when what is clicked is there and not off."""
         def act():
-            place = self.find(selector)
-            self.js("arguments[0].scrollIntoView({block: 'center'})", place)
-            if not place.is_enabled() or not place.is_displayed():
-                return False
-            place.click()
-            return True
+            place = self.near(selector)
+            if place:
+                place.click()
+            return place
         self.until(act, f"{selector} can be clicked")
 
     def type(self, selector, text):
         """Replaces what stands in a field, and leaves it."""
         def act():
-            place = self.find(selector)
-            self.js("arguments[0].scrollIntoView({block: 'center'})", place)
-            place.send_keys(Keys.CONTROL, "a")
-            place.send_keys(Keys.BACKSPACE if not text else text)
-            place.send_keys(Keys.TAB)
-            return True
+            place = self.near(selector)
+            if place:
+                place.send_keys(Keys.CONTROL, "a" + Keys.NULL + (text or Keys.BACKSPACE) + Keys.TAB)
+            return place
         self.until(act, f"{selector} takes {text}")
 
     def pick(self, selector, value):
         """Chooses of a list."""
         def act():
-            place = self.find(selector)
-            self.js("arguments[0].scrollIntoView({block: 'center'})", place)
-            options = place.find_elements(By.CSS_SELECTOR, "option")
-            found = [option for option in options if option.get_attribute("value") == value]
+            place = self.near(selector)
+            found = place and [option for option in place.find_elements(By.CSS_SELECTOR, "option")
+                               if option.get_attribute("value") == value]
             if found:
                 found[0].click()
             return found
@@ -150,13 +151,11 @@ class SetupPage(Page):
     def key(self, key, text, part=""):
         """Types a value into the box of a key, and leaves it."""
         def act():
-            box = self.find(of_key(key, part))
-            self.js("arguments[0].scrollIntoView({block: 'center'})", box)
-            box.click()
-            box.send_keys(Keys.CONTROL, "a")
-            box.send_keys(Keys.DELETE if text == "" else text)
-            box.send_keys(Keys.TAB)
-            return True
+            box = self.near(of_key(key, part))
+            if box:
+                box.click()
+                box.send_keys(Keys.CONTROL, "a" + Keys.NULL + (text or Keys.DELETE) + Keys.TAB)
+            return box
         self.until(act, f"{key} takes {text}")
 
     def choose(self, key, value, part=""):

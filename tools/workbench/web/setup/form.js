@@ -9,6 +9,7 @@ import { filesFor, namesFor } from "workbench/setup/references.js";
 import { withoutKey } from "workbench/setup/problems.js";
 
 const NUMBERS = ["number", "integer"];
+const FABRIC = "fabrics.NAME"; // row of the table of keys
 
 const FAR = 1e7; // ends beyond are there to keep nonsense out, and nothing to read
 
@@ -58,7 +59,8 @@ export class Form {
     this.item = item;
     const kept = this.keepFocus();
     const main = { file: this.work.main, prefix: "", key: "", pattern: "", table: this.work.main.tree };
-    const parts = item === "case" ? this.caseFields(main) : this.itemFields(main, item);
+    const parts = this.work.ofFabric ? [this.fabricNote(main.file), ...this.tableFields({ ...main, pattern: FABRIC })]
+      : item === "case" ? this.caseFields(main) : this.itemFields(main, item);
     this.fields.replaceChildren(...parts.filter(Boolean));
     this.fields.inert = Boolean(this.work.main.error);
     this.showWrong();
@@ -131,19 +133,22 @@ export class Form {
   fabricFields(main, item, value) {
     const name = item.split(".")[1];
     const prefix = `fabrics.${name}.`;
-    const pattern = "fabrics.NAME";
     if (value && typeof value === "object") {
-      return [this.renameLine(main, item), ...this.tableFields({ ...main, key: item, pattern, table: value })];
+      return [this.renameLine(main, item), ...this.tableFields({ ...main, key: item, pattern: FABRIC, table: value })];
     }
-    const row = this.work.keys.row(pattern);
+    const row = this.work.keys.row(FABRIC);
     const choose = selectInput({ ...row, required: true }, item, value, filesFor(this.work, "fabric"),
       (path) => this.send(main.file, [{ op: "set", key: item, value: path }]));
     const file = this.work.fileOf(value);
-    const parts = [this.renameLine(main, item), this.row(pattern, "file", "", choose, item)];
+    const parts = [this.renameLine(main, item), this.row(FABRIC, "file", "", choose, item)];
     if (!file || !file.tree) return parts;
-    parts.push(element("p", { className: "note",
-      textContent: `Keys of ${file.path}: every case that uses it changes too.` }));
-    return [...parts, ...this.tableFields({ file, prefix, key: "", pattern, table: file.tree })];
+    return [...parts, this.fabricNote(file), ...this.tableFields({ file, prefix, key: "", pattern: FABRIC,
+      table: file.tree })];
+  }
+
+  fabricNote(file) {
+    return element("p", { className: "note",
+      textContent: `Keys of ${file.path}: every case that uses it changes too.` });
   }
 
   /** Lines of all keys of one table: { file, prefix, key, pattern, table }. */

@@ -86,7 +86,7 @@ export class Imports {
   }
 
   async take(files) {
-    if (!this.work.main) throw new Error("Make a case first, into which the file can go");
+    if (!this.work.main || this.work.ofFabric) throw new Error("Open or make a case first, into which the file can go");
     for (const file of files) {
       const kind = kindOf(file.name);
       if (!kind) {

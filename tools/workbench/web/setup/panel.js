@@ -74,14 +74,14 @@ class Setup {
     this.undo = button("Undo", () => this.back("undo"), { id: "undo", title: "Ctrl-Z" });
     this.redo = button("Redo", () => this.back("redo"), { id: "redo", title: "Ctrl-Shift-Z" });
     this.runIt = button("Run…", () => askRun(this.main.path, this.faults.some((one) => !one.warning)),
-      { id: "run-case-button", className: "main" });
+      { id: "run-case-button", className: "main of-case" });
     this.chooser = element("input", { type: "file", id: "add-files", multiple: true });
     this.withText = button("TOML", () => this.showText(this.textRoom.hidden),
       { id: "show-toml", "aria-pressed": "true", title: "The text of the file, beside the form" });
     this.barPlace = element("div", { className: "bar" }, this.cases, this.newButton("New…", { id: "new-case-button" }),
       this.undo, this.redo, element("span", { className: "gap" }),
-      element("span", { className: "note", textContent: "drop files here, or" }),
-      element("label", { className: "as-button", title: "STEP, IGES, STL, DXF, curves, fabrics" }, "Add files…",
+      element("span", { className: "note of-case", textContent: "drop files here, or" }),
+      element("label", { className: "as-button of-case", title: "STEP, IGES, STL, DXF, curves, fabrics" }, "Add files…",
         this.chooser), this.withText, this.runIt);
     return this.barPlace;
   }
@@ -91,7 +91,7 @@ class Setup {
     const setup = this;
     return {
       get keys() { return setup.keys; }, get main() { return setup.main; }, get folder() { return setup.folder; },
-      get scene() { return setup.scene; }, tell,
+      get scene() { return setup.scene; }, get ofFabric() { return setup.ofFabric; }, tell,
       choose: (key) => setup.choose(key), fileOf: (path) => setup.fileOf(path),
       wrongAt: (key) => faultsAt(setup.faults, key),
       wrongBelow: (item) => faultsBelow(setup.faults, item, (key) => itemOf(setup.keys, key)),
@@ -102,10 +102,15 @@ class Setup {
 
   async refreshFolder() {
     this.folder = await ask("folder");
-    this.cases.replaceChildren(...(this.folder.cases || []).map(({ path, title }) => element("option", { value: path,
-      textContent: path, title: title || "" })));
-    if (this.main) this.cases.value = this.main.path;
+    this.listCases();
     if (this.main && this.main.tree) this.form.show(this.chosen);
+  }
+
+  listCases() {
+    const fabric = this.ofFabric ? [{ path: this.main.path }] : [];
+    this.cases.replaceChildren(...[...(this.folder.cases || []), ...fabric].map(({ path, title }) =>
+      element("option", { value: path, textContent: path, title: title || "" })));
+    if (this.main) this.cases.value = this.main.path;
   }
 
   async opened(path) {
@@ -113,7 +118,8 @@ class Setup {
     location.hash = `#setup/${path}`;
   }
 
-  /** Shows the case of a path; without one that shown last, or the first of the folder. */
+  /** Shows the case of a path, or the form and text of a fabric's file alone; without a path the case shown
+   * last, or the first of the folder. */
   async open(path) {
     if (!this.keys) this.keys = new Keys(await ask("keys"));
     await this.refreshFolder();
@@ -125,9 +131,11 @@ class Setup {
     Object.assign(this, { faults: [], chosen: "case", scene: null, done: [], undone: [] });
     this.files.clear();
     this.main = new CaseFile(wanted);
+    this.ofFabric = (this.folder.fabrics || []).some((one) => one.path === wanted);
+    this.place.classList.toggle("of-fabric", this.ofFabric);
+    this.listCases();
     this.main.watch((file, by) => file === this.main && this.changed(by, file));
     this.fresh = true;
-    this.cases.value = wanted;
     await this.main.load();
     this.editor.show(this.main);
   }
@@ -168,9 +176,9 @@ class Setup {
     }
     this.showBack();
     if (!this.exists(this.chosen)) this.chosen = "case";
-    this.outline.show(this.chosen);
+    if (!this.ofFabric) this.outline.show(this.chosen);
     this.form.show(this.chosen);
-    if (by === "refused") return;
+    if (by === "refused" || this.ofFabric) return;
     this.problems.wait();
     this.drawn.ask();
   }
