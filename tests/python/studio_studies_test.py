@@ -76,7 +76,9 @@ def set_up(page, server):
     """A study from nothing: its case, a key by click, values, figures, a limit."""
     page.go(server, "studies")
     page.type("#new-study-name", "strokes")
-    page.pick("#new-study-case", "cap/case.toml")
+    assert page.find("#new-study-case").get_attribute("value") == "cap/case.toml"  # the only one
+    for case in ("", "cap/case.toml"):
+        page.pick("#new-study-case", case)
     page.press("#new-study")
     page.until(lambda: "nothing is varied" in page.text("#study-mistakes"), "it is told that nothing varies")
     assert not page.find("#study-go").is_enabled()
@@ -157,8 +159,8 @@ def one_more(page, server):
 def stopped(page, server):
     """Stopped on its way; the same button goes on."""
     page.press("#study-setup > summary")
-    page.type("#vary-0-values", ", ".join(str(0.1 * k) for k in range(1, 60)))
-    page.until(lambda: page.text("#study-told").startswith("59 runs"), "59 are counted")
+    page.type("#vary-0-values", ", ".join(str(0.1 * k) for k in range(1, 31)))
+    page.until(lambda: page.text("#study-told").startswith("30 runs"), "30 are counted")
     page.press("#study-go")
     page.until(lambda: page.find("#study-stop").is_displayed() and "missing" in page.text("#study-progress"),
                "it goes on")
@@ -253,6 +255,11 @@ def edited(page, server):
     changes(page.press, "#picture-0-remove", holds=lambda now: not now.get("picture"))
     changes(page.press, "#figure-of_all", holds=lambda now: not now.get("figures") and "of_all" not in now["limits"])
     changes(page.press, "#vary-1-remove", holds=lambda now: [one["name"] for one in now["vary"]] == ["path"])
+    page.js("""for (const [id, value] of [["study-title", "At once"], ["study-accuracy", "standard"], ["vary-0-name", "p"]]) {
+        const box = document.getElementById(id); box.value = value; box.dispatchEvent(new Event("change")); }""")
+    page.until(lambda: [tree()["title"], tree()["accuracy"], tree()["vary"][0]["name"]] == ["At once", "standard", "p"],
+               "three changes at once")
+    changes(page.type, "#study-title", "Edited", holds=lambda now: now["title"] == "Edited")
     page.press("#key-chooser > summary")
     page.until(lambda: page.find("#key-search").is_displayed(), "keys are offered")
     page.press("details:has(> #study-text) > summary")

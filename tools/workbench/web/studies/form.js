@@ -50,14 +50,15 @@ function numberIn(text, words) {
 export class StudyForm {
   /** `changed()` is called after each change that is saved. */
   constructor(place, changed) {
-    Object.assign(this, { place, changed });
+    Object.assign(this, { place, changed, waiting: [], busy: Promise.resolve() });
     this.chooser = new KeyChooser((key) => this.told(() => this.addVary(key)));
   }
 
   async show(study) {
     const another = !this.study || this.study.path !== study.path;
+    if (another) this.waiting = [];
     this.study = study;
-    this.plan = study.plan;
+    this.plan = study.plan && Object.assign(study.plan, ...this.waiting);
     if (another || this.case !== study.case) {
       this.case = study.case;
       this.known = study.case ? await ask("study/keys", { case: study.case }) : { keys: [], figures: [] };
@@ -65,11 +66,22 @@ export class StudyForm {
     this.draw();
   }
 
-  /** Saves what has been changed of the plan. */
+  /** Saves what has been changed of the plan, upon the version that the change before has made. */
   async save(change) {
+    const { study } = this;
     Object.assign(this.plan, change);
-    await send("study", { path: this.study.path, version: this.study.version, plan: change }, { method: "PUT" });
-    await this.changed();
+    this.waiting.push(change);
+    const done = this.busy.then(async () => {
+      const { version } = this.study.path === study.path ? this.study : study;
+      try {
+        await send("study", { path: study.path, version, plan: change }, { method: "PUT" });
+      } finally {
+        this.waiting = this.waiting.filter((one) => one !== change);
+      }
+      await this.changed();
+    });
+    this.busy = done.catch(() => {});
+    await done;
   }
 
   draw() {
