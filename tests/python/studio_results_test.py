@@ -93,7 +93,7 @@ def check_saved(page, downloads):
 
 def check_tabs(page):
     """What is chosen stays, from view to view, and when another panel was looked at."""
-    page.open("#results/report/results%2Fa|results%2Fc")
+    page.open("#results/report/results%2Fa|results%2Fb")
     for view in ("files", "differences", "report", "figures"):
         page.press(f"#results-{view}")
         page.when(f"return document.documentElement.dataset.results === '{view} 2'")
@@ -106,7 +106,7 @@ def check_tabs(page):
         assert [one.text for one in page.all("#panels [aria-selected=true]")] == [
             page.text(f"#panels a[href='#{panel}']")]
         assert len(page.all("main > section:not([hidden])")) == 1
-    page.when("return location.hash === '#results/figures/results%2Fa|results%2Fc'")
+    page.when("return location.hash === '#results/figures/results%2Fa|results%2Fb'")
     assert len(page.all("#results-list input:checked")) == 2
 
 
