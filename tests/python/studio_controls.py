@@ -32,15 +32,18 @@ HOOK = """
       return `form: ${list ? `${list.className} ` : ""}${kind(e)}${/[a-z]/.test(data.part || "")
         ? ` ${plain(data.part)}` : ""}`;
     }
-    if (e.id) return `#${plain(e.id)}`;
-    for (const name of ["act", "add", "dial", "handle", "item", "view", "folder", "name", "key", "panel"]) {
+    if (e.id) return `#${plain(e.id).replace(/^limit-.*-(at_\\w+)$/, "limit-NAME-$1")
+      .replace(/^figure-(?!(name|path|add)$).*/, "figure-NAME")}`;
+    if (e.closest("[data-run]")) return `${e.tagName.toLowerCase()} of a run`;
+    for (const name of ["act", "add", "dial", "handle", "item", "view", "folder", "name", "key", "panel", "study"]) {
       if (data[name] === undefined) continue;
       const word = name === "act" || name === "view" || name === "handle" ? plain(data[name].split(" ")[0])
-        : name === "add" && !data[name].includes(".") ? data[name] : "";
+        : name === "add" && !e.closest(".fields") ? data[name] : "";
       return `${e.tagName.toLowerCase()}[${name}${word ? `=${word}` : ""}]`;
     }
     if (e.matches("circle.point")) return "point of a chart";
-    return `${e.tagName.toLowerCase()} ${plain(e.getAttribute("aria-label") || e.textContent || e.title || e.type)}`;
+    const words = e.getAttribute("aria-label") || e.textContent || e.title || e.type;
+    return `${e.tagName.toLowerCase()} ${plain(e.closest(".fields legend") ? words.replace(/\\S+$/, "KEY") : words)}`;
   }
   function placeOf(e) {
     const dialogue = e.closest("dialog");
