@@ -214,7 +214,8 @@ def check_patterns(page, folder, run):
     page.pick("#pattern-case", "cases/hemisphere_two_ply/coarse.toml")
     page.type("#pattern-tolerance", "0.01")
     page.type("#pattern-iterations", "2")
-    assert "after 2 runs the edge is still" in page.go_on("pattern", well=False)
+    said = page.go_on("pattern", well=False)
+    assert "after 2 runs the edge is still" in said, said
     assert {"iteration_1", "iteration_2"} == {path.name for path in (run / "pattern").glob("iteration_*")}
     shutil.rmtree(run / "pattern")
     page.type("#pattern-tolerance", "200")
