@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/results/history.hpp"
 
+#include "core/results/bridging.hpp"
 #include "core/results/broken_stitches.hpp"
 #include "core/results/draw_in.hpp"
 #include "core/results/statistics.hpp"
@@ -62,6 +63,12 @@ void each_number(const Frame& frame, Visit&& visit) {
     if (!one.wrinkle_height.empty())
       of_ply({"largest_wrinkle_mm", "largest-wrinkle", "highest wrinkle", "mm", 2, 1e-3},
              largest(one.wrinkle_height));
+    if (!one.bridging_height.empty()) {
+      const Bridging bridging = bridging_of(one);
+      of_ply({"largest_bridging_mm", "largest-bridging", "largest bridging height", "mm", 2, 1e-3},
+             bridging.height);
+      of_ply({"bridging_area_mm2", "bridging-area", "bridging area", "mm²", 0, 0.1}, bridging.area);
+    }
     if (!one.stitches.empty())
       of_ply({"broken_stitch_share", "broken-stitches", "share of stitches broken", "1", 3, 1e-6,
               Scale::from_zero, "of the length of those that are broken most"},

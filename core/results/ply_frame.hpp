@@ -49,6 +49,10 @@ struct PlyFrame {
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
   std::vector<Vec3> reaction;           ///< n, N, of boundaries; empty where there are none
   std::vector<double> wrinkle_height;   ///< n, mm: wrinkles.hpp; empty if not looked for
+  std::vector<double> bridging_height;  ///< n, mm: bridging.hpp; empty where nothing could bridge
+  /// n, unit vectors to where nodes are pressed that nothing holds up there, else 0, or empty:
+  /// core/run/bridging.hpp. No column.
+  std::vector<Vec3> pushed;
 };
 
 /// A column of the results beside its values.
@@ -65,6 +69,15 @@ inline Column opening_column(const std::string& family) {
            "change of the distance between neighbouring yarns; negative: closer together"},
           Location::triangle,
           "opening",
+          true};
+}
+
+/// The column of bridging.
+inline Column bridging_column() {
+  return {{"bridging_height_mm", "bridging", "bridging height", "mm", 2, 1e-3, Scale::from_zero,
+           "over the tool that the stack is pressed towards, where it spans a hollow"},
+          Location::node,
+          "",
           true};
 }
 
@@ -120,6 +133,7 @@ void each_column(AnyPly& ply, Visit&& visit) {
                "",
                true},
         ply.wrinkle_height);
+  visit(bridging_column(), ply.bridging_height);
   for (auto& family : ply.families)
     visit(Column{{family.name, family.name, "direction of " + family.name, "1", 3, 1e-6,
                   Scale::both_ways},

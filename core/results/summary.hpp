@@ -2,6 +2,7 @@
 // Summary of a run in numbers and sentences: the content of summary.json.
 #pragma once
 
+#include "core/results/bridging.hpp"
 #include "core/results/broken_stitches.hpp"
 #include "core/results/draw_in.hpp"
 #include "core/results/verification.hpp"
@@ -71,6 +72,7 @@ struct Opening {
 struct PlyReport {
   std::optional<PressedYarns> pressed; ///< none of a sheet without yarns
   Wrinkle wrinkle;
+  std::optional<Bridging> bridging;           ///< none where nothing could bridge
   std::optional<double> locking_angle_deg;    ///< of the fabric, if it is known
   std::optional<double> beyond_locking_share; ///< fraction of the area before forming; likewise
   std::vector<Opening> openings;              ///< of the families for which it is told

@@ -86,6 +86,17 @@ Json wrinkle_keys(const Wrinkle& wrinkle) {
           {"wrinkle_at_mm", place(wrinkle.at)}};
 }
 
+Json bridging_keys(const Bridging& bridging) {
+  Json keys{{"bridging_height_mm", rounded(bridging.height)},
+            {"bridging_area_mm2", rounded(bridging.area)}};
+  if (bridging.height > 0.0) keys["bridging_at_mm"] = place(bridging.at);
+  if (!bridging.family.empty())
+    keys.update({{"bridging_family", bridging.family},
+                 {"bridging_max_tension_N_per_yarn", rounded(bridging.largest_tension)},
+                 {"bridging_mean_tension_N_per_yarn", rounded(bridging.mean_tension)}});
+  return keys;
+}
+
 Json opening_object(const Opening& opening) {
   Json object{{"family", opening.family},
               {"largest", rounded(opening.largest)},
@@ -116,6 +127,7 @@ Json report_keys(const PlyReport& report) {
   Json keys = Json::object();
   if (report.pressed) keys.update(pressed_keys(*report.pressed));
   keys.update(wrinkle_keys(report.wrinkle));
+  if (report.bridging) keys.update(bridging_keys(*report.bridging));
   if (report.locking_angle_deg) keys["locking_angle_deg"] = rounded(*report.locking_angle_deg);
   if (report.beyond_locking_share)
     keys["area_share_beyond_locking_angle"] = rounded(*report.beyond_locking_share);

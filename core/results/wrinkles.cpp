@@ -3,6 +3,7 @@
 
 #include "base/node_normals.hpp"
 #include "contact/forces/tool_ply.hpp"
+#include "core/results/way_to_tool.hpp"
 
 #include <algorithm>
 #include <array>
@@ -33,8 +34,9 @@ double mean_side(const PlyFrame& ply) {
 struct Place {
   Vec3 x = Vec3::Zero(), normal = Vec3::Zero();
   std::size_t triangle = 0;
-  bool inside = false; ///< whether the ply covers this point
-  double height = 0.0; ///< mm, the largest H found here; 0 of less than least_wrinkle
+  bool inside = false;        ///< whether the ply covers this point
+  double height = 0.0;        ///< mm, the largest H found here; 0 of less than least_wrinkle
+  Vec3 pushed = Vec3::Zero(); ///< mean of PlyFrame::pushed
 };
 
 /// Places on a square grid of the undeformed ply whose rows run along the warp.
@@ -137,7 +139,11 @@ private:
       q += w[static_cast<int>(k)] * (p - normal.dot(p - ply_.x[at(t[k])]) * normal);
       n += w[static_cast<int>(k)] * normal;
     }
-    return {0.5 * (p + q), n.stableNormalized(), triangle, true};
+    Place found{0.5 * (p + q), n.stableNormalized(), triangle, true};
+    if (!ply_.pushed.empty())
+      for (std::size_t k = 0; k < 3; ++k)
+        found.pushed += w[static_cast<int>(k)] * ply_.pushed[at(t[k])];
+    return found;
   }
 
   void fill(std::size_t triangle) {
@@ -203,22 +209,6 @@ double height_above_tools(Grid& grid, const Line& line, double half_wave) {
   return least;
 }
 
-/// How far (mm) the surface of a tool lies from x along the unit vector d, at most `most`: negative
-/// where x is in the tool, infinite where the line meets none.
-double way_to(const ToolBody& tool, const Vec3& x, const Vec3& d, double most) {
-  constexpr int most_steps = 200; // of a line that grazes the surface
-  const double near = 1e-3 * most;
-  SurfaceHint hint;
-  double gone = 0.0, free = distance_to_tool(tool, x, hint).distance;
-  const bool inside = free < 0.0;
-  for (int i = 0; i < most_steps && std::abs(gone) < most; ++i) {
-    if (inside ? free >= 0.0 : free <= near) return gone;
-    gone += inside ? std::min(free, -near) : free;
-    free = distance_to_tool(tool, x + gone * d, hint).distance;
-  }
-  return std::abs(gone) < most ? gone : std::numeric_limits<double>::infinity();
-}
-
 /// (3): T_k of one tool at the place k of a line, mm; 0 if the tool is not near or does not face
 /// it.
 double height_of_tool(Grid& grid, const Line& line, std::size_t k, std::size_t tool,
@@ -231,17 +221,24 @@ double height_of_tool(Grid& grid, const Line& line, std::size_t k, std::size_t t
   std::array<double, 3> z{};
   for (std::size_t j = 0; j < 3; ++j) {
     const Vec3& p = line[k + j - 1]->x;
-    z[j] = n.dot(p - x) +
-           n.dot(towards) * way_to(*grid.tools()[tool], p, towards, 2.0 * near_waves * half_wave);
+    z[j] = n.dot(p - x) + n.dot(towards) * way_to_tool(*grid.tools()[tool], p, towards,
+                                                       2.0 * near_waves * half_wave);
   }
   return std::isfinite(z[1]) ? z[1] - 0.5 * (z[0] + z[2]) : 0.0;
 }
 
-/// (3): the share of a wave that is the tools' own, 0 to 1.
+/// Whether a bend (mm) is that of a ply blown or sucked into a hollow, which its tension bears.
+bool is_hollow(const Place& place, double bend) {
+  constexpr double most = 0.5; // of the way from a node that is held up to one that is not
+  return place.pushed.dot(place.normal) * (bend > 0.0 ? 1.0 : -1.0) > most;
+}
+
+/// (3): the share of a wave that is the tools' own or hangs in their hollows, 0 to 1.
 double share_of_tools(Grid& grid, const Line& line, double half_wave) {
   double share = 1.0;
   for (std::size_t k = 1; k <= 3 && share > 0.0; ++k) {
     const double d = bend(line, k);
+    if (is_hollow(*line[k], d)) continue;
     double most = 0.0;
     for (std::size_t tool = 0; tool < grid.tools().size(); ++tool)
       most = std::max(most, height_of_tool(grid, line, k, tool, half_wave) / d);

@@ -23,9 +23,11 @@
 //            the tool falls away, and T_k is infinite
 //   e    -   least over k of T_k/D_k, largest of all tools, from 0 to 1 (3)
 // the share e of the wave is the tools' own, and H is (1 - e) of what it would be: a wave is none
-// only if tools have all three of its bends. Lines run along warp, across it and at 45 degrees,
-// through all points of a grid of h/2; a wave at another angle appears at most 8 % longer, with the
-// same height.
+// only if tools have all three of its bends. A bend counts as theirs, too, where a ply is pressed,
+// nothing holds it up (core/run/bridging.hpp), and it bulges to where it is pressed: over a hollow,
+// where tension bears the load; a wrinkle's crest bulges against it. Lines run along warp, across
+// it and at 45 degrees, through all points of a grid of h/2; a wave at another angle appears at
+// most 8 % longer, with the same height.
 //
 // Points are taken on the smooth surface approximated by the facets, or each fillet would show
 // waves of their sag h^2/(8 r): half-way between the facet and the mean, weighted by w_i of the

@@ -4,6 +4,7 @@
 #include "base/node_normals.hpp"
 #include "core/model/motion.hpp"
 #include "core/results/wrinkles.hpp"
+#include "core/run/bridging.hpp"
 #include "core/run/present_thickness.hpp"
 
 #include <algorithm>
@@ -124,7 +125,7 @@ std::vector<double> add_yarns(const PlyBody& ply, PlyFrame& f) {
   return area_ratios;
 }
 
-PlyFrame make_ply_frame(const Scene& scene, int index) {
+PlyFrame make_ply_frame(const Scene& scene, const BridgingSearch& bridging, int index) {
   const PlyBody& ply = scene.plies[index];
   PlyFrame f;
   f.name = ply.name;
@@ -142,6 +143,7 @@ PlyFrame make_ply_frame(const Scene& scene, int index) {
   std::vector<const ToolBody*> tools;
   for (const ToolState& tool : scene.tools)
     tools.push_back(&tool.body);
+  bridging.fill(at(index), f); // before wrinkles, which are none there
   f.wrinkle_height = wrinkles_of(f, tools, least_wrinkle).at_nodes;
   return f;
 }
@@ -232,8 +234,9 @@ Frame make_frame(const Scene& scene, const std::vector<TriMesh>& surfaces, const
   f.stroke_mm = current_stroke(scene);
   f.energy = energy;
   f.plies.resize(scene.plies.size());
+  const BridgingSearch bridging(scene, surfaces);
   pool.run(static_cast<int>(f.plies.size()),
-           [&](int p) { f.plies[static_cast<std::size_t>(p)] = make_ply_frame(scene, p); });
+           [&](int p) { f.plies[at(p)] = make_ply_frame(scene, bridging, p); });
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     f.tools.push_back(make_tool_frame(scene.tools[t], surfaces[t]));
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {

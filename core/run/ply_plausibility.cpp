@@ -298,6 +298,10 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
   const std::vector<double> areas = areas_before(ply);
   if (nature.has_yarns) result.pressed = pressed_yarns(ply, nature.crossings, areas);
   result.wrinkle = wrinkles_of(ply, tools).highest;
+  if (!ply.bridging_height.empty()) {
+    result.bridging = bridging_of(ply);
+    if (!nature.has_yarns) result.bridging->family.clear();
+  }
   if (nature.locking_angle_deg) {
     std::vector<double> shear = ply.shear_deg;
     for (double& angle : shear)

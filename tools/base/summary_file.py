@@ -20,7 +20,8 @@ FIGURE = {"name": TEXT, "unit": TEXT, "value": NUMBER, "band": NUMBER}
 STITCH = {"name": TEXT, "largest_broken_patch_at_mm": POINT,
           **dict.fromkeys(("broken_length_share", "broken_area_mm2", "largest_broken_patch_mm2"),
                           NUMBER)}
-PLY = {"name": TEXT, "stitches": (STITCH,), "wrinkle_at_mm": POINT, "excess_length_at_mm": POINT, "no_draw_in": TEXT,
+PLY = {"name": TEXT, "stitches": (STITCH,), "wrinkle_at_mm": POINT,
+       "bridging_at_mm": POINT, "bridging_family": TEXT, "excess_length_at_mm": POINT, "no_draw_in": TEXT,
        "draw_in_mm": {"mean": NUMBER, "largest": NUMBER}, "draw_in_yarns_mm": WALKS,
        "draw_in_bisectors_mm": WALKS,
        "openings": ({"family": TEXT, "at_mm": POINT,
@@ -31,7 +32,9 @@ PLY = {"name": TEXT, "stitches": (STITCH,), "wrinkle_at_mm": POINT, "excess_leng
                         "max_pressed_strain", "area_share_pressed_over_2_percent",
                         "area_share_pressed_over_5_percent", "excess_length_mm",
                         "wrinkle_height_mm", "wrinkle_length_mm", "locking_angle_deg",
-                        "area_share_beyond_locking_angle"), NUMBER)}
+                        "area_share_beyond_locking_angle", "bridging_height_mm",
+                        "bridging_area_mm2", "bridging_max_tension_N_per_yarn",
+                        "bridging_mean_tension_N_per_yarn"), NUMBER)}
 # {...: kind}: any key; (kind,): a list of any length
 SUMMARY = {
     **dict.fromkeys(("title", "version", "status", "message"), TEXT),

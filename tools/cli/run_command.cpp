@@ -65,6 +65,8 @@ void print_plausibility(const std::string& name, const PlyReport& ply) {
         100.0 * pressed->largest, 100.0 * pressed->share_above_2, 100.0 * pressed->share_above_5,
         pressed->excess_mm);
   fmt::print("wrinkles {:.1f}", ply.wrinkle.height);
+  if (ply.bridging && ply.bridging->height > 0.0)
+    fmt::print(", bridging {:.1f} on {:.0f} mm2", ply.bridging->height, ply.bridging->area);
   if (ply.draw_in.unknown.empty()) fmt::print(", draw-in {:.1f}", ply.draw_in.mean());
   fmt::print(" mm");
   if (ply.beyond_locking_share)

@@ -22,6 +22,7 @@ Frame drawn(double time) {
   })};
   frame.plies[0].shear_deg.assign(frame.plies[0].triangles.size(), -3.0 * time);
   frame.plies[0].wrinkle_height.assign(frame.plies[0].x.size(), 0.5 * time);
+  frame.plies[0].bridging_height.assign(frame.plies[0].x.size(), 2.0 * time);
   frame.energy.mass_scaling = 7.0 * time;
   return frame;
 }
@@ -33,7 +34,7 @@ std::map<std::string, std::vector<double>> by_heading(const std::vector<Series>&
   return values;
 }
 
-TEST(History, HasTheDrawInShearAndWrinklesOfEachPly) {
+TEST(History, HasTheDrawInShearWrinklesAndBridgingOfEachPly) {
   std::vector<Series> history;
   for (const double time : {0.0, 1.0})
     append_state(history, drawn(time));
@@ -44,6 +45,8 @@ TEST(History, HasTheDrawInShearAndWrinklesOfEachPly) {
   EXPECT_NEAR(found["p_rms_shear_deg"].at(1), 3.0, rounding);
   EXPECT_NEAR(found["p_largest_shear_deg"].at(1), 3.0, rounding);
   EXPECT_EQ(found["p_largest_wrinkle_mm"], (std::vector<double>{0.0, 0.5}));
+  EXPECT_EQ(found["p_largest_bridging_mm"], (std::vector<double>{0.0, 2.0}));
+  EXPECT_NEAR(found["p_bridging_area_mm2"].at(1), 200.0 * 200.0, rounding); // of the flat ply
   EXPECT_EQ(found["mass_scaling_mJ"], (std::vector<double>{0.0, 7.0}));
 }
 

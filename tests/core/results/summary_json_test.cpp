@@ -131,6 +131,7 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   PlyReport report;
   report.pressed = PressedYarns{0.07, 0.3, 0.04, 2.5, {1, 2, 3}};
   report.wrinkle = {1.5, 40, {4, 5, 6}};
+  report.bridging = {5.5, {1, 0, 2}, 120, "warp", 0.5, 0.25};
   report.locking_angle_deg = 45;
   report.beyond_locking_share = 0.125;
   report.openings = {{"tow", 0.2, {7, 8, 9}, 0.1, 500, 0.25}};
@@ -142,7 +143,10 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
   "max_pressed_strain": 0.07, "area_share_pressed_over_2_percent": 0.3,
   "area_share_pressed_over_5_percent": 0.04, "excess_length_mm": 2.5,
   "excess_length_at_mm": [1, 2, 3], "wrinkle_height_mm": 1.5, "wrinkle_length_mm": 40,
-  "wrinkle_at_mm": [4, 5, 6], "locking_angle_deg": 45, "area_share_beyond_locking_angle": 0.125,
+  "wrinkle_at_mm": [4, 5, 6], "bridging_height_mm": 5.5, "bridging_area_mm2": 120,
+  "bridging_at_mm": [1, 0, 2], "bridging_family": "warp",
+  "bridging_max_tension_N_per_yarn": 0.5, "bridging_mean_tension_N_per_yarn": 0.25,
+  "locking_angle_deg": 45, "area_share_beyond_locking_angle": 0.125,
   "openings": [{"family": "tow", "largest": 0.2, "at_mm": [7, 8, 9], "limit": 0.1,
                 "area_mm2_beyond_limit": 500, "area_share_beyond_limit": 0.25}],
   "draw_in_mm": {"mean": 5, "largest": 12},
@@ -153,11 +157,13 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
 })"));
   report = {};
   report.draw_in.unknown = "why";
+  report.bridging = Bridging{}; // could be, is not
   summary.plies = {report};
   EXPECT_EQ(ply_read_back(unequal(10, -20), summary), Json::parse(R"({
   "name": "p", "angle_deg": 0, "max_shear_deg": 20, "p99_shear_deg": 10, "rms_shear_deg": 10.1488916,
   "max_fibre_strain": 0.003, "min_fibre_strain": -0.004, "max_tension_N_per_yarn": 7,
-  "wrinkle_height_mm": 0, "wrinkle_length_mm": 0, "wrinkle_at_mm": [0, 0, 0], "no_draw_in": "why"
+  "wrinkle_height_mm": 0, "wrinkle_length_mm": 0, "wrinkle_at_mm": [0, 0, 0],
+  "bridging_height_mm": 0, "bridging_area_mm2": 0, "no_draw_in": "why"
 })"));
 }
 

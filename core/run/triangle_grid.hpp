@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Which straight ways cross a sheet: its triangles by the cells of a grid.
+#pragma once
+
+#include "base/geometry.hpp"
+
+#include <span>
+#include <vector>
+
+namespace plyform {
+
+class TriangleGrid {
+public:
+  /// x: mm, all finite; cell: mm, about a side. Both arrays must outlive the grid.
+  TriangleGrid(std::span<const Vec3> x, std::span<const Triangle> triangles, double cell);
+
+  /// Whether the straight way from a to b (mm) crosses a triangle.
+  bool crosses(const Vec3& a, const Vec3& b) const;
+
+private:
+  struct Entry {
+    std::uint64_t cell;
+    std::int32_t triangle;
+  };
+  std::uint64_t number_of(const std::array<std::int64_t, 3>& cell) const;
+  std::array<std::int64_t, 3> cell_of(const Vec3& x) const;
+
+  std::span<const Vec3> x_;
+  std::span<const Triangle> triangles_;
+  double size_;
+  Vec3 low_, high_;
+  std::array<std::int64_t, 3> counts_{};
+  std::vector<Entry> entries_; ///< ascending by cell
+};
+
+} // namespace plyform
