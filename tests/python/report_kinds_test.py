@@ -137,6 +137,13 @@ def check_sheets(browser, folder):
     one = sheets(folder / "tape", "A tape", tape, 1)
     words, fields = shown(browser, one)
     assert "tow-opening" in fields and "No family passes its limit" in words
+    assert "bridging" not in fields and "BRIDGING" not in words.upper()
+    bridges = {"bridging_height_mm": 5.86, "bridging_area_mm2": 126.0, "bridging_at_mm": [0, 0, -20],
+               "bridging_family": "tow", "bridging_max_tension_N_per_yarn": 0.5,
+               "bridging_mean_tension_N_per_yarn": 0.25}
+    words, _ = shown(browser, changed(one, folder / "bridges", of_plies=bridges))
+    words = words.replace("\u00a0", " ")
+    assert "over 126 mm² of that ply" in words and "0.50 N per yarn at most, 0.25" in words, words
     gapes = {"family": "tow", "largest": 0.25, "at_mm": [1, 2, 3], "limit": 0.1,
              "area_share_beyond_limit": 0.02, "area_mm2_beyond_limit": 120.0}
     words, _ = shown(browser, changed(one, folder / "gapes", of_plies={"openings": [gapes]}))

@@ -79,8 +79,8 @@ def sentence(text: str) -> str:
 
 
 def answers_of(run: Run, index: int) -> list[Answer]:
-    found = [shear(run, index), wrinkles(run, index), force(run), pressed(run, index),
-             opening(run, index), stitches(run, index), drawn_in(run)]
+    found = [shear(run, index), wrinkles(run, index), bridging(run, index), force(run),
+             pressed(run, index), opening(run, index), stitches(run, index), drawn_in(run)]
     return [answer for answer in [*found, accuracy(run)] if answer]
 
 
@@ -144,6 +144,28 @@ def wrinkles(run: Run, index: int) -> Answer | None:
                   Place(index, k, nearest(run.plies[k], place), "wrinkle"),
                   bool(high), Markup("{} wrinkle{}, {} mm high at most").format(
                       ", ".join(high), "" if len(high) > 1 else "s", number(height, 1)))
+
+
+def bridging(run: Run, index: int) -> Answer | None:
+    """Where plies span hollows of tools, of runs in which something presses them there."""
+    most = highest(run, "bridging_height_mm")
+    if not most or not most[1]["bridging_height_mm"] > 0.0:
+        return None
+    k, summary = most
+    place = summary.get("bridging_at_mm", [None])
+    text = Markup("Highest over the tool in <b>{}</b>{}, over {}&nbsp;mm² of that ply in all.").format(
+        run.plies[k].name, "" if None in place else Markup(" at {}").format(at_place(place)),
+        number(summary.get("bridging_area_mm2"), 0))
+    if summary.get("bridging_max_tension_N_per_yarn") is not None:
+        text += Markup(" Tension of {} there: {}&nbsp;N per yarn at most, {} in the mean.").format(
+            summary.get("bridging_family"), number(summary["bridging_max_tension_N_per_yarn"], 2),
+            number(summary.get("bridging_mean_tension_N_per_yarn"), 2))
+    others = [Markup("{} {}&nbsp;mm").format(one.name, number(height, 1)) for i, one in enumerate(run.plies)
+              if i != k and (height := run.summary_of(one.name).get("bridging_height_mm") or 0.0) > 0.0]
+    if others:
+        text += Markup(" Others: {}.").format(Markup(", ").join(others))
+    return Answer("Bridging", Markup("{}&nbsp;mm").format(number(summary["bridging_height_mm"], 1)),
+                  text, None if None in place else Place(index, k, nearest(run.plies[k], place), "bridging"))
 
 
 def force(run: Run) -> Answer | None:
