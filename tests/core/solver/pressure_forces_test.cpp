@@ -6,7 +6,10 @@
 #include "support/scene_checks.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <functional>
 #include <gtest/gtest.h>
+#include <map>
+#include <numbers>
 
 namespace plyform::pressure_forces_test {
 namespace {
@@ -82,6 +85,72 @@ TEST(PressureForces, AreTheSlopeOfPressureTimesVolumeInside) {
     }
   }
   EXPECT_GT(inside, 3);
+}
+
+/// Integral of x cross dx / 2 along all sides that one triangle only has: outline and holes.
+Vec3 area_in_rim(const PlyBody& ply) {
+  std::map<std::pair<int, int>, int> sides;
+  for (const Triangle& t : ply.membrane.triangles)
+    for (std::size_t i = 0; i < 3; ++i)
+      ++sides[{t[i], t[(i + 1) % 3]}];
+  Vec3 sum = Vec3::Zero();
+  for (const auto& [side, count] : sides)
+    if (!sides.contains({side.second, side.first}))
+      sum += 0.5 * ply.x[at(side.first)].cross(ply.x[at(side.second)]);
+  return sum;
+}
+
+/// Cut out, with a round and a square hole.
+BlankSpec perforated() {
+  BlankSpec blank = rectangle(80.0, 60.0, 5.0, MeshKind::free);
+  blank.outline.boundary = {{-40, -30}, {40, -30}, {40, 5}, {10, 5}, {10, 30}, {-40, 30}};
+  blank.outline.holes.resize(2);
+  for (int i = 0; i < 16; ++i) {
+    const double turn = std::numbers::pi / 8.0 * i;
+    blank.outline.holes[0].emplace_back(8.0 * std::cos(turn) - 20.0, 8.0 * std::sin(turn));
+  }
+  blank.outline.holes[1] = {{20, -20}, {30, -20}, {30, -10}, {20, -10}};
+  return blank;
+}
+
+TEST(PressureForces, SumToTheAreaInTheRimOfAnySheet) {
+  const std::map<std::string, std::function<Vec3(const Vec3&)>> shapes{
+      {"flat", [](const Vec3& x) { return x; }},
+      {"bent", [](const Vec3& x) { return Vec3(x.x(), x.y(), 0.02 * x.x() * x.y()); }},
+      {"rolled up",
+       [](const Vec3& x) {
+         const double r = 6.0 + 0.05 * x.x(), a = x.x() / 6.0;
+         return Vec3(r * std::sin(a), x.y(), r * std::cos(a));
+       }},
+      {"folded over",
+       [](const Vec3& x) {
+         return Vec3(std::abs(x.x() + 0.3 * x.y()), x.y(), x.x() < 0.0 ? 0.0 : 1.0);
+       }},
+      {"crumpled",
+       [](const Vec3& x) {
+         return Vec3(
+             x + 4.0 * Vec3(std::sin(x.y()), std::sin(2.0 * x.x()), std::sin(x.x() + 3.0 * x.y())));
+       }},
+      {"far from the origin and upside down", [](const Vec3& x) {
+         const Eigen::AngleAxisd turn(std::numbers::pi, Vec3(1, 0.2, 0).normalized());
+         return Vec3(turn * Vec3(x.x(), x.y(), std::sin(0.1 * x.x())) + Vec3(50, -70, 30));
+       }}};
+  for (const auto& [name, shape] : shapes) {
+    Case data = pressed(MeshKind::free);
+    data.blanks = {perforated()};
+    Scene s = make_scene(data);
+    s.time = 1.0;
+    PlyBody& ply = s.plies[1];
+    for (std::size_t n = 0; n < ply.x.size(); ++n)
+      ply.x[n] = shape(ply.x0[n] - Vec3::UnitZ() * ply.x0[n].z());
+    Vec3 sum = Vec3::Zero();
+    double all = 0.0;
+    for (const Vec3& f : load_on(s, 1))
+      sum += f, all += f.norm();
+    const Vec3 exact = 0.02 * area_in_rim(ply);
+    EXPECT_LT((sum - exact).norm(), 1e-12 * all) << name;
+    EXPECT_GT(exact.norm(), 1e-3 * all) << name; // not a sum of nothing
+  }
 }
 
 TEST(PressureForces, FollowTheirProgrammeAndAddUpOverBothFaces) {
