@@ -238,6 +238,7 @@ py::list loads_of(const ScenePreview& scene) {
   py::list loads;
   for (const PressureLoad& load : scene.loads) {
     py::dict one;
+    one["entry"] = load.entry;
     one["ply"] = load.ply;
     one["side"] = load.side == PlyFace::above ? "above" : "below";
     one["pressure_N_mm2"] = load.pressure;

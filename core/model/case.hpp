@@ -140,6 +140,7 @@ struct PressureLoad {
   PlyFace side = PlyFace::above;
   double pressure = 0.0;        ///< N/mm^2; the largest of a programme
   std::vector<Stage> programme; ///< of it, in order of time; empty: it rises over the duration
+  std::size_t entry = 0; ///< number of the [[load]] that it is of; one between two plies is of both
 
   std::vector<Stage> stages() const {
     return programme.empty() ? std::vector<Stage>{{1.0, pressure}} : programme;

@@ -238,10 +238,10 @@ void set_whole(Preview& p) {
   if (std::isfinite(duration) && duration > 0.0) seen.duration = duration;
   if (p.data.gravity.allFinite() && sketch.mistaken_keys("gravity").empty())
     seen.gravity = p.data.gravity;
-  for (std::size_t i = 0; i < p.data.loads.size(); ++i)
-    if (p.mistaken("load", i).empty() && p.data.loads[i].ply >= 0 &&
-        static_cast<std::size_t>(p.data.loads[i].ply) < seen.plies.size())
-      seen.loads.push_back(p.data.loads[i]);
+  for (const PressureLoad& load : p.data.loads)
+    if (p.mistaken("load", load.entry).empty() && load.ply >= 0 &&
+        static_cast<std::size_t>(load.ply) < seen.plies.size())
+      seen.loads.push_back(load);
 }
 
 void set_spacings(Preview& p) {

@@ -95,7 +95,7 @@ def check_boundaries():
     bars = np.linalg.norm(np.roll(frame.hinges_mm, -1, axis=1) - frame.hinges_mm, axis=2)
     assert frame.kind == "frame" and np.allclose(bars, bars[0]), bars  # they are rigid
     film = plyform.Case(CASES / "inflated_membrane").scene()
-    assert film.loads == [{"ply": 0, "side": "below", "pressure_N_mm2": 0.0121}], film.loads
+    assert film.loads == [{"entry": 0, "ply": 0, "side": "below", "pressure_N_mm2": 0.0121}], film.loads
     planes = [b for b in film.boundaries if b.kind == "symmetry"]
     assert [p.fields["normal"].tolist() for p in planes] == [[1.0, 0.0], [0.0, 1.0]]
 

@@ -124,13 +124,13 @@ Rows solver_rows() {
            .fallback = toml(solver.duration),
            .ranges = {{.least = 1e-9, .most = 1e4}},
            .usual = {{.least = 1e-3, .most = 100.0}},
-           .meaning = "simulated time of the stroke",
+           .meaning = "simulated time of the stroke, or of the programmes of pressures",
            .members = {to(&SolverOptions::duration)}},
           {.key = "solver.dwell",
            .fallback = toml(solver.dwell),
            .ranges = {{.least = 0.0, .most = 10.0}},
-           .meaning = "time after the stroke, at most, until forces have settled, as a share of "
-                      "the duration",
+           .meaning = "time after the stroke, at most, until forces have settled and plies that "
+                      "pressures form rest, as a share of the duration",
            .members = {to(&SolverOptions::dwell)}},
           {.key = "solver.element",
            .kind = K::choice,

@@ -44,7 +44,7 @@ def scene_bytes(scene, version: str, stand_ins: dict[int, StandIn] | None = None
         "boundaries": [boundary_part(one, number, shares, arrays) for number, one in enumerate(scene.boundaries)],
         "gaps": [{"a": names[one["lower"]], "b": names[one["upper"]], "mm": one["gap_mm"]}
                  for one in scene.spacings],
-        "loads": [{**one, "key": f"load.{number}"} for number, one in enumerate(scene.loads)],
+        "loads": [{**one, "key": f"load.{one['entry']}"} for one in scene.loads],
         "missing": [f"{kind} {part.name or number + 1}: {part.trouble}"
                     for kind, parts in (("ply", scene.plies), ("tool", scene.tools), ("boundary", scene.boundaries))
                     for number, part in enumerate(parts) if part.trouble],

@@ -22,6 +22,25 @@ TEST(Loads, AreReadWithTheirProgrammes) {
   EXPECT_EQ(programme_value(read.loads[1].stages(), 1.0, 1.0), 0.005);
 }
 
+TEST(Loads, OfAnEnclosedStackPressItsOuterPliesTowardsEachOther) {
+  const Case read = good_case(data_folder / "good" / "enclosure.toml");
+  ASSERT_EQ(read.loads.size(), 3u);
+  const PressureLoad &lower = read.loads[0], &top = read.loads[1], &forming = read.loads[2];
+  EXPECT_EQ(lower.ply, 0);
+  EXPECT_EQ(lower.side, PlyFace::below);
+  EXPECT_EQ(top.ply, 2);
+  EXPECT_EQ(top.side, PlyFace::above);
+  for (const PressureLoad* one : {&lower, &top}) {
+    EXPECT_EQ(one->pressure, 0.09);
+    EXPECT_EQ(one->stages(), (std::vector<Stage>{{0.3, 0.09}}));
+    EXPECT_EQ(one->entry, 0u);
+  }
+  EXPECT_EQ(forming.ply, 0); // drawn down: what is above it pushes
+  EXPECT_EQ(forming.side, PlyFace::above);
+  EXPECT_EQ(forming.pressure, 0.08);
+  EXPECT_EQ(forming.entry, 1u);
+}
+
 TEST(Loads, KeepTheirPliesWhenOthersAreTakenOut) {
   Case data = good_case(data_folder / "good" / "loads.toml");
   data.plies.insert(data.plies.begin(), data.plies[0]);

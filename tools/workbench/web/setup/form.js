@@ -160,13 +160,20 @@ export class Form {
     const parts = [];
     for (const row of rows) {
       if (done.has(row.key)) continue;
-      const others = this.alternatives(row, rows);
+      const others = this.alternatives(row, rows).filter((one) => !done.has(one.key));
+      if (others.length === 1 && this.replaced(at, row)) continue;
       others.forEach((one) => done.add(one.key));
       if (others.length > 1 && others.every((one) => !["table",
         "tables"].includes(one.kind))) parts.push(this.eitherOr(at, others));
       else parts.push(this.line(at, row));
     }
     return parts;
+  }
+
+  /** Whether another key stands in the place of one that is not given. */
+  replaced(at, row) {
+    return at.table[lastPart(row.key)] === undefined &&
+      (row.instead || []).some((other) => at.table[lastPart(other)] !== undefined);
   }
 
   alternatives(row, rows) {

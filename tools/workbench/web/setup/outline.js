@@ -6,7 +6,7 @@ import { fallbackOf, lastPart, sectionsOf } from "workbench/setup/keys_table.js"
 
 const NEW = { ply: "ply", tool: "tool", boundary: "boundary", load: "load", fabrics: "fabric", blanks: "blank" };
 
-const INSTEAD_FIRST = { "tool[].motion": "fixed" };
+const INSTEAD_FIRST = { "tool[].motion": "fixed", "load[].ply": "", "load[].side": "" };
 
 /** A value that can stand for a key that is needed: the first choice, a middling number. */
 function startValue(row) {
@@ -30,7 +30,7 @@ export function newItem(keys, group, tree) {
   for (const row of keys.below(pattern)) {
     const name = lastPart(row.key);
     const needed = row.required && fallbackOf(row) === "" && keys.holds(row, value);
-    if (!needed && !INSTEAD_FIRST[row.key]) continue;
+    if (!needed && !(row.key in INSTEAD_FIRST)) continue;
     const start = name === "name" ? freeName(tree[group], group) : refs[name] !== undefined ? refs[name]
       : startValue(row);
     if (start !== undefined) value[name] = start;

@@ -13,6 +13,7 @@ export function namesFor(work, pattern, at) {
     "ply[].blank": () => Object.keys(tree.blanks || {}),
     "boundary[].ply": () => names(tree.ply),
     "load[].ply": () => names(tree.ply),
+    "load[].between": () => names(tree.ply),
     "boundary[].carried_by": () => names((tree.tool || []).filter((tool) => tool.motion === "driven")),
     "contact.pair[].between": () => ["plies", "tools", ...names(tree.ply), ...names(tree.tool)],
     "fabrics.NAME.crossing[].families": () => names(familiesTable(at)),
