@@ -71,7 +71,9 @@ PredictedError predicted_error(const Case& data, double mass_factor) {
 
 std::string PredictedError::unknown(const Case& data) const {
   if (!std::isnan(total())) return {};
-  if (longest_strokes(data).longest() == 0.0) return "nothing has a stroke";
+  if (longest_strokes(data).longest() == 0.0)
+    return data.loads.empty() ? "nothing has a stroke"
+                              : "not measured: pressures form the plies, and nothing has a stroke";
   const std::string odd = not_measured(data);
   return odd.empty() ? "the size of the elements of a mesh file is not known" : odd;
 }

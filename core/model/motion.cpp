@@ -93,6 +93,11 @@ double motion_at(const Boundary& boundary, double t, double duration) {
   return programme_value(stages_of(boundary), t, duration);
 }
 
+double pressure_at(const PressureLoad& load, double t, double duration) {
+  const double p = programme_value(load.stages(), t, duration);
+  return load.side == PlyFace::below ? p : -p;
+}
+
 double force_share(double t, double duration) {
   return smooth_step(1.0, t, force_rise * duration);
 }

@@ -40,6 +40,9 @@ double motion_at(const Tool& tool, double t, double duration);
 /// a gripper without a drive; 0 of springs and planes of symmetry.
 double motion_at(const Boundary& boundary, double t, double duration);
 
+/// N/mm^2 of a load at time t (s) of `duration` (s), positive upwards: from below.
+double pressure_at(const PressureLoad& load, double t, double duration);
+
 /// Share of a force that has come up at time t (s) where it has no programme: of the preload of a
 /// spring.
 double force_share(double t, double duration);

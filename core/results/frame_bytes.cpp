@@ -27,7 +27,7 @@ void visit(Archive& a, CrossingFrame& crossing) {
 template <class Archive>
 void visit(Archive& a, PlyFrame& ply) {
   visit(a, ply.name, ply.angle_deg, ply.x0, ply.x, ply.triangles, ply.families, ply.stitches,
-        ply.crossings);
+        ply.crossings, ply.load_pressure);
   each_column(ply, [&](const Column&, auto& values) { visit(a, values); });
 }
 

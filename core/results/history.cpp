@@ -7,6 +7,7 @@
 #include "core/results/statistics.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -32,6 +33,13 @@ void each_number(const Frame& frame, Visit&& visit) {
     visit(StateNumber{force, Location::boundary, one.name}, one.force_N);
     visit(StateNumber{moved, Location::boundary, one.name}, one.stroke_mm);
   }
+  for (const PlyFrame& one : frame.plies) // which drive a case without a stroke
+    if (!std::isnan(one.load_pressure))
+      visit(StateNumber{{"load_pressure_N_mm2", "load-pressure", "pressure of loads on plies",
+                         "N/mm²", 4, 1e-6, Scale::both_ways, "from below less from above"},
+                        Location::ply,
+                        one.name},
+            one.load_pressure);
   const bool stitched = std::any_of(frame.plies.begin(), frame.plies.end(),
                                     [](const PlyFrame& one) { return !one.stitches.empty(); });
   const bool gives_way = std::any_of(frame.plies.begin(), frame.plies.end(),

@@ -15,7 +15,7 @@ struct StateNumber : Description {
   Location location = Location::run;
   std::string body = {}; ///< the ply, tool or boundary that it is of; empty of the run
   bool energy = false;   ///< one of energy_terms
-  bool in_table = true;  ///< of history.csv, which has none of plies
+  bool in_table = true;  ///< of history.csv, which of plies has loads only
 };
 
 /// One number over the states of a run.

@@ -5,6 +5,7 @@
 #include "base/geometry.hpp"
 #include "core/results/description.hpp"
 
+#include <limits>
 #include <string>
 #include <utility>
 #include <vector>
@@ -53,6 +54,8 @@ struct PlyFrame {
   /// n, unit vectors to where nodes are pressed that nothing holds up there, else 0, or empty:
   /// core/run/bridging.hpp. No column.
   std::vector<Vec3> pushed;
+  /// N/mm^2, of all loads on it, from below less from above; NaN if it has none
+  double load_pressure = std::numeric_limits<double>::quiet_NaN();
 };
 
 /// A column of the results beside its values.

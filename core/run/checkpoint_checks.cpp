@@ -360,7 +360,8 @@ void check(const Scene& s, const RunState& run, const std::vector<ArraySizes>& m
     return values.empty() || values.size() == s.tools.size();
   };
   expect(each_tool(dwell.low) && dwell.low.size() == dwell.high.size() && all_sound(dwell.low) &&
-             all_sound(dwell.high) && sound(dwell.window_end),
+             all_sound(dwell.high) && sound(dwell.window_end) && sound(dwell.next_look) &&
+             sound(dwell.low_work) && sound(dwell.high_work),
          "the dwell");
   expect(sound(run.energy) && run.outputs_written >= -1 &&
              run.outputs_written < s.data.solver.outputs && run.elapsed >= 0.0 &&

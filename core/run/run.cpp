@@ -38,13 +38,16 @@ double seconds_since(Clock::time_point t) {
 
 /// Energy (N mm) below which the balance is not checked, since its error is then a ratio of
 /// rounding errors: a hundredth of the stack's kinetic energy at the peak speed of the fastest
-/// driven tool or grip, plus the work of the force of each pushed tool, gripper and spring and of
-/// the weight over a tenth of a millimetre.
+/// driven tool or grip, plus the work of the force of each pushed tool, gripper and spring, of the
+/// weight and of pressures over a tenth of a millimetre.
 double balance_floor(const Scene& s) {
   double mass = 0.0, force_controlled = 0.0;
   for (const PlyBody& ply : s.plies)
     for (double m : ply.membrane.node_mass)
       mass += m;
+  for (const PressureLoad& load : s.data.loads)
+    for (const double area : s.plies[static_cast<std::size_t>(load.ply)].membrane.node_area)
+      force_controlled += 0.1 * load.pressure * area;
   for (const ToolState& t : s.tools)
     force_controlled += 0.1 * std::abs(t.force_on);
   for (const Boundary& b : s.data.boundaries)
@@ -67,10 +70,10 @@ std::optional<Stop> check_balance(const Scene& s, const Energies& e, double floo
 }
 
 /// Number of the latest output state that is due: outputs are spaced evenly over the stroke, or
-/// over the time if nothing is driven or anything has a programme.
+/// over the time if nothing is driven, a pressure acts or anything has a programme.
 int outputs_due(const Scene& s) {
   const double stroke = whole_stroke(s.data);
-  const bool by_time = stroke == 0.0 ||
+  const bool by_time = stroke == 0.0 || !s.data.loads.empty() ||
                        std::any_of(s.data.tools.begin(), s.data.tools.end(),
                                    [](const Tool& tool) { return !tool.programme.empty(); }) ||
                        std::any_of(s.data.boundaries.begin(), s.data.boundaries.end(),
@@ -120,9 +123,12 @@ void doubt_if(const std::vector<std::string>& reasons, Summary& sum) {
 /// What WorkReport::missing says of the forces; empty if nothing.
 std::string unsettled_forces(const Scene& s, const Dwell& dwell) {
   if (s.data.solver.dwell == 0.0 || dwell.settled || s.time < s.data.solver.duration) return {};
-  return fmt::format("forces had not settled when the dwell ended, {:.2g} s after the stroke: a "
-                     "larger solver.dwell, or a longer solver.duration, gives them more time",
-                     s.time - s.data.solver.duration);
+  const bool pressed = !s.data.loads.empty();
+  return fmt::format("{} when the dwell ended, {:.2g} s after the {}: a larger solver.dwell, or a "
+                     "longer solver.duration, gives them more time",
+                     pressed ? "plies had not come to rest, or forces not settled,"
+                             : "forces had not settled",
+                     s.time - s.data.solver.duration, pressed ? "duration" : "stroke");
 }
 
 /// What is predicted, unless the premise of the rule does not hold.

@@ -126,7 +126,8 @@ PickedCase pick_case(const std::filesystem::path& file, const std::vector<Overri
   const auto [fixed, keys] = parameters_set(picked.reading.overridden);
   picked.fixed = fixed;
   if (picked.reading.value->accuracy.shear_error > 0.0) {
-    if (longest_strokes(*picked.reading.value).longest() == 0.0)
+    if (longest_strokes(*picked.reading.value).longest() == 0.0 &&
+        picked.reading.value->loads.empty())
       picked.notes.emplace_back("accuracy asked for: it does nothing, since nothing is driven by a "
                                 "stroke, by which duration, softening and mesh would be picked");
     else if (const std::string odd = not_measured(*picked.reading.value); !odd.empty())

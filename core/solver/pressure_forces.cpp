@@ -38,9 +38,7 @@ bool any_on(const Scene& s, std::size_t ply) {
 double pressure_now(const Scene& s, std::size_t ply) {
   double sum = 0.0;
   for (const PressureLoad& load : s.data.loads) {
-    if (!is_on(load, ply)) continue;
-    const double p = programme_value(load.stages(), s.time, s.data.solver.duration);
-    sum += load.side == PlyFace::below ? p : -p;
+    if (is_on(load, ply)) sum += pressure_at(load, s.time, s.data.solver.duration);
   }
   return sum;
 }

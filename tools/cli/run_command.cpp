@@ -107,10 +107,16 @@ void print_force(const Body& body, const KnownForce& known) {
                body.name, known.stroke_mm, body.stroke_mm);
 }
 
+/// How far a run is: its stroke, or the time where nothing has one.
+std::string reached_text(double time_s, double stroke_mm) {
+  return stroke_mm != 0.0 ? fmt::format("{:.2f} mm of stroke", stroke_mm)
+                          : fmt::format("{:.4g} s", time_s);
+}
+
 void print_outcome(const RunResult& r, const std::filesystem::path& folder) {
   const Energies& e = r.last.energy;
-  fmt::print("{} at {:.2f} mm of stroke after {} steps in {:.1f} s\n", r.summary.status,
-             r.last.stroke_mm, r.summary.steps, r.summary.wall_time_s);
+  fmt::print("{} at {} after {} steps in {:.1f} s\n", r.summary.status,
+             reached_text(r.last.time, r.last.stroke_mm), r.summary.steps, r.summary.wall_time_s);
   for (const PlyFrame& ply : r.last.plies) {
     double shear = 0.0, tension = 0.0;
     for (const double angle : ply.shear_deg)
@@ -183,8 +189,8 @@ std::optional<Resume> find_checkpoint(ResultWriter& writer, const std::filesyste
                                       const std::string& identity) {
   std::optional<Resume> found = writer.go_on(identity);
   if (found)
-    fmt::print(stderr, "goes on after {:.2f} mm of stroke, from the checkpoint in {}\n",
-               found->last.stroke_mm, folder.string());
+    fmt::print(stderr, "goes on after {}, from the checkpoint in {}\n",
+               reached_text(found->last.time, found->last.stroke_mm), folder.string());
   return found;
 }
 

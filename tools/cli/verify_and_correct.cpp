@@ -26,11 +26,12 @@ void print_figure(const VerifiedFigure& f) {
 }
 
 void print_parting(const Parting& p) {
-  fmt::print(
-      "    twins, which differ by nothing to speak of, go different ways from {:.3g} s on, at "
-      "{:.4g} mm of stroke: first ply {} at ({:.4g}, {:.4g}, {:.4g}) mm, {:.2g} mm apart; "
-      "its shear ends {:.2g} deg apart, rms\n",
-      p.time_s, p.stroke_mm, p.ply, p.at_mm.x(), p.at_mm.y(), p.at_mm.z(), p.apart_mm, p.shear_deg);
+  fmt::print("    twins, which differ by nothing to speak of, go different ways from {:.3g} s "
+             "on{}: first ply {} at ({:.4g}, {:.4g}, {:.4g}) mm, {:.2g} mm apart; "
+             "its shear ends {:.2g} deg apart, rms\n",
+             p.time_s,
+             p.stroke_mm != 0.0 ? fmt::format(", at {:.4g} mm of stroke", p.stroke_mm) : "", p.ply,
+             p.at_mm.x(), p.at_mm.y(), p.at_mm.z(), p.apart_mm, p.shear_deg);
 }
 
 /// The cost parameters of the second run, over those of the first.
