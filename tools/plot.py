@@ -46,13 +46,14 @@ def add_plies(commands) -> argparse.ArgumentParser:
 
 
 def add_histories(commands) -> list[argparse.ArgumentParser]:
-    history = commands.add_parser("history", help="forces and energies over the stroke")
+    history = commands.add_parser("history", help="forces and energies over the stroke or the time")
     history.set_defaults(draw=draw_history.draw_history)
     energy = commands.add_parser("energy", help="energies, and the ratios by which to judge a run")
     energy.set_defaults(draw=draw_history.draw_energy)
     for command in (history, energy):
         command.add_argument("--overlay", action="store_true", help="all folders in one column")
-        command.add_argument("--against", choices=("stroke", "time"), default="stroke")
+        command.add_argument("--against", choices=("stroke", "time"),
+                             help="default the stroke, or the time where nothing has one")
     load = commands.add_parser("load", help="force over displacement")
     load.add_argument("--of", metavar="NAME", help="tool or boundary, default the first driven")
     load.add_argument("--curve", type=Path, action="append", default=[], metavar="CSV",

@@ -154,6 +154,22 @@ def check_sheets(browser, folder):
     assert "predicted: not measured: cloth is a sheet without yarns." in words
 
 
+def check_pressed(browser, folder):
+    """A film that pressure forms: nothing has a stroke, and curves go by the time."""
+    film = run(folder / "film", CASES / "inflated_membrane", "blanks.quarter.element_size=20", "solver.outputs=4")
+    words, _ = shown(browser, film)
+    words = words.replace("\u00a0", " ")
+    assert "Over the time".upper() in words.upper() and "of stroke" not in words, words
+    assert "Forms in" in words and "not measured: pressures form the plies, and nothing has a stroke" in words, words
+    assert "Pressure of loads on plies" in words, words
+    axis = browser.js("return [...document.querySelectorAll('#chart-load-pressure text')].map((t) => t.textContent)")
+    assert "time, ms" in axis and len(axis) > 6, axis
+    browser.choose("stroke", 2)
+    assert " ms" in browser.find("#state").text and browser.find("#state-number").text == "state 3 of 5"
+    one = browser.js("return plyform_report.runs[0].reached")
+    assert one[0] == 0 and all(a < b for a, b in zip(one, one[1:])) and 20.0 < one[-1] < 30.0, one
+
+
 def check_messages(folder):
     empty = folder / "empty"
     empty.mkdir()
@@ -188,6 +204,7 @@ def main():
         check_endings(browser, folder)
         check_print(browser, folder)
         check_sheets(browser, folder)
+        check_pressed(browser, folder)
 
 
 main()

@@ -68,6 +68,9 @@ def draw_rows(options: argparse.Namespace, rows: list[Row]) -> Figure:
     for folder, history in zip(options.folders, histories):
         if not energies(history):
             raise Trouble(f"{folder / 'history.csv'} has no column of an energy, NAME_mJ")
+    if options.against is None:
+        moves = all(np.any(history["stroke_mm"] != 0.0) for history in histories)
+        options.against = "stroke" if moves else "time"
     labels = folder_labels(options.folders)
     columns = 1 if options.overlay else len(histories)
     figure, axes = pyplot.subplots(len(rows), columns, sharex=True, sharey="row", squeeze=False,

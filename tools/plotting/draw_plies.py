@@ -133,7 +133,8 @@ def draw_stack(axes, state: State, scale: Scale, options: argparse.Namespace) ->
     axes.set_axis_off()
     gap = options.gap
     apart = f",\nplies drawn {gap:g} mm further apart" if gap and len(state.plies) > 1 else ""
-    axes.set_title(f"{state.stroke_mm:.1f} mm of stroke{apart}{turn_note(state)}",
+    reached = f"{state.stroke_mm:.1f} mm of stroke" if state.stroke_mm else f"{1e3 * state.time_s:.1f} ms"
+    axes.set_title(f"{reached}{apart}{turn_note(state)}",
                    fontsize="large" if scale.field.quantity == "shear" else "medium")
 
 

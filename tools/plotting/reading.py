@@ -40,6 +40,7 @@ class Tool:
 class State:
     folder: Path
     stroke_mm: float
+    time_s: float
     plies: list[Ply]
     tools: list[Tool]      # empty unless asked for
     field: Column
@@ -110,7 +111,8 @@ def state_of(results: Results, field: str, frame: int, tools: bool) -> State:
         x0, triangles = results.body("tools", name)
         tool = results.in_state(number, "tools", name)
         bodies.append(Tool(name, x0 + results.attribute(tool, "displacement_mm", (3,)), triangles))
-    return State(results.folder, results.number(now, "stroke_mm"), plies, bodies, column)
+    return State(results.folder, results.number(now, "stroke_mm"), float(results.time_s[number]),
+                 plies, bodies, column)
 
 
 def ended(summary: dict) -> bool:

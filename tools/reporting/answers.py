@@ -53,25 +53,34 @@ def at_place(x) -> Markup:
     return Markup("x&nbsp;{}, y&nbsp;{}, z&nbsp;{}&nbsp;mm").format(*(number(c, 0) for c in x))
 
 
+def reached(run: Run, state: int, digits: int) -> Markup:
+    """How far a state is: its stroke, or the time where nothing has one."""
+    if run.has_stroke():
+        return Markup("{}&nbsp;mm of stroke").format(number(float(run.stroke_mm[state]), digits))
+    return Markup("{}&nbsp;ms").format(number(1e3 * float(run.time_s[state]), digits))
+
+
 def verdict(run: Run, found: list[Answer]) -> tuple[str, Markup]:
     """A word for the status and a sentence."""
-    stroke = number(float(run.stroke_mm[-1]), 2)
+    there = reached(run, -1, 2)
     if run.summary is None:
         return "unfinished", Markup("Not finished: the run goes on, or was killed. What is shown is "
-                                    "its last state, at {} mm of stroke.").format(stroke)
+                                    "its last state, at {}.").format(there)
     status = run.summary["status"]
     if status == "stopped":
-        return status, Markup("Does not form: plyform stopped the run at {} mm of stroke. {}"
-                              ).format(stroke, sentence(run.summary["message"]))
+        return status, Markup("Does not form: plyform stopped the run at {}. {}"
+                              ).format(there, sentence(run.summary["message"]))
     if status == "interrupted":
-        return status, Markup("Not finished: the run was interrupted at {} mm of stroke."
-                              ).format(stroke)
-    what = "Forms" if run.tools else "Ran to its end (no tools: a test of the fabric)"
+        return status, Markup("Not finished: the run was interrupted at {}."
+                              ).format(there)
+    pressed = any("load_pressure_N_mm2" in ply.history for ply in run.plies)
+    what = "Forms" if run.tools or pressed else "Ran to its end (no tools: a test of the fabric)"
+    there = Markup("to {}" if run.has_stroke() else "in {}").format(there)
     warnings = [answer.words for answer in found if answer.warns]
     if warnings:
-        return status, Markup("{} to {} mm of stroke, but {}.").format(
-            what, stroke, Markup("; ").join(warnings))
-    return status, Markup("{} to {} mm of stroke: nothing found against it.").format(what, stroke)
+        return status, Markup("{} {}, but {}.").format(
+            what, there, Markup("; ").join(warnings))
+    return status, Markup("{} {}: nothing found against it.").format(what, there)
 
 
 def sentence(text: str) -> str:
@@ -178,9 +187,9 @@ def force(run: Run) -> Answer | None:
     if np.isnan(force_N[-1]):
         return force_not_known(run, name, force_N)
     k = int(abs(force_N).argmax())
-    text = Markup("On <b>{}</b> at the end; the largest of all states is {}&nbsp;N at {}&nbsp;mm "
-                  "of stroke.").format(name, number(float(force_N[k]), digits_of(force_N[k])),
-                                       number(float(run.stroke_mm[k]), 1))
+    text = Markup("On <b>{}</b> at the end; the largest of all states is {}&nbsp;N at {}."
+                  ).format(name, number(float(force_N[k]), digits_of(force_N[k])),
+                           reached(run, k, 1))
     others = [Markup("{} {}&nbsp;N").format(n, number(float(f[-1]), digits_of(f[-1])))
               for n, f, _ in bodies if n != name and not np.isnan(f[-1])]
     if others:
@@ -194,9 +203,9 @@ def force_not_known(run: Run, name: str, force_N: np.ndarray) -> Answer:
     k = int(np.flatnonzero(~np.isnan(force_N))[-1])
     text = Markup("<b>{}</b> presses the plies against another tool, with less room than they are "
                   "thick: from there on its force would be that of contact, not of the cloth. The "
-                  "last that is known is {}&nbsp;N at {}&nbsp;mm of stroke.").format(
+                  "last that is known is {}&nbsp;N at {}.").format(
                       name, number(float(force_N[k]), digits_of(force_N[k])),
-                      number(float(run.stroke_mm[k]), 1))
+                      reached(run, k, 1))
     return Answer("Force", Markup("not known"), text)
 
 

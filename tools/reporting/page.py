@@ -31,7 +31,9 @@ def page_of(runs: list[Run]) -> str:
     """HTML of one run, or of up to four beside each other."""
     blocks, titles = Blocks(), titles_of(runs)
     columns = {column.name: column for run in runs for ply in run.plies for column in ply.columns}
-    scene = {"runs": [scene_of(run, blocks) for run in runs],
+    by_time = not all(run.has_stroke() for run in runs)
+    scene = {"runs": [scene_of(run, by_time, blocks) for run in runs],
+             "along": {"word": "time", "unit": "ms"} if by_time else {"word": "stroke", "unit": "mm"},
              "columns": [shown_as(column) for column in columns.values()]}
     doing("writes the page")
     for one, title in zip(scene["runs"], titles):
@@ -43,7 +45,7 @@ def page_of(runs: list[Run]) -> str:
     texts = [texts_of(run, k) | {"title": title} for k, (run, title) in enumerate(zip(runs, titles))]
     ids = {chart["id"]: chart for run in scene["runs"] for chart in run["charts"]}
     return shelf.get_template("report.html").render(
-        runs=texts, letters=LETTERS, yarns=yarns_of(runs), charts=list(ids.values()), place_error=blocks.errors["place"],
+        runs=texts, letters=LETTERS, yarns=yarns_of(runs), charts=list(ids.values()), along=scene["along"]["word"], place_error=blocks.errors["place"],
         errors=[(column["label"].lower(), column["factor"] * blocks.errors[column["name"]],
                  column["unit"]) for column in scene["columns"]], blocks=blocks.texts,
         scene=json_in_script(scene), style=(WEB / "report.css").read_text(encoding="utf-8"),
@@ -104,8 +106,8 @@ def texts_of(run: Run, index: int) -> dict:
             "tools": [(tool, np.nanmax(abs(tool.force_N), initial=0.0)) for tool in run.tools]}
 
 
-def scene_of(run: Run, blocks: Blocks) -> dict:
-    return {"stroke": rounded(run.stroke_mm), "time": rounded(run.time_s),
+def scene_of(run: Run, by_time: bool, blocks: Blocks) -> dict:
+    return {"reached": rounded(1e3 * run.time_s if by_time else run.stroke_mm), "time": rounded(run.time_s),
             "plies": [ply_of(run, ply, blocks) for ply in told("packs", run.plies)],
             "tools": [scene_of_tool(run, tool, blocks) for tool in told("packs", run.tools)],
             "charts": series.charts_of(run)}

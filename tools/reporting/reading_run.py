@@ -71,6 +71,9 @@ class Run:
         plies = self.summary["plies"] if self.summary else []
         return next((ply for ply in plies if ply["name"] == name), {})
 
+    def has_stroke(self) -> bool:
+        return bool(np.any(self.stroke_mm != 0.0))
+
     def title(self) -> str:
         return (self.summary or {}).get("title") or self.name()
 

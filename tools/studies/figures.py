@@ -68,13 +68,14 @@ def largest_jump(values: np.ndarray) -> float:
 
 
 def of_history(path: str, folder: Path, jump: bool) -> list[float]:
-    """Values of a column; late ones from half of the stroke on, for jumps with the one before."""
+    """Values of a column; late ones from half of the stroke on, or of the time where nothing has a stroke, for
+    jumps with the one before."""
     which, _, column = path.partition(".")
     history = read_history(folder)
     if column not in history:
         return []
-    stroke = history["stroke_mm"]
-    first = 0 if which == "history" else int(np.argmax(stroke >= 0.5 * stroke[-1])) - jump
+    reached = history["stroke_mm" if np.any(history["stroke_mm"] != 0.0) else "time_s"]
+    first = 0 if which == "history" else int(np.argmax(reached >= 0.5 * reached[-1])) - jump
     return history[column][max(first, 0):].tolist()
 
 

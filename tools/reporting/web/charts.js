@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Curves over the stroke, as SVG; a line marks the state shown, a click goes to another.
+// Curves over the stroke, or the time, as SVG; a line marks the state shown, a click goes to another.
 
 import { lineStyle } from "plyform/colours.js";
 import { prefixOf } from "plyform/letters.js";
@@ -33,17 +33,21 @@ function mark(run, x, y, colour, parent) {
 }
 
 export class Chart {
-  /** `runs`: of each run, its stroke and the lines of this chart. `go(stroke)`: shows a state. */
-  constructor(place, chart, runs, go) {
+  /**
+   * `runs`: of each run, how far its states are (along: { word, unit }) and the lines of this chart.
+   * `go(reached)`: shows a state.
+   */
+  constructor(place, chart, runs, along, go) {
     this.svg = part("svg", { viewBox: `0 0 ${SIZE.width} ${SIZE.height}`, role: "img",
-      "aria-label": `${chart.title}, ${chart.unit}, over the stroke` }, place);
+      "aria-label": `${chart.title}, ${chart.unit}, over the ${along.word}` }, place);
     this.unit = chart.unit;
+    this.along = along;
     this.runs = runs;
-    const strokes = runs.flatMap((run) => run.stroke);
+    const reached = runs.flatMap((run) => run.reached);
     const values = runs.flatMap((run) => run.lines.flatMap((line) => line.values.filter(Number.isFinite)));
     [this.low, this.high] = [Math.min(0, ...values), Math.max(0, ...values)];
     if (this.high === this.low) this.high = this.low + 1;
-    [this.from, this.to] = [Math.min(...strokes), Math.max(...strokes)];
+    [this.from, this.to] = [Math.min(...reached), Math.max(...reached)];
     if (this.to === this.from) this.to = this.from + 1;
     this.axes();
     this.lines();
@@ -57,8 +61,8 @@ export class Chart {
     });
   }
 
-  x(stroke) {
-    return SIZE.left + ((stroke - this.from) / (this.to - this.from)) * (SIZE.width - SIZE.left - SIZE.right);
+  x(reached) {
+    return SIZE.left + ((reached - this.from) / (this.to - this.from)) * (SIZE.width - SIZE.left - SIZE.right);
   }
 
   y(value) {
@@ -78,18 +82,19 @@ export class Chart {
       part("text", { x: this.x(value), y: SIZE.height - SIZE.bottom + 16, "text-anchor": "middle" },
         this.svg, written(value, along.digits));
     }
-    part("text", { x: SIZE.width - SIZE.right, y: SIZE.height - 3, "text-anchor": "end" }, this.svg, "stroke, mm");
+    part("text", { x: SIZE.width - SIZE.right, y: SIZE.height - 3, "text-anchor": "end" }, this.svg,
+      `${this.along.word}, ${this.along.unit}`);
   }
 
   lines() {
     this.runs.forEach((run, r) => run.lines.forEach((line, k) => {
       const [colour, dashes] = lineStyle(k);
       const points = line.values.flatMap((value, i) => (Number.isFinite(value) // else not known
-        ? [`${this.x(run.stroke[i])},${this.y(value)}`] : [])).join(" ");
+        ? [`${this.x(run.reached[i])},${this.y(value)}`] : [])).join(" ");
       part("polyline", { points, fill: "none", stroke: colour, "stroke-width": r ? 1.2 : 2.2,
         "stroke-dasharray": dashes, "stroke-opacity": r ? 0.75 : 1 }, this.svg);
       line.values.forEach((value, i) => {
-        if (Number.isFinite(value)) mark(r, this.x(run.stroke[i]), this.y(value), colour, this.svg);
+        if (Number.isFinite(value)) mark(r, this.x(run.reached[i]), this.y(value), colour, this.svg);
       });
     }));
   }
@@ -115,9 +120,9 @@ export class Chart {
   }
 
   /** The line, and the values beside the names. */
-  show(stroke, states) {
-    this.mark.setAttribute("x1", this.x(stroke));
-    this.mark.setAttribute("x2", this.x(stroke));
+  show(reached, states) {
+    this.mark.setAttribute("x1", this.x(reached));
+    this.mark.setAttribute("x2", this.x(reached));
     const digits = fittingDigits(Math.max(Math.abs(this.low), Math.abs(this.high)));
     for (const { number, line, r } of this.numbers) {
       const value = line.values[states[r]];

@@ -80,7 +80,7 @@ function viewControls(report) {
 function film(report) {
   const button = at("film");
   let playing = false;
-  const last = report.runs[0].stroke.length - 1;
+  const last = report.runs[0].reached.length - 1;
   const next = async () => {
     if (!playing) return;
     const { state } = report.settings;
@@ -98,7 +98,7 @@ function film(report) {
 
 function stroke(report) {
   const slider = at("stroke");
-  slider.max = report.runs[0].stroke.length - 1;
+  slider.max = report.runs[0].reached.length - 1;
   slider.value = slider.max;
   slider.addEventListener("input", () => report.change({ state: Number(slider.value) }));
 }
@@ -112,7 +112,7 @@ function keys(report) {
     if (views[event.key]) report.stage.camera.set(views[event.key]);
     else if (event.key === "0") report.stage.camera.home();
     else if (step) {
-      const last = report.runs[0].stroke.length - 1;
+      const last = report.runs[0].reached.length - 1;
       report.change({ state: Math.max(0, Math.min(last, report.settings.state + step)) });
     } else if (event.key === "t") {
       const ways = ["outlines", "solid", "hidden"];

@@ -13,12 +13,12 @@ function drawCharts(report, scene) {
   const ids = [...new Set(scene.runs.flatMap((run) => run.charts.map((chart) => chart.id)))];
   const charts = ids.map((id) => {
     const of = scene.runs.map((run) => run.charts.find((chart) => chart.id === id));
-    const runs = scene.runs.map((run, r) => ({ stroke: run.stroke, lines: of[r] ? of[r].lines : [] }));
-    return new Chart(document.getElementById(`chart-${id}`), of.find(Boolean), runs,
-      (stroke) => report.goToStroke(stroke));
+    const runs = scene.runs.map((run, r) => ({ reached: run.reached, lines: of[r] ? of[r].lines : [] }));
+    return new Chart(document.getElementById(`chart-${id}`), of.find(Boolean), runs, scene.along,
+      (reached) => report.goTo(reached));
   });
   report.watchers.push((states) => charts.forEach((chart) =>
-    chart.show(report.runs[0].stroke[states[0]], states)));
+    chart.show(report.runs[0].reached[states[0]], states)));
 }
 
 /** The value under the cursor, while it rests on a ply. */
@@ -52,7 +52,7 @@ async function start() {
     throw new Error("this browser lacks WebGL or DecompressionStream: take one of 2023 or later");
   }
   const scene = JSON.parse(document.getElementById("scene").textContent);
-  const report = new Report(scene, new Page(scene.runs));
+  const report = new Report(scene, new Page(scene));
   await report.load();
   document.documentElement.dataset.picture = String(Math.round(performance.now()));
   connect(report);

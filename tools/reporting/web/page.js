@@ -8,7 +8,8 @@ import { differenceName } from "plyform/letters.js";
 const at = (id) => document.getElementById(id);
 
 export class Page {
-  constructor(runs) {
+  constructor({ runs, along }) {
+    this.along = along;
     this.canvas = at("canvas");
     this.probe = at("probe");
     this.views = {
@@ -54,14 +55,19 @@ export class Page {
     }
   }
 
+  /** How far a state is, in words. */
+  reached(value) {
+    return `${written(value, 2)} ${this.along.unit}${this.along.word === "stroke" ? " of stroke" : ""}`;
+  }
+
   tellState(report) {
     const [first] = report.runs;
     const { state } = report.settings;
-    at("state").textContent = `${written(first.stroke[state], 2)} mm of stroke`;
-    at("state-number").textContent = `state ${state + 1} of ${first.stroke.length}`;
+    at("state").textContent = this.reached(first.reached[state]);
+    at("state-number").textContent = `state ${state + 1} of ${first.reached.length}`;
     report.states().forEach((one, r) => {
-      const label = at(`formed-${r}`).querySelector(".of-stroke");
-      if (label) label.textContent = `${written(report.runs[r].stroke[one], 2)} mm`;
+      const label = at(`formed-${r}`).querySelector(".reached");
+      if (label) label.textContent = `${written(report.runs[r].reached[one], 2)} ${this.along.unit}`;
     });
   }
 

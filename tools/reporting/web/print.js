@@ -2,7 +2,6 @@
 // Still pictures for the printed page, made when printing begins.
 
 import { differenceName, prefixOf } from "plyform/letters.js";
-import { written } from "plyform/numbers.js";
 
 export function preparePrint(report) {
   window.addEventListener("beforeprint", () => {
@@ -24,14 +23,14 @@ export function preparePrint(report) {
       if (view.difference && !report.settings.difference) continue;
       const run = prefixOf(report.runs.indexOf(view.run), report.runs);
       const difference = differenceName(report.settings.differenceOf);
-      const stroke = written(view.run.stroke[view.state], 2);
+      const reached = report.page.reached(view.run.reached[view.state]);
       if (view.flat) {
         const { name } = view.run.plies[report.settings.flatPly];
         add(view, null, `${view.difference ? `${difference}: ` : run}${name}, flat`);
         continue;
       }
       for (const name of ["oblique", "top"]) {
-        add(view, name, `${view.difference ? `${difference}, ` : run}${name}, ${stroke} mm of stroke`);
+        add(view, name, `${view.difference ? `${difference}, ` : run}${name}, ${reached}`);
       }
     }
     Object.assign(stage.camera, { azimuth, elevation });

@@ -28,7 +28,7 @@ export class Report {
     this.allFields = fieldsOf(data.columns);
     const [first] = this.runs;
     this.settings = {
-      state: first.stroke.length - 1, field: "shear", colours: "viridis", steps: 0, low: null,
+      state: first.reached.length - 1, field: "shear", colours: "viridis", steps: 0, low: null,
       high: null, limit: null, yarns: 0, apart: 0, hidden: new Set(), tools: "outlines",
       section: { on: false, level: false, angle: 0, offset: 0 }, flatPly: first.plies.length - 1,
       difference: false, differenceOf: 1, follow: true, // differenceOf: the run that A is taken from
@@ -46,7 +46,7 @@ export class Report {
     this.box = new THREE.Box3();
     for (const run of this.runs) {
       for (const ply of run.plies) {
-        for (const x of [ply.flat, ply.places.state(run.stroke.length - 1)]) {
+        for (const x of [ply.flat, ply.places.state(run.reached.length - 1)]) {
           this.box.union(new THREE.Box3().setFromArray(x));
         }
       }
@@ -81,19 +81,19 @@ export class Report {
     return this.differencesToA[this.settings.differenceOf];
   }
 
-  /** State of each run: that of the first, and of others the one nearest in stroke. */
+  /** State of each run: that of the first, and of others the nearest one. */
   states() {
-    const stroke = this.runs[0].stroke[this.settings.state];
+    const reached = this.runs[0].reached[this.settings.state];
     return this.runs.map((run, r) => {
       if (r === 0) return this.settings.state;
-      const off = run.stroke.map((one) => Math.abs(one - stroke));
+      const off = run.reached.map((one) => Math.abs(one - reached));
       return off.lastIndexOf(Math.min(...off));
     });
   }
 
-  /** The state whose stroke is nearest. */
-  goToStroke(stroke) {
-    const off = this.runs[0].stroke.map((one) => Math.abs(one - stroke));
+  /** The state that is nearest to a stroke or time. */
+  goTo(reached) {
+    const off = this.runs[0].reached.map((one) => Math.abs(one - reached));
     return this.change({ state: off.indexOf(Math.min(...off)) });
   }
 
@@ -221,7 +221,7 @@ export class Report {
     const hidden = new Set(this.settings.hidden);
     hidden.delete(this.runs[run].plies[ply].name);
     this.probe = { run, index: ply, triangle, weights: [1 / 3, 1 / 3, 1 / 3] };
-    return this.change({ hidden, flatPly: ply, state: this.runs[0].stroke.length - 1 });
+    return this.change({ hidden, flatPly: ply, state: this.runs[0].reached.length - 1 });
   }
 
   tellProbe() {

@@ -27,7 +27,7 @@ function faced(ply, tool, state) {
 
 /** Of a run's last state: a line for each driven tool. */
 export function liesOnTools(run) {
-  const last = run.stroke.length - 1;
+  const last = run.reached.length - 1;
   const lines = [];
   for (const tool of run.tools.filter((one) => one.data.driven)) {
     const all = [0, run.plies.length - 1].map((i) => ({ i, nodes: faced(run.plies[i], tool, last) }));
@@ -47,7 +47,7 @@ export function showContact(card, run, show) {
   if (!lines.length) return;
   const [line] = lines;
   const ply = run.plies[line.ply];
-  const x = ply.places.state(run.stroke.length - 1).subarray(3 * line.node, 3 * line.node + 3);
+  const x = ply.places.state(run.reached.length - 1).subarray(3 * line.node, 3 * line.node + 3);
   const place = ["x", "y", "z"].map((name, k) => `${name} ${written(x[k], 0)}`).join(", ");
   card.querySelector("h2").textContent = `On the tool: ${line.tool.name}`;
   card.querySelector(".figure").textContent = `${written(100 * line.on, 0)} %`;

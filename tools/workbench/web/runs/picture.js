@@ -18,6 +18,12 @@ function scoutBodies(state) {
     tools: state.tools.map((tool, i) => ({ ...empty, ...tool, key: `tool.${i}` })) };
 }
 
+/** How far a state is: its stroke, or the time where nothing has one. */
+function reachedWords(state) {
+  return state.stroke_mm || !state.time_s ? `${state.stroke_mm.toFixed(2)} mm of stroke`
+    : `${(1e3 * state.time_s).toFixed(1)} ms`;
+}
+
 export class RunPicture {
   constructor() {
     this.run = null;
@@ -123,7 +129,7 @@ export class RunPicture {
     const state = unpacked(bytes);
     if (state.scouting) return; // the last of them, not replaced yet
     this.step = state.step;
-    this.draw(state, `now: ${state.stroke_mm.toFixed(2)} mm of stroke`);
+    this.draw(state, `now: ${reachedWords(state)}`);
     this.scene.dataset.step = state.step;
   }
 
@@ -142,7 +148,7 @@ export class RunPicture {
     }
     this.step = state.step;
     const large = this.bodies.tools.some((tool) => !tool.x.length) ? "; tools of many facets are not drawn yet" : "";
-    this.draw(state, `a fast run with coarse elements: ${state.stroke_mm.toFixed(2)} mm of stroke${large}`);
+    this.draw(state, `a fast run with coarse elements: ${reachedWords(state)}${large}`);
   }
 
   async last() {
@@ -164,7 +170,7 @@ export class RunPicture {
     this.wanted = number;
     const state = unpacked(await askBytes("runs/state", { folder, number }));
     if (!this.run || this.run.folder !== folder || this.wanted !== number) return;
-    this.draw(state, `state ${state.number + 1} of ${state.count}: ${state.stroke_mm.toFixed(2)} mm of stroke`);
+    this.draw(state, `state ${state.number + 1} of ${state.count}: ${reachedWords(state)}`);
     this.slider.max = state.count - 1;
     this.scene.dataset.state = state.number;
   }

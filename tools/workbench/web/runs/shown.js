@@ -64,7 +64,7 @@ export class RunShown {
     const live = LIVE.has(run.state);
     this.bar.hidden = !live || run.state === "queued";
     this.words.hidden = !live;
-    const stroke = run.progress ? run.progress.stroke_mm : null;
+    const stroke = run.progress && run.progress.stroke_mm ? run.progress.stroke_mm : null;
     this.words.textContent = [progressWords(run), Number.isFinite(stroke) ? `stroke ${stroke.toFixed(1)} mm` : "",
       run.states ? `${run.states} state${run.states > 1 ? "s" : ""}` : ""].filter(Boolean).join(" · ");
     const fraction = fractionOf(run);
