@@ -11,6 +11,7 @@ as they are, a minute, for the figures of docs/users/case.md. The parts are made
 
 import csv
 import math
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -288,6 +289,27 @@ def check_double_dome(folder):
         assert said in done.stdout, done
 
 
+def check_channel(folder):
+    """So is the tool of cases/diaphragm_c_channel: what is taken off its edges is in its hollows."""
+    case = folder / "diaphragm_c_channel"
+    case.mkdir()
+    done = subprocess.run([sys.executable, CASES / "diaphragm_c_channel" / "draw_tools.py", case],
+                          capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and done.stdout.count("\n") == 1, done
+    _, corners, said = made(case / "channel.step")
+    places = corners.reshape(-1, 3)
+    assert np.abs(places.min(axis=0) - (-200, -150, -60)).max() < 1e-3, places.min(axis=0)
+    assert np.abs(places.max(axis=0) - (200, 150, 0)).max() < 1e-3, places.max(axis=0)
+    exact = float(said.split("that of the part ")[1].split()[0])
+    assert abs(exact / (300 * (400 * 20 + 60 * 40)) - 1) < 1e-5, exact
+    hollow = places[(places[:, 0] > 31) & (places[:, 0] < 37) & (places[:, 2] > -39.9) & (places[:, 2] < -32.1)]
+    assert len(hollow) and np.abs(np.hypot(hollow[:, 0] - 38, hollow[:, 2] + 32) - 8).max() < 0.05
+    shutil.copy(CASES / "diaphragm_c_channel" / "case.toml", case)
+    done = subprocess.run([PROGRAM, "check", case], capture_output=True, text=True, check=False)
+    assert done.returncode == 0 and "the case is sound" in done.stdout, done
+    assert done.stdout.count("pressure above ply") == 2, done
+
+
 def main():
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
@@ -295,6 +317,7 @@ def main():
             check_parts(folder)
             check_faults(folder)
             check_double_dome(folder)
+            check_channel(folder)
         else:
             check_formed(folder, WHAT == "shipped")
 
