@@ -44,6 +44,7 @@ set(public_headers
   core/model/fabric.hpp
   core/model/isotropic.hpp
   core/model/law_point.hpp
+  core/model/mooney_rivlin.hpp
   core/model/monotone_curve.hpp
   core/model/shear_law.hpp
   core/model/sheet_law.hpp

@@ -178,8 +178,10 @@ struct Fabric {
   std::optional<double> fibre_density;  ///< t/mm^3, of the fibres themselves
   std::optional<Compaction> compaction; ///< through the thickness; nothing: it does not give way
   std::optional<double> locking_angle;  ///< rad, shear angle beyond which the fabric wrinkles
-  double twist = 0.0;                   ///< D_t, N mm
-  bool twist_given = true;              ///< else `twist` is usual_twist
+  /// Of rubber: stretch up to which its law was measured.
+  std::optional<double> stretch_limit;
+  double twist = 0.0;      ///< D_t, N mm
+  bool twist_given = true; ///< else `twist` is usual_twist
   /// Bending of the sheet by itself (N mm): D, the same along both axes, which are at right angles
   /// then, and D_c. Beside yarns in one direction it is what resists bending across them.
   double plate = 0.0, plate_coupling = 0.0;

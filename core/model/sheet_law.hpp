@@ -7,11 +7,12 @@
 #pragma once
 
 #include "core/model/isotropic.hpp"
+#include "core/model/mooney_rivlin.hpp"
 
 #include <variant>
 
 namespace plyform {
 
-using SheetLaw = std::variant<IsotropicLaw>;
+using SheetLaw = std::variant<IsotropicLaw, MooneyRivlinLaw>;
 
 } // namespace plyform

@@ -20,5 +20,7 @@ inline constexpr UsualRange usual_bending_length{10.0, 300.0};
 /// 0.01 to 0.3 (0.2 to 5 gf/cm degree by Kawabata's tester), dry reinforcements 0.01 to 0.5,
 /// thermoplastic prepregs up to some N/mm.
 inline constexpr UsualRange usual_shear_rigidity{1e-3, 10.0};
+/// N/mm^2, shear modulus of rubber: from very soft silicone to hard bags of Shore A 70.
+inline constexpr UsualRange usual_rubber_modulus{0.02, 5.0};
 
 } // namespace plyform

@@ -5,6 +5,7 @@
 #include "base/geometry.hpp"
 #include "core/results/description.hpp"
 
+#include <array>
 #include <limits>
 #include <string>
 #include <utility>
@@ -47,6 +48,8 @@ struct PlyFrame {
   std::vector<CrossingFrame> crossings; ///< those behind the first
   std::vector<double> thickness;        ///< m, mm
   std::vector<double> fibre_volume;     ///< m, fraction; empty without fibre_density
+  /// m, the larger and the smaller principal stretch of a sheet of rubber; empty of others
+  std::array<std::vector<double>, 2> stretch;
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
   std::vector<Vec3> reaction;           ///< n, N, of boundaries; empty where there are none
   std::vector<double> wrinkle_height;   ///< n, mm: wrinkles.hpp; empty if not looked for
@@ -81,6 +84,17 @@ inline Column bridging_column() {
            "over the tool that the stack is pressed towards, where it spans a hollow"},
           Location::node,
           "",
+          true};
+}
+
+/// The column of one of the principal stretches.
+inline Column stretch_column(bool larger) {
+  const std::string number = larger ? "1" : "2";
+  return {{"stretch_" + number, "stretch-" + number,
+           std::string(larger ? "larger" : "smaller") + " principal stretch", "1", 3, 5e-6,
+           Scale::whole, "of rubber: length over that before"},
+          Location::triangle,
+          "stretch",
           true};
 }
 
@@ -172,6 +186,8 @@ void each_column(AnyPly& ply, Visit&& visit) {
   for (auto& stitch : ply.stitches)
     each_stitch_column(stitch, visit);
   each_thickness_column(ply, visit);
+  for (std::size_t i = 0; i < 2; ++i)
+    visit(stretch_column(i == 0), ply.stretch[i]);
 }
 
 /// The columns of a ply whose files have them.

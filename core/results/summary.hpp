@@ -76,6 +76,9 @@ struct PlyReport {
   std::optional<double> locking_angle_deg;    ///< of the fabric, if it is known
   std::optional<double> beyond_locking_share; ///< fraction of the area before forming; likewise
   std::vector<Opening> openings;              ///< of the families for which it is told
+  std::optional<double> max_stretch;          ///< of rubber
+  std::optional<double> stretch_limit;        ///< of the fabric, if it is known
+  std::optional<double> beyond_stretch_share; ///< fraction of the area before forming; likewise
   DrawIn draw_in;
   std::vector<BrokenStitches> stitches; ///< one for each direction
 };

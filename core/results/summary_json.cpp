@@ -131,6 +131,10 @@ Json report_keys(const PlyReport& report) {
   if (report.locking_angle_deg) keys["locking_angle_deg"] = rounded(*report.locking_angle_deg);
   if (report.beyond_locking_share)
     keys["area_share_beyond_locking_angle"] = rounded(*report.beyond_locking_share);
+  if (report.max_stretch) keys["max_stretch"] = rounded(*report.max_stretch);
+  if (report.stretch_limit) keys["stretch_limit"] = rounded(*report.stretch_limit);
+  if (report.beyond_stretch_share)
+    keys["area_share_beyond_stretch_limit"] = rounded(*report.beyond_stretch_share);
   if (!report.openings.empty()) keys["openings"] = list_of(report.openings, opening_object);
   keys.update(draw_in_keys(report.draw_in));
   if (!report.stitches.empty()) keys.update(stitch_keys(report.stitches));

@@ -90,8 +90,17 @@ std::vector<StitchFrame> stitch_frames(const PlyBody& ply,
   return frames;
 }
 
-/// Fills what follows from the shape of each triangle: directions, shear, thickness. Returns A /
-/// A0.
+/// The larger and the smaller principal stretch of a triangle.
+Vec2 principal_stretches(const Membrane& m, const AxesState& s) {
+  const Vec3 k1 = s.k1(), k2 = m.across.x() * k1 + m.across.y() * s.k2();
+  const double a = k1.squaredNorm(), b = k2.squaredNorm(), c = k1.dot(k2);
+  const double mean = 0.5 * (a + b), off = std::hypot(0.5 * (a - b), c);
+  const double larger = mean + off, smaller = std::max(0.0, a * b - c * c) / larger;
+  return {std::sqrt(larger), std::sqrt(smaller)};
+}
+
+/// Fills what follows from the shape of each triangle: directions, shear, thickness, stretches.
+/// Returns A / A0.
 std::vector<double> add_yarns(const PlyBody& ply, PlyFrame& f) {
   const Membrane& m = ply.membrane;
   std::vector<std::vector<double>> strains = yarn_strains(m, ply.x);
@@ -103,6 +112,7 @@ std::vector<double> add_yarns(const PlyBody& ply, PlyFrame& f) {
                            {}});
   TriangleState t;
   std::vector<double> area_ratios;
+  const bool rubber = m.fabric.sheet && std::holds_alternative<MooneyRivlinLaw>(*m.fabric.sheet);
   for (std::size_t e = 0; e < f.triangles.size(); ++e) {
     find_triangle(m, ply.x, static_cast<int>(e), t);
     const AxesState& s = t.axes;
@@ -120,6 +130,10 @@ std::vector<double> add_yarns(const PlyBody& ply, PlyFrame& f) {
       }
     const double area_ratio = s.lambda1 * s.lambda2 * s.sin_omega / std::sin(m.omega0);
     f.thickness.push_back(ply.thickness / area_ratio);
+    if (rubber) {
+      const Vec2 stretch = principal_stretches(m, s);
+      f.stretch[0].push_back(stretch.x()), f.stretch[1].push_back(stretch.y());
+    }
     area_ratios.push_back(area_ratio);
   }
   add_openings(m, area_ratios, f);

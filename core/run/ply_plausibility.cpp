@@ -292,6 +292,23 @@ std::vector<std::string> doubts_of_forces(const Scene& s, const std::vector<Know
   return found;
 }
 
+namespace {
+
+/// Rubber beyond what its law was measured to.
+std::vector<std::string> doubts_of_stretch(const Frame& last, const std::vector<PlyReport>& plies) {
+  std::vector<std::string> found;
+  for (std::size_t p = 0; p < plies.size(); ++p)
+    if (plies[p].beyond_stretch_share.value_or(0.0) > doubtful_stretched_share)
+      found.push_back(fmt::format(
+          "do not trust {}: it is stretched to {:.3g}, beyond the {:.3g} up to which its law was "
+          "measured (stretch_limit), on {:.2g} % of its area; test the rubber further",
+          last.plies[p].name, *plies[p].max_stretch, *plies[p].stretch_limit,
+          100.0 * *plies[p].beyond_stretch_share));
+  return found;
+}
+
+} // namespace
+
 PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
                      const std::vector<const ToolBody*>& tools) {
   PlyReport result;
@@ -309,6 +326,12 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
     result.locking_angle_deg = nature.locking_angle_deg;
     result.beyond_locking_share = area_share_above(shear, *nature.locking_angle_deg, areas);
   }
+  if (const std::vector<double>& stretch = ply.stretch[0]; !stretch.empty()) {
+    result.max_stretch = *std::max_element(stretch.begin(), stretch.end());
+    result.stretch_limit = nature.stretch_limit;
+    if (nature.stretch_limit)
+      result.beyond_stretch_share = area_share_above(stretch, *nature.stretch_limit, areas);
+  }
   result.openings = openings_of(ply, nature.opening_limits, areas);
   result.draw_in = draw_in(ply);
   result.stitches = broken_stitches(ply);
@@ -325,6 +348,7 @@ std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
     PlyNature nature{fabric.has_yarns(), std::nullopt, {}, fabric.crossings};
     for (const YarnFamily& family : fabric.families)
       nature.opening_limits.push_back(family.opening_limit);
+    nature.stretch_limit = fabric.stretch_limit;
     if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle / degree;
     result.push_back(report_ply(last.plies[p], nature, tools));
   }
@@ -340,8 +364,8 @@ std::vector<std::string> doubts(const Scene& s, const Frame& last,
                                 "energy that comes from nowhere "
                                 "or goes nowhere; a smaller solver.step_factor makes it less",
                                 100.0 * error));
-  for (std::string& doubt : doubts_of_motion(s, last))
-    found.push_back(std::move(doubt));
+  for (auto&& of : {doubts_of_motion(s, last), doubts_of_stretch(last, plies)})
+    found.insert(found.end(), of.begin(), of.end());
   for (const ToolState& tool : s.tools) {
     std::vector<std::string> names;
     ToolCut worst;

@@ -221,7 +221,9 @@ double energy_floor_of(const std::vector<PlyBody>& plies) {
     double stiffness = 0.0; // N/mm
     for (const MembraneFamily& family : m.families)
       stiffness += family.density * family.yarn.largest_slope();
-    if (m.fabric.sheet) stiffness += std::get<IsotropicLaw>(*m.fabric.sheet).modulus;
+    if (m.fabric.sheet)
+      stiffness +=
+          std::visit([](const auto& law) { return law.plane_stiffness(); }, *m.fabric.sheet);
     for (const double area : m.node_area)
       floor += 0.5 * stiffness * strain * strain * area;
   }

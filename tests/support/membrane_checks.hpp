@@ -155,6 +155,15 @@ inline Fabric foil() {
   return f;
 }
 
+/// A sheet of rubber.
+inline Fabric rubber() {
+  Fabric f;
+  f.sheet = MooneyRivlinLaw{0.3, 0.1};
+  f.surface_density = 1.65e-9;
+  f.thickness = 1.5;
+  return f;
+}
+
 /// Viscosity (N s per yarn) of the families, in their order.
 inline void set_viscosity(Membrane& m, std::initializer_list<double> eta) {
   auto family = m.families.begin();

@@ -34,7 +34,8 @@ PLY = {"name": TEXT, "stitches": (STITCH,), "wrinkle_at_mm": POINT,
                         "wrinkle_height_mm", "wrinkle_length_mm", "locking_angle_deg",
                         "area_share_beyond_locking_angle", "bridging_height_mm",
                         "bridging_area_mm2", "bridging_max_tension_N_per_yarn",
-                        "bridging_mean_tension_N_per_yarn"), NUMBER)}
+                        "bridging_mean_tension_N_per_yarn", "max_stretch", "stretch_limit",
+                        "area_share_beyond_stretch_limit"), NUMBER)}
 # {...: kind}: any key; (kind,): a list of any length
 SUMMARY = {
     **dict.fromkeys(("title", "version", "status", "message"), TEXT),

@@ -4,6 +4,7 @@
 #include "core/input/keys/key_member.hpp"
 
 #include <cmath>
+#include <fmt/format.h>
 
 namespace plyform {
 
@@ -47,12 +48,11 @@ Rows isotropic_rows() {
   return rows;
 }
 
-/// Gives the fabric the bending of an isotropic plate: core/ply/bending.hpp.
-void set_plate_bending(const IsotropicLaw& law, Fabric& fabric) {
-  const double nu = law.poissons_ratio, thickness = fabric.thickness;
-  fabric.plate = law.modulus * thickness * thickness / (12.0 * (1.0 - nu * nu));
-  fabric.plate_coupling = nu * fabric.plate;
-  fabric.twist = 2.0 * (1.0 - nu) * fabric.plate;
+/// Gives the fabric the bending of an isotropic plate of stiffness D, N mm: core/ply/bending.hpp.
+void set_plate_bending(double stiffness, double nu, Fabric& fabric) {
+  fabric.plate = stiffness;
+  fabric.plate_coupling = nu * stiffness;
+  fabric.twist = 2.0 * (1.0 - nu) * stiffness;
 }
 
 IsotropicLaw read_isotropic_constants(const TableView& section, double thickness) {
@@ -61,19 +61,125 @@ IsotropicLaw read_isotropic_constants(const TableView& section, double thickness
   return {keys.youngs_modulus * thickness, keys.poissons_ratio};
 }
 
-void read_isotropic(const TableView& section, Fabric& fabric) {
+/// D of a plate of the material, N mm.
+double plate_stiffness(double plane_stiffness, double thickness) {
+  return plane_stiffness * thickness * thickness / 12.0;
+}
+
+void read_isotropic(const TableView& section, Fabric& fabric, Diagnostics&) {
   const IsotropicLaw law = read_isotropic_constants(section, fabric.thickness);
-  if (text(section, "bending") == "plate") set_plate_bending(law, fabric);
+  if (text(section, "bending") == "plate")
+    set_plate_bending(plate_stiffness(law.plane_stiffness(), fabric.thickness), law.poissons_ratio,
+                      fabric);
   fabric.sheet = law;
+}
+
+// ---- rubber ----
+
+/// Keys of both laws, of the material.
+struct RubberKeys {
+  double shear_modulus, c10, c01; ///< N/mm^2
+};
+
+constexpr Range rubber_modulus{.least = 1e-6, .most = 1e4};
+constexpr Range rubber_constant{.least = -1e4, .most = 1e4};
+
+Rows rubber_rows(const std::string& law, const std::string& what, const Rows& constants) {
+  const std::string table = "fabrics.NAME." + law;
+  Rows rows{{.key = table, .kind = K::table, .of = "law", .with = {law}, .meaning = what}};
+  append(rows, constants);
+  append(rows, {{.key = table + ".bending_stiffness",
+                 .unit = "N mm",
+                 .otherwise = "that of a plate of this rubber and thickness h, E h^3 / (12 (1 - "
+                              "nu^2)) = mu h^3 / 3",
+                 .ranges = {bending_range},
+                 .meaning = "moment per width divided by curvature, before it is stretched; 0: a "
+                            "membrane, whose folds have the size of the mesh",
+                 .members = {to(&Fabric::plate)}},
+                {.key = table + ".stretch_limit",
+                 .otherwise = "not known",
+                 .ranges = {{.least = 1.0, .most = 20.0, .open_least = true}},
+                 .meaning = "stretch up to which the law was measured; results say where it is "
+                            "exceeded, forces do not depend on it",
+                 .members = {to(&Fabric::stretch_limit)}}});
+  return rows;
+}
+
+Rows neo_hookean_rows() {
+  return rubber_rows("neo_hookean",
+                     "neo-Hookean law of a sheet of rubber, incompressible, at any stretch",
+                     {{.key = "fabrics.NAME.neo_hookean.shear_modulus",
+                       .unit = "N/mm2",
+                       .ranges = {rubber_modulus},
+                       .usual = {range_of(usual_rubber_modulus)},
+                       .meaning = "shear modulus mu at rest, a third of Young's modulus",
+                       .members = {to(&RubberKeys::shear_modulus)}}});
+}
+
+Rows mooney_rivlin_rows() {
+  const std::string table = "fabrics.NAME.mooney_rivlin";
+  return rubber_rows(
+      "mooney_rivlin", "Mooney-Rivlin law of a sheet of rubber, incompressible, at any stretch",
+      {{.key = table + ".c10",
+        .unit = "N/mm2",
+        .ranges = {rubber_constant},
+        .usual = {{.least = 0.0, .most = 2.5}},
+        .meaning = "constant of I1 - 3; c10 + c01, half of the shear modulus at rest, must be "
+                   "above 0",
+        .members = {to(&RubberKeys::c10)}},
+       {.key = table + ".c01",
+        .unit = "N/mm2",
+        .ranges = {rubber_constant},
+        .usual = {{.least = 0.0, .most = 2.5}},
+        .meaning = "constant of I2 - 3; below 0 the sheet softens when stretched both ways",
+        .members = {to(&RubberKeys::c01)}}});
+}
+
+void read_rubber(const TableView& section, const MooneyRivlinLaw& law, Fabric& fabric) {
+  constexpr double nu = 0.5;
+  set_plate_bending(plate_stiffness(law.plane_stiffness(), fabric.thickness), nu, fabric);
+  read_members(section, fabric);
+  set_plate_bending(fabric.plate, nu, fabric);
+  fabric.sheet = law;
+}
+
+void read_neo_hookean(const TableView& section, Fabric& fabric, Diagnostics&) {
+  RubberKeys keys{};
+  read_members(section, keys);
+  read_rubber(section, {0.5 * keys.shear_modulus * fabric.thickness, 0.0}, fabric);
+}
+
+void read_mooney_rivlin(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
+  RubberKeys keys{};
+  read_members(section, keys);
+  if (keys.c10 + keys.c01 <= 0.0)
+    value_error(section, "c01",
+                fmt::format("makes c10 + c01 = {:g} N/mm2; half of the shear modulus at rest must "
+                            "be above 0",
+                            keys.c10 + keys.c01),
+                "check the signs: plyform identify finds both from curves", diagnostics);
+  const MooneyRivlinLaw law{keys.c10 * fabric.thickness, keys.c01 * fabric.thickness};
+  const std::optional<Softening> softens = softening_of(law);
+  const char* key = softens && softens->equibiaxial ? "c01" : "c10";
+  if (softens && law.shear_modulus() > 0.0)
+    diagnostics.warning(
+        section.entry->find(key)->at,
+        fmt::format("{} = {:g}: a sheet stretched {} softens beyond a stretch of "
+                    "{:.3g} and is unstable there; only less may come in a run",
+                    item_of(section, key), softens->equibiaxial ? keys.c01 : keys.c10,
+                    softens->equibiaxial ? "both ways" : "one way", softens->stretch));
+  read_rubber(section, law, fabric);
 }
 
 struct SheetLawInput {
   const char* word; ///< of `law`, and of the table that its keys are in
   Rows (*rows)();
-  void (*read)(const TableView& section, Fabric& fabric);
+  void (*read)(const TableView& section, Fabric& fabric, Diagnostics& diagnostics);
 };
 
-constexpr SheetLawInput sheet_laws[] = {{"isotropic", isotropic_rows, read_isotropic}};
+constexpr SheetLawInput sheet_laws[] = {{"isotropic", isotropic_rows, read_isotropic},
+                                        {"neo_hookean", neo_hookean_rows, read_neo_hookean},
+                                        {"mooney_rivlin", mooney_rivlin_rows, read_mooney_rivlin}};
 
 } // namespace
 
@@ -132,10 +238,10 @@ void read_sheet_beside(const TableView& section, Fabric& fabric, Diagnostics& di
                 "take it out: their bending_stiffness is enough", diagnostics);
 }
 
-bool read_sheet(const TableView& section, Fabric& fabric) {
+bool read_sheet(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
   for (const SheetLawInput& law : sheet_laws)
     if (text(section, "law") == law.word) {
-      law.read(subsection(section, law.word), fabric);
+      law.read(subsection(section, law.word), fabric, diagnostics);
       return true;
     }
   return false;

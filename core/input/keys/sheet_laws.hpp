@@ -18,8 +18,8 @@ std::vector<std::string> fabric_laws();
 Rows sheet_law_rows();
 
 /// Reads the law of a sheet and its bending into a fabric whose thickness has been read; false if
-/// the fabric has yarns.
-bool read_sheet(const TableView& section, Fabric& fabric);
+/// the fabric has yarns. Reports constants that no sheet has.
+bool read_sheet(const TableView& section, Fabric& fabric, Diagnostics& diagnostics);
 
 /// Rows below fabrics.NAME of a sheet beside yarns, and its reader, into a fabric whose thickness
 /// and families have been read.

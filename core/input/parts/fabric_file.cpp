@@ -50,7 +50,7 @@ Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics
   fabric.name = key;
   read_members(section, fabric);
   read_compaction(subsection(section, "compaction"), fabric, diagnostics);
-  if (read_sheet(section, fabric)) return fabric;
+  if (read_sheet(section, fabric, diagnostics)) return fabric;
   if (text(section, "law") == families_word)
     read_families(section, fabric, diagnostics);
   else

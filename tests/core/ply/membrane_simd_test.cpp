@@ -80,7 +80,7 @@ TEST(MembraneSimd, AgreeWithTheMembraneOneByOne) {
   double torn = 0.0;
   for (const Fabric& fabric :
        {glass_weave(), table_weave(), buckling_weave(false), buckling_weave(true), unidirectional(),
-        triaxial(), stitched(), breaking(false), breaking(true)})
+        triaxial(), stitched(), rubber(), breaking(false), breaking(true)})
     for (const ElementKind kind : {ElementKind::plain, ElementKind::averaged})
       for (int i = 0; i < 20; ++i) {
         const BlankMesh mesh = irregular_mesh(random);

@@ -17,7 +17,7 @@ KINDS = {".step": "part", ".stp": "part", ".iges": "part", ".igs": "part", ".stl
          ".ply": "mesh", ".off": "mesh", ".dxf": "drawing", ".csv": "curve", ".txt": "curve", ".dat": "curve",
          ".tsv": "curve", ".toml": "toml"}
 RESULT = ("results.h5", "summary.json", "progress.json")  # a folder with any of them is a run's
-FABRIC = ("surface_density", "warp", "weft", "family", "sheet", "isotropic")
+FABRIC = ("surface_density", "warp", "weft", "family", "sheet", "isotropic", "neo_hookean", "mooney_rivlin")
 
 
 def kind_of_toml(text: str) -> tuple[str, str]:
