@@ -90,7 +90,8 @@ bool read_cells(const CurveTable& table, const std::vector<Target>& targets, Cur
 std::vector<ColumnRequest> requests_of(const CurveColumns& columns) {
   std::vector<ColumnRequest> requests{
       {"--x-column", "--x-unit", columns.x, columns.x_is, columns.x_word, columns.x_preferred,
-       columns.x_hint, columns.with_angle && !columns.angle.column.empty(), columns.with_angle},
+       columns.x_hint, columns.with_angle && !columns.angle.column.empty(), columns.with_angle,
+       columns.x_also},
       {columns.y_option, "--y-unit", columns.y, columns.y_is, columns.y_word, columns.y_preferred,
        "", false, false, columns.y_also, columns.no_per_length}};
   for (ColumnRequest& request : requests)
@@ -116,6 +117,7 @@ std::optional<Curve> read_curve(const std::filesystem::path& file, const CurveCo
   std::vector<Target> targets{{*(*chosen)[1], curve.y_name, &curve.y}};
   if ((*chosen)[0]) {
     curve.x_name = table->name_of((*chosen)[0]->index);
+    curve.x_is = (*chosen)[0]->quantity;
     targets.insert(targets.begin(), {*(*chosen)[0], curve.x_name, &curve.x});
   }
   if (columns.with_angle && (*chosen)[2]) {
@@ -128,8 +130,8 @@ std::optional<Curve> read_curve(const std::filesystem::path& file, const CurveCo
 }
 
 Curve rows_of(const Curve& curve, const std::vector<std::size_t>& rows) {
-  Curve result{curve.file, curve.x_name, curve.y_name,     {},        {},
-               {},         {},           curve.angle_name, curve.y_is};
+  Curve result = curve;
+  result.x.clear(), result.y.clear(), result.line.clear(), result.angle.clear();
   for (const std::size_t row : rows) {
     result.x.push_back(curve.x[row]);
     result.y.push_back(curve.y[row]);

@@ -15,7 +15,8 @@ struct Curve {
   /// rad, of each row; empty if not measured
   std::vector<double> angle = {};
   std::string angle_name = {};
-  Quantity y_is = Quantity::force; ///< or force_per_length, in N/mm
+  Quantity y_is = Quantity::force;  ///< or force_per_length, stress
+  Quantity x_is = Quantity::length; ///< or strain, stretch
   std::size_t size() const { return x.size(); }
 };
 
@@ -28,7 +29,7 @@ struct CurveColumns {
   std::string y_preferred = {};
   std::string y_option = "--y-column"; ///< that names y's
   std::string x_hint = {};             ///< if x is of another quantity
-  std::optional<Quantity> y_also = {};
+  std::optional<Quantity> x_also = {}, y_also = {};
   std::string no_per_length = {}; ///< as in ColumnRequest
   std::string only = {};          ///< of x and y, as in ColumnRequest
   /// A column of angles is read if there is one; x may miss if it is chosen, or if all else is
@@ -36,9 +37,9 @@ struct CurveColumns {
   bool with_angle = false;
 };
 
-/// Reads the columns, in mm, N, rad, 1, N/mm. Rows with an empty cell in one of them are left out.
-/// Errors go to `diagnostics` (of unreadable numbers the first
-/// five), and nothing is returned then. Never throws because of the content of the file.
+/// Reads the columns, in mm, N, rad, 1, N/mm, N/mm^2. Rows with an empty cell in one of them are
+/// left out. Errors go to `diagnostics` (of unreadable numbers the first five), and nothing is
+/// returned then. Never throws because of the content of the file.
 std::optional<Curve> read_curve(const std::filesystem::path& file, const CurveColumns& columns,
                                 Diagnostics& diagnostics);
 

@@ -66,7 +66,7 @@ struct ColumnRequest {
 
 struct ChosenColumn {
   std::size_t index; ///< from 0
-  double factor;     ///< to mm, N, rad, 1, N/mm
+  double factor;     ///< to mm, N, rad, 1, N/mm, N/mm^2
   Quantity quantity; ///< of the request, or its `also`
 };
 

@@ -22,6 +22,15 @@ CurveColumns tension_columns(bool strain) {
   return columns;
 }
 
+CurveColumns rubber_columns(bool displacement, bool force) {
+  CurveColumns columns = tension_columns(!displacement);
+  if (!displacement) columns.x_also = Quantity::stretch;
+  columns.y_word = "load";
+  columns.y_is = force ? Quantity::force : Quantity::stress;
+  columns.y_also = force ? Quantity::stress : Quantity::force;
+  return columns;
+}
+
 CurveColumns three_point_columns() {
   CurveColumns columns;
   columns.x_word = "deflection";

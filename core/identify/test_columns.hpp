@@ -12,6 +12,8 @@ namespace plyform {
 CurveColumns shear_columns(bool frame);
 /// Tension and compression; strain: else displacement.
 CurveColumns tension_columns(bool strain);
+/// Of rubber: strain or stretch, else displacement; a force of the section, else a nominal stress.
+CurveColumns rubber_columns(bool displacement, bool force);
 CurveColumns three_point_columns();
 CurveColumns cantilever_columns(CantileverReading reading);
 CurveColumns zone_columns();

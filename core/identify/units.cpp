@@ -61,6 +61,15 @@ constexpr NamedUnit units[] = {
     {"N/m", {Q::force_per_length, 1e-3}},
     {"mN/mm", {Q::force_per_length, 1e-3}},
     {"cN/mm", {Q::force_per_length, 0.01}},
+    {"N/mm2", {Q::stress, 1.0}},
+    {"N/mm^2", {Q::stress, 1.0}},
+    {"N/mm\xC2\xB2", {Q::stress, 1.0}}, // superscript 2
+    {"MPa", {Q::stress, 1.0}},
+    {"kPa", {Q::stress, 1e-3}},
+    {"Pa", {Q::stress, 1e-6}},
+    {"GPa", {Q::stress, 1e3}},
+    {"psi", {Q::stress, 6.894757293168e-3}},
+    {"stretch", {Q::stretch, 1.0}},
     {"s", {Q::time, 1.0}},
     {"sec", {Q::time, 1.0}},
     {"ms", {Q::time, 1e-3}},
@@ -70,10 +79,6 @@ constexpr NamedUnit units[] = {
     {"mJ", {Q::other, 1.0}},
     {"Nm", {Q::other, 1.0}},
     {"Nmm", {Q::other, 1.0}},
-    {"Pa", {Q::other, 1.0}},
-    {"kPa", {Q::other, 1.0}},
-    {"MPa", {Q::other, 1.0}},
-    {"GPa", {Q::other, 1.0}},
     {"g", {Q::other, 1.0}},
     {"kg", {Q::other, 1.0}},
     {"V", {Q::other, 1.0}},
@@ -93,7 +98,9 @@ struct Words {
 // What a column without a unit is, by the first line that has a word of its name.
 constexpr Words words_of_quantities[] = {
     {"time zeit", Q::time},
-    {"stress tenacity energy work torque moment temperature width thickness speed", Q::other},
+    {"stress spannung", Q::stress},
+    {"stretch", Q::stretch},
+    {"tenacity energy work torque moment temperature width thickness speed", Q::other},
     {"angle gamma winkel", Q::angle},
     {"strain dehnung", Q::strain},
     {"force load kraft", Q::force},
@@ -181,6 +188,10 @@ std::string quantity_name(Quantity quantity) {
     return "strain";
   case Q::force_per_length:
     return "force per length";
+  case Q::stress:
+    return "stress";
+  case Q::stretch:
+    return "stretch";
   case Q::time:
     return "time";
   case Q::other:

@@ -19,8 +19,10 @@ enum class Quantity {
   angle,            ///< rad
   strain,           ///< 1
   force_per_length, ///< N/mm
+  stress,           ///< N/mm^2
+  stretch,          ///< 1, length over that before
   time,
-  other, ///< none of these: a stress, an energy
+  other, ///< none of these: an energy
 };
 
 /// "length" ...; "of unknown kind".
@@ -28,7 +30,7 @@ std::string quantity_name(Quantity quantity);
 
 struct Unit {
   Quantity quantity;
-  double factor; ///< to mm, N, rad, 1, N/mm
+  double factor; ///< to mm, N, rad, 1, N/mm, N/mm^2
 };
 
 /// The unit of that name, or nothing.

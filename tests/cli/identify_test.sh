@@ -409,5 +409,33 @@ expect 1 'subcommand is required' identify
 for file in never.toml never_fit.csv never.csv x.csv; do
   [ ! -e "$file" ] || fail "a mistake has written $file"
 done
+
+# Rubber: a law for a sheet that has none, loads by width, both constants of curves both ways.
+rubber() { # C10 C01 STRETCH both|one: strain and nominal stress
+  awk -v a="$1" -v b="$2" -v to="$3" -v way="$4" -v OFMT=%.12g -v CONVFMT=%.12g 'BEGIN {
+    print "strain,stress_MPa"
+    for (i = 0; i <= 40; ++i) {
+      l = 1 + (to - 1) * i / 40
+      s = way == "both" ? 2 * (l - l^-5) * (a + b * l * l) : 2 * (l - l^-2) * (a + b / l)
+      print l - 1 "," s
+    }
+  }'
+}
+printf 'surface_density = 1650.0\nthickness = 1.5\n' >sheet.toml
+rubber 0.16 0.04 2.2 one >one.csv
+rubber 0.16 0.04 1.8 both >both.csv
+rubber 0.15 0 2 one | awk -F, -v CONVFMT=%.12g 'NR == 1 { print "stretch,load_N" } NR > 1 { print 1 + $1 "," 9 * $2 }' >load.csv
+expect 0 'C10 = 0.16, C01 = 0.04 N/mm2' identify uniaxial one.csv --equibiaxial both.csv --fabric sheet.toml \
+  -o rubber.toml --report rubber.json
+expect_law rubber.toml c10 0.16 1e-5
+expect_law rubber.toml stretch_limit 2.2 1e-3
+expect_json rubber.json 'j["numbers"][1]["name"] == "C01" and abs(j["numbers"][1]["value"] / 0.04 - 1) < 1e-5'
+expect 0 'shear modulus 0.3 N/mm2' identify uniaxial load.csv --width 6 --fabric rubber.toml -o neo.toml
+expect_law neo.toml shear_modulus 0.3 1e-5
+grep -q mooney neo.toml && fail 'neo.toml keeps the law before'
+expect 2 'is missing: load_N is a force' identify uniaxial load.csv --fabric sheet.toml -o never.toml
+expect 2 'must be neo_hookean, mooney_rivlin, or missing' identify uniaxial one.csv --fabric glass.toml \
+  -o never.toml
+
 echo "$failures failed"
 [ "$failures" = 0 ]

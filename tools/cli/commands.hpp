@@ -77,7 +77,8 @@ struct IdentifyArguments {
   std::string report; ///< JSON file, or empty
   SpecimenArguments specimen;
   std::optional<int> coefficients, points; ///< of a polynomial, of a table of shear
-  std::string law;                         ///< of shear: polynomial, static or table; empty: chosen
+  /// Of shear: polynomial, static or table; of rubber: neo_hookean or mooney_rivlin; empty: chosen.
+  std::string law;
   double from = 0.0, to = std::numeric_limits<double>::infinity(); ///< degrees, strain, or share
   double yarns = 1.0, gauge_length = 1.0;                          ///< -, mm
   std::string compliance, zero, toe,

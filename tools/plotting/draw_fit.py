@@ -13,11 +13,15 @@ from .reading import Trouble, read_table
 
 ABSCISSAE = {"shear": ("shear_deg", 1.0, "shear angle (degrees)"),
              "displacement": ("displacement_mm", 1.0, "displacement (mm)"),
-             "strain": ("strain", 100.0, "strain (%)")}
+             "strain": ("strain", 100.0, "strain (%)"),
+             "stretch": ("stretch", 1.0, "stretch")}
 
 
 def draw(options: argparse.Namespace) -> Figure:
-    table = read_table(options.fit, ["measured_N", "fitted_N"])
+    table = read_table(options.fit, [])
+    unit = "MPa" if "measured_MPa" in table else "N"
+    table = read_table(options.fit, [f"measured_{unit}", f"fitted_{unit}"])
+    measured, fitted = table[f"measured_{unit}"], table[f"fitted_{unit}"]
     there = [name for name, (column, _, _) in ABSCISSAE.items() if column in table]
     against = options.against or (there[0] if there else "shear")
     if against not in there:
@@ -29,12 +33,12 @@ def draw(options: argparse.Namespace) -> Figure:
                                             layout="constrained")
     x = factor * table[column]
     along = np.argsort(x, kind="stable")  # rows of several specimens follow each other
-    top.plot(x, table["measured_N"], "o", mfc="none", ms=5, color="black", label="measured")
-    top.plot(x[along], table["fitted_N"][along], color=COLOURS[1], label="fitted")
-    top.set_ylabel("force (N)")
+    top.plot(x, measured, "o", mfc="none", ms=5, color="black", label="measured")
+    top.plot(x[along], fitted[along], color=COLOURS[1], label="fitted")
+    top.set_ylabel("force (N)" if unit == "N" else "nominal stress (MPa)")
     top.set_title(options.fit.stem)
     top.legend()
-    bottom.plot(x, deviation(table["fitted_N"], table["measured_N"]),
+    bottom.plot(x, deviation(fitted, measured),
                 "." if "specimen" in table else ".-", color=COLOURS[1])
     bottom.axhline(0.0, color="black", lw=0.8)
     bottom.set(xlabel=label, ylabel="fitted / measured − 1 (%)")

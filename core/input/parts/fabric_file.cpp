@@ -118,7 +118,33 @@ std::vector<Fabric> read_fabrics(const TableView& root, Diagnostics& diagnostics
   return fabrics;
 }
 
-FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_miss) {
+namespace {
+
+/// What may be missing in a fabric file.
+enum class MissingLaws { none, of_yarns, of_rubber };
+
+/// Gives a file without a law that of rubber, and rubber without constants some.
+void stand_in_rubber(TomlNode& root) {
+  const TomlNode* law = root.find("law");
+  if (!law) {
+    for (const char* other : {"warp", "weft", "shear", "family", "sheet"})
+      if (root.find(other)) return;
+    std::string reason;
+    TomlNode word = *parse_value("\"neo_hookean\"", root.at.file, 1, reason);
+    word.key = "law";
+    word.at = word.key_at = root.at;
+    root.children.push_back(std::move(word));
+    law = &root.children.back();
+  }
+  const std::string table = law->text;
+  if (table == "neo_hookean") stand_in(root, table, "shear_modulus", "1.0");
+  if (table == "mooney_rivlin") {
+    stand_in(root, table, "c10", "1.0");
+    stand_in(root, table, "c01", "0.0");
+  }
+}
+
+FabricReading read_file(const std::filesystem::path& file, MissingLaws may_miss) {
   FabricReading reading;
   Diagnostics diagnostics;
   const std::string name = file.string();
@@ -134,10 +160,11 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
     root->at.file = name;
     reading.seams = seams_of(*root);
     reading.by_families = root->find("family") != nullptr;
+    if (may_miss == MissingLaws::of_rubber) stand_in_rubber(*root);
     for (const char* table : {"warp", "weft", "shear"}) {
       if (!is_short_form(*root)) break; // has no laws of these names
       const bool shear = std::string_view(table) == "shear";
-      if (laws_may_miss &&
+      if (may_miss == MissingLaws::of_yarns &&
           stand_in(*root, table, shear ? "polynomial" : "stiffness",
                    shear ? "[1.0]" : "1e9")) // larger than any compression_stiffness
         reading.missing.push_back(table);
@@ -154,6 +181,16 @@ FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_
   }
   reading.errors = std::move(diagnostics.errors);
   return reading;
+}
+
+} // namespace
+
+FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_miss) {
+  return read_file(file, laws_may_miss ? MissingLaws::of_yarns : MissingLaws::none);
+}
+
+FabricReading read_rubber_file(const std::filesystem::path& file) {
+  return read_file(file, MissingLaws::of_rubber);
 }
 
 std::string table_of_law(const FabricReading& reading, const std::string& short_form) {

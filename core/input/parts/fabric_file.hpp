@@ -34,6 +34,9 @@ struct FabricReading {
 /// named in `missing`. Never throws because of the content of the file.
 FabricReading read_fabric_file(const std::filesystem::path& file, bool laws_may_miss);
 
+/// Likewise of a sheet of rubber, whose law may be missing: some law then stands for it.
+FabricReading read_rubber_file(const std::filesystem::path& file);
+
 /// A law as text for a fabric file.
 struct LawText {
   std::string table;                ///< "warp", "shear", "crossing[0]", "crossing[0].crimp"
@@ -42,6 +45,7 @@ struct LawText {
   std::vector<std::string> comment; ///< lines above the key; control characters become spaces
   /// Further keys and values of the same law, below it.
   std::vector<std::pair<std::string, std::string>> beside = {};
+  std::vector<std::string> without = {}; ///< tables of the file that leave, with all in them
 };
 
 /// Where a fabric file has the laws that its short form calls warp, weft, shear and crimp: the

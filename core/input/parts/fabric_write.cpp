@@ -17,6 +17,8 @@ std::string_view subject_of(std::string_view key) {
   if (key == "stiffness" || key == "table" || key == "polynomial" || key == "negative_polynomial")
     return "law";
   if (key == "bending_stiffness" || key == "bending_table") return "bending";
+  if (key == "shear_modulus" || key == "c10" || key == "c01" || key == "stretch_limit")
+    return "rubber";
   return key;
 }
 
@@ -133,6 +135,8 @@ void put_tables_of(FabricText& to, const PlacedTable& table) {
     const std::string path = (table.path.empty() ? "" : table.path + ".") + key;
     const bool list = has_tables(child);
     if (!list && child.kind != TomlNode::Kind::table) continue;
+    const std::vector<std::string>& without = to.law.without;
+    if (std::find(without.begin(), without.end(), path) != without.end()) continue;
     int above = 0; // line of the header before: tables of one line have one comment
     for (std::size_t i = 0; i < (list ? child.children.size() : 1); ++i) {
       const TomlNode& node = list ? child.children[i] : child;
@@ -163,6 +167,7 @@ void put_table(FabricText& to, const PlacedTable& table) {
 
 /// Adds the table of that path if it is not there; lists of tables must be.
 void add_table(TomlNode& root, const std::string& path) {
+  if (path.empty()) return;
   TomlNode* at = &root;
   for (std::size_t begin = 0; begin <= path.size();) {
     const std::size_t end = std::min(path.find('.', begin), path.size());

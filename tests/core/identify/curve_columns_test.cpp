@@ -140,7 +140,7 @@ TEST(CurveColumns, OfAnotherKindOrInDoubtAreRefused) {
       {"d_mm,F1_N,F2_kN\n0,0,0\n", "", "", "",
        "2 columns may be the load: F1_N (force, N), F2_kN (force, kN); name one with --y-column"},
       {"a,b,c\n0,0,0\n", "", "", "", "the columns are a (of unknown kind), b (of unknown kind), c"},
-      {"d_mm,stress_MPa\n0,0\n", "", "", "", "stress_MPa (something else, MPa)"},
+      {"d_mm,stress_MPa\n0,0\n", "", "", "", "stress_MPa (stress, MPa)"},
       {"d_mm,F_N\n0,0\n", "", "F_N", "mm",
        "--y-unit:1:1: error: y-unit = mm: is no unit of a force"},
       {"d_mm,F_N\n0,0\n", "F_N", "", "", "F_N = N: is a force, the extension must be a length"}};

@@ -37,7 +37,7 @@ TEST(Units, AreReadFromHeadersAsTheyAreWritten) {
                             {"Crosshead travel", "", Q::length, 1.0},
                             {"Shear angle", "", Q::angle, degree},
                             {"Time (s)", "", Q::time, 1.0},
-                            {"Stress (MPa)", "", Q::other, 1.0},
+                            {"Stress (MPa)", "", Q::stress, 1.0},
                             {"Force per width (N/mm)", "", Q::force_per_length, 1.0},
                             {"f_N_per_mm", "", Q::force_per_length, 1.0},
                             {"F / kN/m", "", Q::force_per_length, 1.0},

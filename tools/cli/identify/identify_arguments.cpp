@@ -3,6 +3,7 @@
 #include "base/text.hpp"
 #include "core/identify/test_columns.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
+#include "tools/cli/identify/identify_rubber.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -86,6 +87,12 @@ CurveColumns columns_of_test(const IdentifyArguments& a) {
   }
   if (a.test == "three-point") return three_point_columns();
   if (a.test == "cantilever") return cantilever_columns(reading_of(a));
+  if (is_rubber_test(a.test)) {
+    CurveColumns columns = rubber_columns(a.gauge_length != 1.0, !std::isnan(a.specimen.width));
+    columns.x_hint = a.gauge_length == 1.0 ? "give --gauge-length if it is a displacement"
+                                           : "leave --gauge-length out if it is a strain";
+    return columns;
+  }
   if (!is_tension_test(a.test)) return zone_columns();
   const bool strain = a.gauge_length == 1.0;
   CurveColumns columns = tension_columns(strain);
@@ -190,6 +197,9 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
   if (a.test == "compression" && a.curves.size() > 1)
     option_error("--curves", a.curves[1], "is one more than a compression test takes",
                  "identify each specimen by itself", diagnostics);
+  if (is_rubber_test(a.test) && !std::isnan(a.specimen.width))
+    check_positive("--width", a.specimen.width, "give the width of the section, in mm",
+                   diagnostics);
   if (a.test == "three-point") {
     check_positive("--span", a.specimen.span, "give the distance of the supports, in mm",
                    diagnostics);
@@ -233,7 +243,7 @@ FitOptions fit_options(const IdentifyArguments& a, Diagnostics& diagnostics) {
   if (c.compliance && *c.compliance < 0.0)
     option_error("--compliance", a.compliance, "must be at least 0", "give the compliance in mm/N",
                  diagnostics);
-  const bool strain = is_tension_test(a.test) && a.gauge_length == 1.0;
+  const bool strain = (is_tension_test(a.test) || is_rubber_test(a.test)) && a.gauge_length == 1.0;
   if (c.compliance && *c.compliance > 0.0 && (strain || options.measured_angle))
     option_error("--compliance", a.compliance,
                  strain ? "has nothing to correct: the column is a strain"
@@ -258,6 +268,13 @@ std::string test_words(const IdentifyArguments& a) {
     return "picture frame" +
            (std::isnan(a.specimen.side) ? "" : fmt::format(" of {:g} mm", a.specimen.side)) +
            ", equation (41) read backwards";
+  if (is_rubber_test(a.test)) {
+    std::string words = a.test + " tension of rubber";
+    if (!a.others.empty()) words += ", and equibiaxial";
+    if (!std::isnan(a.specimen.width)) words += fmt::format(", width {:g} mm", a.specimen.width);
+    if (a.gauge_length != 1.0) words += fmt::format(", gauge length {:g} mm", a.gauge_length);
+    return words;
+  }
   if (a.test == "cantilever") return "cantilever test, heavy elastica";
   if (a.test == "three-point")
     return fmt::format("three-point bending, span {:g} mm, width {:g} mm", a.specimen.span,

@@ -3,6 +3,7 @@
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
+#include "tools/cli/identify/identify_rubber.hpp"
 #include "tools/cli/progress_line.hpp"
 
 #include <algorithm>
@@ -115,7 +116,7 @@ std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fa
 
 /// Whether a key stands beside another of the same law, which has the comment.
 bool stands_beside(const std::string& key) {
-  return key == "buckling_force" || key == "slack" || key == "pretension" ||
+  return key == "law" || key == "buckling_force" || key == "slack" || key == "pretension" ||
          key == "breaking_force" || key == "height";
 }
 
@@ -140,7 +141,7 @@ void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
       fmt::print("  still without a law: {}; no case can use the fabric before\n", missing);
   fmt::print("written: {}, {}\n", a.output, fit_file.string());
   fs::path picture = fit_file;
-  if (is_shear_test(a.test) || is_tension_test(a.test) ||
+  if (is_shear_test(a.test) || is_tension_test(a.test) || is_rubber_test(a.test) ||
       (a.test == "three-point" && result.laws.front().key == "bending_stiffness"))
     fmt::print("plot: tools/plot.py fit {} -o {}\n", fit_file.string(),
                picture.replace_extension(".png").string());
@@ -172,7 +173,9 @@ int identify_command(const IdentifyArguments& arguments) {
     line.show("chooses the law of shear", fraction);
     if (fraction == 1.0) line.end(); // what it prints comes after
   };
-  const FabricReading base = fabric_of(arguments.fabric, shear, diagnostics);
+  const FabricReading base = is_rubber_test(arguments.test)
+                                 ? rubber_of(arguments.fabric, diagnostics)
+                                 : fabric_of(arguments.fabric, shear, diagnostics);
   if (arguments.test == "in-plane-bending")
     check_zone_fabric(base.missing, {arguments.fabric, 1, 1}, diagnostics);
   check_groups(arguments, base, diagnostics);
@@ -195,6 +198,9 @@ int identify_command(const IdentifyArguments& arguments) {
     result = has_groups(arguments, *base.value)
                  ? identify_groups(arguments, base, test, kinds.curves, kinds.others, options,
                                    diagnostics)
+             : is_rubber_test(arguments.test)
+                 ? identify_rubber_curves(arguments, *base.value, kinds.curves, kinds.others,
+                                          options, diagnostics)
                  : identify(arguments, base, test, kinds.curves, options, diagnostics);
   const bool refused = print_diagnostics(diagnostics);
   if (may_be_reported(arguments, diagnostics))

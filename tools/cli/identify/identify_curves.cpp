@@ -6,6 +6,7 @@
 #include "core/identify/normalised_force.hpp"
 #include "core/identify/slip.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
+#include "tools/cli/identify/identify_rubber.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -139,7 +140,10 @@ std::string files_of(const IdentifyArguments& a) {
   std::vector<std::string> others;
   for (const std::string& curve : a.others)
     others.push_back(curve_argument(curve).name());
-  return joined(names) + (is_shear_test(a.test) ? "; negative: " : "; weft: ") + joined(others);
+  const char* kind = is_shear_test(a.test)    ? "; negative: "
+                     : is_rubber_test(a.test) ? "; equibiaxial: "
+                                              : "; weft: ";
+  return joined(names) + kind + joined(others);
 }
 
 std::optional<PreparedShear> prepare_shear(const IdentifyArguments& a, std::vector<Curve>& curves,

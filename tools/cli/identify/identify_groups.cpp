@@ -5,6 +5,7 @@
 #include "core/identify/fit_stitch.hpp"
 #include "core/identify/stitch_load.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
+#include "tools/cli/identify/identify_rubber.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -300,6 +301,7 @@ std::optional<Identified> bending_groups(const IdentifyArguments& a, const Fabri
 } // namespace
 
 bool has_groups(const IdentifyArguments& a, const Fabric& fabric) {
+  if (is_rubber_test(a.test)) return false; // one law for both
   return !a.others.empty() || (is_shear_test(a.test) && !fabric.stitches.empty());
 }
 

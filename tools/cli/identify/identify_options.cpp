@@ -133,6 +133,25 @@ void add_biaxial_test(CLI::App& command, IdentifyArguments& to) {
   test->callback([&to] { to.test = "biaxial"; });
 }
 
+void add_rubber_tests(CLI::App& command, IdentifyArguments& to) {
+  for (const std::string name : {"uniaxial", "equibiaxial"}) {
+    CLI::App* test = command.add_subcommand(name, "law of a sheet of rubber from " + name +
+                                                      " tension: neo-Hookean or Mooney-Rivlin");
+    add_files(*test, "strain or stretch", "load or nominal stress", to);
+    add_corrections(*test, "strain", to);
+    test->add_option("--width", to.specimen.width,
+                     "width of the section, mm, for loads in N; its thickness is the fabric's");
+    test->add_option("--gauge-length", to.gauge_length,
+                     "mm that turn a displacement into strain [1: it is a strain or stretch]");
+    if (name == "uniaxial")
+      test->add_option("--equibiaxial", to.others,
+                       "CSV files of equibiaxial tension of the same rubber: one law of both");
+    test->add_option("--law", to.law, "neo_hookean or mooney_rivlin [chosen by the rows]")
+        ->check(CLI::IsMember({"neo_hookean", "mooney_rivlin"}));
+    test->callback([&to, name] { to.test = name; });
+  }
+}
+
 void add_bending_tests(CLI::App& command, IdentifyArguments& to) {
   CLI::App* cantilever = command.add_subcommand(
       "cantilever", "bending stiffness from a strip that hangs over an edge (Peirce, ASTM D1388)");
@@ -167,6 +186,7 @@ void add_identify_tests(CLI::App& command, IdentifyArguments& to) {
   add_shear_tests(command, to);
   add_yarn_tests(command, to);
   add_biaxial_test(command, to);
+  add_rubber_tests(command, to);
   add_bending_tests(command, to);
 }
 

@@ -59,6 +59,15 @@ CurveColumns columns_of(const IdentifyArguments& arguments);
 /// "bias-extension test, 300 x 100 mm, equation (40) read backwards".
 std::string test_words(const IdentifyArguments& arguments);
 
+/// tools/cli/identify/identify_report.cpp
+/// What has been taken off a curve; empty if nothing. `unit` of its x: " mm".
+std::string corrections_text(const Corrected& corrected, const std::string& unit);
+std::string confidence_text(const std::string& of_coefficients, const std::string& law,
+                            const Confidence& confidence, const std::string& at,
+                            std::size_t specimens);
+/// What each disturbance would do to the law, of the specimen that it moves most.
+std::string sensitivity_text(const std::vector<SpecimenLaw>& specimens, const std::string& length,
+                             bool displacement, bool stretch);
 /// tools/cli/identify/identify_curves.cpp
 /// A curve as named on the command line: FILE, FILE:COLUMN or NAME=FILE:COLUMN, where FILE is one
 /// and the whole text is not.

@@ -29,26 +29,6 @@ std::string limits_from(std::size_t specimens) {
                        : "from the residuals of one specimen";
 }
 
-/// What has been taken off a curve; empty if nothing.
-std::string corrections_text(const Corrected& c, const std::string& unit) {
-  const auto limits = [](double value) {
-    return value > 0.0 ? fmt::format(" (+- {:.2g})", value) : std::string();
-  };
-  std::vector<std::string> parts;
-  if (c.load_zero != 0.0)
-    parts.push_back(fmt::format("load zero {:.4g} N{}", c.load_zero, limits(c.load_zero_limits)));
-  if (c.toe != 0.0)
-    parts.push_back(fmt::format("displacement zero {:.4g}{}{}", c.toe, unit, limits(c.toe_limits)));
-  if (c.compliance != 0.0) parts.push_back(fmt::format("compliance {:.4g} mm/N", c.compliance));
-  if (c.slip != 0.0)
-    parts.push_back(fmt::format("slip {:.4g}{}{} before line {}", c.slip, unit,
-                                limits(c.slip_limits), c.slip_line));
-  std::string text;
-  for (const std::string& part : parts)
-    text += (text.empty() ? "" : ", ") + part;
-  return text;
-}
-
 /// Lines on each specimen and the scatter between them.
 void put_specimens(const std::vector<SpecimenLaw>& specimens, const Scatter& scatter,
                    const std::string& law, const std::string& unit, const std::string& at,
@@ -84,7 +64,27 @@ void put_specimens(const std::vector<SpecimenLaw>& specimens, const Scatter& sca
                                        specimens.size(), law, 100.0 * scatter.law, at));
 }
 
-/// What each disturbance would do to the law, of the specimen that it moves most.
+} // namespace
+
+std::string corrections_text(const Corrected& c, const std::string& unit) {
+  const auto limits = [](double value) {
+    return value > 0.0 ? fmt::format(" (+- {:.2g})", value) : std::string();
+  };
+  std::vector<std::string> parts;
+  if (c.load_zero != 0.0)
+    parts.push_back(fmt::format("load zero {:.4g} N{}", c.load_zero, limits(c.load_zero_limits)));
+  if (c.toe != 0.0)
+    parts.push_back(fmt::format("displacement zero {:.4g}{}{}", c.toe, unit, limits(c.toe_limits)));
+  if (c.compliance != 0.0) parts.push_back(fmt::format("compliance {:.4g} mm/N", c.compliance));
+  if (c.slip != 0.0)
+    parts.push_back(fmt::format("slip {:.4g}{}{} before line {}", c.slip, unit,
+                                limits(c.slip_limits), c.slip_line));
+  std::string text;
+  for (const std::string& part : parts)
+    text += (text.empty() ? "" : ", ") + part;
+  return text;
+}
+
 std::string sensitivity_text(const std::vector<SpecimenLaw>& specimens, const std::string& length,
                              bool displacement, bool stretch) {
   Sensitivity most;
@@ -113,8 +113,6 @@ std::string confidence_text(const std::string& of_coefficients, const std::strin
   return fmt::format("95 % limits {}of the {} +- {:.2g} % at most, at {}; {}", of_coefficients, law,
                      100.0 * confidence.law, at, limits_from(specimens));
 }
-
-} // namespace
 
 std::string figure_of_residuals(const FitQuality& quality, const std::string& at) {
   return fmt::format("residuals {:.2g} % of the load rms, {:.2g} % at most, at {}",

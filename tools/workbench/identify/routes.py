@@ -20,7 +20,7 @@ from .tests import TESTS
 MOST_CURVES = 50
 MOST_TEXT = 80  # characters of an option
 MOST_REPORT = 16 << 20
-OF_FABRICS = ("warp", "weft", "family", "shear", "thickness")
+OF_FABRICS = ("warp", "weft", "family", "shear", "neo_hookean", "mooney_rivlin", "thickness")
 
 
 def routes(studio: Studio) -> APIRouter:

@@ -43,6 +43,9 @@ SHEAR = [choice("law", "form of the law; chosen by cross-validation unless given
          text("angle-column", "column of a measured shear angle; none: the extension counts")]
 YARNS = [number("yarns", "that share the force"),
          number("gauge-length", "if the curve has displacements instead of strains", "mm")]
+RUBBER = [number("width", "of the section, for loads in N; its thickness is the fabric's", "mm"),
+          number("gauge-length", "if the curve has displacements instead of strains or stretches", "mm")]
+RUBBER_LAW = choice("law", "chosen by the rows unless given", ["neo_hookean", "mooney_rivlin"])
 DIRECTION = choice("direction", "yarns that it is a test of", ["warp", "weft", "both"], required=True)
 
 
@@ -69,6 +72,13 @@ TESTS = [
          "warp strain, weft strain, warp load, weft load; a file for each strain ratio",
          [number("warp-yarns", "that share the load"), number("weft-yarns", "that share the load")],
          [fit("toe", "wrong zeros of strain are taken off", "", numbers=False)]),
+    test("uniaxial", "Uniaxial tension of rubber", "law of a sheet of rubber",
+         "strain, stretch or displacement, and load or nominal stress", RUBBER,
+         [RUBBER_LAW, *corrections("strain", "", "mm or strain"), *COLUMNS],
+         ("equibiaxial", "specimens of the same rubber stretched both ways: one law of both")),
+    test("equibiaxial", "Equibiaxial tension of rubber", "law of a sheet of rubber",
+         "strain, stretch or displacement, and load or nominal stress", RUBBER,
+         [RUBBER_LAW, *corrections("strain", "", "mm or strain"), *COLUMNS]),
     test("compression", "Compression of yarns", "compression_stiffness, buckling_force",
          "shortening and force of a strip held flat, both positive; one specimen", [*YARNS, DIRECTION],
          [*corrections("strain", "", "mm or strain"), *COLUMNS]),

@@ -328,5 +328,65 @@ TEST(FabricFile, ReadsTheLibrary) {
   EXPECT_GE(count, 4);
 }
 
+TEST(FabricFile, ReadsRubberWithItsBending) {
+  const Folder folder;
+  const auto read = [&](const std::string& law) {
+    const FabricReading reading = read_fabric_file(
+        folder.write("r.toml", "surface_density = 1650.0\nthickness = 1.5\n" + law), false);
+    EXPECT_TRUE(reading.value) << texts(reading.errors);
+    return reading.value.value_or(Fabric{});
+  };
+  const Fabric neo =
+      read("law = \"neo_hookean\"\nneo_hookean = {shear_modulus = 0.3, stretch_limit = 2.0}\n");
+  const auto& law = std::get<MooneyRivlinLaw>(neo.sheet.value());
+  EXPECT_DOUBLE_EQ(law.shear_modulus(), 0.3 * 1.5); // N/mm
+  EXPECT_EQ(law.c01, 0.0);
+  EXPECT_NEAR(neo.plate, 0.3 * 1.5 * 1.5 * 1.5 / 3.0, 1e-15); // E h^3 / 9 of nu = 1/2, E = 3 mu
+  EXPECT_DOUBLE_EQ(neo.plate_coupling, 0.5 * neo.plate);
+  EXPECT_DOUBLE_EQ(neo.twist, neo.plate);
+  EXPECT_EQ(neo.stretch_limit, 2.0);
+  const Fabric limp = read("law = \"mooney_rivlin\"\n[mooney_rivlin]\nc10 = 0.2\nc01 = -0.05\n"
+                           "bending_stiffness = 0.0\n");
+  const auto& mooney = std::get<MooneyRivlinLaw>(limp.sheet.value());
+  EXPECT_DOUBLE_EQ(mooney.c10, 0.3);
+  EXPECT_DOUBLE_EQ(mooney.c01, -0.075);
+  EXPECT_EQ(limp.plate, 0.0);
+  EXPECT_FALSE(limp.stretch_limit);
+}
+
+TEST(WithLaw, OfRubberTakesThePlaceOfTheOther) {
+  const Folder folder;
+  const std::string base = "# a bag\n\nthickness = 1.5 # mm\nsurface_density = 1650.0\n"
+                           "law = \"mooney_rivlin\"\n[mooney_rivlin]\nc10 = 0.2\nc01 = 0.1\n";
+  LawText word{"", "law", "\"neo_hookean\"", {}};
+  word.without = {"mooney_rivlin"};
+  const LawText law{
+      "neo_hookean", "shear_modulus", "0.31", {"measured"}, {{"stretch_limit", "1.9"}}};
+  for (const std::string& from : {base, std::string("thickness = 1.5\nsurface_density = 1650.0\n"),
+                                  with_law(with_law(base, word), law)}) {
+    const std::string text = with_law(with_law(from, word), law);
+    EXPECT_EQ(text.find("mooney"), std::string::npos) << text;
+    EXPECT_EQ(text.find("shear_modulus"), text.rfind("shear_modulus")) << text;
+    EXPECT_EQ(text.find("stretch_limit"), text.rfind("stretch_limit")) << text;
+    const FabricReading reading = read_fabric_file(folder.write("r.toml", text), false);
+    ASSERT_TRUE(reading.value) << texts(reading.errors) << text;
+    EXPECT_DOUBLE_EQ(std::get<MooneyRivlinLaw>(*reading.value->sheet).shear_modulus(), 0.31 * 1.5);
+    EXPECT_EQ(reading.value->stretch_limit, 1.9);
+  }
+}
+
+TEST(FabricFile, RubberMayLackItsLaw) {
+  const Folder folder;
+  const std::string sizes = "thickness = 1.5\nsurface_density = 1650.0\n";
+  for (const std::string& text :
+       {sizes, sizes + "law = \"neo_hookean\"\n", sizes + "law = \"mooney_rivlin\"\n",
+        sizes + "law = \"neo_hookean\"\n[neo_hookean]\nbending_stiffness = 0.1\n"}) {
+    const FabricReading reading = read_rubber_file(folder.write("r.toml", text));
+    ASSERT_TRUE(reading.value) << texts(reading.errors) << text;
+    EXPECT_TRUE(std::holds_alternative<MooneyRivlinLaw>(reading.value->sheet.value()));
+    EXPECT_EQ(reading.text, text);
+  }
+}
+
 } // namespace
 } // namespace plyform::fabric_write_test

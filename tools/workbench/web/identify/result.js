@@ -10,12 +10,14 @@ import { fittingDigits, written } from "plyform/numbers.js";
 /** Columns of the rows that are places along, with name, unit and factor. */
 const ALONG = {
   shear_deg: ["shear angle", "°", 1], displacement_mm: ["displacement", "mm", 1], strain: ["strain", "%", 100],
+  stretch: ["stretch", "", 1],
   overhang_mm: ["overhang", "mm", 1], distance_mm: ["distance along the yarn", "mm", 1], force_N: ["force", "N", 1],
   warp_strain: ["warp strain", "%", 100], weft_strain: ["weft strain", "%", 100],
 };
 
 /** Pairs of columns, measured and fitted, with name and unit. */
-const PAIRS = [["measured_N", "fitted_N", "load", "N"], ["measured_mm", "fitted_mm", "deflection", "mm"],
+const PAIRS = [["measured_N", "fitted_N", "load", "N"], ["measured_MPa", "fitted_MPa", "nominal stress", "MPa"],
+  ["measured_mm", "fitted_mm", "deflection", "mm"],
   ["measured_deg", "fitted_deg", "shear angle", "°"], ["measured_N_mm", "fitted_N_mm", "bending stiffness", "N mm"],
   ["warp_N", "warp_fitted_N", "warp load", "N"], ["weft_N", "weft_fitted_N", "weft load", "N"]];
 
