@@ -31,6 +31,21 @@ double penalty_per_area(const PlyBody& ply, double fraction, bool stack) {
 // for a ply of 0.6 mm.
 constexpr double deepest_in_ply = 0.25, deepest_in_tool = 1.0 / 6.0, deepest_of_edges = 0.25;
 
+/// N/mm^2, the largest that pressures can press plies onto each other or onto a tool with.
+double largest_pressure(const Case& data) {
+  std::vector<double> on_ply(data.plies.size(), 0.0);
+  for (const PressureLoad& load : data.loads)
+    on_ply[at(load.ply)] += load.pressure;
+  return on_ply.empty() ? 0.0 : *std::max_element(on_ply.begin(), on_ply.end());
+}
+
+/// The penalty, or what bears the pressures of a case with half of the depth limit: vacuum on soft
+/// rubber would else leave contact no room. share: of the contact's stiffness.
+double bearing(const Case& data, double penalty, double share, double max_depth) {
+  constexpr double half = 0.5, room = 1.0 - half * half;
+  return std::max(penalty, share * largest_pressure(data) * room * room / (half * max_depth));
+}
+
 ContactLaw make_law(const ContactOptions& options, double penalty, double density, double mu,
                     double max_depth) {
   // c = 2 zeta sqrt(k rho): fraction zeta of critical for a node against a wall
@@ -110,8 +125,9 @@ PlyContact make_pass(const Case& data, const std::vector<PlyBody>& plies, int a,
       0.5 * std::min(slave.membrane.fabric.surface_density, master.membrane.fabric.surface_density);
   pair.contact.distance = 0.5 * (slave.thickness + master.thickness);
   pair.contact.slave_share = slave.thickness / (slave.thickness + master.thickness);
-  pair.contact.law = make_law(data.contact, penalty, density, data.friction(a, b),
-                              deepest_in_ply * pair.contact.distance);
+  const double deepest = deepest_in_ply * pair.contact.distance;
+  pair.contact.law = make_law(data.contact, bearing(data, penalty, 0.5, deepest), density,
+                              data.friction(a, b), deepest);
   pair.contact.thickness_follows = slave.thickness_acts || master.thickness_acts;
   pair.contact.distance -= nesting_of(slave, master);
   give_way(pair.contact.law, 0.5, {&slave, &master});
@@ -121,13 +137,9 @@ PlyContact make_pass(const Case& data, const std::vector<PlyBody>& plies, int a,
 }
 
 /// mm, at which edges of two plies meet: two thirds of what nodes and faces keep apart at least.
-/// Sheets without yarns may become four times thinner by then.
-double edge_distance(const PlyPlyContact& contact, const PlyBody& a, const PlyBody& b) {
-  const double half = 0.5 * contact.distance;
-  if (!contact.thickness_follows) return half;
-  const bool stretches = !a.membrane.fabric.has_yarns() || !b.membrane.fabric.has_yarns();
-  const double left = (contact.distance - contact.law.depth_limit()) / (1.5 * contact.distance);
-  return (stretches ? 0.5 : 2.0) * half * left;
+double edge_distance(const PlyPlyContact& contact) {
+  if (!contact.law.loading) return 0.5 * contact.distance;
+  return (contact.distance - contact.law.depth_limit()) / 1.5;
 }
 
 } // namespace
@@ -147,10 +159,11 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBo
   for (std::size_t p = 0; p < plies.size(); ++p) {
     ToolPlyContact c;
     const int body = static_cast<int>(plies.size() + index);
-    c.law =
-        make_law(data.contact, penalty_per_area(plies[p], data.contact.stiffness, plies[p].stacked),
-                 plies[p].membrane.fabric.surface_density, data.friction(static_cast<int>(p), body),
-                 deepest_in_tool * plies[p].thickness);
+    const double deepest = deepest_in_tool * plies[p].thickness;
+    const double penalty = penalty_per_area(plies[p], data.contact.stiffness, plies[p].stacked);
+    c.law = make_law(data.contact, bearing(data, penalty, 1.0, deepest),
+                     plies[p].membrane.fabric.surface_density,
+                     data.friction(static_cast<int>(p), body), deepest);
     c.half_thickness = 0.5 * plies[p].thickness;
     c.thickness_follows = plies[p].thickness_acts;
     give_way(c.law, 1.0, {&plies[p]});
@@ -176,7 +189,7 @@ std::vector<PlyPair> make_pairs(const Case& data, const std::vector<PlyBody>& pl
       pair.edges.a = a, pair.edges.b = b;
       pair.edges.contact.law = contact.law;
       pair.edges.contact.law.loading = pair.edges.contact.law.unloading = nullptr;
-      pair.edges.contact.distance = edge_distance(contact, plies[at(a)], plies[at(b)]);
+      pair.edges.contact.distance = edge_distance(contact);
       pair.edges.contact.law.max_depth = deepest_of_edges / 0.5 * pair.edges.contact.distance;
       pairs.push_back(std::move(pair));
     }

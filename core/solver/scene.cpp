@@ -83,7 +83,7 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   if (body.simd) body.yarns = body.yarns_end = states_at_start(*body.simd, body.membrane);
   body.mass = body.membrane.node_mass;
   body.thickness_law = thickness_law(fabric);
-  body.thickness_acts = fabric.compaction || !fabric.has_yarns();
+  body.thickness_acts = fabric.compaction.has_value();
   body.thickness_ratio.assign(body.x.size(), 1.0);
   body.last_ratio = body.thickness_ratio;
   return body;
