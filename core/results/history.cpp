@@ -15,6 +15,26 @@ namespace plyform {
 
 namespace {
 
+/// The energies of a state: those of stitches and of compaction where a fabric has them.
+template <class Visit>
+void each_energy(const Frame& frame, Visit&& visit) {
+  const bool stitched = std::any_of(frame.plies.begin(), frame.plies.end(),
+                                    [](const PlyFrame& one) { return !one.stitches.empty(); });
+  const bool gives_way = std::any_of(frame.plies.begin(), frame.plies.end(),
+                                     [](const auto& one) { return !one.fibre_volume.empty(); });
+  for (const EnergyTerm& term : energy_terms) {
+    const bool of_stitches =
+        term.value == &Energies::stitch || term.value == &Energies::stitch_breaking;
+    if (of_stitches && !stitched) continue;
+    if (term.value == &Energies::compaction && !gives_way) continue;
+    visit(StateNumber{{std::string(term.name) + "_mJ", term.name, term.label, "mJ", 2, 1e-6},
+                      Location::run,
+                      "",
+                      true},
+          frame.energy.*term.value);
+  }
+}
+
 /// Calls visit(StateNumber, value) for each number of a state, in the order of files. NaN where it
 /// is not known. A new number needs an entry here.
 template <class Visit>
@@ -40,21 +60,7 @@ void each_number(const Frame& frame, Visit&& visit) {
                         Location::ply,
                         one.name},
             one.load_pressure);
-  const bool stitched = std::any_of(frame.plies.begin(), frame.plies.end(),
-                                    [](const PlyFrame& one) { return !one.stitches.empty(); });
-  const bool gives_way = std::any_of(frame.plies.begin(), frame.plies.end(),
-                                     [](const auto& one) { return !one.fibre_volume.empty(); });
-  for (const EnergyTerm& term : energy_terms) {
-    const bool of_stitches =
-        term.value == &Energies::stitch || term.value == &Energies::stitch_breaking;
-    if (of_stitches && !stitched) continue;
-    if (term.value == &Energies::compaction && !gives_way) continue;
-    visit(StateNumber{{std::string(term.name) + "_mJ", term.name, term.label, "mJ", 2, 1e-6},
-                      Location::run,
-                      "",
-                      true},
-          frame.energy.*term.value);
-  }
+  each_energy(frame, visit);
   visit(
       StateNumber{{"balance_error", "balance-error", "error of the energy balance", "1", 3, 1e-9}},
       frame.energy.balance_error());

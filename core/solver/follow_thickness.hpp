@@ -2,8 +2,8 @@
 // Keeps what search and contact know of the thickness of plies (core/ply/thickness.hpp) up to date.
 //
 // It acts in contact where a fabric says how it gives way through its thickness. Cloth that is
-// thicker and does not give way at all would be wrong the other way round: a holder would lie on its
-// most sheared corners alone and let go of the rest (docs/tried.md).
+// thicker and does not give way at all would be wrong the other way round: a holder would lie on
+// its most sheared corners alone and let go of the rest (docs/tried.md).
 #pragma once
 
 #include "base/thread_pool.hpp"
