@@ -28,8 +28,8 @@ double cut_between_nodes(double side, double radius, double thickness, double ha
 /// The longest side (mm) whose cut is half a thickness.
 double side_of_half_cut(double radius, double thickness, double half_turn);
 
-/// Depth of one ply in one tool at their present positions: half the thickness minus the distance of
-/// the mid-surface, as in contact; of a fabric with compaction, which gives way to its densest
+/// Depth of one ply in one tool at their present positions: half the thickness minus the distance
+/// of the mid-surface, as in contact; of a fabric with compaction, which gives way to its densest
 /// packing, half of what is left then.
 struct ToolCut {
   std::string tool, ply;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Tools that press the plies between them. Where two tools whose places are prescribed leave less
 // room than the plies are thick, nothing gives way but contact: the force is then that of its
-// stiffness, a number of the solver, not of cloth, if the plies' fabrics do not say how they give way
-// (Fabric::compaction), or are pressed beyond what they say. A tool pushed by a force, as a
+// stiffness, a number of the solver, not of cloth, if the plies' fabrics do not say how they give
+// way (Fabric::compaction), or are pressed beyond what they say. A tool pushed by a force, as a
 // blank-holder, passes on what it is given.
 //
 //   N  N  normal force of a contact;  side: above or below a ply, by its normals
