@@ -197,6 +197,24 @@ PLYFORM_INLINE Compacted compacted_at(const ContactKernelLaw& k, double depth, d
   return {now.pressure, now.energy, most.energy - back.energy};
 }
 
+/// The greatest depths so far (mm) of points of slave nodes, if the law asks for them.
+template <class Point>
+PLYFORM_INLINE Doubles load_compacted(const ContactKernelLaw& k, Point* const* point) {
+  if (!k.compacted) return all(0.0);
+  return each_lane([&](int i) { return k.compacted[point[i]->node]; });
+}
+
+/// `some`: a bit for each lane that has a point of its own.
+template <class Point>
+PLYFORM_INLINE void store_compacted(const ContactKernelLaw& k, Point* const* point, unsigned some,
+                                    Doubles compacted) {
+  if (!k.compacted) return;
+  alignas(sizeof(Doubles)) double most[lanes];
+  store_lanes(most, compacted);
+  for (int i = 0; i < lanes; ++i)
+    if (has(some, i)) k.compacted[point[i]->node] = most[i];
+}
+
 /// Elastic pressure (N/mm^2) and twice the energy per area (N/mm) of contacts at `depth` (mm).
 struct SimdElastic {
   Doubles pressure, energy2;

@@ -261,21 +261,6 @@ PLYFORM_INLINE void store_points(const PlyPlyKernelContact& k, const std::int32_
   }
 }
 
-/// The greatest depths so far (mm) of the points, if the law asks for them.
-PLYFORM_INLINE Doubles load_compacted(const PlyPlyKernelContact& k, const Group& g) {
-  if (!k.compacted) return all(0.0);
-  return each_lane([&](int i) { return k.compacted[g.point[i]->node]; });
-}
-
-PLYFORM_INLINE void store_compacted(const PlyPlyKernelContact& k, const Group& g,
-                                    Doubles compacted) {
-  if (!k.compacted) return;
-  alignas(sizeof(Doubles)) double most[lanes];
-  store_lanes(most, compacted);
-  for (int i = 0; i < lanes; ++i)
-    if (has(g.real, i)) k.compacted[g.point[i]->node] = most[i];
-}
-
 /// Third pass: forces of touching points.
 PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* active,
                           const std::int32_t* number, const Chunk& chunk, SimdTotals& sums) {
@@ -293,12 +278,12 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* acti
                distance - k.distance * thickness,
                last.of[3],
                thickness,
-               load_compacted(k, g),
+               load_compacted(k, g.point),
                {held.of[3], last.of[0], last.of[1], {held.of[0], held.of[1], held.of[2]}}};
   const SimdForces f = forces_of(k, x, u, w, distance, fold, mask_of(g.real), p, sums);
   add_forces(k, g, w, f);
   store_points(k, active, g, chunk, p);
-  store_compacted(k, g, p.compacted);
+  store_compacted(k, g.point, g.real, p.compacted);
   for (int i = 0; i < lanes; ++i)
     sums.touching += has(g.real, i) ? 1 : 0;
 }

@@ -48,21 +48,6 @@ PLYFORM_INLINE Doubles thickness_ratios(const ToolPlyKernelContact& k, const Too
   return each_lane([&](int i) { return k.thickness_ratio[g.point[i]->node]; });
 }
 
-/// The greatest depths so far (mm) of the points, if the law asks for them.
-PLYFORM_INLINE Doubles load_compacted(const ToolPlyKernelContact& k, const ToolGroup& g) {
-  if (!k.compacted) return all(0.0);
-  return each_lane([&](int i) { return k.compacted[g.point[i]->node]; });
-}
-
-PLYFORM_INLINE void store_compacted(const ToolPlyKernelContact& k, const ToolGroup& g,
-                                    Doubles compacted) {
-  if (!k.compacted) return;
-  alignas(sizeof(Doubles)) double most[lanes];
-  store_lanes(most, compacted);
-  for (int i = 0; i < g.count; ++i)
-    k.compacted[g.point[i]->node] = most[i];
-}
-
 PLYFORM_INLINE Vectors motions(const ToolPlyKernelContact& k, const ToolGroup& g) {
   Double4 u[lanes];
   for (int i = 0; i < lanes; ++i)
@@ -98,9 +83,9 @@ PLYFORM_INLINE Vectors forces_of(const ToolPlyKernelContact& k, const ToolGroup&
   const Doubles depth = -gap * per_thickness, dp = (last_gap - gap) * per_thickness;
   const Doubles opening = counted & ~touch ? whole : zero;
   add(sums.friction, 0.5 * opening * k.tangential * square(m.s));
-  Doubles compacted = load_compacted(k, g);
+  Doubles compacted = load_compacted(k, g.point);
   const SimdElastic elastic = elastic_of(k, area, depth, touch, compacted, sums);
-  store_compacted(k, g, compacted);
+  store_compacted(k, g.point, (1U << g.count) - 1, compacted);
   const Doubles pressure =
       normal_pressure(k, area, elastic.pressure, depth, per_thickness * smaller(last_gap, zero), dp,
                       per_thickness, counted, m, sums);
