@@ -32,7 +32,10 @@ public:
   /// mm, depth at the densest packing, where the curve ends.
   double packed() const { return packed_; }
   double last_pressure() const { return pressure_.back(); } ///< N/mm^2, there
-  double last_slope() const { return steepest_.back(); }    ///< N/mm^3, the largest of all
+  /// N/mm^3, of the last piece, with which it goes on beyond.
+  double last_slope() const {
+    return (pressure_.back() - pressure_[pressure_.size() - 2]) * per_spacing_;
+  }
   /// N/mm^2 at a depth (mm) of 0 to packed().
   double pressure(double depth) const;
   /// N/mm^3, the largest slope from 0 up to a depth (mm) of 0 to packed().

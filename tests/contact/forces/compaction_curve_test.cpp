@@ -88,5 +88,27 @@ TEST(CompactionCurve, AContactGoesItsWayBackAndCountsWhatIsLost) {
   EXPECT_GT(sums.compaction, 0.1 * work);
 }
 
+/// A curve that flattens: beyond its end the kernel, and what pushed tools are balanced by, go on
+/// with the slope that it has there, not with the steepest.
+TEST(CompactionCurve, BeyondItsEndAContactGoesOnWithTheLastSlope) {
+  const HalfCompaction half{{0.0, 0.08, 0.1}, {0.0, 0.02, 0.1}};
+  std::vector<ToolPlyContact> contact(1);
+  contact[0].law = {0.5, 0.0, 0.0, 0.05};
+  contact[0].law.loading = std::make_shared<CompactionCurve>(&half, nullptr);
+  contact[0].half_thickness = 0.3;
+  const double slope = contact[0].law.loading->last_slope();
+  EXPECT_NEAR(slope, 0.25, 1e-9); // N/mm^3; 4 at the begin
+  ToolBody floor;
+  floor.shape = Plane{};
+  OwnedSheet node = points_only({{0.0, 0.0, 0.3}}, 2.0);
+  find_tool_ply_points(contact[0], floor, node.state(), 1.0, 0.0);
+  node.x[0].z() = 0.3 - 0.11;
+  const std::vector<SurfaceKinematics> states{node.state()};
+  tool_ply_forces(floor, contact, states, std::vector<double>{1.0}, 0.0);
+  const double u = 0.01 / 0.05, q = 1.0 - u * u, wanted = 0.1 + 0.01 * (slope + 0.5 / (q * q));
+  EXPECT_NEAR(contact[0].force[0].z(), 2.0 * wanted, 1e-9);
+  EXPECT_NEAR(contact[0].law.pressure(0.11), wanted, 1e-9);
+}
+
 } // namespace
 } // namespace plyform::compaction_curve_test
