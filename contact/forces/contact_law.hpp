@@ -101,16 +101,8 @@ struct ContactLaw {
           std::max(steepest, unloading->steepest(unloading->depth_at(loading->pressure(inside))));
     return beyond > 0.0 ? steepest + tangent : steepest;
   }
-  /// Elastic energy per area, N/mm, at depth p > 0, mm, as if it had gone there straight.
-  double energy(double p) const {
-    if (!loading) return 0.5 * stiffness * p * p / room(p);
-    const double beyond = std::max(p - packed(), 0.0), inside = std::min(p, packed());
-    const double stored = unloading
-                              ? unloading->energy(unloading->depth_at(loading->pressure(inside)))
-                              : loading->energy(inside);
-    return stored + beyond * (loading->last_pressure() + 0.5 * loading->last_slope() * beyond) +
-           0.5 * stiffness * beyond * beyond / room(beyond);
-  }
+  /// Elastic energy per area, N/mm, at depth p > 0, mm, of a law without a curve.
+  double energy(double p) const { return 0.5 * stiffness * p * p / room(p); }
 
 private:
   double barrier(double p) const {

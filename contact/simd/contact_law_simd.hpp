@@ -181,7 +181,7 @@ PLYFORM_INLINE double last_rise(const CompactionTable& t) {
 }
 
 /// What a contact that has been `compacted` (mm) deep bears at a depth (mm), stores, and has lost
-/// per area since it was first loaded: (L) and (U) of contact/forces/contact_law.hpp.
+/// per area since it was first loaded: (C) of contact/forces/contact_law.hpp.
 struct Compacted {
   double pressure, stored, lost; ///< N/mm^2, N/mm, N/mm
 };

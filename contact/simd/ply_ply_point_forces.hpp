@@ -39,7 +39,8 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
   const Doubles zero = all(0.0);
   const Vectors arm = x.p - w.b * x.b - w.c * x.c;
   const Vectors motion = u.p - w.b * u.b - w.c * u.c;
-  const Doubles per_thickness = 1.0 / p.thickness, depth = -p.gap * per_thickness;
+  const Doubles per_thickness = k.slave_ratio ? 1.0 / p.thickness : all(1.0);
+  const Doubles depth = -p.gap * per_thickness;
   const Vectors normal = (1.0 / distance) * arm;
   const Doubles area = touch ? p.area : zero;
   const Longs known = p.last_gap < 1e300;

@@ -43,9 +43,10 @@ PLYFORM_INLINE Doubles areas(const ToolPlyKernelContact& k, const ToolGroup& g) 
   return each_lane([&](int i) { return k.area[g.point[i]->node]; });
 }
 
-PLYFORM_INLINE Doubles thickness_ratios(const ToolPlyKernelContact& k, const ToolGroup& g) {
+/// 1 over r of contact/forces/contact_law.hpp.
+PLYFORM_INLINE Doubles per_thickness_of(const ToolPlyKernelContact& k, const ToolGroup& g) {
   if (!k.thickness_ratio) return all(1.0);
-  return each_lane([&](int i) { return k.thickness_ratio[g.point[i]->node]; });
+  return 1.0 / each_lane([&](int i) { return k.thickness_ratio[g.point[i]->node]; });
 }
 
 PLYFORM_INLINE Vectors motions(const ToolPlyKernelContact& k, const ToolGroup& g) {
@@ -76,10 +77,10 @@ PLYFORM_INLINE Vectors everywhere(const double* v) {
 /// energy of its tangential spring is counted as frictional dissipation; with area 0 the law then
 /// resets its history but for the slip, which is reset here.
 PLYFORM_INLINE Vectors forces_of(const ToolPlyKernelContact& k, const ToolGroup& g,
-                                 const Vectors& normal, Doubles gap, Doubles last_gap, Longs touch,
-                                 Longs counted, SimdHistory& m, SimdTotals& sums) {
+                                 const Vectors& normal, Doubles gap, Doubles last_gap,
+                                 Doubles per_thickness, Longs touch, Longs counted, SimdHistory& m,
+                                 SimdTotals& sums) {
   const Doubles zero = all(0.0), whole = areas(k, g), area = touch ? whole : zero;
-  const Doubles per_thickness = 1.0 / thickness_ratios(k, g);
   const Doubles depth = -gap * per_thickness, dp = (last_gap - gap) * per_thickness;
   const Doubles opening = counted & ~touch ? whole : zero;
   add(sums.friction, 0.5 * opening * k.tangential * square(m.s));
@@ -122,7 +123,7 @@ PLYFORM_INLINE void press_group(const ToolPlyKernelContact& k, const ToolGroup& 
   const Doubles last_gap = gaps.of[3], gap = gaps.of[2] - dot(normal, everywhere(k.advance));
   SimdHistory m{held.of[3], gaps.of[0], gaps.of[1], {held.of[0], held.of[1], held.of[2]}};
   const Longs touch = g.real & (gap < 0.0);
-  const Doubles per_thickness = 1.0 / thickness_ratios(k, g);
+  const Doubles per_thickness = per_thickness_of(k, g);
   keep_smaller(sums.step_ratio,
                step_ratio_of(k, -gap * per_thickness, (last_gap - gap) * per_thickness));
   const Longs loaded = touch | (m.normal_force != 0.0) | (m.damping_force != 0.0);
@@ -130,7 +131,8 @@ PLYFORM_INLINE void press_group(const ToolPlyKernelContact& k, const ToolGroup& 
   if (pressed != 0) {
     const Longs counted = g.real & mask_of(pressed);
     const SimdHistory before = m;
-    const Vectors f = forces_of(k, g, normal, gap, last_gap, touch, counted, m, sums);
+    const Vectors f =
+        forces_of(k, g, normal, gap, last_gap, per_thickness, touch, counted, m, sums);
     if (pressed != whole_quads(~0U)) restore(m, before, ~mask_of(pressed));
     set_forces(k, g, f, bits_of(counted));
     add(on_nodes.x, counted ? f.x : all(0.0));
