@@ -189,6 +189,8 @@ struct Fabric {
 
   bool has_yarns() const { return !families.empty(); }
   double weight() const { return surface_density * standard_gravity; } ///< N/mm^2
+  /// mm, as thin as it is ever pressed.
+  double least_thickness() const { return compaction ? compaction->densest() : thickness; }
 };
 
 /// Whether it has two families and one crossing of them, warp and weft, and nothing else: no sheet,

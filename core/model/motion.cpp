@@ -93,9 +93,21 @@ double motion_at(const Boundary& boundary, double t, double duration) {
   return programme_value(stages_of(boundary), t, duration);
 }
 
-double pressure_at(const PressureLoad& load, double t, double duration) {
-  const double p = programme_value(load.stages(), t, duration);
-  return load.side == PlyFace::below ? p : -p;
+std::optional<double> pressure_on(const Case& data, std::size_t ply, double t) {
+  std::optional<double> sum;
+  for (const PressureLoad& load : data.loads) {
+    if (static_cast<std::size_t>(load.ply) != ply) continue;
+    const double p = programme_value(load.stages(), t, data.solver.duration);
+    sum = sum.value_or(0.0) + (load.side == PlyFace::below ? p : -p);
+  }
+  return sum;
+}
+
+double largest_pressure_on(const Case& data, std::size_t ply) {
+  double sum = 0.0;
+  for (const PressureLoad& load : data.loads)
+    if (static_cast<std::size_t>(load.ply) == ply) sum += load.pressure;
+  return sum;
 }
 
 double force_share(double t, double duration) {

@@ -4,6 +4,8 @@
 
 #include "core/model/case.hpp"
 
+#include <optional>
+
 namespace plyform {
 
 /// Stroke of the first driven tool, or else of the first driven boundary, mm; 0 if there is none.
@@ -40,8 +42,12 @@ double motion_at(const Tool& tool, double t, double duration);
 /// a gripper without a drive; 0 of springs and planes of symmetry.
 double motion_at(const Boundary& boundary, double t, double duration);
 
-/// N/mm^2 of a load at time t (s) of `duration` (s), positive upwards: from below.
-double pressure_at(const PressureLoad& load, double t, double duration);
+/// N/mm^2 of all loads on a ply at time t (s), positive upwards, from below; nothing: none acts on
+/// it.
+std::optional<double> pressure_on(const Case& data, std::size_t ply, double t);
+
+/// N/mm^2 that all loads on a ply come to at most, whichever way they push.
+double largest_pressure_on(const Case& data, std::size_t ply);
 
 /// Share of a force that has come up at time t (s) where it has no programme: of the preload of a
 /// spring.

@@ -12,16 +12,10 @@ constexpr double resolution = 0.01; // thicknesses; a cut of one thickness makes
 constexpr int most_halvings = 8;    // of a quarter of a side: 0.01 mm where a side has 10 mm
 
 /// Search for the deepest point of one ply in one tool.
-/// mm, of a ply that is pressed as thin as it goes.
-double thickness_left(const PlyBody& ply) {
-  const auto& compaction = ply.membrane.fabric.compaction;
-  return compaction ? compaction->densest() : ply.thickness;
-}
-
 class Search {
 public:
   Search(const PlyBody& ply, const ToolBody& tool)
-      : ply_(ply), tool_(tool), half_(0.5 * thickness_left(ply)) {}
+      : ply_(ply), tool_(tool), half_(0.5 * ply.membrane.fabric.least_thickness()) {}
 
   double deepest() {
     std::vector<const Triangle*> near;
@@ -112,7 +106,8 @@ std::vector<ToolCut> cuts_between_nodes(const Scene& s, ThreadPool& pool) {
   pool.run(static_cast<int>(cuts.size()), [&](int i) {
     const ToolState& tool = s.tools[at(i) / s.plies.size()];
     const PlyBody& ply = s.plies[at(i) % s.plies.size()];
-    cuts[at(i)] = {tool.name, ply.name, Search(ply, tool.body).deepest(), thickness_left(ply)};
+    cuts[at(i)] = {tool.name, ply.name, Search(ply, tool.body).deepest(),
+                   ply.membrane.fabric.least_thickness()};
   });
   return cuts;
 }

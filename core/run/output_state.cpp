@@ -140,16 +140,6 @@ std::vector<double> add_yarns(const PlyBody& ply, PlyFrame& f) {
   return area_ratios;
 }
 
-/// PlyFrame::load_pressure
-double load_pressure(const Scene& scene, std::size_t ply) {
-  double sum = std::numeric_limits<double>::quiet_NaN();
-  for (const PressureLoad& load : scene.data.loads)
-    if (at(load.ply) == ply)
-      sum =
-          pressure_at(load, scene.time, scene.data.solver.duration) + (std::isnan(sum) ? 0.0 : sum);
-  return sum;
-}
-
 PlyFrame make_ply_frame(const Scene& scene, const BridgingSearch& bridging, int index) {
   const PlyBody& ply = scene.plies[index];
   PlyFrame f;
@@ -169,7 +159,8 @@ PlyFrame make_ply_frame(const Scene& scene, const BridgingSearch& bridging, int 
   for (const ToolState& tool : scene.tools)
     tools.push_back(&tool.body);
   bridging.fill(at(index), f); // before wrinkles, which are none there
-  f.load_pressure = load_pressure(scene, static_cast<std::size_t>(index));
+  f.load_pressure = pressure_on(scene.data, at(index), scene.time)
+                        .value_or(std::numeric_limits<double>::quiet_NaN());
   f.wrinkle_height = wrinkles_of(f, tools, least_wrinkle).at_nodes;
   return f;
 }

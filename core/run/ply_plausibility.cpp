@@ -217,19 +217,17 @@ std::vector<std::string> doubts_of_pressed(const Scene& s, const std::vector<Kno
     if (known[t].time_s < first.time_s) first = known[t];
   }
   if (names.empty()) return {};
-  const bool any = std::any_of(s.plies.begin(), s.plies.end(), [](const PlyBody& ply) {
-    return ply.membrane.fabric.compaction.has_value();
-  });
-  return {
-      fmt::format("do not trust the force of {} after {}: they press the plies between them "
-                  "with less room than {}, and nothing gives way but contact, whose stiffness "
-                  "is a number of the solver; {}, or push one by a force",
-                  joined(names),
-                  whole_stroke(s.data) != 0.0 ? fmt::format("{:.4g} mm", first.stroke_mm)
-                                              : fmt::format("{:.4g} s", first.time_s),
-                  any ? "the densest packing of their fabrics" : "the plies are thick",
-                  any ? "leave them room for that"
-                      : "give their fabrics a compaction, leave them the thickness of the stack")};
+  return {fmt::format(
+      "do not trust the force of {} after {}: they press the plies between them "
+      "with less room than {}, and nothing gives way but contact, whose stiffness "
+      "is a number of the solver; {}, or push one by a force",
+      joined(names),
+      whole_stroke(s.data) != 0.0 ? fmt::format("{:.4g} mm", first.stroke_mm)
+                                  : fmt::format("{:.4g} s", first.time_s),
+      s.any_thickness_acts ? "the densest packing of their fabrics" : "the plies are thick",
+      s.any_thickness_acts
+          ? "leave them room for that"
+          : "give their fabrics a compaction, leave them the thickness of the stack")};
 }
 
 /// Mean element size (mm) of the plies that have touched a tool, the largest.

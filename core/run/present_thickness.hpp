@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Thickness of plies that give way through it, as their contacts leave it.
 //
-//   each half of a ply reaches from its mid-surface to what it touches: the tool; of two plies,
-//   each has its share of the distance of both mid-surfaces, as of h (contact/forces/ply_ply.hpp);
-//   where it touches nothing, half its thickness before forming times r (core/ply/thickness.hpp)
-//   (1) V = rho_A A0 / (rho_f A t)   fibre volume fraction of a triangle (2)
+//   (1) each half of a ply reaches from its mid-surface to what it touches: the tool; of two plies,
+//       each has its share of the distance of both mid-surfaces, as of h
+//       (contact/forces/ply_ply.hpp), in the mean over the nodes of either that are near; where it
+//       touches nothing, half its thickness before forming times r (core/ply/thickness.hpp)
+//   (2) V = rho_A A0 / (rho_f A t), fibre volume fraction of a triangle
 #pragma once
 
 #include "core/solver/scene.hpp"

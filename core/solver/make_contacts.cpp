@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/solver/make_contacts.hpp"
 
+#include "core/model/motion.hpp"
+
 #include <algorithm>
 #include <cmath>
 
@@ -33,10 +35,10 @@ constexpr double deepest_in_ply = 0.25, deepest_in_tool = 1.0 / 6.0, deepest_of_
 
 /// N/mm^2, the largest that pressures can press plies onto each other or onto a tool with.
 double largest_pressure(const Case& data) {
-  std::vector<double> on_ply(data.plies.size(), 0.0);
-  for (const PressureLoad& load : data.loads)
-    on_ply[at(load.ply)] += load.pressure;
-  return on_ply.empty() ? 0.0 : *std::max_element(on_ply.begin(), on_ply.end());
+  double most = 0.0;
+  for (std::size_t p = 0; p < data.plies.size(); ++p)
+    most = std::max(most, largest_pressure_on(data, p));
+  return most;
 }
 
 /// The penalty, or what bears the pressures of a case with half of the depth limit: vacuum on soft

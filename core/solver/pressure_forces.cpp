@@ -25,30 +25,9 @@
 namespace plyform {
 namespace {
 
-bool is_on(const PressureLoad& load, std::size_t ply) {
-  return at(load.ply) == ply;
-}
-
 bool any_on(const Scene& s, std::size_t ply) {
   return std::any_of(s.data.loads.begin(), s.data.loads.end(),
-                     [ply](const PressureLoad& load) { return is_on(load, ply); });
-}
-
-/// p on a ply at the present time, N/mm^2, upwards.
-double pressure_now(const Scene& s, std::size_t ply) {
-  double sum = 0.0;
-  for (const PressureLoad& load : s.data.loads) {
-    if (is_on(load, ply)) sum += pressure_at(load, s.time, s.data.solver.duration);
-  }
-  return sum;
-}
-
-/// |p| on a ply at most, N/mm^2.
-double largest_pressure(const Scene& s, std::size_t ply) {
-  double sum = 0.0;
-  for (const PressureLoad& load : s.data.loads)
-    if (is_on(load, ply)) sum += load.pressure;
-  return sum;
+                     [ply](const PressureLoad& load) { return at(load.ply) == ply; });
 }
 
 double half_work(const PlyBody& ply) {
@@ -61,7 +40,7 @@ double half_work(const PlyBody& ply) {
 /// (K) of each node: add(node, N/mm).
 template <class Add>
 void each_row(const Scene& s, std::size_t p, const Add& add) {
-  const double sixth = largest_pressure(s, p) / 6.0;
+  const double sixth = largest_pressure_on(s.data, p) / 6.0;
   const PlyBody& ply = s.plies[p];
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];
@@ -80,7 +59,7 @@ double PressureForces::place(const Scene& s, int task) {
 void PressureForces::run(Scene& s, int task) {
   if (!any_on(s, at(task))) return;
   PlyBody& ply = s.plies[at(task)];
-  const double sixth = pressure_now(s, at(task)) / 6.0;
+  const double sixth = pressure_on(s.data, at(task), s.time).value_or(0.0) / 6.0;
   ply.load.assign(ply.x.size(), Vec3::Zero());
   for (const Triangle& t : ply.membrane.triangles) {
     const Vec3 &a = ply.x[at(t[0])], &b = ply.x[at(t[1])], &c = ply.x[at(t[2])];

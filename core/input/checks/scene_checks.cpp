@@ -269,10 +269,8 @@ bool any_gives_way(const SceneCheck& check) {
 /// mm, thickness of all plies together, of those that give way in their densest packing.
 double densest_stack(const SceneCheck& check) {
   double sum = 0.0;
-  for (const Ply& ply : check.scene.plies) {
-    const Fabric& fabric = fabric_of(check.scene, ply);
-    sum += fabric.compaction ? fabric.compaction->densest() : fabric.thickness;
-  }
+  for (const Ply& ply : check.scene.plies)
+    sum += fabric_of(check.scene, ply).least_thickness();
   return sum;
 }
 
