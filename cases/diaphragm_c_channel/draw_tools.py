@@ -8,11 +8,14 @@ writes channel.step there, or beside this file; tools/mesh_tool.py makes a mesh 
 plate, both one piece: edges and feet of the block are rounded. All lengths in mm; the block's top,
 on which the web is formed, is z = 0. Exit codes: 0 done, 1 not."""
 
-import os
 import sys
 from pathlib import Path
 
 import gmsh
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from step_file import write_step  # noqa: E402
 
 WEB = 60.0      # width of the block
 DEPTH = 40.0    # of the flanges: the plate lies that far below the web
@@ -21,8 +24,7 @@ PLATE = (400.0, 20.0)  # width, thickness
 LENGTH = 300.0  # along y: beyond the frame of the membranes
 
 
-def draw() -> None:
-    occ = gmsh.model.occ
+def draw(occ) -> None:
     block = (3, occ.addBox(-WEB / 2, -LENGTH / 2, -DEPTH, WEB, LENGTH, DEPTH))
     plate = (3, occ.addBox(-PLATE[0] / 2, -LENGTH / 2, -DEPTH - PLATE[1], PLATE[0], LENGTH, PLATE[1]))
     (_, whole), = occ.fuse([block], [plate])[0]
@@ -36,25 +38,9 @@ def draw() -> None:
     occ.synchronize()
 
 
-def write(path: Path) -> None:
-    """Without what Open CASCADE prints of it."""
-    out, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
-    try:
-        gmsh.write(str(path))
-    finally:
-        os.dup2(out, 1)
-        os.close(out)
-        os.close(nowhere)
-
-
 def main() -> None:
     path = (Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent) / "channel.step"
-    gmsh.initialize([], False)
-    gmsh.option.setNumber("General.Terminal", 0)
-    draw()
-    write(path)
-    gmsh.finalize()
+    write_step(path, draw)
     print(path)
 
 

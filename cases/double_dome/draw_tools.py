@@ -8,11 +8,14 @@ writes punch.step, die.step and blank_holder.step there, or beside this file; to
 meshes of them. All lengths in mm; the die's top is z = 0, and so are the punch's lowest line and the
 blank-holder's face. Exit codes: 0 done, 1 not."""
 
-import os
 import sys
 from pathlib import Path
 
 import gmsh
+
+sys.path.insert(0, str(Path(__file__).resolve().parents[1]))
+
+from step_file import write_step  # noqa: E402
 
 HALF = 75.0            # half the distance of the domes' centres, along x
 RADIUS = 60.0          # of both domes, and of the ridge between them
@@ -57,28 +60,12 @@ TOOLS = {
 }
 
 
-def write(path: Path) -> None:
-    """Without what Open CASCADE prints of it."""
-    out, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
-    try:
-        gmsh.write(str(path))
-    finally:
-        os.dup2(out, 1)
-        os.close(out)
-        os.close(nowhere)
-
-
 def main() -> None:
     folder = Path(sys.argv[1]) if len(sys.argv) > 1 else Path(__file__).parent
     for name, draw in TOOLS.items():
-        gmsh.initialize([], False)
-        gmsh.option.setNumber("General.Terminal", 0)
-        draw()
-        OCC.synchronize()
-        write(folder / f"{name}.step")
-        gmsh.finalize()
-        print(folder / f"{name}.step")
+        path = folder / f"{name}.step"
+        write_step(path, lambda _, draw=draw: draw())
+        print(path)
 
 
 if __name__ == "__main__":

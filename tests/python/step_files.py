@@ -1,25 +1,11 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""STEP files for the tests, drawn by gmsh."""
+"""STEP files for the tests, drawn as those of the cases are."""
 
-import os
 import sys
+from pathlib import Path
 
-import gmsh
+sys.path.insert(0, str(Path(__file__).parents[2] / "cases"))
 
+from step_file import write_step  # noqa: E402
 
-def write_step(path, build):
-    """`build` draws with gmsh.model.occ; without what Open CASCADE prints."""
-    sys.stdout.flush()
-    out, nowhere = os.dup(1), os.open(os.devnull, os.O_WRONLY)
-    os.dup2(nowhere, 1)
-    try:
-        gmsh.initialize([], False)
-        gmsh.option.setNumber("General.Terminal", 0)
-        build(gmsh.model.occ)
-        gmsh.model.occ.synchronize()
-        gmsh.write(str(path))
-        gmsh.finalize()
-    finally:
-        os.dup2(out, 1)
-        os.close(out)
-        os.close(nowhere)
+__all__ = ["write_step"]
