@@ -230,7 +230,8 @@ def fabric_alone(page, server):
     server.send("api/cases", {"name": "begun"})
     page.go(server, "setup")
     page.until(lambda: page.text("#case-list") == "begun/case.toml" and page.seen("[data-item=case] button"), "a case")
-    assert page.find(".outline").is_displayed() and page.find("#run-case-button").is_displayed()
+    page.until(lambda: page.find(".outline").is_displayed() and page.find("#run-case-button").is_displayed(),
+               "its outline and its button")
     page.go(server, "setup/cloth/found.toml")
     page.until(lambda: page.find("#case-list").get_attribute("value") == "cloth/found.toml", "the fabric again")
     page.pick("#case-list", "begun/case.toml")

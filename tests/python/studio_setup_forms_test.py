@@ -199,9 +199,9 @@ def text_beside(page: Page) -> None:
     page.press("#toml-revert")
     page.until(lambda: page.js("return plyform_setup.editor.mirror.getValue()") == saved)
     page.press("#show-toml")
-    assert not page.find("#toml").is_displayed()
+    page.until(lambda: not page.find("#toml").is_displayed(), "the text is put away")
     page.press("#show-toml")
-    assert page.find("#toml").is_displayed()
+    page.until(lambda: page.find("#toml").is_displayed(), "it is back")
 
 
 def mistakes(page: Page) -> None:
@@ -210,13 +210,13 @@ def mistakes(page: Page) -> None:
     page.item("ply.1")
     page.key("ply.1.name", page.tree()["ply"][0]["name"])
     page.until(lambda: page.seen(".fault-words:not(.warning)"), seconds=120)
-    assert page.seen('[data-item="ply.1"] b.wrong')
-    assert page.seen(".fault-line")
+    page.until(lambda: page.seen('[data-item="ply.1"] b.wrong'), "it is marked in the outline")
+    page.until(lambda: page.seen(".fault-line"), "and in the text")
     page.until(lambda: page.seen(".callout.wrong"), seconds=30)
     page.item("case")
     page.press(".fault-words:not(.warning)")
     page.until(lambda: page.js("return plyform_setup.chosen") == "ply.1")
-    assert page.seen('[data-at="ply.1.name"] .words')
+    page.until(lambda: page.seen('[data-at="ply.1.name"] .words'), "it stands at its key")
     page.press("#undo")
     page.until(lambda: not page.seen(".fault-words:not(.warning)"), seconds=120)
 

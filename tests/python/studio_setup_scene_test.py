@@ -61,16 +61,16 @@ def scene_controls(page: Page) -> None:
     assert page.text("#scene-stroke-words") == "50 %"
     page.slide("#scene-stroke", 0)
     page.press("#scene-labels")
-    assert not page.find(".callouts").is_displayed()
+    page.until(lambda: not page.find(".callouts").is_displayed(), "labels are hidden, with the next picture")
     page.press("#scene-labels")
-    assert page.seen(".callout")
+    page.until(lambda: page.seen(".callout") and page.find(".callouts").is_displayed(), "labels are there again")
     pane = page.find(".scene-pane")
     pane.send_keys("2")
     assert page.js("return plyform_setup.area.view.stage.camera.elevation") == 90
     pane.send_keys("t")
     assert page.js("return plyform_setup.area.view.settings.tools") == "solid"
     pane.send_keys("ttm")
-    assert page.find("#scene-measure").get_attribute("aria-pressed") == "true"
+    page.until(lambda: page.find("#scene-measure").get_attribute("aria-pressed") == "true", "m measures")
 
 
 def measuring(page: Page) -> None:
