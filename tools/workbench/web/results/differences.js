@@ -28,18 +28,21 @@ class DifferencesView {
   }
 
   async show(chosen) {
-    this.keys.replaceChildren();
-    this.figures.replaceChildren();
+    this.chosen = chosen;
     if (chosen.length < 2) {
+      this.keys.replaceChildren();
+      this.figures.replaceChildren();
       this.words.textContent = "Choose two runs or more in the list.";
       return;
     }
     const { rows, folders, unknown } = await send("results/differences", { folders: chosen.map((run) => run.folder) });
+    if (chosen !== this.chosen) return; // others were chosen meanwhile
     const letters = folders.map((folder) => letterOf(chosen.findIndex((run) => run.folder === folder)));
     const differ = rows.length ? `${rows.length} ${rows.length === 1 ? "key differs" : "keys differ"}. `
       : "The cases give the same. ";
     this.words.textContent = (folders.length < 2 ? "" : differ) + (unknown.length ? `${unknown.join(", ")}: what the ` +
       "case was is not known; runs tell it that have ended, and were made by this version." : "");
+    this.keys.replaceChildren();
     if (rows.length) {
       this.keys.append(head("Key", letters), element("tbody", {}, ...rows.map((row) => element("tr", {},
         element("th", { scope: "row", textContent: row.key }),
@@ -52,7 +55,7 @@ class DifferencesView {
     const figures = new Map(chosen.flatMap((run) => run.figures.map((one) => [one.id, one])));
     const less = chosen.slice(1).map((_, i) => `${letterOf(i + 1)} − A`);
     const of = (run, id) => run.figures.find((one) => one.id === id);
-    this.figures.append(head("Figure", [...chosen.map((_, i) => letterOf(i)), ...less]),
+    this.figures.replaceChildren(head("Figure", [...chosen.map((_, i) => letterOf(i)), ...less]),
       element("tbody", {}, ...[...figures.values()].map(({ id, label }) => element("tr", {},
         element("th", { scope: "row", textContent: label }),
         ...chosen.map((run) => element("td", { textContent: of(run, id) ? figureText(of(run, id)) : "–" })),

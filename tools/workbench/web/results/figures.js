@@ -39,6 +39,7 @@ export const csvOf = ({ head, body }) => `${[head, ...body].map((row) => row.map
 class FiguresView {
   constructor(place, panel) {
     this.panel = panel;
+    this.runs = [];
     this.figure = element("select", { id: "figures-figure" });
     this.over = element("select", { id: "figures-over" });
     this.csv = element("button", { type: "button", id: "figures-csv", textContent: "Save as CSV" });
@@ -54,10 +55,13 @@ class FiguresView {
 
   /** The runs chosen, else all; the oldest is number 1. */
   async show(chosen, all) {
-    this.runs = (chosen.length ? [...chosen] : [...all]).filter((run) => run.figures.length)
+    const runs = (chosen.length ? [...chosen] : [...all]).filter((run) => run.figures.length)
       .sort((a, b) => a.date - b.date);
-    const found = this.runs.length > 1
-      ? await send("results/differences", { folders: this.runs.map((run) => run.folder) }) : { rows: [], folders: [] };
+    this.asked = runs;
+    const found = runs.length > 1
+      ? await send("results/differences", { folders: runs.map((run) => run.folder) }) : { rows: [], folders: [] };
+    if (runs !== this.asked) return; // others were chosen meanwhile
+    this.runs = runs;
     this.rows = found.rows.map((row) => ({ key: row.key, values: this.runs.map((run) => {
       const at = found.folders.indexOf(run.folder);
       return at < 0 ? null : row.values[at];

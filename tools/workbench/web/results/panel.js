@@ -82,7 +82,9 @@ class Results {
       this.tabs[i].setAttribute("aria-selected", String(view.word === this.word));
       this.rooms[i].hidden = view.word !== this.word;
     });
+    const { mark } = this;
     await this.views[VIEWS.findIndex((view) => view.word === this.word)].show(this.chosenRuns(), this.runs);
+    if (mark !== this.mark) return; // something else is to be shown meanwhile
     document.documentElement.dataset.results = `${this.word} ${this.chosen.length}`;
   }
 }

@@ -55,10 +55,12 @@ class ReportView {
   async make(runs) {
     this.clear("The report is being made …");
     this.date = Math.max(...runs.map((run) => run.date));
+    const wanted = () => foldersOf(runs) === foldersOf(this.runs);
     try {
-      this.take(await send("results/report", { folders: runs.map((run) => run.folder) }));
+      const answer = await send("results/report", { folders: runs.map((run) => run.folder) });
+      if (wanted()) this.take(answer); // else others were chosen meanwhile
     } catch (problem) {
-      this.clear(problem.message);
+      if (wanted()) this.clear(problem.message);
     }
   }
 
