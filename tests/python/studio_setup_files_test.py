@@ -109,7 +109,7 @@ def dropped_files(page: Page) -> None:
     assert b"0.3" in (page.server.folder / "mine" / "box.stl").read_bytes()
     for name in ("what.exe", "curve.xlsx"):
         page.drop(name, b"no")
-        page.until(lambda n=name: f"{n} is none of" in page.text("#trouble"))
+        page.until(lambda n=name: f"{n}: a file that ends with" in page.text("#trouble"), f"{name} is refused")
     assert page.text("#trouble").endswith("save a spreadsheet as CSV"), page.text("#trouble")
 
 

@@ -8,11 +8,6 @@ import { freeFabric } from "workbench/setup/case_dialogues.js";
 import { ask, listen, send, upload } from "workbench/page/server.js";
 
 const UNITS = [["mm", "mm"], ["cm", "cm"], ["m", "m"], ["inch", "inch"]];
-const KINDS = { step: "part", stp: "part", iges: "part", igs: "part", stl: "mesh", obj: "mesh", ply: "mesh",
-  off: "mesh",
-  dxf: "drawing", csv: "curve", txt: "curve", dat: "curve", tsv: "curve", toml: "toml" };
-
-export const kindOf = (name) => KINDS[name.split(".").pop().toLowerCase()] || "";
 
 const folderOf = (path) => path.split("/").slice(0, -1).join("/");
 
@@ -88,13 +83,9 @@ export class Imports {
   async take(files) {
     if (!this.work.main || this.work.ofFabric) throw new Error("Open or make a case first, into which the file can go");
     for (const file of files) {
-      const kind = kindOf(file.name);
-      if (!kind) {
-        throw new Error(`${file.name} is none of ${Object.keys(KINDS).join(", ")}; save a spreadsheet as CSV`);
-      }
-      await this.send(file, {}, async (sent) => {
+      await this.send(file, {}, async ({ path, kind }) => {
         await this.work.refreshFolder();
-        await this.ask(kind, sent.path);
+        await this.ask(kind, path);
       });
     }
   }
