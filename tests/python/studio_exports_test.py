@@ -32,14 +32,19 @@ LAYUPS = ("csv", "vtu", "abaqus", "calculix", "lsdyna", "optistruct", "openradio
 class Page(ResultsPage):
     def only(self, form, *words):
         """Ticks these formats, and no other."""
-        for box in self.all(f"#{form}-form fieldset:not(:has(#{form}-mirror-x)) input"):
-            if box.is_selected() != (box.get_attribute("value") in words):
-                self.press(f"#{box.get_attribute('id')}")
+        boxes = self.when("return [...document.querySelectorAll(arguments[0])].map((box) => "
+                          "[box.id, box.value, box.checked])",
+                          f"#{form}-form fieldset:not(:has(#{form}-mirror-x)) input")
+        assert set(words) <= {value for _, value, _ in boxes}, boxes
+        for name, value, on in boxes:
+            if on != (value in words):
+                self.press(f"#{name}")
 
     def go_on(self, form, well=True):
         """Presses the button of a form; what it says when its process has ended."""
-        self.press(f"#{form}-go")
         words = f"document.getElementById('{form}-words')"
+        self.js(f"{words}.textContent = ''; {words}.classList.remove('bad')")  # of the time before
+        self.press(f"#{form}-go")
         self.when(f"return {words}.textContent.startsWith('Done.') || {words}.classList.contains('bad')")
         assert self.js(f"return {words}.classList.contains('bad')") != well, self.text(f"#{form}-words")
         return self.text(f"#{form}-words")
@@ -63,7 +68,7 @@ def check_runs(page):
     page.open("#results/differences/results%2Fa|results%2Fc")
     page.press("#results-files")
     page.when("return document.querySelectorAll('#exports-files tr').length > 3")
-    assert page.js("return document.getElementById('exports-run').value") == "results/a"
+    page.when("return document.getElementById('exports-run').value === 'results/a'")
     page.pick("#exports-run", "results/c")
     page.when("return document.querySelector('#exports-files a').href.includes('folder=results%2Fc')")
     page.pick("#exports-run", "results/a")

@@ -30,7 +30,7 @@ def frame(page, server):
     page.press("#curve-add")
     page.until(lambda: page.js("return document.querySelectorAll('#curve-chart polyline').length") >= 7,
                "every column is drawn")
-    assert "12 rows" in page.text("#curve-rows"), page.text("#curve-rows")
+    page.until(lambda: "12 rows" in page.text("#curve-rows"), "its rows are counted")
     page.pick("#curve-0-column", "UML")
     page.until(lambda: page.js("return document.querySelectorAll('#curve-chart polyline').length") == 1,
                "the column chosen is drawn")
@@ -63,7 +63,7 @@ def shown(page, server):
     assert "shear angle, °" in page.text("#identify-chart") and "load, N" in page.text("#identify-chart")
     assert "fitted / measured − 1, %" in page.text("#identify-residuals")
     assert "identify frame ./measured/picture_frame_plain.csv:UML" in page.text("#identify-command")
-    assert page.find("#identify-open").get_attribute("href").endswith("#setup/cloth/found.toml")
+    page.when("return document.getElementById('identify-open').href.endsWith('#setup/cloth/found.toml')")
     page.press("#identify-told summary")
     page.until(lambda: page.find("#identify-told details li").is_displayed(), "there is more of it")
     assert page.texts("#identify-told details li") == report["notes"], report["notes"]
@@ -94,23 +94,26 @@ def refused_curve(page, server):
     page.press("#identify-go")
     page.until(lambda: page.text("#identify-state").startswith("shear law"), "with --to 50 it is found")
     assert (server.folder / "cloth/bias.toml").exists()
-    assert page.find("#option-length").get_attribute("value") == "230", "the form is as it was"
+    page.when("return document.getElementById('option-length').value === '230'")  # the form is as it was
 
 
 def again(page, form, begin):
     """Identifies with other options, from what the form has; what is found or refused begins so."""
-    if not page.find("#identify-more").get_attribute("open"):
+    if not page.js("return document.getElementById('identify-more').open"):
         page.press("#identify-more summary")
     for name, value in form.items():
         if value is True:
             page.press(f"#option-{name}")
-        elif page.find(f"#option-{name}").tag_name == "select":
+        elif page.js("return document.getElementById(arguments[0]).tagName", f"option-{name}") == "SELECT":
             page.pick(f"#option-{name}", value)
         else:
             page.type(f"#option-{name}", value)
-    page.js("document.getElementById('identify-state').textContent = ''")  # that of the try before
+    before = len(page.server.get("api/processes", kind="identify"))
     page.press("#identify-go")
-    page.until(lambda: page.text("#identify-state").startswith(begin), begin)
+    page.until(lambda: len(page.server.get("api/processes", kind="identify")) > before, "it is begun")
+    command = page.server.get("api/processes", kind="identify")[-1]["command"]
+    page.until(lambda: page.text("#identify-command").split() == command and
+               page.text("#identify-state").startswith(begin), begin)  # not that of the try before
 
 
 def every_option(page, server):
@@ -205,7 +208,7 @@ def restarted(page, server):
     page.go(server, "identify")
     page.press(f'#identify-before a[href="#identify/{number}"]')
     page.until(lambda: page.texts("#identify-numbers tbody th"), "what was found is shown again")
-    assert page.js("return document.querySelectorAll('#identify-chart circle.point').length") > 5
+    page.when("return document.querySelectorAll('#identify-chart circle.point').length > 5")
     page.press("#identify-open")
     page.until(lambda: page.js("return (window.plyform_setup || 0) && plyform_setup.editor.mirror.getValue()") ==
                (server.folder / "cloth/found.toml").read_text(encoding="utf-8"), "its text is shown")
@@ -216,9 +219,9 @@ def fabric_alone(page, server):
     """The form of a fabric's file beside its text, and no parts of a case; then the case again."""
     file = server.folder / "cloth/found.toml"
     before = file.read_text(encoding="utf-8")
-    assert page.find("#case-list").get_attribute("value") == "cloth/found.toml"
+    page.until(lambda: page.find("#case-list").get_attribute("value") == "cloth/found.toml", "it is in the list")
     for part in (".outline", ".setup-middle", "#run-case-button", "#add-files"):
-        assert not page.js("return document.querySelector(arguments[0]).getClientRects().length", part), part
+        page.when("return !document.querySelector(arguments[0]).getClientRects().length", part)
     page.type('[data-key="thickness"]', "0.6")
     page.until(lambda: tomllib.loads(file.read_text(encoding="utf-8"))["thickness"] == 0.6, "it is in the file")
     page.press("#undo")
@@ -287,6 +290,7 @@ def options_are_those_of_the_program(server):
 def main():
     picture = sys.argv[4] if len(sys.argv) > 4 else ""
     with Server(TOOLS, PROGRAM) as server, Page(1280, 1400) as page:
+        page.server = server
         server.folder.joinpath("cloth").mkdir()
         shutil.copy(CASES / "fabrics/glass_pp_plain.toml", server.folder / "cloth/base.toml")
         shutil.copytree(CASES / "measured", server.folder / "measured")

@@ -3,24 +3,47 @@
 the test with 77 when anything is missing."""
 
 import base64
+import os
 import time
 import tomllib
 
 from report_browser import Browser
 from selenium.common.exceptions import (ElementClickInterceptedException, ElementNotInteractableException,
-                                        NoSuchElementException, StaleElementReferenceException)
+                                        JavascriptException, NoSuchElementException, NoSuchFrameException,
+                                        NoSuchWindowException, StaleElementReferenceException)
 from selenium.webdriver.common.by import By
 from selenium.webdriver.common.keys import Keys
 from studio_controls import Controls
 
 PATIENCE = 120.0  # s
 PASSING = (NoSuchElementException, StaleElementReferenceException, ElementClickInterceptedException,
-           ElementNotInteractableException, KeyError, IndexError, TypeError, tomllib.TOMLDecodeError)
+           ElementNotInteractableException, JavascriptException, NoSuchFrameException, NoSuchWindowException,
+           KeyError, IndexError, TypeError, tomllib.TOMLDecodeError)
+# Counts what the page has asked of the server and not yet heard, and a moment for what it does with the answer.
+ASKING = """
+(() => {
+  if (window !== window.top) return;
+  const ask = window.fetch;
+  window.plyform_asking = 0;
+  const heard = () => setTimeout(() => { --window.plyform_asking; }, 20);
+  window.fetch = (...wish) => {
+    ++window.plyform_asking;
+    const answer = ask(...wish);
+    answer.then((response) => response.clone().arrayBuffer()).then(heard, heard);
+    return answer;
+  };
+})();
+"""
 
 
 class Page(Browser):
+    """With PLYFORM_SLOW_PAGE=N a browser N times slower than this machine's, to find what asks too soon."""
+
     def __init__(self, *arguments, **more):
         super().__init__(*arguments, **more)
+        self.driver.execute_cdp_cmd("Page.addScriptToEvaluateOnNewDocument", {"source": ASKING})
+        if slow := os.environ.get("PLYFORM_SLOW_PAGE"):
+            self.driver.execute_cdp_cmd("Emulation.setCPUThrottlingRate", {"rate": float(slow)})
         self.controls = Controls(self.driver)
 
     def __exit__(self, *what):
@@ -40,15 +63,17 @@ class Page(Browser):
         """Waits until it is true; what the page redraws meanwhile is asked again."""
         end = time.monotonic() + seconds
         while time.monotonic() < end:
+            passing = None
             try:
                 value = condition()
                 if value:
                     return value
-            except PASSING:
-                pass
+            except PASSING as problem:
+                passing = problem
             time.sleep(0.05)
+        self.driver.switch_to.default_content()
         raise AssertionError(f"waited {seconds} s in vain until {words}; the page says: {self.text('#trouble')!r}, "
-                             f"{self.texts('dialog .words')}, {self.errors()}")
+                             f"{self.texts('dialog .words')}, {self.errors()}") from passing
 
     def when(self, script, *arguments, seconds=PATIENCE):
         """The value of a script as soon as it is true."""
@@ -70,8 +95,9 @@ class Page(Browser):
         return self.js("return [...document.querySelectorAll(arguments[0])].map((e) => e.textContent)", selector)
 
     def near(self, selector):
-        """The element, brought to where it is seen, in one question; None while it is missing, hidden or off."""
-        return self.js("const e = document.querySelector(arguments[0]); if (!e) return null;"
+        """The element, brought to where it is seen, in one question; None while it is missing, hidden or off,
+        or while an answer may draw it anew."""
+        return self.js("const e = document.querySelector(arguments[0]); if (!e || window.plyform_asking) return null;"
                        "e.scrollIntoView({block: 'center'});"
                        "return e.getClientRects().length && !e.matches(':disabled') ? e : null", selector)
 
@@ -107,7 +133,9 @@ class Page(Browser):
     def slide(self, selector, value):
         """Brings a slider there; the last step is that of a key."""
         def act():
-            place = self.find(selector)
+            place = self.near(selector)
+            if not place:
+                return False
             step = float(place.get_attribute("step") or 1)
             low = value <= float(place.get_attribute("min") or 0)
             self.js("arguments[0].value = arguments[1]", place, str(value + step if low else value - step))
@@ -118,6 +146,14 @@ class Page(Browser):
     def give(self, selector, *files):
         """Files chosen in an input of files."""
         self.find(selector).send_keys("\n".join(map(str, files)))
+
+    def into_report(self, seconds=PATIENCE):
+        """Into the frame of the report, once it is drawn."""
+        def drawn():
+            self.driver.switch_to.default_content()
+            self.driver.switch_to.frame("report-frame")
+            return self.js("return document.documentElement.dataset.ready")
+        assert self.until(drawn, "the report is drawn", seconds) != "failed", self.errors()
 
     def picture(self, view="plyform_setup.area.view"):
         return self.js(f"const s = {view}.stage; s.draw(); return s.canvas.toDataURL()")
@@ -178,7 +214,7 @@ class SetupPage(Page):
     def changes_picture(self, act):
         before = self.picture()
         act()
-        assert self.picture() != before
+        self.until(lambda: self.picture() != before, "the picture is another")
 
     def click_node(self, ply, corner, inwards=0.0):
         """A corner of a ply's outline, moved towards the middle by a share of the way."""

@@ -50,9 +50,7 @@ def run_on(page: Page, server: Server, folder: str) -> None:
 def result(page: Page, server: Server, folder: str) -> None:
     page.until(lambda: server.get("api/runs")[0]["state"] in ("done", "doubtful"), "it has ended", 600)
     page.go(server, f"results/{folder}")
-    page.until(lambda: page.find("#report-frame").is_displayed(), "the report", 120)
-    page.driver.switch_to.frame(page.find("#report-frame"))
-    page.until(lambda: page.js("return document.documentElement.dataset.ready"), "the report is drawn", 120)
+    page.into_report()
     page.js("document.getElementById('canvas').parentElement.scrollIntoView({ block: 'end' })")
     time.sleep(5.0)
     page.driver.switch_to.default_content()

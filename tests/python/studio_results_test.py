@@ -13,7 +13,6 @@ import re
 import shutil
 import sys
 import tempfile
-import time
 from pathlib import Path
 
 from studio_server import Server
@@ -21,12 +20,13 @@ from studio_three_runs import RUNS, ResultsPage as Page, downloaded, made, summa
 
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[2:5])
 TITLE = "(document.getElementById('report-frame') || {title: ''}).title"  # of the report shown
+LABEL = "document.querySelector('#figures-chart svg').getAttribute('aria-label')"
 
 
 def check_list(page):
     page.open("#results")
     page.when("return document.querySelectorAll('#results-list input').length === 3")
-    listed = [box.get_attribute("data-folder") for box in page.all("#results-list input")]
+    listed = page.js("return [...document.querySelectorAll('#results-list input')].map((box) => box.dataset.folder)")
     assert listed == ["results/c", "results/b", "results/a"], listed  # the newest first
     words = page.texts("#results-list li")[0]
     assert "largest shear" in words and "force of punch" in words and "°" in words, words
@@ -34,26 +34,25 @@ def check_list(page):
     page.when("return document.querySelectorAll('#results-list input').length === 1")
     page.type("#results-filter", "")
     page.when("return document.querySelectorAll('#results-list input').length === 3")
-    assert "Choose a run" in page.text("#report-words")
+    page.until(lambda: "Choose a run" in page.text("#report-words"), "it says what to do")
 
 
 def check_report(page, folder):
     page.press(page.run("results/a"))
-    page.frame()
+    page.into_report()
     most = max(ply["max_shear_deg"] for ply in summary_of(folder, "a")["plies"])
     assert page.text(".cards .figure") == f"{most:.1f}°"
-    before = page.js("plyform_report.stage.draw(); return document.getElementById('canvas').toDataURL()")
+    draw = "plyform_report.stage.draw(); return document.getElementById('canvas').toDataURL()"
+    before = page.js(draw)
     page.js("document.getElementById('view-top').click()")
-    page.driver.execute_async_script("setTimeout(arguments[0], 500)")
-    assert page.js("return document.getElementById('canvas').toDataURL()") != before  # it can be turned
+    page.until(lambda: page.js(draw) != before, "it is turned")
     page.out()
     page.press(page.run("results/b"))
-    page.when("return document.documentElement.dataset.results === 'report 2'")
+    page.shown("report 2")
     page.when(f"return {TITLE}.includes(',')")
     titles = page.titles()
     assert len(titles) == 2 and "(a)" in titles[0] and "(b)" in titles[1], titles
-    letters = [one.text for one in page.all("#results-list .letter")]
-    assert letters == ["", "B", "A"], letters
+    page.until(lambda: page.texts("#results-list .letter") == ["", "B", "A"], "letters tell which is which")
     key = page.js("return document.getElementById('report-frame').src").rpartition("/")[2]
     page.driver.refresh()
     assert page.titles() == titles  # the address says it all
@@ -65,7 +64,7 @@ def check_report(page, folder):
     answer = page.server.send("api/results/report", {"folders": ["results/a", "results/b"]})
     assert answer["key"] != key and not answer["ready"]
     page.press(page.run("results/c"))
-    page.when("return document.documentElement.dataset.results === 'report 3'")
+    page.shown("report 3")
     page.when(f"return {TITLE}.split(',').length === 3")
     assert len(page.titles()) == 3
 
@@ -86,9 +85,9 @@ def check_saved(page, downloads):
     page.driver.close()
     page.driver.switch_to.window(here)
     page.press("#results-none")
-    page.when("return document.documentElement.dataset.results === 'report 0'")
-    assert not page.all("#results-list input:checked") and not page.all("#report-frame")
-    assert "Choose a run" in page.text("#report-words")
+    page.shown("report 0")
+    page.until(lambda: not page.all("#results-list input:checked") and not page.all("#report-frame") and
+               "Choose a run" in page.text("#report-words"), "none is chosen")
 
 
 def check_tabs(page):
@@ -96,18 +95,18 @@ def check_tabs(page):
     page.open("#results/report/results%2Fa|results%2Fb")
     for view in ("files", "differences", "report", "figures"):
         page.press(f"#results-{view}")
-        page.when(f"return document.documentElement.dataset.results === '{view} 2'")
+        page.shown(f"{view} 2")
         shown = page.js("return [...document.querySelectorAll('.results-main > section')].filter((s) => !s.hidden)"
                         ".map((s) => s.className)")
         assert shown == [f"results-{view}"], shown
     for panel in ("setup", "runs", "studies", "identify", "results"):
         page.press(f"#panels a[href='#{panel}']")
         page.when(f"return !document.getElementById('panel-{panel}').hidden")
-        assert [one.text for one in page.all("#panels [aria-selected=true]")] == [
-            page.text(f"#panels a[href='#{panel}']")]
-        assert len(page.all("main > section:not([hidden])")) == 1
+        page.until(lambda one=panel: page.texts("#panels [aria-selected=true]") == [
+            page.text(f"#panels a[href='#{one}']")] and len(page.all("main > section:not([hidden])")) == 1,
+            f"{panel} alone is shown")
     page.when("return location.hash === '#results/figures/results%2Fa|results%2Fb'")
-    assert len(page.all("#results-list input:checked")) == 2
+    page.until(lambda: len(page.all("#results-list input:checked")) == 2, "both are chosen still")
 
 
 def check_unfinished(page, folder):
@@ -116,10 +115,11 @@ def check_unfinished(page, folder):
     place.mkdir()
     shutil.copy(folder / "results/a/results.h5", place)
     page.open("#results/report/results%2Fd")
-    page.frame()
+    page.into_report()
     assert "Not finished" in page.text(".verdict")
     page.out()
-    assert "As far as" in page.text("#report-words") and page.find("#report-anew").is_displayed()
+    page.until(lambda: "As far as" in page.text("#report-words") and page.find("#report-anew").is_displayed(),
+               "it is told, and can be made anew")
     first = page.js("return document.getElementById('report-frame').src")
     shutil.copy(folder / "results/b/results.h5", place / "new")
     os.replace(place / "new", place / "results.h5")
@@ -128,7 +128,7 @@ def check_unfinished(page, folder):
     page.when("return document.getElementById('report-words').textContent.includes('More has been written')")
     page.press("#report-anew")
     page.when(f"return ![undefined, '{first}'].includes((document.getElementById('report-frame') || {{}}).src)")
-    page.frame()
+    page.into_report()
     page.out()
     shutil.rmtree(place)
 
@@ -143,13 +143,15 @@ def check_figures(page, folder, downloads):
     page.open("#results")
     page.when("return document.querySelectorAll('#results-list input').length === 3")
     page.press("#results-all")
-    page.when("return document.documentElement.dataset.results === 'report 3'")
+    page.shown("report 3")
     page.press("#results-figures")
+    page.shown("figures 3")
     page.when("return document.querySelectorAll('#figures-chart circle.point').length === 3")
-    assert "over run" in page.js("return document.querySelector('#figures-chart svg').getAttribute('aria-label')")
+    page.when(f"return {LABEL}.includes('over run')")
     page.pick("#figures-figure", "force of punch")
     page.pick("#figures-over", "contact.friction")
-    points = page.js("return [...document.querySelectorAll('#figures-chart circle.point title')].map((t) => t.textContent)")
+    page.when(f"return {LABEL}.includes('force of punch') && {LABEL}.includes('over contact.friction')")
+    points = page.texts("#figures-chart circle.point title")
     forces = {name: next(tool["force_N"] for tool in summary_of(folder, name)["tools"] if tool["name"] == "punch")
               for name in RUNS}
     assert len(points) == 3 and {point.partition(":")[0] for point in points} == {f"results/{name}" for name in RUNS}
@@ -160,7 +162,7 @@ def check_figures(page, folder, downloads):
     assert len(page.all("#figures-chart polyline")) == 1  # the band of b
     assert len(page.all("#figures-table tbody tr")) == 3
     page.pick("#figures-over", "ply.ply1.angle")
-    page.when("return document.querySelector('#figures-chart svg').getAttribute('aria-label').includes('ply.ply1.angle')")
+    page.when(f"return {LABEL}.includes('ply.ply1.angle')")
     page.press("#figures-csv")
     rows = list(csv.DictReader(io.StringIO(downloaded(downloads, "runs.csv").decode())))
     order = sorted(RUNS, key=lambda name: (folder / "results" / name / "summary.json").stat().st_mtime)
@@ -174,17 +176,15 @@ def check_figures(page, folder, downloads):
     assert [row["band of force of punch, N"] for row in rows] == [{"b": "7.5"}.get(name, "") for name in order]
     assert [row["contact.friction"] for row in rows] == [RUNS[name][0].partition("=")[2] for name in order]
     page.press("#figures-chart circle.point")  # a point leads to its run
-    page.when("return document.documentElement.dataset.results === 'report 1'")
+    page.shown("report 1")
 
 
 def check_differences(page, folder):
     page.open("#results/differences/results%2Fa|results%2Fc")
-    page.when("return document.querySelectorAll('#differences-keys tbody tr').length > 0")
-    rows = {row.find_element("css selector", "th").text: [cell.text for cell in row.find_elements("css selector", "td")]
-            for row in page.all("#differences-keys tbody tr")}
-    assert rows == {"contact.friction": ["0.2", "0.3"], "ply.ply1.angle": ["0", "45"]}, rows
-    figures = {row.find_element("css selector", "th").text: [cell.text for cell in row.find_elements("css selector", "td")]
-               for row in page.all("#differences-figures tbody tr")}
+    page.shown("differences 2")
+    rows = page.until(lambda: page.rows("#differences-keys tbody tr"), "what differs")
+    assert sorted(rows) == [["contact.friction", "0.2", "0.3"], ["ply.ply1.angle", "0", "45"]], rows
+    figures = {name: cells for name, *cells in page.rows("#differences-figures tbody tr")}
     first, other = ({tool["name"]: tool["force_N"] for tool in summary_of(folder, name)["tools"]} for name in "ac")
     number, unit = figures["force of punch"][2].replace(",", "").split()
     assert unit == "N", figures["force of punch"]
@@ -233,7 +233,7 @@ def check_frame(page):
     sandbox = page.js("return document.getElementById('report-frame').getAttribute('sandbox')").split()
     assert "allow-scripts" in sandbox and not {"allow-same-origin", "allow-top-navigation", "allow-forms",
                                                "allow-popups"} & set(sandbox), sandbox
-    page.frame()
+    page.into_report()
     assert page.js("return self.origin") == "null"
     for name, attempt in TRIES.items():
         got = page.driver.execute_async_script(
@@ -241,11 +241,18 @@ def check_frame(page):
             "setTimeout(() => done('no answer'), 8000)")
         print(f"  {name:8} {got}")
         assert got in ("no", "no answer"), (name, got)
+    page.out()
+    page.js("document.getElementById('report-frame').addEventListener('load', () => { window.gone_there = true; })")
+    page.into_report()
     page.js("setTimeout(() => { location.href = '../../results'; }, 0)")  # goes there itself
     page.out()
-    time.sleep(1.0)
-    page.driver.switch_to.frame("report-frame")
-    text = page.js("return document.documentElement.textContent")
+    page.when("return window.gone_there")
+
+    def what_it_got():
+        page.out()
+        page.driver.switch_to.frame("report-frame")
+        return [page.js("return document.documentElement.textContent")]
+    text, = page.until(what_it_got, "it has gone there")
     assert "results/" not in text and "figures" not in text, text[:300]
     page.out()
     for method, path in (("GET", "api/results"), ("POST", "api/results/report"), ("GET", "api/folder")):
@@ -265,13 +272,13 @@ def check_hostile_runs(page, folder):
     (place / "summary.json").write_text(json.dumps(summary), encoding="utf-8")
     page.open("#results")
     page.when("return document.querySelectorAll('#results-list input').length === 4")
-    for box in page.js("return [...document.querySelectorAll('#results-list input')]"):
-        if box.get_attribute("data-folder") in ("results/a", f"results/{HOSTILE_NAME}"):
-            box.click()
-    page.when("return document.documentElement.dataset.results === 'report 2'")
+    for count, name in enumerate((HOSTILE_NAME, "a"), 1):
+        page.press(page.run(f"results/{name}"))
+        page.shown(f"report {count}")
+    page.when(f"return {TITLE}.includes(',')")
     titles = page.titles()
-    assert any(EVIL in title for title in titles), titles
-    page.frame()
+    assert len(titles) == 2 and any(EVIL in title for title in titles), titles
+    page.into_report()
     assert page.js("return window.evil === undefined && !document.querySelector('img[onerror]')")
     page.out()
     check_frame(page)

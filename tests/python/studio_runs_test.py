@@ -16,7 +16,7 @@ import time
 from pathlib import Path
 
 from pushed_ply import pushed_ply
-from studio_page import Page as AnyPage
+from studio_page import PATIENCE, Page as AnyPage
 from studio_results import same_results
 from studio_server import Server
 
@@ -46,7 +46,7 @@ class Page(AnyPage):
             self.press("#run-verify")
         self.press("#run-start")
 
-    def state(self, name, *states, seconds=60):
+    def state(self, name, *states, seconds=PATIENCE):
         """Waits for a state of a run in the list."""
         return self.when("const row = document.querySelector(`li[data-folder=\"${arguments[0]}\"]`);"
                           "return row && arguments[1].includes(row.dataset.state) && row.dataset.state",
@@ -63,12 +63,19 @@ class Page(AnyPage):
         self.until(still, "the picture is still")
         return kept[-1]
 
+    def redrawn(self, before):
+        """The picture, when it changes no more and is not the one before."""
+        return self.until(lambda: [now for now in [self.drawn()] if now != before], "another picture")[0]
+
+    def says(self, place, *words):
+        self.until(lambda: all(word in self.text(place) for word in words), f"{place} says {words}")
+
     def scene(self, key):
         return self.js("return document.getElementById('run-picture').dataset[arguments[0]]", key)
 
     def colours(self):
         """How many there are in the picture."""
-        time.sleep(1.0)  # it is drawn finely when nothing moves
+        self.drawn()
         return self.js("const c = document.querySelector('#run-picture canvas'), k = document.createElement('canvas');"
                        "[k.width, k.height] = [c.width, c.height]; const d = k.getContext('2d'); d.drawImage(c, 0, 0);"
                        "return new Set(new Uint32Array(d.getImageData(0, 0, k.width, k.height).data.buffer)).size")
@@ -98,15 +105,16 @@ def looked_at(page):
     """Tools drawn in other ways, what was printed put away, the command copied, the report opened."""
     page.press("button[data-view=oblique]")
     pictures = {}
+    last = page.drawn()
     for way in ("solid", "hidden", "outlines"):
         page.pick("#run-tools", way)
-        pictures[way] = page.drawn()
+        last = pictures[way] = page.redrawn(last)
     assert len(set(pictures.values())) == 3
     page.pick("#run-tools", "solid")
-    assert page.drawn() == pictures["solid"]  # it is the choice that makes the difference
+    assert page.redrawn(last) == pictures["solid"]  # it is the choice that makes the difference
     page.find("#run-picture .scene-pane").send_keys("t")
     page.until(lambda: page.find("#run-tools").get_attribute("value") == "hidden", "the list follows the key")
-    assert page.drawn() == pictures["hidden"]
+    assert page.redrawn(pictures["solid"]) == pictures["hidden"]
     for shown in (False, True):
         page.press("#run-printed summary")
         page.until(lambda: page.find("#run-log").is_displayed() == shown, f"printed: {shown}")
@@ -119,7 +127,7 @@ def looked_at(page):
     page.press("#run-results")
     page.when("return location.hash === '#results/report/results%2Ffirst'")
     page.when("return document.getElementById('report-frame')")
-    assert page.js("return document.querySelector('#results-list input:checked').dataset.folder") == "results/first"
+    page.when("return document.querySelector('#results-list input:checked').dataset.folder === 'results/first'")
     page.press("#panels a[href='#runs']")
     page.until(lambda: page.find("#run-title").is_displayed() and page.text("#run-title") == "first", "it is shown still")
 
@@ -129,18 +137,17 @@ def started():
     with Server(TOOLS, PROGRAM) as server, Page() as page:
         filled(server)
         page.go(server)
-        assert "No runs yet" in page.js("return document.body.innerText")
+        page.when("return document.body.innerText.includes('No runs yet')")
         page.run(QUICK, "first", accuracy="draft", threads=2)
         page.state("first", "doubtful")
         page.when("return location.hash === '#runs/results/first'")
         page.when("return document.getElementById('run-picture').dataset.state === '20'")
         assert float(page.scene("moved")) > 50.0
-        assert "state 21 of 21: 75.00 mm" in page.text("#run-state-words")
-        assert "do not trust ply where die cuts into it" in page.text("#run-message")
-        assert "elements 2.8 times smaller" in page.text("#run-message")  # the remedy
-        page.when("return document.getElementById('run-log').textContent.includes('results are in')")
-        assert "tensile stiffness" in page.text("#run-said") and page.js(
-            "return document.querySelectorAll('#run-said li').length") >= 2
+        page.says("#run-state-words", "state 21 of 21: 75.00 mm")
+        page.says("#run-message", "do not trust ply where die cuts into it", "elements 2.8 times smaller")  # the remedy
+        page.says("#run-log", "results are in")
+        page.says("#run-said", "tensile stiffness")
+        page.when("return document.querySelectorAll('#run-said li').length >= 2")
         command = page.text("#run-command")
         assert command == f"plyform run {QUICK} -o results/first --threads 2 --accuracy draft", command
         subprocess.run([PROGRAM, *command.replace("results/first", "results/by_hand").split()[1:-1], "draft"],
@@ -165,16 +172,15 @@ def started():
         # a mistake is told where it is
         page.run("cases/hemisphere_0/broken.toml", "bad", accuracy="")
         page.state("bad", "failed")
-        page.when("return document.getElementById('run-message').textContent.includes('broken.toml:')")
-        assert "radius" in page.text("#run-message"), page.text("#run-message")
+        page.says("#run-message", "broken.toml:", "radius")
         # more than the budget
         page.run("long/case.toml", "dear", budget=1)
         page.state("dear", "failed")
-        page.when("return document.getElementById('run-message').textContent.includes('--budget 1')")
+        page.says("#run-message", "--budget 1")
         # the name that is taken; the one that is none
         page.type("#run-budget", "")
         page.run(QUICK, "first")
-        page.when("return document.getElementById('trouble').textContent.includes('is there already')")
+        page.says("#trouble", "is there already")
         # deleted: asked, kept, deleted
         (server.folder / "results/first/notes.txt").write_text("mine")
         page.press("button[data-act='choose results/first']")
@@ -184,7 +190,7 @@ def started():
         assert (server.folder / "results/first/results.h5").exists()
         page.press("#run-delete")
         page.press("#run-delete-really")
-        page.when("return document.getElementById('trouble').textContent.includes('notes.txt')")
+        page.says("#trouble", "notes.txt")
         page.when("return !document.querySelector('li[data-folder=\"results/first\"]')")
         assert os.listdir(server.folder / "results/first") == ["notes.txt"]
         page.press("button[data-act='choose results/by_hand']")
@@ -192,7 +198,7 @@ def started():
         page.press("#run-delete")
         page.press("#run-delete-really")
         page.when("return !document.querySelector('li[data-folder=\"results/by_hand\"]')")
-        assert not (server.folder / "results/by_hand").exists()
+        page.until(lambda: not (server.folder / "results/by_hand").exists(), "its folder is gone")
         others = [address for address in page.requests() if not address.startswith((server.address, "data:", "blob:"))]
         assert all(address == "about:blank" or address.startswith("chrome") for address in others), others
 
@@ -217,7 +223,7 @@ def watched():
         for name in "abc":
             page.run(QUICK, name, accuracy="draft")
             page.state(name, "queued")
-        assert page.queue() == [f"results/{name}" for name in "abc"]
+        page.until(lambda: page.queue() == [f"results/{name}" for name in "abc"], "they wait in their order")
         page.press("button[data-act='earlier results/c']")
         page.when("return document.querySelectorAll('#runs-queue li')[1].dataset.folder === 'results/c'")
         page.press("button[data-act='later results/a']")
@@ -225,25 +231,26 @@ def watched():
         second.when("return document.querySelectorAll('#runs-queue li')[0].dataset.folder === 'results/c'")
         second.press("button[data-act='out results/b']")
         page.state("b", "taken out")
-        assert page.queue() == ["results/c", "results/a"]
+        page.until(lambda: page.queue() == ["results/c", "results/a"], "two wait")
         page.press("button[data-act='choose results/long']")
         page.when("return document.getElementById('run-title').textContent === 'long'")
         page.when("return document.getElementById('run-stop')")
-        time.sleep(1.5)  # one checkpoint
+        page.until((server.folder / "results/long/checkpoint").exists, "a checkpoint is written")
         page.press("#run-stop")
         page.state("long", "interrupted")
-        assert "interrupted at step" in page.text("#run-message"), page.text("#run-message")
+        page.says("#run-message", "interrupted at step")
         for name in "ca":
             second.state(name, "doubtful")
         page.press("#run-resume")
         page.state("long", "running")
-        page.when("return document.getElementById('run-log').textContent.includes('goes on after')")
-        assert page.text("#run-command").endswith(" --resume")
+        page.says("#run-log", "goes on after")
+        page.until(lambda: page.text("#run-command").endswith(" --resume"), "its command says so")
         page.when("return Number(document.getElementById('run-picture').dataset.step) > 0")
         page.press("#run-stop")
         page.state("long", "interrupted")
         told = json.loads((server.folder / "results/long/summary.json").read_text())
-        assert told["status"] == "interrupted" and not (server.folder / "results/long/picture.bin").exists()
+        assert told["status"] == "interrupted"
+        page.until(lambda: not (server.folder / "results/long/picture.bin").exists(), "its picture is taken away")
         faults = page.faults() + second.faults()  # the log is emptied by reading
         assert not faults, faults
 
@@ -281,14 +288,14 @@ def found():
             page.when(row + " && row.dataset.state === 'running'")
             page.press("button[data-act='choose elsewhere/line']")
             page.when("return document.getElementById('run-shown').dataset.folder === 'elsewhere/line'")
-            assert "Ctrl-C there ends it" in page.text(".run-acts")
+            page.says(".run-acts", "Ctrl-C there ends it")
             page.when("return Number(document.getElementById('run-picture').dataset.step) > 0")
-            time.sleep(1.5)
+            page.until((server.folder / "elsewhere/line/checkpoint").exists, "a checkpoint is written")
         finally:
             line.kill()
             line.wait()
         page.when(row + " && row.dataset.state === 'killed'")
-        assert "Resume goes on" in page.text("#run-message")
+        page.says("#run-message", "Resume goes on")
         page.press("#run-resume")
         page.when(row + " && row.dataset.state === 'running'")
         page.press("#run-stop")
@@ -328,8 +335,11 @@ def refused():
         (bad / "results.h5").write_text("no results")
         (bad / "progress.json").write_text(json.dumps({"pid": 1, "words": "x"}))
         (bad / "plies").symlink_to(outside)
-        time.sleep(2.5)
-        run, = server.get("api/runs")
+        end = time.monotonic() + PATIENCE
+        while not (runs := server.get("api/runs")):
+            assert time.monotonic() < end, "the folder is not found"
+            time.sleep(0.1)
+        run, = runs
         assert run["state"] == "damaged" and "status" in run["message"], run
         for route in ("state", "bodies"):
             status, answer = server.call("GET", f"api/runs/{route}", query={"folder": "results/bad"})

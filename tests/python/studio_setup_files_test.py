@@ -33,7 +33,7 @@ def two_pages(page: Page) -> None:
     address = page.driver.current_url
     page.driver.switch_to.new_window("tab")
     page.driver.get(address)
-    page.until(lambda: page.seen('[data-key="title"]'), seconds=60)
+    page.until(lambda: page.seen('[data-key="title"]'), "the form is shown")
     page.key("title", "Of the other page")
     page.until(lambda: page.tree()["title"] == "Of the other page")
     page.driver.close()
@@ -71,8 +71,8 @@ def tabs(page: Page) -> None:
         page.until(lambda n=name: page.js("return [...document.querySelectorAll('main > section')]"
                                           ".filter((one) => one.getClientRects().length).map((one) => one.id)")
                    == [f"panel-{n}"], f"{name} alone is shown")
-        chosen = page.texts("#panels a[aria-selected=true]")
-        assert chosen == [page.text(f'#panels a[href="#{name}"]')], (name, chosen)
+        page.until(lambda n=name: page.texts("#panels a[aria-selected=true]") ==
+                   [page.text(f'#panels a[href="#{n}"]')], f"{name} is chosen")
         page.until(lambda n=name: page.js("return document.getElementById(arguments[0]).childElementCount",
                                           f"panel-{n}"), f"{name} has content")
     time.sleep(0.5)  # the set-up would go to another case now
@@ -110,7 +110,7 @@ def dropped_files(page: Page) -> None:
     for name in ("what.exe", "curve.xlsx"):
         page.drop(name, b"no")
         page.until(lambda n=name: f"{n}: a file that ends with" in page.text("#trouble"), f"{name} is refused")
-    assert page.text("#trouble").endswith("save a spreadsheet as CSV"), page.text("#trouble")
+    page.until(lambda: page.text("#trouble").endswith("save a spreadsheet as CSV"), "the remedy is told")
 
 
 def chosen_files(page: Page) -> None:
@@ -136,7 +136,7 @@ def chosen_files(page: Page) -> None:
     curve.write_text("extension (mm),load (N)\n0,0\n1,2\n", encoding="utf-8")
     page.give("#add-files", curve)
     page.until(lambda: page.texts("#curve-rows code") == ["mine/curve.csv"], "the curve is there")
-    assert page.driver.current_url.endswith("#identify/curve/mine/curve.csv")
+    page.until(lambda: page.driver.current_url.endswith("#identify/curve/mine/curve.csv"), "the address is its")
     page.press("#panels a:first-child")
     page.until(lambda: page.find("#panel-setup").is_displayed(), "the set-up is shown")
 
@@ -181,7 +181,8 @@ def first_case() -> None:
     with Server(TOOLS, PROGRAM) as server, Page(server, server.folder / "begun/case.toml", 1280, 800) as page:
         page.go(server)
         page.until(lambda: page.find(".setup-empty").is_displayed(), "it is empty")
-        assert not page.find(".setup-body").is_displayed() and not page.find("#undo").is_displayed()
+        page.until(lambda: not page.find(".setup-body").is_displayed() and not page.find("#undo").is_displayed(),
+                   "there is nothing else")
         page.press("#first-case")
         page.type("#new-case-name", "begun")
         page.press("#new-case-go")

@@ -83,8 +83,8 @@ def items(page: Page) -> None:
     blank = next(iter(page.tree()["blanks"]))
     page.item(f"blanks.{blank}")
     page.key(f"blanks.{blank}", "sheet", part="name")
-    page.until(lambda: list(page.tree()["blanks"]) == ["sheet"])
-    assert all(ply["blank"] == "sheet" for ply in page.tree()["ply"])
+    page.until(lambda: list(page.tree()["blanks"]) == ["sheet"] and
+               all(ply["blank"] == "sheet" for ply in page.tree()["ply"]), "the blank is named so, in plies too")
 
 
 def fabrics(page: Page) -> None:
@@ -195,7 +195,7 @@ def text_beside(page: Page) -> None:
     line = saved.count("\n") + 2
     page.until(lambda: f"line {line}" in page.text("#toml-note") and "not saved" in page.text("#toml-note"))
     assert page.written() == saved
-    assert page.seen(f'.fault[data-line="{line}"]')
+    page.until(lambda: page.seen(f'.fault[data-line="{line}"]'), "the line is marked")
     page.press("#toml-revert")
     page.until(lambda: page.js("return plyform_setup.editor.mirror.getValue()") == saved)
     page.press("#show-toml")

@@ -25,7 +25,7 @@ def onto_the_stack(page: Page) -> None:
 
 def simplified_tools(page: Page) -> None:
     """Tools are drawn with fewer triangles while something moves: as large, within a cell, and whole."""
-    found = page.js("""return plyform_setup.area.view.bodies.tools.filter((mesh) => mesh.light).map((mesh) => {
+    found = page.when("""return plyform_setup.area.view.bodies.tools.filter((mesh) => mesh.light).map((mesh) => {
       const box = ({ x }) => new window.THREE.Box3().setFromArray(x);
       const [whole, light] = [box(mesh.tool), box(mesh.light.tool)];
       const edges = new Map();
@@ -37,7 +37,6 @@ def simplified_tools(page: Page) -> None:
       return { name: mesh.tool.name, off: whole.min.distanceTo(light.min) + whole.max.distanceTo(light.max),
         size: mesh.tool.size, torn: [...edges.values()].filter((count) => count > 2).length / edges.size };
     })""")
-    assert found
     for tool in found:
         assert tool["off"] < 0.01 * tool["size"] and tool["torn"] < 0.02, tool
 
@@ -58,7 +57,7 @@ def scene_controls(page: Page) -> None:
     page.changes_picture(lambda: page.slide("#scene-apart", 30))
     page.slide("#scene-apart", 0)
     page.changes_picture(lambda: page.slide("#scene-stroke", 50))
-    assert page.text("#scene-stroke-words") == "50 %"
+    page.until(lambda: page.text("#scene-stroke-words") == "50 %", "the words follow")
     page.slide("#scene-stroke", 0)
     page.press("#scene-labels")
     page.until(lambda: not page.find(".callouts").is_displayed(), "labels are hidden, with the next picture")
@@ -66,9 +65,9 @@ def scene_controls(page: Page) -> None:
     page.until(lambda: page.seen(".callout") and page.find(".callouts").is_displayed(), "labels are there again")
     pane = page.find(".scene-pane")
     pane.send_keys("2")
-    assert page.js("return plyform_setup.area.view.stage.camera.elevation") == 90
+    page.when("return plyform_setup.area.view.stage.camera.elevation === 90")
     pane.send_keys("t")
-    assert page.js("return plyform_setup.area.view.settings.tools") == "solid"
+    page.when("return plyform_setup.area.view.settings.tools === 'solid'")
     pane.send_keys("ttm")
     page.until(lambda: page.find("#scene-measure").get_attribute("aria-pressed") == "true", "m measures")
 
@@ -83,8 +82,7 @@ def measuring(page: Page) -> None:
     for corner in (0, 1):
         page.click_node(0, corner, inwards=0.01)  # the corner takes what is nearer than 8 pixels
     size = next(iter(page.tree()["blanks"].values()))["size"]
-    words = page.text("#measured")
-    assert words.startswith(f"{size[0]:g} mm") or words.startswith(f"{size[1]:g} mm"), (words, size)
+    page.until(lambda: page.text("#measured").startswith((f"{size[0]:g} mm", f"{size[1]:g} mm")), f"it is one of {size}")
     page.press("#scene-measure")
 
 
@@ -93,23 +91,29 @@ def chosen_in_scene(page: Page) -> None:
     page.click_node(-1, 0, inwards=0.3)
     last = len(page.tree()["ply"]) - 1
     page.until(lambda: page.js("return plyform_setup.chosen") == f"ply.{last}")
-    knob = page.find('[data-handle="angle"]')
     before = page.tree()["ply"][last]["angle"]
-    ActionChains(page.driver).click_and_hold(knob).move_by_offset(-60, -80).move_by_offset(-10, -10).perform()
-    assert page.tree()["ply"][last]["angle"] == before  # while it is dragged it only turns the picture
-    assert page.js("return plyform_setup.area.view.marks.handle.angle") != before
+
+    def drag():
+        knob = page.near('[data-handle="angle"]')
+        if knob:
+            ActionChains(page.driver).click_and_hold(knob).move_by_offset(-60, -80).move_by_offset(-10, -10).perform()
+        return knob
+    page.until(drag, "its handle is dragged")
+    page.until(lambda: page.js("return plyform_setup.area.view.marks.handle.angle") != before, "it turns the picture")
+    assert page.tree()["ply"][last]["angle"] == before  # and nothing else while it is dragged
     ActionChains(page.driver).release().perform()
     page.until(lambda: page.tree()["ply"][last]["angle"] != before)
     turned = page.tree()["ply"][last]["angle"]
 
     def click_dial():
-        dial = page.find(f'[data-dial="ply.{last}.angle"]')
-        ActionChains(page.driver).move_to_element_with_offset(dial, 0, -15).click().perform()
-        return True
+        dial = page.near(f'[data-dial="ply.{last}.angle"]')
+        if dial:
+            ActionChains(page.driver).move_to_element_with_offset(dial, 0, -15).click().perform()
+        return dial
     page.until(click_dial, "its dial is clicked, which each answer draws anew")
     page.until(lambda: page.tree()["ply"][last]["angle"] == 90)
     assert turned != 90
-    page.find(".scene-pane").click()
+    page.press(".scene-pane")
     page.find(".scene-pane").send_keys(Keys.CONTROL, "z")
     page.until(lambda: page.tree()["ply"][last]["angle"] == turned)
 

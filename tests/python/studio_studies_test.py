@@ -72,18 +72,24 @@ def study_text(server):
     return (server.folder / FILE).read_text(encoding="utf-8")
 
 
+def opened(page):
+    """What is run, which is put away once there are results."""
+    page.when("return document.getElementById('study-setup').open === false")
+    page.press("#study-setup > summary")
+
+
 def set_up(page, server):
     """A study from nothing: its case, a key by click, values, figures, a limit."""
     page.go(server, "studies")
     page.type("#new-study-name", "strokes")
-    assert page.find("#new-study-case").get_attribute("value") == "cap/case.toml"  # the only one
+    page.until(lambda: page.find("#new-study-case").get_attribute("value") == "cap/case.toml", "the only one is chosen")
     for case in ("", "cap/case.toml"):
         page.pick("#new-study-case", case)
     page.press("#new-study")
     page.until(lambda: "nothing is varied" in page.text("#study-mistakes"), "it is told that nothing varies")
-    assert not page.find("#study-go").is_enabled()
-    assert page.find("#key-chooser").get_attribute("open")  # nothing varies yet
-    page.find("#key-search").send_keys("punch.stroke")
+    page.until(lambda: not page.find("#study-go").is_enabled(), "it cannot start")
+    page.when("return document.getElementById('key-chooser').open")  # nothing varies yet
+    page.type("#key-search", "punch.stroke")
     page.until(lambda: page.texts("#key-chooser li code") == ["tool.punch.stroke"], "the key is found")
     assert "8 mm" in page.text("#key-chooser li") and "stroke along the direction" in page.text("#key-chooser li")
     page.press("[data-key='tool.punch.stroke'].key")
@@ -117,17 +123,18 @@ def run_it(page, server):
     page.until(lambda: page.texts("#study-ranking li"), "the ranking is shown")
     page.until(lambda: page.js("return [...document.querySelectorAll('img.drawn')].some((i) => i.naturalWidth > 100)"),
                "the scatter plot is shown")
-    assert "yarns are pressed" in page.text("#study-table tbody"), "the reason of a doubt"
+    page.until(lambda: "yarns are pressed" in page.text("#study-table tbody"), "the reason of a doubt is told")
     rows = server.get("api/study/table", folder="results/strokes")["rows"]
     assert [row["punch stroke, mm"] for row in rows] == [2, 4, 6] and all(row["punch_N"] for row in rows), rows
     page.pick("#chart-y", "wrinkle_mm")
     page.until(lambda: "wrinkle_mm" in page.text("#study-chart svg"), "the figure is drawn")
-    assert "What moves wrinkle_mm most" in page.text("#study-ranking"), page.text("#study-ranking")
+    page.until(lambda: "What moves wrinkle_mm most" in page.text("#study-ranking"), "the ranking is of it")
     page.pick("#chart-x", "punch_N")
     page.pick("#chart-by", "punch stroke, mm")
     page.until(lambda: page.texts("#study-chart .legend-of-lines li") == [f" punch stroke, mm: {k}" for k in (2, 4, 6)],
                "a line for each stroke")
-    assert "punch_N" in page.text("#study-chart svg") and len(page.texts("#study-chart circle.point")) == 3
+    page.until(lambda: "punch_N" in page.text("#study-chart svg") and
+               len(page.texts("#study-chart circle.point")) == 3, "three points over the force")
     for place, row in (("#study-chart circle.point", rows[0]), ("#study-table tbody tr:nth-child(2) a", rows[1])):
         page.go(server, f"studies/{FILE}")
         page.press(place)
@@ -139,10 +146,10 @@ def run_it(page, server):
 def one_more(page, server):
     """A value more costs a run more."""
     page.go(server, f"studies/{FILE}")
-    page.press("#study-setup > summary")
+    opened(page)
     page.type("#vary-0-values", "2, 4, 6, 7")
     page.until(lambda: page.text("#study-told").startswith("4 runs, 3 of them have ended; "), "one is missing")
-    assert page.text("#study-go") == "Go on"
+    page.until(lambda: page.text("#study-go") == "Go on", "it can go on")
     page.type("#study-jobs", "2")
     page.type("#study-threads", "3")
     page.press("#study-again")
@@ -158,7 +165,7 @@ def one_more(page, server):
 
 def stopped(page, server):
     """Stopped on its way; the same button goes on."""
-    page.press("#study-setup > summary")
+    opened(page)
     page.type("#vary-0-values", ", ".join(str(0.1 * k) for k in range(1, 31)))
     page.until(lambda: page.text("#study-told").startswith("30 runs"), "30 are counted")
     page.press("#study-go")
@@ -166,7 +173,8 @@ def stopped(page, server):
                "it goes on")
     page.press("#study-stop")
     page.until(lambda: server.get("api/processes", kind="study")[-1]["state"] == "stopped", "it has stopped")
-    assert server.get("api/study/table", folder="results/strokes")["state"] == "has missing runs"
+    page.until(lambda: server.get("api/study/table", folder="results/strokes")["state"] == "has missing runs",
+               "runs are missing")
     page.until(lambda: page.find("#study-go").is_displayed(), "it can go on")
     drawn = server.folder / "results/strokes/scatter.png"
     before = drawn.stat().st_mtime_ns
@@ -182,8 +190,7 @@ def window(page, server):
     page.press("#new-study")
     for i, (key, values) in enumerate((("tool.punch.stroke", "4, 8"), ("contact.friction", "0.1, 0.2"))):
         page.until(lambda: page.find("#study-heading").text == "window", "the new study is shown")
-        if not page.js("return document.getElementById('key-chooser').open"):
-            assert page.find("#key-chooser").get_attribute("open")  # nothing varies yet
+        page.when("return document.getElementById('key-chooser').open")
         page.press(f"[data-key='{key}'].key")
         page.type(f"#vary-{i}-values", values)
         page.until(lambda: values.replace(" ", "") in (server.folder / "studies/window.toml").read_text(
@@ -199,8 +206,9 @@ def window(page, server):
     page.until(lambda: page.js("return [...document.querySelectorAll('img.drawn')].some((i) => "
                                "i.alt.startsWith('window.png') && i.naturalWidth > 100)"), "the window is shown")
     page.until(lambda: "How far each key goes" in page.text("#study-ranking"), "how far the keys go")
-    assert len(page.texts("#study-chart .legend-of-lines li")) == 2, "a line for each value of the second key"
-    assert "Hollow" in page.text("#study-chart")
+    page.until(lambda: len(page.texts("#study-chart .legend-of-lines li")) == 2,
+               "a line for each value of the second key")
+    page.until(lambda: "Hollow" in page.text("#study-chart"), "what is hollow is told")
 
 
 def edited(page, server):
@@ -225,7 +233,7 @@ def edited(page, server):
             "key": "tool.punch.stroke", **wanted})
 
     changes(page.type, "#study-title", "Edited", holds=lambda now: now["title"] == "Edited")
-    assert page.text("#study-heading") == "Edited"
+    page.until(lambda: page.text("#study-heading") == "Edited", "the heading is its title")
     varies(page.type, "name", "path", name="path", values=[2, 4])
     varies(page.pick, "kind", "factors", name="path", factors=[0.5, 1, 2])
     varies(page.type, "values", "0.5, 1", name="path", factors=[0.5, 1])
@@ -281,7 +289,7 @@ def of_the_command_line(page, server):
                    stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
     page.go(server, "studies/by_hand.toml")
     page.until(lambda: "of 2 runs" in page.text("#study-progress"), "its runs are shown")
-    assert any("of 2 runs" in text for text in page.texts("#study-list li")), page.texts("#study-list li")
+    page.until(lambda: any("of 2 runs" in text for text in page.texts("#study-list li")), "it is in the list")
 
 
 def refused(server):

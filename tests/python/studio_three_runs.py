@@ -43,22 +43,26 @@ class ResultsPage(Page):
     def run(self, folder):
         return f"#results-list input[data-folder={json.dumps(folder)}]"
 
-    def frame(self):
-        """Into the report, when it is shown."""
-        self.driver.switch_to.default_content()
-        self.when("return document.getElementById('report-frame')")
-        self.driver.switch_to.frame("report-frame")
-        self.when("return document.documentElement.dataset.ready")
-        assert self.js("return document.documentElement.dataset.ready") != "failed"
+    def shown(self, what):
+        """Waits until the panel shows that: a view and a number of runs."""
+        self.when("return document.documentElement.dataset.results === arguments[0]", what)
 
     def out(self):
         self.driver.switch_to.default_content()
 
     def titles(self):
-        self.frame()
-        titles = [one.text for one in self.all("h1")]
+        """Of the report that is shown."""
+        def read():
+            self.into_report()
+            return [one.text for one in self.all("h1")]
+        titles = self.until(read, "the report has titles")
         self.out()
         return titles
+
+    def rows(self, selector):
+        """Texts of the cells of a table's rows, at one moment."""
+        return self.js("return [...document.querySelectorAll(arguments[0])].map((row) => "
+                       "[...row.children].map((cell) => cell.innerText))", selector)
 
 
 def downloaded(downloads, name, seconds=30.0):
