@@ -49,6 +49,7 @@ set(public_headers
   core/model/shear_law.hpp
   core/model/sheet_law.hpp
   core/model/sheet_response.hpp
+  core/model/temperature.hpp
   core/model/usual_ranges.hpp
   core/results/bridging.hpp
   core/results/broken_stitches.hpp
