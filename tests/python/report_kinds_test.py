@@ -16,6 +16,9 @@ from pathlib import Path
 
 from report_browser import Browser
 
+import h5py
+import numpy as np
+
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
 
 SHEETS = """title = "{title}"
@@ -170,6 +173,63 @@ def check_pressed(browser, folder):
     assert one[0] == 0 and all(a < b for a, b in zip(one, one[1:])) and 20.0 < one[-1] < 30.0, one
 
 
+def in_mould(folder, to):
+    """A copy of the results, with a stack of 50 % in a closed mould on the first half of the triangles."""
+    shutil.copytree(folder, to)
+    with h5py.File(to / "results.h5", "r+") as file:
+        for ply in file["plies"].values():
+            columns = [*ply.attrs["columns"], b"stack_fibre_volume"]
+            ply.attrs["columns"] = np.array(columns, dtype=f"S{max(map(len, columns))}")
+        for state in file["frames"].values():
+            for ply in state["plies"].values():
+                own = ply["fibre_volume"]
+                there = np.arange(len(own)) < len(own) // 2
+                stack = ply.create_dataset("stack_fibre_volume", data=np.where(there, 0.5, 0.0))
+                stack.attrs.update(own.attrs)
+                stack.attrs["word"] = np.bytes_("stack-fibre-volume")
+    return to
+
+
+def histogram(browser):
+    return browser.js("return JSON.parse(document.getElementById('scene').textContent).runs[0].histograms")
+
+
+def check_fibre_volume(browser, folder):
+    """A card and a histogram of runs that know it, and of no others."""
+    glass = f'"{CASES / "fabrics" / "glass_plain_weave_compaction.toml"}"'
+    two = sheets(folder / "two", "Two plies", glass, 2)
+    words, fields = shown(browser, two)
+    words = words.replace("\u00a0", " ")
+    assert "fibre-volume" in fields and "FIBRE VOLUME" in words.upper() and "Over the area".upper() in words.upper()
+    one, = histogram(browser)
+    with h5py.File(two / "results.h5") as file:
+        last = file["frames"][sorted(file["frames"])[-1]]["plies"]
+        for line in one["lines"]:
+            ply, triangles = last[line["name"]], file[f"plies/{line['name']}/triangles"][:]
+            corners = ply["x"][:][triangles]
+            area = np.linalg.norm(np.cross(*(corners[:, k] - corners[:, 0] for k in (1, 2))), axis=1)
+            volume = 100.0 * ply["fibre_volume"][:]
+            assert abs(line["mean"] - (volume * area).sum() / area.sum()) < 1e-3, line
+            assert abs(line["least"] - volume.min()) < 1e-3 and abs(line["largest"] - volume.max()) < 1e-3, line
+            assert abs(sum(line["values"]) - 100.0) < 0.01, line
+            for at, share in zip(one["at"], line["values"]):
+                inside = abs(volume - at) < 0.5 * one["step"] - 1e-9
+                assert share >= 100.0 * area[inside].sum() / area.sum() - 1e-3, (at, share)
+            assert f"{line['name']} {line['mean']:.1f}" in words, words
+    assert len(one["lines"]) == 2
+    legend = browser.find("#histogram-fibre-volume .legend-of-lines").text
+    assert f"{one['lines'][0]['least']:.1f} to {one['lines'][0]['largest']:.1f}" in legend, legend
+    assert len(browser.driver.find_elements("css selector", "#histogram-fibre-volume polyline")) == 2
+    words, _ = shown(browser, in_mould(two, folder / "mould"))
+    words = words.replace("\u00a0", " ")
+    assert "50.0 %\nMean of the stack in the mould, which has 50.0 to 50.0 %." in words, words
+    stack = histogram(browser)[0]["lines"][-1]
+    assert stack["mean"] == 50.0 and max(stack["values"]) == 100.0, stack
+    words, _ = shown(browser, sheets(folder / "none", "A foil", FOIL, 1))
+    assert "FIBRE VOLUME" not in words.upper() and not histogram(browser)
+    assert not browser.driver.find_elements("css selector", ".histograms")
+
+
 def check_messages(folder):
     empty = folder / "empty"
     empty.mkdir()
@@ -205,6 +265,7 @@ def main():
         check_print(browser, folder)
         check_sheets(browser, folder)
         check_pressed(browser, folder)
+        check_fibre_volume(browser, folder)
 
 
 main()

@@ -87,8 +87,9 @@ def sentence(text: str) -> str:
     return text[:1].upper() + text[1:] + ("." if text and text[-1] not in ".!?" else "")
 
 
-def answers_of(run: Run, index: int) -> list[Answer]:
-    found = [shear(run, index), wrinkles(run, index), bridging(run, index), force(run),
+def answers_of(run: Run, index: int, more: list[Answer | None] = ()) -> list[Answer]:
+    """`more`: cards of rooms of their own."""
+    found = [shear(run, index), wrinkles(run, index), bridging(run, index), force(run), *more,
              pressed(run, index), opening(run, index), stitches(run, index), drawn_in(run)]
     return [answer for answer in [*found, accuracy(run)] if answer]
 

@@ -14,7 +14,7 @@ from base.progress import doing, told
 from base.results_file import Column
 from plotting.reading import Trouble
 
-from . import answers, series
+from . import answers, fibre_volume, series
 from .encode import Blocks
 from .reading_run import PlyStates, Run, ToolStates
 from .simplify import simplified
@@ -44,8 +44,9 @@ def page_of(runs: list[Run]) -> str:
     shelf.globals.update(number=answers.number, percent=answers.percent, small=answers.small, sentence=answers.sentence)
     texts = [texts_of(run, k) | {"title": title} for k, (run, title) in enumerate(zip(runs, titles))]
     ids = {chart["id"]: chart for run in scene["runs"] for chart in run["charts"]}
+    histograms = {one["id"]: one for run in scene["runs"] for one in run["histograms"]}
     return shelf.get_template("report.html").render(
-        runs=texts, letters=LETTERS, yarns=yarns_of(runs), charts=list(ids.values()), along=scene["along"]["word"], place_error=blocks.errors["place"],
+        runs=texts, letters=LETTERS, yarns=yarns_of(runs), charts=list(ids.values()), histograms=list(histograms.values()), along=scene["along"]["word"], place_error=blocks.errors["place"],
         errors=[(column["label"].lower(), column["factor"] * blocks.errors[column["name"]],
                  column["unit"]) for column in scene["columns"]], blocks=blocks.texts,
         scene=json_in_script(scene), style=(WEB / "report.css").read_text(encoding="utf-8"),
@@ -96,7 +97,7 @@ def imports():
 
 def texts_of(run: Run, index: int) -> dict:
     """What the texts and tables of the page say of a run."""
-    found = answers.answers_of(run, index)
+    found = answers.answers_of(run, index, [fibre_volume.card(run, index)])
     status, words = answers.verdict(run, found)
     return {"folder": run.name(), "status": status,
             "verdict": words, "answers": found, "doubts": answers.doubts(run),
@@ -110,7 +111,7 @@ def scene_of(run: Run, by_time: bool, blocks: Blocks) -> dict:
     return {"reached": rounded(1e3 * run.time_s if by_time else run.stroke_mm), "time": rounded(run.time_s),
             "plies": [ply_of(run, ply, blocks) for ply in told("packs", run.plies)],
             "tools": [scene_of_tool(run, tool, blocks) for tool in told("packs", run.tools)],
-            "charts": series.charts_of(run)}
+            "charts": series.charts_of(run), "histograms": fibre_volume.histograms_of(run)}
 
 
 def yarns_of(runs: list[Run]) -> str:

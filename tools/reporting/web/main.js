@@ -3,6 +3,7 @@
 
 import { Chart } from "plyform/charts.js";
 import { connect, showPlace } from "plyform/controls.js";
+import { drawHistogram } from "plyform/histogram.js";
 import { localise, written } from "plyform/numbers.js";
 import { Page } from "plyform/page.js";
 import { preparePrint } from "plyform/print.js";
@@ -19,6 +20,14 @@ function drawCharts(report, scene) {
   });
   report.watchers.push((states) => charts.forEach((chart) =>
     chart.show(report.runs[0].reached[states[0]], states)));
+}
+
+function drawHistograms(scene) {
+  const ids = [...new Set(scene.runs.flatMap((run) => run.histograms.map((one) => one.id)))];
+  for (const id of ids) {
+    drawHistogram(document.getElementById(`histogram-${id}`),
+      scene.runs.map((run) => run.histograms.find((one) => one.id === id)));
+  }
 }
 
 /** The value under the cursor, while it rests on a ply. */
@@ -57,6 +66,7 @@ async function start() {
   document.documentElement.dataset.picture = String(Math.round(performance.now()));
   connect(report);
   drawCharts(report, scene);
+  drawHistograms(scene);
   hints(report);
   preparePrint(report);
   await report.change({});
