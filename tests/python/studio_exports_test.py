@@ -26,7 +26,7 @@ except ImportError as problem:
 
 TOOLS, PROGRAM, CASES = (Path(argument).resolve() for argument in sys.argv[1:4])
 SCALE, TURN, MOVE = 1000.0, (30.0, -20.0, 100.0), (5.0, -3.0, 12.0)  # of the part mesh
-LAYUPS = ("csv", "vtu", "abaqus", "calculix", "lsdyna", "optistruct", "openradioss", "acp", "h5")
+LAYUPS = ("csv", "vtu", "infusion", "abaqus", "calculix", "lsdyna", "optistruct", "openradioss", "acp", "h5")
 
 
 class Page(ResultsPage):
@@ -137,7 +137,7 @@ def check_layups(page, folder, run):
     found = names(run / "map")
     kinds = ("ply1_warp.csv", "ply1_weft.csv", "ply1_warp_layup.vtu", "ply1_warp_layup.inp", "ply1_warp_layup.k",
              "ply1_warp_layup_calculix.inp", "ply1_warp_drape.fem", "ply1_warp_drape_0000.inc", "acp_ply1_warp.csv",
-             "ply1_warp_layup.h5")
+             "ply1_warp_layup.h5", "ply1_warp_infusion.csv", "ply1_warp_infusion_layers.csv")
     assert set(kinds) <= found, set(kinds) - found
     own = layup(run / "map/ply1_warp.csv")
     assert "global y projected" in (run / "map/ply1_warp.csv").read_text(encoding="ascii")

@@ -31,6 +31,9 @@ class FormedPly:
     families: tuple[str, ...] = ("warp", "weft")
     family_angles_deg: tuple[float, ...] = ()  # from x before forming; empty: of warp and weft
     further: tuple[np.ndarray, ...] = ()       # m x 3 each, of the families behind the second
+    areal_weight: np.ndarray | None = None  # m, g/m2
+    fibre_density: float | None = None      # kg/m3
+    gap: np.ndarray | None = None           # m, mm, of the closed mould; NaN where there is none
 
     @property
     def woven(self) -> bool:
@@ -102,6 +105,7 @@ def layers_of(ply: FormedPly) -> list[FormedPly]:
     return [replace(ply, name=ply.name if part == 1 else f"{ply.name}_{family}", angle_deg=angle,
                     warp=yarns, weft=across(yarns, ply.x, ply.triangles),
                     shear_deg=np.zeros(len(yarns)), thickness=ply.thickness / part,
+                    areal_weight=None if ply.areal_weight is None else ply.areal_weight / part,
                     nominal_thickness=ply.nominal_thickness / part, yarn_angle_deg=90.0,
                     families=(family,), family_angles_deg=(angle,), further=())
             for family, yarns, angle in zip(ply.families, ply.yarns, ply.angles_deg)]
@@ -127,4 +131,19 @@ def ply_of(results: Results, number: int, name: str) -> FormedPly:
     return FormedPly(name, results.number(fixed, "angle_deg"), x0,
                      x, triangles, warp, weft, shear,
                      thickness, float(flat.mean()), between, families, tuple(map(float, angles)),
-                     tuple(further))
+                     tuple(further), *through_thickness(results, number, name, thickness))
+
+
+def through_thickness(results: Results, number: int, name: str, thickness: np.ndarray) -> tuple:
+    """Areal weight, fibre density and gap of the mould, as FormedPly has them, of what the run knows."""
+    known = {column.name: results.column(number, name, column, len(thickness))
+             for column in results.columns(name)
+             if column.name in ("areal_weight_g_m2", "fibre_volume", "stack_gap_mm")}
+    weight, volume = known.get("areal_weight_g_m2"), known.get("fibre_volume")
+    gap = known.get("stack_gap_mm")
+    density = None
+    if weight is not None and volume is not None:
+        if not (weight > 0).all() or not (volume > 0).all():
+            raise Broken(f"areal weight or fibre volume of ply {name} is not above 0 everywhere")
+        density = float(np.median(weight / (volume * thickness)))
+    return weight, density, None if gap is None else np.where(gap > 0, gap, np.nan)

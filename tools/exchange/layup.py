@@ -124,6 +124,7 @@ def as_two(layup: Layup) -> Layup:
             plies.append(replace(ply, name=name, warp=yarn, weft=np.cross(up, yarn),
                                  thickness=0.5 * ply.thickness,
                                  nominal_thickness=0.5 * ply.nominal_thickness,
+                                 areal_weight=None if ply.areal_weight is None else 0.5 * ply.areal_weight,
                                  nominal_angle_deg=ply.nominal_angle_deg + angle, woven=False))
     return replace(layup, plies=plies)
 
@@ -151,7 +152,7 @@ def there_and_back(smooth: SmoothPly, mapped: MappedPly, mesh: ShellMesh,
     ply = smooth.ply
     other = replace(ply, x=mesh.nodes[used], triangles=rows.reshape(triangles.shape),
                     warp=mapped.warp[owner], weft=mapped.weft[owner],
-                    thickness=mapped.thickness[owner])
+                    thickness=mapped.thickness[owner], areal_weight=None, gap=None)
     own = ply.own_mesh()
     up = np.ones(len(ply.triangles), int)
     # a fine part mesh would have the back way take longer than the way there

@@ -40,9 +40,18 @@ class MappedPly:
     distance: np.ndarray   # m, mm: mean of those from the element to the ply
     side: np.ndarray       # m: 1 if the element's normal points up the stack, -1 if down, 0 unknown
     woven: bool = True     # else the layer of one family of yarns
+    areal_weight: np.ndarray | None = None  # m, g/m2
+    fibre_density: float | None = None      # kg/m3
+    gap: np.ndarray | None = None           # m, mm, of the closed mould; NaN where there is none
 
     def covered(self) -> np.ndarray:
         return np.isfinite(self.thickness)
+
+    def fibre_volume(self) -> np.ndarray | None:
+        """m: of the layer by itself, by its areal weight and thickness; None where it is not known."""
+        if self.areal_weight is None or self.fibre_density is None:
+            return None
+        return self.areal_weight / (self.fibre_density * self.thickness)
 
 
 class SmoothPly:
@@ -56,6 +65,9 @@ class SmoothPly:
         self.warp = self._at_nodes(ply.warp, areas)
         self.weft = self._at_nodes(ply.weft, areas)
         self.thickness = self._at_nodes(ply.thickness[:, None], areas)[:, 0]
+        self.areal_weight = (None if ply.areal_weight is None else
+                             self._at_nodes(ply.areal_weight[:, None], areas)[:, 0])
+        self.gap = None if ply.gap is None else self._known_at_nodes(ply.gap, areas)
         self.border = border_edges(ply.triangles)
         sides = ply.x[ply.triangles] - ply.x[np.roll(ply.triangles, -1, axis=1)]
         self.side = float(np.linalg.norm(sides, axis=2).mean())
@@ -66,6 +78,13 @@ class SmoothPly:
         total = np.column_stack([np.bincount(nodes, np.tile(areas * one, 3), count)
                                  for one in values.T])
         return total / np.maximum(weight, 1e-300)[:, None]
+
+    def _known_at_nodes(self, values: np.ndarray, areas: np.ndarray) -> np.ndarray:
+        """Of the triangles round a node those where the value is known."""
+        known = np.isfinite(values)
+        there = np.where(known, areas, 0.0)
+        mean = self._at_nodes(np.where(known, values, 0.0)[:, None], there)[:, 0]
+        return np.where(mean > 0, mean, np.nan)
 
     def at(self, triangle: np.ndarray, weights: np.ndarray) -> tuple[np.ndarray, ...]:
         """Normal, warp, weft (k x 3, unit vectors, yarns along the ply) and thickness (k)."""
@@ -181,10 +200,21 @@ def map_ply(ply: SmoothPly, mesh: ShellMesh, side: np.ndarray, limit: float,
     warp = unit(mean(turn(warp, normal, up[element]))) * off[:, None]
     weft = unit(mean(turn(weft, normal, up[element]))) * off[:, None]
     between = np.degrees(np.arccos(np.clip((warp * weft).sum(axis=1), -1, 1)))
-    of = ply.ply
+    of, nodes = ply.ply, ply.ply.triangles[triangle[hit]]
+
+    def values_of(at_nodes):
+        """Means over what is known, where that is most of the element."""
+        if at_nodes is None:
+            return None
+        values = (weights[hit] * at_nodes[nodes]).sum(axis=1)
+        known = np.isfinite(values)
+        part = mean(np.where(known, 1.0, 0.0))
+        found = mean(np.where(known, values, 0.0)) / np.maximum(part, 1e-300)
+        return np.where(part >= 0.5 * weight, found, np.nan) * off
     return MappedPly(of.name, of.angle_deg, of.nominal_thickness, of.yarn_angle_deg, share, warp,
                      weft, mean(thickness) / weight * off, of.yarn_angle_deg - between,
-                     mean(distance[hit]) / weight * off, np.where(bare, 0, side), of.woven)
+                     mean(distance[hit]) / weight * off, np.where(bare, 0, side), of.woven,
+                     values_of(ply.areal_weight), of.fibre_density, values_of(ply.gap))
 
 
 def turn(vectors: np.ndarray, start: np.ndarray, end: np.ndarray) -> np.ndarray:
@@ -201,4 +231,5 @@ def on_own_mesh(ply: FormedPly) -> MappedPly:
     count = len(ply.triangles)
     return MappedPly(ply.name, ply.angle_deg, ply.nominal_thickness, ply.yarn_angle_deg,
                      np.ones(count), ply.warp, ply.weft, ply.thickness, ply.shear_deg,
-                     np.zeros(count), np.ones(count, int), ply.woven)
+                     np.zeros(count), np.ones(count, int), ply.woven, ply.areal_weight,
+                     ply.fibre_density, ply.gap)

@@ -39,7 +39,11 @@ def mirrored(ply: FormedPly, axis: str) -> FormedPly:
                    triangles=np.vstack([ply.triangles, triangles]),
                    warp=warp, weft=weft, further=tuple(further),
                    shear_deg=np.r_[ply.shear_deg, shear],
-                   thickness=np.r_[ply.thickness, ply.thickness])
+                   thickness=twice(ply.thickness), areal_weight=twice(ply.areal_weight), gap=twice(ply.gap))
+
+
+def twice(values: np.ndarray | None) -> np.ndarray | None:
+    return None if values is None else np.r_[values, values]
 
 
 def image_yarns(ply: FormedPly, axis: str, flip: np.ndarray) -> list[np.ndarray]:

@@ -14,13 +14,16 @@ def csv_files(layup: Layup) -> dict[str, str]:
     files = {}
     for ply in layup.plies:
         warp, weft = layup.angles(ply)
+        more = {name: values for name, values in
+                (("areal_weight_g_m2", ply.areal_weight), ("fibre_volume", ply.fibre_volume()))
+                if values is not None}
         table = np.column_stack([ply.share, ply.warp, ply.weft, warp, weft, ply.thickness,
-                                 ply.shear_deg, ply.distance])
+                                 ply.shear_deg, ply.distance, *more.values()])
         lines = ["# " + line for line in layup.head(
             [f"ply {ply.name}, {ply.nominal_angle_deg:g} degrees and {ply.nominal_thickness:g} mm "
              "before forming",
              "an element that the ply does not cover has its covered_share only"])]
-        lines.append(",".join(COLUMNS))
+        lines.append(",".join([*COLUMNS, *more]))
         lines += rows_of(layup.mesh.labels, table)
         files[ply.name + ".csv"] = "\n".join(lines) + "\n"
     return files

@@ -13,7 +13,7 @@ from ..server.project import Project, Refused
 from .listing import check_links
 
 STATES = ("vtu", "stl", "csv", "vtkhdf", "gltf")
-LAYUPS = ("csv", "vtu", "abaqus", "calculix", "lsdyna", "optistruct", "openradioss", "acp", "h5")
+LAYUPS = ("csv", "vtu", "infusion", "abaqus", "calculix", "lsdyna", "optistruct", "openradioss", "acp", "h5")
 REFERENCES = ("", "part", "side", "x", "y", "z")
 PARTS = (".inp", ".cdb", ".bdf", ".nas", ".dat", ".fem", ".k", ".key", ".dyn", ".vtu")
 OUTLINES = (".csv", ".dxf")
