@@ -2,12 +2,22 @@
 #include "core/run/astray_forces.hpp"
 
 #include "base/node_normals.hpp"
+#include "core/model/motion.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <optional>
+#include <variant>
 
 namespace plyform {
 namespace {
+
+/// mm^2, before forming.
+double area_of(const PlyBody& ply) {
+  const std::vector<double>& areas = ply.membrane.node_area;
+  return std::accumulate(areas.begin(), areas.end(), 0.0);
+}
 
 /// L, N.
 double drawing_load(const Scene& s) {
@@ -19,6 +29,9 @@ double drawing_load(const Scene& s) {
   }
   for (const BoundaryState& b : s.boundaries)
     drawn = std::max(drawn, b.force.norm());
+  for (std::size_t p = 0; p < s.plies.size(); ++p)
+    if (const std::optional<double> pressure = pressure_on(s.data, p, s.time))
+      drawn = std::max(drawn, std::abs(*pressure) * area_of(s.plies[p]));
   return drawn > 0.0 ? drawn : any;
 }
 
@@ -30,6 +43,7 @@ std::vector<double> forces_astray(const Scene& s) {
     std::vector<Vec3> normals;
     for (std::size_t t = 0; t < s.tools.size(); ++t) {
       if (s.tools[t].contacts[p].sums.touching == 0) continue;
+      if (std::holds_alternative<Plane>(s.tools[t].body.shape)) continue; // it has no edge
       if (normals.empty()) normals = mean_normals(s.plies[p].x, s.plies[p].membrane.triangles);
       for (const ToolPlyPoint& c : s.tools[t].contacts[p].points)
         astray[t] += c.memory.normal_force * normal_of(c).cross(normals[at(c.node)]).norm();

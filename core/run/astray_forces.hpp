@@ -7,7 +7,8 @@
 //   N    N    normal force of a node on a tool
 //   phi  rad  between the tool's normal there and the ply's, the mean of the triangles at the node
 //   S    N    sum of N sin(phi) over the nodes on a tool: forces astray
-//   L    N    what draws the plies: the largest force of a driven tool or boundary, else of any
+//   L    N    what draws the plies: the largest force of a driven tool or boundary, or of the
+//             pressure on a ply over its whole face, else of any tool
 //
 // Over an arc that a few nodes share, phi is a fraction of the turn from node to node. A strip that
 // elements of 2.5 mm draw over an edge has S/L of 0.5, 0.26 and 0.32 over radii of 0, 0.5 and 1.5

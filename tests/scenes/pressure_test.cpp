@@ -252,6 +252,25 @@ TEST(Pressure, RunEndsBeforeItsDwellWhenTheMembraneRests) {
   EXPECT_TRUE(said);
 }
 
+// Where the membrane leaves the plate, nodes on it are pressed along its normal beside triangles
+// that lift off: on a plane that is right, and its rim bears little of the load.
+TEST(Pressure, APlateThatBearsTheMembraneHasNoEdgesToDoubt) {
+  Case data = inflated_disc(12.0, 0.0);
+  data.fabrics[0].sheet = IsotropicLaw{2.5, nu};
+  data.loads = {{0, PlyFace::above, 0.02, {{0.6, 0.02}}}};
+  Tool plate;
+  plate.name = "plate";
+  plate.shape = Plane{};
+  plate.position = Vec3(0.0, 0.0, -8.0);
+  data.tools = {plate};
+  set_friction(data, 0.2);
+  data.solver.outputs = 4;
+  const RunResult run = run_case(data, 1, {});
+  ASSERT_TRUE(ended(run.summary.status)) << run.summary.message;
+  EXPECT_GT(std::abs(run.last.tools[0].force_N), 300.0); // of the 628 N on the membrane
+  EXPECT_EQ(run.summary.message.find("edges of plate"), std::string::npos) << run.summary.message;
+}
+
 TEST(Pressure, GivesTheSameBitsForAnyNumberOfThreads) {
   Case data = inflated_disc(25.0, 0.01);
   data.solver.duration = 0.003;
