@@ -27,22 +27,26 @@ std::vector<std::string> amounts_but(const std::string& one) {
   return others;
 }
 
-KeyRow amount_row(const std::string& key, const std::string& meaning) {
+// N/mm2: in presses and autoclaves; a vacuum cannot be more than an atmosphere.
+constexpr double usual_pressure = 10.0, atmosphere = 0.1014;
+
+KeyRow amount_row(const std::string& key, double usual_most, const std::string& meaning) {
   return {.key = "load[]." + key,
           .unit = "N/mm2",
           .instead = amounts_but(key),
           .ranges = {{.least = 0.0, .most = pressure_range.most, .open_least = true}},
-          .usual = {{.least = 1e-6, .most = 10.0}},
+          .usual = {{.least = 1e-6, .most = usual_most}},
           .meaning = meaning,
           .members = {to(&PressureLoad::pressure)}};
 }
 
-KeyRow programme_row(const std::string& key, const std::string& meaning) {
+KeyRow programme_row(const std::string& key, double usual_most, const std::string& meaning) {
   return {.key = "load[]." + key,
           .kind = K::pairs,
           .unit = "-, N/mm2",
           .instead = amounts_but(key),
           .ranges = {programme_share, pressure_range},
+          .usual = {{.least = 1e-6, .most = 1.0}, {.least = 0.0, .most = usual_most}},
           .least_items = 1,
           .meaning = meaning};
 }
@@ -124,34 +128,37 @@ void read_between(const LoadSection& s, const TomlNode& between, std::vector<Pre
 } // namespace
 
 Rows load_rows() {
-  return {
-      {.key = "load",
-       .kind = K::tables,
-       .fallback = "[]",
-       .meaning = "loads, one [[load]] each: pressure or vacuum at faces of plies"},
-      {.key = "load[].ply",
-       .kind = K::text,
-       .instead = {"between"},
-       .meaning = "name of the ply that it acts on"},
-      {.key = "load[].side",
-       .kind = K::choice,
-       .instead = {"between"},
-       .choices = words_of(side_choices),
-       .meaning = "face that it acts on, as the ply lies at the start",
-       .members = {to(&PressureLoad::side, side_choices)}},
-      {.key = "load[].between",
-       .kind = K::names,
-       .instead = {"ply", "side"},
-       .count = 2,
-       .meaning = "names of the lowest and the highest ply of an enclosed stack: it acts on the "
-                  "faces of these two that look at each other"},
-      amount_row("pressure", "pressure, which pushes against the face, normal to the surface "
-                             "as it deforms; it rises over the duration"),
-      programme_row("pressure_programme",
-                    "stages [share of the duration, pressure reached by then]"),
-      amount_row("vacuum", "vacuum, by how much the pressure at the face is below that of the air "
-                           "around, which pushes on the other face"),
-      programme_row("vacuum_programme", "stages [share of the duration, vacuum reached by then]")};
+  return {{.key = "load",
+           .kind = K::tables,
+           .fallback = "[]",
+           .meaning = "loads, one [[load]] each: pressure or vacuum at faces of plies"},
+          {.key = "load[].ply",
+           .kind = K::text,
+           .instead = {"between"},
+           .meaning = "name of the ply that it acts on"},
+          {.key = "load[].side",
+           .kind = K::choice,
+           .instead = {"between"},
+           .choices = words_of(side_choices),
+           .meaning = "face that it acts on, as the ply lies at the start",
+           .members = {to(&PressureLoad::side, side_choices)}},
+          {.key = "load[].between",
+           .kind = K::names,
+           .instead = {"ply", "side"},
+           .count = 2,
+           .meaning =
+               "names of the lowest and the highest ply of an enclosed stack: it acts on the "
+               "faces of these two that look at each other"},
+          amount_row("pressure", usual_pressure,
+                     "pressure, which pushes against the face, normal to the surface "
+                     "as it deforms; it rises over the duration"),
+          programme_row("pressure_programme", usual_pressure,
+                        "stages [share of the duration, pressure reached by then]"),
+          amount_row("vacuum", atmosphere,
+                     "vacuum, by how much the pressure at the face is below that of the air "
+                     "around, which pushes on the other face"),
+          programme_row("vacuum_programme", atmosphere,
+                        "stages [share of the duration, vacuum reached by then]")};
 }
 
 void read_loads(const TableView& root, Case& built, Diagnostics& diagnostics) {

@@ -4,6 +4,7 @@
 #include "core/model/motion.hpp"
 #include "support/case_files.hpp"
 
+#include <algorithm>
 #include <gtest/gtest.h>
 
 namespace plyform::loads_test {
@@ -39,6 +40,20 @@ TEST(Loads, OfAnEnclosedStackPressItsOuterPliesTowardsEachOther) {
   EXPECT_EQ(forming.side, PlyFace::above);
   EXPECT_EQ(forming.pressure, 0.08);
   EXPECT_EQ(forming.entry, 1u);
+}
+
+// In bar or kPa a vacuum would be more than the air that makes it.
+TEST(Loads, WarnOfAVacuumBeyondAnAtmosphere) {
+  const auto warned = [](const std::string& value) {
+    const PreparedCase reading = prepare_case((data_folder / "good" / "enclosure.toml").string(),
+                                              {{"load.1.vacuum_programme", value}});
+    EXPECT_TRUE(reading.errors.empty());
+    return std::any_of(reading.warnings.begin(), reading.warnings.end(), [](const auto& line) {
+      return line.find("load.1.vacuum_programme") != std::string::npos;
+    });
+  };
+  EXPECT_FALSE(warned("[[0.3, 0.0], [1.0, 0.1013]]"));
+  EXPECT_TRUE(warned("[[0.3, 0.0], [1.0, 0.9]]"));
 }
 
 TEST(Loads, KeepTheirPliesWhenOthersAreTakenOut) {
