@@ -19,17 +19,22 @@ PATIENCE = 120.0  # s
 PASSING = (NoSuchElementException, StaleElementReferenceException, ElementClickInterceptedException,
            ElementNotInteractableException, JavascriptException, NoSuchFrameException, NoSuchWindowException,
            KeyError, IndexError, TypeError, tomllib.TOMLDecodeError)
-# Counts what the page has asked of the server and not yet heard, and a moment for what it does with the answer.
+# Whether an answer may draw the page anew: of a change that was sent, or of a look, unless the page looks without
+# an end, as at a run that goes on. What it does with an answer takes it a moment.
 ASKING = """
 (() => {
   if (window !== window.top) return;
   const ask = window.fetch;
-  window.plyform_asking = 0;
-  const heard = () => setTimeout(() => { --window.plyform_asking; }, 20);
+  let [changes, looks, since] = [0, 0, 0];
+  window.plyform_asking = () => changes > 0 || (looks > 0 && performance.now() - since < 2000);
+  const heard = (change) => setTimeout(() => { if (change) --changes; else --looks; }, 20);
   window.fetch = (...wish) => {
-    ++window.plyform_asking;
+    const change = Boolean(wish[1] && wish[1].method && wish[1].method !== "GET");
+    if (!change && !looks) since = performance.now();
+    if (change) ++changes;
+    else ++looks;
     const answer = ask(...wish);
-    answer.then((response) => response.clone().arrayBuffer()).then(heard, heard);
+    answer.then((response) => response.clone().arrayBuffer()).then(() => heard(change), () => heard(change));
     return answer;
   };
 })();
@@ -97,7 +102,8 @@ class Page(Browser):
     def near(self, selector):
         """The element, brought to where it is seen, in one question; None while it is missing, hidden or off,
         or while an answer may draw it anew."""
-        return self.js("const e = document.querySelector(arguments[0]); if (!e || window.plyform_asking) return null;"
+        return self.js("const e = document.querySelector(arguments[0]); "
+                       "if (!e || (window.plyform_asking && window.plyform_asking())) return null;"
                        "e.scrollIntoView({block: 'center'});"
                        "return e.getClientRects().length && !e.matches(':disabled') ? e : null", selector)
 
