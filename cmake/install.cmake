@@ -57,6 +57,7 @@ set(public_headers
   core/results/draw_in.hpp
   core/results/export.hpp
   core/results/frame.hpp
+  core/results/mould_fill.hpp
   core/results/ply_frame.hpp
   core/results/result_writer.hpp
   core/results/size_file.hpp

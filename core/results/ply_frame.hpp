@@ -36,6 +36,14 @@ struct CrossingFrame {
   std::vector<double> shear_deg; ///< m, signed
 };
 
+/// What a closed mould leaves at the m triangles of a ply, 0 where they are not in it; all empty
+/// without one: core/run/closed_gap.hpp.
+struct GapFrame {
+  std::vector<double> gap, left;    ///< mm: between the tools; of it, what the stack does not fill
+  std::vector<double> packing;      ///< densest packing of the stack over the gap
+  std::vector<double> fibre_volume; ///< fraction, of the stack; empty if not of all plies is known
+};
+
 /// One ply at one time. Sizes: n nodes, m triangles. Plies of a run may have different families.
 struct PlyFrame {
   std::string name;
@@ -47,7 +55,9 @@ struct PlyFrame {
   std::vector<double> shear_deg;        ///< m, signed, of the first crossing
   std::vector<CrossingFrame> crossings; ///< those behind the first
   std::vector<double> thickness;        ///< m, mm
+  std::vector<double> areal_weight;     ///< m, g/m^2
   std::vector<double> fibre_volume;     ///< m, fraction; empty without fibre_density
+  GapFrame mould;
   /// m, the larger and the smaller principal stretch of a sheet of rubber; empty of others
   std::array<std::vector<double>, 2> stretch;
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
@@ -121,12 +131,38 @@ void each_thickness_column(AnyPly& ply, Visit&& visit) {
   visit(Column{{"thickness_mm", "thickness", "thickness", "mm", 3, 1e-5, Scale::whole,
                 "from constant volume; of fabrics with compaction what contact leaves"}},
         ply.thickness);
+  visit(Column{{"areal_weight_g_m2", "areal-weight", "areal weight", "g/m²", 0, 0.01, Scale::whole,
+                "of the formed ply by itself"},
+               Location::triangle,
+               "",
+               true},
+        ply.areal_weight);
   visit(Column{{"fibre_volume", "fibre-volume", "fibre volume fraction", "1", 3, 1e-5, Scale::whole,
                 "of the ply by itself"},
                Location::triangle,
                "",
                true},
         ply.fibre_volume);
+}
+
+/// The columns of what a closed mould leaves.
+template <class AnyPly, class Visit>
+void each_gap_column(AnyPly& ply, Visit&& visit) {
+  const auto column = [](Description description) {
+    return Column{std::move(description), Location::triangle, "", true};
+  };
+  visit(column({"stack_gap_mm", "stack-gap", "gap of the closed mould", "mm", 3, 1e-5,
+                Scale::from_zero, "between its tools; 0: not between them"}),
+        ply.mould.gap);
+  visit(column({"gap_left_mm", "gap-left", "gap left by the stack", "mm", 3, 1e-5, Scale::both_ways,
+                "gap of the closed mould less the present thickness of the plies in it"}),
+        ply.mould.left);
+  visit(column({"stack_packing", "stack-packing", "packing of the stack", "1", 3, 1e-5,
+                Scale::from_zero, "its thickness at the densest packing over the gap"}),
+        ply.mould.packing);
+  visit(column({"stack_fibre_volume", "stack-fibre-volume", "fibre volume fraction of the stack",
+                "1", 3, 1e-5, Scale::from_zero, "in the gap of the closed mould"}),
+        ply.mould.fibre_volume);
 }
 
 /// Calls visit(Column, values) for each column of a ply, in the order of files: values is one of
@@ -186,6 +222,7 @@ void each_column(AnyPly& ply, Visit&& visit) {
   for (auto& stitch : ply.stitches)
     each_stitch_column(stitch, visit);
   each_thickness_column(ply, visit);
+  each_gap_column(ply, visit);
   for (std::size_t i = 0; i < 2; ++i)
     visit(stretch_column(i == 0), ply.stretch[i]);
 }

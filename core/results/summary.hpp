@@ -5,6 +5,7 @@
 #include "core/results/bridging.hpp"
 #include "core/results/broken_stitches.hpp"
 #include "core/results/draw_in.hpp"
+#include "core/results/mould_fill.hpp"
 #include "core/results/verification.hpp"
 #include "core/results/wrinkles.hpp"
 
@@ -72,7 +73,9 @@ struct Opening {
 struct PlyReport {
   std::optional<PressedYarns> pressed; ///< none of a sheet without yarns
   Wrinkle wrinkle;
-  std::optional<Bridging> bridging;           ///< none where nothing could bridge
+  std::optional<Bridging> bridging; ///< none where nothing could bridge
+  std::optional<FibreVolume> fibre_volume;
+  std::optional<MouldFill> mould;
   std::optional<double> locking_angle_deg;    ///< of the fabric, if it is known
   std::optional<double> beyond_locking_share; ///< fraction of the area before forming; likewise
   std::vector<Opening> openings;              ///< of the families for which it is told
@@ -89,6 +92,13 @@ struct KnownForce {
   double stroke_mm = std::numeric_limits<double>::infinity();
   double time_s = std::numeric_limits<double>::infinity(); ///< infinite: to the end
   bool to_end() const { return time_s == std::numeric_limits<double>::infinity(); }
+};
+
+/// How a tool that is pushed by a force came to rest.
+struct PushedTool {
+  std::string name;
+  double speed_mm_s = 0; ///< along its direction at the end, of the simulated time
+  bool at_rest = true; ///< in a twentieth of the run's time it would come less than 0.01 mm further
 };
 
 struct Summary {
@@ -115,6 +125,7 @@ struct Summary {
   /// keys of the case with their values (core/input/keys/given_values.hpp); may be empty: not known
   std::vector<std::pair<std::string, std::string>> given;
   bool flies = false; ///< a ply at the end: core/run/ply_motion.hpp
+  std::vector<PushedTool> pushed = {};
 };
 
 /// Whether a run with this status reached its end time.

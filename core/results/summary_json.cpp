@@ -97,6 +97,25 @@ Json bridging_keys(const Bridging& bridging) {
   return keys;
 }
 
+Json fibre_volume_keys(const FibreVolume& v) {
+  return {{"fibre_volume_mean", rounded(v.mean)},
+          {"fibre_volume_min", rounded(v.least)},
+          {"fibre_volume_min_at_mm", place(v.least_at)},
+          {"fibre_volume_max", rounded(v.largest)},
+          {"fibre_volume_max_at_mm", place(v.largest_at)}};
+}
+
+Json mould_keys(const MouldFill& mould) {
+  Json keys{{"mould_area_mm2", rounded(mould.area)},
+            {"mould_gap_min_mm", rounded(mould.least_gap)},
+            {"mould_gap_mean_mm", rounded(mould.mean_gap)},
+            {"mould_wider_area_mm2", rounded(mould.wider)},
+            {"mould_packed_area_mm2", rounded(mould.packed)},
+            {"max_gap_left_mm", rounded(mould.widest)}};
+  if (mould.widest > 0.0) keys["max_gap_left_at_mm"] = place(mould.widest_at);
+  return keys;
+}
+
 Json opening_object(const Opening& opening) {
   Json object{{"family", opening.family},
               {"largest", rounded(opening.largest)},
@@ -128,6 +147,8 @@ Json report_keys(const PlyReport& report) {
   if (report.pressed) keys.update(pressed_keys(*report.pressed));
   keys.update(wrinkle_keys(report.wrinkle));
   if (report.bridging) keys.update(bridging_keys(*report.bridging));
+  if (report.fibre_volume) keys.update(fibre_volume_keys(*report.fibre_volume));
+  if (report.mould) keys.update(mould_keys(*report.mould));
   if (report.locking_angle_deg) keys["locking_angle_deg"] = rounded(*report.locking_angle_deg);
   if (report.beyond_locking_share)
     keys["area_share_beyond_locking_angle"] = rounded(*report.beyond_locking_share);
@@ -181,9 +202,14 @@ Json tool_object(const ToolFrame& tool) {
           {"displacement_mm", rounded(tool.stroke_mm)}};
 }
 
-/// The tools, with what is known of their forces.
-Json tools_list(const std::vector<ToolFrame>& tools, const std::vector<KnownForce>& known) {
+/// The tools, with what is known of their forces and of how they came to rest.
+Json tools_list(const std::vector<ToolFrame>& tools, const std::vector<KnownForce>& known,
+                const std::vector<PushedTool>& pushed) {
   Json list = list_of(tools, tool_object);
+  for (Json& tool : list)
+    for (const PushedTool& one : pushed)
+      if (tool["name"] == one.name)
+        tool.update({{"speed_mm_s", rounded(one.speed_mm_s)}, {"at_rest", one.at_rest}});
   for (std::size_t t = 0; t < std::min(known.size(), list.size()); ++t) {
     list[t]["force_known"] = known[t].to_end();
     if (known[t].to_end()) continue;
@@ -338,7 +364,7 @@ std::string summary_json(const Frame& last, const Summary& summary) {
               {"elements", elements},
               {"nodes", nodes},
               {"plies", plies_list(last.plies, summary.plies)},
-              {"tools", tools_list(last.tools, summary.known_forces)},
+              {"tools", tools_list(last.tools, summary.known_forces, summary.pushed)},
               {"boundaries", list_of(last.boundaries, boundary_object)},
               {"energy", energy_object(last.energy)},
               {"kinetic_over_deformation", rounded(summary.motion_share)},

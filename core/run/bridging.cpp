@@ -2,7 +2,6 @@
 #include "core/run/bridging.hpp"
 
 #include "base/node_normals.hpp"
-#include "core/model/motion.hpp"
 #include "core/results/way_to_tool.hpp"
 #include "core/run/triangle_grid.hpp"
 
@@ -14,12 +13,10 @@
 namespace plyform {
 namespace {
 
-constexpr double closed_room = 1.2;        // of the thickness of all plies
-constexpr double beneath = 0.2;            // cosine of 78 degrees: a steeper tool is beside the ply
-constexpr double facing_tool = 0.5;        // cosine of 60 degrees: the tool that presses
-constexpr double of_its_own = 0.5;         // of G: (2)
-constexpr std::size_t most_samples = 5000; // of a tool's surface, to find whether it closes
-constexpr double no_load = 1e-6;           // of the loads on a stack: their sum is rounding
+constexpr double beneath = 0.2;     // cosine of 78 degrees: a steeper tool is beside the ply
+constexpr double facing_tool = 0.5; // cosine of 60 degrees: the tool that presses
+constexpr double of_its_own = 0.5;  // of G: (2)
+constexpr double no_load = 1e-6;    // of the loads on a stack: their sum is rounding
 
 std::vector<Vec3> unit_normals(const PlyBody& ply) {
   std::vector<Vec3> normals = area_normals(ply.x, ply.membrane.triangles);
@@ -47,53 +44,6 @@ std::vector<double> sides_of_loads(const Scene& s) {
     sides.push_back(std::abs(net) > no_load * all[at(ply.stack)] ? std::copysign(1.0, net) : 0.0);
   }
   return sides;
-}
-
-double thickness_of_plies(const Scene& s) {
-  return std::accumulate(s.plies.begin(), s.plies.end(), 0.0,
-                         [](double sum, const PlyBody& ply) { return sum + ply.thickness; });
-}
-
-/// Whether tools with these displacements leave no more room than plies between them need.
-bool is_closed(const Scene& s, std::size_t b, const TriMesh& surface_of_a,
-               const Vec3& displacement_a, const Vec3& displacement_b) {
-  ToolBody other = s.tools[b].body;
-  other.displacement = displacement_b;
-  const double room = closed_room * thickness_of_plies(s);
-  SurfaceHint hint;
-  const std::vector<Vec3>& x = surface_of_a.x;
-  const std::size_t stride = 1 + x.size() / most_samples;
-  for (std::size_t i = 0; i < x.size(); i += stride)
-    if (distance_to_tool(other, x[i] + displacement_a, hint).distance <= room) return true;
-  return false;
-}
-
-/// The displacement of a tool at the end of its programme.
-Vec3 last_displacement(const Scene& s, std::size_t t) {
-  const Tool& tool = s.data.tools[t];
-  if (tool.motion != Motion::driven) return s.tools[t].body.displacement;
-  const double duration = s.data.solver.duration;
-  return motion_at(tool, duration, duration) * tool.direction;
-}
-
-/// Tools that close on each other, both ways; now, or at the end of the run. Where tools are
-/// driven, those that are pushed are holders.
-std::vector<Mould> moulds(const Scene& s, const std::vector<TriMesh>& surfaces, bool at_end) {
-  const bool driven = std::any_of(s.data.tools.begin(), s.data.tools.end(),
-                                  [](const Tool& t) { return t.motion == Motion::driven; });
-  std::vector<Mould> found;
-  for (std::size_t a = 0; a < s.tools.size(); ++a)
-    for (std::size_t b = 0; b < s.tools.size(); ++b) {
-      const Motion mover = s.data.tools[a].motion, other = s.data.tools[b].motion;
-      if (a == b || mover != (driven ? Motion::driven : Motion::force)) continue;
-      if (other == Motion::force || (other == mover && b < a)) continue;
-      const bool closed = at_end ? !driven || is_closed(s, b, surfaces[a], last_displacement(s, a),
-                                                        last_displacement(s, b))
-                                 : is_closed(s, b, surfaces[a], s.tools[a].body.displacement,
-                                             s.tools[b].body.displacement);
-      if (closed) found.push_back({a, b}), found.push_back({b, a});
-    }
-  return found;
 }
 
 /// What is known of a node that is pressed along u.
@@ -198,14 +148,10 @@ struct BridgingSearch::Parts {
   }
 };
 
-BridgingSearch::BridgingSearch(const Scene& scene, const std::vector<TriMesh>& surfaces)
-    : parts_(new Parts{scene, false, sides_of_loads(scene), {}, {}}) {
+BridgingSearch::BridgingSearch(const Scene& scene, const Moulds& moulds)
+    : parts_(new Parts{scene, false, sides_of_loads(scene), moulds.closed, {}}) {
   if (scene.tools.empty()) return;
-  parts_->can_be = !scene.data.loads.empty();
-  if (!moulds(scene, surfaces, true).empty()) {
-    parts_->can_be = true;
-    parts_->closed = moulds(scene, surfaces, false);
-  }
+  parts_->can_be = moulds.any || !scene.data.loads.empty();
   const bool any =
       !parts_->closed.empty() || std::any_of(parts_->sides.begin(), parts_->sides.end(),
                                              [](double side) { return side != 0.0; });

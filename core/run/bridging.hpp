@@ -3,8 +3,8 @@
 // corner. It is pressed, at a node,
 // - by loads: to the side of the sum of the loads on all plies of its stack; a vacuum between two
 //   membranes alone presses the stack between them to neither side;
-// - between the tools of a closed mould (somewhere they leave less room than 1.2 times the plies):
-//   from the one that it touches to the other. A ply under an open punch is not.
+// - between the tools of a closed mould (core/run/moulds.hpp): from the one that it touches to the
+// other. A ply under an open punch is not.
 //
 //   u  -   unit normal of the ply, to the side to which it is pressed
 //   d  mm  distance from the tool that the line along u meets first, along that tool's normal
@@ -20,22 +20,17 @@
 #pragma once
 
 #include "core/results/frame.hpp"
+#include "core/run/moulds.hpp"
 #include "core/solver/scene.hpp"
 
 #include <memory>
 
 namespace plyform {
 
-/// Two tools with plies between, the first of which presses towards the second.
-struct Mould {
-  std::size_t from = 0, to = 0;
-};
-
 /// Finds bridging in the plies of a scene, in its present state with its last forces.
 class BridgingSearch {
 public:
-  /// surfaces: of the tools, mm, where they were at the start.
-  BridgingSearch(const Scene& scene, const std::vector<TriMesh>& surfaces);
+  BridgingSearch(const Scene& scene, const Moulds& moulds);
   ~BridgingSearch();
   BridgingSearch(const BridgingSearch&) = delete;
   BridgingSearch& operator=(const BridgingSearch&) = delete;

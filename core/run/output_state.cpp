@@ -5,6 +5,7 @@
 #include "core/model/motion.hpp"
 #include "core/results/wrinkles.hpp"
 #include "core/run/bridging.hpp"
+#include "core/run/closed_gap.hpp"
 #include "core/run/present_thickness.hpp"
 
 #include <algorithm>
@@ -149,6 +150,8 @@ PlyFrame make_ply_frame(const Scene& scene, const BridgingSearch& bridging, int 
   f.x = ply.x;
   f.triangles = ply.membrane.triangles;
   const std::vector<double> area_ratios = add_yarns(ply, f);
+  for (const double ratio : area_ratios) // t/mm^2 to g/m^2
+    f.areal_weight.push_back(1e12 * ply.membrane.fabric.surface_density / ratio);
   add_present_thickness(scene, index, area_ratios, f.thickness, f.fibre_volume);
   f.contact_pressure = contact_pressure(scene, index);
   f.reaction = ply.reaction;
@@ -251,9 +254,11 @@ Frame make_frame(const Scene& scene, const std::vector<TriMesh>& surfaces, const
   f.stroke_mm = current_stroke(scene);
   f.energy = energy;
   f.plies.resize(scene.plies.size());
-  const BridgingSearch bridging(scene, surfaces);
+  const Moulds moulds = moulds_of(scene, surfaces);
+  const BridgingSearch bridging(scene, moulds);
   pool.run(static_cast<int>(f.plies.size()),
            [&](int p) { f.plies[at(p)] = make_ply_frame(scene, bridging, p); });
+  add_closed_gap(scene, moulds, pool, f.plies);
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     f.tools.push_back(make_tool_frame(scene.tools[t], surfaces[t]));
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {

@@ -317,6 +317,8 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
     result.bridging = bridging_of(ply);
     if (!nature.has_yarns) result.bridging->family.clear();
   }
+  result.fibre_volume = fibre_volume_of(ply);
+  result.mould = mould_fill_of(ply);
   if (nature.locking_angle_deg) {
     std::vector<double> shear = ply.shear_deg;
     for (double& angle : shear)

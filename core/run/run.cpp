@@ -145,6 +145,30 @@ AccuracyReport accuracy_of(const Scene& s, bool flies) {
   return accuracy;
 }
 
+std::vector<PushedTool> pushed_tools(const Scene& s) {
+  constexpr double share = 0.05, still = 0.01; // of the time; mm
+  std::vector<PushedTool> found;
+  for (const ToolState& tool : s.tools)
+    if (tool.body.force_controlled)
+      found.push_back(
+          {tool.name, tool.body.speed, std::abs(tool.body.speed) * share * s.time < still});
+  return found;
+}
+
+/// What WorkReport::missing says of moulds that a force still closes.
+std::vector<std::string> moulds_under_way(const Summary& sum) {
+  std::vector<std::string> found;
+  const bool any = std::any_of(sum.plies.begin(), sum.plies.end(),
+                               [](const PlyReport& ply) { return ply.mould.has_value(); });
+  for (const PushedTool& tool : sum.pushed)
+    if (any && !tool.at_rest)
+      found.push_back(
+          fmt::format("rest: {}, pushed by a force, moves by {:.2g} mm/s at the end, of "
+                      "the simulated time; a longer solver.dwell lets the mould close",
+                      tool.name, tool.speed_mm_s));
+  return found;
+}
+
 void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool& pool,
             double elapsed) {
   const Snapshot& good = state.good;
@@ -181,10 +205,13 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
                       "solver.duration may help",
                       sum.contact.intersections_within_plies));
   sum.known_forces = state.known_forces;
+  sum.pushed = pushed_tools(s);
   std::vector<std::string> reasons = doubts(s, result.last, sum.plies, cuts);
   for (std::string& reason : doubts_of_forces(s, state.known_forces, state.astray))
     reasons.push_back(std::move(reason));
   doubt_if(reasons, sum);
+  for (std::string& moves : moulds_under_way(sum))
+    sum.work.missing.push_back(std::move(moves));
   if (const std::string forces = unsettled_forces(s, state.dwell); !forces.empty())
     sum.work.missing.push_back(forces);
 }

@@ -61,7 +61,7 @@ std::uint64_t TriangleGrid::number_of(const std::array<std::int64_t, 3>& cell) c
   return static_cast<std::uint64_t>((cell[2] * counts_[1] + cell[1]) * counts_[0] + cell[0]);
 }
 
-bool TriangleGrid::crosses(const Vec3& a, const Vec3& b) const {
+std::int32_t TriangleGrid::crossed(const Vec3& a, const Vec3& b) const {
   const auto samples = static_cast<std::int64_t>(std::ceil((b - a).norm() / (0.5 * size_)));
   for (std::int64_t i = 0; i <= samples; ++i) {
     const double share = samples == 0 ? 0.0 : static_cast<double>(i) / static_cast<double>(samples);
@@ -72,10 +72,10 @@ bool TriangleGrid::crosses(const Vec3& a, const Vec3& b) const {
                                   [](const Entry& e, std::uint64_t n) { return e.cell < n; });
     for (; entry != entries_.end() && entry->cell == cell; ++entry) {
       const auto [p, q, r] = triangles_[at(entry->triangle)];
-      if (crosses_triangle(a, b, x_[at(p)], x_[at(q)], x_[at(r)])) return true;
+      if (crosses_triangle(a, b, x_[at(p)], x_[at(q)], x_[at(r)])) return entry->triangle;
     }
   }
-  return false;
+  return -1;
 }
 
 } // namespace plyform

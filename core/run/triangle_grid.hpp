@@ -14,8 +14,11 @@ public:
   /// x: mm, all finite; cell: mm, about a side. Both arrays must outlive the grid.
   TriangleGrid(std::span<const Vec3> x, std::span<const Triangle> triangles, double cell);
 
-  /// Whether the straight way from a to b (mm) crosses a triangle.
-  bool crosses(const Vec3& a, const Vec3& b) const;
+  /// A triangle that the straight way from a to b (mm) crosses, one of the first on its way; -1:
+  /// none.
+  std::int32_t crossed(const Vec3& a, const Vec3& b) const;
+  /// Whether that way crosses a triangle.
+  bool crosses(const Vec3& a, const Vec3& b) const { return crossed(a, b) >= 0; }
 
 private:
   struct Entry {

@@ -7,7 +7,7 @@
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
-#include "support/scene_checks.hpp"
+#include "support/packing_weave.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -15,44 +15,7 @@
 namespace plyform::closed_mould_test {
 namespace {
 
-constexpr double side = 60.0, weight = 600e-12 / 2.55e-9; // mm; mm of fibre
-
-/// A weave that packs from 0.6 mm by Toll and Manson's law to a fibre volume of 0.62.
-Fabric packing_weave(double scale = 20.0, double exponent = 8.0) {
-  Fabric fabric = glass_weave();
-  fabric.thickness = 0.6;
-  stiffen_yarns(fabric);
-  fabric.compaction = Compaction{toll_manson(scale, exponent, 0.62, weight, 0.6), {}, 0.0};
-  return fabric;
-}
-
-double pressure_at(double thickness, double scale = 20.0, double exponent = 8.0) {
-  return scale * (std::pow(weight / thickness, exponent) - std::pow(weight / 0.6, exponent));
-}
-
-/// Plies of these fabrics on a floor, under a box that comes down to leave `gap` (mm).
-Case between_plates(const std::vector<Fabric>& fabrics, double gap) {
-  Case data = stack_of(std::vector<double>(fabrics.size(), 0.0), rectangle(side, side, 6.0));
-  data.fabrics = fabrics;
-  const double top = 0.6 * static_cast<double>(fabrics.size());
-  for (std::size_t p = 0; p < fabrics.size(); ++p)
-    data.plies[p].fabric = static_cast<int>(p),
-    data.plies[p].z = 0.6 * (static_cast<double>(p) + 0.5);
-  Tool floor;
-  floor.name = "floor";
-  floor.shape = Box{{200.0, 200.0, 10.0}};
-  floor.position = {0.0, 0.0, -5.0};
-  Tool press = floor;
-  press.name = "press";
-  press.position = {0.0, 0.0, top + 5.0};
-  press.direction = {0.0, 0.0, -1.0};
-  press.motion = Motion::driven;
-  press.stroke = top - gap;
-  data.tools = {floor, press};
-  set_friction(data, 0.2);
-  data.solver.duration = 0.02;
-  return data;
-}
+constexpr double side = packing_side, weight = packing_weight;
 
 /// The scene with all plies sheared by gamma (rad), evenly spaced in a closed gap (mm), and its
 /// forces computed.
@@ -141,10 +104,7 @@ TEST(ClosedMould, ForcesOfAShearedStackAreTheSlopeOfItsEnergy) {
 TEST(ClosedMould, TwoFabricsInSeriesShareTheGap) {
   const Fabric soft = packing_weave(5.0, 6.0), hard = packing_weave();
   const double p = 0.03; // N/mm^2, at which both have some thickness
-  const auto thickness = [&](double scale, double exponent) {
-    return weight / std::pow(p / scale + std::pow(weight / 0.6, exponent), 1.0 / exponent);
-  };
-  const double gap = thickness(5.0, 6.0) + thickness(20.0, 8.0) + thickness(5.0, 6.0);
+  const double gap = 2.0 * thickness_at(p, 5.0, 6.0) + thickness_at(p, 20.0, 8.0);
   const RunResult run = run_case(between_plates({soft, hard, soft}, gap), 1, {});
   fmt::print("{}: {:.2f} N, theory {:.2f}\n", run.summary.status, -run.last.tools[1].force_N,
              p * side * side);

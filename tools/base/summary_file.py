@@ -15,13 +15,14 @@ FOUR = [NUMBER] * 4
 POINT = [NUMBER] * 3
 WALKS = {"mean": NUMBER, "spread": NUMBER, "directions_deg": FOUR, "each": FOUR}
 BODY = {"name": TEXT, "force_N": NUMBER, "force_raw_N": NUMBER, "displacement_mm": NUMBER,
-        "force_known_to_s": NUMBER}
+        "force_known_to_s": NUMBER, "speed_mm_s": NUMBER}
 FIGURE = {"name": TEXT, "unit": TEXT, "value": NUMBER, "band": NUMBER}
 STITCH = {"name": TEXT, "largest_broken_patch_at_mm": POINT,
           **dict.fromkeys(("broken_length_share", "broken_area_mm2", "largest_broken_patch_mm2"),
                           NUMBER)}
 PLY = {"name": TEXT, "stitches": (STITCH,), "wrinkle_at_mm": POINT,
-       "bridging_at_mm": POINT, "bridging_family": TEXT, "excess_length_at_mm": POINT, "no_draw_in": TEXT,
+       "bridging_at_mm": POINT, "bridging_family": TEXT, "fibre_volume_min_at_mm": POINT,
+       "fibre_volume_max_at_mm": POINT, "max_gap_left_at_mm": POINT, "excess_length_at_mm": POINT, "no_draw_in": TEXT,
        "draw_in_mm": {"mean": NUMBER, "largest": NUMBER}, "draw_in_yarns_mm": WALKS,
        "draw_in_bisectors_mm": WALKS,
        "openings": ({"family": TEXT, "at_mm": POINT,
@@ -35,7 +36,11 @@ PLY = {"name": TEXT, "stitches": (STITCH,), "wrinkle_at_mm": POINT,
                         "area_share_beyond_locking_angle", "bridging_height_mm",
                         "bridging_area_mm2", "bridging_max_tension_N_per_yarn",
                         "bridging_mean_tension_N_per_yarn", "max_stretch", "stretch_limit",
-                        "area_share_beyond_stretch_limit"), NUMBER)}
+                        "area_share_beyond_stretch_limit", "fibre_volume_mean",
+                        "fibre_volume_min", "fibre_volume_max", "mould_area_mm2",
+                        "mould_gap_min_mm", "mould_gap_mean_mm",
+                        "mould_wider_area_mm2", "mould_packed_area_mm2", "max_gap_left_mm"),
+                       NUMBER)}
 # {...: kind}: any key; (kind,): a list of any length
 SUMMARY = {
     **dict.fromkeys(("title", "version", "status", "message"), TEXT),

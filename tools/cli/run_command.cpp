@@ -56,6 +56,20 @@ void print_work(const WorkReport& w, long steps) {
     fmt::print("  missing: {}\n", what);
 }
 
+/// Prints the fibre volume of a ply, and how the stack fills a closed mould.
+void print_fill(const std::string& name, const PlyReport& ply) {
+  if (const auto& v = ply.fibre_volume)
+    fmt::print("  {:16} fibre volume {:.1f} %, {:.1f} to {:.1f} %", name, 100.0 * v->mean,
+               100.0 * v->least, 100.0 * v->largest);
+  if (const auto& mould = ply.mould)
+    fmt::print(
+        "{} of {:.0f} mm2 in the mould, {:.2f} mm wide, it is wider than the stack on {:.0f}, "
+        "by {:.2f} mm at most, and at the densest packing on {:.0f}",
+        ply.fibre_volume ? std::string(";") : fmt::format("  {:16}", name), mould->area,
+        mould->mean_gap, mould->wider, mould->widest, mould->packed);
+  if (ply.fibre_volume || ply.mould) fmt::print("\n");
+}
+
 /// Prints one line per ply: compressed yarns, shear beyond locking, wrinkles and draw-in.
 void print_plausibility(const std::string& name, const PlyReport& ply) {
   fmt::print("  {:16} ", name);
@@ -72,6 +86,7 @@ void print_plausibility(const std::string& name, const PlyReport& ply) {
   if (ply.beyond_locking_share)
     fmt::print("; beyond locking on {:.1f} %", 100.0 * *ply.beyond_locking_share);
   fmt::print("\n");
+  print_fill(name, ply);
   for (const Opening& o : ply.openings) {
     fmt::print("  {:16} opening between {} {:.1f} % at most, at ({:.4g}, {:.4g}, {:.4g}) mm", name,
                o.family, 100.0 * o.largest, o.at.x(), o.at.y(), o.at.z());

@@ -167,6 +167,35 @@ TEST(SummaryJson, HasTheKeysOfAPlysReport) {
 })"));
 }
 
+TEST(SummaryJson, HasTheKeysOfAMould) {
+  Frame frame = unequal(10, -20);
+  frame.tools.resize(2);
+  frame.tools[0].name = "press", frame.tools[1].name = "floor";
+  PlyFrame& ply = frame.plies[0]; // 99 and 1 mm2
+  ply.thickness = {0.5, 0.4}, ply.fibre_volume = {0.4, 0.5};
+  ply.mould = {{1.0, 2.0}, {0.0, 0.5}, {1.0, 0.4}, {}};
+  Summary summary;
+  summary.pushed = {{"press", 2.5, false}};
+  PlyReport report;
+  report.draw_in.unknown = "why";
+  report.fibre_volume = fibre_volume_of(ply), report.mould = mould_fill_of(ply);
+  summary.plies = {report};
+  const Json found = read_back(frame, summary);
+  const Json wanted = Json::parse(R"({
+    "fibre_volume_mean": 0.400801603, "fibre_volume_min": 0.4, "fibre_volume_max": 0.5,
+    "fibre_volume_min_at_mm": [33, 0.666666667, 0],
+    "fibre_volume_max_at_mm": [-0.333333333, 0.666666667, 0],
+    "mould_area_mm2": 100, "mould_gap_min_mm": 1, "mould_gap_mean_mm": 1.01,
+    "mould_wider_area_mm2": 1, "mould_packed_area_mm2": 99, "max_gap_left_mm": 0.5,
+    "max_gap_left_at_mm": [-0.333333333, 0.666666667, 0]})"); // mean: (99 0.2 + 0.2) / (99 0.5 +
+                                                              // 0.4)
+  for (const auto& [key, value] : wanted.items())
+    EXPECT_EQ(found.at("plies").at(0).at(key), value) << key;
+  EXPECT_EQ(found.at("tools").at(0).at("speed_mm_s"), 2.5);
+  EXPECT_EQ(found.at("tools").at(0).at("at_rest"), false);
+  EXPECT_FALSE(found.at("tools").at(1).contains("at_rest"));
+}
+
 TEST(SummaryJson, EachPlyHasItsOwnReport) {
   Frame frame = unequal(10, -20);
   frame.plies.push_back(frame.plies[0]);
