@@ -3,6 +3,20 @@
 
 namespace plyform {
 
+bool has_temperature(const Case& data) {
+  return data.process.temperature || std::any_of(data.plies.begin(), data.plies.end(),
+                                                 [](const Ply& ply) { return ply.temperature; });
+}
+
+std::optional<double> start_temperature(const Case& data, const Ply& ply) {
+  return ply.temperature ? ply.temperature : data.process.temperature;
+}
+
+std::optional<double> tool_temperature(const Case& data, const Tool& tool, double time) {
+  if (tool.temperature.empty()) return data.process.temperature;
+  return temperature_at(tool.temperature, time);
+}
+
 void keep_plies(Case& data, const std::vector<char>& keep) {
   std::vector<Ply> kept;
   std::vector<int> number(data.plies.size(), -1);

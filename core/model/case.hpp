@@ -7,6 +7,7 @@
 #include "contact/shapes/tool_shape.hpp"
 #include "core/model/blank_spec.hpp"
 #include "core/model/fabric.hpp"
+#include "core/model/temperature.hpp"
 
 #include <array>
 #include <limits>
@@ -26,6 +27,7 @@ struct Ply {
   double z = 0.0;           ///< mm, height of the mid-surface at the start
   Vec2 seed = Vec2::Zero(); ///< mm, where the blank's origin lies
   double rotation = 0.0;    ///< rad, of the blank about its origin, about +z; not of the yarns
+  std::optional<double> temperature = std::nullopt; ///< degC, at the start; else that of the case
 };
 
 enum class Motion {
@@ -52,6 +54,8 @@ struct Tool {
   double force = 0.0;              ///< N, for Motion::force; likewise
   std::vector<Stage> programme;    ///< in order of time; empty: one stage over the duration
   double mass = 0.0;               ///< t, for Motion::force
+  /// degC over the time of the process; empty: that of the case
+  std::vector<TemperatureStage> temperature;
 };
 
 /// Nodes of the undeformed plies that a boundary holds: on a line, or in a box.
@@ -174,9 +178,20 @@ enum class SelfContact {
   on,
 };
 
+/// Plies that give their heat to what is around them: core/solver/follow_temperature.hpp.
+/// Conductances in N/(mm s K), 1 W/(m^2 K) = 0.001 of it.
+struct Cooling {
+  double to_tools = 0.0;                      ///< of a face in contact with a tool
+  double to_plies = 0.0;                      ///< of one face to that of another ply
+  double to_air = 0.0;                        ///< of a face that touches nothing
+  std::vector<TemperatureStage> surroundings; ///< degC, of the air
+};
+
 /// The real process. What is simulated in solver.duration takes this long in it.
 struct ProcessOptions {
-  std::optional<double> duration; ///< s, of the stroke; needed where laws have rates
+  std::optional<double> duration;    ///< s, of the stroke; needed where laws have rates
+  std::optional<double> temperature; ///< degC, of plies and tools that have none of their own
+  std::optional<Cooling> cooling;    ///< nothing: plies keep their temperatures
 };
 
 struct ContactOptions {
@@ -219,6 +234,13 @@ struct Case {
     return process.duration.value_or(solver.duration) / solver.duration;
   }
 };
+
+/// Whether anything of it has a temperature; then every ply has.
+bool has_temperature(const Case& data);
+
+/// degC of a ply at the start, and of a tool at a time (s) of the process; nothing: not known.
+std::optional<double> start_temperature(const Case& data, const Ply& ply);
+std::optional<double> tool_temperature(const Case& data, const Tool& tool, double time);
 
 /// Takes out all plies but those for which keep (one per ply) is not 0, and numbers anew those that
 /// boundaries and loads name. Nothing may act on what is taken out.

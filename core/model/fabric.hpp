@@ -13,6 +13,7 @@
 #include "core/model/crimp.hpp"
 #include "core/model/shear_law.hpp"
 #include "core/model/sheet_law.hpp"
+#include "core/model/temperature.hpp"
 
 #include <array>
 #include <cmath>
@@ -173,9 +174,12 @@ struct Fabric {
   std::vector<Crossing> crossings; ///< at most most_crossings
   /// Law of the sheet beside the yarns: what holds them together, or a foil that has none.
   std::optional<SheetLaw> sheet;
-  double surface_density = 0.0;         ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
-  double thickness = 0.0;               ///< mm
-  std::optional<double> fibre_density;  ///< t/mm^3, of the fibres themselves
+  double surface_density = 0.0;        ///< t/mm^2 (1 g/m^2 = 1e-12 t/mm^2)
+  double thickness = 0.0;              ///< mm
+  std::optional<double> fibre_density; ///< t/mm^3, of the fibres themselves
+  std::optional<double> heat_capacity; ///< N mm/(t K), of the whole ply (1 J/(g K) is 1e9 of it)
+  TemperatureFactor flow;      ///< of its viscosities and relaxation times, 1 at `flow_reference`
+  double flow_reference = 0.0; ///< degC
   std::optional<Compaction> compaction; ///< through the thickness; nothing: it does not give way
   std::optional<double> locking_angle;  ///< rad, shear angle beyond which the fabric wrinkles
   /// Of rubber: stretch up to which its law was measured.

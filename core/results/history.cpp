@@ -83,6 +83,10 @@ void each_number(const Frame& frame, Visit&& visit) {
              bridging.height);
       of_ply({"bridging_area_mm2", "bridging-area", "bridging area", "mm²", 0, 0.1}, bridging.area);
     }
+    if (!one.temperature.empty())
+      of_ply({"mean_temperature_C", "mean-temperature", "mean temperature", "°C", 1, 1e-6,
+              Scale::whole},
+             mean_of_nodes(one, one.temperature));
     if (!one.stitches.empty())
       of_ply({"broken_stitch_share", "broken-stitches", "share of stitches broken", "1", 3, 1e-6,
               Scale::from_zero, "of the length of those that are broken most"},

@@ -53,4 +53,15 @@ std::vector<double> areas_before(const PlyFrame& ply) {
   return areas;
 }
 
+double mean_of_nodes(const PlyFrame& ply, const std::vector<double>& values) {
+  const std::vector<double> areas = areas_before(ply);
+  double sum = 0.0, area = 0.0;
+  for (std::size_t e = 0; e < areas.size(); ++e) {
+    for (const std::int32_t node : ply.triangles[e])
+      sum += areas[e] / 3.0 * values[static_cast<std::size_t>(node)];
+    area += areas[e];
+  }
+  return sum / area;
+}
+
 } // namespace plyform

@@ -63,6 +63,7 @@ struct PlyFrame {
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
   std::vector<Vec3> reaction;           ///< n, N, of boundaries; empty where there are none
   std::vector<double> wrinkle_height;   ///< n, mm: wrinkles.hpp; empty if not looked for
+  std::vector<double> temperature;      ///< n, degC; empty of cases without temperatures
   std::vector<double> bridging_height;  ///< n, mm: bridging.hpp; empty where nothing could bridge
   /// n, unit vectors to where nodes are pressed that nothing holds up there, else 0, or empty:
   /// core/run/bridging.hpp. No column.
@@ -92,6 +93,15 @@ inline Column opening_column(const std::string& family) {
 inline Column bridging_column() {
   return {{"bridging_height_mm", "bridging", "bridging height", "mm", 2, 1e-3, Scale::from_zero,
            "over the tool that the stack is pressed towards, where it spans a hollow"},
+          Location::node,
+          "",
+          true};
+}
+
+/// The column of temperatures.
+inline Column temperature_column() {
+  return {{"temperature_C", "temperature", "temperature", "°C", 1, 1e-6, Scale::whole,
+           "the same through the ply"},
           Location::node,
           "",
           true};
@@ -187,6 +197,7 @@ void each_column(AnyPly& ply, Visit&& visit) {
                true},
         ply.wrinkle_height);
   visit(bridging_column(), ply.bridging_height);
+  visit(temperature_column(), ply.temperature);
   for (auto& family : ply.families)
     visit(Column{{family.name, family.name, "direction of " + family.name, "1", 3, 1e-6,
                   Scale::both_ways},
@@ -239,5 +250,8 @@ std::string name_used_twice(const PlyFrame& ply);
 
 /// Area of each triangle before forming, mm^2; m of them.
 std::vector<double> areas_before(const PlyFrame& ply);
+
+/// Mean of the values of nodes, n of them, over the area before forming.
+double mean_of_nodes(const PlyFrame& ply, const std::vector<double>& values);
 
 } // namespace plyform

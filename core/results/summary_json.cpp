@@ -174,14 +174,19 @@ Json ply_object(const PlyFrame& ply) {
   const std::vector<double> areas = areas_before(ply);
   const std::vector<double> strains = of_all(ply, &FamilyFrame::strain);
   const std::vector<double> tensions = of_all(ply, &FamilyFrame::tension);
-  return {{"name", ply.name},
-          {"angle_deg", rounded(ply.angle_deg)},
-          {"max_shear_deg", rounded(largest_magnitude(ply.shear_deg))},
-          {"p99_shear_deg", rounded(percentile(ply.shear_deg, areas, 0.99))},
-          {"rms_shear_deg", rounded(root_mean_square(ply.shear_deg, areas))},
-          {"max_fibre_strain", rounded(largest(strains))},
-          {"min_fibre_strain", rounded(smallest(strains))},
-          {"max_tension_N_per_yarn", rounded(largest(tensions))}};
+  Json object{{"name", ply.name},
+              {"angle_deg", rounded(ply.angle_deg)},
+              {"max_shear_deg", rounded(largest_magnitude(ply.shear_deg))},
+              {"p99_shear_deg", rounded(percentile(ply.shear_deg, areas, 0.99))},
+              {"rms_shear_deg", rounded(root_mean_square(ply.shear_deg, areas))},
+              {"max_fibre_strain", rounded(largest(strains))},
+              {"min_fibre_strain", rounded(smallest(strains))},
+              {"max_tension_N_per_yarn", rounded(largest(tensions))}};
+  if (!ply.temperature.empty())
+    object.update({{"mean_temperature_C", rounded(mean_of_nodes(ply, ply.temperature))},
+                   {"min_temperature_C", rounded(smallest(ply.temperature))},
+                   {"max_temperature_C", rounded(largest(ply.temperature))}});
+  return object;
 }
 
 /// `reports`: one per ply, or empty if only the fields are known.

@@ -328,7 +328,8 @@ void check_progress(const Scene& s) {
   constexpr double rounding = 1e-6;
   expect(s.time >= s.dt * (1.0 - rounding) && s.time >= steps * s.min_dt * (1.0 - rounding) &&
              s.time <= steps * s.max_dt * (1.0 + rounding) &&
-             s.time <= solver.duration * (1.0 + solver.dwell) + 2.0 * s.max_dt,
+             s.time <= solver.duration * (1.0 + solver.dwell) + 2.0 * s.max_dt &&
+             s.cooled_until >= 0.0 && s.cooled_until <= s.time,
          "the time");
   check_sums(s, s);
   for (const NodeSums& n : s.node_sums)

@@ -7,6 +7,7 @@
 #include "core/run/bridging.hpp"
 #include "core/run/closed_gap.hpp"
 #include "core/run/present_thickness.hpp"
+#include "core/solver/follow_temperature.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -259,6 +260,9 @@ Frame make_frame(const Scene& scene, const std::vector<TriMesh>& surfaces, const
   pool.run(static_cast<int>(f.plies.size()),
            [&](int p) { f.plies[at(p)] = make_ply_frame(scene, bridging, p); });
   add_closed_gap(scene, moulds, pool, f.plies);
+  std::vector<std::vector<double>> celsius = present_temperatures(scene, pool);
+  for (std::size_t p = 0; p < celsius.size(); ++p)
+    f.plies[p].temperature = std::move(celsius[p]);
   for (std::size_t t = 0; t < scene.tools.size(); ++t)
     f.tools.push_back(make_tool_frame(scene.tools[t], surfaces[t]));
   for (std::size_t b = 0; b < scene.boundaries.size(); ++b) {

@@ -5,6 +5,7 @@
 #include "core/model/motion.hpp"
 #include "core/results/statistics.hpp"
 #include "core/run/ply_motion.hpp"
+#include "core/run/temperature_doubts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -364,7 +365,8 @@ std::vector<std::string> doubts(const Scene& s, const Frame& last,
                                 "energy that comes from nowhere "
                                 "or goes nowhere; a smaller solver.step_factor makes it less",
                                 100.0 * error));
-  for (auto&& of : {doubts_of_motion(s, last), doubts_of_stretch(last, plies)})
+  for (auto&& of :
+       {doubts_of_motion(s, last), doubts_of_stretch(last, plies), doubts_of_temperature(s, last)})
     found.insert(found.end(), of.begin(), of.end());
   for (const ToolState& tool : s.tools) {
     std::vector<std::string> names;

@@ -64,6 +64,7 @@ struct PlyState {
   /// What yarns remember of the begin of the step that comes, or was computed but not yet taken;
   /// empty without yarns.
   std::vector<SimdYarnStates> yarns;
+  std::vector<double> temperature; ///< degC; empty in cases without temperatures
   /// At rest where it began, with nothing near that moves (core/solver/resting.hpp).
   bool resting = false;
   /// N mm, done by pressures since the start, but for what PlyCache::last_load_work has.
@@ -75,13 +76,14 @@ struct PlyState {
 /// compile.
 template <class F>
 void each_array(PlyState& ply, F&& f) {
-  auto& [x, velocity, motion, reaction, mass, yarns, resting, load_work] = ply;
+  auto& [x, velocity, motion, reaction, mass, yarns, temperature, resting, load_work] = ply;
   f("x", On::node, x);
   f("velocity", On::node, velocity);
   f("motion", On::node, motion);
   f("reaction", On::node, reaction);
   f("mass", On::node, mass);
   f("yarns", On::pack, yarns);
+  f("temperature", On::node, temperature);
   f("resting", On::ply, resting);
   f("load_work", On::ply, load_work);
 }

@@ -86,6 +86,8 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.thickness_acts = fabric.compaction.has_value();
   body.thickness_ratio.assign(body.x.size(), 1.0);
   body.last_ratio = body.thickness_ratio;
+  if (const std::optional<double> temperature = start_temperature(data, ply))
+    body.temperature.assign(body.x.size(), *temperature);
   return body;
 }
 

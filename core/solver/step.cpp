@@ -5,6 +5,7 @@
 #include "core/solver/contact_search.hpp"
 #include "core/solver/displacements.hpp"
 #include "core/solver/follow_folds.hpp"
+#include "core/solver/follow_temperature.hpp"
 #include "core/solver/follow_thickness.hpp"
 #include "core/solver/force_kinds.hpp"
 #include "core/solver/nodal_forces.hpp"
@@ -103,6 +104,7 @@ std::optional<Stop> compute_forces(Scene& s, ThreadPool& pool) {
   bool searched = false;
   move_tools(s);
   update_thickness(s, pool);
+  update_temperatures(s, pool);
   if (auto stop = search_if_due(s, pool, searched)) return stop;
   const bool due = searched || s.step % elements_every == 0;
   if (due) update_stable_step(s, pool);

@@ -104,6 +104,7 @@ def texts_of(run: Run, index: int) -> dict:
             "summary": run.summary, "run": run, "triangles": sum(len(p.triangles) for p in run.plies),
             "plies": [(ply, run.summary_of(ply.name)) for ply in run.plies],
             "bridging": bool(answers.bridging(run, index)),
+            "temperature": any("mean_temperature_C" in run.summary_of(ply.name) for ply in run.plies),
             "tools": [(tool, np.nanmax(abs(tool.force_N), initial=0.0)) for tool in run.tools]}
 
 

@@ -2,6 +2,7 @@
 // The clock of the process: [process].
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/schema_case.hpp"
+#include "core/input/keys/temperature_keys.hpp"
 #include "core/model/yarn_law.hpp"
 
 #include <algorithm>
@@ -10,18 +11,21 @@
 namespace plyform {
 
 Rows process_rows() {
-  return {{.key = "process",
-           .kind = KeyKind::table,
-           .fallback = "{}",
-           .meaning = "the real process, of which the simulation is a faster one"},
-          {.key = "process.duration",
-           .unit = "s",
-           .otherwise = "not known; fabrics whose laws have rates need it",
-           .ranges = {{.least = 1e-6, .most = 1e9}},
-           .usual = {{.least = 0.1, .most = 1e5}},
-           .meaning = "time that the stroke takes in the real process, by which rates of materials "
-                      "go; solver.duration is what is simulated of it",
-           .members = {to(&ProcessOptions::duration)}}};
+  Rows rows{{.key = "process",
+             .kind = KeyKind::table,
+             .fallback = "{}",
+             .meaning = "the real process, of which the simulation is a faster one"},
+            {.key = "process.duration",
+             .unit = "s",
+             .otherwise = "not known; fabrics whose laws have rates, and cooling, need it",
+             .ranges = {{.least = 1e-6, .most = 1e9}},
+             .usual = {{.least = 0.1, .most = 1e5}},
+             .meaning =
+                 "time that the stroke takes in the real process, by which rates of materials "
+                 "go; solver.duration is what is simulated of it",
+             .members = {to(&ProcessOptions::duration)}}};
+  append(rows, process_temperature_rows());
+  return rows;
 }
 
 void check_clock(const TableView& root, const Case& built, bool (*rated)(const Fabric&),
@@ -29,7 +33,8 @@ void check_clock(const TableView& root, const Case& built, bool (*rated)(const F
   const TableView process = subsection(root, "process");
   const auto fabric = std::find_if(built.fabrics.begin(), built.fabrics.end(), rated);
   const bool any = fabric != built.fabrics.end();
-  if (const TomlNode* duration = given(process, "duration"); duration && !any)
+  if (const TomlNode* duration = given(process, "duration");
+      duration && !any && !built.process.cooling)
     diagnostics.warning(duration->at,
                         fmt::format("process.duration = {}: does nothing, as no law of these "
                                     "fabrics depends on rates",
@@ -43,6 +48,7 @@ void check_clock(const TableView& root, const Case& built, bool (*rated)(const F
 
 void read_process(const TableView& root, Case& built, Diagnostics& diagnostics) {
   read_members(subsection(root, "process"), built.process);
+  read_temperatures(root, built, diagnostics);
   check_clock(root, built, has_rates, diagnostics);
 }
 

@@ -89,9 +89,12 @@ namespace {
 
 double factor_of_unit(const std::string& unit) {
   if (unit == "deg") return degree;
-  if (unit == "g/m2") return 1e-12; // 1e-6 t / 1e6 mm^2
-  if (unit == "g/cm3") return 1e-9; // 1e-6 t / 1e3 mm^3
-  if (unit == "kg") return 1e-3;    // t
+  if (unit == "g/m2") return 1e-12;    // 1e-6 t / 1e6 mm^2
+  if (unit == "g/cm3") return 1e-9;    // 1e-6 t / 1e3 mm^3
+  if (unit == "kg") return 1e-3;       // t
+  if (unit == "J/(g K)") return 1e9;   // 1e3 N mm / (1e-6 t K)
+  if (unit == "W/(m2 K)") return 1e-3; // 1e3 N mm/s / (1e6 mm^2 K)
+  if (unit == "kJ/mol") return 1e3;    // J/mol, as it divides by the gas constant
   return 1.0;
 }
 

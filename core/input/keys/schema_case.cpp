@@ -3,6 +3,7 @@
 #include "core/input/keys/schema_case.hpp"
 
 #include "core/input/keys/key_member.hpp"
+#include "core/input/keys/temperature_keys.hpp"
 
 #include <fmt/format.h>
 
@@ -236,9 +237,11 @@ Rows all_rows() {
   append(rows, fabric_rows());
   append(rows, blank_rows());
   append(rows, ply_rows());
+  append(rows, ply_temperature_rows());
   append(rows, tool_rows());
   append(rows, shape_rows());
   append(rows, motion_rows());
+  append(rows, tool_temperature_rows());
   append(rows, boundary_rows());
   append(rows, attachment_rows());
   append(rows, contact_rows());

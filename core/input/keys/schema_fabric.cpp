@@ -6,6 +6,7 @@
 #include "core/input/keys/schema_case.hpp"
 #include "core/input/keys/sheet_laws.hpp"
 #include "core/input/keys/stitch_keys.hpp"
+#include "core/input/keys/temperature_keys.hpp"
 
 namespace plyform {
 
@@ -197,6 +198,8 @@ Rows fabric_rows() {
   append(rows, crimp_rows("fabrics.NAME.crimp", "warp and weft"));
   append(rows, family_rows());
   append(rows, stitch_rows());
+  append(rows, heat_capacity_rows());
+  append(rows, temperature_law_rows("fabrics.NAME.temperature"));
   append(rows, compaction_rows());
   append(rows, sheet_rows());
   return rows;

@@ -6,6 +6,7 @@
 #include "core/input/checks/sense_checks.hpp"
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/sheet_laws.hpp"
+#include "core/input/keys/temperature_keys.hpp"
 #include "core/input/parts/case_parts.hpp"
 #include "core/input/parts/compaction_file.hpp"
 #include "core/input/parts/crimp_file.hpp"
@@ -45,11 +46,20 @@ void read_weave(const TableView& section, Fabric& fabric, Diagnostics& diagnosti
   read_crimp(subsection(section, "crimp"), fabric, fabric.crossings[0], diagnostics);
 }
 
+/// How viscosities follow the temperature.
+void read_flow(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
+  if (!given(section, "reference")) return;
+  fabric.flow_reference = number(section, "reference");
+  fabric.flow =
+      read_temperature_law(subsection(section, "viscosity"), fabric.flow_reference, diagnostics);
+}
+
 Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics& diagnostics) {
   Fabric fabric;
   fabric.name = key;
   read_members(section, fabric);
   read_compaction(subsection(section, "compaction"), fabric, diagnostics);
+  read_flow(subsection(section, "temperature"), fabric, diagnostics);
   if (read_sheet(section, fabric, diagnostics)) return fabric;
   if (text(section, "law") == families_word)
     read_families(section, fabric, diagnostics);

@@ -26,6 +26,7 @@ OF_PLIES = (("max_shear_deg", "largest shear", "°", 1.0, ""),
             ("bridging_area_mm2", "bridging area", "mm²", 1.0, ""),
             ("fibre_volume_max", "largest fibre volume", "%", 100.0, ""),
             ("max_gap_left_mm", "largest gap left", "mm", 1.0, ""),
+            ("mean_temperature_C", "mean temperature", "°C", 1.0, ""),
             ("excess_length_mm", "excess length", "mm", 1.0, ""),
             ("max_pressed_strain", "largest compression", "%", 100.0, "largest compression of "),
             ("max_tension_N_per_yarn", "largest tension", "N per yarn", 1.0, ""))

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How a viscosity follows the temperature: its keys and its reading.
+#include "core/input/keys/key_member.hpp"
+#include "core/input/keys/temperature_keys.hpp"
+
+#include <fmt/format.h>
+
+namespace plyform {
+
+namespace {
+
+using K = KeyKind;
+
+KeyRow constant_row(const std::string& table, const std::string& key, const std::string& unit,
+                    const Range& usual, const std::string& meaning) {
+  return {.key = table + ".viscosity." + key,
+          .unit = unit,
+          .ranges = {{.least = 0.0, .most = 1e4, .open_least = true}},
+          .usual = {usual},
+          .meaning = meaning};
+}
+
+} // namespace
+
+Rows temperature_law_rows(const std::string& table) {
+  KeyRow energy = constant_row(table, "activation_energy", "kJ/mol", {.least = 5.0, .most = 300.0},
+                               "E of Arrhenius: viscosity goes as exp(E/(R T)), T in K");
+  energy.instead = {"c1", "table"};
+  KeyRow c1 = constant_row(table, "c1", "-", {.least = 2.0, .most = 40.0},
+                           "C1 of Williams, Landel and Ferry for this reference: viscosity goes as "
+                           "10^(-C1 (T - T0)/(C2 + T - T0)); 8.86 if that is 50 K above the glass "
+                           "transition");
+  c1.instead = {"activation_energy", "table"};
+  KeyRow c2 =
+      constant_row(table, "c2", "K", {.least = 20.0, .most = 300.0}, "C2 of it, beside c1; 101.6");
+  c2.otherwise = "none";
+  return {{.key = table,
+           .kind = K::table,
+           .otherwise = "none: laws are the same at all temperatures",
+           .meaning = "how laws of the fabric depend on temperature"},
+          {.key = table + ".reference",
+           .unit = "degC",
+           .ranges = {temperature_range},
+           .usual = {usual_temperature},
+           .meaning = "temperature at which the numbers of the laws hold"},
+          {.key = table + ".viscosity",
+           .kind = K::table,
+           .meaning = "factor on viscosities and relaxation times"},
+          energy,
+          c1,
+          c2,
+          {.key = table + ".viscosity.table",
+           .kind = K::pairs,
+           .unit = "degC, -",
+           .instead = {"activation_energy", "c1"},
+           .ranges = {temperature_range, {.least = 1e-9, .most = 1e9}},
+           .least_items = 2,
+           .meaning =
+               "[temperature, viscosity in any unit], ascending, with the reference inside; a "
+               "smooth monotone curve through the logarithms"}};
+}
+
+TemperatureFactor read_temperature_law(const TableView& section, double reference,
+                                       Diagnostics& diagnostics) {
+  if (given(section, "activation_energy"))
+    return ArrheniusFactor{number(section, "activation_energy"), reference};
+  if (given(section, "c1") != nullptr) {
+    if (given(section, "c2"))
+      return WlfFactor{number(section, "c1"), number(section, "c2"), reference};
+    value_error(section, "c1", "needs c2 beside it", "give both constants, of the same reference",
+                diagnostics);
+    return {};
+  }
+  const TomlNode* node = given(section, "table");
+  if (!node) return {}; // told by the table of keys
+  TableFactor table{{}, {}, reference};
+  const std::vector<Vec2> rows = pairs(section, "table");
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    if (i > 0 && !(rows[i].x() > rows[i - 1].x())) {
+      const TomlNode& row = node->children[i];
+      diagnostics.error(row.at, fmt::format("{}.{}", item_of(section, "table"), i), row.source_text,
+                        "must be warmer than the row before",
+                        "put the rows in order, each temperature once");
+      return {};
+    }
+    table.temperature.push_back(rows[i].x()), table.values.push_back(rows[i].y());
+  }
+  if (rows.size() < 2) return {};
+  if (!(reference >= table.temperature.front() && reference <= table.temperature.back())) {
+    value_error(section, "table",
+                fmt::format("goes from {:g} to {:g} degC, without the reference of {:g}",
+                            table.temperature.front(), table.temperature.back(), reference),
+                "give a reference inside, or more rows", diagnostics);
+    return {};
+  }
+  return table;
+}
+
+} // namespace plyform

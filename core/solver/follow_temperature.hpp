@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Temperatures of plies that cool: one through the thickness at each node, and nothing flows within
+// the plane. Both faces of a node give heat to what is there.
+//
+//   T    degC            temperature of a node;  T_k  of what its face k touches
+//   t    s               time of the process
+//   C    N mm/(mm^2 K)   heat capacity per present area, rho_A c A0 / A
+//   h_k  N/(mm s K)      conductance of the face
+//
+//   C dT/dt = sum_k h_k (T_k - T)                                                           (1)
+//   T' = T_e + (T - T_e) e^(-dt h / C),  h = sum_k h_k,  T_e = sum_k h_k T_k / h            (2)
+//
+// (2) is exact while h_k and T_k stay as they are, whatever dt is: no number of steps is asked for.
+// A face that touches the air has that of the case's cooling; one with a gap g to a tool or a ply
+// gives its heat through the film of air between, if that is more:
+//
+//   1/h_k = 1/h_touching + g / k_air                                                        (3)
+//
+// Of two plies that touch, (1) for both has the mean T_m = (C_a T_a + C_b T_b) / (C_a + C_b),
+// which stays, and each goes to it: T_k = T_m, h_k = h (C_a + C_b) / C_b for ply a. With T_k = T_b,
+// they would exchange their temperatures in a step that is too long.
+#pragma once
+
+#include "base/thread_pool.hpp"
+#include "core/solver/scene.hpp"
+
+namespace plyform {
+
+/// Steps from one update of temperatures to the next, which take nothing of what cools in seconds.
+constexpr long temperatures_every = 10;
+
+/// degC, of the nodes of each ply at the present time, which may be some steps after those of its
+/// state; empty of plies without temperatures.
+std::vector<std::vector<double>> present_temperatures(const Scene& s, ThreadPool& pool);
+
+/// Takes the temperatures of plies to the present time, if the case has cooling and an update is
+/// due. Asked twice at one time it changes nothing. To be called before forces are computed.
+void update_temperatures(Scene& s, ThreadPool& pool);
+
+} // namespace plyform
