@@ -138,7 +138,7 @@ void warn_of_start(const ShearSpecimen& specimen, const FitOptions& options,
         fmt::format("the rows start at {:.3g} degrees: below, the law is a guess", angle / degree));
   const Corrections& c = options.corrections;
   if (c.load_zero || c.fit_load_zero || c.toe || c.fit_toe) return;
-  if (angle < 0.1 * degree && load > noise_share * specimen.rows.y.maxCoeff())
+  if (!options.flows && angle < 0.1 * degree && load > noise_share * specimen.rows.y.maxCoeff())
     diagnostics.warning(
         place_of(specimen.curve),
         fmt::format(

@@ -437,5 +437,60 @@ expect 2 'is missing: load_N is a force' identify uniaxial load.csv --fabric she
 expect 2 'must be neo_hookean, mooney_rivlin, or missing' identify uniaxial one.csv --fabric glass.toml \
   -o never.toml
 
+# What flows: frames of 200 mm at several speeds and temperatures, relaxation, pull-out.
+rated() { # SPEED DEGC: torque 0.4 g + (0.3 + g^2) f(T) dg/dt, 0.25 x 0.25 yarns/mm, 45 kJ/mol
+  awk -v v="$1" -v t="$2" -v OFMT=%.12g -v CONVFMT=%.12g 'BEGIN {
+    print "extension_mm,load_N"
+    D = 200 * sqrt(2)
+    f = exp(45000 / 8.31446261815324 * (1 / (t + 273.15) - 1 / 453.15))
+    for (i = 0; i <= 60; ++i) {
+      d = 70 * i / 60; s = (1 + d / D)^2 - 1; g = atan2(s, sqrt(1 - s * s))
+      rate = 2 * (1 + d / D) / (D * sqrt(1 - s * s))
+      print d "," 0.0625 * 40000 * (0.4 * g + (0.3 + g * g) * f * v * rate) * rate
+    }
+  }'
+}
+sed 's/^density = .*/density = 0.25/' glass.toml >flow.toml
+rated 0.5 180 >slow.csv
+rated 5 180 >middle.csv
+rated 50 180 >fast.csv
+rated 5 210 >warm.csv
+expect 0 'c0 = 0.3, c2 = 1 N mm s' identify frame slow.csv middle.csv fast.csv --speeds 0.5 5 50 \
+  --side 200 --fabric flow.toml -o rates.toml --report rates.json "${stiff[@]}"
+expect_law rates.toml viscosity 0.3 1e-5
+expect_law rates.toml polynomial 0.4 1e-5
+expect_json rates.json 'any(n["name"] == "c2" and abs(n["value"] - 1) < 1e-5 for n in j["numbers"])'
+expect 0 'activation energy 45 ' identify frame slow.csv middle.csv fast.csv warm.csv \
+  --speeds 0.5,5,50,5 --temperatures 180,180,180,210 --side 200 --fabric flow.toml -o warm.toml "${stiff[@]}"
+expect_law warm.toml activation_energy 45 1e-4
+expect_law warm.toml reference 180 1e-9
+expect 2 'must differ by a factor of 2' identify frame slow.csv middle.csv --speeds 5 6 --side 200 \
+  --fabric flow.toml -o never.toml "${stiff[@]}"
+expect 2 'must be one for each of the 2 curves' identify frame slow.csv middle.csv --speeds 5 --side 200 \
+  --fabric flow.toml -o never.toml
+expect 2 'needs --speeds beside it' identify frame slow.csv middle.csv --temperatures 180 200 --side 200 \
+  --fabric flow.toml -o never.toml
+awk -v OFMT=%.12g -v CONVFMT=%.12g 'BEGIN {
+  print "time_s,load_N"
+  for (i = 0; i <= 80; ++i) {
+    t = i ? 0.05 * 10^((i - 1) / 25) : 0
+    print t "," 10 + 6 * exp(-t / 0.8) + 3 * exp(-t / 25)
+  }
+}' >stop.csv
+expect 0 'N mm in 0.8 s' identify relaxation stop.csv --side 200 --angle 30 --fabric flow.toml -o stop.toml
+grep -q '^relaxation = ' stop.toml || fail 'stop.toml has no branches'
+expect 2 'must be between 0 and 90' identify relaxation stop.csv --side 200 --angle 90 --fabric flow.toml \
+  -o never.toml
+for speed in 0.2 1 5; do # a power law of the Hersey number, 400 Pa s and 0.05 N/mm2
+  awk -v v="$speed" 'BEGIN { print "displacement_mm,load_N"
+    for (i = 0; i <= 40; ++i) print 2 * i "," 400 * (0.0004 * v / 0.05)^0.3 * (i > 2) }' >"pull_$speed.csv"
+done
+expect 0 'Hersey numbers 0.0016 to 0.04 mm' identify pull-out pull_0.2.csv pull_1.csv pull_5.csv \
+  --speeds 0.2 1 5 --pressures 0.05 0.05 0.05 --viscosity 400 --area 4000 --from 20 -o friction.toml
+grep -q '^\[friction.pull_out\]' friction.toml || fail 'friction.toml has no law'
+grep -q '0.0016, 0.14' friction.toml || fail "friction.toml: $(cat friction.toml)"
+expect 2 'must be one for each of the 3 curves' identify pull-out pull_0.2.csv pull_1.csv pull_5.csv \
+  --speeds 0.2 1 --pressures 0.05 0.05 0.05 --viscosity 400 --area 4000 -o never.toml
+
 echo "$failures failed"
 [ "$failures" = 0 ]

@@ -90,6 +90,15 @@ struct IdentifyArguments {
   bool skip_refused = false; ///< laboratories: goes on without curves that are refused
   double warp_yarns = 1.0;   ///< of a biaxial test
   std::optional<double> weft_yarns; ///< of it, or of the others; not given: as the warp
+  // Of what depends on rates, one number a curve:
+  std::vector<double> speeds, pressures; ///< mm/s, N/mm^2
+  std::vector<double> temperatures;      ///< degC
+  std::vector<double> viscosities;       ///< Pa s; one a curve, or one
+  std::optional<int> viscosity_coefficients;
+  double area = 0.0;                   ///< mm^2, of a pull-out test
+  std::string name = "pull_out";       ///< of the law of friction in a case
+  double stop_angle = 0.0, ramp = 0.0; ///< degrees, s; of relaxation
+  std::vector<double> times;           ///< s, of its branches; empty: looked for
 };
 
 struct TheoryArguments {

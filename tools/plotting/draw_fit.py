@@ -14,7 +14,8 @@ from .reading import Trouble, read_table
 ABSCISSAE = {"shear": ("shear_deg", 1.0, "shear angle (degrees)"),
              "displacement": ("displacement_mm", 1.0, "displacement (mm)"),
              "strain": ("strain", 100.0, "strain (%)"),
-             "stretch": ("stretch", 1.0, "stretch")}
+             "stretch": ("stretch", 1.0, "stretch"),
+             "time": ("time_s", 1.0, "time after the stop (s)")}
 
 
 def draw(options: argparse.Namespace) -> Figure:

@@ -3,6 +3,7 @@
 #include "base/text.hpp"
 #include "core/identify/test_columns.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
+#include "tools/cli/identify/identify_rates.hpp"
 #include "tools/cli/identify/identify_rubber.hpp"
 
 #include <cmath>
@@ -87,6 +88,8 @@ CurveColumns columns_of_test(const IdentifyArguments& a) {
   }
   if (a.test == "three-point") return three_point_columns();
   if (a.test == "cantilever") return cantilever_columns(reading_of(a));
+  if (a.test == "relaxation") return relaxation_columns();
+  if (a.test == "pull-out") return tension_columns(false);
   if (is_rubber_test(a.test)) {
     CurveColumns columns = rubber_columns(a.gauge_length != 1.0, !std::isnan(a.specimen.width));
     columns.x_hint = a.gauge_length == 1.0 ? "give --gauge-length if it is a displacement"
@@ -177,6 +180,7 @@ void check_arguments(const IdentifyArguments& a, const fs::path& fit, Diagnostic
                  "identify each by itself, or leave it out", diagnostics);
   check_range(a, diagnostics);
   check_form(a, diagnostics);
+  check_rated(a, diagnostics);
   check_positive("--yarns", a.yarns, "give the number of yarns that share the force", diagnostics);
   check_positive("--warp-yarns", a.warp_yarns, "give the number of warp yarns", diagnostics);
   check_positive("--weft-yarns", a.weft_yarns.value_or(1.0), "give the number of weft yarns",
@@ -275,6 +279,10 @@ std::string test_words(const IdentifyArguments& a) {
     if (a.gauge_length != 1.0) words += fmt::format(", gauge length {:g} mm", a.gauge_length);
     return words;
   }
+  if (a.test == "relaxation")
+    return fmt::format("relaxation after a stop at {:g} degrees, ramp of {:g} s", a.stop_angle,
+                       a.ramp);
+  if (a.test == "pull-out") return fmt::format("pull-out tests of {:g} mm2", a.area);
   if (a.test == "cantilever") return "cantilever test, heavy elastica";
   if (a.test == "three-point")
     return fmt::format("three-point bending, span {:g} mm, width {:g} mm", a.specimen.span,

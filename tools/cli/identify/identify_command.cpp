@@ -3,6 +3,7 @@
 #include "base/version.hpp"
 #include "base/write_whole.hpp"
 #include "tools/cli/identify/identify_parts.hpp"
+#include "tools/cli/identify/identify_rates.hpp"
 #include "tools/cli/identify/identify_rubber.hpp"
 #include "tools/cli/progress_line.hpp"
 
@@ -59,6 +60,10 @@ std::optional<Identified> identify(const IdentifyArguments& a, const FabricReadi
                                    const std::vector<Curve>& curves, const FitOptions& options,
                                    Diagnostics& diagnostics) {
   const Fabric& fabric = *base.value;
+  if (test && is_rated(a))
+    return identify_rated_curves(a, base, test->test, curves, options, diagnostics);
+  if (a.test == "relaxation")
+    return identify_relaxation_curve(a, base, curves.front(), diagnostics);
   if (test) {
     const auto fit = identify_shear(curves, test->test, fabric, options, diagnostics);
     if (!fit) return std::nullopt;
@@ -107,7 +112,9 @@ std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fa
           ";"};
   for (const std::string& figure : result.figures)
     comment.push_back(figure + (&figure == &result.figures.back() ? "." : ";"));
-  if (result.laws.front().key == "polynomial")
+  if (is_rated(a)) // has a line of its own below
+    comment.push_back(result.law_line);
+  else if (result.laws.front().key == "polynomial")
     comment.push_back("torque of one unit cell = k1 g + k3 g^3 ..., N mm, g in rad");
   else if (is_shear_test(a.test))
     comment.push_back(result.law_line);
@@ -117,7 +124,8 @@ std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fa
 /// Whether a key stands beside another of the same law, which has the comment.
 bool stands_beside(const std::string& key) {
   return key == "law" || key == "buckling_force" || key == "slack" || key == "pretension" ||
-         key == "breaking_force" || key == "height";
+         key == "breaking_force" || key == "height" || key == "viscosity" ||
+         key == "measured_rates" || key == "reference" || key == "activation_energy";
 }
 
 void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,
@@ -157,6 +165,7 @@ bool may_be_reported(const IdentifyArguments& a, const Diagnostics& diagnostics)
 } // namespace
 
 int identify_command(const IdentifyArguments& arguments) {
+  if (arguments.test == "pull-out") return identify_pull_out_command(arguments);
   const bool shear = is_shear_test(arguments.test);
   const bool laboratories = are_laboratories(arguments);
   const fs::path output = arguments.output;

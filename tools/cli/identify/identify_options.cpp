@@ -88,6 +88,18 @@ void add_shear_tests(CLI::App& command, IdentifyArguments& to) {
     test->add_option("--coefficients", to.coefficients,
                      "of a polynomial: k1, k3, k5 ... [chosen, mostly 3]");
     test->add_option("--points", to.points, "of a table, but for [0, 0] [chosen]");
+    test->add_option("--speeds", to.speeds,
+                     "speed of the crosshead in each curve, mm/s: law with a viscous torque, from "
+                     "all curves at once")
+        ->delimiter(',');
+    test->add_option(
+            "--temperatures", to.temperatures,
+            "temperature of each of them, degC: with several, viscosity by Arrhenius; that "
+            "of the first curve is the reference")
+        ->delimiter(',');
+    test->add_option("--viscosity-coefficients", to.viscosity_coefficients,
+                     "of the viscosity: c0, c2, c4 [chosen]")
+        ->check(CLI::Range(1, 3));
     test->add_option("--negative", to.others,
                      "CSV files of specimens cut, or frames turned, the other way: the angle from "
                      "the first family to the second opens");
@@ -179,6 +191,53 @@ void add_bending_tests(CLI::App& command, IdentifyArguments& to) {
   zone->callback([&to] { to.test = "in-plane-bending"; });
 }
 
+void add_relaxation_test(CLI::App& command, IdentifyArguments& to) {
+  CLI::App* test = command.add_subcommand(
+      "relaxation",
+      "Maxwell branches of shear from the load after a frame or bias test has stopped");
+  add_files(*test, "time since the stop", "load", to);
+  test->add_option("--side", to.specimen.side, "of a frame: from hinge to hinge, mm");
+  test->add_option("--length", to.specimen.length, "of a bias test: free length, mm");
+  test->add_option("--width", to.specimen.width, "of a bias test, mm");
+  test->add_option("--angle", to.stop_angle, "shear angle at the stop, degrees")->required();
+  test->add_option("--ramp", to.ramp, "time that it took to get there, s [0: at once]")
+      ->check(CLI::Range(0.0, 1e6));
+  test->add_option("--times", to.times, "relaxation times, s [looked for]")
+      ->delimiter(',')
+      ->check(CLI::PositiveNumber);
+  test->callback([&to] { to.test = "relaxation"; });
+}
+
+void add_pull_out_test(CLI::App& command, IdentifyArguments& to) {
+  CLI::App* test = command.add_subcommand(
+      "pull-out", "friction over viscosity times speed over pressure, from pull-out tests");
+  test->add_option("curves", to.curves, "CSV file of displacement and load, one for each test")
+      ->required();
+  test->add_option("--x-column", to.x.name, "name or number of the column of displacement");
+  test->add_option("--y-column", to.y.name, "name or number of the column of load");
+  test->add_option("--x-unit", to.x.unit, "its unit, if the header has none or a wrong one");
+  test->add_option("--y-unit", to.y.unit, "its unit, if the header has none or a wrong one");
+  test->add_option("--speeds", to.speeds, "speed of each test, mm/s")->delimiter(',')->required();
+  test->add_option("--pressures", to.pressures, "pressure of each test, N/mm2")
+      ->delimiter(',')
+      ->required();
+  test->add_option("--viscosity", to.viscosities,
+                   "viscosity of the matrix, Pa s: one number, or one for each test")
+      ->delimiter(',')
+      ->required();
+  test->add_option("--area", to.area, "area of one face that is pulled, mm2; both faces slide")
+      ->required();
+  test->add_option("--from", to.from, "displacement from which the pull is steady, mm [0]");
+  test->add_option("--to", to.to, "displacement up to which it is, mm");
+  test->add_option("--points", to.points, "of the curve [chosen]");
+  test->add_option("--name", to.name, "of the law in a case: [friction.NAME] [pull_out]");
+  test->add_option("-o,--output", to.output, "TOML file to write: [friction.NAME] of a case")
+      ->required();
+  test->add_option("--fit", to.fit, "CSV file of measured and fitted rows [OUTPUT's stem_fit.csv]");
+  test->add_option("--report", to.report, "JSON file of the law, warnings and mistakes");
+  test->callback([&to] { to.test = "pull-out"; });
+}
+
 } // namespace
 
 void add_identify_tests(CLI::App& command, IdentifyArguments& to) {
@@ -188,6 +247,8 @@ void add_identify_tests(CLI::App& command, IdentifyArguments& to) {
   add_biaxial_test(command, to);
   add_rubber_tests(command, to);
   add_bending_tests(command, to);
+  add_relaxation_test(command, to);
+  add_pull_out_test(command, to);
 }
 
 void add_theory_tests(CLI::App& command, TheoryArguments& to) {

@@ -40,7 +40,10 @@ def corrections(of: str, unit: str, toe: str) -> list[dict]:
 SHEAR = [choice("law", "form of the law; chosen by cross-validation unless given", ["polynomial", "static", "table"]),
          number("coefficients", "of a polynomial: k1, k3 ..."), number("points", "of a table"),
          text("stitch", "of the fabric, by which the two kinds of specimens differ"),
-         text("angle-column", "column of a measured shear angle; none: the extension counts")]
+         text("angle-column", "column of a measured shear angle; none: the extension counts"),
+         text("speeds", "of the crosshead in each curve, mm/s, with commas between: a law with a viscous torque"),
+         text("temperatures", "of each of them, °C, with commas between: viscosity over temperature"),
+         number("viscosity-coefficients", "c0, c2, c4, with speeds")]
 YARNS = [number("yarns", "that share the force"),
          number("gauge-length", "if the curve has displacements instead of strains", "mm")]
 RUBBER = [number("width", "of the section, for loads in N; its thickness is the fabric's", "mm"),
@@ -89,5 +92,11 @@ TESTS = [
     test("three-point", "Three-point bending", "bending_stiffness or bending_table", "deflection and force",
          [number("span", "distance of the supports", "mm", True), number("width", "of the strip", "mm", True),
           DIRECTION], [*corrections("deflection over the span", "", "mm"), *COLUMNS]),
+    test("relaxation", "Relaxation of shear", "Maxwell branches of shear",
+         "time since the stop, and load; one test",
+         [number("side", "of a frame: from hinge to hinge", "mm"), number("length", "of a bias test", "mm"),
+          number("width", "of a bias test", "mm"), number("angle", "shear angle at the stop", "°", True),
+          number("ramp", "time that it took to get there; 0: at once", "s")],
+         [text("times", "relaxation times, s, with commas between; looked for unless given"), *COLUMNS]),
     test("in-plane-bending", "In-plane bending", "in_plane_bending_stiffness",
          "distance along a yarn and shear angle; a file a profile", [DIRECTION], COLUMNS)]

@@ -10,7 +10,7 @@ import { fittingDigits, written } from "plyform/numbers.js";
 /** Columns of the rows that are places along, with name, unit and factor. */
 const ALONG = {
   shear_deg: ["shear angle", "°", 1], displacement_mm: ["displacement", "mm", 1], strain: ["strain", "%", 100],
-  stretch: ["stretch", "", 1],
+  stretch: ["stretch", "", 1], time_s: ["time after the stop", "s", 1],
   overhang_mm: ["overhang", "mm", 1], distance_mm: ["distance along the yarn", "mm", 1], force_N: ["force", "N", 1],
   warp_strain: ["warp strain", "%", 100], weft_strain: ["weft strain", "%", 100],
 };
