@@ -51,6 +51,7 @@ set(public_headers
   core/model/sheet_response.hpp
   core/model/temperature.hpp
   core/model/usual_ranges.hpp
+  core/model/viscous_shear.hpp
   core/results/bridging.hpp
   core/results/broken_stitches.hpp
   core/results/description.hpp

@@ -12,7 +12,8 @@ namespace plyform {
 /// that came with added mass.
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, stitch = 0, bending = 0, contact = 0, friction = 0,
-         damping = 0, stitch_breaking = 0, external = 0, mass_scaling = 0, compaction = 0;
+         damping = 0, stitch_breaking = 0, external = 0, mass_scaling = 0, compaction = 0,
+         viscous = 0;
   /// Energies below this are rounding errors, and ratios to them mean nothing; no term of the
   /// balance. Scene::energy_floor.
   double floor = 0;
@@ -32,7 +33,7 @@ struct EnergyTerm {
   double sign;
 };
 
-inline constexpr std::array<EnergyTerm, 12> energy_terms = {{
+inline constexpr std::array<EnergyTerm, 13> energy_terms = {{
     {"kinetic", "kinetic", &Energies::kinetic, 1.0},
     {"fibre", "fibres", &Energies::fibre, 1.0},
     {"shear", "shear", &Energies::shear, 1.0},
@@ -42,6 +43,7 @@ inline constexpr std::array<EnergyTerm, 12> energy_terms = {{
     {"friction", "friction", &Energies::friction, 1.0},
     {"damping", "damping", &Energies::damping, 1.0},
     {"compaction", "compaction loss", &Energies::compaction, 1.0},
+    {"viscous", "viscous loss", &Energies::viscous, 1.0},
     {"stitch_breaking", "stitch breaking", &Energies::stitch_breaking, 1.0},
     {"external", "external work", &Energies::external, -1.0},
     {"mass_scaling", "mass scaling", &Energies::mass_scaling, -1.0},

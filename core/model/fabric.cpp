@@ -196,11 +196,11 @@ BendingLaw bending_law(const Fabric& fabric) {
   BendingLaw law;
   const MaterialAxes axes = material_axes(fabric);
   for (const YarnFamily& family : fabric.families)
-    law.families.push_back(
-        {axes.components(family.angle), family.bending, family.in_plane_bending});
+    law.families.push_back({axes.components(family.angle), family.bending, family.in_plane_bending,
+                            family.bending_viscosity});
   if (fabric.plate > 0.0)
     for (const Vec2& axis : {Vec2(Vec2::UnitX()), Vec2(Vec2::UnitY())})
-      law.families.push_back({axis, {fabric.plate, {}, {}}, 0.0});
+      law.families.push_back({axis, {fabric.plate, {}, {}}, 0.0, fabric.plate_viscosity});
   law.coupling = fabric.plate_coupling;
   law.twist = fabric.twist;
   return law;

@@ -14,6 +14,7 @@
 #include "core/model/shear_law.hpp"
 #include "core/model/sheet_law.hpp"
 #include "core/model/temperature.hpp"
+#include "core/model/viscous_shear.hpp"
 
 #include <array>
 #include <cmath>
@@ -75,11 +76,19 @@ struct FamilyBending {
   Vec2 along = Vec2::UnitX(); ///< v: direction in the fabric's axes, MaterialAxes
   MomentLaw law;              ///< per width across it
   double in_plane = 0.0;      ///< D_g, N mm
+  double viscosity = 0.0;     ///< N mm s, moment by the rate of the process: viscous_bending.hpp
   /// Its curvature from those in the axes, kappa_11, kappa_22 and kappa_12: the sum of the
   /// products.
   Vec3 of_axes() const {
     return {along.x() * along.x(), along.y() * along.y(), 2.0 * along.x() * along.y()};
   }
+};
+
+/// A melt around yarns of one direction, which hardly strain along them: an incompressible fluid
+/// that they make directed (core/ply/viscous_membrane.hpp).
+struct ViscousMatrix {
+  double longitudinal = 0.0, transverse = 0.0; ///< N s/mm^2, of shear along the yarns and across
+  bool operator==(const ViscousMatrix&) const = default;
 };
 
 /// Bending of a sheet: core/ply/bending.hpp (M). Nothing: none.
@@ -116,10 +125,11 @@ struct YarnFamily {
   /// rad, from the ply's angle to these yarns; of a fabric's families within half a turn from the
   /// first one's on
   double angle = 0.0;
-  double density = 0.0;          ///< d, yarns per mm across the yarns
-  TensionLaw tension;            ///< of one yarn
-  MomentLaw bending;             ///< M, per width across the yarns
-  double in_plane_bending = 0.0; ///< D_g, N mm
+  double density = 0.0;           ///< d, yarns per mm across the yarns
+  TensionLaw tension;             ///< of one yarn
+  MomentLaw bending;              ///< M, per width across the yarns
+  double in_plane_bending = 0.0;  ///< D_g, N mm
+  double bending_viscosity = 0.0; ///< N mm s, moment per width by the rate of curvature
   /// Change of the distance between neighbouring yarns, over what it was, beyond which they gape.
   std::optional<double> opening_limit;
   YarnSources sources;
@@ -151,6 +161,7 @@ struct Crossing {
   ShearLaw shear;                    ///< torque of one unit cell
   /// Tension of both families by the cell that their yarns make; a family is in one at most.
   std::optional<CrimpedCell> crimp{};
+  std::optional<ViscousShear> viscous{}; ///< what one unit cell resists by the rate of shear
 };
 
 /// What a fabric may have at most, of families and stitches together, and of crossings. Kernels
@@ -189,6 +200,9 @@ struct Fabric {
   /// Bending of the sheet by itself (N mm): D, the same along both axes, which are at right angles
   /// then, and D_c. Beside yarns in one direction it is what resists bending across them.
   double plate = 0.0, plate_coupling = 0.0;
+  double plate_viscosity = 0.0; ///< N mm s, of D
+  /// Melt that holds the yarns of one direction, beside `sheet`.
+  std::optional<ViscousMatrix> matrix;
   ValueSource plate_source = ValueSource::given;
 
   bool has_yarns() const { return !families.empty(); }

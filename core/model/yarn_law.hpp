@@ -169,11 +169,15 @@ bool has_rates(const std::variant<Laws...>& any) {
   return std::visit([](const auto& law) { return law.has_rates; }, any);
 }
 
-/// The same of any law of a fabric. Laws of sheets have no rates.
+/// The same of any law of a fabric.
 inline bool has_rates(const Fabric& f) {
-  return std::any_of(f.families.begin(), f.families.end(), [](const YarnFamily& family) {
-    return has_rates(yarn_law(family.tension, 0.0));
-  });
+  const auto family_has = [](const YarnFamily& family) {
+    return has_rates(yarn_law(family.tension, 0.0)) || family.bending_viscosity > 0.0;
+  };
+  const auto crossing_has = [](const Crossing& crossing) { return crossing.viscous.has_value(); };
+  return f.matrix || f.plate_viscosity > 0.0 ||
+         std::any_of(f.families.begin(), f.families.end(), family_has) ||
+         std::any_of(f.crossings.begin(), f.crossings.end(), crossing_has);
 }
 
 } // namespace plyform

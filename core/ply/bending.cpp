@@ -54,29 +54,6 @@ struct YarnCurvature {
   double moment = 0.0; ///< M_g, N
 };
 
-StencilShape shape_of(const Bending& b, std::span<const Vec3> x, std::size_t stencil) {
-  const auto first = static_cast<std::size_t>(b.begin[stencil]);
-  const auto at = [&](std::size_t place) -> const Vec3& { return x[b.node[first + place]]; };
-  StencilShape s;
-  Vec3 sum = Vec3::Zero(); // N
-  for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
-       i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
-    const auto& [p, q, r] = b.fan[i];
-    const Vec3& x0 = at(static_cast<std::size_t>(p));
-    sum += (at(static_cast<std::size_t>(q)) - x0).cross(at(static_cast<std::size_t>(r)) - x0);
-  }
-  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i) {
-    // differences, so that rounding is relative to the stencil's size
-    const Vec3 from = at(i - first) - at(0);
-    for (std::size_t k = 0; k < 3; ++k)
-      s.second[k] += b.b[i][k] * from;
-    for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
-      s.first[k] += b.a[i][k] * from;
-  }
-  set_normal(s, sum);
-  return s;
-}
-
 /// D_g of the families at a node, N mm; none without in-plane bending.
 std::span<const double> in_plane_at(const Bending& b, std::size_t node) {
   const std::size_t families = b.law.families.size();
@@ -148,6 +125,15 @@ Eigen::Matrix3d in_plane_stiffness(const Bending& b, std::size_t node) {
   return d;
 }
 
+/// Adds the first term of (F) with these moments to the forces on the nodes of a stencil.
+void add_along_normal(const Bending& b, std::size_t stencil, const StencilShape& s,
+                      const std::array<double, 3>& m, std::vector<Vec3>& force) {
+  for (auto i = static_cast<std::size_t>(b.begin[stencil]);
+       i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i)
+    force[b.node[i]] -=
+        b.area[stencil] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal;
+}
+
 /// Adds the last term of (F), - dN/dx_i . `along`, to the forces on the nodes of a stencil; `along`
 /// is A0 h_t / |N|.
 void add_normal_rotation(const Bending& b, std::span<const Vec3> x, std::size_t stencil,
@@ -165,6 +151,29 @@ void add_normal_rotation(const Bending& b, std::span<const Vec3> x, std::size_t 
 }
 
 } // namespace
+
+StencilShape stencil_shape(const Bending& b, std::span<const Vec3> x, std::size_t stencil) {
+  const auto first = static_cast<std::size_t>(b.begin[stencil]);
+  const auto at = [&](std::size_t place) -> const Vec3& { return x[b.node[first + place]]; };
+  StencilShape s;
+  Vec3 sum = Vec3::Zero(); // N
+  for (auto i = static_cast<std::size_t>(b.fan_begin[stencil]);
+       i < static_cast<std::size_t>(b.fan_begin[stencil + 1]); ++i) {
+    const auto& [p, q, r] = b.fan[i];
+    const Vec3& x0 = at(static_cast<std::size_t>(p));
+    sum += (at(static_cast<std::size_t>(q)) - x0).cross(at(static_cast<std::size_t>(r)) - x0);
+  }
+  for (std::size_t i = first; i < static_cast<std::size_t>(b.begin[stencil + 1]); ++i) {
+    // differences, so that rounding is relative to the stencil's size
+    const Vec3 from = at(i - first) - at(0);
+    for (std::size_t k = 0; k < 3; ++k)
+      s.second[k] += b.b[i][k] * from;
+    for (std::size_t k = 0; k < 2 && !b.in_plane.empty(); ++k)
+      s.first[k] += b.a[i][k] * from;
+  }
+  set_normal(s, sum);
+  return s;
+}
 
 Bending make_bending(std::span<const Vec2> x, const std::vector<Triangle>& triangles,
                      const BendingLaw& law, double axis1, double axis2,
@@ -216,30 +225,37 @@ std::vector<double> stencil_omega2(const Bending& b, std::span<const double> nod
 }
 
 std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int node) {
-  return shape_of(b, x, static_cast<std::size_t>(node)).kappa;
+  return stencil_shape(b, x, static_cast<std::size_t>(node)).kappa;
 }
 
 double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family) {
   const auto n = static_cast<std::size_t>(node);
   const auto yarns = static_cast<std::size_t>(family);
-  return yarn_curvature(shape_of(b, x, n), b.law.families[yarns], in_plane_at(b, n)[yarns]).kappa;
+  return yarn_curvature(stencil_shape(b, x, n), b.law.families[yarns], in_plane_at(b, n)[yarns])
+      .kappa;
 }
 
 std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x) {
   std::vector<Vec3> force(x.size(), Vec3::Zero());
   for (std::size_t n = 0; n < x.size(); ++n) {
-    const StencilShape s = shape_of(b, x, n);
+    const StencilShape s = stencil_shape(b, x, n);
     const std::array<double, 3> m = moments(b.law, s.kappa);
-    for (auto i = static_cast<std::size_t>(b.begin[n]);
-         i < static_cast<std::size_t>(b.begin[n + 1]); ++i)
-      force[b.node[i]] -=
-          b.area[n] * (m[0] * b.b[i][0] + m[1] * b.b[i][1] + m[2] * b.b[i][2]) * s.normal; // (F)
+    add_along_normal(b, n, s, m, force);
     Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
     for (std::size_t k = 0; k < b.law.families.size() && !b.in_plane.empty(); ++k)
       h += add_in_plane(b, s, n, k, force);
     add_normal_rotation(b, x, n, (b.area[n] / s.size) * (h - h.dot(s.normal) * s.normal), force);
   }
   return force;
+}
+
+void add_moment_forces(const Bending& b, std::span<const Vec3> x, std::size_t node,
+                       const StencilShape& s, const std::array<double, 3>& m,
+                       std::vector<Vec3>& force) {
+  add_along_normal(b, node, s, m, force);
+  const Vec3 h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
+  add_normal_rotation(b, x, node, (b.area[node] / s.size) * (h - h.dot(s.normal) * s.normal),
+                      force);
 }
 
 void set_normal(StencilShape& s, const Vec3& sum) {
@@ -267,7 +283,7 @@ double bending_energy(const BendingLaw& law, std::span<const double> in_plane,
 double bending_energy(const Bending& b, std::span<const Vec3> x) {
   double sum = 0.0;
   for (std::size_t n = 0; n < b.area.size(); ++n)
-    sum += b.area[n] * bending_energy(b.law, in_plane_at(b, n), shape_of(b, x, n));
+    sum += b.area[n] * bending_energy(b.law, in_plane_at(b, n), stencil_shape(b, x, n));
   return sum;
 }
 

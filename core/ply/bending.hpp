@@ -124,6 +124,14 @@ std::array<double, 3> curvatures(const Bending& b, std::span<const Vec3> x, int 
 /// family). x: mm, one per node.
 double in_plane_curvature(const Bending& b, std::span<const Vec3> x, int node, int family);
 
+/// Normal and derivatives at one node. x: mm, one per node.
+StencilShape stencil_shape(const Bending& b, std::span<const Vec3> x, std::size_t node);
+
+/// Adds (F) of one stencil with these moments m_11, m_22, m_12 (N) to the forces on all nodes (N).
+void add_moment_forces(const Bending& b, std::span<const Vec3> x, std::size_t node,
+                       const StencilShape& s, const std::array<double, 3>& m,
+                       std::vector<Vec3>& force);
+
 /// (F) + (I) on each node, N, one stencil after the other. x: mm. Reference implementation against
 /// which core/ply/bending_simd.hpp is tested.
 std::vector<Vec3> reference_bending_forces(const Bending& b, std::span<const Vec3> x);

@@ -135,6 +135,9 @@ struct MembraneCrossing {
   double steepest = 0.0;             ///< N mm, largest slope of a table
   ShearTable table{};                ///< of one: what the kernel looks up
   std::optional<CrimpedCell> crimp{};
+  /// N mm, of one that resists by rates (core/ply/viscous_membrane.hpp): springs in line with its
+  /// dashpot, for shear and for deviations, and the sum of the moduli of its branches.
+  double spring = 0.0, deviation_spring = 0.0, branches = 0.0;
 };
 
 /// What the yarns of one family in one strain group remember from step to step: the states of
@@ -155,7 +158,10 @@ struct Membrane {
   Fabric fabric;                        ///< as given, not softened
   std::vector<MembraneFamily> families; ///< those of the fabric, then its stitches
   std::vector<MembraneCrossing> crossings;
-  bool crimped = false;        ///< whether any of them has crimp
+  bool crimped = false; ///< whether any of them has crimp
+  /// N/mm, springs in line with the dashpots of a melt (core/ply/viscous_membrane.hpp): for shear
+  /// along yarns and for drawing them apart.
+  double matrix_spring = 0.0;
   double process_time = 1.0;   ///< s of the process in each simulated second: Case::process_time
   double omega0 = 0.0;         ///< rad, between the axes before forming
   Vec2 across = Vec2::UnitY(); ///< components of the direction across e_1

@@ -67,7 +67,8 @@ OfFamilies deviation_stiffness(const Membrane& m, const TriangleState& t) {
     k[a] = m.families[a].density * m.families[a].side.stabilisation;
   for (std::size_t i = 0; i < m.crossings.size(); ++i) {
     const MembraneCrossing& c = m.crossings[i];
-    const double shear = deviation_stiffness(c, t.crossing[i].gamma);
+    const double shear = deviation_stiffness(c, t.crossing[i].gamma) +
+                         deviation_weight * c.cells * (c.deviation_spring + c.branches);
     k[c.first] += shear, k[c.second] += shear;
   }
   return k;
@@ -118,8 +119,11 @@ double soft_stiffness(const Membrane& m, const TriangleState& t) {
     const double lambda1 = t.yarn[c.first].lambda, lambda2 = t.yarn[c.second].lambda;
     const double gamma = t.crossing[i].gamma, torque = c.shear.at(gamma).value;
     const double inv2 = 1.0 / (lambda1 * lambda1) + 1.0 / (lambda2 * lambda2);
+    // a branch pulls as if it had not yet relaxed; springs of dashpots are hardly stretched
+    const double turned = std::abs(torque) + c.branches * std::abs(gamma);
     sum += (c.is_axes ? 1.0 : largest_of_crossing(m, c)) * c.cells * inv2 *
-           (std::abs(shear_slope(c, gamma)) + 2.0 * std::abs(torque) / t.crossing[i].sin_omega);
+           (std::abs(shear_slope(c, gamma)) + (c.spring + c.branches) +
+            2.0 * turned / t.crossing[i].sin_omega);
   }
   return sum;
 }
@@ -133,6 +137,17 @@ double sheet_stiffness(const Membrane& m, const AxesState& s, const Gram& g) {
   const Vec3 across = x * s.k1() + y * s.k2();
   return std::visit([&](const auto& law) { return law.stiffness_bound(s.k1(), across, turned); },
                     *m.fabric.sheet);
+}
+
+/// Bound of the part of a melt's springs in H (G x I), N/mm^3: gradients in space are at most those
+/// before over the least stretch, and shear of d_ab + d_ba counts twice.
+double matrix_stiffness(const Membrane& m, const AxesState& s, const Gram& g) {
+  if (!(m.matrix_spring > 0.0)) return 0.0;
+  const Vec3 k1 = s.k1(), k2 = m.across.x() * k1 + m.across.y() * s.k2();
+  const double a = k1.squaredNorm(), b = k2.squaredNorm(), c = k1.dot(k2);
+  const double least2 = std::max(0.0, a * b - c * c) / largest(a, b, c); // of stretches
+  return 3.0 * m.matrix_spring * largest(g.g11, g.g22, g.g12) /
+         std::max(least_stretch * least_stretch, least2);
 }
 
 /// What a strain group gives a node: its mass, t, and its area times mean gradients, mm.
@@ -173,7 +188,7 @@ double omega2_of_group(const Membrane& m, std::span<const Vec3> x, std::size_t p
     find_triangle(m, x, static_cast<int>(e), t);
     const Gram of = gram(m.c[e]);
     soft = std::max(soft, corners_per_mass(m, e) *
-                              (sheet_stiffness(m, t.axes, of) +
+                              (sheet_stiffness(m, t.axes, of) + matrix_stiffness(m, t.axes, of) +
                                soft_stiffness(m, t) * largest(of.g11, of.g22, of.g12)));
     area += m.area[e];
   }
@@ -217,7 +232,8 @@ EigenvalueBound eigenvalue_bound(const Membrane& m, std::span<const Vec3> x) {
     const double viscous = largest_of_families(m, t, g, viscosity);
     const double sheet = sheet_stiffness(m, t.axes, g);
     const bool foil = m.families.empty();
-    const double soft = soft_stiffness(m, t) * largest(g.g11, g.g22, g.g12) + (foil ? 0.0 : sheet);
+    const double soft = soft_stiffness(m, t) * largest(g.g11, g.g22, g.g12) + (foil ? 0.0 : sheet) +
+                        matrix_stiffness(m, t.axes, g);
     bound.yarns = std::max(bound.yarns, per_mass * (fibre + (foil ? sheet : 0.0)));
     bound.soft = std::max(bound.soft, per_mass * soft);
     const double omega2 = per_mass * (fibre + (foil ? sheet : 0.0) + soft);

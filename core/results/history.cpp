@@ -15,18 +15,21 @@ namespace plyform {
 
 namespace {
 
-/// The energies of a state: those of stitches and of compaction where a fabric has them.
+/// The energies of a state: those of stitches, compaction and rates where a fabric has them.
 template <class Visit>
 void each_energy(const Frame& frame, Visit&& visit) {
   const bool stitched = std::any_of(frame.plies.begin(), frame.plies.end(),
                                     [](const PlyFrame& one) { return !one.stitches.empty(); });
   const bool gives_way = std::any_of(frame.plies.begin(), frame.plies.end(),
                                      [](const auto& one) { return !one.fibre_volume.empty(); });
+  const bool rated = std::any_of(frame.plies.begin(), frame.plies.end(),
+                                 [](const PlyFrame& one) { return !one.shear_rate.empty(); });
   for (const EnergyTerm& term : energy_terms) {
     const bool of_stitches =
         term.value == &Energies::stitch || term.value == &Energies::stitch_breaking;
     if (of_stitches && !stitched) continue;
     if (term.value == &Energies::compaction && !gives_way) continue;
+    if (term.value == &Energies::viscous && !rated) continue;
     visit(StateNumber{{std::string(term.name) + "_mJ", term.name, term.label, "mJ", 2, 1e-6},
                       Location::run,
                       "",

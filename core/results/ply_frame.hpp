@@ -60,6 +60,9 @@ struct PlyFrame {
   GapFrame mould;
   /// m, the larger and the smaller principal stretch of a sheet of rubber; empty of others
   std::array<std::vector<double>, 2> stretch;
+  std::vector<double> shear_rate;       ///< m, 1/s of the process; empty without laws with rates
+  std::vector<double> largest_rate;     ///< m, likewise, of magnitude, since the start
+  std::vector<double> viscous_shear;    ///< m, N/mm; likewise
   std::vector<double> contact_pressure; ///< n, N/mm^2, normal contact force over node area
   std::vector<Vec3> reaction;           ///< n, N, of boundaries; empty where there are none
   std::vector<double> wrinkle_height;   ///< n, mm: wrinkles.hpp; empty if not looked for
@@ -133,6 +136,30 @@ void each_stitch_column(AnyStitch& stitch, Visit&& visit) {
   visit(Column{{stitch.name + "_broken", stitch.name + "-broken", stitch.name + " broken", "1", 0,
                 1e-3, Scale::from_zero, "1: broken"}},
         stitch.broken);
+}
+
+/// The columns of what laws see of rates, and answer.
+template <class AnyPly, class Visit>
+void each_rate_column(AnyPly& ply, Visit&& visit) {
+  visit(Column{{"shear_rate_per_s", "shear-rate", "rate of shear", "1/s", 4, 1e-6, Scale::magnitude,
+                "of the process, smoothed over a hundredth of the stroke; negative: shear grows "
+                "less"},
+               Location::triangle,
+               "",
+               true},
+        ply.shear_rate);
+  visit(Column{{"largest_shear_rate_per_s", "largest-shear-rate", "largest rate of shear", "1/s", 4,
+                1e-6, Scale::from_zero, "of the process, since the start"},
+               Location::triangle,
+               "",
+               true},
+        ply.largest_rate);
+  visit(Column{{"viscous_shear_N_per_mm", "viscous-shear", "viscous shear force", "N/mm", 4, 1e-6,
+                Scale::magnitude, "that the ply bears by rates, of its first crossing"},
+               Location::triangle,
+               "",
+               true},
+        ply.viscous_shear);
 }
 
 /// The columns of what the ply is through its thickness.
@@ -232,6 +259,7 @@ void each_column(AnyPly& ply, Visit&& visit) {
     visit(opening_column(family.name), family.opening);
   for (auto& stitch : ply.stitches)
     each_stitch_column(stitch, visit);
+  each_rate_column(ply, visit);
   each_thickness_column(ply, visit);
   each_gap_column(ply, visit);
   for (std::size_t i = 0; i < 2; ++i)

@@ -82,6 +82,9 @@ struct PlyReport {
   std::optional<double> max_stretch;          ///< of rubber
   std::optional<double> stretch_limit;        ///< of the fabric, if it is known
   std::optional<double> beyond_stretch_share; ///< fraction of the area before forming; likewise
+  std::optional<double> max_shear_rate;       ///< 1/s of the process, of laws with rates
+  std::optional<double> measured_shear_rate;  ///< up to which the law was measured, if it is known
+  std::optional<double> beyond_rate_share;    ///< fraction of the area before forming; likewise
   DrawIn draw_in;
   std::vector<BrokenStitches> stitches; ///< one for each direction
 };

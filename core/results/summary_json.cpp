@@ -154,6 +154,11 @@ Json report_keys(const PlyReport& report) {
     keys["area_share_beyond_locking_angle"] = rounded(*report.beyond_locking_share);
   if (report.max_stretch) keys["max_stretch"] = rounded(*report.max_stretch);
   if (report.stretch_limit) keys["stretch_limit"] = rounded(*report.stretch_limit);
+  if (report.max_shear_rate) keys["max_shear_rate_per_s"] = rounded(*report.max_shear_rate);
+  if (report.measured_shear_rate)
+    keys["measured_shear_rate_per_s"] = rounded(*report.measured_shear_rate);
+  if (report.beyond_rate_share)
+    keys["area_share_beyond_measured_shear_rate"] = rounded(*report.beyond_rate_share);
   if (report.beyond_stretch_share)
     keys["area_share_beyond_stretch_limit"] = rounded(*report.beyond_stretch_share);
   if (!report.openings.empty()) keys["openings"] = list_of(report.openings, opening_object);

@@ -78,7 +78,11 @@ bool dwell_ends(Dwell& dwell, const Scene& s, ThreadPool& pool) {
   dwell.settled = is_steady(dwell, s.energy_floor / s.element_size) && !swings(dwell, s) &&
                   is_at_rest(current_energies(s, pool));
   begin_window(dwell, s);
-  return dwell.settled || s.time >= (1.0 + solver.dwell) * solver.duration;
+  // what relaxes is never settled for good: it is held as long as the case says
+  const bool rated = std::any_of(s.plies.begin(), s.plies.end(), [](const PlyBody& ply) {
+    return ply.viscous || ply.viscous_bending;
+  });
+  return (dwell.settled && !rated) || s.time >= (1.0 + solver.dwell) * solver.duration;
 }
 
 } // namespace plyform

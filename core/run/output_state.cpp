@@ -142,6 +142,17 @@ std::vector<double> add_yarns(const PlyBody& ply, PlyFrame& f) {
   return area_ratios;
 }
 
+/// Fills what laws see of rates, and answer.
+void add_rates(const PlyBody& ply, PlyFrame& f) {
+  if (!ply.viscous) return;
+  const std::vector<double>& states = ply.viscous_now();
+  for (std::size_t e = 0; e < f.triangles.size(); ++e) {
+    const ShownRate shown = shown_rate(*ply.viscous, ply.membrane, states, e);
+    f.shear_rate.push_back(shown.rate), f.largest_rate.push_back(shown.largest);
+    f.viscous_shear.push_back(shown.shear);
+  }
+}
+
 PlyFrame make_ply_frame(const Scene& scene, const BridgingSearch& bridging, int index) {
   const PlyBody& ply = scene.plies[index];
   PlyFrame f;
@@ -153,6 +164,7 @@ PlyFrame make_ply_frame(const Scene& scene, const BridgingSearch& bridging, int 
   const std::vector<double> area_ratios = add_yarns(ply, f);
   for (const double ratio : area_ratios) // t/mm^2 to g/m^2
     f.areal_weight.push_back(1e12 * ply.membrane.fabric.surface_density / ratio);
+  add_rates(ply, f);
   add_present_thickness(scene, index, area_ratios, f.thickness, f.fibre_volume);
   f.contact_pressure = contact_pressure(scene, index);
   f.reaction = ply.reaction;

@@ -4,6 +4,7 @@
 #include "base/text.hpp"
 #include "core/model/motion.hpp"
 #include "core/results/statistics.hpp"
+#include "core/run/measured_limits.hpp"
 #include "core/run/ply_motion.hpp"
 #include "core/run/temperature_doubts.hpp"
 
@@ -291,22 +292,7 @@ std::vector<std::string> doubts_of_forces(const Scene& s, const std::vector<Know
   return found;
 }
 
-namespace {
-
-/// Rubber beyond what its law was measured to.
-std::vector<std::string> doubts_of_stretch(const Frame& last, const std::vector<PlyReport>& plies) {
-  std::vector<std::string> found;
-  for (std::size_t p = 0; p < plies.size(); ++p)
-    if (plies[p].beyond_stretch_share.value_or(0.0) > doubtful_stretched_share)
-      found.push_back(fmt::format(
-          "do not trust {}: it is stretched to {:.3g}, beyond the {:.3g} up to which its law was "
-          "measured (stretch_limit), on {:.2g} % of its area; test the rubber further",
-          last.plies[p].name, *plies[p].max_stretch, *plies[p].stretch_limit,
-          100.0 * *plies[p].beyond_stretch_share));
-  return found;
-}
-
-} // namespace
+namespace {} // namespace
 
 PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
                      const std::vector<const ToolBody*>& tools) {
@@ -333,6 +319,12 @@ PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
     if (nature.stretch_limit)
       result.beyond_stretch_share = area_share_above(stretch, *nature.stretch_limit, areas);
   }
+  if (!ply.largest_rate.empty()) {
+    result.max_shear_rate = *std::max_element(ply.largest_rate.begin(), ply.largest_rate.end());
+    result.measured_shear_rate = nature.measured_rate;
+    if (nature.measured_rate)
+      result.beyond_rate_share = area_share_above(ply.largest_rate, *nature.measured_rate, areas);
+  }
   result.openings = openings_of(ply, nature.opening_limits, areas);
   result.draw_in = draw_in(ply);
   result.stitches = broken_stitches(ply);
@@ -350,6 +342,7 @@ std::vector<PlyReport> report_plies(const Scene& s, const Frame& last) {
     for (const YarnFamily& family : fabric.families)
       nature.opening_limits.push_back(family.opening_limit);
     nature.stretch_limit = fabric.stretch_limit;
+    nature.measured_rate = highest_measured_rate(fabric);
     if (fabric.locking_angle) nature.locking_angle_deg = *fabric.locking_angle / degree;
     result.push_back(report_ply(last.plies[p], nature, tools));
   }
@@ -366,7 +359,7 @@ std::vector<std::string> doubts(const Scene& s, const Frame& last,
                                 "or goes nowhere; a smaller solver.step_factor makes it less",
                                 100.0 * error));
   for (auto&& of :
-       {doubts_of_motion(s, last), doubts_of_stretch(last, plies), doubts_of_temperature(s, last)})
+       {doubts_of_motion(s, last), doubts_of_limits(last, plies), doubts_of_temperature(s, last)})
     found.insert(found.end(), of.begin(), of.end());
   for (const ToolState& tool : s.tools) {
     std::vector<std::string> names;

@@ -27,10 +27,6 @@ constexpr double doubtful_pressed_share = 0.02;
 /// Relative energy balance error of a run beyond which its forces are doubtful.
 constexpr double doubtful_balance_error = 0.01;
 
-/// Rubber stretched beyond what its law was measured to on more than this share of its area is
-/// doubtful.
-constexpr double doubtful_stretched_share = 0.01;
-
 /// Forces astray over the edges of a tool (core/run/astray_forces.hpp), of the load that draws
 /// the plies, beyond which forces are doubtful.
 constexpr double doubtful_astray_share = 0.2;
@@ -42,6 +38,7 @@ struct PlyNature {
   std::vector<std::optional<double>> opening_limits = {}; ///< of its families, or empty: none
   std::vector<Crossing> crossings = {};                   ///< of its families
   std::optional<double> stretch_limit = std::nullopt;
+  std::optional<double> measured_rate = std::nullopt; ///< 1/s, the highest
 };
 
 PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,

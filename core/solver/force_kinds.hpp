@@ -116,6 +116,34 @@ struct BendingForces : NoForce {
   static double elastic(const Scene& s, std::size_t ply);
 };
 
+/// What membranes resist by rates: core/ply/viscous_membrane.hpp. What it stores is energy of
+/// shear; its stiffness is in the bounds of the elements.
+struct ViscousForces : NoForce {
+  static int tasks(const Scene& s) { return static_cast<int>(s.viscous_blocks.size()); }
+  static double place(const Scene& s, int task);
+  static void run(Scene& s, int task);
+  static void finish(Scene& s, ThreadPool&);
+  static void end_step(Scene& s);
+  static void add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f);
+  static void add_energies(const Scene& s, ThreadPool&, Energies& e);
+  static void add_times(const Scene& s, Times& times);
+  static void describe(const Scene& s, std::vector<std::string>& lines);
+};
+
+/// What bending resists by rates: core/ply/viscous_bending.hpp. A task a ply; ViscousForces takes
+/// its steps.
+struct ViscousBendingForces : NoForce {
+  static int tasks(const Scene& s);
+  static double place(const Scene& s, int task);
+  static void run(Scene& s, int task);
+  static void add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f);
+  static void add_energies(const Scene& s, ThreadPool&, Energies& e);
+  static void add_bound(const PlyBody& ply, Frequencies& of);
+  static void add_bound_of_rest(const PlyBody& ply, Frequencies& of) { add_bound(ply, of); }
+  static void add_times(const Scene& s, Times& times);
+  static void describe(const Scene& s, std::vector<std::string>& lines);
+};
+
 /// Springs, grippers and reactions of prescribed nodes. Reactions follow from all other forces
 /// (core/solver/prescribed_motion.hpp).
 struct BoundaryForces : NoForce {
@@ -200,14 +228,17 @@ struct ThicknessForces : NoForce {
 };
 
 /// The list, in the order in which forces are added on a node. The first kind sets them.
-using Forces = std::tuple<ElementForces, BendingForces, BoundaryForces, PressureForces,
-                          ToolContacts, PlyContacts, ThicknessForces>;
+using Forces =
+    std::tuple<ElementForces, BendingForces, ViscousForces, ViscousBendingForces, BoundaryForces,
+               PressureForces, ToolContacts, PlyContacts, ThicknessForces>;
 /// The order in which threads begin them, the longest first.
-using TasksOfForces = std::tuple<PlyContacts, ToolContacts, ElementForces, BendingForces,
-                                 PressureForces, BoundaryForces, ThicknessForces>;
+using TasksOfForces =
+    std::tuple<PlyContacts, ToolContacts, ElementForces, BendingForces, ViscousBendingForces,
+               ViscousForces, PressureForces, BoundaryForces, ThicknessForces>;
 /// The order of sums over kinds.
-using SumsOfForces = std::tuple<ToolContacts, PlyContacts, ElementForces, BendingForces,
-                                BoundaryForces, PressureForces, ThicknessForces>;
+using SumsOfForces =
+    std::tuple<ToolContacts, PlyContacts, ElementForces, BendingForces, ViscousForces,
+               ViscousBendingForces, BoundaryForces, PressureForces, ThicknessForces>;
 
 template <class K>
 concept ForceKind = std::derived_from<K, NoForce> && std::is_empty_v<K> &&

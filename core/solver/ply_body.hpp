@@ -16,6 +16,8 @@
 #include "core/ply/membrane_eigenvalue.hpp"
 #include "core/ply/membrane_simd.hpp"
 #include "core/ply/thickness.hpp"
+#include "core/ply/viscous_bending.hpp"
+#include "core/ply/viscous_membrane.hpp"
 
 #include <cmath>
 #include <memory>
@@ -36,8 +38,10 @@ struct PlyModel {
   double thickness = 0.0; ///< mm
   std::vector<Vec3> x0;   ///< mm, before forming
   Membrane membrane;
-  std::optional<MembraneSimd> simd;   ///< SIMD version of the membrane; none without yarns
-  std::optional<BendingSimd> bending; ///< none without bending stiffness
+  std::optional<MembraneSimd> simd;       ///< SIMD version of the membrane; none without yarns
+  std::optional<BendingSimd> bending;     ///< none without bending stiffness
+  std::optional<ViscousMembrane> viscous; ///< none without laws in the plane that have rates
+  std::optional<ViscousBending> viscous_bending; ///< none without bending that has
   SheetEdges edges;
   double ridge_limit = 0.0;                ///< contact/search/sheet_ridges.hpp
   std::vector<char> touches_boundary_edge; ///< triangles with a node on the boundary edge
@@ -69,6 +73,9 @@ struct PlyState {
   bool resting = false;
   /// N mm, done by pressures since the start, but for what PlyCache::last_load_work has.
   double load_work = 0.0;
+  /// What laws with rates keep, as `yarns`: ViscousMembrane::states of each triangle, or empty.
+  std::vector<double> viscous_states;
+  std::vector<double> bending_states; ///< likewise ViscousBending::states of each node
 };
 
 /// The one list of a ply's state: f(name, place, values) for each member. Checkpoint, comparison
@@ -76,7 +83,8 @@ struct PlyState {
 /// compile.
 template <class F>
 void each_array(PlyState& ply, F&& f) {
-  auto& [x, velocity, motion, reaction, mass, yarns, temperature, resting, load_work] = ply;
+  auto& [x, velocity, motion, reaction, mass, yarns, temperature, resting, load_work, viscous_states,
+         bending_states] = ply;
   f("x", On::node, x);
   f("velocity", On::node, velocity);
   f("motion", On::node, motion);
@@ -86,6 +94,8 @@ void each_array(PlyState& ply, F&& f) {
   f("temperature", On::node, temperature);
   f("resting", On::ply, resting);
   f("load_work", On::ply, load_work);
+  f("viscous_states", On::triangle, viscous_states);
+  f("bending_states", On::node, bending_states);
 }
 
 /// Cache of a ply: what the last search found, bounds of the stable time step, workspace.
@@ -122,6 +132,11 @@ struct PlyCache {
   bool pressed = false;
   /// What yarns will remember once the step that was computed is taken.
   std::vector<SimdYarnStates> yarns_end;
+  std::vector<double> viscous_end, bending_end; ///< likewise, of states of laws with rates
+  bool viscous_stepped = false;                 ///< whether these are of the step that was computed
+  std::vector<ElementForce> viscous_q;          ///< forces by rates, one per triangle
+  std::vector<Vec3> viscous_bending_force;      ///< N, by rates of curvature, on each node
+  double viscous_bending_seconds = 0.0;         ///< s, computing these
 };
 
 /// The list of what a checkpoint keeps of the cache, so that a run goes on with the same bits.
@@ -130,7 +145,8 @@ void each_array(PlyCache& ply, F&& f) {
   auto& [x_search, max_displacement, path_length, fold_bound, fold_motion, occluded, ridges,
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
          thickening_path, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
-         last_load_work, last_ratio, squeeze, spread, pressed, yarns_end] = ply;
+         last_load_work, last_ratio, squeeze, spread, pressed, yarns_end, viscous_end, bending_end,
+         viscous_stepped, viscous_q, viscous_bending_force, viscous_bending_seconds] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);
@@ -153,6 +169,13 @@ void each_array(PlyCache& ply, F&& f) {
 struct PlyBody : PlyModel, PlyState, PlyCache {
   SurfaceKinematics state() const {
     return {x, motion, membrane.node_area, fold_bound, edges.faces_across, thickness_ratio};
+  }
+  /// States of laws with rates now: those of the step that was computed, or of the one taken.
+  const std::vector<double>& viscous_now() const {
+    return viscous_stepped ? viscous_end : viscous_states;
+  }
+  const std::vector<double>& bending_now() const {
+    return viscous_stepped ? bending_end : bending_states;
   }
   EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }
 };

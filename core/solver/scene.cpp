@@ -56,6 +56,13 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.membrane =
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
   body.membrane.process_time = data.process_time();
+  body.viscous = make_viscous(body.membrane, data.process.duration.value_or(data.solver.duration));
+  if (body.viscous) {
+    const std::size_t triangles = body.membrane.triangles.size();
+    body.viscous_states.assign(triangles * body.viscous->states, 0.0);
+    body.viscous_end = body.viscous_states;
+    body.viscous_q.resize(triangles, {Vec3::Zero(), Vec3::Zero()});
+  }
   const BendingLaw bending = bending_law(fabric);
   const MaterialAxes axes = material_axes(fabric);
   body.x0.reserve(mesh.x.size());
@@ -80,6 +87,14 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.touches_boundary_edge = faces_on_rim(body.edges.all, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   set_frequency(data, body);
+  body.viscous_bending =
+      make_viscous_bending(mesh.x, body.membrane.triangles, bending, ply.angle + axes.first,
+                           ply.angle + axes.second, body.membrane.node_mass, body.bound.yarns);
+  if (body.viscous_bending) {
+    body.bending_states.assign(body.x.size() * body.viscous_bending->states(), 0.0);
+    body.bending_end = body.bending_states;
+    body.viscous_bending_force.assign(body.x.size(), Vec3::Zero());
+  }
   if (body.simd) body.yarns = body.yarns_end = states_at_start(*body.simd, body.membrane);
   body.mass = body.membrane.node_mass;
   body.thickness_law = thickness_law(fabric);
@@ -262,6 +277,8 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
       add_blocks(s.group_blocks, p, static_cast<std::size_t>(ply.membrane.groups()));
     add_blocks(s.node_blocks, p, ply.x.size());
     if (ply.bending) add_blocks(s.bending_blocks, p, ply.bending->blocks.size(), 1);
+    if (ply.viscous)
+      add_blocks(s.viscous_blocks, p, static_cast<std::size_t>(ply.membrane.groups()));
   }
   for (int p = 0; p < n; ++p) {
     PlyBody& ply = s.plies[p];

@@ -40,7 +40,9 @@ PLY = {"name": TEXT, "stitches": (STITCH,), "wrinkle_at_mm": POINT,
                         "fibre_volume_min", "fibre_volume_max", "mould_area_mm2",
                         "mould_gap_min_mm", "mould_gap_mean_mm",
                         "mould_wider_area_mm2", "mould_packed_area_mm2", "max_gap_left_mm",
-                        "mean_temperature_C", "min_temperature_C", "max_temperature_C"), NUMBER)}
+                        "mean_temperature_C", "min_temperature_C", "max_temperature_C",
+                        "max_shear_rate_per_s", "measured_shear_rate_per_s",
+                        "area_share_beyond_measured_shear_rate"), NUMBER)}
 # {...: kind}: any key; (kind,): a list of any length
 SUMMARY = {
     **dict.fromkeys(("title", "version", "status", "message"), TEXT),

@@ -43,6 +43,14 @@ Rows yarn_bending_rows(const std::string& table, const std::string& yarn) {
            .meaning = "[curvature along the " + yarn +
                       ", moment per width], ascending from [0, 0]; the same with minus sign for "
                       "negative curvatures"},
+          {.key = table + ".bending_viscosity",
+           .unit = "N mm s",
+           .fallback = "0.0",
+           .ranges = {bending_range},
+           .meaning = "moment per width along the " + yarn +
+                      " by the rate of curvature of the process, beside bending_stiffness or "
+                      "bending_table",
+           .members = {to(&YarnFamily::bending_viscosity)}},
           {.key = table + ".in_plane_bending_stiffness",
            .unit = "N mm",
            .otherwise = "0 of a ply alone, in a stack an estimate for yarns that bear "

@@ -7,6 +7,7 @@
 #include "core/input/keys/sheet_laws.hpp"
 #include "core/input/keys/stitch_keys.hpp"
 #include "core/input/keys/temperature_keys.hpp"
+#include "core/input/keys/viscous_keys.hpp"
 
 namespace plyform {
 
@@ -49,32 +50,35 @@ Rows yarn_rows(const std::string& table, const std::string& yarn) {
 }
 
 Rows shear_rows(const std::string& table) {
-  return {{.key = table + ".polynomial",
-           .kind = K::numbers,
-           .unit = "N mm",
-           .instead = {"table"},
-           .ranges = {{.least = -1e9, .most = 1e9}},
-           .least_items = 1,
-           .meaning = "coefficients k1, k3, k5 ... of the torque of one unit cell, "
-                      "k1 g + k3 g^3 + k5 g^5 ..., g the shear angle in rad"},
-          {.key = table + ".negative_polynomial",
-           .kind = K::numbers,
-           .unit = "N mm",
-           .otherwise = "that of polynomial",
-           .ranges = {{.least = -1e9, .most = 1e9}},
-           .least_items = 1,
-           .meaning = "coefficients beside polynomial for negative shear angles, where the angle "
-                      "between the families opens: k1 |g| + k3 |g|^3 ..., against them"},
-          {.key = table + ".table",
-           .kind = K::pairs,
-           .unit = "deg, N mm",
-           .instead = {"polynomial"},
-           .ranges = {{.least = -90.0, .most = 90.0, .open_least = true, .open_most = true},
-                      {.least = -1e9, .most = 1e9}},
-           .least_items = 2,
-           .meaning = "[shear angle, torque of one unit cell], a smooth monotone curve through "
-                      "these points; ascending from [0, 0], the same with minus sign for negative "
-                      "angles, or from a negative angle through [0, 0], the law of both signs"}};
+  Rows rows{{.key = table + ".polynomial",
+             .kind = K::numbers,
+             .unit = "N mm",
+             .instead = {"table"},
+             .ranges = {{.least = -1e9, .most = 1e9}},
+             .least_items = 1,
+             .meaning = "coefficients k1, k3, k5 ... of the torque of one unit cell, "
+                        "k1 g + k3 g^3 + k5 g^5 ..., g the shear angle in rad"},
+            {.key = table + ".negative_polynomial",
+             .kind = K::numbers,
+             .unit = "N mm",
+             .otherwise = "that of polynomial",
+             .ranges = {{.least = -1e9, .most = 1e9}},
+             .least_items = 1,
+             .meaning = "coefficients beside polynomial for negative shear angles, where the angle "
+                        "between the families opens: k1 |g| + k3 |g|^3 ..., against them"},
+            {.key = table + ".table",
+             .kind = K::pairs,
+             .unit = "deg, N mm",
+             .instead = {"polynomial"},
+             .ranges = {{.least = -90.0, .most = 90.0, .open_least = true, .open_most = true},
+                        {.least = -1e9, .most = 1e9}},
+             .least_items = 2,
+             .meaning =
+                 "[shear angle, torque of one unit cell], a smooth monotone curve through "
+                 "these points; ascending from [0, 0], the same with minus sign for negative "
+                 "angles, or from a negative angle through [0, 0], the law of both signs"}};
+  append(rows, viscous_shear_rows(table));
+  return rows;
 }
 
 /// Keys of the crimp of two families; `families` in their order: "warp and weft".

@@ -197,6 +197,25 @@ Rows sheet_law_rows() {
   return rows;
 }
 
+namespace {
+
+constexpr Range viscosity_range{.least = 0.0, .most = 1e6};
+
+/// The melt of a sheet beside yarns, if it has one.
+void read_matrix(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
+  ViscousMatrix matrix;
+  read_members(section, matrix);
+  if (!(matrix.longitudinal > 0.0 || matrix.transverse > 0.0)) return;
+  fabric.matrix = matrix;
+  if (yarn_directions(fabric) != 1)
+    value_error(section,
+                matrix.longitudinal > 0.0 ? "longitudinal_viscosity" : "transverse_viscosity",
+                "is of a melt around yarns in one direction, and this fabric has others, or none",
+                "give the viscosity of a [[crossing]], or take it out", diagnostics);
+}
+
+} // namespace
+
 Rows sheet_beside_rows() {
   const std::string table = "fabrics.NAME.sheet";
   Rows rows{{.key = table,
@@ -216,7 +235,30 @@ Rows sheet_beside_rows() {
            .meaning = "moment per width divided by curvature of the sheet by itself, what a "
                       "cantilever test across yarns in one direction gives; of fabrics with "
                       "yarns in one direction, or two at right angles",
-           .members = {to(&Fabric::plate)}}});
+           .members = {to(&Fabric::plate)}},
+          {.key = table + ".bending_viscosity",
+           .unit = "N mm s",
+           .fallback = "0.0",
+           .ranges = {bending_range},
+           .meaning = "moment per width by the rate of curvature of the process, beside "
+                      "bending_stiffness",
+           .members = {to(&Fabric::plate_viscosity)}},
+          {.key = table + ".longitudinal_viscosity",
+           .unit = "N s/mm2",
+           .otherwise = "0: no melt",
+           .ranges = {viscosity_range},
+           .usual = {{.least = 1e-5, .most = 1.0}},
+           .meaning = "of the melt around yarns in one direction (1 N s/mm2 = 1e6 Pa s), for shear "
+                      "along them in the plane, beside the elastic law; needs process.duration",
+           .members = {to(&ViscousMatrix::longitudinal)}},
+          {.key = table + ".transverse_viscosity",
+           .unit = "N s/mm2",
+           .otherwise = "0",
+           .ranges = {viscosity_range},
+           .usual = {{.least = 1e-5, .most = 1.0}},
+           .meaning = "likewise for shear across the yarns: they are drawn apart in the plane by "
+                      "four times it, as the ply gets thinner",
+           .members = {to(&ViscousMatrix::transverse)}}});
   return rows;
 }
 
@@ -225,7 +267,13 @@ void read_sheet_beside(const TableView& section, Fabric& fabric, Diagnostics& di
   if (!section.entry) return;
   const IsotropicLaw law = read_isotropic_constants(section, fabric.thickness);
   fabric.sheet = law;
-  if (!given(section, "bending_stiffness")) return;
+  read_matrix(section, fabric, diagnostics);
+  if (!given(section, "bending_stiffness")) {
+    if (number(section, "bending_viscosity") > 0.0)
+      value_error(section, "bending_viscosity", "needs a bending_stiffness beside it",
+                  "give both, or take it out", diagnostics);
+    return;
+  }
   read_members(section, fabric);
   fabric.plate_source = ValueSource::given;
   fabric.plate_coupling = law.poissons_ratio * fabric.plate;

@@ -11,6 +11,7 @@
 #include "core/input/parts/compaction_file.hpp"
 #include "core/input/parts/crimp_file.hpp"
 #include "core/input/parts/stitches.hpp"
+#include "core/input/parts/viscous_file.hpp"
 #include "core/input/parts/yarn_families.hpp"
 #include "core/model/fabric_estimates.hpp"
 
@@ -42,7 +43,9 @@ void read_weave(const TableView& section, Fabric& fabric, Diagnostics& diagnosti
     fabric.families.back().name = name;
   }
   fabric.families[1].angle = number(section, "fibre_angle");
-  fabric.crossings.push_back({0, 1, read_shear(subsection(section, "shear"), diagnostics)});
+  const TableView shear = subsection(section, "shear");
+  fabric.crossings.push_back({0, 1, read_shear(shear, diagnostics)});
+  fabric.crossings[0].viscous = read_viscous_shear(shear, diagnostics);
   read_crimp(subsection(section, "crimp"), fabric, fabric.crossings[0], diagnostics);
 }
 

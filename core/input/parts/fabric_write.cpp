@@ -16,6 +16,7 @@ namespace {
 std::string_view subject_of(std::string_view key) {
   if (key == "stiffness" || key == "table" || key == "polynomial" || key == "negative_polynomial")
     return "law";
+  if (key == "viscosity" || key == "viscous") return "viscosity";
   if (key == "bending_stiffness" || key == "bending_table") return "bending";
   if (key == "shear_modulus" || key == "c10" || key == "c01" || key == "stretch_limit")
     return "rubber";

@@ -5,6 +5,7 @@
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/sheet_laws.hpp"
 #include "core/input/parts/crimp_file.hpp"
+#include "core/input/parts/viscous_file.hpp"
 #include "core/model/fabric_estimates.hpp"
 #include "core/results/ply_frame.hpp"
 
@@ -196,6 +197,7 @@ std::optional<std::size_t> family_named(const TableView& crossing, std::size_t p
 Crossing read_crossing(const TableView& section, const Fabric& fabric, Diagnostics& diagnostics) {
   Crossing crossing;
   crossing.shear = read_shear(section, diagnostics);
+  crossing.viscous = read_viscous_shear(section, diagnostics);
   const std::optional<std::size_t> first = family_named(section, 0, fabric, diagnostics),
                                    second = family_named(section, 1, fabric, diagnostics);
   if (!first || !second) return crossing;

@@ -94,7 +94,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "boundaries": [
     {"name": "upper grip", "force_N": 20, "displacement_mm": 1.5}
   ],
-  "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "stitch": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "compaction": 0, "stitch_breaking": 0, "external": 0, "mass_scaling": 0, "balance_error": 0},
+  "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "stitch": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "compaction": 0, "viscous": 0, "stitch_breaking": 0, "external": 0, "mass_scaling": 0, "balance_error": 0},
   "kinetic_over_deformation": 0.0625,
   "accuracy": {"promised_shear_error_deg": 1.5, "inertia_deg": 0.25, "softening_deg": 0.5, "mesh_deg": 0.75, "element_size_factor": 1},
   "contact": {"max_tool_penetration_mm": 0.01, "max_tool_penetration_between_nodes_mm": 0.05, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4},

@@ -44,7 +44,7 @@ TEST(CaseKeys, AreJustThoseThatGoodFilesUse) {
   for (const char* name :
        {"every_shape", "inline", "base", "boundaries", "bending", "accuracy", "profile_shapes",
         "outlines", "springs", "zones", "families", "stitches", "loads", "compaction", "rubber",
-        "enclosure", "temperature", "cooling"}) {
+        "enclosure", "temperature", "cooling", "viscous"}) {
     good_case(data_folder / "good" / (std::string(name) + ".toml")); // each of its keys is accepted
     keys.add(data_folder / "good" / (std::string(name) + ".toml"), "");
   }

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Shear that resists by its rate, in whole scenes: picture frames at several rates, relaxation
+// after a stop, and a draft.
+#include "core/model/motion.hpp"
+#include "support/boundary_scenes.hpp"
+#include "support/kill_checks.hpp"
+
+#include <cstdio>
+#include <gtest/gtest.h>
+
+namespace plyform::viscous_shear_scene_test {
+namespace {
+
+constexpr double pi = std::numbers::pi, side = 100.0;
+
+double stroke_at(double gamma) {
+  return 2.0 * side * std::cos(0.25 * pi - 0.5 * gamma) - side * std::sqrt(2.0);
+}
+double angle_at(double stroke) {
+  return 0.5 * pi - 2.0 * std::acos((side * std::sqrt(2.0) + stroke) / (2.0 * side));
+}
+
+/// A frame of 100 mm that shears to 50 degrees in a process of some seconds.
+Case frame_of(const ViscousShear& law, double process, MeshKind mesh = MeshKind::alternating) {
+  Case data = stack_of({0.0}, rectangle(side, side, 25.0, mesh));
+  data.fabrics[0].crossings[0].viscous = law;
+  HingedFrame f;
+  const double a = 0.5 * side;
+  f.hinges = {Vec2(-a, -a), Vec2(a, -a), Vec2(a, a), Vec2(-a, a)};
+  f.stroke = stroke_at(50.0 * pi / 180.0);
+  data.boundaries = {{"frame", -1, f}};
+  set_friction(data, 0.0);
+  data.solver.fibre_softening = 10.0; // the spring of the dashpot is hardly stretched
+  data.solver.duration = 1.0;         // s: little inertia
+  data.process.duration = process;
+  return data;
+}
+
+/// rad, at a time of the simulation; and 1/s of the process.
+double angle_of(const Case& data, double time) {
+  const Boundary& b = data.boundaries[0];
+  return angle_at(motion_at(b, std::min(time, data.solver.duration), data.solver.duration));
+}
+double rate_of(const Case& data, double time) {
+  const double h = 1e-4 * data.solver.duration;
+  if (time >= data.solver.duration) return 0.0;
+  return (angle_of(data, time + h) - angle_of(data, time - h)) / (2.0 * h * data.process_time());
+}
+
+/// N, of the frame with this torque (N mm) in all cells.
+double load_of(const Case& data, double gamma, double torque) {
+  const Fabric& f = data.fabrics[0];
+  const double cells = f.families[0].density * f.families[1].density * side * side;
+  return cells * torque / (side * std::sin(0.25 * pi - 0.5 * gamma));
+}
+
+std::vector<Frame> frames_of(const Case& data) {
+  std::vector<Frame> frames;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& f) { frames.push_back(f); };
+  const RunResult run = run_case(data, 1, hooks);
+  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+  EXPECT_LT(std::abs(run.last.energy.balance_error()), 0.01);
+  return frames;
+}
+
+/// N mm s: torque at 1/s as large as the elastic one of the weave at 50 degrees.
+double usual_viscosity() {
+  return glass_weave().crossings[0].shear.at(50.0 * pi / 180.0).value;
+}
+
+/// The load of frames in processes of 1, 10 and 100 s is that of C_e + D(gamma, gamma'), within 1
+/// %.
+void expect_loads(const ViscousShear& law, MeshKind mesh = MeshKind::alternating) {
+  for (const double process : {1.0, 10.0, 100.0}) {
+    const Case data = frame_of(law, process, mesh);
+    int judged = 0;
+    double largest = 0.0;
+    for (const Frame& frame : frames_of(data)) {
+      const double gamma = angle_of(data, frame.time), rate = rate_of(data, frame.time);
+      if (gamma < 10.0 * pi / 180.0 || rate < 0.3 / process) continue;
+      ++judged;
+      const double torque =
+          data.fabrics[0].crossings[0].shear.at(gamma).value + law.torque(gamma, rate);
+      const double wanted = load_of(data, gamma, torque);
+      EXPECT_NEAR(frame.boundaries[0].force_N / wanted, 1.0, 0.01) << process << " " << gamma;
+      largest = std::max(largest, std::abs(frame.boundaries[0].force_N / wanted - 1.0));
+      for (std::size_t e = 0; e < frame.plies[0].shear_rate.size(); ++e) {
+        EXPECT_NEAR(frame.plies[0].shear_rate[e], rate, 0.1 * rate + 0.02 / process);
+        const double sheet = data.fabrics[0].families[0].density *
+                             data.fabrics[0].families[1].density * law.torque(gamma, rate);
+        EXPECT_NEAR(frame.plies[0].viscous_shear[e], sheet, 0.01 * sheet);
+      }
+    }
+    std::printf("[ rate     ] %g s: load off by %.2g %% at most\n", process, 100.0 * largest);
+    EXPECT_GE(judged, 6);
+  }
+}
+
+TEST(ViscousShearScene, FrameHasTheLoadOfItsRate) {
+  ViscousShear law;
+  law.c = {usual_viscosity()};
+  expect_loads(law);
+}
+
+TEST(ViscousShearScene, FrameHasTheLoadOfAViscosityOverAngle) {
+  ViscousShear law;
+  law.c = {0.3 * usual_viscosity(), 0.5 * usual_viscosity(), 0.4 * usual_viscosity()};
+  expect_loads(law, MeshKind::free);
+}
+
+/// A melt that thins: torque with the root of the rate.
+TEST(ViscousShearScene, FrameHasTheLoadOfATableOverAngleAndRate) {
+  ViscousShear law;
+  for (const double rate : {0.001, 0.003, 0.01, 0.03, 0.1, 0.3, 1.0, 3.0})
+    law.curves.push_back(
+        {rate,
+         {0.0, 0.5, 1.0},
+         {0.3 * usual_viscosity() * std::sqrt(rate), 0.5 * usual_viscosity() * std::sqrt(rate),
+          usual_viscosity() * std::sqrt(rate)}});
+  expect_loads(law);
+}
+
+/// Torque of a branch (N mm) at a time of the process, from all that came before.
+double branch_torque(const Case& data, const MaxwellBranch& branch, double time) {
+  const int n = 4000;
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i) {
+    const double s0 = time * i / n, s1 = time * (i + 1) / n;
+    sum += (angle_of(data, s1) - angle_of(data, s0)) *
+           std::exp(-(time - 0.5 * (s0 + s1)) * data.process_time() / branch.time);
+  }
+  return branch.modulus * sum;
+}
+
+/// Held after a stroke of 10 s for as long again, with branches that relax in 1, 5 and 50 s.
+TEST(ViscousShearScene, TorqueRelaxesAfterAStop) {
+  const double torque = glass_weave().crossings[0].shear.at(50.0 * pi / 180.0).value;
+  ViscousShear law;
+  law.branches = {{4.0 * torque, 1.0}, {2.0 * torque, 5.0}, {torque, 50.0}};
+  Case data = frame_of(law, 10.0);
+  data.solver.dwell = 1.0;
+  data.solver.outputs = 40;
+  int held = 0, moving = 0;
+  double largest = 0.0;
+  const std::vector<Frame> frames = frames_of(data);
+  EXPECT_NEAR(frames.back().time, 2.0 * data.solver.duration, 0.01 * data.solver.duration);
+  for (const Frame& frame : frames) {
+    const double gamma = angle_of(data, frame.time);
+    if (gamma < 5.0 * pi / 180.0) continue;
+    const double end = std::min(frame.time, data.solver.duration);
+    const double since = (frame.time - end) * data.process_time(); // s of the process
+    double sum = data.fabrics[0].crossings[0].shear.at(gamma).value;
+    for (const MaxwellBranch& branch : law.branches)
+      sum += branch_torque(data, branch, end) * std::exp(-since / branch.time);
+    const double wanted = load_of(data, gamma, sum);
+    EXPECT_NEAR(frame.boundaries[0].force_N / wanted, 1.0, 0.01) << frame.time;
+    largest = std::max(largest, std::abs(frame.boundaries[0].force_N / wanted - 1.0));
+    ++(since > 0.0 ? held : moving);
+  }
+  std::printf("[ relaxed  ] load off by %.2g %% at most, %d states held\n", 100.0 * largest, held);
+  EXPECT_GE(moving, 10);
+  EXPECT_GE(held, 1);
+}
+
+/// Two plies over a ball, rates and branches: energy is closed with its losses, bits are the same
+/// on any number of threads, and a run that is killed ends as one that is not.
+TEST(ViscousShearScene, FormsOverABall) {
+  Case data = coarse_hemisphere({0.0, 0.25 * pi});
+  for (Fabric& fabric : data.fabrics) {
+    ViscousShear law;
+    law.c = {10.0 * usual_viscosity()};
+    law.branches = {{fabric.crossings[0].shear.at(0.5).value, 2.0}};
+    fabric.crossings[0].viscous = law;
+  }
+  data.tools[0].stroke = 30.0;
+  data.solver.duration = 0.02;
+  data.process.duration = 10.0;
+  const Energies last = expect_sound_and_repeatable(data, 2);
+  EXPECT_GT(last.viscous, 0.05 * last.external);
+}
+
+} // namespace
+} // namespace plyform::viscous_shear_scene_test
