@@ -16,9 +16,12 @@ set(public_headers
   base/diagnostics.hpp
   base/geometry.hpp
   base/version.hpp
+  contact/face_across.hpp
+  contact/forces/friction_law.hpp
   contact/intersections.hpp
   contact/search/sheet_bvh.hpp
   contact/shapes/tool_shape.hpp
+  contact/simd/contact_points.hpp
   contact/surface_hint.hpp
   core/accuracy/cost_parameters.hpp core/accuracy/error_model.hpp core/accuracy/error_numbers.hpp
   core/identify/corrections.hpp
@@ -42,6 +45,7 @@ set(public_headers
   core/model/crimp.hpp
   core/model/energies.hpp
   core/model/fabric.hpp
+  core/model/friction.hpp
   core/model/isotropic.hpp
   core/model/law_point.hpp
   core/model/mooney_rivlin.hpp

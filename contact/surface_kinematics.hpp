@@ -19,6 +19,8 @@ struct SurfaceKinematics {
   std::span<const std::array<std::int32_t, 3>> faces_across = {};
   /// per node, present thickness over that before forming; for contacts that ask for it
   std::span<const double> thickness_ratio = {};
+  /// per node, how its fibres run, of any length; for searches whose laws ask for it
+  std::span<const Vec3> fibres = {};
 };
 
 } // namespace plyform

@@ -29,6 +29,9 @@
 //   s_trial = rotate(s) + tangential part of the relative motion of this step
 //   T = -A k_t s,  |T| <= mu N, s shortened to fit when it slides                             (T)
 //
+// Other bounds than mu N, of films and by the speed, the angle of fibres or the way slid:
+// contact/forces/friction_law.hpp.
+//
 // A ply is as thick as its cloth. r is the present thickness over that before forming: of a ply its
 // A0 / A, as its volume stays (core/ply/thickness.hpp), of two plies the mean that has their
 // distance h r. The law acts on distances over r, and its energy is that of an area before forming:
@@ -52,11 +55,13 @@
 
 #include "base/geometry.hpp"
 #include "contact/forces/compaction_curve.hpp"
+#include "contact/forces/friction_law.hpp"
 #include "contact/simd/contact_points.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 namespace plyform {
 
@@ -68,6 +73,12 @@ struct ContactLaw {
   CompactionCurvePtr loading = {},
                      unloading = {}; ///< null: none; only loading: goes back as it came
   double spread = 0.0; ///< what its force in the plane of plies adds to the bound of (K), over it
+  FrictionLawPtr sliding = {}; ///< instead of `friction`; null: Coulomb's law
+  double process_time = 1.0;   ///< s of the process in each simulated second
+  double share = 1.0; ///< of the area on which `sliding` acts: half of it in each of two passes
+  double viscosity_factor = 1.0; ///< on the viscosities of `sliding`
+
+  bool rubs() const { return sliding || friction > 0.0; } ///< whether it has friction at all
 
   /// p_1, mm.
   double packed() const { return loading ? loading->packed() : 0.0; }
@@ -130,6 +141,33 @@ inline ContactKernelLaw kernel_law(const ContactLaw& law, double dt) {
   return k;
 }
 
+/// A law of friction with the step that it is asked for, as kernels call it, and what it has seen.
+struct SlidingCall {
+  const FrictionLaw& law;
+  double per_dt;           ///< 1/s, inverse of the time that the step takes in the process; 0: none
+  double viscosity, share; ///< of ContactLaw
+  SlidingSeen seen{};
+
+  SlidingCall(const ContactLaw& contact, double dt)
+      : law(*contact.sliding), per_dt(dt > 0.0 ? 1.0 / (dt * contact.process_time) : 0.0),
+        viscosity(contact.viscosity_factor), share(contact.share) {}
+  static double stuck(void* call, const SlidingPlace& place) {
+    auto& c = *static_cast<SlidingCall*>(call);
+    SlidingPlace whole = place;
+    whole.stiffness /= c.share, whole.pressure /= c.share, whole.area *= c.share;
+    const double left = c.law.stuck(whole, c.per_dt, c.viscosity);
+    c.law.note(whole, whole.stretch - left, c.per_dt, c.viscosity, c.seen);
+    return left;
+  }
+};
+
+/// Lets a kernel ask the law of friction, if there is one beyond Coulomb's.
+inline void ask(ContactKernelLaw& kernel, std::optional<SlidingCall>& call) {
+  if (!call) return;
+  kernel.friction = 1.0;
+  kernel.stuck = SlidingCall::stuck, kernel.sliding = &*call;
+}
+
 /// Sums, maxima and minima over the points of one contact.
 struct ContactTotals {
   double elastic = 0.0;     ///< N mm, energy stored now in normal and tangential springs
@@ -139,6 +177,7 @@ struct ContactTotals {
   double penetration = 0.0; ///< deepest now, mm
   double deepest = 0.0;     ///< deepest since the start, mm
   double slip = 0.0;        ///< largest sliding distance of one contact while it was closed, mm
+  SlidingSeen sliding{};    ///< where in the range of its law of friction it was
   int touching = 0;         ///< number of closed contacts
   /// Largest ratio of the next time step to the last one with which, at its present closing speed,
   /// no contact uses more than its share (step_share) of its remaining depth.
@@ -148,8 +187,8 @@ struct ContactTotals {
 /// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(ContactTotals& sums, F&& f) {
-  auto& [elastic, friction, damping, compaction, penetration, deepest, slip, touching, step_ratio] =
-      sums;
+  auto& [elastic, friction, damping, compaction, penetration, deepest, slip, sliding, touching,
+         step_ratio] = sums;
   f("elastic", elastic);
   f("friction", friction);
   f("damping", damping);
@@ -157,6 +196,7 @@ void each_member(ContactTotals& sums, F&& f) {
   f("penetration", penetration);
   f("deepest", deepest);
   f("slip", slip);
+  f("sliding", sliding);
   f("touching", touching);
   f("step_ratio", step_ratio);
 }

@@ -11,7 +11,7 @@ void set_stiffness(ContactTangent& spring, const ContactLaw& law, double area, d
                    double thickness, const TangentFactors& factors) {
   const ContactRow row = row_of(law, gap, thickness);
   spring.along = area * (factors.stiffness * row.stiffness + factors.damping * row.damping);
-  if (law.friction > 0.0) spring.across = area * factors.stiffness * law.tangential();
+  if (law.rubs()) spring.across = area * factors.stiffness * law.tangential();
 }
 
 } // namespace

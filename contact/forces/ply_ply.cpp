@@ -140,6 +140,31 @@ const PlyPlyPoint* find_old(std::span<const PlyPlyPoint> old, std::size_t& begin
   return nullptr;
 }
 
+/// f_a of contact/forces/friction_law.hpp at a point; 1 where a face has no fibres.
+double by_angle(const FrictionLaw& law, const PlyPlyPoint& point, const SurfaceKinematics& slave,
+                const SurfaceKinematics& master, std::span<const Triangle> triangles) {
+  if (slave.fibres.empty() || master.fibres.empty()) return 1.0;
+  const std::array<double, 3> w = weights_of(point);
+  const Triangle& t = triangles[static_cast<std::size_t>(point.face)];
+  Vec3 other = Vec3::Zero();
+  for (std::size_t j = 0; j < 3; ++j)
+    other += w[j] * at(master.fibres, t[j]);
+  const Vec3& own = at(slave.fibres, point.node);
+  const double size = own.norm() * other.norm();
+  if (!(size > 0.0)) return 1.0;
+  return law.by_angle(std::acos(std::min(std::abs(own.dot(other)) / size, 1.0)));
+}
+
+/// Gives a point that goes on the area that it had, as its springs store energy. A film bears shear
+/// by its area, which changes as one sheet slides out from the other: its points take the present
+/// one, and keep their force.
+void keep_area(const PlyPlyPoint& before, const ContactLaw& law, PlyPlyPoint& c) {
+  if (law.sliding && law.sliding->has_rates() && c.area > 0.0)
+    s_of(c.memory) *= before.area / c.area;
+  else
+    c.area = before.area;
+}
+
 /// Gives back what a list that has grown holds beyond an eighth more than it needs.
 template <class T>
 void trim(std::vector<T>& list) {
@@ -203,10 +228,12 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
         adopted[before - old.data()] = 1;
         c.memory = before->memory;
         c.side = before->side;
-        c.area = before->area;
+        keep_area(*before, contact.law, c);
         double& free_until = contact.list.free_until.back();
         if (before->gap < 0.0) c.gap = before->gap, free_until = std::min(free_until, path_length);
       }
+      if (contact.law.sliding)
+        c.by_angle = by_angle(*contact.law.sliding, c, slave, master, triangles);
       contact.points.push_back(c);
     }
   }
@@ -300,7 +327,11 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
   if (contact.list.active.empty()) return;
   KernelContext side{contact, slave, master, triangles, moved, slave_force, master_force};
   const auto run = fastest(ply_ply_kernel_generic, ply_ply_kernel_avx2, ply_ply_kernel_avx512);
-  const PlyPlyKernelTotals added = run(kernel_view(side, dt));
+  PlyPlyKernelContact view = kernel_view(side, dt);
+  std::optional<SlidingCall> call;
+  if (contact.law.sliding) call.emplace(contact.law, dt);
+  ask(view, call);
+  const PlyPlyKernelTotals added = run(view);
   ContactTotals& sums = contact.sums;
   sums.elastic = added.elastic;
   sums.friction += added.friction;
@@ -311,6 +342,7 @@ void ply_ply_forces(PlyPlyContact& contact, const SurfaceKinematics& slave,
   sums.touching = added.touching;
   sums.step_ratio = added.step_ratio;
   sums.deepest = std::max(sums.deepest, sums.penetration);
+  if (call) sums.sliding.add(call->seen);
 }
 
 Vec3 contact_normal(const PlyPlyPoint& point, std::span<const Vec3> slave,
@@ -337,7 +369,7 @@ void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics
     const double thickness = thickness_ratio_at(contact, c, slave, master, triangles);
     const ContactRow normal = 2.0 * c.area * row_of(contact.law, latest_gap(c), thickness);
     slave_rows[c.node] += normal;
-    if (contact.law.friction > 0.0) {
+    if (contact.law.rubs()) {
       const Vec3 &p = at(master.x, t[0]), &q = at(master.x, t[1]), &r = at(master.x, t[2]);
       const std::array<double, 3> side{(r - q).norm(), (p - r).norm(), (q - p).norm()};
       const double per_side2 =

@@ -77,8 +77,8 @@ double thickness_ratio_at(const PlyPlyContact& contact, const PlyPlyPoint& point
 /// For checkpoints: base/archive.hpp.
 template <class F>
 void each_member(PlyPlyPoint& point, F&& f) {
-  auto& [memory, area, gap, w, other, gap_when_deactivated, node, face, first_face, end_face,
-         side] = point;
+  auto& [memory, area, gap, w, other, gap_when_deactivated, node, face, first_face, end_face, side,
+         by_angle] = point;
   f("memory", memory);
   f("area", area);
   f("gap", gap);
@@ -90,6 +90,7 @@ void each_member(PlyPlyPoint& point, F&& f) {
   f("first_face", first_face);
   f("end_face", end_face);
   f("side", side);
+  f("by_angle", by_angle);
 }
 
 template <class F>

@@ -142,6 +142,9 @@ Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& to
   Eigen::Map<Vec3>(k.advance) = advance;
   k.thickness_ratio = contact.thickness_follows ? ply.thickness_ratio.data() : nullptr;
   k.compacted = contact.compacted.empty() ? nullptr : contact.compacted.data();
+  std::optional<SlidingCall> call;
+  if (contact.law.sliding) call.emplace(contact.law, dt);
+  ask(k, call);
   const ToolPlyKernelTotals added =
       fastest(tool_ply_kernel_generic, tool_ply_kernel_avx2, tool_ply_kernel_avx512)(k);
   ContactTotals& sums = contact.sums;
@@ -154,6 +157,7 @@ Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& to
   sums.slip = std::max(sums.slip, added.slip);
   sums.touching += added.touching;
   sums.step_ratio = std::min(sums.step_ratio, added.step_ratio);
+  if (call) sums.sliding.add(call->seen);
   return -Vec3(added.on_nodes[0], added.on_nodes[1], added.on_nodes[2]);
 }
 

@@ -276,18 +276,44 @@ PLYFORM_INLINE Doubles normal_pressure(const ContactKernelLaw& k, Doubles area, 
   return pressure;
 }
 
+/// What friction beyond Coulomb's law goes by.
+struct SimdSliding {
+  Doubles by_angle;      ///< f_a of contact/forces/friction_law.hpp
+  Doubles per_thickness; ///< 1 over r: before forming the area is that times as large
+};
+
+/// |s| that is left of `stretch` (mm) by contact/forces/friction_law.hpp, point by point.
+PLYFORM_INLINE Doubles stuck_of(const ContactKernelLaw& k, Doubles area, Doubles pressure,
+                                const Vectors& held, Doubles stretch, Doubles slip,
+                                const SimdSliding& by, Longs touch) {
+  alignas(sizeof(Doubles)) double a[lanes], p[lanes], h[lanes], s[lanes], w[lanes], f[lanes],
+      r[lanes], left[lanes];
+  store_lanes(a, area), store_lanes(p, pressure), store_lanes(h, root(square(held)));
+  store_lanes(s, stretch), store_lanes(w, slip), store_lanes(f, by.by_angle);
+  store_lanes(r, by.per_thickness);
+  const unsigned asked = bits_of(touch);
+  for (int i = 0; i < lanes; ++i)
+    left[i] =
+        !has(asked, i)
+            ? 0.0
+            : k.stuck(k.sliding, {s[i], h[i], k.tangential / r[i], p[i] / r[i], w[i], f[i], a[i]});
+  return each_lane([&](int i) { return left[i]; });
+}
+
 /// (T): friction force, N, under `pressure` (N/mm^2). n: normals; remembered: s (mm) of the step
 /// before, rotated with the body; slip: relative displacement in this step, mm. Uses k.friction and
-/// k.tangential.
+/// k.tangential, or k.stuck.
 PLYFORM_INLINE Vectors friction_of(const ContactKernelLaw& k, Doubles area, Doubles pressure,
                                    const Vectors& n, const Vectors& remembered, const Vectors& slip,
-                                   Longs touch, SimdHistory& m, SimdTotals& sums) {
+                                   const SimdSliding& by, Longs touch, SimdHistory& m,
+                                   SimdTotals& sums) {
   const Doubles zero = all(0.0);
   const Vectors old = into_plane(remembered, n);
   const Vectors trial = old + slip - dot(n, slip) * n;
   const Doubles stiffness = area * k.tangential;
-  const Doubles limit = touch ? (k.friction / k.tangential) * pressure : zero;
   const Doubles stretch = root(square(trial));
+  const Doubles limit = k.stuck ? stuck_of(k, area, pressure, old, stretch, m.slip, by, touch)
+                                : (touch ? (k.friction / k.tangential) * pressure : zero);
   m.s = (stretch > limit ? limit / stretch : all(1.0)) * trial;
   m.slip += touch ? larger(stretch - limit, zero) : zero;
   keep_larger(sums.slip, touch ? m.slip : zero);

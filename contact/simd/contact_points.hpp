@@ -31,6 +31,18 @@ struct CompactionTable {
   double packed = 0.0;                                 ///< mm
 };
 
+/// What a place that slides has, and what its law of friction goes by: the left side of (I) of
+/// contact/forces/friction_law.hpp.
+struct SlidingPlace {
+  double stretch;   ///< S, mm
+  double held;      ///< mm, |s| of the step before
+  double stiffness; ///< k_t, N/mm^3, per present area
+  double pressure;  ///< p, N/mm^2
+  double slip;      ///< mm, slid since it has touched
+  double angle;     ///< f_a
+  double area;      ///< mm^2, before forming
+};
+
 /// The law of a contact (contact/forces/contact_law.hpp) as kernels see it.
 struct ContactKernelLaw {
   double stiffness, tangential, friction; ///< k, k_t, mu
@@ -39,6 +51,10 @@ struct ContactKernelLaw {
   double depth_limit;                     ///< mm, delta and what lies before the densest packing
   CompactionTable loading, unloading;     ///< unloading: no pieces where it goes back as it came
   double* compacted; ///< mm, per slave node: greatest depth so far; null without `unloading`
+  /// Returns |s| (mm) that is left of a stretch; null: Coulomb's law with one coefficient. Else
+  /// `friction` only says that there is some.
+  double (*stuck)(void* sliding, const SlidingPlace& place);
+  void* sliding; ///< first argument of it
 };
 
 /// History variables of one contact.
@@ -75,6 +91,8 @@ struct alignas(32) PlyPlyPoint {
   std::int32_t node, face = 0;       ///< face: the closest; among equally close ones the lowest
   std::int32_t first_face, end_face; ///< range in PlyPlyContact::faces
   std::int32_t side = 0; ///< +1: on the side of the face normal, -1: opposite, 0: not known
+
+  double by_angle = 1.0; ///< f_a of contact/forces/friction_law.hpp, at the last search
 };
 
 } // namespace plyform

@@ -19,6 +19,7 @@ struct SimdPoints {
   Doubles area, gap, last_gap;
   Doubles thickness; ///< r of contact/forces/contact_law.hpp
   Doubles compacted; ///< mm, the greatest depth so far, if the law asks for it
+  Doubles by_angle;  ///< f_a of contact/forces/friction_law.hpp, if the law asks for it
   SimdHistory memory;
 };
 
@@ -60,8 +61,9 @@ PLYFORM_INLINE SimdForces forces_of(const PlyPlyKernelContact& k, const SimdFace
     const Vectors turn = per_size * (v2 * x.b - v1 * x.c - spin * n); // (W')
     const Vectors slip = motion - cross(turn, arm);                   // (P)
     const Vectors& s = p.memory.s;
+    const SimdSliding by{p.by_angle, per_thickness};
     const Vectors tangential =
-        friction_of(k, area, pressure, normal, s + cross(turn, s), slip, touch, p.memory, sums);
+        friction_of(k, area, pressure, normal, s + cross(turn, s), slip, by, touch, p.memory, sums);
     f.on_node = f.on_node + tangential;
     const Vectors couple = cross(tangential, arm); // -r x T of (M)
     const Doubles half = 0.5 * dot(couple, n);

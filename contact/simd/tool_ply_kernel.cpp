@@ -93,7 +93,8 @@ PLYFORM_INLINE Vectors forces_of(const ToolPlyKernelContact& k, const ToolGroup&
   Vectors f = m.normal_force * normal;
   if (k.friction > 0.0) {
     const Vectors slip = motions(k, g) - everywhere(k.tool_motion);
-    f = f + friction_of(k, area, pressure, normal, m.s, slip, touch, m, sums);
+    const SimdSliding by{all(1.0), per_thickness};
+    f = f + friction_of(k, area, pressure, normal, m.s, slip, by, touch, m, sums);
     m.slip = touch ? m.slip : zero;
   }
   add(sums.elastic, 0.5 * area * (elastic.energy2 + k.tangential * square(m.s)));

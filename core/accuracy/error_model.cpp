@@ -49,6 +49,10 @@ std::string not_measured(const Case& all) {
                                                     : nullptr;
     if (odd) return fmt::format("not measured: {} {}", f.name, odd);
   }
+  for (const int law : all.friction.law)
+    if (law >= 0 && all.friction_laws[at(law)]->has_rates())
+      return fmt::format("not measured: friction.{} depends on the slip speed",
+                         all.friction_laws[at(law)]->spec().name);
   for (const Push& push : pushes(data))
     if (!push.measured)
       return fmt::format("not measured: {} acts on ply {}", push.name, data.plies[push.ply].name);

@@ -109,14 +109,39 @@ std::vector<int> bodies_named(const TomlNode& name, const std::string& item, con
   return found;
 }
 
-FrictionTable read_friction(const TableView& contact, const Numbers& bodies, int plies, int count,
+/// Number of the law that a table names, or -1 if it names none.
+int friction_law_of(const TableView& section, const Numbers& laws, Diagnostics& diagnostics) {
+  if (!given(section, "friction_law")) return -1;
+  if (const auto it = laws.find(text(section, "friction_law")); it != laws.end()) return it->second;
+  value_error(section, "friction_law", "names no law in [friction]", known_names(laws),
+              diagnostics);
+  return -1;
+}
+
+/// Warns of laws that no pair has.
+void warn_of_unused(const TableView& root, const FrictionTable& table, Diagnostics& diagnostics) {
+  int number = 0;
+  for (const TableView& law : subsections(root, "friction")) {
+    if (std::find(table.law.begin(), table.law.end(), number++) == table.law.end() && law.entry)
+      diagnostics.warning(law.entry->at,
+                          fmt::format("{}: does nothing, as no pair has this law; name it in "
+                                      "contact.friction_law or in a [[contact.pair]]",
+                                      law.item));
+  }
+}
+
+FrictionTable read_friction(const TableView& root, const Numbers& bodies, int plies, int count,
                             Diagnostics& diagnostics) {
+  const TableView contact = subsection(root, "contact");
+  const Numbers laws = names_of(root, "friction");
   FrictionTable table;
   table.bodies = count;
   table.mu.assign(static_cast<std::size_t>(count * count), number(contact, "friction"));
+  table.law.assign(table.mu.size(), friction_law_of(contact, laws, diagnostics));
   for (const TableView& pair : subsections(contact, "pair")) {
     const TomlNode* between = given(pair, "between");
     const double mu = number(pair, "friction");
+    const int law = friction_law_of(pair, laws, diagnostics);
     if (!between) continue;
     std::vector<int> sides[2];
     for (std::size_t i = 0; i < 2; ++i)
@@ -128,8 +153,10 @@ FrictionTable read_friction(const TableView& contact, const Numbers& bodies, int
                   "name a ply, or plies for all of them", diagnostics);
     for (const int a : sides[0])
       for (const int b : sides[1])
-        table.mu[a * count + b] = table.mu[b * count + a] = mu;
+        for (const int place : {a * count + b, b * count + a})
+          table.mu[place] = mu, table.law[place] = law;
   }
+  warn_of_unused(root, table, diagnostics);
   return table;
 }
 
@@ -150,7 +177,8 @@ Case build_case(const TableView& root, const std::filesystem::path& folder,
   const int count = plies + static_cast<int>(built.tools.size());
   // boundaries have no contact
   std::erase_if(bodies, [&](const auto& body) { return body.second >= count; });
-  built.friction = read_friction(contact, bodies, plies, count, diagnostics);
+  built.friction_laws = read_friction_laws(root, diagnostics);
+  built.friction = read_friction(root, bodies, plies, count, diagnostics);
   read_members(contact, built.contact);
   read_members(subsection(root, "solver"), built.solver);
   read_members(subsection(root, "accuracy"), built.accuracy);

@@ -7,6 +7,7 @@
 #include "contact/shapes/tool_shape.hpp"
 #include "core/model/blank_spec.hpp"
 #include "core/model/fabric.hpp"
+#include "core/model/friction.hpp"
 #include "core/model/temperature.hpp"
 
 #include <array>
@@ -207,13 +208,6 @@ struct AccuracyOptions {
   bool verify = false;      ///< runs siblings after the run: core/verification/verify.hpp
 };
 
-/// Friction coefficient by body number: plies 0 .. n-1 from the bottom, then tools.
-struct FrictionTable {
-  int bodies = 0;
-  std::vector<double> mu; ///< bodies x bodies, symmetric
-  double operator()(int a, int b) const { return mu[a * bodies + b]; }
-};
-
 struct Case {
   std::string title;
   std::vector<Fabric> fabrics;
@@ -223,6 +217,7 @@ struct Case {
   std::vector<Boundary> boundaries;
   std::vector<PressureLoad> loads;
   Vec3 gravity = Vec3::Zero(); ///< mm/s^2
+  std::vector<FrictionLawPtr> friction_laws;
   FrictionTable friction;
   SolverOptions solver;
   ProcessOptions process;

@@ -7,13 +7,14 @@
 
 namespace plyform {
 
-/// Energies, and work done since the start, N mm (mJ). external: work of tools, boundaries, loads
+/// Energies, and work done since the start, N mm (mJ). friction: of dry sliding; film: of laws that
+/// go by the viscosity of a film. external: work of tools, boundaries, loads
 /// and gravity on the plies, and the energy of the plies at the start. mass_scaling: kinetic energy
 /// that came with added mass.
 struct Energies {
   double kinetic = 0, fibre = 0, shear = 0, stitch = 0, bending = 0, contact = 0, friction = 0,
          damping = 0, stitch_breaking = 0, external = 0, mass_scaling = 0, compaction = 0,
-         viscous = 0;
+         viscous = 0, film = 0;
   /// Energies below this are rounding errors, and ratios to them mean nothing; no term of the
   /// balance. Scene::energy_floor.
   double floor = 0;
@@ -33,7 +34,7 @@ struct EnergyTerm {
   double sign;
 };
 
-inline constexpr std::array<EnergyTerm, 13> energy_terms = {{
+inline constexpr std::array<EnergyTerm, 14> energy_terms = {{
     {"kinetic", "kinetic", &Energies::kinetic, 1.0},
     {"fibre", "fibres", &Energies::fibre, 1.0},
     {"shear", "shear", &Energies::shear, 1.0},
@@ -41,6 +42,7 @@ inline constexpr std::array<EnergyTerm, 13> energy_terms = {{
     {"bending", "bending", &Energies::bending, 1.0},
     {"contact", "contact", &Energies::contact, 1.0},
     {"friction", "friction", &Energies::friction, 1.0},
+    {"film", "film friction", &Energies::film, 1.0},
     {"damping", "damping", &Energies::damping, 1.0},
     {"compaction", "compaction loss", &Energies::compaction, 1.0},
     {"viscous", "viscous loss", &Energies::viscous, 1.0},

@@ -36,6 +36,7 @@ struct Frame {
   std::vector<ToolFrame> tools;
   std::vector<BoundaryFrame> boundaries;
   Energies energy;
+  bool films = false; ///< whether bodies slide on films: Energies::film is then shown
 };
 
 } // namespace plyform

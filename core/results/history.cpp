@@ -15,7 +15,8 @@ namespace plyform {
 
 namespace {
 
-/// The energies of a state: those of stitches, compaction and rates where a fabric has them.
+/// The energies of a state: those of stitches, compaction and rates where a fabric has them, and
+/// of films where there are any.
 template <class Visit>
 void each_energy(const Frame& frame, Visit&& visit) {
   const bool stitched = std::any_of(frame.plies.begin(), frame.plies.end(),
@@ -30,6 +31,7 @@ void each_energy(const Frame& frame, Visit&& visit) {
     if (of_stitches && !stitched) continue;
     if (term.value == &Energies::compaction && !gives_way) continue;
     if (term.value == &Energies::viscous && !rated) continue;
+    if (term.value == &Energies::film && !frame.films) continue;
     visit(StateNumber{{std::string(term.name) + "_mJ", term.name, term.label, "mJ", 2, 1e-6},
                       Location::run,
                       "",

@@ -24,6 +24,13 @@ struct ContactReport {
   long intersections_between_plies = 0, intersections_within_plies = 0;
 };
 
+/// Where in a curve of friction a run was while it slid.
+struct CurveRange {
+  double least = 0, most = 0;              ///< that it was at; mm, or 1/s
+  double first = 0, last = 0;              ///< ends of the curve; both 0: there is none
+  double below_share = 0, above_share = 0; ///< of the work of sliding, outside these ends
+};
+
 /// Contact of one pair of bodies, or of a ply with itself, over a run.
 struct PairReport {
   std::string a, b;
@@ -31,6 +38,8 @@ struct PairReport {
   double deepest_mm = 0; ///< since the start; 0 if they never touched
   double slip_mm = 0;    ///< largest sliding distance of a contact while it was closed
   double friction_coefficient = 0, friction_mJ = 0;
+  std::string friction_law;                    ///< that holds instead of the coefficient, if any
+  std::optional<CurveRange> hersey, film_rate; ///< Hersey numbers, mm; rates of the film, 1/s
   bool touched() const { return deepest_mm > 0; }
 };
 

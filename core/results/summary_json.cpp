@@ -1,35 +1,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // summary.json: the main numbers of each ply and tool, for sweeps and reports. Keys are written in
 // the order in which they appear here; docs/users/results.md describes them.
+#include "core/results/pair_json.hpp"
 #include "core/results/result_fields.hpp"
 #include "core/results/statistics.hpp"
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
 namespace plyform {
 
 namespace {
-
-using Json = nlohmann::ordered_json;
-
-/// The value rounded to nine digits: more than any result is accurate to, and shorter than all
-/// seventeen. Values that are not finite are returned unchanged; the library writes null for them.
-double rounded(double value) {
-  if (!std::isfinite(value)) return value;
-  const std::string digits = fmt::format("{:.9g}", value);
-  std::from_chars(digits.data(), digits.data() + digits.size(), value);
-  return value;
-}
-
-/// A fraction of the computing time, rounded to four decimals, as it differs from run to run.
-double rounded_share(double value) {
-  return std::round(value * 1e4) / 1e4;
-}
 
 template <class Item>
 Json list_of(const std::vector<Item>& items, Json (*object)(const Item&)) {
@@ -233,16 +216,6 @@ Json boundary_object(const BoundaryFrame& boundary) {
   return {{"name", boundary.name},
           {"force_N", rounded(boundary.force_N)},
           {"displacement_mm", rounded(boundary.stroke_mm)}};
-}
-
-Json pair_object(const PairReport& pair) {
-  return {{"a", pair.a},
-          {"b", pair.b},
-          {"time_share", rounded_share(pair.time_share)},
-          {"deepest_mm", rounded(pair.deepest_mm)},
-          {"slip_mm", rounded(pair.slip_mm)},
-          {"friction_coefficient", rounded(pair.friction_coefficient)},
-          {"friction_mJ", rounded(pair.friction_mJ)}};
 }
 
 // The run as a whole.

@@ -266,6 +266,8 @@ Frame make_frame(const Scene& scene, const std::vector<TriMesh>& surfaces, const
   f.step = scene.step;
   f.stroke_mm = current_stroke(scene);
   f.energy = energy;
+  f.films = std::any_of(scene.data.friction_laws.begin(), scene.data.friction_laws.end(),
+                        [](const FrictionLawPtr& law) { return law->has_rates(); });
   f.plies.resize(scene.plies.size());
   const Moulds moulds = moulds_of(scene, surfaces);
   const BridgingSearch bridging(scene, moulds);

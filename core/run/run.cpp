@@ -13,6 +13,7 @@
 #include "core/run/ply_plausibility.hpp"
 #include "core/run/pressed_stack.hpp"
 #include "core/run/run_diagnosis.hpp"
+#include "core/run/sliding_ranges.hpp"
 #include "core/solver/element_mass_scaling.hpp"
 #include "core/solver/scene.hpp"
 #include "core/solver/step.hpp"
@@ -208,6 +209,8 @@ void finish(const Scene& s, const RunState& state, RunResult& result, ThreadPool
   sum.pushed = pushed_tools(s);
   std::vector<std::string> reasons = doubts(s, result.last, sum.plies, cuts);
   for (std::string& reason : doubts_of_forces(s, state.known_forces, state.astray))
+    reasons.push_back(std::move(reason));
+  for (std::string& reason : doubts_of_sliding(sum.work.pairs))
     reasons.push_back(std::move(reason));
   doubt_if(reasons, sum);
   for (std::string& moves : moulds_under_way(sum))

@@ -2,6 +2,7 @@
 #include "core/run/run_diagnosis.hpp"
 
 #include "base/text.hpp"
+#include "core/run/sliding_ranges.hpp"
 #include "core/solver/force_kinds.hpp"
 
 #include <algorithm>
@@ -33,8 +34,9 @@ std::vector<PairReport> pairs_of(const Scene& s) {
   const auto report = [&](const std::string& a, const std::string& b) -> PairReport& {
     for (PairReport& pair : pairs)
       if (pair.a == a && pair.b == b) return pair;
-    pairs.push_back({.a = a, .b = b});
-    return pairs.back();
+    PairReport& made = pairs.emplace_back();
+    made.a = a, made.b = b;
+    return made;
   };
   for (const PairSeen& seen : all_seen(s)) {
     PairReport& pair = report(seen.a, seen.b);
@@ -43,7 +45,13 @@ std::vector<PairReport> pairs_of(const Scene& s) {
     pair.deepest_mm = std::max(pair.deepest_mm, seen.sums.deepest);
     pair.slip_mm = std::max(pair.slip_mm, seen.sums.slip);
     pair.friction_mJ += seen.sums.friction;
+    if (seen.law.sliding && !seen.of_edges) {
+      pair.friction_law = seen.law.sliding->spec().name;
+      add_ranges(*seen.law.sliding, seen.sums.sliding, pair);
+    }
   }
+  for (PairReport& pair : pairs)
+    end_ranges(pair);
   return pairs;
 }
 

@@ -10,6 +10,7 @@
 #include "core/model/motion.hpp"
 #include "core/run/facet_penetration.hpp"
 #include "core/setup/boundaries_ahead.hpp"
+#include "core/setup/friction_ahead.hpp"
 #include "core/setup/outlook_plies.hpp"
 #include "core/setup/size_ahead.hpp"
 #include "core/setup/stitch_outlook.hpp"
@@ -233,6 +234,8 @@ Outlook look_ahead(const PreparedCase& prepared, int threads, const OutlookProgr
   describe_tools(s, prepared.meshes, lines);
   tell("looks at boundaries and steps", 0.45);
   for (std::string& line : boundaries_ahead(s))
+    lines.push_back(std::move(line));
+  for (std::string& line : friction_ahead(data))
     lines.push_back(std::move(line));
   each_kind([&]<class K>() { K::describe(s, lines); });
   const StepBound bound = stable_step(s, contact_rows(s, pool));

@@ -12,10 +12,10 @@
 namespace plyform {
 namespace {
 
-void add_sums(const ContactTotals& sums, Energies& e) {
+void add_sums(const ContactLaw& law, const ContactTotals& sums, Energies& e) {
   e.contact += sums.elastic;
   e.compaction += sums.compaction;
-  e.friction += sums.friction;
+  (law.sliding && law.sliding->has_rates() ? e.film : e.friction) += sums.friction;
   e.damping += sums.damping;
 }
 
@@ -62,7 +62,7 @@ void ToolContacts::list_arrays(Scene& s) {
 void ToolContacts::add_energies(const Scene& s, ThreadPool&, Energies& e) {
   for (const ToolState& t : s.tools) {
     for (const ToolPlyContact& c : t.contacts)
-      add_sums(c.sums, e);
+      add_sums(c.law, c.sums, e);
     e.external += t.work;
   }
 }
@@ -128,8 +128,9 @@ void PlyContacts::list_arrays(Scene& s) {
 }
 
 void PlyContacts::add_energies(const Scene& s, ThreadPool&, Energies& e) {
-  each_pass(s, [&](const PlyContact& pass) { add_sums(pass.contact.sums, e); });
-  each_edge_contact(s, [&](const PlyEdgeContact& edges) { add_sums(edges.contact.sums, e); });
+  each_pass(s, [&](const PlyContact& pass) { add_sums(pass.contact.law, pass.contact.sums, e); });
+  each_edge_contact(
+      s, [&](const PlyEdgeContact& edges) { add_sums(edges.contact.law, edges.contact.sums, e); });
 }
 
 void PlyContacts::add_rows(const Scene& s, std::size_t ply, std::span<ContactRow> rows) {

@@ -5,6 +5,7 @@
 #include "contact/search/unfolded.hpp"
 #include "core/solver/displacements.hpp"
 #include "core/solver/edge_contact_search.hpp"
+#include "core/solver/fibre_directions.hpp"
 #include "core/solver/follow_thickness.hpp"
 #include "core/solver/occlusion.hpp"
 #include "core/solver/pass_through.hpp"
@@ -103,6 +104,7 @@ void search_contacts(Scene& s, ThreadPool& pool) {
   const int plies = static_cast<int>(s.plies.size());
   std::vector<double> seconds(search_parts.size() * s.plies.size(), 0.0); // parts at the same time
   note_thickness(s);
+  note_fibres(s, pool);
   pool.run(static_cast<int>(seconds.size()), [&](int i) {
     const Stopwatch watch(seconds[at(i)]);
     search_parts[at(i / plies)](s, s.plies[at(i % plies)]);

@@ -54,6 +54,19 @@ ContactLaw make_law(const ContactOptions& options, double penalty, double densit
   return {penalty, 2.0 * options.damping * std::sqrt(penalty * density), mu, max_depth};
 }
 
+/// Gives a contact of these bodies the law of friction that the case names for them. A law with one
+/// coefficient alone is that of the kernels.
+void rub(const Case& data, int a, int b, ContactLaw& law) {
+  const int number = data.friction.law_of(a, b);
+  if (number < 0) return;
+  const FrictionLawPtr& named = data.friction_laws[static_cast<std::size_t>(number)];
+  const bool plain = named->spec().plain();
+  law.friction = plain ? named->spec().coefficient : 0.0;
+  if (plain) return;
+  law.sliding = named;
+  law.process_time = data.process_time();
+}
+
 /// ContactLaw::spread: thickness over element size, squared. A contact at a node has gradients of 1
 /// at it and of half the thickness by 0.29 / element size at each of six around it, and each node
 /// is in six such: K = k G G^T of all contacts is at most k (1 + 0.76 (t/e)^2).
@@ -130,6 +143,8 @@ PlyContact make_pass(const Case& data, const std::vector<PlyBody>& plies, int a,
   const double deepest = deepest_in_ply * pair.contact.distance;
   pair.contact.law = make_law(data.contact, bearing(data, penalty, 0.5, deepest), density,
                               data.friction(a, b), deepest);
+  rub(data, a, b, pair.contact.law);
+  pair.contact.law.share = 0.5;
   pair.contact.thickness_follows = slave.thickness_acts || master.thickness_acts;
   pair.contact.distance -= nesting_of(slave, master);
   give_way(pair.contact.law, 0.5, {&slave, &master});
@@ -166,6 +181,7 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBo
     c.law = make_law(data.contact, bearing(data, penalty, 1.0, deepest),
                      plies[p].membrane.fabric.surface_density,
                      data.friction(static_cast<int>(p), body), deepest);
+    rub(data, static_cast<int>(p), body, c.law);
     c.half_thickness = 0.5 * plies[p].thickness;
     c.thickness_follows = plies[p].thickness_acts;
     give_way(c.law, 1.0, {&plies[p]});

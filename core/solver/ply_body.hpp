@@ -83,8 +83,8 @@ struct PlyState {
 /// compile.
 template <class F>
 void each_array(PlyState& ply, F&& f) {
-  auto& [x, velocity, motion, reaction, mass, yarns, temperature, resting, load_work, viscous_states,
-         bending_states] = ply;
+  auto& [x, velocity, motion, reaction, mass, yarns, temperature, resting, load_work,
+         viscous_states, bending_states] = ply;
   f("x", On::node, x);
   f("velocity", On::node, velocity);
   f("motion", On::node, motion);
@@ -117,6 +117,7 @@ struct PlyCache {
   double thickening = 0.0;      ///< mm, largest change of half the thickness in the last step
   double thickening_path = 0.0; ///< mm, its sum since the last search
   // Not in the list:
+  std::vector<Vec3> fibres;        ///< how they run at each node at the last search, of any length
   std::unique_ptr<SheetTree> tree; ///< follows from x_search
   double search_seconds = 0.0;     ///< s, refitting the tree, computing fold bounds
   std::vector<ElementForce> q;     ///< forces without simd, one per triangle
@@ -144,7 +145,7 @@ template <class F>
 void each_array(PlyCache& ply, F&& f) {
   auto& [x_search, max_displacement, path_length, fold_bound, fold_motion, occluded, ridges,
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
-         thickening_path, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
+         thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
          last_load_work, last_ratio, squeeze, spread, pressed, yarns_end, viscous_end, bending_end,
          viscous_stepped, viscous_q, viscous_bending_force, viscous_bending_seconds] = ply;
   f("x_search", On::node, x_search);
@@ -168,7 +169,7 @@ void each_array(PlyCache& ply, F&& f) {
 /// A ply in motion.
 struct PlyBody : PlyModel, PlyState, PlyCache {
   SurfaceKinematics state() const {
-    return {x, motion, membrane.node_area, fold_bound, edges.faces_across, thickness_ratio};
+    return {x, motion, membrane.node_area, fold_bound, edges.faces_across, thickness_ratio, fibres};
   }
   /// States of laws with rates now: those of the step that was computed, or of the one taken.
   const std::vector<double>& viscous_now() const {

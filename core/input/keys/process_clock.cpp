@@ -28,21 +28,37 @@ Rows process_rows() {
   return rows;
 }
 
+namespace {
+
+/// A law of friction with rates that bodies of the case have, or null.
+const FrictionLaw* rated_friction(const Case& built) {
+  for (const int law : built.friction.law)
+    if (law >= 0 && built.friction_laws[static_cast<std::size_t>(law)]->has_rates())
+      return built.friction_laws[static_cast<std::size_t>(law)].get();
+  return nullptr;
+}
+
+} // namespace
+
 void check_clock(const TableView& root, const Case& built, bool (*rated)(const Fabric&),
                  Diagnostics& diagnostics) {
   const TableView process = subsection(root, "process");
   const auto fabric = std::find_if(built.fabrics.begin(), built.fabrics.end(), rated);
-  const bool any = fabric != built.fabrics.end();
+  const FrictionLaw* friction = rated_friction(built);
+  const bool any = fabric != built.fabrics.end() || friction;
   if (const TomlNode* duration = given(process, "duration");
       duration && !any && !built.process.cooling)
     diagnostics.warning(duration->at,
                         fmt::format("process.duration = {}: does nothing, as no law of these "
-                                    "fabrics depends on rates",
+                                    "fabrics depends on rates, nor any of friction",
                                     duration->source_text));
   if (!built.process.duration && any)
     diagnostics.error(
         root.entry->at, "process.duration", "",
-        fmt::format("is missing, and laws of fabric {} depend on rates", fabric->name),
+        friction ? fmt::format("is missing, and friction.{} depends on the slip "
+                               "speed",
+                               friction->spec().name)
+                 : fmt::format("is missing, and laws of fabric {} depend on rates", fabric->name),
         "give [process] a duration, the seconds that the real stroke takes");
 }
 

@@ -95,6 +95,7 @@ double factor_of_unit(const std::string& unit) {
   if (unit == "J/(g K)") return 1e9;   // 1e3 N mm / (1e-6 t K)
   if (unit == "W/(m2 K)") return 1e-3; // 1e3 N mm/s / (1e6 mm^2 K)
   if (unit == "kJ/mol") return 1e3;    // J/mol, as it divides by the gas constant
+  if (unit == "Pa s") return 1e-6;     // N s/mm^2
   return 1.0;
 }
 

@@ -77,6 +77,11 @@ Rows contact_rows() {
            .ranges = {friction_range},
            .usual = {{.least = 0.0, .most = 1.0}},
            .meaning = "friction coefficient of all pairs, usually 0.1 to 0.4"},
+          {.key = "contact.friction_law",
+           .kind = K::text,
+           .otherwise = "Coulomb's, with contact.friction",
+           .meaning = "name of the law in [friction] that holds for all pairs instead of "
+                      "contact.friction"},
           {.key = "contact.pair",
            .kind = K::tables,
            .fallback = "[]",
@@ -87,9 +92,14 @@ Rows contact_rows() {
            .count = 2,
            .meaning = "two names of plies or tools; \"plies\" and \"tools\" stand for all of them"},
           {.key = "contact.pair[].friction",
+           .instead = {"friction_law"},
            .ranges = {friction_range},
            .usual = {{.least = 0.0, .most = 1.0}},
            .meaning = "friction coefficient of the pair, usually 0.1 to 0.4"},
+          {.key = "contact.pair[].friction_law",
+           .kind = K::text,
+           .instead = {"friction"},
+           .meaning = "name of the law in [friction] that holds for the pair"},
           {.key = "contact.stiffness",
            .fallback = toml(contact.stiffness),
            .ranges = {positive_share},
@@ -245,6 +255,7 @@ Rows all_rows() {
   append(rows, boundary_rows());
   append(rows, attachment_rows());
   append(rows, contact_rows());
+  append(rows, friction_law_rows());
   append(rows, solver_rows());
   append(rows, accuracy_rows());
   for (const FurtherPart& part : further_parts)

@@ -68,6 +68,11 @@ void read_process(const TableView& root, Case& built, Diagnostics& diagnostics);
 void check_clock(const TableView& root, const Case& built, bool (*rated)(const Fabric&),
                  Diagnostics& diagnostics);
 
+/// core/input/keys/friction_laws.cpp: friction.NAME.
+Rows friction_law_rows();
+/// Those of a case, by their names.
+std::vector<FrictionLawPtr> read_friction_laws(const TableView& root, Diagnostics& diagnostics);
+
 /// core/input/keys/loads.cpp: [[load]].
 Rows load_rows();
 void read_loads(const TableView& root, Case& built, Diagnostics& diagnostics);

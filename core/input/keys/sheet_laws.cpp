@@ -199,7 +199,7 @@ Rows sheet_law_rows() {
 
 namespace {
 
-constexpr Range viscosity_range{.least = 0.0, .most = 1e6};
+constexpr Range melt_viscosity_range{.least = 0.0, .most = 1e6};
 
 /// The melt of a sheet beside yarns, if it has one.
 void read_matrix(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
@@ -246,7 +246,7 @@ Rows sheet_beside_rows() {
           {.key = table + ".longitudinal_viscosity",
            .unit = "N s/mm2",
            .otherwise = "0: no melt",
-           .ranges = {viscosity_range},
+           .ranges = {melt_viscosity_range},
            .usual = {{.least = 1e-5, .most = 1.0}},
            .meaning = "of the melt around yarns in one direction (1 N s/mm2 = 1e6 Pa s), for shear "
                       "along them in the plane, beside the elastic law; needs process.duration",
@@ -254,7 +254,7 @@ Rows sheet_beside_rows() {
           {.key = table + ".transverse_viscosity",
            .unit = "N s/mm2",
            .otherwise = "0",
-           .ranges = {viscosity_range},
+           .ranges = {melt_viscosity_range},
            .usual = {{.least = 1e-5, .most = 1.0}},
            .meaning = "likewise for shear across the yarns: they are drawn apart in the plane by "
                       "four times it, as the ply gets thinner",

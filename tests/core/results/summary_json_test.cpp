@@ -60,8 +60,9 @@ Summary made_up_summary() {
                   {},
                   {},
                   {{"ply.p.angle", "45"}}};
-  summary.work = {0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7}}, {"bending: small"},
-                  {}};
+  summary.work = {
+      0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7, {}, {}, {}}}, {"bending: small"},
+      {}};
   return summary;
 }
 
@@ -94,7 +95,7 @@ TEST(SummaryJson, HasTheKeysOfTheDocumentation) {
   "boundaries": [
     {"name": "upper grip", "force_N": 20, "displacement_mm": 1.5}
   ],
-  "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "stitch": 0, "bending": 0, "contact": 0, "friction": 0, "damping": 0, "compaction": 0, "viscous": 0, "stitch_breaking": 0, "external": 0, "mass_scaling": 0, "balance_error": 0},
+  "energy": {"kinetic": 0, "fibre": 0, "shear": 0, "stitch": 0, "bending": 0, "contact": 0, "friction": 0, "film": 0, "damping": 0, "compaction": 0, "viscous": 0, "stitch_breaking": 0, "external": 0, "mass_scaling": 0, "balance_error": 0},
   "kinetic_over_deformation": 0.0625,
   "accuracy": {"promised_shear_error_deg": 1.5, "inertia_deg": 0.25, "softening_deg": 0.5, "mesh_deg": 0.75, "element_size_factor": 1},
   "contact": {"max_tool_penetration_mm": 0.01, "max_tool_penetration_between_nodes_mm": 0.05, "max_ply_penetration_mm": 0.02, "intersections_between_plies": 3, "intersections_within_plies": 4},
@@ -264,7 +265,7 @@ TEST(SummaryJson, TextIsEscapedAndAlwaysUtf8) {
   summary.title = "";
   summary.message = summary.status = summary.version = "\xe9";
   summary.assumed = summary.work.missing = summary.work.could_be_left_out = {"\xe9"};
-  summary.work.pairs = {{"\xe9", "\xe9"}};
+  summary.work.pairs = {{"\xe9", "\xe9", 0, 0, 0, 0, 0, "\xe9", {}, {}}};
   Frame frame = unequal(10, 20);
   frame.plies[0].name = "\xe9";
   const Json json = read_back(frame, summary);

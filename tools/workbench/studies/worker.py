@@ -20,7 +20,7 @@ from studies.case_values import CaseValues  # noqa: E402
 MISTAKE = re.compile(r"^(?P<file>.*?):(?P<line>\d+):(?:\d+:)? (?:error: )?(?P<words>.*)$")
 MOST_NAMES = 200   # of runs that are named
 MOST_VALUES = 2000  # keys of a case
-TABLES_OF_NAMES = ("fabrics", "blanks")
+TABLES_OF_NAMES = ("fabrics", "blanks", "friction")
 WORDS = ("name", "title")  # that change nothing
 WITHOUT_VALUE = ("contact", "solver")  # tables of which keys are offered that the case leaves out
 

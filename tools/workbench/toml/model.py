@@ -10,7 +10,7 @@ from base.ending import one_line
 from ..server.project import Refused
 
 NAME = re.compile(r"[A-Za-z0-9_-]{1,80}")
-MAPS = ("blanks", "fabrics")  # tables of tables, by name
+MAPS = ("blanks", "fabrics", "friction")  # tables of tables, by name
 NAMED = ("ply", "tool", "boundary")  # lists of tables with a name
 
 
@@ -109,8 +109,8 @@ def free_name(taken: dict, name: str) -> str:
 def copy_steps(data: dict, path: tuple) -> tuple[list[tuple], tuple]:
     parent, key = at(data, path[:-1]), path[-1]
     if isinstance(key, str):
-        if path[-2:-1] not in (("blanks",), ("fabrics",)):
-            raise Refused("items of lists, blanks and fabrics can be copied", 422)
+        if not path[:-1] or path[-2] not in MAPS:
+            raise Refused("items of lists, blanks, fabrics and laws of friction can be copied", 422)
         new = (*path[:-1], free_name(parent, key))
         return [("copy", path, new)], new
     new, steps = (*path[:-1], key + 1), [("copy", path, (*path[:-1], key + 1))]
@@ -161,6 +161,10 @@ def references(data: dict, kind, name: str) -> list[tuple]:
     if kind == "tool":
         for blank, table in (data.get("blanks") or {}).items():
             found += [("blanks", blank, "zone", k, "tool") for k, _ in enumerate(at(table, ("zone",)) or [])]
+    if kind == "friction":
+        pairs = at(data, ("contact", "pair"))
+        found.append(("contact", "friction_law"))
+        found += [("contact", "pair", k, "friction_law") for k, _ in enumerate(pairs or [])]
     return [path for path in found if at(data, path) == name]
 
 

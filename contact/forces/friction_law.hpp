@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What two faces that slide on each other resist with, where it is more than one coefficient.
+//
+//   v     mm/s      slip speed in the process;  p  N/mm^2  normal pressure;  y  mm  slip of a step
+//   eta   N s/mm^2  viscosity of the matrix between them, at the film's rate v / h if it thins
+//   h     mm        thickness of the film
+//   H     mm        eta v / p, the Hersey number: a length
+//   f_a   -         factor by the angle between the fibres of both faces
+//   f_s   -         factor by the way slid since they touched: a peak at the start
+//   tau_t N/mm^2    tack, by the same way
+//
+//   Coulomb           tau = f_a f_s mu p + tau_t
+//   over Hersey's     tau = f_a f_s mu(H) p + tau_t
+//   film              tau = f_a f_s (tau_0 + eta v / h) + tau_t                              (L)
+//
+// beyond the last Hersey number of a curve mu stays what it is there (Coulomb), or rises in
+// proportion to H, which is a film of thickness H / mu (ten Thije et al., Composites A 42:950,
+// 2011; Harrison et al., World J. Eng. 7:5, 2010: one curve for all pressures, speeds and
+// temperatures). A film bears shear as long as the faces touch, whatever presses them.
+//
+// (L) is the bound of (T) of contact/forces/contact_law.hpp with the speed of the end of the step:
+// of the stretch S that the spring k_t would have without slip
+//
+//   k_t (S - y) = tau(y / dt),  dt: s, the time that the step takes in the process          (I)
+//
+// whose left side falls and whose right side rises with y, so that it has one answer (where mu
+// falls with H, one of several). It is backward Euler's rule of a spring and a dashpot in series:
+// stable at any step, and the spring alone counts for the stable one.
+#pragma once
+
+#include "contact/simd/contact_points.hpp"
+
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace plyform {
+
+/// A point of a curve.
+struct CurvePoint {
+  double at, value;
+};
+
+/// Straight pieces through points in ascending order, level beyond both ends.
+double on_pieces(std::span<const CurvePoint> points, double at);
+/// Straight pieces in a plot of logarithms, all points above 0; level beyond both ends.
+double on_log_pieces(std::span<const CurvePoint> points, double at);
+
+/// A function of positive numbers, sampled so finely over each octave that straight pieces do, as
+/// the laws ask for it many times a step.
+class OctaveTable {
+public:
+  struct Answer {
+    double value, slope;
+  };
+  OctaveTable() = default;
+  /// Of f from 2^low to 2^high; below straight to `at_zero`.
+  OctaveTable(const std::function<double(double)>& f, int low, int high, double at_zero);
+  /// Beyond the highest level, or in proportion.
+  Answer at(double x, bool proportional) const;
+
+private:
+  static constexpr int pieces = 32; ///< of an octave: 1e-4 of the value
+  int low_ = 0;
+  double least_ = 0.0, most_ = 0.0, at_zero_ = 0.0;
+  std::vector<double> value_;
+};
+
+/// Numbers of (L), as they are given.
+struct FrictionLawSpec {
+  enum class Kind { coulomb, hersey, film };
+  std::string name; ///< in the case
+  Kind kind = Kind::coulomb;
+  double coefficient = 0.0;      ///< mu of Coulomb's law
+  std::vector<CurvePoint> curve; ///< mu over H (mm); empty: by the formula
+  /// mu = boundary exp(-H / transition) + hydrodynamic H^exponent, H in mm
+  double boundary = 0.0, transition = 0.0, hydrodynamic = 0.0, exponent = 1.0;
+  bool film_beyond = false;                ///< mu in proportion to H beyond the curve
+  double viscosity = 0.0;                  ///< eta, N s/mm^2
+  std::vector<CurvePoint> viscosity_curve; ///< eta over rate (1/s), instead
+  double film = 0.0;                       ///< h, mm; 0: not given
+  double yield = 0.0;                      ///< tau_0, N/mm^2
+  std::vector<CurvePoint> over_angle;      ///< f_a over rad, 0 to pi/2; empty: 1
+  std::vector<CurvePoint> over_slip;       ///< f_s over mm; empty: 1
+  std::vector<CurvePoint> tack;            ///< tau_t over mm; empty: none
+
+  bool has_rates() const { return kind != Kind::coulomb; }
+  /// Whether it is Coulomb's law with one coefficient.
+  bool plain() const {
+    return !has_rates() && over_angle.empty() && over_slip.empty() && tack.empty();
+  }
+  double hersey(double number) const;     ///< mu at a Hersey number (mm)
+  double viscosity_at(double rate) const; ///< N s/mm^2, at 1/s
+};
+
+/// Where a run was in the range of a curve: all of it that slid, by its work.
+struct RangeSeen {
+  double least = 1e300, most = 0.0;            ///< of mm or 1/s
+  double work = 0.0, below = 0.0, above = 0.0; ///< N mm: all; outside the curve's two ends
+  void add(double at, double work_here, const CurvePoint& first, const CurvePoint& last);
+  void add(const RangeSeen& more);
+  bool finite() const { return std::isfinite(least + most + work + below + above); }
+};
+
+/// Of a contact, since the start: Hersey numbers, and rates of the film.
+struct SlidingSeen {
+  RangeSeen hersey, rate;
+  bool finite() const { return hersey.finite() && rate.finite(); }
+  void add(const SlidingSeen& more) {
+    hersey.add(more.hersey);
+    rate.add(more.rate);
+  }
+};
+
+/// A law ready to be asked.
+class FrictionLaw {
+public:
+  explicit FrictionLaw(FrictionLawSpec spec);
+  const FrictionLawSpec& spec() const { return spec_; }
+  bool has_rates() const { return spec_.has_rates(); }
+  /// f_a at an angle (rad).
+  double by_angle(double angle) const;
+  /// tau at a speed (mm/s) and its slope by that. viscosity: a factor on eta.
+  OctaveTable::Answer traction(const SlidingPlace& place, double speed, double viscosity) const;
+  /// S - y of (I), mm. per_dt: 1/s, inverse of dt; 0 where no time has passed: all of it is kept.
+  double stuck(const SlidingPlace& place, double per_dt, double viscosity) const;
+  /// Notes what a slip of y (mm) went by.
+  void note(const SlidingPlace& place, double y, double per_dt, double viscosity,
+            SlidingSeen& seen) const;
+
+private:
+  FrictionLawSpec spec_;
+  OctaveTable flow_;   ///< eta times rate, N/mm^2, over the rate, 1/s; or eta v over v without h
+  OctaveTable hersey_; ///< mu over mm
+};
+
+using FrictionLawPtr = std::shared_ptr<const FrictionLaw>;
+
+/// For checkpoints: base/archive.hpp.
+template <class F>
+void each_member(RangeSeen& seen, F&& f) {
+  auto& [least, most, work, below, above] = seen;
+  f("least", least);
+  f("most", most);
+  f("work", work);
+  f("below", below);
+  f("above", above);
+}
+template <class F>
+void each_member(SlidingSeen& seen, F&& f) {
+  auto& [hersey, rate] = seen;
+  f("hersey", hersey);
+  f("rate", rate);
+}
+
+} // namespace plyform

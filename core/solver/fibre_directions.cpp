@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "core/solver/fibre_directions.hpp"
+
+#include <algorithm>
+
+namespace plyform {
+namespace {
+
+void note_fibres(PlyBody& ply) {
+  const Membrane& m = ply.membrane;
+  if (m.fabric.families.empty()) return;
+  const Vec2 along = m.families[0].along;
+  ply.fibres.assign(ply.x.size(), Vec3::Zero());
+  for (std::size_t e = 0; e < m.triangles.size(); ++e) {
+    const Triangle& t = m.triangles[e];
+    const AxesGradients& c = m.c[e];
+    const Vec3 &x = at(ply.x, t[0]), u = at(ply.x, t[1]) - x, v = at(ply.x, t[2]) - x;
+    const Vec3 k1 = c.c11 * u + c.c12 * v, k2 = c.c21 * u + c.c22 * v;
+    const Vec3 image = m.area[e] * (along.x() * k1 + along.y() * k2);
+    for (const std::int32_t n : t)
+      ply.fibres[at(n)] += image;
+  }
+}
+
+} // namespace
+
+void note_fibres(Scene& s, ThreadPool& pool) {
+  const auto asks = [](const FrictionLawPtr& law) { return !law->spec().over_angle.empty(); };
+  if (std::none_of(s.data.friction_laws.begin(), s.data.friction_laws.end(), asks)) return;
+  pool.run(static_cast<int>(s.plies.size()), [&](int p) { note_fibres(s.plies[at(p)]); });
+}
+
+} // namespace plyform

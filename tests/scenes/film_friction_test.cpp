@@ -1,0 +1,248 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Faces that slide on a film, against what follows from its law (contact/forces/friction_law.hpp):
+//   pull-out: a ply between two others under a force F on its area A, drawn at a speed v of the
+//     process: 2 F mu(eta v A / F), at any pressure and speed on one curve
+//   a ply on a table that gravity g drives along it: v = v_e (1 - exp(-t / theta)), with
+//     theta = rho_A h / eta and v_e = g theta (Couette)
+#include "core/model/motion.hpp"
+#include "support/kill_checks.hpp"
+#include "support/stress_scenes.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace plyform::film_friction_test {
+namespace {
+
+using Kind = FrictionLawSpec::Kind;
+
+constexpr double length = 40.0, width = 20.0, cell = 5.0; // mm
+constexpr double area = length * width;
+
+FrictionLawSpec curve() {
+  FrictionLawSpec spec;
+  spec.name = "melt", spec.kind = Kind::hersey;
+  spec.viscosity = 6e-4; // 600 Pa s
+  spec.curve = {{1e-3, 0.08}, {1e-2, 0.2}, {1e-1, 0.5}, {1.0, 1.2}};
+  return spec;
+}
+
+FrictionLawSpec film(double viscosity, double thickness) {
+  FrictionLawSpec spec;
+  spec.name = "film", spec.kind = Kind::film;
+  spec.viscosity = viscosity, spec.film = thickness;
+  return spec;
+}
+
+/// Gives all plies that friction on each other, and tools none; or to a single ply on tools.
+void slide_on(Case& data, FrictionLawSpec spec) {
+  set_friction(data, 0.0);
+  const int plies = static_cast<int>(data.plies.size()), n = data.friction.bodies;
+  data.friction_laws = {std::make_shared<FrictionLaw>(std::move(spec))};
+  data.friction.law.assign(static_cast<std::size_t>(n * n), -1);
+  for (int a = 0; a < n; ++a)
+    for (int b = 0; b < n; ++b)
+      if (plies == 1 || (a < plies && b < plies))
+        data.friction.law[static_cast<std::size_t>(a * n + b)] = 0;
+}
+
+Boundary grip(int ply, double x, double half_width, double stroke) {
+  Boundary b =
+      hold("grip" + std::to_string(ply), {x, -half_width}, {x, half_width}, Vec3::UnitX(), stroke);
+  b.ply = ply;
+  b.as<Grip>().held = {true, true, false};
+  return b;
+}
+
+/// The middle one of three plies, the others larger, drawn 12 mm under a plate.
+Case pull_out(double pressure, double process_s) {
+  Case data = stack_of({0.0, 0.0, 0.0}, rectangle(80.0, 30.0, cell));
+  data.blanks.push_back(rectangle(length, width, cell));
+  data.plies[1].blank = 1;
+  press_by_plate(data);
+  data.tools[1].force = pressure * area;
+  data.boundaries = {grip(1, 0.5 * length, 0.5 * width, 12.0), grip(0, -40.0, 15.0, 0.0),
+                     grip(2, -40.0, 15.0, 0.0)};
+  slide_on(data, curve());
+  data.process.duration = process_s;
+  data.solver.mass_damping = 0.0;
+  data.solver.fibre_damping = 0.5;
+  data.solver.duration = 0.06;
+  data.solver.outputs = 80;
+  return data;
+}
+
+/// A ply between a table and a plate, drawn likewise.
+Case between_plates(double pressure, double process_s) {
+  Case data = pull_out(pressure, process_s);
+  const Case one = stack_of({0.0}, rectangle(length, width, cell));
+  data.plies = one.plies, data.blanks = one.blanks;
+  const double force = data.tools[1].force;
+  press_by_plate(data);
+  data.tools[1].force = force;
+  data.boundaries = {grip(0, 0.5 * length, 0.5 * width, 12.0)};
+  slide_on(data, curve());
+  data.solver.mass_damping = 0.0;
+  data.solver.duration = 0.06;
+  return data;
+}
+
+/// N, mean and largest deviation from it while the speed is constant.
+struct Pull {
+  double mean = 0.0, off = 0.0;
+  Energies energy;
+};
+
+Pull pull_of(const Case& data) {
+  std::vector<double> force;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& f) {
+    const double share = f.time / data.solver.duration;
+    if (share > 0.4 && share < 0.72) force.push_back(f.boundaries.at(0).force_N);
+  };
+  Scene scene = make_scene(data);
+  const RunResult run = run_scene(scene, 1, hooks);
+  EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+  Pull pull;
+  for (const double f : force)
+    pull.mean += f / static_cast<double>(force.size());
+  for (const double f : force)
+    pull.off = std::max(pull.off, std::abs(f - pull.mean));
+  pull.energy = run.last.energy;
+  EXPECT_LE(imbalance(pull.energy), 0.01);
+  const bool viscous = data.friction_laws[0]->has_rates();
+  EXPECT_GT(viscous ? pull.energy.film : pull.energy.friction, 0.5 * pull.energy.external);
+  EXPECT_EQ(viscous ? pull.energy.friction : pull.energy.film, 0.0);
+  return pull;
+}
+
+TEST(FilmFriction, PullOutAtAnyPressureAndSpeedLiesOnOneCurve) {
+  for (const double pressure : {0.02, 0.1, 0.5})
+    for (const double process_s : {1.0, 10.0, 100.0}) {
+      const Pull pull = pull_of(between_plates(pressure, process_s));
+      const double speed = peak_speed_ratio * 12.0 / process_s;
+      const double number = 6e-4 * speed / pressure;
+      const double wanted = 2.0 * pressure * area * curve().hersey(number);
+      EXPECT_NEAR(pull.mean, wanted, 0.01 * wanted) << pressure << " " << process_s;
+      fmt::print("{} N/mm2, {:.3g} mm/s: H {:.3g} mm, mu {:.4f}, pull {:+.2f} % off, scatter "
+                 "{:.2f} %, balance {:.2f} %\n",
+                 pressure, speed, number, pull.mean / (2.0 * pressure * area),
+                 100.0 * (pull.mean / wanted - 1.0), 100.0 * pull.off / pull.mean,
+                 100.0 * imbalance(pull.energy));
+    }
+}
+
+/// A ply on a table, driven by gravity along x and pressed by it.
+Case driven_ply(const FrictionLawSpec& spec, double gravity) {
+  Case data = stack_of({0.0}, rectangle(length, width, cell));
+  Tool table;
+  table.name = "table", table.shape = Plane{};
+  data.tools = {table};
+  slide_on(data, spec);
+  data.gravity = {gravity, 0.0, -2e5};
+  data.solver.fibre_softening = 100.0;
+  data.solver.duration = 0.05;
+  data.solver.outputs = 50;
+  data.process.duration = data.solver.duration;
+  return data;
+}
+
+TEST(FilmFriction, APlyOnATableSlidesAsCouetteSays) {
+  const double h = 0.1, theta = 0.01, gravity = 9810.0;
+  const double density = glass_weave().surface_density;
+  const Case data = driven_ply(film(density * h / theta, h), gravity);
+  double worst = 0.0, last = 0.0;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& f) {
+    double way = 0.0;
+    for (const Vec3& x : f.plies[0].x)
+      way += x.x() / static_cast<double>(f.plies[0].x.size());
+    const double wanted = gravity * theta * (f.time - theta * (1.0 - std::exp(-f.time / theta)));
+    if (f.time > theta) worst = std::max(worst, std::abs(way / wanted - 1.0));
+    last = way / wanted - 1.0;
+  };
+  const EndedRun run = run_on_any_threads([&] { return make_scene(data); }, hooks);
+  ASSERT_TRUE(ended(run.result.summary.status)) << run.result.summary.message;
+  EXPECT_LE(worst, 0.02);
+  EXPECT_LE(imbalance(run.result.last.energy), 0.01);
+  fmt::print("way {:.3f} % off at most, {:.3f} % at the end\n", 100.0 * worst, 100.0 * last);
+}
+
+TEST(FilmFriction, AStiffFilmNeedsNoSmallerStepAndHolds) {
+  long dry_steps = 0;
+  double dry_error = 0.0; // where all sticks, the start alone is in the ledger
+  for (const double viscosity : {0.0, 1e-8, 1e-5, 1e-2, 1.0}) { // N s/mm^2: to a million Pa s
+    Case data = driven_ply(film(viscosity, 0.1), 9810.0);
+    if (viscosity == 0.0)
+      slide_on(data, [] {
+        FrictionLawSpec spec;
+        spec.coefficient = 0.01;
+        return spec;
+      }());
+    data.solver.duration = data.process.duration.emplace(0.02);
+    Scene scene = make_scene(data);
+    const RunResult run = run_scene(scene, 1, {});
+    EXPECT_TRUE(ended(run.summary.status)) << viscosity << run.summary.message;
+    const double error = imbalance(run.last.energy);
+    if (viscosity == 0.0) dry_steps = scene.step, dry_error = error;
+    EXPECT_LE(scene.step, 1.02 * static_cast<double>(dry_steps)) << viscosity;
+    EXPECT_LE(error, std::max(0.02, dry_error)) << viscosity;
+    fmt::print("{:g} Pa s: {} steps, balance {:.2f} %\n", 1e6 * viscosity, scene.step,
+               100.0 * error);
+  }
+}
+
+TEST(FilmFriction, AnswersDoNotDependOnTheSimulatedTime) {
+  double first = 0.0;
+  for (const double duration : {0.12, 0.06, 0.03}) {
+    Case data = pull_out(0.1, 10.0);
+    data.solver.duration = duration;
+    const Pull pull = pull_of(data);
+    if (first == 0.0) first = pull.mean;
+    EXPECT_NEAR(pull.mean, first, 0.01 * first) << duration;
+  }
+}
+
+TEST(FilmFriction, ForcesOfAFilmScaleWithTheSpeedOfTheProcess) {
+  double first = 0.0;
+  for (const double process_s : {1.0, 10.0, 100.0}) {
+    Case data = between_plates(0.1, process_s);
+    slide_on(data, film(2e-4, 0.1));
+    const double pull = pull_of(data).mean * process_s;
+    if (first == 0.0) first = pull;
+    EXPECT_NEAR(pull, first, 0.01 * first) << process_s;
+    EXPECT_NEAR(pull, 2.0 * area * 2e-4 / 0.1 * peak_speed_ratio * 12.0, 0.01 * first);
+  }
+}
+
+TEST(FilmFriction, DryFrictionGoesByTheAngleBetweenTheFibres) {
+  FrictionLawSpec spec;
+  spec.coefficient = 0.3;
+  spec.over_angle = {{0.0, 1.0}, {0.25 * std::numbers::pi, 0.8}, {0.5 * std::numbers::pi, 0.5}};
+  for (const auto& [middle, others, factor] : // rad
+       {std::array{0.0, 0.0, 1.0}, std::array{0.5 * std::numbers::pi, 0.0, 0.5},
+        std::array{0.0, 0.5 * std::numbers::pi, 0.5}}) {
+    Case data = pull_out(0.1, 10.0);
+    slide_on(data, spec);
+    data.plies[1].angle = middle;
+    data.plies[0].angle = data.plies[2].angle = others;
+    const double wanted = 2.0 * 0.3 * factor * 0.1 * area;
+    EXPECT_NEAR(pull_of(data).mean, wanted, 0.01 * wanted) << middle << " " << others;
+  }
+}
+
+TEST(FilmFriction, GoesOnFromACheckpointWithTheSameBits) {
+  Case data = pull_out(0.1, 10.0);
+  FrictionLawSpec spec = curve();
+  spec.over_slip = {{0.0, 1.5}, {3.0, 1.0}};
+  spec.over_angle = {{0.0, 1.0}, {1.5, 0.5}};
+  slide_on(data, spec);
+  data.plies[1].angle = 0.5;
+  data.solver.duration = 0.02;
+  data.solver.outputs = 10;
+  const Energies e = expect_sound_and_repeatable(data, 3);
+  EXPECT_GT(e.film, 0.0);
+}
+
+} // namespace
+} // namespace plyform::film_friction_test
