@@ -19,14 +19,14 @@ PATIENCE = 120.0  # s
 PASSING = (NoSuchElementException, StaleElementReferenceException, ElementClickInterceptedException,
            ElementNotInteractableException, JavascriptException, NoSuchFrameException, NoSuchWindowException,
            KeyError, IndexError, TypeError, tomllib.TOMLDecodeError)
-# Whether an answer may draw the page anew: of a change that was sent, or of a look, unless the page looks without
-# an end, as at a run that goes on. What it does with an answer takes it a moment.
+# Whether an answer may draw the page anew: of a change that was sent, or of a look, unless that takes long: at the
+# scene, or at a run that goes on. What the page does with an answer takes it a moment.
 ASKING = """
 (() => {
   if (window !== window.top) return;
   const ask = window.fetch;
   let [changes, looks, since] = [0, 0, 0];
-  window.plyform_asking = () => changes > 0 || (looks > 0 && performance.now() - since < 2000);
+  window.plyform_asking = () => changes > 0 || (looks > 0 && performance.now() - since < 300);
   const heard = (change) => setTimeout(() => { if (change) --changes; else --looks; }, 20);
   window.fetch = (...wish) => {
     const change = Boolean(wish[1] && wish[1].method && wish[1].method !== "GET");
