@@ -47,19 +47,20 @@ std::optional<ViscousBending> make_viscous_bending(std::span<const Vec2> x,
 
 void viscous_bending_forces(const ViscousBending& v, std::span<const Vec3> x, double dt,
                             std::span<const double> begin, std::span<double> end,
-                            std::vector<Vec3>& force) {
+                            std::vector<Vec3>& force, std::span<const double> factors) {
   std::fill(force.begin(), force.end(), Vec3::Zero());
   for (std::size_t n = 0; n < x.size(); ++n) {
     const StencilShape s = stencil_shape(v.bending, x, n);
     const double* now = begin.data() + n * v.states();
     double* next = end.data() + n * v.states();
+    const double by = factors.empty() ? 1.0 : factors[n];
     double lost = 0.0;
     std::array<double, 3> m{};
     for (std::size_t f = 0; f < v.viscosity.size(); ++f) {
       const Vec3 p = v.bending.law.families[f].of_axes();
       const double kappa = p[0] * s.kappa[0] + p[1] * s.kappa[1] + p[2] * s.kappa[2];
-      const double moment =
-          move_moment(v.viscosity[f], v.spring, kappa, dt, now + 1 + 2 * f, next + 1 + 2 * f, lost);
+      const double moment = move_moment(by * v.viscosity[f], v.spring, kappa, dt, now + 1 + 2 * f,
+                                        next + 1 + 2 * f, lost);
       for (std::size_t k = 0; k < 3; ++k)
         m[k] += moment * p[static_cast<Eigen::Index>(k)];
     }

@@ -37,10 +37,11 @@ std::optional<ViscousBending> make_viscous_bending(std::span<const Vec2> x,
                                                    double omega2);
 
 /// Forces (N) on all nodes at positions x (mm). dt: s of the process, of the step that led to x; 0
-/// at the start. begin, end: `states` numbers of the first node, of the second ...
+/// at the start. begin, end: `states` numbers of the first node, of the second ... factors: of the
+/// viscosity at each node, or empty: 1.
 void viscous_bending_forces(const ViscousBending& v, std::span<const Vec3> x, double dt,
                             std::span<const double> begin, std::span<double> end,
-                            std::vector<Vec3>& force);
+                            std::vector<Vec3>& force, std::span<const double> factors = {});
 
 /// N mm, of all nodes: what springs store, and what was lost since the start.
 struct ViscousBendingEnergy {

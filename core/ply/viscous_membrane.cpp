@@ -20,11 +20,10 @@ struct BranchStep {
 };
 using BranchSteps = std::vector<BranchStep>;
 
-void find_branch_steps(const ViscousShear& law, double dt, const RateFactors& by,
-                       BranchSteps& steps) {
+void find_branch_steps(const ViscousShear& law, double dt, double by, BranchSteps& steps) {
   steps.clear();
   for (const MaxwellBranch& branch : law.branches) {
-    const MaxwellBranch now{branch.modulus * by.viscosity, branch.time * by.time};
+    const MaxwellBranch now{branch.modulus, branch.time * by};
     steps.push_back({dt > 0.0 ? maxwell_step(now, dt) : MaxwellStep{}, now.modulus});
   }
 }
@@ -193,7 +192,7 @@ void step_group(const ViscousMembrane& v, const Membrane& m, const ViscousGroup&
     const double* now = states.begin.data() + at_state;
     double* next = states.end.data() + at_state;
     next[0] = now[0];
-    const RateFactors by = states.factors_of(e);
+    const double by = states.factor_of(e);
     for (std::size_t k = 0; k < v.crossings.size(); ++k) {
       const ViscousCrossing& c = v.crossings[k];
       const MembraneCrossing& of = m.crossings[c.crossing];
@@ -202,7 +201,7 @@ void step_group(const ViscousMembrane& v, const Membrane& m, const ViscousGroup&
       for (std::size_t a = 0; a < 2 && g.size > 1; ++a)
         X[a + 1] = root_of_weight * (t.yarn[ab[a]].lambda - g.mean[ab[a]]);
       if (!states.factors.empty()) find_branch_steps(c.law, dt, by, steps[k]);
-      const double lost = step_crossing(c, of, steps[k], dt, by.viscosity, X, now, next, torque);
+      const double lost = step_crossing(c, of, steps[k], dt, by, X, now, next, torque);
       next[0] += m.area[e] * of.cells * lost;
       shear[i][k] = of.cells * torque[0];
       for (std::size_t a = 0; a < 2; ++a)
@@ -218,9 +217,8 @@ void step_group(const ViscousMembrane& v, const Membrane& m, const ViscousGroup&
     q[e] = force_of(v, m, g.triangle[i], m.area[e], held[i], shear[i].data());
     if (!v.sheet) continue;
     double* next = states.end.data() + e * v.states;
-    next[0] +=
-        m.area[e] * step_sheet(*v.sheet, m, g.triangle[i].axes, dt, states.factors_of(e).viscosity,
-                               m.area[e], states.begin.data() + e * v.states, next, q[e]);
+    next[0] += m.area[e] * step_sheet(*v.sheet, m, g.triangle[i].axes, dt, states.factor_of(e),
+                                      m.area[e], states.begin.data() + e * v.states, next, q[e]);
   }
 }
 
@@ -258,7 +256,7 @@ void viscous_forces(const ViscousMembrane& v, const Membrane& m, std::span<const
                     int begin, int end, const ViscousStates& states, std::span<ElementForce> q) {
   std::vector<BranchSteps> steps(v.crossings.size());
   for (std::size_t k = 0; k < steps.size(); ++k)
-    find_branch_steps(v.crossings[k].law, dt, {}, steps[k]);
+    find_branch_steps(v.crossings[k].law, dt, 1.0, steps[k]);
   ViscousGroup g;
   for (int p = begin; p < end; ++p) {
     find_group(m, x, p, g);

@@ -71,20 +71,14 @@ struct ViscousMembrane {
 /// stroke: s, of the process. Nothing if no law has rates.
 std::optional<ViscousMembrane> make_viscous(Membrane& m, double stroke);
 
-/// What a temperature makes of laws that are given at another one: of viscosities and moduli, and
-/// of the times in which branches relax.
-struct RateFactors {
-  double viscosity = 1.0, time = 1.0;
-};
-
 /// What triangles keep: `states` numbers for the first, for the second ...
 struct ViscousStates {
   std::span<const double> begin;
   std::span<double> end;
-  std::span<const RateFactors> factors = {}; ///< m; empty: laws as they are given
-  RateFactors factors_of(std::size_t e) const {
-    return factors.empty() ? RateFactors{} : factors[e];
-  }
+  /// m, what temperatures make of laws that are given at another one: of viscosities, and of the
+  /// times in which branches relax; moduli stay (superposition of time and temperature). Empty: 1.
+  std::span<const double> factors = {};
+  double factor_of(std::size_t e) const { return factors.empty() ? 1.0 : factors[e]; }
 };
 
 /// (Q) of groups [begin, end) by rates at positions x (mm, n). dt: s of the process, of the step

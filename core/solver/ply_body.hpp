@@ -137,7 +137,9 @@ struct PlyCache {
   bool viscous_stepped = false;                 ///< whether these are of the step that was computed
   std::vector<ElementForce> viscous_q;          ///< forces by rates, one per triangle
   std::vector<Vec3> viscous_bending_force;      ///< N, by rates of curvature, on each node
-  double viscous_bending_seconds = 0.0;         ///< s, computing these
+  /// What temperatures make of viscosities, of each triangle and of each node; empty: nothing.
+  std::vector<double> flow_factors, node_flow_factors;
+  double viscous_bending_seconds = 0.0; ///< s, computing these
 };
 
 /// The list of what a checkpoint keeps of the cache, so that a run goes on with the same bits.
@@ -147,7 +149,8 @@ void each_array(PlyCache& ply, F&& f) {
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
          thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
          last_load_work, last_ratio, squeeze, spread, pressed, yarns_end, viscous_end, bending_end,
-         viscous_stepped, viscous_q, viscous_bending_force, viscous_bending_seconds] = ply;
+         viscous_stepped, viscous_q, viscous_bending_force, flow_factors, node_flow_factors,
+         viscous_bending_seconds] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);

@@ -103,6 +103,10 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.last_ratio = body.thickness_ratio;
   if (const std::optional<double> temperature = start_temperature(data, ply))
     body.temperature.assign(body.x.size(), *temperature);
+  if (fabric.flow.depends() && !body.temperature.empty()) {
+    if (body.viscous) body.flow_factors.assign(body.membrane.triangles.size(), 1.0);
+    if (body.viscous_bending) body.node_flow_factors.assign(body.x.size(), 1.0);
+  }
   return body;
 }
 

@@ -180,5 +180,50 @@ TEST(ViscousShearScene, FormsOverABall) {
   EXPECT_GT(last.viscous, 0.05 * last.external);
 }
 
+/// Viscosities and times are f times those of the reference: in a process that is f times as long
+/// all forces are the same (superposition of time and temperature).
+TEST(ViscousShearScene, AtAnotherTemperatureIsAsInAProcessOfAnotherLength) {
+  ViscousShear law;
+  law.c = {usual_viscosity()};
+  law.branches = {{0.5 * usual_viscosity(), 2.0}};
+  Case warm = frame_of(law, 10.0), reference = warm;
+  warm.fabrics[0].flow = ArrheniusFactor{41000.0, 180.0};
+  warm.process.temperature = 200.0;
+  const double f = warm.fabrics[0].flow.at(200.0);
+  reference.process.duration = 10.0 / f;
+  const std::vector<Frame> one = frames_of(warm), other = frames_of(reference);
+  ASSERT_EQ(one.size(), other.size());
+  for (std::size_t i = 0; i < one.size(); ++i)
+    EXPECT_NEAR(one[i].boundaries[0].force_N, other[i].boundaries[0].force_N,
+                1e-6 * one.back().boundaries[0].force_N);
+  EXPECT_EQ(one.back().plies[0].temperature[0], 200.0);
+}
+
+TEST(ViscousShearScene, OfAPlyThatCoolsHasTheLoadOfItsTemperature) {
+  ViscousShear law;
+  law.c = {usual_viscosity()};
+  Case data = frame_of(law, 10.0);
+  Fabric& fabric = data.fabrics[0];
+  fabric.flow = ArrheniusFactor{41000.0, 180.0};
+  fabric.heat_capacity = 1.2e9; // N mm/(t K)
+  data.process.temperature = 200.0;
+  data.process.cooling = Cooling{0.0, 0.0, 0.02, {{0.0, 20.0}}};
+  double largest = 0.0;
+  int judged = 0;
+  for (const Frame& frame : frames_of(data)) {
+    const double gamma = angle_of(data, frame.time), rate = rate_of(data, frame.time);
+    if (gamma < 10.0 * pi / 180.0 || rate < 0.03) continue;
+    ++judged;
+    const double celsius = frame.plies[0].temperature[0];
+    const double torque = fabric.crossings[0].shear.at(gamma).value +
+                          fabric.flow.at(celsius) * law.torque(gamma, rate);
+    const double off = frame.boundaries[0].force_N / load_of(data, gamma, torque) - 1.0;
+    EXPECT_NEAR(off, 0.0, 0.01) << celsius;
+    largest = std::max(largest, std::abs(off));
+  }
+  std::printf("[ rate     ] of a ply that cools: load off by %.2g %% at most\n", 100.0 * largest);
+  EXPECT_GE(judged, 6);
+}
+
 } // namespace
 } // namespace plyform::viscous_shear_scene_test
