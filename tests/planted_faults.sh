@@ -41,7 +41,7 @@ faults=(
   "friction takes tools to move the other way | contact/simd/tool_ply_kernel.cpp | s/motions(k, g) - everywhere(k.tool_motion)/motions(k, g) + everywhere(k.tool_motion)/"
   "films see simulated speeds | contact/forces/contact_law.hpp | s/dt \* contact.process_time/dt/"
   "each of two passes of plies has the whole film | core/solver/make_contacts.cpp | s/law.share = 0.5/law.share = 1.0/"
-  "friction by the angle of fibres takes them for parallel | contact/forces/ply_ply.cpp | s/law.by_angle(std::acos(/law.by_angle(0.0 * std::acos(/"
+  "friction by the angle of fibres takes them for parallel | contact/forces/sliding_point.cpp | s/law.by_angle(std::acos(/law.by_angle(0.0 * std::acos(/"
   "stitches push where they are slack | core/ply/membrane_simd_yarns.hpp | s/beyond = larger(all(0.0), stretch - law.taut_at)/beyond = stretch - law.taut_at/"
   "broken stitches pull again | core/ply/membrane_simd_yarns.hpp | s/n\[a\] = (breaks | gone) ? all(0.0)/n[a] = breaks ? all(0.0)/"
   "what broken stitches had stored is not lost | core/ply/membrane_simd_yarns.hpp | s/torn += (breaks \& ~gone) ? was .*/torn += all(0.0);/"

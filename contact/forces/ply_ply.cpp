@@ -2,6 +2,7 @@
 #include "contact/forces/ply_ply.hpp"
 
 #include "base/cpu_features.hpp"
+#include "contact/forces/sliding_point.hpp"
 #include "contact/simd/ply_ply_kernel.hpp"
 
 #include <cstddef>
@@ -79,18 +80,6 @@ void label_components(std::span<const Candidate> group, std::span<const Triangle
   }
 }
 
-/// Tributary area of a contact: the smaller of both sheets' nodal areas, so that a node of a coarse
-/// sheet does not overload the small nodes of a fine one. The master's is interpolated at the
-/// closest point, so that it does not depend on which of two equally close faces is taken.
-double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& master,
-                    const PlyPlyPoint& c, const Triangle& face) {
-  const std::array<double, 3> w = weights_of(c);
-  double master_area = 0.0;
-  for (std::size_t j = 0; j < 3; ++j)
-    master_area += w[j] * master.area[face[j]];
-  return std::min(slave.area[c.node], master_area);
-}
-
 /// Deactivates a point that does not touch, and resets the side that it is on.
 void deactivate(PlyPlyPoint& c) {
   c.gap_when_deactivated = static_cast<float>(c.gap);
@@ -138,31 +127,6 @@ const PlyPlyPoint* find_old(std::span<const PlyPlyPoint> old, std::size_t& begin
         faces.begin() + now.end_face)
       return &old[i];
   return nullptr;
-}
-
-/// f_a of contact/forces/friction_law.hpp at a point; 1 where a face has no fibres.
-double by_angle(const FrictionLaw& law, const PlyPlyPoint& point, const SurfaceKinematics& slave,
-                const SurfaceKinematics& master, std::span<const Triangle> triangles) {
-  if (slave.fibres.empty() || master.fibres.empty()) return 1.0;
-  const std::array<double, 3> w = weights_of(point);
-  const Triangle& t = triangles[static_cast<std::size_t>(point.face)];
-  Vec3 other = Vec3::Zero();
-  for (std::size_t j = 0; j < 3; ++j)
-    other += w[j] * at(master.fibres, t[j]);
-  const Vec3& own = at(slave.fibres, point.node);
-  const double size = own.norm() * other.norm();
-  if (!(size > 0.0)) return 1.0;
-  return law.by_angle(std::acos(std::min(std::abs(own.dot(other)) / size, 1.0)));
-}
-
-/// Gives a point that goes on the area that it had, as its springs store energy. A film bears shear
-/// by its area, which changes as one sheet slides out from the other: its points take the present
-/// one, and keep their force.
-void keep_area(const PlyPlyPoint& before, const ContactLaw& law, PlyPlyPoint& c) {
-  if (law.sliding && law.sliding->has_rates() && c.area > 0.0)
-    s_of(c.memory) *= before.area / c.area;
-  else
-    c.area = before.area;
 }
 
 /// Gives back what a list that has grown holds beyond an eighth more than it needs.
@@ -223,7 +187,7 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
       for (std::size_t i = first; i < group.size(); ++i)
         if (label[i] == label[first]) near.push_back(group[i]);
       PlyPlyPoint c = add_faces(contact, near, slave, master, triangles, path_length);
-      c.area = contact_area(slave, master, c, triangles[c.face]);
+      c.area = area_of(contact.law, slave, master, c, triangles[c.face]);
       if (const PlyPlyPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[before - old.data()] = 1;
         c.memory = before->memory;

@@ -168,6 +168,37 @@ TEST(FilmFriction, APlyOnATableSlidesAsCouetteSays) {
   fmt::print("way {:.3f} % off at most, {:.3f} % at the end\n", 100.0 * worst, 100.0 * last);
 }
 
+// Areas of contact are those of nodes: at the rims of the upper ply they are off by parts of an
+// element, so that it is long.
+TEST(FilmFriction, ALaminateOfTwoPliesSlidesAsCouetteSays) {
+  const double h = 0.1, theta = 0.01, gravity = 9810.0;
+  const double density = glass_weave().surface_density;
+  Case data = stack_of({0.0, 0.0}, rectangle(140.0, 40.0, cell));
+  data.blanks.push_back(rectangle(120.0, 20.0, cell));
+  data.plies[1].blank = 1;
+  Boundary held = hold("all", {-71.0, -21.0}, {71.0, 21.0}, Vec3::UnitX(), 0.0);
+  held.ply = 0;
+  data.boundaries = {held};
+  slide_on(data, film(density * h / theta, h));
+  data.gravity = {gravity, 0.0, -2e5};
+  data.solver.fibre_softening = 100.0;
+  data.solver.duration = data.process.duration.emplace(0.05);
+  data.solver.outputs = 50;
+  double worst = 0.0;
+  RunHooks hooks;
+  hooks.frame = [&](const Frame& f) {
+    double way = 0.0;
+    for (const Vec3& x : f.plies[1].x)
+      way += x.x() / static_cast<double>(f.plies[1].x.size());
+    const double wanted = gravity * theta * (f.time - theta * (1.0 - std::exp(-f.time / theta)));
+    if (f.time > theta) worst = std::max(worst, std::abs(way / wanted - 1.0));
+  };
+  const EndedRun run = run_on_any_threads([&] { return make_scene(data); }, hooks);
+  ASSERT_TRUE(ended(run.result.summary.status)) << run.result.summary.message;
+  EXPECT_LE(worst, 0.06);
+  fmt::print("way {:.3f} % off at most\n", 100.0 * worst);
+}
+
 TEST(FilmFriction, AStiffFilmNeedsNoSmallerStepAndHolds) {
   long dry_steps = 0;
   double dry_error = 0.0; // where all sticks, the start alone is in the ledger
