@@ -46,6 +46,16 @@ void set_frequency(const Case& data, PlyBody& body) {
   body.bound = eigenvalue_bound(body.membrane, body.x); // with viscosity
 }
 
+/// Temperatures at the start, and room for what follows them: core/solver/follow_temperature.hpp.
+void set_temperature(const Case& data, const Ply& ply, PlyBody& body) {
+  const std::optional<double> temperature = start_temperature(data, ply);
+  if (!temperature) return;
+  body.temperature.assign(body.x.size(), *temperature);
+  if (!data.fabrics[ply.fabric].flow.depends()) return;
+  if (body.viscous) body.flow_factors.assign(body.membrane.triangles.size(), 1.0);
+  if (body.viscous_bending) body.node_flow_factors.assign(body.x.size(), 1.0);
+}
+
 /// alike: a ply of the same fabric, angle and mesh, or null.
 PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const PlyBody* alike) {
   PlyBody body;
@@ -101,12 +111,7 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.thickness_acts = fabric.compaction.has_value();
   body.thickness_ratio.assign(body.x.size(), 1.0);
   body.last_ratio = body.thickness_ratio;
-  if (const std::optional<double> temperature = start_temperature(data, ply))
-    body.temperature.assign(body.x.size(), *temperature);
-  if (fabric.flow.depends() && !body.temperature.empty()) {
-    if (body.viscous) body.flow_factors.assign(body.membrane.triangles.size(), 1.0);
-    if (body.viscous_bending) body.node_flow_factors.assign(body.x.size(), 1.0);
-  }
+  set_temperature(data, ply, body);
   return body;
 }
 
