@@ -141,6 +141,10 @@ def every_option(page, server):
     assert found == own, (found, own)
     shown_ = {name: page.find(f"#option-{name}").get_attribute("value") for name in values}
     assert shown_ == values and page.find("#option-yes-doubtful").is_selected(), shown_
+    for name, value in (("speeds", "100"), ("temperatures", "180"), ("viscosity-coefficients", "2")):
+        page.type(f"#option-{name}", value)  # of several curves: tests/cli/identify_test.sh
+        assert page.find(f"#option-{name}").get_attribute("value") == value
+        page.type(f"#option-{name}", "")
     none = {name: "" for name in ("coefficients", "from", "to", "compliance", "zero", "toe", "slip", "angle-column")}
     again(page, {**none, "law": "table", "points": "5"}, "shear law")
     assert "table of 5 points: as asked for" in page.text("#identify-told"), page.text("#identify-told")

@@ -172,7 +172,7 @@ def lists(page: Page) -> None:
     page.until(lambda: len(list(page.tree()["blanks"].values())[0]["holes"]) == 2, "two holes")
     page.press('.holes legend [data-act="remove-row"]')
     page.until(lambda: len(list(page.tree()["blanks"].values())[0]["holes"]) == 1, "one hole")
-    for group in ("boundary", "load"):
+    for group in ("boundary", "load", "friction"):
         page.press(f'[data-add="{group}"]')
         page.until(lambda g=group: len(page.tree()[g]) == 1, group)
     while page.tree() != before:

@@ -94,7 +94,7 @@ void check_cooling(const TableView& root, const TableView& section, const Case& 
   for (const Ply& ply : built.plies) {
     const auto fabric = static_cast<std::size_t>(ply.fabric);
     if (fabric >= built.fabrics.size() || built.fabrics[fabric].heat_capacity) continue;
-    missing(here, "heat_capacity",
+    missing(here, fmt::format("fabrics.{}.heat_capacity", built.fabrics[fabric].name),
             fmt::format("without which nobody knows how fast ply {} cools", ply.name),
             fmt::format("give it in fabric {}, 0.9 to 1.8 J/(g K) of prepregs",
                         built.fabrics[fabric].name));
