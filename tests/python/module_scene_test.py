@@ -27,7 +27,7 @@ def pattern_of(item):
     """tool.1.radius -> tool[].radius, fabrics.glass.thickness -> fabrics.NAME.thickness"""
     parts = ("[]" if part.isdigit() else "." + part for part in item.split("."))
     pattern = "".join(parts)[1:]
-    return re.sub(r"^(fabrics|blanks)\.[^.\[]+", r"\1.NAME", pattern)
+    return re.sub(r"^(fabrics|blanks|friction)\.[^.\[]+", r"\1.NAME", pattern)
 
 
 def is_known(item):
