@@ -161,14 +161,11 @@ struct LawReader {
   /// A table's points; `rises` by the first column.
   std::vector<CurvePoint> points(const std::string& name) const {
     std::vector<CurvePoint> found;
-    const TomlNode* table = given(section, name);
     const std::vector<Vec2> rows = pairs(section, name);
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (i > 0 && !(rows[i].x() > found.back().at)) {
-        const TomlNode& row = table->children[i];
-        diagnostics.error(row.at, fmt::format("{}.{}", item_of(section, name), i), row.source_text,
-                          "must be greater than the first number of the row before",
-                          "put the rows in ascending order, each first number once");
+        row_error(section, name, i, "must be greater than the first number of the row before",
+                  "put the rows in ascending order, each first number once", diagnostics);
         return {};
       }
       found.push_back({rows[i].x(), rows[i].y()});

@@ -54,5 +54,8 @@ Vec3 vector3(const TableView& section, const std::string& key);
 /// Reports an error in the value of a key.
 void value_error(const TableView& section, const std::string& key, const std::string& rule,
                  const std::string& remedy, Diagnostics& diagnostics);
+/// The same of one item of a list that is given, as a row of a table.
+void row_error(const TableView& section, const std::string& key, std::size_t row,
+               const std::string& rule, const std::string& remedy, Diagnostics& diagnostics);
 
 } // namespace plyform

@@ -94,4 +94,11 @@ void value_error(const TableView& section, const std::string& key, const std::st
   value->valid = false;
 }
 
+void row_error(const TableView& section, const std::string& key, std::size_t row,
+               const std::string& rule, const std::string& remedy, Diagnostics& diagnostics) {
+  const TomlNode& entry = given(section, key)->children[row];
+  diagnostics.error(entry.at, fmt::format("{}.{}", item_of(section, key), row), entry.source_text,
+                    rule, remedy);
+}
+
 } // namespace plyform

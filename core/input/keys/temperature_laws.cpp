@@ -71,16 +71,13 @@ TemperatureFactor read_temperature_law(const TableView& section, double referenc
                 diagnostics);
     return {};
   }
-  const TomlNode* node = given(section, "table");
-  if (!node) return {}; // told by the table of keys
+  if (!given(section, "table")) return {}; // told by the table of keys
   TableFactor table{{}, {}, reference};
   const std::vector<Vec2> rows = pairs(section, "table");
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (i > 0 && !(rows[i].x() > rows[i - 1].x())) {
-      const TomlNode& row = node->children[i];
-      diagnostics.error(row.at, fmt::format("{}.{}", item_of(section, "table"), i), row.source_text,
-                        "must be warmer than the row before",
-                        "put the rows in order, each temperature once");
+      row_error(section, "table", i, "must be warmer than the row before",
+                "put the rows in order, each temperature once", diagnostics);
       return {};
     }
     table.temperature.push_back(rows[i].x()), table.values.push_back(rows[i].y());

@@ -30,14 +30,11 @@ struct CompactionReader {
   /// A table of [thickness, pressure]; empty if it is not given or wrong.
   ThicknessCurve curve(const std::string& key) const {
     ThicknessCurve curve;
-    const TomlNode* table = given(section, key);
     const std::vector<Vec2> points = pairs(section, key);
     for (std::size_t i = 0; i < points.size(); ++i) {
       const double t = points[i].x(), p = points[i].y();
       const auto wrong = [&](const std::string& rule, const std::string& remedy) {
-        const TomlNode& row = table->children[i];
-        diagnostics.error(row.at, fmt::format("{}.{}", item_of(section, key), i), row.source_text,
-                          rule, remedy);
+        row_error(section, key, i, rule, remedy, diagnostics);
         return ThicknessCurve();
       };
       if (i == 0 && p != 0.0)

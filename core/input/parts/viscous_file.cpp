@@ -25,15 +25,13 @@ RateCurve read_rate_curve(const TableView& section, Diagnostics& diagnostics) {
   RateCurve curve;
   read_members(section, curve);
   const std::vector<Vec2> points = pairs(section, "table");
-  const TomlNode* table = given(section, "table");
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double angle = points[i].x();
     if (i == 0 ? angle != 0.0 : !(angle > points[i - 1].x())) {
-      const TomlNode& row = table->children[i];
-      diagnostics.error(row.at, fmt::format("{}.{}", item_of(section, "table"), i), row.source_text,
-                        i == 0 ? "must be of 0 degrees"
-                               : "must have a first number above that of the row before",
-                        "put the rows in ascending order from [0.0, torque] on");
+      row_error(section, "table", i,
+                i == 0 ? "must be of 0 degrees"
+                       : "must have a first number above that of the row before",
+                "put the rows in ascending order from [0.0, torque] on", diagnostics);
       return curve;
     }
     curve.angle.push_back(angle), curve.torque.push_back(points[i].y());

@@ -22,12 +22,9 @@ namespace {
 /// column must not decrease if `rising`, its name in the message, is not empty.
 void check_law(const TableView& law, const std::string& key, const std::vector<Vec2>& points,
                const std::string& rising, Diagnostics& diagnostics) {
-  const TomlNode* table = given(law, key);
-  if (!table || points.empty()) return;
+  if (!given(law, key) || points.empty()) return;
   const auto fail = [&](std::size_t row, const std::string& rule, const std::string& remedy) {
-    const TomlNode& entry = table->children[row];
-    diagnostics.error(entry.at, fmt::format("{}.{}", item_of(law, key), row), entry.source_text,
-                      rule, remedy);
+    row_error(law, key, row, rule, remedy, diagnostics);
   };
   if (points[0] != Vec2::Zero())
     return fail(0, "must be [0, 0], where the law starts", "put [0.0, 0.0] first");
@@ -117,12 +114,9 @@ namespace {
 /// Checks that the table of a law of shear has [0, 0], and torques that resist.
 void check_shear_table(const TableView& shear, const std::vector<Vec2>& points,
                        Diagnostics& diagnostics) {
-  const TomlNode* table = given(shear, "table");
-  if (!table || points.empty()) return;
+  if (!given(shear, "table") || points.empty()) return;
   const auto fail = [&](std::size_t row, const std::string& rule, const std::string& remedy) {
-    const TomlNode& entry = table->children[row];
-    diagnostics.error(entry.at, fmt::format("{}.{}", item_of(shear, "table"), row),
-                      entry.source_text, rule, remedy);
+    row_error(shear, "table", row, rule, remedy, diagnostics);
   };
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double angle = points[i].x(), torque = points[i].y();
