@@ -17,8 +17,8 @@ double move_moment(double viscosity, double spring, double kappa, double dt, con
   next[0] = kappa, next[1] = now[1];
   if (!(dt > 0.0)) return next[1];
   const double change = kappa - now[0];
-  next[1] = viscosity / (viscosity + spring * dt) * (now[1] + spring * change); // (B)
-  lost += 0.5 * (now[1] + next[1]) * (change - (next[1] - now[1]) / spring);
+  next[1] = dashpot_torque(viscosity, spring, dt, now[1], change);
+  lost += branch_loss(now[1], next[1], change, spring);
   return next[1];
 }
 

@@ -42,12 +42,11 @@ double move_torques(const ViscousCrossing& c, const BranchSteps& steps, const St
                     const double* now, double* next, double& lost) {
   double sum = 0.0;
   const auto add = [&](double q0, double q1, double modulus) {
-    lost += 0.5 * (q0 + q1) * (s.change - (q1 - q0) / modulus);
+    lost += branch_loss(q0, q1, s.change, modulus);
     sum += q1;
   };
   if (c.law.has_dashpot()) {
-    const double resist = s.viscosity + s.spring * s.dt; // of (B)
-    next[0] = resist > 0.0 ? s.viscosity / resist * (now[0] + s.spring * s.change) : 0.0;
+    next[0] = dashpot_torque(s.viscosity, s.spring, s.dt, now[0], s.change);
     add(now[0], next[0], s.spring);
   }
   for (std::size_t k = 0; k < steps.size(); ++k) {
@@ -119,9 +118,8 @@ double step_sheet(const ViscousSheet& sheet, const Membrane& m, const AxesState&
                              (0.5 * d22 - u * d12 / lambda + 0.5 * u * u * d11 / c11) / (v * v)};
     const double viscosity[] = {factor * sheet.shear, factor * sheet.apart};
     for (int i = 0; i < 2; ++i) {
-      const double k = m.matrix_spring;
-      n1[i] = viscosity[i] / (viscosity[i] + k * dt) * (n0[i] + k * change[i]); // (B)
-      lost += 0.5 * (n0[i] + n1[i]) * (change[i] - (n1[i] - n0[i]) / k);
+      n1[i] = dashpot_torque(viscosity[i], m.matrix_spring, dt, n0[i], change[i]);
+      lost += branch_loss(n0[i], n1[i], change[i], m.matrix_spring);
     }
     smooth_rate(change[0], dt, sheet.rate_time, rate, rate1);
   }
