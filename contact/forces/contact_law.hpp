@@ -79,6 +79,8 @@ struct ContactLaw {
   double viscosity_factor = 1.0; ///< on the viscosities of `sliding`
 
   bool rubs() const { return sliding || friction > 0.0; } ///< whether it has friction at all
+  /// Whether its friction goes by the speed.
+  bool has_film() const { return sliding && sliding->has_rates(); }
 
   /// p_1, mm.
   double packed() const { return loading ? loading->packed() : 0.0; }

@@ -40,12 +40,11 @@ double film_area(const SurfaceKinematics& slave, const SurfaceKinematics& master
 
 double area_of(const ContactLaw& law, const SurfaceKinematics& slave,
                const SurfaceKinematics& master, const PlyPlyPoint& c, const Triangle& face) {
-  const bool film = law.sliding && law.sliding->has_rates();
-  return film ? film_area(slave, master, c, face) : contact_area(slave, master, c, face);
+  return law.has_film() ? film_area(slave, master, c, face) : contact_area(slave, master, c, face);
 }
 
 void keep_area(const PlyPlyPoint& before, const ContactLaw& law, PlyPlyPoint& c) {
-  if (law.sliding && law.sliding->has_rates() && c.area > 0.0)
+  if (law.has_film() && c.area > 0.0)
     s_of(c.memory) *= before.area / c.area;
   else
     c.area = before.area;

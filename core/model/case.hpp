@@ -224,10 +224,10 @@ struct Case {
   ContactOptions contact;
   AccuracyOptions accuracy;
 
+  /// s, that the stroke takes in the process, or what is simulated of it if that is not said
+  double process_stroke_time() const { return process.duration.value_or(solver.duration); }
   /// s of the process in each simulated second; 1 if it is not said how long the process takes
-  double process_time() const {
-    return process.duration.value_or(solver.duration) / solver.duration;
-  }
+  double process_time() const { return process_stroke_time() / solver.duration; }
 };
 
 /// Whether anything of it has a temperature; then every ply has.

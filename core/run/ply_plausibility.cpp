@@ -292,8 +292,6 @@ std::vector<std::string> doubts_of_forces(const Scene& s, const std::vector<Know
   return found;
 }
 
-namespace {} // namespace
-
 PlyReport report_ply(const PlyFrame& ply, const PlyNature& nature,
                      const std::vector<const ToolBody*>& tools) {
   PlyReport result;

@@ -11,8 +11,7 @@ namespace {
 
 /// mm/s in the process, of what is driven; 0 if nothing is.
 double fastest(const Case& data) {
-  return peak_speed_ratio * longest_strokes(data).at_full_speed /
-         data.process.duration.value_or(data.solver.duration);
+  return peak_speed_ratio * longest_strokes(data).at_full_speed / data.process_stroke_time();
 }
 
 /// N/mm^2, largest and smallest that the loads of a case press with; nothing: forces of tools

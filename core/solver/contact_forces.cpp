@@ -15,7 +15,7 @@ namespace {
 void add_sums(const ContactLaw& law, const ContactTotals& sums, Energies& e) {
   e.contact += sums.elastic;
   e.compaction += sums.compaction;
-  (law.sliding && law.sliding->has_rates() ? e.film : e.friction) += sums.friction;
+  (law.has_film() ? e.film : e.friction) += sums.friction;
   e.damping += sums.damping;
 }
 

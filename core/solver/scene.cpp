@@ -66,7 +66,7 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.membrane =
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
   body.membrane.process_time = data.process_time();
-  body.viscous = make_viscous(body.membrane, data.process.duration.value_or(data.solver.duration));
+  body.viscous = make_viscous(body.membrane, data.process_stroke_time());
   if (body.viscous) {
     const std::size_t triangles = body.membrane.triangles.size();
     body.viscous_states.assign(triangles * body.viscous->states, 0.0);

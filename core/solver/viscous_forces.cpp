@@ -75,7 +75,7 @@ void ViscousForces::add_times(const Scene& s, Times& times) {
 }
 
 void ViscousForces::describe(const Scene& s, std::vector<std::string>& lines) {
-  const double stroke = s.data.process.duration.value_or(s.data.solver.duration);
+  const double stroke = s.data.process_stroke_time();
   for (const PlyBody& ply : s.plies) {
     if (!ply.viscous) continue;
     const double lag = lag_of(*ply.viscous, ply.membrane, 1.0 / stroke);
@@ -132,7 +132,7 @@ void ViscousBendingForces::add_times(const Scene& s, Times& times) {
 }
 
 void ViscousBendingForces::describe(const Scene& s, std::vector<std::string>& lines) {
-  const double stroke = s.data.process.duration.value_or(s.data.solver.duration);
+  const double stroke = s.data.process_stroke_time();
   for (const PlyBody& ply : s.plies) {
     if (!ply.viscous_bending) continue;
     const ViscousBending& v = *ply.viscous_bending;
