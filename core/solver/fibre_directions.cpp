@@ -13,10 +13,8 @@ void note_fibres(PlyBody& ply) {
   ply.fibres.assign(ply.x.size(), Vec3::Zero());
   for (std::size_t e = 0; e < m.triangles.size(); ++e) {
     const Triangle& t = m.triangles[e];
-    const AxesGradients& c = m.c[e];
-    const Vec3 &x = at(ply.x, t[0]), u = at(ply.x, t[1]) - x, v = at(ply.x, t[2]) - x;
-    const Vec3 k1 = c.c11 * u + c.c12 * v, k2 = c.c21 * u + c.c22 * v;
-    const Vec3 image = m.area[e] * (along.x() * k1 + along.y() * k2);
+    const AxesState axes = axes_state(m, ply.x, static_cast<int>(e));
+    const Vec3 image = m.area[e] * (along.x() * axes.k1() + along.y() * axes.k2());
     for (const std::int32_t n : t)
       ply.fibres[at(n)] += image;
   }
