@@ -113,6 +113,22 @@ std::vector<double> cooled(const PlyBody& ply, const Faces& faces, double air, d
   return celsius;
 }
 
+/// What the temperatures of a time (s) make of viscosities: of triangles at the mean of their
+/// nodes.
+void find_flow_factors(PlyBody& ply, double time) {
+  if (ply.flow_time == time) return;
+  const TemperatureFactor& flow = ply.membrane.fabric.flow;
+  for (std::size_t e = 0; e < ply.flow_factors.size(); ++e) {
+    double celsius = 0.0;
+    for (const std::int32_t node : ply.membrane.triangles[e])
+      celsius += ply.temperature[at(node)] / 3.0;
+    ply.flow_factors[e] = flow.at(celsius);
+  }
+  for (std::size_t n = 0; n < ply.node_flow_factors.size(); ++n)
+    ply.node_flow_factors[n] = flow.at(ply.temperature[n]);
+  ply.flow_time = time;
+}
+
 } // namespace
 
 std::vector<std::vector<double>> present_temperatures(const Scene& s, ThreadPool& pool) {
@@ -137,11 +153,14 @@ std::vector<std::vector<double>> present_temperatures(const Scene& s, ThreadPool
 }
 
 void update_temperatures(Scene& s, ThreadPool& pool) {
-  if (!s.data.process.cooling || s.step % temperatures_every != 0) return;
-  std::vector<std::vector<double>> celsius = present_temperatures(s, pool);
-  for (std::size_t p = 0; p < s.plies.size(); ++p)
-    s.plies[p].temperature = std::move(celsius[p]);
-  s.cooled_until = s.time;
+  if (s.data.process.cooling && s.step % temperatures_every == 0) {
+    std::vector<std::vector<double>> celsius = present_temperatures(s, pool);
+    for (std::size_t p = 0; p < s.plies.size(); ++p)
+      s.plies[p].temperature = std::move(celsius[p]);
+    s.cooled_until = s.time;
+  }
+  for (PlyBody& ply : s.plies)
+    find_flow_factors(ply, s.cooled_until);
 }
 
 } // namespace plyform

@@ -34,7 +34,8 @@ constexpr long temperatures_every = 10;
 std::vector<std::vector<double>> present_temperatures(const Scene& s, ThreadPool& pool);
 
 /// Takes the temperatures of plies to the present time, if the case has cooling and an update is
-/// due. Asked twice at one time it changes nothing. To be called before forces are computed.
+/// due, and what they make of viscosities. Asked twice at one time it changes nothing. To be called
+/// before forces are computed.
 void update_temperatures(Scene& s, ThreadPool& pool);
 
 } // namespace plyform

@@ -139,6 +139,8 @@ struct PlyCache {
   std::vector<Vec3> viscous_bending_force;      ///< N, by rates of curvature, on each node
   /// What temperatures make of viscosities, of each triangle and of each node; empty: nothing.
   std::vector<double> flow_factors, node_flow_factors;
+  /// s, SceneProgress::cooled_until of the temperatures that they are of.
+  double flow_time = std::numeric_limits<double>::quiet_NaN();
   double viscous_bending_seconds = 0.0; ///< s, computing these
 };
 
@@ -150,7 +152,7 @@ void each_array(PlyCache& ply, F&& f) {
          thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
          last_load_work, last_ratio, squeeze, spread, pressed, yarns_end, viscous_end, bending_end,
          viscous_stepped, viscous_q, viscous_bending_force, flow_factors, node_flow_factors,
-         viscous_bending_seconds] = ply;
+         flow_time, viscous_bending_seconds] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);

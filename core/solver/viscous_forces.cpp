@@ -11,21 +11,6 @@ namespace {
 
 constexpr double told_lag = 0.005; // of the stroke
 
-bool flows_by_temperature(const PlyBody& ply) {
-  return ply.membrane.fabric.flow.depends() && !ply.temperature.empty();
-}
-
-/// f of the triangles of groups [begin, end), at the mean temperature of their nodes.
-void find_flow_factors(PlyBody& ply, int begin, int end) {
-  const Membrane& m = ply.membrane;
-  for (int e = m.group_begin[at(begin)]; e < m.group_begin[at(end)]; ++e) {
-    double celsius = 0.0;
-    for (const std::int32_t node : m.triangles[at(e)])
-      celsius += ply.temperature[at(node)] / 3.0;
-    ply.flow_factors[at(e)] = m.fabric.flow.at(celsius);
-  }
-}
-
 } // namespace
 
 double ViscousForces::place(const Scene& s, int task) {
@@ -36,7 +21,6 @@ void ViscousForces::run(Scene& s, int task) {
   Block& block = s.viscous_blocks[at(task)];
   const Stopwatch watch(block.seconds);
   PlyBody& ply = s.plies[at(block.ply)];
-  if (flows_by_temperature(ply)) find_flow_factors(ply, block.begin, block.end);
   viscous_forces(*ply.viscous, ply.membrane, ply.x, s.dt * ply.membrane.process_time, block.begin,
                  block.end, {ply.viscous_states, ply.viscous_end, ply.flow_factors}, ply.viscous_q);
 }
@@ -101,8 +85,6 @@ void ViscousBendingForces::run(Scene& s, int task) {
   PlyBody& ply = s.plies[at(task)];
   if (!ply.viscous_bending) return;
   const Stopwatch watch(ply.viscous_bending_seconds);
-  for (std::size_t n = 0; n < ply.node_flow_factors.size(); ++n)
-    ply.node_flow_factors[n] = ply.membrane.fabric.flow.at(ply.temperature[n]);
   viscous_bending_forces(*ply.viscous_bending, ply.x, s.dt * ply.membrane.process_time,
                          ply.bending_states, ply.bending_end, ply.viscous_bending_force,
                          ply.node_flow_factors);
