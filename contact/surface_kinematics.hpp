@@ -8,6 +8,8 @@
 
 namespace plyform {
 
+struct SheetEdge;
+
 /// Position and motion of the mid-surface of a ply: spans over its nodes.
 struct SurfaceKinematics {
   std::span<const Vec3> x;      ///< mm
@@ -21,6 +23,10 @@ struct SurfaceKinematics {
   std::span<const double> thickness_ratio = {};
   /// per node, how its fibres run, of any length; for searches whose laws ask for it
   std::span<const Vec3> fibres = {};
+  /// Its edges and, per node, the distance (mm) before forming from the sheet's rim; for searches
+  /// whose laws have films
+  std::span<const SheetEdge> edges = {};
+  std::span<const double> rim_distance = {};
 };
 
 } // namespace plyform

@@ -77,6 +77,7 @@ struct ContactLaw {
   double process_time = 1.0;   ///< s of the process in each simulated second
   double share = 1.0; ///< of the area on which `sliding` acts: half of it in each of two passes
   double viscosity_factor = 1.0; ///< on the viscosities of `sliding`
+  double film_gap = 0.0; ///< mm, gap up to which a film still fills it; 0: only what touches slides
 
   bool rubs() const { return sliding || friction > 0.0; } ///< whether it has friction at all
   /// Whether its friction goes by the speed.
@@ -138,6 +139,7 @@ inline ContactKernelLaw kernel_law(const ContactLaw& law, double dt) {
   k.max_depth = law.max_depth, k.per_depth2 = 1.0 / (law.max_depth * law.max_depth);
   k.damping_per_dt = dt > 0.0 ? law.damping / dt : 0.0;
   k.depth_limit = law.depth_limit();
+  k.film_gap = law.film_gap;
   if (law.loading) k.loading = law.loading->table();
   if (law.unloading) k.unloading = law.unloading->table();
   return k;

@@ -78,6 +78,11 @@ double FrictionLawSpec::hersey(double number) const {
   return on_log_pieces(curve, number);
 }
 
+double FrictionLawSpec::film_thickness() const {
+  if (kind == Kind::film) return film;
+  return film_beyond && !curve.empty() ? curve.back().at / curve.back().value : 0.0;
+}
+
 double FrictionLawSpec::viscosity_at(double rate) const {
   return viscosity_curve.empty() ? viscosity : on_log_pieces(viscosity_curve, rate);
 }

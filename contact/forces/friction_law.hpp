@@ -16,7 +16,8 @@
 // beyond the last Hersey number of a curve mu stays what it is there (Coulomb), or rises in
 // proportion to H, which is a film of thickness H / mu (ten Thije et al., Composites A 42:950,
 // 2011; Harrison et al., World J. Eng. 7:5, 2010: one curve for all pressures, speeds and
-// temperatures). A film bears shear as long as the faces touch, whatever presses them.
+// temperatures). A film bears shear whatever presses the faces, and also where they have opened by
+// less than its thickness, as it sticks to both.
 //
 // (L) is the bound of (T) of contact/forces/contact_law.hpp with the speed of the end of the step:
 // of the stretch S that the spring k_t would have without slip
@@ -93,6 +94,8 @@ struct FrictionLawSpec {
   bool plain() const {
     return !has_rates() && over_angle.empty() && over_slip.empty() && tack.empty();
   }
+  /// mm, thickness of the film that needs no pressure; 0: there is none.
+  double film_thickness() const;
   double hersey(double number) const;     ///< mu at a Hersey number (mm)
   double viscosity_at(double rate) const; ///< N s/mm^2, at 1/s
 };

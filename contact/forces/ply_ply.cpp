@@ -112,7 +112,7 @@ PlyPlyPoint add_faces(PlyPlyContact& contact, std::vector<Candidate>& near,
                                contact.face_distance.data());
   c.gap = std::sqrt(near.front().distance2) -
           contact.distance * thickness_ratio_at(contact, c, slave, master, triangles);
-  contact.list.free_until.push_back(path_length + c.gap);
+  contact.list.free_until.push_back(path_length + (c.gap - contact.law.film_gap));
   deactivate(c);
   return c;
 }
@@ -187,20 +187,22 @@ void find_ply_ply_points(PlyPlyContact& contact, std::span<const Candidate> cand
       for (std::size_t i = first; i < group.size(); ++i)
         if (label[i] == label[first]) near.push_back(group[i]);
       PlyPlyPoint c = add_faces(contact, near, slave, master, triangles, path_length);
-      c.area = area_of(contact.law, slave, master, c, triangles[c.face]);
+      c.area = contact_area(slave, master, c, triangles[c.face]);
       if (const PlyPlyPoint* before = find_old(old, next_old, c, contact.faces)) {
         adopted[before - old.data()] = 1;
         c.memory = before->memory;
         c.side = before->side;
-        keep_area(*before, contact.law, c);
+        c.area = before->area; // its springs store energy
         double& free_until = contact.list.free_until.back();
-        if (before->gap < 0.0) c.gap = before->gap, free_until = std::min(free_until, path_length);
+        if (before->gap < contact.law.film_gap)
+          c.gap = before->gap, free_until = std::min(free_until, path_length);
       }
       if (contact.law.sliding)
         c.by_angle = by_angle(*contact.law.sliding, c, slave, master, triangles);
       contact.points.push_back(c);
     }
   }
+  if (contact.law.has_film()) renew_film_areas(contact, slave, master, triangles);
   trim(contact.points);
   trim(contact.faces), trim(contact.face_distance), trim(contact.list.free_until);
   for (std::size_t i = 0; i < old.size(); ++i)
@@ -328,7 +330,7 @@ void add_ply_ply_stiffness(const PlyPlyContact& contact, const SurfaceKinematics
   // the area; as G G^T <= 2 G_w G_w^T + 2 G_g G_g^T, its G_w part is bounded by the normal one and
   // the G_g part is added here.
   for (const PlyPlyPoint& c : contact.points) {
-    if (latest_gap(c) > margin) continue;
+    if (latest_gap(c) > margin + contact.law.film_gap) continue;
     const Triangle& t = triangles[c.face];
     const double thickness = thickness_ratio_at(contact, c, slave, master, triangles);
     const ContactRow normal = 2.0 * c.area * row_of(contact.law, latest_gap(c), thickness);

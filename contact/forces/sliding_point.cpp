@@ -1,53 +1,118 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "contact/forces/sliding_point.hpp"
 
+#include "contact/search/sheet_edges.hpp"
 #include "contact/simd/ply_ply_kernel.hpp"
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
+#include <vector>
 
 namespace plyform {
 namespace {
 
-/// Tributary area of a contact: the smaller of both sheets' nodal areas, so that a node of a coarse
-/// sheet does not overload the small nodes of a fine one. The master's is interpolated at the
-/// closest point, so that it does not depend on which of two equally close faces is taken.
-double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& master,
-                    const PlyPlyPoint& c, const Triangle& face) {
-  const std::array<double, 3> w = weights_of(c);
-  double master_area = 0.0;
-  for (std::size_t j = 0; j < 3; ++j)
-    master_area += w[j] * master.area[face[j]];
-  return std::min(slave.area[c.node], master_area);
+/// The way from a point to the rim of the master.
+struct ToRim {
+  double distance = 0.0;       ///< phi, mm, present; below 0 outside
+  Vec3 outward = Vec3::Zero(); ///< unit vector in the face; 0 where no rim is nearer than others
+  double next = 0.0;           ///< L, mm
+  std::int32_t node = -1;      ///< of the slave, there
+};
+
+/// By the distances from the rim before forming, which are linear over the face.
+ToRim to_rim(const PlyPlyPoint& point, const SurfaceKinematics& slave,
+             const SurfaceKinematics& master, const Triangle& t) {
+  const Vec3 &a = at(master.x, t[0]), b = at(master.x, t[1]) - a, c = at(master.x, t[2]) - a;
+  const double first = master.rim_distance[t[0]];
+  const double to_b = master.rim_distance[t[1]] - first, to_c = master.rim_distance[t[2]] - first;
+  const Vec3 across = b.cross(c);
+  const Vec3 inward = (to_b * c.cross(across) + to_c * across.cross(b)) / across.squaredNorm();
+  const double rise = inward.norm(); // 1 where nothing has stretched
+  if (!(rise > 0.0)) return {};
+  ToRim rim;
+  rim.outward = -inward / rise;
+  const Vec3 foot = a + point.w[0] * b + point.w[1] * c;
+  const double beyond = (at(slave.x, point.node) - foot).dot(rim.outward); // of one that is outside
+  rim.distance = (first + point.w[0] * to_b + point.w[1] * to_c) / rise - std::max(beyond, 0.0);
+  return rim;
 }
 
-/// The area on which a film acts at a node: all of the node's own, which add up to that of its
-/// sheet whatever the other's mesh, up to where a much finer one would be overloaded; at the
-/// other's rim as of contact_area.
-double film_area(const SurfaceKinematics& slave, const SurfaceKinematics& master,
-                 const PlyPlyPoint& c, const Triangle& face) {
-  constexpr double on_edge = 0.05, finer = 4.0; // of an element; -
-  const double shared = contact_area(slave, master, c, face);
-  if (master.faces_across.empty()) return shared;
-  const std::array<double, 3> w = weights_of(c);
-  for (std::size_t j = 0; j < 3; ++j)
-    if (w[j] < on_edge && master.faces_across[static_cast<std::size_t>(c.face)][j] == no_face)
-      return shared;
-  return std::min(slave.area[c.node], finer * shared);
+/// Finds how far the slave's mesh reaches from each point's node towards the rim. first: the number
+/// of each node's first point.
+void find_next(const SurfaceKinematics& slave, std::span<const std::size_t> first,
+               std::vector<ToRim>& rims) {
+  const auto reach = [&](std::int32_t from, std::int32_t to) {
+    for (std::size_t i = first[from]; i < first[from + 1]; ++i) {
+      const double way = rims[i].outward.dot(at(slave.x, to) - at(slave.x, from));
+      if (way > rims[i].next) rims[i].next = way, rims[i].node = to;
+    }
+  };
+  for (const SheetEdge& edge : slave.edges)
+    reach(edge.a, edge.b), reach(edge.b, edge.a);
 }
+
+/// The ways of all points to the rim, and whether the rim is before the next node.
+struct Rims {
+  std::vector<ToRim> of;
+  std::vector<std::size_t> first; ///< point of each node
+
+  Rims(const PlyPlyContact& contact, const SurfaceKinematics& slave,
+       const SurfaceKinematics& master, std::span<const Triangle> triangles)
+      : of(contact.points.size()), first(slave.x.size() + 1, 0), furthest_(0.0) {
+    const double h = contact.distance, film = contact.law.film_gap;
+    furthest_ = -std::sqrt(film * (2.0 * h + film)); // what still touches the rim from outside
+    if (master.rim_distance.empty()) return;
+    for (std::size_t i = 0; i < of.size(); ++i) {
+      const PlyPlyPoint& c = contact.points[i];
+      of[i] = to_rim(c, slave, master, triangles[c.face]);
+      ++first[c.node + 1];
+    }
+    std::partial_sum(first.begin(), first.end(), first.begin());
+    find_next(slave, first, of);
+  }
+
+  bool covers(std::int32_t node) const {
+    for (std::size_t i = first[node]; i < first[node + 1]; ++i)
+      if (of[i].distance >= furthest_) return true;
+    return false;
+  }
+
+private:
+  double furthest_; ///< mm
+};
 
 } // namespace
 
-double area_of(const ContactLaw& law, const SurfaceKinematics& slave,
-               const SurfaceKinematics& master, const PlyPlyPoint& c, const Triangle& face) {
-  return law.has_film() ? film_area(slave, master, c, face) : contact_area(slave, master, c, face);
+double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& master,
+                    const PlyPlyPoint& point, const Triangle& face) {
+  const std::array<double, 3> w = weights_of(point);
+  double master_area = 0.0; // at the closest point: does not depend on which of two faces is taken
+  for (std::size_t j = 0; j < 3; ++j)
+    master_area += w[j] * master.area[face[j]];
+  return std::min(slave.area[point.node], master_area);
 }
 
-void keep_area(const PlyPlyPoint& before, const ContactLaw& law, PlyPlyPoint& c) {
-  if (law.has_film() && c.area > 0.0)
-    s_of(c.memory) *= before.area / c.area;
-  else
-    c.area = before.area;
+void renew_film_areas(PlyPlyContact& contact, const SurfaceKinematics& slave,
+                      const SurfaceKinematics& master, std::span<const Triangle> triangles) {
+  // of an element, below which the slave's mesh ends there, too; of the master's nodal area, the
+  // most that presses on one
+  constexpr double ends = 0.1, finer = 4.0, least_share = 1e-3;
+  const Rims rims(contact, slave, master, triangles);
+  for (std::size_t i = 0; i < rims.of.size(); ++i) {
+    PlyPlyPoint& c = contact.points[i];
+    const ToRim& rim = rims.of[i];
+    const double own = slave.area[c.node];
+    double share = 1.0;
+    if (rim.next > ends * std::sqrt(own)) {
+      const double left = std::clamp(rim.distance / rim.next, -0.5, 1.0);
+      const double beyond = rims.covers(rim.node) ? 0.0 : std::max(left - 0.5, 0.0);
+      share = std::min(left + 0.5, 1.0) + beyond;
+    }
+    const double before = c.area, most = finer * contact_area(slave, master, c, triangles[c.face]);
+    c.area = std::min(std::max(share, least_share) * own, most);
+    s_of(c.memory) *= before / c.area;
+  }
 }
 
 double by_angle(const FrictionLaw& law, const PlyPlyPoint& point, const SurfaceKinematics& slave,

@@ -7,14 +7,23 @@
 
 namespace plyform {
 
-/// Area (mm^2) of a new point, which is on this face of the master.
-double area_of(const ContactLaw& law, const SurfaceKinematics& slave,
-               const SurfaceKinematics& master, const PlyPlyPoint& point, const Triangle& face);
+/// Tributary area (mm^2) of a new point, which is on this face of the master: the smaller of both
+/// sheets' nodal areas, so that a node of a coarse sheet does not overload the small nodes of a
+/// fine one.
+double contact_area(const SurfaceKinematics& slave, const SurfaceKinematics& master,
+                    const PlyPlyPoint& point, const Triangle& face);
 
-/// Gives a point that goes on the area that it had, as its springs store energy. A film bears shear
-/// by its area, which changes as one sheet slides out from the other: its points take the present
-/// one, and keep their force.
-void keep_area(const PlyPlyPoint& before, const ContactLaw& law, PlyPlyPoint& c);
+/// Gives points the areas on which a film acts. It bears shear by its area, which is that of both
+/// sheets' overlap and changes as one slides out from the other: all of the slave's node, and at
+/// the master's rim, a distance phi away (below 0 outside),
+///
+///   A min(1/2 + phi / L, 1),  and A (phi / L - 1/2) more if > 0 and the next node is not covered
+///
+/// L (mm) being how far the slave's mesh reaches from the node towards that rim, to the next node:
+/// a node stands for what the rim leaves of its own cell, and of that of the next one. Points keep
+/// their forces.
+void renew_film_areas(PlyPlyContact& contact, const SurfaceKinematics& slave,
+                      const SurfaceKinematics& master, std::span<const Triangle> triangles);
 
 /// f_a of contact/forces/friction_law.hpp at a point; 1 where a face has no fibres.
 double by_angle(const FrictionLaw& law, const PlyPlyPoint& point, const SurfaceKinematics& slave,

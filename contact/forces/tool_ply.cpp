@@ -71,21 +71,22 @@ double half_thickness_at(const ToolPlyContact& contact, const SurfaceKinematics&
   return contact.half_thickness * thickness_ratio_at(contact, ply, node);
 }
 
-/// A lower bound (mm) of the gap at x (mm, global frame) of a node with this hint.
-double least_gap(double half_thickness, const ToolBody& tool, const Vec3& x,
-                 const SurfaceHint& hint) {
+/// A lower bound (mm), by its hint, of the gap that a point has left until it touches.
+double least_room_of(const ToolPlyContact& contact, const ToolBody& tool,
+                     const SurfaceKinematics& ply, const ToolPlyPoint& point) {
+  const SurfaceHint& hint = point.hint;
   if (hint.facet < 0) return NoRoom{}(0); // most tools are no meshes: spares the way to them
   const Vec3 at(hint.at[0], hint.at[1], hint.at[2]);
-  return least_distance(hint, (to_tool_frame(tool, x) - at).norm()) - half_thickness;
+  const Vec3& x = ply.x[static_cast<std::size_t>(point.node)];
+  return least_distance(hint, (to_tool_frame(tool, x) - at).norm()) -
+         half_thickness_at(contact, ply, point.node) - contact.law.film_gap;
 }
 
 /// Activates the points that may touch, and deactivates the others.
 void update_active(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
                    double path_length) {
   const auto room = [&](std::int32_t i) {
-    const ToolPlyPoint& c = contact.points[static_cast<std::size_t>(i)];
-    return least_gap(half_thickness_at(contact, ply, c.node), tool,
-                     ply.x[static_cast<std::size_t>(c.node)], c.hint);
+    return least_room_of(contact, tool, ply, contact.points[static_cast<std::size_t>(i)]);
   };
   update(contact.list, path_length, 2.0 * contact.half_thickness, room,
          [&contact](std::int32_t i) { deactivate(contact.points[i]); });
@@ -110,7 +111,8 @@ void measure(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinemat
     c.gap = s.distance - half_thickness_at(contact, ply, c.node);
     normal_of(c) = s.normal;
     if (was_inactive) c.last_gap = c.gap - s.normal.dot(ply.motion[n] - tool_motion);
-    if (c.gap > 0.0) contact.list.free_until[i] = path_length + c.gap;
+    if (const double room = c.gap - contact.law.film_gap; room > 0.0)
+      contact.list.free_until[i] = path_length + room;
   }
 }
 
@@ -220,42 +222,42 @@ void find_tool_ply_points(ToolPlyContact& contact, const ToolBody& tool,
   if (contact.law.unloading) contact.compacted.resize(ply.x.size(), 0.0);
   const bool is_mesh = std::holds_alternative<MeshShapePtr>(tool.shape);
   if (is_mesh) contact.hints.resize(ply.x.size());
+  const double film = contact.law.film_gap;
   std::size_t next_old = 0;
   SurfaceHint near; // of the node before: a start for one of which nothing is known
   for (std::size_t n = 0; n < ply.x.size(); ++n) {
     const bool known = next_old < old.size() && old[next_old].node == static_cast<int>(n);
     const double free_until = known ? old_free_until[next_old] : double{contact.free[n]};
-    double gap = free_until - path_length;
+    double room = free_until - path_length; // the gap that is left until it touches
     ToolPlyPoint point{};
     point.node = static_cast<int>(n);
     if (known)
       point = old[next_old++];
-    else if (is_mesh && gap <= reach) {
+    else if (is_mesh && room <= reach) {
       point.hint = contact.hints[n];
-      gap = std::max(
-          gap, least_gap(half_thickness_at(contact, ply, point.node), tool, ply.x[n], point.hint));
+      room = std::max(room, least_room_of(contact, tool, ply, point));
     }
-    const bool touched = known && point.gap < 0.0; // its tangential spring may store energy
-    if (touched || (!known && gap <= reach)) {
+    const bool touched = known && point.gap < film; // its tangential spring may store energy
+    if (touched || (!known && room <= reach)) {
       if (point.hint.facet < 0) point.hint = near;
       const SurfacePoint at = distance_to_tool(tool, ply.x[n], point.hint);
       near = point.hint;
-      gap = at.distance - half_thickness_at(contact, ply, point.node);
+      room = at.distance - half_thickness_at(contact, ply, point.node) - film;
       normal_of(point) = at.normal;
     }
-    contact.free[n] = rounded_down(path_length + gap);
-    if (gap > reach) {
+    contact.free[n] = rounded_down(path_length + room);
+    if (room > reach) {
       if (is_mesh && point.hint.facet >= 0) contact.hints[n] = point.hint;
       if (touched) release(contact.law, ply.area[n], point.memory, contact.sums);
       continue;
     }
     if (!touched) {
-      if (!known || !std::isinf(point.gap)) point.gap = gap;
+      if (!known || !std::isinf(point.gap)) point.gap = room + film;
       deactivate(point);
     }
     contact.points.push_back(point);
-    contact.list.free_until.push_back(touched ? std::min(path_length, path_length + gap)
-                                              : path_length + gap);
+    contact.list.free_until.push_back(touched ? std::min(path_length, path_length + room)
+                                              : path_length + room);
   }
   contact.force.assign(contact.points.empty() ? 0 : ply.x.size(), Vec3::Zero());
 }
@@ -275,7 +277,7 @@ Vec3 tool_ply_forces(ToolBody& tool, std::span<ToolPlyContact> contacts,
 void add_tool_ply_stiffness(const ToolPlyContact& contact, const SurfaceKinematics& ply,
                             double margin, std::span<ContactRow> rows) {
   for (const ToolPlyPoint& c : contact.points) {
-    if (latest_gap(c) > margin) continue;
+    if (latest_gap(c) > margin + contact.law.film_gap) continue;
     const auto n = static_cast<std::size_t>(c.node);
     rows[n] +=
         ply.area[n] * row_of(contact.law, latest_gap(c), thickness_ratio_at(contact, ply, c.node));

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace plyform {
@@ -129,6 +130,19 @@ SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3
   }
   edges.faces_across = faces_across(edge_of, edges.all.size());
   return edges;
+}
+
+std::vector<double> rim_distances(const SheetEdges& edges, std::span<const Vec3> x) {
+  std::vector<double> distance(x.size(), std::numeric_limits<double>::infinity());
+  for (const SheetEdge& e : edges.all) {
+    if (!e.is_free()) continue;
+    const Vec3 &from = x[at(e.a)], side = x[at(e.b)] - from;
+    for (std::size_t n = 0; n < x.size(); ++n) {
+      const double along = std::clamp((x[n] - from).dot(side) / side.squaredNorm(), 0.0, 1.0);
+      distance[n] = std::min(distance[n], (x[n] - from - along * side).norm());
+    }
+  }
+  return distance;
 }
 
 double longest_side(const SheetEdges& edges, std::span<const Vec3> x) {

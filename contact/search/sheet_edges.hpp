@@ -44,6 +44,9 @@ struct SheetEdges {
 /// extents of the nodes, x0 (mm).
 SheetEdges sheet_edges(std::span<const Triangle> triangles, std::span<const Vec3> x0);
 
+/// Distances (mm) of the nodes, at x, from the nearest free edge; infinite without any.
+std::vector<double> rim_distances(const SheetEdges& edges, std::span<const Vec3> x);
+
 /// The longest edge with the nodes at x, mm.
 double longest_side(const SheetEdges& edges, std::span<const Vec3> x);
 

@@ -224,6 +224,7 @@ struct SimdElastic {
 /// where `counted`; area: mm^2, of what is lost.
 PLYFORM_INLINE SimdElastic elastic_of(const ContactKernelLaw& k, Doubles area, Doubles depth,
                                       Longs counted, Doubles& compacted, SimdTotals& sums) {
+  if (k.film_gap > 0.0) depth = larger(depth, all(0.0)); // nothing presses across an open film
   if (k.loading.pieces == 0) {
     const Doubles q = room_of(k, depth), rate = k.stiffness * depth;
     return {rate / (q * q), rate * depth / q};

@@ -125,7 +125,7 @@ PLYFORM_INLINE void project_on_known_faces(const PlyPlyKernelContact& k, const s
     store_lanes(chunk.distance + first, foot.distance);
     store_lanes(chunk.distance2 + first, distance2);
     store_lanes(chunk.thickness + first, thickness);
-    add(chunk.touching, foot.distance < k.distance * thickness, first);
+    add(chunk.touching, foot.distance < k.distance * thickness + k.film_gap, first);
     add(chunk.inside, foot.inside, first);
     add(chunk.above, foot.above, first);
     add(chunk.settled, settled, first);
@@ -139,7 +139,7 @@ PLYFORM_INLINE void store_feet(const Group& g, const PlyPlyKernelContact& k, con
   alignas(sizeof(Doubles)) double distance[lanes];
   store_lanes(distance, foot.distance);
   const Doubles thickness = each_lane([&](int i) { return thickness_at(k, *g.point[i]); });
-  const unsigned touching = bits_of(foot.distance < k.distance * thickness);
+  const unsigned touching = bits_of(foot.distance < k.distance * thickness + k.film_gap);
   const unsigned inside = bits_of(foot.inside), above = bits_of(foot.above);
   for (int i = 0; i < lanes; ++i) {
     if (!has(some, i)) continue;
@@ -231,9 +231,11 @@ PLYFORM_INLINE void update_open_point(const PlyPlyKernelContact& k, std::int32_t
       last_gap > at.gap) // active in the step before, and closing: step_ratio_of
     keep_smaller(sums.step_ratio,
                  all((at.gap + first_share * k.depth_limit * thickness) / (last_gap - at.gap)));
-  if (at.memory.normal_force != 0.0 || at.memory.damping_force != 0.0)
+  const double* s = at.memory.s;
+  if (at.memory.normal_force != 0.0 || at.memory.damping_force != 0.0 || s[0] != 0.0 ||
+      s[1] != 0.0 || s[2] != 0.0)
     k.open(k.self, index, last_gap);
-  k.free_until[index] = k.path_length + at.gap;
+  k.free_until[index] = k.path_length + (at.gap - k.film_gap);
 }
 
 /// Stores what the forces have changed, and tells of points that are too deep or have gone through.

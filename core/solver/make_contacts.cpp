@@ -56,7 +56,10 @@ ContactLaw make_law(const ContactOptions& options, double penalty, double densit
 
 /// Gives a contact of these bodies the law of friction that the case names for them. A law with one
 /// coefficient alone is that of the kernels.
-void rub(const Case& data, int a, int b, ContactLaw& law) {
+/// distance: mm, of the two mid-surfaces, or of one
+/// from a tool.
+void rub(const Case& data, int a, int b, double distance, ContactLaw& law) {
+  constexpr double thickest = 0.5; // film that fills an opened gap, over that distance
   const int number = data.friction.law_of(a, b);
   if (number < 0) return;
   const FrictionLawPtr& named = data.friction_laws[static_cast<std::size_t>(number)];
@@ -65,6 +68,7 @@ void rub(const Case& data, int a, int b, ContactLaw& law) {
   if (plain) return;
   law.sliding = named;
   law.process_time = data.process_time();
+  law.film_gap = std::min(named->spec().film_thickness(), thickest * distance);
 }
 
 /// ContactLaw::spread: thickness over element size, squared. A contact at a node has gradients of 1
@@ -143,7 +147,7 @@ PlyContact make_pass(const Case& data, const std::vector<PlyBody>& plies, int a,
   const double deepest = deepest_in_ply * pair.contact.distance;
   pair.contact.law = make_law(data.contact, bearing(data, penalty, 0.5, deepest), density,
                               data.friction(a, b), deepest);
-  rub(data, a, b, pair.contact.law);
+  rub(data, a, b, pair.contact.distance, pair.contact.law);
   pair.contact.law.share = 0.5;
   pair.contact.thickness_follows = slave.thickness_acts || master.thickness_acts;
   pair.contact.distance -= nesting_of(slave, master);
@@ -181,8 +185,8 @@ ToolState make_tool(const Case& data, std::size_t index, const std::vector<PlyBo
     c.law = make_law(data.contact, bearing(data, penalty, 1.0, deepest),
                      plies[p].membrane.fabric.surface_density,
                      data.friction(static_cast<int>(p), body), deepest);
-    rub(data, static_cast<int>(p), body, c.law);
     c.half_thickness = 0.5 * plies[p].thickness;
+    rub(data, static_cast<int>(p), body, c.half_thickness, c.law);
     c.thickness_follows = plies[p].thickness_acts;
     give_way(c.law, 1.0, {&plies[p]});
     if (c.thickness_follows) c.law.spread = spread_of(plies[p]);
@@ -206,6 +210,7 @@ std::vector<PlyPair> make_pairs(const Case& data, const std::vector<PlyBody>& pl
       const PlyPlyContact& contact = pair.passes[0].contact;
       pair.edges.a = a, pair.edges.b = b;
       pair.edges.contact.law = contact.law;
+      pair.edges.contact.law.film_gap = 0.0;
       pair.edges.contact.law.loading = pair.edges.contact.law.unloading = nullptr;
       pair.edges.contact.distance = edge_distance(contact);
       pair.edges.contact.law.max_depth = deepest_of_edges / 0.5 * pair.edges.contact.distance;

@@ -51,8 +51,9 @@ struct PlyModel {
   bool left_alone = false;   ///< nothing may move it, but something moves others
   bool self_contact = false; ///< whether it is in contact with itself, too
   ThicknessLaw thickness_law;
-  bool thickness_acts = false; ///< in contact: core/solver/follow_thickness.hpp
-  bool convex = false;         ///< contact/search/unfolded.hpp; not asked without self-contact
+  bool thickness_acts = false;      ///< in contact: core/solver/follow_thickness.hpp
+  std::vector<double> rim_distance; ///< contact/search/sheet_edges.hpp; only where films slide
+  bool convex = false;              ///< contact/search/unfolded.hpp; not asked without self-contact
 };
 
 /// What an array has an entry for.
@@ -174,7 +175,8 @@ void each_array(PlyCache& ply, F&& f) {
 /// A ply in motion.
 struct PlyBody : PlyModel, PlyState, PlyCache {
   SurfaceKinematics state() const {
-    return {x, motion, membrane.node_area, fold_bound, edges.faces_across, thickness_ratio, fibres};
+    return {x,      motion,    membrane.node_area, fold_bound, edges.faces_across, thickness_ratio,
+            fibres, edges.all, rim_distance};
   }
   /// States of laws with rates now: those of the step that was computed, or of the one taken.
   const std::vector<double>& viscous_now() const {

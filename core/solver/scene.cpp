@@ -162,7 +162,22 @@ void set_lengths(Scene& s) {
   // A small skin makes searches frequent, a large one increases the number of points and faces
   // within reach (with its square): with a third of an element both costs are small.
   s.skin = s.data.contact.skin > 0.0 ? s.data.contact.skin : 0.3 * element;
+  s.skin = std::max(s.skin, 2.0 * s.film_gap);
   s.bound_margin = margin_in_thicknesses * thickness;
+}
+
+/// Sets what searches of contacts with films need.
+void set_films(Scene& s) {
+  for (const ToolState& tool : s.tools)
+    for (const ToolPlyContact& contact : tool.contacts)
+      s.film_gap = std::max(s.film_gap, contact.law.film_gap);
+  for (const PlyPair& pair : s.ply_pairs)
+    for (const PlyContact& pass : pair.passes) {
+      s.film_gap = std::max(s.film_gap, pass.contact.law.film_gap);
+      PlyBody& master = s.plies[at(pass.master)];
+      if (pass.contact.law.has_film() && master.rim_distance.empty())
+        master.rim_distance = rim_distances(master.edges, master.x0);
+    }
 }
 
 /// Springs and grippers, and the arrays that their forces need.
@@ -270,13 +285,14 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
   }
   for (std::size_t t = 0; t < data.tools.size(); ++t)
     s.tools.push_back(make_tool(data, t, s.plies));
-  set_lengths(s);
   s.energy_floor = energy_floor_of(s.plies);
   s.any_thickness_acts = std::any_of(s.plies.begin(), s.plies.end(),
                                      [](const PlyBody& ply) { return ply.thickness_acts; });
   const int n = static_cast<int>(s.plies.size());
   s.ply_pairs = make_pairs(data, s.plies);
   s.pass_order = order_of_passes(s.ply_pairs);
+  set_films(s);
+  set_lengths(s);
   limit_ridges(s);
   for (int p = 0; p < n; ++p) {
     const PlyBody& ply = s.plies[p];

@@ -168,13 +168,13 @@ TEST(FilmFriction, APlyOnATableSlidesAsCouetteSays) {
   fmt::print("way {:.3f} % off at most, {:.3f} % at the end\n", 100.0 * worst, 100.0 * last);
 }
 
-// Areas of contact are those of nodes: at the rims of the upper ply they are off by parts of an
-// element, so that it is long.
-TEST(FilmFriction, ALaminateOfTwoPliesSlidesAsCouetteSays) {
+/// The upper of two plies, smaller and on a mesh of its own, driven by gravity over one held in its
+/// plane; the largest share by which its way is off.
+double laminate_off(double upper_cell, double lower_cell, double upper_length) {
   const double h = 0.1, theta = 0.01, gravity = 9810.0;
   const double density = glass_weave().surface_density;
-  Case data = stack_of({0.0, 0.0}, rectangle(140.0, 40.0, cell));
-  data.blanks.push_back(rectangle(120.0, 20.0, cell));
+  Case data = stack_of({0.0, 0.0}, rectangle(140.0, 40.0, lower_cell));
+  data.blanks.push_back(rectangle(upper_length, 20.0, upper_cell));
   data.plies[1].blank = 1;
   Boundary held = hold("all", {-71.0, -21.0}, {71.0, 21.0}, Vec3::UnitX(), 0.0);
   held.ply = 0;
@@ -194,32 +194,46 @@ TEST(FilmFriction, ALaminateOfTwoPliesSlidesAsCouetteSays) {
     if (f.time > theta) worst = std::max(worst, std::abs(way / wanted - 1.0));
   };
   const EndedRun run = run_on_any_threads([&] { return make_scene(data); }, hooks);
-  ASSERT_TRUE(ended(run.result.summary.status)) << run.result.summary.message;
-  EXPECT_LE(worst, 0.06);
-  fmt::print("way {:.3f} % off at most\n", 100.0 * worst);
+  EXPECT_TRUE(ended(run.result.summary.status)) << run.result.summary.message;
+  return worst;
+}
+
+TEST(FilmFriction, ALaminateOfTwoPliesSlidesAsCouetteSays) {
+  for (const auto& [upper, lower, upper_length] : {std::array{5.0, 5.0, 120.0}, // mm
+                                                   {4.0, 5.0, 116.0},
+                                                   {5.0, 4.0, 117.0},
+                                                   {2.5, 5.0, 123.0}}) {
+    const double worst = laminate_off(upper, lower, upper_length);
+    EXPECT_LE(worst, 0.02) << upper << " on " << lower;
+    fmt::print("{} on {} mm: way {:.2f} % off at most\n", upper, lower, 100.0 * worst);
+  }
 }
 
 TEST(FilmFriction, AStiffFilmNeedsNoSmallerStepAndHolds) {
-  long dry_steps = 0;
-  double dry_error = 0.0; // where all sticks, the start alone is in the ledger
-  for (const double viscosity : {0.0, 1e-8, 1e-5, 1e-2, 1.0}) { // N s/mm^2: to a million Pa s
-    Case data = driven_ply(film(viscosity, 0.1), 9810.0);
-    if (viscosity == 0.0)
-      slide_on(data, [] {
-        FrictionLawSpec spec;
-        spec.coefficient = 0.01;
-        return spec;
-      }());
+  const auto coulomb = [](double coefficient) {
+    FrictionLawSpec spec;
+    spec.coefficient = coefficient;
+    return spec;
+  };
+  const auto run_on = [](const FrictionLawSpec& spec) {
+    Case data = driven_ply(spec, 9810.0);
     data.solver.duration = data.process.duration.emplace(0.02);
     Scene scene = make_scene(data);
     const RunResult run = run_scene(scene, 1, {});
-    EXPECT_TRUE(ended(run.summary.status)) << viscosity << run.summary.message;
-    const double error = imbalance(run.last.energy);
-    if (viscosity == 0.0) dry_steps = scene.step, dry_error = error;
-    EXPECT_LE(scene.step, 1.02 * static_cast<double>(dry_steps)) << viscosity;
-    EXPECT_LE(error, std::max(0.02, dry_error)) << viscosity;
-    fmt::print("{:g} Pa s: {} steps, balance {:.2f} %\n", 1e6 * viscosity, scene.step,
-               100.0 * error);
+    EXPECT_TRUE(ended(run.summary.status)) << run.summary.message;
+    return std::pair(scene.step, imbalance(run.last.energy));
+  };
+  const auto [dry_steps, dry_error] = run_on(coulomb(0.01));
+  EXPECT_LE(dry_error, 0.01);
+  // Where all sticks nothing but the start is in the ledger, whose error of the contact's springs
+  // dry friction that holds has, too.
+  const double start = run_on(coulomb(10.0)).second;
+  for (const double viscosity : {1e-8, 1e-5, 1e-2, 1.0}) { // N s/mm^2: to a million Pa s
+    const auto [steps, error] = run_on(film(viscosity, 0.1));
+    EXPECT_LE(steps, 1.02 * static_cast<double>(dry_steps)) << viscosity;
+    EXPECT_LE(error, std::max(0.01, 1.01 * start)) << viscosity;
+    fmt::print("{:g} Pa s: {} steps, balance {:.2f} %; {:.2f} % where dry friction holds\n",
+               1e6 * viscosity, steps, 100.0 * error, 100.0 * start);
   }
 }
 
