@@ -199,7 +199,8 @@ Rows sheet_law_rows() {
 
 namespace {
 
-constexpr Range melt_viscosity_range{.least = 0.0, .most = 1e6};
+constexpr Range melt_viscosity_range{.least = 0.0, .most = 1e12};
+constexpr Range usual_melt_viscosity{.least = 10.0, .most = 1e6};
 
 /// The melt of a sheet beside yarns, if it has one.
 void read_matrix(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
@@ -244,18 +245,18 @@ Rows sheet_beside_rows() {
                       "bending_stiffness",
            .members = {to(&Fabric::plate_viscosity)}},
           {.key = table + ".longitudinal_viscosity",
-           .unit = "N s/mm2",
+           .unit = "Pa s",
            .otherwise = "0: no melt",
            .ranges = {melt_viscosity_range},
-           .usual = {{.least = 1e-5, .most = 1.0}},
-           .meaning = "of the melt around yarns in one direction (1 N s/mm2 = 1e6 Pa s), for shear "
+           .usual = {usual_melt_viscosity},
+           .meaning = "of the melt around yarns in one direction, for shear "
                       "along them in the plane, beside the elastic law; needs process.duration",
            .members = {to(&ViscousMatrix::longitudinal)}},
           {.key = table + ".transverse_viscosity",
-           .unit = "N s/mm2",
+           .unit = "Pa s",
            .otherwise = "0",
            .ranges = {melt_viscosity_range},
-           .usual = {{.least = 1e-5, .most = 1.0}},
+           .usual = {usual_melt_viscosity},
            .meaning = "likewise for shear across the yarns: they are drawn apart in the plane by "
                       "four times it, as the ply gets thinner",
            .members = {to(&ViscousMatrix::transverse)}}});
