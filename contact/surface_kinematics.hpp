@@ -27,6 +27,8 @@ struct SurfaceKinematics {
   /// whose laws have films
   std::span<const SheetEdge> edges = {};
   std::span<const double> rim_distance = {};
+  /// per node, degC; for friction that asks for it
+  std::span<const double> temperature = {};
 };
 
 } // namespace plyform

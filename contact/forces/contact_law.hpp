@@ -75,13 +75,14 @@ struct ContactLaw {
   double spread = 0.0; ///< what its force in the plane of plies adds to the bound of (K), over it
   FrictionLawPtr sliding = {}; ///< instead of `friction`; null: Coulomb's law
   double process_time = 1.0;   ///< s of the process in each simulated second
-  double share = 1.0; ///< of the area on which `sliding` acts: half of it in each of two passes
-  double viscosity_factor = 1.0; ///< on the viscosities of `sliding`
+  double share = 1.0;    ///< of the area on which `sliding` acts: half of it in each of two passes
   double film_gap = 0.0; ///< mm, gap up to which a film still fills it; 0: only what touches slides
 
   bool rubs() const { return sliding || friction > 0.0; } ///< whether it has friction at all
   /// Whether its friction goes by the speed.
   bool has_film() const { return sliding && sliding->has_rates(); }
+  /// Whether it asks for the temperatures of both bodies.
+  bool by_temperature() const { return sliding && sliding->spec().flow.factor; }
 
   /// p_1, mm.
   double packed() const { return loading ? loading->packed() : 0.0; }
@@ -148,19 +149,20 @@ inline ContactKernelLaw kernel_law(const ContactLaw& law, double dt) {
 /// A law of friction with the step that it is asked for, as kernels call it, and what it has seen.
 struct SlidingCall {
   const FrictionLaw& law;
-  double per_dt;           ///< 1/s, inverse of the time that the step takes in the process; 0: none
-  double viscosity, share; ///< of ContactLaw
+  double per_dt; ///< 1/s, inverse of the time that the step takes in the process; 0: none
+  double share;  ///< of ContactLaw
   SlidingSeen seen{};
 
   SlidingCall(const ContactLaw& contact, double dt)
       : law(*contact.sliding), per_dt(dt > 0.0 ? 1.0 / (dt * contact.process_time) : 0.0),
-        viscosity(contact.viscosity_factor), share(contact.share) {}
+        share(contact.share) {}
   static double stuck(void* call, const SlidingPlace& place) {
     auto& c = *static_cast<SlidingCall*>(call);
     SlidingPlace whole = place;
     whole.stiffness /= c.share, whole.pressure /= c.share, whole.area *= c.share;
-    const double left = c.law.stuck(whole, c.per_dt, c.viscosity);
-    c.law.note(whole, whole.stretch - left, c.per_dt, c.viscosity, c.seen);
+    const double viscosity = c.law.spec().flow_at(place.celsius);
+    const double left = c.law.stuck(whole, c.per_dt, viscosity);
+    c.law.note(whole, whole.stretch - left, c.per_dt, viscosity, c.seen);
     return left;
   }
 };

@@ -165,6 +165,8 @@ void FrictionLaw::note(const SlidingPlace& place, double y, double per_dt, doubl
     const auto [first, last] = ends(spec_.viscosity_curve);
     seen.rate.add(speed / h, work, first, last);
   }
+  if (spec_.flow.factor && !std::isnan(place.celsius))
+    seen.temperature.add(place.celsius, work, {spec_.flow.least, 0.0}, {spec_.flow.most, 0.0});
   if (spec_.kind != FrictionLawSpec::Kind::hersey) return;
   const auto [first, last] = ends(spec_.curve);
   const double drag = viscosity * h * flow_.at(speed / h, true).value;

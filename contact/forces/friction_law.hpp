@@ -2,7 +2,11 @@
 // What two faces that slide on each other resist with, where it is more than one coefficient.
 //
 //   v     mm/s      slip speed in the process;  p  N/mm^2  normal pressure;  y  mm  slip of a step
-//   eta   N s/mm^2  viscosity of the matrix between them, at the film's rate v / h if it thins
+//   eta   N s/mm^2  viscosity of the matrix between them, at the film's rate v / h if it thins,
+//   times
+//                   a factor f(T) where it follows the temperature
+//   T     degC      temperature of the film: the mean of those of both bodies there, as one side of
+//                   it has that of the one and the other that of the other
 //   h     mm        thickness of the film
 //   H     mm        eta v / p, the Hersey number: a length
 //   f_a   -         factor by the angle between the fibres of both faces
@@ -71,6 +75,12 @@ private:
   std::vector<double> value_;
 };
 
+/// f(T) of (L).
+struct FilmFlow {
+  std::function<double(double celsius)> factor; ///< empty: 1 at all temperatures
+  double least = 0.0, most = 0.0;               ///< degC, between which it is known
+};
+
 /// Numbers of (L), as they are given.
 struct FrictionLawSpec {
   enum class Kind { coulomb, hersey, film };
@@ -83,6 +93,7 @@ struct FrictionLawSpec {
   bool film_beyond = false;                ///< mu in proportion to H beyond the curve
   double viscosity = 0.0;                  ///< eta, N s/mm^2
   std::vector<CurvePoint> viscosity_curve; ///< eta over rate (1/s), instead
+  FilmFlow flow{};                         ///< on the viscosity
   double film = 0.0;                       ///< h, mm; 0: not given
   double yield = 0.0;                      ///< tau_0, N/mm^2
   std::vector<CurvePoint> over_angle;      ///< f_a over rad, 0 to pi/2; empty: 1
@@ -97,25 +108,31 @@ struct FrictionLawSpec {
   /// mm, thickness of the film that needs no pressure; 0: there is none.
   double film_thickness() const;
   double hersey(double number) const;     ///< mu at a Hersey number (mm)
-  double viscosity_at(double rate) const; ///< N s/mm^2, at 1/s
+  double viscosity_at(double rate) const; ///< N s/mm^2, at 1/s, where f(T) is 1
+  /// f(T); 1 at NaN, a temperature that is not known.
+  double flow_at(double celsius) const {
+    return flow.factor && !std::isnan(celsius) ? flow.factor(celsius) : 1.0;
+  }
 };
 
 /// Where a run was in the range of a curve: all of it that slid, by its work.
 struct RangeSeen {
-  double least = 1e300, most = 0.0;            ///< of mm or 1/s
+  double least = 1e300, most = -1e300;         ///< of mm, 1/s or degC
   double work = 0.0, below = 0.0, above = 0.0; ///< N mm: all; outside the curve's two ends
   void add(double at, double work_here, const CurvePoint& first, const CurvePoint& last);
   void add(const RangeSeen& more);
   bool finite() const { return std::isfinite(least + most + work + below + above); }
 };
 
-/// Of a contact, since the start: Hersey numbers, and rates of the film.
+/// Of a contact, since the start: Hersey numbers, rates of the film, and its temperatures where its
+/// viscosity follows them.
 struct SlidingSeen {
-  RangeSeen hersey, rate;
-  bool finite() const { return hersey.finite() && rate.finite(); }
+  RangeSeen hersey, rate, temperature;
+  bool finite() const { return hersey.finite() && rate.finite() && temperature.finite(); }
   void add(const SlidingSeen& more) {
     hersey.add(more.hersey);
     rate.add(more.rate);
+    temperature.add(more.temperature);
   }
 };
 
@@ -127,7 +144,7 @@ public:
   bool has_rates() const { return spec_.has_rates(); }
   /// f_a at an angle (rad).
   double by_angle(double angle) const;
-  /// tau at a speed (mm/s) and its slope by that. viscosity: a factor on eta.
+  /// tau at a speed (mm/s) and its slope by that. viscosity: f(T).
   OctaveTable::Answer traction(const SlidingPlace& place, double speed, double viscosity) const;
   /// S - y of (I), mm. per_dt: 1/s, inverse of dt; 0 where no time has passed: all of it is kept.
   double stuck(const SlidingPlace& place, double per_dt, double viscosity) const;
@@ -155,9 +172,10 @@ void each_member(RangeSeen& seen, F&& f) {
 }
 template <class F>
 void each_member(SlidingSeen& seen, F&& f) {
-  auto& [hersey, rate] = seen;
+  auto& [hersey, rate, temperature] = seen;
   f("hersey", hersey);
   f("rate", rate);
+  f("temperature", temperature);
 }
 
 } // namespace plyform

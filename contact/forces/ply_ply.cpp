@@ -274,6 +274,10 @@ PlyPlyKernelContact kernel_view(KernelContext& k, double dt) {
     view.slave_share = c.slave_share;
   }
   view.compacted = c.compacted.empty() ? nullptr : c.compacted.data();
+  if (c.law.by_temperature() && !k.slave.temperature.empty() && !k.master.temperature.empty()) {
+    view.slave_celsius = k.slave.temperature.data();
+    view.master_celsius = k.master.temperature.data();
+  }
   view.self = &k;
   view.open = open_point;
   view.fault = fault_at;

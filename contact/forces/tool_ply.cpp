@@ -129,7 +129,7 @@ void measure_all(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKin
 
 /// Computes the forces of measured points. advance: displacement of the tool since they were
 /// measured, mm. Returns the force on the tool, N.
-Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& tool_motion,
+Vec3 press(ToolPlyContact& contact, const ToolBody& tool, const SurfaceKinematics& ply,
            const Vec3& advance, double dt, Part part) {
   static_assert(sizeof(Vec3) == 3 * sizeof(double));
   ToolPlyKernelContact k{};
@@ -140,10 +140,12 @@ Vec3 press(ToolPlyContact& contact, const SurfaceKinematics& ply, const Vec3& to
   k.area = ply.area.data();
   k.motion = ply.motion.data()->data();
   k.force = contact.force.data()->data();
-  Eigen::Map<Vec3>(k.tool_motion) = tool_motion;
+  Eigen::Map<Vec3>(k.tool_motion) = tool.motion;
   Eigen::Map<Vec3>(k.advance) = advance;
   k.thickness_ratio = contact.thickness_follows ? ply.thickness_ratio.data() : nullptr;
   k.compacted = contact.compacted.empty() ? nullptr : contact.compacted.data();
+  if (contact.law.by_temperature() && tool.temperature && !ply.temperature.empty())
+    k.celsius = ply.temperature.data(), k.tool_celsius = *tool.temperature;
   std::optional<SlidingCall> call;
   if (contact.law.sliding) call.emplace(contact.law, dt);
   ask(k, call);
@@ -175,7 +177,7 @@ Vec3 measure_and_press(ToolPlyContact& contact, const ToolBody& tool, const Surf
   with_distance(tool, [&](const auto& distance) {
     in_parts(contact.list, [&](Part part) {
       measure(contact, tool, ply, path_length, part, distance);
-      on_tool += press(contact, ply, tool.motion, Vec3::Zero(), dt, part);
+      on_tool += press(contact, tool, ply, Vec3::Zero(), dt, part);
     });
   });
   return on_tool;
@@ -197,7 +199,7 @@ Vec3 push_and_press(ToolBody& tool, std::span<ToolPlyContact> contacts,
     const Stopwatch watch(contacts[i].time.forces);
     clear_present(contacts[i].sums);
     if (contacts[i].list.active.empty()) continue;
-    on_tool += press(contacts[i], plies[i], tool.motion, advance, dt, contacts[i].list.active);
+    on_tool += press(contacts[i], tool, plies[i], advance, dt, contacts[i].list.active);
   }
   return on_tool;
 }

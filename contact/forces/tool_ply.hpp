@@ -47,6 +47,7 @@ struct ToolBody : ToolMotion {
   ToolShape shape;
   Vec3 position = Vec3::Zero();                           ///< mm, of the tool frame at the start
   Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity(); ///< tool frame to space
+  std::optional<double> temperature;                      ///< degC, now; nothing: not known
   // Only for a tool pushed by a force:
   bool force_controlled = false;
   Vec3 direction = Vec3::Zero();

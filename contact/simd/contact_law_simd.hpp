@@ -281,6 +281,7 @@ PLYFORM_INLINE Doubles normal_pressure(const ContactKernelLaw& k, Doubles area, 
 struct SimdSliding {
   Doubles by_angle;      ///< f_a of contact/forces/friction_law.hpp
   Doubles per_thickness; ///< 1 over r: before forming the area is that times as large
+  Doubles celsius;       ///< degC, of the film; NaN: not known
 };
 
 /// |s| that is left of `stretch` (mm) by contact/forces/friction_law.hpp, point by point.
@@ -288,16 +289,15 @@ PLYFORM_INLINE Doubles stuck_of(const ContactKernelLaw& k, Doubles area, Doubles
                                 const Vectors& held, Doubles stretch, Doubles slip,
                                 const SimdSliding& by, Longs touch) {
   alignas(sizeof(Doubles)) double a[lanes], p[lanes], h[lanes], s[lanes], w[lanes], f[lanes],
-      r[lanes], left[lanes];
+      r[lanes], t[lanes], left[lanes];
   store_lanes(a, area), store_lanes(p, pressure), store_lanes(h, root(square(held)));
   store_lanes(s, stretch), store_lanes(w, slip), store_lanes(f, by.by_angle);
-  store_lanes(r, by.per_thickness);
+  store_lanes(r, by.per_thickness), store_lanes(t, by.celsius);
   const unsigned asked = bits_of(touch);
   for (int i = 0; i < lanes; ++i)
-    left[i] =
-        !has(asked, i)
-            ? 0.0
-            : k.stuck(k.sliding, {s[i], h[i], k.tangential / r[i], p[i] / r[i], w[i], f[i], a[i]});
+    left[i] = !has(asked, i) ? 0.0
+                             : k.stuck(k.sliding, {s[i], h[i], k.tangential / r[i], p[i] / r[i],
+                                                   w[i], f[i], a[i], t[i]});
   return each_lane([&](int i) { return left[i]; });
 }
 

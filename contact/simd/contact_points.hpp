@@ -41,6 +41,7 @@ struct SlidingPlace {
   double slip;      ///< mm, slid since it has touched
   double angle;     ///< f_a
   double area;      ///< mm^2, before forming
+  double celsius;   ///< degC, of the film; NaN: not known
 };
 
 /// The law of a contact (contact/forces/contact_law.hpp) as kernels see it.

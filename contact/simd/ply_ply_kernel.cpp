@@ -263,6 +263,20 @@ PLYFORM_INLINE void store_points(const PlyPlyKernelContact& k, const std::int32_
   }
 }
 
+/// degC, at the feet of points the means of both plies: those of the film between.
+PLYFORM_INLINE Doubles film_temperatures(const PlyPlyKernelContact& k, const Group& g,
+                                         const SimdWeights& w) {
+  if (!k.slave_celsius) return all(__builtin_nan(""));
+  const auto corner = [&](int j) {
+    return each_lane([&](int i) {
+      return k.master_celsius[k.triangles[3 * std::int64_t{g.point[i]->face} + j]];
+    });
+  };
+  const Doubles a = corner(0);
+  const Doubles master = a + w.b * (corner(1) - a) + w.c * (corner(2) - a);
+  return 0.5 * (each_lane([&](int i) { return k.slave_celsius[g.point[i]->node]; }) + master);
+}
+
 /// Third pass: forces of touching points.
 PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* active,
                           const std::int32_t* number, const Chunk& chunk, SimdTotals& sums) {
@@ -282,6 +296,7 @@ PLYFORM_INLINE void press(const PlyPlyKernelContact& k, const std::int32_t* acti
                thickness,
                load_compacted(k, g.point),
                k.stuck ? each_lane([&](int i) { return g.point[i]->by_angle; }) : all(1.0),
+               film_temperatures(k, g, w),
                {held.of[3], last.of[0], last.of[1], {held.of[0], held.of[1], held.of[2]}}};
   const SimdForces f = forces_of(k, x, u, w, distance, fold, mask_of(g.real), p, sums);
   add_forces(k, g, w, f);

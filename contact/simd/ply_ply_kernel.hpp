@@ -29,7 +29,8 @@ struct PlyPlyKernelContact : ContactKernelLaw {
   /// the slave has.
   const double *slave_ratio, *master_ratio;
   double slave_share;
-  void* self; ///< first argument of the callbacks
+  const double *slave_celsius, *master_celsius; ///< degC, of the nodes; null: not asked for
+  void* self;                                   ///< first argument of the callbacks
   /// Called if a point that carried force has opened; last_gap: mm, of the step before.
   void (*open)(void* self, std::int32_t point, double last_gap);
   /// Called if a point is on the other side of its face or too deep; `distance`: mm.

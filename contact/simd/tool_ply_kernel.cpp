@@ -49,6 +49,12 @@ PLYFORM_INLINE Doubles per_thickness_of(const ToolPlyKernelContact& k, const Too
   return 1.0 / each_lane([&](int i) { return k.thickness_ratio[g.point[i]->node]; });
 }
 
+/// degC, means of tool and ply: those of the film between.
+PLYFORM_INLINE Doubles film_temperatures(const ToolPlyKernelContact& k, const ToolGroup& g) {
+  if (!k.celsius) return all(__builtin_nan(""));
+  return 0.5 * (each_lane([&](int i) { return k.celsius[g.point[i]->node]; }) + k.tool_celsius);
+}
+
 PLYFORM_INLINE Vectors motions(const ToolPlyKernelContact& k, const ToolGroup& g) {
   Double4 u[lanes];
   for (int i = 0; i < lanes; ++i)
@@ -93,7 +99,7 @@ PLYFORM_INLINE Vectors forces_of(const ToolPlyKernelContact& k, const ToolGroup&
   Vectors f = m.normal_force * normal;
   if (k.friction > 0.0) {
     const Vectors slip = motions(k, g) - everywhere(k.tool_motion);
-    const SimdSliding by{all(1.0), per_thickness};
+    const SimdSliding by{all(1.0), per_thickness, film_temperatures(k, g)};
     f = f + friction_of(k, area, pressure, normal, m.s, slip, by, touch, m, sums);
     m.slip = touch ? m.slip : zero;
   }

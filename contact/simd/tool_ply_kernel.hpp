@@ -18,6 +18,8 @@ struct ToolPlyKernelContact : ContactKernelLaw {
   double tool_motion[3];         ///< mm, in this step
   double advance[3];             ///< mm, of the tool since the gaps were measured
   const double* thickness_ratio; ///< r, of the nodes; null: 1
+  const double* celsius;         ///< degC, of the nodes; null: not asked for
+  double tool_celsius;           ///< degC
 };
 
 /// ContactTotals of this step over the points: sums, maxima and minima. on_nodes: sum of the forces

@@ -10,7 +10,7 @@ namespace {
 
 Json range_object(const CurveRange& range) {
   Json object = {{"least", rounded(range.least)}, {"most", rounded(range.most)}};
-  if (range.last > 0.0) {
+  if (range.last > range.first) {
     object["curve"] = {rounded(range.first), rounded(range.last)};
     object["below_share"] = rounded_share(range.below_share);
     object["above_share"] = rounded_share(range.above_share);
@@ -42,6 +42,7 @@ Json pair_object(const PairReport& pair) {
   if (!pair.friction_law.empty()) object["friction_law"] = pair.friction_law;
   if (pair.hersey) object["hersey_mm"] = range_object(*pair.hersey);
   if (pair.film_rate) object["film_rate_per_s"] = range_object(*pair.film_rate);
+  if (pair.film_temperature) object["film_temperature_C"] = range_object(*pair.film_temperature);
   return object;
 }
 

@@ -26,7 +26,7 @@ struct ContactReport {
 
 /// Where in a curve of friction a run was while it slid.
 struct CurveRange {
-  double least = 0, most = 0;              ///< that it was at; mm, or 1/s
+  double least = 0, most = 0;              ///< that it was at; mm, 1/s or degC
   double first = 0, last = 0;              ///< ends of the curve; both 0: there is none
   double below_share = 0, above_share = 0; ///< of the work of sliding, outside these ends
 };
@@ -40,6 +40,7 @@ struct PairReport {
   double friction_coefficient = 0, friction_mJ = 0;
   std::string friction_law;                    ///< that holds instead of the coefficient, if any
   std::optional<CurveRange> hersey, film_rate; ///< Hersey numbers, mm; rates of the film, 1/s
+  std::optional<CurveRange> film_temperature;  ///< degC, where its viscosity follows it
   bool touched() const { return deepest_mm > 0; }
 };
 

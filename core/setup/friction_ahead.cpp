@@ -2,6 +2,7 @@
 #include "core/setup/friction_ahead.hpp"
 
 #include "core/model/motion.hpp"
+#include "core/model/reachable_temperature.hpp"
 
 #include <algorithm>
 #include <fmt/format.h>
@@ -25,7 +26,23 @@ std::optional<std::pair<double, double>> pressures(const Case& data) {
   return most > 0.0 ? std::optional(std::pair(least, most)) : std::nullopt;
 }
 
-void describe_hersey(const Case& data, const FrictionLawSpec& s, double speed,
+/// Least and most of f(T) at the ends of what films of a law may come to.
+struct Factors {
+  double least = 1.0, most = 1.0;
+};
+Factors factors(const Case& data, int law) {
+  const FrictionLawSpec& s = data.friction_laws[static_cast<std::size_t>(law)]->spec();
+  if (!s.flow.factor) return {};
+  Factors all{1e300, 0.0};
+  for (const auto& pair : pairs_of_law(data, law))
+    if (const auto film = film_temperatures(data, pair))
+      for (const double celsius : {film->least, film->most})
+        all.least = std::min(all.least, s.flow_at(celsius)),
+        all.most = std::max(all.most, s.flow_at(celsius));
+  return all;
+}
+
+void describe_hersey(const Case& data, const FrictionLawSpec& s, double speed, const Factors& by,
                      std::vector<std::string>& lines) {
   if (s.curve.empty()) return;
   const double drag = s.viscosity_at(s.film > 0.0 ? speed / s.film : 0.0) * speed;
@@ -33,22 +50,23 @@ void describe_hersey(const Case& data, const FrictionLawSpec& s, double speed,
   lines.push_back(fmt::format(
       "    curve of Hersey numbers from {:.3g} to {:.3g} mm: at {:.3g} mm/s of {:.3g} to {:.3g} "
       "N/mm2; where less presses it goes on as {}",
-      first, last, speed, drag / last, drag / first, s.film_beyond ? "a film" : "Coulomb's law"));
+      first, last, speed, by.most * drag / last, by.least * drag / first,
+      s.film_beyond ? "a film" : "Coulomb's law"));
   const auto known = pressures(data);
   if (!known) return;
-  const double most = drag / known->first;
+  const double most = by.most * drag / known->first, pressed = by.most * drag / known->second;
   if (most > last)
     lines.push_back(
         fmt::format("    warning: the run reaches Hersey numbers of {:.3g} mm, at {:.3g} "
                     "mm/s and {:.3g} N/mm2, and the curve ends at {:.3g}; give it "
                     "points up to there",
                     most, speed, known->first, last));
-  else if (drag / known->second < first)
+  else if (pressed < first)
     lines.push_back(
         fmt::format("    warning: the run stays below Hersey numbers of {:.3g} mm where "
                     "{:.3g} N/mm2 press, and the curve begins at {:.3g}; give it points "
                     "down to there",
-                    drag / known->second, known->second, first));
+                    pressed, known->second, first));
 }
 
 void describe_rates(const FrictionLawSpec& s, double speed, std::vector<std::string>& lines) {
@@ -80,7 +98,13 @@ std::vector<std::string> friction_ahead(const Case& data) {
     }
     lines.push_back(
         fmt::format("friction {}: slip of {:.3g} mm/s at most in the process", s.name, speed));
-    describe_hersey(data, s, speed, lines);
+    const Factors by = factors(data, static_cast<int>(i));
+    if (s.flow.factor)
+      lines.push_back(
+          fmt::format("    viscosity at the temperatures of its films: {:.3g} to {:.3g} "
+                      "times that at the reference",
+                      by.least, by.most));
+    describe_hersey(data, s, speed, by, lines);
     describe_rates(s, speed, lines);
   }
   return lines;

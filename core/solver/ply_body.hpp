@@ -176,7 +176,7 @@ void each_array(PlyCache& ply, F&& f) {
 struct PlyBody : PlyModel, PlyState, PlyCache {
   SurfaceKinematics state() const {
     return {x,      motion,    membrane.node_area, fold_bound, edges.faces_across, thickness_ratio,
-            fibres, edges.all, rim_distance};
+            fibres, edges.all, rim_distance,       temperature};
   }
   /// States of laws with rates now: those of the step that was computed, or of the one taken.
   const std::vector<double>& viscous_now() const {

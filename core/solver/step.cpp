@@ -26,11 +26,12 @@ namespace {
 // but none beyond renew_depth of its pair, which triggers an update.
 constexpr int elements_every = 200, contacts_every = 50;
 
-/// Moves driven tools to their positions at scene.time. Pushed tools are moved when their forces
-/// are computed; here their force is set.
+/// Moves driven tools to their positions at scene.time, and gives all their temperatures. Pushed
+/// tools are moved when their forces are computed; here their force is set.
 void move_tools(Scene& s) {
   for (std::size_t i = 0; i < s.tools.size(); ++i) {
     ToolState& t = s.tools[i];
+    t.body.temperature = tool_temperature(s.data, s.data.tools[i], s.time * s.data.process_time());
     const double now = motion_at(s.data.tools[i], s.time, s.data.solver.duration);
     if (t.body.force_controlled) {
       t.body.force = now;

@@ -5,6 +5,7 @@
 //   a ply on a table that gravity g drives along it: v = v_e (1 - exp(-t / theta)), with
 //     theta = rho_A h / eta and v_e = g theta (Couette)
 #include "core/model/motion.hpp"
+#include "core/model/temperature.hpp"
 #include "support/kill_checks.hpp"
 #include "support/stress_scenes.hpp"
 
@@ -32,6 +33,14 @@ FrictionLawSpec film(double viscosity, double thickness) {
   spec.name = "film", spec.kind = Kind::film;
   spec.viscosity = viscosity, spec.film = thickness;
   return spec;
+}
+
+/// A melt that is half as stiff at 200 degC as at 180.
+constexpr double reference = 180.0; // degC
+FilmFlow melt() {
+  const TemperatureFactor law = WlfFactor{3.0, 179.3, reference};
+  const TemperatureRange known = law.range();
+  return {[law](double celsius) { return law.at(celsius); }, known.least, known.most};
 }
 
 /// Gives all plies that friction on each other, and tools none; or to a single ply on tools.
@@ -274,6 +283,90 @@ TEST(FilmFriction, DryFrictionGoesByTheAngleBetweenTheFibres) {
     const double wanted = 2.0 * 0.3 * factor * 0.1 * area;
     EXPECT_NEAR(pull_of(data).mean, wanted, 0.01 * wanted) << middle << " " << others;
   }
+}
+
+TEST(FilmFriction, ItsViscosityIsThatOfTheMeanTemperatureOfBothFaces) {
+  FrictionLawSpec at_reference = curve(), by_temperature = curve();
+  by_temperature.flow = melt();
+  struct Place {
+    std::string what;
+    Case data;
+    double middle, outer; // degC
+  };
+  for (auto& [what, data, middle, outer] : {Place{"tools", between_plates(0.1, 10.0), 200.0, 200.0},
+                                            Place{"tools", between_plates(0.1, 10.0), 205.0, 165.0},
+                                            Place{"plies", pull_out(0.1, 10.0), 190.0, 210.0}}) {
+    const double factor = melt().factor(0.5 * (middle + outer));
+    Case warm = data, plain = data;
+    slide_on(warm, by_temperature);
+    at_reference.viscosity = factor * by_temperature.viscosity;
+    slide_on(plain, at_reference);
+    warm.process.temperature = outer;
+    warm.plies[what == "tools" ? 0 : 1].temperature = middle;
+    const double with = pull_of(warm).mean, without = pull_of(plain).mean;
+    EXPECT_NEAR(with, without, 1e-6 * without) << what;
+    fmt::print("{} at {} and {} degC, factor {:.4f}: {:.4f} N for {:.4f} N\n", what, middle, outer,
+               factor, with, without);
+  }
+}
+
+/// A ply drawn on films between tools that cool it from 200 degC.
+Case cooling_film(double process_s) {
+  constexpr double hot = 200.0, cold = 160.0; // degC
+  Case data = between_plates(0.1, process_s);
+  FrictionLawSpec spec = film(2e-4, 0.1);
+  spec.flow = melt();
+  slide_on(data, spec);
+  data.fabrics[0].surface_density = 1e-9;
+  data.fabrics[0].heat_capacity = 1.2e9;
+  data.process.temperature = cold;
+  data.plies[0].temperature = hot;
+  data.process.cooling = Cooling{0.1, 0.1, 0.02, {{0.0, cold}}};
+  return data;
+}
+
+TEST(FilmFriction, CoolsAndStiffensAsItsFactorSays) {
+  // T = T_c + (T_0 - T_c) e^(-2 h t / C) of the ply; the film is half way to the tools
+  const double process_s = 10.0, v = peak_speed_ratio * 12.0 / process_s;
+  double worst = 0.0, first = 0.0, last = 0.0;
+  for (const double duration : {0.06, 0.03}) {
+    Case data = cooling_film(process_s);
+    data.solver.duration = duration;
+    RunHooks hooks;
+    worst = first = 0.0;
+    hooks.frame = [&](const Frame& f) {
+      const double share = f.time / duration, t = share * process_s;
+      if (share < 0.4 || share > 0.72) return;
+      const double ply = 160.0 + 40.0 * std::exp(-2.0 * 0.1 * t / 1.2);
+      const double wanted = 2.0 * area * 2e-4 / 0.1 * v * melt().factor(0.5 * (160.0 + ply));
+      last = f.boundaries.at(0).force_N;
+      if (first == 0.0) first = last;
+      worst = std::max(worst, std::abs(last / wanted - 1.0));
+    };
+    const RunResult run = run_case(data, 1, hooks);
+    ASSERT_TRUE(ended(run.summary.status)) << run.summary.message;
+    EXPECT_LE(worst, 0.01) << duration;
+    EXPECT_GT(last, 1.1 * first);
+    EXPECT_LE(imbalance(run.last.energy), 0.01);
+    fmt::print("{} s simulated: {:.3f} to {:.3f} N, {:.3f} % off at most\n", duration, first, last,
+               100.0 * worst);
+    ASSERT_FALSE(run.summary.work.pairs.empty());
+    for (const PairReport& pair : run.summary.work.pairs)
+      if (pair.touched()) {
+        ASSERT_TRUE(pair.film_temperature);
+        EXPECT_LT(pair.film_temperature->most, 180.0);
+        EXPECT_GT(pair.film_temperature->least, 160.0);
+      }
+  }
+}
+
+TEST(FilmFriction, CoolingHasTheSameBitsOnAnyThreadsAndAfterKills) {
+  Case data = cooling_film(10.0);
+  data.tools[1].temperature = {{0.0, 160.0}, {10.0, 190.0}};
+  data.solver.duration = 0.02;
+  data.solver.outputs = 10;
+  const Energies e = expect_sound_and_repeatable(data, 3);
+  EXPECT_GT(e.film, 0.0);
 }
 
 TEST(FilmFriction, GoesOnFromACheckpointWithTheSameBits) {

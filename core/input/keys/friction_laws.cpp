@@ -2,6 +2,7 @@
 // Laws of friction: [friction.NAME], their keys and their reading.
 #include "core/input/keys/key_member.hpp"
 #include "core/input/keys/schema_case.hpp"
+#include "core/input/keys/temperature_keys.hpp"
 
 #include <cmath>
 #include <fmt/format.h>
@@ -153,6 +154,21 @@ Rows factor_rows() {
                       "whatever presses]: tack that is overcome"}};
 }
 
+/// How the viscosity follows the temperature, of laws that have one.
+Rows flow_rows() {
+  Rows rows = temperature_law_rows(friction_key("temperature"), "the law's viscosity depends",
+                                   "the viscosity of the film");
+  rows[0].of = "law", rows[0].with = {"hersey", "film"};
+  return rows;
+}
+
+FilmFlow read_flow(const TableView& section, Diagnostics& diagnostics) {
+  const TemperatureFactor law = read_temperature_law(section, diagnostics);
+  if (!law.depends()) return {};
+  const TemperatureRange known = law.range();
+  return {[law](double celsius) { return law.at(celsius); }, known.least, known.most};
+}
+
 /// Reads the law of one table.
 struct LawReader {
   const TableView& section;
@@ -198,6 +214,7 @@ struct LawReader {
     spec.over_angle = points("over_angle");
     spec.over_slip = points("over_slip");
     spec.tack = points("tack");
+    spec.flow = read_flow(subsection(section, "temperature"), diagnostics);
     check_thinning(spec);
     if (spec.kind == FrictionKind::film && !given(section, "film_thickness"))
       fail("law", "needs film_thickness",
@@ -237,6 +254,7 @@ Rows friction_law_rows() {
              .members = {to(&FrictionLawSpec::coefficient)}}};
   append(rows, hersey_rows());
   append(rows, film_rows());
+  append(rows, flow_rows());
   append(rows, factor_rows());
   return rows;
 }

@@ -2,6 +2,7 @@
 #include "core/input/keys/temperature_keys.hpp"
 
 #include "core/input/keys/key_member.hpp"
+#include "core/model/reachable_temperature.hpp"
 #include "core/model/yarn_law.hpp"
 
 #include <algorithm>
@@ -120,27 +121,6 @@ void check_start(const TableView& root, const TableView& ply, const Fabric& fabr
               "give a temperature inside, or a law that reaches it", diagnostics);
 }
 
-/// degC, lowest and highest that a ply can come to: as if both of its faces touched the coldest, or
-/// the hottest, of all that is there all the time.
-TemperatureRange reachable(const Case& built, const Fabric& fabric, double start) {
-  TemperatureRange around{start, start};
-  const auto add = [&](const std::vector<TemperatureStage>& stages) {
-    for (const TemperatureStage& stage : stages)
-      around.least = std::min(around.least, stage.celsius),
-      around.most = std::max(around.most, stage.celsius);
-  };
-  const Cooling& cooling = *built.process.cooling;
-  add(cooling.surroundings);
-  for (const Tool& tool : built.tools)
-    add(tool.temperature);
-  for (const Ply& ply : built.plies)
-    if (const auto other = start_temperature(built, ply)) add({{0.0, *other}});
-  const double seconds = built.process.duration.value_or(0.0) * (1.0 + built.solver.dwell);
-  const double h = 2.0 * std::max({cooling.to_tools, cooling.to_plies, cooling.to_air});
-  const double left = std::exp(-h * seconds / (fabric.surface_density * *fabric.heat_capacity));
-  return {around.least + (start - around.least) * left, around.most + (start - around.most) * left};
-}
-
 /// Warns of laws over temperature that have nothing to act on.
 void check_use(const TableView& root, const Case& built, Diagnostics& diagnostics) {
   const std::vector<TableView> sections = subsections(root, "fabrics");
@@ -167,8 +147,8 @@ void check_laws(const TableView& root, const Case& built, Diagnostics& diagnosti
           fmt::format("is missing, and laws of fabric {} depend on it", fabric.name),
           "give [process] a temperature, degC");
     check_start(root, sections[p], fabric, *celsius, diagnostics);
-    if (!built.process.cooling || !fabric.heat_capacity) continue;
-    const TemperatureRange may = reachable(built, fabric, *celsius), known = fabric.flow.range();
+    const TemperatureRange may = *reachable_temperatures(built, built.plies[p]),
+                           known = fabric.flow.range();
     if (known.holds(*celsius) && !(known.holds(may.least) && known.holds(may.most)))
       diagnostics.warning(
           sections[p].entry->at,
@@ -254,6 +234,7 @@ void read_temperatures(const TableView& root, Case& built, Diagnostics& diagnost
   }
   check_use(root, built, diagnostics);
   check_laws(root, built, diagnostics);
+  check_films(root, built, diagnostics);
 }
 
 } // namespace plyform

@@ -15,17 +15,19 @@ Rows ply_temperature_rows();
 Rows tool_temperature_rows();
 Rows heat_capacity_rows();
 /// core/input/keys/temperature_laws.cpp: a table TABLE with a reference, and within it what follows
-/// it: fabrics.NAME.temperature.
-Rows temperature_law_rows(const std::string& table);
-/// Reads the law in `section`, TABLE.viscosity, with the reference (degC) of the table around it;
-/// none if it is not given or wrong.
-TemperatureFactor read_temperature_law(const TableView& section, double reference,
-                                       Diagnostics& diagnostics);
+/// it: fabrics.NAME.temperature, friction.NAME.temperature. of: "laws of the fabric depend"; what:
+/// the factor acts on, "viscosities".
+Rows temperature_law_rows(const std::string& table, const std::string& of, const std::string& what);
+/// Reads the law in `section`, TABLE; none if it is not given or wrong.
+TemperatureFactor read_temperature_law(const TableView& section, Diagnostics& diagnostics);
 /// process.temperature and process.cooling.
 Rows process_temperature_rows();
 
 /// Reads what these rows are of the case whose fabrics, plies, tools and other keys of [process]
 /// have been read.
 void read_temperatures(const TableView& root, Case& built, Diagnostics& diagnostics);
+/// core/input/keys/film_temperature.cpp: what laws of friction over temperature need of such a
+/// case.
+void check_films(const TableView& root, const Case& built, Diagnostics& diagnostics);
 
 } // namespace plyform

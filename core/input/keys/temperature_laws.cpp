@@ -22,7 +22,8 @@ KeyRow constant_row(const std::string& table, const std::string& key, const std:
 
 } // namespace
 
-Rows temperature_law_rows(const std::string& table) {
+Rows temperature_law_rows(const std::string& table, const std::string& of,
+                          const std::string& what) {
   KeyRow energy = constant_row(table, "activation_energy", "kJ/mol", {.least = 5.0, .most = 300.0},
                                "E of Arrhenius: viscosity goes as exp(E/(R T)), T in K");
   energy.instead = {"c1", "table"};
@@ -36,16 +37,14 @@ Rows temperature_law_rows(const std::string& table) {
   c2.otherwise = "none";
   return {{.key = table,
            .kind = K::table,
-           .otherwise = "none: laws are the same at all temperatures",
-           .meaning = "how laws of the fabric depend on temperature"},
+           .otherwise = "none: the same at all temperatures",
+           .meaning = "how " + of + " on temperature"},
           {.key = table + ".reference",
            .unit = "degC",
            .ranges = {temperature_range},
            .usual = {usual_temperature},
            .meaning = "temperature at which the numbers of the laws hold"},
-          {.key = table + ".viscosity",
-           .kind = K::table,
-           .meaning = "factor on viscosities and relaxation times"},
+          {.key = table + ".viscosity", .kind = K::table, .meaning = "factor on " + what},
           energy,
           c1,
           c2,
@@ -60,8 +59,10 @@ Rows temperature_law_rows(const std::string& table) {
                "smooth monotone curve through the logarithms"}};
 }
 
-TemperatureFactor read_temperature_law(const TableView& section, double reference,
-                                       Diagnostics& diagnostics) {
+TemperatureFactor read_temperature_law(const TableView& around, Diagnostics& diagnostics) {
+  if (!given(around, "reference")) return {};
+  const double reference = number(around, "reference");
+  const TableView section = subsection(around, "viscosity");
   if (given(section, "activation_energy"))
     return ArrheniusFactor{number(section, "activation_energy"), reference};
   if (given(section, "c1") != nullptr) {

@@ -51,10 +51,8 @@ void read_weave(const TableView& section, Fabric& fabric, Diagnostics& diagnosti
 
 /// How viscosities follow the temperature.
 void read_flow(const TableView& section, Fabric& fabric, Diagnostics& diagnostics) {
-  if (!given(section, "reference")) return;
-  fabric.flow_reference = number(section, "reference");
-  fabric.flow =
-      read_temperature_law(subsection(section, "viscosity"), fabric.flow_reference, diagnostics);
+  if (given(section, "reference")) fabric.flow_reference = number(section, "reference");
+  fabric.flow = read_temperature_law(section, diagnostics);
 }
 
 Fabric read_fabric(const TableView& section, const std::string& key, Diagnostics& diagnostics) {

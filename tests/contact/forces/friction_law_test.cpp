@@ -17,7 +17,7 @@ constexpr double k = 5.0; // N/mm^3
 
 /// A place that would be stretched that far (mm), from `held`.
 SlidingPlace place_of(double stretch, double held, double pressure, double slip = 0.0) {
-  return {stretch, held, k, pressure, slip, 1.0, 1.0};
+  return {stretch, held, k, pressure, slip, 1.0, 1.0, std::nan("")};
 }
 
 FrictionLawSpec film_of(double viscosity, double film, double yield = 0.0) {

@@ -60,9 +60,13 @@ Summary made_up_summary() {
                   {},
                   {},
                   {{"ply.p.angle", "45"}}};
-  summary.work = {
-      0.5, 0.25, 0.125, 12, {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7, {}, {}, {}}}, {"bending: small"},
-      {}};
+  summary.work = {0.5,
+                  0.25,
+                  0.125,
+                  12,
+                  {{"die", "p", 0.25, 0.03, 1.5, 0.2, 7, {}, {}, {}, {}}},
+                  {"bending: small"},
+                  {}};
   return summary;
 }
 
@@ -265,7 +269,7 @@ TEST(SummaryJson, TextIsEscapedAndAlwaysUtf8) {
   summary.title = "";
   summary.message = summary.status = summary.version = "\xe9";
   summary.assumed = summary.work.missing = summary.work.could_be_left_out = {"\xe9"};
-  summary.work.pairs = {{"\xe9", "\xe9", 0, 0, 0, 0, 0, "\xe9", {}, {}}};
+  summary.work.pairs = {{"\xe9", "\xe9", 0, 0, 0, 0, 0, "\xe9", {}, {}, {}}};
   Frame frame = unequal(10, 20);
   frame.plies[0].name = "\xe9";
   const Json json = read_back(frame, summary);

@@ -81,5 +81,33 @@ TEST(FrictionLaws, AreToldWithTheRangeThatARunWillReach) {
   EXPECT_NE(all().find("nothing is driven"), std::string::npos) << all();
 }
 
+TEST(FrictionLaws, FollowTheTemperature) {
+  const fs::path file = data_folder / "good" / "film_temperature.toml";
+  const PreparedCase read = prepare_case(file, {});
+  ASSERT_TRUE(read.value) << all_texts(read);
+  const Case& data = *read.value;
+  const FrictionLawSpec &melt = law(data, 0, 1), &film = law(data, 0, 2);
+  EXPECT_EQ(melt.viscosity, 600.0 * 1e-6);
+  EXPECT_NEAR(melt.flow_at(200.0), 0.631296, 1e-6); // 41 kJ/mol
+  EXPECT_NEAR(film.flow_at(110.0), 3.0, 1e-12);
+  EXPECT_EQ(film.flow.most, 220.0);
+  EXPECT_EQ(film.flow_at(std::nan("")), 1.0);
+  // of 180 and 200 degC on a floor of 60 to 20: 100 to 130 degC
+  std::string warnings, told;
+  for (const std::string& warning : read.warnings)
+    warnings += warning + "\n";
+  EXPECT_NE(warnings.find("friction film: films may come to 100 to 130 degC, means of both bodies, "
+                          "and their viscosity is known for 110 to 220 degC"),
+            std::string::npos)
+      << warnings;
+  EXPECT_EQ(warnings.find("friction melt"), std::string::npos) << warnings;
+  for (const std::string& line : friction_ahead(data))
+    told += line + "\n";
+  // 41 kJ/mol, from 200 degC of the upper ply alone to 180 of the lower
+  EXPECT_NE(told.find("viscosity at the temperatures of its films: 0.631 to 1 times"),
+            std::string::npos)
+      << told;
+}
+
 } // namespace
 } // namespace plyform::friction_laws_test
