@@ -2,6 +2,7 @@
 #include "core/ply/bending_simd.hpp"
 
 #include "base/cpu_features.hpp"
+#include "core/ply/viscous_kernel.hpp"
 
 #include <algorithm>
 #include <stdexcept>
@@ -223,6 +224,7 @@ BendingKernelLaw kernel_law(const BendingSimd& l) {
   k.weave = law.families.size() == 2 && law.families[0].along == Vec2::UnitX() &&
             law.families[1].along == Vec2::UnitY();
   k.in_plane = l.in_plane;
+  k.viscous = nullptr;
   k.law = &law;
   k.moment = moment_of_table;
   return k;
@@ -290,9 +292,18 @@ BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x) {
   return out;
 }
 
-void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block) {
+void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block,
+                    const KernelViscousBending* viscous) {
   const BendingBlock& of = l.blocks[block];
-  const BendingKernelLaw law = kernel_law(l);
+  BendingKernelLaw law = kernel_law(l);
+  KernelViscousBending of_block;
+  if (viscous) {
+    of_block = *viscous;
+    of_block.begin += of_block.states * of.first_group;
+    of_block.end += of_block.states * of.first_group;
+    if (of_block.factors) of_block.factors += of.first_group;
+    law.viscous = &of_block;
+  }
   const BendingKernelBlock kernel{l.nodes.data() + of.first_node,
                                   of.nodes,
                                   l.stencils.data() + of.first_group,

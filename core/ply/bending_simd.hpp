@@ -40,7 +40,9 @@ BendingSimd make_bending_simd(const Bending& b, std::span<const Vec3> x);
 
 /// Computes (F) + (I), N, of a block's stencils, stored in l.force; once all blocks are done
 /// simd_force (core/ply/block_forces.hpp) sums them on a node. x: mm, one per node of the ply.
-void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block);
+/// viscous: of all blocks (kernel_viscous of core/ply/viscous_simd.hpp), or null.
+void bending_forces(BendingSimd& l, std::span<const Vec3> x, int block,
+                    const KernelViscousBending* viscous = nullptr);
 
 /// (E) + (G) summed over all nodes, N mm. x: mm, one per node.
 double bending_energy(const BendingSimd& l, std::span<const Vec3> x);

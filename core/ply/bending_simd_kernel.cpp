@@ -9,7 +9,7 @@
 // with V and m in the order 11, 22, 12.
 #include "core/ply/bending_simd_kernel.hpp"
 
-#include "core/ply/simd_kernel_body.hpp"
+#include "core/ply/viscous_lanes.hpp"
 
 namespace plyform {
 namespace {
@@ -108,6 +108,38 @@ PLYFORM_INLINE void add_tables(const BendingKernelLaw& law, const Doubles* kappa
   });
 }
 
+/// Moves the viscous moments of core/ply/viscous_bending.hpp over a step, and adds them. group:
+/// number of the first group in the block.
+template <class Of>
+PLYFORM_INLINE void add_viscous(const SimdGroups& g, int group, Doubles area,
+                                const BendingKernelLaw& law, const Doubles* kappa, Doubles* m) {
+  const KernelViscousBending& v = *law.viscous;
+  ViscousStatesOfQuads s;
+  s.begin.count = s.end.count = g.count;
+  Double4 factors[quads];
+  for (int q = 0; q < quads; ++q) {
+    const int of = group + (q < g.count ? q : 0);
+    s.begin.of[q] = v.begin + v.states * of, s.end.of[q] = v.end + v.states * of;
+    factors[q] = v.factors ? load(v.factors[of].of) : Double4{1.0, 1.0, 1.0, 1.0};
+  }
+  const Doubles factor = joined(factors);
+  Doubles lost = all(0.0);
+  for (int f = 0; f < v.families; ++f) {
+    const int a = v.family[f];
+    const double* p = law.family[a].of_axes;
+    const Doubles along =
+        Of::weave ? kappa[a] : p[0] * kappa[0] + p[1] * kappa[1] + p[2] * kappa[2];
+    const Doubles change = v.moves * (along - state_before(s, 1 + 2 * f));
+    set_state(s, 1 + 2 * f, along);
+    const Doubles moment =
+        move_dashpot(s, 2 + 2 * f, factor * v.viscosity[f], v.spring, change, lost);
+    for (int k = 0; k < 3 && !Of::weave; ++k)
+      m[k] += p[k] * moment;
+    if (Of::weave) m[a] += moment;
+  }
+  set_state(s, 0, state_before(s, 0) + area * lost);
+}
+
 /// First and second derivatives along a family.
 struct AlongFamily {
   Vectors first, second;
@@ -155,7 +187,7 @@ PLYFORM_INLINE void add_in_plane(const BendingKernelLaw& law, const SimdShape& s
 }
 
 template <class Of, bool in_plane, bool tables>
-PLYFORM_INLINE SimdFactors find_factors(const SimdGroups& g, const SimdShape& s,
+PLYFORM_INLINE SimdFactors find_factors(const SimdGroups& g, int group, const SimdShape& s,
                                         const BendingKernelLaw& law) {
   const Doubles area = numbers([&](int q) { return g.stencils[q]->area; });
   const Doubles per_size = 1.0 / root(dot(s.sum, s.sum));
@@ -169,6 +201,7 @@ PLYFORM_INLINE SimdFactors find_factors(const SimdGroups& g, const SimdShape& s,
     m[2] += law.oblique[0] * kappa[0] + law.oblique[1] * kappa[1];
   }
   if (tables) add_tables<Of>(law, kappa, m);
+  if (tables && law.viscous) add_viscous<Of>(g, group, area, law, kappa, m);
   Vectors h = m[0] * s.second[0] + m[1] * s.second[1] + m[2] * s.second[2];
   SimdFactors f{{(-(area * m[0])) * normal, (-(area * m[1])) * normal, (-(area * m[2])) * normal},
                 {none(), none()},
@@ -254,7 +287,7 @@ PLYFORM_INLINE void block_forces(const BendingKernelBlock& block, const BendingK
   for (int group = 0; group < block.groups;) {
     const SimdGroups g = groups_at<in_plane>(block, law.families, group, constants, slots);
     const SimdShape s = find_shape<in_plane>(g, place, d);
-    const SimdFactors f = find_factors<Of, in_plane, tables>(g, s, law);
+    const SimdFactors f = find_factors<Of, in_plane, tables>(g, group, s, law);
     add_forces<in_plane>(g, f, d, force);
     group += g.count;
     constants += g.count * slot_numbers<in_plane> * g.slot_count;
@@ -268,7 +301,7 @@ PLYFORM_INLINE void bending_kernel(const BendingKernelBlock& block, const Bendin
   if (!law.weave)
     law.in_plane ? block_forces<AnyFabric, true, true>(block, law, x, place)
                  : block_forces<AnyFabric, false, true>(block, law, x, place);
-  else if (law.table)
+  else if (law.table || law.viscous)
     law.in_plane ? block_forces<Weave, true, true>(block, law, x, place)
                  : block_forces<Weave, false, true>(block, law, x, place);
   else

@@ -8,6 +8,7 @@
 namespace plyform {
 
 struct BendingLaw;
+struct KernelViscousBending;
 
 constexpr int most_stencil_slots = 512; ///< limit of nodes in a stencil besides its centre node
 /// Limit of nodes in a block; a block exceeds most_block_nodes only for one such stencil.
@@ -40,6 +41,7 @@ struct BendingKernelLaw {
   bool weave; ///< two families along the axes: `oblique` is zero
   bool table; ///< whether any family has one
   bool in_plane;
+  const KernelViscousBending* viscous; ///< of the block; or null
   const BendingLaw* law;
   /// M_f (N) of four curvatures (1/mm).
   void (*moment)(const BendingKernelLaw&, int family, const double* kappa, double* m);

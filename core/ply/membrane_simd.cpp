@@ -273,10 +273,11 @@ KernelLaw kernel_law(const Membrane& m) {
   for (const MembraneFamily& family : m.families)
     law.cells_by_law = law.cells_by_law || (family.crimped && !family.yarn.linear());
   law.sheet = m.fabric.sheet.has_value();
-  law.weave = law.families == 2 && law.crossings == 1 && !law.sheet &&
+  law.weave = law.families == 2 && law.crossings == 1 && !law.sheet && !m.fabric.matrix &&
               m.families[0].along == Vec2::UnitX() && m.families[1].along == Vec2::UnitY() &&
               law.crossing[0].first == 0 && law.crossing[0].second == 1;
   law.beta = deviation_weight, law.side_cubic = side_cubic;
+  law.viscous = nullptr;
   law.membrane = &m;
   law.evaluate = evaluate_yarns;
   law.evaluate_cells = evaluate_cells;
@@ -351,12 +352,15 @@ std::vector<double> remembered_of(const MembraneSimd& l, const Membrane& m,
 }
 
 GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3> x, double dt,
-                        int block, const LawStates<SimdYarnStates>& states) {
+                        int block, const LawStates<SimdYarnStates>& states,
+                        const KernelViscous* viscous) {
   const SimdBlock& b = l.blocks[block];
   const KernelBlock kernel = kernel_block(l, m, b, states, l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_kernel_generic, membrane_kernel_avx2, membrane_kernel_avx512);
-  const KernelReport report = run(kernel, kernel_law(m), x.data()->data(), per_dt);
+  KernelLaw law = kernel_law(m);
+  law.viscous = viscous;
+  const KernelReport report = run(kernel, law, x.data()->data(), per_dt);
   return {report.lost, report.torn, report.collapsed};
 }
 

@@ -31,6 +31,23 @@ struct MembraneSimd : BlockForces {
   std::vector<std::int32_t> groups;         ///< strain groups of each pack, -1 where it has none
 };
 
+/// Calls each(i, lane, e) for all triangles e of the ply: their places in `triangles`.
+template <class Each>
+void each_place(const MembraneSimd& simd, const Membrane& m, const Each& each) {
+  for (const SimdBlock& block : simd.blocks) {
+    int i = block.first_triangles;
+    for (int pack = 0; pack < block.pair_packs + block.single_packs; ++pack) {
+      const int size = pack < block.pair_packs ? 2 : 1;
+      for (int lane = 0; lane < simd_width; ++lane) {
+        const std::int32_t group = simd.groups[at(simd_width * (block.first_group + pack) + lane)];
+        for (int of = 0; of < size && group >= 0; ++of)
+          each(at(i + of), at(lane), at(m.group_begin[at(group)] + of));
+      }
+      i += size;
+    }
+  }
+}
+
 /// Whether the kernel can compute this membrane: only if it has yarns.
 bool fits_simd(const Membrane& m);
 
@@ -49,9 +66,11 @@ std::vector<double> remembered_of(const MembraneSimd& simd, const Membrane& m,
 
 /// Internal forces (F), N, of a block's groups, viscous ones included, stored in simd.force;
 /// simd_force (core/ply/block_forces.hpp) sums them. x: mm, n; dt, states (as at start)
-/// and report: as of element_forces (core/ply/membrane.hpp).
+/// and report: as of element_forces (core/ply/membrane.hpp). viscous: laws with rates
+/// (kernel_viscous of core/ply/viscous_simd.hpp), or null.
 GroupReport simd_forces(MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x, double dt,
-                        int block, const LawStates<SimdYarnStates>& states);
+                        int block, const LawStates<SimdYarnStates>& states,
+                        const KernelViscous* viscous = nullptr);
 
 /// (E) of a block's groups, N mm; summed over the blocks it is membrane_energy. x: mm, n; begin:
 /// what yarns remember of the begin of the step dt (s).

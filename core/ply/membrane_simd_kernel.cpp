@@ -6,14 +6,10 @@
 //   S   = sum_a (A0 d_a N_a / lambda_a - sum_c tau_c D_c / lambda_a^2) v_a v_a^T
 //         + sum_c tau_c (v_a v_b^T + v_b v_a^T) + A0 S_sheet                                    (S)
 #include "core/ply/membrane_simd_shear.hpp"
+#include "core/ply/membrane_simd_viscous.hpp"
 
 namespace plyform {
 namespace {
-
-/// (S), N mm.
-struct SimdStress {
-  Doubles s11, s22, s12;
-};
 
 /// A0 S_sheet times `area`; energy, if asked for: times area, N mm.
 PLYFORM_INLINE SimdStress sheet_stress(const KernelLaw& law, const SimdState<AnyFabric>& s,
@@ -70,6 +66,14 @@ PLYFORM_INLINE SimdStress stress(const KernelLaw& law, const TrianglesOfQuads& t
   return sum;
 }
 
+/// (S) with that of a melt.
+template <class Of>
+PLYFORM_INLINE SimdStress with_melt(const KernelLaw& law, SimdStress of, const SimdStress& melt) {
+  if constexpr (!Of::weave)
+    if (law.viscous) of.s11 += melt.s11, of.s22 += melt.s22, of.s12 += melt.s12;
+  return of;
+}
+
 /// (F), N, of corners 1 and 2; corner 0 gets the opposite of their sum.
 struct CornerForces {
   Vectors f1, f2;
@@ -117,7 +121,10 @@ PLYFORM_INLINE void single_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads& t
   for_crossings<Of>(w.law, [&](auto c, auto, auto) {
     torque[c] = simd_shear<Of, general>(w, c, s.gamma[c], s.gamma[c] * s.gamma[c]).torque;
   });
-  const CornerForces forces = corner_forces(t, s, stress<Of>(w.law, t, s, n, torque));
+  SimdStress melt{};
+  if (general && w.law.viscous) melt = add_viscous<Of>(w, t, s, nullptr, torque, nullptr);
+  const SimdStress of = with_melt<Of>(w.law, stress<Of>(w.law, t, s, n, torque), melt);
+  const CornerForces forces = corner_forces(t, s, of);
   for (int q = 0; q < t.count; ++q)
     add_forces(*t.of[q], forces, q, w.force);
 }
@@ -146,6 +153,7 @@ PLYFORM_INLINE void pair_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads* t,
   tensions<Of, general>(w, v, mean, area_of(t[0]) + area_of(t[1]), n);
   Doubles secant[2][Of::most_crossings], torque[2][Of::most_crossings];
   Doubles held[2][Of::most_families], delta[2][Of::most_families];
+  SimdStress melt[2] = {};
   for (int i = 0; i < 2; ++i) {
     for_families<Of>(w.law.families, [&](auto a) { delta[i][a] = s[i].lambda[a] - mean[a]; });
     for_crossings<Of>(w.law, [&](auto c, auto first, auto second) {
@@ -157,6 +165,8 @@ PLYFORM_INLINE void pair_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads* t,
       secant[i][c] = shear.secant, torque[i][c] = shear.torque;
     });
     find_held<Of>(w.law, secant[i], delta[i], held[i]);
+    if (general && w.law.viscous)
+      melt[i] = add_viscous<Of>(w, t[i], s[i], delta[i], torque[i], held[i]);
   }
   Doubles mean_held[Of::most_families];
   for_families<Of>(w.law.families,
@@ -170,7 +180,9 @@ PLYFORM_INLINE void pair_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads* t,
     });
     for_stitches<Of>(w.law, [&](auto a) { own[a] = n[a]; });
     if (needs_penalty) add_collapse_penalty(w.lane, s[i], own);
-    forces[i] = corner_forces(t[i], s[i], stress<Of>(w.law, t[i], s[i], own, torque[i]));
+    const SimdStress of =
+        with_melt<Of>(w.law, stress<Of>(w.law, t[i], s[i], own, torque[i]), melt[i]);
+    forces[i] = corner_forces(t[i], s[i], of);
   }
   for (int q = 0; q < t->count; ++q) // in the order of one pack after the other
     for (int i = 0; i < 2; ++i)
@@ -294,7 +306,8 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
 
 /// Whether a weave has laws that are more than straight lines and short polynomials.
 PLYFORM_INLINE bool is_general(const KernelLaw& law) {
-  bool general = law.crimped || law.crossing[0].shear_terms == 0 || law.crossing[0].both_signs;
+  bool general =
+      law.crimped || law.viscous || law.crossing[0].shear_terms == 0 || law.crossing[0].both_signs;
   for (int a = 0; a < 2 + law.stitches; ++a)
     general = general || law.yarns[a].by_law || law.yarns[a].buckles;
   return general;

@@ -9,6 +9,7 @@
 namespace plyform {
 
 struct Membrane;
+struct KernelViscous;
 
 constexpr int most_shear_terms = 8;  ///< longer polynomials are evaluated by callback
 constexpr double least_shear = 1e-9; ///< rad: below it Cs(g) / g equals the slope at 0 to rounding
@@ -92,6 +93,7 @@ struct KernelLaw {
   bool crimped;             ///< a crossing is
   bool cells_by_law;        ///< call `evaluate_cells`: the kernel does not know all laws of cells
   bool sheet;               ///< call `sheet_law`
+  const KernelViscous* viscous; ///< laws with rates, or null
   /// Four yarns of a family. begin, end: SimdYarnStates::of; per_dt: 1/s.
   void (*evaluate)(const KernelLaw&, int family, double per_dt, const double* strain,
                    const double (*begin)[simd_width], double (*end)[simd_width],

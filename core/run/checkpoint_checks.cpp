@@ -49,11 +49,14 @@ bool sound(const BoundaryState& b) {
   return sound(b.displacement) && sound(b.next_displacement) && sound(b.load) && sound(b.force) &&
          sound(b.work);
 }
-bool sound(const SimdYarnStates& states) {
-  bool all = true;
-  for (const auto& row : states.of)
-    all = all && std::all_of(std::begin(row), std::end(row), [](double x) { return sound(x); });
-  return all;
+bool all_lanes_sound(const double (&of)[simd_width]) {
+  return std::all_of(std::begin(of), std::end(of), [](double x) { return sound(x); });
+}
+bool sound(const SimdNumbers& numbers) {
+  return all_lanes_sound(numbers.of);
+}
+bool sound(const SimdYarnStates& s) {
+  return std::all_of(std::begin(s.of), std::end(s.of), all_lanes_sound);
 }
 
 /// Numbers of which some may be infinite: path lengths before which nothing can touch.

@@ -145,7 +145,7 @@ std::vector<double> add_yarns(const PlyBody& ply, PlyFrame& f) {
 /// Fills what laws see of rates, and answer.
 void add_rates(const PlyBody& ply, PlyFrame& f) {
   if (!ply.viscous) return;
-  const std::vector<double>& states = ply.viscous_now();
+  const std::vector<double> states = ply.viscous_now();
   for (std::size_t e = 0; e < f.triangles.size(); ++e) {
     const ShownRate shown = shown_rate(*ply.viscous, ply.membrane, states, e);
     f.shear_rate.push_back(shown.rate), f.largest_rate.push_back(shown.largest);

@@ -20,6 +20,24 @@ MembraneEnergy energy_of(const Scene& s, const Block& block) {
   return block.begin > 0 ? MembraneEnergy{} : membrane_energy(ply.membrane, ply.x); // of all blocks
 }
 
+/// Laws with rates of a ply in this step, if it has any: what its kernels ask.
+std::optional<KernelViscous> viscous_of(const Scene& s, PlyBody& ply) {
+  if (!ply.viscous) return std::nullopt;
+  return kernel_viscous(
+      *ply.viscous, ply.membrane, *ply.simd,
+      {s.dt * ply.membrane.process_time, ply.viscous_states, ply.viscous_end, ply.flow_factors});
+}
+std::optional<KernelViscousBending> viscous_bending_of(const Scene& s, PlyBody& ply) {
+  if (!ply.viscous_bending) return std::nullopt;
+  return kernel_viscous(*ply.viscous_bending, {s.dt * ply.membrane.process_time, ply.bending_states,
+                                               ply.bending_end, ply.node_flow_factors});
+}
+
+template <class T>
+const T* pointer_to(const std::optional<T>& value) {
+  return value ? &*value : nullptr;
+}
+
 double seconds_of(const std::vector<Block>& blocks) {
   double sum = 0.0;
   for (const Block& block : blocks)
@@ -37,9 +55,10 @@ void ElementForces::run(Scene& s, int task) {
   Block& block = s.group_blocks[at(task)];
   const Stopwatch watch(block.seconds);
   PlyBody& ply = s.plies[at(block.ply)];
+  const std::optional<KernelViscous> viscous = viscous_of(s, ply);
   const GroupReport report =
       ply.simd ? simd_forces(*ply.simd, ply.membrane, ply.x, s.dt, block.begin,
-                             {ply.yarns, ply.yarns_end})
+                             {ply.yarns, ply.yarns_end}, pointer_to(viscous))
                : element_forces(ply.membrane, ply.x, s.dt, block.begin, block.end, {}, ply.q);
   s.group_lost[at(task)] = report.lost;
   s.group_torn[at(task)] = report.torn;
@@ -111,7 +130,8 @@ void BendingForces::run(Scene& s, int task) {
   Block& block = s.bending_blocks[at(task)];
   const Stopwatch watch(block.seconds);
   PlyBody& ply = s.plies[at(block.ply)];
-  bending_forces(*ply.bending, ply.x, block.begin);
+  const std::optional<KernelViscousBending> viscous = viscous_bending_of(s, ply);
+  bending_forces(*ply.bending, ply.x, block.begin, pointer_to(viscous));
 }
 
 void BendingForces::add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f) {

@@ -118,14 +118,24 @@ std::vector<double> cooled(const PlyBody& ply, const Faces& faces, double air, d
 void find_flow_factors(PlyBody& ply, double time) {
   if (ply.flow_time == time) return;
   const TemperatureFactor& flow = ply.membrane.fabric.flow;
-  for (std::size_t e = 0; e < ply.flow_factors.size(); ++e) {
-    double celsius = 0.0;
-    for (const std::int32_t node : ply.membrane.triangles[e])
-      celsius += ply.temperature[at(node)] / 3.0;
-    ply.flow_factors[e] = flow.at(celsius);
+  if (!ply.flow_factors.empty()) {
+    std::vector<double> of;
+    of.reserve(ply.membrane.triangles.size());
+    for (const Triangle& t : ply.membrane.triangles) {
+      double celsius = 0.0;
+      for (const std::int32_t node : t)
+        celsius += ply.temperature[at(node)] / 3.0;
+      of.push_back(flow.at(celsius));
+    }
+    pack(*ply.simd, ply.membrane, of, ply.flow_factors);
   }
-  for (std::size_t n = 0; n < ply.node_flow_factors.size(); ++n)
-    ply.node_flow_factors[n] = flow.at(ply.temperature[n]);
+  if (!ply.node_flow_factors.empty()) {
+    std::vector<double> of;
+    of.reserve(ply.temperature.size());
+    for (const double celsius : ply.temperature)
+      of.push_back(flow.at(celsius));
+    pack(*ply.bending, of, ply.node_flow_factors);
+  }
   ply.flow_time = time;
 }
 

@@ -116,31 +116,22 @@ struct BendingForces : NoForce {
   static double elastic(const Scene& s, std::size_t ply);
 };
 
-/// What membranes resist by rates: core/ply/viscous_membrane.hpp. What it stores is energy of
-/// shear; its stiffness is in the bounds of the elements.
+/// What membranes resist by rates: core/ply/viscous_membrane.hpp. The kernel of elements computes
+/// its forces with theirs. What it stores is energy of shear; its stiffness is in the bounds of the
+/// elements.
 struct ViscousForces : NoForce {
-  static int tasks(const Scene& s) { return static_cast<int>(s.viscous_blocks.size()); }
-  static double place(const Scene& s, int task);
-  static void run(Scene& s, int task);
   static void finish(Scene& s, ThreadPool&);
   static void end_step(Scene& s);
-  static void add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f);
   static void add_energies(const Scene& s, ThreadPool&, Energies& e);
-  static void add_times(const Scene& s, Times& times);
   static void describe(const Scene& s, std::vector<std::string>& lines);
 };
 
-/// What bending resists by rates: core/ply/viscous_bending.hpp. A task a ply; ViscousForces takes
-/// its steps.
+/// What bending resists by rates: core/ply/viscous_bending.hpp, likewise in the kernel of bending.
+/// ViscousForces takes its steps.
 struct ViscousBendingForces : NoForce {
-  static int tasks(const Scene& s);
-  static double place(const Scene& s, int task);
-  static void run(Scene& s, int task);
-  static void add_to_nodes(const PlyBody& ply, int begin, int end, Vec3* f);
   static void add_energies(const Scene& s, ThreadPool&, Energies& e);
   static void add_bound(const PlyBody& ply, Frequencies& of);
   static void add_bound_of_rest(const PlyBody& ply, Frequencies& of) { add_bound(ply, of); }
-  static void add_times(const Scene& s, Times& times);
   static void describe(const Scene& s, std::vector<std::string>& lines);
 };
 

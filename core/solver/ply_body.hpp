@@ -16,8 +16,7 @@
 #include "core/ply/membrane_eigenvalue.hpp"
 #include "core/ply/membrane_simd.hpp"
 #include "core/ply/thickness.hpp"
-#include "core/ply/viscous_bending.hpp"
-#include "core/ply/viscous_membrane.hpp"
+#include "core/ply/viscous_simd.hpp"
 
 #include <cmath>
 #include <memory>
@@ -74,9 +73,10 @@ struct PlyState {
   bool resting = false;
   /// N mm, done by pressures since the start, but for what PlyCache::last_load_work has.
   double load_work = 0.0;
-  /// What laws with rates keep, as `yarns`: ViscousMembrane::states of each triangle, or empty.
-  std::vector<double> viscous_states;
-  std::vector<double> bending_states; ///< likewise ViscousBending::states of each node
+  /// What laws with rates keep, as `yarns`: ViscousMembrane::states of each triangle, in the
+  /// kernel's order, or empty.
+  PackedStates viscous_states;
+  PackedStates bending_states; ///< likewise ViscousBending::states of each node
 };
 
 /// The one list of a ply's state: f(name, place, values) for each member. Checkpoint, comparison
@@ -95,8 +95,8 @@ void each_array(PlyState& ply, F&& f) {
   f("temperature", On::node, temperature);
   f("resting", On::ply, resting);
   f("load_work", On::ply, load_work);
-  f("viscous_states", On::triangle, viscous_states);
-  f("bending_states", On::node, bending_states);
+  f("viscous_states", On::pack, viscous_states);
+  f("bending_states", On::pack, bending_states);
 }
 
 /// Cache of a ply: what the last search found, bounds of the stable time step, workspace.
@@ -134,15 +134,12 @@ struct PlyCache {
   bool pressed = false;
   /// What yarns will remember once the step that was computed is taken.
   std::vector<SimdYarnStates> yarns_end;
-  std::vector<double> viscous_end, bending_end; ///< likewise, of states of laws with rates
-  bool viscous_stepped = false;                 ///< whether these are of the step that was computed
-  std::vector<ElementForce> viscous_q;          ///< forces by rates, one per triangle
-  std::vector<Vec3> viscous_bending_force;      ///< N, by rates of curvature, on each node
+  PackedStates viscous_end, bending_end; ///< likewise, of states of laws with rates
+  bool viscous_stepped = false;          ///< whether these are of the step that was computed
   /// What temperatures make of viscosities, of each triangle and of each node; empty: nothing.
-  std::vector<double> flow_factors, node_flow_factors;
+  PackedStates flow_factors, node_flow_factors;
   /// s, SceneProgress::cooled_until of the temperatures that they are of.
   double flow_time = std::numeric_limits<double>::quiet_NaN();
-  double viscous_bending_seconds = 0.0; ///< s, computing these
 };
 
 /// The list of what a checkpoint keeps of the cache, so that a run goes on with the same bits.
@@ -152,8 +149,7 @@ void each_array(PlyCache& ply, F&& f) {
          unfolded, bound, eigenvalue_ratio, lanczos_contacts, thickness_ratio, thickening,
          thickening_path, fibres, tree, search_seconds, q, patch_motion, nodal_forces, pull, load,
          last_load_work, last_ratio, squeeze, spread, pressed, yarns_end, viscous_end, bending_end,
-         viscous_stepped, viscous_q, viscous_bending_force, flow_factors, node_flow_factors,
-         flow_time, viscous_bending_seconds] = ply;
+         viscous_stepped, flow_factors, node_flow_factors, flow_time] = ply;
   f("x_search", On::node, x_search);
   f("max_displacement", On::ply, max_displacement);
   f("path_length", On::ply, path_length);
@@ -178,12 +174,15 @@ struct PlyBody : PlyModel, PlyState, PlyCache {
     return {x,      motion,    membrane.node_area, fold_bound, edges.faces_across, thickness_ratio,
             fibres, edges.all, rim_distance,       temperature};
   }
-  /// States of laws with rates now: those of the step that was computed, or of the one taken.
-  const std::vector<double>& viscous_now() const {
-    return viscous_stepped ? viscous_end : viscous_states;
+  /// States of laws with rates now, those of the step that was computed or of the one taken: of
+  /// the first triangle, of the second ...; and of nodes.
+  std::vector<double> viscous_now() const {
+    return by_triangles(*simd, membrane, viscous_stepped ? viscous_end : viscous_states,
+                        viscous->states);
   }
-  const std::vector<double>& bending_now() const {
-    return viscous_stepped ? bending_end : bending_states;
+  std::vector<double> bending_now() const {
+    return by_nodes(*bending, x.size(), viscous_stepped ? bending_end : bending_states,
+                    viscous_bending->states());
   }
   EdgeSheet edge_sheet() const { return {state(), edges, patch_motion, ridges.sides}; }
 };

@@ -52,8 +52,28 @@ void set_temperature(const Case& data, const Ply& ply, PlyBody& body) {
   if (!temperature) return;
   body.temperature.assign(body.x.size(), *temperature);
   if (!data.fabrics[ply.fabric].flow.depends()) return;
-  if (body.viscous) body.flow_factors.assign(body.membrane.triangles.size(), 1.0);
-  if (body.viscous_bending) body.node_flow_factors.assign(body.x.size(), 1.0);
+  const SimdNumbers one{{1.0, 1.0, 1.0, 1.0}};
+  if (body.viscous) body.flow_factors.assign(body.simd->triangles->size(), one);
+  if (body.viscous_bending) body.node_flow_factors.assign(body.bending->stencils.size(), one);
+}
+
+/// The bending of a ply, and what it keeps of laws with rates. alike: as of make_ply.
+void set_bending(const Ply& ply, const BlankMesh& mesh, const PlyBody* alike, PlyBody& body) {
+  const BendingLaw law = bending_law(body.membrane.fabric);
+  if (!law.any() && !has_viscosity(law)) return;
+  if (alike) {
+    body.bending = alike->bending, body.viscous_bending = alike->viscous_bending;
+  } else {
+    const MaterialAxes axes = material_axes(body.membrane.fabric);
+    Bending bending = make_bending(mesh.x, body.membrane.triangles, law, ply.angle + axes.first,
+                                   ply.angle + axes.second, body.membrane.node_mass);
+    body.bending = make_bending_simd(bending, body.x0);
+    body.viscous_bending =
+        make_viscous_bending(std::move(bending), body.membrane.node_mass, body.bound.yarns);
+  }
+  if (!body.viscous_bending) return;
+  body.bending_states.assign(body.bending->stencils.size() * body.viscous_bending->states(), {});
+  body.bending_end = body.bending_states;
 }
 
 /// alike: a ply of the same fabric, angle and mesh, or null.
@@ -67,24 +87,9 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
       make_membrane(mesh, fabric, ply.angle, data.solver.element, data.solver.fibre_softening);
   body.membrane.process_time = data.process_time();
   body.viscous = make_viscous(body.membrane, data.process_stroke_time());
-  if (body.viscous) {
-    const std::size_t triangles = body.membrane.triangles.size();
-    body.viscous_states.assign(triangles * body.viscous->states, 0.0);
-    body.viscous_end = body.viscous_states;
-    body.viscous_q.resize(triangles, {Vec3::Zero(), Vec3::Zero()});
-  }
-  const BendingLaw bending = bending_law(fabric);
-  const MaterialAxes axes = material_axes(fabric);
   body.x0.reserve(mesh.x.size());
   for (const Vec2& p : mesh.x)
     body.x0.emplace_back(p.x(), p.y(), ply.z);
-  if (bending.any() && alike)
-    body.bending = alike->bending;
-  else if (bending.any())
-    body.bending = make_bending_simd(make_bending(mesh.x, body.membrane.triangles, bending,
-                                                  ply.angle + axes.first, ply.angle + axes.second,
-                                                  body.membrane.node_mass),
-                                     body.x0);
   body.x = body.x_search = body.x0;
   body.velocity.assign(body.x.size(), Vec3::Zero());
   body.motion = body.velocity;
@@ -97,13 +102,10 @@ PlyBody make_ply(const Case& data, const Ply& ply, const BlankMesh& mesh, const 
   body.touches_boundary_edge = faces_on_rim(body.edges.all, body.membrane.triangles, body.x.size());
   body.tree = std::make_unique<SheetTree>(body.x, body.membrane.triangles);
   set_frequency(data, body);
-  body.viscous_bending =
-      make_viscous_bending(mesh.x, body.membrane.triangles, bending, ply.angle + axes.first,
-                           ply.angle + axes.second, body.membrane.node_mass, body.bound.yarns);
-  if (body.viscous_bending) {
-    body.bending_states.assign(body.x.size() * body.viscous_bending->states(), 0.0);
-    body.bending_end = body.bending_states;
-    body.viscous_bending_force.assign(body.x.size(), Vec3::Zero());
+  set_bending(ply, mesh, alike, body);
+  if (body.viscous) { // it has yarns, and so a kernel
+    body.viscous_states.assign(body.simd->triangles->size() * body.viscous->states, {});
+    body.viscous_end = body.viscous_states;
   }
   if (body.simd) body.yarns = body.yarns_end = states_at_start(*body.simd, body.membrane);
   body.mass = body.membrane.node_mass;
@@ -302,8 +304,6 @@ Scene make_scene(const Case& data, const std::vector<BlankMesh>& meshes, int thr
       add_blocks(s.group_blocks, p, static_cast<std::size_t>(ply.membrane.groups()));
     add_blocks(s.node_blocks, p, ply.x.size());
     if (ply.bending) add_blocks(s.bending_blocks, p, ply.bending->blocks.size(), 1);
-    if (ply.viscous)
-      add_blocks(s.viscous_blocks, p, static_cast<std::size_t>(ply.membrane.groups()));
   }
   for (int p = 0; p < n; ++p) {
     PlyBody& ply = s.plies[p];

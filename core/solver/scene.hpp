@@ -157,7 +157,7 @@ struct SceneModel {
   Case data;
   std::vector<PrescribedNode> held;    ///< ascending by ply and node
   std::vector<Attachment> attachments; ///< springs and grippers, ascending by boundary
-  std::vector<Block> group_blocks, node_blocks, bending_blocks, viscous_blocks;
+  std::vector<Block> group_blocks, node_blocks, bending_blocks;
   /// The passes of all ply_pairs ascending by slave and master, those of a ply with itself last:
   /// the order of sums over them.
   std::vector<PassPlace> pass_order;

@@ -2,6 +2,7 @@
 // The kernel against bending computed one node after the other.
 #include "base/cpu_features.hpp"
 #include "core/ply/bending_simd.hpp"
+#include "core/ply/viscous_simd.hpp"
 #include "support/bending_laws.hpp"
 #include "support/membrane_checks.hpp"
 
@@ -159,10 +160,18 @@ struct StencilBlock {
     return static_cast<std::uint16_t>(sizeof(SimdForce) * (number % nodes));
   }
 
+  /// viscous: the first family, from some states on, whose ends are `states`.
   template <class Kernel>
-  std::array<SimdForce, nodes> forces(const Kernel& kernel, const BendingKernelLaw& law) const {
+  std::array<SimdForce, nodes> forces(const Kernel& kernel, BendingKernelLaw law, bool viscous,
+                                      PackedStates& states) const {
     const std::int32_t list[nodes] = {0, 1, 2, 3, 4, 5, 6, 7};
     std::array<SimdForce, nodes> force;
+    const PackedStates begin(3 * stencils.size(), {{0.1, -0.2, 0.3, 0.0}});
+    const PackedStates factors(stencils.size(), {{1.0, 0.5, 2.0, 1.0}});
+    states.assign(begin.size(), {});
+    const KernelViscousBending rates{
+        1.0, 1, {0}, {2.0}, {5.0, 0.2, 0.5}, 3, begin.data(), states.data(), factors.data()};
+    if (viscous) law.viscous = &rates;
     kernel({list, nodes, stencils.data(), int(stencils.size()), constants.data(), slots.data(),
             in_plane.data(), force.data()},
            law, x.data());
@@ -177,8 +186,8 @@ void saturating(const BendingKernelLaw&, int family, const double* kappa, double
 
 /// A law of two families along the axes, or of one or three.
 BendingKernelLaw kernel_law(int families, bool table, bool in_plane) {
-  BendingKernelLaw law{{5.0, 0.5},    0.2,   {0.0, 0.0}, 0.3,     families,  {},
-                       families == 2, table, in_plane,   nullptr, saturating};
+  BendingKernelLaw law{{5.0, 0.5},    0.2,   {0.0, 0.0}, 0.3,     families, {},
+                       families == 2, table, in_plane,   nullptr, nullptr,  saturating};
   if (!law.weave) law.oblique[0] = 0.1, law.oblique[1] = -0.2;
   const Vec2 along[] = {Vec2::UnitX(), Vec2::UnitY(), Vec2(-1.0, 1.0)};
   for (int a = 0; a < families; ++a) {
@@ -198,13 +207,21 @@ TEST(BendingSimd, GiveTheSameBitsOnEveryProcessor) {
     for (const bool in_plane : {false, true})
       for (const bool table : {false, true}) {
         const BendingKernelLaw law = kernel_law(families, table, in_plane);
-        const auto generic = block.forces(bending_kernel_generic, law);
-        const auto avx2 = block.forces(bending_kernel_avx2, law);
+        const bool viscous = i % 2 == 0;
+        PackedStates states, other;
+        const auto same_states = [&] {
+          return std::memcmp(states.data(), other.data(), states.size() * sizeof(SimdNumbers)) == 0;
+        };
+        const auto generic = block.forces(bending_kernel_generic, law, viscous, states);
+        const auto avx2 = block.forces(bending_kernel_avx2, law, viscous, other);
         ASSERT_TRUE(std::isfinite(generic[0].x));
+        ASSERT_EQ(viscous, states[2].of[0] != 0.0); // a moment
         ASSERT_EQ(std::memcmp(&generic, &avx2, sizeof generic), 0) << i;
+        ASSERT_TRUE(same_states()) << i;
         if (!has_avx512()) continue;
-        const auto avx512 = block.forces(bending_kernel_avx512, law);
+        const auto avx512 = block.forces(bending_kernel_avx512, law, viscous, other);
         ASSERT_EQ(std::memcmp(&generic, &avx512, sizeof generic), 0) << i;
+        ASSERT_TRUE(same_states()) << i;
       }
   }
 }

@@ -2,6 +2,7 @@
 // The kernel against the membrane computed one triangle after the other.
 #include "base/cpu_features.hpp"
 #include "core/ply/membrane_simd.hpp"
+#include "core/ply/viscous_simd.hpp"
 #include "support/membrane_checks.hpp"
 
 #include <cstring>
@@ -214,6 +215,7 @@ TEST(MembraneSimd, SeeTrianglesCollapse) {
 struct KernelRun {
   alignas(32) SimdForce force[6] = {};
   std::vector<SimdYarnStates> viscosity;
+  PackedStates rates;
   KernelReport report{};
   KernelEnergy energy{};
 
@@ -225,6 +227,7 @@ struct KernelRun {
     EXPECT_EQ(std::memcmp(viscosity.data(), other.viscosity.data(),
                           viscosity.size() * sizeof(SimdYarnStates)),
               0);
+    EXPECT_EQ(std::memcmp(rates.data(), other.rates.data(), rates.size() * sizeof(SimdNumbers)), 0);
     EXPECT_EQ(energy.fibre, other.energy.fibre);
     EXPECT_EQ(energy.shear, other.energy.shear);
     EXPECT_EQ(energy.stitch, other.energy.stitch);
@@ -300,6 +303,35 @@ KernelLaw kernel_law(int number) {
   return law;
 }
 
+/// Viscosities of a crossing that the kernel does not know itself.
+void thinning(const KernelViscous&, int index, const double* angle, const double* driven,
+              const double* factor, double* c) {
+  for (int i = 0; i < simd_width; ++i)
+    c[i] = factor[i] * (1.0 + index + angle[i] * angle[i]) / (1.0 + std::abs(driven[i]));
+}
+
+/// Laws with rates beside such a law: dashpots of both kinds, branches and, unless it is a weave, a
+/// melt.
+KernelViscous kernel_rates(const KernelLaw& law) {
+  KernelViscous v{};
+  v.moves = 1.0, v.per_dt = 100.0, v.states = 1 + 3 * 5 + 3 * 3 + 9;
+  v.crossings = law.crossings;
+  const KernelSpring spring{5.0, 0.2, 0.05};
+  for (int k = 0; k < v.crossings; ++k) {
+    KernelViscousCrossing& c = v.crossing[k];
+    c.crossing = k, c.first_state = k == 0 ? 1 : 15;
+    c.dashpot = true, c.viscosity[0] = 0.4, c.viscosity[1] = 0.2, c.terms = k == 0 ? 2 : 0;
+    c.shear = c.deviation = spring, c.smoothing = 0.1, c.cells = 0.06;
+  }
+  v.crossing[0].branch[0] = {2.0, 0.5, 0.9, 1.8, 0.1};
+  v.crossing[0].branch[1] = {3.0, 1.0 / 3.0, 0.1, 1.2, 2.3};
+  v.crossing[0].branches = 2;
+  v.has_melt = !law.weave;
+  v.melt = {{0.02, 0.01}, spring, 24, 0.2, {0.1, 0.9}};
+  v.viscosity = thinning;
+  return v;
+}
+
 /// All copies of the kernel: no processor answers differently, whether packs are computed one or
 /// two at a time.
 TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
@@ -321,13 +353,21 @@ TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
         for (std::size_t k = 0; k < 3; ++k)
           triangle.node[k][lane] = static_cast<std::uint16_t>(sizeof(SimdForce) * ((k + lane) % 6));
       }
-    const KernelLaw law = kernel_law(i);
+    KernelLaw law = kernel_law(i);
+    KernelViscous rates = kernel_rates(law);
+    const PackedStates begin(at(rates.states) * t.size(), {{0.1, 0.0, -0.2, 0.3}});
+    const PackedStates factors(t.size(), {{1.0, 0.1, 3.0, 1.0}});
+    rates.first = t.data(), rates.begin = begin.data();
+    rates.factors = i % 4 == 0 ? factors.data() : nullptr;
+    if (i % 2 == 0) law.viscous = &rates;
     const std::int32_t nodes[6] = {0, 1, 2, 3, 4, 5};
     SimdYarnStates state{};
     for (std::size_t lane = 0; lane < simd_width; ++lane)
       state.of[0][lane] = lane % 2 ? 1.0 : 0.0, state.of[1][lane] = 0.1; // of stitches: broken
     const auto run = [&](auto* forces, auto* energy) {
       KernelRun r;
+      r.rates.assign(begin.size(), {});
+      rates.end = r.rates.data();
       r.viscosity.assign(at((law.families + law.stitches) * (pairs + singles)), state);
       const KernelBlock block{nodes, 6,       t.data(), r.viscosity.data(), r.viscosity.data(),
                               pairs, singles, r.force};
@@ -337,6 +377,7 @@ TEST(MembraneSimd, GiveTheSameBitsOnEveryProcessor) {
     };
     const KernelRun generic = run(membrane_kernel_generic, membrane_energy_generic);
     ASSERT_TRUE(std::isfinite(generic.force[0].x));
+    ASSERT_EQ(i % 2 == 0, generic.rates[4].of[0] != 0.0); // a torque
     ASSERT_GT(generic.energy.shear, 0.0);
     generic.expect_same(run(membrane_kernel_avx2, membrane_energy_avx2));
     if (has_avx512()) generic.expect_same(run(membrane_kernel_avx512, membrane_energy_avx512));

@@ -4,6 +4,7 @@
 #include "core/ply/viscous_bending.hpp"
 #include "core/ply/viscous_membrane.hpp"
 #include "support/membrane_checks.hpp"
+#include "support/viscous_fabrics.hpp"
 
 #include <functional>
 #include <gtest/gtest.h>
@@ -16,30 +17,6 @@ using Path = std::function<Vec3(const Vec2& p, double t)>;
 BlankMesh square() {
   BlankSpec blank = rectangle(40.0, 40.0, 8.0, MeshKind::free);
   return mesh_blank(blank, 0.0, 0.5 * std::numbers::pi);
-}
-
-Fabric twill() {
-  Fabric f = glass_weave();
-  ViscousShear law;
-  law.c = {2.0, 1.0};
-  law.branches = {{1.0, 0.3}, {0.5, 40.0}};
-  f.crossings[0].viscous = law;
-  return f;
-}
-
-Fabric three_ways() {
-  Fabric f = triaxial();
-  ViscousShear law;
-  law.curves = {{0.1, {0.0}, {0.2}}, {1.0, {0.0, 1.0}, {0.5, 1.0}}};
-  for (Crossing& crossing : f.crossings)
-    crossing.viscous = law;
-  return f;
-}
-
-Fabric tape() {
-  Fabric f = unidirectional();
-  f.matrix = ViscousMatrix{0.02, 0.01};
-  return f;
 }
 
 /// A sheet sheared, stretched and bent more and more, and turned.
@@ -86,7 +63,7 @@ Taken take(const Fabric& fabric, const Path& path, int steps) {
 }
 
 TEST(Viscous, MembranesStoreAndLoseWhatIsDoneOnThem) {
-  for (const Fabric& fabric : {twill(), three_ways(), tape()}) {
+  for (const Fabric& fabric : {viscous_weave(), viscous_triaxial(), molten_tape()}) {
     const Taken taken = take(fabric, askew, 4000);
     EXPECT_GT(taken.lost, 0.1) << fabric.name;
     EXPECT_NEAR((taken.stored + taken.lost) / taken.work, 1.0, 2e-3) << fabric.families[0].name;
@@ -94,14 +71,14 @@ TEST(Viscous, MembranesStoreAndLoseWhatIsDoneOnThem) {
 }
 
 TEST(Viscous, MembranesTurnFreely) {
-  for (const Fabric& fabric : {twill(), three_ways(), tape()})
+  for (const Fabric& fabric : {viscous_weave(), viscous_triaxial(), molten_tape()})
     EXPECT_LT(take(fabric, turning, 100).largest, 1e-9);
 }
 
 /// Drawn along and across the yarns of a tape at steady rates: N_ab = eta_L h 2 d_ab while it is
 /// sheared by any angle, N_bb = 4 eta_T h d_bb per width before.
 TEST(Viscous, TapeHasTheForcesOfItsMelt) {
-  Fabric f = tape();
+  Fabric f = molten_tape();
   f.families[0].angle = 0.0;
   const double rate = 0.8, h = f.thickness, area = 1600.0;
   const Taken sheared = take(
@@ -124,8 +101,9 @@ BendingLaw viscous_plate() {
 TEST(Viscous, BendingStoresAndLosesWhatIsDoneOnIt) {
   const BlankMesh mesh = square();
   const Membrane m = make_membrane(mesh, glass_weave(), 0.0, ElementKind::averaged);
-  const auto v = make_viscous_bending(mesh.x, m.triangles, viscous_plate(), 0.0,
-                                      0.5 * std::numbers::pi, m.node_mass, 1e9);
+  const Bending bending =
+      make_bending(mesh.x, m.triangles, viscous_plate(), 0.0, 0.5 * std::numbers::pi, m.node_mass);
+  const auto v = make_viscous_bending(bending, m.node_mass, 1e9);
   ASSERT_TRUE(v);
   EXPECT_EQ(v->states(), 3u); // of the one family that is viscous
   const int steps = 2000;
@@ -142,12 +120,12 @@ TEST(Viscous, BendingStoresAndLosesWhatIsDoneOnIt) {
       const Vec2& p = mesh.x[n];
       x[n] = Vec3(std::sin(kappa * p.x()) / kappa, p.y(), (1.0 - std::cos(kappa * p.x())) / kappa);
     }
-    viscous_bending_forces(*v, x, 1.0 / steps, now, next, force);
+    viscous_bending_forces(*v, bending, x, 1.0 / steps, now, next, force);
     for (std::size_t n = 0; n < x.size(); ++n)
       work -= 0.5 * (was[n] + force[n]).dot(x[n] - before[n]);
     now.swap(next);
   }
-  const ViscousBendingEnergy energy = viscous_bending_energy(*v, now);
+  const ViscousBendingEnergy energy = viscous_bending_energy(*v, bending.area, now);
   EXPECT_NEAR((energy.stored + energy.lost) / work, 1.0, 2e-3);
   double middle = 0.0; // its moment where the free edges are far
   for (std::size_t n = 0; n < x.size(); ++n)
