@@ -304,7 +304,8 @@ TEST(FilmFriction, ItsViscosityIsThatOfTheMeanTemperatureOfBothFaces) {
     warm.process.temperature = outer;
     warm.plies[what == "tools" ? 0 : 1].temperature = middle;
     const double with = pull_of(warm).mean, without = pull_of(plain).mean;
-    EXPECT_NEAR(with, without, 1e-6 * without) << what;
+    // 1e-6, but where outer plies touch beyond the middle one, at their own temperature
+    EXPECT_NEAR(with, without, (what == "tools" ? 1e-6 : 1e-4) * without) << what;
     fmt::print("{} at {} and {} degC, factor {:.4f}: {:.4f} N for {:.4f} N\n", what, middle, outer,
                factor, with, without);
   }
@@ -354,7 +355,7 @@ TEST(FilmFriction, CoolsAndStiffensAsItsFactorSays) {
     for (const PairReport& pair : run.summary.work.pairs)
       if (pair.touched()) {
         ASSERT_TRUE(pair.film_temperature);
-        EXPECT_LT(pair.film_temperature->most, 180.0);
+        EXPECT_LE(pair.film_temperature->most, 180.0);
         EXPECT_GT(pair.film_temperature->least, 160.0);
       }
   }
