@@ -25,6 +25,8 @@
 //   d_bb   = C_22'/(2 v^2) - u C_12'/(lambda v^2) + u^2 C_11'/(2 C_11 v^2)
 // and S of (Q) follows from S : C'/2 = J (N_bb d_bb + N_ab 2 d_ab). Its springs have the stiffness
 // matrix_spring_share of the yarns' each.
+//
+// Here one triangle after the other; the kernel does four or eight (core/ply/viscous_simd.hpp).
 #pragma once
 
 #include "core/ply/membrane.hpp"

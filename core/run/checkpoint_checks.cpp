@@ -49,14 +49,12 @@ bool sound(const BoundaryState& b) {
   return sound(b.displacement) && sound(b.next_displacement) && sound(b.load) && sound(b.force) &&
          sound(b.work);
 }
-bool all_lanes_sound(const double (&of)[simd_width]) {
-  return std::all_of(std::begin(of), std::end(of), [](double x) { return sound(x); });
+template <class T, std::size_t n>
+bool sound(const T (&of)[n]) {
+  return std::all_of(std::begin(of), std::end(of), [](const T& x) { return sound(x); });
 }
-bool sound(const SimdNumbers& numbers) {
-  return all_lanes_sound(numbers.of);
-}
-bool sound(const SimdYarnStates& s) {
-  return std::all_of(std::begin(s.of), std::end(s.of), all_lanes_sound);
+auto sound(const auto& lanes) -> decltype(sound(lanes.of)) { // SimdNumbers, SimdYarnStates
+  return sound(lanes.of);
 }
 
 /// Numbers of which some may be infinite: path lengths before which nothing can touch.

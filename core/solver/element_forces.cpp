@@ -5,6 +5,7 @@
 #include "core/solver/step_faults.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <utility>
 
 namespace plyform {
