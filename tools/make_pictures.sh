@@ -16,6 +16,7 @@ pictures=(
   "docs/verification/bias_extension.png | bias_extension | load results/bias_extension --curve results/bias_theory.csv --against shear --limit 5 --dpi 75"
   "docs/verification/picture_frame.png | picture_frame | load results/picture_frame --curve results/frame_theory.csv --against shear --limit 5 --dpi 75"
   "docs/verification/hemisphere_ud.png | hemisphere_ud | plies results/hemisphere_ud --field tow-opening --only above --dpi 80"
+  "docs/verification/ud_tape_stack.png | ud_tape_stack | plies results/ud_tape_stack --field tow-opening --only above --dpi 60"
   "docs/verification/hemisphere_ncf.png | hemisphere_ncf | plies results/hemisphere_ncf --field shear --ply ply1 --dpi 80"
   "docs/verification/hemisphere_ncf_five_ply.png | hemisphere_ncf_five_ply | plies results/hemisphere_ncf_five_ply --field shear --only above --dpi 70"
   "docs/verification/circular_table.png | circular_table circular_table/circular_table_no_shear.toml circular_table/circular_table_isotropic.toml | plies results/circular_table results/circular_table_no_shear results/circular_table_isotropic --only 3d --dpi 60"
