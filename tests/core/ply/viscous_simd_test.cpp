@@ -38,6 +38,8 @@ void expect_near(const std::vector<double>& fast, const std::vector<double>& slo
     ASSERT_NEAR(fast[i], slow[i], 1e-10 * largest[i % size]) << i % size;
 }
 
+constexpr double softening = 1e4; // so that forces by rates count beside those of yarns
+
 /// A membrane by both ways, with what they keep.
 struct Both {
   Membrane m;
@@ -47,7 +49,7 @@ struct Both {
   std::vector<double> states, of_triangles;
 
   Both(const BlankMesh& mesh, const Fabric& fabric, ElementKind kind, bool heated, Random& random)
-      : m(make_membrane(mesh, fabric, 0.4, kind)), v(*make_viscous(m, 10.0)),
+      : m(make_membrane(mesh, fabric, 0.4, kind, softening)), v(*make_viscous(m, 10.0)),
         simd(make_membrane_simd(m, unformed(mesh))) {
     states.assign(m.triangles.size() * v.states, 0.0);
     packed.assign(simd.triangles->size() * v.states, {});
@@ -74,9 +76,10 @@ struct Both {
       by_rates.push_back(node_force(m, q, static_cast<int>(n)));
       slow.push_back(node_force(m, elastic, static_cast<int>(n)) + by_rates.back());
     }
-    if (dt > 0.0) ASSERT_GT(largest_norm(by_rates), 1e-3 * largest_norm(slow));
+    ASSERT_TRUE(dt == 0.0 || largest_norm(by_rates) > 1e-4 * largest_norm(slow))
+        << largest_norm(by_rates) / largest_norm(slow);
     for (std::size_t n = 0; n < x.size(); ++n)
-      ASSERT_LE((simd_force(simd, n) - slow[n]).norm(), 1e-10 * largest_norm(slow)) << n;
+      ASSERT_LE((simd_force(simd, n) - slow[n]).norm(), 1e-11 * largest_norm(slow)) << n;
     expect_near(by_triangles(simd, m, packed, v.states), states, v.states);
   }
 };
@@ -140,7 +143,7 @@ TEST(ViscousSimd, BendingAgreesWithNodesOneByOne) {
         std::vector<Vec3> force(x.size());
         viscous_bending_forces(v, b, x, dt, states, next, force, of_nodes);
         states.swap(next);
-        if (dt > 0.0) ASSERT_GT(largest_norm(force), 0.0);
+        ASSERT_TRUE(dt == 0.0 || largest_norm(force) > 0.0);
         const std::vector<Vec3> elastic = reference_bending_forces(b, x);
         const PackedStates before = packed;
         const KernelViscousBending viscous = kernel_viscous(v, {dt, before, packed, factors});
