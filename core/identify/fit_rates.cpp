@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "core/identify/fit_rates.hpp"
 
+#include "core/identify/rated_law.hpp"
 #include "core/identify/shear_forms.hpp"
-#include "core/model/temperature.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -14,97 +14,10 @@ namespace {
 
 constexpr double least_ratio = 2.0;   // of speeds
 constexpr double least_warming = 3.0; // K, of temperatures that E can be found from
-constexpr double most_energy = 4e5;   // J/mol
 constexpr double rated_gain = 1e-3;   // of one coefficient more
 constexpr int most_viscous = 3;
 
-/// One row of one specimen.
-struct RatedRow {
-  double extension, angle, rate, measured; ///< mm, rad, 1/s, N
-  TorqueWeights weights;
-  double temperature = 0.0;        ///< degC
-  double share = 1.0, floor = 0.0; ///< of weights: of its specimen; N
-  std::size_t specimen = 0;
-};
-
-struct RatedRows {
-  std::vector<RatedRow> rows;
-  double end = 0.0;       ///< rad, the largest angle
-  double rate = 1.0;      ///< 1/s, by which viscous columns are scaled
-  double reference = 0.0; ///< degC
-  bool warm = false;      ///< whether E is looked for
-};
-
-struct Size {
-  int elastic, viscous;
-};
-
-/// f(T) of a row.
-double factor_of(const RatedRows& all, const RatedRow& row, double energy) {
-  return all.warm ? TemperatureFactor(ArrheniusFactor{energy, all.reference}).at(row.temperature)
-                  : 1.0;
-}
-
-/// (40, 41) of (R): elastic columns, then viscous ones.
-Eigen::MatrixXd columns_of(const RatedRows& all, const Size& size, double energy) {
-  Eigen::MatrixXd a(static_cast<Eigen::Index>(all.rows.size()), size.elastic + size.viscous);
-  for (Eigen::Index i = 0; i < a.rows(); ++i) {
-    const RatedRow& row = all.rows[static_cast<std::size_t>(i)];
-    const double u = row.angle / all.end, whole = row.weights.whole, half = row.weights.half;
-    for (int c = 0; c < size.elastic; ++c)
-      a(i, c) = whole * std::pow(u, 2 * c + 1) + half * std::pow(0.5 * u, 2 * c + 1);
-    const double rate = factor_of(all, row, energy) * row.rate / all.rate;
-    for (int c = 0; c < size.viscous; ++c)
-      a(i, size.elastic + c) =
-          rate * (whole * std::pow(u, 2 * c) + 0.5 * half * std::pow(0.5 * u, 2 * c));
-  }
-  return a;
-}
-
-Eigen::VectorXd measured_of(const RatedRows& all) {
-  Eigen::VectorXd y(static_cast<Eigen::Index>(all.rows.size()));
-  for (Eigen::Index i = 0; i < y.size(); ++i)
-    y[i] = all.rows[static_cast<std::size_t>(i)].measured;
-  return y;
-}
-
-Eigen::ArrayXd weights_by(const RatedRows& all, const Eigen::VectorXd& fitted) {
-  Eigen::ArrayXd w(fitted.size());
-  for (Eigen::Index i = 0; i < w.size(); ++i) {
-    const RatedRow& row = all.rows[static_cast<std::size_t>(i)];
-    w[i] = row.share / std::max(fitted[i], row.floor);
-  }
-  return w;
-}
-
-/// The law of a size, with E if that is looked for.
-struct Solution {
-  Size size{};
-  double energy = 0.0;
-  FixedFit fit;
-  Eigen::MatrixXd a;
-  Eigen::ArrayXd weights;
-};
-
-Solution solve(const RatedRows& all, const Size& size) {
-  const Eigen::VectorXd measured = measured_of(all);
-  Solution s{size, 0.0, {}, {}, weights_by(all, measured)};
-  constexpr int repeats = 12; // weights follow the fitted loads
-  for (int i = 0; i < repeats; ++i) {
-    const auto squares = [&](double energy) {
-      return fit_fixed(columns_of(all, size, energy), measured, s.weights).squares;
-    };
-    if (all.warm) s.energy = minimum_of(squares, 0.0, most_energy);
-    s.a = columns_of(all, size, s.energy);
-    s.fit = fit_fixed(s.a, measured, s.weights);
-    const Eigen::ArrayXd before = s.weights;
-    s.weights = weights_by(all, s.a * s.fit.k);
-    if (((s.weights - before) / before).abs().maxCoeff() < 1e-6) break;
-  }
-  return s;
-}
-
-std::vector<double> elastic_of(const Solution& s, const RatedRows& all) {
+std::vector<double> elastic_of(const RatedLaw& s, const RatedRows& all) {
   return unscaled(s.fit.k.head(s.size.elastic), all.end);
 }
 
@@ -116,7 +29,7 @@ std::vector<double> viscous_of(const Eigen::VectorXd& k, const RatedRows& all) {
 }
 
 /// The least viscosity over the angles, over that at the largest.
-bool viscosity_holds(const Solution& s) {
+bool viscosity_holds(const RatedLaw& s) {
   const auto at = [&](double u) {
     double sum = 0.0;
     for (int c = 0; c < s.size.viscous; ++c)
@@ -128,31 +41,32 @@ bool viscosity_holds(const Solution& s) {
   return true;
 }
 
-bool torque_rises(const Solution& s, const RatedRows& all) {
+bool torque_rises(const RatedLaw& s, const RatedRows& all) {
   const ShearLaw law{elastic_of(s, all), {}, {}};
   return invalid_at(law, 0.0, all.end) > all.end;
 }
 
 /// Fewer elastic coefficients where the torque of more falls, unless their number was asked for.
-Solution solve_rising(const RatedRows& all, Size size, bool fixed) {
-  Solution s = solve(all, size);
+RatedLaw solve_rising(const RatedRows& all, RatedSize size, bool fixed, FlowForm form) {
+  RatedLaw s = solve_rated(all, size, form);
   while (!fixed && size.elastic > 1 && !torque_rises(s, all)) {
     --size.elastic;
-    s = solve(all, size);
+    s = solve_rated(all, size, form);
   }
   return s;
 }
 
-Solution chosen(const RatedRows& all, const FitOptions& options, int viscous, std::string& why) {
+/// The numbers of coefficients.
+RatedLaw chosen_size(const RatedRows& all, const FitOptions& options, int viscous, FlowForm form,
+                     std::string& why) {
   const bool fixed = options.coefficients > 0;
   const int elastic = fixed ? options.coefficients : 3;
-  Solution s = solve_rising(all, {elastic, viscous > 0 ? viscous : 1}, fixed);
+  RatedLaw s = solve_rising(all, {elastic, viscous > 0 ? viscous : 1}, fixed, form);
   why = viscous > 0 ? "as asked for" : "a viscosity of one number explains the rows as well";
   if (viscous > 0) return s;
   for (int more = 2; more <= most_viscous; ++more) {
-    Solution next = solve_rising(all, {elastic, more}, fixed);
-    const double freedom =
-        freedom_of(next.fit.residuals, next.size.elastic + next.size.viscous + all.warm);
+    RatedLaw next = solve_rising(all, {elastic, more}, fixed, form);
+    const double freedom = freedom_of(next.fit.residuals, next.unknowns());
     const double chance = chance_of_gain(s.fit.squares, next.fit.squares, freedom);
     if (!(chance < rated_gain) || !viscosity_holds(next)) break;
     s = std::move(next);
@@ -163,23 +77,40 @@ Solution chosen(const RatedRows& all, const FitOptions& options, int viscous, st
   return s;
 }
 
-/// Of all coefficients and E, by the rows' residuals.
-Eigen::VectorXd limits_of(const RatedRows& all, const Solution& s) {
-  const Eigen::Index n = s.a.cols() + (all.warm ? 1 : 0);
-  Eigen::MatrixXd a(s.a.rows(), n);
-  a.leftCols(s.a.cols()) = s.a;
-  if (all.warm) {
-    const double step = 10.0; // J/mol
-    a.col(n - 1) =
-        (columns_of(all, s.size, s.energy + step) - columns_of(all, s.size, s.energy - step)) *
-        s.fit.k / (2.0 * step);
-  }
-  const Eigen::MatrixXd w = s.weights.matrix().asDiagonal() * a;
-  const double freedom = freedom_of(s.fit.residuals, n, freedom_of_limits);
-  const Eigen::MatrixXd inverse =
-      (w.transpose() * w).completeOrthogonalDecomposition().pseudoInverse();
-  return student_95(freedom) *
-         (inverse.diagonal() * (s.fit.squares / freedom)).cwiseMax(0.0).cwiseSqrt();
+/// Root mean square of the residuals over the weights' floors.
+double rms_of(const RatedLaw& law) {
+  return std::sqrt(law.fit.squares / static_cast<double>(law.fit.residuals.size()));
+}
+
+/// The form of f(T), unless it is asked for: Arrhenius, or the two constants of WLF where chance
+/// would hardly gain as much. The size is that which one temperature by itself each asks for, so
+/// that it does not make up for a form that does not fit.
+RatedLaw chosen(const RatedRows& all, const FitOptions& options, const RatedOptions& rated,
+                RatesFit& fit) {
+  const RatedLaw each = chosen_size(all, options, rated.viscous, FlowForm::table, fit.why);
+  if (!all.warm) return each;
+  const auto of = [&](FlowForm form) {
+    RatedLaw law = solve_rated(all, each.size, form);
+    fit.tried.push_back({form, rms_of(law)});
+    return law;
+  };
+  fit.tried.push_back({FlowForm::table, rms_of(each)});
+  RatedLaw arrhenius = of(FlowForm::arrhenius);
+  const bool bear_two = each.flow.temperatures().size() > 2;
+  RatedLaw wlf = bear_two ? of(FlowForm::wlf) : arrhenius;
+  fit.flow_why = "as asked for";
+  if (rated.form == FlowForm::table) return each;
+  if (rated.form == FlowForm::wlf) return wlf;
+  if (rated.form == FlowForm::arrhenius) return arrhenius;
+  fit.flow_why = bear_two ? "the two constants of WLF gain no more than chance"
+                          : "two temperatures bear no other form";
+  if (!bear_two) return arrhenius;
+  const double chance = chance_of_gain(arrhenius.fit.squares, wlf.fit.squares,
+                                       freedom_of(wlf.fit.residuals, wlf.unknowns()));
+  if (!(chance < rated_gain)) return arrhenius;
+  fit.flow_why = fmt::format("chance would gain as much over Arrhenius once in {:.0f}",
+                             std::min(1e9, 1.0 / std::max(chance, 1e-9)));
+  return wlf;
 }
 
 bool check_speeds(const std::vector<RatedCurve>& curves, Diagnostics& diagnostics) {
@@ -192,6 +123,25 @@ bool check_speeds(const std::vector<RatedCurve>& curves, Diagnostics& diagnostic
                                 "least, or nothing tells viscous from elastic torque",
                                 most, least_ratio),
                     "add a test that is slower or faster, best by ten times");
+  return false;
+}
+
+/// A form that is asked for, and temperatures enough to find it.
+bool check_temperatures(const std::vector<RatedCurve>& curves, FlowForm form,
+                        Diagnostics& diagnostics) {
+  std::vector<double> apart; // degC
+  std::vector<double> all;
+  for (const RatedCurve& one : curves)
+    if (one.temperature) all.push_back(*one.temperature);
+  std::sort(all.begin(), all.end());
+  for (const double celsius : all)
+    if (apart.empty() || celsius - apart.back() >= least_warming) apart.push_back(celsius);
+  const std::size_t needed = form == FlowForm::none ? 0 : form == FlowForm::wlf ? 3 : 2;
+  if (apart.size() >= needed) return true;
+  diagnostics.error(
+      place_of(curves.front().curve), "--temperature-law", "",
+      fmt::format("needs tests at {} temperatures that are {:g} K apart", needed, least_warming),
+      "add tests, give --temperatures, or leave the form out");
   return false;
 }
 
@@ -220,6 +170,7 @@ std::optional<RatedRows> rows_of(const std::vector<RatedCurve>& curves, const Sh
       all.end = std::max(all.end, row.angle);
       all.rows.push_back(row);
     }
+    all.temperatures.push_back(one.temperature.value_or(0.0));
     coldest = std::min(coldest, one.temperature.value_or(0.0));
     hottest = std::max(hottest, one.temperature.value_or(0.0));
     count.push_back(static_cast<std::size_t>(specimen->rows.x.size()));
@@ -234,9 +185,9 @@ std::optional<RatedRows> rows_of(const std::vector<RatedCurve>& curves, const Sh
 }
 
 /// Fills what is told of each specimen.
-void add_specimens(const std::vector<RatedCurve>& curves, const RatedRows& all, const Solution& s,
+void add_specimens(const std::vector<RatedCurve>& curves, const RatedRows& all, const RatedLaw& s,
                    RatesFit& fit) {
-  const Eigen::VectorXd viscous = s.a.rightCols(s.size.viscous) * s.fit.k.tail(s.size.viscous);
+  const Eigen::VectorXd viscous = s.viscous_load();
   double fastest = 0.0;
   for (std::size_t p = 0; p < curves.size(); ++p) {
     std::vector<double> angle, measured, fitted;
@@ -256,18 +207,24 @@ void add_specimens(const std::vector<RatedCurve>& curves, const RatedRows& all, 
   }
 }
 
-RatesFit fit_of(const std::vector<RatedCurve>& curves, const RatedRows& all, const Solution& s) {
-  RatesFit fit;
+void put_flow(const RatedLaw& s, const Eigen::VectorXd& limits, RatesFit& fit) {
+  const Eigen::VectorXd numbers = s.flow.numbers(s.p);
+  fit.form = s.flow.form();
+  fit.flow.assign(numbers.begin(), numbers.end());
+  fit.flow_limits.assign(limits.begin(), limits.end());
+  for (const double celsius : s.flow.temperatures())
+    if (fit.form != FlowForm::none) fit.factors.push_back({celsius, s.flow.factor(s.p, celsius)});
+}
+
+void fill(const std::vector<RatedCurve>& curves, const RatedRows& all, const RatedLaw& s,
+          RatesFit& fit) {
   fit.elastic = elastic_of(s, all);
   fit.viscous = viscous_of(s.fit.k.tail(s.size.viscous), all);
   const Eigen::VectorXd limits = limits_of(all, s);
   fit.elastic_limits = unscaled(limits.head(s.size.elastic), all.end);
   fit.viscous_limits = viscous_of(limits.segment(s.size.elastic, s.size.viscous), all);
   fit.reference = curves.front().temperature;
-  if (all.warm) {
-    fit.activation_energy = s.energy;
-    fit.activation_limits = limits[limits.size() - 1];
-  }
+  put_flow(s, limits.tail(s.p.size()), fit);
   const Eigen::VectorXd fitted = s.a * s.fit.k;
   fit.rates = {all.rows.front().rate, all.rows.front().rate};
   fit.temperatures = {all.rows.front().temperature, all.rows.front().temperature};
@@ -294,11 +251,10 @@ RatesFit fit_of(const std::vector<RatedCurve>& curves, const RatedRows& all, con
       fit.quality.largest = residual, fit.quality.largest_at = fit.angle[i];
   }
   fit.quality.rms = std::sqrt(squares / static_cast<double>(all.rows.size()));
-  return fit;
 }
 
 /// A viscosity that the rows bear.
-bool check_law(const RatedRows& all, const Solution& s, const std::vector<RatedCurve>& curves,
+bool check_law(const RatedRows& all, const RatedLaw& s, const std::vector<RatedCurve>& curves,
                Diagnostics& diagnostics) {
   const Place at = place_of(curves.front().curve);
   if (!viscosity_holds(s)) {
@@ -317,19 +273,19 @@ bool check_law(const RatedRows& all, const Solution& s, const std::vector<RatedC
 } // namespace
 
 std::optional<RatesFit> identify_rates(const std::vector<RatedCurve>& curves, const ShearTest& test,
-                                       const Fabric& fabric, const FitOptions& options, int viscous,
-                                       Diagnostics& diagnostics) {
-  if (curves.empty() || viscous < 0 || viscous > most_viscous)
+                                       const Fabric& fabric, const FitOptions& options,
+                                       const RatedOptions& rated, Diagnostics& diagnostics) {
+  if (curves.empty() || rated.viscous < 0 || rated.viscous > most_viscous)
     throw std::invalid_argument("no curves, or a viscosity of no size");
-  if (!check_speeds(curves, diagnostics)) return std::nullopt;
+  if (!check_speeds(curves, diagnostics) || !check_temperatures(curves, rated.form, diagnostics))
+    return std::nullopt;
   std::vector<Corrected> corrected;
   const auto all = rows_of(curves, test, fabric, options, corrected, diagnostics);
   if (!all) return std::nullopt;
-  std::string why;
-  const Solution s = chosen(*all, options, viscous, why);
+  RatesFit fit;
+  const RatedLaw s = chosen(*all, options, rated, fit);
   if (!check_law(*all, s, curves, diagnostics)) return std::nullopt;
-  RatesFit fit = fit_of(curves, *all, s);
-  fit.why = why;
+  fill(curves, *all, s, fit);
   fit.corrected = std::move(corrected);
   const std::string where = fmt::format("{:.3g} degrees", fit.quality.largest_at / degree);
   if (!check_quality(curves.front().curve, fit.quality, where,

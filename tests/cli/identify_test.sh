@@ -438,11 +438,12 @@ expect 2 'must be neo_hookean, mooney_rivlin, or missing' identify uniaxial one.
   -o never.toml
 
 # What flows: frames of 200 mm at several speeds and temperatures, relaxation, pull-out.
-rated() { # SPEED DEGC: torque 0.4 g + (0.3 + g^2) f(T) dg/dt, 0.25 x 0.25 yarns/mm, 45 kJ/mol
-  awk -v v="$1" -v t="$2" -v OFMT=%.12g -v CONVFMT=%.12g 'BEGIN {
+rated() { # SPEED DEGC [wlf]: torque 0.4 g + (0.3 + g^2) f(T) dg/dt, 0.25 x 0.25 yarns/mm, 45 kJ/mol
+  awk -v v="$1" -v t="$2" -v wlf="${3:-}" -v OFMT=%.12g -v CONVFMT=%.12g 'BEGIN {
     print "extension_mm,load_N"
     D = 200 * sqrt(2)
     f = exp(45000 / 8.31446261815324 * (1 / (t + 273.15) - 1 / 453.15))
+    if (wlf) f = exp(-log(10) * 8 * (t - 180) / (110 + t - 180))
     for (i = 0; i <= 60; ++i) {
       d = 70 * i / 60; s = (1 + d / D)^2 - 1; g = atan2(s, sqrt(1 - s * s))
       rate = 2 * (1 + d / D) / (D * sqrt(1 - s * s))
@@ -460,10 +461,25 @@ expect 0 'c0 = 0.3, c2 = 1 N mm s' identify frame slow.csv middle.csv fast.csv -
 expect_law rates.toml viscosity 0.3 1e-5
 expect_law rates.toml polynomial 0.4 1e-5
 expect_json rates.json 'any(n["name"] == "c2" and abs(n["value"] - 1) < 1e-5 for n in j["numbers"])'
-expect 0 'activation energy 45 ' identify frame slow.csv middle.csv fast.csv warm.csv \
+expect 0 'Arrhenius, activation energy 45 ' identify frame slow.csv middle.csv fast.csv warm.csv \
   --speeds 0.5,5,50,5 --temperatures 180,180,180,210 --side 200 --fabric flow.toml -o warm.toml "${stiff[@]}"
 expect_law warm.toml activation_energy 45 1e-4
 expect_law warm.toml reference 180 1e-9
+for celsius in 180 150 210 240; do
+  for speed in 5 50; do rated "$speed" "$celsius" wlf >"wlf_${celsius}_$speed.csv"; done
+done
+wlf=(wlf_180_5.csv wlf_180_50.csv wlf_150_5.csv wlf_150_50.csv wlf_210_5.csv wlf_210_50.csv wlf_240_5.csv
+  wlf_240_50.csv --speeds 5,50,5,50,5,50,5,50 --temperatures 180,180,150,150,210,210,240,240 --side 200)
+expect 0 'WLF, C1 8 ' identify frame "${wlf[@]}" --fabric flow.toml -o wlf.toml "${stiff[@]}"
+expect_law wlf.toml c1 8 1e-3
+expect_law wlf.toml c2 110 1e-3
+expect 0 'viscosity over 150 to 240 degC: table' identify frame "${wlf[@]}" --temperature-law table \
+  --fabric flow.toml -o table.toml "${stiff[@]}"
+grep -q '^    \[150, ' table.toml || fail "table.toml: $(cat table.toml)"
+expect 2 'needs tests at 3 temperatures' identify frame slow.csv middle.csv warm.csv --speeds 0.5,5,5 \
+  --temperatures 180,180,210 --temperature-law wlf --side 200 --fabric flow.toml -o never.toml "${stiff[@]}"
+expect 2 'needs --temperatures beside it' identify frame slow.csv middle.csv --speeds 0.5,5 \
+  --temperature-law wlf --side 200 --fabric flow.toml -o never.toml
 expect 2 'must differ by a factor of 2' identify frame slow.csv middle.csv --speeds 5 6 --side 200 \
   --fabric flow.toml -o never.toml "${stiff[@]}"
 expect 2 'must be one for each of the 2 curves' identify frame slow.csv middle.csv --speeds 5 --side 200 \
@@ -491,6 +507,8 @@ grep -q '^\[friction.pull_out\]' friction.toml || fail 'friction.toml has no law
 grep -q '0.0016, 0.14' friction.toml || fail "friction.toml: $(cat friction.toml)"
 expect 2 'must be one for each of the 3 curves' identify pull-out pull_0.2.csv pull_1.csv pull_5.csv \
   --speeds 0.2 1 --pressures 0.05 0.05 0.05 --viscosity 400 --area 4000 -o never.toml
+expect 2 'may have only letters' identify pull-out pull_0.2.csv pull_1.csv pull_5.csv --speeds 0.2 1 5 \
+  --pressures 0.05 0.05 0.05 --viscosity 400 --area 4000 --name 'a]b' -o never.toml
 
 echo "$failures failed"
 [ "$failures" = 0 ]

@@ -93,6 +93,7 @@ struct IdentifyArguments {
   // Of what depends on rates, one number a curve:
   std::vector<double> speeds, pressures; ///< mm/s, N/mm^2
   std::vector<double> temperatures;      ///< degC
+  std::string temperature_law;           ///< arrhenius, wlf, table; empty: by the rows
   std::vector<double> viscosities;       ///< Pa s; one a curve, or one
   std::optional<int> viscosity_coefficients;
   double area = 0.0;                   ///< mm^2, of a pull-out test

@@ -27,7 +27,8 @@ double polynomial(const std::vector<double>& k, double g, int first) {
 
 /// 60 rows up to 45 degrees at a crosshead's speed (mm/s). power: of the rate.
 RatedCurve rated_curve(const ShearTest& test, double speed, std::optional<double> temperature = {},
-                       double power = 1.0) {
+                       double power = 1.0,
+                       const TemperatureFactor& flow = ArrheniusFactor{energy, 180.0}) {
   Curve curve{.file = fmt::format("{:g}.csv", speed),
               .x_name = "d",
               .y_name = "F",
@@ -35,8 +36,7 @@ RatedCurve rated_curve(const ShearTest& test, double speed, std::optional<double
               .y = {},
               .line = {}};
   const Fabric fabric = glass_weave();
-  const double factor =
-      temperature ? TemperatureFactor(ArrheniusFactor{energy, 180.0}).at(*temperature) : 1.0;
+  const double factor = temperature ? flow.at(*temperature) : 1.0;
   for (int i = 0; i <= 60; ++i) {
     const double d = extension_at(test, 45.0 * degree) * i / 60.0;
     const TorqueWeights w = torque_weights(test, fabric, d);
@@ -57,13 +57,14 @@ struct RatesOutcome {
   std::string texts;
 };
 
-RatesOutcome found(const std::vector<RatedCurve>& curves, const ShearTest& test, int size = 0) {
+RatesOutcome found(const std::vector<RatedCurve>& curves, const ShearTest& test, int size = 0,
+                   FlowForm form = FlowForm::none) {
   Diagnostics diagnostics;
   FitOptions options;
   options.corrections.compliance = 0.0;
   options.corrections.load_zero = options.corrections.toe = 0.0;
   RatesOutcome outcome;
-  outcome.fit = identify_rates(curves, test, glass_weave(), options, size, diagnostics);
+  outcome.fit = identify_rates(curves, test, glass_weave(), options, {size, form}, diagnostics);
   outcome.texts = texts(diagnostics);
   return outcome;
 }
@@ -80,7 +81,7 @@ TEST(IdentifyRates, FindsElasticAndViscousTorqueOfExactCurvesOfBothTests) {
       EXPECT_NEAR(o.fit->elastic[i], elastic[i], 1e-6);
     for (std::size_t i = 0; i < 2; ++i)
       EXPECT_NEAR(o.fit->viscous[i], viscous[i], 1e-6);
-    EXPECT_FALSE(o.fit->activation_energy);
+    EXPECT_EQ(o.fit->form, FlowForm::none);
     EXPECT_LT(o.fit->quality.rms, 1e-9);
     EXPECT_NEAR(o.fit->rates[1] / o.fit->rates[0],
                 100.0 * std::sqrt(1.0 + std::sin(45.0 * degree)) / std::cos(45.0 * degree), 1e-6);
@@ -127,11 +128,83 @@ TEST(IdentifyRates, FindsTheActivationEnergyOfSeveralTemperatures) {
           noisy_curve(curves.back().curve, 0.01, 0.0, static_cast<unsigned>(t + speed));
     }
   const RatesOutcome o = found(curves, frame);
-  ASSERT_TRUE(o.fit && o.fit->activation_energy) << o.texts;
+  ASSERT_TRUE(o.fit) << o.texts;
+  ASSERT_EQ(o.fit->form, FlowForm::arrhenius) << o.fit->flow_why;
   EXPECT_EQ(o.fit->reference, 180.0);
-  EXPECT_NEAR(*o.fit->activation_energy, energy, 0.03 * energy);
-  EXPECT_LT(std::abs(*o.fit->activation_energy - energy), 2.0 * o.fit->activation_limits);
+  EXPECT_NEAR(o.fit->flow[0], energy, 0.03 * energy);
+  EXPECT_LT(std::abs(o.fit->flow[0] - energy), 2.0 * o.fit->flow_limits[0]);
   EXPECT_EQ(o.fit->temperatures, (std::array<double, 2>{180.0, 220.0}));
+}
+
+/// Tests of two speeds at some temperatures, the first of which is the reference.
+std::vector<RatedCurve> warm_curves(const std::vector<double>& temperatures,
+                                    const TemperatureFactor& flow, double noise, unsigned seed) {
+  std::vector<RatedCurve> curves;
+  for (const double t : temperatures)
+    for (const double speed : {2.0, 50.0}) {
+      curves.push_back(rated_curve(frame, speed, t, 1.0, flow));
+      if (noise > 0.0) curves.back().curve = noisy_curve(curves.back().curve, noise, 0.0, seed++);
+    }
+  return curves;
+}
+
+constexpr double c1 = 4.0, c2 = 120.0; // -, K, at 150 degC
+const TemperatureFactor wlf = WlfFactor{c1, c2, 150.0};
+
+TEST(IdentifyRates, FindsWlfOfExactCurvesAndTellsWhatArrheniusLeaves) {
+  const RatesOutcome o = found(warm_curves({150.0, 135.0, 170.0, 190.0}, wlf, 0.0, 0), frame);
+  ASSERT_TRUE(o.fit) << o.texts;
+  ASSERT_EQ(o.fit->form, FlowForm::wlf) << o.fit->flow_why;
+  EXPECT_EQ(o.fit->reference, 150.0);
+  EXPECT_NEAR(o.fit->flow[0], c1, 1e-4 * c1);
+  EXPECT_NEAR(o.fit->flow[1], c2, 1e-4 * c2);
+  ASSERT_EQ(o.fit->tried.size(), 3u);
+  EXPECT_LT(o.fit->tried[0].rms, 1e-6); // each temperature by itself
+  EXPECT_GT(o.fit->tried[1].rms, 0.01); // Arrhenius
+  EXPECT_LT(o.fit->tried[2].rms, 1e-6); // WLF
+  for (const FlowPoint& point : o.fit->factors)
+    EXPECT_NEAR(point.factor / wlf.at(point.celsius), 1.0, 1e-5);
+}
+
+TEST(IdentifyRates, FindsWlfWithNoiseWithinItsLimits) {
+  int inside = 0;
+  double worst = 0.0, worst_c1 = 0.0, worst_c2 = 0.0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const RatesOutcome o =
+        found(warm_curves({150.0, 135.0, 170.0, 190.0}, wlf, 0.01, 100 * seed), frame, 2);
+    ASSERT_TRUE(o.fit) << o.texts;
+    ASSERT_EQ(o.fit->form, FlowForm::wlf) << o.fit->flow_why;
+    worst_c1 = std::max(worst_c1, std::abs(o.fit->flow[0] / c1 - 1.0));
+    worst_c2 = std::max(worst_c2, std::abs(o.fit->flow[1] / c2 - 1.0));
+    inside += std::abs(o.fit->flow[0] - c1) <= o.fit->flow_limits[0];
+    inside += std::abs(o.fit->flow[1] - c2) <= o.fit->flow_limits[1];
+    const TemperatureFactor law = WlfFactor{o.fit->flow[0], o.fit->flow[1], 150.0};
+    for (const double t : {135.0, 142.0, 160.0, 170.0, 180.0, 190.0})
+      worst = std::max(worst, std::abs(law.at(t) / wlf.at(t) - 1.0));
+  }
+  fmt::print("noise of 1 %: C1 {:.3f}, C2 {:.3f}, f {:.3f} at worst, {} of 40 within limits\n",
+             worst_c1, worst_c2, worst, inside);
+  EXPECT_LT(worst, 0.02);
+  EXPECT_GE(inside, 32);
+}
+
+TEST(IdentifyRates, TakesTheFormOverTemperatureThatIsAskedFor) {
+  const std::vector<RatedCurve> curves = warm_curves({150.0, 135.0, 170.0, 190.0}, wlf, 0.0, 0);
+  const RatesOutcome table = found(curves, frame, 2, FlowForm::table);
+  ASSERT_TRUE(table.fit) << table.texts;
+  ASSERT_EQ(table.fit->factors.size(), 4u);
+  EXPECT_EQ(table.fit->factors[0].celsius, 135.0);
+  for (const FlowPoint& point : table.fit->factors)
+    EXPECT_NEAR(point.factor / wlf.at(point.celsius), 1.0, 1e-5);
+  const RatesOutcome arrhenius = found(curves, frame, 2, FlowForm::arrhenius);
+  EXPECT_TRUE(!arrhenius.fit || arrhenius.fit->form == FlowForm::arrhenius) << arrhenius.texts;
+  const RatesOutcome few = found(warm_curves({150.0, 180.0}, wlf, 0.0, 0), frame, 2, FlowForm::wlf);
+  EXPECT_FALSE(few.fit);
+  EXPECT_NE(few.texts.find("needs tests at 3 temperatures that are 3 K apart"), std::string::npos)
+      << few.texts;
+  const RatesOutcome two = found(warm_curves({150.0, 180.0}, wlf, 0.0, 0), frame, 2);
+  ASSERT_TRUE(two.fit) << two.texts;
+  EXPECT_EQ(two.fit->form, FlowForm::arrhenius);
 }
 
 TEST(IdentifyRates, RefusesWhatTellsNothingOfRates) {

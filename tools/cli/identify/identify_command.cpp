@@ -125,7 +125,8 @@ std::vector<std::string> comment_of(const IdentifyArguments& a, const Fabric& fa
 bool stands_beside(const std::string& key) {
   return key == "law" || key == "buckling_force" || key == "slack" || key == "pretension" ||
          key == "breaking_force" || key == "height" || key == "viscosity" ||
-         key == "measured_rates" || key == "reference" || key == "activation_energy";
+         key == "measured_rates" || key == "reference" || key == "activation_energy" ||
+         key == "c1" || key == "c2";
 }
 
 void write_and_report(const IdentifyArguments& a, const fs::path& fit_file,

@@ -94,9 +94,13 @@ void add_shear_tests(CLI::App& command, IdentifyArguments& to) {
         ->delimiter(',');
     test->add_option(
             "--temperatures", to.temperatures,
-            "temperature of each of them, degC: with several, viscosity by Arrhenius; that "
+            "temperature of each of them, degC: with several, viscosity over temperature; that "
             "of the first curve is the reference")
         ->delimiter(',');
+    test->add_option("--temperature-law", to.temperature_law,
+                     "form of viscosity over temperature; wlf takes three temperatures [arrhenius, "
+                     "or wlf where it fits better]")
+        ->check(CLI::IsMember({"arrhenius", "wlf", "table"}));
     test->add_option("--viscosity-coefficients", to.viscosity_coefficients,
                      "of the viscosity: c0, c2, c4 [chosen]")
         ->check(CLI::Range(1, 3));

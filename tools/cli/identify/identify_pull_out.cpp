@@ -41,6 +41,11 @@ void check_pull_out(const IdentifyArguments& a, Diagnostics& diagnostics) {
   if (a.points && (*a.points < 2 || *a.points > 8))
     option_error("--points", fmt::format("{}", *a.points), "must be 2 to 8",
                  "give the number of points of the curve", diagnostics);
+  if (a.name.empty() ||
+      a.name.find_first_not_of(
+          "abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ0123456789_-") != std::string::npos)
+    option_error("--name", a.name, "may have only letters a to z, digits, _ and -",
+                 "give the law another name", diagnostics);
   if (!(a.to > a.from))
     option_error("--to", fmt::format("{:g}", a.to), "must be greater than --from",
                  "give displacements in mm", diagnostics);

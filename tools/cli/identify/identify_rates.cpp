@@ -33,17 +33,114 @@ std::string named(const std::string& letter, int first, const std::vector<double
   return text;
 }
 
+std::string form_name(FlowForm form) {
+  switch (form) {
+  case FlowForm::none:
+    break;
+  case FlowForm::arrhenius:
+    return "Arrhenius";
+  case FlowForm::wlf:
+    return "WLF";
+  case FlowForm::table:
+    return "each temperature by itself";
+  }
+  return "";
+}
+
+/// Key, name, unit of the file and what one of it is in the program, of each number of a form.
+struct FlowNumber {
+  std::string key, name, unit;
+  double size;
+};
+std::vector<FlowNumber> numbers_of(FlowForm form) {
+  if (form == FlowForm::arrhenius)
+    return {{"activation_energy", "activation energy", "kJ/mol", 1e3}};
+  if (form == FlowForm::wlf) return {{"c1", "C1", "-", 1.0}, {"c2", "C2", "K", 1.0}};
+  return {};
+}
+
+/// f(T) as the fabric's table of temperature.
+void put_flow_laws(const RatesFit& fit, Identified& result) {
+  if (fit.form == FlowForm::none) return;
+  result.laws.push_back({"temperature", "reference", fmt::format("{:g}", *fit.reference), {}});
+  result.laws.back().without = {"temperature.viscosity"};
+  const std::string table = "temperature.viscosity";
+  const std::vector<FlowNumber> names = numbers_of(fit.form);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    result.laws.push_back(
+        {table, names[i].key, fmt::format("{:.5g}", fit.flow[i] / names[i].size), {}});
+  if (fit.form != FlowForm::table) return;
+  std::string rows;
+  for (const FlowPoint& point : fit.factors)
+    rows += fmt::format("\n    [{:g}, {:.6g}],", point.celsius, point.factor);
+  result.laws.push_back({table, "table", "[" + rows + "\n]", {}});
+}
+
+void put_flow_numbers(const RatesFit& fit, Identified& result) {
+  const std::vector<FlowNumber> names = numbers_of(fit.form);
+  for (std::size_t i = 0; i < names.size(); ++i)
+    result.numbers.push_back({names[i].name, names[i].unit, fit.flow[i] / names[i].size,
+                              fit.flow_limits[i] / names[i].size});
+  if (fit.form != FlowForm::table) return;
+  std::size_t i = 0;
+  for (const FlowPoint& point : fit.factors)
+    if (point.celsius != *fit.reference) {
+      result.numbers.push_back(
+          {fmt::format("viscosity at {:g} degC over that at {:g}", point.celsius, *fit.reference),
+           "-", fit.flow[i], fit.flow_limits[i]});
+      ++i;
+    }
+}
+
+/// What is told of f(T): its numbers, and how well each form follows the curves.
+void tell_flow(const RatesFit& fit, Identified& result) {
+  if (fit.form == FlowForm::none) {
+    if (fit.reference) result.figures.push_back(fmt::format("at {:g} degC", *fit.reference));
+    return;
+  }
+  const std::vector<FlowNumber> names = numbers_of(fit.form);
+  std::string numbers;
+  for (std::size_t i = 0; i < names.size(); ++i)
+    numbers += fmt::format("{}{} {:.4g} +- {:.2g}{}", i ? ", " : "", names[i].name,
+                           fit.flow[i] / names[i].size, fit.flow_limits[i] / names[i].size,
+                           names[i].unit == "-" ? "" : " " + names[i].unit);
+  if (names.empty())
+    for (const FlowPoint& point : fit.factors)
+      numbers +=
+          fmt::format("{}{:.4g} at {:g}", numbers.empty() ? "" : ", ", point.factor, point.celsius);
+  result.figures.push_back(fmt::format(
+      "viscosity over {:g} to {:g} degC: {}, {}; {}", fit.temperatures[0], fit.temperatures[1],
+      names.empty() ? "table" : form_name(fit.form), numbers, fit.flow_why));
+  std::string tried;
+  for (const FlowTry& one : fit.tried)
+    tried += fmt::format("{}{} {:.3g} %", tried.empty() ? "" : ", ", form_name(one.form),
+                         100.0 * one.rms);
+  result.figures.push_back(fmt::format("residuals rms by the form of viscosity over temperature, "
+                                       "of the rows' weights: {}",
+                                       tried));
+}
+
+/// A form that follows the curves much worse than each temperature by itself does.
+void doubt_flow(const RatesFit& fit, Identified& result) {
+  constexpr double worse = 1.5;
+  double each = 0.0, taken = 0.0;
+  for (const FlowTry& one : fit.tried) {
+    if (one.form == FlowForm::table) each = one.rms;
+    if (one.form == fit.form) taken = one.rms;
+  }
+  if (!(taken > worse * each) || taken < 0.005) return;
+  result.notes.push_back(fmt::format(
+      "{} follows the curves {:.2g} times worse than a viscosity of its own at each temperature: "
+      "take --temperature-law table, or fewer temperatures, as where a matrix solidifies no law "
+      "of flow holds",
+      form_name(fit.form), taken / each));
+}
+
 void put_rated_laws(const RatesFit& fit, Identified& result) {
   result.laws = {{"shear", "polynomial", toml_list(fit.elastic), {}},
                  {"shear", "viscosity", toml_list(fit.viscous), {}},
                  {"shear", "measured_rates", toml_list({fit.rates[0], fit.rates[1]}), {}}};
-  if (!fit.activation_energy) return;
-  result.laws.push_back({"temperature", "reference", fmt::format("{:g}", *fit.reference), {}});
-  result.laws.back().without = {"temperature.viscosity"};
-  result.laws.push_back({"temperature.viscosity",
-                         "activation_energy",
-                         fmt::format("{:.5g}", 1e-3 * *fit.activation_energy),
-                         {}});
+  put_flow_laws(fit, result);
 }
 
 void put_rated_numbers(const RatesFit& fit, Identified& result) {
@@ -53,9 +150,7 @@ void put_rated_numbers(const RatesFit& fit, Identified& result) {
   for (std::size_t i = 0; i < fit.viscous.size(); ++i)
     result.numbers.push_back(
         {fmt::format("c{}", 2 * i), "N mm s", fit.viscous[i], fit.viscous_limits[i]});
-  if (fit.activation_energy)
-    result.numbers.push_back({"activation energy", "kJ/mol", 1e-3 * *fit.activation_energy,
-                              1e-3 * fit.activation_limits});
+  put_flow_numbers(fit, result);
   put_quality(fit.quality, result);
 }
 
@@ -92,13 +187,8 @@ Identified rated_text(const RatesFit& fit) {
                     fmt::format("95 % limits {}, {}; from the residuals",
                                 named("k", 1, fit.elastic_limits, "+-", 2),
                                 named("c", 0, fit.viscous_limits, "+-", 2))};
-  if (fit.activation_energy)
-    result.figures.push_back(fmt::format(
-        "activation energy {:.4g} +- {:.2g} kJ/mol from {:g} to {:g} degC, viscosities at {:g}",
-        1e-3 * *fit.activation_energy, 1e-3 * fit.activation_limits, fit.temperatures[0],
-        fit.temperatures[1], *fit.reference));
-  else if (fit.reference)
-    result.figures.push_back(fmt::format("at {:g} degC", *fit.reference));
+  tell_flow(fit, result);
+  doubt_flow(fit, result);
   put_rated_specimens(fit, result);
   result.fit = "displacement_mm,shear_deg,measured_N,fitted_N,specimen,rate_per_s\n";
   for (std::size_t i = 0; i < fit.angle.size(); ++i)
@@ -140,6 +230,12 @@ Identified relaxation_text(const RelaxationFit& fit, double angle) {
   return result;
 }
 
+FlowForm form_of(const std::string& word) {
+  if (word == "arrhenius") return FlowForm::arrhenius;
+  if (word == "wlf") return FlowForm::wlf;
+  return word == "table" ? FlowForm::table : FlowForm::none;
+}
+
 /// Reports a list of numbers that is not one a curve, or has some that are not positive.
 void check_one_each(const std::string& option, const std::vector<double>& values,
                     std::size_t curves, bool positive, Diagnostics& diagnostics) {
@@ -170,6 +266,9 @@ void check_rated(const IdentifyArguments& a, Diagnostics& diagnostics) {
   if (!a.temperatures.empty() && a.speeds.empty())
     option_error("--temperatures", "", "needs --speeds beside it",
                  "give the speed of the crosshead in each curve, mm/s", diagnostics);
+  if (!a.temperature_law.empty() && a.temperatures.empty())
+    option_error("--temperature-law", "", "needs --temperatures beside it",
+                 "give the temperature of each curve, degC", diagnostics);
   if (a.test == "relaxation" && !(a.stop_angle > 0.0 && a.stop_angle < 90.0))
     option_error("--angle", fmt::format("{:g}", a.stop_angle), "must be between 0 and 90",
                  "give the shear angle at the stop, degrees", diagnostics);
@@ -185,8 +284,9 @@ std::optional<Identified> identify_rated_curves(const IdentifyArguments& a,
     rated.push_back({curves[i], a.speeds[i], {}});
     if (!a.temperatures.empty()) rated.back().temperature = a.temperatures[i];
   }
-  const auto fit = identify_rates(rated, test, *base.value, options,
-                                  a.viscosity_coefficients.value_or(0), diagnostics);
+  const auto fit = identify_rates(
+      rated, test, *base.value, options,
+      {a.viscosity_coefficients.value_or(0), form_of(a.temperature_law)}, diagnostics);
   return fit ? std::optional(rated_text(*fit)) : std::nullopt;
 }
 
