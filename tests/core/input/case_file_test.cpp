@@ -128,9 +128,11 @@ TEST(CaseFile, ReadsAllShippedCasesWithoutErrorOrWarning) {
     if (fs::exists(entry.path().parent_path() / "draw_tools.py")) continue;
     const PreparedCase reading = prepare_case(entry.path(), {});
     EXPECT_TRUE(reading.value) << all_texts(reading);
-    // on purpose: too coarse; and yarns as another program's file has them
+    // on purpose: too coarse; tapes of which none is pressed; yarns as another program's file has
+    // them
     const std::string folder = entry.path().parent_path().filename();
-    const char* meant = folder == "stability"            ? "is too coarse for how yarns"
+    const char* meant = folder == "stability" || folder == "ud_tape_stack"
+                            ? "is too coarse for how yarns"
                         : folder == "two_ply_hemisphere" ? "do not resist bending in their plane"
                                                          : nullptr;
     for (const std::string& warning : reading.warnings)
