@@ -199,6 +199,27 @@ TEST(ViscousShearScene, AtAnotherTemperatureIsAsInAProcessOfAnotherLength) {
   EXPECT_EQ(one.back().plies[0].temperature[0], 200.0);
 }
 
+/// The same of the melt of a tape.
+TEST(ViscousShearScene, MeltAtAnotherTemperatureIsAsInAProcessOfAnotherLength) {
+  Case warm = frame_of({}, 10.0);
+  warm.fabrics[0] = unidirectional();
+  warm.fabrics[0].families[0].angle = 0.0;
+  warm.fabrics[0].matrix = ViscousMatrix{10.0, 5.0};
+  warm.fabrics[0].flow = ArrheniusFactor{41000.0, 180.0};
+  Case reference = warm, longer = warm;
+  warm.process.temperature = 200.0;
+  reference.process.temperature = longer.process.temperature = 180.0;
+  reference.process.duration = 10.0 / warm.fabrics[0].flow.at(200.0);
+  const std::vector<Frame> one = frames_of(warm), other = frames_of(reference);
+  ASSERT_EQ(one.size(), other.size());
+  const double last = one.back().boundaries[0].force_N;
+  for (std::size_t i = 0; i < one.size(); ++i)
+    EXPECT_NEAR(one[i].boundaries[0].force_N, other[i].boundaries[0].force_N, 1e-6 * last);
+  const std::size_t middle = one.size() / 2;
+  EXPECT_LT(one[middle].boundaries[0].force_N,
+            0.9 * frames_of(longer)[middle].boundaries[0].force_N);
+}
+
 TEST(ViscousShearScene, OfAPlyThatCoolsHasTheLoadOfItsTemperature) {
   ViscousShear law;
   law.c = {usual_viscosity()};
