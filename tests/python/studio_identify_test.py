@@ -145,6 +145,8 @@ def every_option(page, server):
         page.type(f"#option-{name}", value)  # of several curves: tests/cli/identify_test.sh
         assert page.find(f"#option-{name}").get_attribute("value") == value
         page.type(f"#option-{name}", "")
+    page.pick("#option-temperature-law", "wlf")
+    page.pick("#option-temperature-law", "")
     none = {name: "" for name in ("coefficients", "from", "to", "compliance", "zero", "toe", "slip", "angle-column")}
     again(page, {**none, "law": "table", "points": "5"}, "shear law")
     assert "table of 5 points: as asked for" in page.text("#identify-told"), page.text("#identify-told")
@@ -174,6 +176,41 @@ def two_kinds(page, server):
     assert "they differ" in page.text("#identify-figures"), page.text("#identify-figures")
     assert page.texts("#identify-chart .legend-of-lines li") == [
         " measured warp", " fitted warp", " measured weft", " fitted weft"], page.texts("#identify-chart li")
+
+
+def pull_out(page, server):
+    """Tests of known friction at three speeds: the curve over the Hersey number, as text for a case."""
+    for speed in (0.2, 1, 5):
+        friction = (400e-6 * speed / 0.05) ** 0.3
+        rows = [f"{2 * i},{2 * 4000 * 0.05 * friction * (i > 2):.9g}" for i in range(41)]
+        (server.folder / f"pull_{speed}.csv").write_text("\n".join(["u,F", *rows]) + "\n", encoding="utf-8")
+    page.go(server, "identify")
+    page.pick("#identify-test", "pull-out")
+    page.until(lambda: not page.find("#identify-fabric").is_displayed(), "no fabric is asked for")
+    for speed in (0.2, 1, 5):
+        page.pick("#curve-file", f"pull_{speed}.csv")
+        page.press("#curve-add")
+        page.until(lambda s=speed: f"pull_{s}.csv" in page.text("#curve-rows"), "it is there")
+    page.type("#identify-output", "melt")
+    page.press("#identify-replace")
+    page.press("#identify-go")
+    page.until(lambda: "area is missing" in page.text("#trouble"), "what is missing is told")
+    values = {"area": "4000", "speeds": "0.2,1", "pressures": "0.05,0.05,0.05", "viscosity": "400", "from": "20",
+              "to": "80", "points": "2", "name": "melt", "x-column": "u", "x-unit": "mm", "y-unit": "N"}
+    again(page, values, "Refused")
+    assert "must be one for each of the 3 curves" in page.text("#identify-told"), page.text("#identify-told")
+    again(page, {"speeds": "0.2,1,5"}, "friction over the Hersey number")
+    law = tomllib.loads((server.folder / "melt.toml").read_text(encoding="utf-8"))["friction"]["melt"]
+    assert law["viscosity"] == 400 and len(law["curve"]) == 2, law
+    for hersey, friction in law["curve"]:
+        assert abs(friction / hersey**0.3 - 1) < 1e-4, law
+    page.until(lambda: "[friction.melt]" in page.text("#identify-text"), "the text for a case is shown")
+    assert not page.seen("#identify-open")
+    assert page.js("return document.querySelectorAll('#identify-chart circle.point').length") == 3
+    assert page.js("return document.querySelectorAll('#identify-chart polyline').length") == 1
+    assert "Hersey number, mm" in page.text("#identify-chart"), page.text("#identify-chart")
+    page.pick("#identify-test", "frame")
+    page.until(lambda: page.find("#identify-fabric").is_displayed(), "a fabric is asked for again")
 
 
 def taken_in(page, server):
@@ -271,7 +308,7 @@ def hostile(server):
                    {"curves": [{"path": CURVE, "column": "a\nb"}]}, {"fabric": "../base.toml"}, {"output": "../x.toml"},
                    {"output": "-o"}, {"output": "base.toml"}, {"values": {"output": "x"}},
                    {"values": {"side": "1; ls"}}, {"values": {"law": "--report=x"}}, {"values": {"slip": "5"}},
-                   {"others": [{"path": "/etc/passwd"}]}):
+                   {"others": [{"path": "/etc/passwd"}]}, {"test": "pull-out", "values": {"area": "1"}}):
         status, content = server.call("POST", "api/identify", {**good, **change})
         assert status in (403, 404, 409, 422) and content["error"], (change, status, content)
     (server.folder / "words.csv").write_text("only, words\nand, more\n", encoding="utf-8")
@@ -307,6 +344,7 @@ def main():
         missing_and_taken(page, server)
         every_option(page, server)
         two_kinds(page, server)
+        pull_out(page, server)
         taken_in(page, server)
         restarted(page, server)
         hostile(server)

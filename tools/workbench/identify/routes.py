@@ -107,15 +107,14 @@ def curves_of(project: Project, given, what: str) -> list[str]:
     return words
 
 
-def output_file(project: Project, order: dict) -> Path:
-    """Of the new fabric, beside nothing else's. Raises Refused."""
-    fabric = curve_file(project, str(order.get("fabric") or ""))
+def output_file(project: Project, order: dict, beside: Path) -> Path:
+    """Of what is found, over nothing else's. Raises Refused."""
     name = plain_name(str(order.get("output") or ""))
-    path = fabric.parent / (name if name.endswith(".toml") else f"{name}.toml")
+    path = beside.parent / (name if name.endswith(".toml") else f"{name}.toml")
     path = project.inside(project.relative(path))
     others = [path.with_name(f"{path.stem}_fit{ending}") for ending in (".csv", ".json")]
     taken = [one for one in (path, *others) if one.exists() or one.is_symlink()]
-    if any(not is_file(one) or one.is_symlink() for one in taken) or path == fabric:
+    if any(not is_file(one) or one.is_symlink() for one in taken) or path == beside:
         raise Refused(f"{project.relative(path)} cannot be written over: give another name", 409)
     if taken and order.get("replace") is not True:
         raise Refused(f"{project.relative(taken[0])} is there already: give another name, or let it be replaced", 409)
@@ -136,15 +135,18 @@ def ordered(studio: Studio, order: dict) -> tuple[list, dict]:
     curves = curves_of(project, order.get("curves"), "curves")
     if not curves:
         raise Refused("there is no curve: choose a file", 422)
-    output = output_file(project, order)
+    beside = curve_file(project, str(order.get("fabric") or "")) if test["fabric"] else \
+        curve_file(project, order["curves"][0]["path"])
+    output = output_file(project, order, beside)
     report = output.with_name(f"{output.stem}_fit.json")
     words = ["identify", test["word"], *curves]
     for option in options:
         value = typed(option, values.get(option["name"]))
         if value is not None:
             words.append(f"--{option['name']}" + (f"={value}" if value else ""))
-    words += ["--fabric", f"./{project.relative(project.existing(order['fabric']))}",
-              "-o", f"./{project.relative(output)}", "--report", f"./{project.relative(report)}"]
+    if test["fabric"]:
+        words += ["--fabric", f"./{project.relative(beside)}"]
+    words += ["-o", f"./{project.relative(output)}", "--report", f"./{project.relative(report)}"]
     others = curves_of(project, order.get("others") or [], "others")
     if others and not test["others"]:
         raise Refused(f"{test['word']} has one kind of specimens", 422)
@@ -162,7 +164,7 @@ def plain(value):
 
 def found(project: Project, record: dict) -> dict:
     """The report, and the rows measured and fitted; null where there is none (yet)."""
-    told = {"report": None, "fit": None}
+    told = {"report": None, "fit": None, "text": None}
     try:
         file = project.inside(record["about"]["report"])
         if is_file(file):
@@ -170,6 +172,8 @@ def found(project: Project, record: dict) -> dict:
         rows = project.inside(record["about"]["output"].removesuffix(".toml") + "_fit.csv")
         if told["report"] and told["report"].get("status") == "done" and is_file(rows):
             told["fit"] = columns_of(*study_files.csv_rows(rows))
+            if record["about"]["test"] in [one["word"] for one in TESTS if not one["fabric"]]:
+                told["text"] = read_bytes(project.inside(record["about"]["output"]), MOST_REPORT).decode("utf-8")
     except (Trouble, OSError, ValueError, KeyError) as problem:
         told["trouble"] = one_line(problem)
     return told

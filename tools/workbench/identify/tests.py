@@ -19,8 +19,8 @@ def flag(name: str, words: str) -> dict:
     return {"name": name, "kind": "flag", "words": words, "unit": "", "required": False}
 
 
-def text(name: str, words: str) -> dict:
-    return {"name": name, "kind": "text", "words": words, "unit": "", "required": False}
+def text(name: str, words: str, required: bool = False) -> dict:
+    return {"name": name, "kind": "text", "words": words, "unit": "", "required": required}
 
 
 COLUMNS = [text("x-column", "column of the first quantity, by name or number; as the header says unless given"),
@@ -43,6 +43,7 @@ SHEAR = [choice("law", "form of the law; chosen by cross-validation unless given
          text("angle-column", "column of a measured shear angle; none: the extension counts"),
          text("speeds", "of the crosshead in each curve, mm/s, with commas between: a law with a viscous torque"),
          text("temperatures", "of each of them, °C, with commas between: viscosity over temperature"),
+         choice("temperature-law", "form of that; chosen by the curves unless given", ["arrhenius", "wlf", "table"]),
          number("viscosity-coefficients", "c0, c2, c4, with speeds")]
 YARNS = [number("yarns", "that share the force"),
          number("gauge-length", "if the curve has displacements instead of strains", "mm")]
@@ -53,8 +54,23 @@ DIRECTION = choice("direction", "yarns that it is a test of", ["warp", "weft", "
 
 
 def test(word: str, title: str, gives: str, curve: str, sizes: list, more: list, others: tuple = ()) -> dict:
-    return {"word": word, "title": title, "gives": gives, "curve": curve, "sizes": sizes,
+    """Of a test that changes a fabric."""
+    return {"word": word, "title": title, "gives": gives, "curve": curve, "sizes": sizes, "fabric": True,
             "corrections": [*more, DOUBTFUL], "others": dict(zip(("name", "words"), others)) or None}
+
+
+PULL_OUT = {
+    "word": "pull-out", "title": "Pull-out", "gives": "law of friction between plies, or plies and tools, for a case",
+    "curve": "displacement and load of a ply drawn from between two faces, a file a test",
+    "sizes": [number("area", "of one face that is pulled; both slide", "mm2", True),
+              text("speeds", "of each test, mm/s, with commas between, in the order of the curves", True),
+              text("pressures", "of each test, N/mm2, likewise", True),
+              text("viscosity", "of the matrix at the temperature of the test, Pa s: one number, or one a test", True)],
+    "fabric": False, "others": None,
+    "corrections": [number("from", "displacement from which the pull is steady", "mm"),
+                    number("to", "displacement up to which it is", "mm"),
+                    number("points", "of the curve, 2 to 8; chosen unless given"),
+                    text("name", "of the law in a case: [friction.NAME]; pull_out unless given"), *COLUMNS]}
 
 
 NEGATIVE = ("negative", "specimens cut, or frames turned, the other way: the angle opens")
@@ -99,4 +115,5 @@ TESTS = [
           number("ramp", "time that it took to get there; 0: at once", "s")],
          [text("times", "relaxation times, s, with commas between; looked for unless given"), *COLUMNS]),
     test("in-plane-bending", "In-plane bending", "in_plane_bending_stiffness",
-         "distance along a yarn and shear angle; a file a profile", [DIRECTION], COLUMNS)]
+         "distance along a yarn and shear angle; a file a profile", [DIRECTION], COLUMNS),
+    PULL_OUT]

@@ -26,6 +26,8 @@ class Identify {
     this.curves = new IdentifyCurves();
     this.fabric = select([], "", { id: "identify-fabric" });
     this.output = element("input", { id: "identify-output", size: 20, placeholder: "new_fabric.toml" });
+    this.start_ = labelled("Fabric to start from (all else is kept)", this.fabric);
+    this.written = labelled("", this.output);
     this.replace = element("input", { id: "identify-replace", type: "checkbox" });
     this.go = button("Identify", () => this.start(), { id: "identify-go", className: "main" });
     this.stop = button("Stop", () => send(`processes/${this.number}/stop`), { id: "identify-stop", hidden: true });
@@ -45,8 +47,7 @@ class Identify {
       element("div", { className: "fields" }, labelled("Test", this.test)), this.what, this.sizes, this.curves.place,
       element("details", { id: "identify-more" },
         element("summary", { textContent: "Law, rows that count, what the machine adds" }), this.corrections),
-      element("div", { className: "fields" }, labelled("Fabric to start from (all else is kept)", this.fabric),
-        labelled("New fabric file, beside that one", this.output),
+      element("div", { className: "fields" }, this.start_, this.written,
         element("label", { className: "box" }, this.replace, " may replace a file"), this.go, this.stop)];
   }
 
@@ -111,6 +112,9 @@ class Identify {
   changeTest() {
     const test = this.chosen();
     this.what.textContent = `Gives: ${test.gives}. Curves: ${test.curve}.`;
+    this.start_.hidden = !test.fabric;
+    this.written.firstChild.textContent = test.fabric ? "New fabric file, beside that one"
+      : "New file of the law, beside the first curve";
     this.fields = new Map();
     this.sizes.replaceChildren(...test.sizes.map((one) => this.field(one)));
     this.corrections.replaceChildren(...test.corrections.map((one) => this.field(one)));

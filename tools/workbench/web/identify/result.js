@@ -13,13 +13,16 @@ const ALONG = {
   stretch: ["stretch", "", 1], time_s: ["time after the stop", "s", 1],
   overhang_mm: ["overhang", "mm", 1], distance_mm: ["distance along the yarn", "mm", 1], force_N: ["force", "N", 1],
   warp_strain: ["warp strain", "%", 100], weft_strain: ["weft strain", "%", 100],
+  hersey_mm: ["Hersey number", "mm", 1],
 };
+const OVER_DECADES = ["hersey_mm"]; // shown along a logarithmic axis
 
 /** Pairs of columns, measured and fitted, with name and unit. */
 const PAIRS = [["measured_N", "fitted_N", "load", "N"], ["measured_MPa", "fitted_MPa", "nominal stress", "MPa"],
   ["measured_mm", "fitted_mm", "deflection", "mm"],
   ["measured_deg", "fitted_deg", "shear angle", "°"], ["measured_N_mm", "fitted_N_mm", "bending stiffness", "N mm"],
-  ["warp_N", "warp_fitted_N", "warp load", "N"], ["weft_N", "weft_fitted_N", "weft load", "N"]];
+  ["warp_N", "warp_fitted_N", "warp load", "N"], ["weft_N", "weft_fitted_N", "weft load", "N"],
+  ["measured", "fitted", "friction coefficient", ""]];
 
 const figure = (value) => written(value, Math.min(5, fittingDigits(value)));
 
@@ -36,13 +39,13 @@ export class IdentifyResult {
       this.residuals);
   }
 
-  show({ record, report, fit, log }) {
+  show({ record, report, fit, text, log }) {
     this.place.hidden = false;
     this.command.textContent = record.command.map((word) => (/[\s'"]/.test(word) ? JSON.stringify(word) : word))
       .join(" ");
     this.state.textContent = this.words(record, report);
     this.state.className = record.state === "failed" ? "bad" : "";
-    this.told.replaceChildren(...(report ? this.parts(report, record.about.output) : []));
+    this.told.replaceChildren(...(report ? this.parts(report, record.about.output, text) : []));
     if (!report && record.state === "failed") {
       this.told.append(element("pre", { className: "bad", textContent: log.trim() }));
     }
@@ -57,7 +60,8 @@ export class IdentifyResult {
     return report ? `${report.title}: ${report.words}. Written: ${record.about.output}` : "It has failed:";
   }
 
-  parts(report, output) {
+  /** text: of a file that is no fabric's. */
+  parts(report, output, text) {
     const parts = [];
     for (const one of report.errors) {
       const place = `${one.file}${one.line > 1 ? `, line ${one.line}` : ""}`;
@@ -74,6 +78,11 @@ export class IdentifyResult {
     for (const law of report.missing) {
       parts.push(element("p", { className: "warning",
         textContent: `Still without a law: ${law}; no case can use the fabric before.` }));
+    }
+    if (text) {
+      parts.push(element("p", { textContent: "Put this into a case, and name the law in contact.friction_law or in a "
+        + "[[contact.pair]]:" }), element("pre", { id: "identify-text", textContent: text }));
+      return parts;
     }
     parts.push(element("p", {}, element("a", { href: `#setup/${output}`,
       textContent: `Look at ${output}`, id: "identify-open" })));
@@ -106,7 +115,8 @@ export class IdentifyResult {
       this.x.addEventListener("change", () => this.draw());
       this.log = element("input", { type: "checkbox", id: "identify-log", checked: log });
       this.log.addEventListener("change", () => this.draw());
-      this.axes.append(labelled("Over", this.x), element("label", { className: "box" }, this.log, " logarithmic load"));
+      this.axes.append(labelled("Over", this.x), element("label", { className: "box" }, this.log, 
+        ` logarithmic ${this.fit.measured ? "coefficient" : "load"}`));
     }
     this.draw();
   }
@@ -116,7 +126,7 @@ export class IdentifyResult {
     this.residuals.replaceChildren();
     if (!this.fit || !this.axes.childElementCount) return;
     const [name, unit, factor] = ALONG[this.x.value];
-    const x = { name, unit, zero: true };
+    const x = { name, unit, zero: true, log: OVER_DECADES.includes(this.x.value) };
     const curves = this.curves(factor);
     drawChart(this.chart, { title: "Measured and fitted", x, series: curves.flatMap((one) => one.both),
       y: { name: curves[0].what, unit: curves[0].unit, zero: true, log: this.log.checked } });
@@ -126,7 +136,9 @@ export class IdentifyResult {
 
   /** Of each specimen and pair of columns: points measured, a line fitted, residuals. */
   curves(factor) {
-    const { specimen, side } = this.fit;
+    const { side } = this.fit;
+    const alone = new Set(this.fit.specimen).size === (this.fit.specimen || []).length; // a row each: one curve
+    const specimen = alone ? undefined : this.fit.specimen;
     const pairs = PAIRS.filter(([measured]) => this.fit[measured]);
     const groupOf = (i) => [side ? side[i] : "", specimen ? `specimen ${specimen[i]}` : ""].filter(Boolean).join(", ");
     const groups = [...new Set(this.fit[pairs[0][0]].map((_, i) => groupOf(i)))];
