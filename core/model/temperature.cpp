@@ -60,6 +60,15 @@ double TemperatureFactor::at(double celsius) const {
   return 1.0;
 }
 
+std::pair<double, double> TemperatureFactor::extremes(const TemperatureRange& between) const {
+  auto [least, most] = std::minmax({at(between.least), at(between.most)});
+  if (const auto* law = std::get_if<LogTable>(&law_)) // which turns nowhere but at its points
+    for (const double celsius : law->temperature)
+      if (between.holds(celsius))
+        least = std::min(least, at(celsius)), most = std::max(most, at(celsius));
+  return {least, most};
+}
+
 TemperatureRange TemperatureFactor::range() const {
   if (const auto* law = std::get_if<WlfFactor>(&law_))
     return {law->reference - stiffest * law->c2 / (law->c1 + stiffest), hottest};

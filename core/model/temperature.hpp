@@ -19,6 +19,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -64,6 +65,8 @@ public:
   /// Where it is known: of (1) and (2) where f is at most a million, as what is colder is a solid;
   /// of (3) the temperatures of the table; of none all.
   TemperatureRange range() const;
+  /// Its least and its largest between these temperatures.
+  std::pair<double, double> extremes(const TemperatureRange& between) const;
   bool depends() const { return law_.index() != 0; } ///< else it is 1
 
 private:

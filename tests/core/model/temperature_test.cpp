@@ -65,6 +65,22 @@ TEST(TemperatureFactor, OfATableGoesThroughItsPointsAndNeverTurns) {
   EXPECT_NEAR(two.at(200.0), 0.5, 1e-15);
 }
 
+TEST(TemperatureFactor, ExtremesAreThoseOfASearch) {
+  const TemperatureFactor none, melt(ArrheniusFactor{41000.0, 180.0}),
+      turns(TableFactor{{100.0, 120.0, 150.0, 180.0}, {1.0, 4.0, 0.5, 2.0}, 150.0});
+  for (const TemperatureFactor& law : {none, melt, turns})
+    for (const TemperatureRange& range : {TemperatureRange{90.0, 200.0},
+                                          {110.0, 130.0},
+                                          {125.0, 140.0},
+                                          {160.0, 160.0},
+                                          {130.0, 170.0}}) {
+      double least = law.at(range.least), most = least;
+      for (double t = range.least; t <= range.most; t += 0.25)
+        least = std::min(least, law.at(t)), most = std::max(most, law.at(t));
+      EXPECT_EQ(law.extremes(range), std::pair(least, most)) << range.text();
+    }
+}
+
 TEST(TemperatureFactor, RefusesTablesThatAreNone) {
   const auto make = [](std::vector<double> t, std::vector<double> v, double reference) {
     return TemperatureFactor(TableFactor{std::move(t), std::move(v), reference});
