@@ -189,8 +189,9 @@ struct Fabric {
   double thickness = 0.0;              ///< mm
   std::optional<double> fibre_density; ///< t/mm^3, of the fibres themselves
   std::optional<double> heat_capacity; ///< N mm/(t K), of the whole ply (1 J/(g K) is 1e9 of it)
-  TemperatureFactor flow;      ///< of its viscosities and relaxation times, 1 at `flow_reference`
-  double flow_reference = 0.0; ///< degC
+  TemperatureFactor flow; ///< of its viscosities and relaxation times, 1 at `flow_reference`
+  TemperatureFactor shear_over_temperature; ///< of the elastic torques of its crossings, likewise
+  double flow_reference = 0.0;              ///< degC
   std::optional<Compaction> compaction; ///< through the thickness; nothing: it does not give way
   std::optional<double> locking_angle;  ///< rad, shear angle beyond which the fabric wrinkles
   /// Of rubber: stretch up to which its law was measured.
@@ -210,6 +211,15 @@ struct Fabric {
   /// mm, as thin as it is ever pressed.
   double least_thickness() const { return compaction ? compaction->densest() : thickness; }
 };
+
+/// What of a fabric follows the temperature, and its name.
+struct LawOverTemperature {
+  const char* of;
+  const TemperatureFactor& factor;
+};
+inline std::array<LawOverTemperature, 2> laws_over_temperature(const Fabric& fabric) {
+  return {{{"viscosity", fabric.flow}, {"shear", fabric.shear_over_temperature}}};
+}
 
 /// Whether it has two families and one crossing of them, warp and weft, and nothing else: no sheet,
 /// no stitches.

@@ -22,11 +22,13 @@ SideStiffness side_stiffness(const Membrane& m, std::size_t index) {
   const MembraneFamily& family = m.families[index];
   const double soft = family.yarn.largest_slope(), stiff = family.softening * soft;
   double by_shear = 0.0;
+  const double softest =
+      m.fabric.shear_over_temperature.extremes(m.fabric.shear_over_temperature.range()).first;
   for (const MembraneCrossing& c : m.crossings)
     if (c.first == index || c.second == index) {
       const double secant = std::min(c.shear.respond(shear_scale_at, 0.0).secant,
                                      c.shear.respond(-shear_scale_at, 0.0).secant);
-      by_shear += c.cells * deviation_weight * secant / family.density;
+      by_shear += softest * c.cells * deviation_weight * secant / family.density;
     }
   SideStiffness side{stabilisation * stiff, std::min(collapse_penalty * stiff, soft)};
   if (by_shear > 0.0) side.stabilisation = std::min(side.stabilisation, most_of_shear * by_shear);

@@ -34,7 +34,9 @@
 //   g_c      rad     sqrt(gamma^2 + beta (delta_a^2 + delta_b^2)): deviations count as shear of the
 //                    crossings of their families; without crossing the sheet's law resists them
 //   beta     -       8
-//   s_a      N       stabilisation of the deviations, for fabrics without shear stiffness: 1e-6 of
+//   f        -       what the temperature of a triangle makes of its Cs and Es:
+//   Fabric::shear_over_temperature s_a      N       stabilisation of the deviations, for fabrics
+//   without shear stiffness: 1e-6 of
 //                    the yarn stiffness, and, if there is shear stiffness, no more than a tenth of
 //                    the stiffness sum_c n_c beta p / d_a that it gives the deviations at half a
 //                    radian, of the softer side; else very stiff yarns would lock
@@ -138,6 +140,8 @@ struct MembraneCrossing {
   /// N mm, of one that resists by rates (core/ply/viscous_membrane.hpp): springs in line with its
   /// dashpot, for shear and for deviations, and the sum of the moduli of its branches.
   double spring = 0.0, deviation_spring = 0.0, branches = 0.0;
+  /// The largest factor of Cs that temperatures may come to, for the stable step.
+  double stiffest = 1.0;
 };
 
 /// What the yarns of one family in one strain group remember from step to step: the states of
@@ -245,7 +249,7 @@ CrossingState crossing_state(const Vec3& f_a, const Vec3& f_b, double omega0);
 
 /// Slope of Cs, N mm, on which the stable step relies at shear angle gamma (rad): of a table the
 /// largest of all, so that no row comes as a surprise; of a polynomial that of the steeper side at
-/// this angle.
+/// this angle. At the temperature at which the crossing is stiffest, as what follows.
 double shear_slope(const MembraneCrossing& c, double gamma);
 
 /// Stiffness per area, N/mm, that a crossing gives the deviations in (E) at shear angle gamma
@@ -280,9 +284,10 @@ std::vector<YarnMemory> memory_at_start(const Membrane& m);
 
 /// (Q) for groups [begin, end) at positions x (mm, n), viscous forces included. dt: s, the time
 /// step that led to x; 0 leaves rates out. states: as memory_at_start. q: N mm, m, of which those
-/// of the groups are written.
+/// of the groups are written. shear_factors: m, what temperatures make of Cs; empty: 1.
 GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin,
-                           int end, const LawStates<YarnMemory>& states, std::span<ElementForce> q);
+                           int end, const LawStates<YarnMemory>& states, std::span<ElementForce> q,
+                           std::span<const double> shear_factors = {});
 
 /// (F): internal force on a node, N, from all its triangles in fixed order.
 Vec3 node_force(const Membrane& m, std::span<const ElementForce> q, int node);
@@ -293,8 +298,9 @@ struct MembraneEnergy {
   double fibre = 0.0, shear = 0.0, stitch = 0.0; ///< N mm
 };
 /// (E) summed over all triangles. x: mm, n. states: what yarns remember of the begin of the step dt
-/// (s) that led to x, as memory_at_start; empty: from the start.
+/// (s) that led to x, as memory_at_start; empty: from the start. shear_factors: as element_forces.
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
-                               std::span<const YarnMemory> states = {}, double dt = 0.0);
+                               std::span<const YarnMemory> states = {}, double dt = 0.0,
+                               std::span<const double> shear_factors = {});
 
 } // namespace plyform

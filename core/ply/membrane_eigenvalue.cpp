@@ -117,7 +117,7 @@ double soft_stiffness(const Membrane& m, const TriangleState& t) {
   for (std::size_t i = 0; i < m.crossings.size(); ++i) {
     const MembraneCrossing& c = m.crossings[i];
     const double lambda1 = t.yarn[c.first].lambda, lambda2 = t.yarn[c.second].lambda;
-    const double gamma = t.crossing[i].gamma, torque = c.shear.at(gamma).value;
+    const double gamma = t.crossing[i].gamma, torque = c.stiffest * c.shear.at(gamma).value;
     const double inv2 = 1.0 / (lambda1 * lambda1) + 1.0 / (lambda2 * lambda2);
     // a branch pulls as if it had not yet relaxed; springs of dashpots are hardly stretched
     const double turned = std::abs(torque) + c.branches * std::abs(gamma);

@@ -16,9 +16,11 @@ struct GroupState {
   std::array<TriangleState, most_in_group> triangle;
   double area = 0.0;
   std::array<double, most_families> mean{};
+  std::array<double, most_in_group> shear_factor{}; ///< f
 };
 
-GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group) {
+GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group,
+                       std::span<const double> shear_factors = {}) {
   const auto p = static_cast<std::size_t>(group);
   GroupState s;
   s.begin = m.group_begin[p];
@@ -27,6 +29,7 @@ GroupState group_state(const Membrane& m, std::span<const Vec3> x, int group) {
     const double area = m.area[s.begin + i];
     TriangleState& t = s.triangle[i];
     find_triangle(m, x, s.begin + i, t);
+    s.shear_factor[at(i)] = shear_factors.empty() ? 1.0 : shear_factors[at(s.begin + i)];
     s.area += area;
     for (std::size_t a = 0; a < m.families.size(); ++a)
       s.mean[a] += area * t.yarn[a].lambda;
@@ -63,12 +66,15 @@ double side_energy(const SideStiffness& side, double lambda, double mean) {
          (side.stabilisation * deviation * deviation + side.collapse_penalty * folded * folded);
 }
 
-/// Es, p and T of a cell for a triangle of a group.
+/// Es, p and T of a cell for triangle i of a group.
 ShearResponse shear_response(const MembraneCrossing& c, const CrossingState& crossing,
-                             const TriangleState& t, const GroupState& s) {
+                             const GroupState& s, std::size_t i) {
+  const TriangleState& t = s.triangle[i];
   const double d1 = t.yarn[c.first].lambda - s.mean[c.first],
                d2 = t.yarn[c.second].lambda - s.mean[c.second];
-  return c.shear.respond(crossing.gamma, deviation_weight * (d1 * d1 + d2 * d2));
+  ShearResponse of = c.shear.respond(crossing.gamma, deviation_weight * (d1 * d1 + d2 * d2));
+  of.energy *= s.shear_factor[i], of.secant *= s.shear_factor[i], of.torque *= s.shear_factor[i];
+  return of;
 }
 
 /// The larger of a number of both signs of the shear angle, if they may differ.
@@ -130,7 +136,7 @@ void group_forces(const Membrane& m, const GroupState& s, const OfFamilies& n,
     const TriangleState& t = s.triangle[i];
     for (std::size_t c = 0; c < m.crossings.size(); ++c) {
       const MembraneCrossing& of = m.crossings[c];
-      const ShearResponse cell = shear_response(of, t.crossing[c], t, s);
+      const ShearResponse cell = shear_response(of, t.crossing[c], s, i);
       shear[i][c] = of.cells * cell.torque;
       for (const std::size_t a : {of.first, of.second})
         held[i][a] += of.cells * cell.secant * (t.yarn[a].lambda - s.mean[a]);
@@ -155,12 +161,12 @@ void group_forces(const Membrane& m, const GroupState& s, const OfFamilies& n,
 } // namespace
 
 GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt, int begin,
-                           int end, const LawStates<YarnMemory>& states,
-                           std::span<ElementForce> q) {
+                           int end, const LawStates<YarnMemory>& states, std::span<ElementForce> q,
+                           std::span<const double> shear_factors) {
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   GroupReport report;
   for (int p = begin; p < end; ++p) {
-    const GroupState s = group_state(m, x, p);
+    const GroupState s = group_state(m, x, p, shear_factors);
     OfFamilies n{};
     const auto cells = cells_of(m, s);
     for (std::size_t a = 0; a < m.families.size(); ++a) {
@@ -180,13 +186,14 @@ GroupReport element_forces(const Membrane& m, std::span<const Vec3> x, double dt
 }
 
 MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
-                               std::span<const YarnMemory> states, double dt) {
+                               std::span<const YarnMemory> states, double dt,
+                               std::span<const double> shear_factors) {
   MembraneEnergy sum;
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   std::vector<YarnMemory> start;
   if (states.empty()) start = memory_at_start(m), states = start;
   for (int p = 0; p < m.groups(); ++p) {
-    const GroupState s = group_state(m, x, p);
+    const GroupState s = group_state(m, x, p, shear_factors);
     const auto cells = cells_of(m, s);
     for (std::size_t a = 0; a < m.families.size(); ++a) {
       const MembraneFamily& f = m.families[a];
@@ -203,7 +210,7 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
                      side_energy(m.families[a].side, t.yarn[a].lambda, s.mean[a]);
       for (std::size_t c = 0; c < m.crossings.size(); ++c) {
         const MembraneCrossing& of = m.crossings[c];
-        sum.shear += area * of.cells * shear_response(of, t.crossing[c], t, s).energy;
+        sum.shear += area * of.cells * shear_response(of, t.crossing[c], s, at(i)).energy;
       }
       if (m.fabric.sheet)
         sum.shear += area * sheet_response(m, t.axes, across_axis(m, t.axes)).energy;
@@ -213,13 +220,14 @@ MembraneEnergy membrane_energy(const Membrane& m, std::span<const Vec3> x,
 }
 
 double shear_slope(const MembraneCrossing& c, double gamma) {
-  if (c.shear.tabulated()) return c.steepest;
-  return of_stiffer_side(c.shear, gamma, [&](double g) { return c.shear.at(g).slope; });
+  if (c.shear.tabulated()) return c.stiffest * c.steepest;
+  return c.stiffest *
+         of_stiffer_side(c.shear, gamma, [&](double g) { return c.shear.at(g).slope; });
 }
 
 double deviation_stiffness(const MembraneCrossing& c, double gamma) {
-  const double secant =
-      of_stiffer_side(c.shear, std::abs(gamma), [&](double g) { return c.shear.secant(g); });
+  const double secant = c.stiffest * of_stiffer_side(c.shear, std::abs(gamma),
+                                                     [&](double g) { return c.shear.secant(g); });
   return deviation_weight * std::max(c.cells * shear_slope(c, gamma), c.cells * secant);
 }
 

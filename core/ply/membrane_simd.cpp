@@ -260,7 +260,8 @@ KernelCrossing kernel_crossing(const Membrane& m, const MembraneCrossing& c) {
   return k;
 }
 
-KernelLaw kernel_law(const Membrane& m) {
+KernelLaw kernel_law(const Membrane& m, const MembraneSimd& l,
+                     std::span<const SimdNumbers> shear_factors) {
   KernelLaw law; // only as many families and crossings are set as there are
   law.families = static_cast<int>(m.fabric.families.size());
   law.stitches = static_cast<int>(m.fabric.stitches.size());
@@ -278,6 +279,8 @@ KernelLaw kernel_law(const Membrane& m) {
               law.crossing[0].first == 0 && law.crossing[0].second == 1;
   law.beta = deviation_weight, law.side_cubic = side_cubic;
   law.viscous = nullptr;
+  law.shear_factors = shear_factors.empty() ? nullptr : shear_factors.data();
+  law.first = l.triangles->data();
   law.membrane = &m;
   law.evaluate = evaluate_yarns;
   law.evaluate_cells = evaluate_cells;
@@ -301,6 +304,14 @@ KernelBlock kernel_block(const MembraneSimd& l, const Membrane& m, const SimdBlo
           b.pair_packs,
           b.single_packs,
           force ? force + b.first_node : nullptr};
+}
+
+KernelEnergy energy_by(const KernelLaw& law, const MembraneSimd& l, const Membrane& m,
+                       std::span<const Vec3> x, double per_dt, int block,
+                       std::span<const SimdYarnStates> begin) {
+  const KernelBlock kernel = kernel_block(l, m, l.blocks[block], {begin, {}}, nullptr);
+  const auto run = fastest(membrane_energy_generic, membrane_energy_avx2, membrane_energy_avx512);
+  return run(kernel, law, x.data()->data(), per_dt);
 }
 
 } // namespace
@@ -353,25 +364,32 @@ std::vector<double> remembered_of(const MembraneSimd& l, const Membrane& m,
 
 GroupReport simd_forces(MembraneSimd& l, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block, const LawStates<SimdYarnStates>& states,
-                        const KernelViscous* viscous) {
+                        const KernelViscous* viscous, std::span<const SimdNumbers> shear_factors) {
   const SimdBlock& b = l.blocks[block];
   const KernelBlock kernel = kernel_block(l, m, b, states, l.force.data());
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
   const auto run = fastest(membrane_kernel_generic, membrane_kernel_avx2, membrane_kernel_avx512);
-  KernelLaw law = kernel_law(m);
+  KernelLaw law = kernel_law(m, l, shear_factors);
   law.viscous = viscous;
   const KernelReport report = run(kernel, law, x.data()->data(), per_dt);
   return {report.lost, report.torn, report.collapsed};
 }
 
 MembraneEnergy simd_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
-                           double dt, int block, std::span<const SimdYarnStates> begin) {
-  const SimdBlock& b = l.blocks[block];
-  const KernelBlock kernel = kernel_block(l, m, b, {begin, {}}, nullptr);
+                           double dt, int block, std::span<const SimdYarnStates> begin,
+                           std::span<const SimdNumbers> shear_factors) {
   const double per_dt = dt > 0.0 ? 1.0 / dt : 0.0;
-  const auto run = fastest(membrane_energy_generic, membrane_energy_avx2, membrane_energy_avx512);
-  const KernelEnergy energy = run(kernel, kernel_law(m), x.data()->data(), per_dt);
+  const KernelEnergy energy =
+      energy_by(kernel_law(m, l, shear_factors), l, m, x, per_dt, block, begin);
   return {energy.fibre, energy.shear, energy.stitch};
+}
+
+double simd_shear_energy(const MembraneSimd& l, const Membrane& m, std::span<const Vec3> x,
+                         int block, std::span<const SimdYarnStates> begin,
+                         std::span<const SimdNumbers> factors) {
+  KernelLaw law = kernel_law(m, l, factors);
+  law.sheet = false; // its energy counts as shear
+  return energy_by(law, l, m, x, 0.0, block, begin).shear;
 }
 
 } // namespace plyform

@@ -67,14 +67,23 @@ std::vector<double> remembered_of(const MembraneSimd& simd, const Membrane& m,
 /// Internal forces (F), N, of a block's groups, viscous ones included, stored in simd.force;
 /// simd_force (core/ply/block_forces.hpp) sums them. x: mm, n; dt, states (as at start)
 /// and report: as of element_forces (core/ply/membrane.hpp). viscous: laws with rates
-/// (kernel_viscous of core/ply/viscous_simd.hpp), or null.
+/// (kernel_viscous of core/ply/viscous_simd.hpp), or null. shear_factors: what temperatures make of
+/// Cs, in the order of `triangles`; empty: 1.
 GroupReport simd_forces(MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x, double dt,
                         int block, const LawStates<SimdYarnStates>& states,
-                        const KernelViscous* viscous = nullptr);
+                        const KernelViscous* viscous = nullptr,
+                        std::span<const SimdNumbers> shear_factors = {});
 
 /// (E) of a block's groups, N mm; summed over the blocks it is membrane_energy. x: mm, n; begin:
-/// what yarns remember of the begin of the step dt (s).
+/// what yarns remember of the begin of the step dt (s). shear_factors: as simd_forces.
 MembraneEnergy simd_energy(const MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x,
-                           double dt, int block, std::span<const SimdYarnStates> begin);
+                           double dt, int block, std::span<const SimdYarnStates> begin,
+                           std::span<const SimdNumbers> shear_factors = {});
+
+/// sum over the triangles of a block of A0 sum_c n_c Es of (E), N mm, each triangle's times its
+/// factor.
+double simd_shear_energy(const MembraneSimd& simd, const Membrane& m, std::span<const Vec3> x,
+                         int block, std::span<const SimdYarnStates> begin,
+                         std::span<const SimdNumbers> factors);
 
 } // namespace plyform

@@ -121,6 +121,7 @@ PLYFORM_INLINE void single_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads& t
   for_crossings<Of>(w.law, [&](auto c, auto, auto) {
     torque[c] = simd_shear<Of, general>(w, c, s.gamma[c], s.gamma[c] * s.gamma[c]).torque;
   });
+  if (general && w.law.shear_factors) multiply<Of>(w.law, shear_factors_of(w.law, t), torque);
   SimdStress melt{};
   if (general && w.law.viscous) melt = add_viscous<Of>(w, t, s, nullptr, torque, nullptr);
   const SimdStress of = with_melt<Of>(w.law, stress<Of>(w.law, t, s, n, torque), melt);
@@ -164,6 +165,10 @@ PLYFORM_INLINE void pair_packs(SimdBlockWork<Of>& w, const TrianglesOfQuads* t,
           simd_shear<Of, general>(w, c, gamma, gamma * gamma + w.lane.beta * deviation2);
       secant[i][c] = shear.secant, torque[i][c] = shear.torque;
     });
+    if (general && w.law.shear_factors) {
+      const Doubles factor = shear_factors_of(w.law, t[i]);
+      multiply<Of>(w.law, factor, secant[i]), multiply<Of>(w.law, factor, torque[i]);
+    }
     find_held<Of>(w.law, secant[i], delta[i], held[i]);
     if (general && w.law.viscous)
       melt[i] = add_viscous<Of>(w, t[i], s[i], delta[i], torque[i], held[i]);
@@ -261,6 +266,7 @@ PLYFORM_INLINE void triangle_energies(const SimdBlockWork<Of>& w, const Triangle
       const Doubles gamma = s[i].gamma[c];
       shear += shear_energy<Of, general>(w, c, gamma, gamma * gamma + w.lane.beta * deviation2);
     });
+    if (general && w.law.shear_factors) shear *= shear_factors_of(w.law, t[i]);
     const Doubles own = area_of(t[i]);
     of_sides[i] = own * sides, of_shear[i] = own * shear;
     if constexpr (!Of::weave)
@@ -306,8 +312,8 @@ PLYFORM_INLINE KernelEnergy block_energy(const KernelBlock& block, const KernelL
 
 /// Whether a weave has laws that are more than straight lines and short polynomials.
 PLYFORM_INLINE bool is_general(const KernelLaw& law) {
-  bool general =
-      law.crimped || law.viscous || law.crossing[0].shear_terms == 0 || law.crossing[0].both_signs;
+  bool general = law.crimped || law.viscous || law.shear_factors ||
+                 law.crossing[0].shear_terms == 0 || law.crossing[0].both_signs;
   for (int a = 0; a < 2 + law.stitches; ++a)
     general = general || law.yarns[a].by_law || law.yarns[a].buckles;
   return general;

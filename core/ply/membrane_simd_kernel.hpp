@@ -94,6 +94,10 @@ struct KernelLaw {
   bool cells_by_law;        ///< call `evaluate_cells`: the kernel does not know all laws of cells
   bool sheet;               ///< call `sheet_law`
   const KernelViscous* viscous; ///< laws with rates, or null
+  /// What temperatures make of C_e, of the four triangles of each SimdTriangles from `first` on;
+  /// null: 1.
+  const SimdNumbers* shear_factors;
+  const SimdTriangles* first;
   /// Four yarns of a family. begin, end: SimdYarnStates::of; per_dt: 1/s.
   void (*evaluate)(const KernelLaw&, int family, double per_dt, const double* strain,
                    const double (*begin)[simd_width], double (*end)[simd_width],

@@ -123,6 +123,17 @@ PLYFORM_INLINE SimdShear simd_shear(const SimdBlockWork<Of>& w, int crossing, Do
           numbers([&](int q) { return torque + simd_width * q; })};
 }
 
+/// What temperatures make of C_e.
+PLYFORM_INLINE Doubles shear_factors_of(const KernelLaw& law, const TrianglesOfQuads& t) {
+  return numbers([&](int q) { return law.shear_factors[t.of[q] - law.first].of; });
+}
+
+/// Multiplies a number of each crossing.
+template <class Of>
+PLYFORM_INLINE void multiply(const KernelLaw& law, Doubles factor, Doubles* of_crossings) {
+  for_crossings<Of>(law, [&](auto c, auto, auto) { of_crossings[c] *= factor; });
+}
+
 /// n_c Es, N/mm, of g^2.
 template <class Of, bool general>
 PLYFORM_INLINE Doubles shear_energy(const SimdBlockWork<Of>& w, int crossing, Doubles gamma,

@@ -56,6 +56,24 @@ std::vector<Vec3> stretched(const BlankMesh& mesh, double by) {
   return x;
 }
 
+/// A crossing that may become stiffer by its temperature counts as one of a law that is so.
+TEST(MembraneFrequency, CountsTheStiffestTemperatureOfShear) {
+  Random random(8);
+  const BlankMesh mesh = irregular_mesh(random);
+  Fabric table = glass_weave(), stiff = table;
+  for (double& k : stiff.crossings[0].shear.k)
+    k *= 50.0;
+  Membrane m = make_membrane(mesh, table, 0.3, ElementKind::averaged);
+  const Membrane by_law = make_membrane(mesh, stiff, 0.3, ElementKind::averaged);
+  const std::vector<Vec3> x = random_state(mesh, 1.0, 0.1, random);
+  const EigenvalueBound before = eigenvalue_bound(m, x), wanted = eigenvalue_bound(by_law, x);
+  m.crossings[0].stiffest = 50.0;
+  const EigenvalueBound found = eigenvalue_bound(m, x);
+  EXPECT_GT(wanted.soft, 2.0 * before.soft);
+  EXPECT_NEAR(found.soft, wanted.soft, 1e-12 * wanted.soft);
+  EXPECT_NEAR(found.omega2, wanted.omega2, 1e-5 * wanted.omega2); // stabilisation by the own law
+}
+
 TEST(MembraneFrequency, BoundIsABound) {
   Random random(7);
   double closest = 0.0;
